@@ -103,18 +103,24 @@ static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error
 
 /* ---- special values ---- */
 
+const nh_current *nh_classified_current(const nh_analysis *r, size_t index)
+{
+    return index < r->count ? &r->found[index] : &r->further[index - r->count].current;
+}
+
 nh_ex *nh_classified_known(nh_classified *x)
 {
     const nh_analysis *r = x->almost_all;
-    nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
-    x->currents = nh_arena_alloc(x->arena, (r->count + 1) * sizeof *x->currents);
-    for (size_t k = 0; k < r->count; k++) {
-        if (!polynomial_in_velocities(r, &r->found[k]) || !r->found[k].proof.all_parameters) continue;
+    nh_ex *phi = nh_alloc_array(r->count + r->furthers + 1, sizeof *phi);
+    x->currents = nh_arena_alloc(x->arena, (r->count + r->furthers + 1) * sizeof *x->currents);
+    for (size_t k = 0; k < r->count + r->furthers; k++) {
+        const nh_current *f = nh_classified_current(r, k);
+        if (!polynomial_in_velocities(r, f) || !f->proof.all_parameters) continue;
         bool rational = true;
         for (size_t i = 0; i < r->system->parameters; i++)
-            rational &= nh_parametric_rational(r->model->dag, r->found[k].phi, r->model->parameter[i]);
+            rational &= nh_parametric_rational(r->model->dag, f->phi, r->model->parameter[i]);
         if (!rational) continue;
-        phi[x->known] = r->found[k].phi;
+        phi[x->known] = f->phi;
         x->currents[x->known++] = k;
     }
     return phi;

@@ -35,7 +35,7 @@ struct nh_classified {
     nh_arena *arena;
     const char *name, *title, *over, *second; /* second: NULL, or another parameter that varies */
     nh_analysis *almost_all;   /* the analysis of the family */
-    size_t known, *currents; /* of its currents those that hold for every value */
+    size_t known, *currents; /* those that hold for every value (nh_classified_current) */
     size_t degree;           /* that was asked for */
     bool shape;
     nh_classification *classification;
@@ -84,6 +84,9 @@ typedef struct {
 /* Over both parameters. */
 nh_classified_plane *nh_classify_plane_system(const nh_classify_request *request, nh_error *error);
 void nh_classified_plane_free(nh_classified_plane *classified);
+
+/* The current of this index, where those behind the currents found are functions of them that are polynomial in the velocities. */
+const nh_current *nh_classified_current(const nh_analysis *analysis, size_t index);
 
 /* "eps = 1/3", "C^2 - 3 = 0 (C = -1.7320508, 1.7320508)"; in the arena. */
 const char *nh_classified_words(const nh_classified *classified, const nh_special_factor *polynomial);

@@ -69,7 +69,7 @@ void nh_classification_almost_all(const nh_classified *x, size_t degree, const n
 void nh_classification_known(const nh_classified *x, nh_text *out)
 {
     for (size_t k = 0; k < x->known; k++) {
-        const nh_current *f = &x->almost_all->found[x->currents[k]];
+        const nh_current *f = nh_classified_current(x->almost_all, x->currents[k]);
         char *text = nh_classification_current(x->almost_all, f, x->almost_all->options.shown);
         nh_text_addf(out, "  %s = %s\n", f->name, text ? text : "... (too long to be shown; option `shown`)");
         nh_free(text);

@@ -48,7 +48,7 @@ void nh_classification_put_currents(const nh_analysis *r, size_t count, const si
 {
     nh_json *list = nh_json_put_array(to, "currents");
     for (size_t k = 0; r && k < count; k++) {
-        const nh_current *f = &r->found[index ? index[k] : k];
+        const nh_current *f = nh_classified_current(r, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
         char *text = nh_classification_current(r, f, r->options.written);
         nh_json *item = nh_json_add_object(list);

@@ -54,7 +54,7 @@ static void put_curve(const plane *x, size_t index, nh_text *out)
     }
     const nh_classified *along = at->along;
     for (size_t k = 0; k < along->known; k++) {
-        const nh_current *f = &along->almost_all->found[along->currents[k]];
+        const nh_current *f = nh_classified_current(along->almost_all, along->currents[k]);
         char *text = nh_classification_current(along->almost_all, f, along->almost_all->options.shown);
         nh_text_addf(out, "    %s = %s\n", f->name, text ? text : "... (too long to be shown; option `shown`)");
         nh_free(text);
