@@ -429,7 +429,7 @@ Test(classify, the_command_refuses)
 {
     static const struct {
         const char *line, *words;
-    } lines[] = {{"classify henon_heiles_sk", "over which parameter"}, {"classify henon_heiles_sk --over B", "not a parameter"}, {"classify --over A", "over which parameter"}, {"classify henon_heiles_sk --over eps,,B", "lacks the name"}, {"classify henon_heiles_sk --over a,b,c", "more than two"},
+    } lines[] = {{"classify henon_heiles_sk", "over which parameter"}, {"classify henon_heiles_sk --over B", "not a parameter"}, {"classify --over A", "over which parameter"}, {"classify henon_heiles_sk --over eps,,B", "nothing stands between two commas"}, {"classify henon_heiles_sk --over a,b,c", "more than two"},
                  {"classify toda_lattice --over x --svg a.svg", "does not take --svg"}};
     place p = place_with_systems();
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {

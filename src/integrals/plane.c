@@ -292,7 +292,15 @@ static void classify_line(search *s, size_t index)
 static bool sweep(search *s, size_t degree, nh_plane_row *row)
 {
     nh_plane_sweep x;
-    bool good = nh_plane_sweep_lines(&s->s, s->out, degree, &row->number, s->s.q->lines, &x);
+    nh_plane *o = s->out;
+    nh_special_curve *curve = nh_alloc_array(o->curves + 1, sizeof *curve);
+    nh_special_factor *line = nh_alloc_array(o->lines + 1, sizeof *line);
+    for (size_t k = 0; k < o->curves; k++) curve[k] = o->curve[k].polynomial;
+    for (size_t k = 0; k < o->lines; k++) line[k] = o->line[k].across;
+    nh_plane_known known = {o->curves, o->lines, curve, line};
+    bool good = nh_plane_sweep_lines(&s->s, &known, degree, &row->number, s->s.q->lines, &x);
+    nh_free(line);
+    nh_free(curve);
     if (x.curves && !nh_late()) s->out->end = "curves";
     if (good) {
         take_lines(s->out, x.count, x.line);

@@ -12,13 +12,13 @@ typedef nh_classify_search search;
 /* ---- what is known on a line ---- */
 
 /* The known curves at this mu, as one polynomial in lambda modulo the prime. */
-static void known_at(const nh_plane *o, nh_residue mu, nh_prime f, nmod_poly_t out)
+static void known_at(const nh_plane_known *o, nh_residue mu, nh_prime f, nmod_poly_t out)
 {
     nmod_poly_t p;
     nmod_poly_init(p, f.p);
     nmod_poly_one(out);
     for (size_t k = 0; k < o->curves; k++) {
-        const nh_special_curve *c = &o->curve[k].polynomial;
+        const nh_special_curve *c = &o->curve[k];
         nmod_poly_zero(p);
         for (size_t i = 0; i <= c->degree[0]; i++) {
             nh_residue sum = 0;
@@ -32,11 +32,11 @@ static void known_at(const nh_plane *o, nh_residue mu, nh_prime f, nmod_poly_t o
 }
 
 /* |.|_1 of the same polynomial over the integers, at mu = top/bottom, without denominators; its degree is added. */
-static double known_norm(const nh_plane *o, int64_t top, int64_t bottom, size_t *degree)
+static double known_norm(const nh_plane_known *o, int64_t top, int64_t bottom, size_t *degree)
 {
     double norm = 1;
     for (size_t k = 0; k < o->curves; k++) {
-        const nh_special_curve *c = &o->curve[k].polynomial;
+        const nh_special_curve *c = &o->curve[k];
         double sum = 0;
         for (size_t i = 0; i <= c->degree[0]; i++)
             for (size_t j = 0; j <= c->degree[1]; j++)
@@ -62,7 +62,7 @@ static void multiply(nmod_poly_t out, const nh_residue_polynomial *p)
 typedef enum { NOTHING, SOMETHING, ENDED } outcome;
 
 /* At the value of mu that the search holds: is anything special but points of known curves? */
-static outcome look(search *s, const nh_plane *o, size_t degree, const nh_classify_number *number)
+static outcome look(search *s, const nh_plane_known *o, size_t degree, const nh_classify_number *number)
 {
     enum { prime = 0 };
     nh_prime f = nh_prime_at(prime);
@@ -89,14 +89,14 @@ static outcome look(search *s, const nh_plane *o, size_t degree, const nh_classi
     return out;
 }
 
-static bool is_known_line(const nh_plane *o, int64_t top, int64_t bottom)
+static bool is_known_line(const nh_plane_known *o, int64_t top, int64_t bottom)
 {
     for (size_t k = 0; k < o->lines; k++) {
-        const nh_special_factor *f = &o->line[k].across;
+        const nh_special_factor *f = &o->line[k];
         if (f->degree == 1 && f->coefficient[1] == bottom && f->coefficient[0] == -top) return true;
     }
     for (size_t k = 0; k < o->curves; k++) {
-        const nh_special_curve *c = &o->curve[k].polynomial;
+        const nh_special_curve *c = &o->curve[k];
         if (c->degree[0] == 0 && c->degree[1] == 1 && c->coefficient[1] * top + c->coefficient[0] * bottom == 0) return true;
     }
     return false;
@@ -112,7 +112,7 @@ static void add_line(nh_plane_sweep *out, int64_t top, int64_t bottom)
 }
 
 /* Every prime divides the value of the known polynomial times a denominator: as for one parameter. */
-static void take_height(nh_plane_sweep *out, const nh_plane *o, int64_t top, int64_t bottom)
+static void take_height(nh_plane_sweep *out, const nh_plane_known *o, int64_t top, int64_t bottom)
 {
     size_t degree = 0;
     double norm = known_norm(o, top, bottom, &degree), p = (double)nh_prime_at(0).p;
@@ -120,7 +120,7 @@ static void take_height(nh_plane_sweep *out, const nh_plane *o, int64_t top, int
     if (height < out->height) out->height = height;
 }
 
-static bool examine(search *s, nh_classify_question *q, const nh_plane *o, size_t degree, const nh_classify_number *number,
+static bool examine(search *s, nh_classify_question *q, const nh_plane_known *o, size_t degree, const nh_classify_number *number,
                     int64_t top, int64_t bottom, nh_plane_sweep *out)
 {
     if (is_known_line(o, top, bottom)) return true;
@@ -137,7 +137,7 @@ static bool examine(search *s, nh_classify_question *q, const nh_plane *o, size_
 /* ---- all of them ---- */
 
 /* At a mu that is no number of importance. */
-static bool curves_are_known(search *s, nh_classify_question *q, const nh_plane *o, size_t degree, const nh_classify_number *number)
+static bool curves_are_known(search *s, nh_classify_question *q, const nh_plane_known *o, size_t degree, const nh_classify_number *number)
 {
     static const int64_t top = 7368787, bottom = 2750159; /* primes */
     q->top = top;
@@ -145,7 +145,7 @@ static bool curves_are_known(search *s, nh_classify_question *q, const nh_plane 
     return look(s, o, degree, number) == NOTHING;
 }
 
-bool nh_plane_sweep_lines(search *s, const nh_plane *o, size_t degree, const nh_classify_number *number, size_t height,
+bool nh_plane_sweep_lines(search *s, const nh_plane_known *o, size_t degree, const nh_classify_number *number, size_t height,
                           nh_plane_sweep *out)
 {
     const nh_classify_question *own = s->q;

@@ -8,7 +8,13 @@
 #define NH_PLANE_SWEEP_H
 
 #include "integrals/classify_internal.h"
-#include "integrals/plane.h"
+
+/* Special and degenerate curves that are known, and lines that will be classified anyway: mu is the root. */
+typedef struct {
+    size_t curves, lines;
+    const nh_special_curve *curve;
+    const nh_special_factor *line;
+} nh_plane_known;
 
 typedef struct {
     size_t count, capacity;
@@ -18,8 +24,8 @@ typedef struct {
     bool curves;             /* there are more curves than are known: nothing was swept */
 } nh_plane_sweep;
 
-/* Of this degree, by lines up to this height, without those that the plane has already.  False: a limit or the end of the run. */
-bool nh_plane_sweep_lines(nh_classify_search *search, const nh_plane *plane, size_t degree, const nh_classify_number *number,
+/* Of this degree, by lines up to this height, without those that are known.  False: a limit or the end of the run. */
+bool nh_plane_sweep_lines(nh_classify_search *search, const nh_plane_known *known, size_t degree, const nh_classify_number *number,
                           size_t height, nh_plane_sweep *out);
 void nh_plane_sweep_clear(nh_plane_sweep *sweep);
 
