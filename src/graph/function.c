@@ -68,10 +68,11 @@ const char *nh_function_elsewhere(const char *name)
         {"ellipe", "write elliptic_e(m) with the parameter m, the square of the modulus"},
         {"kummer_m", "write hyp1f1(a, b, x)"},
         {"kummer_u", "write hyperu(a, b, x)"},
-        {"sgn", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
-        {"sign", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
-        {"max", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
-        {"min", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
+        {"sgn", "write x/abs(x)"},
+        {"sign", "write x/abs(x)"},
+        {"max", "write (a + b + abs(a - b))/2"},
+        {"heaviside", "write (1 + x/abs(x))/2"},
+        {"min", "write (a + b - abs(a - b))/2"},
     };
     for (size_t i = 0; i < sizeof other / sizeof *other; i++)
         if (!strcmp(name, other[i][0])) return other[i][1];
