@@ -14,6 +14,7 @@
 #   make parameters give every system other parameter values, compare its formulas, and write docs/parameters.md (it continues where it was stopped; SEED=N)
 #   make perturbed analyse copies of every system with a small term added, and print the table
 #   make house     count files, functions and headers, and write the tables of docs/architecture.md
+#   make threads   look for data races with ThreadSanitizer: two contexts of the library, and commands with --threads 4
 #   make fuzz      feed the readers with garbage for SECONDS=60 each (needs clang)
 #   make clean
 
@@ -23,14 +24,14 @@ LIBDIR  = $(PREFIX)/lib
 VERSION = 0.1.0
 # Of the binary interface nhsym.h: another number when a program that was compiled with the old one would no longer run (docs/changes.md).
 SONAME  = libnhsym.so.1
-BUILD   = build$(if $(SANITIZE),-sanitize)
+BUILD   = build$(if $(SANITIZE),-$(if $(filter thread,$(SANITIZE)),threads,sanitize))
 JOBS    = $(shell nproc 2>/dev/null || echo 2)
 comma   = ,
 
 # Warnings are errors with the compilers that this was written with; a newer one may warn of what could not be seen yet.
 KNOWN    = 12 14
 WARN     = -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(filter $(KNOWN),$(firstword $(subst ., ,$(shell $(CC) -dumpversion)))),-Werror)
-SANE     = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+SANE     = -fsanitize=$(if $(filter thread,$(SANITIZE)),thread,address$(comma)undefined -fno-sanitize-recover=all) -fno-omit-frame-pointer
 OPT      = $(if $(SANITIZE),-O1 -g $(SANE),-O2 -g)
 # A product and a sum are rounded one after the other, on every machine and in every build.
 # CFLAGS, CPPFLAGS and LDFLAGS of the environment and the command line come after the project's own.
@@ -84,7 +85,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all tests install uninstall wheel deb deb-source bench catalogue papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean packages test-packages check-packages
+.PHONY: all library sleigh check check-all threads tests install uninstall wheel deb deb-source bench catalogue papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -103,6 +104,11 @@ check: check-packages
 
 check-all: export NHSYM_SWEEPS = all
 check-all: check
+
+# OpenBLAS' own threads are not compiled for this.
+threads: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) SANITIZE=thread all build-threads/tests/bench_contexts
+	@OPENBLAS_NUM_THREADS=1 sh tests/threads.sh build-threads
 
 # The benches are there to be measured: not under sanitizers.
 tests: $(TESTS) $(if $(SANITIZE),,$(BENCHES) library)
@@ -297,6 +303,6 @@ uninstall: all library
 	find . -mindepth 1 -depth -type d $(if $(DESTDIR),,-path '*/nhsym*') | while read -r folder; do rmdir "$(DESTDIR)/$$folder" 2>/dev/null || :; done
 
 clean:
-	rm -rf build build-sanitize build-fuzz
+	rm -rf build build-sanitize build-threads build-fuzz
 
 -include $(OBJECTS:.o=.d) $(SHARED:.o=.d) $(CLI:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)

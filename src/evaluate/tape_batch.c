@@ -10,16 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clones.h"
 #include "base/effort.h"
 #include "base/memory.h"
 #include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
-
-#if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_ADDRESS__
-#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define CLONES
-#endif
 
 #if defined __x86_64__ && defined __GNUC__ && !defined __clang__
 #define FOURS __attribute__((target("avx2")))
@@ -69,7 +64,7 @@ enum { BLOCK = 8 };
     }
 #define ARGUMENTS size_t n, double *restrict to, const double *a, const double *b
 
-#define KERNEL(name, formula) CLONES UNCHECKED static void name(ARGUMENTS) LOOP(formula)
+#define KERNEL(name, formula) NH_CLONES UNCHECKED static void name(ARGUMENTS) LOOP(formula)
 
 #define FUNCTION(name, formula)                                                                      \
     FOURS UNCHECKED static void name##_by_fours(ARGUMENTS) LOOP(formula)                             \

@@ -5,6 +5,7 @@
  *     A[R] by B^-1 A[R],      A[i] by A[i] - A[i, C] A[R]   for the other rows i
  *
  * so that most of the work is sums of many rows. */
+#include "base/clones.h"
 #include "exact/residue_matrix.h"
 
 #include <string.h>
@@ -13,16 +14,10 @@
 
 enum { panel_width = 32, block = 512 };
 
-#if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_ADDRESS__
-#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define CLONES
-#endif
-
 /* ---- sums of rows ---- */
 
 /* low + 2^32 high += two sums of four products, each below 2^62. */
-CLONES static void add_eight(size_t n, uint64_t *restrict low, uint64_t *restrict high, const nh_residue *restrict f, const nh_residue *const *row)
+NH_CLONES static void add_eight(size_t n, uint64_t *restrict low, uint64_t *restrict high, const nh_residue *restrict f, const nh_residue *const *row)
 {
     const nh_residue *restrict a = row[0], *restrict b = row[1], *restrict c = row[2], *restrict d = row[3], *restrict e = row[4], *restrict g = row[5], *restrict h = row[6], *restrict k = row[7];
     uint64_t fa = f[0], fb = f[1], fc = f[2], fd = f[3], fe = f[4], fg = f[5], fh = f[6], fk = f[7];
@@ -34,7 +29,7 @@ CLONES static void add_eight(size_t n, uint64_t *restrict low, uint64_t *restric
 }
 
 /* (low + 2^32 high) mod p, both below 2^61 */
-CLONES static void fold(nh_prime field, size_t n, const uint64_t *restrict low, const uint64_t *restrict high, nh_residue *restrict y)
+NH_CLONES static void fold(nh_prime field, size_t n, const uint64_t *restrict low, const uint64_t *restrict high, nh_residue *restrict y)
 {
     uint64_t carry = ((uint64_t)1 << 32) % field.p;
     for (size_t j = 0; j < n; j++) y[j] = nh_residue_reduce(field, nh_residue_reduce(field, low[j]) + nh_residue_reduce(field, high[j]) * carry);

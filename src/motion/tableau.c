@@ -1,5 +1,6 @@
 /* One step with h = 1 from z = 0, in which the j-th call of the right-hand side answers with the j-th unit vector: what the stepper asks
  * for and what it returns are rows of its tableau. */
+#include "base/clones.h"
 #include "motion/tableau.h"
 
 #include <math.h>
@@ -35,13 +36,7 @@ bool nh_tableau_rk8pd(nh_tableau *tableau)
 
 /* ---- steps of many motions at once ---- */
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define CLONES
-#endif
-
-CLONES void nh_tableau_add(size_t count, int stages, const double *weight, double h, const double *k, size_t stride, const double *z, double *to)
+NH_CLONES void nh_tableau_add(size_t count, int stages, const double *weight, double h, const double *k, size_t stride, const double *z, double *to)
 {
     memcpy(to, z, count * sizeof *to);
     for (int j = 0; j < stages; j++) {
@@ -52,7 +47,7 @@ CLONES void nh_tableau_add(size_t count, int stages, const double *weight, doubl
     }
 }
 
-CLONES void nh_tableau_error(size_t kept, size_t lanes, double rtol, const double *atol, const double *error, const double *z, const double *next, double *lane)
+NH_CLONES void nh_tableau_error(size_t kept, size_t lanes, double rtol, const double *atol, const double *error, const double *z, const double *next, double *lane)
 {
     for (size_t l = 0; l < lanes; l++) lane[l] = 0;
     for (size_t i = 0; i < kept; i++)

@@ -88,7 +88,7 @@ void nh_reach_walls(nh_system *s)
         nh_walls_add(&walls, s->dag, nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs));
     if (walls.count) s->reach = nh_arena_alloc(s->arena, walls.count * sizeof *s->reach);
     for (size_t i = 0; i < walls.count; i++) {
-        nh_ex symbol;
+        nh_ex symbol = 0;
         if (!walls.edge[i] && only_symbol(s, walls.e[i], &symbol)) reach(s, walls.e[i], symbol);
     }
 }
