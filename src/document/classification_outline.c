@@ -25,7 +25,7 @@ static void put_lines(pen *p, nh_text *text)
 static void put_currents(pen *p, const nh_analysis *r, size_t count, const size_t *index)
 {
     for (size_t k = 0; k < count; k++) {
-        const nh_current *f = &r->found[index ? index[k] : k];
+        const nh_current *f = nh_classified_current(r, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
         char *text = nh_classification_current(r, f, r->options.shown);
         if (text) p->ink->equation(p->to, f->name, text);
