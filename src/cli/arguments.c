@@ -17,10 +17,10 @@ enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, o
 static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X) NH_CLI_OLD_OPTION_TABLE(OLD){NULL, 0, NULL, 0}};
 #undef OLD
 #undef X
-#define X(code, name, argument, shown, commands, meaning) {code, name, commands},
+#define X(code, name, argument, shown, commands, meaning) {code, name, shown, commands},
 static const struct {
     int code;
-    const char *name, *commands;
+    const char *name, *shown, *commands;
 } owners[] = {NH_CLI_OPTION_TABLE(X)};
 #undef X
 #define X(name, operand, meaning, example) #name " "
@@ -186,6 +186,16 @@ static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
     return nh_error_hint(error, "--progress takes auto, always or never");
 }
 
+/* The bytes of the dashes that a word begins with, also of those that word processors put for `--`: U+2013, U+2014, U+2212. */
+static size_t dashes(const char *word)
+{
+    static const char *const typeset[] = {"\xe2\x80\x93", "\xe2\x80\x94", "\xe2\x88\x92"};
+    size_t n = strspn(word, "-");
+    for (size_t i = 0; i < 3; i++)
+        if (!strncmp(word + n, typeset[i], 3)) return n + 3 + dashes(word + n + 3);
+    return n;
+}
+
 /* The name that is shown for an option: the first of its code. */
 static const char *name_of(int code)
 {
@@ -194,24 +204,41 @@ static const char *name_of(int code)
     return o->name;
 }
 
-static bool unknown_option(const char *word, nh_error *error)
+/* Where to read on: the help of the command, as far as the line names one. */
+static const char *help_of(const nh_cli *cli)
+{
+    bool known = cli->command && nh_word_among(all_commands, cli->command);
+    return nh_arena_printf(cli->arena, known ? "nhsym help %s" : "nhsym help", cli->command);
+}
+
+static bool unknown_option(const nh_cli *cli, const char *word, nh_error *error)
 {
     const char *names[sizeof long_options / sizeof *long_options];
     size_t n = 0;
     for (const struct option *o = long_options; o->name; o++) names[n++] = o->name;
-    nh_fail(error, NH_USAGE, "", "there is no option `%s`", word);
-    const char *near = nh_text_nearest(word + strspn(word, "-"), names, n);
+    size_t length = strcspn(word, "=");
+    nh_fail(error, NH_USAGE, "", "there is no option `%.*s`", (int)length, word);
+    word = nh_arena_strndup(cli->arena, word, length);
+    const char *near = nh_text_nearest(word + dashes(word), names, n);
     for (const struct option *o = long_options; near && o->name; o++)
         if (!strcmp(near, o->name)) near = name_of(o->val); /* an old name: the one of today */
-    return near ? nh_error_hint(error, "did you mean `--%s`?", near) : nh_error_hint(error, "`nhsym help` lists them");
+    return near ? nh_error_hint(error, "did you mean `--%s`?", near) : nh_error_hint(error, "`%s` lists them", help_of(cli));
+}
+
+/* Is it a whole name of an option, up to its end or `=`? */
+static bool is_option(const char *name)
+{
+    for (const struct option *o = long_options; o->name; o++)
+        if (strlen(o->name) == strcspn(name, "=") && !strncmp(name, o->name, strlen(o->name))) return true;
+    return false;
 }
 
 /* getopt takes any beginning of a name that is not ambiguous: a script that uses one breaks with the next option that begins like it, so they are refused. */
-static bool in_full(const char *word, int code, nh_error *error)
+static bool in_full(const nh_cli *cli, const char *word, int code, nh_error *error)
 {
     size_t length = strcspn(word, "=");
     bool named = false;
-    if (strncmp(word, "--", 2)) return true;
+    if (strncmp(word, "--", 2)) return !(word[0] == '-' && word[1] && word[2] && is_option(word + 1)) || unknown_option(cli, word, error); /* -html is not -h -t -m -l */
     for (const struct option *o = long_options; o->name; o++) {
         named = named || o->val == code;
         if (o->val == code && strlen(o->name) + 2 == length && !strncmp(word + 2, o->name, length - 2)) return true;
@@ -221,11 +248,17 @@ static bool in_full(const char *word, int code, nh_error *error)
     return nh_error_hint(error, "write the full name: `--%s`", name_of(code));
 }
 
-static bool missing_value(const char *word, nh_error *error)
+static bool missing_value(const nh_cli *cli, const char *word, int code, nh_error *error)
 {
+    const char *shown = "VALUE";
+    for (size_t i = 0; i < owner_count; i++)
+        if (owners[i].code == code) shown = owners[i].shown;
     nh_fail(error, NH_USAGE, "", "`%s` needs a value", word);
-    return nh_error_hint(error, "`nhsym help` describes the option");
+    return nh_error_hint(error, "write %s %s; `%s` describes the option", word, shown, help_of(cli));
 }
+
+/* "--html --quiet": a name is missing here.  "--html=--quiet" would be a file. */
+static bool swallows_option(const char *value) { return value && !strncmp(value, "--", 2) && is_option(value + 2); }
 
 /* `-` is a file, too: what is read is kept, so a pipe will do. */
 static const char *file_of(const char *word) { return strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
@@ -344,15 +377,18 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     opterr = 0;
     optind = 1;
     for (int code, at = optind; (code = getopt_long(argc, argv, "-:qvho:", long_options, NULL)) != -1; at = optind) {
-        if (code != 1 && !in_full(argv[at], code, error)) return false;
+        if (code != 1 && !in_full(cli, argv[at], code, error)) return false;
+        if (code != 1 && optind - at == 2 && swallows_option(optarg)) return missing_value(cli, argv[at], code, error);
         for (size_t i = 0; i < owner_count; i++) given[i] = given[i] || owners[i].code == code;
-        if (code == 1) {
+        if (code == 1 && optarg[0] != '-' && dashes(optarg)) {
+            return unknown_option(cli, optarg, error);
+        } else if (code == 1) {
             if (!cli->command) cli->command = nh_cli_command_name(optarg);
             else take_operand(cli, optarg);
         } else if (code == ':') {
-            return missing_value(argv[optind - 1], error);
+            return missing_value(cli, argv[at], optopt, error);
         } else if (code == '?') {
-            return unknown_option(argv[optind - 1], error);
+            return unknown_option(cli, argv[at], error);
         } else if (!take(cli, code, code == opt_json ? optional_value(cli, argc, argv) : optarg, error)) {
             return false;
         }

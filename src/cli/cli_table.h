@@ -61,7 +61,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze verify simulate benchmark reduce classify scan export", "time limit: the run ends then, with partial results") \
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan export", "set an option that `nhsym explain options` lists")    \
     X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate benchmark reduce classify scan export", "show the current step on standard error")           \
-    X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan export new", "-q: no summary")                       \
+    X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan export new", "-q: no summary and no remarks; tables and code are printed unless a file holds the result") \
     X('v',             "verbose",     no_argument,       "",                   "analyze simulate benchmark reduce classify scan", "-v: a longer summary")                                    \
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan export", "no colours; NO_COLOR does the same")       \
     X('h',             "help",        no_argument,       "",                   "", "-h: list the options of the command")                                               \
@@ -82,7 +82,7 @@ const char *nh_cli_command_near(const char *word);
 #define NH_CLI_COMMAND_TABLE(X)                                                                                                                      \
     X(analyze,  "SYSTEM|FILE", "currents, their symmetries and their checks", "nhsym analyze sleigh --html report.html")                     \
     X(verify,   "SYSTEM|FILE", "is this conserved? is this a symmetry?", "nhsym verify sleigh --current \"m*v*sin(phi/k) + m*a*k*omega*cos(phi/k)\"") \
-    X(simulate, "SYSTEM|FILE", "compute a motion, as CSV or JSON", "nhsym simulate sleigh --initial \"phi=0, omega=2\" --until 5 --step 0.1")                  \
+    X(simulate, "SYSTEM|FILE", "compute a motion, as CSV or JSON", "nhsym simulate sleigh --initial \"phi=0, omega=2\" --until 5 --step 0.1 > motion.csv")                  \
     X(benchmark,    "SYSTEM|FILE", "compare integrators on one motion", "nhsym benchmark sleigh --budget 1s --svg sleigh.svg")                \
     X(reduce,   "SYSTEM|FILE", "the symmetry group and the reduced equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
     X(classify, "SYSTEM|FILE", "at which values of a parameter more is conserved", "nhsym classify penning_trap --over w") \

@@ -17,6 +17,10 @@ int nh_cli_version(nh_cli *cli, nh_error *error)
 
 int nh_cli_list(nh_cli *cli, nh_error *error)
 {
+    if (cli->operands) {
+        nh_fail(error, NH_USAGE, "", "`nhsym list` takes no name, found `%s`", cli->operand[0]);
+        return nh_error_hint(error, "`nhsym list | grep %s` shows the systems with this word in their name or title", cli->operand[0]), NH_USAGE;
+    }
     const char **names;
     size_t count = nh_places_names(cli->arena, "systems", &names);
     for (size_t i = 0; i < count; i++) {
@@ -149,6 +153,7 @@ int nh_cli_explain(nh_cli *cli, nh_error *error)
     names[count + 2] = "functions";
     nh_fail(error, NH_USAGE, "", "there is no topic `%s`", word);
     const char *near = nh_text_nearest(word, names, count + 3);
+    for (size_t i = cli->operands; i-- && !near;) near = nh_text_nearest(cli->operand[i], names, count + 3); /* "canonical distribution" */
     if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else nh_error_hint(error, "`nhsym explain` lists the topics");
     return NH_USAGE;

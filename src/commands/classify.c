@@ -12,16 +12,10 @@ enum { chosen_degree = 4 };
 
 bool nh_classified_parameter(const nh_system *s, const char *name, size_t *out, nh_error *error)
 {
-    const char **names = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *names);
-    for (size_t i = 0; i < s->parameters; i++) {
-        names[i] = s->parameter[i].name;
-        *out = i;
-        if (!strcmp(names[i], name)) return true;
-    }
+    for (*out = 0; *out < s->parameters; ++*out)
+        if (!strcmp(s->parameter[*out].name, name)) return true;
     nh_fail(error, NH_USAGE, "", "`%s` is not a parameter of %s", name, s->name);
-    const char *near = nh_text_nearest(name, names, s->parameters);
-    if (near) return nh_error_hint(error, "did you mean `%s`?", near);
-    return nh_error_hint(error, "--over takes one of the names under `parameters:` in the system file");
+    return nh_system_hint_parameters(s, name, error);
 }
 
 /* All other parameters at the ratios that their decimals are; settings of the caller that are exact stay. */

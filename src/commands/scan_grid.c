@@ -94,17 +94,12 @@ static bool read_list(nh_arena *arena, const char *text, nh_scan_axis *a, nh_err
 static bool is_parameter(const nh_scan *x, const char *name, nh_error *error)
 {
     const nh_system *s = x->system;
-    const char **names = nh_arena_alloc(x->arena, (s->parameters + 1) * sizeof *names);
     for (size_t i = 0; i < x->axes; i++)
         if (!strcmp(name, x->axis[i].name)) return nh_fail(error, NH_USAGE, "", "--over names `%s` twice", name);
-    for (size_t i = 0; i < s->parameters; i++) {
-        names[i] = s->parameter[i].name;
-        if (!strcmp(names[i], name)) return true;
-    }
+    for (size_t i = 0; i < s->parameters; i++)
+        if (!strcmp(s->parameter[i].name, name)) return true;
     nh_fail(error, NH_USAGE, "", "`%s` is not a parameter of %s", name, s->name);
-    const char *near = nh_text_nearest(name, names, s->parameters);
-    if (near) return nh_error_hint(error, "did you mean `%s`?", near);
-    return nh_error_hint(error, "--over takes names under `parameters:` in the system file");
+    return nh_system_hint_parameters(s, name, error);
 }
 
 bool nh_scan_read_axis(nh_arena *arena, const char *text, nh_scan_axis *out, nh_error *error)

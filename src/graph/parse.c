@@ -86,17 +86,31 @@ bool nh_is_reserved(const char *name)
 static bool expression(parser *p, nh_ex *out);
 static bool unary(parser *p, nh_ex *out);
 
+/* Typeset signs, as word processors and books put them, and what is written for each. */
+static const char *plain_sign(const char *at)
+{
+    static const char *const signs[][2] = {
+        {"\u2019", "'"}, {"\u2018", "'"}, {"\u2032", "'"}, {"\u00b4", "'"}, {"\u00b7", "*"}, {"\u22c5", "*"}, {"\u00d7", "*"}, {"\u2212", "-"}, {"\u2013", "-"},
+        {"\u00f7", "/"}, {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00bd", "1/2"}, {"\u221a", "sqrt(...)"}, {"\u00b0", "*pi/180"}};
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
+        if (!strncmp(at, signs[i][0], strlen(signs[i][0]))) return signs[i][1];
+    return NULL;
+}
+
 /* Name the character at fault the way a person would. */
 static bool unexpected(parser *p, const char *wanted)
 {
     char c = peek(p);
     if (!c) return fail(p, p->at, "the expression ends here, but %s was expected", wanted);
     if ((unsigned char)c >= 0x80) {
+        const char *plain = plain_sign(p->text + p->at);
         fail(p, p->at, "a character that the expression language does not have; %s was expected", wanted);
+        if (plain) return hint(p, "write `%s`", plain);
         return hint(p, "names consist of the letters a-z, A-Z, digits and _ (write phi, not a Greek letter)");
     }
     if (iscntrl((unsigned char)c)) return fail(p, p->at, "a control character cannot stand here; %s was expected", wanted);
     fail(p, p->at, "`%c` cannot stand here; %s was expected", c, wanted);
+    if (c == '\\') return hint(p, "formulas are no LaTeX: write x', sqrt(x), cos(phi), a/b");
     if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*') return hint(p, "powers are written with ^: x^2");
     if ((c == '<' || c == '>') && p->equation) return hint(p, "only equations can be written: where a motion is looked at, `domain:` says");
     if (c == '=' && p->equation) return hint(p, "an equation has one `=` between two expressions");
@@ -182,6 +196,7 @@ static bool number(parser *p, nh_ex *out)
     if (*s == '.') return fail(p, p->at, "a second decimal point in a number");
     if (!is_letter(*s) && *s != '(') return true;
     fail(p, p->at, "there is no implicit multiplication");
+    if (!strncmp(s, "deg", 3)) return hint(p, "angles are in radians: write %.*s*pi/180", (int)(s - start > 20 ? 20 : s - start), start);
     return hint(p, "write `%.*s*%.*s`", (int)(s - start > 20 ? 20 : s - start), start,
                 *s == '(' ? 1 : (int)strspn(s, WORD), s);
 }

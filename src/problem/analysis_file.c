@@ -234,6 +234,14 @@ static bool number_at(reader *r, const nh_deck_node *node, const char *name, dou
     return nh_error_hint(r->error, "only parameters can be used here");
 }
 
+/* "pi/6 theta'=1": a comma is missing.  Always false. */
+static bool one_value(reader *r, const nh_deck_node *node)
+{
+    if (node->kind != NH_DECK_SCALAR || !strchr(node->text, '=')) return false;
+    r->error->hint[0] = 0;
+    return nh_error_hint(r->error, "commas separate the values: phi=0, omega=2");
+}
+
 /* Coordinate velocities that quasi-velocities give at (t, q). */
 static void velocities_of(const nh_system *s, const double *quasi, nh_state *state)
 {
@@ -268,6 +276,10 @@ static bool unknown_state(reader *r, const nh_deck_node *key)
     const char **names = nh_analysis_file_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
     size_t n = nh_system_state_names(s, names);
     nh_deck_fail(r->a->deck, key, 0, r->error, "`%s` is not a coordinate or velocity of %s", key->text, s->name);
+    size_t stem = strlen(key->text) > 4 ? strlen(key->text) - 4 : 0;
+    for (size_t i = 0; stem && i < s->coordinates; i++) /* the columns of a table are called so */
+        if (!strcmp(key->text + stem, "_dot") && strlen(s->coordinate[i].name) == stem && !strncmp(key->text, s->coordinate[i].name, stem))
+            return nh_error_hint(r->error, "the velocity of `%s` is written %s'", s->coordinate[i].name, s->coordinate[i].name);
     const char *near = nh_text_nearest(key->text, names, n);
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
 }
@@ -283,7 +295,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
         const char *name = map->key[i]->text;
         double value;
         bool known = !strcmp(name, "t");
-        if (!number_at(r, map->item[i], name, &value)) return false;
+        if (!number_at(r, map->item[i], name, &value)) return one_value(r, map->item[i]);
         if (known) state->t = value;
         for (size_t j = 0; j < s->coordinates && !known; j++) {
             bool velocity = !strcmp(name, nh_name_of(s->dag, s->coordinate[j].v));

@@ -124,20 +124,55 @@ size_t nh_places_names(nh_arena *arena, const char *kind, const char ***names)
     return kept;
 }
 
+/* The file of a nearly equal name in the same folder, or NULL. */
+static const char *file_near(nh_arena *arena, const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    int above = (int)(name - path);
+    DIR *directory = opendir(slash ? nh_arena_strndup(arena, path, (size_t)above) : ".");
+    const char **list = NULL, *near = NULL;
+    size_t count = 0, capacity = 0;
+    for (const struct dirent *entry; directory && (entry = readdir(directory));) {
+        if (!nh_places_is_path(entry->d_name)) continue;
+        nh_grow(&list, &capacity, count + 1, sizeof *list);
+        list[count++] = nh_arena_strdup(arena, entry->d_name);
+    }
+    if (directory) closedir(directory);
+    if (count) qsort(list, count, sizeof *list, by_name);
+    if (count) near = nh_text_nearest(name, list, count);
+    nh_free(list);
+    return near ? nh_arena_printf(arena, "%.*s%s", above, path, near) : NULL;
+}
+
+/* "sleigh.yaml", where only a shipped system has this name. */
+static const char *shipped(nh_arena *arena, const char *kind, const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+    name = dot ? nh_arena_strndup(arena, name, (size_t)(dot - name)) : name;
+    return nh_places_look(arena, kind, name) ? name : NULL;
+}
+
+static const char *no_such_file(nh_arena *arena, const char *kind, const char *path, nh_error *error)
+{
+    nh_fail(error, NH_INPUT, path, "there is no such file");
+    const char *near = file_near(arena, path), *name = near ? NULL : shipped(arena, kind, path);
+    if (near) nh_error_hint(error, "did you mean `%s`?", near);
+    else if (name) nh_error_hint(error, "the one that nhsym brings along is called by its name: `%s`", name);
+    else if (!strcmp(kind, "systems")) nh_error_hint(error, "`nhsym list` lists the available systems; `nhsym new skate` writes an example");
+    return NULL;
+}
+
 const char *nh_places_find(nh_arena *arena, const char *kind, const char *name, nh_error *error)
 {
     const char *found = nh_places_look(arena, kind, name);
     if (found) return found;
-    if (nh_places_is_path(name)) {
-        nh_fail(error, NH_INPUT, name, "there is no such file");
-        if (!strcmp(kind, "systems")) nh_error_hint(error, "`nhsym list` lists the available systems; `nhsym new skate` writes an example");
-        return NULL;
-    }
+    if (nh_places_is_path(name)) return no_such_file(arena, kind, name, error);
     const char **names;
     size_t count = nh_places_names(arena, kind, &names);
     nh_fail(error, NH_INPUT, "", "there is no %s `%s` in ./%s, in NHSYM_PATH or among the installed ones", strcmp(kind, "systems") ? "analysis" : "system", name, kind);
     const char *near = nh_text_nearest(name, names, count), *file = nh_arena_printf(arena, "%s.yaml", name);
     if (!access(file, F_OK)) nh_error_hint(error, "did you mean the file %s?  Write its whole name", file);
+    else if (!access(name, F_OK)) nh_error_hint(error, "there is a file of this name here: write ./%s", name);
     else if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else nh_error_hint(error, "give the path of a file, or a name that `nhsym list` shows");
     return NULL;

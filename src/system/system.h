@@ -123,6 +123,9 @@ bool nh_system_motions(nh_system *system, size_t *count, nh_known_motion **out, 
 /* t, coordinates, velocities and quasi-velocities by name, for messages: at most 2*coordinates + quasi + 1, counted by the result. */
 size_t nh_system_state_names(const nh_system *system, const char **names);
 
+/* The hint on a word that names no parameter: the nearest one, or all of them.  Always false. */
+bool nh_system_hint_parameters(const nh_system *system, const char *word, nh_error *error);
+
 /* Parse an expression of this system: t, parameters, definitions, coordinates, velocities x', quasi-velocities, and the
  * extra names; errors point into `node`, a scalar of `deck`. */
 bool nh_system_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t extras,

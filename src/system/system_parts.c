@@ -107,6 +107,19 @@ size_t nh_system_state_names(const nh_system *s, const char **names)
     return n;
 }
 
+bool nh_system_hint_parameters(const nh_system *s, const char *word, nh_error *error)
+{
+    const char **names = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *names), *all = "";
+    for (size_t i = 0; i < s->parameters; i++) {
+        names[i] = s->parameter[i].name;
+        all = nh_arena_printf(s->arena, "%s%s%s", all, i ? ", " : "", names[i]);
+    }
+    const char *near = nh_text_nearest(word, names, s->parameters);
+    if (near) return nh_error_hint(error, "did you mean `%s`?", near);
+    if (!s->parameters) return nh_error_hint(error, "it has none");
+    return nh_error_hint(error, s->parameters > 1 ? "its parameters are %.150s" : "its parameter is %.150s", all);
+}
+
 static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
 {
     nh_system *s = r->system;

@@ -384,12 +384,9 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
             found->set = true;
             continue;
         }
-        const char **names = nh_system_take(r, s->parameters, sizeof *names);
-        for (size_t i = 0; i < s->parameters; i++) names[i] = s->parameter[i].name;
         if (setting[k].key) nh_deck_fail(setting[k].deck, setting[k].key, 0, r->error, "`%s` is not a parameter of %s", setting[k].name, s->name);
         else nh_fail(r->error, NH_USAGE, "", "`%s` is not a parameter of %s", setting[k].name, s->name);
-        const char *near = nh_text_nearest(setting[k].name, names, s->parameters);
-        return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+        return nh_system_hint_parameters(s, setting[k].name, r->error);
     }
     return true;
 }
