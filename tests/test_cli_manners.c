@@ -294,3 +294,88 @@ Test(cli_manners, spectrum_and_drifts_are_drawn)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* ---- slips of the hand ---- */
+
+Test(cli_manners, a_slip_of_the_hand_is_named)
+{
+    static const struct { const char *line, *err; } list[] = {
+        {"analyze sleigh -o", "nhsym: `-o` needs a value\nhint: write -o DIR; `nhsym help analyze` describes the option\n"},
+        {"analyze sleigh --html --quiet", "nhsym: `--html` needs a value\nhint: write --html FILE; `nhsym help analyze` describes the option\n"},
+        {"analyze sleigh -quiet", "nhsym: there is no option `-quiet`\nhint: did you mean `--quiet`?\n"},
+        {"analyze sleigh -html=page.html", "nhsym: there is no option `-html`\nhint: did you mean `--html`?\n"},
+        {"analyze sleigh \xe2\x80\x94html page.html", "nhsym: there is no option `\xe2\x80\x94html`\nhint: did you mean `--html`?\n"},
+        {"--frob", "nhsym: there is no option `--frob`\nhint: `nhsym help` lists them\n"},
+        {"sleigh", "nhsym: there is no command `sleigh`\nhint: the command stands first, as in `nhsym analyze sleigh`\n"},
+        {"list ball", "nhsym: `nhsym list` takes no name, found `ball`\nhint: `nhsym list | grep ball` shows the systems with this word in their name or title\n"},
+        {"explain canonical distribution", "nhsym: there is no topic `canonical distribution`\nhint: did you mean `distribution`?\n"},
+        {"reduce sleigh --to cvs", "nhsym: --to: there is no language `cvs`\nhint: did you mean `csv`?\n"},
+        {"reduce sleigh --to pyton", "nhsym: --to: there is no language `pyton`\nhint: did you mean `python`?\n"},
+        {"reduce sleigh --to word", "nhsym: --to: there is no language `word`\nhint: --to takes c, python, sympy, matlab, latex or json, and csv for the motions\n"},
+        {"simulate sleigh --set friction=2", "nhsym: `friction` is not a parameter of sleigh\nhint: its parameters are m, a, k\n"},
+        {"scan sleigh --over friction=1:2:3 -o scan", "nhsym: `friction` is not a parameter of sleigh\nhint: its parameters are m, a, k\n"},
+        {"classify sleigh --over friction", "nhsym: `friction` is not a parameter of sleigh\nhint: its parameters are m, a, k\n"},
+    };
+    place p = place_make();
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        finished f = run_expecting(&p, list[i].line, 2);
+        cr_expect_str_eq(f.out, "");
+        cr_expect_str_eq(f.err, list[i].err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* An error in what is given, with this hint. */
+static void check_hint(const place *p, const char *line, const char *hint)
+{
+    finished f = run_expecting(p, line, 3);
+    cr_expect(strstr(f.err, hint), "nhsym %s: `%s` is not in\n%s", line, hint, f.err);
+    finished_clear(&f);
+}
+
+Test(cli_manners, a_file_of_another_name_is_found)
+{
+    place p = place_make();
+    check_hint(&p, "analyze sleigh.yaml", "\nhint: the one that nhsym brings along is called by its name: `sleigh`\n");
+    write_here(&p, "bike.yaml", "name: bike\ncoordinates: [x]\nlagrangian: x'^2\n");
+    write_here(&p, "bike.xacro", "<robot/>\n");
+    check_hint(&p, "analyze bkie.yaml", "\nhint: did you mean `bike.yaml`?\n");
+    check_hint(&p, "analyze ./bike.yml", "\nhint: did you mean `./bike.yaml`?\n");
+    check_hint(&p, "analyze bike.xacro", "\nhint: there is a file of this name here: write ./bike.xacro\n");
+    place_clear(&p);
+}
+
+Test(cli_manners, initial_values_as_newcomers_write_them)
+{
+    place p = place_make();
+    check_hint(&p, "simulate sleigh --initial phi=30deg", "\nhint: angles are in radians: write 30*pi/180\n");
+    check_hint(&p, "simulate sleigh --initial phi=1,x_dot=2", "\nhint: the velocity of `x` is written x'\n");
+    check_hint(&p, "simulate sleigh --initial phi=1=2", "\nhint: commas separate the values: phi=0, omega=2\n");
+    place_clear(&p);
+}
+
+/* A table is what `simulate` and `reduce --to` are called for: --quiet leaves the remarks out, and the table where a file holds the result. */
+Test(cli_manners, quiet_keeps_a_table_that_nothing_else_holds)
+{
+    static const struct { const char *loud, *quiet; } list[] = {
+        {"simulate sleigh --no-analysis --until 1 --step 1", "simulate sleigh --no-analysis --until 1 --step 1 --quiet"},
+        {"simulate sleigh --initial omega=2 --until 1 --step 1 --over k=2,3", "simulate sleigh -q --initial omega=2 --until 1 --step 1 --over k=2,3"},
+        {"reduce vertical_disk --to csv", "reduce vertical_disk --to csv --quiet"},
+    };
+    place p = place_make();
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        finished loud = run_expecting(&p, list[i].loud, 0), quiet = run_expecting(&p, list[i].quiet, 0);
+        cr_expect(quiet.out[0]);
+        cr_expect_str_eq(quiet.out, loud.out);
+        cr_expect_str_empty(quiet.err);
+        if (i == 0) cr_expect(strstr(loud.err, "no initial state is given"), "%s", loud.err);
+        finished_clear(&loud);
+        finished_clear(&quiet);
+    }
+    finished f = run_expecting(&p, "simulate sleigh --until 1 --step 1 --quiet --html motion.html", 0);
+    cr_expect_str_empty(f.out);
+    cr_expect_str_empty(f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}

@@ -100,8 +100,10 @@ const char *nh_cli_system(nh_cli *cli, const char *word, nh_error *error);
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);
 /* No result came of the work: the exit code.  Where it was ended that is the reason, whatever failed for it, and what is known is written. */
 int nh_cli_failed(nh_cli *cli, const nh_run *run, nh_error *error);
-/* Is the summary, or the table, printed?  Not with --quiet, nor where an output takes standard output. */
+/* Is the summary printed?  Not with --quiet, nor where an output takes standard output.  And what a command is called for, such as a table or code: with
+ * --quiet as well, unless a file holds the result. */
 bool nh_cli_speaks(const nh_cli *cli);
+bool nh_cli_delivers(const nh_cli *cli);
 /* Called before the computation: an output folder without write access is reported at once. */
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error);
 /* A text for a file or standard output (`-`), which is cleared; a JSON, which is freed, for --json.  The files take their places together, in the last of these: with `good`, or not at all. */

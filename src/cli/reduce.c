@@ -7,6 +7,17 @@
 #include "document/reduction.h"
 #include "document/tex.h"
 
+/* A language of `export`, or csv: the motions. */
+static bool language_known(const char *word, nh_error *error)
+{
+    static const char csv[] = "csv", *const only = csv;
+    nh_export_target target;
+    if (!word || !strcmp(word, csv) || nh_export_target_of(word, &target, error)) return true;
+    bool near = nh_text_nearest(word, &only, 1) != NULL;
+    if (near || !strstr(error->hint, "did you mean")) error->hint[0] = 0;
+    return near ? nh_error_hint(error, "did you mean `csv`?") : nh_error_hint(error, "--to takes c, python, sympy, matlab, latex or json, and csv for the motions");
+}
+
 static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
 {
     if (cli->operands != 1) {
@@ -14,8 +25,7 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
         return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
     }
     *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .inner = cli->inner, .accuracy = cli->accuracy, .equations = cli->equations, .options = cli->options};
-    nh_export_target target;
-    if (cli->to && strcmp(cli->to, "csv") && !nh_export_target_of(cli->to, &target, error)) return false;
+    if (!language_known(cli->to, error)) return false;
     q->system_path = nh_cli_system(cli, cli->operand[0], error);
     return q->system_path != NULL;
 }
@@ -74,7 +84,7 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     if (!r) return nh_cli_failed(cli, &run, error);
     bool good = true;
-    if (nh_cli_speaks(cli)) print(cli, r);
+    if (cli->to ? nh_cli_delivers(cli) : nh_cli_speaks(cli)) print(cli, r);
     if (cli->json) good = nh_cli_write_json(cli, nh_reduction_json(r, &run), error);
     good = good && nh_cli_write_documents(cli, render, r, &run, error);
     good = nh_cli_written(cli, good, error);

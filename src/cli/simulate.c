@@ -32,16 +32,17 @@ static void put_scene(const nh_simulation *s)
                 1e3 * s->whole_seconds, s->whole_evaluations, s->whole_difference);
 }
 
-/* The table, unless another output is wanted or --quiet, and the notes on standard error. */
+/* The table, and with it the notes on standard error: --quiet leaves them out, and the table as well where a file holds the result. */
 static void put_table(const nh_cli *cli, const nh_simulation *s)
 {
-    if (cli->json || !nh_cli_speaks(cli)) return;
+    if (cli->json || !nh_cli_delivers(cli)) return;
     nh_text text;
     nh_text_init(&text);
     if (s->ensemble) nh_ensemble_csv(s, &text);
     else nh_motion_csv(s, &text);
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
+    if (cli->quiet) return;
     if (s->begin) fprintf(stderr, "nhsym: no initial state is given: --initial \"%s\"\n", s->begin);
     if (s->scene && (cli->watch || cli->scene)) put_scene(s);
     if (cli->verbose && s->trajectory) fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation, s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
@@ -86,7 +87,7 @@ static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_
         nh_simulation_free(s);
     }
     nh_cli_progress_end();
-    if (nh_cli_speaks(cli)) fputs(nh_text_string(&text), stdout);
+    if (nh_cli_delivers(cli)) fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
     if (root) good = nh_cli_write_json(cli, nh_json_finish(root), error) && good;
     good = nh_cli_written(cli, good, error);

@@ -22,14 +22,16 @@ static void list_outputs(const nh_cli *cli, const char *path[outputs])
 
 static bool is_stdout(const char *path) { return path && !strcmp(path, "-"); }
 
-bool nh_cli_speaks(const nh_cli *cli)
+bool nh_cli_delivers(const nh_cli *cli)
 {
     const char *path[outputs];
-    bool taken = false;
+    bool taken = false, held = false;
     list_outputs(cli, path);
-    for (size_t i = 0; i < outputs; i++) taken |= is_stdout(path[i]);
-    return !taken && !cli->quiet;
+    for (size_t i = 0; i < outputs; i++) taken |= is_stdout(path[i]), held |= path[i] != NULL;
+    return !taken && !(cli->quiet && held);
 }
+
+bool nh_cli_speaks(const nh_cli *cli) { return !cli->quiet && nh_cli_delivers(cli); }
 
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error)
 {
