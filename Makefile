@@ -286,7 +286,9 @@ install: all library
 	install -m 644 systems/stress/*.yaml $(SHARE)/nhsym/systems/stress/
 	install -m 644 analyses/*.yaml $(SHARE)/nhsym/analyses/
 	install -m 644 docs/schema/*.json $(SHARE)/nhsym/schema/
-	install -m 644 README.md docs/*.md docs/example.c docs/nhsym.ipynb docs/CITATION.cff $(SHARE)/doc/nhsym/
+	for page in README.md docs/*.md; do \
+	    sed 's#](docs/#](#g; s#](schema/#](../../nhsym/schema/#g; s#](LICENSE)#](https://www.gnu.org/licenses/gpl-3.0.html)#' $$page >$(SHARE)/doc/nhsym/$${page##*/} || exit; done # with the links that hold there
+	install -m 644 docs/example.c docs/nhsym.ipynb docs/CITATION.cff $(SHARE)/doc/nhsym/
 	install -m 644 docs/pictures/* $(SHARE)/doc/nhsym/pictures/
 	install -m 644 docs/catalogue/* $(SHARE)/doc/nhsym/catalogue/
 	install -d $(addprefix $(SHARE)/,man/man1 man/man3 bash-completion/completions zsh/site-functions fish/vendor_completions.d)
