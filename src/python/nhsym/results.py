@@ -17,6 +17,11 @@ FORMULAS = {"expression", "in_velocities", "lagrangian", "energy", "rate", "cons
             "generators", "momentum_map", "equation", "current", "recognised", "metric", "potential"}
 
 
+def _no_entry(key, names):
+    near = difflib.get_close_matches(str(key), names, 1)
+    return KeyError("there is no `%s`%s" % (key, "; did you mean `%s`?" % near[0] if near else ", but " + ", ".join(names)))
+
+
 class Record:
     """A part of a result: what its JSON has, as attributes; as a dict: `record.as_dict()`."""
 
@@ -243,7 +248,9 @@ class Analysis(Result):
         if isinstance(key, int):
             return self.currents[key]
         named = [current for current in self.currents if current.name == key]
-        return named[0] if named else super().__getitem__(key)
+        if named or key in self._content:
+            return named[0] if named else super().__getitem__(key)
+        raise _no_entry(key, [current.name for current in self.currents])
 
     @property
     def verdict(self):
@@ -302,8 +309,13 @@ class Simulation(Result):
         return table
 
     def __getitem__(self, key):
-        """A column by its name, or a part of the JSON by its key."""
-        return self.table[key] if key in self.table else super().__getitem__(key)
+        """A column by its name, phi' or, as in a CSV file, phi_dot; or a part of the JSON by its key."""
+        for name in (key, key[:-4] + "'" if str(key).endswith("_dot") else key):
+            if name in self.table:
+                return self.table[name]
+        if key in self._content:
+            return super().__getitem__(key)
+        raise _no_entry(key, self.table)
 
     def states(self):
         """Positions and velocities of all coordinates, two arrays with one row per coordinate."""

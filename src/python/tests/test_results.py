@@ -33,7 +33,7 @@ def test_currents(analysis):
     assert list(analysis.table["name"]) == [c.name for c in analysis.currents] and analysis.table["drift"].dtype == float
     with pytest.raises(AttributeError, match="did you mean `case`"):
         energy.cas
-    with pytest.raises(KeyError):
+    with pytest.raises(KeyError, match="there is no `Phi77`; did you mean `Phi"):
         analysis["Phi77"]
 
 
@@ -74,6 +74,9 @@ def test_a_motion(sleigh, analysis):
     assert len(motion.table["t"]) == 21 and motion.complete and motion["phi"][0] == 0
     for current in analysis.currents[:3]:
         assert numpy.ptp(current.along(motion)) < 1e-6
+    assert motion["phi_dot"] is motion["phi'"]
+    with pytest.raises(KeyError, match="there is no `omga`; did you mean `omega`"):
+        motion["omga"]
     watched = sleigh.simulate(initial="omega=2", until=1, watch={"T": "m/2*v^2"})
     assert set(watched.table) == {"t", "T"}
     with pytest.raises(nhsym.UsageError, match="watch"):
