@@ -339,10 +339,10 @@ Test(cli_manners, a_file_of_another_name_is_found)
     place p = place_make();
     check_hint(&p, "analyze sleigh.yaml", "\nhint: the one that nhsym brings along is called by its name: `sleigh`\n");
     write_here(&p, "bike.yaml", "name: bike\ncoordinates: [x]\nlagrangian: x'^2\n");
-    write_here(&p, "bike.xacro", "<robot/>\n");
+    write_here(&p, "bike.txt", "name: bike\n");
     check_hint(&p, "analyze bkie.yaml", "\nhint: did you mean `bike.yaml`?\n");
     check_hint(&p, "analyze ./bike.yml", "\nhint: did you mean `./bike.yaml`?\n");
-    check_hint(&p, "analyze bike.xacro", "\nhint: there is a file of this name here: write ./bike.xacro\n");
+    check_hint(&p, "analyze bike.txt", "\nhint: there is a file of this name here: write ./bike.txt\n");
     place_clear(&p);
 }
 

@@ -72,7 +72,7 @@ static size_t places(nh_arena *arena, const char *kind, place *out)
 
 bool nh_places_is_path(const char *name)
 {
-    static const char *const endings[] = {".yaml", ".urdf", ".xml"};
+    static const char *const endings[] = {".yaml", ".urdf", ".xml", ".xacro"};
     size_t length = strlen(name);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         size_t n = strlen(endings[i]);

@@ -100,8 +100,8 @@ static void translate(const scope *s, const char *name, nh_parse_fault *fault)
         if (!at || n >= length) continue;
         const char *rest = at == name ? name + n : name;
         size_t left = length - n;
-        bool whole = at == name || at + n == name + length;
-        if (whole && ((left == 3 && !strncmp(rest, "dot", 3)) || (left == 4 && (!strncmp(rest, "_dot", 4) || !strncmp(rest, "dot_", 4)))))
+        bool whole = at == name || at + n == name + length, differential = left == 1 && at == name + 1 && *name == 'd'; /* dx - R dpsi = 0, over dt */
+        if (differential || (whole && ((left == 3 && !strncmp(rest, "dot", 3)) || (left == 4 && (!strncmp(rest, "_dot", 4) || !strncmp(rest, "dot_", 4))))))
             snprintf(fault->hint, sizeof fault->hint, "the velocity of `%s` is written %s'", q, q);
     }
 }
