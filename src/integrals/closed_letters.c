@@ -152,8 +152,8 @@ static nh_ex minor_of(const nh_model *o, size_t row, uint32_t used)
     return sum;
 }
 
-/* The factors of an expression with half powers; sums without what their terms have in common. */
-static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e)
+/* The factors of an expression with half powers; sums without what their terms have in common, unless `plain`: the quotient may be written with it again. */
+static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool plain)
 {
     nh_dag *d = x->dag;
     bool product = nh_kind_of(d, e) == NH_PRODUCT;
@@ -161,10 +161,10 @@ static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e)
         nh_ex base = product ? nh_child(d, e, k) : e, common = nh_int(d, 1);
         if (!of_position(x, base)) continue;
         bool sum = nh_kind_of(d, base) == NH_SUM;
-        if (sum) common = nh_terms_common(d, base);
+        if (sum && !plain) common = nh_terms_common(d, base);
         if (!nh_is_number(d, common, 1)) {
-            take_factors(x, l, common);
-            take_factors(x, l, nh_simplify_short(d, nh_div(d, base, common), largest_form));
+            take_factors(x, l, common, true);
+            take_factors(x, l, nh_simplify_short(d, nh_div(d, base, common), largest_form), true);
         } else take_power(x, l, base, sum ? nh_num_ratio(-1, 2) : nh_num_int(-1), 0);
     }
 }
@@ -172,7 +172,7 @@ static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e)
 static void take_determinant(const nh_jet_equations *x, nh_letters *l)
 {
     const nh_model *o = x->model;
-    if (o->n <= largest_inertia) take_factors(x, l, nh_simplify_short(x->dag, minor_of(o, 0, 0), largest_form));
+    if (o->n <= largest_inertia) take_factors(x, l, nh_simplify_short(x->dag, minor_of(o, 0, 0), largest_form), false);
 }
 
 /* ---- the coordinates ---- */
