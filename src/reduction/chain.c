@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "graph/terms.h"
 #include "exact/normal.h"
 #include "exact/relation.h"
 #include "exact/solve.h"
@@ -82,28 +83,59 @@ static bool carries_nothing(const nh_chain *c, size_t body)
 
 /* ---- null spaces ---- */
 
+/* Expressions and their terms, one after another; at[i] is where those of e[i] begin, at[count] the end. */
+static nh_ex *with_terms(nh_dag *dag, size_t count, const nh_ex *e, size_t *at)
+{
+    nh_ex *all = NULL;
+    size_t capacity = 0;
+    at[0] = 0;
+    for (size_t i = 0; i < count; i++) {
+        nh_ex *terms;
+        size_t n = nh_terms_of(dag, e[i], &terms);
+        at[i + 1] = at[i] + n;
+        nh_grow(&all, &capacity, at[i + 1] + 1, sizeof *all);
+        memcpy(all + at[i], terms, n * sizeof *all);
+        nh_free(terms);
+    }
+    return all;
+}
+
+/* The largest of them, the terms themselves aside: what is left of terms that cancel is rounding, in any units. */
+static double size_at(size_t count, const size_t *at, const double *value)
+{
+    static const double rounding = 1e-12;
+    double size = 0, terms = 0;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = at[i]; k < at[i + 1]; k++) {
+            if (!isfinite(value[k])) return INFINITY;
+            terms = fmax(terms, fabs(value[k]));
+            if (k == at[i]) size = fmax(size, fabs(value[k]));
+        }
+    return size > rounding * terms ? size : 0;
+}
+
 /* Rows (n columns each) at random states, scaled to size one, stacked: `rows` x n expressions; the null space as columns of `null` in reduced
  * echelon form.  Returns its dimension. */
 static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double *null)
 {
     const nh_system *s = w->system;
-    size_t m = s->coordinates, width = 1 + 2 * m, total = states * rows;
+    size_t m = s->coordinates, width = 1 + 2 * m, total = states * rows, *at = nh_alloc_array(rows * n + 1, sizeof *at);
+    nh_ex *all = with_terms(s->dag, rows * n, e, at);
     const nh_ex *symbols;
     const double *values;
     nh_ex *in = nh_alloc_array(width, sizeof *in);
-    double *point = nh_alloc_array(width + rows * n + total * n + 2 * (total + n) + n * n, sizeof *point), *value = point + width, *a = value + rows * n;
+    double *point = nh_alloc_array(width + at[rows * n] + total * n + 2 * (total + n) + n * n, sizeof *point), *value = point + width, *a = value + at[rows * n];
     double *singular = a + total * n, *vt = singular + total + n;
     in[0] = s->t;
     for (size_t i = 0; i < m; i++) in[1 + i] = s->coordinate[i].q, in[1 + m + i] = s->coordinate[i].v;
     nh_system_bindings(s, &symbols, &values);
-    nh_tape *tape = nh_tape_create(s->dag, width, in, rows * n, e, s->parameters, symbols, values);
+    nh_tape *tape = nh_tape_create(s->dag, width, in, at[rows * n], all, s->parameters, symbols, values);
     nh_tape_work *scratch = nh_tape_work_create(tape);
     for (size_t p = 0; p < states; p++) {
         for (size_t i = 0; i < width; i++) point[i] = 2 * nh_random(&w->seed) - 1;
         nh_tape_eval(tape, scratch, point, value);
-        double size = 0;
-        for (size_t i = 0; i < rows * n; i++) size = isfinite(value[i]) ? fmax(size, fabs(value[i])) : INFINITY;
-        for (size_t i = 0; i < rows * n; i++) a[p * rows + i / n + total * (i % n)] = isfinite(size) && size > 0 ? value[i] / size : 0;
+        double size = size_at(rows * n, at, value);
+        for (size_t i = 0; i < rows * n; i++) a[p * rows + i / n + total * (i % n)] = isfinite(size) && size > 0 ? value[at[i]] / size : 0;
     }
     size_t dimension = 0;
     if (nh_svd(total, n, a, singular, NULL, vt))
@@ -116,6 +148,8 @@ static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double 
     nh_tape_free(tape);
     nh_free(point);
     nh_free(in);
+    nh_free(all);
+    nh_free(at);
     return dimension;
 }
 
