@@ -16,7 +16,9 @@ static nh_model *model_of(const char *text, const char *levels, nh_error *error)
     snprintf(all, sizeof all, "%s%s", text, levels);
     nh_system *s = nh_system_parse("level.yaml", all, 0, NULL, error);
     nh_chart *chart = s ? nh_chart_create(s, NH_CHART_AUTO, 1, error) : NULL;
-    return chart ? nh_model_create(s, chart, error) : NULL;
+    nh_model *o = chart ? nh_model_create(s, chart, error) : NULL;
+    if (!o) nh_system_free(s);
+    return o;
 }
 
 static void clear(nh_model *o)
@@ -146,5 +148,6 @@ Test(invariant_level, goryachev_and_chaplygin_are_found)
     }
     cr_expect_eq(special, 2);
     cJSON_Delete(root);
+    finished_clear(&f);
     place_clear(&p);
 }
