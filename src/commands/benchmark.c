@@ -126,12 +126,13 @@ void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double
 
 static const double units = 1e9; /* of effort in a second */
 
-/* A motion that decides what is compared, and until when: in counted work, as much as a part of the budget is on an ordinary machine. */
+/* A motion that decides what is compared, and until when: in counted work, as much as a part of the budget is on an ordinary machine.  A cell of a map counts steps,
+ * and has a deadline where the map got a budget. */
 static nh_motion *integrate_counted(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double part)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    c->deadline = INFINITY;
+    c->deadline = c->once ? nh_clock() + part * c->budget : INFINITY;
     c->effort = c->once ? 0 : part * c->budget * units;
     return integrate(c, k, tolerance, 0, &ignored);
 }
