@@ -36,6 +36,7 @@ Test(normal, identities)
         "1/cosh(x)^2-1+tanh(x)^2", "tanh(x/2)-sinh(x)/(cosh(x)+1)", "exp(a+b)-exp(a)*exp(b)", "exp(3*x)-exp(x)^3", "exp(-x)*exp(x)-1",
         "exp(x^2+3*x)*exp(-x^2-2*x)-exp(x)", "exp(x/2)*exp(x/3)-exp(5*x/6)", "exp(2+x)-exp(1)^2*exp(x)",
         "x/sqrt(x^2+y^2)*sqrt(x^2+y^2)-x", "(x^2+y^2)/sqrt(x^2+y^2)-sqrt(x^2+y^2)", "sqrt(8)-2*sqrt(2)", "sqrt(6)-sqrt(2)*sqrt(3)",
+        "sqrt(m)*sqrt(u^2+1)-sqrt(m+m*u^2)", "sqrt(x^2-1)/sqrt(x-1)-sqrt(x+1)", "sqrt(x/y)*sqrt(y)-sqrt(x)",
         "sqrt(12*x)-2*sqrt(3)*sqrt(x)", "1/sqrt(2)-sqrt(2)/2", "sqrt(4*x+4*y)-2*sqrt(x+y)", "(x+y)^(1/3)*(x+y)^(1/6)-sqrt(x+y)",
         "(x/y+1)^(3/2)-(x/y+1)*sqrt((x+y)/y)", "(x-1)/(sqrt(x)-1)-sqrt(x)-1", "sqrt(sqrt(x)+1)^4-x-2*sqrt(x)-1",
         "sqrt((x+1)^2+y^2)-sqrt(x^2+2*x+1+y^2)", "sqrt(x+sqrt(x^2+1))^2-x-sqrt(1+x^2)", "sqrt(1-sin(f)^2)^2-cos(f)^2",

@@ -292,9 +292,48 @@ static nh_ex rewrite(nh_forms *s, nh_ex e)
 
 /* ---- the whole ---- */
 
+/* The square roots that were related so far. */
+typedef struct {
+    size_t generator;
+    const nh_quotient *radicand;
+} square_root;
+
+enum { most_roots = 6, longest_product = 400 }; /* terms */
+
+static bool is_product(nh_form *f, const nh_quotient *whole, const nh_quotient *a, const nh_quotient *b)
+{
+    if (nh_quotient_terms(a) * nh_quotient_terms(b) > longest_product || nh_quotient_terms(whole) > longest_product) return false;
+    return nh_quotient_equal(f->field, whole, nh_quotient_mul(f->field, a, b));
+}
+
+/* sqrt(a b) = sqrt(a) sqrt(b) where all three stand in one expression, so that a and b are not negative wherever it means something. */
+static const nh_quotient *from_other_roots(nh_form *f, const square_root *root, size_t roots, const nh_quotient *radicand)
+{
+    for (size_t i = 0; i < roots; i++)
+        for (size_t j = 0; j < i; j++) {
+            const nh_quotient *a = root[i].radicand, *b = root[j].radicand;
+            bool product = is_product(f, radicand, a, b), over_b = !product && is_product(f, a, radicand, b), over_a = !product && !over_b && is_product(f, b, radicand, a);
+            if (!product && !over_b && !over_a) continue;
+            return nh_quotient_mul(f->field, nh_quotient_power_of(f->field, root[i].generator, over_a ? -1 : 1), nh_quotient_power_of(f->field, root[j].generator, over_b ? -1 : 1));
+        }
+    return NULL;
+}
+
+static void relate_root(nh_form *f, size_t generator, square_root *root, size_t *roots)
+{
+    const nh_kernel *k = &f->kernels.item[generator];
+    const nh_quotient *radicand = nh_form_eval(f, k->atom), *others = NULL;
+    if (k->unit.q == 2) others = from_other_roots(f, root, *roots, radicand);
+    if (others) nh_quotient_field_relate(f->field, generator, 1, others);
+    else nh_quotient_field_relate(f->field, generator, (unsigned)k->unit.q, radicand);
+    if (k->unit.q == 2 && !others && *roots < most_roots) root[(*roots)++] = (square_root){generator, radicand};
+}
+
 /* Radicands come before their roots, and what a symbol satisfies before it, so that every relation is known before it is needed. */
 static void relate(nh_form *f)
 {
+    square_root root[most_roots];
+    size_t roots = 0;
     for (size_t n = 0; n < f->kernels.count; n++) {
         size_t i = f->kernels.order[n];
         const nh_kernel *k = &f->kernels.item[i];
@@ -302,7 +341,7 @@ static void relate(nh_form *f)
         if (rule) nh_quotient_field_relate(f->field, i, rule->order, nh_form_eval(f, rule->value)), nh_quotient_field_repeat(f->field);
         if (k->kind == NH_KERNEL_SIN || k->kind == NH_KERNEL_SINH)
             nh_quotient_field_relate_pair(f->field, i, k->partner, k->kind == NH_KERNEL_SINH);
-        if (k->kind == NH_KERNEL_ROOT) nh_quotient_field_relate(f->field, i, (unsigned)k->unit.q, nh_form_eval(f, k->atom));
+        if (k->kind == NH_KERNEL_ROOT) relate_root(f, i, root, &roots);
         if (k->kind == NH_KERNEL_ABS) nh_quotient_field_relate(f->field, i, 2, nh_quotient_pow(f->field, nh_form_eval(f, k->atom), 2));
     }
 }

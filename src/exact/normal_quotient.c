@@ -138,6 +138,11 @@ const nh_quotient *nh_quotient_again(nh_quotient_field *field, const nh_quotient
 
 bool nh_quotient_is_zero(const nh_quotient_field *field, const nh_quotient *a) { return fmpz_mpoly_is_zero(a->num, field->ctx); }
 
+bool nh_quotient_equal(const nh_quotient_field *field, const nh_quotient *a, const nh_quotient *b)
+{
+    return fmpz_mpoly_equal(a->num, b->num, field->ctx) && fmpz_mpoly_equal(a->den, b->den, field->ctx);
+}
+
 bool nh_quotient_has(const nh_quotient_field *field, const nh_quotient *a, size_t generator)
 {
     slong g = (slong)generator;

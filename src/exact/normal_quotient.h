@@ -42,6 +42,7 @@ const nh_quotient *nh_quotient_rationalise(nh_quotient_field *field, const nh_qu
 /* a = whole + rest, whole without denominator (but a number), rest = remainder/denominator. */
 void nh_quotient_divide(nh_quotient_field *field, const nh_quotient *a, const nh_quotient **whole, const nh_quotient **rest);
 bool nh_quotient_is_zero(const nh_quotient_field *field, const nh_quotient *a);
+bool nh_quotient_equal(const nh_quotient_field *field, const nh_quotient *a, const nh_quotient *b);
 bool nh_quotient_has(const nh_quotient_field *field, const nh_quotient *a, size_t generator);
 size_t nh_quotient_terms(const nh_quotient *a);
 
