@@ -2,10 +2,9 @@
 
 #include "base/progress.h"
 #include "cli/cli.h"
-#include "document/html.h"
 #include "document/analysis_json.h"
+#include "document/analysis_outline.h"
 #include "document/summary.h"
-#include "document/tex.h"
 
 /* A system by name brings the analysis of that name with it; a file is taken alone. */
 static const char *analysis_of(nh_cli *cli, const char *system)
@@ -44,23 +43,10 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
 
 /* ---- what is written ---- */
 
-static bool write_html(nh_cli *cli, const nh_analysis *result, nh_error *error)
+static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
 {
-    if (!cli->html) return true;
-    nh_text text;
-    nh_text_init(&text);
-    nh_html(result, &text);
-    bool good = !cli->folder || nh_cli_write_figures(cli, nh_text_string(&text), error);
-    return nh_cli_write(cli, cli->html, &text, error) && good;
-}
-
-static bool write_tex(nh_cli *cli, const nh_analysis *result, nh_error *error)
-{
-    if (!cli->tex) return true;
-    nh_text text;
-    nh_text_init(&text);
-    nh_tex(result, cli->fragment, &text);
-    return nh_cli_write(cli, cli->tex, &text, error);
+    (void)run; /* the result has its own */
+    nh_analysis_write(result, cli->fragment, form, out);
 }
 
 static bool write_summary(nh_cli *cli, const nh_analysis *result, nh_error *error)
@@ -86,8 +72,8 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (!result) return nh_cli_failed(cli, &run, error);
-    bool good = write_summary(cli, result, error) && (!cli->json || nh_cli_write_json(cli, nh_analysis_json(result), error)) && write_html(cli, result, error)
-                && write_tex(cli, result, error);
+    bool good = write_summary(cli, result, error) && (!cli->json || nh_cli_write_json(cli, nh_analysis_json(result), error))
+                && nh_cli_write_documents(cli, render, result, &run, error);
     good = nh_cli_written(cli, good, error);
     bool partial = result->partial;
     const nh_validation *v = result->validation;

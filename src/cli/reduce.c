@@ -3,9 +3,7 @@
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "document/export.h"
-#include "document/html.h"
 #include "document/reduction.h"
-#include "document/tex.h"
 
 /* A language of `export`, or csv: the motions. */
 static bool language_known(const char *word, nh_error *error)

@@ -118,7 +118,7 @@ static bool write_unfinished(nh_cli *cli, const nh_unfinished *u, nh_error *erro
     nh_text_clear(&text);
     if (cli->json && good) good = nh_cli_write_json(cli, nh_unfinished_json(u), error);
     if (cli->html && good) {
-        nh_html_unfinished(u, &text);
+        nh_unfinished_page(u, &text);
         good = nh_cli_write(cli, cli->html, &text, error);
     }
     return nh_cli_written(cli, good, error);

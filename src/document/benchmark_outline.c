@@ -236,7 +236,7 @@ void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_
     all_runs(p, c);
     discrete(p, c);
     robustness(p, s);
-    nh_pen_system(p, NULL);
+    nh_pen_system(p, NULL, NULL);
     nh_pen_glossary(p, "accurate, flagged, detected, undetected, timeout, drift");
     nh_pen_end(p, run);
 }

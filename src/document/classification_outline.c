@@ -198,7 +198,7 @@ void nh_classification_write(const nh_classified *line, const plane *x, const nh
                   : "almost|For almost all values|excluded|What is excluded|system|System|words|Words|repeat|Repeat it");
     if (x) outline_plane(x, p);
     else outline_line(line, p);
-    nh_pen_system(p, r->model);
+    nh_pen_system(p, r->model, NULL);
     nh_pen_glossary(p, "current, degree, proved, complete");
     nh_pen_end(p, run);
 }

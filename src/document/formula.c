@@ -148,25 +148,6 @@ bool nh_formula_is_sum(const char *text)
     return false;
 }
 
-void nh_formula_series(nh_dag *d, const nh_series *s, nh_typeset_form form, nh_text *out)
-{
-    const char *q = nh_name_of(d, s->variable);
-    bool page = form == NH_MATHML;
-    if (page) nh_text_add(out, "<mrow>");
-    for (size_t i = 0; i < s->words; i++) {
-        nh_text_add(out, !i ? "" : page ? "<mo>+</mo>" : " + ");
-        nh_text_addf(out, page ? "<msub><mi>f</mi><mn>%zu</mn></msub><mo stretchy=\"false\">(</mo>" : "f_{%zu}(", i + 1);
-        nh_typeset(q, form, out);
-        nh_text_add(out, page ? "<mo stretchy=\"false\">)</mo>" : ")");
-        if (nh_is_number(d, s->word[i], 1)) continue;
-        char *word = nh_print_string(d, s->word[i]);
-        nh_text_add(out, page ? "<mspace width=\"0.17em\"></mspace>" : "\\,");
-        nh_typeset(word, form, out);
-        nh_free(word);
-    }
-    if (page) nh_text_add(out, "</mrow>");
-}
-
 const char *nh_formula_doubt(const nh_current *f)
 {
     if (f->exact) return " (not proved)";

@@ -35,9 +35,6 @@ char *nh_formula_text(nh_dag *dag, nh_ex e, double shown);
 /* Of the text of an expression: has it a plus or minus outside all parentheses, after the first character? */
 bool nh_formula_is_sum(const char *text);
 
-/* f_1(q) word_1 + ..., for a current without closed form. */
-void nh_formula_series(nh_dag *dag, const nh_series *series, nh_typeset_form form, nh_text *out);
-
 /* Why a current is not said to be proved: what stands behind "conserved to N digits", with its blank. */
 const char *nh_formula_doubt(const nh_current *found);
 

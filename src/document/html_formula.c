@@ -65,36 +65,13 @@ void nh_html_chart_name(nh_html_writer *w, const char *name)
     nh_html_add(w, ")</span>");
 }
 
-void nh_html_meaning(nh_html_writer *w, const char *meaning)
-{
-    static const char of[] = "momentum of ";
-    const char *name = strstr(meaning, of);
-    nh_text words;
-    nh_text_init(&words);
-    if (name) name += sizeof of - 1;
-    nh_text_add_n(&words, meaning, name ? (size_t)(name - meaning) : strlen(meaning));
-    if (name) nh_typeset_plain(name, &words);
-    nh_html_text(w, nh_text_string(&words));
-    nh_text_clear(&words);
-}
-
-static void equal(nh_html_writer *w) { nh_html_add(w, "<math><mo>=</mo></math> "); }
-
-/* A name, or Z|x': Z with the index x', or MathML, which begins with <. */
+/* A name, or MathML, which begins with <. */
 static void put_label(nh_html_writer *w, const char *label)
 {
-    const char *bar = strchr(label, '|');
     if (!label[0]) return;
-    if (label[0] == '<') {
-        nh_text_addf(w->out, "<math>%s</math> ", label);
-    } else if (bar) {
-        nh_text_addf(w->out, "<math><msub><mi>%.*s</mi><mrow>", (int)(bar - label), label);
-        nh_typeset(bar + 1, NH_MATHML, w->out);
-        nh_html_add(w, "</mrow></msub></math> ");
-    } else {
-        nh_html_source(w, label);
-    }
-    equal(w);
+    if (label[0] == '<') nh_text_addf(w->out, "<math>%s</math> ", label);
+    else nh_html_source(w, label);
+    nh_html_add(w, "<math><mo>=</mo></math> ");
 }
 
 static void line(nh_html_writer *w, const char *label, nh_ex e)
@@ -182,5 +159,3 @@ void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, con
     nh_free(brief);
     nh_free(shown);
 }
-
-void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e) { nh_html_formulas(w, 1, &label, &e); }

@@ -4,6 +4,7 @@
 
 #include "document/time_series.h"
 #include "document/html.h"
+#include "document/provenance.h"
 #include "document/svg.h"
 
 /* A page while it is written. */
@@ -15,10 +16,9 @@ typedef struct {
     const nh_chart *chart;       /* whose roots are shown as velocities; or NULL */
     double shown;                /* option `shown`: longer formulas are left to the JSON */
     double written;              /* option `written` */
-    const nh_analysis *r;          /* of `analyze`, else NULL */
     size_t figures;
     size_t names;                /* of repeated parts in this card or chart, so far: no two are alike */
-    nh_figure_sink *sink; /* NULL: figures go onto the page */
+    void (*sink)(void *context, const nh_plot *plot, const char *caption); /* NULL: figures go onto the page */
     void *context;
 } nh_html_writer;
 
@@ -38,10 +38,8 @@ void nh_html_source(nh_html_writer *w, const char *text);
 void nh_html_name(nh_html_writer *w, const char *name);
 /* Words with a list of names in parentheses at their end, such as a chart has: the names as formulas. */
 void nh_html_chart_name(nh_html_writer *w, const char *name);
-/* label = e, with the user's abbreviations; or that it is too long for a page.  label may be "", a name, `Z|x'`: Z with the index x', or
- * MathML that begins with <. */
-void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e);
-/* Several that belong together: what occurs in them more than once gets one name for all. */
+/* label = e for formulas that belong together, with the user's abbreviations: what occurs in them more than once gets one name for all; or that one is
+ * too long for a page.  A label is "", a name, or MathML, which begins with <. */
 void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e);
 /* A figure with its caption; the plot gets an id. */
 void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption);
@@ -59,21 +57,8 @@ void nh_html_words(nh_html_writer *w, const char *words);
 void nh_html_repeat(nh_html_writer *w, const nh_run *run);
 void nh_html_end(nh_html_writer *w);
 
-/* ---- sections ---- */
-
-void nh_html_written(nh_html_writer *w);                          /* the system as it was written */
-void nh_html_equations(nh_html_writer *w, const nh_model *model); /* and as it was understood */
-void nh_html_system(nh_html_writer *w);
-void nh_html_explicit_motion(nh_html_writer *w); /* nothing where none is known */
-void nh_html_geometry(nh_html_writer *w, nh_arena *arena, const struct nh_theory *theory); /* nothing without a theory */
-void nh_html_currents(nh_html_writer *w);
-void nh_html_figures(nh_html_writer *w);
-void nh_html_evidence(nh_html_writer *w);
-void nh_html_simulation_motion(nh_html_writer *w);
-void nh_html_time_series(nh_html_writer *w, const nh_time_series *course);  /* the slider with the drawing, and every line over time */
-/* The components of a field along n coordinates and velocities that do not vanish, as Z with an index. */
-void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const nh_ex *e);
-void nh_html_meaning(nh_html_writer *w, const char *meaning); /* "momentum of phi", with the letter */
+/* The slider with the drawing, and every line over time. */
+void nh_html_time_series(nh_html_writer *w, const nh_time_series *course);
 
 extern const char *const nh_html_font; /* WOFF2 in base 64 */
 extern const char *const nh_html_style;

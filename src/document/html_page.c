@@ -10,7 +10,7 @@ const char *const nh_html_style =
     ".answer{font-size:1.3rem;margin:.4rem 0}.found{color:var(--good)}.undecided{color:var(--bad)}.source{color:var(--soft);margin:.3rem 0}\n"
     "a{color:var(--link)}nav{display:flex;flex-wrap:wrap;gap:.3rem 1.1rem;margin:.8rem 0;font-size:.92rem}:focus-visible{outline:3px solid #E69F00;outline-offset:2px}\n"
     ".warning{border-left:4px solid #D55E00;padding:.3rem .8rem;background:var(--card)}\n"
-    ".card{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:.4rem 1rem .8rem;margin:1rem 0}.almost{border-style:dashed}\n"
+    ".card{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:.4rem 1rem .8rem;margin:1rem 0}#currents>h3~.card{border-style:dashed}\n"
     ".card h3{margin:.5rem 0}.tags{display:flex;flex-wrap:wrap;gap:.4rem;margin:.3rem 0;font-size:.8rem}.tags span{border:1px solid var(--line);border-radius:9px;padding:0 .55rem}\n"
     ".formula{overflow-x:auto;overflow-y:hidden;padding:.5rem 0 .5rem 1rem;line-height:1.7}math{font-size:1.06em;font-family:'nhsym math','TeX Gyre Pagella Math','STIX Two Math','Cambria Math','Latin Modern Math',math}.formula math{margin:.22em 0}code,pre{font:.85rem/1.45 ui-monospace,monospace;overflow-wrap:anywhere;white-space:pre-wrap}\n"
     "pre{margin:.4rem 0}.along{color:var(--soft);font-size:.9rem}dl{display:grid;align-items:baseline;grid-template-columns:7rem 1fr;gap:.2rem .6rem;margin:.6rem 0}dt{color:var(--soft);font-size:.88rem}dd{margin:0}\n"
@@ -21,7 +21,7 @@ const char *const nh_html_style =
     "#player:fullscreen{background:var(--paper);display:flex;flex-direction:column;padding:1rem}#player:fullscreen figure{flex:1;min-height:0;margin:0}#player:fullscreen #scene{height:100%}#player:fullscreen figcaption{display:none}button{font-size:1rem;min-width:5rem;padding:.45rem .9rem;border:1px solid var(--line);border-radius:6px;background:var(--card);color:var(--ink)}output{min-width:6.5rem;font-size:.9rem}\n"
     "@media (max-width:34rem){caption{white-space:normal}.formula{padding-left:.2rem}.where{margin-left:.4rem}.card{padding-left:.7rem;padding-right:.5rem}.beside{grid-template-columns:1fr}.beside figure{grid-column:1}dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}body{font-size:16px}svg .tick,svg .label{font-size:18px}svg .legend{font-size:17px}figure svg.plot:not(#scene) path[fill=none]{stroke-width:2.8}}\n"
     /* On paper: two columns; no heading is left behind at the end of one, and no part of a figure, a formula or a row. */
-    "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player,.copy,.drift{display:none}\n"
+    "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player,.screen{display:none}\n"
     "html{font-size:13.5px}body{font-size:9pt;line-height:1.3}main{max-width:none;padding:0}section{columns:2;column-gap:7mm}#repeat{columns:auto}#repeat .wide{break-inside:auto}#repeat code{font-size:.72rem}\n"
     "h1{font-size:1.6rem}h2{column-span:all;break-inside:avoid;margin:1.1rem 0 .3rem;font-size:1.2rem}h2::after{content:'';display:block;height:4cm;margin-bottom:-4cm}h3{margin:.7rem 0 .2rem;font-size:1rem}h4{margin:.5rem 0 .1rem}p{margin:.35rem 0}\n"
     "h2,h3,h4,summary,h2+p,h3+p,p:has(+.formula),p:has(+figure),p:has(+dl),p:has(+.wide){break-after:avoid}figure,.formula,dt,dd,tr,.tags,.wide{break-inside:avoid}caption{break-after:avoid}dt{break-after:avoid}\n"

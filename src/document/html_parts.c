@@ -73,6 +73,16 @@ bool nh_html_is_figure(const char *text, size_t number)
     return nh_svg_is_plot(text, id);
 }
 
+const char *nh_html_next_figure(const char **at, size_t *length)
+{
+    static const char begin[] = "<svg xmlns=", end[] = "</svg>"; /* text cannot hold them: it is escaped */
+    const char *first = strstr(*at, begin), *last = first ? strstr(first, end) : NULL;
+    if (!last) return NULL;
+    *at = last + sizeof end - 1;
+    *length = (size_t)(*at - first);
+    return first;
+}
+
 void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption)
 {
     char id[FIGURE_ID];
@@ -102,7 +112,8 @@ void nh_html_table(nh_html_writer *w, const char *caption, const char *heads)
         char *head = nh_alloc_array((size_t)(end - heads) + 1, 1);
         memcpy(head, heads, (size_t)(end - heads));
         nh_html_add(w, "<th scope=\"col\">");
-        nh_html_text(w, head);
+        if (*head == '#') nh_html_number(w, strtod(head + 1, NULL), 2);
+        else nh_html_text(w, head);
         nh_html_add(w, "</th>");
         nh_free(head);
         if (!*end) nh_html_add(w, "</tr></thead>");

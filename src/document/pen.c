@@ -13,9 +13,11 @@
 
 void nh_pen_begin(nh_pen *p, nh_pen_form form, const nh_pen_subject *s, const char *what, nh_text *out)
 {
-    *p = (nh_pen){
-        .page = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = INFINITY},
-        .tex = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = INFINITY}};
+    double written = s->written > 0 ? s->written : INFINITY;
+    *p = (nh_pen){.of = *s,
+                  .page = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = written},
+                  .tex = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = written,
+                          .fragment = s->fragment}};
     p->plain = (nh_plain_writer){.out = out, .of = *s};
     static const nh_pen_ink *const ink[] = {&nh_pen_html, &nh_pen_tex, &nh_pen_plain};
     void *const to[] = {&p->page, &p->tex, &p->plain};
@@ -53,12 +55,6 @@ void nh_pen_card(nh_pen *p, const char *title)
     p->card = true;
 }
 
-void nh_pen_system(nh_pen *p, const nh_model *model)
-{
-    section_end(p);
-    p->ink->system(p->to, model);
-}
-
 void nh_pen_glossary(nh_pen *p, const char *words)
 {
     section_end(p);
@@ -75,7 +71,12 @@ void nh_pen_end(nh_pen *p, const nh_run *run)
     p->ink->end(p->to, run);
 }
 
-void nh_pen_open(nh_pen *p, nh_pen_part part, const char *id, const char *title) { p->ink->open(p->to, part, id, title); }
+void nh_pen_open(nh_pen *p, nh_pen_part part, const char *id, const char *title)
+{
+    if (part == NH_PEN_SECTION) p->headed = false;
+    if (part == NH_PEN_CARD || part == NH_PEN_HEADING) p->headed = true;
+    p->ink->open(p->to, part, id, title);
+}
 
 void nh_pen_close(nh_pen *p, nh_pen_part part) { p->ink->close(p->to, part); }
 
@@ -191,6 +192,32 @@ void nh_pen_row(nh_pen *p, const char *format, ...)
     va_end(list);
 }
 
+void nh_pen_cell(nh_pen *p, nh_pen_part part, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    nh_pen_open(p, part, NULL, NULL);
+    write_format(p, format, false, &list);
+    nh_pen_close(p, part);
+    va_end(list);
+}
+
+void nh_pen_heading(nh_pen *p, const char *title)
+{
+    nh_pen_card_end(p);
+    nh_pen_open(p, NH_PEN_HEADING, NULL, title);
+    nh_pen_close(p, NH_PEN_HEADING);
+}
+
+void nh_pen_name_heading(nh_pen *p, const char *name)
+{
+    nh_pen_open(p, NH_PEN_NAME, NULL, NULL);
+    p->ink->source(p->to, name);
+    nh_pen_close(p, NH_PEN_NAME);
+}
+
+void nh_pen_code(nh_pen *p, const char *text) { p->ink->code(p->to, text); }
+
 void nh_pen_warning(nh_pen *p, const char *text)
 {
     nh_pen_open(p, NH_PEN_WARNING, NULL, NULL);
@@ -235,6 +262,6 @@ void nh_pen_sheet(nh_pen *p, nh_sheet *sheet)
 {
     if (!sheet) return;
     sheet->names = p->names;
-    p->ink->sheet(p->to, sheet);
+    p->ink->sheet(p->to, sheet, p->headed);
     p->names = sheet->names;
 }

@@ -2,8 +2,9 @@
  *
  * A document is a sequence of parts, which may hold parts; a part of words holds words, numbers, names and formulas.  A form of output is one
  * nh_pen_ink.  In formats, as of printf:  %s words; %zu and %ld a count; %.3g a number with so many digits; {%s} words with names in
- * parentheses, such as a chart has; <%s> a formula of the expression language; $..$ letters of the theory, as notation.h has them.  In rows | ends a cell, and a cell that begins with # heads its row;
- * one that begins with ! has its words as its kind, by which a page colours it. */
+ * parentheses, such as a chart has; <%s> a formula of the expression language; $..$ letters of the theory, as notation.h has them.
+ * In rows | ends a cell, and a cell that begins with # heads its row; one that begins with ! has its words as its kind, by which a page
+ * colours it.  A head of a column that begins with # is a number. */
 #ifndef NH_PEN_H
 #define NH_PEN_H
 
@@ -11,10 +12,14 @@
 #include "document/sheet.h"
 #include "document/tex_internal.h"
 
-typedef enum { NH_PEN_SECTION, NH_PEN_CARD, NH_PEN_FOLD, NH_PEN_WORDS, NH_PEN_ANSWER, NH_PEN_WARNING, NH_PEN_HEADING, NH_PEN_FACTS, NH_PEN_FACT,
-               NH_PEN_FACT_NAME, NH_PEN_ROW, NH_PEN_CELL, NH_PEN_ROW_HEAD, NH_PEN_KIND, NH_PEN_PARTS } nh_pen_part;
+/* SCREEN: folded, on pages only, and not on their print.  NAME: of a card, as a formula.  TAGS: the properties of a card, one TAG each.
+ * BESIDE: figures that stand side by side where there is room. */
+typedef enum { NH_PEN_SECTION, NH_PEN_CARD, NH_PEN_FOLD, NH_PEN_SCREEN, NH_PEN_WORDS, NH_PEN_ANSWER, NH_PEN_WARNING, NH_PEN_HEADING, NH_PEN_SUBHEADING,
+               NH_PEN_NAME, NH_PEN_TAGS, NH_PEN_TAG, NH_PEN_FACTS, NH_PEN_FACT, NH_PEN_FACT_NAME, NH_PEN_BESIDE,
+               NH_PEN_ROW, NH_PEN_CELL, NH_PEN_ROW_HEAD, NH_PEN_KIND, NH_PEN_PARTS } nh_pen_part;
 
 typedef struct {
+    bool screen;                                     /* has it parts for the screen? */
     void (*begin)(void *to, const char *what);
     void (*links)(void *to, const char *sections);
     /* `id`: of a section; the class of an answer and the kind of a cell.  `title` may be NULL; of a kind it is a remark. */
@@ -26,30 +31,30 @@ typedef struct {
     void (*names)(void *to, const char *words);
     void (*source)(void *to, const char *formula);
     void (*letters)(void *to, const char *label);    /* in the language of notation.h */
-    void (*equation)(void *to, const char *label, const char *formula); /* label = formula, as texts */
+    void (*equation)(void *to, const char *label, const char *formula); /* label = formula, as texts; label may be "" */
+    void (*code)(void *to, const char *text);        /* as it is, on lines of its own */
     /* What belongs together; labels are names, or in the language of notation.h. */
     void (*formulas)(void *to, size_t n, const char *const *label, const nh_ex *e);
-    void (*sheet)(void *to, nh_sheet *sheet);        /* its sections have headings below that of a card */
+    void (*sheet)(void *to, nh_sheet *sheet, bool headed); /* headed: it stands below a heading of its section */
     void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
     void (*table_end)(void *to);
     void (*plot)(void *to, nh_plot *plot, const char *caption);
     void (*series)(void *to, const nh_time_series *series); /* a motion: the drawing, and plots over time */
-    void (*system)(void *to, const nh_model *model); /* as it was written, and its equations; model may be NULL */
     void (*symmetry)(void *to, const nh_symmetry *symmetry); /* in words: its case, its bracket */
-    void (*geometry)(void *to, nh_arena *arena, const struct nh_theory *theory);
     void (*glossary)(void *to, const char *words);   /* what these words mean; on pages only */
     void (*end)(void *to, const nh_run *run);
 } nh_pen_ink;
 
 typedef enum { NH_PEN_PAGE, NH_PEN_LATEX, NH_PEN_TEXT } nh_pen_form;
 
-/* What a document is about; formulas longer than `shown` are left out of it. */
+/* What a document is about; formulas longer than `shown` are left out of it, those longer than `written` (0: none) of the JSON. */
 typedef struct {
     const nh_system *system;
     const nh_analysis_file *analysis;
     nh_dag *dag;
     const nh_chart *chart;
-    double shown;
+    double shown, written;
+    bool fragment;           /* of LaTeX: without the lines before and after the body */
 } nh_pen_subject;
 
 /* Of a text for a terminal, whose lines are not folded yet. */
@@ -62,11 +67,13 @@ typedef struct {
 typedef struct {
     const nh_pen_ink *ink;
     void *to;
+    nh_pen_subject of;
     nh_html_writer page;
     nh_tex_writer tex;
     nh_plain_writer plain;
     size_t names;            /* of repeated parts in sheets, so far: one sequence for the document */
     bool section, card;      /* that are open */
+    bool headed;             /* has this section a heading of its own, so far? */
 } nh_pen;
 
 extern const nh_pen_ink nh_pen_html, nh_pen_tex, nh_pen_plain;
@@ -79,7 +86,9 @@ void nh_pen_end(nh_pen *pen, const nh_run *run);
 void nh_pen_section(nh_pen *pen, const char *id, const char *title);
 void nh_pen_card(nh_pen *pen, const char *title);
 void nh_pen_card_end(nh_pen *pen);
-void nh_pen_system(nh_pen *pen, const nh_model *model);
+/* The system as it was written; with a model its equations, with an analysis the kind of its constraints.  Then its geometry, if there is one. */
+void nh_pen_system(nh_pen *pen, const nh_model *model, const nh_analysis *analysis);
+void nh_pen_geometry(nh_pen *pen, nh_arena *arena, const struct nh_theory *theory);
 void nh_pen_glossary(nh_pen *pen, const char *words);
 /* A table ends with nh_pen_table_end; heads are separated by |. */
 void nh_pen_table(nh_pen *pen, const char *caption, const char *heads);
@@ -96,6 +105,10 @@ void nh_pen_name(nh_pen *pen, const char *name); /* of a coordinate, a velocity,
 void nh_pen_field(nh_pen *pen, nh_dag *dag, size_t n, const char *const *coordinate, const nh_ex *component);
 void nh_pen_sheet(nh_pen *pen, nh_sheet *sheet); /* NULL: nothing */
 void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void nh_pen_cell(nh_pen *pen, nh_pen_part part, const char *format, ...) __attribute__((format(printf, 3, 4))); /* of an open row */
+void nh_pen_heading(nh_pen *pen, const char *title);             /* of a section: it ends the card */
+void nh_pen_name_heading(nh_pen *pen, const char *name);         /* of a card */
+void nh_pen_code(nh_pen *pen, const char *text);
 void nh_pen_warning(nh_pen *pen, const char *text);
 void nh_pen_plot(nh_pen *pen, nh_plot *plot, const char *caption);
 /* label = e; its label is no name, but in the language of notation.h. */

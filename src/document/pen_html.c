@@ -10,10 +10,16 @@ static const struct {
     [NH_PEN_SECTION] = {"<section id=\"", "<h2>", "</section>\n"},
     [NH_PEN_CARD] = {"<article class=\"card\">\n", "<h3>", "</article>\n"},
     [NH_PEN_FOLD] = {"<details>", "<summary>", "</details>\n"},
+    [NH_PEN_SCREEN] = {"<details class=\"screen\">", "<summary>", "</details>\n"},
     [NH_PEN_WORDS] = {"<p>", NULL, "</p>\n"},
     [NH_PEN_ANSWER] = {"<p class=\"answer ", NULL, "</p>\n"},
     [NH_PEN_WARNING] = {"<p class=\"warning\"><strong>Warning:</strong> ", NULL, "</p>\n"},
     [NH_PEN_HEADING] = {"", "<h3>", ""},
+    [NH_PEN_SUBHEADING] = {"<h4>", NULL, "</h4>\n"},
+    [NH_PEN_NAME] = {"<h3>", NULL, "</h3>\n"},
+    [NH_PEN_TAGS] = {"<p class=\"tags\">", NULL, "</p>\n"},
+    [NH_PEN_TAG] = {"<span>", NULL, "</span>"},
+    [NH_PEN_BESIDE] = {"<div class=\"beside\">\n", NULL, "</div>\n"},
     [NH_PEN_FACTS] = {"<dl>\n", NULL, "</dl>\n"},
     [NH_PEN_FACT] = {"", NULL, "</dd>\n"},
     [NH_PEN_FACT_NAME] = {"<dt>", NULL, "</dt><dd>"},
@@ -29,6 +35,7 @@ static void links(void *to, const char *sections) { nh_html_links(to, sections);
 
 static void open(void *to, nh_pen_part part, const char *id, const char *title)
 {
+    if (part == NH_PEN_CARD || part == NH_PEN_SECTION) ((nh_html_writer *)to)->names = 0;
     nh_html_add(to, markup[part].open);
     if (id) nh_html_text(to, id);
     if (part == NH_PEN_KIND && title && *title) nh_html_add(to, "\" title=\""), nh_html_text(to, title); /* where the pointer rests on it */
@@ -36,7 +43,7 @@ static void open(void *to, nh_pen_part part, const char *id, const char *title)
     if (!title || !markup[part].titled) return;
     nh_html_add(to, markup[part].titled);
     nh_html_prose(to, title);
-    nh_html_add(to, part == NH_PEN_SECTION ? "</h2>\n" : part == NH_PEN_FOLD ? "</summary>\n" : "</h3>\n");
+    nh_html_add(to, part == NH_PEN_SECTION ? "</h2>\n" : part == NH_PEN_FOLD || part == NH_PEN_SCREEN ? "</summary>\n" : "</h3>\n");
 }
 
 static void close(void *to, nh_pen_part part) { nh_html_add(to, markup[part].close); }
@@ -62,11 +69,12 @@ static void letters(void *to, const char *label)
 static void equation(void *to, const char *label, const char *formula)
 {
     nh_html_add(to, "<div class=\"formula\">");
-    nh_html_name(to, label);
-    nh_html_add(to, " <math><mo>=</mo></math> ");
+    if (*label) nh_html_source(to, label), nh_html_add(to, "<math><mo>=</mo></math> ");
     nh_html_source(to, formula);
     nh_html_add(to, "</div>\n");
 }
+
+static void code(void *to, const char *text) { nh_html_tagged(to, "pre", text); }
 
 static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
 {
@@ -83,7 +91,7 @@ static void formulas(void *to, size_t n, const char *const *label, const nh_ex *
     nh_free(mathml);
 }
 
-static void sheet(void *to, nh_sheet *formulas_of) { nh_sheet_html(formulas_of, "h4", to); }
+static void sheet(void *to, nh_sheet *formulas_of, bool headed) { nh_sheet_html(formulas_of, headed ? "h4" : "h3", to); }
 
 static void table(void *to, const char *caption, const char *heads) { nh_html_table(to, caption, heads); }
 
@@ -93,21 +101,11 @@ static void plot(void *to, nh_plot *figure, const char *caption) { nh_html_figur
 
 static void series(void *to, const nh_time_series *motion) { nh_html_time_series(to, motion); }
 
-static void system_of(void *to, const nh_model *model)
-{
-    nh_html_add(to, "<section id=\"system\"><h2>The system</h2>\n");
-    nh_html_written(to);
-    if (model) nh_html_add(to, "<h3>As it was understood</h3>\n"), nh_html_equations(to, model);
-    nh_html_add(to, "</section>\n");
-}
-
 static void symmetry(void *to, const nh_symmetry *z)
 {
     nh_html_writer *w = to;
     nh_facts_symmetry(z, NH_FACTS_PAGE, "; ", w->out);
 }
-
-static void geometry(void *to, nh_arena *arena, const struct nh_theory *theory) { nh_html_geometry(to, arena, theory); }
 
 static void glossary(void *to, const char *list) { nh_html_words(to, list); }
 
@@ -117,6 +115,5 @@ static void end(void *to, const nh_run *run)
     nh_html_end(to);
 }
 
-const nh_pen_ink nh_pen_html = {begin, links, open, close, words, number, count, names, source, letters, equation, formulas,
-                                sheet, table, table_end, plot, series, system_of, symmetry,
-                                geometry, glossary, end};
+const nh_pen_ink nh_pen_html = {true, begin, links, open, close, words, number, count, names, source, letters, equation, code, formulas,
+                                sheet, table, table_end, plot, series, symmetry, glossary, end};

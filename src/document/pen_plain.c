@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "document/facts.h"
-#include "document/geometry_sheet.h"
 #include "document/notation.h"
 #include "document/pen.h"
 
@@ -16,6 +15,9 @@ static const struct {
     [NH_PEN_ANSWER] = {"", "\n", false}, [NH_PEN_WARNING] = {"warning: ", "\n", false},
     [NH_PEN_HEADING] = {"\n", "", true}, [NH_PEN_FACTS] = {"", "", false},
     [NH_PEN_FACT] = {"", "\n", false},   [NH_PEN_FACT_NAME] = {"  ", ": ", false},
+    [NH_PEN_SCREEN] = {"", "", false},   [NH_PEN_SUBHEADING] = {"\n", "\n", false},
+    [NH_PEN_NAME] = {"\n  ", "\n", false}, [NH_PEN_TAGS] = {"  ", "\n", false},
+    [NH_PEN_TAG] = {"", ". ", false},    [NH_PEN_BESIDE] = {"", "", false},
     [NH_PEN_ROW] = {"  ", "\n", false},  [NH_PEN_CELL] = {"", "", false},
     [NH_PEN_ROW_HEAD] = {"", "", false}, [NH_PEN_KIND] = {"", "", false},
 };
@@ -72,6 +74,8 @@ static void equation(void *to, const char *label, const char *formula)
     nh_text_addf(((nh_plain_writer *)to)->out, *label ? "    %s = %s\n" : "    %s%s\n", label, formula);
 }
 
+static void code(void *to, const char *text) { nh_text_addf(((nh_plain_writer *)to)->out, "    %s\n", text); }
+
 static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
 {
     enum { indent = 4 };
@@ -90,7 +94,11 @@ static void formulas(void *to, size_t n, const char *const *label, const nh_ex *
     nh_free(name);
 }
 
-static void sheet(void *to, nh_sheet *formulas_of) { nh_sheet_text(formulas_of, false, ((nh_plain_writer *)to)->out); }
+static void sheet(void *to, nh_sheet *formulas_of, bool headed)
+{
+    (void)headed;
+    nh_sheet_text(formulas_of, false, ((nh_plain_writer *)to)->out);
+}
 
 static void table(void *to, const char *caption, const char *heads)
 {
@@ -106,23 +114,14 @@ static void plot(void *to, nh_plot *figure, const char *caption) { (void)to, (vo
 
 static void series(void *to, const nh_time_series *motion) { (void)to, (void)motion; }
 
-static void system_of(void *to, const nh_model *model) { (void)to, (void)model; }
-
 static void symmetry(void *to, const nh_symmetry *z)
 {
     nh_facts_symmetry(z, NH_FACTS_TEXT, "; ", ((nh_plain_writer *)to)->out);
-}
-
-static void geometry(void *to, nh_arena *arena, const struct nh_theory *theory)
-{
-    nh_plain_writer *w = to;
-    if (theory) sheet(w, nh_geometry_sheet(arena, theory, w->of.analysis));
 }
 
 static void glossary(void *to, const char *list) { (void)to, (void)list; }
 
 static void end(void *to, const nh_run *run) { (void)to, (void)run; }
 
-const nh_pen_ink nh_pen_plain = {begin,  links,     open,     close,    words,    number, count,     words,
-                                 words,  letters,   equation, formulas, sheet,    table,  table_end, plot,
-                                 series, system_of, symmetry, geometry, glossary, end};
+const nh_pen_ink nh_pen_plain = {false, begin, links, open, close, words, number, count, words, words, letters, equation, code, formulas,
+                                 sheet, table, table_end, plot, series, symmetry, glossary, end};

@@ -1,4 +1,5 @@
 /* The parts of a document as LaTeX. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -12,11 +13,17 @@ static const struct {
 } markup[NH_PEN_PARTS] = {
     [NH_PEN_SECTION] = {"", "\\section{", "\n"},
     [NH_PEN_CARD] = {"", "\\subsection*{", "\n"},
-    [NH_PEN_FOLD] = {"", NULL, "\n"}, /* what it holds has a title of its own */
+    [NH_PEN_FOLD] = {"", "\\par\\medskip\\textit{", "\n"},
+    [NH_PEN_SCREEN] = {"", NULL, ""},
     [NH_PEN_WORDS] = {"", NULL, "\n\n"},
     [NH_PEN_ANSWER] = {"", NULL, "\n\n"},
     [NH_PEN_WARNING] = {"\\textbf{Warning:} ", NULL, "\n\n"},
     [NH_PEN_HEADING] = {"", "\\subsection*{", ""},
+    [NH_PEN_SUBHEADING] = {"\\subsubsection*{", NULL, "}\n"},
+    [NH_PEN_NAME] = {"\\subsection*{", NULL, "}\n"},
+    [NH_PEN_TAGS] = {"{\\small ", NULL, "\\par}\n"},
+    [NH_PEN_TAG] = {"", NULL, "\\quad "},
+    [NH_PEN_BESIDE] = {"", NULL, ""},
     [NH_PEN_FACTS] = {"", NULL, ""},
     [NH_PEN_FACT] = {"", NULL, "\\par\n"},
     [NH_PEN_FACT_NAME] = {"\\par\\textit{", NULL, "}: "},
@@ -28,11 +35,18 @@ static const struct {
 
 static void begin(void *to, const char *what)
 {
-    nh_tex_head(to, false, what);
+    nh_tex_head(to, what);
     nh_tex_add(to, "\\begingroup\\parindent=0pt\\emergencystretch=3em\n");
 }
 
-static void links(void *to, const char *sections) { (void)to, (void)sections; }
+/* Where the page has its links the system's source stands. */
+static void links(void *to, const char *sections)
+{
+    nh_tex_writer *w = to;
+    const char *source = w->system->source;
+    (void)sections;
+    if (source && source[0]) nh_tex_add(w, "\\textit{System:} "), nh_tex_words(w, source), nh_tex_add(w, "\n\n");
+}
 
 /* Cells are separated by &: before every cell but the first of its row. */
 static void open(void *to, nh_pen_part part, const char *id, const char *title)
@@ -78,6 +92,12 @@ static void letters(void *to, const char *label)
 
 static void equation(void *to, const char *label, const char *formula) { nh_tex_display(to, label, formula); }
 
+static void code(void *to, const char *text)
+{
+    nh_tex_code(to, text);
+    nh_tex_add(to, "\\par\n");
+}
+
 static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
 {
     for (size_t i = 0; i < n; i++) {
@@ -93,7 +113,7 @@ static void formulas(void *to, size_t n, const char *const *label, const nh_ex *
     }
 }
 
-static void sheet(void *to, nh_sheet *formulas_of) { nh_sheet_tex(formulas_of, "subsubsection", to); }
+static void sheet(void *to, nh_sheet *formulas_of, bool headed) { nh_sheet_tex(formulas_of, headed ? "subsubsection" : "subsection", to); }
 
 /* Columns of equal width whose words are set ragged. */
 static void table(void *to, const char *caption, const char *heads)
@@ -107,7 +127,8 @@ static void table(void *to, const char *caption, const char *heads)
         length = strcspn(heads, "|");
         char *head = nh_alloc_array(length + 1, 1);
         memcpy(head, heads, length);
-        nh_tex_words(w, head);
+        if (*head == '#') nh_tex_number(w, strtod(head + 1, NULL), 2);
+        else nh_tex_words(w, head);
         nh_tex_add(w, n ? " & " : "\\tabularnewline\\hline\\endhead\n");
         nh_free(head);
     }
@@ -130,28 +151,20 @@ static void series(void *to, const nh_time_series *motion)
     nh_text_clear(&rest);
 }
 
-static void system_of(void *to, const nh_model *model)
-{
-    nh_tex_written(to);
-    if (model) nh_tex_equations(to, model);
-}
-
 static void symmetry(void *to, const nh_symmetry *z)
 {
     nh_tex_writer *w = to;
     nh_facts_symmetry(z, NH_FACTS_TEX, "; ", w->out);
 }
 
-static void geometry(void *to, nh_arena *arena, const struct nh_theory *theory) { nh_tex_geometry(to, arena, theory); }
-
 static void glossary(void *to, const char *list) { (void)to, (void)list; }
 
 static void end(void *to, const nh_run *run)
 {
-    nh_tex_repeat(to, run);
-    nh_tex_add(to, "\\par\\endgroup\n\\end{document}\n");
+    nh_tex_writer *w = to;
+    nh_tex_repeat(w, run);
+    nh_tex_add(w, w->fragment ? "\\par\\endgroup\n" : "\\par\\endgroup\n\\end{document}\n");
 }
 
-const nh_pen_ink nh_pen_tex = {begin, links, open, close, words, number, count, names, source, letters, equation, formulas,
-                               sheet, table, table_end, plot, series, system_of, symmetry,
-                                geometry, glossary, end};
+const nh_pen_ink nh_pen_tex = {false, begin, links, open, close, words, number, count, names, source, letters, equation, code, formulas,
+                               sheet, table, table_end, plot, series, symmetry, glossary, end};

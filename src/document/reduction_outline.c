@@ -303,7 +303,7 @@ void nh_reduction_write(const nh_reduction *r, bool verbose, const nh_run *run, 
     for (size_t i = 0; i < r->stages; i++) stage(p, r, i);
     unused(p, r);
     momenta(p, r);
-    nh_pen_system(p, NULL);
+    if (p->ink != &nh_pen_plain) nh_pen_system(p, NULL, NULL);
     nh_pen_glossary(p, "group, shape, stage of a reduction, Chaplygin, distribution, nonholonomic");
     nh_pen_end(p, run);
 }

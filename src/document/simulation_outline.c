@@ -66,7 +66,7 @@ void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_form 
     else fans(p, s);
     nh_pen_words(p, "%.10g evaluations of the equations, %.3g seconds of integration.", (double)(e ? e->evaluations : s->motion->evaluations),
                  e ? e->seconds : s->motion->seconds);
-    nh_pen_system(p, s->model);
+    nh_pen_system(p, s->model, NULL);
     nh_pen_end(p, run);
     nh_time_series_free(c);
 }

@@ -1,10 +1,13 @@
-/* tex_internal: declarations for the sections of the LaTeX document. */
+/* tex_internal: LaTeX documents, for pdflatex or lualatex with amsmath and pgfplots.
+ *
+ * Formulas are paragraphs of mathematics, which TeX breaks by its own measures between the pieces of nh_typeset_pieces; every number stands in
+ * \nhnumber{all its digits}{as shown}, as the JSON has it; plots hold their data. */
 #ifndef NH_TEX_INTERNAL_H
 #define NH_TEX_INTERNAL_H
 
 #include "document/provenance.h"
 #include "document/svg.h"
-#include "document/tex.h"
+#include "search/analysis.h"
 
 typedef struct {
     nh_text *out;
@@ -13,11 +16,9 @@ typedef struct {
     nh_dag *dag;                 /* of the formulas */
     const nh_chart *chart;       /* whose roots are shown as velocities; or NULL */
     double shown, written;       /* options: longer formulas are left out; are in the JSON */
-    const nh_analysis *r;        /* of `analyze`, else NULL */
+    bool fragment;               /* without the lines before and after the body */
     size_t cells;                /* of the row, so far */
 } nh_tex_writer;
-
-nh_tex_writer nh_tex_writer_of(const nh_analysis *result, nh_text *out);
 
 enum { NH_TEX_WIDEST = 46 }; /* letters in a piece of a formula: well within a line */
 
@@ -41,17 +42,9 @@ void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e);
 /* The same with a label in LaTeX, such as Z_{\dot{x}}. */
 void nh_tex_labelled(nh_tex_writer *w, const char *latex, nh_ex e);
 
-/* What stands before the body; `what` follows the title of the system, or is NULL. */
-void nh_tex_head(nh_tex_writer *w, bool fragment, const char *what);
-/* Sections of every document: the system as it was written; its equations; how to repeat the run. */
-void nh_tex_written(nh_tex_writer *w);
-void nh_tex_equations(nh_tex_writer *w, const nh_model *model);
+/* What stands before the body; `what` follows the title of the system, or is NULL.  And how to repeat the run. */
+void nh_tex_head(nh_tex_writer *w, const char *what);
 void nh_tex_repeat(nh_tex_writer *w, const nh_run *run);
-
-/* The motion as formulas; nothing where none is known. */
-void nh_tex_explicit_motion(nh_tex_writer *w);
-/* The geometry; nothing without a theory. */
-void nh_tex_geometry(nh_tex_writer *w, nh_arena *arena, const struct nh_theory *theory);
 
 /* A figure, drawn by pgfplots from the numbers themselves. */
 void nh_tex_plot(nh_tex_writer *w, const nh_plot *plot, const char *caption);

@@ -22,6 +22,7 @@ nh_time_series *nh_time_series_of_analysis(const nh_analysis *r)
     size_t k = r->model->k;
     if (!v || !v->count) return NULL;
     nh_time_series *c = make(r->model, &r->tracks, v->count, v->time, v->watch, v->watches);
+    c->drifts_elsewhere = true;
     char *name = (char *)(c->line + r->tracks.count + k + 1);
     for (size_t a = 0; a < k; a++, name += longest_name) {
         snprintf(name, longest_name, "c%zu", a + 1);

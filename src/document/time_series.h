@@ -22,6 +22,7 @@ typedef struct {
     size_t shapes;
     const nh_shape *shape; /* its numbers are the lines of that kind, in order */
     const char *drawing;   /* whose drawing, in words */
+    bool drifts_elsewhere; /* the document says beside each current how far it drifts */
 } nh_time_series;
 
 /* NULL when there is no motion.  The numbers stay with the result or simulation. */

@@ -1,10 +1,8 @@
 #include "document/unfinished.h"
 
-#include <math.h>
-
 #include "base/json.h"
 #include "base/versions.h"
-#include "document/html_internal.h"
+#include "document/pen.h"
 
 static const char *plural(size_t count) { return count == 1 ? "" : "s"; }
 
@@ -36,18 +34,16 @@ char *nh_unfinished_json(const nh_unfinished *u)
     return nh_json_finish(root);
 }
 
-void nh_html_unfinished(const nh_unfinished *u, nh_text *out)
+void nh_unfinished_page(const nh_unfinished *u, nh_text *out)
 {
-    nh_html_writer w = {.out = out, .system = u->system, .dag = u->system->dag, .shown = u->run->shown, .written = INFINITY};
-    nh_html_begin(&w, "an incomplete run");
-    nh_html_add(&w, u->search ? "<p class=\"answer undecided\">Undecided: no current so far (search cut).</p>\n" : "<p class=\"answer undecided\">Unfinished.</p>\n");
-    nh_html_links(&w, "system|System|repeat|Repeat it");
-    nh_html_warning(&w, u->why);
-    if (*u->doing) nh_html_tagged(&w, "p", "The run ended during:");
-    if (*u->doing) nh_html_tagged(&w, "p", u->doing);
-    nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
-    nh_html_written(&w);
-    nh_html_add(&w, "</section>\n");
-    nh_html_repeat(&w, u->run);
-    nh_html_end(&w);
+    nh_pen pen, *p = &pen;
+    nh_pen_begin(p, NH_PEN_PAGE, &(nh_pen_subject){.system = u->system, .dag = u->system->dag, .shown = u->run->shown}, "an incomplete run", out);
+    nh_pen_open(p, NH_PEN_ANSWER, "undecided", NULL);
+    nh_pen_say(p, u->search ? "Undecided: no current so far (search cut)." : "Unfinished.");
+    nh_pen_close(p, NH_PEN_ANSWER);
+    p->ink->links(p->to, "system|System|repeat|Repeat it");
+    nh_pen_warning(p, u->why);
+    if (*u->doing) nh_pen_words(p, "The run ended during: %s", u->doing);
+    nh_pen_system(p, NULL, NULL);
+    nh_pen_end(p, u->run);
 }

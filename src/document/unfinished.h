@@ -15,6 +15,6 @@ typedef struct {
 
 void nh_unfinished_text(const nh_unfinished *unfinished, nh_text *out);
 char *nh_unfinished_json(const nh_unfinished *unfinished);
-void nh_html_unfinished(const nh_unfinished *unfinished, nh_text *out);
+void nh_unfinished_page(const nh_unfinished *unfinished, nh_text *out);
 
 #endif

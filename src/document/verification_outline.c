@@ -95,8 +95,8 @@ void nh_verification_write(const nh_verification *v, bool field, const nh_run *r
     question(p, v, field);
     counterexample(p, v, field);
     symmetry(p, v, field);
-    nh_pen_system(p, v->model);
-    p->ink->geometry(p->to, v->arena, v->theory);
+    nh_pen_system(p, v->model, NULL);
+    nh_pen_geometry(p, v->arena, v->theory);
     nh_pen_glossary(p, "current, symmetry, case, distribution, projectable, residual");
     nh_pen_end(p, run);
 }

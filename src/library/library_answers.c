@@ -12,11 +12,10 @@
 #include "document/analysis_json.h"
 #include "document/benchmark.h"
 #include "document/classification.h"
-#include "document/html.h"
+#include "document/analysis_outline.h"
 #include "document/reduction.h"
 #include "document/simulation.h"
 #include "document/summary.h"
-#include "document/tex.h"
 #include "document/verification.h"
 #include "library/library_internal.h"
 
@@ -121,8 +120,8 @@ char *nh_analysis_document(const nh_analysis *a, nh_format format, nh_error *err
     (void)error;
     switch (format) {
     case NH_FORMAT_JSON: return nh_analysis_json(a);
-    case NH_FORMAT_HTML: nh_html(a, &text); break;
-    case NH_FORMAT_LATEX: nh_tex(a, false, &text); break;
+    case NH_FORMAT_HTML: nh_analysis_write(a, false, NH_PEN_PAGE, &text); break;
+    case NH_FORMAT_LATEX: nh_analysis_write(a, false, NH_PEN_LATEX, &text); break;
     case NH_FORMAT_TEXT: nh_summary(a, (nh_summary_style){false, true}, &text); break;
     }
     return taken(&text);

@@ -1,0 +1,104 @@
+/* The answer of an analysis, and the order of its sections. */
+#include <string.h>
+
+#include "document/analysis_outline_internal.h"
+#include "document/facts.h"
+#include "document/geometry_sheet.h"
+#include "document/motion_sheet.h"
+
+static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
+
+void nh_analysis_write_meaning(nh_pen *p, const nh_analysis *r, const char *meaning)
+{
+    static const char of[] = "momentum of ";
+    const char *name = strstr(meaning, of);
+    if (name) name += sizeof of - 1;
+    nh_pen_say(p, "%s", name ? nh_arena_printf(r->arena, "%.*s", (int)(name - meaning), meaning) : meaning);
+    if (name) nh_pen_name(p, name);
+}
+
+/* "; one is minus the energy, one the momentum of x" */
+static void meanings(nh_pen *p, const nh_analysis *r)
+{
+    size_t told = 0;
+    for (size_t k = 0; k < r->count; k++) {
+        const char *meaning = r->found[k].meaning;
+        if (!meaning[0] || r->found[k].independence != NH_INDEPENDENT) continue;
+        bool bare = !strncmp(meaning, "energy", 6) || !strncmp(meaning, "momentum", 8);
+        nh_pen_say(p, told++ ? ", one " : "; one is ");
+        nh_pen_say(p, "%s", bare ? "the " : !strncmp(meaning, "integral", 8) ? "an " : "");
+        nh_analysis_write_meaning(p, r, meaning);
+    }
+}
+
+static void answer(nh_pen *p, const nh_analysis *r)
+{
+    static const char *const class[] = {"found", "none", "undecided"};
+    nh_text words;
+    nh_text_init(&words);
+    nh_facts_completeness(r, &words);
+    nh_pen_open(p, NH_PEN_ANSWER, class[r->verdict], NULL);
+    if (r->count)
+        nh_pen_say(p, "%zu independent current%s of at most %zu", r->independent, plural(r->independent),
+                   r->local_maximum);
+    else nh_pen_say(p, "%s", nh_facts_nothing(r));
+    meanings(p, r);
+    nh_pen_say(p, ".");
+    nh_pen_close(p, NH_PEN_ANSWER);
+    if (r->count && r->verdict == NH_UNDECIDED)
+        nh_pen_words(p, "Not all of them are certified; each card states its certificate.");
+    if (r->partial) nh_pen_warning(p, nh_facts_search(r));
+    else nh_pen_words(p, "%s", nh_facts_search(r));
+    if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
+    nh_text_clear(&words);
+}
+
+static void links(nh_pen *p, const nh_analysis *r)
+{
+    nh_text sections;
+    nh_text_init(&sections);
+    nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|%s%ssearch|%s|words|Words|repeat|Repeat it",
+                 r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "",
+                 r->motion ? "explicit|Explicit motion|" : "", r->theory ? "geometry|Geometry|" : "",
+                 r->count ? "How it was found" : "What was tried");
+    p->ink->links(p->to, nh_text_string(&sections));
+    nh_text_clear(&sections);
+}
+
+static void explicit_motion(nh_pen *p, const nh_analysis *r)
+{
+    nh_sheet *sheet = nh_motion_sheet(r);
+    if (!sheet) return;
+    sheet->section->title = ""; /* that of the section */
+    nh_pen_section(p, "explicit", "Explicit motion");
+    nh_pen_sheet(p, sheet);
+}
+
+void nh_analysis_write(const nh_analysis *r, bool fragment, nh_pen_form form, nh_text *out)
+{
+    nh_pen pen, *p = &pen;
+    nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
+    const nh_chart *chart = r->other && r->other->chart->roots ? r->other->chart : r->model->chart;
+    nh_pen_subject subject = {.system = r->system,
+                              .analysis = r->analysis,
+                              .dag = r->model->dag,
+                              .chart = chart,
+                              .shown = r->options.shown,
+                              .written = r->options.written,
+                              .fragment = fragment};
+    nh_pen_begin(p, form, &subject, NULL, out);
+    answer(p, r);
+    links(p, r);
+    for (size_t i = 0; i < r->warnings; i++) nh_pen_warning(p, r->warning[i]);
+    nh_analysis_write_currents(p, r);
+    nh_analysis_write_motion(p, r);
+    nh_analysis_write_figures(p, r);
+    nh_pen_system(p, r->model, r);
+    explicit_motion(p, r);
+    nh_pen_geometry(p, r->arena, r->theory);
+    nh_analysis_write_search(p, r);
+    nh_pen_glossary(
+        p, "current, symmetry, case, distribution, projectable, independent, local, residual, drift, gap, multiplier, "
+           "nonholonomic, growth");
+    nh_pen_end(p, &run);
+}

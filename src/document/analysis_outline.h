@@ -1,0 +1,10 @@
+/* analysis_outline: the answer to `analyze` as a document, for page and LaTeX. */
+#ifndef NH_ANALYSIS_OUTLINE_H
+#define NH_ANALYSIS_OUTLINE_H
+
+#include "document/pen.h"
+
+/* fragment: LaTeX without the lines before and after the body, to be read into another document by \input; its head says what that must load. */
+void nh_analysis_write(const nh_analysis *result, bool fragment, nh_pen_form form, nh_text *out);
+
+#endif

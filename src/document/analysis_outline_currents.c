@@ -1,0 +1,300 @@
+/* The currents of an analysis: formula, certificate, symmetry; then what is not counted. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "document/analysis_outline_internal.h"
+#include "document/facts.h"
+#include "document/formula.h"
+#include "graph/print.h"
+
+/* ---- a current without closed form ---- */
+
+/* sum' c_k T_k(s) by Clenshaw's recurrence. */
+static double chebyshev(const double *c, size_t degree, double s)
+{
+    double b1 = 0, b2 = 0;
+    for (size_t k = degree; k > 0; k--) {
+        double b0 = c[k] + 2 * s * b1 - b2;
+        b2 = b1;
+        b1 = b0;
+    }
+    return c[0] + s * b1 - b2;
+}
+
+static void series_plot(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    enum { points = 101, most = 7 };
+    const nh_series *s = f->series;
+    size_t n = s->words < most ? s->words : most;
+    double *x = nh_alloc_array((n + 1) * points, sizeof *x);
+    nh_curve curve[most];
+    char name[most][24], title[200];
+    for (size_t j = 0; j < points; j++) x[j] = s->low + (s->high - s->low) * (double)j / (points - 1);
+    for (size_t i = 0; i < n; i++) {
+        double *y = x + (i + 1) * points;
+        for (size_t j = 0; j < points; j++)
+            y[j] = chebyshev(s->coefficient + i * s->stride, s->degree, 2.0 * (double)j / (points - 1) - 1);
+        snprintf(name[i], sizeof *name, "f_%zu", i + 1);
+        curve[i] = (nh_curve){.name = name[i], .count = points, .x = x, .x_stride = 1, .y = y, .y_stride = 1};
+    }
+    snprintf(title, sizeof title, "Coefficient functions of %.100s", f->name);
+    nh_plot plot = {.title = title,
+                    .description = "The coefficient functions over their variable",
+                    .x_label = nh_name_of(r->model->dag, s->variable),
+                    .y_label = n == 1 ? name[0] : "value",
+                    .curves = n,
+                    .curve = curve};
+    nh_pen_plot(p, &plot, "The coefficient functions.");
+    nh_free(x);
+}
+
+/* c_k of the functions from..to-1. */
+static void coefficients(nh_pen *p, const nh_series *s, size_t from, size_t to)
+{
+    nh_text heads;
+    nh_text_init(&heads);
+    nh_text_add(&heads, "k");
+    for (size_t i = from; i < to; i++) nh_text_addf(&heads, "|f%zu", i + 1);
+    nh_pen_table(p, "Coefficients of T_k on the interval mapped to [-1, 1]", nh_text_string(&heads));
+    nh_text_clear(&heads);
+    for (size_t k = 0; k <= s->degree; k++) {
+        char index[24];
+        snprintf(index, sizeof index, "%zu", k);
+        nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
+        nh_pen_cell(p, NH_PEN_ROW_HEAD, "%s", index);
+        for (size_t i = from; i < to; i++) nh_pen_cell(p, NH_PEN_CELL, "%.10g", s->coefficient[i * s->stride + k]);
+        nh_pen_close(p, NH_PEN_ROW);
+    }
+    nh_pen_table_end(p);
+}
+
+/* Phi = f_1(q) word_1 + ... */
+static void series(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    enum { beside = 4 }; /* functions that a page is wide enough for */
+    const nh_series *s = f->series;
+    const char *q = nh_name_of(r->model->dag, s->variable);
+    nh_sheet *sheet = nh_sheet_create(r->arena, r->model->dag);
+    sheet->shown = r->options.shown;
+    nh_sheet_begin(sheet, "", "", "");
+    nh_sheet_sum(sheet, "", nh_sheet_label(sheet, "<%s>", f->name));
+    for (size_t i = 0; i < s->words; i++)
+        nh_sheet_add(sheet, s->word[i], nh_sheet_label(sheet, "f_{%zu}(<%s>)", i + 1, q));
+    nh_pen_sheet(p, sheet);
+    nh_pen_words(p,
+                 "Each f is a Chebyshev series of degree %zu in <%s>, without closed form among the functions of the "
+                 "search, on [%.6g, %.6g].",
+                 s->degree, q, s->low, s->high);
+    series_plot(p, r, f);
+    nh_pen_open(p, NH_PEN_FOLD, NULL, "Chebyshev coefficients");
+    for (size_t i = 0; i < s->words; i += beside) coefficients(p, s, i, i + beside < s->words ? i + beside : s->words);
+    nh_pen_close(p, NH_PEN_FOLD);
+}
+
+/* ---- what is known of a current ---- */
+
+static void certificate(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    nh_pen_fact_begin(p, "Certified");
+    if (f->proof.proved) nh_pen_say(p, "proved");
+    else nh_pen_say(p, "conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
+    nh_pen_say(p, "%s%s", nh_facts_holds(r->model, &f->proof, false), nh_facts_where(r, f));
+    nh_pen_close(p, NH_PEN_FACT);
+    nh_pen_fact(p, "Residual", "%.2g at points outside the fit", f->heldout);
+}
+
+static void tag(nh_pen *p, bool holds, const char *words)
+{
+    if (!holds) return;
+    nh_pen_open(p, NH_PEN_TAG, NULL, NULL);
+    nh_pen_say(p, "%s", words);
+    nh_pen_close(p, NH_PEN_TAG);
+}
+
+static void tags(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    nh_pen_open(p, NH_PEN_TAGS, NULL, NULL);
+    if (f->meaning[0]) {
+        nh_pen_open(p, NH_PEN_TAG, NULL, NULL);
+        nh_analysis_write_meaning(p, r, f->meaning);
+        nh_pen_close(p, NH_PEN_TAG);
+    }
+    tag(p, f->independence == NH_INDEPENDENT, "independent");
+    tag(p, f->independence == NH_DEPENDENT, "depends on the others");
+    tag(p, f->independence == NH_DOUBTFUL, "perhaps dependent on the others");
+    tag(p, f->independence == NH_CONSTANT, "constant on the submanifold");
+    tag(p, f->local, "local: many-valued on an angle");
+    nh_pen_close(p, NH_PEN_TAGS);
+}
+
+/* The components that do not vanish, and by how much the bracket leaves the canonical distribution. */
+static void field(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    nh_field_term *term;
+    size_t n = nh_formula_field(r, &f->symmetry, &term), k = f->symmetry.bracket_in_distribution ? 0 : r->model->k;
+    const char **label = nh_alloc_array(n + k + 1, sizeof *label);
+    nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
+    for (size_t i = 0; i < n; i++) {
+        label[i] = nh_arena_printf(r->arena, "Z_{<%s>}", term[i].along ? term[i].along : "Gamma");
+        e[i] = term[i].coefficient;
+    }
+    nh_pen_open(p, NH_PEN_FOLD, NULL, "Its symmetry Z");
+    if (n && !term[0].along) nh_pen_words(p, "Written as a multiple of $Gamma$ plus the remaining components.");
+    p->ink->formulas(p->to, n, label, e);
+    if (!n) nh_pen_words(p, "It vanishes.");
+    if (k) nh_pen_words(p, "By how much $[Gamma,Z]$ leaves the canonical distribution:");
+    for (size_t a = 0; a < k; a++)
+        nh_pen_formula(p, nh_arena_printf(r->arena, "i_{[Gamma,Z]}\\form^{%zu}", a + 1), f->symmetry.bracket_form[a]);
+    nh_pen_close(p, NH_PEN_FOLD);
+    nh_free(e);
+    nh_free(label);
+}
+
+/* |Phi - Phi(0)| over the size of its terms. */
+static void drift_plot(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    const nh_validation *v = r->validation;
+    size_t j = 0;
+    if (!p->ink->screen || !v || v->count < 2 || !(f->drift.scale > 0)) return;
+    const nh_track *track = r->tracks.track;
+    while (j < v->watches && track[j].value != f->phi) j++;
+    while (j < v->watches && track[j].kind != NH_TRACK_CURRENT) j++;
+    if (j == v->watches) return;
+    double *y = nh_alloc_array(v->count, sizeof *y), first = v->watch[j];
+    for (size_t i = 0; i < v->count; i++) y[i] = fabs(v->watch[i * v->watches + j] - first) / f->drift.scale;
+    nh_curve curve = {.name = f->name, .count = v->count, .x = v->time, .x_stride = 1, .y = y, .y_stride = 1};
+    char title[200];
+    snprintf(title, sizeof title, "Drift of %.100s along the test motion", f->name);
+    nh_plot plot = {
+        .title = title,
+        .description =
+            "Absolute change since the start, relative to the size of the terms of the current, on a logarithmic scale",
+        .x_label = "t",
+        .y_label = "relative change",
+        .log_y = true,
+        .floor = 1e-17,
+        .timed = true,
+        .curves = 1,
+        .curve = &curve};
+    nh_pen_open(p, NH_PEN_SCREEN, NULL, "Drift plot");
+    nh_pen_plot(p, &plot,
+                "Change of the current since the start, relative to the size of its terms; rounding is near "
+                "10\u207b\u00b9\u2076.");
+    nh_pen_close(p, NH_PEN_SCREEN);
+    nh_free(y);
+}
+
+static void as_text(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    nh_dag *d = r->model->dag;
+    nh_ex own = nh_formula_shown(r, f->phi);
+    if (!p->ink->screen) return;
+    bool other = f->has_in_velocities && f->in_velocities != nh_chart_in_velocities(r->model->chart, own);
+    char *text = nh_print_short(d, own, r->options.shown),
+         *plain = other ? nh_print_short(d, f->in_velocities, r->options.shown) : NULL;
+    if (text || plain) {
+        nh_pen_open(p, NH_PEN_SCREEN, NULL, "As text, to copy");
+        if (text) nh_pen_code(p, text);
+        if (plain) nh_pen_words(p, "in coordinate velocities");
+        if (plain) nh_pen_code(p, plain);
+        nh_pen_close(p, NH_PEN_SCREEN);
+    }
+    nh_free(plain);
+    nh_free(text);
+}
+
+static void current(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    const nh_validation *v = r->validation;
+    nh_pen_card(p, NULL);
+    nh_pen_name_heading(p, f->name);
+    tags(p, r, f);
+    if (f->relation) p->ink->equation(p->to, "", f->relation);
+    if (f->series) series(p, r, f);
+    else nh_pen_formula(p, f->name, f->phi);
+    nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+    certificate(p, r, f);
+    if (v)
+        nh_pen_fact(p, "Drift", "%.2g along a motion computed with tolerance %.2g; %s",
+                    f->drift.drift[NH_DRIFT_RUNS - 1], v->tolerance[NH_DRIFT_RUNS - 1], nh_facts_drift(&f->drift));
+    if (f->has_symmetry) {
+        nh_pen_fact_begin(p, "Symmetry");
+        p->ink->symmetry(p->to, &f->symmetry);
+        nh_pen_close(p, NH_PEN_FACT);
+    }
+    nh_pen_close(p, NH_PEN_FACTS);
+    if (f->has_symmetry && !f->series) field(p, r, f);
+    drift_plot(p, r, f);
+    if (!f->series) as_text(p, r, f);
+}
+
+/* ---- what is not counted ---- */
+
+/* A function with one fact that other currents do not have. */
+static void uncounted(nh_pen *p, const nh_analysis *r, const nh_current *f, const char *fact, const char *value)
+{
+    nh_pen_card(p, NULL);
+    nh_pen_name_heading(p, f->name);
+    nh_pen_formula(p, f->name, f->phi);
+    nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+    nh_pen_fact(p, fact, "%s", value);
+    certificate(p, r, f);
+    nh_pen_close(p, NH_PEN_FACTS);
+    as_text(p, r, f);
+}
+
+static void furthers(nh_pen *p, const nh_analysis *r)
+{
+    if (r->furthers) {
+        nh_pen_heading(p, "Further integrals");
+        nh_pen_words(
+            p,
+            "These integrals are functions of the currents above, but no polynomials in them. They are not counted.");
+    }
+    for (size_t k = 0; k < r->furthers; k++)
+        uncounted(p, r, &r->further[k].current, "Degree", nh_arena_printf(r->arena, "%zu", r->further[k].degree));
+    if (r->relations) nh_pen_heading(p, "Relations");
+    for (size_t k = 0; k < r->relations; k++) p->ink->equation(p->to, r->relation[k].left, r->relation[k].right);
+}
+
+static void pieces(nh_pen *p, const nh_analysis *r)
+{
+    if (!r->pieces) return;
+    nh_pen_heading(p, "Constant only in a region");
+    nh_pen_words(p, "These functions are constant while a motion stays in the given region. They are not counted.");
+    for (size_t k = 0; k < r->pieces; k++) uncounted(p, r, &r->piece[k], "Holds", r->piece[k].region);
+}
+
+static void almost(nh_pen *p, const nh_analysis *r)
+{
+    if (!r->almosts) return;
+    nh_pen_heading(p, "Almost conserved, not currents");
+    nh_pen_words(p, "In double precision these functions look constant. With more digits they change, or they have no "
+                    "certificate. They "
+                    "are not counted; the slowest comes first.");
+    for (size_t k = 0; k < r->almosts; k++) {
+        const nh_near_current *a = &r->almost[k];
+        nh_pen_card(p, NULL);
+        nh_pen_formula(p, "", a->phi);
+        nh_pen_words(p, "Its rate cancels to %.6g digits; it changes by %.2g of its own variation per unit of time.",
+                     floor(a->digits), a->rate);
+    }
+}
+
+void nh_analysis_write_currents(nh_pen *p, const nh_analysis *r)
+{
+    const nh_analysis_file *a = r->analysis;
+    nh_pen_section(p, "currents", "Currents");
+    nh_pen_words(p, "A current is a function of time, coordinates and velocities that is constant along every motion.");
+    if (!r->count) nh_pen_words(p, "None was found. The stages of the search are listed below.");
+    for (size_t k = 0; k < r->count; k++) current(p, r, &r->found[k]);
+    nh_pen_card_end(p);
+    for (size_t i = 0; a && r->count && i < a->definitions; i++) {
+        if (i == 0) nh_pen_words(p, "where");
+        p->ink->equation(p->to, a->definition[i].name, a->definition[i].text);
+    }
+    furthers(p, r);
+    pieces(p, r);
+    almost(p, r);
+}

@@ -1,0 +1,160 @@
+/* The motion along which currents were checked, and the figures that an analysis file defines. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "document/analysis_outline_internal.h"
+
+/* ---- the motion ---- */
+
+static void drifts(nh_pen *p, const nh_analysis *r)
+{
+    const nh_validation *v = r->validation;
+    char heads[200];
+    if (!v->currents) return;
+    snprintf(heads, sizeof heads, "current|#%g|#%g|#%g", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
+    nh_pen_table(p, "Drift of the currents, by tolerance of the integration", heads);
+    for (size_t k = 0; k < v->currents; k++) {
+        const double *d = v->current[k].drift;
+        nh_pen_row(p, "#<%s>|%.2g|%.2g|%.2g", r->found[k].name, d[0], d[1], d[2]);
+    }
+    nh_pen_table_end(p);
+}
+_Static_assert(NH_DRIFT_RUNS == 3, "the table of drifts has a column for each tolerance");
+
+static void second_opinion(nh_pen *p, const nh_analysis *r)
+{
+    const nh_validation *v = r->validation;
+    bool constrained = r->system->constraints > 0;
+    if (v->crossing_chart && !isnan(v->crossing))
+        nh_pen_words(p, "The chart of {%s} breaks down at t = %.4g; the chart of this motion is regular there.",
+                     v->crossing_chart, v->crossing);
+    if (!v->multiplier_form) return;
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    nh_pen_say(p, "The same motion %s (%s): states agree to %.2g",
+               constrained ? "with Chetaev multipliers" : "by the equations of all coordinates", v->multiplier_method,
+               v->state_difference);
+    if (constrained)
+        nh_pen_say(p, ", multipliers to %.2g, and the constraints hold to %.2g", v->multiplier_difference,
+                   v->violation);
+    if (v->multistep) nh_pen_say(p, "; by CVODE Adams states agree to %.2g", v->multistep_difference);
+    nh_pen_say(p, ".");
+    nh_pen_close(p, NH_PEN_WORDS);
+}
+
+void nh_analysis_write_motion(nh_pen *p, const nh_analysis *r)
+{
+    const nh_validation *v = r->validation;
+    if (!v || v->count < 2) return;
+    nh_time_series *c = nh_time_series_of_analysis(r);
+    nh_pen_section(p, "motion", "A motion");
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    nh_pen_say(p, "%s in {%s}, t = %.4g to %.6g", v->method, v->chart, v->begin, v->end);
+    if (v->checked) nh_pen_say(p, ": %s", v->accuracy.why);
+    nh_pen_say(p, ".");
+    nh_pen_close(p, NH_PEN_WORDS);
+    p->ink->series(p->to, c);
+    nh_time_series_free(c);
+    drifts(p, r);
+    second_opinion(p, r);
+}
+
+/* ---- figures ---- */
+
+static nh_curve curve_of(const nh_figure_curve *c)
+{
+    return (nh_curve){
+        .name = c->name, .count = c->count, .x = c->x, .x_stride = 1, .y = c->y, .y_stride = 1, .heading = c->heading};
+}
+
+/* Side by side, one per value of the parameter. */
+static void paths(nh_pen *p, const nh_figure *f)
+{
+    const nh_named *q = f->request->quantity;
+    nh_pen_open(p, NH_PEN_BESIDE, NULL, NULL);
+    for (size_t k = 0; k < f->curves; k++) {
+        char title[300];
+        nh_curve curve = curve_of(&f->curve[k]);
+        snprintf(title, sizeof title, f->request->values ? "%.150s: %.100s" : "%.150s", f->request->title,
+                 f->curve[k].name);
+        nh_plot plot = {.title = title,
+                        .description = "A path in the plane, both axes on one scale",
+                        .x_label = q[0].name,
+                        .y_label = q[1].name,
+                        .equal = true,
+                        .curves = 1,
+                        .curve = &curve};
+        nh_pen_plot(p, &plot, title);
+    }
+    nh_pen_close(p, NH_PEN_BESIDE);
+}
+
+static void over_time(nh_pen *p, const nh_figure *f)
+{
+    nh_curve *curve = nh_alloc_array(f->curves + 1, sizeof *curve);
+    for (size_t k = 0; k < f->curves; k++) curve[k] = curve_of(&f->curve[k]);
+    nh_plot plot = {.title = f->request->title,
+                    .description = "Quantities along motions, over time",
+                    .x_label = "t",
+                    .y_label = f->request->quantities == 1 ? f->request->quantity[0].name : "value",
+                    .curves = f->curves,
+                    .curve = curve};
+    nh_pen_plot(p, &plot, f->request->title);
+    nh_free(curve);
+}
+
+/* With the values that were found as points. */
+static void scan(nh_pen *p, const nh_analysis *r, const nh_figure *f)
+{
+    size_t n = r->hits ? r->hits->count : 0, u = f->request->unknown;
+    double *found = nh_alloc_array(2 * n + 1, sizeof *found);
+    for (size_t k = 0; k < n; k++) found[k] = r->hits->hit[k].value[u], found[n + k] = r->hits->hit[k].quotient;
+    nh_curve curve[] = {
+        curve_of(&f->curve[0]),
+        {.name = "values found", .count = n, .x = found, .x_stride = 1, .y = found + n, .y_stride = 1, .dots = true}};
+    curve[0].name = "smallest singular value that is not null everywhere";
+    nh_plot plot = {.title = f->request->title,
+                    .description = "The smallest generalized singular value that does not vanish for all values of the "
+                                   "unknown, on a logarithmic "
+                                   "scale; it falls to rounding error where a current exists",
+                    .x_label = f->curve[0].name,
+                    .y_label = "singular value",
+                    .log_y = true,
+                    .floor = 1e-17,
+                    .curves = n ? 2 : 1,
+                    .curve = curve};
+    nh_pen_plot(p, &plot, f->request->title);
+    nh_free(found);
+}
+
+static void samples(nh_pen *p, const nh_figure *f)
+{
+    nh_curve curve[] = {curve_of(&f->curve[0]), curve_of(&f->curve[1])};
+    curve[0].marks = curve[1].marks = true;
+    nh_plot plot = {
+        .title = f->request->title,
+        .description = "The two sides of the gap in the spectrum of generalized singular values, on logarithmic scales",
+        .x_label = "samples",
+        .y_label = "singular value",
+        .log_x = true,
+        .log_y = true,
+        .floor = 1e-18,
+        .curves = 2,
+        .curve = curve};
+    nh_pen_plot(p, &plot, f->request->title);
+}
+
+void nh_analysis_write_figures(nh_pen *p, const nh_analysis *r)
+{
+    if (!r->figures) return;
+    nh_pen_section(p, "figures", "Figures");
+    nh_pen_words(p, "The analysis file defines these figures.");
+    for (size_t i = 0; i < r->figures; i++) {
+        const nh_figure *f = &r->figure[i];
+        if (!f->curves) continue;
+        if (f->request->kind == NH_FIGURE_PATH) paths(p, f);
+        else if (f->request->kind == NH_FIGURE_PLOT) over_time(p, f);
+        else if (f->request->kind == NH_FIGURE_SCAN) scan(p, r, f);
+        else samples(p, f);
+    }
+}

@@ -1,0 +1,131 @@
+/* How currents were found: ansatz, values of unknowns, singular values, stages. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "document/analysis_outline_internal.h"
+#include "document/facts.h"
+#include "graph/print.h"
+
+/* Both routes: their spectra over the index, with null values on the floor. */
+static void spectrum_plot(nh_pen *p, const nh_analysis *r)
+{
+    const nh_spectrum *s[] = {&r->current, &r->symmetry};
+    static const char *const names[] = {"current route", "symmetry route"};
+    nh_curve curve[2];
+    size_t most = 0, curves = 0;
+    for (int i = 0; i < 2; i++)
+        if (s[i]->done && s[i]->rank > most) most = s[i]->rank;
+    if (most < 3) return; /* the table says as much */
+    double *index = nh_alloc_array(most, sizeof *index);
+    for (size_t i = 0; i < most; i++) index[i] = (double)(i + 1);
+    for (int i = 0; i < 2; i++)
+        if (s[i]->done && s[i]->rank)
+            curve[curves++] = (nh_curve){.name = names[i],
+                                         .count = s[i]->rank,
+                                         .x = index,
+                                         .x_stride = 1,
+                                         .y = s[i]->spectrum,
+                                         .y_stride = 1,
+                                         .dots = true};
+    nh_plot plot = {.title = "Singular spectrum",
+                    .description = "Generalized singular values in ascending order on a logarithmic scale; those below "
+                                   "the gap belong to currents",
+                    .x_label = "index",
+                    .y_label = "singular value",
+                    .log_y = true,
+                    .floor = 1e-18,
+                    .curves = curves,
+                    .curve = curve};
+    nh_pen_plot(p, &plot, "Generalized singular values. Those below the gap, at rounding error, belong to currents.");
+    nh_free(index);
+}
+
+/* A row for each number, a column for each route. */
+static void spectra(nh_pen *p, const nh_analysis *r)
+{
+    const nh_spectrum *const route[] = {&r->current, &r->symmetry};
+    double number[2][NH_SPECTRUM_NUMBERS];
+    bool both = route[0]->done && route[1]->done;
+    if (!route[0]->done && !route[1]->done) return;
+    for (size_t k = 0; k < 2; k++)
+        if (route[k]->done) nh_facts_spectrum(route[k], number[k]);
+    nh_pen_table(p, "Linear problems",
+                 both             ? "route|current|symmetry"
+                 : route[0]->done ? "route|current"
+                                  : "route|symmetry");
+    const char *head = NH_SPECTRUM_HEADS;
+    for (size_t i = 0; i < NH_SPECTRUM_NUMBERS; i++, head += strcspn(head, "|"), head += *head == '|') {
+        nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
+        nh_pen_cell(p, NH_PEN_ROW_HEAD, "%s", nh_arena_printf(r->arena, "%.*s", (int)strcspn(head, "|"), head));
+        for (size_t k = 0; k < 2; k++)
+            if (route[k]->done) nh_pen_cell(p, NH_PEN_CELL, i < NH_SPECTRUM_COUNTS ? "%.10g" : "%.2g", number[k][i]);
+        nh_pen_close(p, NH_PEN_ROW);
+    }
+    nh_pen_table_end(p);
+}
+
+static void comparisons(nh_pen *p, const nh_analysis *r)
+{
+    const nh_counted_space *c = &r->counted_space;
+    if (c->compared)
+        nh_pen_words(p,
+                     "The current route %s with the count of degree %zu: the largest angle between a null vector and "
+                     "the products of the currents is %.2g.",
+                     c->agrees ? "agrees" : "DISAGREES", c->degree, c->angle);
+    if (r->routes_compared)
+        nh_pen_words(p, "The two routes %s: the angle between the spaces that they find is %.2g.",
+                     r->routes_agree ? "agree" : "DISAGREE", r->routes_angle);
+}
+
+static void unknown(nh_pen *p, const nh_analysis *r, const nh_special *s, size_t j)
+{
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    nh_pen_say(p, "Unknown <%s> = ", nh_name_of(r->model->dag, r->analysis->unknown[j].symbol));
+    if (s->recognised[j]) {
+        char *text = nh_print_string(r->model->dag, s->recognised[j]);
+        nh_pen_say(p, "<%s> = ", text);
+        nh_free(text);
+    }
+    nh_pen_say(p, "%.15g%s", s->value[j],
+               s->hit->by_pencil && s->hit->by_search ? ", by the eigenvalues of a pencil and by a search" : "");
+    nh_pen_close(p, NH_PEN_WORDS);
+}
+
+static void unknowns(nh_pen *p, const nh_analysis *r)
+{
+    for (size_t k = 0; r->hits && k < r->specials; k++)
+        for (size_t j = 0; j < r->hits->unknowns; j++) unknown(p, r, &r->special[k], j);
+    if (r->hits && !r->specials) nh_pen_words(p, "No value of the unknowns gives a current.");
+}
+
+static void stages(nh_pen *p, const nh_analysis *r)
+{
+    if (!r->stages) return;
+    nh_pen_table(p, "What was tried", "stage|columns|null values|new currents");
+    for (size_t i = 0; i < r->stages; i++) {
+        const nh_stage_record *s = &r->stage[i];
+        if (s->skipped) nh_pen_row(p, "#%s|not tried, too large: %s||", s->name, nh_limit_words(r->arena, &s->limit));
+        else
+            nh_pen_row(p, "#%s|%zu|%zu%s|%zu", s->name, s->columns, s->dimension, s->undecided ? " (undecided)" : "",
+                       s->found);
+    }
+    nh_pen_table_end(p);
+}
+
+void nh_analysis_write_search(nh_pen *p, const nh_analysis *r)
+{
+    nh_pen_section(p, "search", r->count ? "How it was found" : "What was tried");
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    nh_pen_say(p, r->count ? "Ansatz %s. %zu sample points" : "The ansatz was %s. %zu sample points", r->ansatz_note,
+               r->samples);
+    if (r->beyond) nh_pen_say(p, " and, near where the chart breaks down, %zu in all coordinates", r->beyond);
+    nh_pen_say(p, ", %zu rejected.", r->rejected);
+    nh_pen_close(p, NH_PEN_WORDS);
+    unknowns(p, r);
+    spectrum_plot(p, r);
+    spectra(p, r);
+    comparisons(p, r);
+    stages(p, r);
+}

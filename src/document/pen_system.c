@@ -1,0 +1,154 @@
+/* The system of a document: as it was written, and as it was understood; and its geometry. */
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "document/facts.h"
+#include "document/geometry_sheet.h"
+#include "document/pen.h"
+#include "exact/normal.h"
+
+/* ---- as it was written ---- */
+
+static const char *or_nothing(const char *text) { return text ? text : ""; }
+
+static void parameters(nh_pen *p, const nh_system *s)
+{
+    if (!s->parameters) return;
+    nh_pen_table(p, "Parameters", "name|value|meaning");
+    for (size_t i = 0; i < s->parameters; i++) {
+        const nh_parameter *a = &s->parameter[i];
+        nh_pen_row(p, "#<%s>|%.10g %s|%s", a->name, a->value, or_nothing(a->unit), or_nothing(a->doc));
+    }
+    nh_pen_table_end(p);
+}
+
+static void coordinates(nh_pen *p, const nh_system *s)
+{
+    static const char *const types[] = {"angle", "length", "number"};
+    nh_pen_table(p, "Coordinates", "name|type|meaning");
+    for (size_t i = 0; i < s->coordinates; i++) {
+        const nh_coordinate *q = &s->coordinate[i];
+        const char *unit = or_nothing(q->unit);
+        nh_pen_row(p, "#<%s>|%s%s%s|%s", q->name, types[q->type], *unit ? " / " : "", unit, or_nothing(q->doc));
+    }
+    nh_pen_table_end(p);
+}
+
+static void forces(nh_pen *p, const nh_system *s)
+{
+    bool said = false;
+    for (size_t i = 0; i < s->coordinates && s->has_forces; i++) {
+        char label[200];
+        if (nh_is_zero(s->dag, s->force[i])) continue;
+        if (!said) nh_pen_words(p, "Generalized forces");
+        said = true;
+        snprintf(label, sizeof label, "Q_%.180s", s->coordinate[i].name);
+        nh_pen_formula(p, label, s->force[i]);
+    }
+}
+
+static void written(nh_pen *p, const nh_system *s)
+{
+    const nh_deck_node *node = s->deck ? nh_deck_get(nh_deck_root(s->deck), "lagrangian") : NULL;
+    nh_pen_heading(p, "System file");
+    parameters(p, s);
+    coordinates(p, s);
+    for (size_t i = 0; i < s->definitions; i++) p->ink->equation(p->to, "", s->definition[i].text);
+    nh_pen_words(p, s->chain ? "Lagrangian, from the bodies and joints of the system file" : "Lagrangian");
+    if (node && node->kind == NH_DECK_SCALAR && !s->chain) p->ink->equation(p->to, "L", node->text);
+    else nh_pen_formula(p, "L", s->lagrangian);
+    if (s->constraints) nh_pen_words(p, "Constraints");
+    for (size_t i = 0; i < s->constraints; i++) p->ink->equation(p->to, "", s->constraint[i].text);
+    forces(p, s);
+}
+
+/* ---- as it was understood ---- */
+
+static void kind(nh_pen *p, const nh_analysis *r)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    nh_pen_say(p, "%zu coordinate%s, ", r->model->m, r->model->m == 1 ? "" : "s");
+    if (r->model->k) {
+        nh_facts_constraint(r, &words);
+        nh_pen_say(p, "%zu %s", r->model->k, nh_text_string(&words));
+    } else {
+        nh_pen_say(p, "no constraints");
+    }
+    nh_pen_say(p, ". Constraint submanifold of dimension %zu.", 1 + r->model->m + r->model->n);
+    nh_text_clear(&words);
+    nh_facts_branch(r, &words);
+    if (words.length) nh_pen_say(p, " Everything was %s.", nh_text_string(&words));
+    nh_text_clear(&words);
+    nh_pen_close(p, NH_PEN_WORDS);
+}
+
+/* Formulas under a heading; folded away where they are many lines long: then they are there to be looked up. */
+static void block(nh_pen *p, nh_dag *d, const char *heading, size_t n, const char *const *label, const nh_ex *e)
+{
+    enum { long_block = 400 };
+    double length = 0;
+    for (size_t i = 0; i < n; i++) length += (double)nh_complexity(d, e[i]);
+    bool folded = length > long_block;
+    if (folded) nh_pen_open(p, NH_PEN_FOLD, NULL, heading);
+    else nh_pen_words(p, "%s", heading);
+    p->ink->formulas(p->to, n, label, e);
+    if (folded) nh_pen_close(p, NH_PEN_FOLD);
+}
+
+/* "mu", or "mu_1", ...; "F_x". */
+static void multipliers(nh_pen *p, const nh_model *o)
+{
+    if (!o->k) return;
+    const char **label = nh_alloc_array(o->k + o->m, sizeof *label);
+    nh_ex *e = nh_alloc_array(o->k + o->m, sizeof *e);
+    for (size_t a = 0; a < o->k; a++) {
+        label[a] = o->k == 1 ? "mu" : nh_arena_printf(o->arena, "mu_%zu", a + 1);
+        e[a] = o->mu[a];
+    }
+    for (size_t s = 0; s < o->m; s++) {
+        label[o->k + s] = nh_arena_printf(o->arena, "F_%s", o->system->coordinate[s].name);
+        e[o->k + s] = o->reaction[s];
+    }
+    block(p, o->dag, "Chetaev multipliers and constraint force", o->k + o->m, label, e);
+    nh_free(e);
+    nh_free(label);
+}
+
+static void equations(nh_pen *p, const nh_model *o)
+{
+    static const char *const functions[] = {"L", "E"};
+    const char **label = nh_alloc_array(o->n + 1, sizeof *label);
+    for (size_t i = 0; i < o->n; i++) label[i] = nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i]));
+    nh_pen_open(p, NH_PEN_SUBHEADING, NULL, NULL);
+    nh_pen_say(p, "In {%s}", o->chart->name);
+    nh_pen_close(p, NH_PEN_SUBHEADING);
+    block(p, o->dag, "Constrained Lagrangian and energy", 2, functions, (const nh_ex[]){o->Lbar, o->E});
+    block(p, o->dag, nh_facts_equations(o), o->n, label, o->a);
+    multipliers(p, o);
+    nh_free(label);
+}
+
+void nh_pen_system(nh_pen *p, const nh_model *model, const nh_analysis *r)
+{
+    nh_pen_section(p, "system", "The system");
+    written(p, p->of.system);
+    if (!model) return;
+    nh_pen_heading(p, "As it was understood");
+    if (r) kind(p, r);
+    equations(p, model);
+    if (!r || !r->other) return;
+    nh_pen_open(p, NH_PEN_FOLD, NULL, "In the other velocities");
+    equations(p, r->other);
+    nh_pen_close(p, NH_PEN_FOLD);
+}
+
+void nh_pen_geometry(nh_pen *p, nh_arena *arena, const struct nh_theory *t)
+{
+    if (!t) return;
+    nh_pen_section(p, "geometry", "Geometry");
+    nh_pen_words(p, "In {%s}, with the numbers of the equations in \u010cech and Musilov\u00e1 (2014).",
+                 t->model->chart->name);
+    nh_pen_sheet(p, nh_geometry_sheet(arena, t, p->of.analysis));
+}
