@@ -139,3 +139,21 @@ Test(limits, a_signal_ends_the_writing_at_once)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* A limit that comes while results are written takes nothing away: the reader of the pipe is slower than the limit, and has everything. */
+Test(limits, the_limit_lets_results_be_written)
+{
+    place p = place_with_systems();
+    char command[700];
+    snprintf(command, sizeof command,
+             "mkfifo pipe\n'%.200s' simulate sleigh --initial omega=2 --until 10 --step 0.002 --max-seconds 2 --html page.html >pipe & p=$!\n"
+             "{ read -r line; sleep 2.2; wc -l; } <pipe\nwait $p", p.program);
+    finished f = run_vector(&p, &(manner){0}, (char *[]){"sh", "-c", command, NULL});
+    char *page = read_here(&p, "page.html");
+    cr_expect_eq(f.code, 0, "exit code %d: %s", f.code, f.err);
+    cr_expect_eq(atoi(f.out), 5001, "%s lines", f.out);
+    cr_expect(page && !strstr(page, "time limit"), "%s", page ? "the page says that the limit was reached" : "no page");
+    free(page);
+    finished_clear(&f);
+    place_clear(&p);
+}

@@ -26,6 +26,8 @@ void nh_interrupt_context(nh_context *context);
 void nh_interrupt_clear(void);
 /* The time limit of the run: `seconds` from now, as the user feels them (not of the processor); none when they are not finite. */
 void nh_limit_set(double seconds);
+/* All is computed: a limit that was not reached is reached no more, so that a result is the same however long it takes to write it. */
+void nh_limit_pass(void);
 /* Ended, by either. */
 bool nh_interrupted(void);
 /* Ended by the limit. */

@@ -2,7 +2,7 @@
  *
  * One thread waits for both.  The first signal, and the limit, end the computation by base/progress.h: it returns soon, with what it has.  A second signal, one that
  * comes while results are written, and a computation that has still not come back when it has used `grace` more of the processor end the process at once: without temporary files, folders and
- * children (base/leave.h), so that every file is whole or as it was. */
+ * children (base/leave.h), so that every file is whole or as it was.  A limit that comes while results are written takes nothing away from them. */
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
@@ -50,8 +50,8 @@ static int next_signal(const sigset_t *set)
     return number > 0 ? number : 0;
 }
 
-/* What a computation may take to come back, and to write what there is: of the processor, so that a busy machine does not take a result away.  Whoever waits for
- * something else than the processor may do so for `patience` times as long. */
+/* What a computation may take to come back: of the processor, so that a busy machine does not take a result away.  What is known is then written, which ends by itself: it may
+ * take `patience` times as long, as may whoever waits for something else than the processor. */
 static bool past_grace(void)
 {
     static const double part = 0.12, more = 0.12, patience = 10;
@@ -59,7 +59,7 @@ static bool past_grace(void)
     double grace = part * limit + more, now = nh_clock();
     if (now < end) return false;
     if (used == 0) used = nh_clock_of_process();
-    return nh_clock_of_process() - used > grace || now - end > patience * grace;
+    return nh_clock_of_process() - used > (atomic_load(&writing) ? patience : 1) * grace || now - end > patience * grace;
 }
 
 static void *stand(void *unused)
@@ -105,4 +105,8 @@ void nh_cli_guard_begin(double seconds)
     else pthread_detach(guard);
 }
 
-void nh_cli_guard_writing(void) { atomic_store(&writing, true); }
+void nh_cli_guard_writing(void)
+{
+    nh_limit_pass();
+    atomic_store(&writing, true);
+}

@@ -128,13 +128,13 @@ int nh_cli_failed(nh_cli *cli, const nh_run *run, nh_error *error)
 {
     char doing[80], why[80];
     if (!nh_interrupted() || error->code == NH_USAGE) return error->code;
+    nh_cli_guard_writing();
     nh_error_clear(error);
     nh_progress_last(doing, sizeof doing);
     nh_ended_words(why, sizeof why);
     nh_system *system = run->system_path ? nh_system_read(run->system_path, cli->settings, cli->setting, error) : NULL;
     nh_error_clear(error);
     nh_unfinished u = {system, run, doing, why, !strcmp(cli->command, "analyze")};
-    nh_cli_guard_writing();
     bool good = !system || write_unfinished(cli, &u, error);
     nh_system_free(system);
     if (good) nh_fail_ended(error, "before there was a result%s%s", *doing ? ": " : "", doing);
