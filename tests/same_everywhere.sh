@@ -7,7 +7,7 @@
 #
 # COMMAND: what is asked (analyze; "reduce", or "analyze --no-analysis"); PASSES: some of "again threads sanitized processors busy" (all).
 # NHSYM: the program (build/nhsym); NHSYM_SANITIZED: the sanitized one (build-sanitize/nhsym, left out when it is not there); BUSY: how many loops (6).
-# The first differing lines are printed; the exit code is 1 when there are any.
+# That no run leaves files for the next one is checked as well.  The first differing lines are printed; the exit code is 1 when there are any.
 set -u
 program=${NHSYM:-build/nhsym}
 sanitized=${NHSYM_SANITIZED:-build-sanitize/nhsym}
@@ -15,9 +15,7 @@ busy=${BUSY:-6}
 question=${COMMAND:-analyze}
 passes=${PASSES:-again threads sanitized processors busy}
 work=$(mktemp -d)
-loops=
-stop() { for loop in $loops; do kill "$loop" 2>/dev/null; done; loops=; }
-trap 'stop; rm -rf "$work"' EXIT
+trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
 [ $# -gt 0 ] || set -- $(for file in systems/*.yaml; do basename "$file" .yaml; done)
 
@@ -26,7 +24,7 @@ plain() { sed -e '/"[a-z_]*_s":/d' -e '/"seconds":/d' -e '/"speedup":/d' -e '/"c
 # Words: formulas, names, verdicts, how many there are.  Numbers that were measured have other last digits, motions other steps, warnings other drifts.
 words() { sed -E -e '/"(evaluations|warnings)":/d' -e 's/(:\t|\[|, |^\t+)-?[0-9][0-9.e+-]*/\1#/g' "$1"; }
 
-# answers NAME PROGRAM OPTIONS.. -- SYSTEM..: one file per system in $work/NAME
+# answers NAME COMMAND OPTIONS.. -- SYSTEM..: one file per system in $work/NAME
 answers() {
     name=$1 command=$2 options=
     shift 2
@@ -34,7 +32,7 @@ answers() {
     shift
     mkdir -p "$work/$name"
     for system; do
-        "$command" $question "$system" --quiet --max-seconds 100000 $options --json - >"$work/raw" 2>"$work/err"
+        $command $question "$system" --quiet --max-seconds 100000 $options --json - >"$work/raw" 2>"$work/err"
         echo "exit code $?" | cat - "$work/err" >"$work/$name/$system"
         plain <"$work/raw" >>"$work/$name/$system"
     done
@@ -63,6 +61,9 @@ compare() {
 
 wanted() { case " $passes " in *" $1 "*) return 0 ;; esac; return 1; }
 
+# Nothing is kept from one run for the next: a cache would be in the user's folders, which are empty before and after.
+export HOME="$work/home" XDG_CACHE_HOME="$work/home/cache"
+mkdir "$HOME"
 answers idle "$program" -- "$@"
 wanted again && answers "a second run" "$program" -- "$@" && compare "$@"
 wanted threads && for threads in 1 2 4; do answers "$threads threads" "$program" --threads $threads -- "$@" && compare "$@"; done
@@ -78,13 +79,8 @@ if wanted processors; then
     done
 fi
 if wanted busy; then
-    i=0
-    while [ $i -lt "$busy" ]; do
-        (while :; do :; done) &
-        loops="$loops $!" i=$((i + 1))
-    done
-    answers "beside $busy busy loops" "$program" -- "$@" && compare "$@"
-    stop
+    answers "beside $busy busy loops" "sh tests/busy.sh $busy $program" -- "$@" && compare "$@"
 fi
+[ -z "$(find "$HOME" -type f)" ] || { different=$((different + 1)); echo "files are kept for the next run:"; find "$HOME" -type f; }
 echo "$# systems, $different differences"
 [ $different -eq 0 ]
