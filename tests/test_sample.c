@@ -3,10 +3,11 @@
 
 #include <math.h>
 
+#include "base/linalg.h"
 #include "base/memory.h"
 #include "system/sample.h"
 
-enum { most_dimension = 60 };
+enum { most_dimension = 121 };
 
 /* Mean and mean square of (x - low)/(high - low) over `count` points, the worst dimension's distance from 1/2 and 1/3. */
 static void evenness(size_t dimension, size_t count, uint64_t seed, double *mean_off, double *square_off)
@@ -50,6 +51,35 @@ Test(sample, many_dimensions)
     evenness(60, 8192, 1, &mean, &square);
     cr_expect_lt(mean, 3e-2, "60 dimensions: %g", mean);
     cr_expect_lt(square, 3e-2, "60 dimensions: %g", square);
+}
+
+/* The smallest part of a dimension that no linear combination of the others with a constant gives at all points: what they do give is a relation that a fit takes for one of the system. */
+static double least_of_its_own(size_t dimension, size_t count)
+{
+    double low[most_dimension], high[most_dimension], *a = nh_alloc_array((dimension + 1) * count, sizeof *a), *s = nh_alloc_array(dimension + 1, sizeof *s);
+    for (size_t i = 0; i < dimension; i++) low[i] = -sqrt(3), high[i] = sqrt(3);
+    nh_sampler *sampler = nh_sampler_create(dimension, low, high, 1);
+    for (size_t p = 0; p < count; p++) {
+        double x[most_dimension];
+        nh_sampler_next(sampler, x);
+        a[p] = 1;
+        for (size_t i = 0; i < dimension; i++) a[p + (i + 1) * count] = x[i];
+    }
+    cr_assert(nh_svd(count, dimension + 1, a, s, NULL, NULL));
+    double least = s[dimension] / sqrt((double)count);
+    nh_sampler_free(sampler);
+    nh_free(a);
+    nh_free(s);
+    return least;
+}
+
+Test(sample, no_dimension_follows_from_the_others)
+{
+    static const size_t dimensions[] = {5, 20, 40, 41, 81, 121};
+    for (size_t i = 0; i < sizeof dimensions / sizeof *dimensions; i++) {
+        double least = least_of_its_own(dimensions[i], 5 * dimensions[i]);
+        cr_expect_gt(least, 0.05, "%zu dimensions: %g; independent coordinates would have about 0.5", dimensions[i], least);
+    }
 }
 
 Test(sample, the_seed_decides)

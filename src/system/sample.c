@@ -6,11 +6,12 @@
 
 #include "base/memory.h"
 
-enum { sobol_limit = 40 };
+enum { most_sobol = 40 }; /* dimensions that GSL has the sequence for */
 
 struct nh_sampler {
     gsl_qrng *qrng;
-    size_t dimension;
+    size_t dimension, sobol; /* so many of them by the sequence */
+    uint64_t state;          /* of the pseudo-random numbers of the others */
     double *low, *width, *shift;
 };
 
@@ -27,16 +28,17 @@ nh_sampler *nh_sampler_create(size_t dimension, const double *low, const double 
     gsl_set_error_handler_off(); /* GSL's default handler aborts */
     nh_sampler *s = nh_alloc(sizeof *s);
     s->dimension = dimension;
+    s->sobol = dimension < most_sobol ? dimension : most_sobol;
     s->low = nh_alloc_array(3 * dimension + 1, sizeof *s->low);
     s->width = s->low + dimension;
     s->shift = s->width + dimension;
-    uint64_t state = seed * 0x2545f4914f6cdd1du + dimension;
+    s->state = seed * 0x2545f4914f6cdd1du + dimension;
     for (size_t i = 0; i < dimension; i++) {
         s->low[i] = low[i];
         s->width[i] = high[i] - low[i];
-        s->shift[i] = nh_random(&state);
+        s->shift[i] = nh_random(&s->state);
     }
-    if (dimension) s->qrng = gsl_qrng_alloc(dimension <= sobol_limit ? gsl_qrng_sobol : gsl_qrng_reversehalton, (unsigned)dimension);
+    if (dimension) s->qrng = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)s->sobol);
     return s;
 }
 
@@ -53,7 +55,7 @@ void nh_sampler_next(nh_sampler *s, double *point)
     if (!s->qrng) return;
     gsl_qrng_get(s->qrng, point);
     for (size_t i = 0; i < s->dimension; i++) {
-        double x = point[i] + s->shift[i];
+        double x = i < s->sobol ? point[i] + s->shift[i] : nh_random(&s->state);
         point[i] = s->low[i] + s->width[i] * (x - floor(x));
     }
 }
