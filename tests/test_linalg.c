@@ -246,43 +246,11 @@ Test(linalg, what_is_not_finite_is_refused_and_does_not_hang)
     const double bad[] = {NAN, INFINITY, -INFINITY};
     for (size_t k = 0; k < 3; k++) {
         double a[9] = {1, 2, 3, 4, bad[k], 6, 7, 8, 9}, b[9] = {0}, s[3], im[3];
-        size_t pivot[3];
         cr_assert_not(nh_svd(3, 3, a, s, NULL, NULL));
-        cr_assert_not(nh_qr_pivoted(3, 3, a, pivot));
         cr_assert_not(nh_eigen(3, a, s, im, NULL));
         cr_assert_not(nh_solve(3, a, 1, b, NULL));
         cr_assert_eq(nh_least_squares(3, 3, a, 1, b, 3, 1e-12), -1);
     }
-}
-
-Test(linalg, pivoted_qr_orders_and_reproduces)
-{
-    enum { M = 25, N = 8, RANK = 5 };
-    double *left = random_matrix(M, RANK), *right = random_matrix(RANK, N), a[M * N], p[M * N], r[N * N];
-    size_t pivot[N], seen[N] = {0};
-    nh_multiply(M, N, RANK, left, right, a);
-    double *qr = copy_of(M * N, a);
-    cr_assert(nh_qr_pivoted(M, N, qr, pivot));
-    for (size_t j = 0; j < N; j++) {
-        seen[pivot[j]]++;
-        memcpy(p + j * M, a + pivot[j] * M, M * sizeof *a);
-        for (size_t i = 0; i < N; i++)
-            r[i + j * N] = qr[i + j * M];
-        for (size_t i = j + 1; i < M; i++)
-            cr_assert_eq(qr[i + j * M], 0);
-        cr_assert(j == 0 || fabs(r[j + j * N]) <= fabs(r[j - 1 + (j - 1) * N]) + 1e-14);
-    }
-    for (size_t j = 0; j < N; j++)
-        cr_assert_eq(seen[j], 1);
-    double *expected = gram(M, N, N, p, p), *got = gram(N, N, N, r, r);
-    cr_assert_lt(distance(N * N, expected, got), 1e-12);
-    cr_assert_gt(fabs(r[(RANK - 1) * (N + 1)]), 1e-3);
-    cr_assert_lt(fabs(r[RANK * (N + 1)]), 1e-13);
-    nh_free(left);
-    nh_free(right);
-    nh_free(qr);
-    nh_free(expected);
-    nh_free(got);
 }
 
 Test(linalg, eigenvalues_of_a_companion_matrix_are_the_roots)
@@ -460,15 +428,12 @@ Test(linalg, bordered_equations_do_not_depend_on_units)
 Test(linalg, empty_matrices_are_harmless)
 {
     double nothing[1] = {0}, im[1];
-    size_t pivot[3];
     nh_qr *qr = nh_qr_create(0, 1);
     nh_qr_add(qr, 5, nothing, 5);
     nh_qr_triangle(qr, nothing);
     cr_assert_eq(nh_qr_rows(qr), 5);
     nh_qr_free(qr);
     cr_assert(nh_svd(0, 3, nothing, nothing, NULL, NULL));
-    cr_assert(nh_qr_pivoted(0, 3, nothing, pivot));
-    cr_assert(pivot[0] == 0 && pivot[2] == 2);
     cr_assert(nh_eigen(0, nothing, nothing, im, NULL));
     cr_assert(nh_solve(0, nothing, 1, nothing, NULL));
     cr_assert_eq(nh_least_squares(0, 1, nothing, 1, nothing, 1, 1e-12), 0);
@@ -479,12 +444,9 @@ Test(linalg, a_large_decomposition_can_be_left)
 {
     enum { large = 500, small = 30 };
     double *a = random_matrix(large, large), *s = nh_alloc_array(large, sizeof *s), *vt = nh_alloc_array(large * large, sizeof *vt);
-    size_t pivot[large];
     nh_interrupt();
     cr_expect_not(nh_svd(large, large, a, s, NULL, vt));
-    cr_expect_not(nh_qr_pivoted(large, large, a, pivot));
     cr_expect(nh_svd(small, small, a, s, NULL, vt));
-    cr_expect(nh_qr_pivoted(small, small, a, pivot));
     nh_free(a);
     nh_free(s);
     nh_free(vt);

@@ -222,7 +222,6 @@ size_t nh_qr_rows(const nh_qr *qr)
 typedef struct {
     size_t m, n;
     double *a, *s, *u, *vt;
-    lapack_int *order;
     bool slow, ok;
 } decomposition;
 
@@ -233,7 +232,6 @@ static void decomposition_free(void *context)
     nh_free(d->s);
     nh_free(d->u);
     nh_free(d->vt);
-    nh_free(d->order);
     nh_free(d);
 }
 
@@ -290,37 +288,6 @@ bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
         ok = d->ok;
         decomposition_free(d);
     }
-    return ok;
-}
-
-static void compute_qr(void *context)
-{
-    decomposition *d = context;
-    d->ok = LAPACKE_dgeqp3(LAPACK_COL_MAJOR, (lapack_int)d->m, (lapack_int)d->n, d->a, leading(d->m), d->order, d->s) == 0;
-}
-
-bool nh_qr_pivoted(size_t m, size_t n, double *a, size_t *pivot)
-{
-    size_t k = smaller(m, n);
-    for (size_t j = 0; j < n; j++)
-        pivot[j] = j;
-    if (k == 0)
-        return true;
-    if (!nh_all_finite(m * n, a))
-        return false;
-    nh_work_add(NH_WORK_DENSE, PIVOTED * product(m, n, k));
-    decomposition *d = nh_alloc(sizeof *d);
-    *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .order = nh_alloc_array(n, sizeof *d->order)}; /* order 0: every column may move */
-    if (!run(compute_qr, d))
-        return false;
-    give(m * n, d->a, a);
-    for (size_t j = 0; j < n && d->ok; j++) {
-        pivot[j] = (size_t)d->order[j] - 1;
-        for (size_t i = j + 1; i < m; i++)
-            a[i + j * m] = 0; /* the reflectors */
-    }
-    bool ok = d->ok;
-    decomposition_free(d);
     return ok;
 }
 

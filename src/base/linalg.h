@@ -28,9 +28,6 @@ size_t nh_qr_rows(const nh_qr *qr); /* rows seen so far */
  * False when the iteration fails, or when the user interrupts a large one (base/progress.h). */
 bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt);
 
-/* Pivoted QR of a (m x n), false as above: on return its upper triangle is R, pivot[j] the column that came j-th. */
-bool nh_qr_pivoted(size_t m, size_t n, double *a, size_t *pivot);
-
 /* Eigenvalues of a general n x n matrix (overwritten); right eigenvectors in LAPACK's packing into v (n x n), may be NULL. */
 bool nh_eigen(size_t n, double *a, double *re, double *im, double *v);
 

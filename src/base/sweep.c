@@ -14,7 +14,8 @@
 
 static const char last_line[] = "finished\n";
 
-size_t nh_sweep_units(const nh_sweep *s) { return (s->items + s->per_unit - 1) / s->per_unit; }
+/* Units of the sweep. */
+static size_t units_of(const nh_sweep *s) { return (s->items + s->per_unit - 1) / s->per_unit; }
 
 static size_t first_item(const nh_sweep *s, size_t unit) { return unit * s->per_unit; }
 
@@ -24,7 +25,7 @@ static size_t unit_items(const nh_sweep *s, size_t unit)
     return left < s->per_unit ? left : s->per_unit;
 }
 
-bool nh_sweep_is_ours(const nh_sweep *s, size_t unit) { return s->chunks < 2 || unit % s->chunks == s->chunk; }
+static bool is_ours(const nh_sweep *s, size_t unit) { return s->chunks < 2 || unit % s->chunks == s->chunk; }
 
 /* ---- files ---- */
 
@@ -83,7 +84,7 @@ static char *finished_lines(const nh_sweep *s, size_t unit, char **text)
     return NULL;
 }
 
-bool nh_sweep_is_finished(const nh_sweep *s, size_t unit)
+static bool is_finished(const nh_sweep *s, size_t unit)
 {
     char *text;
     bool finished = finished_lines(s, unit, &text) != NULL;
@@ -94,8 +95,8 @@ bool nh_sweep_is_finished(const nh_sweep *s, size_t unit)
 size_t nh_sweep_read(const nh_sweep *s, nh_arena *arena, const char **line)
 {
     size_t found = 0;
-    for (size_t unit = 0; unit < nh_sweep_units(s); unit++) {
-        char *text = NULL, *at = nh_sweep_is_ours(s, unit) ? finished_lines(s, unit, &text) : NULL;
+    for (size_t unit = 0; unit < units_of(s); unit++) {
+        char *text = NULL, *at = is_ours(s, unit) ? finished_lines(s, unit, &text) : NULL;
         size_t n = unit_items(s, unit), first = first_item(s, unit);
         for (size_t k = 0; k < n; k++) {
             line[first + k] = at ? nh_arena_strdup(arena, at) : NULL;
@@ -174,11 +175,11 @@ bool nh_sweep_do_unit(const nh_sweep *s, size_t unit, atomic_size_t *items_done,
 
 /* ---- all of them ---- */
 
-size_t nh_sweep_missing(const nh_sweep *s, size_t *unit)
+static size_t missing(const nh_sweep *s, size_t *unit)
 {
     size_t n = 0;
-    for (size_t u = 0; u < nh_sweep_units(s); u++)
-        if (nh_sweep_is_ours(s, u) && !nh_sweep_is_finished(s, u)) unit[n++] = u;
+    for (size_t u = 0; u < units_of(s); u++)
+        if (is_ours(s, u) && !is_finished(s, u)) unit[n++] = u;
     return n;
 }
 
@@ -216,12 +217,12 @@ static bool do_in_team(const nh_sweep *s, nh_error *error)
 {
     atomic_size_t done = 0;
     bool good = true;
-    for (size_t u; good && !nh_interrupted() && (u = s->team->next(s->team->context)) < nh_sweep_units(s);) {
+    for (size_t u; good && !nh_interrupted() && (u = s->team->next(s->team->context)) < units_of(s);) {
         void *context;
         nh_progress_handler *handler;
         nh_sweep_say(s, first_item(s, u), s->items);
         handler = be_quiet(&context);
-        good = nh_sweep_is_finished(s, u) || nh_sweep_do_unit(s, u, &done, NULL, error);
+        good = is_finished(s, u) || nh_sweep_do_unit(s, u, &done, NULL, error);
         nh_progress_set(handler, context);
     }
     return good;
@@ -230,18 +231,18 @@ static bool do_in_team(const nh_sweep *s, nh_error *error)
 bool nh_sweep_run(const nh_sweep *s, nh_sweep_state *state, nh_error *error)
 {
     enum { rounds = 3 }; /* a unit whose worker died is tried twice more */
-    size_t *unit = nh_alloc_array(nh_sweep_units(s) + 1, sizeof *unit), n = 0;
+    size_t *unit = nh_alloc_array(units_of(s) + 1, sizeof *unit), n = 0;
     bool good = true;
     *state = (nh_sweep_state){0};
     if (s->team && s->team->size > 1) good = do_in_team(s, error);
     if (s->team && s->team->size > 1) s->team->meet(s->team->context);
     bool whole = !s->team || s->team->rank == 0; /* what was lost in a team is done by its first */
     for (int round = 0; good && whole && round < rounds && !nh_interrupted(); round++) {
-        if (!(n = nh_sweep_missing(s, unit))) break;
+        if (!(n = missing(s, unit))) break;
         good = s->workers > 1 && n > 1 ? nh_sweep_do_in_workers(s, n, unit, state, error) : do_here(s, n, unit, error);
     }
-    for (size_t u = 0; u < nh_sweep_units(s); u++) state->units += nh_sweep_is_ours(s, u);
-    state->finished = state->units - nh_sweep_missing(s, unit);
+    for (size_t u = 0; u < units_of(s); u++) state->units += is_ours(s, u);
+    state->finished = state->units - missing(s, unit);
     nh_free(unit);
     return good;
 }

@@ -49,8 +49,6 @@ typedef struct {
 bool nh_sweep_run(const nh_sweep *sweep, nh_sweep_state *state, nh_error *error);
 /* The lines of all items of the chunk, in the arena; NULL where there is none yet. Returns how many there are. */
 size_t nh_sweep_read(const nh_sweep *sweep, nh_arena *arena, const char **line);
-/* Units of the sweep. */
-size_t nh_sweep_units(const nh_sweep *sweep);
 
 /* Processes that work in a folder hold it; -1 where this cannot be known. Whoever is alone there may remove files that
  * were never finished, of processes that are no more, whose names begin with `name`. */

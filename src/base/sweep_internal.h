@@ -6,10 +6,6 @@
 
 #include "base/sweep.h"
 
-bool nh_sweep_is_ours(const nh_sweep *sweep, size_t unit);
-bool nh_sweep_is_finished(const nh_sweep *sweep, size_t unit);
-/* Units that are not finished, of the chunk. */
-size_t nh_sweep_missing(const nh_sweep *sweep, size_t *unit);
 void nh_sweep_say(const nh_sweep *sweep, size_t done, size_t all);
 /* Computes and writes a unit; what an interruption, or the end of the process that began this one, leaves of it is kept. */
 bool nh_sweep_do_unit(const nh_sweep *sweep, size_t unit, atomic_size_t *items_done, bool (*orphan)(void),

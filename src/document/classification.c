@@ -84,7 +84,8 @@ static void put_almost_all(const nh_classified *x, nh_text *out)
     nh_classification_known(x, out);
 }
 
-void nh_classification_currents(const nh_analysis *r, nh_text *out)
+/* The currents that were constructed, and what that proves. */
+static void currents_text(const nh_analysis *r, nh_text *out)
 {
     for (size_t k = 0; k < r->count; k++) {
         const nh_current *f = &r->found[k];
@@ -119,7 +120,7 @@ void nh_classification_proof(const nh_classified *x, const nh_classified_value *
                      at->why ? at->why : "the run was ended");
         return;
     }
-    nh_classification_currents(at->result, out);
+    currents_text(at->result, out);
     if (at->complete >= first)
         nh_text_addf(out, "    all of them proved, and complete to degree %zu\n", at->complete);
     else nh_text_add(out, "    proved, but fewer than were counted: the others were not constructed\n");

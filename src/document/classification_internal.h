@@ -30,8 +30,6 @@ void nh_classification_known(const nh_classified *classified, nh_text *out);
 /* "degree 2: 3 instead of 2" */
 void nh_classification_counted(const nh_classified *classified, size_t degree, bool first,
                                const nh_classify_number *number, size_t almost_all, bool complete, nh_text *out);
-/* The currents that were constructed, and what that proves. */
-void nh_classification_currents(const nh_analysis *result, nh_text *out);
 void nh_classification_proof(const nh_classified *classified, const nh_classified_value *at, size_t first,
                              nh_text *out);
 

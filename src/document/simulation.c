@@ -42,7 +42,8 @@ static bool is_taken(const char *const *names, size_t count, const char *name)
     return taken;
 }
 
-const char **nh_simulation_names(const nh_simulation *s)
+/* The names of the columns as a table shows them, one per column, different, of letters, digits and underscores. */
+static const char **column_names(const nh_simulation *s)
 {
     static const char *const kinds[] = {"state", "current", "multiplier", "energy", "watched", "shape"};
     const nh_observables *t = &s->columns;
@@ -66,7 +67,7 @@ static size_t shown_of(const nh_simulation *s)
 
 static void put_names(const nh_simulation *s, const char *first, size_t shown, nh_text *out)
 {
-    const char **name = nh_simulation_names(s);
+    const char **name = column_names(s);
     nh_text_add(out, first);
     for (size_t k = 0; k < shown; k++) nh_text_addf(out, ",%s", name[k]);
     nh_text_add(out, "\n");

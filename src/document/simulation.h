@@ -7,8 +7,6 @@
 #include "document/pen.h"
 #include "commands/simulate.h"
 
-/* The names of the columns as a table shows them, one per column, different, of letters, digits and underscores. */
-const char **nh_simulation_names(const nh_simulation *simulation);
 void nh_motion_csv(const nh_simulation *simulation, nh_text *out); /* a head line, then a row per output time */
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */
 char *nh_motion_json(const nh_simulation *simulation, const nh_run *run);

@@ -70,7 +70,7 @@ static void put_prototypes(nh_text *out)
 }
 
 /* All inputs are read before the first output is written: they may be the same memory. */
-void nh_machine_text(const nh_tape *t, nh_text *out)
+static void machine_text(const nh_tape *t, nh_text *out)
 {
     uint32_t *writer = nh_alloc_array(t->registers + 1, sizeof *writer); /* 1 + instruction that wrote a register last; 0: none yet */
     put_prototypes(out);
@@ -136,7 +136,7 @@ static nh_machine *machine_of(const nh_tape *tape, bool start)
         if (nh_op_is_named(tape->code[i].op)) return NULL; /* no C library has them; they take the time */
     nh_text text;
     nh_text_init(&text);
-    nh_machine_text(tape, &text);
+    machine_text(tape, &text);
     pthread_mutex_lock(&lock);
     nh_machine *m = look_up(&text);
     if (!m && start) m = put_on_shelf(&text);

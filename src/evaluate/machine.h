@@ -15,9 +15,6 @@
 typedef struct nh_machine nh_machine;
 typedef void nh_machine_code(const double *in, double *out);
 
-/* The C text. */
-void nh_machine_text(const nh_tape *tape, nh_text *out);
-
 /* What was compiled already, or is being; or NULL. */
 nh_machine *nh_machine_known(const nh_tape *tape);
 /* Starts the compiler unless this code is there already.  NULL when there is too much of it. */

@@ -18,7 +18,6 @@ typedef struct nh_tape_work nh_tape_work;
 nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out, const nh_ex *out, size_t n_fixed,
                         const nh_ex *fixed, const double *value);
 void nh_tape_free(nh_tape *tape);
-size_t nh_tape_inputs(const nh_tape *tape);
 size_t nh_tape_outputs(const nh_tape *tape);
 size_t nh_tape_length(const nh_tape *tape); /* instructions */
 bool nh_tape_unbound(const nh_tape *tape, nh_ex *symbol);

@@ -14,7 +14,6 @@ void nh_tape_free(nh_tape *tape)
     nh_free(tape);
 }
 
-size_t nh_tape_inputs(const nh_tape *tape) { return tape->inputs; }
 size_t nh_tape_outputs(const nh_tape *tape) { return tape->outputs; }
 size_t nh_tape_length(const nh_tape *tape) { return tape->length; }
 

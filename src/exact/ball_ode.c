@@ -33,11 +33,11 @@ nh_ball_ode *nh_ball_ode_create(nh_ball *ball, const nh_ball_ode_problem *proble
     return o;
 }
 
-size_t nh_ode_entries(const nh_ball_ode *o) { return terms * o->words * o->dimension; }
+static size_t entries(const nh_ball_ode *o) { return terms * o->words * o->dimension; }
 
 static void drop_pieces(nh_ball_ode *o)
 {
-    for (size_t i = 0; i < o->pieces; i++) _arb_vec_clear(o->piece[i].f, (slong)nh_ode_entries(o));
+    for (size_t i = 0; i < o->pieces; i++) _arb_vec_clear(o->piece[i].f, (slong)entries(o));
     o->pieces = 0;
 }
 
@@ -351,7 +351,7 @@ bool nh_ode_add_piece(nh_ball_ode *o, double centre, double half, double least, 
     arb_mat_t X;
     bool done = false;
     if (o->pieces == NH_ODE_PIECES) return false;
-    nh_ode_piece p = {.centre = centre, .half = half, .f = _arb_vec_init((slong)nh_ode_entries(o))};
+    nh_ode_piece p = {.centre = centre, .half = half, .f = _arb_vec_init((slong)entries(o))};
     arb_mat_init(X, nodes, (slong)(o->words * o->words));
     for (size_t tries = 0; tries < most_tries && !done && p.half >= least && !nh_late() && !nh_budget_spent();
          tries++) {
@@ -360,7 +360,7 @@ bool nh_ode_add_piece(nh_ball_ode *o, double centre, double half, double least, 
         } else if (error > target) {
             p.half *= fmin(0.8, fmax(0.05, 0.9 * pow(10, (target - error) / nodes)));
         } else {
-            _arb_vec_zero(p.f, (slong)nh_ode_entries(o));
+            _arb_vec_zero(p.f, (slong)entries(o));
             for (size_t i = 0; i < step; i++) arb_set(p.f + i, start + i);
             double last = power_series(o, X, &p);
             done = last <= target;
@@ -371,7 +371,7 @@ bool nh_ode_add_piece(nh_ball_ode *o, double centre, double half, double least, 
     if (done)
         o->piece[o->pieces++] = p;
     else
-        _arb_vec_clear(p.f, (slong)nh_ode_entries(o));
+        _arb_vec_clear(p.f, (slong)entries(o));
     arb_mat_clear(X);
     return done;
 }

@@ -25,7 +25,6 @@ struct nh_ball_ode {
     nh_ode_piece *piece;
 };
 
-size_t nh_ode_entries(const nh_ball_ode *ode);
 /* So many products of two numbers. */
 void nh_ode_work(const nh_ball_ode *ode, double products);
 /* z += x y, of mid-points. */

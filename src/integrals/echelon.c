@@ -12,7 +12,8 @@ nh_nullspace_options nh_nullspace_options_from(const nh_options *o)
     return (nh_nullspace_options){o->rank, o->zero, o->undecided, o->gap, o->steepest, o->likely, o->trivial};
 }
 
-nh_nullspace *nh_echelon_terms(const nh_model *model, const nh_points *points, size_t n, const nh_ex *term, const nh_options *options,
+/* The null space of explicit terms alone. NULL on failure. */
+static nh_nullspace *echelon_of_terms(const nh_model *model, const nh_points *points, size_t n, const nh_ex *term, const nh_options *options,
                                nh_error *error)
 {
     nh_family family = {.kind = NH_TERMS, .terms = n, .term = term};
@@ -209,7 +210,7 @@ static bool refit(const nh_model *model, const nh_points *points, nh_candidate *
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_nullspace *fit = nh_echelon_terms(model, points, c->count, c->term, options, &ignored);
+    nh_nullspace *fit = echelon_of_terms(model, points, c->count, c->term, options, &ignored);
     if (!fit) return false;
     bool good = fit->rank > 0 && fit->spectrum[0] <= c->accepted;
     c->quotient = fit->rank ? fit->spectrum[0] : INFINITY;

@@ -38,8 +38,4 @@ void nh_echelon_refine(const nh_model *model, const nh_points *points, nh_candid
 
 void nh_candidates_free(nh_candidates *candidates);
 
-/* The null space of explicit terms alone. NULL on failure. */
-nh_nullspace *nh_echelon_terms(const nh_model *model, const nh_points *points, size_t n, const nh_ex *term, const nh_options *options,
-                               nh_error *error);
-
 #endif

@@ -31,7 +31,8 @@ void nh_points_free(nh_points *points)
 
 size_t nh_points_equations(const nh_points *points) { return points->count + (points->beyond ? points->beyond->count : 0); }
 
-void nh_points_run(const nh_points *points, const nh_tape *tape, double *const *out)
+/* Run a tape (inputs: the model's symbols) over all points: out[k][p].  `out` rows must hold points->count values. */
+static void run(const nh_points *points, const nh_tape *tape, double *const *out)
 {
     nh_tape_work *work = nh_tape_work_create(tape);
     size_t n_out = nh_tape_outputs(tape);
@@ -54,7 +55,7 @@ void nh_points_evaluate(const nh_points *points, const nh_model *model, size_t n
     nh_tape *tape = nh_model_tape(model, n, e);
     double **out = nh_alloc_array(n + 1, sizeof *out);
     for (size_t k = 0; k < n; k++) out[k] = value + k * points->count;
-    nh_points_run(points, tape, out);
+    run(points, tape, out);
     nh_free(out);
     nh_tape_free(tape);
 }

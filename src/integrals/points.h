@@ -24,9 +24,6 @@ void nh_points_free(nh_points *points);
 /* The number of points, including those beyond the chart. */
 size_t nh_points_equations(const nh_points *points);
 
-/* Run a tape (inputs: the model's symbols) over all points: out[k][p].  `out` rows must hold points->count values. */
-void nh_points_run(const nh_points *points, const nh_tape *tape, double *const *out);
-
 /* The same for a list of expressions, into one block value[k * count + p]. */
 void nh_points_evaluate(const nh_points *points, const nh_model *model, size_t n, const nh_ex *e, double *value);
 

@@ -24,7 +24,8 @@ nh_ex nh_symmetry_current(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
     return phi;
 }
 
-void nh_symmetry_equations(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W, nh_ex *out)
+/* (N0), (NX)_j, (NY)_j of a field Z with current phi, 1 + 2n expressions that vanish iff Z is a constraint symmetry. */
+static void equations_of(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W, nh_ex *out)
 {
     nh_dag *d = o->dag;
     size_t n = o->n;
@@ -323,7 +324,7 @@ double nh_symmetry_residual(const nh_model *o, const nh_points *points, nh_ex ph
 {
     size_t n = 1 + 2 * o->n, count = points->count;
     nh_ex *e = nh_alloc_array(2 * n + 1, sizeof *e);
-    nh_symmetry_equations(o, phi, Z0, zeta, W, e);
+    equations_of(o, phi, Z0, zeta, W, e);
     e[n] = nh_model_X0(o, phi);
     for (size_t j = 0; j < o->n; j++) {
         e[n + 1 + j] = nh_model_X(o, j, phi);

@@ -42,7 +42,4 @@ nh_ex nh_symmetry_current(const nh_model *model, nh_ex Z0, const nh_ex *zeta);
 /* The largest residual of the equations below over the points, relative to the largest of their terms. */
 double nh_symmetry_residual(const nh_model *model, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W);
 
-/* (N0), (NX)_j, (NY)_j of a field Z with current phi, 1 + 2n expressions that vanish iff Z is a constraint symmetry. */
-void nh_symmetry_equations(const nh_model *model, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W, nh_ex *out);
-
 #endif

@@ -21,7 +21,8 @@ static void take_sides(nh_kinks *k, double t, const double *z)
     for (size_t i = 0; i < k->walls; i++) k->side[i] = (k->probe[i] > 0) - (k->probe[i] < 0);
 }
 
-void nh_kinks_watch(nh_kinks *k, size_t walls, bool (*wall)(double, const double *, double *, void *), void *context, size_t size, const double *z, const double ends[2])
+/* Of states with `size` entries, and walls that are functions of the first of them. */
+static void watch(nh_kinks *k, size_t walls, bool (*wall)(double, const double *, double *, void *), void *context, size_t size, const double *z, const double ends[2])
 {
     *k = (nh_kinks){.walls = walls, .size = size, .wall = wall, .context = context, .longest = INFINITY, .last = NAN, .span = fabs(ends[1] - ends[0]), .from = ends[0], .seen = INFINITY};
     k->least = roundings * DBL_EPSILON * fmax(fabs(ends[0]), fabs(ends[1]));
@@ -36,7 +37,7 @@ void nh_kinks_watch(nh_kinks *k, size_t walls, bool (*wall)(double, const double
 
 void nh_kinks_begin(nh_kinks *k, const nh_flow_problem *p, const double *z, size_t count, const double *times)
 {
-    nh_kinks_watch(k, p->walls, p->wall, p->context, p->size, z, (double[]){times[0], times[count - 1]});
+    watch(k, p->walls, p->wall, p->context, p->size, z, (double[]){times[0], times[count - 1]});
 }
 
 void nh_kinks_coarser(nh_kinks *k, double time) { k->least = fmax(k->least, time); }

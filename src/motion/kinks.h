@@ -31,8 +31,6 @@ typedef struct {
 
 /* For a motion from z at times[0] to times[count - 1]. */
 void nh_kinks_begin(nh_kinks *kinks, const nh_flow_problem *problem, const double *z, size_t count, const double *times);
-/* Of states with `size` entries, and walls that are functions of the first of them. */
-void nh_kinks_watch(nh_kinks *kinks, size_t walls, bool (*wall)(double t, const double *z, double *value, void *context), void *context, size_t size, const double *z, const double ends[2]);
 /* What happens in so short a time is below the error that is allowed, or that is made in solving for stages: it is time enough to lead across a wall. */
 void nh_kinks_coarser(nh_kinks *kinks, double time);
 void nh_kinks_clear(nh_kinks *kinks);

@@ -318,12 +318,6 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     return true;
 }
 
-bool nh_analysis_file_starts(const nh_analysis_file *a)
-{
-    const nh_deck_node *map = nh_deck_get(nh_deck_root(a->deck), "validate");
-    return map && (map->kind != NH_DECK_MAP || nh_deck_get(map, "initial"));
-}
-
 static bool read_validate(reader *r)
 {
     static const char *const keys[] = {"initial", "time", "tolerance"};

@@ -55,9 +55,6 @@ void nh_analysis_file_free(nh_analysis_file *analysis);
 /* Read ansatz, unknowns, initial state and scene in the names of the model's system; expressions are brought to its chart. */
 bool nh_analysis_file_resolve(nh_analysis_file *analysis, const nh_model *model, nh_error *error);
 
-/* Does it name an initial state?  Known before there is a model. */
-bool nh_analysis_file_starts(const nh_analysis_file *analysis);
-
 /* Any expression of the system (coordinate velocities, quasi-velocities) as a function of the model's chart. */
 bool nh_analysis_file_to_chart(const nh_model *model, nh_ex e, nh_ex *out, nh_error *error);
 

@@ -17,7 +17,7 @@ static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
 }
 
 /* field = zeta^i d_i + c^a e_a on the slice: c from the rows of the group's coordinates. */
-bool nh_second_descend(const nh_chaplygin *f, const nh_ex *field, nh_ex *out)
+static bool descend(const nh_chaplygin *f, const nh_ex *field, nh_ex *out)
 {
     const nh_slice *s = f->slice;
     nh_dag *d = f->dag;
@@ -123,7 +123,7 @@ static size_t general_candidates(const nh_chaplygin *f, size_t candidates, const
     nh_ex *zeta = nh_alloc_array(f->n + 1, sizeof *zeta);
     double *a = nh_alloc_array(rows * candidates + 1, sizeof *a), size = 1e-300;
     for (size_t b = 0; b < candidates; b++) {
-        if (!nh_second_descend(f, field + b * m, zeta)) continue;
+        if (!descend(f, field + b * m, zeta)) continue;
         double *work = work_along(f, zeta, places, &size);
         memcpy(a + b * rows, work, rows * sizeof *a);
         nh_free(work);
@@ -143,7 +143,7 @@ size_t nh_second_candidates(const nh_chaplygin *f, size_t candidates, const nh_e
     nh_ex *zeta = nh_alloc_array(n + 1, sizeof *zeta);
     double *a = nh_alloc_array(rows * candidates + 1, sizeof *a), size = largest_U(f);
     for (size_t b = 0; b < candidates; b++) {
-        if (!nh_second_descend(f, field + b * m, zeta)) continue;
+        if (!descend(f, field + b * m, zeta)) continue;
         double *U = interior(f, zeta, places);
         for (size_t p = 0; p < places; p++)
             for (size_t l = 0; l < n; l++)
@@ -165,7 +165,7 @@ void nh_second_coefficients(const nh_chaplygin *f, size_t candidates, const nh_e
     nh_section_marks(d, n * n, mark);
     for (size_t b = 0; b < candidates; b++) {
         e[b] = exact[b] = nh_real(d, c[b]);
-        if (c[b] == 0 || !f->plain || !nh_second_descend(f, field + b * m, zeta)) continue;
+        if (c[b] == 0 || !f->plain || !descend(f, field + b * m, zeta)) continue;
         contract(f, zeta, inside);
         e[b] = nh_int(d, 0);
         for (size_t l = 0; l < n; l++)
@@ -291,7 +291,7 @@ bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *
     nh_ex *component = nh_alloc_array(n + 1, sizeof *component);
     bool good = true;
     for (size_t b = 0; b < d && good; b++) {
-        good = nh_second_descend(f, field + b * m, component);
+        good = descend(f, field + b * m, component);
         if (good) nh_generator_init(&g[b], s->hat, NULL, component, options);
     }
     if (good) nh_action_init(&s->action, s->hat, d, g, options);

@@ -40,9 +40,6 @@ typedef struct {
     const double *pivots;   /* as of a slice */
 } nh_second;
 
-/* The shape part of a field that normalises the group of the slice, n components. */
-bool nh_second_descend(const nh_chaplygin *first, const nh_ex *field, nh_ex *out);
-
 /* Combinations c (count columns of length `candidates`) of fields that satisfy the weak condition (ii): echelon form; returns their number.
  * `field`: candidates x m components. */
 size_t nh_second_candidates(const nh_chaplygin *first, size_t candidates, const nh_ex *field, const nh_options *options, double *c);

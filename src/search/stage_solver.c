@@ -114,7 +114,8 @@ nh_stage_record *nh_stage_solver_note(nh_stage_solver *x, const char *name)
     return &r->stage[r->stages++];
 }
 
-void nh_stage_solver_keep_spectrum(nh_stage_solver *x, const nh_nullspace *s, bool found)
+/* The spectrum that is reported: of the last stage that found something, else of the largest. */
+static void keep_spectrum(nh_stage_solver *x, const nh_nullspace *s, bool found)
 {
     nh_analysis *r = x->r;
     bool alone = r->current.columns < 3 && s->columns >= 3; /* the energy for itself: one value shows no gap */
@@ -237,7 +238,7 @@ void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families
         r->rejected += s.fit->tried - nh_points_equations(s.fit);
         note->found = harvest(x, &s, s.nullspace->dimension, true);
         if (s.nullspace->likely > s.nullspace->dimension) note->found += harvest(x, &s, s.nullspace->likely, false);
-        nh_stage_solver_keep_spectrum(x, s.nullspace, note->found > 0);
+        keep_spectrum(x, s.nullspace, note->found > 0);
     }
     note->seconds = nh_clock() - start;
     nh_solved_clear(&s);

@@ -44,8 +44,6 @@ void nh_solved_clear(nh_solved *solved);
 
 /* An entry in the list of what was tried. */
 nh_stage_record *nh_stage_solver_note(nh_stage_solver *climb, const char *name);
-/* The spectrum that is reported: of the last stage that found something, else of the largest. */
-void nh_stage_solver_keep_spectrum(nh_stage_solver *climb, const nh_nullspace *nullspace, bool found);
 /* How much new a stage seems to give, and the largest of the null values that it comes from (`worst`; may be NULL); whether any. */
 size_t nh_stage_solver_news(nh_stage_solver *climb, size_t families, const nh_family *family, double *worst);
 bool nh_stage_solver_promising(nh_stage_solver *climb, size_t families, const nh_family *family);
