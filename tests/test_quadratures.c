@@ -33,84 +33,125 @@ static nh_analysis *ask(const char *text)
 
 /* ---- motions of our own ---- */
 
-enum { most_states = 16, most_letters = 48, steps = 400 };
+enum { most_states = 16, most_letters = 48, most_values = most_states + most_letters, steps = 400 };
 static const double step = 2.5e-4;
 
-/* z' = (1, rho, a) */
-static void rates(const nh_tape *tape, nh_tape_work *work, const double *z, double *out)
-{
-    out[0] = 1;
-    nh_tape_eval(tape, work, z, out + 1);
-}
+/* What is integrated: z' = (1, rho, a), and the named integrals J' = integrand s'; and the formulas, in the states and the letters C, R, J. */
+typedef struct {
+    const nh_explicit_motion *m;
+    size_t n, letters;
+    nh_tape *rate, *formula, *start; /* rho, a; squares, integrands, states in the letters; constants and roots in the states */
+    nh_tape_work *rate_work, *formula_work, *start_work;
+    double letter[most_letters], sign[most_letters];
+} flow;
 
-/* Runge and Kutta's method of order four, `count` steps. */
-static void run(const nh_model *o, double *z, size_t count, double h)
-{
-    size_t n = 1 + o->m + o->n;
-    nh_ex e[most_states];
-    double k[4][most_states], at[most_states];
-    for (size_t i = 0; i + 1 < n; i++) e[i] = i < o->m ? o->rho[i] : o->a[i - o->m];
-    nh_tape *tape = nh_model_tape(o, n - 1, e);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    for (size_t s = 0; s < count; s++) {
-        for (int stage = 0; stage < 4; stage++) {
-            double part = stage == 0 ? 0 : stage == 3 ? h : h / 2;
-            for (size_t i = 0; i < n; i++) at[i] = z[i] + (stage ? part * k[stage - 1][i] : 0);
-            rates(tape, work, at, k[stage]);
-        }
-        for (size_t i = 0; i < n; i++) z[i] += h / 6 * (k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]);
-    }
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-}
-
-/* n expressions of the states, the constants and the roots. */
-static void values(const nh_analysis *r, size_t n, const nh_ex *e, const double *z, const double *letters, double *out)
+static flow flow_of(const nh_analysis *r)
 {
     const nh_model *o = r->model;
     const nh_explicit_motion *m = r->motion;
-    nh_ex symbol[most_letters];
-    double in[most_letters];
-    size_t count = 0;
-    for (size_t i = 0; i < m->states; i++) symbol[count] = m->state[i], in[count++] = z[i];
-    for (size_t j = 0; j < m->constants + m->roots; j++) {
-        symbol[count] = j < m->constants ? m->constant[j].symbol : m->root[j - m->constants].symbol;
-        in[count++] = letters[j];
+    flow f = {.m = m, .n = 1 + o->m + o->n, .letters = m->constants + m->roots + m->integrals};
+    nh_ex e[most_values], symbol[most_values];
+    size_t count = 0, values = 0;
+    for (size_t i = 0; i + 1 < f.n; i++) e[i] = i < o->m ? o->rho[i] : o->a[i - o->m];
+    f.rate = nh_model_tape(o, f.n - 1, e);
+    for (size_t i = 0; i < m->states; i++) symbol[count++] = m->state[i];
+    for (size_t j = 0; j < m->constants; j++) symbol[count++] = m->constant[j].symbol, e[values++] = m->constant[j].value;
+    for (size_t j = 0; j < m->roots; j++) symbol[count++] = m->root[j].symbol, e[values++] = m->root[j].value;
+    f.start = nh_tape_create(o->dag, count, symbol, values, e, o->system->parameters, o->parameter, o->parameter_value);
+    for (size_t j = 0; j < m->integrals; j++) symbol[count++] = m->integral[j].symbol;
+    values = 0;
+    for (size_t j = 0; j < m->roots; j++) e[values++] = m->root[j].square;
+    for (size_t j = 0; j < m->integrals; j++) e[values++] = m->integral[j].integrand;
+    for (size_t i = 0; i < m->states; i++) e[values++] = m->value[i];
+    f.formula = nh_tape_create(o->dag, count, symbol, values, e, o->system->parameters, o->parameter, o->parameter_value);
+    f.rate_work = nh_tape_work_create(f.rate);
+    f.start_work = nh_tape_work_create(f.start);
+    f.formula_work = nh_tape_work_create(f.formula);
+    return f;
+}
+
+static void flow_free(flow *f)
+{
+    nh_tape_work_free(f->rate_work), nh_tape_work_free(f->start_work), nh_tape_work_free(f->formula_work);
+    nh_tape_free(f->rate), nh_tape_free(f->start), nh_tape_free(f->formula);
+}
+
+/* Constants and roots at a state, from its formulas; every other letter is 0. */
+static void letters_at(const flow *f, const double *z, double *out)
+{
+    double in[most_values] = {0};
+    memcpy(in, z, f->n * sizeof *in);
+    for (size_t j = 0; j < f->m->roots + 1; j++) { /* roots contain constants and earlier roots */
+        nh_tape_eval(f->start, f->start_work, in, out);
+        memcpy(in + f->n, out, (f->m->constants + f->m->roots) * sizeof *in);
     }
-    nh_tape *tape = nh_tape_create(o->dag, count, symbol, n, e, o->system->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, in, out);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
+}
+
+/* Squares, integrands and states by the formulas, at y = (z, J): with the constants of the start, and roots of their squares with its signs. */
+static void formulas(const flow *f, const double *y, double *out)
+{
+    const nh_explicit_motion *m = f->m;
+    double in[most_values] = {0};
+    memcpy(in, y, f->n * sizeof *in);
+    memcpy(in + f->n, f->letter, m->constants * sizeof *in);
+    memcpy(in + f->n + m->constants + m->roots, y + f->n, m->integrals * sizeof *in);
+    for (size_t j = 0; j < m->roots + 1; j++) {
+        nh_tape_eval(f->formula, f->formula_work, in, out);
+        for (size_t k = 0; k < m->roots; k++) in[f->n + m->constants + k] = f->sign[k] * sqrt(fabs(out[k]));
+    }
+}
+
+static void rates(const flow *f, const double *y, double *out)
+{
+    double value[most_values];
+    out[0] = 1;
+    nh_tape_eval(f->rate, f->rate_work, y, out + 1);
+    if (f->m->integrals) formulas(f, y, value);
+    for (size_t j = 0; j < f->m->integrals; j++) out[f->n + j] = value[f->m->roots + j] * out[f->m->parameter];
+}
+
+/* Runge and Kutta's method of order four, `count` steps. */
+static void run(const flow *f, double *y, size_t count, double h)
+{
+    size_t n = f->n + f->m->integrals;
+    double k[4][most_values], at[most_values];
+    for (size_t s = 0; s < count; s++) {
+        for (int stage = 0; stage < 4; stage++) {
+            double part = stage == 0 ? 0 : stage == 3 ? h : h / 2;
+            for (size_t i = 0; i < n; i++) at[i] = y[i] + (stage ? part * k[stage - 1][i] : 0);
+            rates(f, at, k[stage]);
+        }
+        for (size_t i = 0; i < n; i++) y[i] += h / 6 * (k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]);
+    }
 }
 
 /* From one state: the constants stay what they are, and the formulas give what our own integration gives.  1 where all can be evaluated. */
 static size_t follow(const nh_analysis *r, const char *name, const double *start)
 {
     const nh_explicit_motion *m = r->motion;
-    double z[most_states], first[most_letters] = {0}, last[most_letters] = {0}, formula[most_states];
-    nh_ex e[most_letters];
-    size_t letters = m->constants + m->roots;
-    for (size_t j = 0; j < letters; j++) e[j] = j < m->constants ? m->constant[j].value : m->root[j - m->constants].value;
-    for (size_t i = 0; i < m->states; i++) z[i] = start[i];
-    values(r, letters, e, z, first, first);
-    double fine[most_states];
-    memcpy(fine, z, sizeof fine);
-    run(r->model, z, steps, step);
-    run(r->model, fine, 2 * steps, step / 2);
-    for (size_t i = 0; i < m->states; i++)
-        if (!(fabs(fine[i] - z[i]) <= 1e-10 * (1 + fabs(z[i])))) return 0; /* near the end of a chart our own integration is no reference */
-    values(r, letters, e, z, first, last);
-    for (size_t j = 0; j < letters; j++)
-        if (!isfinite(first[j]) || !isfinite(last[j])) return 0;
-    for (size_t j = 0; j < m->constants; j++)
-        cr_expect(fabs(last[j] - first[j]) <= 1e-6 * (1 + fabs(first[j])), "%s: %s changes from %g to %g", name, nh_name_of(r->model->dag, m->constant[j].symbol), first[j], last[j]);
-    for (size_t j = m->constants; j < letters; j++) first[j] = last[j]; /* roots follow the parameter */
-    values(r, m->states, m->value, z, first, formula);
-    for (size_t i = 0; i < m->states; i++)
-        if (m->is_known[i])
-            cr_expect(fabs(formula[i] - z[i]) <= 1e-6 * (1 + fabs(z[i])), "%s: %s is %g, its formula %g", name, nh_name_of(r->model->dag, m->state[i]), z[i], formula[i]);
-    return 1;
+    flow f = flow_of(r);
+    double y[most_values] = {0}, fine[most_values], last[most_letters] = {0}, value[most_values];
+    bool good = true;
+    memcpy(y, start, f.n * sizeof *y);
+    letters_at(&f, y, f.letter);
+    for (size_t j = 0; j < m->roots; j++) f.sign[j] = f.letter[m->constants + j] < 0 ? -1 : 1;
+    memcpy(fine, y, sizeof fine);
+    run(&f, y, steps, step);
+    run(&f, fine, 2 * steps, step / 2);
+    for (size_t i = 0; i < f.n + m->integrals; i++) good &= fabs(fine[i] - y[i]) <= 1e-10 * (1 + fabs(y[i])); /* near the end of a chart, or a turning point, we are no reference */
+    if (good) letters_at(&f, y, last);
+    for (size_t j = 0; j < m->constants + m->roots; j++) good &= isfinite(f.letter[j]) && isfinite(last[j]);
+    for (size_t j = 0; j < m->roots && !m->integrals; j++) good &= f.sign[j] * last[m->constants + j] >= 0;
+    if (good) formulas(&f, y, value);
+    for (size_t j = 0; j < m->constants && good; j++)
+        cr_expect(m->constant[j].at_start || fabs(last[j] - f.letter[j]) <= 1e-6 * (1 + fabs(f.letter[j])), "%s: %s changes from %g to %g", name,
+                  nh_name_of(r->model->dag, m->constant[j].symbol), f.letter[j], last[j]);
+    for (size_t i = 0; i < m->states && good; i++) {
+        double formula = value[m->roots + m->integrals + i];
+        cr_expect(!m->is_known[i] || fabs(formula - y[i]) <= 1e-6 * (1 + fabs(y[i])), "%s: %s is %g, its formula %g", name, nh_name_of(r->model->dag, m->state[i]), y[i], formula);
+    }
+    flow_free(&f);
+    return good;
 }
 
 /* As many currents as can exist, each proved or certified; so many states in closed form; and both on motions. */
@@ -133,6 +174,13 @@ static void check(nh_analysis *r, const char *name, size_t independent, size_t k
     cr_expect(followed > starts / 2, "%s: only %zu motions followed", name, followed);
     nh_points_free(points);
     nh_analysis_free(r);
+}
+
+static void check_integrals(nh_analysis *r, const char *name, size_t independent, size_t known, size_t integrals)
+{
+    cr_assert_not_null(r->motion, "%s", name);
+    cr_expect_eq(r->motion->integrals, integrals, "%s: %zu integrals", name, r->motion->integrals);
+    check(r, name, independent, known);
 }
 
 /* ---- systems that ship ---- */
@@ -219,8 +267,8 @@ static nh_analysis *ask_car(const char *inertia, const char *function)
 
 Test(quadratures, car)
 {
-    check(ask_car("0.4", "log("), "car", 4, 5);
-    check(ask_car("3", "atan("), "car of large inertia", 4, 5);
+    check_integrals(ask_car("0.4", "log("), "car", 4, 7, 2);
+    check_integrals(ask_car("3", "atan("), "car of large inertia", 4, 7, 2);
 }
 
 /* In the half plane the motions end at its border, where the area tangent of nearly 1 has no digits left in doubles: the drift is that of the formula
@@ -240,12 +288,26 @@ Test(quadratures, digits_that_are_lost)
     nh_analysis_free(r);
 }
 
-/* cos of an exponential has no elementary integral: the skate that turns ever slower keeps three currents, and no false one. */
-Test(quadratures, not_elementary)
+/* ---- integrals without closed form ---- */
+
+/* cos of an exponential has no elementary integral: the skate that turns ever slower keeps three currents, and no false one; its place is an integral. */
+Test(quadratures, skate_that_turns_slower) { check_integrals(ask_file("systems/skate_with_friction.yaml"), "skate with friction", 3, 6, 2); }
+
+/* One integral below another: the speed on a slope, and the place. */
+Test(quadratures, skate_on_slope_that_turns_slower)
 {
-    nh_analysis *r = ask_file("systems/skate_with_friction.yaml");
-    cr_expect_eq(r->independent, 3);
-    cr_assert_not_null(r->motion);
-    cr_expect_eq(r->motion->known, 4);
-    nh_analysis_free(r);
+    check_integrals(ask("name: slope\nparameters: [{name: m, value: 1.2}, {name: J, value: 0.4}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"
+                        "coordinates: [{name: phi, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
+                        "lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 + m*b*x\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
+                        "velocities: {names: [w, v], map: [\"phi' = w\", \"x' = v*cos(phi)\", \"y' = v*sin(phi)\"]}\n"
+                        "forces: [\"x = -d*x'\", \"y = -d*y'\", \"phi = -d*phi'\"]\n"), "skate on a slope", 2, 6, 3);
+}
+
+/* Time as an elliptic integral of the place; of a genus above one; of an angle. */
+Test(quadratures, one_dimension)
+{
+    check_integrals(ask("name: well\nparameters: [{name: m, value: 1.3}]\ncoordinates: [{name: x, type: length}]\nlagrangian: m/2*x'^2 - x^4/4 - x^6/6\n"), "well", 1, 3, 1);
+    check_integrals(ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*h'^2 + m*g*cos(h)\n"), "pendulum", 1, 3, 1);
+    check_integrals(ask("name: central\nparameters: [{name: m, value: 1.3}, {name: k, value: 0.4}]\ncoordinates: [{name: r, type: length}, {name: p, type: angle}]\n"
+                        "domain: {r: [0.5, 1.5]}\nlagrangian: m/2*(r'^2 + r^2*p'^2) - k*r^3\n"), "central force", 2, 5, 2);
 }

@@ -33,7 +33,10 @@ nh_sheet *nh_motion_sheet(const nh_analysis *r)
         nh_sheet_formula(s, nh_sheet_label(s, "<%s>^{2}", nh_name_of(s->dag, m->root[i].symbol)), m->root[i].square);
         nh_sheet_formula(s, name(s, m->root[i].symbol), m->root[i].value);
     }
-    nh_sheet_begin(s, "constants", "Its constants, from the state at any time", "");
+    if (m->integrals) nh_sheet_begin(s, "integrals", "Integrals in it", "For these no closed form was found. Each is 0 at the start of the motion.");
+    for (size_t i = 0; i < m->integrals; i++)
+        nh_sheet_formula(s, nh_sheet_label(s, "d<%s>/d<%s>", nh_name_of(s->dag, m->integral[i].symbol), nh_name_of(s->dag, m->state[m->parameter])), m->integral[i].integrand);
+    nh_sheet_begin(s, "constants", m->integrals ? "Its constants, from the state at the start" : "Its constants, from the state at any time", "");
     for (size_t j = 0; j < m->constants; j++) nh_sheet_formula(s, name(s, m->constant[j].symbol), m->constant[j].value);
     return s;
 }

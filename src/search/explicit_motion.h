@@ -9,7 +9,8 @@
  *     u = (c + int mu B ds)/mu,   mu = exp(-int A ds)
  *
  * and c, written in the states, is a current.  So one state follows after another, as far as the antiderivatives (exact/antiderivative.h) have
- * closed forms. */
+ * closed forms.  Where nothing else is left, an integral without closed form gets a name: it is 0 where the motion starts, and constants that stand beside
+ * it come from the state there. */
 #ifndef NH_EXPLICIT_MOTION_H
 #define NH_EXPLICIT_MOTION_H
 
@@ -19,6 +20,7 @@
 typedef struct {
     nh_ex symbol, value;     /* C1; its value in the states */
     bool integrated;         /* by an integration; else it is a current that was known, or one that a known current determines */
+    bool at_start;           /* its value is that of the state where the integrals are 0 */
 } nh_motion_constant;
 
 /* A root of a function of the parameter and constants: symbol^2 = square; the symbol's value in the states has the right sign. */
@@ -26,14 +28,20 @@ typedef struct {
     nh_ex symbol, square, value;
 } nh_motion_root;
 
+/* d symbol/ds = integrand, a function of s, constants, roots and earlier integrals. */
+typedef struct {
+    nh_ex symbol, integrand;
+} nh_motion_integral;
+
 typedef struct nh_explicit_motion {
     size_t states, parameter, known; /* known: how many states are, with the parameter */
     const nh_ex *state;      /* t, q, w */
-    const nh_ex *value;      /* in the parameter, the constants and the roots; 0, the number, for those that are not known */
+    const nh_ex *value;      /* in the parameter, the constants, the roots and the integrals; 0, the number, for those that are not known */
     const bool *is_known;
-    size_t constants, roots;
+    size_t constants, roots, integrals;
     nh_motion_constant *constant;
     nh_motion_root *root;
+    nh_motion_integral *integral;
     const bool *fixed;       /* per parameter of the system: it has its value; NULL: none has */
 } nh_explicit_motion;
 

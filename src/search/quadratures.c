@@ -40,10 +40,11 @@ static size_t gather(const nh_analysis *r, bool general, nh_ex *current)
     return n;
 }
 
-/* More states; then no roots; then time as the parameter; then fewer values of parameters. */
+/* More states; then no integrals without closed form; then no roots; then time as the parameter; then fewer values of parameters. */
 static bool better(const nh_explicit_motion *a, const nh_explicit_motion *b)
 {
     if (!b || a->known != b->known) return !b || a->known > b->known;
+    if (a->integrals != b->integrals) return a->integrals < b->integrals;
     if (a->roots != b->roots) return a->roots < b->roots;
     if (!a->fixed != !b->fixed) return !a->fixed;
     return false;
@@ -120,7 +121,7 @@ static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *
     constant *list = nh_alloc_array(most, sizeof *list);
     for (size_t k = 0; k < count; k++)
         for (size_t j = 0; j < tried[k]->constants; j++) {
-            if (!tried[k]->constant[j].integrated) continue;
+            if (!tried[k]->constant[j].integrated || tried[k]->constant[j].at_start) continue;
             nh_ex e = nh_simplify_short(o->dag, shorter_logarithms(x->r, shorter_roots(o, tried[k]->constant[j].value)), 0);
             e = shorter_roots(o, e);
             list[n++] = (constant){e, tried[k]->fixed != NULL, nh_complexity(o->dag, e)};
@@ -143,7 +144,7 @@ static const nh_explicit_motion *try_all(nh_stage_solver *x, const bool *fixed, 
         if (!m) continue;
         tried[(*count)++] = m;
         if (better(m, best)) best = m;
-        if (i == 0 && m->known == states && !m->roots) break; /* nothing is simpler */
+        if (i == 0 && m->known == states && !m->roots && !m->integrals) break; /* nothing is simpler */
     }
     return best;
 }
@@ -158,7 +159,7 @@ void nh_quadratures_search(nh_stage_solver *x)
     nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current);
     const nh_explicit_motion **tried = nh_arena_alloc(r->arena, 2 * states * sizeof *tried), *best = try_all(x, NULL, gather(r, true, current), current, &count, tried);
     const bool *fixed = special_values(r);
-    if (fixed && !(best && best->known == states)) {
+    if (fixed && !(best && best->known == states && !best->integrals)) {
         const nh_explicit_motion *special = try_all(x, fixed, gather(r, false, current), current, &count, tried);
         if (special && better(special, best)) best = special;
     }

@@ -1,0 +1,116 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exact/antiderivative.h"
+#include "exact/normal.h"
+#include "graph/diff.h"
+#include "graph/measure.h"
+#include "search/explicit_motion_internal.h"
+
+/* int f ds, in which roots are written as such. */
+static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
+{
+    nh_dag *d = c->d;
+    const nh_explicit_motion *m = c->m;
+    if (nh_explicit_has_integral(c, f)) return false;
+    for (size_t i = m->roots; i-- > 0;) {
+        nh_ex root = nh_sqrt(d, c->radicand[i]);
+        f = nh_substitute(d, f, 1, &m->root[i].symbol, &root);
+    }
+    nh_integration in = {.dag = d, .x = c->s, .constants = c->symbols, .constant = c->symbol, .max_terms = (size_t)c->options->proof_terms, .sign = nh_explicit_sign, .context = c};
+    if (!nh_antiderivative(&in, f, F)) return false;
+    for (size_t i = m->roots; i-- > 0;) *F = nh_substitute_root(d, *F, c->radicand[i], m->root[i].symbol);
+    return true;
+}
+
+/* exp(-I) up to a constant factor, so that |p| may be p in logarithms: exp(log(p^2)/2) is p; atanh f is (log(1 + f) - log(1 - f))/2. */
+static nh_ex factor_of(nh_explicit_curve *c, nh_ex I)
+{
+    enum { most = 16 };
+    nh_dag *d = c->d;
+    nh_ex call[most], by[most], one = nh_int(d, 1);
+    size_t n = nh_functions_in(d, I, call, most), known = 0;
+    for (size_t i = 0; i < n && n <= most; i++) {
+        nh_function f = nh_function_of(d, call[i]);
+        nh_ex p = f == NH_LOG || f == NH_ATANH ? nh_child(d, call[i], 0) : 0;
+        bool square = f == NH_LOG && nh_kind_of(d, p) == NH_PRODUCT && nh_arity(d, p) == 1 && nh_is_number(d, nh_exponent_of(d, p, 0), 2) && nh_num_is(nh_constant_of(d, p), 1);
+        if (square) by[known] = nh_mul(d, nh_int(d, 2), nh_call(d, NH_LOG, nh_child(d, p, 0)));
+        else if (f == NH_ATANH) by[known] = nh_mul(d, nh_ratio(d, 1, 2), nh_sub(d, nh_call(d, NH_LOG, nh_add(d, one, p)), nh_call(d, NH_LOG, nh_sub(d, one, p))));
+        else continue;
+        call[known++] = call[i];
+    }
+    return nh_canonical(d, nh_call(d, NH_EXP, nh_neg(d, nh_substitute(d, I, known, call, by))), 0);
+}
+
+/* A name for int f ds, which is 0 where the motion starts. */
+static bool name_integral(nh_explicit_curve *c, nh_ex f, nh_ex *F)
+{
+    nh_explicit_motion *m = c->m;
+    f = nh_explicit_simple(c, f);
+    if (m->integrals == most_integrals || nh_explicit_too_long(c, f)) return false;
+    *F = nh_symbol_fresh(c->d, nh_arena_printf(c->arena, "J%zu", m->integrals + 1));
+    nh_diff_rule(c->d, *F, c->s, f);
+    m->integral[m->integrals++] = (nh_motion_integral){*F, f};
+    return true;
+}
+
+/* du/ds = A u + B */
+static bool solve_linear(nh_explicit_curve *c, size_t u, nh_ex A, nh_ex B, bool named)
+{
+    nh_dag *d = c->d;
+    nh_ex I = nh_int(d, 0), G, mu;
+    size_t before = c->m->integrals;
+    if (!nh_is_zero(d, A) && !integrate(c, A, &I) && !(named && name_integral(c, A, &I))) return false;
+    mu = factor_of(c, I);
+    if (!integrate(c, nh_mul(d, mu, B), &G) && !(named && name_integral(c, nh_mul(d, mu, B), &G))) {
+        c->m->integrals = before;
+        return false;
+    }
+    nh_ex constant = nh_explicit_constant(c, nh_sub(d, nh_mul(d, mu, c->m->state[u]), G), true);
+    nh_explicit_settle(c, u, nh_explicit_simple(c, nh_div(d, nh_add(d, constant, G), mu)));
+    return true;
+}
+
+/* A state with du/ds = A u + B. */
+typedef struct {
+    size_t state, length;
+    nh_ex r, A, B;
+} equation;
+
+/* `named`: also those that were refused. */
+static size_t equations(nh_explicit_curve *c, bool named, equation *out)
+{
+    nh_ex speed = nh_explicit_along(c, c->rate[c->m->parameter]), k[3];
+    size_t count = 0;
+    for (size_t u = 0; u < c->m->states && !nh_explicit_too_long(c, speed); u++) {
+        nh_ex own = nh_explicit_along(c, c->rate[u]);
+        if (c->solved[u] || nh_explicit_too_long(c, own)) continue;
+        nh_ex r = nh_explicit_split_roots(c, nh_explicit_simple(c, nh_div(c->d, own, speed)));
+        size_t last = u, n = nh_explicit_unknowns(c, r, &last);
+        if ((r == c->refused[u] && !named) || n > 1 || last != u || nh_explicit_too_long(c, r) || nh_explicit_degree(c, r, c->m->state[u], k) > 1) continue;
+        out[count++] = (equation){u, nh_complexity(c->d, r), r, k[1], k[0]};
+    }
+    return count;
+}
+
+static int by_length(const void *left, const void *right)
+{
+    const equation *a = left, *b = right;
+    return a->length != b->length ? (a->length < b->length ? -1 : 1) : a->state < b->state ? -1 : a->state > b->state;
+}
+
+/* The shortest first. */
+bool nh_explicit_solve_rate(nh_explicit_curve *c, bool named)
+{
+    equation *list = nh_alloc_array(c->m->states + 1, sizeof *list);
+    size_t count = equations(c, named, list);
+    bool solved = false;
+    qsort(list, count, sizeof *list, by_length);
+    for (size_t i = 0; i < count && !solved && nh_explicit_room(c); i++) {
+        solved = solve_linear(c, list[i].state, list[i].A, list[i].B, named);
+        if (!solved) c->refused[list[i].state] = list[i].r;
+    }
+    nh_free(list);
+    return solved;
+}
