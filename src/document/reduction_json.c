@@ -190,6 +190,8 @@ static void put_measure(nh_json *to, const nh_reduction *r, const nh_reduction_s
     nh_json_put_number(m, "curl", s->measure.curl);
     put_conditions(m, r, &s->conditions);
     nh_json_put_bool(m, "rare", s->conditions.rare);
+    nh_json_put_bool(m, "never", s->conditions.never);
+    nh_json_put_bool(m, "never_hamiltonian", s->conditions.never_hamiltonian);
     if (s->measure.closed) put_expression(m, "density", r->kinetic->dag, s->measure.density);
     if (s->measure.closed) nh_json_put_bool(m, "density_proved", s->measure.proof.proved);
     if (s->measure.closed) nh_facts_put_holds(m, r->kinetic->model, &s->measure.proof);

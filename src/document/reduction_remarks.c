@@ -50,7 +50,8 @@ static void conditions(const nh_reduction *r, const nh_reduction_stage *s, nh_pe
 {
     const nh_measure_conditions *c = &s->conditions;
     size_t count = 0;
-    for (size_t i = 0; i < c->count; i++) {
+    if (c->never) nh_pen_say(p, "; for no positive values of the parameters one exists (proved)");
+    for (size_t i = 0; i < c->count && !c->never; i++) {
         if (c->condition[i].factor) continue;
         if (!count)
             nh_pen_say(p, "; an invariant measure exists for %s", c->condition[i].where.ways ? "parameters with " : "");
@@ -80,6 +81,8 @@ static void factor(const nh_reduction_stage *s, nh_pen *p)
     else
         nh_pen_say(p, m->simple ? "; no conformal factor makes it Hamiltonian"
                                 : "; no conformal factor makes it Hamiltonian ($Upsilon$ is not $phi$-simple)");
+    if (!m->factor && n > 2 && s->conditions.never_hamiltonian)
+        nh_pen_say(p, ", for no positive values of the parameters (proved)");
 }
 
 static void measure(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *p)

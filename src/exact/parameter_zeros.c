@@ -9,6 +9,15 @@
 
 enum { most_polynomials = 12 };
 
+nh_ex nh_parameter_zeros_polynomial(nh_dag *dag, nh_ex e)
+{
+    for (int turn = 0; turn < 2; turn++) {
+        if (nh_kind_of(dag, e) == NH_PRODUCT) e = nh_mul(dag, nh_number(dag, nh_num_inv(nh_constant_of(dag, e))), e);
+        if (turn == 0) e = nh_simplify(dag, e);
+    }
+    return e;
+}
+
 typedef struct {
     nh_arena *arena;
     nh_relation_question question;
@@ -65,7 +74,7 @@ static bool add_factor(work *w, const nh_pieces *p, const nh_factor *f)
         bool seen = false;
         for (size_t j = 0; j < i && !seen; j++) seen = same_variables(w, p, f, i, j);
         if (seen) continue;
-        nh_ex e = coefficient(w, p, f, i);
+        nh_ex e = nh_parameter_zeros_polynomial(w->question.dag, coefficient(w, p, f, i));
         if (nh_kind_of(w->question.dag, e) == NH_NUMBER) return true;
         for (size_t j = 0; j < count && !seen; j++) seen = polynomial[j] == e || polynomial[j] == nh_neg(w->question.dag, e);
         if (seen) continue;
@@ -113,4 +122,35 @@ bool nh_parameter_zeros_find(nh_arena *arena, nh_dag *dag, nh_ex e, size_t param
     bool good = find(&w, e);
     nh_relation_question_clear(&w.question);
     return good;
+}
+
+/* Does it vanish for no positive values of its symbols: a sum of monomials in these with coefficients of one sign? */
+static bool of_one_sign(nh_dag *dag, nh_ex e)
+{
+    enum { most_terms = 4000 };
+    nh_forms forms;
+    nh_form form;
+    nh_pieces pieces;
+    nh_arena *arena = nh_arena_create();
+    nh_forms_init(&forms, dag, false, most_terms);
+    bool good = nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE && nh_pieces_make(form.field, arena, form.value, false, &pieces);
+    for (size_t g = 0; g < form.kernels.count && good; g++)
+        good = form.kernels.item[g].kind == NH_KERNEL_PLAIN;
+    for (size_t j = 0; good && j < pieces.factors; j++)
+        for (size_t i = 1; i < pieces.factor[j].terms && good; i++)
+            good = nh_num_value(pieces.factor[j].coefficient[i]) * nh_num_value(pieces.factor[j].coefficient[0]) > 0;
+    nh_form_clear(&form);
+    nh_forms_clear(&forms);
+    nh_arena_free(arena);
+    return good;
+}
+
+bool nh_parameter_zeros_may_be_positive(nh_dag *dag, const nh_parameter_zeros *zeros)
+{
+    for (size_t i = 0; i < zeros->ways; i++) {
+        bool never = false;
+        for (size_t k = 0; k < zeros->way[i].count && !never; k++) never = of_one_sign(dag, zeros->way[i].polynomial[k]);
+        if (!never) return true;
+    }
+    return false;
 }

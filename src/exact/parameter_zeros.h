@@ -24,4 +24,9 @@ typedef struct {
 /* `parameter`: the symbols that count as constants.  False where the expression is too large, or an inexact constant occurs. */
 bool nh_parameter_zeros_find(nh_arena *arena, nh_dag *dag, nh_ex e, size_t parameters, const nh_ex *parameter, nh_parameter_zeros *out);
 
+/* A polynomial without a numerical factor and sign, simplified. */
+nh_ex nh_parameter_zeros_polynomial(nh_dag *dag, nh_ex e);
+/* Is there a way that positive parameters may go?  Not one with a polynomial whose coefficients all have one sign. */
+bool nh_parameter_zeros_may_be_positive(nh_dag *dag, const nh_parameter_zeros *zeros);
+
 #endif

@@ -102,3 +102,18 @@ void nh_lu_solve(const nh_lu *lu, const nh_ex *b, nh_ex *x)
     memcpy(x, y, n * sizeof *x);
     nh_free(y);
 }
+
+nh_ex nh_solve_determinant(nh_dag *d, size_t n, const nh_ex *a)
+{
+    if (n == 0) return nh_int(d, 1);
+    nh_ex sum = nh_int(d, 0), *minor = nh_alloc_array(n * n, sizeof *minor);
+    for (size_t j = 0; j < n; j++) {
+        for (size_t r = 1; r < n; r++)
+            for (size_t c = 0, at = 0; c < n; c++)
+                if (c != j) minor[(r - 1) * (n - 1) + at++] = a[r * n + c];
+        nh_ex term = nh_is_zero(d, a[j]) ? a[j] : nh_mul(d, a[j], nh_solve_determinant(d, n - 1, minor));
+        sum = j % 2 ? nh_sub(d, sum, term) : nh_add(d, sum, term);
+    }
+    nh_free(minor);
+    return sum;
+}

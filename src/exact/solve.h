@@ -20,4 +20,7 @@ void nh_lu_free(nh_lu *lu);
 /* x := a^-1 b (x may be b). */
 void nh_lu_solve(const nh_lu *lu, const nh_ex *b, nh_ex *x);
 
+/* det a by cofactors of the first row, without denominators: n! nodes, for at most four rows. */
+nh_ex nh_solve_determinant(nh_dag *dag, size_t n, const nh_ex *a);
+
 #endif

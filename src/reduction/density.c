@@ -42,22 +42,6 @@ static void walk(search *s, nh_ex e)
     for (size_t i = 0; i < nh_arity(s->d, e); i++) walk(s, nh_child(s->d, e, i));
 }
 
-/* det K by cofactors of the first row; for at most four rows. */
-static nh_ex determinant(nh_dag *d, size_t n, const nh_ex *K)
-{
-    if (n == 0) return nh_int(d, 1);
-    nh_ex sum = nh_int(d, 0), *minor = nh_alloc_array(n * n, sizeof *minor);
-    for (size_t j = 0; j < n; j++) {
-        for (size_t r = 1; r < n; r++)
-            for (size_t c = 0, at = 0; c < n; c++)
-                if (c != j) minor[(r - 1) * (n - 1) + at++] = K[r * n + c];
-        nh_ex term = nh_is_zero(d, K[j]) ? K[j] : nh_mul(d, K[j], determinant(d, n - 1, minor));
-        sum = j % 2 ? nh_sub(d, sum, term) : nh_add(d, sum, term);
-    }
-    nh_free(minor);
-    return sum;
-}
-
 /* -Theta_j = -(K^-1)^il U_lij as expressions. */
 static bool minus_theta(const search *s, const nh_ex *K, const nh_ex *U, nh_ex *out)
 {
@@ -213,7 +197,7 @@ static nh_ex without_constants(const search *s, nh_ex e, nh_num power)
 /* What may occur in the density: the determinant, its numerator, the metric, and what these consist of. */
 static void collect_factors(search *s, const nh_ex *K)
 {
-    nh_ex det = nh_simplify(s->d, determinant(s->d, s->n, K));
+    nh_ex det = nh_simplify(s->d, nh_solve_determinant(s->d, s->n, K));
     offer(s, det);
     walk(s, det);
     walk(s, nh_simplify(s->d, nh_numerator(s->d, det)));

@@ -6,8 +6,9 @@
 #include "exact/normal.h"
 #include "exact/solve.h"
 #include "graph/diff.h"
+#include "reduction/base_parameters.h"
 
-enum { longest = 3000 };
+enum { longest = 3000, most_shape = 6 };
 
 typedef struct {
     nh_arena *arena;
@@ -20,32 +21,53 @@ typedef struct {
 
 static nh_ex tidy(const work *w, nh_ex e) { return nh_simplify_short(w->dag, e, longest); }
 
+/* The inverse of K by cofactors, which have no denominators of their own, every entry as short as it gets. */
+static bool inverse(const work *w, const nh_ex *K, nh_ex *inv)
+{
+    size_t n = w->n;
+    nh_ex det = tidy(w, nh_solve_determinant(w->dag, n, K)), *minor = nh_alloc_array(n * n + 1, sizeof *minor);
+    for (size_t r = 0; r < n; r++)
+        for (size_t c = 0; c < n; c++) {
+            size_t at = 0;
+            for (size_t i = 0; i < n; i++)
+                for (size_t j = 0; j < n; j++)
+                    if (i != r && j != c) minor[at++] = K[i * n + j];
+            nh_ex cofactor = tidy(w, nh_solve_determinant(w->dag, n - 1, minor));
+            inv[c * n + r] = tidy(w, nh_div(w->dag, (r + c) % 2 ? nh_neg(w->dag, cofactor) : cofactor, det));
+        }
+    nh_free(minor);
+    return !nh_is_zero(w->dag, det);
+}
+
+static nh_ex contracted(const work *w, const nh_ex *inv, const nh_ex *U, size_t k, size_t i, size_t j)
+{
+    size_t n = w->n;
+    nh_ex sum = nh_int(w->dag, 0);
+    for (size_t l = 0; l < n; l++)
+        if (!nh_is_zero(w->dag, U[(l * n + i) * n + j])) sum = nh_add(w->dag, sum, nh_mul(w->dag, inv[k * n + l], U[(l * n + i) * n + j]));
+    return tidy(w, sum);
+}
+
 static bool tensor(work *w, const nh_ex *K, const nh_ex *U)
 {
     size_t n = w->n;
-    nh_ex *column = nh_alloc_array(n + 1, sizeof *column), zero = nh_int(w->dag, 0);
-    nh_lu *lu = nh_lu_create(w->dag, n, K, nh_slice_pivot_score, (void *)w->s, NULL);
-    for (size_t i = 0; i < n && lu; i++)
-        for (size_t j = 0; j < i; j++) {
-            bool any = false;
-            for (size_t l = 0; l < n; l++) any |= !nh_is_zero(w->dag, column[l] = U[(l * n + i) * n + j]);
-            if (any) nh_lu_solve(lu, column, column);
-            for (size_t k = 0; k < n; k++) {
-                nh_ex e = any ? tidy(w, column[k]) : zero;
+    nh_ex *inv = nh_alloc_array(n * n + 1, sizeof *inv), zero = nh_int(w->dag, 0);
+    bool good = inverse(w, K, inv);
+    for (size_t i = 0; i < n && good; i++)
+        for (size_t k = 0; k < n; k++) {
+            w->T[(k * n + i) * n + i] = zero;
+            for (size_t j = 0; j < i; j++) {
+                nh_ex e = contracted(w, inv, U, k, i, j);
                 w->T[(k * n + i) * n + j] = e;
                 w->T[(k * n + j) * n + i] = nh_neg(w->dag, e);
             }
         }
-    bool good = lu != NULL;
-    for (size_t i = 0; i < n; i++)
-        for (size_t k = 0; k < n; k++) w->T[(k * n + i) * n + i] = zero;
     for (size_t j = 0; j < n && good; j++) {
         w->Theta[j] = zero;
         for (size_t i = 0; i < n; i++) w->Theta[j] = nh_add(w->dag, w->Theta[j], w->T[(i * n + i) * n + j]);
         w->Theta[j] = tidy(w, w->Theta[j]);
     }
-    nh_lu_free(lu);
-    nh_free(column);
+    nh_free(inv);
     return good;
 }
 
@@ -119,6 +141,39 @@ static bool simple(work *w)
     return good;
 }
 
+/* The conditions in the parameters themselves. */
+static void in_all_parameters(work *w, const nh_base_parameters *base)
+{
+    for (size_t i = 0; i < w->out->count; i++) {
+        nh_parameter_zeros *where = &w->out->condition[i].where;
+        for (size_t k = 0; k < where->ways; k++)
+            for (size_t l = 0; l < where->way[k].count; l++) {
+                nh_ex *p = &where->way[k].polynomial[l];
+                *p = nh_parameter_zeros_polynomial(w->dag, nh_numerator(w->dag, nh_substitute(w->dag, *p, base->count, base->parameter, base->meaning)));
+            }
+    }
+}
+
+/* The same with fewer parameters. */
+static void shorten(work *w, const nh_ex *K, const nh_ex *U)
+{
+    const nh_system *y = w->s->kinetic->model->system;
+    size_t n = w->n, entries = n * n + n * n * n;
+    nh_base_parameters base;
+    const nh_ex *symbol;
+    const double *value;
+    nh_ex *entry = nh_alloc_array(entries + 1, sizeof *entry);
+    memcpy(entry, K, n * n * sizeof *entry);
+    memcpy(entry + n * n, U, n * n * n * sizeof *entry);
+    nh_system_bindings(y, &symbol, &value);
+    w->out->count = 0;
+    if (nh_base_parameters_of(w->arena, w->dag, entries, entry, n, w->s->x, y->parameters, symbol, &base)) {
+        w->out->known = tensor(w, entry, entry + n * n) && closed(w) && (n == 2 || simple(w));
+        if (w->out->known) in_all_parameters(w, &base);
+    }
+    nh_free(entry);
+}
+
 nh_measure_conditions nh_measure_conditions_of(nh_arena *arena, const nh_slice *s, const nh_ex *K, const nh_ex *U)
 {
     nh_measure_conditions out = {0};
@@ -127,9 +182,16 @@ nh_measure_conditions nh_measure_conditions_of(nh_arena *arena, const nh_slice *
     out.condition = nh_arena_alloc(arena, (n * n + n * n * n + 1) * sizeof *out.condition);
     w.T = nh_arena_alloc(arena, (n * n * n + n + 1) * sizeof *w.T);
     w.Theta = w.T + n * n * n;
-    bool made = n > 1 && tensor(&w, K, U);
+    bool made = n > 1 && n <= most_shape && tensor(&w, K, U);
     out.known = made && closed(&w) && (n == 2 || simple(&w));
-    if (!out.known) out.count = 0;
     out.rare = made && !out.known && rarely_closed(&w);
+    if (made && !out.known) shorten(&w, K, U);
+    if (!out.known) out.count = 0;
+    out.rare &= !out.known;
+    for (size_t i = 0; i < out.count; i++)
+        if (!nh_parameter_zeros_may_be_positive(s->dag, &out.condition[i].where)) {
+            out.never_hamiltonian = true;
+            out.never |= !out.condition[i].factor;
+        }
     return out;
 }

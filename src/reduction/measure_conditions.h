@@ -3,8 +3,8 @@
  *     T^k_ij = (Khat^-1)^kl U_lij,      Theta_j = T^i_ij
  *     measure:  d_i Theta_j - d_j Theta_i = 0        factor:  that, and  T^k_ij - (Theta_j delta^k_i - Theta_i delta^k_j)/(n - 1) = 0
  *
- * as expressions; each vanishes for the parameters that exact/parameter_zeros.h finds. Where they are too long for that, a value modulo a prime proves that
- * they do not vanish for almost all parameters (exact/generic_value.h). */
+ * as expressions; each vanishes for the parameters that exact/parameter_zeros.h finds. Where they are too long for that, once more with fewer parameters
+ * (base_parameters.h); and where that is too long, a value modulo a prime proves that they do not vanish for almost all parameters (exact/generic_value.h). */
 #ifndef NH_MEASURE_CONDITIONS_H
 #define NH_MEASURE_CONDITIONS_H
 
@@ -19,6 +19,7 @@ typedef struct {
 typedef struct {
     bool known;              /* false: an expression is too large */
     bool rare;               /* then: for almost all parameters there is no measure, proved */
+    bool never, never_hamiltonian; /* for positive values of the parameters no measure, or no factor: proved */
     size_t count;            /* conditions, all of which must hold; those that are the same only once */
     nh_measure_condition *condition;
 } nh_measure_conditions;
