@@ -327,9 +327,9 @@ Test(cli_manners, a_slip_of_the_hand_is_named)
 }
 
 /* An error in what is given, with this hint. */
-static void check_hint(const place *p, const char *line, const char *hint)
+static void check_hint(const place *p, const char *line, int code, const char *hint)
 {
-    finished f = run_expecting(p, line, 3);
+    finished f = run_expecting(p, line, code);
     cr_expect(strstr(f.err, hint), "nhsym %s: `%s` is not in\n%s", line, hint, f.err);
     finished_clear(&f);
 }
@@ -337,21 +337,27 @@ static void check_hint(const place *p, const char *line, const char *hint)
 Test(cli_manners, a_file_of_another_name_is_found)
 {
     place p = place_make();
-    check_hint(&p, "analyze sleigh.yaml", "\nhint: the one that nhsym brings along is called by its name: `sleigh`\n");
+    check_hint(&p, "analyze sleigh.yaml", 3, "\nhint: the one that nhsym brings along is called by its name: `sleigh`\n");
     write_here(&p, "bike.yaml", "name: bike\ncoordinates: [x]\nlagrangian: x'^2\n");
     write_here(&p, "bike.txt", "name: bike\n");
-    check_hint(&p, "analyze bkie.yaml", "\nhint: did you mean `bike.yaml`?\n");
-    check_hint(&p, "analyze ./bike.yml", "\nhint: did you mean `./bike.yaml`?\n");
-    check_hint(&p, "analyze bike.txt", "\nhint: there is a file of this name here: write ./bike.txt\n");
+    check_hint(&p, "analyze bkie.yaml", 3, "\nhint: did you mean `bike.yaml`?\n");
+    check_hint(&p, "analyze ./bike.yml", 3, "\nhint: did you mean `./bike.yaml`?\n");
+    check_hint(&p, "analyze bike.txt", 3, "\nhint: there is a file of this name here: write ./bike.txt\n");
     place_clear(&p);
 }
 
 Test(cli_manners, initial_values_as_newcomers_write_them)
 {
     place p = place_make();
-    check_hint(&p, "simulate sleigh --initial phi=30deg", "\nhint: angles are in radians: write 30*pi/180\n");
-    check_hint(&p, "simulate sleigh --initial phi=1,x_dot=2", "\nhint: the velocity of `x` is written x'\n");
-    check_hint(&p, "simulate sleigh --initial phi=1=2", "\nhint: commas separate the values: phi=0, omega=2\n");
+    check_hint(&p, "simulate sleigh --initial phi=30deg", 2, "\nhint: angles are in radians: write 30*pi/180\n");
+    check_hint(&p, "simulate sleigh --initial phi=1,x_dot=2", 2, "\nhint: the velocity of `x` is written x'\n");
+    check_hint(&p, "simulate sleigh --initial phi=1=2", 2, "\nhint: commas separate the values: phi=0, omega=2\n");
+    check_hint(&p, "simulate sleigh --initial phi=0,omga=2", 2, "nhsym: --initial:7: `omga` is not a coordinate or velocity of sleigh\n  phi=0,omga=2\n        ^\nhint: did you mean `omega`?\n");
+    check_hint(&p, "simulate sleigh --initial phi", 2, "nhsym: --initial:1: `phi` has no value\n  phi\n  ^\nhint: write NAME=VALUE, with commas between: x=0, y=1\n");
+    check_hint(&p, "simulate sleigh --initial =3", 2, "nhsym: --initial:1: a name is missing before `=`\n");
+    check_hint(&p, "simulate sleigh --initial phi=0,phi=1", 2, "nhsym: --initial:7: `phi` is given twice\n");
+    check_hint(&p, "reduce vertical_disk --initial psii=1", 2, "nhsym: --initial:1: `psii` is not");
+    check_hint(&p, "simulate sleigh --over omgea=1:2:3", 2, "nhsym: --over: `omgea` is no coordinate, velocity or parameter of sleigh\nhint: did you mean `omega`?\n");
     place_clear(&p);
 }
 

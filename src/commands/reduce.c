@@ -131,7 +131,7 @@ static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *
     memcpy(r->initial.q, r->kinetic->place, m * sizeof(double));
     memcpy(r->initial.v, r->kinetic->speed, m * sizeof(double));
     if (!q->initial) return true;
-    nh_analysis_file *own = nh_simulate_initial(r->arena, NULL, q->initial, error);
+    nh_analysis_file *own = nh_simulate_initial(NULL, q->initial, error);
     bool good = own && nh_analysis_file_resolve(own, r->model, error);
     if (good) {
         memcpy(r->initial.q, own->initial.q, m * sizeof(double));

@@ -75,7 +75,7 @@ void nh_simulate_row_blame(const nh_simulate_row *row, nh_error *error);
 
 nh_simulation *nh_simulation_create(const nh_simulate_request *request, nh_error *error);
 /* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model).  `from`: where it is written, for messages; NULL: --initial. */
-nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *from, const char *initial, nh_error *error);
+nh_analysis_file *nh_simulate_initial(const char *from, const char *initial, nh_error *error);
 
 /* The first part of it, into a simulation that has an arena and nothing else: system, analysis, model, tolerance, the initial state
  * (one on the constraints where none is given) and the final time.  Also on failure: nh_simulation_free. */

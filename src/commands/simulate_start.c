@@ -11,21 +11,9 @@
 #include "base/linalg.h"
 #include "base/progress.h"
 
-nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *from, const char *initial, nh_error *error)
+nh_analysis_file *nh_simulate_initial(const char *from, const char *initial, nh_error *error)
 {
-    nh_text text;
-    nh_text_init(&text);
-    nh_text_add(&text, "validate:\n  initial: {");
-    for (const char *c = initial, *more = ""; *c; c += *c != 0) {
-        size_t length = nh_text_entry(c, ",;"), equal = strcspn(c, "=,;");
-        bool pair = equal < length;
-        if (strspn(c, " \t") < length) nh_text_addf(&text, pair ? "%s%.*s: \"%.*s\"" : "%s%.*s", more, (int)(pair ? equal : length), c, (int)(length - equal - 1), c + equal + 1), more = ", ";
-        c += length;
-    }
-    nh_text_add(&text, "}\n");
-    const char *kept = nh_arena_strdup(arena, nh_text_string(&text));
-    nh_text_clear(&text);
-    return nh_analysis_file_text(from ? from : "--initial", kept, error);
+    return nh_analysis_file_start(from ? from : "--initial", initial, from ? NH_INPUT : NH_USAGE, error);
 }
 
 static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)
@@ -35,7 +23,7 @@ static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_
     s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
     s->deriving = 1e6 * (nh_budget_used() - begin);
     if (!s->model || (s->analysis && !nh_analysis_file_resolve(s->analysis, s->model, error))) return false;
-    return !q->initial || ((*own = nh_simulate_initial(s->arena, q->from, q->initial, error)) && nh_analysis_file_resolve(*own, s->model, error));
+    return !q->initial || ((*own = nh_simulate_initial(q->from, q->initial, error)) && nh_analysis_file_resolve(*own, s->model, error));
 }
 
 /* The initial state chooses the branch of a quadratic constraint, and, where those of the chart do not follow from the constraints there, the dependent velocities. */

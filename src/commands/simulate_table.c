@@ -27,6 +27,13 @@ static bool is_parameter(const nh_system *s, const char *name)
     return false;
 }
 
+static const char *names_of(nh_arena *arena, const char *const *names, size_t n)
+{
+    const char *out = names[0];
+    for (size_t i = 1; i < n; i++) out = nh_arena_printf(arena, "%s, %s", out, names[i]);
+    return out;
+}
+
 /* A coordinate, a velocity or the time; else a suggestion. */
 static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, const char *name, nh_error *error)
 {
@@ -39,9 +46,10 @@ static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, con
     for (size_t i = 0; i < n; i++)
         if (!strcmp(names[i], name)) return true;
     for (size_t i = 0; i < s->parameters; i++) names[n++] = s->parameter[i].name;
-    nh_fail(error, NH_INPUT, t->path, "the column `%s` is no coordinate, velocity or parameter of %s", name, s->name);
+    bool option = !strncmp(t->path, "--", 2); /* --over makes a table, too */
+    nh_fail(error, option ? NH_USAGE : NH_INPUT, t->path, "%s`%s` is no coordinate, velocity or parameter of %s", option ? "" : "the column ", name, s->name);
     const char *near = nh_text_nearest(name, names, n);
-    return near ? nh_error_hint(error, "did you mean `%s`?", near) : false;
+    return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "it has %s", names_of(arena, names, n));
 }
 
 /* The row as words behind --initial and as settings, after those of the request. */
@@ -92,7 +100,7 @@ void nh_simulate_row_blame(const nh_simulate_row *row, nh_error *error)
 
 bool nh_simulate_row_start(nh_simulation *s, const nh_simulate_row *row, nh_dynamics *d, double time, bool project, double *z, nh_error *error)
 {
-    nh_analysis_file *own = nh_simulate_initial(s->arena, row->from, row->initial ? row->initial : "", error);
+    nh_analysis_file *own = nh_simulate_initial(row->from, row->initial ? row->initial : "", error);
     bool good = own && nh_analysis_file_resolve(own, s->model, error);
     if (good && own->initial.t != time) good = nh_fail(error, NH_INPUT, row->from, "all motions of a table begin at one time, but t is %g here and %g in the first row", own->initial.t, time);
     good = good && nh_dynamics_start(d, &own->initial, project, z, error);

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "graph/parse.h"
+#include "system/deck_build.h"
 
 /* ---- before the system ---- */
 
@@ -90,9 +91,16 @@ static nh_analysis_file *read_deck(nh_deck *deck, nh_error *error)
 
 nh_analysis_file *nh_analysis_file_read(const char *path, nh_error *error) { return read_deck(nh_deck_read(path, error), error); }
 
-nh_analysis_file *nh_analysis_file_text(const char *name, const char *text, nh_error *error)
+nh_analysis_file *nh_analysis_file_start(const char *name, const char *state, nh_code code, nh_error *error)
 {
-    return read_deck(nh_deck_parse(name, text, strlen(text), error), error);
+    nh_deck *deck = nh_deck_line(name, state, code, error);
+    if (!deck) return NULL;
+    const nh_deck_node *map = nh_deck_root(deck);
+    nh_deck_node *root = nh_deck_new_at(deck, NH_DECK_MAP, map), *validate = nh_deck_new_at(deck, NH_DECK_MAP, map);
+    nh_deck_put(deck, validate, "initial", map);
+    nh_deck_put(deck, root, "validate", validate);
+    deck->root = root;
+    return read_deck(deck, error);
 }
 
 void nh_analysis_file_free(nh_analysis_file *analysis)

@@ -49,7 +49,8 @@ typedef struct {
 
 nh_analysis_file *nh_analysis_file_read(const char *path, nh_error *error);
 /* The same from a text, called `name` in messages. */
-nh_analysis_file *nh_analysis_file_text(const char *name, const char *text, nh_error *error);
+/* "phi=0, omega=2" as the initial state; `name`: where it is written, for messages, whose code is `code`. */
+nh_analysis_file *nh_analysis_file_start(const char *name, const char *state, nh_code code, nh_error *error);
 void nh_analysis_file_free(nh_analysis_file *analysis);
 
 /* Read ansatz, unknowns, initial state and scene in the names of the model's system; expressions are brought to its chart. */

@@ -74,6 +74,51 @@ nh_deck_node *nh_deck_copy(nh_deck *deck, const nh_deck_node *node, const char *
     return copy;
 }
 
+/* ---- of one line ---- */
+
+/* The node of text[begin .. end) without the blanks around it. */
+static nh_deck_node *word_between(nh_deck *deck, size_t begin, size_t end)
+{
+    while (begin < end && nh_deck_is_space(deck->source[begin])) begin++;
+    while (begin < end && nh_deck_is_space(deck->source[end - 1])) end--;
+    nh_deck_node *node = nh_deck_new(deck, NH_DECK_SCALAR, begin, end);
+    node->text = nh_arena_strndup(deck->arena, deck->source + begin, end - begin);
+    return node;
+}
+
+/* "phi=0": the entry of the map that stands in text[begin .. end). */
+static bool add_entry(nh_deck *deck, nh_deck_node *map, size_t begin, size_t end, nh_error *error)
+{
+    static const char cure[] = "write NAME=VALUE, with commas between: x=0, y=1";
+    size_t equal = begin + strcspn(deck->source + begin, "=:,;");
+    const nh_deck_node *name = word_between(deck, begin, equal < end ? equal : end), *value = equal < end ? word_between(deck, equal + 1, end) : NULL;
+    if (!value && !name->text[0]) return true; /* a comma at the end */
+    if (!name->text[0]) nh_deck_fail(deck, name, 0, error, "a name is missing before `=`");
+    else if (!value || !value->text[0]) nh_deck_fail(deck, name, 0, error, "`%s` has no value", name->text);
+    if (error->code != NH_OK) return nh_error_hint(error, cure);
+    if (nh_deck_get(map, name->text)) return nh_deck_fail(deck, name, 0, error, "`%s` is given twice", name->text);
+    nh_deck_put(deck, map, name->text, value);
+    map->key[map->count - 1] = name;
+    return true;
+}
+
+nh_deck *nh_deck_line(const char *name, const char *text, nh_code code, nh_error *error)
+{
+    nh_deck *deck = nh_deck_create(name, text, strlen(text));
+    deck->code = code;
+    nh_deck_node *map = nh_deck_new(deck, NH_DECK_MAP, 0, deck->length);
+    bool good = nh_deck_check_text(deck, error);
+    for (size_t at = 0; good && at < deck->length; at++) {
+        size_t length = nh_text_entry(deck->source + at, ",;");
+        good = add_entry(deck, map, at, at + length, error);
+        at += length;
+    }
+    deck->root = map;
+    if (good) return deck;
+    nh_deck_free(deck);
+    return NULL;
+}
+
 /* ---- as YAML ---- */
 
 /* In quotes unless it is one word that YAML leaves alone. */

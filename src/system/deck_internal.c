@@ -153,8 +153,9 @@ bool nh_deck_fail_at(const nh_deck *deck, size_t byte, nh_error *error, const ch
         byte--;
     nh_deck_place(deck, byte, &line, &column);
     size_t room = sizeof where / 2, skip = strlen(deck->name) > room ? strlen(deck->name) - room : 0;
-    snprintf(where, sizeof where, "%s:%zu:%zu", deck->name + skip, line, column);
-    nh_fail(error, NH_INPUT, where, "%s", what);
+    if (deck->code == NH_OK) snprintf(where, sizeof where, "%s:%zu:%zu", deck->name + skip, line, column);
+    else snprintf(where, sizeof where, "%s:%zu", deck->name + skip, column);
+    nh_fail(error, deck->code == NH_OK ? NH_INPUT : deck->code, where, "%s", what);
     excerpt(deck, line, column - 1, error->excerpt, sizeof error->excerpt);
     return false;
 }

@@ -14,6 +14,7 @@ struct nh_deck {
     size_t *before; /* before[i]: code points before byte i * NH_DECK_BLOCK */
     size_t *line;   /* byte at which a line begins */
     size_t lines, line_capacity;
+    nh_code code;   /* of its errors; NH_OK: that of a file, with line and column */
 };
 
 enum { NH_DECK_BLOCK = 64, NH_DECK_SHOWN = 192 };
