@@ -46,6 +46,36 @@ Test(limits, every_command_has_the_brake)
     place_clear(&p);
 }
 
+/* The program alone takes more than this. */
+Test(limits, every_command_has_the_brake_on_memory)
+{
+    static const char *const lines[] = {"analyze crane", "verify sleigh --current v", "simulate sleigh --until 100", "benchmark sleigh", "reduce crane", "classify penning_trap --over w", "export sleigh --to c",
+                                        "scan sleigh --over k=1:3:5 -o scanned", "scan sleigh --over k=1:3:5 -o shared --workers 2"};
+    static const char *const sizes[] = {"5", "5X", "G", "0M", "-3G", "1e30T"};
+    place p = place_with_systems();
+    char line[300];
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        bool code = !strncmp(lines[i], "export", 6), scan = !strncmp(lines[i], "scan", 4);
+        snprintf(line, sizeof line, "%s --max-memory 1M%s", lines[i], code ? "" : " --json -");
+        finished f = run_expecting(&p, line, 5);
+        cJSON *root = *f.out ? cJSON_Parse(f.out) : NULL;
+        cr_expect(scan || (strstr(f.err, "the memory limit") && strstr(f.err, "hint: raise it by --max-memory")), "%s: %s%s", line, f.out, f.err);
+        cr_expect(!*f.out || root, "%s: half a result: %.300s", line, f.out);
+        if (root) cr_expect(cJSON_GetObjectItem(root, "unfinished") || cJSON_IsTrue(cJSON_GetObjectItem(root, "partial")), "%s: %.300s", line, f.out);
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    finished enough = run_expecting(&p, "verify sleigh --current m*v^2/2+m*a^2*k^2*omega^2/2 --max-memory 0.5T", 0);
+    finished_clear(&enough);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        snprintf(line, sizeof line, "analyze sleigh --max-memory %s", sizes[i]);
+        finished f = run_expecting(&p, line, 2);
+        cr_expect(strstr(f.err, "--max-memory needs a size such as 500M or 2G, found `"), "%s: %s", line, f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 /* Where a build is so slow that nothing could be reported in time, the limit is doubled. */
 static finished run_until_reported(const place *p, const char *question, double *limit)
 {

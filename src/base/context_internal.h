@@ -30,6 +30,9 @@ struct nh_context {
     char                 saying[nh_context_longest_saying];
     atomic_bool          interrupted, reached;
     double               limit, limit_seconds, deadline; /* by the monotonic clock; set between computations, read by all of their threads */
+    double               most_memory; /* bytes; likewise; 0: no limit */
+    _Atomic double       next_look;   /* at the memory, by the same clock */
+    atomic_bool          filled;      /* it was the memory that ended it */
     /* base/files.c */
     pthread_mutex_t files_lock;
     bool            files_kept;

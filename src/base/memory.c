@@ -1,11 +1,13 @@
 /* memory: see memory.h. */
 #include "base/memory.h"
 
+#include <fcntl.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static nh_memory_handler *the_handler;
 
@@ -62,6 +64,18 @@ char *nh_strdup(const char *text)
 {
     size_t size = strlen(text) + 1;
     return memcpy(nh_alloc(size), text, size);
+}
+
+/* The second number of this file counts pages (proc(5)). */
+double nh_memory_in_use(void)
+{
+    char text[100];
+    int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+    ssize_t length = file >= 0 ? read(file, text, sizeof text - 1) : -1;
+    if (file >= 0) close(file);
+    text[length > 0 ? length : 0] = 0;
+    const char *pages = strchr(text, ' ');
+    return pages ? strtod(pages, NULL) * (double)sysconf(_SC_PAGESIZE) : 0;
 }
 
 /* `array_pointer` is a `T **`; memcpy reads and writes it without pretending that it is a `void **`. */

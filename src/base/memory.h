@@ -7,6 +7,8 @@
 
 #include <stddef.h>
 
+#define NH_MEGABYTE 1048576.0 /* bytes */
+
 typedef void nh_memory_handler(size_t wanted);
 
 /* Called when memory runs out; must not return. */
@@ -17,6 +19,9 @@ void *nh_alloc_array(size_t count, size_t size); /* zeroed; overflow of count*si
 void *nh_realloc_array(void *old, size_t count, size_t size); /* new part not zeroed */
 void nh_free(void *pointer);
 char *nh_strdup(const char *text);
+
+/* Bytes of this process that are in memory now; 0 where the system does not say. */
+double nh_memory_in_use(void);
 
 /* Grow `*array` (element size `size`) so that it holds at least `need` elements, doubling `*capacity`. */
 void nh_grow(void *array_pointer, size_t *capacity, size_t need, size_t size);

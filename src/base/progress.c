@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/context_internal.h"
 
 void nh_progress_set(nh_progress_handler *handler, void *context)
@@ -39,7 +40,20 @@ void nh_limit_set(double seconds)
     atomic_store(&c->reached, false);
 }
 
-void nh_limit_pass(void) { nh_context_here()->limit = INFINITY; }
+void nh_limit_memory_set(double bytes)
+{
+    nh_context *c = nh_context_here();
+    c->most_memory = bytes;
+    atomic_store(&c->next_look, 0.0);
+    atomic_store(&c->filled, false);
+}
+
+void nh_limit_pass(void)
+{
+    nh_context *c = nh_context_here();
+    c->limit = INFINITY;
+    atomic_store(&c->next_look, (double)INFINITY);
+}
 
 void nh_deadline_set(double seconds)
 {
@@ -58,12 +72,25 @@ void nh_interrupt_clear(void)
     nh_context *c = nh_context_here();
     atomic_store(&c->interrupted, false);
     atomic_store(&c->reached, false);
+    atomic_store(&c->filled, false);
+}
+
+static void look_at_memory(nh_context *c)
+{
+    static const double pause = 0.01; /* seconds */
+    double now = nh_clock();
+    if (now < atomic_load(&c->next_look)) return;
+    atomic_store(&c->next_look, now + pause);
+    if (nh_memory_in_use() <= c->most_memory) return;
+    atomic_store(&c->filled, true);
+    atomic_store(&c->reached, true);
 }
 
 bool nh_interrupted(void)
 {
     nh_context *c = nh_context_here();
     if (atomic_load(&c->interrupted) || atomic_load(&c->reached)) return true;
+    if (c->most_memory > 0) look_at_memory(c);
     if (isfinite(c->limit) && nh_clock() > c->limit) atomic_store(&c->reached, true);
     return atomic_load(&c->reached);
 }
@@ -86,7 +113,14 @@ void nh_ended_words(char *out, size_t size)
 {
     nh_context *c = nh_context_here();
     if (atomic_load(&c->interrupted)) snprintf(out, size, "interrupted");
+    else if (atomic_load(&c->filled)) snprintf(out, size, "the memory limit of %g MB was reached", c->most_memory / NH_MEGABYTE);
     else snprintf(out, size, "the time limit of %g s was reached", c->limit_seconds);
+}
+
+const char *nh_ended_option(void)
+{
+    if (!nh_limit_reached()) return NULL;
+    return atomic_load(&nh_context_here()->filled) ? "--max-memory" : "--max-seconds";
 }
 
 bool nh_fail_ended(nh_error *error, const char *format, ...)
@@ -98,7 +132,7 @@ bool nh_fail_ended(nh_error *error, const char *format, ...)
     va_end(list);
     nh_ended_words(words, sizeof words);
     nh_fail(error, nh_ended_code(), "", "%s %s", words, doing);
-    return nh_limit_reached() ? nh_error_hint(error, "raise it by --max-seconds") : false;
+    return nh_ended_option() ? nh_error_hint(error, "raise it by %s", nh_ended_option()) : false;
 }
 
 bool nh_interrupted_callback(void *context)

@@ -9,7 +9,7 @@
 #include "cli/cli_table.h"
 #include "problem/input.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_pdf, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_pdf, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_max_memory, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
        opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base, opt_on };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
@@ -130,6 +130,19 @@ static bool seconds(const char *text, double *out, nh_error *error)
     *out *= unit;
     if (end != text && *out > 0 && *out - *out == 0) return true;
     return nh_fail(error, NH_USAGE, "", "--budget needs a time such as 5s or 200ms, found `%s`", text);
+}
+
+/* "500M" or "2G", in megabytes. */
+static bool size(const char *text, double *out, nh_error *error)
+{
+    static const char letters[] = "kmgt";
+    char *end;
+    double x = strtod(text, &end);
+    const char *letter = *end ? strchr(letters, *end | 0x20) : NULL;
+    if (letter) end += 1 + (end[1] == 'i'), end += (*end | 0x20) == 'b'; /* also GB and GiB */
+    if (letter) *out = x * pow(1024, (double)(letter - letters) - 1);
+    if (letter && end != text && !*end && *out > 0 && *out <= 1e9) return true;
+    return nh_fail(error, NH_USAGE, "", "--max-memory needs a size such as 500M or 2G, found `%s`", text);
 }
 
 static bool members(const char *text, size_t *out, nh_error *error)
@@ -273,6 +286,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
     case opt_threads: case opt_columns: case opt_degree: return nh_options_set(&cli->options, name_of(code), value, error);
     case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
+    case opt_max_memory: return size(value, &cli->options.max_memory, error);
     case opt_initial: cli->initial = joined(cli, cli->initial, value); return true;
     case opt_initial_table: cli->table = file_of(value); return true;
     case opt_method: return nh_method_given(value, &cli->method, error);
@@ -327,7 +341,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 /* Numbers of any computation, and how much is said, may stand behind every command: scripts give them to all. */
 static bool for_all(int code)
 {
-    static const int codes[] = {'q', 'v', 'h', opt_no_color, opt_progress, opt_version, opt_option, opt_seed, opt_samples, opt_columns, opt_degree, opt_tolerance, opt_until, opt_threads, opt_max_seconds};
+    static const int codes[] = {'q', 'v', 'h', opt_no_color, opt_progress, opt_version, opt_option, opt_seed, opt_samples, opt_columns, opt_degree, opt_tolerance, opt_until, opt_threads, opt_max_seconds, opt_max_memory};
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
         if (code == codes[i]) return true;
     return false;

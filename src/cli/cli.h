@@ -84,12 +84,13 @@ NH_CLI_COMMAND_TABLE(X)
 /* What simulate and benchmark ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);
 
-/* Before the work: what is being done is shown on stderr, as --progress says; --max-seconds, SIGINT and SIGTERM end the work with what there is.  After it, before
+/* Before the work: what is being done is shown on stderr, as --progress says; --max-seconds, --max-memory, SIGINT and SIGTERM end the work with what there is.  After it, before
  * anything is written: signals end the process at once. */
 void nh_cli_progress_begin(const nh_cli *cli);
 void nh_cli_progress_end(void);
-/* Of these two: signals and the limit (none when it is not finite). */
-void nh_cli_guard_begin(double seconds);
+/* Of these two: signals and the limits of time (none when it is not finite) and memory (none when it is 0). */
+void nh_cli_guard_begin(double seconds, double bytes);
+void nh_cli_guard_worker(void); /* of a copy of the process: the time is for the first to watch */
 void nh_cli_guard_writing(void);
 
 

@@ -59,6 +59,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_degree,      "degree",      required_argument, "D",                  "analyze classify scan", "count integrals polynomial in the velocities up to this degree")        \
     X(opt_threads,     "threads",     required_argument, "N",                  "analyze", "number of threads; it does not change the result")                      \
     X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze verify simulate benchmark reduce classify scan export", "time limit: the run ends then, with partial results") \
+    X(opt_max_memory,  "max-memory",  required_argument, "SIZE",               "analyze verify simulate benchmark reduce classify scan export", "the same for the memory: 500M, 2G") \
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan export", "set an option that `nhsym explain options` lists")    \
     X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate benchmark reduce classify scan export", "show the current step on standard error")           \
     X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan export new", "-q: no summary and no remarks; tables and code are printed unless a file holds the result") \

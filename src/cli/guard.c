@@ -1,8 +1,8 @@
-/* guard: signals and the time limit.
+/* guard: signals and the limits of time and memory.
  *
- * One thread waits for both.  The first signal, and the limit, end the computation by base/progress.h: it returns soon, with what it has.  A second signal, one that
- * comes while results are written, and a computation that has still not come back when it has used `grace` more of the processor end the process at once: without temporary files, folders and
- * children (base/leave.h), so that every file is whole or as it was.  A limit that comes while results are written takes nothing away from them. */
+ * One thread waits for all of them.  The first signal, and a limit, end the computation by base/progress.h: it returns soon, with what it has.  A second signal, one that
+ * comes while results are written, and a computation that has still not come back when it has used `grace` more of the processor, or `more` of the memory, end the
+ * process at once: without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that comes while results are written takes nothing away from them. */
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
@@ -18,16 +18,17 @@
 static atomic_bool writing, standing;
 static pthread_t guard;
 static double limit, end; /* seconds; by the monotonic clock */
+static double most;       /* bytes; 0: any */
 
-static void end_at_once(int code)
+static void end_at_once(int code, const char *reached, const char *option)
 {
     char doing[80] = "";
     nh_leave_now();
     nh_progress_last(doing, sizeof doing);
     if (code == NH_INTERRUPTED) dprintf(STDERR_FILENO, "nhsym: interrupted\n");
     else
-        dprintf(STDERR_FILENO, "nhsym: %s%s%sthe time limit was reached before any result could be written\nhint: raise it by --max-seconds\n", doing, *doing ? ": " : "",
-                atomic_load(&writing) ? "the results were being written when " : "");
+        dprintf(STDERR_FILENO, "nhsym: %s%s%sthe %s limit was reached before any result could be written\nhint: raise it by %s\n", doing, *doing ? ": " : "",
+                atomic_load(&writing) ? "the results were being written when " : "", reached, option);
     _exit(code);
 }
 
@@ -43,7 +44,8 @@ static sigset_t signals(void)
 /* The next signal; 0: it is time to look at the clocks. */
 static int next_signal(const sigset_t *set)
 {
-    static const double shortest = 0.01, longest = 3600;
+    static const double shortest = 0.01;
+    const double longest = most > 0 ? 0.02 : 3600;
     double left = fmin(fmax(end - nh_clock(), shortest), longest), whole = floor(left);
     struct timespec pause = {(time_t)whole, (long)(1e9 * (left - whole))};
     int number = sigtimedwait(set, NULL, &pause);
@@ -62,15 +64,24 @@ static bool past_grace(void)
     return nh_clock_of_process() - used > (atomic_load(&writing) ? patience : 1) * grace || now - end > patience * grace;
 }
 
+/* So much more than the limit is left for what a computation needs to come back, and to write what there is. */
+static bool past_memory(void)
+{
+    static const double part = 0.25, more = 64 * NH_MEGABYTE;
+    return most > 0 && nh_memory_in_use() > (1 + part) * most + more;
+}
+
 static void *stand(void *unused)
 {
     sigset_t set = signals();
     while (true) {
         if (next_signal(&set)) {
-            if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED);
+            if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED, NULL, NULL);
             nh_interrupt();
         } else if (past_grace()) {
-            end_at_once(NH_LIMIT);
+            end_at_once(NH_LIMIT, "time", "--max-seconds");
+        } else if (past_memory()) {
+            end_at_once(NH_LIMIT, "memory", "--max-memory");
         }
     }
     return unused;
@@ -88,7 +99,7 @@ static void on_signal(int number)
     signal(number, SIG_DFL);
 }
 
-void nh_cli_guard_begin(double seconds)
+void nh_cli_guard_begin(double seconds, double bytes)
 {
     struct sigaction act = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     sigset_t set = signals();
@@ -96,7 +107,9 @@ void nh_cli_guard_begin(double seconds)
     sigaction(SIGINT, &act, NULL);
     sigaction(SIGTERM, &act, NULL);
     nh_limit_set(seconds);
+    nh_limit_memory_set(bytes);
     limit = seconds;
+    most = bytes;
     end = nh_clock() + seconds;
     pthread_sigmask(SIG_BLOCK, &set, NULL);
     bool stands = pthread_create(&guard, NULL, stand, NULL) == 0;
@@ -104,6 +117,8 @@ void nh_cli_guard_begin(double seconds)
     if (!stands) pthread_sigmask(SIG_UNBLOCK, &set, NULL);
     else pthread_detach(guard);
 }
+
+void nh_cli_guard_worker(void) { nh_cli_guard_begin(INFINITY, most); }
 
 void nh_cli_guard_writing(void)
 {

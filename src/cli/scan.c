@@ -11,8 +11,6 @@
 
 static const char kept[] = "what is finished is kept; the same command continues";
 
-static void begin_worker(void) { nh_cli_guard_begin(INFINITY); }
-
 static bool request_of(nh_cli *cli, nh_scan_request *q, nh_scan_source *source, nh_error *error)
 {
     static const char example[] = "nhsym scan sleigh --over k=1:4:61 -o DIR";
@@ -25,7 +23,7 @@ static bool request_of(nh_cli *cli, nh_scan_request *q, nh_scan_source *source, 
     *q = (nh_scan_request){.system_path = path, .settings = cli->settings, .setting = cli->setting, .axes = cli->overs,
                            .over = cli->over_list, .source = source, .options = cli->options, .program = nh_cli_program(),
                            .folder = cli->folder, .chunk = cli->chunk, .chunks = cli->chunks, .workers = cli->workers,
-                           .begin_worker = begin_worker, .team = cli->team};
+                           .begin_worker = nh_cli_guard_worker, .team = cli->team};
     if (!path) return false;
     if (!q->workers || (q->team && q->team->size > 1)) q->workers = 1;
     if (q->team && q->team->size > 1 && !q->options.threads) q->options.threads = 1;

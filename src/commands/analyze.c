@@ -331,7 +331,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
         r->partial = true;
         char words[80];
         nh_ended_words(words, sizeof words);
-        nh_analysis_warn(r, "%s: the results are partial%s%s", words, r->validation ? "" : ", and no motion was computed", nh_limit_reached() ? "; raise the limit by --max-seconds" : "");
+        nh_analysis_warn(r, "%s: the results are partial%s%s%s", words, r->validation ? "" : ", and no motion was computed", nh_ended_option() ? "; raise the limit by " : "", nh_ended_option() ? nh_ended_option() : "");
     }
     r->timing.validation = lap(&clock);
     r->timing.total = nh_clock() - start;

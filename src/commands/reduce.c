@@ -33,7 +33,8 @@ void nh_reduction_warn(nh_reduction *r, const char *format, ...)
 bool nh_reduction_late(nh_reduction *r, const char *what)
 {
     if (!nh_late()) return false;
-    nh_reduction_warn(r, "the time limit prevented %s; raise it by --max-seconds", what);
+    const char *option = nh_ended_option() ? nh_ended_option() : "--max-seconds"; /* late, not ended */
+    nh_reduction_warn(r, "a limit prevented %s; raise it by %s", what, option);
     return r->partial = true;
 }
 
@@ -395,7 +396,7 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     if (nh_interrupted()) {
         char words[80];
         nh_ended_words(words, sizeof words);
-        nh_reduction_warn(r, "%s: the results are partial%s", words, nh_limit_reached() ? "; raise the limit by --max-seconds" : "");
+        nh_reduction_warn(r, "%s: the results are partial%s%s", words, nh_ended_option() ? "; raise the limit by " : "", nh_ended_option() ? nh_ended_option() : "");
         r->partial = true;
     }
     if (good && nh_interrupted()) nh_error_clear(error);

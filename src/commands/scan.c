@@ -20,7 +20,7 @@ typedef struct {
 /* ---- the question ---- */
 
 /* Numbers that change how an answer is found, and not which. */
-static bool without_effect(const char *option) { return !strcmp(option, "threads") || !strcmp(option, "max_seconds"); }
+static bool without_effect(const char *option) { return !strcmp(option, "threads") || !strncmp(option, "max_", 4); }
 
 static void put_options(const nh_options *options, nh_text *out)
 {

@@ -28,11 +28,13 @@ void nh_problem_enter(nh_problem *p)
     nh_files_begin();
     nh_interrupt_clear();
     nh_limit_set(p->options.max_seconds);
+    nh_limit_memory_set(p->options.max_memory * NH_MEGABYTE);
 }
 
 void nh_problem_leave(nh_problem *p)
 {
     nh_limit_set(INFINITY);
+    nh_limit_memory_set(0);
     nh_files_swap(&p->files);
     nh_context_enter(p->before);
 }
