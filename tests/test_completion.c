@@ -60,14 +60,31 @@ Test(completion, bash_completes_everything)
     place_clear(&p);
 }
 
+/* Parameters, coordinates and velocities of the system on the line, also in a list, between quotes, and of an own file. */
+Test(completion, bash_completes_names_of_the_system)
+{
+    if (!has("bash")) return;
+    place p = place_with_systems();
+    write_here(&p, "bead.yaml", "name: bead\nparameters: [{name: stiffness, value: 2}]\ncoordinates: [arc]\nlagrangian: arc'^2/2 - stiffness*arc^2/2\n");
+    char *out = by_shell(&p, "bash",
+                         "source <(nhsym help bash)\n"
+                         "ask() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _nhsym; printf '%s|' \"${COMPREPLY[@]}\"; echo; }\n"
+                         "echo; ask nhsym analyze bead.yaml --set ''; ask nhsym simulate --quiet bead.yaml --initial ''; ask nhsym simulate sleigh --initial '\"phi=0, om'; ask nhsym simulate sleigh --over x\n"
+                         "ask nhsym classify sleigh --over k,; ask nhsym simulate nosuch --set ''\n");
+    static const char *const words[] = {"stiffness=|", "arc=|arc\\'=|", "phi=0, omega=|", "x|x\\'|", "k,m|k,a|k,k|", "|", NULL};
+    expect_words(out, words);
+    free(out);
+    place_clear(&p);
+}
+
 Test(completion, fish_completes)
 {
     if (!has("fish")) return;
     place p = place_with_systems();
     char *out = by_shell(&p, "fish",
                          "nhsym help fish | source; echo\n"
-                         "for line in 'nhsym ana' 'nhsym analyze sle' 'nhsym simulate sleigh --meth' 'nhsym simulate sleigh --method relaxation' 'nhsym help ver'; complete -C $line | cut -f1; end\n");
-    static const char *const words[] = {"analyze", "sleigh", "--method", "relaxation-8", "verify", NULL};
+                         "for line in 'nhsym analyze sleigh --set k' 'nhsym simulate sleigh --initial \"phi=0, om' 'nhsym classify sleigh --over a,' 'nhsym ana' 'nhsym analyze sle' 'nhsym simulate sleigh --meth' 'nhsym simulate sleigh --method relaxation' 'nhsym help ver'; complete -C $line | cut -f1; end\n");
+    static const char *const words[] = {"k=", "phi=0, omega=", "a,m", "analyze", "sleigh", "--method", "relaxation-8", "verify", NULL};
     expect_words(out, words);
     free(out);
     place_clear(&p);

@@ -109,6 +109,29 @@ static void manual_page(void)
 
 /* ---- completions ---- */
 
+/* Options whose values are, or begin with, names of the system: which names, as `nhsym show --of` takes them, and what follows one. */
+static const struct {
+    const char *option, *commands, *of, *behind;
+} named[] = {
+    {"set", "", "parameters", "="},
+    {"input", "", "parameters", "="},
+    {"initial", "", "coordinates,velocities", "="},
+    {"over", "simulate benchmark", "parameters,coordinates,velocities", ""},
+    {"over", "classify scan", "parameters", ""},
+    {"watch", "", "coordinates,velocities", ""},
+    {"current", "", "parameters,coordinates,velocities", ""},
+    {"field", "", "coordinates", "="},
+};
+enum { named_count = sizeof named / sizeof *named };
+
+/* The first row of an option for a command (NULL: any), or named_count. */
+static size_t names_for(const char *option, const char *command)
+{
+    size_t i = 0;
+    while (i < named_count && (strcmp(named[i].option, option) || (command && *named[i].commands && !nh_word_among(named[i].commands, command)))) i++;
+    return i;
+}
+
 /* The words that an option or a command takes, with `between`; nothing where these are not a fixed list. */
 static void put_values(const char *name, const char *shown, const char *between)
 {
@@ -139,11 +162,42 @@ static void put_values(const char *name, const char *shown, const char *between)
 static bool has_values(const option_word *o) { return (strchr(o->shown, '|') && o->shown[0] != '[') || nh_word_among("method option of", o->name); }
 static bool is_file(const option_word *o) { return !strcmp(o->shown, "FILE") || !strcmp(o->shown, "DIR") || strstr(o->shown, "FILE|-"); }
 
+/* The names of the system that stands on the line, behind the last comma of the word; in a word without quotes a prime needs a backslash. */
+static const char bash_names[] = "# bash completion for nhsym; written by `nhsym help bash`\n"
+    "_nhsym_names() {\n"
+    "    local word=${COMP_WORDS[COMP_CWORD]} each name names=\"\" begin end\n"
+    "    for each in \"${COMP_WORDS[@]:2:COMP_CWORD-2}\"; do\n"
+    "        case $each in -*) continue ;; esac\n"
+    "        names=$(nhsym show \"$each\" --of \"$1\" 2>/dev/null) && break\n"
+    "    done\n"
+    "    end=${word##*[,; \\\"\\']} begin=${word%\"$end\"}\n"
+    "    case $word in [\\\"\\']*) begin=${begin#?} ;; *) names=${names//\\'/\\\\\\'} ;; esac\n"
+    "    compopt -o nospace 2>/dev/null\n"
+    "    for name in $names; do case $name in \"$end\"*) COMPREPLY+=(\"$begin$name$2\") ;; esac; done\n"
+    "}\n";
+
+static void bash_named(const char *option)
+{
+    printf("    --%s) case ${COMP_WORDS[1]} in", option);
+    for (size_t i = 0; i < named_count; i++) {
+        if (strcmp(named[i].option, option)) continue;
+        fputs(" ", stdout);
+        for (const char *c = named[i].commands; *c; c++) putchar(*c == ' ' ? '|' : *c);
+        printf("%s) COMPREPLY=(); _nhsym_names %s \"%s\" ;;", *named[i].commands ? "" : "*", named[i].of, named[i].behind);
+    }
+    puts(" esac; return ;;");
+}
+
 static void bash(void)
 {
-    puts("# bash completion for nhsym; written by `nhsym help bash`\n_nhsym() {\n    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\"\n    case $before in");
+    fputs(bash_names, stdout);
+    puts("_nhsym() {\n    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\"\n    case $before in");
     for (size_t i = 0; i < option_count; i++) {
         if (options[i].argument != required_argument) continue;
+        if (names_for(options[i].name, NULL) < named_count) {
+            bash_named(options[i].name);
+            continue;
+        }
         bool file = is_file(&options[i]), equation = !strcmp(options[i].name, "option");
         printf("    %.1s%.1s%.1s--%s) %sCOMPREPLY=(", letter(&options[i]) ? "-" : "", letter(&options[i]) ? &options[i].meaning[1] : "", letter(&options[i]) ? "|" : "", options[i].name,
                equation ? "compopt -o nospace 2>/dev/null; " : "");
@@ -180,7 +234,11 @@ static void quoted(const char *text)
 
 static void zsh(void)
 {
-    puts("#compdef nhsym\n# written by `nhsym help zsh`\nlocal -a commands systems\ncommands=(");
+    puts("#compdef nhsym\n# written by `nhsym help zsh`\n"
+         "_nhsym_names() {\n    local each\n    local -a names\n    for each in ${line[@]} ${words[3,CURRENT-1]}; do\n"
+         "        [[ $each = -* ]] && continue\n        names=(${(f)\"$(nhsym show ${(Q)each} --of $1 2>/dev/null)\"}) && [[ -n $names ]] && break\n    done\n"
+         "    compset -P '*[,; ]'\n    compadd -S \"$2\" -q -a names\n}\n"
+         "local -a commands systems\ncommands=(");
     for (size_t i = 0; i < command_count; i++) {
         printf("    '%s:", commands[i].name);
         quoted(commands[i].meaning);
@@ -197,7 +255,9 @@ static void zsh(void)
                 if (strchr("[]:", *c)) putchar('\\');
                 quoted(one);
             }
+            size_t row = names_for(options[j].name, commands[i].name);
             printf("]%s", options[j].argument != required_argument ? "" : is_file(&options[j]) ? ":file:_files" : ":value:");
+            if (row < named_count) printf("{_nhsym_names %s \"%s\"}", named[row].of, named[row].behind);
             if (has_values(&options[j])) putchar('('), put_values(options[j].name, options[j].shown, " "), putchar(')');
             putchar('\'');
         }
@@ -211,7 +271,11 @@ static void zsh(void)
 
 static void fish(void)
 {
-    puts("# fish completion for nhsym; written by `nhsym help fish`\ncomplete -c nhsym -f");
+    puts("# fish completion for nhsym; written by `nhsym help fish`\n"
+         "function __nhsym_names\n    set -l begin (string replace -r '[^,; \"]*$' '' -- (commandline -ct) | string replace -r '^[\"\\']' '')\n"
+         "    for each in (commandline -opc)[3..-1]\n        string match -q -- '-*' $each; and continue\n"
+         "        set -l names (nhsym show $each --of $argv[1] 2>/dev/null); or continue\n        string replace -r '^(.*)$' \"$begin\\$1$argv[2]\" -- $names\n        return\n    end\nend\n"
+         "complete -c nhsym -f");
     for (size_t i = 0; i < command_count; i++) {
         printf("complete -c nhsym -n __fish_use_subcommand -a %s -d '", commands[i].name);
         for (const char *c = commands[i].meaning; *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
@@ -230,6 +294,9 @@ static void fish(void)
         put_values(*name, "", " ");
         puts("'");
     }
+    for (size_t i = 0; i < named_count; i++)
+        printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -l %s -x -a '(__nhsym_names %s \"%s\")'\n",
+               *named[i].commands ? named[i].commands : "analyze verify simulate benchmark reduce classify scan export", named[i].option, named[i].of, named[i].behind);
     puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
          "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan' -k -a '(__fish_complete_suffix .yaml .urdf)'");
 }

@@ -54,6 +54,29 @@ static int show_whole(const char *path, nh_error *error)
     return NH_OK;
 }
 
+/* "parameters, velocities": their names, one per line, for programs such as the completions of a shell. */
+static int show_names(const nh_cli *cli, const char *path, nh_error *error)
+{
+    static const char *const words[] = {"parameters", "coordinates", "velocities"};
+    bool wanted[3] = {false};
+    for (const char *at = cli->of; *at; at += at[strcspn(at, ",")] != 0) {
+        at += strspn(at, " ");
+        size_t length = strcspn(at, ", "), k = 0;
+        while (k < 3 && (strlen(words[k]) != length || strncmp(words[k], at, length))) k++;
+        if (k < 3) wanted[k] = true;
+        else nh_fail(error, NH_USAGE, "", "--of does not know `%.*s`", (int)length, at), nh_error_hint(error, "`nhsym show` takes parameters, coordinates and velocities");
+        at += strcspn(at, ",");
+    }
+    nh_system *s = error->code == NH_OK ? nh_system_read(path, 0, NULL, error) : NULL;
+    if (!s) return error->code;
+    for (size_t i = 0; wanted[0] && i < s->parameters; i++) puts(s->parameter[i].name);
+    for (size_t i = 0; wanted[1] && i < s->coordinates; i++) puts(s->coordinate[i].name);
+    for (size_t i = 0; wanted[2] && i < s->coordinates; i++) puts(nh_name_of(s->dag, s->coordinate[i].v));
+    for (size_t i = 0; wanted[2] && i < s->quasi; i++) puts(nh_name_of(s->dag, s->quasi_velocity[i]));
+    nh_system_free(s);
+    return NH_OK;
+}
+
 int nh_cli_show(nh_cli *cli, nh_error *error)
 {
     if (cli->operands != 1) {
@@ -63,6 +86,7 @@ int nh_cli_show(nh_cli *cli, nh_error *error)
     }
     const char *path = nh_cli_system(cli, cli->operand[0], error);
     if (!path) return error->code;
+    if (cli->of) return show_names(cli, path, error);
     if (cli->wheels || cli->base) return show_whole(path, error);
     size_t length;
     char *text = nh_files_read(path, NH_DECK_SIZE_LIMIT, &length, error);
