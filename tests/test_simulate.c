@@ -190,7 +190,7 @@ Test(simulate, motions_over_ranges)
         {"--over x=0:1:2 --over \"x'=1,2\"", "member,t,x,x_dot,E\n0,0,0,1,0.5\n", "", 0},
         {"--over w", "", "--over `w` is no range and no list", 2},
         {"--over w=2:1:3", "", "the first end of the range is not below the second", 2},
-        {"--over ww=1:2:3", "", "--over: the column `ww` is no coordinate, velocity or parameter of spring\nhint: did you mean", 3},
+        {"--over ww=1:2:3", "", "--over: `ww` is no coordinate, velocity or parameter of spring\nhint: did you mean", 2},
         {"--over w=1:2:3 --initial-table starts.csv", "", "--initial-table, and --over as well", 2},
         {"--over w=1:2:3 --ensemble 3", "", "--over, and --ensemble as well", 2},
     };

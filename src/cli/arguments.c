@@ -217,6 +217,16 @@ static const char *name_of(int code)
     return o->name;
 }
 
+/* An option of docs/options.md that has a name of its own. */
+static bool set_number(nh_cli *cli, int code, const char *value, nh_error *error)
+{
+    cli->seed_given = cli->seed_given || code == opt_seed;
+    cli->samples_given = cli->samples_given || code == opt_samples;
+    cli->tolerance_given = cli->tolerance_given || code == opt_tolerance;
+    cli->until_given = cli->until_given || code == opt_until;
+    return nh_options_set(&cli->options, name_of(code), value, error);
+}
+
 /* Where to read on: the help of the command, as far as the line names one. */
 static const char *help_of(const nh_cli *cli)
 {
@@ -280,11 +290,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 {
     switch (code) {
     case opt_set: return each(cli, value, "set", set_parameter, error);
-    case opt_seed: return cli->seed_given = true, nh_options_set(&cli->options, "seed", value, error);
-    case opt_samples: return cli->samples_given = true, nh_options_set(&cli->options, "samples", value, error);
-    case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
-    case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
-    case opt_threads: case opt_columns: case opt_degree: return nh_options_set(&cli->options, name_of(code), value, error);
+    case opt_seed: case opt_samples: case opt_tolerance: case opt_until: case opt_threads: case opt_columns: case opt_degree: return set_number(cli, code, value, error);
     case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
     case opt_max_memory: return size(value, &cli->options.max_memory, error);
     case opt_initial: cli->initial = joined(cli, cli->initial, value); return true;
