@@ -11,7 +11,7 @@ int main(int argc, char **argv)
     char *name[most_files];
     const char *folder = argc > 1 ? argv[1] : "systems";
     uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 0;
-    size_t n = list(folder, name), missing = 0, excused = 0, wrong = 0, unread = 0;
+    size_t n = list(folder, name), missing = 0, excused = 0, wrong = 0, unread = 0, almosts = 0, fast = 0;
     double total = 0;
     print_head("system");
     for (size_t i = 0; i < n; i++) {
@@ -24,8 +24,10 @@ int main(int argc, char **argv)
         wrong += o.wrong + o.untrue;
         total += o.seconds;
         unread += o.unread;
+        almosts += o.almosts;
+        fast += o.fast;
         free(name[i]);
     }
-    printf("\n%zu systems, %zu known integrals missing (%zu of them out of reach), %zu false, %zu not checked by the multiplier form, %.1f seconds in all.\n", n, missing, excused, wrong, unread, total);
+    printf("\n%zu systems, %zu known integrals missing (%zu of them out of reach), %zu false, %zu not checked by the multiplier form; %zu called almost conserved, %zu of them not slow; %.1f seconds in all.\n", n, missing, excused, wrong, unread, almosts, fast, total);
     return n == 0 || missing - excused + wrong > 0;
 }

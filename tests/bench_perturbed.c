@@ -13,7 +13,7 @@ int main(int argc, char **argv)
     uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     nh_options options;
     nh_options_default(&options);
-    size_t n = list(folder, name), wrong = 0, lost = 0, copies = 0;
+    size_t n = list(folder, name), wrong = 0, lost = 0, copies = 0, almosts = 0, fast = 0;
     puts("| system | term times | original | survive | found | false | lost | not certified | seconds | which |\n|---|---|---|---|---|---|---|---|---|---|");
     for (size_t i = 0; i < n; i++) {
         for (size_t k = 0; k < PERTURBATIONS; k++) {
@@ -23,10 +23,12 @@ int main(int argc, char **argv)
             fflush(stdout);
             wrong += p.o.wrong;
             lost += p.o.missing;
+            almosts += p.o.almosts;
+            fast += p.o.fast;
             copies++;
         }
         free(name[i]);
     }
-    printf("\n%zu perturbed copies of %zu systems: %zu false, %zu lost.\n", copies, n, wrong, lost);
+    printf("\n%zu perturbed copies of %zu systems: %zu false, %zu lost; %zu called almost conserved, %zu of them not slow.\n", copies, n, wrong, lost, almosts, fast);
     return n == 0 || wrong + lost > 0;
 }

@@ -12,7 +12,7 @@
 
 int main(int argc, char **argv)
 {
-    size_t n = argc > 1 ? strtoull(argv[1], NULL, 10) : 200, known = 0, missing = 0, wrong = 0, unread = 0, uncertain = 0, found = 0, rounded = 0;
+    size_t n = argc > 1 ? strtoull(argv[1], NULL, 10) : 200, known = 0, missing = 0, wrong = 0, unread = 0, uncertain = 0, found = 0, rounded = 0, almosts = 0, fast = 0;
     uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     bool keep = argc > 3 && strcmp(argv[3], "-");
     char folder[4000] = "/tmp/nhsym-random-XXXXXX", path[4096];
@@ -50,11 +50,13 @@ int main(int argc, char **argv)
         uncertain += o.uncertain;
         found += o.found;
         rounded += o.rounded;
+        almosts += o.almosts;
+        fast += o.fast;
         total += o.seconds;
     }
     if (!keep) rmdir(folder);
     printf("\n%zu random systems from seed %llu: %zu independent currents, %zu false, %zu not certified; of %zu built in %zu missing; %zu not checked by the multiplier form, "
-           "%zu only to the digits of doubles; %.0f seconds in all.\n",
-           n, (unsigned long long)seed, found, wrong, uncertain, known, missing, unread, rounded, total);
+           "%zu only to the digits of doubles; %zu called almost conserved, %zu of them not slow; %.0f seconds in all.\n",
+           n, (unsigned long long)seed, found, wrong, uncertain, known, missing, unread, rounded, almosts, fast, total);
     return n == 0 || wrong > 0;
 }

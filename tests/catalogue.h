@@ -31,6 +31,7 @@ typedef struct {
     /* excused: known and not found, for a reason that the file gives; rounded: checked to the digits of doubles only; unread: certified, but not
      * to be had in the velocities of the coordinates */
     size_t known, found, missing, excused, wrong, untrue, uncertain, unread, rounded, maximum;
+    size_t almosts, fast; /* called almost conserved; those of them that are not slow, which are wrong */
     double seconds, rate; /* rate: the largest of a certified current in the multiplier form, relative, as log10 */
     char complete[80]; /* to which degree nothing else polynomial in the velocities exists */
     char names[800];   /* of what is missing or wrong */
@@ -113,7 +114,8 @@ static void judge_almosts(const nh_analysis *r, const nh_points *generic, row *o
         }
         nh_free(value);
         bool slow = sqrt(rate / variation) <= other_points * 1e-2 * unit && r->almost[k].rate >= last;
-        if (!slow) o->wrong++, note(o, "not slow", "almost conserved");
+        o->almosts++;
+        if (!slow) o->fast++, o->wrong++, note(o, "not slow", "almost conserved");
         last = r->almost[k].rate;
     }
 }

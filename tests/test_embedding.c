@@ -125,6 +125,23 @@ Test(embedding, without_constraints_every_velocity_is_free)
     embed_clear(&e);
 }
 
+/* The same submanifold, whatever units the constraints are written in. */
+Test(embedding, constraints_of_any_size)
+{
+    static const char *const sizes[][2] = {{"1", "1"}, {"1e-15", "1e-15"}, {"1e15", "1e-12"}, {"1e-40", "1"}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        char text[300];
+        snprintf(text, sizeof text, SPACE4 "constraints: [\"%s*(x' - y*z') = 0\", \"%s*(s' - x*y') = 0\"]\n", sizes[i][0], sizes[i][1]);
+        embedded e = embed(text, NH_CHART_COORDINATES);
+        nh_dag *d = e.system->dag;
+        const nh_coordinate *c = e.system->coordinate;
+        cr_expect_eq(e.chart->n, 2u);
+        cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, e.chart->rho[0], nh_mul(d, c[1].q, c[2].v)), 0), NH_ZERO, "%s", text);
+        cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, e.chart->rho[3], nh_mul(d, c[0].q, c[1].v)), 0), NH_ZERO, "%s", text);
+        embed_clear(&e);
+    }
+}
+
 Test(embedding, linear_explicit)
 {
     check_chart(SPACE "constraints: [\"y' = x*z' - t*x'\"]\n", 0, "y");

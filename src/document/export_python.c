@@ -32,9 +32,10 @@ static const char numpy_head[] =
     "    return np.moveaxis(np.linalg.solve(A, b[..., None])[..., 0], -1, 0)\n"
     "\n"
     "\n"
-    "def _small(step, x):\n"
-    "    \"\"\"The largest step of an iteration, relative.\"\"\"\n"
-    "    return np.max(np.abs(step)/(1 + np.abs(x)))\n";
+    "def _small(step, x, last):\n"
+    "    \"\"\"Is a step of an iteration no more than rounding, for each motion? And how long it is.\"\"\"\n"
+    "    change, size = np.max(np.abs(step), axis=0), np.max(np.abs(x), axis=0)\n"
+    "    return (change <= 4e-16*size) | ((change < 1e-13*np.maximum(size, 1e-2)) & (change >= last/2)), change\n";
 
 static const char sympy_head[] = "from collections import namedtuple\n"
                                  "\n"
@@ -145,7 +146,7 @@ static void solve(nh_export_body *b, size_t i)
 
 static void newton(nh_export_body *b, size_t i)
 {
-    nh_text_addf(b->out, "    %s = np.array(%s, dtype=float)\n    last_ = np.inf\n    for step_ in range(40):\n",
+    nh_text_addf(b->out, "    %s = np.array(%s, dtype=float)\n    done_, last_ = False, np.inf\n    for step_ in range(40):\n",
                  b->unknown[i], b->argument[b->f->solve[i].guess]);
     nh_export_indent(b, "        ");
 }
@@ -153,9 +154,9 @@ static void newton(nh_export_body *b, size_t i)
 static void newton_end(nh_export_body *b, size_t i)
 {
     nh_text_addf(b->out,
-                 "        step_ = _solve(%s, %s)\n        %s = %s - step_\n        change_ = _small(step_, %s)\n       "
-                 " if change_ < 4e-16 or (change_ < 1e-13 and change_ >= last_/2):\n            break\n"
-                 "        last_ = change_\n    else:\n        raise ArithmeticError(\"the iteration for velocities "
+                 "        step_ = _solve(%s, %s)\n        %s = %s - step_\n        small_, last_ = _small(step_, %s, last_)\n"
+                 "        done_ = done_ | small_\n        if np.all(done_):\n            break\n"
+                 "    else:\n        raise ArithmeticError(\"the iteration for velocities "
                  "does not converge\")\n",
                  b->matrix[i], b->right[i], b->unknown[i], b->unknown[i], b->unknown[i]);
     nh_export_indent(b, "    ");

@@ -85,7 +85,7 @@ const nh_source_language nh_source_c = {
                 "template this throw try typeid typename using virtual wchar_t xor xor_eq "
                 "linux unix i386 NAN INFINITY HUGE_VAL HUGE NULL DOMAIN SING OVERFLOW UNDERFLOW PLOSS TLOSS EOF I "
                 "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log sqrt fabs atan2 pow memset memcpy "
-                "nh_sign nh_solve isfinite fmax last_ change_ step_ i_ ",
+                "nh_sign nh_solve isfinite fmax last_ change_ size_ step_ i_ ",
     .call = {FUNCTIONS("", "a", "atan2", "a"), [NH_ABS] = "fabs", [NH_SIGN] = "nh_sign"},
     .named = GSL,
     .library = {{"gsl_sf_", "#include <gsl/gsl_sf.h>\n"}},
@@ -104,7 +104,7 @@ const nh_source_language nh_source_c = {
 
 const nh_source_language nh_source_python = {
     .name = "python",
-    .reserved = PYTHON_WORDS "np _sf _mp _array _solve _small last_ change_ step_ namedtuple ",
+    .reserved = PYTHON_WORDS "np _sf _mp _array _solve _small last_ small_ done_ step_ namedtuple ",
     .call = {FUNCTIONS("np.", "arc", "arctan2", "arc"), [NH_ABS] = "np.abs", [NH_SIGN] = "np.sign"},
     .named = SCIPY,
     .library = {{"_mp.", "import mpmath as _mp\n"}, {"_sf.", "from scipy import special as _sf\n"}},
@@ -136,7 +136,7 @@ const nh_source_language nh_source_matlab = {
                 "unwind_protect unwind_protect_cleanup until do __FILE__ __LINE__ "
                 "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log sqrt abs atan2 sign zeros numel "
                 "besselj bessely besseli besselk airy ellipke "
-                "nargin norm max error struct ans varargin varargout nargout last_ change_ step_ Inf api ",
+                "nargin norm max error struct ans varargin varargout nargout last_ change_ size_ step_ Inf api ",
     .call = {FUNCTIONS("", "a", "atan2", "a"), [NH_ABS] = "abs", [NH_SIGN] = "sign"},
     .named = OCTAVE,
     .root = "sqrt",

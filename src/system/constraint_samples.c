@@ -48,6 +48,19 @@ static bool all_finite(size_t n, const double *x)
     return true;
 }
 
+/* The linear equations of one step; each is divided by its largest element, so that the units of the constraints do not matter. */
+static void put_equations(const nh_constraint_samples *c, double *F, double *right)
+{
+    size_t k = c->k, m = c->m;
+    for (size_t a = 0; a < k; a++) {
+        double most = 0;
+        for (size_t j = 0; j < m; j++) most = fmax(most, fabs(c->out[k + a + j * k]));
+        if (most == 0) most = 1;
+        for (size_t j = 0; j < m; j++) F[a + j * k] = c->out[k + a + j * k] / most;
+        right[a] = c->out[a] / most;
+    }
+}
+
 /* Move v onto the constraints by the shortest Gauss-Newton steps. */
 static bool project(nh_constraint_samples *c, double *z)
 {
@@ -57,9 +70,8 @@ static bool project(nh_constraint_samples *c, double *z)
     for (int i = 0; i < projection_steps && !good; i++) {
         nh_tape_eval(c->tape, c->work, z, c->out);
         if (!all_finite(k * (1 + m), c->out)) break;
-        memcpy(F, c->out + k, k * m * sizeof *F);
         memset(step, 0, big * sizeof *step);
-        memcpy(step, c->out, k * sizeof *step);
+        put_equations(c, F, step);
         if (nh_least_squares(k, m, F, 1, step, big, 1e-12) < 0) break;
         good = true;
         for (size_t j = 0; j < m; j++) {
@@ -120,27 +132,45 @@ void nh_constraint_samples_clear(nh_constraint_samples *c)
 
 /* ---- ranks ---- */
 
+/* Is the whole row of df/dv zero?  One that is, but for rounding, must not pass for one in small units. */
+static bool row_vanishes(const nh_constraint_samples *c, size_t a)
+{
+    static const double rounding = 1e-13;
+    nh_system *s = c->system;
+    double most = 0;
+    for (size_t p = 0; p < c->count; p++)
+        for (size_t j = 0; j < c->m; j++) most = fmax(most, fabs(c->F[p * c->k * c->m + a + j * c->k]) * c->speed[j]);
+    if (most == 0 || most > rounding) return most == 0;
+    nh_ex *symbol = nh_alloc_array(c->width, sizeof *symbol), f = nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs);
+    symbol[0] = s->t;
+    for (size_t i = 0; i < c->m; i++) symbol[1 + i] = s->coordinate[i].q, symbol[1 + c->m + i] = s->coordinate[i].v;
+    bool zero = true;
+    for (size_t j = 0; j < c->m && zero; j++) zero = nh_embedding_vanishes(s, c->width, symbol, c->count, c->point, nh_diff(s->dag, f, s->coordinate[j].v));
+    nh_free(symbol);
+    return zero;
+}
+
 /* Largest rank of df/dv over the points, and the constraint that adds nothing to those before it. */
 static size_t rank_of(const nh_constraint_samples *c, size_t *redundant)
 {
     size_t best = 0;
+    bool *empty = nh_alloc_array(c->k + 1, sizeof *empty);
+    double *a = nh_alloc_array(c->k * c->m + 1, sizeof *a);
     *redundant = c->k;
     for (size_t use = 1; use <= c->k; use++) {
         size_t rank = 0;
+        empty[use - 1] = row_vanishes(c, use - 1);
         for (size_t p = 0; p < c->count; p++) {
-            double *a = nh_alloc_array(use * c->m, sizeof *a), *s = nh_alloc_array(c->k + c->m, sizeof *s);
             for (size_t i = 0; i < use; i++)
-                for (size_t j = 0; j < c->m; j++) a[i + j * use] = c->F[p * c->k * c->m + i + j * c->k];
-            size_t r = 0, small = use < c->m ? use : c->m;
-            if (nh_svd(use, c->m, a, s, NULL, NULL))
-                while (r < small && s[r] > 1e-10 * s[0] && s[r] > 1e-13) r++;
+                for (size_t j = 0; j < c->m; j++) a[i + j * use] = empty[i] ? 0 : c->F[p * c->k * c->m + i + j * c->k] * c->speed[j];
+            size_t r = nh_embedding_rank(use, c->m, a);
             if (r > rank) rank = r;
-            nh_free(s);
-            nh_free(a);
         }
         if (rank == best && *redundant == c->k) *redundant = use - 1;
         best = rank;
     }
+    nh_free(a);
+    nh_free(empty);
     return best;
 }
 

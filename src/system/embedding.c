@@ -133,24 +133,23 @@ bool nh_chart_complete(const nh_chart *c, double *z)
 
 static const double rounding = 1e-13;
 
-/* Is something so small zero, or only small in its units (the mass of an electron)?  Asked with so many digits that no cancellation of decimals is
- * left.  Implicit velocities are known to doubles only, and cannot be asked. */
-static bool vanishes(const nh_chart *c, nh_ex e)
+bool nh_embedding_vanishes(const nh_system *s, size_t width, const nh_ex *symbol, size_t points, const double *point, nh_ex e)
 {
     enum { bits = 512, tried = 3, digits = 100 };
-    const nh_system *s = c->system;
-    if (c->implicit) return true;
     nh_ball *ball = nh_ball_create(s->dag, bits);
     bool zero = true;
     for (size_t i = 0; i < s->parameters; i++) nh_ball_set_expression(ball, s->parameter[i].symbol, nh_number(s->dag, nh_num_decimal(s->parameter[i].value)));
-    for (size_t p = 0; p < c->probes && p < tried && zero; p++) {
+    for (size_t p = 0; p < points && p < tried && zero; p++) {
         double size;
-        for (size_t j = 0; j < c->width; j++) nh_ball_set_double(ball, c->symbol[j], c->probe[p * c->width + j]);
+        for (size_t j = 0; j < width; j++) nh_ball_set_double(ball, symbol[j], point[p * width + j]);
         zero = !nh_ball_log10_bound(ball, e, &size) || size < -digits;
     }
     nh_ball_free(ball);
     return zero;
 }
+
+/* Implicit velocities are known to doubles only, and cannot be asked. */
+static bool vanishes(const nh_chart *c, nh_ex e) { return c->implicit || nh_embedding_vanishes(c->system, c->width, c->symbol, c->probes, c->probe, e); }
 
 double nh_embedding_score(void *context, nh_ex e)
 {
@@ -185,35 +184,85 @@ static void probes_of_quasi(nh_chart *c, uint64_t seed)
     nh_sampler_free(sampler);
 }
 
-/* Do the constraints hold on the image of the chart?  Compared with the size of the constraint's own terms. */
+/* |f| beside sum_j |df/dv_j v_j| + |f - sum_j df/dv_j v_j|, which the constraint f = 0 weighs against each other, on the image of the chart. */
+static double off_constraint(const nh_chart *c, size_t a, nh_ex f)
+{
+    const nh_system *s = c->system;
+    nh_dag *d = s->dag;
+    const nh_ex *symbols;
+    const double *values;
+    nh_system_bindings(s, &symbols, &values);
+    nh_ex out[2] = {f, nh_int(d, 0)}, rest = f;
+    for (size_t j = 0; j < s->coordinates; j++) {
+        nh_ex slope = nh_chart_compose(c, nh_diff(d, nh_chart_constraint(c, a), s->coordinate[j].v));
+        rest = nh_sub(d, rest, nh_mul(d, slope, c->rho[j]));
+        out[1] = nh_add(d, out[1], nh_call(d, NH_ABS, nh_mul(d, slope, c->rho[j])));
+    }
+    out[1] = nh_add(d, out[1], nh_call(d, NH_ABS, rest));
+    nh_tape *tape = nh_tape_create(d, c->width, c->symbol, 2, out, s->parameters, symbols, values);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double worst = 0, value[2];
+    for (size_t i = 0; i < c->probes; i++) {
+        nh_tape_eval(tape, work, c->probe + i * c->width, value);
+        if (isfinite(value[0]) && value[0] != 0) worst = fmax(worst, fabs(value[0]) / value[1]);
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return worst;
+}
+
+/* Do the constraints hold on the image of the chart? */
 static bool chart_satisfies(const nh_chart *c, nh_error *error)
 {
+    static const double allowed = 1e-10;
     const nh_system *s = c->system;
     for (size_t a = 0; a < s->constraints; a++) {
         nh_ex f = nh_chart_compose(c, nh_chart_constraint(c, a));
         if (nh_normal_is_zero(s->dag, f, 0) == NH_ZERO) continue;
-        const nh_ex *symbols;
-        const double *values;
-        nh_system_bindings(s, &symbols, &values);
-        nh_ex pair[2] = {f, nh_chart_compose(c, s->constraint[a].lhs)};
-        nh_tape *tape = nh_tape_create(s->dag, c->width, c->symbol, 2, pair, s->parameters, symbols, values);
-        nh_tape_work *work = nh_tape_work_create(tape);
-        double worst = 0, out[2];
-        for (size_t i = 0; i < c->probes; i++) {
-            nh_tape_eval(tape, work, c->probe + i * c->width, out);
-            if (isfinite(out[0])) worst = fmax(worst, fabs(out[0]) / (1 + fabs(out[1])));
-        }
-        nh_tape_work_free(work);
-        nh_tape_free(tape);
-        if (worst < 1e-10) continue;
-        nh_deck_fail(s->deck, s->constraint[a].node, 0, error, "the velocities' map does not satisfy this constraint (off by %.2g at a sample point)", worst);
+        double worst = off_constraint(c, a, f);
+        if (worst < allowed) continue;
+        nh_deck_fail(s->deck, s->constraint[a].node, 0, error, "the velocities' map does not satisfy this constraint (off by %.2g of its terms at a sample point)", worst);
         return nh_error_hint(error, "substitute the map into the constraint: it must vanish for all quasi-velocities");
     }
     return true;
 }
 
-/* The largest rank of d rho/dw over the probes. */
-static size_t rank_of_map(const nh_chart *c)
+/* Divide count elements, every stride-th of a, by the largest of them. */
+static void divide_by_largest(size_t count, size_t stride, double *a)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++) most = fmax(most, fabs(a[i * stride]));
+    for (size_t i = 0; i < count && most > 0; i++) a[i * stride] /= most;
+}
+
+size_t nh_embedding_rank(size_t m, size_t n, double *a)
+{
+    static const double tolerance = 1e-10;
+    size_t rank = 0, small = m < n ? m : n;
+    double *s = nh_alloc_array(small + 1, sizeof *s);
+    for (size_t i = 0; i < m; i++) divide_by_largest(n, m, a + i);
+    for (size_t j = 0; j < n; j++) divide_by_largest(m, 1, a + j * m);
+    if (nh_all_finite(m * n, a) && nh_svd(m, n, a, s, NULL, NULL))
+        while (rank < small && s[rank] > tolerance * s[0]) rank++;
+    nh_free(s);
+    return rank;
+}
+
+/* The shortest column beside the longest. */
+static double evenness(size_t m, size_t n, const double *a)
+{
+    double least = INFINITY, most = 0;
+    for (size_t j = 0; j < n; j++) {
+        double length = 0;
+        for (size_t i = 0; i < m; i++) length = fmax(length, fabs(a[i + j * m]));
+        least = fmin(least, length);
+        most = fmax(most, length);
+    }
+    return most > 0 ? least / most : 0;
+}
+
+/* The largest rank of d rho/dw over the probes; *even: how alike in size the columns are, at best. */
+static size_t rank_of_map(const nh_chart *c, double *even)
 {
     nh_dag *d = c->system->dag;
     size_t m = c->system->coordinates, n = c->n, best = 0;
@@ -224,14 +273,11 @@ static size_t rank_of_map(const nh_chart *c)
     for (size_t i = 0; i < m * n; i++) R[i] = nh_diff(d, c->rho[i % m], c->w[i / m]);
     nh_tape *tape = nh_tape_create(d, c->width, c->symbol, m * n, R, c->system->parameters, symbols, values);
     nh_tape_work *work = nh_tape_work_create(tape);
-    double *a = nh_alloc_array(m * n + m + n, sizeof *a), *s = a + m * n;
+    double *a = nh_alloc_array(m * n, sizeof *a);
     for (size_t p = 0; p < c->probes; p++) {
-        size_t rank = 0, small = m < n ? m : n;
-        bool finite = true;
         nh_tape_eval(tape, work, c->probe + p * c->width, a);
-        for (size_t i = 0; i < m * n; i++) finite &= isfinite(a[i]);
-        if (!finite || !nh_svd(m, n, a, s, NULL, NULL)) continue;
-        while (rank < small && s[rank] > 1e-10 * s[0] && s[rank] > 1e-13) rank++;
+        *even = fmax(*even, evenness(m, n, a));
+        size_t rank = nh_embedding_rank(m, n, a);
         if (rank > best) best = rank;
     }
     nh_free(a);
@@ -243,10 +289,17 @@ static size_t rank_of_map(const nh_chart *c)
 
 static bool velocities_independent(const nh_chart *c, nh_error *error)
 {
-    size_t rank = rank_of_map(c);
-    if (rank == c->n) return true;
+    static const double least_even = 1e-10;
+    double even = 0;
+    size_t rank = rank_of_map(c, &even);
+    if (rank == c->n && even > least_even) return true;
     const nh_deck *deck = c->system->deck;
-    nh_deck_fail(deck, nh_deck_get(nh_deck_root(deck), "velocities"), 0, error, "the velocities' map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank, c->n);
+    const nh_deck_node *node = nh_deck_get(nh_deck_root(deck), "velocities");
+    if (rank == c->n) {
+        nh_deck_fail(deck, node, 0, error, "the quasi-velocities differ too much in size: by the map one is %.0e times as fast as another", 1 / even);
+        return nh_error_hint(error, "give them units in which they are of similar size");
+    }
+    nh_deck_fail(deck, node, 0, error, "the velocities' map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank, c->n);
     return nh_error_hint(error, "the quasi-velocities must be independent: each must add a direction of motion");
 }
 

@@ -1,5 +1,6 @@
 #include "system/levels.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -20,13 +21,20 @@ typedef struct {
 
 static const range everything = {-INFINITY, INFINITY};
 
+/* Rounded outwards: a sum, a product or a function of doubles is off by less than this part of itself. */
+static range outwards(range r)
+{
+    static const double part = 4 * DBL_EPSILON;
+    return (range){r.low - part * fabs(r.low), r.high + part * fabs(r.high)};
+}
+
 /* With 0 * infinity = 0: a factor zero is exact here. */
 static double times(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
 static range product_of(range a, range b)
 {
     double p[4] = {times(a.low, b.low), times(a.low, b.high), times(a.high, b.low), times(a.high, b.high)};
-    return (range){fmin(fmin(p[0], p[1]), fmin(p[2], p[3])), fmax(fmax(p[0], p[1]), fmax(p[2], p[3]))};
+    return outwards((range){fmin(fmin(p[0], p[1]), fmin(p[2], p[3])), fmax(fmax(p[0], p[1]), fmax(p[2], p[3]))});
 }
 
 static range power_of(range b, nh_num x)
@@ -65,27 +73,28 @@ static range range_of(const nh_system *s, nh_ex e, int depth)
     range out;
     if (depth > deepest) return everything;
     switch (nh_kind_of(d, e)) {
-    case NH_NUMBER: out.low = out.high = nh_num_value(nh_number_of(d, e)); return out;
+    case NH_NUMBER: out.low = out.high = nh_num_value(nh_number_of(d, e)); return outwards(out);
     case NH_SYMBOL:
         for (size_t i = 0; i < s->parameters; i++)
             if (s->parameter[i].symbol == e) return (range){s->parameter[i].value, s->parameter[i].value};
         return everything;
     case NH_SUM:
         out.low = out.high = nh_num_value(nh_constant_of(d, e));
+        out = outwards(out);
         for (size_t i = 0; i < nh_arity(d, e); i++) {
             double c = nh_num_value(nh_coefficient_of(d, e, i));
             range term = product_of((range){c, c}, range_of(s, nh_child(d, e, i), depth + 1));
-            out.low += term.low;
-            out.high += term.high;
+            out = outwards((range){out.low + term.low, out.high + term.high});
         }
         return out;
     case NH_PRODUCT:
         out.low = out.high = nh_num_value(nh_constant_of(d, e));
+        out = outwards(out);
         for (size_t i = 0; i < nh_arity(d, e); i++) {
             nh_ex x = nh_exponent_of(d, e, i);
             range base = range_of(s, nh_child(d, e, i), depth + 1);
             bool numeric = nh_kind_of(d, x) == NH_NUMBER && nh_num_short(nh_number_of(d, x));
-            out = product_of(out, numeric ? power_of(base, nh_number_of(d, x)) : everything);
+            out = product_of(out, numeric ? outwards(power_of(base, nh_number_of(d, x))) : everything);
         }
         return out;
     default: return function_of(nh_function_of(d, e), nh_arity(d, e) ? range_of(s, nh_child(d, e, 0), depth + 1)
@@ -93,12 +102,10 @@ static range range_of(const nh_system *s, nh_ex e, int depth)
     }
 }
 
-/* Rounding cannot make up for this. */
 static bool never_zero(const nh_system *s, nh_ex e)
 {
-    static const double margin = 1e-9;
     range r = range_of(s, e, 0);
-    return r.low > margin || r.high < -margin;
+    return r.low > 0 || r.high < 0;
 }
 
 /* ---- looked for ---- */
