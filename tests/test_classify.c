@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "integrals/classify.h"
+#include "integrals/special_bound.h"
 #include "names.h"
 #include "program.h"
 #include "commands/classify.h"
@@ -67,9 +68,11 @@ Test(classify, chi_vanishes_where_a_hidden_pencil_loses_rank)
             nh_sparse_pencil p = hidden(f, value, power, &random);
             nh_residue_polynomial chi;
             double products = 1e12;
-            cr_assert(nh_staircase(&p, f, &products, &chi));
+            size_t nullity;
+            cr_assert(nh_staircase(&p, f, &products, &chi, &nullity));
             cr_assert_eq(chi.degree, blocks * power);
             size_t generic = nh_staircase_rank(&p, f, 12345);
+            cr_expect_eq(nullity, across - generic);
             for (size_t i = 0; i < blocks; i++) {
                 if (power == 2 && !nh_residue_root(f, value[i], 2, &root)) continue;
                 if (power == 1) root = value[i];
@@ -98,7 +101,8 @@ Test(classify, a_staircase_ends_where_its_products_are_used_up)
     for (int round = 0; round < 3; round++) {
         nh_residue_polynomial chi;
         double left = !round ? all : round == 1 ? enough : short_of;
-        cr_expect_eq(nh_staircase(&p, f, &left, &chi), round < 2);
+        size_t nullity;
+        cr_expect_eq(nh_staircase(&p, f, &left, &chi, &nullity), round < 2);
         cr_expect(round < 2 ? left >= 0 : left < 0);
         if (!round) enough = all - left, short_of = 0.9 * enough;
         nh_free(chi.coefficient);
@@ -237,6 +241,117 @@ Test(classify, constraints)
     expect_family("contact", 0, NULL, 2, false, "4@2");
     expect_family("knife", 0, NULL, 2, false, "1@2");
     expect_family("sleigh", 0, NULL, 1, false, "C+1,+0,+2 0@1");
+}
+
+/* The list of [AMNS2018] has complex potentials as well: with square roots of -1 and -3, which no prime that is 11 modulo 12 has. */
+Test(classify, complex_values_are_counted)
+{
+    static const struct {
+        const char *c, *values;
+    } lines[] = {{"5/2", "+9,+0,+49@2"}, {"15/2", "+4,+0,+243@4 +18,+0,+2023@4"}, {"5/3", "+243,+0,+484@4"}, {"1/6", "0@2 +972,+0,+1@4"}};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "name: cubic\nparameters: {d: 0.3}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y^3/3 - %s*x^2*y - d*x^3\n", lines[i].c);
+        expect_values(family_of(NULL, text, 0, NULL), 4, false, lines[i].values, lines[i].c);
+    }
+}
+
+/* A surd in the equations: primes modulo which it does not exist say nothing. */
+Test(classify, surds_choose_the_primes)
+{
+    for (int surd = 2; surd < 8; surd++) {
+        char text[300];
+        snprintf(text, sizeof text, "name: surd\nparameters: {b: 0.3}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - sqrt(%d)*(x^4 + b*x^2*y^2 + y^4)\n", surd);
+        expect_values(family_of(NULL, text, 0, NULL), 3, false, "2@1 6@2 0@2", text);
+    }
+}
+
+/* ---- every number ---- */
+
+/* How many degrees leave out no number, with so many primes. */
+static size_t theorems(const char *file, size_t settings, const nh_setting *setting, size_t degree, size_t primes)
+{
+    char path[200];
+    nh_error error = {0};
+    snprintf(path, sizeof path, "tests/data/classify/%s.yaml", file);
+    nh_system *s = family_of(path, NULL, settings, setting);
+    nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
+    must(o != NULL, &error, "the model");
+    nh_classify_question q = {.degree = degree, .work = 1e10, .products = 5e10, .unknowns = 6000, .theorem = primes, .known = 1, .current = &o->E};
+    nh_classification *c = nh_classify(o, &q);
+    size_t count = 0;
+    for (size_t d = 0; d < c->rows; d++) {
+        count += c->row[d].theorem;
+        cr_expect(!c->row[d].theorem || c->row[d].theorem_primes <= primes);
+        cr_expect(!c->row[d].theorem || (double)c->row[d].theorem_primes * 31 > c->row[d].bits, "a leading coefficient is below the product");
+    }
+    nh_classification_free(c);
+    nh_model_free(o);
+    nh_system_free(s);
+    return count;
+}
+
+Test(classify, enough_primes_leave_out_no_number)
+{
+    nh_setting one[] = {at("A", 1, 1), at("B", 1, 1)};
+    cr_expect_eq(theorems("henon_heiles", 2, one, 4, 150), 4);
+    cr_expect_lt(theorems("henon_heiles", 2, one, 4, 60), 4, "too few of them say less");
+    cr_expect_eq(theorems("henon_heiles", 2, one, 4, 0), 0);
+    cr_expect_eq(theorems("quartic", 1, (nh_setting[]){at("mu", 8, 1)}, 3, 150), 3);
+    cr_expect_eq(theorems("toda", 0, NULL, 2, 150), 0, "exponentials have no whole derivatives");
+}
+
+/* chi at a point with whole coordinates, lifted: its coefficients are no longer than the bound. */
+static void expect_bound(const char *potential, size_t degree, size_t order)
+{
+    enum { primes = 24 };
+    nh_error error = {0};
+    char text[400];
+    int64_t q0[2] = {1, 2};
+    nh_prime prime[primes];
+    nh_residue_polynomial chi[primes];
+    nh_special_bound bound = {0};
+    snprintf(text, sizeof text, "name: f\nparameters: {eps: 0.3}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (%s)\n", potential);
+    nh_system *s = family_of(NULL, text, 0, NULL);
+    nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
+    must(o != NULL, &error, "the model");
+    nh_count_question q = {.generic = true, .degree = degree, .work = 1e10};
+    nh_parametric family;
+    nh_parametric_open(&family, o, 0, SIZE_MAX, false, NULL, &q);
+    nh_parity parity = degree % 2 ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
+    for (size_t i = 0; i < primes; i++) {
+        bool regular;
+        double products = 1e12;
+        nh_sparse_pencil pencil;
+        nh_parametric_variable variable;
+        size_t nullity;
+        prime[i] = nh_prime_at(i);
+        cr_assert(nh_parametric_choose(&family, prime[i], 5));
+        for (size_t k = 0; k < 2; k++) family.counter.equations->at[k] = (nh_residue)q0[k];
+        nh_parametric_series *x = nh_parametric_series_create(&family, order, &regular);
+        cr_assert(x && nh_parametric_pencil(&family, x, degree, parity, 6000, &pencil, &variable));
+        cr_assert(nh_staircase(&pencil, prime[i], &products, &chi[i], &nullity));
+        nh_parametric_back(&variable, prime[i], &chi[i]);
+        if (!i) cr_assert(nh_special_bound_find(&family, degree, parity, order, q0, pencil.columns - nullity, &bound));
+        nh_free(pencil.entry);
+        nh_parametric_series_free(x);
+    }
+    nh_special_factors f = nh_special_lift(primes, prime, chi);
+    cr_assert(f.lifted && f.norm >= 3, "%s: degree %zu, %g", potential, chi[0].degree, f.norm);
+    cr_expect_leq(log2(f.norm), bound.bits + (double)chi[0].degree, "%s", potential);
+    cr_expect_leq((double)chi[0].degree, bound.degree, "%s", potential);
+    nh_special_factors_clear(&f);
+    for (size_t i = 0; i < primes; i++) nh_free(chi[i].coefficient);
+    nh_parametric_close(&family);
+    nh_model_free(o);
+    nh_system_free(s);
+}
+
+Test(classify, special_values_are_no_longer_than_their_bound)
+{
+    expect_bound("(x^2 + y^2)/2 + x^2*y + eps*y^3", 2, 4);
+    expect_bound("(x^2 + 3*y^2)/2 + x^3 + eps*x*y^2", 2, 4);
+    expect_bound("x^4 + (eps + 5)*x^2*y^2 + 7*y^4/3", 2, 4);
 }
 
 /* ---- random families ---- */

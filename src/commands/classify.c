@@ -170,7 +170,7 @@ nh_classified *nh_classified_open(const nh_classify_request *q, nh_error *error)
 nh_classify_question nh_classified_question(nh_classified *x, const nh_classify_request *q, const nh_ex *known)
 {
     nh_classify_question question = {.shape = q->shape, .degree = x->degree, .work = q->options.count_work,
-                                     .products = q->options.staircase,
+                                     .products = q->options.staircase, .theorem = (size_t)q->options.theorem,
                                      .unknowns = (size_t)q->options.pencil, .plane = (size_t)q->options.plane,
                                      .lines = (size_t)q->options.lines,
                                      .known = x->known, .current = known};

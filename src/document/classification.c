@@ -190,8 +190,8 @@ static void put_excluded(const nh_classified *x, size_t degree, bool verbose, nh
     bool lifted = row->lifted && row->height >= 1;
     nh_text_add(out, "  ");
     nh_classification_level(x, degree, out);
-    nh_text_add(out, ": no transcendental number");
-    if (lifted)
+    nh_text_add(out, row->theorem ? ": no number, real or complex," : ": no transcendental number");
+    if (lifted && !row->theorem)
         nh_text_addf(out, ", and no rational one with numerator and denominator up to %.1e,", row->height);
     nh_text_add(out, " has ");
     nh_classification_beyond(x, row->number.bound, out);
@@ -200,6 +200,9 @@ static void put_excluded(const nh_classified *x, size_t degree, bool verbose, nh
                      row->roots);
     nh_text_add(out, "\n");
     if (!verbose || !lifted) return;
+    if (row->theorem)
+        nh_text_addf(out, "    (coefficients of special values have at most %.0f bits; others are excluded modulo %zu primes)\n",
+                     row->bits, row->theorem_primes);
     nh_text_addf(out, "    (%zu unknowns, order %zu, modulo", row->unknowns, row->number.order);
     for (size_t i = 0; i < row->primes; i++) nh_text_addf(out, "%s %" PRIu64, i ? "," : "", row->prime[i]);
     nh_text_add(out, ")\n");
@@ -210,8 +213,18 @@ void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *o
     const nh_classification *c = of(x);
     if (!c->rows) return;
     nh_text_addf(out, "\n%s values, proved:\n", count_special(x) ? "No other" : "No special");
-    for (size_t d = 1; d <= c->rows; d++) put_excluded(x, d, verbose, out);
+    size_t theorems = 0, known = 0, primes = 0;
+    for (size_t d = 1; d <= c->rows; d++) {
+        const nh_classify_row *row = &c->row[d - 1];
+        put_excluded(x, d, verbose, out);
+        theorems += row->theorem;
+        known += row->bits > 0;
+        if (row->theorem_primes > primes) primes = row->theorem_primes;
+    }
+    if (theorems == c->rows) return;
     nh_text_add(out, "  Another algebraic number could be one only if modulo all of the primes it has the residue of a value that was examined, or none.\n");
+    if (known == c->rows)
+        nh_text_addf(out, "  With `--option theorem=%zu` so many primes are taken that no number is left out.\n", primes);
 }
 
 void nh_classification_text(const nh_classified *x, bool verbose, nh_text *out)

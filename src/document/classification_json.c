@@ -86,6 +86,8 @@ static void put_degrees(const nh_classified *x, nh_json *to)
         nh_json *primes = nh_json_put_array(item, "primes");
         for (size_t i = 0; i < row->primes; i++) nh_json_add_number(primes, (double)row->prime[i]);
         nh_json_put_number(item, "excluded_height", row->lifted ? row->height : NAN);
+        nh_json_put_bool(item, "excluded_everywhere", row->theorem);
+        nh_json_put_number(item, "primes_for_everywhere", row->bits > 0 ? (double)row->theorem_primes : NAN);
         nh_classification_put_number(item, "infinity", &row->infinite);
     }
 }

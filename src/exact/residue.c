@@ -4,12 +4,24 @@
 #include <flint/nmod.h>
 #include <flint/ulong_extras.h>
 
+static nh_prime prime_of(uint64_t n) { return (nh_prime){n, ((uint64_t)1 << 62) / n * n, ((uint64_t)1 << 62) / n}; }
+
 nh_prime nh_prime_next(nh_prime f)
 {
     uint64_t n = f.p;
     do n -= 12;
     while (n % 5 == 1 || n % 7 == 1 || !n_is_prime(n));
-    return (nh_prime){n, ((uint64_t)1 << 62) / n * n, ((uint64_t)1 << 62) / n};
+    return prime_of(n);
+}
+
+nh_prime nh_prime_with_units(size_t index)
+{
+    uint64_t n = ((uint64_t)1 << 31) + 5; /* 1 modulo 12 */
+    for (size_t found = 0; found <= index; found++) {
+        do n -= 12;
+        while (!n_is_prime(n));
+    }
+    return prime_of(n);
 }
 
 nh_prime nh_prime_at(size_t index)

@@ -25,6 +25,10 @@ nh_prime nh_prime_at(size_t index);
 /* The one below it. */
 nh_prime nh_prime_next(nh_prime f);
 
+/* The `index`-th prime that is 1 modulo 12: there -1 and -3 have square roots, which they have modulo none of the others. For equations without
+ * roots: nh_residue_root needs the others. */
+nh_prime nh_prime_with_units(size_t index);
+
 static inline nh_residue nh_residue_add(nh_prime f, nh_residue a, nh_residue b)
 {
     uint64_t s = (uint64_t)a + b;

@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "integrals/classify_internal.h"
 #include "integrals/linear_pencil.h"
+#include "integrals/special_bound.h"
 
 enum { least_primes = 4 };
 
@@ -13,24 +14,28 @@ typedef nh_classify_place place;
 
 /* ---- roots of chi ---- */
 
+static nh_parity parity_of(const nh_parametric_series *x, size_t degree)
+{
+    return !x->split ? NH_ALL_DEGREES : degree % 2 ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
+}
+
 static bool pencil_of(search *s, const nh_parametric_series *x, size_t degree, nh_sparse_pencil *out,
                       nh_parametric_variable *variable)
 {
-    nh_parity parity = !x->split ? NH_ALL_DEGREES : degree % 2 ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
     *variable = (nh_parametric_variable){0};
     if (s->q->linear) return nh_linear_pencil(&s->family, x, degree, s->q->unknowns, out);
-    return nh_parametric_pencil(&s->family, x, degree, parity, s->q->unknowns, out, variable);
+    return nh_parametric_pencil(&s->family, x, degree, parity_of(x, degree), s->q->unknowns, out, variable);
 }
 
-/* chi and Q at one point. */
-static bool roots_at(search *s, const nh_classify_row *row, size_t degree, size_t prime, uint64_t seed,
-                     nh_residue_polynomial *chi, nh_residue_polynomial *Q, nh_classify_row *out)
+/* chi and Q at the point of these series, which are freed. */
+static bool roots_of(search *s, size_t degree, nh_parametric_series *x, nh_residue_polynomial *chi, nh_residue_polynomial *Q,
+                     nh_classify_row *out)
 {
-    nh_parametric_series *x = nh_classify_series(s, prime, seed, row->number.order);
     if (!x) return false;
     nh_sparse_pencil pencil = {0};
     nh_parametric_variable variable;
-    bool good = pencil_of(s, x, degree, &pencil, &variable) && nh_staircase(&pencil, x->ring->field, &s->products, chi);
+    bool good = pencil_of(s, x, degree, &pencil, &variable)
+        && nh_staircase(&pencil, x->ring->field, &s->products, chi, &out->nullity);
     if (good) nh_parametric_back(&variable, x->ring->field, chi);
     if (good) {
         Q->degree = x->degree;
@@ -40,6 +45,7 @@ static bool roots_at(search *s, const nh_classify_row *row, size_t degree, size_
         if (s->out) s->out->limit = !s->q->linear && Q->degree == x->degree;
         out->unknowns = pencil.columns;
         out->power = pencil.degree;
+        out->split = x->split;
     }
     nh_free(pencil.entry);
     nh_parametric_series_free(x);
@@ -49,10 +55,15 @@ static bool roots_at(search *s, const nh_classify_row *row, size_t degree, size_
 bool nh_classify_roots(search *s, size_t degree, size_t prime, nh_classify_row *row, nh_special_roots *out)
 {
     nh_residue_polynomial chi[2] = {{0}}, Q[2] = {{0}};
+    size_t nullity = 0;
     bool good = true;
-    for (int k = 0; k < 2 && good; k++)
-        good = roots_at(s, row, degree, prime, 101 + 10 * (uint64_t)k, &chi[k], &Q[k], row);
-    if (good) *out = nh_special_common(nh_prime_at(prime), chi, Q);
+    for (int k = 0; k < 2 && good; k++) {
+        nh_parametric_series *x = nh_classify_series(s, nh_classify_prime(s, prime), 101 + 10 * (uint64_t)k, row->number.order);
+        good = roots_of(s, degree, x, &chi[k], &Q[k], row);
+        if (row->nullity > nullity) nullity = row->nullity;
+    }
+    row->nullity = nullity;
+    if (good) *out = nh_special_common(nh_classify_prime(s, prime), chi, Q);
     for (int k = 0; k < 2; k++) {
         nh_free(chi[k].coefficient);
         nh_free(Q[k].coefficient);
@@ -60,9 +71,9 @@ bool nh_classify_roots(search *s, size_t degree, size_t prime, nh_classify_row *
     return good;
 }
 
-/* Residues modulo the primes so far, for those of one degree. */
+/* Residues modulo the primes so far, for those of one degree and one nullity. */
 typedef struct {
-    size_t count;
+    size_t count, nullity;
     nh_prime prime[NH_CLASSIFY_MOST_PRIMES];
     nh_residue_polynomial residue[NH_CLASSIFY_MOST_PRIMES];
 } residues;
@@ -73,17 +84,27 @@ static void clear(residues *r)
     r->count = 0;
 }
 
-/* A prime at which the degree is another is unlucky: the first one, when the second disagrees, otherwise the new
+/* A prime at which the degree or the nullity is another is unlucky: the first one, when the second disagrees, otherwise the new
  * one. */
-static void add(residues *r, nh_prime prime, nh_residue_polynomial p)
+static void add(residues *r, nh_prime prime, nh_residue_polynomial p, size_t nullity)
 {
-    if (r->count == 1 && r->residue[0].degree != p.degree) clear(r);
-    if (r->count && r->residue[0].degree != p.degree) {
+    bool other = r->count && (r->residue[0].degree != p.degree || r->nullity != nullity);
+    if (r->count == 1 && other) clear(r);
+    else if (other) {
         nh_free(p.coefficient);
         return;
     }
+    r->nullity = nullity;
     r->prime[r->count] = prime;
     r->residue[r->count++] = p;
+}
+
+/* Modulo these the roots of both are numbers. */
+static bool in_both(const residues *a, const residues *b, size_t i)
+{
+    bool both = false;
+    for (size_t k = 0; k < b->count; k++) both |= a->prime[i].p == b->prime[k].p;
+    return both;
 }
 
 /* (p_1 p_2 .. / norm)^(1/(degree + 1)): every prime divides b f(a, b), which is at most H^(degree + 1) norm, and no
@@ -91,11 +112,8 @@ static void add(residues *r, nh_prime prime, nh_residue_polynomial p)
 static double height(const residues *a, const residues *b, size_t degree, double norm)
 {
     double logarithm = -log(norm > 1 ? norm : 1);
-    for (size_t i = 0; i < a->count; i++) {
-        bool both = false;
-        for (size_t k = 0; k < b->count; k++) both |= a->prime[i].p == b->prime[k].p;
-        if (both) logarithm += log((double)a->prime[i].p);
-    }
+    for (size_t i = 0; i < a->count; i++)
+        if (in_both(a, b, i)) logarithm += log((double)a->prime[i].p);
     return floor(exp(logarithm / (double)(degree + 1)) * (1 - 1e-9));
 }
 
@@ -141,6 +159,73 @@ static void count_values(search *s, size_t degree)
     }
 }
 
+/* ---- every number ---- */
+
+enum { coordinates_tried = 27, least_coordinate = 1, choices = 3, unlucky = 20 };
+
+/* Whole coordinates at which the nullity modulo a prime is that of the random points, and how long special values can be. */
+static bool bound_at(search *s, size_t degree, const nh_classify_row *row, int64_t *q0, nh_special_bound *out)
+{
+    nh_jet_equations *x = s->family.counter.equations;
+    bool found = false;
+    for (size_t trial = 0; trial < coordinates_tried && !found && !nh_late(); trial++) {
+        bool regular = nh_parametric_choose(&s->family, nh_classify_prime(s, 0), trial) && !s->family.counter.frame;
+        for (size_t k = 0, rest = trial; k < x->coordinates; k++, rest /= choices) {
+            q0[k] = least_coordinate + (int64_t)(rest % choices);
+            x->at[k] = (nh_residue)q0[k];
+        }
+        nh_residue_polynomial chi = {0}, Q = {0};
+        nh_classify_row here = {0};
+        nh_parametric_series *series = regular ? nh_parametric_series_create(&s->family, row->number.order, &regular) : NULL;
+        nh_parity parity = series ? parity_of(series, degree) : NH_ALL_DEGREES;
+        found = roots_of(s, degree, series, &chi, &Q, &here) && here.nullity == row->nullity;
+        if (found && !nh_special_bound_find(&s->family, degree, parity, row->number.order, q0, here.unknowns - here.nullity, out)) {
+            found = false;
+            trial = coordinates_tried;
+        }
+        nh_free(chi.coefficient);
+        nh_free(Q.coefficient);
+    }
+    return found;
+}
+
+/* The nullities of both parities are the number of integrals: degree - 1 has the other one. */
+static bool is_number(const search *s, size_t degree, const nh_classify_row *row)
+{
+    size_t other = !row->split ? 0 : degree == 1 ? 1 : s->out->row[degree - 2].nullity;
+    return row->nullity + other == row->number.bound;
+}
+
+/* A special value that is no root of F, the product of the values, has a primitive polynomial g that divides a minor: its leading coefficient and
+ * Mahler's measure are below 2^bits. Every prime divides lc(g) Res(g, F), which is below 2^(bits (1 + deg F)) |F|_1^deg g. */
+static void exclude_all(search *s, size_t degree, const residues *excluded, const residues *degenerate,
+                        const nh_special_factors *values, const nh_special_factors *nothing, nh_classify_row *row)
+{
+    nh_jet_equations *x = s->family.counter.equations;
+    nh_special_bound bound;
+    int64_t *q0 = nh_alloc_array(x->coordinates + 1, sizeof *q0);
+    double left = s->products;
+    bool known = !s->q->linear && !s->q->two && is_number(s, degree, row) && bound_at(s, degree, row, q0, &bound);
+    nh_free(q0);
+    if (!known) return;
+    double roots = (double)(excluded->residue[0].degree + degenerate->residue[0].degree), have = 0;
+    double need = bound.bits * (1 + roots) + bound.degree * log2(values->norm * nothing->norm);
+    row->bits = bound.bits;
+    row->theorem_primes = (size_t)(need / 30) + 1; /* each has more than 30 bits */
+    size_t most = row->theorem_primes <= s->q->theorem ? row->theorem_primes + unlucky : 0;
+    for (size_t prime = 0; prime < most && have <= need && !nh_late(); prime++) {
+        nh_special_roots found;
+        nh_classify_row here = *row;
+        s->products = s->q->products;
+        if (!nh_classify_roots(s, degree, prime, &here, &found)) break;
+        if (here.nullity == row->nullity && nh_special_agrees(values, nh_classify_prime(s, prime), &found.excluded)
+            && nh_special_agrees(nothing, nh_classify_prime(s, prime), &found.degenerate)) have += log2((double)nh_classify_prime(s, prime).p);
+        nh_special_roots_clear(&found);
+    }
+    s->products = left;
+    row->theorem = have > need && (degree == 1 || !row->split || s->out->row[degree - 2].theorem);
+}
+
 /* Modulo more and more primes, until they are numbers. */
 static bool find_values(search *s, size_t degree, nh_classify_row *row)
 {
@@ -150,8 +235,8 @@ static bool find_values(search *s, size_t degree, nh_classify_row *row)
         nh_special_roots roots;
         good = nh_classify_roots(s, degree, prime, row, &roots);
         if (!good) break;
-        add(&excluded, nh_prime_at(prime), roots.excluded);
-        add(&degenerate, nh_prime_at(prime), roots.degenerate);
+        add(&excluded, nh_classify_prime(s, prime), roots.excluded, row->nullity);
+        add(&degenerate, nh_classify_prime(s, prime), roots.degenerate, row->nullity);
         if (excluded.count < least_primes || degenerate.count < least_primes) continue;
         nh_special_factors values = nh_special_lift(excluded.count, excluded.prime, excluded.residue);
         nh_special_factors nothing = nh_special_lift(degenerate.count, degenerate.prime, degenerate.residue);
@@ -159,8 +244,10 @@ static bool find_values(search *s, size_t degree, nh_classify_row *row)
         if (row->lifted) {
             take_values(s, &nothing, true);
             take_values(s, &values, false);
-            row->height = height(&excluded, &degenerate, excluded.residue[0].degree + degenerate.residue[0].degree,
-                                 values.norm * nothing.norm);
+            size_t roots_known = excluded.residue[0].degree + degenerate.residue[0].degree;
+            row->height = height(&excluded, &degenerate, roots_known, values.norm * nothing.norm);
+            row->nullity = excluded.nullity;
+            exclude_all(s, degree, &excluded, &degenerate, &values, &nothing, row);
         }
         nh_special_factors_clear(&values);
         nh_special_factors_clear(&nothing);

@@ -11,7 +11,8 @@
  *
  * What is proved: no transcendental number is special; a number that is special and not among the values (special,
  * degenerate or examined in vain) has, modulo each of the primes, the residue of one of them, or no residue. For
- * rationals up to a `height` this cannot be. */
+ * rationals up to a `height` this cannot be; for no number at all modulo as many primes as a bound demands
+ * (special_bound.h). */
 #ifndef NH_CLASSIFY_H
 #define NH_CLASSIFY_H
 
@@ -33,6 +34,7 @@ typedef struct {
     size_t degree;           /* up to which */
     double work;             /* products of residues that one count may take */
     double products;         /* of residues that looking for the values of one degree may take */
+    size_t theorem;          /* most primes of a proof that leaves out no number */
     size_t unknowns;         /* of the largest linear system */
     size_t known;
     const nh_ex *current;    /* integrals for all values */
@@ -64,6 +66,11 @@ typedef struct {
     uint64_t prime[NH_CLASSIFY_MOST_PRIMES];
     double height;           /* no other rational number with numerator and denominator up to this is special; 0: not
                               * lifted, here or at a lower degree */
+    size_t nullity;          /* of the equations for the integrals with this degree's parity, where they have one */
+    bool split;              /* they have */
+    double bits;             /* special values divide numbers of so many bits (special_bound.h); 0: not known */
+    size_t theorem_primes;   /* so many exclude every other complex number; */
+    bool theorem;            /* they were tried, here and for the other parity */
     nh_classify_number infinite; /* in the limit, where there is one */
 } nh_classify_row;
 

@@ -22,18 +22,22 @@ void nh_classify_open(search *s, const nh_model *model, const nh_classify_questi
 
 /* ---- points ---- */
 
-nh_parametric_series *nh_classify_series(search *s, size_t prime, uint64_t seed, size_t order)
+nh_prime nh_classify_prime(const search *s, size_t index)
+{
+    return nh_jet_point_prime(s->family.counter.equations->point, index);
+}
+
+nh_parametric_series *nh_classify_series(search *s, nh_prime f, uint64_t seed, size_t order)
 {
     nh_parametric_series *x = NULL;
     bool regular = false;
-    nh_prime f = nh_prime_at(prime);
     if (s->q->two && s->q->bottom > 0) {
         nh_residue bottom = nh_residue_of(f, s->q->bottom);
         if (!bottom) return NULL;
         s->family.value = nh_residue_mul(f, nh_residue_of(f, s->q->top), nh_residue_inverse(f, bottom));
     }
     for (uint64_t attempt = 0; attempt < most_points && !regular && !s->family.obstacle && !nh_late(); attempt++)
-        if (nh_parametric_choose(&s->family, prime, seed + 1000 * attempt))
+        if (nh_parametric_choose(&s->family, f, seed + 1000 * attempt))
             x = nh_parametric_series_create(&s->family, order, &regular);
     return x;
 }
@@ -86,10 +90,10 @@ static bool totals(search *s, const nh_parametric_series *x, const nh_residue *v
 }
 
 /* P at one value, of one order. */
-static bool dimension_at(search *s, size_t prime, size_t level, size_t order, const place *p, nh_residue lambda,
+static bool dimension_at(search *s, nh_prime f, size_t level, size_t order, const place *p, nh_residue lambda,
                          size_t *out)
 {
-    nh_parametric_series *x = nh_classify_series(s, prime, 7 + level, order);
+    nh_parametric_series *x = nh_classify_series(s, f, 7 + level, order);
     if (!x) return false;
     nh_residue *values = nh_alloc_array(x->length, sizeof *values);
     nh_parametric_at(x, lambda, p->kind == NH_CLASSIFY_INFINITE, values);
@@ -100,13 +104,13 @@ static bool dimension_at(search *s, size_t prime, size_t level, size_t order, co
 }
 
 /* The same for orders that grow, as below. What brackets of fields say is seen one order later than they are long. */
-static void dimension(search *s, size_t prime, size_t level, const place *p, nh_residue lambda, size_t least,
+static void dimension(search *s, nh_prime f, size_t level, const place *p, nh_residue lambda, size_t least,
                       nh_classify_number *out)
 {
     const nh_linear_family *l = s->q->linear;
     size_t seen = l->low + l->step + 1, number;
     for (size_t order = l->low + 1, same = 0; !nh_late(); order++) {
-        if (!dimension_at(s, prime, level, order, p, lambda, &number)) break;
+        if (!dimension_at(s, f, level, order, p, lambda, &number)) break;
         same = out->bounded && number == out->bound ? same + 1 : 0;
         *out = (nh_classify_number){.bound = number, .order = order, .counted = true, .bounded = true,
                                     .settled = same >= steps_beyond && order > seen};
@@ -115,25 +119,38 @@ static void dimension(search *s, size_t prime, size_t level, const place *p, nh_
     out->settled |= out->bounded && out->bound == 0;
 }
 
+/* The first prime modulo which the values have residues; of the other primes too, where the equations have no roots. */
+static bool prime_of(search *s, const place *p, nh_prime *f, nh_residue *lambda)
+{
+    const nh_jet_point *point = s->family.counter.equations->point;
+    bool roots = point->pieces > 0;
+    for (size_t k = 0; k < point->kernels; k++) roots |= point->kernel[k].kind == NH_JET_ROOT;
+    for (size_t i = 0; i < (roots ? 1 : 2) * (size_t)root_primes; i++) {
+        *f = i < root_primes ? nh_classify_prime(s, i) : nh_prime_with_units(i - root_primes);
+        if (residue_of(s, p, *f, lambda)) return true;
+    }
+    return false;
+}
+
 bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, size_t *known, nh_classify_number *out)
 {
-    size_t step = 1, prime = 0;
+    size_t step = 1;
+    nh_prime f;
     nh_residue lambda;
     bool held = s->family.held;
-    while (prime < root_primes && !residue_of(s, p, nh_prime_at(prime), &lambda)) prime++;
-    if (prime == root_primes) return false;
+    if (!prime_of(s, p, &f, &lambda)) return false;
     s->family.held = true;
     s->family.counter.work = 0;
     if (s->q->linear) {
         *out = (nh_classify_number){0};
         if (known) least = *known = s->q->linear->known;
-        dimension(s, prime, degree, p, lambda, least, out);
+        dimension(s, f, degree, p, lambda, least, out);
         s->family.held = held;
         return out->bounded;
     }
     for (size_t order = degree + first_beyond; s->family.counter.work < s->count.work
          && !nh_late(); order += step + 1) {
-        nh_parametric_series *x = nh_classify_series(s, prime, 7 + degree, order);
+        nh_parametric_series *x = nh_classify_series(s, f, 7 + degree, order);
         if (!x) break;
         if (step != nh_parametric_step(&s->family)) { /* only now it is known */
             step = nh_parametric_step(&s->family);

@@ -24,8 +24,11 @@ typedef struct {
     const nh_special_curve *curve;
 } nh_classify_place;
 
+/* The index-th prime modulo which the numbers below roots have them. */
+nh_prime nh_classify_prime(const nh_classify_search *search, size_t index);
+
 /* Series at another regular point modulo this prime.  NULL: too long, or none is found. */
-nh_parametric_series *nh_classify_series(nh_classify_search *search, size_t prime, uint64_t seed, size_t order);
+nh_parametric_series *nh_classify_series(nh_classify_search *search, nh_prime field, uint64_t seed, size_t order);
 
 /* Where the equations of this degree lose rank, modulo one prime, at two points, by series of the row's order. */
 bool nh_classify_roots(nh_classify_search *search, size_t degree, size_t prime, nh_classify_row *row, nh_special_roots *out);

@@ -166,12 +166,12 @@ void nh_parametric_close(nh_parametric *f)
 
 /* ---- points ---- */
 
-bool nh_parametric_choose(nh_parametric *f, size_t prime, uint64_t seed)
+bool nh_parametric_choose(nh_parametric *f, nh_prime field, uint64_t seed)
 {
     nh_jet_equations *x = f->counter.equations;
     nh_adapted_frame_free(f->counter.frame);
     f->counter.frame = NULL;
-    nh_jet_equations_choose(x, nh_prime_at(prime), seed);
+    nh_jet_equations_choose(x, field, seed);
     if (f->linear && f->linear->coefficient) return true;
     return nh_count_take_known(&f->counter) && (plain(f) || (f->counter.frame = nh_adapted_frame_create(x)) != NULL);
 }

@@ -47,7 +47,7 @@ void nh_parametric_open(nh_parametric *family, const nh_model *model, size_t par
 void nh_parametric_close(nh_parametric *family);
 
 /* Another point, which follows from both numbers; false: a singular one. */
-bool nh_parametric_choose(nh_parametric *family, size_t prime, uint64_t seed);
+bool nh_parametric_choose(nh_parametric *family, nh_prime field, uint64_t seed);
 
 typedef struct {
     nh_jet_ring *ring;

@@ -83,11 +83,11 @@ static bool zeros_modulo(search *s, size_t degree, size_t prime, nh_plane_row *r
     nh_residue_surface d[places] = {{.degree = {0}}}, Q[places] = {{.degree = {0}}};
     bool good = true;
     for (uint64_t k = 0; k < places && good; k++) {
-        nh_parametric_series *x = nh_classify_series(&s->s, prime, 101 + 10 * k, row->number.order);
+        nh_parametric_series *x = nh_classify_series(&s->s, nh_classify_prime(&s->s, prime), 101 + 10 * k, row->number.order);
         good = x && determinants(s, x, degree, 31 + 1000 * k + prime, row, &d[k], &Q[k]);
         nh_parametric_series_free(x);
     }
-    if (good) good = nh_common_curves_find(nh_prime_at(prime), places, d, places, Q, out);
+    if (good) good = nh_common_curves_find(nh_classify_prime(&s->s, prime), places, d, places, Q, out);
     for (size_t k = 0; k < places; k++) {
         nh_free(d[k].coefficient);
         nh_free(Q[k].coefficient);
@@ -215,7 +215,7 @@ static bool find_zeros(search *s, size_t degree, nh_plane_row *row)
             nh_common_curves_clear(&curves);
             break;
         }
-        add(&r, nh_prime_at(prime), &curves);
+        add(&r, nh_classify_prime(&s->s, prime), &curves);
         row->lifted = r.count >= least_primes && lift(s, &r, row);
     }
     row->primes = r.count;
@@ -308,7 +308,7 @@ static bool sweep(search *s, size_t degree, nh_plane_row *row)
         row->lifted = true;
         row->height = x.height;
         row->primes = 1;
-        row->prime[0] = nh_prime_at(0).p;
+        row->prime[0] = nh_classify_prime(&s->s, 0).p;
     }
     nh_plane_sweep_clear(&x);
     return good;

@@ -65,7 +65,7 @@ typedef enum { NOTHING, SOMETHING, ENDED } outcome;
 static outcome look(search *s, const nh_plane_known *o, size_t degree, const nh_classify_number *number)
 {
     enum { prime = 0 };
-    nh_prime f = nh_prime_at(prime);
+    nh_prime f = nh_classify_prime(s, prime);
     nh_classify_row row = {.number = *number};
     nh_classify_place any = {.kind = NH_CLASSIFY_ANY};
     nh_classify_number here;
@@ -112,10 +112,10 @@ static void add_line(nh_plane_sweep *out, int64_t top, int64_t bottom)
 }
 
 /* Every prime divides the value of the known polynomial times a denominator: as for one parameter. */
-static void take_height(nh_plane_sweep *out, const nh_plane_known *o, int64_t top, int64_t bottom)
+static void take_height(nh_plane_sweep *out, double p, const nh_plane_known *o, int64_t top, int64_t bottom)
 {
     size_t degree = 0;
-    double norm = known_norm(o, top, bottom, &degree), p = (double)nh_prime_at(0).p;
+    double norm = known_norm(o, top, bottom, &degree);
     double height = floor(pow(p / norm, 1 / (double)(degree + 1)) * (1 - 1e-9));
     if (height < out->height) out->height = height;
 }
@@ -130,7 +130,7 @@ static bool examine(search *s, nh_classify_question *q, const nh_plane_known *o,
     if (found == ENDED) return false;
     out->examined++;
     if (found == SOMETHING) add_line(out, top, bottom);
-    else take_height(out, o, top, bottom);
+    else take_height(out, (double)nh_classify_prime(s, 0).p, o, top, bottom);
     return true;
 }
 

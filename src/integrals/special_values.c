@@ -168,6 +168,26 @@ nh_special_factors nh_special_lift(size_t primes, const nh_prime *prime, const n
     return out;
 }
 
+bool nh_special_agrees(const nh_special_factors *of, nh_prime f, const nh_residue_polynomial *polynomial)
+{
+    nmod_poly_t all, part;
+    nmod_poly_init(all, f.p);
+    nmod_poly_init(part, f.p);
+    nmod_poly_one(all);
+    for (size_t k = 0; k < of->factors; k++) {
+        nmod_poly_zero(part);
+        for (size_t j = 0; j <= of->factor[k].degree; j++)
+            nmod_poly_set_coeff_ui(part, (slong)j, nh_residue_of(f, of->factor[k].coefficient[j]));
+        nmod_poly_mul(all, all, part);
+    }
+    take(part, polynomial);
+    if (!nmod_poly_is_zero(all)) nmod_poly_make_monic(all, all);
+    bool same = nmod_poly_equal(all, part);
+    nmod_poly_clear(part);
+    nmod_poly_clear(all);
+    return same;
+}
+
 void nh_special_factors_clear(nh_special_factors *f)
 {
     for (size_t k = 0; k < f->factors; k++) nh_free(f->factor[k].coefficient);

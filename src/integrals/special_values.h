@@ -32,6 +32,8 @@ typedef struct {
 
 /* Monic polynomials of one degree modulo several primes. */
 nh_special_factors nh_special_lift(size_t primes, const nh_prime *prime, const nh_residue_polynomial *residue);
+/* Has their product modulo the prime the roots of this polynomial, which is monic and squarefree? */
+bool nh_special_agrees(const nh_special_factors *factors, nh_prime field, const nh_residue_polynomial *polynomial);
 void nh_special_factors_clear(nh_special_factors *factors);
 
 /* The least root modulo the prime, where there is one. */

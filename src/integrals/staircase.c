@@ -12,7 +12,7 @@
 
 /* The coefficients of the powers; the first one is constant. */
 typedef struct {
-    size_t count;
+    size_t count, used;      /* used: rank that is no longer in them */
     nmod_mat_t *m;
 } matrices;
 
@@ -35,6 +35,7 @@ static void clear(matrices *x)
 
 static void replace(matrices *x, matrices by)
 {
+    by.used = x->used;
     clear(x);
     *x = by;
 }
@@ -102,6 +103,7 @@ static void use_constants(matrices *x, const nmod_mat_t C, slong rank)
         else open[opens++] = j;
     }
     for (size_t k = 0; k < x->count; k++) substitute_in(x->m[k], C, rank, pivot, opens, open);
+    x->used += (size_t)rank;
     nh_free(open);
     nh_free(pivot);
 }
@@ -197,6 +199,7 @@ static matrices reduced(const nh_sparse_pencil *p, nh_prime f, double *products,
     nh_sparse_pencil small = nh_sparse_pencil_reduce(p, f);
     matrices x = matrices_of(&small, f);
     *degree = small.degree;
+    x.used = small.pivots;
     nh_free(small.entry);
     reduce(&x, products);
     return x;
@@ -204,7 +207,7 @@ static matrices reduced(const nh_sparse_pencil *p, nh_prime f, double *products,
 
 /* ---- results ---- */
 
-bool nh_staircase(const nh_sparse_pencil *p, nh_prime f, double *products, nh_residue_polynomial *out)
+bool nh_staircase(const nh_sparse_pencil *p, nh_prime f, double *products, nh_residue_polynomial *out, size_t *nullity)
 {
     nmod_mat_t X;
     nmod_poly_t chi;
@@ -227,6 +230,7 @@ bool nh_staircase(const nh_sparse_pencil *p, nh_prime f, double *products, nh_re
     out->coefficient = nh_alloc_array(out->degree + 1, sizeof *out->coefficient);
     for (size_t j = 0; j <= out->degree; j++) out->coefficient[j] = (nh_residue)nmod_poly_get_coeff_ui(chi, (slong)j);
     nmod_poly_clear(chi);
+    *nullity = p->columns * (p->degree ? p->degree : 1) - x.used - (none ? 0 : (size_t)k); /* with companions */
     clear(&x);
     return solved;
 }

@@ -22,9 +22,10 @@ typedef struct {
     nh_residue *coefficient;
 } nh_residue_polynomial;
 
-/* chi, monic. `products` of residues may be taken and becomes what is left of them, negative when it was too little.
- * False then, and behind the deadline (base/progress.h). */
-bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, double *products, nh_residue_polynomial *chi);
+/* chi, monic, and the columns less the rank for almost all values. `products` of residues may be taken and becomes what is left of them,
+ * negative when it was too little. False then, and behind the deadline (base/progress.h). */
+bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, double *products, nh_residue_polynomial *chi,
+                  size_t *nullity);
 
 /* With two parameters: what is left, by powers, then rows, then columns; on the heap. */
 typedef struct {
