@@ -4,6 +4,7 @@
 #include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "integrals/classify.h"
@@ -352,6 +353,18 @@ Test(classify, special_values_are_no_longer_than_their_bound)
     expect_bound("(x^2 + y^2)/2 + x^2*y + eps*y^3", 2, 4);
     expect_bound("(x^2 + 3*y^2)/2 + x^3 + eps*x*y^2", 2, 4);
     expect_bound("x^4 + (eps + 5)*x^2*y^2 + 7*y^4/3", 2, 4);
+}
+
+/* ---- brute force ---- */
+
+/* Families that are classified nowhere else, by a program that shares nothing with this one. */
+Test(classify, brute_force_agrees)
+{
+    if (system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1")) {
+        cr_log_warn("skipped: there is no Python with numpy (Debian: python3-numpy)");
+        return;
+    }
+    cr_expect_eq(system("/usr/bin/python3 tests/brute_force.py --few >/dev/null"), 0);
 }
 
 /* ---- random families ---- */
