@@ -381,7 +381,7 @@ void nh_rates_search(nh_stage_solver *x)
             nh_family around = nh_stage_pencil_around(x->r->arena, o, &x->words, q);
             pencil_of(x, q, 0, name, &around, NH_PENCIL_BASES);
         }
-        for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_stage_solver_done(x); base++) pencil_stage(x, q, 0, name, base);
+        for (size_t base = NH_PENCIL_PLAIN; base <= NH_PENCIL_PRODUCTS && is_cyclic(x, q) && !nh_stage_solver_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
     powers(x);
     potential_rate(x);
