@@ -21,6 +21,15 @@ static const published PUBLISHED[] = {
      "parameters: {b: 0.3}\n" PLANE "(x^2 + 16*y^2)/2 - x^2*y - 16*y^3/3 - b/x^2\n" QUADRANT, 2, 6},
     /* S. Post and P. Winternitz, J. Phys. A 44 (2011) 162001: integrals of degrees 3 and 4, and no coordinates that separate */
     {"Post and Winternitz", "parameters: {a: 0.7}\n" PLANE "a*y*x^(-2/3)\n" QUADRANT, 3, 6},
+    /* potentials with complex coefficients, x = i s X: A. Ramani, B. Dorizzi and B. Grammaticos, Phys. Rev. Lett. 49 (1982) 1539; the second is of [AMNS2018] */
+    {"cubic with sqrt(3) i", "coordinates: [x, y]\nlagrangian: (-3*x'^2 + y'^2)/2 - (y^3/3 - 45/2*x^2*y + 81/2*x^3)\n", 2, 4},
+    {"cubic with sqrt(14) i", "coordinates: [x, y]\nlagrangian: (-14*x'^2 + y'^2)/2 - (y^3/3 - 105*x^2*y + 1666/3*x^3)\n", 2, 4},
+    /* M. Blau and M. O'Loughlin, Nucl. Phys. B 654 (2003) 135: exponentials of a cyclic coordinate */
+    {"geodesics of a plane wave", "coordinates: [u, v, x, y]\nlagrangian: (x'^2 + y'^2)/2 + u'*v' + (x^2 - y^2)*u'^2/2\n", 8, 3},
+    /* S. D. Kelly and R. M. Murray, J. Robotic Systems 12 (1995) 417: wheels that turn together about vertical axes */
+    {"robot of fixed orientation",
+     "parameters: {m: 2, I: 0.7, J: 0.4, R: 0.5}\ncoordinates: [x, y, {name: th, type: angle}, {name: psi, type: angle}]\n"
+     "lagrangian: m*(x'^2 + y'^2)/2 + I*th'^2/2 + 3*J*psi'^2/2\nconstraints: [\"x' = R*cos(th)*psi'\", \"y' = R*sin(th)*psi'\"]\n", 6, 3},
     /* C. R. Holt, J. Math. Phys. 23 (1982) 1037; J. Hietarinta, Phys. Rep. 147 (1987) 87: degrees 3, 4 and 6 */
     {"Holt, 3/4", "parameters: {d: 0.3}\n" PLANE "3/4*x^(4/3) - (y^2 + d)*x^(-2/3)\n" QUADRANT, 2, 6},
     {"Holt, 9/2", PLANE "9/2*x^(4/3) - y^2*x^(-2/3)\n" QUADRANT, 2, 6},

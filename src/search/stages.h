@@ -19,8 +19,8 @@ bool nh_stage_of_many(nh_arena *arena, const nh_model *model, const nh_dictionar
 
 /* What the search for unknown rates starts from: 0 the velocities, 1 with first harmonics of the angles, 2 everything of degree one; for cyclic
  * coordinates also, with first harmonics, 3 the frame of the kinetic energy times lengths and t, 4 its squares times lengths (vectors and
- * tensors in polar coordinates); and, when asked for by themselves, 5 velocities and
- * their products with positions (angular momenta), 6 as 2 with 1 and functions of time,
+ * tensors in polar coordinates), 5 velocities and their products with positions (angular momenta, plane waves);
+ * and, when asked for by themselves, 6 as 2 with 1 and functions of time,
  * 7 squares of velocities and functions (energies that friction takes), 8 as 6 with t times velocities and positions, 9 squares of velocities and
  * lengths, and functions (what breathes in an oscillator with other forces), 10 cubes of them, and functions times lengths (Runge-Lenz vectors seen from
  * a frame that turns). */
