@@ -259,6 +259,53 @@ Test(urdf, a_wheel_that_cannot_be_is_refused_at_its_place)
     place_clear(&p);
 }
 
+static char *text_at(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    if (!file) return NULL;
+    char *text = read_stream(file);
+    fclose(file);
+    return text;
+}
+
+/* Robots that others described, as Debian's package dart-doc ships them: an arm of KUKA in the commands, and one of Barrett with the lower half of its inertias. */
+Test(urdf, robots_of_others)
+{
+    static const struct { const char *line; int code; } runs[] = {{"show kr5.urdf", 0}, {"analyze kr5.urdf --columns 1 --degree 1 --json kr5.json", 0}, {"verify kr5.urdf --current elbow_roll'", 1},
+        {"verify kr5.urdf --field shoulder_yaw=1", 1}, {"simulate kr5.urdf --until 0.5 --step 0.25 --svg kr5.svg", 0}, {"reduce kr5.urdf", 0}, {"benchmark kr5.urdf --until 0.2 --budget 200ms", 0},
+        {"export kr5.urdf --to c --of equations -o code", 0}, {"export kr5.urdf --to latex --of momenta -o code", 0}, {"show wam.urdf", 0}, {"simulate wam.urdf --until 0.5 --step 0.25", 0}};
+    place p = place_make();
+    char *kr5 = text_at("/usr/share/doc/dart/data/urdf/KR5/KR5 sixx R650.urdf"), *wam = text_at("/usr/share/doc/dart/data/urdf/wam/wam.urdf");
+    if (kr5) write_here(&p, "kr5.urdf", kr5);
+    if (wam) write_here(&p, "wam.urdf", wam);
+    if (!kr5 || !wam) puts("skipped: no robots of Debian's package dart-doc");
+    for (size_t i = 0; kr5 && wam && i < sizeof runs / sizeof *runs; i++) {
+        finished f = run_expecting(&p, runs[i].line, runs[i].code);
+        finished_clear(&f);
+    }
+    free(kr5);
+    free(wam);
+    place_clear(&p);
+}
+
+Test(urdf, inertias_have_an_upper_half_that_counts)
+{
+    static const char form[] = "<robot name=\"top\"><link name=\"base\"/><link name=\"top\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0.25\" iyy=\"1\" izz=\"1\" %s/></inertial></link>\n"
+                               "<joint name=\"spin\" type=\"continuous\"><parent link=\"base\"/><child link=\"top\"/><axis xyz=\"0 0 1\"/></joint></robot>\n";
+    static const char *const lower[] = {"iyx=\"0\" izx=\"0.0\" izy=\"0\"", "iyx=\"0.25\"", "iyx=\"0.5\""};
+    place p = place_make();
+    for (int i = 0; i < 3; i++) {
+        char text[700];
+        snprintf(text, sizeof text, form, lower[i]);
+        write_here(&p, "top.urdf", text);
+        finished f = run_expecting(&p, "show top.urdf", 0);
+        cr_expect_not_null(strstr(f.out, "inertia: [[1, 0.25, 0], [0.25, 1, 0], [0, 0, 1]]"), "%s", f.out);
+        cr_expect_eq(strstr(f.out, "iyx differs from ixy, which is taken") != NULL, i == 2, "%s", f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 /* A planar joint across a direction that is no axis has the kinetic energy of a planar one in a turned frame. */
 Test(urdf, planar_joints_across_any_direction)
 {

@@ -252,13 +252,26 @@ static bool check_inertia(nh_urdf_reader *u, const nh_xml *inertia, const double
     return true;
 }
 
+/* The matrix is symmetric, and URDF has its upper half. Converters write the other one as well, equal or zero. */
+static bool lower_half(nh_urdf_reader *u, const nh_xml *inertia, const double I[6])
+{
+    static const struct { const char *name, *upper; int of; } entry[] = {{"iyx", "ixy", 1}, {"izx", "ixz", 2}, {"izy", "iyz", 4}};
+    for (int i = 0; i < 3; i++) {
+        const nh_xml_attribute *a = nh_xml_get(inertia, entry[i].name);
+        double value = 0;
+        if (a && !nh_urdf_numbers(u, a, 1, &value, NULL)) return false;
+        if (value != 0 && value != I[entry[i].of]) nh_urdf_note(u, a->begin, "%s differs from %s, which is taken: the matrix of inertia is symmetric", entry[i].name, entry[i].upper);
+    }
+    return true;
+}
+
 static bool inertia_of(nh_urdf_reader *u, const nh_xml *inertia, nh_deck_node *body)
 {
     static const char *const names[] = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
     static const int place[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
     double I[6];
     const nh_deck_node *entry[6];
-    if (!nh_urdf_only(u, inertia, "ixx ixy ixz iyy iyz izz", "", "")) return false;
+    if (!nh_urdf_only(u, inertia, "ixx ixy ixz iyx iyy iyz izx izy izz", "", "")) return false;
     for (int i = 0; i < 6; i++) {
         const nh_xml_attribute *a = nh_xml_get(inertia, names[i]);
         nh_deck_node *words = nh_deck_new(u->deck, NH_DECK_LIST, inertia->begin, inertia->end);
@@ -269,7 +282,7 @@ static bool inertia_of(nh_urdf_reader *u, const nh_xml *inertia, nh_deck_node *b
         if (a && !nh_urdf_numbers(u, a, 1, &I[i], words)) return false;
         entry[i] = words->item[0];
     }
-    if (!check_inertia(u, inertia, I)) return false;
+    if (!check_inertia(u, inertia, I) || !lower_half(u, inertia, I)) return false;
     bool products = I[1] != 0 || I[2] != 0 || I[4] != 0;
     if (!products && I[0] == 0 && I[3] == 0 && I[5] == 0) return true;
     nh_deck_node *rows = nh_deck_new(u->deck, NH_DECK_LIST, inertia->begin, inertia->end);
