@@ -90,12 +90,22 @@ static bool project(nh_constraint_samples *c, double *z)
     return good;
 }
 
+static void measure(nh_constraint_samples *c, const double *z)
+{
+    nh_tape_eval(c->tape, c->work, z, c->out);
+    if (!all_finite(c->k * (1 + c->m), c->out)) return;
+    for (size_t a = 0; a < c->k; a++)
+        for (size_t j = 0; j < c->m; j++) c->size[a] = fmax(c->size[a], fabs(c->out[c->k + a + j * c->k]) * c->speed[j]);
+}
+
 static void cloud_fill(nh_constraint_samples *c, uint64_t seed)
 {
     double *low = nh_alloc_array(2 * c->width, sizeof *low), *high = low + c->width;
     nh_system *s = c->system;
-    c->unit = nh_alloc_array(2 * c->m + 1, sizeof *c->unit);
+    c->unit = nh_alloc_array(2 * c->m + c->k + 1, sizeof *c->unit);
     c->speed = c->unit + c->m;
+    c->size = c->speed + c->m;
+    for (size_t a = 0; a < c->k; a++) c->size[a] = 0;
     nh_domain_range(s, s->t, &low[0], &high[0]);
     for (size_t i = 0; i < c->m; i++) {
         nh_domain_range(s, s->coordinate[i].q, &low[1 + i], &high[1 + i]);
@@ -112,6 +122,7 @@ static void cloud_fill(nh_constraint_samples *c, uint64_t seed)
     for (int tries = 0; tries < most_tries && c->count < wanted_probes; tries++) {
         double *z = c->point + c->count * c->width;
         nh_sampler_next(sampler, z);
+        measure(c, z);
         if (!project(c, z)) continue;
         memcpy(c->F + c->count * c->k * c->m, c->out + c->k, c->k * c->m * sizeof *c->F);
         c->count++;
@@ -132,15 +143,13 @@ void nh_constraint_samples_clear(nh_constraint_samples *c)
 
 /* ---- ranks ---- */
 
+static const double rounding = 1e-13; /* of the size of a row of df/dv */
+
 /* Is the whole row of df/dv zero?  One that is, but for rounding, must not pass for one in small units. */
 static bool row_vanishes(const nh_constraint_samples *c, size_t a)
 {
-    static const double rounding = 1e-13;
     nh_system *s = c->system;
-    double most = 0;
-    for (size_t p = 0; p < c->count; p++)
-        for (size_t j = 0; j < c->m; j++) most = fmax(most, fabs(c->F[p * c->k * c->m + a + j * c->k]) * c->speed[j]);
-    if (most == 0 || most > rounding) return most == 0;
+    if (c->size[a] == 0 || c->size[a] > rounding) return c->size[a] == 0;
     nh_ex *symbol = nh_alloc_array(c->width, sizeof *symbol), f = nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs);
     symbol[0] = s->t;
     for (size_t i = 0; i < c->m; i++) symbol[1 + i] = s->coordinate[i].q, symbol[1 + c->m + i] = s->coordinate[i].v;
@@ -148,6 +157,16 @@ static bool row_vanishes(const nh_constraint_samples *c, size_t a)
     for (size_t j = 0; j < c->m && zero; j++) zero = nh_embedding_vanishes(s, c->width, symbol, c->count, c->point, nh_diff(s->dag, f, s->coordinate[j].v));
     nh_free(symbol);
     return zero;
+}
+
+/* Row i of df/dv at point p, relative to its size; zero where the constraint is stationary, as x'^2 + y'^2 = 0 is at rest. */
+static void put_row(const nh_constraint_samples *c, size_t p, size_t i, bool empty, size_t rows, double *a)
+{
+    const double *F = c->F + p * c->k * c->m;
+    double most = 0;
+    for (size_t j = 0; j < c->m; j++) most = fmax(most, fabs(F[i + j * c->k]) * c->speed[j]);
+    bool zero = empty || most <= rounding * c->size[i];
+    for (size_t j = 0; j < c->m; j++) a[i + j * rows] = zero ? 0 : F[i + j * c->k] * c->speed[j] / c->size[i];
 }
 
 /* Largest rank of df/dv over the points, and the constraint that adds nothing to those before it. */
@@ -161,8 +180,7 @@ static size_t rank_of(const nh_constraint_samples *c, size_t *redundant)
         size_t rank = 0;
         empty[use - 1] = row_vanishes(c, use - 1);
         for (size_t p = 0; p < c->count; p++) {
-            for (size_t i = 0; i < use; i++)
-                for (size_t j = 0; j < c->m; j++) a[i + j * use] = empty[i] ? 0 : c->F[p * c->k * c->m + i + j * c->k] * c->speed[j];
+            for (size_t i = 0; i < use; i++) put_row(c, p, i, empty[i], use, a);
             size_t r = nh_embedding_rank(use, c->m, a);
             if (r > rank) rank = r;
         }

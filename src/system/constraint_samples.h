@@ -15,6 +15,7 @@ typedef struct {
     double *F;          /* count x (k m), column-major k x m */
     double *unit;       /* m: nh_chart_unit of each coordinate */
     double *speed;      /* m: half the width of the velocity's */
+    double *size;       /* k: the largest |df/dv| speed at points that need not satisfy the constraints */
     size_t count;
     uint64_t seed;
     bool written;       /* with the parameters at the values of the file */
