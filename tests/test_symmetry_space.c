@@ -241,6 +241,27 @@ Test(symmetry_space, a_skate_on_a_slope)
     place_clear(&p);
 }
 
+/* Roots of numbers have residues modulo some primes alone: a point has to have all of these. */
+Test(symmetry_space, roots_of_numbers)
+{
+    static const char *const root_of[] = {"2", "3", "5", "7", "10", "13"};
+    for (size_t i = 0; i < sizeof root_of / sizeof *root_of; i++) {
+        char text[700];
+        place p = place_make();
+        snprintf(text, sizeof text, "name: rooted\nparameters: [{name: m, value: 1.2}, {name: J, value: 0.4}]\ncoordinates: [{name: f, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
+                 "lagrangian: m/2*(x'^2 + y'^2) + J/2*f'^2 + sqrt(%s)*m*x*sqrt(2 + sqrt(%s) + x^2)\nconstraints: [\"y'*cos(f) = x'*sin(f)\"]\n", root_of[i], root_of[i]);
+        char *json = equations_of(&p, text, "");
+        cJSON *root = cJSON_Parse(json);
+        cr_expect_not(says(root, "symmetry_space", "regular point"), "root of %s", root_of[i]);
+        cr_expect_not(says(root, "bracket_bounds", "regular point"), "root of %s", root_of[i]);
+        cr_expect_not(says(root, "equation_symmetries", "regular point"), "root of %s", root_of[i]);
+        cr_expect_gt(number_of(root, "dim"), 1, "root of %s", root_of[i]);
+        cJSON_Delete(root);
+        free(json);
+        place_clear(&p);
+    }
+}
+
 /* x' = e^(-g ..) ..: of the currents y' and z' none has its bracket in the distribution, and a quotient has. */
 Test(symmetry_space, a_quotient_of_currents_is_better_than_they_are)
 {

@@ -93,9 +93,10 @@ bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables,
     nh_forms_init(&forms, dag, false, canonical_length);
     for (size_t i = 0; i < n; i++) own[i] = nh_form_rewrite(&forms, e[i]);
     nh_forms_clear(&forms);
-    nh_jet_ring *ring = nh_jet_ring_create(nh_prime_at(0), variables, one, order);
+    bool found = variables && list_constants(&x, dag) && nh_jet_point_register(x.point, n, own);
+    nh_jet_ring *ring = nh_jet_ring_create(nh_jet_point_prime(x.point, 0), variables, one, order); /* a prime that has the roots of numbers */
     x.ring = ring;
-    bool found = variables && list_constants(&x, dag) && nh_jet_point_register(x.point, n, own) && solve(&x);
+    found = found && solve(&x);
     nh_jet_ring_free(ring);
     nh_jet_point_free(x.point);
     nh_free(one);

@@ -78,7 +78,7 @@ static bool find_rank(problem *x)
 {
     size_t rows = x->q->rows, columns = x->q->columns, one = 1, order = 2 * columns / rows + beyond;
     if (order > longest) order = longest;
-    x->field = nh_prime_at(1);
+    x->field = nh_jet_point_prime(x->point, 1);
     nh_jet_ring *ring = nh_jet_ring_create(x->field, 1, &one, order);
     nh_ex *constant;
     size_t constants = constants_of(x, &constant), total = rows * ring->size;

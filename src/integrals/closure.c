@@ -162,6 +162,7 @@ static nh_jet_ring *ring_of(const space *x)
 static void solve(space *x, nh_closure *out)
 {
     bool good = false;
+    x->field = nh_jet_point_prime(x->point, 0); /* known once the roots of numbers are */
     x->ring = ring_of(x);
     x->value = nh_alloc_array((x->count * x->N + x->functions) * x->ring->size + 1, sizeof *x->value);
     x->frame = nh_alloc_array(x->N * x->N * x->ring->size, sizeof *x->frame);
@@ -177,7 +178,7 @@ static void solve(space *x, nh_closure *out)
 
 nh_closure nh_closure_of(const nh_model *o, size_t count, const nh_ex *field, size_t functions, const nh_ex *function)
 {
-    space x = {.o = o, .d = o->dag, .N = 1 + o->m + o->n, .count = count, .functions = functions, .field = nh_prime_at(0), .point = nh_jet_point_create(o->dag)};
+    space x = {.o = o, .d = o->dag, .N = 1 + o->m + o->n, .count = count, .functions = functions, .point = nh_jet_point_create(o->dag)};
     nh_closure out = {.dimension = x.N};
     if (take(&x, field, function, &out)) solve(&x, &out);
     nh_jet_ring_free(x.ring);
