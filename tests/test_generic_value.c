@@ -1,4 +1,4 @@
-/* generic_value: what is not zero, and what is zero although it does not look so; and the crane's measure, whose conditions are too long. */
+/* generic_value: what is not zero, and what is zero although it does not look so; and what is known of the crane's measure. */
 #include <cjson/cJSON.h>
 
 #include "exact/generic_value.h"
