@@ -67,7 +67,7 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
     nh_cli_progress_begin(cli);
     if (!request_of(cli, &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     request.equations = cli->equations;
-    request.no_figures = !cli->html && !cli->tex && !cli->json;
+    request.no_figures = !nh_cli_wants_document(cli) && !cli->json;
     nh_analysis *result = nh_analysis_create(&request, error);
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);

@@ -9,8 +9,12 @@
 #include "cli/cli_table.h"
 #include "problem/input.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_pdf, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_max_memory, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
-       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base, opt_on };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_pdf, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_max_memory, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
+       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base, opt_on,
+#define X(name, form, writer) opt_##name,
+       NH_PEN_FORM_TABLE(X)
+#undef X
+};
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 #define OLD(code, old, argument) {old, argument, NULL, code},
@@ -286,6 +290,7 @@ static bool swallows_option(const char *value) { return value && !strncmp(value,
 /* `-` is a file, too: what is read is kept, so a pipe will do. */
 static const char *file_of(const char *word) { return strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
 
+#define X(name, form, writer) case opt_##name: cli->name = value; return true;
 static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 {
     switch (code) {
@@ -331,8 +336,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_json: cli->json = value ? value : "-"; return true;
     case opt_progress: return set_progress(cli, value, error);
     case 'o': cli->folder = value; return true;
-    case opt_html: cli->html = value; return true;
-    case opt_tex: cli->tex = value; return true;
+    NH_PEN_FORM_TABLE(X)
     case opt_fragment: return cli->fragment = true;
     case opt_analysis: cli->analysis = value; return true;
     case opt_no_analysis: return cli->no_analysis = true;
@@ -343,6 +347,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     default: return cli->help = true;
     }
 }
+#undef X
 
 /* Numbers of any computation, and how much is said, may stand behind every command: scripts give them to all. */
 static bool for_all(int code)

@@ -24,7 +24,10 @@ typedef struct {
     size_t operands;
     const char **operand;
     const char *line;            /* the whole command, as it was typed */
-    const char *analysis, *json, *html, *tex; /* files; "-": standard output */
+    const char *analysis, *json; /* files; "-": standard output */
+#define X(name, form, writer) const char *name;
+    NH_PEN_FORM_TABLE(X)         /* likewise */
+#undef X
     bool fragment;               /* the LaTeX without a preamble */
     const char *folder;          /* for all of them, or NULL */
     nh_cli_progress progress;
@@ -117,6 +120,8 @@ bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);
 
 /* The page and the LaTeX document of a result, where they are wanted. */
 typedef void nh_cli_render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out);
+/* The name of the first option that asks for a document; NULL: none does. */
+const char *nh_cli_wants_document(const nh_cli *cli);
 bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error);
 
 /* -o DIR: make the folder; everything goes there, but for what has a place of its own. */

@@ -23,8 +23,9 @@ bool nh_cli_use_folder(nh_cli *cli, nh_error *error)
         return nh_error_hint(error, "-o takes a folder; its parent folder must exist");
     }
     if (!cli->json) cli->json = nh_cli_in_folder(cli, "result.json");
-    if (!cli->html) cli->html = nh_cli_in_folder(cli, "report.html");
-    if (!cli->tex) cli->tex = nh_cli_in_folder(cli, "report.tex");
+#define X(name, form, writer) if (!cli->name) cli->name = nh_cli_in_folder(cli, "report." #name);
+    NH_PEN_FORM_TABLE(X)
+#undef X
     return true;
 }
 

@@ -135,8 +135,13 @@ static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows
         return nh_error_hint(error, "write the values of --over into the table"), *code = NH_USAGE, false;
     }
     if (cli->overs && !write_combinations(cli, error)) return *code = (int)error->code, false;
-    bool good = !cli->ensemble && !cli->html && !cli->tex && !cli->svg && !cli->pdf;
-    if (!good) nh_fail(error, NH_USAGE, "", "--%s, and --%s as well", option, cli->ensemble ? "ensemble" : cli->html ? "html" : cli->tex ? "tex" : cli->svg ? "svg" : "pdf"), nh_error_hint(error, "several motions are one table, or JSON");
+    const char *document = nh_cli_wants_document(cli);
+    const char *other = cli->ensemble ? "ensemble" : document ? document : cli->svg ? "svg" : cli->pdf ? "pdf" : NULL;
+    bool good = !other;
+    if (!good) {
+        nh_fail(error, NH_USAGE, "", "--%s, and --%s as well", option, other);
+        nh_error_hint(error, "several motions are one table, or JSON");
+    }
     good = good && nh_simulate_rows_read(cli->arena, q, cli->table, rows, error);
     if (good && (rows->parameters || q->method || rows->count == 1)) return *code = one_by_one(cli, q, rows, error), false;
     if (!good) return *code = (int)error->code, false;

@@ -12,12 +12,22 @@ nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analys
     return (nh_run){cli->line, system_path, analysis_path, cli->options.seed, cli->options.shown, NAN};
 }
 
-/* The files of --json, --html, --tex, --svg and --pdf; those that are not given are NULL. */
-enum { outputs = 5 };
+/* The files of --json, --svg, --pdf and of documents; those that are not given are NULL. */
+enum { outputs = 3 + NH_PEN_TEXT };
 static void list_outputs(const nh_cli *cli, const char *path[outputs])
 {
-    const char *const all[outputs] = {cli->json, cli->html, cli->tex, cli->svg, cli->pdf};
+#define X(name, form, writer) cli->name,
+    const char *const all[outputs] = {NH_PEN_FORM_TABLE(X) cli->json, cli->svg, cli->pdf};
+#undef X
     memcpy(path, all, sizeof all);
+}
+
+const char *nh_cli_wants_document(const nh_cli *cli)
+{
+#define X(name, form, writer) if (cli->name) return #name;
+    NH_PEN_FORM_TABLE(X)
+#undef X
+    return NULL;
 }
 
 static bool is_stdout(const char *path) { return path && !strcmp(path, "-"); }
@@ -82,16 +92,17 @@ bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error)
 
 bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error)
 {
+#define X(name, form, writer) cli->name,
+    const char *const path[] = {NH_PEN_FORM_TABLE(X)};
+#undef X
     nh_text text;
     bool good = true;
     nh_text_init(&text);
-    if (cli->html) {
-        render(cli, result, run, NH_PEN_PAGE, &text);
-        good = (!cli->folder || nh_cli_write_figures(cli, nh_text_string(&text), error)) && nh_cli_write(cli, cli->html, &text, error);
-    }
-    if (cli->tex && good) {
-        render(cli, result, run, NH_PEN_LATEX, &text);
-        good = nh_cli_write(cli, cli->tex, &text, error);
+    for (nh_pen_form form = 0; form < NH_PEN_TEXT && good; form++) {
+        if (!path[form]) continue;
+        render(cli, result, run, form, &text);
+        if (form == NH_PEN_PAGE && cli->folder) good = nh_cli_write_figures(cli, nh_text_string(&text), error);
+        good = nh_cli_write(cli, path[form], &text, error) && good;
     }
     return good;
 }

@@ -19,10 +19,14 @@ void nh_pen_begin(nh_pen *p, nh_pen_form form, const nh_pen_subject *s, const ch
                   .tex = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = written,
                           .fragment = s->fragment}};
     p->plain = (nh_plain_writer){.out = out, .of = *s};
-    static const nh_pen_ink *const ink[] = {&nh_pen_html, &nh_pen_tex, &nh_pen_plain};
-    void *const to[] = {&p->page, &p->tex, &p->plain};
-    p->ink = ink[form];
-    p->to = to[form];
+#define X(name, form, writer) {&nh_pen_##name, &p->writer},
+    const struct {
+        const nh_pen_ink *ink;
+        void *to;
+    } of[] = {NH_PEN_FORM_TABLE(X){&nh_pen_plain, &p->plain}};
+#undef X
+    p->ink = of[form].ink;
+    p->to = of[form].to;
     p->ink->begin(p->to, what);
 }
 

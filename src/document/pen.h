@@ -45,7 +45,15 @@ typedef struct {
     void (*end)(void *to, const nh_run *run);
 } nh_pen_ink;
 
-typedef enum { NH_PEN_PAGE, NH_PEN_LATEX, NH_PEN_TEXT } nh_pen_form;
+/* The forms of documents that have an option of the command line: its name, which is that of the ink nh_pen_NAME, too; the form; the member of nh_pen
+ * that the ink writes to. */
+#define NH_PEN_FORM_TABLE(X)    \
+    X(html, NH_PEN_PAGE, page)  \
+    X(tex,  NH_PEN_LATEX, tex)
+
+#define X(name, form, writer) form,
+typedef enum { NH_PEN_FORM_TABLE(X) NH_PEN_TEXT } nh_pen_form;
+#undef X
 
 /* What a document is about; formulas longer than `shown` are left out of it, those longer than `written` (0: none) of the JSON. */
 typedef struct {
@@ -76,7 +84,10 @@ typedef struct {
     bool headed;             /* has this section a heading of its own, so far? */
 } nh_pen;
 
-extern const nh_pen_ink nh_pen_html, nh_pen_tex, nh_pen_plain;
+#define X(name, form, writer) extern const nh_pen_ink nh_pen_##name;
+NH_PEN_FORM_TABLE(X)
+#undef X
+extern const nh_pen_ink nh_pen_plain;
 
 /* `pen` must stay where it is. */
 void nh_pen_begin(nh_pen *pen, nh_pen_form form, const nh_pen_subject *subject, const char *what, nh_text *out);
