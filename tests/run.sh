@@ -1,10 +1,10 @@
 #!/bin/sh
 # Runs Criterion programs, one per processor at a time, and adds up what they say.  Those that took longest last time go first; before the first time, those with sweeps.
 # usage: run.sh BUILD|PROGRAM...          the last line is "N passed, N failed"
-if [ "$1" = --one ]; then # a program: its log and its line "name passed failed seconds" stay beside it
+if [ "$1" = --one ]; then # a program: its log, with the seconds of each test, and its line "name passed failed seconds" stay beside it
     program=$2
     log=$program.log
-    NHSYM="${program%/tests/*}/nhsym" timeout -k 10 1500 "$program" --jobs 1 >"$log" 2>&1 # many times what any takes: one that hangs is a failure
+    NHSYM="${program%/tests/*}/nhsym" timeout -k 10 1500 "$program" --jobs 1 --verbose=1 >"$log" 2>&1 # many times what any takes: one that hangs is a failure
     code=$?
     line=$(sed 's/\x1b\[[0-9;]*m//g' "$log" | grep -a 'Synthesis:' | tail -n 1)
     good=$(printf '%s' "$line" | sed -n 's/.*Passing: *\([0-9]*\).*/\1/p')
@@ -22,7 +22,7 @@ if [ "$1" = --one ]; then # a program: its log and its line "name passed failed 
         printf '%-45s %4d passed %3d failed %5d s\n' "$program" "$good" "$bad" "$seconds"
         grep -a '^measured: ' "$log"
         [ "$all" = skipped ] && grep -a 'skipped: ' "$log" | head -n 1
-        [ "$bad" = 0 ] || cat "$log"
+        [ "$bad" = 0 ] || grep -av -e '\[RUN \]' -e '\[PASS\]' "$log"
     } >"$log.said"
     cat "$log.said" && rm "$log.said"
     exit 0
