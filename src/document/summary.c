@@ -142,19 +142,16 @@ static void equations(nh_summary_writer *w)
 
 static void component(nh_summary_writer *w, const nh_field_term *term, bool first)
 {
-    nh_dag *d = w->r->model->dag;
     nh_ex e = nh_formula_abbreviate(w->r, term->coefficient);
     const char *before = term->along ? "d/d" : "", *along = term->along ? term->along : "Gamma";
-    nh_text_addf(w->out, "%s", first ? "        Z = " : "          + ");
-    if (nh_is_number(d, e, 1)) {
-        nh_text_addf(w->out, "%s%s\n", before, along);
-        return;
-    }
     nh_text text;
     nh_text_init(&text);
     char *printed = text_of(w, e);
-    bool sum = nh_formula_is_sum(printed);
-    nh_text_addf(&text, "%s%s%s %s%s", sum ? "(" : "", printed, sum ? ")" : "", before, along);
+    bool sum = nh_formula_is_sum(printed), minus = !sum && printed[0] == '-';
+    nh_text_add(w->out, first ? (minus ? "        Z = -" : "        Z = ") : minus ? "          - " : "          + ");
+    if (sum) nh_text_addf(&text, "(%s) ", printed);
+    else if (strcmp(printed + minus, "1")) nh_text_addf(&text, "%s ", printed + minus);
+    nh_text_addf(&text, "%s%s", before, along);
     nh_free(printed);
     wrapped(w, 12, nh_text_string(&text));
     nh_text_clear(&text);
