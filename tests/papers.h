@@ -68,6 +68,7 @@ typedef struct {
     int document;
     const char *section, *label, *of, *printed, *meant;
     double k;  /* of CURRENT: the value of k; 0: all */
+    bool ours; /* an object of the paper of which it prints no value: `printed` is what the program gave before */
 } row;
 
 #define A "sym"
@@ -161,12 +162,12 @@ static const row ROWS[] = {
     {A, "(46)", "centrifugal force along y", VALUE, D_PHI1, "inertial_forces", "F_y^centrifugal", "", "m*a*phi'^2*sin(phi)", .k = 0},
     {A, "(46)", "no Coriolis force", VALUE, D_PHI1, "inertial_forces", "F_x^Coriolis", "", "0", .k = 0},
     {A, "(47)", "mu, with J = m a^2 (k^2 - 1)", VALUE, D_PHI1, "chetaev_equations", "mu", "", "-m*(k^2 - 1)/k^2*phi'*x'", .k = 0},
-    {A, "4.2", "dimension of the constraint symmetries of currents of degree two", VALUE, D_SYMMETRIES, "symmetry_space", "dim", "", "7", .k = 0},
+    {A, "4.2", "dimension of the constraint symmetries of currents of degree two", VALUE, D_SYMMETRIES, "symmetry_space", "dim", "", "7", .k = 0, .ours = true},
     {A, "4.2", "which currents have [Gamma,Z] in the canonical distribution", IS, D_SYMMETRIES, .label = "equations.bracket_bounds.2.words",
-        .printed = "So the currents with [Gamma,Z] in the canonical distribution are the functions of Phi1, and no others: proved."},
+        .printed = "So the currents with [Gamma,Z] in the canonical distribution are the functions of Phi1, and no others: proved.", .ours = true},
     {A, "4.2", "which have a field of case 1", IS, D_SYMMETRIES, .label = "equations.bracket_bounds.4.words",
-        .printed = "So the currents with a field of case 1 are the functions of Phi1, and no others: proved."},
-    {A, "4.2", "dimension of the point symmetries of the equations", VALUE, D_SYMMETRIES, "equation_symmetries", "dim_point", "", "5", .k = 0},
+        .printed = "So the currents with a field of case 1 are the functions of Phi1, and no others: proved.", .ours = true},
+    {A, "4.2", "dimension of the point symmetries of the equations", VALUE, D_SYMMETRIES, "equation_symmetries", "dim_point", "", "5", .k = 0, .ours = true},
     {A, "4.3", "the force is not variational", NOT, D_NONE, .printed = "the program has no test of Helmholtz's conditions"},
 
     {C, "(2.1)-(2.4)", "metric of the crane's eight coordinates, (3.22)", BY, D_NONE, .label = "crane metric"},
@@ -184,12 +185,12 @@ static const row ROWS[] = {
     {C, "(2.10), (5.30)", "H(x, p) with p = K-hat x' is the kinetic energy", BY, D_CRANE, .label = "crane hamiltonian"},
     {C, "theorem 2.3, 5.1, (2.11)", "reduced motion against the full one", SMALL, D_CRANE, .label = "stages.0.agreement_with_full"},
     {C, "(2.12)", "Upsilon_12 = F . vector with the momentum in the body frame", BY, D_CRANE, .label = "upsilon"},
-    {C, "(2.12)", "curvature: theta", VALUE, D_CRANE, "0.connection", "B_psi1,psi2^4", "", "-l*b*cos(psi1)/" DELTA "^2", .k = 0},
+    {C, "(2.12)", "curvature: theta", VALUE, D_CRANE, "0.connection", "B_psi1,psi2^4", "", "-l*b*cos(psi1)/" DELTA "^2", .k = 0, .ours = true},
     {C, "(2.12)", "all other Upsilon vanish", VALUE, D_CRANE, "0.gyroscopic_form", "Upsilon_psi1,phi1", "psi1'", "0", .k = 0},
     {C, "proposition 1, (i), (ii)", "condition (ii) for N = Q3", SMALL, D_CRANE, .label = "stages.1.condition_strong"},
     {C, "proposition 2", "the momentum is kept", SMALL, D_CRANE, .label = "stages.1.momentum_drift"},
     {C, "(2.13)", "the level set's form", NOT, D_NONE, .printed = "coordinate-free; in coordinates it is (2.19) and (2.20)"},
-    {C, "(2.14)", "locked inertia", VALUE, D_CRANE, "1.mechanical_connection", "I_1,1", "", "jz3 + jx6*sin(phi2)^2 + jy6*cos(phi2)^2", .k = 0},
+    {C, "(2.14)", "locked inertia", VALUE, D_CRANE, "1.mechanical_connection", "I_1,1", "", "jz3 + jx6*sin(phi2)^2 + jy6*cos(phi2)^2", .k = 0, .ours = true},
     {C, "(2.14)", "A-breve: psi1", VALUE, D_CRANE, "1.mechanical_connection", "Abreve_psi1^1", "", "c*sin(psi1)/" DELTA, .k = 0},
     {C, "(2.14)", "A-breve: psi2", VALUE, D_CRANE, "1.mechanical_connection", "Abreve_psi2^1", "", "b*sin(psi1)/" DELTA, .k = 0},
     {C, "(2.15), (2.16)", "N_theta = N", IS, D_CRANE, .label = "stages.1.abelian", .printed = "true"},
@@ -198,7 +199,7 @@ static const row ROWS[] = {
     {C, "(2.17), (2.20)", "Xi_theta", VALUE, D_CRANE, "1.magnetic_form", "Xi_psi1,psi2", "theta_1", "b*l*cos(psi1)/" DELTA "^2", .k = 0},
     {C, "(2.18)", "the inverse of phi_theta: along psi2", VALUE, D_CRANE, "1.hamiltonian", "phat_psi2", "theta_1", "b*sin(psi1)/" DELTA, .k = 0},
     {C, "theorem 2.6, 5.2, (2.19)", "twice reduced motion against the full one", SMALL, D_CRANE, .label = "stages.1.agreement_with_full"},
-    {C, "(2.11), (2.19)", "an invariant measure of the reduced crane: for no positive parameters", IS, D_CRANE, .label = "stages.0.measure.never", .printed = "true"},
+    {C, "(2.11), (2.19)", "an invariant measure of the reduced crane: for no positive parameters", IS, D_CRANE, .label = "stages.0.measure.never", .printed = "true", .ours = true},
     {C, "definition 3.1, (3.21), (3.22)", "metric from bodies and joints; r_cm,3 and r_6 are misprinted", BY, D_NONE, .label = "crane metric"},
     {C, "(3.23)", "potential", NOT, D_NONE, .printed = "zero in the example; the sign needs g pointing up"},
     {C, "(3.24)", "Legendre map of the chain", BY, D_NONE, .label = "crane metric"},
@@ -212,9 +213,9 @@ static const row ROWS[] = {
     {B, "lemma 2.2, (8)-(10)", "b of the chain of SE(2) x R: b(e_4, e_1)", VALUE, D_UPRIGHT, "2.chain", "b_0(e_4,e_1)", "e_2", "1", .k = 0},
     {B, "proposition 2.1, (11), (12)", "bracket by two stages", BY, D_NONE, .label = "bracket", .of = "2"},
     {B, "theorem 2.3, (13)-(15)", "bracket by several stages", BY, D_NONE, .label = "bracket", .of = "9"},
-    {B, "theorem 2.3", "a subnormal chain of the disk's group: bracket", SMALL, D_SUBNORMAL, .label = "stages.last.by_stages.bracket"},
-    {B, "theorem 2.3", "... and Euler-Poincare right-hand side", SMALL, D_SUBNORMAL, .label = "stages.last.by_stages.euler_poincare"},
-    {B, "theorem 2.3", "... and the disk's equations along it", SMALL, D_SUBNORMAL, .label = "stages.last.by_stages.by_stages_vertical"},
+    {B, "theorem 2.3", "a subnormal chain of the disk's group: bracket", SMALL, D_SUBNORMAL, .label = "stages.last.by_stages.bracket", .ours = true},
+    {B, "theorem 2.3", "... and Euler-Poincare right-hand side", SMALL, D_SUBNORMAL, .label = "stages.last.by_stages.euler_poincare", .ours = true},
+    {B, "theorem 2.3", "... and the disk's equations along it", SMALL, D_SUBNORMAL, .label = "stages.last.by_stages.by_stages_vertical", .ours = true},
     {B, "(16)-(19)", "Euler-Poincare equations, full pairing", BY, D_NONE, .label = "euler-poincare", .of = "whole"},
     {B, "(20), (21)", "Euler-Poincare equations by stages as printed", BY, D_NONE, .label = "euler-poincare", .of = "printed"},
     {B, "(22)-(32)", "Euler-d'Alembert-Poincare equations by stages (a sleigh)", SMALL, D_BODY, .label = "stages.1.by_stages.by_stages_vertical"},
@@ -230,7 +231,7 @@ static const row ROWS[] = {
     {B, "(51), final system, 1st", "I_3, not r I_3", BY, D_ROLLING, .label = "disk", .of = "1"},
     {B, "(51), final system, 2nd", "along varphi", BY, D_ROLLING, .label = "disk", .of = "2"},
     {B, "(51), final system, 3rd", "along theta", BY, D_ROLLING, .label = "disk", .of = "3"},
-    {B, "solution of (51)", "currents with the functions of theta that solve it, beside the energy", IS, D_DISK_CURRENTS, .label = "independent_currents", .printed = "3"},
+    {B, "solution of (51)", "currents with the functions of theta that solve it, beside the energy", IS, D_DISK_CURRENTS, .label = "independent_currents", .printed = "3", .ours = true},
     {B, "appendix A", "definitions 7.1-7.5, lemmas 7.4, 7.6", NOT, D_NONE, .printed = "coordinate-free calculus on associated bundles; on a slice it is the connection and its curvature (`reduce --equations`)"},
     {B, "appendix B", "definition 7.7, theorem 7.8", NOT, D_NONE, .printed = "coordinate-free form of (33)-(43), which are computed"},
 };
