@@ -6,6 +6,7 @@
 
 #include "commands/analyze.h"
 #include "graph/print.h"
+#include "sweep.h"
 
 static nh_analysis *ask(const char *path)
 {
@@ -98,6 +99,7 @@ Test(named_search, kummer)
 
 Test(named_search, gauss)
 {
+    sweep_plain_only();
     expect_named(ask_text(HEAD("{name: n, value: 1.3}") "lagrangian: (1 - t^2)*x'^2/2 - n*(n + "
                                                         "1)*x^2/2\ndomain: {t: [0.1, 0.8]}\n"),
                  2, "hyp2f1", 2);
@@ -110,6 +112,7 @@ Test(named_search, gauss)
  * + m r^2)) [Appell, Korteweg]. */
 Test(named_search, rolling_disk, .timeout = 120)
 {
+    sweep_plain_only();
     nh_analysis *r = ask("systems/rolling_disk.yaml");
     for (size_t k = 0; k < r->count; k++) {
         char *text = nh_print_string(r->model->dag, r->found[k].phi);
@@ -137,6 +140,7 @@ static void expect_equation(nh_analysis *r, size_t series, const char *equation)
  * singular points that are not real. */
 Test(named_search, equations_without_names, .timeout = 120)
 {
+    sweep_plain_only();
     expect_equation(ask_text(HEAD("{name: a, value: 1.1}, {name: e, value: 0.4}") "lagrangian: "
                                                                                   "x'^2/2 - (a + "
                                                                                   "e*cos(2*t))*x^"

@@ -65,6 +65,7 @@ Test(parameters, a_value_that_only_looks_special_is_none)
 
 Test(parameters, a_claim_is_verified_with_the_values_that_it_needs)
 {
+    sweep_plain_only();
     cJSON *fixed = answer("verify sleigh --json - --set k=1 --set a=0.7 --current v*sin(phi)+a*omega*cos(phi)"),
           *free = answer("verify sleigh --json - --current v*sin(phi/k)+a*k*omega*cos(phi/k)"),
           *numbers = answer("verify sleigh --json - --set k=1 --set a=0.7 --current 10*v*sin(phi)+7*omega*cos(phi)");
@@ -160,6 +161,7 @@ Test(parameters, rates_of_damped_motions_are_named)
 /* The speed is kept: momenta grow with exp(E x/(M u^2)). */
 Test(parameters, rates_of_a_thermostat_are_named)
 {
+    sweep_plain_only();
     expect_names(&(named_case){"name: s\nparameters: {M: 0.83, E: 1.37, u: 0.91}\ncoordinates: [x, y, z]\nlagrangian: M*(x'^2 + y'^2 + z'^2)/2 + E*x\n"
                                "constraints: [\"x'^2 + y'^2 + z'^2 = u^2\"]\ndependent: [z]\ndomain: {x': [-0.4, 0.4], y': [-0.4, 0.4], z': [0.3, 0.9]}\n",
                                {"", "--set M=1.2719 --set E=0.9123 --set u=1.1", "--set M=2 --set E=3 --set u=1"}, 5});
@@ -266,6 +268,7 @@ static void expect_same_formulas(const char *system, const char *sets)
 Test(parameters, order_and_signs_do_not_depend_on_the_values)
 {
     sweep_plain_only();
+    sweep_plain_only();
     expect_same_formulas("chaplygin_ball", "--set A=6 --set B=7 --set C=9 --set m=5 --set r=8");
     expect_same_formulas("chaplygin_ball", "--set A=1.4456 --set B=1.8124 --set C=2.0697 --set m=1.6325 --set r=0.58974");
 }
@@ -289,6 +292,7 @@ static const cJSON *momentum(const cJSON *root, size_t i) { return cJSON_GetArra
 
 Test(parameters, gauge_momenta_have_parameters_whatever_the_values)
 {
+    sweep_plain_only();
     static const char *const line[] = {"reduce vertical_disk --json -", "reduce vertical_disk --json - --set r=0.6173", "reduce vertical_disk --json - --set r=2 --set J=3"};
     for (size_t i = 0; i < 3; i++) {
         cJSON *root = answer(line[i]);
@@ -303,6 +307,7 @@ Test(parameters, gauge_momenta_have_parameters_whatever_the_values)
 /* The masses' ratio, although both sums of distances keep their roots in the potential. */
 Test(parameters, generators_have_parameters_whatever_the_values)
 {
+    sweep_plain_only();
     static const char *const line[] = {"reduce three_bodies --json -", "reduce three_bodies --json - --set a=1.43778 --set b=0.86224"};
     for (size_t i = 0; i < 2; i++) {
         cJSON *root = answer(line[i]), *group = cJSON_GetObjectItemCaseSensitive(root, "group");

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "base/linalg.h"
+#include "sweep.h"
 
 enum { most = 10 };
 
@@ -565,6 +566,7 @@ static void check(const char *name, const char *text, const char *line, const ch
 
 Test(reduced_objects, snake_of_three_links)
 {
+    sweep_plain_only();
     check("snake", "name: snake\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.4}, {name: l, value: 0.7}]\n"
           "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: a, type: angle}, {name: b, type: angle}]\n"
           "domain: {a: [0.3, 0.9], b: [0.4, 1.1]}\n"
@@ -575,6 +577,7 @@ Test(reduced_objects, snake_of_three_links)
 
 Test(reduced_objects, ball_with_a_rotor)
 {
+    sweep_plain_only();
     check("ball with a rotor", "name: rotor\nparameters: [{name: m, value: 1.1}, {name: A, value: 0.5}, {name: C, value: 0.7}, {name: I, value: 0.2}, {name: R, value: 0.6}]\n"
           "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}, {name: r, type: angle}]\n"
           "domain: {h: [0.5, 1.4]}\n"
@@ -615,6 +618,7 @@ Test(reduced_objects, body_with_sliding_masses)
 
 Test(reduced_objects, double_pendulum_in_space)
 {
+    sweep_plain_only();
     check("pendulum in space", "name: spatial\nparameters: [{name: m, value: 1.2}, {name: M, value: 0.7}, {name: g, value: 3}]\n"
           "coordinates: [{name: p, type: angle}, {name: a, type: angle}, {name: q, type: angle}, {name: b, type: angle}]\ndomain: {a: [0.4, 1.2], b: [0.5, 1.3]}\n"
           "definitions: [\"X = cos(p)*cos(a)*a' - sin(p)*sin(a)*p'\", \"Y = sin(p)*cos(a)*a' + cos(p)*sin(a)*p'\", \"Z = sin(a)*a'\", \"U = X + cos(q)*cos(b)*b' - sin(q)*sin(b)*q'\", \"V = Y + sin(q)*cos(b)*b' + cos(q)*sin(b)*q'\", \"W = Z + sin(b)*b'\"]\n"
@@ -624,6 +628,7 @@ Test(reduced_objects, double_pendulum_in_space)
 /* Other joints: a hand of a SCARA robot with a flywheel; a nut on a screw. */
 Test(reduced_objects, schoenflies_joint)
 {
+    sweep_plain_only();
     check("hand", "name: hand\nparameters: [{name: m, value: 1.2}, {name: A, value: 0.4}]\n"
           "bodies: [{name: a, mass: m, inertia: [0.3, 0.4, 0.5], center: [0.1, 0.2, 0]}, {name: b, mass: 0.8, inertia: [A, 0.5, 0.2], center: [0.15, 0, 0.05]}]\n"
           "joints:\n  - {type: schoenflies, child: a, coordinates: [x, y, z, h]}\n  - {type: revolute, parent: a, child: b, axis: x, at: [0.4, 0, 0], coordinates: [p]}\n",
@@ -632,6 +637,7 @@ Test(reduced_objects, schoenflies_joint)
 
 Test(reduced_objects, translating_screw)
 {
+    sweep_plain_only();
     check("nut", "name: nut\nparameters: [{name: m, value: 1.2}, {name: c, value: 0.3}]\n"
           "bodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5], center: [0.1, 0, 0.2]}, {name: b, mass: m, inertia: [0.4, 0.3, 0.2], center: [0, 0.2, 0.1]}]\n"
           "joints:\n  - {type: revolute, child: a, coordinates: [s]}\n  - {type: translating-screw, pitch: c, axis: x, parent: a, child: b, at: [0.2, 0, 0], coordinates: [y, z, p]}\n", " --group s=1", "ls");
@@ -649,6 +655,7 @@ Test(reduced_objects, constraint_across_a_chain)
 /* A metric that couples everything, and a constraint with two symmetries, one of which is not conserved. */
 Test(reduced_objects, coupled_metric)
 {
+    sweep_plain_only();
     check("gears", "name: gears\nparameters: [{name: a, value: 1.2}, {name: b, value: 0.5}]\n"
           "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: u, type: number}, {name: v, type: number}]\ndomain: {u: [0.3, 0.9], v: [0.4, 1.1]}\n"
           "lagrangian: (x'^2*(1 + u^2) + y'^2 + a*u'^2 + b*(1 + u^2)*v'^2)/2 + b*u*x'*v'/3 + y'*u'/4 - v^2/3\nconstraints: [\"y' = u*x' + v*u'\"]\n", " --group y=1;x=1", "cl");

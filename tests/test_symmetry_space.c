@@ -8,6 +8,7 @@
 #include "exact/relation_space.h"
 #include "mechanics.h"
 #include "program.h"
+#include "sweep.h"
 
 /* ---- relations among columns ---- */
 
@@ -281,6 +282,7 @@ Test(symmetry_space, a_quotient_of_currents_is_better_than_they_are)
 /* Without constraints every current has a field of case 1; the free particle's space of degree two in two dimensions. */
 Test(symmetry_space, of_unconstrained_systems_everything_is_of_case_1)
 {
+    sweep_plain_only();
     place p = place_make();
     char *json = equations_of(&p, "name: two\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\nlagrangian: (x'^2 + y'^2)/2\n", "");
     cJSON *root = cJSON_Parse(json);
@@ -324,6 +326,7 @@ Test(symmetry_space, point_symmetries_of_one_equation)
 /* Shifts, a turn, two scalings; and a shift across the blade: parallel curves are motions as well. On a slope turns and one scaling are gone. */
 Test(symmetry_space, point_symmetries_of_skates)
 {
+    sweep_plain_only();
     point_symmetries("name: skate\nparameters: [{name: m, value: 2}, {name: J, value: 0.5}]\ncoordinates: [{name: f, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
                      "lagrangian: m/2*(x'^2 + y'^2) + J/2*f'^2\nconstraints: [\"y'*cos(f) = x'*sin(f)\"]\n", 7, 0);
     point_symmetries(SKATE, 5, 0);
@@ -340,6 +343,7 @@ static char *line_of(const cJSON *root, const char *label)
 /* A turn makes of one current of the sleigh the other one; none of both fields is a symmetry of the equations of motion. */
 Test(symmetry_space, a_turn_maps_currents_of_the_sleigh_to_each_other)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "analyze sleigh --equations --json=r.json --quiet");
     cr_assert_eq(f.code, 0, "%s", f.err);

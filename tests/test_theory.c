@@ -427,6 +427,7 @@ Test(theory, determining_equations_as_printed_hold_for_symmetries_and_for_no_oth
 /* In quasi-velocities alone, and with two affine constraints: the same equations, without the JSON between. */
 Test(theory, determining_equations_in_any_chart)
 {
+    sweep_plain_only();
     mechanics all[] = {mechanics_of_text(AFFINE, NH_CHART_QUASI), mechanics_of_text(AFFINE, NH_CHART_COORDINATES), mechanics_of_text(TURNTABLE, NH_CHART_COORDINATES)};
     nh_arena *arena = nh_arena_create();
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
@@ -476,6 +477,7 @@ Test(theory, the_geometry_is_80_columns_wide_and_there_when_it_is_wanted)
 /* ---- the reduction ---- */
 
 #include "base/linalg.h"
+#include "sweep.h"
 
 static size_t crane_settings(const cJSON *set, nh_setting *setting)
 {
@@ -541,6 +543,7 @@ Test(theory, first_stage_of_the_crane_as_printed_is_the_tabulated_one)
 
 Test(theory, second_stage_of_the_crane_as_printed_is_the_tabulated_one)
 {
+    sweep_plain_only();
     cJSON *data = oracle_read("tests/data/crane_oracle.json");
     const cJSON *set = oracle_get(data, "sets")->child, *point;
     nh_setting setting[20];
@@ -735,6 +738,7 @@ static void check_bundle(const char *file, const char *line, size_t stage, size_
 
 Test(theory, the_whole_group_at_once_and_by_stages_as_printed_along_its_own_motion)
 {
+    sweep_plain_only();
     check_bundle("systems/euler_disk.yaml", "", 1, 1, 2);
     check_bundle("systems/euler_disk.yaml", " --group 1,2,3 --chain 1;2,3", 1, 2, 1);
     check_bundle("systems/euler_disk.yaml", " --inner 1,4=1/3;2,4=-1/5;3,2=2/7;4,4=2;1,1=5/4", 1, 1, 2);
