@@ -417,7 +417,7 @@ Test(reductions, time_limit)
     nh_reduction *r = reduce_file("systems/crane.yaml", NULL, &error);
     nh_deadline_set(INFINITY);
     must(r != NULL, &error, "crane");
-    cr_expect(r->partial && r->stages == 0 && r->warnings > 0 && strstr(r->warning[0], "time limit"));
+    cr_expect(r->partial && r->stages == 0 && r->warnings > 0 && strstr(r->warning[0], "a limit prevented"));
     cr_expect_eq(r->all->action.d, 6, "the group is found all the same");
     nh_reduction_free(r);
 }

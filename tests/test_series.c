@@ -310,9 +310,9 @@ Test(series, the_interval_of_time_is_said_everywhere, .timeout = 120)
     cr_expect_not_null(strstr(f.out, " in t on [-0.4, 10.4] without closed form"), "%s", f.out);
     cr_expect_not_null(strstr(json, "\"coordinate\":\t\"t\""), "%.3000s", json);
     cr_expect_not_null(strstr(json, "\"low\":\t-0.4"));
-    cr_expect_not_null(strstr(page, "it has no closed form among the functions of the search"));
+    cr_expect_not_null(strstr(page, "without closed form among the functions of the search"));
     cr_expect_not_null(strstr(page, "-0.4"));
-    cr_expect_not_null(strstr(tex, "without closed form: for "));
+    cr_expect_not_null(strstr(tex, "without closed form among the functions of the search"));
     free(json), free(page), free(tex);
     finished_clear(&f);
     place_clear(&p);

@@ -88,7 +88,7 @@ Test(statements, projectable_is_said_alike)
     cr_assert(projectable > 0 && both > 0);
     cr_expect_eq(occurrences(r.text, "; Z is projectable\n"), projectable);
     cr_expect_eq(occurrences(r.page, "; Z is projectable</dd>"), projectable);
-    cr_expect_eq(occurrences(r.tex, "; $Z$ is projectable."), projectable);
+    cr_expect_eq(occurrences(r.tex, "; $Z$ is projectable\\par"), projectable);
     cr_expect_eq(occurrences(r.text, "Z is not a symmetry of the equations of motion, nor is [Gamma,Z] = a Gamma + b Z (case 3)"), third);
     cr_expect_eq(occurrences(r.tex, "$Z$ is not a symmetry of the equations of motion, nor is $[\\Gamma, Z]$ = a $\\Gamma$ + b $Z$ (case 3)"), third);
     cr_expect(!strstr(r.text, "point symmetry") && !strstr(r.page, "point symmetry") && !strstr(r.tex, "point symmetry"));
@@ -164,13 +164,13 @@ Test(statements, a_field_is_complete_in_every_report)
     for (size_t s = 0; s < sizeof systems / sizeof *systems; s++) {
         if (!sweep_tries(s + 3, 1, 5)) continue;
         reports r = analyze(&p, systems[s]);
-        size_t terms = occurrences(r.text, "\n        Z = ") + occurrences(r.text, "\n          + "), forms = occurrences(r.text, "\n        i_[Gamma,Z] phi^");
+        size_t terms = occurrences(r.text, "\n        Z = ") + occurrences(r.text, "\n          + ") + occurrences(r.text, "\n          - "), forms = occurrences(r.text, "\n        i_[Gamma,Z] phi^");
         cr_assert_gt(terms, 0u);
-        cr_expect_eq(occurrences(r.tex, "\\nhformula{Z_{") + occurrences(r.tex, "\\par $Z_{"), terms, "%s: %zu components in the text, %zu in LaTeX", systems[s], terms,
-                     occurrences(r.tex, "\\nhformula{Z_{"));
-        cr_expect_eq(occurrences(r.tex, "\\nhformula{i_{[\\Gamma, Z]}"), forms, "%s: %zu forms", systems[s], forms);
-        cr_expect_eq(occurrences(r.page, "<msub><mi>Z</mi><mrow>"), terms, "%s: %zu components in the text, %zu on the page", systems[s], terms,
-                     occurrences(r.page, "<msub><mi>Z</mi><mrow>"));
+        cr_expect_eq(occurrences(r.tex, "\\nhformula{{Z}_{") + occurrences(r.tex, "\\par ${Z}_{"), terms, "%s: %zu components in the text, %zu in LaTeX", systems[s], terms,
+                     occurrences(r.tex, "\\nhformula{{Z}_{"));
+        cr_expect_eq(occurrences(r.tex, "\\nhformula{{i}_{[\\Gamma ,Z]}"), forms, "%s: %zu forms", systems[s], forms);
+        cr_expect_eq(occurrences(r.page, "<msub><mrow><mi>Z</mi></mrow><mrow>"), terms, "%s: %zu components in the text, %zu on the page", systems[s], terms,
+                     occurrences(r.page, "<msub><mrow><mi>Z</mi></mrow><mrow>"));
         cr_expect_eq(occurrences(r.page, "<mi>\u03d5</mi>"), forms, "%s: %zu forms", systems[s], forms);
         reports_clear(&r);
     }
@@ -290,7 +290,7 @@ Test(statements, currents_are_printed_so_that_they_hold_on_both_branches)
     }
     cr_assert_geq(count, 4u);
     cr_expect_eq(occurrences(text, ", on both branches; "), count);
-    cr_expect_eq(occurrences(tex, ", on both branches."), count);
+    cr_expect_eq(occurrences(tex, ", on both branches\\par"), count);
     cr_expect_eq(occurrences(page, ", on both branches</dd>"), count);
     free(text), free(tex), free(page);
     reports_clear(&r);
