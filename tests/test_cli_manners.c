@@ -133,6 +133,38 @@ Test(cli_manners, a_folder_takes_all_outputs)
     place_clear(&p);
 }
 
+/* Every command whose result has a document; a motion is a table there, the others have a summary. */
+Test(cli_manners, every_result_has_a_folder)
+{
+    static const struct {
+        const char *arguments, *words;
+        int code;
+    } of[] = {{"verify sleigh --current m*v", "summary.txt", 1},
+              {"reduce sleigh", "summary.txt", 0},
+              {"simulate sleigh --until 1", "motion.csv", 0},
+              {"simulate sleigh --ensemble 3 --until 1", "motion.csv", 0},
+              {"benchmark sleigh --budget 10ms", "summary.txt", 0}};
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        char line[200], name[40];
+        snprintf(line, sizeof line, "%s -o out%zu", of[i].arguments, i);
+        finished f = run_expecting(&p, line, of[i].code);
+        const char *const files[] = {of[i].words, "result.json", "report.html", "report.tex"};
+        for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+            snprintf(name, sizeof name, "out%zu/%s", i, files[k]);
+            char *text = read_here(&p, name);
+            cr_expect(text && *text, "%s: %s", line, name);
+            if (k == 0 && !strcmp(files[k], "summary.txt")) cr_expect_str_eq(text, f.out);
+            free(text);
+        }
+        finished_clear(&f);
+    }
+    finished f = run_expecting(&p, "simulate sleigh --over k=1:2:3 -o table", 2);
+    cr_expect(strstr(f.err, "--over, and --output as well"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 Test(cli_manners, progress_goes_to_standard_error_when_asked)
 {
     place p = place_with_systems();

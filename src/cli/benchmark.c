@@ -18,16 +18,12 @@ static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_
 
 static bool write_all(nh_cli *cli, const nh_run *run, const nh_benchmark *c, const nh_robustness *s, nh_error *error)
 {
-    bool good = true;
     nh_text text;
     nh_text_init(&text);
-    if (nh_cli_speaks(cli)) {
-        nh_benchmark_text(c, cli->verbose, &text);
-        if (s) nh_robustness_text(s, cli->verbose, &text);
-        fputs(nh_text_string(&text), stdout);
-    }
-    nh_text_clear(&text);
-    if (cli->svg || cli->pdf) {
+    if (nh_cli_wants_words(cli)) nh_benchmark_text(c, cli->verbose, &text);
+    if (nh_cli_wants_words(cli) && s) nh_robustness_text(s, cli->verbose, &text);
+    bool good = nh_cli_say(cli, &text, error);
+    if ((cli->svg || cli->pdf) && good) {
         nh_benchmark_svg(c, &text);
         good = nh_cli_write_picture(cli, &text, error);
     }
@@ -40,7 +36,7 @@ int nh_cli_benchmark(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
     nh_cli_progress_begin(cli);
-    if (!nh_cli_motion_request(cli, "nhsym benchmark sleigh", &request, error) || !nh_cli_can_write(cli, error)) return error->code;
+    if (!nh_cli_motion_request(cli, "nhsym benchmark sleigh", &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     /* without a budget of its own a map counts steps, so that it is the same on a busy machine */
     const double longest = 300;
     double budget = cli->budget > 0 ? cli->budget : 5, of_maps = cli->budget > 0 ? budget / 2 : longest;

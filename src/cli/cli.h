@@ -116,6 +116,9 @@ bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error)
 bool nh_cli_write_picture(nh_cli *cli, nh_text *svg, nh_error *error);
 bool nh_cli_pdf(const nh_text *svg, nh_text *out, nh_error *error);
 bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error);
+/* The result in words: does anybody read it?  On the terminal, and in the folder of -o; cleared. */
+bool nh_cli_wants_words(const nh_cli *cli);
+bool nh_cli_say(nh_cli *cli, nh_text *text, nh_error *error);
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);
 
 /* The page and the LaTeX document of a result, where they are wanted. */

@@ -1,4 +1,4 @@
-/* folder: `analyze -o DIR`, which puts everything into one folder. */
+/* folder: -o DIR, which puts everything into one folder. */
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>

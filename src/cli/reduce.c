@@ -44,15 +44,19 @@ static void put_code(const nh_cli *cli, const nh_reduction *r, nh_text *out)
 }
 
 /* The summary, the equations as code, or the motions as numbers. */
-static void print(const nh_cli *cli, const nh_reduction *r)
+static bool print(nh_cli *cli, const nh_reduction *r, nh_error *error)
 {
     nh_text text;
     nh_text_init(&text);
-    if (cli->to && !strcmp(cli->to, "csv")) nh_reduction_csv(r, &text);
-    else if (cli->to) put_code(cli, r, &text);
-    else nh_reduction_text(r, cli->verbose, &text);
-    fputs(nh_text_string(&text), stdout);
+    if (!cli->to) {
+        if (nh_cli_wants_words(cli)) nh_reduction_text(r, cli->verbose, &text);
+        return nh_cli_say(cli, &text, error);
+    }
+    if (!strcmp(cli->to, "csv")) nh_reduction_csv(r, &text);
+    else put_code(cli, r, &text);
+    if (nh_cli_delivers(cli)) fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
+    return true;
 }
 
 /* All stages were to be compared with the full motion, to the end, and to agree. */
@@ -76,14 +80,13 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
 {
     nh_reduce_request request;
     nh_cli_progress_begin(cli);
-    if (!request_of(cli, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
+    if (!request_of(cli, &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_reduction *r = nh_reduction_create(&request, error);
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     if (!r) return nh_cli_failed(cli, &run, error);
-    bool good = true;
-    if (cli->to ? nh_cli_delivers(cli) : nh_cli_speaks(cli)) print(cli, r);
-    if (cli->json) good = nh_cli_write_json(cli, nh_reduction_json(r, &run), error);
+    bool good = print(cli, r, error);
+    if (cli->json && good) good = nh_cli_write_json(cli, nh_reduction_json(r, &run), error);
     good = good && nh_cli_write_documents(cli, render, r, &run, error);
     good = nh_cli_written(cli, good, error);
     bool partial = r->partial;

@@ -32,22 +32,27 @@ static void put_scene(const nh_simulation *s)
                 1e3 * s->whole_seconds, s->whole_evaluations, s->whole_difference);
 }
 
-/* The table, and with it the notes on standard error: --quiet leaves them out, and the table as well where a file holds the result. */
-static void put_table(const nh_cli *cli, const nh_simulation *s)
+static void put_notes(const nh_cli *cli, const nh_simulation *s)
 {
-    if (cli->json || !nh_cli_delivers(cli)) return;
-    nh_text text;
-    nh_text_init(&text);
-    if (s->ensemble) nh_ensemble_csv(s, &text);
-    else nh_motion_csv(s, &text);
-    fputs(nh_text_string(&text), stdout);
-    nh_text_clear(&text);
-    if (cli->quiet) return;
     if (s->begin) fprintf(stderr, "nhsym: no initial state is given: --initial \"%s\"\n", s->begin);
     if (s->scene && (cli->watch || cli->scene)) put_scene(s);
     if (cli->verbose && s->trajectory) fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation, s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
     if (s->held) fprintf(stderr, "nhsym: %s\n", s->why);
     if (s->ensemble && s->ensemble->alone && !s->checked) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
+}
+
+/* The table, and with it the notes on standard error: --quiet leaves them out, and the table as well where a file holds the result. */
+static bool put_table(nh_cli *cli, const nh_simulation *s, nh_error *error)
+{
+    if (!cli->folder && (cli->json || !nh_cli_delivers(cli))) return true;
+    nh_text text;
+    nh_text_init(&text);
+    if (s->ensemble) nh_ensemble_csv(s, &text);
+    else nh_motion_csv(s, &text);
+    if (cli->folder && !nh_cli_write(cli, nh_cli_in_folder(cli, "motion.csv"), &text, error)) return false;
+    if (!cli->folder) fputs(nh_text_string(&text), stdout), nh_text_clear(&text);
+    if (!cli->quiet) put_notes(cli, s);
+    return true;
 }
 
 /* Motions that ended early or missed the requested accuracy. */
@@ -136,7 +141,7 @@ static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows
     }
     if (cli->overs && !write_combinations(cli, error)) return *code = (int)error->code, false;
     const char *document = nh_cli_wants_document(cli);
-    const char *other = cli->ensemble ? "ensemble" : document ? document : cli->svg ? "svg" : cli->pdf ? "pdf" : NULL;
+    const char *other = cli->ensemble ? "ensemble" : cli->folder ? "output" : document ? document : cli->svg ? "svg" : cli->pdf ? "pdf" : NULL;
     bool good = !other;
     if (!good) {
         nh_fail(error, NH_USAGE, "", "--%s, and --%s as well", option, other);
@@ -168,13 +173,13 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     if (!nh_cli_motion_request(cli, example, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     if (cli->input) return nh_fail(error, NH_USAGE, "", "--input needs NAME=EXPR, found `%s`", cli->input), nh_error_hint(error, "for example: --input \"%s=sin(t)\"", cli->input), NH_USAGE;
     if (!together(cli, &request, &rows, &code, error)) return code;
+    if (!nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_simulation *s = nh_simulation_create(&request, error);
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (!s) return nh_cli_failed(cli, &run, error);
-    bool good = true;
-    put_table(cli, s);
-    if (cli->json) good = nh_cli_write_json(cli, s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run), error);
+    bool good = put_table(cli, s, error);
+    if (cli->json && good) good = nh_cli_write_json(cli, s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run), error);
     good = good && nh_cli_write_documents(cli, render, s, &run, error);
     if ((cli->svg || cli->pdf) && good) {
         nh_text picture;

@@ -40,18 +40,15 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
     nh_verification *v = NULL;
     nh_run run = nh_cli_run(cli, NULL, NULL);
     nh_cli_progress_begin(cli);
-    if (!nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return nh_cli_failed(cli, &run, error);
+    if (!nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return nh_cli_failed(cli, &run, error);
     nh_cli_progress_end();
-    bool good = true, conserved = v->conserved;
-    if (nh_cli_speaks(cli)) {
-        nh_text text;
-        nh_text_init(&text);
-        nh_verification_text(v, cli->field != NULL, cli->options.shown, &text);
-        if (v->theory) nh_sheet_text(nh_geometry_sheet(v->arena, v->theory, NULL), cli->colour, &text);
-        fputs(nh_text_string(&text), stdout);
-        nh_text_clear(&text);
-    }
-    if (cli->json) good = nh_cli_write_json(cli, nh_verification_json(v, &run), error);
+    bool conserved = v->conserved;
+    nh_text text;
+    nh_text_init(&text);
+    if (nh_cli_wants_words(cli)) nh_verification_text(v, cli->field != NULL, cli->options.shown, &text);
+    if (nh_cli_wants_words(cli) && v->theory) nh_sheet_text(nh_geometry_sheet(v->arena, v->theory, NULL), cli->colour && !cli->folder, &text);
+    bool good = nh_cli_say(cli, &text, error);
+    if (cli->json && good) good = nh_cli_write_json(cli, nh_verification_json(v, &run), error);
     good = good && nh_cli_write_documents(cli, render, v, &run, error);
     good = nh_cli_written(cli, good, error);
     nh_verification_free(v);

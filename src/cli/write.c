@@ -107,6 +107,16 @@ bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *resu
     return good;
 }
 
+bool nh_cli_wants_words(const nh_cli *cli) { return nh_cli_speaks(cli) || cli->folder; }
+
+bool nh_cli_say(nh_cli *cli, nh_text *text, nh_error *error)
+{
+    if (nh_cli_speaks(cli)) fputs(nh_text_string(text), stdout);
+    if (cli->folder) return nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), text, error);
+    nh_text_clear(text);
+    return true;
+}
+
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error) { return nh_output_end(&cli->files, good, error); }
 
 /* ---- of a run that has no result ---- */
