@@ -4,6 +4,8 @@
 #ifndef NH_TESTS_PAPERS_H
 #define NH_TESTS_PAPERS_H
 
+#include <stdbool.h>
+
 /* ---- formulas of the sleigh, as printed ---- */
 
 #define S "(x'/(a*cos(phi)))"
