@@ -314,6 +314,7 @@ static void octave_calls(const batch *b)
 
 static void languages(size_t part)
 {
+    if (part != 1) sweep_plain_only();
     batch b;
     batch_make(&b, part);
     c_program(&b);

@@ -192,6 +192,7 @@ static void check_in_velocities(const nh_export *x, size_t probe)
 
 Test(export_meaning, currents, .timeout = 300)
 {
+    sweep_plain_only();
     size_t systems = 0;
     for (size_t i = 0; i < EXPORTED_SYSTEMS; i++) {
         if (!sweep_tries(i, 1, 6)) continue;

@@ -199,6 +199,7 @@ Test(quadratures, free_particle) { check(ask_file("systems/free_particle.yaml"),
 /* The sleigh's third current [CechMusilova2014, sec. 4.2] for all values of the parameters, although its position needs k = 2. */
 Test(quadratures, time_of_the_sleigh)
 {
+    sweep_plain_only();
     nh_analysis *r = ask_file("systems/sleigh.yaml");
     bool found = false;
     for (size_t k = 0; k < r->count; k++) {
@@ -224,6 +225,7 @@ Test(quadratures, drag)
 /* A skate with friction that a slope pulls: linear equations one after another. */
 Test(quadratures, skate_on_slope)
 {
+    sweep_plain_only();
     check(ask("name: slope\nparameters: [{name: m, value: 2}, {name: J, value: 1}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"
               "coordinates: [{name: phi, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
               "lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 + m*b*x\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"

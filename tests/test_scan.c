@@ -6,6 +6,7 @@
 
 #include "commands/scan_internal.h"
 #include "program.h"
+#include "sweep.h"
 
 static const char sine[] = "name: sine\nparameters: {k: 0.2, b: 1}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + b*y^2)/2 - x^2*y - 2/3*sin(k)*y^3\n";
 
@@ -77,6 +78,7 @@ Test(scan, the_sleigh_jumps_at_two)
 /* A value where the grid ends is told by its own name, not by its neighbour's. */
 Test(scan, values_at_the_ends_have_their_names)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     cJSON *root = scanned(&p, "scan sleigh --over k=1:4:7");
     cr_expect_eq(cJSON_GetArraySize(cJSON_GetObjectItem(root, "special")), 4);
@@ -93,6 +95,7 @@ Test(scan, values_at_the_ends_have_their_names)
 /* The coefficient of y^3 is special at 1/3 and at 2, and the parameter is hidden in it. */
 Test(scan, values_between_points_are_found_recognised_and_confirmed)
 {
+    sweep_plain_only();
     static const struct {
         const char *coefficient, *over, *exact, *other;
         double value;
@@ -127,6 +130,7 @@ Test(scan, values_between_points_are_found_recognised_and_confirmed)
 /* Cubic forms up to rotation and scale are a plane, in which the two that are integrable are points: a line through random forms misses them. */
 Test(scan, nothing_is_confirmed_where_there_is_nothing)
 {
+    sweep_plain_only();
     srand(5);
     for (int i = 0; i < 4; i++) {
         place p = place_make();
@@ -173,6 +177,7 @@ Test(scan, a_step_is_located_by_bisection)
 
 Test(scan, numbers_of_analyze_by_their_path)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "o.yaml", "name: o\nparameters: {k: 2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + k*y^4)/2\n");
     cJSON *root = scanned(&p, "scan o.yaml --of analyze --over k=0,1 --number completeness.degree --number currents.0.proved --option work=50");

@@ -162,6 +162,7 @@ Test(schema, what_scan_writes_fits)
 /* Linear systems, an iteration, no parameters, inputs. */
 Test(schema, what_export_writes_fits)
 {
+    sweep_plain_only();
     static const char *const lines[] = {"sleigh", "snakeboard --of equations,reduced", "constant_speed --of submanifold", "implicit.yaml --of submanifold", "skate_with_friction --of equations --input c"};
     static const char implicit[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z'^5 + z' = x'*y'\"]\n";
     cJSON *schema = read_json("docs/schema/export.json");

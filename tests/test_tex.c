@@ -190,6 +190,7 @@ static size_t times(const char *text, const char *word)
 /* The objects of all stages that the JSON has are formulas of the document, with the reduced equations and the group besides. */
 Test(tex, reductions_are_documents)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     for (size_t i = 0; i < sizeof REDUCED / sizeof *REDUCED; i++) {
         if (!sweep_tries(i, 2, 5)) continue;

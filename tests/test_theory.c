@@ -4,6 +4,7 @@
 #include "oracle.h"
 #include "program.h"
 #include "reduced_sheet.h"
+#include "sweep.h"
 
 #include "exact/normal.h"
 #include "geometry/determining.h"
@@ -477,7 +478,6 @@ Test(theory, the_geometry_is_80_columns_wide_and_there_when_it_is_wanted)
 /* ---- the reduction ---- */
 
 #include "base/linalg.h"
-#include "sweep.h"
 
 static size_t crane_settings(const cJSON *set, nh_setting *setting)
 {
