@@ -66,7 +66,7 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"analyze sleigh --budget 2s", "nhsym: `nhsym analyze` does not take --budget\nhint: `nhsym help analyze` lists its options; this one belongs to: benchmark\n"},
         {"reduce sleigh --analysis sleigh", "nhsym: `nhsym reduce` does not take --analysis\nhint: `nhsym help reduce` lists its options; this one belongs to: analyze simulate benchmark\n"},
         {"--html page.html list", "nhsym: `nhsym list` does not take --html\nhint: `nhsym help list` lists its options; this one belongs to: analyze verify simulate benchmark reduce classify scan\n"},
-        {"simulate sleigh -o folder", "nhsym: `nhsym simulate` does not take --output\nhint: `nhsym help simulate` lists its options; this one belongs to: analyze classify scan export\n"},
+        {"list -o folder", "nhsym: `nhsym list` does not take --output\nhint: `nhsym help list` lists its options; this one belongs to: analyze verify simulate reduce classify benchmark scan export\n"},
         {"analyze sleigh --fragment", "nhsym: --fragment needs --tex\nhint: for example: --tex body.tex --fragment\n"},
         {"explain frobnicate", "nhsym: there is no topic `frobnicate`\nhint: `nhsym explain` lists the topics\n"},
         {"explain gapp", "nhsym: there is no topic `gapp`\nhint: did you mean `gap`?\n"},
