@@ -30,7 +30,7 @@ static inline reduced_sheet reduced_from(const char *file, const char *text, siz
 {
     reduced_sheet s = {.p = place_make()};
     nh_error error = {0};
-    char whole[2 * PATH_MAX], command[600], number[24][60], *argument[96] = {s.p.program};
+    char whole[2 * PATH_MAX], command[2000], number[24][60], *argument[96] = {s.p.program};
     size_t count = 1;
     snprintf(whole, sizeof whole, "%s/%s", s.p.project, file);
     if (text) write_here(&s.p, "system.yaml", text);
