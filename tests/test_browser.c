@@ -76,8 +76,8 @@ static double attribute(const char *text, const char *element, const char *name)
 /* This one needs no browser: what stands in the page as CDATA may hold no end of it, nor of the element for readers of HTML. */
 Test(browser, script_and_style_may_stand_in_a_page)
 {
-    const char *const parts[] = {nh_html_script, nh_html_style};
-    for (size_t i = 0; i < 2; i++) {
+    const char *const parts[] = {nh_html_script, nh_html_space, nh_html_style};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         cr_expect_gt(strlen(parts[i]), 1000u);
         cr_expect_null(strpbrk(parts[i], "<&"));
         cr_expect_null(strstr(parts[i], "]]>"));
@@ -108,6 +108,40 @@ Test(browser, slider_plots_and_drawing_move_together)
     }
     bool skipped = !start;
     free(start), free(last);
+    place_clear(&p);
+    if (skipped) cr_skip_test("no chromium");
+}
+
+/* A tumbling box: at every time at most three of its faces are seen, the others are outlines without a fill; all of it stays in the picture, and moves. */
+Test(browser, bodies_in_space)
+{
+    sweep_plain_only();
+    place p = place_make();
+    write_here(&p, "box.yaml", "name: box\nbodies: [{name: box, mass: 2, inertia: [0.3, 0.5, 0.7]}]\njoints: [{type: free, child: box, coordinates: [x, y, z, a, b, c]}]\ngravity: [0, 0, -1]\n");
+    finished_clear((finished[]){run_expecting(&p, "simulate box.yaml --initial a=0.3,b=1,a'=1,b'=0.4,c'=2,x'=1 --until 2 --quiet --html page.html", 0)});
+    static const char *const LOOK =
+        "var out=[],b=document.getElementById('when');for(var i=0;b.max>=i;i+=10){b.value=i;b.dispatchEvent(new Event('input'));"
+        "var n=[0,0,0],d='';document.querySelectorAll('#scene path').forEach(function(e){if(e.getAttribute('visibility')==='hidden')return;var f=e.getAttribute('fill'),p=e.getAttribute('d');"
+        "if(p.slice(-1)!=='Z')return;n[f==='none'?1:0]++;d=p;p.match(/-?[0-9.]+/g).forEach(function(v,j){if(!(v>=0)||v>(j%2?420:640))n[2]++;});});out.push(n.concat([d]));}"
+        "var e=document.createElement('pre');e.id='seen';e.textContent=JSON.stringify(out);document.body.appendChild(e);";
+    write_with(&p, "page.html", "looked.html", 1, &LOOK);
+    char *seen = document_of(&p, "looked.html"), *at = seen ? strstr(seen, "<pre id=\"seen\">") : NULL;
+    if (seen) {
+        cr_assert_not_null(at);
+        cJSON *list = cJSON_Parse(at + strlen("<pre id=\"seen\">"));
+        const cJSON *time, *before = NULL;
+        cr_assert_geq(cJSON_GetArraySize(list), 5);
+        cJSON_ArrayForEach(time, list) {
+            int front = cJSON_GetArrayItem(time, 0)->valueint, behind = cJSON_GetArrayItem(time, 1)->valueint;
+            cr_expect(front >= 1 && front <= 3 && front + behind == 6, "%d faces are seen, %d are hidden", front, behind);
+            cr_expect_eq(cJSON_GetArrayItem(time, 2)->valueint, 0, "outside of the picture");
+            if (before) cr_expect_str_neq(cJSON_GetArrayItem(time, 3)->valuestring, cJSON_GetArrayItem(before, 3)->valuestring);
+            before = time;
+        }
+        cJSON_Delete(list);
+    }
+    bool skipped = !seen;
+    free(seen);
     place_clear(&p);
     if (skipped) cr_skip_test("no chromium");
 }

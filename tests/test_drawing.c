@@ -94,6 +94,84 @@ Test(drawing, bodies_stand_where_they_are)
     nh_system_free(s);
 }
 
+/* The axes of a body in space, from those that are given: k = 0, 1; the third is their product. */
+static void axes_of(const nh_system *s, const nh_shape *shape, const double *q, double axis[3][3])
+{
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < 3; i++) axis[k][i] = at(s, shape, nh_shape_numbers(shape->kind) - 6 + 3 * k + i, q);
+    for (size_t i = 0; i < 3; i++) {
+        size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        axis[2][i] = axis[0][j] * axis[1][k] - axis[0][k] * axis[1][j];
+    }
+}
+
+static void expect_vector(const double *got, double x, double y, double z, const char *what)
+{
+    const double want[] = {x, y, z};
+    for (size_t i = 0; i < 3; i++) cr_expect_float_eq(got[i], want[i], 1e-12, "%s: component %zu is %g, not %g", what, i, got[i], want[i]);
+}
+
+/* A block of even density is drawn with its edges, a flat plate flat, a wheel about its axle, whatever that is; a point as a ball without size. */
+Test(drawing, bodies_in_space)
+{
+    const double a = 2, b = 3, c = 0.5, m = 1.7, h = 0.5, p = 0.7;
+    char text[1200];
+    snprintf(text, sizeof text,
+             "bodies:\n  - {name: block, mass: %.17g, inertia: [%.17g, %.17g, %.17g], center: [0.1, 0, 0]}\n  - {name: wheel, mass: 1, inertia: [1, 1, 1]}\n"
+             "  - {name: plate, mass: 2, inertia: [0, 0, 3]}\n  - {name: stone, mass: 1}\n"
+             "joints:\n  - {type: planar, child: block, coordinates: [x, y, h]}\n  - {type: revolute, parent: block, child: wheel, at: [0, 0.5, 0.25], axis: [0, 0.6, 0.8], coordinates: [p]}\n"
+             "  - {type: revolute, parent: block, child: plate, at: [-1, 0, 0], axis: z, coordinates: [s]}\n  - {type: revolute, parent: plate, child: stone, at: [-1, 0, 0], axis: x, coordinates: [u]}\n"
+             "wheels:\n  - {type: rolling, body: wheel, axle: [0, 0.6, 0.8], radius: 0.25}\n",
+             m, m * (b * b + c * c) / 12, m * (a * a + c * c) / 12, m * (a * a + b * b) / 12);
+    nh_system *s = parse(text);
+    nh_arena *arena = nh_arena_create();
+    const double q[] = {2, 3, h, p, 1.1, 0.3}, edge[] = {a, b, c}, flat[] = {3, 3, 0};
+    const nh_shape *shape, *solid[4];
+    size_t count, solids = 0;
+    double axis[3][3], place[3];
+    cr_assert_not_null(nh_drawing_choose(arena, s, &count, &shape));
+    for (size_t i = 0; i < count; i++)
+        if (nh_shape_in_space(shape[i].kind) && shape[i].kind != NH_SHAPE_ROD && solids < 4) solid[solids++] = &shape[i];
+    cr_assert_eq(solids, 4u);
+    cr_expect(solid[0]->kind == NH_SHAPE_BOX && solid[1]->kind == NH_SHAPE_CYLINDER && solid[2]->kind == NH_SHAPE_BOX && solid[3]->kind == NH_SHAPE_BALL);
+    for (size_t i = 0; i < 3; i++) cr_expect_float_eq(at(s, solid[0], 3 + i, q), edge[i], 1e-12);
+    for (size_t i = 0; i < 3; i++) cr_expect_float_eq(at(s, solid[2], 3 + i, q), flat[i], 1e-12);
+    for (size_t i = 0; i < 3; i++) place[i] = at(s, solid[0], i, q);
+    expect_vector(place, 2 + 0.1 * cos(h), 3 + 0.1 * sin(h), 0, "the block's centre");
+    axes_of(s, solid[0], q, axis);
+    expect_vector(axis[0], cos(h), sin(h), 0, "its first axis");
+    expect_vector(axis[2], 0, 0, 1, "its third axis");
+    axes_of(s, solid[1], q, axis);
+    expect_vector(axis[2], -0.6 * sin(h), 0.6 * cos(h), 0.8, "the axle");
+    /* It turns about the axle by p: the first axis lies across, at the angle p from where it is for p = 0. */
+    const double rest[] = {2, 3, h, 0, 1.1, 0.3};
+    double before[3][3];
+    axes_of(s, solid[1], rest, before);
+    for (size_t i = 0; i < 3; i++) cr_expect_float_eq(axis[0][i], cos(p) * before[0][i] + sin(p) * before[1][i], 1e-12);
+    cr_expect_float_eq(at(s, solid[1], 3, q), 0.25, 1e-12);
+    cr_expect_float_eq(at(s, solid[3], 3, q), 0, 1e-12);
+    nh_arena_free(arena);
+    nh_system_free(s);
+}
+
+/* Turns about a body's own axes one after another: Euler's angles z, x, z. */
+Test(drawing, turns_of_a_file)
+{
+    nh_system *s = parse("coordinates: [{name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\nlagrangian: p'^2 + h'^2 + s'^2\n"
+                         "draw:\n  - {box: [1, p, 3, 0.1, 0.2, h], turn: [z: p, x: h, z: s], name: brick}\n  - rod: [0, 0, 0, 1, p, 3]\n");
+    const double p = 0.4, h = 1.1, t = -0.7, q[] = {p, h, t};
+    double axis[3][3];
+    cr_assert_eq(s->shapes, 2u);
+    axes_of(s, &s->shape[0], q, axis);
+    expect_vector(axis[0], cos(p) * cos(t) - sin(p) * cos(h) * sin(t), sin(p) * cos(t) + cos(p) * cos(h) * sin(t), sin(h) * sin(t), "first axis");
+    expect_vector(axis[1], -cos(p) * sin(t) - sin(p) * cos(h) * cos(t), -sin(p) * sin(t) + cos(p) * cos(h) * cos(t), sin(h) * cos(t), "second axis");
+    expect_vector(axis[2], sin(p) * sin(h), -cos(p) * sin(h), cos(h), "third axis");
+    cr_expect_float_eq(at(s, &s->shape[0], 5, q), h, 1e-15);
+    cr_expect_str_eq(s->shape[0].name, "brick");
+    cr_expect_float_eq(at(s, &s->shape[1], 4, q), p, 1e-15);
+    nh_system_free(s);
+}
+
 Test(drawing, coordinates_without_bodies)
 {
     static const struct {

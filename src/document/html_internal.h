@@ -16,6 +16,7 @@ typedef struct {
     const nh_chart *chart;       /* whose roots are shown as velocities; or NULL */
     double shown;                /* option `shown`: longer formulas are left to the JSON */
     double written;              /* option `written` */
+    bool space;                  /* its motion has bodies in space */
     size_t figures;
     size_t names;                /* of repeated parts in this card or chart, so far: no two are alike */
     void (*sink)(void *context, const nh_plot *plot, const char *caption); /* NULL: figures go onto the page */
@@ -63,5 +64,6 @@ void nh_html_time_series(nh_html_writer *w, const nh_time_series *course);
 extern const char *const nh_html_font; /* WOFF2 in base 64 */
 extern const char *const nh_html_style;
 extern const char *const nh_html_script;
+extern const char *const nh_html_space; /* of pages with bodies in space, before the other one */
 
 #endif

@@ -171,6 +171,7 @@ void nh_html_links(nh_html_writer *w, const char *sections)
 void nh_html_end(nh_html_writer *w)
 {
     nh_html_add(w, "</main>\n<script>//<![CDATA[\n");
+    if (w->space) nh_html_add(w, nh_html_space);
     nh_html_add(w, nh_html_script);
     nh_html_add(w, "//]]></script>\n</body>\n</html>\n");
 }

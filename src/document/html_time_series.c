@@ -126,7 +126,7 @@ static void path_plot(nh_html_writer *w, const nh_time_series *c)
     char name[most_curves][60];
     size_t n = 0;
     for (size_t i = 0; i < c->shapes && n < most_curves; i++) {
-        if (c->shape[i].kind == NH_SHAPE_SEGMENT) continue;
+        if (c->shape[i].kind == NH_SHAPE_SEGMENT || nh_shape_in_space(c->shape[i].kind)) continue;
         const nh_line *x = nh_time_series_shape(c, i, 0), *y = nh_time_series_shape(c, i, 1);
         shape_name(c, i, name[n], sizeof name[n]);
         curve[n] = (nh_curve){.name = name[n], .count = c->count, .x = x->value, .x_stride = x->stride, .y = y->value, .y_stride = y->stride};
@@ -142,39 +142,55 @@ static void path_plot(nh_html_writer *w, const nh_time_series *c)
     for (size_t k = 0; k < n; k++) marks |= curve[k].heading != NULL;
     for (size_t i = s->coordinates; i-- > 0;)
         for (size_t k = c->shapes; k-- > 0;) {
-            if (c->shape[k].kind == NH_SHAPE_SEGMENT) continue;
+            if (c->shape[k].kind == NH_SHAPE_SEGMENT || nh_shape_in_space(c->shape[k].kind)) continue;
             if (s->coordinate[i].q == c->shape[k].value[0]) plot.x_label = s->coordinate[i].name;
             if (s->coordinate[i].q == c->shape[k].value[1]) plot.y_label = s->coordinate[i].name;
         }
     nh_html_figure(w, &plot, marks ? "Path of the motion; the marks show the heading of a body at equal time steps." : "Path of the motion.");
 }
 
-static void number(nh_html_writer *w, double value) { nh_text_addf(w->out, isfinite(value) ? "%.6g" : "null", value); }
-
-static void frames(nh_html_writer *w, const char *before, size_t count, const double *value, size_t stride, size_t step)
+static void number(nh_html_writer *w, double value, int digits)
 {
+    if (isfinite(value)) nh_text_addf(w->out, "%.*g", digits, value);
+    else nh_html_add(w, "null");
+}
+
+/* `once`: a constant is written once. */
+static void frames(nh_html_writer *w, const char *before, size_t count, const nh_line *line, size_t step, bool once)
+{
+    enum { digits = 6, in_space = 4 };
+    bool same = once;
+    for (size_t i = 0; i < count && same; i++) same = line->value[i * line->stride] == line->value[0];
     nh_text_addf(w->out, "%s[", before);
-    for (size_t i = 0; i < count; i += step) {
+    for (size_t i = 0; i < count; i += same ? count : step) {
         if (i) nh_html_add(w, ",");
-        number(w, value[i * stride]);
+        number(w, line->value[i * line->stride], once ? in_space : digits);
     }
     nh_html_add(w, "]");
+}
+
+/* The axis of the ground's frame that points up: against gravity, the third where there is none. */
+static int upwards(const nh_time_series *c)
+{
+    const nh_chain *chain = c->model->system->chain;
+    for (int e = 0; chain && e < 2; e++)
+        if (!nh_is_zero(c->model->dag, chain->gravity[e])) return e;
+    return 2;
 }
 
 /* The numbers for the script; there is no text of the user in it. */
 static void data(nh_html_writer *w, const nh_time_series *c)
 {
-    size_t step = (c->count + most_frames - 2) / most_frames;
+    size_t step = (c->count + most_frames - 2) / most_frames, shown = 0;
+    const nh_line time = {.value = c->time, .stride = 1};
     if (step == 0) step = 1;
     nh_html_add(w, "<script type=\"application/json\" id=\"motion-data\">{");
-    frames(w, "\"t\":", c->count, c->time, 1, step);
-    nh_html_add(w, ",\"shapes\":[");
+    frames(w, "\"t\":", c->count, &time, step, false);
+    nh_text_addf(w->out, ",\"up\":%d,\"shapes\":[", upwards(c));
     for (size_t i = 0; i < c->shapes; i++) {
-        nh_text_addf(w->out, "%s{\"kind\":\"%s\",\"v\":[", i ? "," : "", nh_shape_name(c->shape[i].kind));
-        for (size_t j = 0; j < nh_shape_numbers(c->shape[i].kind); j++) {
-            const nh_line *line = nh_time_series_shape(c, i, j);
-            frames(w, j ? "," : "", c->count, line->value, line->stride, step);
-        }
+        if (w->space && c->shape[i].flat) continue;
+        nh_text_addf(w->out, "%s{\"kind\":\"%s\",\"v\":[", shown++ ? "," : "", nh_shape_name(c->shape[i].kind));
+        for (size_t j = 0; j < nh_shape_numbers(c->shape[i].kind); j++) frames(w, j ? "," : "", c->count, nh_time_series_shape(c, i, j), step, w->space);
         nh_html_add(w, "]}");
     }
     nh_html_add(w, "]}</script>\n");
@@ -182,11 +198,12 @@ static void data(nh_html_writer *w, const nh_time_series *c)
 
 static void player(nh_html_writer *w, const nh_time_series *c)
 {
+    for (size_t i = 0; i < c->shapes; i++) w->space |= nh_shape_in_space(c->shape[i].kind);
     nh_html_add(w, "<div id=\"player\" hidden=\"hidden\">\n");
     if (c->shapes) {
         nh_html_add(w, "<figure><svg id=\"scene\" class=\"plot\" role=\"img\" aria-label=\"The system in motion; the slider below chooses the time\" viewBox=\"0 0 640 420\" width=\"640\" height=\"420\"></svg>"
                        "<figcaption>The system in motion, with its path. Drawn: ");
-        nh_html_text(w, c->drawing);
+        nh_html_text(w, w->space ? "bodies in space, in perspective" : c->drawing);
         nh_html_add(w, ".</figcaption></figure>\n");
     }
     nh_html_add(w, "<div class=\"controls\"><button type=\"button\" id=\"play\" aria-label=\"play or pause\">Play</button>"

@@ -43,7 +43,7 @@ static size_t until_far(const portrait *p)
     const nh_time_series *c = p->course;
     double *away = nh_alloc_array(2 * c->count + 1, sizeof *away), *sorted = away + c->count;
     for (size_t s = 0; s < c->shapes; s++)
-        for (size_t i = 0; i < c->count; i++) away[i] = fmax(away[i], hypot(value(p, s, 0, i) - value(p, s, 0, 0), value(p, s, 1, i) - value(p, s, 1, 0)));
+        for (size_t i = 0; i < c->count && !nh_shape_in_space(c->shape[s].kind); i++) away[i] = fmax(away[i], hypot(value(p, s, 0, i) - value(p, s, 0, 0), value(p, s, 1, i) - value(p, s, 1, 0)));
     for (size_t i = 0; i < c->count; i++) sorted[i] = away[i];
     qsort(sorted, c->count, sizeof *sorted, ascending);
     size_t n = 1;
@@ -58,7 +58,7 @@ static bool fit(portrait *p)
     const nh_time_series *c = p->course;
     double low[2] = {INFINITY, INFINITY}, top[2] = {-INFINITY, -INFINITY};
     for (size_t s = 0; s < c->shapes; s++)
-        for (size_t i = 0; i < p->count; i++) {
+        for (size_t i = 0; i < p->count && !nh_shape_in_space(c->shape[s].kind); i++) {
             nh_shape_kind kind = c->shape[s].kind;
             double x = value(p, s, 0, i), y = value(p, s, 1, i), r = kind == NH_SHAPE_DISC ? fabs(value(p, s, 2, i)) : kind == NH_SHAPE_WHEEL ? fabs(value(p, s, 3, i)) : 0;
             widen(low, top, x - r, y - r);
@@ -120,8 +120,9 @@ bool nh_thumbnail(const nh_time_series *c, const char *title, nh_text *out)
     nh_escape_xml(title, out);
     nh_text_addf(out, "</title>\n<rect width=\"%d\" height=\"%d\" rx=\"6\" fill=\"#fff\"/>\n", wide, high);
     for (size_t s = 0; s < c->shapes; s++)
-        if (c->shape[s].kind != NH_SHAPE_SEGMENT) track(&p, s);
-    for (size_t s = 0; s < c->shapes; s++) body(&p, s);
+        if (c->shape[s].kind != NH_SHAPE_SEGMENT && !nh_shape_in_space(c->shape[s].kind)) track(&p, s);
+    for (size_t s = 0; s < c->shapes; s++)
+        if (!nh_shape_in_space(c->shape[s].kind)) body(&p, s);
     nh_text_add(out, "</svg>\n");
     return true;
 }

@@ -62,7 +62,7 @@ nh_json *nh_time_series_json(const nh_time_series *c, nh_json *to, const char *k
 
 void nh_time_series_json_drawing(const nh_time_series *c, nh_json *to)
 {
-    static const char *const keys[] = {"a", "b", "c", "d"};
+    static const char *const keys[NH_SHAPE_NUMBERS] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"};
     nh_json *list = nh_json_put_array(to, "drawing");
     for (size_t i = 0; i < c->shapes; i++) {
         nh_json *shape = nh_json_add_object(list);

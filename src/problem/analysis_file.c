@@ -362,7 +362,7 @@ static bool read_drawing(reader *r, const nh_deck_node *list)
     if (!nh_deck_is(a->deck, list, NH_DECK_LIST, "draw", r->error)) return false;
     a->shape = nh_analysis_file_take(r, list->count, sizeof *a->shape);
     for (size_t i = 0; i < list->count; i++)
-        if (!nh_shape_read(a->deck, list->item[i], shape_expression, r, &a->shape[i], r->error)) return false;
+        if (!nh_shape_read(a->deck, list->item[i], r->model->dag, shape_expression, r, &a->shape[i], r->error)) return false;
     a->shapes = list->count;
     return true;
 }

@@ -3,6 +3,8 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "problem/solid.h"
+
 typedef struct {
     const nh_system *s;
     nh_arena *arena;
@@ -31,14 +33,14 @@ static nh_shape *point(drawing *w, nh_ex x, nh_ex y)
     return p;
 }
 
-static void segment(drawing *w, const nh_ex from[2], const nh_ex to[2])
+static nh_shape *segment(drawing *w, const nh_ex from[2], const nh_ex to[2])
 {
-    if (from[0] == to[0] && from[1] == to[1]) return;
     nh_shape *p = draw(w, NH_SHAPE_SEGMENT);
     p->value[0] = from[0];
     p->value[1] = from[1];
     p->value[2] = to[0];
     p->value[3] = to[1];
+    return p;
 }
 
 /* ---- bodies and joints ---- */
@@ -69,20 +71,31 @@ static void seen(const nh_ex p[3], const int axis[2], nh_ex out[2])
     out[1] = p[axis[1]];
 }
 
+/* In the picture, and in space. */
+static void rod(drawing *w, const int axis[2], const nh_ex from[3], const nh_ex to[3])
+{
+    nh_ex start[2], end[2];
+    bool same = true;
+    for (int e = 0; e < 3; e++) same = same && from[e] == to[e];
+    if (same) return;
+    nh_shape *p = draw(w, NH_SHAPE_ROD);
+    for (int e = 0; e < 3; e++) p->value[e] = from[e], p->value[3 + e] = to[e];
+    seen(from, axis, start);
+    seen(to, axis, end);
+    if (start[0] != end[0] || start[1] != end[1]) segment(w, start, end)->flat = true;
+}
+
 /* From the parent's frame to the joint, and from there to the child's frame where the joint slides. */
 static void rods(drawing *w, const int axis[2])
 {
     const nh_chain *c = w->s->chain;
     for (size_t i = 0; i < c->joints; i++) {
         const nh_joint *j = &c->joint[i];
-        nh_ex place[3], from[2], at[2], to[2];
+        nh_ex place[3];
         if (j->parent < 0) continue;
         nh_pose_point(w->s->dag, &c->body[j->parent].pose, j->placement.p, place);
-        seen(c->body[j->parent].pose.p, axis, from);
-        seen(place, axis, at);
-        seen(c->body[j->child].pose.p, axis, to);
-        segment(w, from, at);
-        segment(w, at, to);
+        rod(w, axis, c->body[j->parent].pose.p, place);
+        rod(w, axis, place, c->body[j->child].pose.p);
     }
 }
 
@@ -94,12 +107,13 @@ static void ends(drawing *w, const int axis[2])
         bool carries = nh_is_zero(w->s->dag, c->body[i].mass);
         for (size_t j = 0; j < c->joints; j++) carries |= c->joint[j].parent == (long)i;
         for (size_t j = 0; j < c->wheels; j++) carries |= c->wheel[j].body == i && c->wheel[j].kind == NH_WHEEL_ROLLING;
-        nh_ex from[2], to[2];
-        seen(c->body[i].pose.p, axis, from);
+        nh_ex to[2];
         seen(c->body[i].position, axis, to);
         if (carries) continue;
-        segment(w, from, to);
-        point(w, to[0], to[1])->name = c->body[i].name;
+        rod(w, axis, c->body[i].pose.p, c->body[i].position);
+        nh_shape *p = point(w, to[0], to[1]);
+        p->name = c->body[i].name;
+        p->flat = true;
     }
 }
 
@@ -115,12 +129,13 @@ static void bases(drawing *w, const int axis[2])
         nh_shape *p = draw(w, moves(w, sine) ? NH_SHAPE_ARROW : NH_SHAPE_POINT);
         seen(pose->p, axis, p->value);
         p->name = c->body[c->joint[i].child].name;
+        p->flat = true;
         if (p->kind == NH_SHAPE_ARROW) p->value[2] = nh_call2(w->s->dag, NH_ATAN2, sine, cosine);
     }
 }
 
 /* Seen from above: a wheel heads where it rolls, at a right angle to its axle a: (a_y, -a_x). */
-static void wheels(drawing *w)
+static void wheels(drawing *w, const int axis[2])
 {
     const nh_chain *c = w->s->chain;
     nh_dag *d = w->s->dag;
@@ -130,11 +145,12 @@ static void wheels(drawing *w)
         if (v->normal != 2) continue;
         nh_pose_point(d, &c->body[v->body].pose, v->at, at);
         if (v->kind != NH_WHEEL_ROLLING) { /* a blade has no size */
-            segment(w, c->body[v->body].pose.p, at);
+            rod(w, axis, c->body[v->body].pose.p, at);
             continue;
         }
         nh_shape *p = draw(w, v->ball ? NH_SHAPE_DISC : NH_SHAPE_WHEEL);
         p->name = v->name;
+        p->flat = true;
         p->value[0] = at[0];
         p->value[1] = at[1];
         p->value[v->ball ? 2 : 3] = v->radius;
@@ -144,6 +160,17 @@ static void wheels(drawing *w)
     }
 }
 
+/* First the shapes of the plane, whose colours go by their numbers. */
+static void space_behind(drawing *w)
+{
+    nh_shape *all = nh_arena_alloc(w->arena, (w->count + 1) * sizeof *all);
+    size_t n = 0;
+    for (int space = 0; space < 2; space++)
+        for (size_t i = 0; i < w->count; i++)
+            if (nh_shape_in_space(w->shape[i].kind) == (space == 1)) all[n++] = w->shape[i];
+    w->shape = all;
+}
+
 static const char *bodies(drawing *w)
 {
     int axis[2];
@@ -151,8 +178,13 @@ static const char *bodies(drawing *w)
     bases(w, axis);
     rods(w, axis);
     ends(w, axis);
-    if (axis[0] == 0 && axis[1] == 1) wheels(w);
-    return w->count ? view : NULL;
+    if (axis[0] == 0 && axis[1] == 1) wheels(w, axis);
+    if (!w->count) return NULL;
+    const nh_chain *c = w->s->chain;
+    for (size_t i = 0; i < c->bodies; i++)
+        if (!nh_is_zero(w->s->dag, c->body[i].mass)) *draw(w, NH_SHAPE_BALL) = nh_solid_of_body(w->s->dag, c, i);
+    space_behind(w);
+    return view;
 }
 
 /* ---- coordinates ---- */
@@ -185,7 +217,7 @@ static const char *along_line(drawing *w, nh_ex r, const nh_coordinate *angle)
     }
     const nh_ex zero[2] = {nh_int(d, 0), nh_int(d, 0)};
     nh_ex at[2] = {nh_mul(d, r, nh_call(d, NH_COS, angle->q)), nh_mul(d, r, nh_call(d, NH_SIN, angle->q))};
-    segment(w, zero, at);
+    if (at[0] != zero[0] || at[1] != zero[1]) segment(w, zero, at);
     point(w, at[0], at[1]);
     return "length and angle as polar coordinates";
 }

@@ -207,7 +207,7 @@ bool nh_system_read_drawing(nh_system_reader *r)
     if (!nh_system_list_of(r, r->root, "draw", &list, &n)) return false;
     s->shape = nh_system_take(r, n, sizeof *s->shape);
     for (size_t i = 0; i < n; i++)
-        if (!nh_shape_read(r->deck, list->item[i], shape_expression, r, &s->shape[i], r->error)) return false;
+        if (!nh_shape_read(r->deck, list->item[i], s->dag, shape_expression, r, &s->shape[i], r->error)) return false;
     s->shapes = n;
     return true;
 }
