@@ -661,6 +661,58 @@ Test(reduced_objects, coupled_metric)
           "lagrangian: (x'^2*(1 + u^2) + y'^2 + a*u'^2 + b*(1 + u^2)*v'^2)/2 + b*u*x'*v'/3 + y'*u'/4 - v^2/3\nconstraints: [\"y' = u*x' + v*u'\"]\n", " --group y=1;x=1", "cl");
 }
 
+/* Two driven wheels, and a mass that slides along a vertical axis and turns about it: a group that does not act freely, of which a part is taken. */
+Test(reduced_objects, cart_with_a_cylindrical_joint)
+{
+    sweep_plain_only();
+    check("cart", "name: cart\nparameters: [{name: m, value: 1.2}, {name: l, value: 0.5}, {name: r, value: 0.3}]\n"
+          "bodies: [{name: cart, mass: m, inertia: [0.1, 0.1, 0.4], center: [0.1, 0, 0]}, {name: left, mass: 0.2, inertia: [0.01, 0.02, 0.01]},\n"
+          "  {name: right, mass: 0.2, inertia: [0.01, 0.02, 0.01]}, {name: slider, mass: 0.4, inertia: [0.01, 0.01, 0.02]}]\n"
+          "joints:\n  - {type: planar, child: cart, coordinates: [x, y, h]}\n  - {type: revolute, parent: cart, child: left, at: [0, l, 0], axis: y, coordinates: [a]}\n"
+          "  - {type: revolute, parent: cart, child: right, at: [0, -l, 0], axis: y, coordinates: [b]}\n  - {type: cylindrical, parent: cart, child: slider, at: [0.3, 0, 0], axis: z, coordinates: [s, p]}\n"
+          "wheels: [{type: rolling, body: left, axle: y, radius: r}, {type: rolling, body: right, axle: y, radius: r}]\n", "", "cl");
+}
+
+/* Two blades, one at the end of a rod that gets longer and shorter. */
+Test(reduced_objects, blades_on_a_sliding_rod)
+{
+    sweep_plain_only();
+    check("train", "name: train\nparameters: [{name: m, value: 1}, {name: k, value: 0.6}, {name: l, value: 0.4}]\n"
+          "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: u, type: length}, {name: w, type: angle}]\n"
+          "lagrangian: m/2*(x'^2 + y'^2) + 0.3*h'^2 + (u'^2 + (l + u)^2*(h' + w')^2)/4 + 0.1*(h' + w')^2 - k*u^2/2\ndomain: {u: [-0.2, 0.2], w: [0.4, 1.2]}\n"
+          "constraints: [\"x'*sin(h) - y'*cos(h) = 0\", \"(x' - u'*sin(h + w))*sin(h + w) - (y' + u'*cos(h + w))*cos(h + w) = 0.2*(h' + w')\"]\n", "", "cl");
+}
+
+/* A group without a centre of its own line: Heisenberg's, and a constraint between its fields that changes with the shape. */
+Test(reduced_objects, heisenberg_group)
+{
+    check("heisenberg", "name: heisenberg\nparameters: [{name: a, value: 0.7}, {name: b, value: 1.3}]\n"
+          "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}, {name: u, type: number}]\n"
+          "lagrangian: (x'^2 + b*y'^2 + (z' + y*x')^2 + (1 + a*u^2)*u'^2)/2 + x'*u'/5 - u^2/2\nconstraints: [\"z' + y*x' = a*u*y'\"]\n", "", "cl");
+}
+
+/* A tilted coin on a slope: of the plane's symmetries one translation is left. */
+Test(reduced_objects, tilted_coin_on_a_slope)
+{
+    sweep_plain_only();
+    check("coin", "name: coin\nparameters: [{name: m, value: 1.1}, {name: r, value: 0.5}, {name: g, value: 3}, {name: al, value: 0.3}]\n"
+          "coordinates: [{name: th, type: angle}, {name: ph, type: angle}, {name: ps, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
+          "definitions: [\"b = r*cos(th)\", \"z = r*sin(th)\"]\ndomain: {th: [0.5, 1.2]}\n"
+          "lagrangian: m/2*((x' + z*th'*sin(ph) - b*ph'*cos(ph))^2 + (y' - z*th'*cos(ph) - b*ph'*sin(ph))^2 + b^2*th'^2) + m*r^2/8*(th'^2 + ph'^2*sin(th)^2) + m*r^2/4*(ps' + ph'*cos(th))^2"
+          " - m*g*(z*cos(al) - sin(al)*(x - b*sin(ph)))\n"
+          "constraints: [\"x' = -r*ps'*cos(ph)\", \"y' = -r*ps'*sin(ph)\"]\n", "", "c");
+}
+
+/* A rod that slides through a sleeve on a turning table, with a spring, and carries a flywheel: two commuting turns in the second stage. */
+Test(reduced_objects, sleeve_on_a_table)
+{
+    sweep_plain_only();
+    check("sleeve", "name: sleeve\nparameters: [{name: m, value: 1.2}, {name: I, value: 0.4}, {name: k, value: 2}]\n"
+          "bodies: [{name: table, mass: 2, inertia: [0.4, 0.4, I]}, {name: rod, mass: m, inertia: [0.05, 0.3, 0.3], center: [0.2, 0, 0.1]}, {name: fly, mass: 0.3, inertia: [0.02, 0.04, 0.04]}]\n"
+          "joints:\n  - {type: revolute, child: table, axis: z, coordinates: [p]}\n  - {type: cylindrical, parent: table, child: rod, at: [0, 0.3, 0.2], axis: x, coordinates: [s, u]}\n"
+          "  - {type: revolute, parent: rod, child: fly, at: [0.4, 0, 0], axis: x, coordinates: [f]}\n", " --group p=1;f=1", "ls");
+}
+
 /* d Theta = d/dx of y/(1 + (e - k) x^2 + y^2) dy: closed for e = k alone; and for no parameters where it is -2 x y/(1 + x^2 + y^2)^2 (1 + e^2). */
 Test(reduced_objects, parameters_with_a_measure)
 {

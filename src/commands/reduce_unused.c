@@ -44,7 +44,7 @@ void nh_reduction_not_in_second(nh_reduction *r, const nh_chaplygin *first, cons
     const nh_action *g = &r->group->action;
     for (size_t a = 0; a < g->d && !r->brief; a++) {
         if (used[a]) continue;
-        const char *what = nh_arena_printf(r->arena, "e%zu in a second stage", a + 1);
+        const char *what = nh_arena_printf(r->arena, "generator %zu in a second stage", a + 1);
         if (normalises[a]) put(r, what, violated(r, first, g->generator[a].component));
         else put(r, what, "it does not normalise the group of the first stage: its brackets with that leave it, so that it does not act on the shape space");
     }

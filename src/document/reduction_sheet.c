@@ -104,7 +104,7 @@ static void gyroscopic(const nh_reduction_builder *b, const nh_chaplygin *c)
 {
     size_t n = c->n, d = c->d, listed = 0;
     nh_sheet_begin(b->s, "gyroscopic_form", "Momentum of the group and almost-symplectic form",
-                   "$J_{a}$ is the group's momentum in the body frame; the form is $\\d x\\wedge\\d p + \\frac{1}{2} Upsilon_{i,j} \\d x^{i}\\wedge\\d x^{j}$ with $Upsilon_{i,j}=J_{a} B^{a}_{i,j}$, (2.11) and (2.12).");
+                   "$J_{a}$ is the group's momentum in the body frame; the form is $\\d x\\wedge\\d p + \\frac{1}{2} Upsilon_{i,j} \\d x^{i}\\wedge\\d x^{j}$ with $Upsilon_{i,j}=J_{a} B^{a}_{i,j}$, eqs. 2.11 and 2.12.");
     for (size_t a = 0; a < d; a++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "J_{%zu}", a + 1));
         for (size_t j = 0; j < n; j++) nh_sheet_add(b->s, c->J[a * n + j], speed(b, j));
@@ -127,11 +127,11 @@ static void chaplygin(nh_reduction_builder *b, const nh_chaplygin *c, const nh_r
     b->slice = c->slice;
     nh_reduction_sheet_frame(b, c->slice);
     nh_sheet_begin(b->s, "connection", "Connection, horizontal lift and curvature",
-                   "$zeta=-\\hat{A} <x'>$ where the constraints hold (2.8). The lifts span the constraint distribution D, which meets V in 0 only: S = 0. "
+                   "$zeta=-\\hat{A} <x'>$ where the constraints hold ([ChhabraEmami2014], eq. 2.8). The lifts span the constraint distribution D, which meets V in 0 only: S = 0. "
                    "$B^{a}_{i,j}=\\p_{i} A^{a}_{j}-\\p_{j} A^{a}_{i}-C^{a}_{b,c} A^{b}_{i} A^{c}_{j}$. Entries that are not listed vanish.");
     nh_reduction_sheet_lift(b, c->slice, c->A, "\\hat{A}");
     nh_reduction_sheet_curvature(b, c->slice, c->B, "B");
-    nh_sheet_begin(b->s, "hamiltonian", "Reduced Lagrangian and Hamiltonian", "$\\hat{K}=H^{T} K H$ with the lift H; $p_{i}=\\hat{K}_{i,j} <x'>^{j}$ (2.10).");
+    nh_sheet_begin(b->s, "hamiltonian", "Reduced Lagrangian and Hamiltonian", "$\\hat{K}=H^{T} K H$ with the metric K of the kinetic energy and the lift H; $p_{i}=\\hat{K}_{i,j} <x'>^{j}$ (eq. 2.10).");
     nh_reduction_sheet_symmetric(b, c->slice, c->K, "\\hat{K}");
     nh_sheet_sum(b->s, "", "\\hat{L}");
     nh_reduction_sheet_kinetic(b, c->K);

@@ -56,7 +56,7 @@ static void equations(const nh_reduction_builder *b, const nh_lagrange_poincare 
 {
     nh_ex *chi = nh_alloc_array(3 * l->d + 1, sizeof *chi), *out = chi + l->d, *A = out + l->d;
     nh_sheet_begin(b->s, "equations", "Vertical and horizontal equations",
-                   "$mu'(chi)=mu([omega,chi])$ for each chi of S, which is not differentiated; $\\pidot_{i}=\\frac{\\p l}{\\p x^{i}}+mu_{a} B^{a}_{i,j} <x'>^{j}+mu([A_{i},v])$.");
+                   "$mu'(chi)=mu([omega,chi])$ for each chi of S, which is not differentiated ([CendraDiaz2018], sec. 5); $\\pidot_{i}=\\frac{\\p l}{\\p x^{i}}+mu_{a} B^{a}_{i,j} <x'>^{j}+mu([A_{i},v])$.");
     for (size_t p = 0; p < l->r; p++) {
         column(l, l->chi, l->r, p, chi);
         nh_lagrange_poincare_bracket(l, l->omega, chi, out);

@@ -30,7 +30,7 @@ nh_sheet *nh_reduction_brackets_sheet(const nh_reduction *r, const nh_action *g)
     nh_sheet *s = sheet_of(r);
     nh_sheet_begin(s, "brackets", "", "");
     put_brackets(s, g);
-    s->section->words = s->section->lines ? "Brackets of the Lie algebra; those that are not listed vanish." : "All brackets vanish.";
+    s->section->words = s->section->lines ? "Brackets of the Lie algebra, $[e_{a},e_{b}]=C^{c}_{a,b} e_{c}$; those that are not listed vanish." : "All brackets vanish.";
     return s;
 }
 

@@ -87,9 +87,9 @@ static void magnetic(const nh_reduction_builder *b, const nh_second *t)
     size_t d = t->d;
     nh_ex *theta = nh_alloc_array(d * d + d + 1, sizeof *theta), *form = theta + d;
     nh_sheet_begin(b->s, "magnetic_form", "Isotropy of the momentum and magnetic form",
-                   t->abelian ? "$N_{theta}=N$: the level set is divided by the whole group. $Xi_{theta}=\\d alpha_{theta}$, $alpha_{theta}=theta_{a} (zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is the magnetic form (2.20)."
+                   t->abelian ? "$N_{theta}=N$: the level set is divided by the whole group. $Xi_{theta}=\\d alpha_{theta}$, $alpha_{theta}=theta_{a} (zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is the magnetic form ([ChhabraEmami2014], eq. 2.20)."
                               : nh_sheet_label(b->s, "$theta$ is the momentum in the body frame, which moves on a coadjoint orbit of dimension %zu. The $xi$ span the algebra of $N_{theta}$, of dimension %zu, for a generic $theta$: "
-                                               "$theta([xi,e_{a}])=0$. $Xi_{theta}=\\d alpha_{theta}$, $alpha_{theta}=theta_{a} (zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is $theta_{a} B^{a}_{i,j}$ on lifts and $theta([e_{a},e_{b}])$ on orbits (2.17); "
+                                               "$theta([xi,e_{a}])=0$. $Xi_{theta}=\\d alpha_{theta}$, $alpha_{theta}=theta_{a} (zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is $theta_{a} B^{a}_{i,j}$ on lifts and $theta([e_{a},e_{b}])$ on orbits ([ChhabraEmami2014], eq. 2.17); "
                                                "on one of each it vanishes.", t->orbit, d - t->orbit));
     on_lifts(b, t);
     for (size_t k = 0; k < d; k++) theta[k] = nh_symbol_fresh(b->d, nh_sheet_label(b->s, "theta_%zu", k + 1));
@@ -105,8 +105,8 @@ static void connection(const nh_reduction_builder *b, const nh_second *t)
 {
     size_t d = t->d;
     nh_sheet_begin(b->s, "mechanical_connection", "Locked inertia and mechanical connection",
-                   t->first->d ? "$I_{a,b}$ is the metric of the first stage on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} <x'>$ is the momentum, which is kept (2.14)."
-                               : "$I_{a,b}$ is the metric on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} <x'>$ is the momentum, which is kept (2.14).");
+                   t->first->d ? "$I_{a,b}$ is the metric of the first stage on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} <x'>$ is the momentum, which is kept ([ChhabraEmami2014], eq. 2.14)."
+                               : "$I_{a,b}$ is the metric on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} <x'>$ is the momentum, which is kept ([ChhabraEmami2014], eq. 2.14).");
     for (size_t a = 0; a < d; a++)
         for (size_t c = a; c < d; c++)
             if (!nh_is_zero(b->d, t->inertia[a * d + c])) nh_sheet_formula(b->s, nh_sheet_label(b->s, "I_{%zu,%zu}", a + 1, c + 1), t->inertia[a * d + c]);

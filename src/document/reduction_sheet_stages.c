@@ -89,7 +89,7 @@ static void heading(const stages *s, bool given)
         for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) nh_text_addf(&words, " $e_{%zu}$", c->order[i] + 1);
     }
     nh_sheet_begin(s->b->s, "chain", "Chain of subgroups",
-                   nh_sheet_label(s->b->s, "%s. $n_{j}$ is spanned by block j and those behind it, an ideal of $n_{j-1}$. $g_{0}$: %s. $a_{j}(x,y)$ is minus the part of $[H_{j} x,H_{j} y]$ in $n_{j+1}$, "
+                   nh_sheet_label(s->b->s, "%s. $n_{j}$ is spanned by block j and those behind it, an ideal of $n_{j-1}$ ([CendraDiaz2018], theorem 2.3). $g_{0}$: %s. $a_{j}(x,y)$ is minus the part of $[H_{j} x,H_{j} y]$ in $n_{j+1}$, "
                                            "$b_{j}(x,N)=[H_{j} x,N]$; those not listed vanish.", nh_text_string(&words),
                                   given ? "the inner product that was given; the lifts $H_{j}$ are orthogonal to $n_{j+1}$ in it" : "the inner product in which the generators are orthonormal, so that each is its own lift $H_{j}$"));
     nh_text_clear(&words);
@@ -180,7 +180,7 @@ void nh_reduction_sheet_stages(const nh_reduction_builder *b, const nh_lagrange_
     /* sum_j beta_j'(chi_j) = sum_i <beta_i, [omega, chi]_i>, with the bracket in parts [CendraDiaz2018, eq. 14] */
     nh_sheet_begin(b->s, "by_stages", "Vertical equations by stages, block by block",
                    "$beta_{j}=mu H_{j}$ is the part of $mu$ on block j, $omega=\\Sigma_{j} H_{j} omega_{j}$ and $chi=\\Sigma_{j} H_{j} chi_{j}$. For each chi the sum of the parts below is "
-                   "$\\Sigma_{j} beta'_{j}(chi_{j})$; the sum over all blocks is needed, since chi need not lie in one of them.");
+                   "$\\Sigma_{j} beta'_{j}(chi_{j})$ ([CendraDiaz2018], eq. 14); the sum over all blocks is needed, since chi need not lie in one of them.");
     for (size_t p = 0; p < l->r; p++) vertical(&s, p);
     nh_free(s.block);
     nh_free(s.lift);

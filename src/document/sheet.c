@@ -148,11 +148,11 @@ char *nh_sheet_coefficient(const nh_sheet *s, const nh_sheet_term *t, bool *minu
 {
     char *text = nh_print_short(s->dag, t->coefficient, s->shown);
     *minus = *sum = false;
-    if (!text || !t->factor[0]) return text;
-    *sum = nh_formula_is_sum(text);
+    if (!text) return text;
+    *sum = t->factor[0] && nh_formula_is_sum(text);
     *minus = !*sum && text[0] == '-';
     if (*minus) memmove(text, text + 1, strlen(text));
-    if (!strcmp(text, "1")) text[0] = 0;
+    if (t->factor[0] && !strcmp(text, "1")) text[0] = 0;
     return text;
 }
 
