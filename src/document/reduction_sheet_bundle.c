@@ -9,8 +9,8 @@ static const char *speed(const nh_reduction_builder *b, const nh_slice *s, size_
 /* S, and with the lifts D. */
 static void distribution(const nh_reduction_builder *b, const nh_lagrange_poincare *l)
 {
-    nh_sheet_begin(b->s, "connection", "S = V cap D, nonholonomic connection and curvature",
-                   l->slice->f ? "The $chi_{a}$ span S, with the lifts they span D. The lifts are orthogonal to S for the kinetic energy. Entries that are not listed vanish."
+    nh_sheet_begin(b->s, "connection", "Nonholonomic connection and curvature",
+                   l->slice->f ? "S is what V and the constraint distribution D have in common. The $chi_{a}$ span S, with the lifts they span D. The lifts are orthogonal to S for the kinetic energy. Entries that are not listed vanish."
                                : "Without constraints S is the whole algebra and the connection the mechanical one. Entries that are not listed vanish.");
     for (size_t p = 0; p < l->r; p++) {
         nh_sheet_sum(b->s, "", number(b, "chi", p));
