@@ -193,10 +193,12 @@ static const char PHI2[] = "m*x'/cos(phi)*sin(phi/k) + m*a*k*phi'*cos(phi/k)";
 Test(theory, sleigh_as_printed_is_the_tabulated_one)
 {
     cJSON *data = oracle_read("tests/data/sleigh_oracle.json");
-    const cJSON *set = oracle_get(data, "sets")->child->next;
-    sheet s = sheet_of("systems/sleigh.yaml", NULL, set, 3, SLEIGH_PARAMETERS, "verify", "--current", PHI2, NULL);
-    compare(&s, set, "mu", "eps_prime_g");
-    sheet_clear(&s);
+    const cJSON *set;
+    cJSON_ArrayForEach(set, oracle_get(data, "sets")) {
+        sheet s = sheet_of("systems/sleigh.yaml", NULL, set, 3, SLEIGH_PARAMETERS, "verify", "--current", PHI2, NULL);
+        compare(&s, set, "mu", "eps_prime_g");
+        sheet_clear(&s);
+    }
     cJSON_Delete(data);
 }
 
@@ -204,14 +206,26 @@ Test(theory, thick_disk_as_printed_is_the_tabulated_one)
 {
     static const char *const parameter[] = {"r", "e", "M", "I1", "I3", "g"};
     cJSON *data = oracle_read("tests/data/disk_oracle.json");
-    const cJSON *set = oracle_get(data, "sets")->child->next;
-    sheet s = sheet_of(NULL, DISK, set, 6, parameter, "verify", "--current", "x1", NULL);
-    compare(&s, set, "mu", "eps_prime");
-    sheet_clear(&s);
+    const cJSON *set;
+    cJSON_ArrayForEach(set, oracle_get(data, "sets")) {
+        sheet s = sheet_of(NULL, DISK, set, 6, parameter, "verify", "--current", "x1", NULL);
+        compare(&s, set, "mu", "eps_prime");
+        sheet_clear(&s);
+    }
     cJSON_Delete(data);
 }
 
 static const char *const PROJECTILE_PARAMETERS[] = {"m", "g", "v0"};
+
+Test(theory, nonlinear_constraint_as_printed_is_the_tabulated_one)
+{
+    cJSON *data = oracle_read("tests/data/nonlinear_oracle.json");
+    const cJSON *set = oracle_get(oracle_get(data, "systems")->child, "sets")->child;
+    sheet s = sheet_of(NULL, PROJECTILE_EXPLICIT, set, 3, PROJECTILE_PARAMETERS, "verify", "--current", "x", NULL);
+    compare(&s, set, "mu", "eps_prime");
+    sheet_clear(&s);
+    cJSON_Delete(data);
+}
 
 /* [Gamma, Z] = a Gamma + b Z with the printed functions and the tabulated fields. */
 Test(theory, a_genuine_case_2_has_the_printed_functions)
