@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const steps[] = {"command", "form", "function", "integrator", "joint"};
+static const char *const steps[] = {"command", "family", "form", "function", "integrator", "joint"};
 enum { step_count = sizeof steps / sizeof *steps };
 
 Test(extend, the_steps_of_the_docs_work)

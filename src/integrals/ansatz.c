@@ -211,9 +211,9 @@ static bool multiply_parts(builder *b, const part *x, const part *y, part *p)
 static bool build(builder *b, const nh_family *f, part *p)
 {
     switch (f->kind) {
-    case NH_POLYNOMIAL: return build_polynomial(b, f, p);
-    case NH_FOURIER: return build_fourier(b, f, p);
-    case NH_CHEBYSHEV: return build_chebyshev(b, f, p);
+#define X(kind, name, keys, single, columns) case kind: return build_##name(b, f, p);
+        NH_FAMILY_TABLE(X)
+#undef X
     case NH_TERMS: return build_terms(b, f->terms, f->term, p);
     default: break;
     }
@@ -300,16 +300,21 @@ static void order_columns(builder *b)
     nh_free(r);
 }
 
-/* Monomials of n variables to a degree: n + degree over degree. */
+/* Of n variables to a degree: n + degree over degree. */
+static double monomials(size_t n, size_t degree)
+{
+    double size = 1;
+    for (size_t k = 1; k <= degree; k++) size *= (double)(n + k) / (double)k;
+    return round(size);
+}
+
 static double size_of(const nh_family *f)
 {
-    double n = (double)f->in_count, size = 1;
+    double size = 1;
     switch (f->kind) {
-    case NH_POLYNOMIAL:
-    case NH_CHEBYSHEV:
-        for (size_t k = 1; k <= f->degree; k++) size *= (n + (double)k) / (double)k;
-        return round(size);
-    case NH_FOURIER: return 2 * n * (double)f->degree + f->constant;
+#define X(kind, name, keys, single, columns) case kind: return (double)(columns);
+        NH_FAMILY_TABLE(X)
+#undef X
     case NH_TERMS: return (double)f->terms;
     default: break;
     }

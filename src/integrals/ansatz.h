@@ -6,13 +6,22 @@
  * coefficient of terms = to_term * coefficient of columns.  A column is a product of factors, so that its value and its derivative
  * along Gamma come from the factors' by Leibniz' rule, three operations a point; only factors are differentiated.
  *
- * Families: polynomial, fourier (whole, given or unknown frequency), chebyshev, explicit terms, products.   [docs/formats.md] */
+ * Families: those of the table, explicit terms, products.   [docs/formats.md] */
 #ifndef NH_ANSATZ_H
 #define NH_ANSATZ_H
 
 #include "integrals/points.h"
 
-typedef enum { NH_POLYNOMIAL, NH_FOURIER, NH_CHEBYSHEV, NH_TERMS, NH_FAMILY_PRODUCT } nh_family_kind;
+/* The families with a name: kind; name; keys in analysis files; is it in one variable?; how many columns a family f has.
+ * For each ansatz.c has a function build_NAME. */
+#define NH_FAMILY_TABLE(X)                                                                                       \
+    X(NH_POLYNOMIAL, polynomial, "basis, in, degree", false, monomials(f->in_count, f->degree))                  \
+    X(NH_FOURIER, fourier, "basis, in, harmonics, frequency, constant", false, 2 * f->in_count * f->degree + f->constant) \
+    X(NH_CHEBYSHEV, chebyshev, "basis, in, degree", true, f->degree + 1)
+
+#define X(kind, name, keys, single, columns) kind,
+typedef enum { NH_FAMILY_TABLE(X) NH_TERMS, NH_FAMILY_PRODUCT } nh_family_kind;
+#undef X
 
 typedef struct nh_family nh_family;
 struct nh_family {

@@ -15,15 +15,20 @@ static const char *const top_keys[] = {"name", "system", "set", "route", "ansatz
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
-bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error)
+bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, size_t count, const char *const *names,
+                             size_t *out, nh_error *error)
 {
+    char list[200] = "expected ";
     if (!node) return true;
     if (!nh_deck_is(deck, node, NH_DECK_SCALAR, what, error)) return false;
-    for (*out = 0; *out < 3; ++*out)
+    for (*out = 0; *out < count; ++*out)
         if (!strcmp(node->text, names[*out])) return true;
     nh_deck_fail(deck, node, 0, error, "unknown %s `%s`", what, node->text);
-    const char *near = nh_text_nearest(node->text, names, 3);
-    return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "expected %s, %s or %s", names[0], names[1], names[2]);
+    const char *near = nh_text_nearest(node->text, names, count);
+    if (near) return nh_error_hint(error, "did you mean `%s`?", near);
+    for (size_t i = 0, end = strlen(list); i < count; i++, end = strlen(list))
+        snprintf(list + end, sizeof list - end, "%s%s", i == 0 ? "" : i + 1 < count ? ", " : " or ", names[i]);
+    return nh_error_hint(error, "%s", list);
 }
 
 /* The text under `key`, or the fallback. */
@@ -58,10 +63,10 @@ static bool read_head(nh_analysis_file *a, nh_error *error)
     const char *remark; /* title and doc are for the reader of the file */
     if (!text_of(a->deck, root, "name", "analysis", &a->name, error) || !text_of(a->deck, root, "system", NULL, &a->system, error)) return false;
     if (!text_of(a->deck, root, "title", "", &remark, error) || !text_of(a->deck, root, "doc", "", &remark, error)) return false;
-    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "route"), "route", routes, &index, error)) return false;
+    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "route"), "route", 3, routes, &index, error)) return false;
     a->route = (nh_route)index;
     index = 0;
-    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "velocities"), "velocities", velocities, &index, error)) return false;
+    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "velocities"), "velocities", 3, velocities, &index, error)) return false;
     a->chart = (nh_chart_choice)index;
     long whole;
     if ((node = nh_deck_get(root, "samples"))) {

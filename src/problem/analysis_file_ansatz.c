@@ -27,20 +27,6 @@ static bool read_size(nh_analysis_file_reader *r, const nh_deck_node *item, cons
     return true;
 }
 
-static bool read_fourier(nh_analysis_file_reader *r, const nh_deck_node *item, nh_family *f)
-{
-    const nh_deck_node *frequency = nh_deck_get(item, "frequency"), *constant = nh_deck_get(item, "constant");
-    f->kind = NH_FOURIER;
-    f->frequency = nh_int(r->model->dag, 1);
-    f->constant = frequency == NULL;
-    if (constant && !nh_deck_is(r->a->deck, constant, NH_DECK_SCALAR, "constant", r->error)) return false;
-    if (constant) f->constant = !strcmp(constant->text, "true");
-    if (constant && !f->constant && strcmp(constant->text, "false"))
-        return nh_deck_fail(r->a->deck, constant, 0, r->error, "`constant` must be true or false, found `%s`", constant->text);
-    if (frequency && !nh_analysis_file_parse(r, frequency, &f->frequency)) return false;
-    return read_in(r, item, f) && read_size(r, item, "harmonics", 1, &f->degree);
-}
-
 static bool read_terms(nh_analysis_file_reader *r, const nh_deck_node *item, nh_family *f)
 {
     const nh_deck_node *list = nh_deck_get(item, "terms");
@@ -67,37 +53,69 @@ static bool read_product(nh_analysis_file_reader *r, const nh_deck_node *item, i
     return true;
 }
 
+static bool has_key(const char *keys, const char *key)
+{
+    size_t n = strlen(key);
+    for (const char *found = strstr(keys, key); found; found = strstr(found + 1, key))
+        if ((found == keys || found[-1] == ' ') && (found[n] == ',' || !found[n])) return true;
+    return false;
+}
+
 /* Has the family only keys that mean something for its kind? */
 static bool fits(nh_analysis_file_reader *r, const nh_deck_node *item, const char *kind, const char *keys)
 {
     for (size_t i = 0; i < item->count; i++) {
-        const char *key = item->key[i]->text, *found = strstr(keys, key);
-        size_t n = strlen(key);
-        if (found && (found == keys || found[-1] == ' ') && (found[n] == ',' || !found[n])) continue;
-        nh_deck_fail(r->a->deck, item->key[i], 0, r->error, "`%s` means nothing for %s", key, kind);
+        if (has_key(keys, item->key[i]->text)) continue;
+        nh_deck_fail(r->a->deck, item->key[i], 0, r->error, "`%s` means nothing for %s", item->key[i]->text, kind);
         return nh_error_hint(r->error, "it takes: %s", keys);
     }
     return true;
 }
 
+static const struct {
+    const char *name, *keys;
+    bool single;
+} families[] = {
+#define X(kind, name, keys, single, columns) {#name, keys, single},
+    NH_FAMILY_TABLE(X)
+#undef X
+};
+
+/* A family with a name, by the keys that it has. */
+static bool read_basis(nh_analysis_file_reader *r, const nh_deck_node *item, nh_family *f)
+{
+    const char *names[sizeof families / sizeof *families], *keys, *kind;
+    size_t count = sizeof families / sizeof *families, k = 0;
+    const nh_deck *deck = r->a->deck;
+    const nh_deck_node *frequency = nh_deck_get(item, "frequency"), *constant = nh_deck_get(item, "constant");
+    for (size_t i = 0; i < count; i++) names[i] = families[i].name;
+    if (!nh_analysis_file_choice(deck, nh_deck_get(item, "basis"), "basis", count, names, &k, r->error)) return false;
+    keys = families[k].keys;
+    kind = nh_arena_printf(r->a->arena, "a %s family", names[k]);
+    if (!fits(r, item, kind, keys)) return false;
+    *f = (nh_family){.kind = (nh_family_kind)k, .frequency = nh_int(r->model->dag, 1), .constant = frequency == NULL};
+    if (constant && !nh_deck_is(deck, constant, NH_DECK_SCALAR, "constant", r->error)) return false;
+    if (constant) f->constant = !strcmp(constant->text, "true");
+    if (constant && !f->constant && strcmp(constant->text, "false"))
+        return nh_deck_fail(deck, constant, 0, r->error, "`constant` must be true or false, found `%s`", constant->text);
+    if (frequency && !nh_analysis_file_parse(r, frequency, &f->frequency)) return false;
+    bool degree = has_key(keys, "degree");
+    if (!read_in(r, item, f) || !read_size(r, item, degree ? "degree" : "harmonics", degree ? -1 : 1, &f->degree)) return false;
+    if (!families[k].single || f->in_count == 1) return true;
+    return nh_deck_fail(deck, item, 0, r->error, "%s is in one variable; use a product for several", kind);
+}
+
 static bool read_family(nh_analysis_file_reader *r, const nh_deck_node *item, int depth, nh_family *f)
 {
     static const char *const keys[] = {"basis", "in", "degree", "harmonics", "frequency", "constant", "terms", "product"};
-    static const char *const bases[] = {"polynomial", "fourier", "chebyshev"};
-    size_t basis = 0;
     const nh_deck *deck = r->a->deck;
-    if (!nh_deck_is(deck, item, NH_DECK_MAP, "a family {basis: ..., in: ...}", r->error) || !nh_deck_only(deck, item, keys, 8, r->error)) return false;
+    if (!nh_deck_is(deck, item, NH_DECK_MAP, "a family {basis: ..., in: ...}", r->error)) return false;
+    if (!nh_deck_only(deck, item, keys, sizeof keys / sizeof *keys, r->error)) return false;
     if (depth > 4) return nh_deck_fail(deck, item, 0, r->error, "products nested too deeply");
     if (nh_deck_get(item, "product")) return fits(r, item, "a product", "product") && read_product(r, item, depth, f);
     if (nh_deck_get(item, "terms")) return fits(r, item, "a list of terms", "terms") && read_terms(r, item, f);
-    if (!nh_deck_get(item, "basis")) return nh_deck_fail(deck, item, 0, r->error, "a family needs `basis`, `terms` or `product`");
-    if (!nh_analysis_file_choice(deck, nh_deck_get(item, "basis"), "basis", bases, &basis, r->error)) return false;
-    *f = (nh_family){.kind = basis == 0 ? NH_POLYNOMIAL : NH_CHEBYSHEV};
-    if (basis == 1) return fits(r, item, "a fourier family", "basis, in, harmonics, frequency, constant") && read_fourier(r, item, f);
-    if (!fits(r, item, basis ? "a chebyshev family" : "a polynomial family", "basis, in, degree")) return false;
-    if (!read_in(r, item, f) || !read_size(r, item, "degree", -1, &f->degree)) return false;
-    if (basis == 2 && f->in_count != 1) return nh_deck_fail(deck, item, 0, r->error, "a chebyshev family is in one variable; use a product for several");
-    return true;
+    if (nh_deck_get(item, "basis")) return read_basis(r, item, f);
+    return nh_deck_fail(deck, item, 0, r->error, "a family needs `basis`, `terms` or `product`");
 }
 
 bool nh_analysis_file_read_ansatz(nh_analysis_file_reader *r)
