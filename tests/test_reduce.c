@@ -257,7 +257,7 @@ Test(reduce, json)
     nh_free(text);
     nh_text out;
     nh_text_init(&out);
-    nh_reduction_text(r, true, &out);
+    nh_reduction_write(r, NULL, (nh_pen_style){.form = NH_PEN_TEXT, .verbose = true}, &out);
     cr_expect(strstr(nh_text_string(&out), "Symmetry group: SE(2), dimension 3") != NULL);
     nh_text_clear(&out);
     nh_reduction_free(r);

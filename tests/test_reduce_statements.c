@@ -45,12 +45,12 @@ static told tell_file(const char *path, size_t settings, const nh_setting *setti
     must(t.r != NULL, &error, path);
     nh_text html;
     nh_text_init(&t.text), nh_text_init(&t.page), nh_text_init(&html);
-    nh_reduction_text(t.r, false, &html);
+    nh_reduction_write(t.r, NULL, (nh_pen_style){.form = NH_PEN_TEXT}, &html);
     for (const char *line = nh_text_string(&html); *line; line += strcspn(line, "\n"), line += *line == '\n') cr_expect_leq(strcspn(line, "\n"), 80, "%.200s", line);
     nh_text_add(&t.text, flat(nh_text_string(&html)));
     nh_text_clear(&html);
     nh_text_init(&html);
-    nh_reduction_write(t.r, false, &(nh_run){.command = "nhsym reduce", .system_path = path, .seed = 1, .shown = 200, .seconds = NAN}, NH_PEN_PAGE, &html);
+    nh_reduction_write(t.r, &(nh_run){.command = "nhsym reduce", .system_path = path, .seed = 1, .shown = 200, .seconds = NAN}, (nh_pen_style){.form = NH_PEN_PAGE}, &html);
     strip_tags(nh_text_string(&html), &t.page);
     t.json = nh_reduction_json(t.r, NULL);
     nh_text_clear(&html);

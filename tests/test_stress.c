@@ -65,7 +65,7 @@ Test(stress, a_plane_on_the_page)
     nh_text page;
     nh_text_init(&page);
     nh_run run = {0};
-    nh_benchmark_write(c, s, &run, NH_PEN_PAGE, &page);
+    nh_benchmark_write(c, s, &run, (nh_pen_style){.form = NH_PEN_PAGE}, &page);
     const char *text = nh_text_string(&page), *table = strstr(text, "a and phi: CVODE BDF");
     cr_assert_not_null(table);
     const char *end = strstr(table, "</table>");

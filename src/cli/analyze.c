@@ -4,7 +4,6 @@
 #include "cli/cli.h"
 #include "document/analysis_json.h"
 #include "document/analysis_outline.h"
-#include "document/summary.h"
 
 /* A system by name brings the analysis of that name with it; a file is taken alone. */
 static const char *analysis_of(nh_cli *cli, const char *system)
@@ -43,22 +42,10 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
 
 /* ---- what is written ---- */
 
-static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
+static void render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     (void)run; /* the result has its own */
-    nh_analysis_write(result, cli->fragment, form, out);
-}
-
-static bool write_summary(nh_cli *cli, const nh_analysis *result, nh_error *error)
-{
-    nh_text text;
-    nh_text_init(&text);
-    nh_summary(result, (nh_summary_style){cli->colour, cli->verbose}, &text);
-    if (nh_cli_speaks(cli)) fputs(nh_text_string(&text), stdout);
-    nh_text_clear(&text);
-    if (!cli->folder) return true;
-    nh_summary(result, (nh_summary_style){false, cli->verbose}, &text);
-    return nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), &text, error);
+    nh_analysis_write(result, style, out);
 }
 
 int nh_cli_analyze(nh_cli *cli, nh_error *error)
@@ -72,7 +59,7 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (!result) return nh_cli_failed(cli, &run, error);
-    bool good = write_summary(cli, result, error) && (!cli->json || nh_cli_write_json(cli, nh_analysis_json(result), error))
+    bool good = nh_cli_write_words(cli, render, result, &run, error) && (!cli->json || nh_cli_write_json(cli, nh_analysis_json(result), error))
                 && nh_cli_write_documents(cli, render, result, &run, error);
     good = nh_cli_written(cli, good, error);
     bool partial = result->partial;

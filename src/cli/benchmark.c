@@ -9,25 +9,23 @@ typedef struct {
     const nh_robustness *robustness; /* or NULL */
 } comparison;
 
-static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
+static void render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     const comparison *c = result;
-    (void)cli;
-    nh_benchmark_write(c->benchmark, c->robustness, run, form, out);
+    nh_benchmark_write(c->benchmark, c->robustness, run, style, out);
 }
 
 static bool write_all(nh_cli *cli, const nh_run *run, const nh_benchmark *c, const nh_robustness *s, nh_error *error)
 {
+    const comparison both = {c, s};
     nh_text text;
     nh_text_init(&text);
-    if (nh_cli_wants_words(cli)) nh_benchmark_text(c, cli->verbose, &text);
-    if (nh_cli_wants_words(cli) && s) nh_robustness_text(s, cli->verbose, &text);
-    bool good = nh_cli_say(cli, &text, error);
+    bool good = nh_cli_write_words(cli, render, &both, run, error);
     if ((cli->svg || cli->pdf) && good) {
         nh_benchmark_svg(c, &text);
         good = nh_cli_write_picture(cli, &text, error);
     }
-    good = good && nh_cli_write_documents(cli, render, &(comparison){c, s}, run, error);
+    good = good && nh_cli_write_documents(cli, render, &both, run, error);
     if (cli->json && good) good = nh_cli_write_json(cli, nh_benchmark_json(c, s, run), error);
     return nh_cli_written(cli, good, error);
 }

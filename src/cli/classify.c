@@ -78,26 +78,15 @@ static bool classify(const nh_classify_request *q, answer *a, nh_error *error)
     return a->line || a->plane;
 }
 
-static void print(const nh_cli *cli, const answer *a)
-{
-    nh_text text;
-    nh_text_init(&text);
-    if (a->plane) nh_classification_plane_text(a->plane, cli->verbose, &text);
-    else nh_classification_text(a->line, cli->verbose, &text);
-    fputs(nh_text_string(&text), stdout);
-    nh_text_clear(&text);
-}
-
 static char *json_of(const answer *a, const nh_run *run)
 {
     return a->plane ? nh_classification_plane_json(a->plane, run) : nh_classification_json(a->line, run);
 }
 
-static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
+static void render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     const answer *a = result;
-    (void)cli;
-    nh_classification_write(a->line, a->plane, run, form, out);
+    nh_classification_write(a->line, a->plane, run, style, out);
 }
 
 int nh_cli_classify(nh_cli *cli, nh_error *error)
@@ -111,9 +100,8 @@ int nh_cli_classify(nh_cli *cli, nh_error *error)
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     if (!done) return nh_cli_failed(cli, &run, error);
-    bool good = true;
-    if (nh_cli_speaks(cli)) print(cli, &a);
-    if (cli->json) good = nh_cli_write_json(cli, json_of(&a, &run), error);
+    bool good = nh_cli_write_words(cli, render, &a, &run, error);
+    if (cli->json && good) good = nh_cli_write_json(cli, json_of(&a, &run), error);
     good = good && nh_cli_write_documents(cli, render, &a, &run, error);
     good = nh_cli_written(cli, good, error);
     if (good && a.obstacle) nh_fail(error, NH_NUMERIC, "", "%s", a.obstacle);

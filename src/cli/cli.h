@@ -116,13 +116,11 @@ bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error)
 bool nh_cli_write_picture(nh_cli *cli, nh_text *svg, nh_error *error);
 bool nh_cli_pdf(const nh_text *svg, nh_text *out, nh_error *error);
 bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error);
-/* The result in words: does anybody read it?  On the terminal, and in the folder of -o; cleared. */
-bool nh_cli_wants_words(const nh_cli *cli);
-bool nh_cli_say(nh_cli *cli, nh_text *text, nh_error *error);
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);
 
-/* The page and the LaTeX document of a result, where they are wanted. */
-typedef void nh_cli_render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out);
+/* A result in words, which are printed and stand in the folder of -o; its page and its LaTeX document, where they are wanted. */
+typedef void nh_cli_render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out);
+bool nh_cli_write_words(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error);
 /* The name of the first option that asks for a document; NULL: none does. */
 const char *nh_cli_wants_document(const nh_cli *cli);
 bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error);

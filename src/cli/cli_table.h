@@ -18,7 +18,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_velocities, "velocities",  required_argument, "auto|quasi|coordinates", "analyze verify simulate benchmark export", "velocities of the computation")                  \
     X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate benchmark reduce classify scan", "write the result as JSON; `-`: print it, and nothing else") \
     X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan", "write the result as one self-contained page") \
-    X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify", "write the result as a LaTeX document")                                 \
+    X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan", "write the result as a LaTeX document")                                 \
     X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "LaTeX without a preamble, to include in another document")                      \
     X('o',             "output",      required_argument, "DIR",                "analyze verify simulate reduce classify benchmark scan export", "-o: write all files into a folder; scan: the folder of its parts and its result")                      \
     X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \

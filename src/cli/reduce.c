@@ -43,15 +43,17 @@ static void put_code(const nh_cli *cli, const nh_reduction *r, nh_text *out)
     nh_export_free(x);
 }
 
+static void render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
+{
+    nh_reduction_write(result, run, style, out);
+}
+
 /* The summary, the equations as code, or the motions as numbers. */
-static bool print(nh_cli *cli, const nh_reduction *r, nh_error *error)
+static bool print(nh_cli *cli, const nh_reduction *r, const nh_run *run, nh_error *error)
 {
     nh_text text;
     nh_text_init(&text);
-    if (!cli->to) {
-        if (nh_cli_wants_words(cli)) nh_reduction_text(r, cli->verbose, &text);
-        return nh_cli_say(cli, &text, error);
-    }
+    if (!cli->to) return nh_cli_write_words(cli, render, r, run, error);
     if (!strcmp(cli->to, "csv")) nh_reduction_csv(r, &text);
     else put_code(cli, r, &text);
     if (nh_cli_delivers(cli)) fputs(nh_text_string(&text), stdout);
@@ -71,11 +73,6 @@ static void complain(const nh_reduction *r, double accuracy, nh_error *error)
     if (r->stages && r->full.method && !r->full.held && error->code == NH_OK) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: %s", accuracy, r->full.why);
 }
 
-static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
-{
-    nh_reduction_write(result, cli->verbose, run, form, out);
-}
-
 int nh_cli_reduce(nh_cli *cli, nh_error *error)
 {
     nh_reduce_request request;
@@ -85,7 +82,7 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     if (!r) return nh_cli_failed(cli, &run, error);
-    bool good = print(cli, r, error);
+    bool good = print(cli, r, &run, error);
     if (cli->json && good) good = nh_cli_write_json(cli, nh_reduction_json(r, &run), error);
     good = good && nh_cli_write_documents(cli, render, r, &run, error);
     good = nh_cli_written(cli, good, error);

@@ -35,34 +35,27 @@ static bool request_of(nh_cli *cli, nh_scan_request *q, nh_scan_source *source, 
 
 /* ---- what is written ---- */
 
-static bool write_text(nh_cli *cli, const char *name, const nh_scan *x, void (*put)(const nh_scan *, nh_text *), nh_error *error)
+static void render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
 {
-    nh_text text;
-    nh_text_init(&text);
-    put(x, &text);
-    return nh_cli_write(cli, nh_cli_in_folder(cli, name), &text, error);
+    nh_scan_write(result, run, style, out);
 }
-
-static void summary(const nh_scan *x, nh_text *out) { nh_scan_text(x, true, out); }
 
 static bool write_all(nh_cli *cli, const nh_scan *x, const nh_run *run, nh_error *error)
 {
-    bool to_stdout = cli->json && !strcmp(cli->json, "-");
     nh_text text;
     nh_text_init(&text);
-    if (!cli->quiet && !to_stdout && !x->silent) {
-        nh_scan_text(x, cli->verbose, &text);
+    if (x->chunked && !x->silent && nh_cli_speaks(cli)) { /* a part has words only */
+        render(x, run, (nh_pen_style){.form = NH_PEN_TEXT, .colour = cli->colour}, &text);
         fputs(nh_text_string(&text), stdout);
         nh_text_clear(&text);
     }
-    if (x->chunked || x->silent) return true;
+    if (x->silent || x->chunked) return true;
     if (!cli->json) cli->json = nh_cli_in_folder(cli, "scan.json");
-    if (!cli->html) cli->html = nh_cli_in_folder(cli, "report.html");
-    bool good = nh_cli_write_json(cli, nh_scan_json(x, run), error) && write_text(cli, "scan.csv", x, nh_scan_csv, error)
-                && write_text(cli, "summary.txt", x, summary, error);
-    nh_html_scan(x, run, &text);
-    good = good && nh_cli_write_figures(cli, nh_text_string(&text), error);
-    good = nh_cli_write(cli, cli->html, &text, error) && good;
+    bool good = nh_cli_use_folder(cli, error) && nh_cli_write_words(cli, render, x, run, error);
+    nh_scan_csv(x, &text);
+    good = nh_cli_write(cli, nh_cli_in_folder(cli, "scan.csv"), &text, error) && good;
+    good = good && nh_cli_write_json(cli, nh_scan_json(x, run), error);
+    good = good && nh_cli_write_documents(cli, render, x, run, error);
     return nh_cli_written(cli, good, error);
 }
 

@@ -157,10 +157,9 @@ static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows
     return true;
 }
 
-static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
+static void render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
 {
-    (void)cli;
-    nh_simulation_write(result, run, form, out);
+    nh_simulation_write(result, run, style, out);
 }
 
 int nh_cli_simulate(nh_cli *cli, nh_error *error)

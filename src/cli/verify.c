@@ -1,7 +1,6 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "document/geometry_sheet.h"
 #include "document/verification.h"
 
 static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error)
@@ -30,9 +29,9 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error
     return *out != NULL;
 }
 
-static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
+static void render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
 {
-    nh_verification_write(result, cli->field != NULL, run, form, out);
+    nh_verification_write(result, run, style, out);
 }
 
 int nh_cli_verify(nh_cli *cli, nh_error *error)
@@ -43,11 +42,7 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
     if (!nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return nh_cli_failed(cli, &run, error);
     nh_cli_progress_end();
     bool conserved = v->conserved;
-    nh_text text;
-    nh_text_init(&text);
-    if (nh_cli_wants_words(cli)) nh_verification_text(v, cli->field != NULL, cli->options.shown, &text);
-    if (nh_cli_wants_words(cli) && v->theory) nh_sheet_text(nh_geometry_sheet(v->arena, v->theory, NULL), cli->colour && !cli->folder, &text);
-    bool good = nh_cli_say(cli, &text, error);
+    bool good = nh_cli_write_words(cli, render, v, &run, error);
     if (cli->json && good) good = nh_cli_write_json(cli, nh_verification_json(v, &run), error);
     good = good && nh_cli_write_documents(cli, render, v, &run, error);
     good = nh_cli_written(cli, good, error);

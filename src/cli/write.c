@@ -90,6 +90,23 @@ bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error)
     return good;
 }
 
+static nh_pen_style style_of(const nh_cli *cli, nh_pen_form form, bool colour)
+{
+    return (nh_pen_style){.form = form, .fragment = cli->fragment, .verbose = cli->verbose, .colour = colour};
+}
+
+bool nh_cli_write_words(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error)
+{
+    nh_text text;
+    nh_text_init(&text);
+    if (nh_cli_speaks(cli)) render(result, run, style_of(cli, NH_PEN_TEXT, cli->colour), &text);
+    fputs(nh_text_string(&text), stdout);
+    nh_text_clear(&text);
+    if (!cli->folder) return true;
+    render(result, run, style_of(cli, NH_PEN_TEXT, false), &text);
+    return nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), &text, error);
+}
+
 bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error)
 {
 #define X(name, form, writer) cli->name,
@@ -100,21 +117,11 @@ bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *resu
     nh_text_init(&text);
     for (nh_pen_form form = 0; form < NH_PEN_TEXT && good; form++) {
         if (!path[form]) continue;
-        render(cli, result, run, form, &text);
+        render(result, run, style_of(cli, form, false), &text);
         if (form == NH_PEN_PAGE && cli->folder) good = nh_cli_write_figures(cli, nh_text_string(&text), error);
         good = nh_cli_write(cli, path[form], &text, error) && good;
     }
     return good;
-}
-
-bool nh_cli_wants_words(const nh_cli *cli) { return nh_cli_speaks(cli) || cli->folder; }
-
-bool nh_cli_say(nh_cli *cli, nh_text *text, nh_error *error)
-{
-    if (nh_cli_speaks(cli)) fputs(nh_text_string(text), stdout);
-    if (cli->folder) return nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), text, error);
-    nh_text_clear(text);
-    return true;
 }
 
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error) { return nh_output_end(&cli->files, good, error); }

@@ -5,6 +5,7 @@
 #include "document/facts.h"
 #include "document/geometry_sheet.h"
 #include "document/motion_sheet.h"
+#include "document/summary.h"
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
 
@@ -74,9 +75,13 @@ static void explicit_motion(nh_pen *p, const nh_analysis *r)
     nh_pen_sheet(p, sheet);
 }
 
-void nh_analysis_write(const nh_analysis *r, bool fragment, nh_pen_form form, nh_text *out)
+void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
 {
     nh_pen pen, *p = &pen;
+    if (style.form == NH_PEN_TEXT) {
+        nh_summary(r, (nh_summary_style){style.colour, style.verbose}, out);
+        return;
+    }
     nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
     const nh_chart *chart = r->other && r->other->chart->roots ? r->other->chart : r->model->chart;
     nh_pen_subject subject = {.system = r->system,
@@ -84,9 +89,8 @@ void nh_analysis_write(const nh_analysis *r, bool fragment, nh_pen_form form, nh
                               .dag = r->model->dag,
                               .chart = chart,
                               .shown = r->options.shown,
-                              .written = r->options.written,
-                              .fragment = fragment};
-    nh_pen_begin(p, form, &subject, NULL, out);
+                              .written = r->options.written};
+    nh_pen_begin(p, style, &subject, NULL, out);
     answer(p, r);
     links(p, r);
     for (size_t i = 0; i < r->warnings; i++) nh_pen_warning(p, r->warning[i]);

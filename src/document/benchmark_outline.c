@@ -218,13 +218,18 @@ static void robustness(nh_pen *p, const nh_robustness *s)
     for (size_t i = 0; i < s->maps; i++) map_table(p, &s->map[i]);
 }
 
-void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_run *run, nh_pen_form form, nh_text *out)
+void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     const nh_simulation *q = c->question;
     nh_pen pen, *p = &pen;
     char sections[200];
+    if (style.form == NH_PEN_TEXT) {
+        nh_benchmark_text(c, style.verbose, out);
+        if (s) nh_robustness_text(s, style.verbose, out);
+        return;
+    }
     nh_pen_subject subject = {.system = q->system, .analysis = q->analysis, .dag = q->model->dag, .shown = run->shown};
-    nh_pen_begin(p, form, &subject, "integrators compared", out);
+    nh_pen_begin(p, style, &subject, "integrators compared", out);
     answer(p, c);
     snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|words|Words|repeat|Repeat it", c->fits ? "discrete|The discrete problem|" : "",
              s ? "robustness|Where they fail|" : "");

@@ -14,6 +14,6 @@ void nh_classification_plane_text(const nh_classified_plane *classified, bool ve
 char *nh_classification_plane_json(const nh_classified_plane *classified, const nh_run *run);
 
 /* One of both is there. */
-void nh_classification_write(const nh_classified *line, const nh_classified_plane *plane, const nh_run *run, nh_pen_form form, nh_text *out);
+void nh_classification_write(const nh_classified *line, const nh_classified_plane *plane, const nh_run *run, nh_pen_style style, nh_text *out);
 
 #endif

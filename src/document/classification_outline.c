@@ -185,12 +185,15 @@ static void answer(pen *p, const nh_classified *line, const plane *x)
     else nh_pen_say(p, ", polynomial in the velocities up to degree %zu.", rows);
 }
 
-void nh_classification_write(const nh_classified *line, const plane *x, const nh_run *run, nh_pen_form form, nh_text *out)
+void nh_classification_write(const nh_classified *line, const plane *x, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     const nh_analysis *r = (x ? x->family : line)->almost_all;
+    if (style.form == NH_PEN_TEXT && x) nh_classification_plane_text(x, style.verbose, out);
+    else if (style.form == NH_PEN_TEXT) nh_classification_text(line, style.verbose, out);
+    if (style.form == NH_PEN_TEXT) return;
     nh_pen_subject subject = {.system = r->system, .dag = r->model->dag, .chart = r->model->chart, .shown = run->shown};
     pen all, *p = &all;
-    nh_pen_begin(p, form, &subject, "classification", out);
+    nh_pen_begin(p, style, &subject, "classification", out);
     nh_pen_open(p, NH_PEN_ANSWER, "found", NULL);
     answer(p, line, x);
     nh_pen_close(p, NH_PEN_ANSWER);

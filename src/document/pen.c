@@ -11,22 +11,24 @@
 #include "document/notation.h"
 #include "graph/print.h"
 
-void nh_pen_begin(nh_pen *p, nh_pen_form form, const nh_pen_subject *s, const char *what, nh_text *out)
+void nh_pen_begin(nh_pen *p, nh_pen_style style, const nh_pen_subject *s, const char *what, nh_text *out)
 {
     double written = s->written > 0 ? s->written : INFINITY;
     *p = (nh_pen){.of = *s,
-                  .page = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = written},
-                  .tex = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = written,
-                          .fragment = s->fragment}};
-    p->plain = (nh_plain_writer){.out = out, .of = *s};
+                  .style = style,
+                  .page = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart,
+                           .shown = s->shown, .written = written},
+                  .tex = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart,
+                          .shown = s->shown, .written = written, .fragment = style.fragment},
+                  .plain = {.out = out, .of = *s, .colour = style.colour}};
 #define X(name, form, writer) {&nh_pen_##name, &p->writer},
     const struct {
         const nh_pen_ink *ink;
         void *to;
     } of[] = {NH_PEN_FORM_TABLE(X){&nh_pen_plain, &p->plain}};
 #undef X
-    p->ink = of[form].ink;
-    p->to = of[form].to;
+    p->ink = of[style.form].ink;
+    p->to = of[style.form].to;
     p->ink->begin(p->to, what);
 }
 

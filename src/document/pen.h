@@ -20,6 +20,7 @@ typedef enum { NH_PEN_SECTION, NH_PEN_CARD, NH_PEN_FOLD, NH_PEN_SCREEN, NH_PEN_W
 
 typedef struct {
     bool screen;                                     /* has it parts for the screen? */
+    bool brief;                                      /* a terminal's: without what the user wrote, and without long explanations */
     void (*begin)(void *to, const char *what);
     void (*links)(void *to, const char *sections);
     /* `id`: of a section; the class of an answer and the kind of a cell.  `title` may be NULL; of a kind it is a remark. */
@@ -55,6 +56,12 @@ typedef struct {
 typedef enum { NH_PEN_FORM_TABLE(X) NH_PEN_TEXT } nh_pen_form;
 #undef X
 
+/* `fragment`: LaTeX without the lines before and after the body.  `verbose`: with all the numbers.  `colour`: a terminal that has it. */
+typedef struct {
+    nh_pen_form form;
+    bool fragment, verbose, colour;
+} nh_pen_style;
+
 /* What a document is about; formulas longer than `shown` are left out of it, those longer than `written` (0: none) of the JSON. */
 typedef struct {
     const nh_system *system;
@@ -62,13 +69,14 @@ typedef struct {
     nh_dag *dag;
     const nh_chart *chart;
     double shown, written;
-    bool fragment;           /* of LaTeX: without the lines before and after the body */
 } nh_pen_subject;
 
-/* Of a text for a terminal, whose lines are not folded yet. */
+/* Of a text for a terminal. */
 typedef struct {
-    nh_text *out;
+    nh_text *out, *folded;   /* until the end, and then with its lines folded */
+    nh_text text;            /* what `out` is until the end */
     nh_pen_subject of;
+    bool colour;
     size_t cells;            /* of the row, so far */
 } nh_plain_writer;
 
@@ -76,6 +84,7 @@ typedef struct {
     const nh_pen_ink *ink;
     void *to;
     nh_pen_subject of;
+    nh_pen_style style;
     nh_html_writer page;
     nh_tex_writer tex;
     nh_plain_writer plain;
@@ -90,7 +99,7 @@ NH_PEN_FORM_TABLE(X)
 extern const nh_pen_ink nh_pen_plain;
 
 /* `pen` must stay where it is. */
-void nh_pen_begin(nh_pen *pen, nh_pen_form form, const nh_pen_subject *subject, const char *what, nh_text *out);
+void nh_pen_begin(nh_pen *pen, nh_pen_style style, const nh_pen_subject *subject, const char *what, nh_text *out);
 void nh_pen_end(nh_pen *pen, const nh_run *run);
 
 /* A section, and a card in it, end where the next one begins, and before the system and the glossary. */

@@ -115,5 +115,5 @@ static void end(void *to, const nh_run *run)
     nh_html_end(to);
 }
 
-const nh_pen_ink nh_pen_html = {true, begin, links, open, close, words, number, count, names, source, letters, equation, code, formulas,
+const nh_pen_ink nh_pen_html = {true, false, begin, links, open, close, words, number, count, names, source, letters, equation, code, formulas,
                                 sheet, table, table_end, plot, series, symmetry, glossary, end};

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "document/facts.h"
+#include "document/formula.h"
 #include "document/notation.h"
 #include "document/pen.h"
 
@@ -28,13 +29,22 @@ static void words(void *to, const char *text)
     nh_text_add(w->out, text);
 }
 
+static void bold(nh_plain_writer *w, const char *text)
+{
+    nh_text_addf(w->out, w->colour ? "\033[1m%s\033[0m" : "%s", text);
+}
+
 /* The title with the values of the parameters. */
 static void begin(void *to, const char *what)
 {
     nh_plain_writer *w = to;
     const nh_system *s = w->of.system;
     (void)what;
-    nh_text_addf(w->out, "%s   %s", s->title, s->parameters ? "with " : "no parameters");
+    w->folded = w->out;
+    w->out = &w->text;
+    nh_text_init(w->out);
+    bold(w, s->title);
+    nh_text_addf(w->out, "   %s", s->parameters ? "with " : "no parameters");
     for (size_t i = 0; i < s->parameters; i++)
         nh_text_addf(w->out, "%s%s = %.6g", i ? ", " : "", s->parameter[i].name, s->parameter[i].value);
     nh_text_add(w->out, "\n");
@@ -50,7 +60,7 @@ static void open(void *to, nh_pen_part part, const char *id, const char *title)
     if ((part == NH_PEN_CELL || part == NH_PEN_ROW_HEAD || part == NH_PEN_KIND) && w->cells++) words(w, "  ");
     if (markup[part].titled && !title) return;
     words(w, markup[part].open);
-    if (markup[part].titled) nh_text_addf(w->out, "%s\n", title);
+    if (markup[part].titled) bold(w, title), words(w, "\n");
 }
 
 static void close(void *to, nh_pen_part part) { words(to, markup[part].close); }
@@ -80,24 +90,29 @@ static void formulas(void *to, size_t n, const char *const *label, const nh_ex *
 {
     enum { indent = 4 };
     nh_plain_writer *w = to;
+    const nh_pen_subject *of = &w->of;
     nh_text *name = nh_alloc_array(n + 1, sizeof *name);
     const char **shown = nh_alloc_array(n + 1, sizeof *shown);
+    nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
     for (size_t i = 0; i < n; i++) {
+        brief[i] = nh_formula_shortened(of->analysis, of->dag, of->chart ? nh_chart_shown(of->chart, e[i]) : e[i]);
         nh_text_init(&name[i]);
         if (nh_pen_is_name(label[i])) nh_text_add(&name[i], label[i]);
         else nh_notation_write(label[i], NH_NOTATION_TEXT, &name[i]);
         shown[i] = nh_text_string(&name[i]);
     }
-    nh_sheet_formulas(w->of.dag, n, shown, e, indent, w->of.shown, w->out);
+    nh_sheet_formulas(of->dag, n, shown, brief, indent, of->shown, w->out);
     for (size_t i = 0; i < n; i++) nh_text_clear(&name[i]);
+    nh_free(brief);
     nh_free(shown);
     nh_free(name);
 }
 
 static void sheet(void *to, nh_sheet *formulas_of, bool headed)
 {
+    nh_plain_writer *w = to;
     (void)headed;
-    nh_sheet_text(formulas_of, false, ((nh_plain_writer *)to)->out);
+    nh_sheet_text(formulas_of, w->colour, w->out);
 }
 
 static void table(void *to, const char *caption, const char *heads)
@@ -121,7 +136,13 @@ static void symmetry(void *to, const nh_symmetry *z)
 
 static void glossary(void *to, const char *list) { (void)to, (void)list; }
 
-static void end(void *to, const nh_run *run) { (void)to, (void)run; }
+static void end(void *to, const nh_run *run)
+{
+    nh_plain_writer *w = to;
+    (void)run;
+    nh_sheet_fold(nh_text_string(&w->text), w->folded);
+    nh_text_clear(&w->text);
+}
 
-const nh_pen_ink nh_pen_plain = {false, begin, links, open, close, words, number, count, words, words, letters, equation, code, formulas,
+const nh_pen_ink nh_pen_plain = {false, true, begin, links, open, close, words, number, count, words, words, letters, equation, code, formulas,
                                  sheet, table, table_end, plot, series, symmetry, glossary, end};

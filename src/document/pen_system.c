@@ -132,6 +132,7 @@ static void equations(nh_pen *p, const nh_model *o)
 
 void nh_pen_system(nh_pen *p, const nh_model *model, const nh_analysis *r)
 {
+    if (p->ink->brief) return;
     nh_pen_section(p, "system", "The system");
     written(p, p->of.system);
     if (!model) return;

@@ -166,5 +166,5 @@ static void end(void *to, const nh_run *run)
     nh_tex_add(w, w->fragment ? "\\par\\endgroup\n" : "\\par\\endgroup\n\\end{document}\n");
 }
 
-const nh_pen_ink nh_pen_tex = {false, begin, links, open, close, words, number, count, names, source, letters, equation, code, formulas,
+const nh_pen_ink nh_pen_tex = {false, false, begin, links, open, close, words, number, count, names, source, letters, equation, code, formulas,
                                sheet, table, table_end, plot, series, symmetry, glossary, end};

@@ -8,9 +8,7 @@
 #include "commands/reduce.h"
 
 /* `run` may be NULL for a text. */
-void nh_reduction_write(const nh_reduction *reduction, bool verbose, const nh_run *run, nh_pen_form form, nh_text *out);
-/* The text, its lines folded. */
-void nh_reduction_text(const nh_reduction *reduction, bool verbose, nh_text *out);
+void nh_reduction_write(const nh_reduction *reduction, const nh_run *run, nh_pen_style style, nh_text *out);
 /* The document as a heap string (nh_free); `run` may be NULL. */
 char *nh_reduction_json(const nh_reduction *reduction, const nh_run *run);
 /* The full motion and those of the stages over common times: what a motion does not reach is empty. */

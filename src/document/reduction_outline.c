@@ -14,7 +14,7 @@ static const char *group_name(const nh_reduction *r, const nh_pen *p, const char
     nh_text text;
     nh_text_init(&text);
     for (; *name; name++) {
-        bool times = p->ink != &nh_pen_plain && !strncmp(name, " x ", 3);
+        bool times = !p->ink->brief && !strncmp(name, " x ", 3);
         nh_text_add_n(&text, times ? " \u00d7 " : name, times ? strlen(" \u00d7 ") : 1);
         name += times ? 2 : 0;
     }
@@ -36,18 +36,19 @@ static const char *how(const nh_condition *c)
 }
 
 /* What a generator leaves invariant: in a word where all is proved. */
-static void invariance(nh_pen *p, const nh_reduction *r, const nh_generator *g, bool verbose)
+static void invariance(nh_pen *p, const nh_reduction *r, const nh_generator *g)
 {
     const nh_condition *const c[] = {&g->metric, &g->potential, &g->constraints, &g->forces};
     static const char *const what[] = {"kinetic energy", ", potential", ", constraints", ", forces"};
     size_t n = r->kinetic->forced ? 4 : 3, proved = 0;
     for (size_t i = 0; i < n; i++) proved += c[i]->holds && c[i]->all_parameters;
-    if (proved == n && !verbose) nh_pen_say(p, "; proved");
-    for (size_t i = 0; i < n && (proved < n || verbose); i++)
+    bool all = proved < n || p->style.verbose;
+    if (!all) nh_pen_say(p, "; proved");
+    for (size_t i = 0; i < n && all; i++)
         nh_pen_say(p, "%s%s %s", i ? "" : "; ", what[i], how(c[i]));
 }
 
-static void generators(nh_pen *p, const nh_reduction *r, const nh_group *g, bool verbose)
+static void generators(nh_pen *p, const nh_reduction *r, const nh_group *g)
 {
     const nh_kinetic *k = r->kinetic;
     for (size_t a = 0; a < g->action.d; a++) {
@@ -58,7 +59,7 @@ static void generators(nh_pen *p, const nh_reduction *r, const nh_group *g, bool
         nh_pen_say(p, "%s", e->local ? " (local: many-valued on an angle)" : "");
         if (!proof.all_parameters)
             nh_pen_say(p, "%s", proof.proved ? nh_facts_holds(k->model, &proof, false) : " (to rounding)");
-        invariance(p, r, e, verbose);
+        invariance(p, r, e);
         nh_pen_close(p, NH_PEN_FACT);
     }
 }
@@ -103,7 +104,7 @@ static const char *title(nh_pen *p, const nh_reduction *r, const nh_group *g)
                                       nh_reduction_globally(r, g)));
 }
 
-static void group(nh_pen *p, const nh_reduction *r, const nh_group *g, bool verbose)
+static void group(nh_pen *p, const nh_reduction *r, const nh_group *g)
 {
     if (r->all && r->group != r->all) { /* otherwise the answer has named it */
         nh_pen_open(p, NH_PEN_HEADING, NULL, title(p, r, g));
@@ -111,7 +112,7 @@ static void group(nh_pen *p, const nh_reduction *r, const nh_group *g, bool verb
     }
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     counted(p, r, g);
-    generators(p, r, g, verbose);
+    generators(p, r, g);
     if (g->action.d) algebra(p, r, g);
     if (r->strict && g->action.d)
         nh_pen_fact(p, "Of", "the equations of motion: the Lagrangian may change by a total derivative");
@@ -192,7 +193,7 @@ static void stage(nh_pen *p, const nh_reduction *r, size_t number)
     nh_pen_close(p, NH_PEN_FACTS);
     nh_pen_sheet(p, nh_reduction_equations_sheet(r, s));
     nh_reduction_remarks(r, s, p);
-    if (p->ink != &nh_pen_plain) nh_reduction_figures(r, s, p);
+    if (!p->ink->brief) nh_reduction_figures(r, s, p);
     nh_pen_sheet(p, nh_reduction_sheet(r, s));
     nh_pen_card_end(p);
 }
@@ -281,12 +282,12 @@ static void answer(nh_pen *p, const nh_reduction *r)
     reduces(p, r);
 }
 
-void nh_reduction_write(const nh_reduction *r, bool verbose, const nh_run *run, nh_pen_form form, nh_text *out)
+void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     nh_pen pen, *p = &pen;
     nh_pen_subject subject = {
         .system = r->system, .dag = r->kinetic->dag, .shown = run ? run->shown : r->options.shown};
-    nh_pen_begin(p, form, &subject, "reduction by symmetry", out);
+    nh_pen_begin(p, style, &subject, "reduction by symmetry", out);
     answer(p, r);
     p->ink->links(
         p->to, has_momenta(r)
@@ -294,8 +295,8 @@ void nh_reduction_write(const nh_reduction *r, bool verbose, const nh_run *run, 
                    : "group|Group|stages|Reduced equations|system|System|words|Words|repeat|Repeat it");
     for (size_t i = 0; i < r->warnings; i++) nh_pen_warning(p, r->warning[i]);
     nh_pen_section(p, "group", "The group");
-    if (r->all) group(p, r, r->all, verbose);
-    if (r->group != r->all) group(p, r, r->group, verbose);
+    if (r->all) group(p, r, r->all);
+    if (r->group != r->all) group(p, r, r->group);
     joints(p, r);
     nh_pen_section(p, "stages", "Reduced equations");
     if (!r->stages) nh_pen_words(p, "No reduction was possible.");
@@ -303,16 +304,7 @@ void nh_reduction_write(const nh_reduction *r, bool verbose, const nh_run *run, 
     for (size_t i = 0; i < r->stages; i++) stage(p, r, i);
     unused(p, r);
     momenta(p, r);
-    if (p->ink != &nh_pen_plain) nh_pen_system(p, NULL, NULL);
+    nh_pen_system(p, NULL, NULL);
     nh_pen_glossary(p, "group, shape, stage of a reduction, Chaplygin, distribution, nonholonomic");
     nh_pen_end(p, run);
-}
-
-void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
-{
-    nh_text all;
-    nh_text_init(&all);
-    nh_reduction_write(r, verbose, NULL, NH_PEN_TEXT, &all);
-    nh_sheet_fold(nh_text_string(&all), out);
-    nh_text_clear(&all);
 }

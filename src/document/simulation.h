@@ -11,7 +11,7 @@ void nh_motion_csv(const nh_simulation *simulation, nh_text *out); /* a head lin
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */
 char *nh_motion_json(const nh_simulation *simulation, const nh_run *run);
 
-void nh_simulation_write(const nh_simulation *simulation, const nh_run *run, nh_pen_form form, nh_text *out);
+void nh_simulation_write(const nh_simulation *simulation, const nh_run *run, nh_pen_style style, nh_text *out);
 
 /* The member `accuracy` of a motion; null when a is NULL. */
 void nh_accuracy_json(const nh_accuracy *a, nh_json *root);

@@ -50,14 +50,14 @@ static void fans(nh_pen *p, const nh_simulation *s)
     }
 }
 
-void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_form form, nh_text *out)
+void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     nh_pen pen, *p = &pen;
     const nh_ensemble *e = s->ensemble;
     const char *note = e ? e->note : s->motion->note;
     nh_pen_subject subject = {.system = s->system, .analysis = s->analysis, .dag = s->model->dag, .shown = run->shown};
     nh_time_series *c = e ? NULL : nh_time_series_of_simulation(s);
-    nh_pen_begin(p, form, &subject, e ? "many motions" : "a motion", out);
+    nh_pen_begin(p, style, &subject, e ? "many motions" : "a motion", out);
     answer(p, s);
     p->ink->links(p->to, "motion|Motion|system|System|repeat|Repeat it");
     if (note[0]) nh_pen_warning(p, note);

@@ -1,5 +1,6 @@
 /* Plots for pgfplots: the data stand in the document, and TeX draws them. */
 #include <math.h>
+#include <stdio.h>
 
 #include "document/tex_internal.h"
 
@@ -25,9 +26,42 @@ static void headings(nh_tex_writer *w, const nh_curve *f)
     }
 }
 
+static void legend(nh_tex_writer *w, const nh_plot *p, const nh_curve *f)
+{
+    if (p->curves < 2) return;
+    nh_tex_add(w, "\\addlegendentry{");
+    nh_tex_name(w, f->name);
+    nh_tex_add(w, "}\n");
+}
+
+/* Between this point of a grid and the one before, or beside its ends. */
+static double edge(const double *at, size_t count, size_t i)
+{
+    if (count < 2) return at[0] + (i ? 0.5 : -0.5);
+    if (i == 0) return at[0] - (at[1] - at[0]) / 2;
+    return i == count ? at[i - 1] + (at[i - 1] - at[i - 2]) / 2 : (at[i - 1] + at[i]) / 2;
+}
+
+/* Colours are those of the page, #rrggbb. */
+static void cells(nh_tex_writer *w, const nh_cells *c)
+{
+    for (size_t i = 0; i < c->across; i++)
+        for (size_t j = 0; j < c->up; j++) {
+            unsigned red, green, blue;
+            if (sscanf(c->fill[i * c->up + j], "#%2x%2x%2x", &red, &green, &blue) != 3) continue;
+            nh_text_addf(w->out, "\\fill[fill={rgb,255:red,%u;green,%u;blue,%u}] (axis cs:%.6g,%.6g) rectangle (axis cs:%.6g,%.6g);\n",
+                         red, green, blue, edge(c->x, c->across, i), edge(c->y, c->up, j), edge(c->x, c->across, i + 1),
+                         edge(c->y, c->up, j + 1));
+        }
+}
+
 static void curve(nh_tex_writer *w, const nh_plot *p, size_t k)
 {
     const nh_curve *f = &p->curve[k];
+    if (!f->count) { /* the name of a colour */
+        if (f->name[0]) nh_text_addf(w->out, "\\addlegendimage{%s, only marks, mark=square*}\n", styles[k % style_count]), legend(w, p, f);
+        return;
+    }
     size_t most = p->equal ? most_of_path : most_points, step = (f->count + most - 2) / (most - 1);
     if (step == 0) step = 1;
     nh_text_addf(w->out, f->dots ? "\\addplot[%s, only marks, mark=%s, mark size=1.4pt] coordinates {" : "\\addplot[%s, thick%s] coordinates {", styles[k % style_count], f->dots ? k % 2 ? "o" : "*" : p->equal ? ", smooth" : "");
@@ -41,11 +75,7 @@ static void curve(nh_tex_writer *w, const nh_plot *p, size_t k)
         nh_tex_add(w, ")");
     }
     nh_tex_add(w, "};\n");
-    if (p->curves > 1) {
-        nh_tex_add(w, "\\addlegendentry{");
-        nh_tex_name(w, f->name);
-        nh_tex_add(w, "}\n");
-    }
+    legend(w, p, f);
     if (f->heading) headings(w, f);
 }
 
@@ -78,9 +108,14 @@ void nh_tex_plot(nh_tex_writer *w, const nh_plot *p, const char *caption)
     if (p->log_y) nh_tex_add(w, ", ymode=log");
     if (p->equal) nh_tex_add(w, ", axis equal");
     if (p->timed) nh_tex_add(w, ", enlarge x limits=false");
-    if (!p->log_x) range(w, p, false);
-    if (!p->log_y) range(w, p, true);
+    if (p->cells)
+        nh_text_addf(w->out, ", xmin=%.6g, xmax=%.6g, ymin=%.6g, ymax=%.6g", edge(p->cells->x, p->cells->across, 0),
+                     edge(p->cells->x, p->cells->across, p->cells->across), edge(p->cells->y, p->cells->up, 0),
+                     edge(p->cells->y, p->cells->up, p->cells->up));
+    else if (!p->log_x) range(w, p, false);
+    if (!p->log_y && !p->cells) range(w, p, true);
     nh_tex_add(w, "]\n");
+    if (p->cells) cells(w, p->cells);
     for (size_t k = 0; k < p->curves; k++) curve(w, p, k);
     nh_tex_add(w, "\\end{axis}\n\\end{tikzpicture}\n\n{\\small ");
     nh_tex_words(w, caption);

@@ -37,7 +37,7 @@ char *nh_unfinished_json(const nh_unfinished *u)
 void nh_unfinished_page(const nh_unfinished *u, nh_text *out)
 {
     nh_pen pen, *p = &pen;
-    nh_pen_begin(p, NH_PEN_PAGE, &(nh_pen_subject){.system = u->system, .dag = u->system->dag, .shown = u->run->shown}, "an incomplete run", out);
+    nh_pen_begin(p, (nh_pen_style){.form = NH_PEN_PAGE}, &(nh_pen_subject){.system = u->system, .dag = u->system->dag, .shown = u->run->shown}, "an incomplete run", out);
     nh_pen_open(p, NH_PEN_ANSWER, "undecided", NULL);
     nh_pen_say(p, u->search ? "Undecided: no current so far (search cut)." : "Unfinished.");
     nh_pen_close(p, NH_PEN_ANSWER);

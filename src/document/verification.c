@@ -28,96 +28,9 @@ const char *nh_verification_branches(const nh_verification *v)
     return nh_arena_printf(v->arena, v->form ? ", on the branch %s" : ", on the branch %s only", v->branch);
 }
 
-/* Longer than `shown` symbols: only how long. */
-static void put(const nh_verification *v, nh_text *out, const char *label, nh_ex e, double shown)
+const char *nh_verification_noun(const nh_verification *v)
 {
-    nh_dag *dag = v->model->dag;
-    e = as_shown(v, e);
-    char *text = nh_print_short(dag, e, shown);
-    if (text) nh_text_addf(out, "%s%s\n", label, text);
-    else nh_text_addf(out, "%s... (%zu symbols: too long to be shown; option `shown`)\n", label, nh_complexity(dag, e));
-    nh_free(text);
-}
-
-static void put_point(const nh_verification *v, nh_text *out)
-{
-    char number[40];
-    const nh_chart *c = v->model->chart;
-    for (size_t j = 0; j < v->model->width; j++) {
-        nh_text_number(v->counterexample[j], number, sizeof number);
-        nh_text_addf(out, "%s%s = %s", j ? ", " : "", nh_name_of(v->model->dag, c->symbol[j]), number);
-    }
-}
-
-static void put_field(const nh_verification *v, double shown, nh_text *out)
-{
-    const nh_symmetry *z = &v->symmetry;
-    nh_text_add(out, "  its symmetry has the components\n");
-    put(v, out, "    t: ", z->Z0, shown);
-    for (size_t s = 0; s < v->model->m; s++) {
-        nh_text_addf(out, "    %s: ", v->system->coordinate[s].name);
-        put(v, out, "", z->field.space[s], shown);
-    }
-    for (size_t i = 0; i < v->model->n; i++) {
-        nh_text_addf(out, "    %s: ", nh_name_of(v->model->dag, v->model->chart->w[i]));
-        put(v, out, "", z->W[i], shown);
-    }
-    nh_text_add(out, "  ");
-    nh_facts_symmetry(z, NH_FACTS_TEXT, ";\n  ", out);
-    nh_text_add(out, "\n");
-}
-
-/* By how much a field leaves the canonical distribution: its current is defined for fields in it only. */
-static void put_outside(const nh_verification *v, double shown, nh_text *out)
-{
-    nh_text_add(out, "Z is not in the canonical distribution:\n");
-    for (size_t a = 0; a < v->model->k; a++) {
-        char label[80];
-        snprintf(label, sizeof label, "  i_Z phi^%zu = ", a + 1);
-        put(v, out, label, v->form[a], shown);
-        nh_text_addf(out, "    where phi^%zu belongs to %s\n", a + 1, v->system->constraint[a].text);
-    }
-}
-
-const char *nh_verification_noun(const nh_verification *v, bool field)
-{
-    return v->of_equations ? "a symmetry of the equations of motion" : field ? "a constraint symmetry" : "conserved";
-}
-
-/* What a symmetry of the equations of motion makes of the currents that the system file knows. */
-static void put_made(const nh_verification *v, double shown, nh_text *out)
-{
-    if (v->made) nh_text_add(out, "  it makes of known currents\n");
-    for (size_t i = 0; i < v->made; i++) {
-        char label[200];
-        snprintf(label, sizeof label, "    Z(%.150s) = ", v->make[i].name);
-        put(v, out, label, v->make[i].value, shown);
-    }
-}
-
-void nh_verification_text(const nh_verification *v, bool field, double shown, nh_text *out)
-{
-    if (v->of_equations) put(v, out, "[Gamma,Z] = f Gamma with f = ", v->factor, shown);
-    else if (field && v->outside) put_outside(v, shown, out);
-    else if (field) put(v, out, "the field's current is  ", v->current, shown);
-    else put(v, out, "Phi = ", v->current, INFINITY);
-    if (v->region) {
-        nh_text_addf(out, "NO: this is conserved only in a region: %s\n", v->region);
-        return;
-    }
-    if (!v->conserved) {
-        nh_text_addf(out, "NO: this is not %s\n  at ", nh_verification_noun(v, field));
-        if (v->has_counterexample) put_point(v, out);
-        nh_text_addf(out, "\n  %s = %.6g, relative to its terms %.2g\n", field ? v->equation : "Gamma(Phi)", v->rate, v->residual);
-        return;
-    }
-    nh_text_addf(out, "YES: this is %s", nh_verification_noun(v, field));
-    if (v->proof.proved) nh_text_addf(out, ", proved%s", nh_facts_holds(v->model, &v->proof, false));
-    else nh_text_addf(out, ", to %.0f digits%s", v->proof.digits, v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
-    nh_text_add(out, nh_verification_branches(v));
-    nh_text_addf(out, "%s\n", v->trivial ? "; it is trivial: the current is a constant" : "");
-    if (v->has_symmetry && !v->trivial) put_field(v, shown, out);
-    put_made(v, shown, out);
+    return v->of_equations ? "a symmetry of the equations of motion" : v->form ? "a constraint symmetry" : "conserved";
 }
 
 static void put_expression(const nh_verification *v, nh_json *to, const char *key, nh_ex e)

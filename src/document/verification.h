@@ -1,4 +1,4 @@
-/* verification: the answer to `verify` as text, as JSON (schema version 1, docs/formats.md), as a page and as LaTeX. */
+/* verification: the answer to `verify` as a document, and as JSON (schema version 1, docs/formats.md). */
 #ifndef NH_VERDICT_REPORT_H
 #define NH_VERDICT_REPORT_H
 
@@ -7,13 +7,11 @@
 #include "commands/verify.h"
 
 /* "a constraint symmetry", "conserved", or what else was in question. */
-const char *nh_verification_noun(const nh_verification *verdict, bool field);
-void nh_verification_text(const nh_verification *verdict, bool field, double shown, nh_text *out);
+const char *nh_verification_noun(const nh_verification *verdict);
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */
 char *nh_verification_json(const nh_verification *verdict, const nh_run *run);
 
-/* `field`: the question was about one. */
-void nh_verification_write(const nh_verification *verdict, bool field, const nh_run *run, nh_pen_form form, nh_text *out);
+void nh_verification_write(const nh_verification *verdict, const nh_run *run, nh_pen_style style, nh_text *out);
 
 /* Whose roots are shown as the velocities that they are; NULL where the answer holds on one branch only, and would not with the velocity. */
 const nh_chart *nh_verification_chart(const nh_verification *verdict);

@@ -6,9 +6,11 @@
 #include "document/verification.h"
 #include "exact/normal.h"
 
-static void answer(nh_pen *p, const nh_verification *v, bool field)
+static bool of_field(const nh_verification *v) { return v->form || v->of_equations; }
+
+static void answer(nh_pen *p, const nh_verification *v)
 {
-    const char *noun = nh_verification_noun(v, field);
+    const char *noun = nh_verification_noun(v);
     nh_pen_open(p, NH_PEN_ANSWER, v->conserved ? "found" : "undecided", NULL);
     if (v->conserved) {
         nh_pen_say(p, "Yes: this is %s", noun);
@@ -23,16 +25,19 @@ static void answer(nh_pen *p, const nh_verification *v, bool field)
     nh_pen_close(p, NH_PEN_ANSWER);
 }
 
-static void counterexample(nh_pen *p, const nh_verification *v, bool field)
+static void counterexample(nh_pen *p, const nh_verification *v)
 {
     if (!v->has_counterexample) return;
     nh_pen_section(p, "counterexample", "Where it fails");
-    if (field) nh_pen_words(p, "The condition that fails: %s. In this state it gives %.6g, not 0.", v->equation, v->rate);
-    else nh_pen_words(p, "Its rate of change along the motion through this state is %.6g, not 0.", v->rate);
-    nh_pen_table(p, "A state of the system", "quantity|value");
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    if (of_field(v)) nh_pen_say(p, "The condition that fails: %s. It gives %.6g, not 0,", v->equation, v->rate);
+    else nh_pen_say(p, "The rate of change along the motion is %.6g, not 0,", v->rate);
+    nh_pen_say(p, " in the state ");
     for (size_t j = 0; j < v->model->width; j++)
-        nh_pen_row(p, "#<%s>|%.6g", nh_name_of(v->model->dag, v->model->chart->symbol[j]), v->counterexample[j]);
-    nh_pen_table_end(p);
+        nh_pen_say(p, j ? ", <%s> = %.10g" : "<%s> = %.10g", nh_name_of(v->model->dag, v->model->chart->symbol[j]),
+                   v->counterexample[j]);
+    nh_pen_say(p, ".");
+    nh_pen_close(p, NH_PEN_WORDS);
 }
 
 /* The components that do not vanish. */
@@ -53,10 +58,18 @@ static void components(nh_pen *p, const nh_verification *v)
     nh_free(label);
 }
 
-static void symmetry(nh_pen *p, const nh_verification *v, bool field)
+/* What a symmetry of the equations of motion makes of the currents that the system file knows. */
+static void made(nh_pen *p, const nh_verification *v)
+{
+    if (v->made) nh_pen_words(p, "It makes of known currents:");
+    for (size_t i = 0; i < v->made; i++)
+        nh_pen_formula(p, nh_arena_printf(v->arena, "Z(<%s>)", v->make[i].name), v->make[i].value);
+}
+
+static void symmetry(nh_pen *p, const nh_verification *v)
 {
     if (!v->has_symmetry || v->trivial) return;
-    nh_pen_section(p, "symmetry", field ? "The field, with its Chetaev components" : "The symmetry that gives it");
+    nh_pen_section(p, "symmetry", of_field(v) ? "The field, with its Chetaev components" : "The symmetry that gives it");
     components(p, v);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     nh_pen_fact_begin(p, "Symmetry");
@@ -65,36 +78,52 @@ static void symmetry(nh_pen *p, const nh_verification *v, bool field)
     nh_pen_close(p, NH_PEN_FACTS);
 }
 
-static void question(nh_pen *p, const nh_verification *v, bool field)
+/* By how much a field leaves the canonical distribution: its current is defined for fields in it only. */
+static void outside(nh_pen *p, const nh_verification *v)
 {
-    bool no_current = v->outside || v->of_equations;
-    nh_pen_section(p, "question", no_current ? "The field" : field ? "The current of the field" : "The question");
-    if (!no_current && !field) nh_pen_words(p, "Does this stay constant along every motion?");
+    nh_pen_words(p, "Z is not in the canonical distribution:");
+    for (size_t a = 0; a < v->model->k; a++) {
+        nh_pen_formula(p, nh_arena_printf(v->arena, "i_{Z} \\form^{%zu}", a + 1), v->form[a]);
+        nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+        nh_pen_say(p, "where ");
+        p->ink->letters(p->to, nh_arena_printf(v->arena, "\\form^{%zu}", a + 1));
+        nh_pen_say(p, " belongs to <%s>.", v->system->constraint[a].text);
+        nh_pen_close(p, NH_PEN_WORDS);
+    }
+}
+
+static void question(nh_pen *p, const nh_verification *v)
+{
+    bool field = of_field(v);
+    const char *title = v->outside || v->of_equations ? "The field" : field ? "The current of the field" : "The question";
+    nh_pen_section(p, "question", title);
+    if (!field) nh_pen_words(p, "Does this stay constant along every motion?");
     nh_pen_card(p, NULL);
     if (v->of_equations) nh_pen_formula(p, "[Gamma,Z] = f Gamma,\\quad f", v->factor);
-    else if (!v->outside) nh_pen_formula(p, "Phi", v->current);
-    else nh_pen_words(p, "Z is not in the canonical distribution:");
-    for (size_t a = 0; a < v->model->k && v->outside && !v->of_equations; a++) /* it has no current then */
-        nh_pen_formula(p, nh_arena_printf(v->arena, "i_{Z}\\form^{%zu}", a + 1), v->form[a]);
+    else if (v->outside) outside(p, v); /* it has no current */
+    else nh_pen_formula(p, "Phi", v->current);
+    made(p, v);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     nh_pen_fact(p, "Residual", "%.2g, the largest %s, relative to %s terms", v->residual,
                 field ? "residual of the conditions at random states" : "rate at random states", field ? "their" : "its");
     nh_pen_close(p, NH_PEN_FACTS);
 }
 
-void nh_verification_write(const nh_verification *v, bool field, const nh_run *run, nh_pen_form form, nh_text *out)
+void nh_verification_write(const nh_verification *v, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     nh_pen pen, *p = &pen;
     bool shown = v->has_symmetry && !v->trivial;
-    nh_pen_subject subject = {.system = v->system, .dag = v->model->dag, .chart = nh_verification_chart(v), .shown = run->shown};
-    nh_pen_begin(p, form, &subject, field ? "is it a symmetry?" : "is it conserved?", out);
-    answer(p, v, field);
-    p->ink->links(p->to, v->has_counterexample ? "question|The question|counterexample|Where it fails|system|System|words|Words|repeat|Repeat it"
-                         : shown               ? "question|The question|symmetry|The symmetry|system|System|words|Words|repeat|Repeat it"
-                                               : "question|The question|system|System|words|Words|repeat|Repeat it");
-    question(p, v, field);
-    counterexample(p, v, field);
-    symmetry(p, v, field);
+    nh_pen_subject subject = {
+        .system = v->system, .dag = v->model->dag, .chart = nh_verification_chart(v), .shown = run->shown};
+    nh_pen_begin(p, style, &subject, of_field(v) ? "is it a symmetry?" : "is it conserved?", out);
+    answer(p, v);
+    p->ink->links(p->to, v->has_counterexample
+                             ? "question|The question|counterexample|Where it fails|system|System|words|Words|repeat|Repeat it"
+                         : shown ? "question|The question|symmetry|The symmetry|system|System|words|Words|repeat|Repeat it"
+                                 : "question|The question|system|System|words|Words|repeat|Repeat it");
+    question(p, v);
+    counterexample(p, v);
+    symmetry(p, v);
     nh_pen_system(p, v->model, NULL);
     nh_pen_geometry(p, v->arena, v->theory);
     nh_pen_glossary(p, "current, symmetry, case, distribution, projectable, residual");

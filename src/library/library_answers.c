@@ -15,7 +15,6 @@
 #include "document/analysis_outline.h"
 #include "document/reduction.h"
 #include "document/simulation.h"
-#include "document/summary.h"
 #include "document/verification.h"
 #include "library/library_internal.h"
 
@@ -113,34 +112,34 @@ static char *taken(nh_text *text)
     return out;
 }
 
+static nh_run run_of(double seed) { return (nh_run){.seed = seed, .shown = shown, .seconds = NAN}; }
+
+static nh_pen_style style_of(nh_format format)
+{
+    nh_pen_form form = format == NH_FORMAT_HTML ? NH_PEN_PAGE : format == NH_FORMAT_LATEX ? NH_PEN_LATEX : NH_PEN_TEXT;
+    return (nh_pen_style){.form = form, .verbose = form == NH_PEN_TEXT};
+}
+
+/* Every format exists: the error stays as it is. */
 char *nh_analysis_document(const nh_analysis *a, nh_format format, nh_error *error)
 {
     nh_text text;
     nh_text_init(&text);
     (void)error;
-    switch (format) {
-    case NH_FORMAT_JSON: return nh_analysis_json(a);
-    case NH_FORMAT_HTML: nh_analysis_write(a, false, NH_PEN_PAGE, &text); break;
-    case NH_FORMAT_LATEX: nh_analysis_write(a, false, NH_PEN_LATEX, &text); break;
-    case NH_FORMAT_TEXT: nh_summary(a, (nh_summary_style){false, true}, &text); break;
-    }
+    if (format == NH_FORMAT_JSON) return nh_analysis_json(a);
+    nh_analysis_write(a, style_of(format), &text);
     return taken(&text);
 }
 
-static nh_run run_of(double seed) { return (nh_run){.seed = seed, .shown = shown, .seconds = NAN}; }
-
 char *nh_simulation_document(const nh_simulation *s, nh_format format, nh_error *error)
 {
-    (void)error; /* every format exists */
     nh_run  run = run_of(1);
     nh_text text;
     nh_text_init(&text);
-    switch (format) {
-    case NH_FORMAT_JSON: return nh_motion_json(s, &run);
-    case NH_FORMAT_HTML: nh_simulation_write(s, &run, NH_PEN_PAGE, &text); break;
-    case NH_FORMAT_TEXT: nh_motion_csv(s, &text); break;
-    case NH_FORMAT_LATEX: nh_simulation_write(s, &run, NH_PEN_LATEX, &text); break;
-    }
+    (void)error;
+    if (format == NH_FORMAT_JSON) return nh_motion_json(s, &run);
+    if (format == NH_FORMAT_TEXT) nh_motion_csv(s, &text);
+    else nh_simulation_write(s, &run, style_of(format), &text);
     return taken(&text);
 }
 
@@ -150,58 +149,42 @@ char *nh_reduction_document(const nh_reduction *r, nh_format format, nh_error *e
     nh_text text;
     nh_text_init(&text);
     (void)error;
-    switch (format) {
-    case NH_FORMAT_JSON: return nh_reduction_json(r, &run);
-    case NH_FORMAT_HTML: nh_reduction_write(r, false, &run, NH_PEN_PAGE, &text); break;
-    case NH_FORMAT_LATEX: nh_reduction_latex(r, &text); break;
-    case NH_FORMAT_TEXT: nh_reduction_text(r, true, &text); break;
-    }
+    if (format == NH_FORMAT_JSON) return nh_reduction_json(r, &run);
+    if (format == NH_FORMAT_LATEX) nh_reduction_latex(r, &text);
+    else nh_reduction_write(r, &run, style_of(format), &text);
     return taken(&text);
 }
 
 char *nh_verification_document(const nh_verification *v, nh_format format, nh_error *error)
 {
-    (void)error; /* every format exists */
     nh_run  run = run_of(1);
     nh_text text;
     nh_text_init(&text);
-    bool field = v->form != NULL;
-    switch (format) {
-    case NH_FORMAT_JSON: return nh_verification_json(v, &run);
-    case NH_FORMAT_HTML: nh_verification_write(v, field, &run, NH_PEN_PAGE, &text); break;
-    case NH_FORMAT_TEXT: nh_verification_text(v, field, shown, &text); break;
-    case NH_FORMAT_LATEX: nh_verification_write(v, field, &run, NH_PEN_LATEX, &text); break;
-    }
+    (void)error;
+    if (format == NH_FORMAT_JSON) return nh_verification_json(v, &run);
+    nh_verification_write(v, &run, style_of(format), &text);
     return taken(&text);
 }
 
 char *nh_classified_document(const nh_classified *c, nh_format format, nh_error *error)
 {
     nh_run  run = run_of(1);
-    (void)error; /* every format exists */
     nh_text text;
     nh_text_init(&text);
-    switch (format) {
-    case NH_FORMAT_JSON: return nh_classification_json(c, &run);
-    case NH_FORMAT_TEXT: nh_classification_text(c, false, &text); break;
-    case NH_FORMAT_HTML: nh_classification_write(c, NULL, &run, NH_PEN_PAGE, &text); break;
-    case NH_FORMAT_LATEX: nh_classification_write(c, NULL, &run, NH_PEN_LATEX, &text); break;
-    }
+    (void)error;
+    if (format == NH_FORMAT_JSON) return nh_classification_json(c, &run);
+    nh_classification_write(c, NULL, &run, style_of(format), &text);
     return taken(&text);
 }
 
 char *nh_benchmark_document(const nh_benchmark *b, nh_format format, nh_error *error)
 {
-    (void)error; /* every format exists */
     nh_run  run = run_of(1);
     nh_text text;
     nh_text_init(&text);
-    switch (format) {
-    case NH_FORMAT_JSON: return nh_benchmark_json(b, NULL, &run);
-    case NH_FORMAT_HTML: nh_benchmark_write(b, NULL, &run, NH_PEN_PAGE, &text); break;
-    case NH_FORMAT_TEXT: nh_benchmark_text(b, false, &text); break;
-    case NH_FORMAT_LATEX: nh_benchmark_write(b, NULL, &run, NH_PEN_LATEX, &text); break;
-    }
+    (void)error;
+    if (format == NH_FORMAT_JSON) return nh_benchmark_json(b, NULL, &run);
+    nh_benchmark_write(b, NULL, &run, style_of(format), &text);
     return taken(&text);
 }
 
