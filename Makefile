@@ -35,7 +35,7 @@ SANE     = -fsanitize=$(if $(filter thread,$(SANITIZE)),thread,address$(comma)un
 OPT      = $(if $(SANITIZE),-O1 -g $(SANE),-O2 -g)
 # A product and a sum are rounded one after the other, on every machine and in every build.
 # CFLAGS, CPPFLAGS and LDFLAGS of the environment and the command line come after the project's own.
-OWN_CFLAGS = -std=c17 -ffp-contract=off $(OPT) $(WARN)
+OWN_CFLAGS = -fPIC -fvisibility=hidden -std=c17 -ffp-contract=off $(OPT) $(WARN)
 INCLUDES = -Isrc $(patsubst -I%,-isystem %,$(MPI_INCLUDE))
 OWN_CPPFLAGS = $(INCLUDES) -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -MMD -MP
 COMPILE  = $(CC) $(OWN_CPPFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS)
@@ -69,8 +69,6 @@ PYTHON_PACKAGES = python3-numpy python3-sympy python3-pytest python3-setuptools 
 
 MODULES = $(filter-out src/cli/%,$(wildcard src/*/*.c))
 OBJECTS = $(MODULES:%.c=$(BUILD)/%.o)
-# Of the shared library alone: code that may stand anywhere costs the program a few per cent.
-SHARED  = $(MODULES:%.c=$(BUILD)/shared/%.o)
 # The program; MPI's has another main function.
 CLI     = $(patsubst %.c,$(BUILD)/%.o,$(filter-out src/cli/mpi_main.c,$(wildcard src/cli/*.c))) $(BUILD)/fingerprint.o
 TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
@@ -190,9 +188,9 @@ $(BUILD)/libnhsym.map: src/nhsym.h
 	@mkdir -p $(@D)
 	@{ echo 'NHSYM_$(subst libnhsym.so.,,$(SONAME)) { global:'; sed -n 's/^NH_API .*[ *]\(nh_[a-z_]*\)(.*/    \1;/p' $<; echo '  local: *; };'; } >$@
 
-$(BUILD)/$(SONAME): $(SHARED) $(BUILD)/libnhsym.map
+$(BUILD)/$(SONAME): $(OBJECTS) $(BUILD)/libnhsym.map
 	@echo "  link $@"
-	@$(LINK) -shared -Wl,-soname,$(SONAME) -Wl,-z,defs -Wl,--version-script=$(BUILD)/libnhsym.map $(SHARED) $(LDLIBS) -o $@
+	@$(LINK) -shared -Wl,-soname,$(SONAME) -Wl,-z,defs -Wl,--version-script=$(BUILD)/libnhsym.map $(OBJECTS) $(LDLIBS) -o $@
 
 $(BUILD)/nhsym-mpi: $(CLI_MPI) $(BUILD)/libnhsym.a
 	@echo "  link $@"
@@ -215,20 +213,15 @@ $(BUILD)/tests/nhsym-shared: $(CLI) $(BUILD)/libnhsym.a
 $(BUILD)/src/cli/archives.o: OWN_CPPFLAGS += $(if $(WITHOUT_MPI),-DNH_WITHOUT_MPI)
 
 # The loops over batches of points; see the head of the file for why no -ffast-math.
-$(addprefix $(BUILD)/,src/evaluate/tape_batch.o shared/src/evaluate/tape_batch.o): OWN_CFLAGS += -O3 -fno-math-errno -fno-trapping-math
+$(BUILD)/src/evaluate/tape_batch.o: OWN_CFLAGS += -O3 -fno-math-errno -fno-trapping-math
 
-$(addprefix $(BUILD)/,src/motion/ensemble.o shared/src/motion/ensemble.o): OWN_CFLAGS += -O3
+$(BUILD)/src/motion/ensemble.o: OWN_CFLAGS += -O3
 
 # The loops over residues.
-$(foreach name,residue residue_matrix,$(addprefix $(BUILD)/,src/exact/$(name).o shared/src/exact/$(name).o)): OWN_CFLAGS += -O3
+$(BUILD)/src/exact/residue.o $(BUILD)/src/exact/residue_matrix.o: OWN_CFLAGS += -O3
 
 # Where systems are looked for at last (src/problem/places.c).
-$(addprefix $(BUILD)/,src/problem/places.o shared/src/problem/places.o): OWN_CPPFLAGS += -DNH_DATADIR='"$(PREFIX)/share/nhsym"'
-
-$(BUILD)/shared/%.o: %.c
-	@mkdir -p $(@D)
-	@echo "  cc   $< (shared)"
-	@$(COMPILE) -fPIC -fvisibility=hidden -c $< -o $@
+$(BUILD)/src/problem/places.o: OWN_CPPFLAGS += -DNH_DATADIR='"$(PREFIX)/share/nhsym"'
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
