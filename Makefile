@@ -32,7 +32,7 @@ comma   = ,
 KNOWN    = 12 14
 WARN     = -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(filter $(KNOWN),$(firstword $(subst ., ,$(shell $(CC) -dumpversion)))),-Werror)
 SANE     = -fsanitize=$(if $(filter thread,$(SANITIZE)),thread,address$(comma)undefined -fno-sanitize-recover=all) -fno-omit-frame-pointer
-OPT      = $(if $(SANITIZE),-O1 -g $(SANE),-O2 -g)
+OPT      = $(if $(SANITIZE),-O1 -g1 $(SANE),-O2 -g)
 # A product and a sum are rounded one after the other, on every machine and in every build.
 # CFLAGS, CPPFLAGS and LDFLAGS of the environment and the command line come after the project's own.
 OWN_CFLAGS = -fPIC -fvisibility=hidden -std=c17 -ffp-contract=off $(OPT) $(WARN)
