@@ -6,6 +6,7 @@
 #include "commands/analyze.h"
 #include "scratch.h"
 #include "search/agreement.h"
+#include "sweep.h"
 
 typedef struct {
     const char *name, *system, *ansatz;
@@ -44,6 +45,7 @@ static nh_analysis *analysed(const task *q)
 
 Test(agreement, null_vectors_are_in_the_counted_space)
 {
+    sweep_plain_only();
     for (size_t i = 0; i < tasks; i++) {
         nh_analysis *r = analysed(&TASK[i]);
         const nh_counted_space *c = &r->counted_space;

@@ -73,7 +73,7 @@ Test(budget, ends_a_search_at_the_same_place_with_any_threads)
 {
     size_t i = 0;
     for (double work = 20; work < 1000; work *= 4) {
-        if (!sweep_tries(i++, 1, 3)) continue;
+        if (!sweep_tries(i++, 2, 4)) continue;
         nh_analysis *a = search("systems/car_with_trailer.yaml", work, 1e6, 1, 330), *b = search("systems/car_with_trailer.yaml", work, 1e6, 3, 330);
         cr_expect(same(a, b), "%g", work);
         cr_expect(a->partial && a->search == NH_SEARCH_CUT && a->verdict != NH_NONE, "%g", work);

@@ -128,7 +128,7 @@ Test(chart, closed_forms_that_are_shipped_are_true)
 /* Two chaotic motions that differ at the end are no reference, whoever chose the time: then nothing is right, and that is said; else the time is shortened. */
 Test(chart, no_two_methods_agree)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     nh_benchmark *c = compare("systems/double_pendulum.yaml", "p=2, q=2", 60, 3);
     cr_expect(c->doubtful && c->agreement > 1e-3, "%g", c->agreement);
     for (size_t i = 0; i < c->count; i++) cr_expect(c->item[i].status != NH_ACCURATE && c->item[i].status != NH_UNDETECTED && !c->item[i].front, "%s", c->item[i].method);
@@ -257,7 +257,7 @@ static bool has_formulation(const nh_benchmark *c, const char *words, size_t *ri
 /* Quasi-velocities, coordinate velocities, all coordinates, multipliers of both indices, and the stages of the reduction, twice reduced too. */
 Test(chart, every_formulation)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     size_t right = 0;
     nh_benchmark *c = compare("systems/sleigh.yaml", "omega=2", 4, 20);
     cr_expect(has_formulation(c, "quasi-velocities", &right) && has_formulation(c, "coordinate velocities", &right) && has_formulation(c, "all coordinates", &right));

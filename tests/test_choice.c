@@ -283,7 +283,7 @@ static void leave_off(const pid_t *child)
 /* Every command that takes an accuracy says the same by itself and beside six busy loops, with one thread and with two, and leaves nothing for later runs. */
 Test(choice, the_same_on_a_busy_machine)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     static const char *const driven = "name: driven\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - x^2/2\nforces: [\"x = -x'/2 + cos(t)\"]\n";
     static const char *const lines[] = {"simulate driven.yaml --initial x=1 --until 4000 --accuracy 1e-7 --step 1000 --option steps=1e8 --json -",
                                         "simulate sleigh --initial omega=2 --until 3 --accuracy 1e-8 --step 1 --json -",

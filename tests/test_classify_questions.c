@@ -9,6 +9,7 @@
 #include "commands/classify.h"
 #include "names.h"
 #include "program.h"
+#include "sweep.h"
 
 /* ---- families ---- */
 
@@ -68,6 +69,7 @@ Test(questions, suslov)
  * integrable. */
 Test(questions, veselova)
 {
+    sweep_plain_only();
     expect(FAMILY("veselova"), "b", NH_OF_MEASURE, "0 | b = 1: 1 proved | b = 0: 1 proved | b = -1: 1 proved");
     expect(FAMILY("veselova"), "b", NH_OF_INTEGRABILITY, "0 | b = 1: 1 proved | b = -1: 1 proved");
 }
@@ -75,6 +77,7 @@ Test(questions, veselova)
 /* Three shape coordinates: Chaplygin's ball itself is Hamiltonian only for other forms of the equations, or on levels. */
 Test(questions, balls)
 {
+    sweep_plain_only();
     expect(FAMILY("ball"), "l", NH_OF_HAMILTONIZATION, "0");
     expect(FAMILY("ball"), "l", NH_OF_SYMMETRIES, "3");
 }
@@ -161,6 +164,7 @@ static size_t planted(uint64_t *random, bool with, nh_linear_question question, 
 
 Test(questions, planted_values_are_found)
 {
+    sweep_plain_only();
     uint64_t random = 17;
     for (int i = 0; i < 24; i++) {
         bool with = i % 2, found = false;

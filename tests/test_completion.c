@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "program.h"
+#include "sweep.h"
 
 static bool has(const char *shell)
 {
@@ -39,6 +40,7 @@ static void expect_words(const char *out, const char *const *word)
 /* Every option that the help of a command lists, every command, values, systems and files. */
 Test(completion, bash_completes_everything)
 {
+    sweep_plain_only();
     if (!has("bash")) return;
     place p = place_with_systems();
     write_here(&p, "mine.yaml", "name: mine\n");

@@ -1,6 +1,7 @@
 /* Documents of commands that write each part once: what the page shows, the LaTeX document of the same run shows as well, title by title and
  * number by number, and LaTeX takes what stands in it. */
 #include "program.h"
+#include "sweep.h"
 
 static const char *const commands[] = {
     "verify sleigh --current m*v^2/2",
@@ -74,6 +75,7 @@ static void expect_balanced(const char *command, const char *tex)
 
 Test(documents, the_page_and_the_latex_document_say_the_same)
 {
+    sweep_plain_only();
     for (size_t i = 0; i < command_count; i++) {
         place p = place_with_systems();
         char line[400];

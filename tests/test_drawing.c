@@ -9,6 +9,7 @@
 #include "document/thumbnail.h"
 #include "commands/analyze.h"
 #include "problem/drawing.h"
+#include "sweep.h"
 
 static nh_system *parse(const char *text)
 {
@@ -205,6 +206,7 @@ Test(drawing, coordinates_without_bodies)
 /* The picture of the catalogue: finite, small, with its title escaped. */
 Test(drawing, a_portrait)
 {
+    sweep_plain_only();
     nh_error error;
     nh_error_clear(&error);
     nh_analyze_request q = {.system_path = "systems/snakeboard.yaml"};

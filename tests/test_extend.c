@@ -2,6 +2,8 @@
  * program. */
 #include <criterion/criterion.h>
 
+#include "sweep.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,11 +13,10 @@ enum { step_count = sizeof steps / sizeof *steps };
 
 Test(extend, the_steps_of_the_docs_work)
 {
-    const char *sweeps = getenv("NHSYM_SWEEPS");
-    bool all = sweeps && !strcmp(sweeps, "all");
+    sweep_plain_only();
     for (size_t i = 0; i < step_count; i++) {
         char command[200], line[400], wrong[4000] = "";
-        snprintf(command, sizeof command, "sh tests/extend.sh %s %s 2>&1", steps[i], all ? "" : "quick");
+        snprintf(command, sizeof command, "sh tests/extend.sh %s %s 2>&1", steps[i], sweep_whole() ? "" : "quick");
         FILE *out = popen(command, "r");
         cr_assert_not_null(out);
         while (fgets(line, sizeof line, out)) strncat(wrong, line, sizeof wrong - strlen(wrong) - 1);

@@ -4,6 +4,7 @@
 #include "exact/generic_value.h"
 #include "mechanics.h"
 #include "program.h"
+#include "sweep.h"
 
 static const char PLANE[] = "name: plane\nparameters: [{name: k, value: 1}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: f, type: angle}]\n"
                             "lagrangian: (x'^2 + y'^2 + f'^2)/2\n";
@@ -29,6 +30,7 @@ Test(generic_value, zero_in_disguise_and_not)
 
 Test(generic_value, the_crane_has_no_measure_for_positive_parameters)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "reduce crane --until 1 --json=r.json");
     cr_assert_eq(f.code, 0, "%s", f.err);

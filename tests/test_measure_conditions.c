@@ -1,6 +1,7 @@
 /* For which parameters a reduced system has an invariant measure, or becomes Hamiltonian: against numbers that this file computes from the printed metric and
  * Upsilon, at the program's values of the parameters and at those that its conditions name. */
 #include "reduced_sheet.h"
+#include "sweep.h"
 
 #include <math.h>
 
@@ -134,6 +135,7 @@ static const char *where(const stage *g, const char *key)
 /* Eighteen parameters, four shape coordinates: exactly which values have a measure, and that no positive ones do. */
 Test(measure_conditions, crane)
 {
+    sweep_plain_only();
     static const char *const line = " --group x=1;y=1;phi1=1;psi3=1;x=-y,y=x,theta=1";
     stage g = open_stage("systems/crane.yaml", line, 0);
     const cJSON *measure = oracle_get(g.s.stage, "measure");

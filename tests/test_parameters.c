@@ -276,12 +276,14 @@ Test(parameters, order_and_signs_do_not_depend_on_the_values)
 /* 0.8246527771 is no 475/576. */
 Test(parameters, a_fraction_near_a_rate_is_not_taken_for_it)
 {
+    sweep_whole_only();
     expect_same_formulas("omni_robot", "--set m=5.2566 --set I=0.21323 --set J=0.0017997 --set L=0.25116 --set r=0.049145");
 }
 
 /* nu and 1 - nu are one rate: whichever is below 1/2, the same one is named. */
 Test(parameters, a_rate_is_named_on_either_side_of_one_half)
 {
+    sweep_whole_only();
     expect_same_formulas("sleigh_inertia", "--set m=6 --set J=7 --set a=9");
     expect_same_formulas("sleigh_inertia", "--set m=1.3144 --set J=0.70769 --set a=0.49361");
 }

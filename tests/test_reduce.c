@@ -79,6 +79,7 @@ Test(reduce, groups_and_motions_of_the_shipped_systems)
 /* The crane: three kinds of stages, each over ten units of time. */
 Test(reduce, crane)
 {
+    sweep_plain_only();
     for (uint64_t seed = 1; seed <= 3; seed++) {
         if (!sweep_tries(seed - 1, 2, 3)) continue;
         nh_error error = {0};

@@ -182,7 +182,7 @@ Test(reduce_scales, lengths_far_apart)
         for (size_t j = 0; j < 8; j++) {
             char text[1000], path[SCRATCH];
             nh_error error = {0};
-            if (!sweep_tries(i + j, 4, 8)) continue;
+            if (!sweep_tries(i + j, 8, 16)) continue;
             snprintf(text, sizeof text, "name: wheel\nparameters: [{name: r, value: %.17g}]\ncoordinates: [{name: th, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
                                         "lagrangian: 1/2*(r^2*th'^2 + x'^2 + y'^2)%s\n", radius[i], potential[j % 4]);
             cr_assert(scratch_text(path, text));

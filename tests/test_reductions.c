@@ -43,6 +43,7 @@ static void followed(const nh_reduction *r, const char *name)
 
 Test(reductions, many_states)
 {
+    sweep_plain_only();
     static const struct {
         const char *system;
         size_t states;

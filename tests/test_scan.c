@@ -256,6 +256,7 @@ static void expect_same(const place *p, const char *one, const char *other)
 
 Test(scan, workers_and_parts_do_not_change_a_byte)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "one", "");
@@ -343,6 +344,7 @@ static size_t units_of(const place *p, const char *folder)
 
 Test(scan, kills_at_any_moment_lose_nothing_and_leave_nothing)
 {
+    sweep_plain_only();
     enum { kills = 8 };
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
@@ -367,6 +369,7 @@ Test(scan, kills_at_any_moment_lose_nothing_and_leave_nothing)
 
 Test(scan, a_worker_that_dies_is_replaced)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "whole", "");
@@ -407,6 +410,7 @@ Test(scan, an_interruption_keeps_what_there_is)
 
 Test(scan, a_full_disk_loses_nothing)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "whole", "");
@@ -426,6 +430,7 @@ Test(scan, a_full_disk_loses_nothing)
 
 Test(scan, damaged_units_are_computed_again)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "whole", "");
@@ -454,6 +459,7 @@ static void expect_refusal(const place *p, const char *line, int code, const cha
 
 Test(scan, another_scan_in_the_folder_is_refused)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "s", "");

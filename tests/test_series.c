@@ -107,7 +107,12 @@ static void two_on(const char *name, const char *const shape[3], double low, dou
     nh_analysis_free(r);
 }
 
-Test(series, disk_on_a_short_interval, .timeout = 120) { two_on("disk", disk, 1.0, 2.1); }
+Test(series, disk_on_a_short_interval, .timeout = 120)
+{
+    sweep_plain_only();
+    two_on("disk", disk, 1.0, 2.1);
+}
+
 Test(series, disk_on_a_wide_interval, .timeout = 120)
 {
     sweep_plain_only();
@@ -134,7 +139,7 @@ Test(series, tyre_on_a_wide_interval, .timeout = 120)
 
 Test(series, ellipsoid_on_a_wide_interval, .timeout = 120)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     two_on("ellipsoid", ellipsoid, 0.3, 2.7);
 }
 

@@ -130,7 +130,7 @@ Test(sizes, bodies_in_space, .timeout = 600)
     sweep_plain_only();
     static const size_t sizes[] = {5, 6, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-        if (!sweep_tries(s, 1, 16)) continue;
+        if (!sweep_tries(s, 3, 16)) continue;
         nh_text text;
         size_t n = sizes[s];
         coordinates(&text, n, "xyz");

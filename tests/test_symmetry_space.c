@@ -326,7 +326,7 @@ Test(symmetry_space, point_symmetries_of_one_equation)
 /* Shifts, a turn, two scalings; and a shift across the blade: parallel curves are motions as well. On a slope turns and one scaling are gone. */
 Test(symmetry_space, point_symmetries_of_skates)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     point_symmetries("name: skate\nparameters: [{name: m, value: 2}, {name: J, value: 0.5}]\ncoordinates: [{name: f, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
                      "lagrangian: m/2*(x'^2 + y'^2) + J/2*f'^2\nconstraints: [\"y'*cos(f) = x'*sin(f)\"]\n", 7, 0);
     point_symmetries(SKATE, 5, 0);

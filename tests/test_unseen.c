@@ -354,7 +354,7 @@ enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed)
 {
     for (size_t i = 0; i < COUNT; i++) {
-        if (!sweep_tries(i, 3, 12)) continue;
+        if (!sweep_tries(i, 6, 24)) continue;
         const unseen *u = &UNSEEN[i];
         char path[SCRATCH];
         FILE *out = scratch_open(path);

@@ -93,6 +93,7 @@ Test(writing, a_folder_that_is_read_only_keeps_the_old_file)
 /* A device cannot be replaced, and is told to be full when it is; so is what a pipe or a disk behind standard output does not take. */
 Test(writing, a_full_device_is_told)
 {
+    sweep_plain_only();
     if (access("/dev/full", W_OK)) cr_skip_test("no /dev/full");
     for (size_t i = 0; i < writers; i++) {
         place p = place_make();
