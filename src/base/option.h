@@ -38,7 +38,7 @@
     X(evaluations,      200,     10,     1e7,   whole, "",         "objective evaluations of the global search per unknown")                 \
     X(bits,             256,     64,     4096,  whole, "bits",     "working precision of ball arithmetic")                                   \
     X(digits,           50,      10,     1000,  whole, "digits",   "digits to which a residual must vanish to be certified")                 \
-    X(proof_terms,      20000,   100,    1e7,   whole, "terms",    "largest polynomial that an exact proof may use")                         \
+    X(proof_terms,      20000,   100,    1e7,   whole, "terms",    "largest polynomial that an exact proof may use; five times as large for what balls certify") \
     X(named,            1,      0,      1,     whole, "",         "coefficients without elementary form: 1, named functions (Legendre, Gauss, Bessel, ..) are tried before a series; 0, not") \
     X(series_degree,    256,     8,      4096,  whole, "",         "largest degree of a Chebyshev series of a coefficient without closed form; where it needs more, its interval is shorter") \
     X(degree,           0,       0,      12,    whole, "",         "integrals polynomial in the velocities are counted up to this degree; 0: 6 for two coordinates, 4 up to four, 2 for more") \

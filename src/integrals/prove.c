@@ -8,7 +8,7 @@
 #include "integrals/fixed.h"
 #include "integrals/symmetry.h"
 
-enum { wanted_points = 4, most_tries = 40, double_digits = 8 };
+enum { wanted_points = 4, most_tries = 40, double_digits = 8, patience = 5 }; /* longer proofs of what is certified */
 
 static void cancel(const nh_model *o, size_t n, const nh_ex *term, const nh_options *options, nh_proof *proof)
 {
@@ -63,6 +63,19 @@ static bool vanishes(const bool *fixed, void *context)
     return nh_normal_is_zero(z->o->dag, nh_fixed_values(z->o, fixed, z->e), z->limit) == NH_ZERO;
 }
 
+/* By normal forms of at most so many terms.  Is one too large? */
+static bool prove_sum(const nh_model *o, nh_ex sum, nh_claim claim, size_t limit, nh_proof *proof)
+{
+    nh_dag *d = o->dag;
+    nh_zero_verdict symbols = NH_TOO_LARGE, values = NH_ZERO;
+    if (!proof->proved && claim.free && !claim.rounded) symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
+    if (symbols == NH_ZERO) *proof = holding(*proof, claim.fixed);
+    if (!proof->proved && !claim.rounded) values = nh_normal_is_zero(d, nh_exact_values(o, sum), limit);
+    proof->proved = proof->proved || (!claim.rounded && values == NH_ZERO);
+    if (proof->proved && symbols == NH_NONZERO) proof->fixed = nh_fixed_least(o, 1, &sum, vanishes, &(zero_problem){o, sum, limit});
+    return !claim.rounded && ((claim.free && symbols == NH_TOO_LARGE) || values == NH_TOO_LARGE);
+}
+
 /* `proof`: what is known already. */
 static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_proof proof, nh_claim claim, const nh_options *options)
 {
@@ -71,17 +84,14 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     for (size_t i = 0; i < n; i++) sum = nh_add(d, sum, term[i]);
     sum = without_signs(d, sum);
     size_t limit = (size_t)options->proof_terms;
-    nh_zero_verdict symbols = NH_TOO_LARGE;
-    if (!proof.proved && claim.free && !claim.rounded) symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
-    if (symbols == NH_ZERO) proof = holding(proof, claim.fixed);
-    proof.proved = proof.proved || (!claim.rounded && nh_normal_is_zero(d, nh_exact_values(o, sum), limit) == NH_ZERO);
-    if (proof.proved && symbols == NH_NONZERO) proof.fixed = nh_fixed_least(o, 1, &sum, vanishes, &(zero_problem){o, sum, limit});
+    bool longer = !proof.proved && prove_sum(o, sum, claim, limit, &proof);
     bool exact = true;
     for (size_t i = 0; i < n; i++) {
         valued[i] = nh_exact_values(o, term[i]);
         exact = exact && nh_is_exact(d, valued[i]);
     }
     cancel(o, n, valued, options, &proof);
+    if (longer && !proof.proved && proof.points > 0 && proof.digits >= options->digits) prove_sum(o, sum, claim, patience * limit, &proof);
     double doubt = options->digits / 2; /* numbers too long for exact rationals were rounded to doubles when the rate was formed */
     proof.rounded = !exact;
     if (!exact && doubt > double_digits) doubt = double_digits;
