@@ -150,3 +150,21 @@ Test(named_search, equations_without_names, .timeout = 120)
                     "f'' = (1/tan(theta))*f' + (2*r^2*M*I3*(e/tan(theta) + "
                     "2)/(4*I1*I3 + r^2*M*(4*I1 + e^2*I3)))*f");
 }
+
+/* Integrals quadratic in the velocities with an inverse square: their coefficients satisfy an equation of third order, the symmetric square of that of the
+ * oscillator without it [Ermakov, Lewis]. */
+#define INVERSE_SQUARE(potential, domain) \
+    HEAD("{name: k, value: 0.8}, {name: w, value: 1.3}") "lagrangian: x'^2/2 - (" potential ")*x^2/2 - k/x^2\ndomain: {x: [0.5, 2], t: " domain "}\n"
+
+Test(named_search, products_of_named_functions)
+{
+    expect_named(ask_text(INVERSE_SQUARE("w*t", "[0.5, 2]")), 2, "airy_", 2);
+    expect_named(ask_text(INVERSE_SQUARE("-w*t^2", "[0.5, 1.5]")), 2, "bessel_", 2);
+    expect_equation(ask_text(INVERSE_SQUARE("1 + w*cos(t)", "[0, 1]")), 2, "f(t)*(x'^2 + 2*k/x^2) + .., f = u*v with solutions u and v of u'' = (-w*cos(t) - 1)*u");
+}
+
+/* y'' = -z and z' = t y couple three words and no two of them: an equation of third order that is no symmetric square. */
+Test(named_search, third_order_without_names)
+{
+    expect_equation(ask_text("name: test\ncoordinates: [y, z]\nlagrangian: (y'^2 + z'^2)/2 - y*z\nconstraints: [\"z' = t*y\"]\ndomain: {t: [0.5, 1.5]}\n"), 3, "f''' = ");
+}

@@ -34,20 +34,23 @@ typedef struct {
 
 static nh_ex simple(const seeker *x, nh_ex e) { return nh_simplify_short(x->o->dag, e, 0); }
 
-/* At the middle of the sampling interval, with the parameters' values. */
-static double value_of(void *context, nh_ex e)
+double nh_named_typical(const nh_model *o, nh_ex s, nh_ex e)
 {
-    const seeker *x = context;
-    const nh_model *o = x->o;
     size_t at = 0;
-    while (o->chart->symbol[at] != x->s) at++;
+    while (o->chart->symbol[at] != s) at++;
     double middle = 0.52 * o->chart->low[at] + 0.48 * o->chart->high[at], out;
-    nh_tape *tape = nh_tape_create(o->dag, 1, &x->s, 1, &e, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape *tape = nh_tape_create(o->dag, 1, &s, 1, &e, o->system->parameters, o->parameter, o->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     nh_tape_eval(tape, work, &middle, &out);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     return out;
+}
+
+static double value_of(void *context, nh_ex e)
+{
+    const seeker *x = context;
+    return nh_named_typical(x->o, x->s, e);
 }
 
 static bool depends_on_s_alone(const seeker *x, nh_ex e)

@@ -23,4 +23,7 @@ enum { NH_MOST_NAMED = 8 };
 size_t nh_named_coefficients(const nh_model *model, nh_ex variable, size_t words, const nh_ex *word, size_t forms,
                              const nh_ex *form, nh_arena *arena, nh_ex out[NH_MOST_NAMED], const char **open);
 
+/* The value of a function of s at the middle of its sampling interval, with the parameters' values. */
+double nh_named_typical(const nh_model *model, nh_ex s, nh_ex e);
+
 #endif

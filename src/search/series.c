@@ -9,7 +9,7 @@
 #include "graph/diff.h"
 #include "graph/print.h"
 #include "integrals/function_series.h"
-#include "integrals/named_coefficients.h"
+#include "integrals/named_squares.h"
 #include "search/stage_solver.h"
 
 enum { most_words = 32, near_points = 24 };
@@ -143,15 +143,18 @@ static double end_of_time(const nh_stage_solver *x)
     return x->r->options.until;
 }
 
-/* Coefficients that have names, proved before they are tried. */
+/* Coefficients that have names, proved before they are tried: by equations of second, then of third order. */
 static void named(problem *p, const char *what)
 {
     nh_analysis *r = p->x->r;
     nh_ex *phi = nh_arena_alloc(r->arena, NH_MOST_NAMED * sizeof *phi);
     nh_family *family = nh_arena_alloc(r->arena, sizeof *family);
+    p->equation = NULL;
     if (p->full || r->options.named == 0 || nh_stage_solver_done(p->x)) return;
     size_t n = nh_named_coefficients(r->model, p->variable, p->words, p->word, p->x->words.forms, p->x->words.form,
                                      r->arena, phi, &p->equation);
+    if (!n && !p->equation)
+        n = nh_named_squares(r->model, p->variable, p->words, p->word, r->arena, phi, &p->equation);
     if (!n) return;
     *family = (nh_family){.kind = NH_TERMS, .terms = n, .term = phi};
     nh_stage_solver_stage(p->x, nh_arena_printf(r->arena, "%s with coefficients that are named functions of %s", what, nh_name_of(r->model->dag, p->variable)),
@@ -236,6 +239,7 @@ void nh_series_stages(nh_stage_solver *x)
     put_squares(&p, o->n, o->chart->w);
     if (p.full || nh_stage_solver_done(x)) return;
     closed_forms(&p);
+    named(&p, "squares of velocities");
     search(&p, "squares of velocities");
 }
 
@@ -292,6 +296,7 @@ void nh_stage_solver_series_in_time(nh_stage_solver *x)
     named(&p, "positions, velocities and momenta");
     search(&p, "positions, velocities and momenta");
     put_polar(&p);
+    p.equation = NULL;
     if (p.words) search(&p, "lengths and the frame of the kinetic energy times first harmonics");
     p.words = 0;
     p.full = false;
@@ -303,5 +308,6 @@ void nh_stage_solver_series_in_time(nh_stage_solver *x)
     put_all(&p, x->words.potentials, x->words.potential);
     put_all(&p, x->words.atoms, x->words.atom);
     put(&p, one);
+    named(&p, "their squares and the system's functions");
     search(&p, "their squares and the system's functions");
 }
