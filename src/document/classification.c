@@ -26,6 +26,8 @@ char *nh_classification_current(const nh_analysis *r, const nh_current *f, doubl
                           : nh_chart_shown(r->model->chart, f->phi), shown);
 }
 
+const char *const nh_classification_decide = "A count with more work may decide it: `--option count_work=N`.";
+
 const char *nh_classification_end(const char *end)
 {
     if (!strcmp(end, "work")) return "the count of integrals takes more work than the option `count_work`";
@@ -137,13 +139,17 @@ static void put_value(const nh_classified *x, size_t index, nh_text *out)
     nh_classification_proof(x, at, v->first, out);
 }
 
-static void put_open(const nh_classified *x, const nh_classify_value *v, nh_text *out)
+void nh_classification_open(const nh_classified *x, nh_text *out)
 {
-    nh_text_addf(out, "\nNot decided at %s: ", nh_classified_words(x, &v->polynomial));
-    nh_classification_level(x, v->open, out);
-    nh_text_add(out, ", of which there may be ");
-    nh_classification_beyond(x, of(x)->row[v->open - 1].number.bound, out);
-    nh_text_add(out, ".\n");
+    for (size_t k = 0; k < of(x)->values; k++) {
+        const nh_classify_value *v = &of(x)->value[k];
+        if (!v->open) continue;
+        nh_text_addf(out, "\nNot decided at %s: ", nh_classified_words(x, &v->polynomial));
+        nh_classification_level(x, v->open, out);
+        nh_text_add(out, ", of which there may be ");
+        nh_classification_beyond(x, of(x)->row[v->open - 1].number.bound, out);
+        nh_text_addf(out, ". %s\n", nh_classification_decide);
+    }
 }
 
 static void put_values(const nh_classified *x, nh_text *out)
@@ -159,11 +165,7 @@ static void put_values(const nh_classified *x, nh_text *out)
                      nh_classified_words(x, &v->polynomial));
     }
     if (degenerate) nh_text_add(out, "\n");
-    for (size_t k = 0; k < of(x)->values; k++) {
-        const nh_classify_value *v = &of(x)->value[k];
-        if (v->open)
-            put_open(x, v, out);
-    }
+    nh_classification_open(x, out);
 }
 
 static void put_infinity(const nh_classified *x, nh_text *out)
@@ -208,7 +210,7 @@ static void put_excluded(const nh_classified *x, size_t degree, bool verbose, nh
     nh_text_add(out, ")\n");
 }
 
-void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *out)
+static void put_all_excluded(const nh_classified *x, bool verbose, nh_text *out)
 {
     const nh_classification *c = of(x);
     if (!c->rows) return;
@@ -227,6 +229,14 @@ void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *o
         nh_text_addf(out, "  With `--option theorem=%zu` so many primes are taken that no number is left out.\n", primes);
 }
 
+void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *out)
+{
+    const char *end = of(x)->end;
+    put_all_excluded(x, verbose, out);
+    if (end && x->question) nh_text_addf(out, "\nThe question was not answered: %s.\n", nh_classification_end(end));
+    else if (end) nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", of(x)->rows + 1, nh_classification_end(end));
+}
+
 void nh_classification_text(const nh_classified *x, bool verbose, nh_text *out)
 {
     nh_classification_head(x, out);
@@ -238,8 +248,5 @@ void nh_classification_text(const nh_classified *x, bool verbose, nh_text *out)
     put_values(x, out);
     put_infinity(x, out);
     nh_classification_excluded(x, verbose, out);
-    if (!of(x)->end) return;
-    if (x->question) nh_text_addf(out, "\nThe question was not answered: %s.\n", nh_classification_end(of(x)->end));
-    else nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", of(x)->rows + 1, nh_classification_end(of(x)->end));
 }
 

@@ -11,6 +11,7 @@ char *nh_classification_current(const nh_analysis *result, const nh_current *cur
 /* ---- text ---- */
 
 const char *nh_classification_end(const char *end);
+extern const char *const nh_classification_decide; /* what may decide an open number */
 
 /* classification_wording.c: "integrals polynomial in the velocities", "More for", "more conservation laws than almost
  * all", "degree 2"; a number, of brackets the rank instead of what it lacks. */
@@ -36,6 +37,7 @@ void nh_classification_proof(const nh_classified *classified, const nh_classifie
 /* What is proved where there are not more; what was not decided. */
 void nh_classification_excluded(const nh_classified *classified, bool verbose, nh_text *out);
 void nh_classification_plane_excluded(const nh_classified_plane *classified, bool verbose, nh_text *out);
+void nh_classification_open(const nh_classified *classified, nh_text *out);
 void nh_classification_plane_open(const nh_classified_plane *classified, nh_text *out);
 
 /* ---- page and LaTeX ---- */

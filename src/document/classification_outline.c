@@ -92,6 +92,7 @@ static void outline_line(const nh_classified *x, pen *p)
     put_lines(p, &text);
     put_currents(p, x->almost_all, x->known, x->currents);
     nh_pen_section(p, "excluded", "What is excluded");
+    nh_classification_open(x, &text);
     nh_classification_excluded(x, true, &text);
     put_lines(p, &text);
 }

@@ -106,8 +106,8 @@ void nh_classification_plane_open(const plane *x, nh_text *out)
     const nh_plane *o = x->plane;
     for (size_t k = 0; k < o->curves; k++)
         if (o->curve[k].open)
-            nh_text_addf(out, "\nNot decided on %s: how many there are of degree %zu.\n",
-                         nh_classified_curve_words(x, &o->curve[k].polynomial), o->curve[k].open);
+            nh_text_addf(out, "\nNot decided on %s: how many there are of degree %zu. %s\n",
+                         nh_classified_curve_words(x, &o->curve[k].polynomial), o->curve[k].open, nh_classification_decide);
     for (size_t k = 0; k < o->lines; k++)
         if (unexamined(x, &o->line[k]))
             nh_text_addf(out, "\nNot examined, or not up to the highest degree: points with %s.\n",
@@ -141,6 +141,7 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
         nh_text_addf(out, "  Other pairs of higher degree were not looked at where %s is no such ratio: determinants are larger than the option `plane`.\n", x->over[1]);
     else if (o->rows)
         nh_text_add(out, "  Another pair of algebraic numbers could have more only if modulo all of the primes it lies on one of the curves or has a residue of a point that was examined, or none. Infinite values were not looked at.\n");
+    if (o->end) nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", o->rows + 1, nh_classification_end(o->end));
 }
 
 void nh_classification_plane_text(const plane *x, bool verbose, nh_text *out)
@@ -158,7 +159,6 @@ void nh_classification_plane_text(const plane *x, bool verbose, nh_text *out)
     put_special(x, out);
     nh_classification_plane_open(x, out);
     nh_classification_plane_excluded(x, verbose, out);
-    if (o->end) nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", o->rows + 1, nh_classification_end(o->end));
 }
 
 /* ---- JSON ---- */
