@@ -14,6 +14,15 @@ typedef struct {
 
 #define PLANE "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - "
 #define QUADRANT "domain: {x: [0.5, 2], y: [0.5, 2]}\n"
+#define SPACE "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - "
+#define OCTANT "domain: {x: [0.5, 2], y: [0.5, 2], z: [0.5, 2]}\n"
+#define ANGLES "coordinates: [{name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+#define BALL "coordinates: [x, y, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+#define BODY \
+    "definitions: [\"W1 = p'*sin(h)*sin(s) + h'*cos(s)\", \"W2 = p'*sin(h)*cos(s) - h'*sin(s)\", \"W3 = p'*cos(h) + s'\"," \
+    " g1 = sin(h)*sin(s), g2 = sin(h)*cos(s), g3 = cos(h)]\n"
+#define ROLLS "\"x' = r*(h'*sin(p) - s'*sin(h)*cos(p))\", \"y' = -r*(h'*cos(p) + s'*sin(h)*sin(p))\""
+#define TURNED "domain: {h: [0.5, 1.3], p: [-0.7, 0.7], s: [-0.7, 0.7]}\n"
 
 static const published PUBLISHED[] = {
     /* A. P. Fordy, Physica D 52 (1991) 204 */
@@ -106,6 +115,89 @@ static const published PUBLISHED[] = {
     {"skate on a slope",
      "parameters: {m: 1.3, J: 0.4, g: 0.9}\ncoordinates: [x, y, {name: f, type: angle}]\n"
      "lagrangian: m*(x'^2 + y'^2)/2 + J*f'^2/2 - m*g*x\nconstraints: [\"x'*sin(f) = y'*cos(f)\"]\n", 5, 4},
+    /* B. Sutherland, Phys. Rev. A 4 (1971) 2019: three bodies; the proof of the cubic integral takes polynomials of more than 20000 terms */
+    {"Sutherland, three bodies",
+     "parameters: {g: 0.4}\n" SPACE "g/sin(x - y)^2 - g/sin(y - z)^2 - g/sin(z - x)^2\ndomain: {x: [0.1, 0.4], y: [0.8, 1.2], z: [1.8, 2.3]}\n", 4, 4},
+    /* V. V. Kozlov, Adv. Mech. 8 (1985) 85: Chaplygin's ball in a field that is quadratic in the vertical of the body, with coefficients like its moments of inertia */
+    {"Kozlov, Chaplygin's ball in a quadratic field",
+     "parameters: {A: 1.1, B: 1.7, C: 2.3, m: 1.3, r: 0.6, u: 0.5}\n" BALL BODY
+     "lagrangian: A*W1^2/2 + B*W2^2/2 + C*W3^2/2 + m*(x'^2 + y'^2)/2 - u*(A*g1^2 + B*g2^2 + C*g3^2)\nconstraints: [" ROLLS "]\n" TURNED, 3, 2},
+    /* the same without the field and with two rotors: A. P. Markeev, Mech. Solids 21 (1986) 62 */
+    {"Markeev's ball",
+     "parameters: {A: 1.1, B: 1.7, C: 2.3, m: 1.3, r: 0.6, k: 0.5, l: 0.2}\n" BALL BODY
+     "lagrangian: A*W1^2/2 + B*W2^2/2 + C*W3^2/2 + m*(x'^2 + y'^2)/2 + k*W1 + l*W3\nconstraints: [" ROLLS "]\n" TURNED, 4, 2},
+    /* K. M. Ehlers and J. Koiller, as above, with three moments of inertia */
+    {"rubber ball with three moments of inertia",
+     "parameters: {A: 1.1, B: 1.7, C: 2.3, m: 1.3, r: 0.6}\n" BALL BODY
+     "lagrangian: A*W1^2/2 + B*W2^2/2 + C*W3^2/2 + m*(x'^2 + y'^2)/2\nconstraints: [" ROLLS ", \"p' + s'*cos(h) = 0\"]\n" TURNED, 3, 2},
+    /* E. I. Kharlamova-Zabelina, Vestn. Mosk. Univ. 12 (1957) no. 6, 25; V. V. Kozlov, as above */
+    {"Suslov's problem with gravity",
+     "parameters: {A: 1.1, B: 1.7, C: 2.3, u: 0.6, v: 0.4}\n" ANGLES BODY "lagrangian: A*W1^2/2 + B*W2^2/2 + C*W3^2/2 - u*g1 - v*g2\nconstraints: [\"W3 = 0\"]\n" TURNED, 3, 4},
+    {"Suslov's problem in a quadratic field",
+     "parameters: {A: 1.1, B: 1.7, C: 2.3, u: 0.6, v: 0.4}\n" ANGLES BODY "lagrangian: A*W1^2/2 + B*W2^2/2 + C*W3^2/2 - u*g1^2 - v*g2^2\nconstraints: [\"W3 = 0\"]\n" TURNED, 2, 4},
+    /* ratio of the frequencies 4: of degree four with coefficients of degree five in the vertical */
+    {"Suslov's problem in a quadratic field, 4:1",
+     ANGLES BODY "lagrangian: W1^2/2 + W2^2 - g1^2 - 8*g2^2\nconstraints: [\"W3 = 0\"]\n" TURNED, 3, 4},
+    /* L. E. Veselova, in: Geometry, Differential Equations and Mechanics, Moscow 1986, 64 */
+    {"Veselova's system in a quadratic field",
+     "parameters: {A: 1.1, B: 1.7, C: 2.3, u: 0.6}\n" ANGLES BODY
+     "lagrangian: A*W1^2/2 + B*W2^2/2 + C*W3^2/2 - u*(A*g1^2 + B*g2^2 + C*g3^2)\nconstraints: [\"p' + s'*cos(h) = 0\"]\n" TURNED, 2, 4},
+    /* A. G. Reyman and M. A. Semenov-Tian-Shansky, Lett. Math. Phys. 14 (1987) 55 */
+    {"Kovalevskaya's top in two fields",
+     "parameters: {J: 0.7, a: 0.9, b: 0.5}\n" ANGLES BODY
+     "lagrangian: J*(W1^2 + W2^2) + J/2*W3^2 + a*(cos(p)*cos(s) - sin(p)*cos(h)*sin(s)) + b*(-sin(p)*sin(s) + cos(p)*cos(h)*cos(s))\n" TURNED, 3, 4},
+    /* N. W. Evans, Phys. Rev. A 41 (1990) 5666: superintegrable potentials in space */
+    {"Evans, I", "parameters: {k: 0.7, a: 0.3, b: 0.4, c: 0.5}\n" SPACE "k*(x^2 + y^2 + z^2)/2 - a/x^2 - b/y^2 - c/z^2\n" OCTANT, 6, 4},
+    {"Evans, II", "parameters: {k: 0.7, a: 0.3, b: 0.4}\n" SPACE "0 + k/sqrt(x^2 + y^2 + z^2) - a/x^2 - b/y^2\n" OCTANT, 5, 4},
+    {"Evans, III", "parameters: {a: 0.3, b: 0.4, c: 0.5}\n" SPACE "a*x/(y^2*sqrt(x^2 + y^2)) - b/y^2 - c/z^2\n" OCTANT, 6, 4},
+    {"Evans, IV", "parameters: {a: 0.3, b: 0.4, c: 0.5}\n" SPACE "a*x/(y^2*sqrt(x^2 + y^2)) - b/y^2 - c*z\n" OCTANT, 6, 4},
+    {"Evans, V", "parameters: {k: 0.7, a: 0.3, b: 0.4}\n" SPACE "k*(x^2 + y^2 + 4*z^2) - a/x^2 - b/y^2\n" OCTANT, 6, 4},
+    {"Evans, four integrals", "parameters: {k: 0.7, a: 0.3, b: 0.4, c: 0.5}\n" SPACE "k*(x^2 + y^2 + z^2)^2 - a/x^2 - b/y^2 - c/z^2\n" OCTANT, 4, 4},
+    /* S. Gravel, J. Math. Phys. 45 (2004) 1003: integrals of degree three */
+    {"Gravel, two roots", "parameters: {a: 0.7, b: 0.4}\n" PLANE "a*sqrt(x) - b*sqrt(y)\n" QUADRANT, 4, 6},
+    {"Gravel, line and root", "parameters: {a: 0.7, b: 0.4}\n" PLANE "a*x - b*sqrt(y)\n" QUADRANT, 4, 6},
+    /* N. W. Evans and P. E. Verrier, J. Math. Phys. 49 (2008) 092902: degrees 4 and 6 */
+    {"caged oscillator, 1:2", "parameters: {w: 0.8, a: 0.3, b: 0.4}\n" PLANE "w^2*(x^2 + 4*y^2)/2 - a/x^2 - b/y^2\n" QUADRANT, 4, 6},
+    {"caged oscillator, 1:3", "parameters: {w: 0.8, a: 0.3, b: 0.4}\n" PLANE "w^2*(x^2 + 9*y^2)/2 - a/x^2 - b/y^2\n" QUADRANT, 4, 6},
+    /* R. Garnier, Rend. Circ. Mat. Palermo 43 (1919) 155 */
+    {"Garnier", "parameters: {a: 0.7, b: 1.3, c: 2.1}\n" SPACE "(x^2 + y^2 + z^2)^2 - a*x^2 - b*y^2 - c*z^2\n", 3, 4},
+    /* B. Dorizzi, B. Grammaticos, J. Hietarinta, A. Ramani and F. Schwarz, Phys. Lett. A 116 (1986) 432: in space */
+    {"quartic in space, 1:6:8", SPACE "(x^2 + y^2)^2 - 6*z^2*(x^2 + y^2) - 8*z^4\n", 3, 4},
+    {"cubic in space, 16/3", SPACE "(x^2 + y^2)*z - 16*z^3/3\n", 3, 4},
+    {"KdV5's Henon-Heiles system with c/x^2", "parameters: {A: 0.7, B: 1.2, c: 0.3}\n" PLANE "(A*x^2 + B*y^2)/2 - x^2*y - 2*y^3 - c/x^2\n" QUADRANT, 2, 6},
+    /* S. Baker, V. Z. Enolskii and A. P. Fordy, Phys. Lett. A 201 (1995) 167 */
+    {"quartic, 1:6:8, with a linear term", "parameters: {a: 0.4, c: 0.3}\n" PLANE "x^4 - 6*x^2*y^2 - 8*y^4 - a*(x^2 + 4*y^2) - c*y\n" QUADRANT, 2, 6},
+    /* O. I. Bogoyavlensky, as above */
+    {"Toda, A4, twisted", PLANE "exp(x - y) - exp(y) - exp(-2*x)\n", 2, 6},
+    {"Toda, C2, periodic", PLANE "exp(x - y) - exp(2*y) - exp(-2*x)\n", 2, 6},
+    /* E. G. Kalnins, J. M. Kress, W. Miller and P. Winternitz, J. Math. Phys. 44 (2003) 5811; E. G. Kalnins, W. Miller and G. S. Pogosyan, J. Math. Phys. 37 (1996) 6439 */
+    {"Darboux's space I", "parameters: {a: 0.4, b: 0.7, c: 0.3}\ncoordinates: [u, v]\n"
+     "lagrangian: 2*u*(u'^2 + v'^2) - a*(4*u^2 + v^2)/(4*u) - b/u - c/(u*v^2)\ndomain: {u: [0.5, 2], v: [0.5, 2]}\n", 3, 6},
+    {"three inverse squares on the sphere", "parameters: {a: 0.4, b: 0.7, c: 0.3}\ncoordinates: [{name: th, type: angle}, {name: ph, type: angle}]\n"
+     "lagrangian: (th'^2 + sin(th)^2*ph'^2)/2 - a/(sin(th)*cos(ph))^2 - b/(sin(th)*sin(ph))^2 - c/cos(th)^2\ndomain: {th: [0.4, 1.2], ph: [0.4, 1.2]}\n", 3, 6},
+    /* A. Marchesiello and L. Snobl, J. Phys. A 50 (2017) 245202: a helical magnetic field */
+    {"helical undulator", "parameters: {a: 0.6, k: 1.3}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 + a*(cos(k*z)*x' + sin(k*z)*y')\n", 4, 4},
+    /* P. J. Redmond, Phys. Rev. 133 (1964) B1352; Y. Alhassid, E. A. Hinds and D. Meschede, Phys. Rev. Lett. 59 (1987) 1545 */
+    {"Stark", "parameters: {k: 0.7, f: 0.3}\n" SPACE "0 + k/sqrt(x^2 + y^2 + z^2) - f*z\n" OCTANT, 3, 4},
+    {"van der Waals, ratio 2", "parameters: {k: 0.7, c: 0.3}\n" SPACE "0 + k/sqrt(x^2 + y^2 + z^2) - c*(x^2 + y^2 + 4*z^2)\n" OCTANT, 3, 4},
+    /* B. Carter, Phys. Rev. 174 (1968) 1559; B. Kruglikov and V. S. Matveev, Phys. Rev. D 85 (2012) 124057: none like Carter's */
+    {"geodesics of Kerr's metric",
+     "parameters: {M: 1, a: 0.6}\ncoordinates: [T, {name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\n"
+     "definitions: [\"S = r^2 + a^2*cos(th)^2\", \"D = r^2 - 2*M*r + a^2\"]\n"
+     "lagrangian: (-(1 - 2*M*r/S)*T'^2 - 4*M*a*r*sin(th)^2/S*T'*ph' + S/D*r'^2 + S*th'^2 + (r^2 + a^2 + 2*M*a^2*r*sin(th)^2/S)*sin(th)^2*ph'^2)/2\n"
+     "domain: {r: [3, 6], th: [0.4, 1.2]}\n", 4, 3},
+    {"geodesics of Zipoy and Voorhees' metric",
+     "coordinates: [T, {name: x, type: length}, {name: y, type: length}, {name: ph, type: angle}]\n"
+     "lagrangian: (-((x - 1)/(x + 1))^2*T'^2 + ((x + 1)/(x - 1))^2*((x^2 - 1)^4/(x^2 - y^2)^3*(x'^2/(x^2 - 1) + y'^2/(1 - y^2)) + (x^2 - 1)*(1 - y^2)*ph'^2))/2\n"
+     "domain: {x: [2, 4], y: [-0.7, 0.7]}\n", 3, 3},
+    /* controls: C. Stoermer 1907; G. W. Hill 1878; V. Szebehely 1967; M. C. Gutzwiller, J. Math. Phys. 14 (1973) 139; G. K. Savvidy, Phys. Lett. B 130 (1983) 303 */
+    {"Stoermer", "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\n"
+     "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + sin(th)^2/r*ph'\ndomain: {r: [0.5, 2], th: [0.4, 1.2]}\n", 2, 4},
+    {"Hill", "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + x*y' - y*x' + 3*x^2/2 + 1/sqrt(x^2 + y^2)\n" QUADRANT, 1, 6},
+    {"restricted three bodies", "parameters: {u: 0.2}\ncoordinates: [x, y]\n"
+     "lagrangian: ((x' - y)^2 + (y' + x)^2)/2 + (1 - u)/sqrt((x + u)^2 + y^2) + u/sqrt((x - 1 + u)^2 + y^2)\ndomain: {x: [0.2, 0.5], y: [0.5, 1]}\n", 1, 6},
+    {"anisotropic Kepler", "parameters: {u: 1.5}\n" PLANE "0 + 1/sqrt(x^2 + u*y^2)\n" QUADRANT, 1, 6},
+    {"Yang and Mills", SPACE "(x^2*y^2 + y^2*z^2 + z^2*x^2)/2\n", 1, 4},
 };
 enum { PUBLISHED_COUNT = sizeof PUBLISHED / sizeof *PUBLISHED };
 

@@ -21,11 +21,22 @@ static nh_letter *letter_of(nh_letters *l, nh_letter_kind kind, nh_ex base)
     return &l->item[l->count++];
 }
 
-/* Does it depend on coordinates, and on no velocity? */
+static bool is_coordinate(const nh_jet_equations *x, nh_ex symbol)
+{
+    bool found = false;
+    for (size_t k = 0; k < x->coordinates; k++) found |= x->coordinate[k] == symbol;
+    return found;
+}
+
+/* Does it depend on coordinates of the equations, on no others, and on no velocity? */
 static bool of_position(const nh_jet_equations *x, nh_ex e)
 {
     bool position = false, velocity = false;
     for (size_t k = 0; k < x->coordinates; k++) position |= nh_depends(x->dag, e, x->coordinate[k]);
+    for (size_t s = 0; s < x->model->m; s++) {
+        nh_ex q = x->model->system->coordinate[s].q;
+        if (nh_depends(x->dag, e, q) && !is_coordinate(x, q)) return false;
+    }
     for (size_t i = 0; i < x->n; i++) velocity |= nh_depends(x->dag, e, x->w[i]);
     return position && !velocity;
 }

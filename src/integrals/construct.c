@@ -330,7 +330,7 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
 {
     nh_arena *arena = nh_arena_create();
     nh_construction *out = nh_arena_alloc(arena, sizeof *out);
-    nh_count_question q = {.time = question->time, .degree = question->degree, .work = question->work, .known = question->known, .independent = question->independent, .current = question->current};
+    nh_count_question q = {.time = question->time, .shape = question->shape, .degree = question->degree, .work = question->work, .known = question->known, .independent = question->independent, .current = question->current};
     nh_counter c;
     *out = (nh_construction){.arena = arena};
     nh_counter_open(&c, model, &q);

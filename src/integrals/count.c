@@ -249,6 +249,7 @@ static void register_known(nh_counter *c)
 void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_question *question)
 {
     *c = (nh_counter){.q = question, .equations = nh_jet_equations_create(model, question->time, question->generic)};
+    if (question->shape && !c->equations->obstacle) nh_jet_equations_drop_cyclic(c->equations);
     c->current = nh_alloc_array(question->known + 1, sizeof *c->current);
     c->degree = nh_alloc_array(question->known + 1, sizeof *c->degree);
     c->index = nh_alloc_array(question->known + 1, sizeof *c->index);

@@ -50,6 +50,7 @@ void nh_count_memory_free(nh_count_memory *memory);
 
 typedef struct {
     bool time, generic;
+    bool shape;              /* coefficients do not depend on cyclic coordinates; known integrals that do are left out */
     nh_count_memory *memory; /* NULL: none */
     size_t degree;          /* up to which; 0: as far as `work` goes */
     bool alone;             /* this degree only, until all are functions of the known ones: row[0]; products are not compared */

@@ -107,6 +107,40 @@ nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool gen
     return x;
 }
 
+static bool occurs(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_ex symbol)
+{
+    bool found = false;
+    for (size_t i = 0; i < n && !found; i++) found = nh_depends(x->dag, e[i], symbol);
+    return found;
+}
+
+bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
+{
+    nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate), *rho = nh_arena_alloc(x->arena, (x->m + 1) * sizeof *rho);
+    size_t kept = 0;
+    if (x->time) coordinate[0] = x->coordinate[0];
+    for (size_t s = 0; s < x->m; s++) {
+        nh_ex q = x->coordinate[x->time + s];
+        if (!occurs(x, x->m, x->rho, q) && !occurs(x, x->n * x->n, x->M, q) && !occurs(x, x->n, x->A, q)) continue;
+        coordinate[x->time + kept] = q;
+        rho[kept++] = x->rho[s];
+    }
+    bool some = kept < x->m;
+    x->coordinate = coordinate;
+    x->rho = rho;
+    x->m = kept;
+    x->coordinates = kept + x->time;
+    return some;
+}
+
+bool nh_jet_equations_have_cyclic(const nh_model *model)
+{
+    nh_jet_equations *x = nh_jet_equations_create(model, false, false);
+    bool some = !x->obstacle && nh_jet_equations_drop_cyclic(x);
+    nh_jet_equations_free(x);
+    return some;
+}
+
 void nh_jet_equations_free(nh_jet_equations *x)
 {
     if (!x) return;

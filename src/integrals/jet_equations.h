@@ -17,7 +17,7 @@ typedef struct {
     nh_jet_point *point;
     bool time;               /* it is the first of the coordinates */
     bool generic;            /* parameters are indeterminates */
-    size_t coordinates, n, m;
+    size_t coordinates, n, m; /* m: without time */
     const nh_ex *coordinate, *w;
     nh_ex *rho, *M, *A;      /* m, n x n, n: canonical, with parameters at their values unless generic */
     double products;         /* of series, about, that they take at a point */
@@ -29,6 +29,9 @@ typedef struct {
 
 /* Obstacles are found here as far as they do not depend on the point. */
 nh_jet_equations *nh_jet_equations_create(const nh_model *model, bool time, bool generic);
+/* From now on those of the shape alone, which are closed: cyclic coordinates are none of theirs.  Are there any? */
+bool nh_jet_equations_drop_cyclic(nh_jet_equations *equations);
+bool nh_jet_equations_have_cyclic(const nh_model *model);
 void nh_jet_equations_free(nh_jet_equations *equations);
 
 /* Another point, which follows from prime and seed. */

@@ -43,6 +43,7 @@ static void check(nh_analysis *r)
 
 typedef struct {
     nh_stage_solver climb;
+    bool cyclic;            /* there are cyclic coordinates */
     double work;            /* that is left for this count */
     size_t aside;           /* currents that are certified only */
     nh_current *set_aside;
@@ -128,14 +129,20 @@ static bool lift(search *s, size_t degree, const nh_constructed *c, bool further
 
 static bool is_over(const search *s, bool further) { return further ? nh_budget_spent() || nh_late() || s->climb.r->furthers == NH_MOST_FURTHER : nh_stage_solver_done(&s->climb); }
 
+/* What is looked for: functions of the currents found too; in the shape alone; with words that are many-valued. */
+typedef struct {
+    bool further, shape, secular;
+} manner;
+
 /* Words of one price. */
-static bool construct_at(search *s, const nh_completeness *c, bool further, bool secular, double price, bool *more)
+static bool construct_at(search *s, const nh_completeness *c, manner how, double price, bool *more)
 {
     nh_analysis *r = s->climb.r;
+    bool further = how.further;
     size_t degree = further ? c->incomplete_at : c->missing_at;
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     bool general, found = false;
-    nh_construct_question q = {.time = c->count.time, .further = further, .secular = secular, .degree = degree, .price = price, .most_words = (size_t)r->options.words, .work = s->work, .current = phi};
+    nh_construct_question q = {.time = c->count.time, .shape = how.shape, .further = further, .secular = how.secular, .degree = degree, .price = price, .most_words = (size_t)r->options.words, .work = s->work, .current = phi};
     q.known = nh_counted_proved(r, phi, &general, &q.independent);
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
@@ -154,11 +161,11 @@ static bool lacks_further(const nh_analysis *r)
 }
 
 /* Words become dearer until something is found. */
-static bool construct_up_to(search *s, const nh_completeness *c, bool further, bool secular, double dearest, double work)
+static bool construct_up_to(search *s, const nh_completeness *c, manner how, double dearest, double work)
 {
     bool found = false, more = true;
     s->work = work;
-    for (double price = 2; more && !found && price <= dearest && s->work > 0 && !is_over(s, further); price += price < 4 ? 1 : 2) found = construct_at(s, c, further, secular, price, &more);
+    for (double price = 2; more && !found && price <= dearest && s->work > 0 && !is_over(s, how.further); price += price < 4 ? 1 : 2) found = construct_at(s, c, how, price, &more);
     return found;
 }
 
@@ -176,7 +183,9 @@ static bool construct(search *s, const nh_completeness *c, bool further)
     double dearest = c->count.time ? 6 : 16, dearest_secular = 6, work = s->climb.r->options.construct * (further ? part : 1);
     bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) && !adds_nothing(s->climb.r, c));
     if (!wanted) return false;
-    return construct_up_to(s, c, further, false, dearest, work) || (!c->count.time && construct_up_to(s, c, further, true, dearest_secular, part * work));
+    manner any = {.further = further}, shape = {.further = further, .shape = true}, secular = {.further = further, .secular = true};
+    return (s->cyclic && construct_up_to(s, c, shape, dearest, work)) || construct_up_to(s, c, any, dearest, work)
+        || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }
 
 static bool is_missing(const nh_analysis *r)
@@ -195,6 +204,7 @@ static void look(nh_analysis *r)
     nh_progress("integrals that the count misses", -1);
     nh_budget_begin(r->options.work);
     set_aside(&s);
+    s.cyclic = nh_jet_equations_have_cyclic(r->model);
     bool stale = false;
     for (bool found = true; found && !nh_late();) {
         bool again = found = false;
