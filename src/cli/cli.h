@@ -19,6 +19,12 @@
 
 typedef enum { NH_PROGRESS_AUTO, NH_PROGRESS_ALWAYS, NH_PROGRESS_NEVER } nh_cli_progress;
 
+/* A value of an option in the text that completes a file: there from byte `begin` on, in what was typed from byte `offset` on. */
+typedef struct {
+    size_t begin, offset;
+    const char *option, *typed;
+} nh_cli_piece;
+
 typedef struct {
     const char *command;
     size_t operands;
@@ -45,6 +51,9 @@ typedef struct {
     const char **wheel, *base;   /* --wheel, each; --base */
     size_t ons;
     const char **on;             /* --on, each */
+    const char *completed;       /* the text that adds these to a file, or NULL */
+    size_t pieces;
+    nh_cli_piece *piece;
     size_t overs, numbers;
     const char **over_list, **number; /* of scan and simulate: every range, every number */
     const char *of;              /* of verify --field (constraint, equations), scan and export */
@@ -99,6 +108,9 @@ void nh_cli_guard_writing(void);
 
 /* The file of a system by name or path, with --wheel and --base; notes of the file go to standard error. */
 const char *nh_cli_system(nh_cli *cli, const char *word, nh_error *error);
+
+/* An error in what these options added to the file is one of the command line: the message shows the option and its value as it was typed. */
+void nh_cli_blame(const nh_cli *cli, nh_error *error);
 
 /* To repeat this command. */
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);

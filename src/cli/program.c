@@ -84,6 +84,8 @@ int nh_cli_main(int argc, char **argv, const nh_team *team)
     nh_cli cli = {.arena = nh_arena_create(), .team = team};
     cli.line = line_of(&cli, argc, argv);
     int code = nh_cli_parse(&cli, argc, argv, &error) ? run(&cli, &error) : (int)error.code;
+    nh_cli_blame(&cli, &error);
+    if (error.code == NH_USAGE) code = NH_USAGE;
     bool said = team && team->rank && (error.code == NH_USAGE || error.code == NH_INPUT); /* by the first, too */
     if (error.code != NH_OK && !said) {
         char text[4096];

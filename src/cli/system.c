@@ -3,7 +3,10 @@
 
 #include "base/files.h"
 #include "cli/cli.h"
+#include "system/deck.h"
 #include "system/system.h"
+
+static const char words_of_line[] = ", command line"; /* how the name of a completed file ends */
 
 /* A word of YAML in double quotes. */
 static void put_quoted(nh_text *out, const char *word)
@@ -16,46 +19,73 @@ static void put_quoted(nh_text *out, const char *word)
     nh_text_add(out, "\"");
 }
 
-/* "left" or "left=0.1", several with commas. */
-static void put_wheels(nh_text *out, const char *list, size_t *count)
+/* What is added to the text next comes from typed[offset ..] behind an option. */
+static void note(nh_cli *cli, const nh_text *out, const char *option, const char *typed, size_t offset)
 {
-    for (const char *at = list; *at;) {
-        at += strspn(at, " ");
-        size_t length = nh_text_entry(at, ",;"), equal = strcspn(at, "=,;"), end = equal;
-        while (end && at[end - 1] == ' ') end--;
-        char name[256], radius[256];
-        snprintf(name, sizeof name, "%.*s", (int)end, at);
-        snprintf(radius, sizeof radius, "%.*s", equal < length ? (int)(length - equal - 1) : 0, at + equal + 1);
-        nh_text_add(out, *count ? ", " : "wheels: [");
-        ++*count;
-        if (equal < length) nh_text_add(out, "{body: ");
-        put_quoted(out, name);
-        if (equal < length) nh_text_add(out, ", radius: ");
-        if (equal < length) put_quoted(out, radius + strspn(radius, " "));
-        if (equal < length) nh_text_add(out, "}");
-        at += length + (at[length] != 0);
+    if (!(cli->pieces & (cli->pieces - 1))) { /* room for one more: it doubles whenever the count is a power of two */
+        nh_cli_piece *more = nh_arena_alloc(cli->arena, (2 * cli->pieces + 1) * sizeof *more);
+        if (cli->pieces) memcpy(more, cli->piece, cli->pieces * sizeof *more);
+        cli->piece = more;
     }
+    cli->piece[cli->pieces++] = (nh_cli_piece){.begin = out->length + 1, .offset = offset, .option = option, .typed = typed};
 }
 
-/* The same file with wheels, a base and levels: a text that includes it. */
+/* typed[begin .. end) as a word of the text. */
+static void put_typed(nh_cli *cli, nh_text *out, const char *option, const char *typed, size_t begin, size_t end)
+{
+    while (begin < end && typed[begin] == ' ') begin++;
+    while (begin < end && typed[end - 1] == ' ') end--;
+    note(cli, out, option, typed, begin);
+    put_quoted(out, nh_arena_strndup(cli->arena, typed + begin, end - begin));
+}
+
+/* "left" or "left=0.1". */
+static void put_wheel(nh_cli *cli, nh_text *out, const char *typed)
+{
+    size_t length = strlen(typed), equal = strcspn(typed, "=");
+    note(cli, out, "--wheel", typed, 0);
+    if (equal < length) nh_text_add(out, "{body: ");
+    put_typed(cli, out, "--wheel", typed, 0, equal);
+    if (equal == length) return;
+    nh_text_add(out, ", radius: ");
+    put_typed(cli, out, "--wheel", typed, equal + 1, length);
+    nh_text_add(out, "}");
+}
+
+/* The same file with wheels, a base and levels: a text of one line that includes it. */
 static const char *completed(nh_cli *cli, const char *path)
 {
     const char *slash = strrchr(path, '/');
-    size_t count = 0;
     nh_text text;
     nh_text_init(&text);
-    nh_text_add(&text, "include: ");
+    nh_text_add(&text, "{include: ");
     put_quoted(&text, slash ? slash + 1 : path);
-    nh_text_add(&text, "\n");
-    for (size_t i = 0; i < cli->wheels; i++) put_wheels(&text, cli->wheel[i], &count);
-    if (count) nh_text_add(&text, "]\n");
-    if (cli->base) nh_text_add(&text, "base: "), put_quoted(&text, cli->base), nh_text_add(&text, "\n");
-    const char *name = nh_arena_printf(cli->arena, "%s, command line", path);
-    for (size_t i = 0; i < cli->ons; i++) nh_text_add(&text, i ? ", " : "levels: ["), put_quoted(&text, cli->on[i]);
-    if (cli->ons) nh_text_add(&text, "]\n");
+    for (size_t i = 0; i < cli->wheels; i++) nh_text_add(&text, i ? ", " : ", wheels: ["), put_wheel(cli, &text, cli->wheel[i]);
+    if (cli->wheels) nh_text_add(&text, "]");
+    if (cli->base) nh_text_add(&text, ", base: "), put_typed(cli, &text, "--base", cli->base, 0, strlen(cli->base));
+    for (size_t i = 0; i < cli->ons; i++) nh_text_add(&text, i ? ", " : ", levels: ["), put_typed(cli, &text, "--on", cli->on[i], 0, strlen(cli->on[i]));
+    nh_text_add(&text, cli->ons ? "]}\n" : "}\n");
+    const char *name = nh_arena_printf(cli->arena, "%s%s", path, words_of_line);
     nh_files_add(name, nh_text_string(&text), text.length);
+    cli->completed = nh_arena_strdup(cli->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return name;
+}
+
+void nh_cli_blame(const nh_cli *cli, nh_error *error)
+{
+    const char *place = cli->completed && error->code != NH_OK ? strstr(error->where, words_of_line) : NULL;
+    size_t line = 0, column = 0, at = 0;
+    if (!place || sscanf(place + strlen(words_of_line), ":%zu:%zu", &line, &column) != 2 || line != 1) return;
+    for (size_t seen = 0; cli->completed[at] && (seen += ((unsigned char)cli->completed[at] & 0xC0) != 0x80) < column;) at++; /* columns count characters */
+    const nh_cli_piece *piece = NULL;
+    for (size_t i = 0; i < cli->pieces && cli->piece[i].begin <= at + 1; i++) piece = &cli->piece[i]; /* + 1: its quote counts, too */
+    if (!piece) return;
+    nh_error own;
+    nh_error_clear(&own);
+    nh_deck_fail_typed(piece->option, piece->typed, piece->offset + (at > piece->begin ? at - piece->begin : 0), &own, "%s", error->what);
+    if (error->hint[0]) nh_error_hint(&own, "%s", error->hint);
+    *error = own;
 }
 
 const char *nh_cli_system(nh_cli *cli, const char *word, nh_error *error)

@@ -146,39 +146,52 @@ static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *
 
 /* ---- the group ---- */
 
-static char *trimmed(nh_arena *arena, const char *text, size_t length)
+/* text[begin .. end) without the blanks around it. */
+static void trim(const char *text, size_t *begin, size_t *end)
 {
-    while (length && strchr(" \t", *text)) text++, length--;
-    while (length && strchr(" \t", text[length - 1])) length--;
-    return nh_arena_strndup(arena, text, length);
+    while (*begin < *end && strchr(" \t", text[*begin])) ++*begin;
+    while (*begin < *end && strchr(" \t", text[*end - 1])) --*end;
 }
 
-static bool bad_field(const nh_reduction *r, const char *item, nh_error *error)
+static bool bad_field(const nh_reduction *r, const char *typed, size_t begin, size_t end, nh_error *error)
 {
-    nh_fail(error, NH_USAGE, "--group", "`%.200s` is not a component of a vector field", item);
+    nh_deck_fail_typed("--group", typed, begin, error, "`%.*s` is not a component of a vector field", (int)(end - begin), typed + begin);
     return nh_error_hint(error, "write fields as `%s=1; ...`; separate components by commas, fields by semicolons", r->kinetic->name[0]);
 }
 
-/* "theta=1, x=-y, y=x" */
-static bool parse_field(nh_reduction *r, const char *text, nh_ex *component, nh_error *error)
+/* "x=-y" in typed[begin .. end) */
+static bool parse_component(nh_reduction *r, const char *typed, size_t begin, size_t end, nh_ex *component, nh_error *error)
+{
+    const nh_kinetic *k = r->kinetic;
+    trim(typed, &begin, &end);
+    const char *equal = memchr(typed + begin, '=', end - begin);
+    if (!equal) return bad_field(r, typed, begin, end, error);
+    size_t stop = (size_t)(equal - typed), right = stop + 1;
+    trim(typed, &begin, &stop);
+    char *name = nh_arena_strndup(r->arena, typed + begin, stop - begin);
+    long s = nh_system_coordinate(r->system, name);
+    if (s < 0) {
+        nh_deck_fail_typed("--group", typed, begin, error, "`%.100s` is not a coordinate", name);
+        const char *near = nh_text_nearest(name, k->name, k->m);
+        return near ? nh_error_hint(error, "did you mean `%s`?", near)
+                    : nh_error_hint(error, "write fields as `%s=1; ...`; separate components by commas, fields by semicolons", k->name[0]);
+    }
+    if (!nh_system_expression_part(r->system, "--group", typed, right, end - right, 0, NULL, &component[s], error)) return false;
+    for (size_t j = 0; j < k->m; j++)
+        if (nh_depends(k->dag, component[s], k->v[j]))
+            return nh_deck_fail_typed("--group", typed, right, error, "the component of `%s` contains a velocity; symmetries are fields on configuration space", name);
+    return true;
+}
+
+/* "theta=1, x=-y, y=x" in typed[begin .. end) */
+static bool parse_field(nh_reduction *r, const char *typed, size_t begin, size_t end, nh_ex *component, nh_error *error)
 {
     const nh_kinetic *k = r->kinetic;
     for (size_t s = 0; s < k->m; s++) component[s] = nh_int(k->dag, 0);
-    for (const char *c = text; *c;) {
-        size_t length = nh_text_entry(c, ",");
-        char *item = trimmed(r->arena, c, length), *equal = strchr(item, '=');
-        if (!equal) return bad_field(r, item, error);
-        char *name = trimmed(r->arena, item, (size_t)(equal - item));
-        long s = nh_system_coordinate(r->system, name);
-        if (s < 0) {
-            nh_fail(error, NH_USAGE, "--group", "`%.100s` is not a coordinate", name);
-            const char *near = nh_text_nearest(name, k->name, k->m);
-            return near ? nh_error_hint(error, "did you mean `%s`?", near) : bad_field(r, item, error);
-        }
-        if (!nh_system_expression_text(r->system, "--group", equal + 1, 0, NULL, &component[s], error)) return false;
-        for (size_t j = 0; j < k->m; j++)
-            if (nh_depends(k->dag, component[s], k->v[j])) return nh_fail(error, NH_USAGE, "--group", "the component of `%s` contains a velocity; symmetries are fields on configuration space", name);
-        c += length + (c[length] == ',');
+    for (size_t at = begin; at < end;) {
+        size_t length = nh_text_entry(typed + at, ",;");
+        if (!parse_component(r, typed, at, at + length, component, error)) return false;
+        at += length + (typed[at + length] == ',');
     }
     return true;
 }
@@ -190,14 +203,14 @@ static bool group_of_fields(nh_reduction *r, const char *text, nh_error *error)
     nh_generator *g = nh_alloc_array(most, sizeof *g);
     nh_ex *component = nh_alloc_array(r->kinetic->m, sizeof *component);
     bool good = true;
-    for (const char *c = text; *c && good;) {
-        size_t length = strcspn(c, ";");
-        char *item = trimmed(r->arena, c, length);
-        if (*item) {
-            good = parse_field(r, item, component, error);
+    for (size_t at = 0; text[at] && good;) {
+        size_t length = nh_text_entry(text + at, ";"), begin = at, end = at + length;
+        trim(text, &begin, &end);
+        if (begin < end) {
+            good = parse_field(r, text, begin, end, component, error);
             if (good) nh_generator_init(&g[n++], r->kinetic, NULL, component, &r->options);
         }
-        c += length + (c[length] == ';');
+        at += length + (text[at + length] == ';');
     }
     if (good && n) r->group = nh_group_of(r->kinetic, n, g, &r->options);
     if (good && !n) good = nh_fail(error, NH_USAGE, "--group", "no vector field is given");
@@ -225,6 +238,7 @@ static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
     bool good = true;
     for (const char *c = text; *c && good;) {
         char *end;
+        c += strspn(c, " \t");
         long i = strtol(c, &end, 10);
         if (end == c) {
             c++;
@@ -232,7 +246,7 @@ static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
         }
         good = i >= 1 && (size_t)i <= d;
         if (good) g[n++] = r->all->action.generator[i - 1];
-        else nh_fail(error, NH_USAGE, "--group", "there is no generator %ld; the group has %zu", i, d);
+        else nh_deck_fail_typed("--group", text, (size_t)(c - text), error, "there is no generator %ld; the group has %zu", i, d);
         c = end;
     }
     if (good) r->group = nh_group_of(r->kinetic, n, g, &r->options);

@@ -33,9 +33,9 @@ static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order
     return 0;
 }
 
-static bool bad_inner(size_t d, const char *text, nh_error *error)
+static bool bad_inner(size_t d, const char *typed, size_t at, nh_error *error)
 {
-    nh_fail(error, NH_USAGE, "--inner", "`%.100s` is not an entry of an inner product on the %zu generators of the group", text, d);
+    nh_deck_fail_typed("--inner", typed, at, error, "this is not an entry of an inner product on the %zu generators of the group", d);
     return nh_error_hint(error, "--inner \"1,%zu=1/2; %zu,%zu=3\": numbers of two generators, and the value; what is not given is 1 on the diagonal and 0 beside it", d, d, d);
 }
 
@@ -45,16 +45,18 @@ static bool read_inner(nh_reduction *r, size_t d, nh_error *error)
     nh_dag *dag = r->kinetic->dag;
     nh_ex *g = nh_arena_alloc(r->arena, (d * d + 1) * sizeof *g), value;
     for (size_t a = 0; a < d * d; a++) g[a] = nh_int(dag, a % (d + 1) == 0);
-    for (const char *c = r->inner_text; *c;) {
-        size_t length = strcspn(c, ";"), i, j;
-        char *entry = nh_arena_strndup(r->arena, c, length);
+    const char *typed = r->inner_text;
+    for (size_t at = 0, length, i, j; typed[at]; at += length + (typed[at + length] == ';')) {
+        at += strspn(typed + at, " \t");
+        length = strcspn(typed + at, ";");
         int end = 0;
-        c += length + (c[length] == ';');
-        if (!entry[strspn(entry, " \t")]) continue;
-        if (sscanf(entry, "%zu , %zu = %n", &i, &j, &end) != 2 || !end || i < 1 || j < 1 || i > d || j > d) return bad_inner(d, entry, error);
-        if (!nh_system_expression_text(r->system, "--inner", entry + end, 0, NULL, &value, error)) return false;
+        if (!length) continue;
+        if (sscanf(typed + at, "%zu , %zu = %n", &i, &j, &end) != 2 || !end || i < 1 || j < 1 || i > d || j > d || (size_t)end > length) return bad_inner(d, typed, at, error);
+        size_t right = at + (size_t)end;
+        if (!nh_system_expression_part(r->system, "--inner", typed, right, at + length - right, 0, NULL, &value, error)) return false;
         for (size_t s = 0; s < r->kinetic->m; s++)
-            if (nh_depends(dag, value, r->kinetic->q[s]) || nh_depends(dag, value, r->kinetic->v[s])) return nh_fail(error, NH_USAGE, "--inner", "`%.100s` is not constant: values may contain parameters only", entry);
+            if (nh_depends(dag, value, r->kinetic->q[s]) || nh_depends(dag, value, r->kinetic->v[s]))
+                return nh_deck_fail_typed("--inner", typed, right, error, "this is not constant: values may contain parameters only");
         g[(i - 1) * d + j - 1] = g[(j - 1) * d + i - 1] = value;
     }
     r->inner = g;

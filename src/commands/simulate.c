@@ -16,7 +16,7 @@ static const double repeated = 0.1;                      /* seconds: shorter com
 /* ---- what is wanted along the motion ---- */
 
 /* "y, T = m/2*v^2" */
-static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
+static bool read_watch(nh_simulation *s, const char *typed, nh_error *error)
 {
     const nh_model *o = s->model;
     nh_ex taken;
@@ -24,14 +24,14 @@ static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
     size_t extras = 0;
     if (!nh_symbol_find(o->dag, "E", &taken)) extra[extras++] = (nh_named){.name = "E", .value = o->E};
     if (!nh_symbol_find(o->dag, "Lbar", &taken)) extra[extras++] = (nh_named){.name = "Lbar", .value = o->Lbar};
-    for (const char *end; *text; text = end + (*end != 0)) {
+    for (const char *text = typed, *end; *text; text = end + (*end != 0)) {
         end = text + nh_text_entry(text, ",;");
         const char *equal = memchr(text, '=', (size_t)(end - text)), *to = equal ? equal : end;
         while (text < to && *text == ' ') text++;
         while (to > text && to[-1] == ' ') to--;
         nh_ex e;
         const char *name = nh_arena_strndup(s->arena, text, (size_t)(to - text)), *right = equal ? equal + 1 : text;
-        if (!nh_system_expression_text(s->system, "--watch", nh_arena_strndup(s->arena, right, (size_t)(end - right)), extras, extra, &e, error)) return false;
+        if (!nh_system_expression_part(s->system, "--watch", typed, (size_t)(right - typed), (size_t)(end - right), extras, extra, &e, error)) return false;
         if (!nh_analysis_file_to_chart(o, e, &e, error)) return false;
         nh_observables_add(&s->columns, name, NH_TRACK_WATCH, e);
     }

@@ -181,16 +181,16 @@ typedef struct {
     bool has_W;
 } given;
 
-/* One "name=expression" between semicolons. */
-static bool component(nh_verification *v, const char *text, size_t length, given *g, nh_error *error)
+/* One "name=expression" between semicolons: typed[begin .. end). */
+static bool component(nh_verification *v, const char *typed, size_t begin, size_t end, given *g, nh_error *error)
 {
-    char *part = nh_arena_strndup(v->arena, text, length), *equal = strchr(part, '=');
-    while (*part == ' ') part++;
-    if (!*part) return true;
-    if (!equal) return nh_fail(error, NH_USAGE, "--field", "a component `name=expression` was expected, found `%s`", part);
-    size_t n = (size_t)(equal - part);
-    while (n && part[n - 1] == ' ') n--;
-    char *name = nh_arena_strndup(v->arena, part, n);
+    while (begin < end && typed[begin] == ' ') begin++;
+    if (begin == end) return true;
+    const char *equal = memchr(typed + begin, '=', end - begin);
+    size_t right = equal ? (size_t)(equal - typed) + 1 : end, n = right - 1 - begin;
+    if (!equal) return nh_deck_fail_typed("--field", typed, begin, error, "a component `name=expression` was expected, found `%.*s`", (int)(end - begin), typed + begin);
+    while (n && typed[begin + n - 1] == ' ') n--;
+    char *name = nh_arena_strndup(v->arena, typed + begin, n);
     long index = nh_system_coordinate(v->system, name);
     bool is_time = !strcmp(name, "Z0") || !strcmp(name, "t");
     nh_ex e, *to = is_time ? &g->time : index >= 0 ? &g->space[index] : NULL;
@@ -200,10 +200,10 @@ static bool component(nh_verification *v, const char *text, size_t length, given
             g->has_W = true;
         }
     if (!to) {
-        nh_fail(error, NH_USAGE, "--field", "`%s` is neither Z0 nor a coordinate nor a velocity of the chart", name);
+        nh_deck_fail_typed("--field", typed, begin, error, "`%s` is neither Z0 nor a coordinate nor a velocity of the chart", name);
         return nh_error_hint(error, "the components along time (Z0) and along the coordinates determine the field; omitted components are 0");
     }
-    return nh_system_expression_text(v->system, "--field", equal + 1, 0, NULL, &e, error) && nh_analysis_file_to_chart(v->model, e, to, error);
+    return nh_system_expression_part(v->system, "--field", typed, right, end - right, 0, NULL, &e, error) && nh_analysis_file_to_chart(v->model, e, to, error);
 }
 
 /* zeta with Z^s = zeta^i R^s_i + rho^s Z^0, from n rows of R: those of the free coordinates, or least squares for quasi-velocities. */
@@ -277,7 +277,7 @@ static size_t condition(nh_verification *v, const given *g, size_t k, nh_ex *ter
         term[n++] = nh_model_X(o, j, v->current);
         term[n++] = nh_neg(d, nh_mul(d, o->A[j], g->time));
         for (size_t i = 0; i < o->n; i++) {
-            term[n++] = nh_mul(d, o->G[i * o->n + j], g->zeta[i]);
+            term[n++] = nh_mul(d, nh_model_G(o)[i * o->n + j], g->zeta[i]);
             term[n++] = nh_mul(d, o->M[i * o->n + j], g->W[i]);
         }
         v->equation = nh_arena_printf(v->arena, "(NX) for %s", nh_name_of(d, o->chart->w[j]));
@@ -318,7 +318,7 @@ static bool read_field(nh_verification *v, const char *text, given *g, nh_error 
     bool good = true; /* node 0 is the number 0 */
     for (const char *p = text; good && *p;) {
         size_t length = nh_text_entry(p, ",;");
-        good = component(v, p, length, g, error);
+        good = component(v, text, (size_t)(p - text), (size_t)(p - text) + length, g, error);
         p += length + (p[length] != 0);
     }
     return good;

@@ -55,6 +55,10 @@ const nh_deck_node *nh_deck_get(const nh_deck_node *map, const char *key);
 bool nh_deck_fail(const nh_deck *deck, const nh_deck_node *node, size_t offset, nh_error *error, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
+/* Record an error in what was typed behind an option, at a byte of it: where is OPTION:COLUMN, the code is that of the command line.  Returns false. */
+bool nh_deck_fail_typed(const char *option, const char *typed, size_t at, nh_error *error, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+
 /* Refuse keys of a map that are not among `known`, suggesting the nearest. */
 bool nh_deck_only(const nh_deck *deck, const nh_deck_node *map, const char *const *known, size_t count, nh_error *error);
 

@@ -160,6 +160,20 @@ bool nh_deck_fail_at(const nh_deck *deck, size_t byte, nh_error *error, const ch
     return false;
 }
 
+bool nh_deck_fail_typed(const char *option, const char *typed, size_t at, nh_error *error, const char *format, ...)
+{
+    nh_deck *deck = nh_deck_create(option, typed, strlen(typed));
+    char what[2 * sizeof error->what];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    deck->code = NH_USAGE;
+    nh_deck_fail_at(deck, at, error, "%s", what);
+    nh_deck_free(deck);
+    return false;
+}
+
 void nh_deck_shorten(const char *text, char out[NH_DECK_SHOWN])
 {
     enum { MOST = 40 };

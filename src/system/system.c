@@ -208,17 +208,20 @@ bool nh_system_right_side(const nh_system *system, const nh_deck *deck, const nh
     return nh_system_read_expression(system, deck, node, skip, 0, extras, extra, NULL, out, error);
 }
 
-bool nh_system_expression_text(const nh_system *system, const char *where, const char *text, size_t extras,
-                               const nh_named *extra, nh_ex *out, nh_error *error)
+bool nh_system_expression_part(const nh_system *system, const char *where, const char *typed, size_t begin,
+                               size_t length, size_t extras, const nh_named *extra, nh_ex *out, nh_error *error)
 {
     scope s = {system, extras, extra, 0};
     nh_parse_fault fault;
-    if (read_text(system, text, &s, NULL, out, &fault)) return true;
-    char place[300];
-    snprintf(place, sizeof place, "%.250s:%zu", where, fault.offset + 1);
-    nh_fail(error, NH_USAGE, place, "%s", fault.what);
-    snprintf(error->excerpt, sizeof error->excerpt, "  %.400s\n  %*s^", text, (int)(fault.offset > 400 ? 400 : fault.offset), "");
+    if (read_text(system, nh_arena_strndup(system->arena, typed + begin, length), &s, NULL, out, &fault)) return true;
+    nh_deck_fail_typed(where, typed, begin + fault.offset, error, "%s", fault.what);
     return fault.hint[0] ? nh_error_hint(error, "%s", fault.hint) : false;
+}
+
+bool nh_system_expression_text(const nh_system *system, const char *where, const char *text, size_t extras,
+                               const nh_named *extra, nh_ex *out, nh_error *error)
+{
+    return nh_system_expression_part(system, where, text, 0, strlen(text), extras, extra, out, error);
 }
 
 long nh_system_coordinate(const nh_system *system, const char *name)

@@ -137,6 +137,10 @@ bool nh_system_right_side(const nh_system *system, const nh_deck *deck, const nh
 bool nh_system_expression_text(const nh_system *system, const char *where, const char *text, size_t extras,
                                const nh_named *extra, nh_ex *out, nh_error *error);
 
+/* The same for `length` bytes of it from byte `begin` on; messages show all that was typed. */
+bool nh_system_expression_part(const nh_system *system, const char *where, const char *typed, size_t begin,
+                               size_t length, size_t extras, const nh_named *extra, nh_ex *out, nh_error *error);
+
 /* Parameter symbols and values as parallel arrays owned by the arena. */
 void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const double **values);
 

@@ -328,7 +328,7 @@ static bool make_input(reader *r, nh_parameter *p, const nh_setting *setting)
     nh_ex value;
     const char *name = p->name, *text = nh_arena_printf(s->arena, "%s = %s", name, setting->input);
     if (!nh_system_expression_text(s, nh_arena_printf(s->arena, "--input %s", name), setting->input, 0, NULL, &value, r->error)) return false;
-    if (nh_depends(s->dag, value, p->symbol)) return nh_fail(r->error, NH_USAGE, "", "the input `%s` depends on itself", name);
+    if (nh_depends(s->dag, value, p->symbol)) return nh_fail(r->error, NH_USAGE, "--input", "the input `%s` depends on itself", name);
     s->definition[s->definitions++] = (nh_named){.name = name, .text = text, .value = value};
     remove_parameter(s, p);
     return true;
