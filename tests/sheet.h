@@ -44,7 +44,7 @@ static inline sheet *sheet_of(const nh_model *o)
     sheet_forces(o, Q, Lq, Lt, dL);
     const double **place[] = {&s->rho, &s->R, &s->p, &s->pbar, &s->dL, &s->dp, &s->dE, &s->M, &s->A, &s->G, &s->a, &s->mu, &s->nu, &s->reaction, &s->Q,
                               &s->Lq, &s->Lt};
-    const nh_ex *from[] = {o->rho, o->R, o->p, o->pbar, dL, dp, dE, o->M, o->A, o->G, o->a, o->mu, o->nu, o->reaction, Q, Lq, Lt};
+    const nh_ex *from[] = {o->rho, o->R, o->p, o->pbar, dL, dp, dE, o->M, o->A, nh_model_G(o), o->a, o->mu, o->nu, o->reaction, Q, Lq, Lt};
     const size_t count[] = {m, m * n, m, n, n, m * width, width, n * n, n, n * n, n, k, k * m, m, m, m, 1};
     const size_t parts = sizeof count / sizeof *count;
     for (size_t i = 0; i < parts; i++) total += count[i];

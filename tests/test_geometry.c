@@ -178,7 +178,7 @@ static void exact_omega(const subject *which, mechanics *x)
                 for (size_t s = 0; s < m; s++)
                     rest = nh_sub(d, rest, nh_mul(d, o->R[s * n + j - 1], nh_model_compose(o, x->system->force[s])));
             }
-            if (i > 0 && j <= n) rest = nh_sub(d, rest, o->G[(i - 1) * n + j - 1]);
+            if (i > 0 && j <= n) rest = nh_sub(d, rest, nh_model_G(o)[(i - 1) * n + j - 1]);
             if (i > 0 && i <= n && j > n) rest = nh_add(d, rest, o->M[(j - n - 1) * n + i - 1]);
             zero(x, rest, "Omega", i, j);
         }

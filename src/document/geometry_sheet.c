@@ -134,7 +134,7 @@ static void reduced(const builder *b)
     for (size_t l = 0; l < o->n; l++) formula(b, o->A[l], "\\bar{A}_{<%s>}", index_of(b, l), NULL);
     matrix(b, o->M, true, "\\bar{B}_{<%s>,<%s>}", true);
     matrix(b, b->t->submanifold->inverse, false, "(\\bar{B}^{-1})_{<%s>,<%s>}", true);
-    matrix(b, o->G, false, "G_{<%s>,<%s>}", false);
+    matrix(b, nh_model_G(o), false, "G_{<%s>,<%s>}", false);
     for (size_t l = 0; l < o->n; l++) {
         nh_sheet_sum(b->s, nh_sheet_label(b->s, "(9, <%s>)", index_of(b, l)), "");
         nh_sheet_add(b->s, o->A[l], "");

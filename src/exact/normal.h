@@ -22,6 +22,8 @@ nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms);
  * Never larger, by nh_complexity, than e. */
 nh_ex nh_simplify(nh_dag *dag, nh_ex e);
 
+/* How long an entry of n equations may be to be simplified: entries of many equations are many, and zeros among them are short.  0: as nh_simplify_short has it. */
+size_t nh_simplify_longest(size_t n);
 /* The same, but e itself when it is longer than `most` (nh_complexity): what is large is often small as a shared graph, like the equations of a chain
  * of bodies, and what comes out of the normal form shares nothing.  0: the limit for the equations of a system. */
 nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most);

@@ -327,4 +327,10 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     return result;
 }
 
-nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most) { return nh_complexity(dag, e) <= (most ? most : longest) ? nh_simplify(dag, e) : e; }
+size_t nh_simplify_longest(size_t n)
+{
+    enum { many = 12, short_enough = 150 };
+    return n > many ? short_enough : 0;
+}
+
+nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most) { return nh_complexity_within(dag, e, most ? most : longest) ? nh_simplify(dag, e) : e; }

@@ -11,6 +11,7 @@ struct nh_lu {
     size_t n;
     nh_ex *a;      /* L below the diagonal (unit), U on and above it */
     size_t *row;   /* row[i]: which original row came i-th */
+    size_t longest; /* of what is simplified; 0: nh_simplify_short's own */
 };
 
 static void swap_rows(nh_lu *lu, size_t i, size_t j)
@@ -26,11 +27,18 @@ static void swap_rows(nh_lu *lu, size_t i, size_t j)
     lu->row[j] = t;
 }
 
-/* The best pivot for row r in column k; the row in its own place wins unless another is clearly safer. */
-static double choose_pivot(nh_lu *lu, size_t r, size_t k, nh_pivot_score *score, void *context, size_t *best)
+/* The best pivot for row r in column k; the row in its own place wins unless another is clearly safer. Of many equations it is taken at
+ * once where elimination has left a good part of `before`, what stood there: so in mass matrices, and a look at all is long. */
+static double choose_pivot(nh_lu *lu, size_t r, size_t k, nh_ex before, nh_pivot_score *score, void *context, size_t *best)
 {
+    static const double good_part = 1e-2;
     double value = 0;
     *best = r;
+    if (lu->longest && r == k && !nh_is_zero(lu->dag, lu->a[k * lu->n + k])) {
+        value = score(context, lu->a[k * lu->n + k]);
+        if (value > good_part * score(context, before)) return value;
+        value = 0;
+    }
     for (size_t i = r; i < lu->n; i++) {
         nh_ex e = lu->a[i * lu->n + k];
         double s = nh_is_zero(lu->dag, e) ? 0 : score(context, e);
@@ -51,10 +59,10 @@ static void eliminate(nh_lu *lu, size_t r, size_t k)
     for (size_t i = r + 1; i < n && !nh_interrupted(); i++) {
         nh_ex *row = lu->a + i * n;
         if (nh_is_zero(d, row[k])) continue;
-        row[k] = nh_simplify_short(d, nh_div(d, row[k], pivot), 0);
+        row[k] = nh_simplify_short(d, nh_div(d, row[k], pivot), lu->longest);
         for (size_t j = k + 1; j < n; j++) {
             nh_ex u = lu->a[r * n + j];
-            if (!nh_is_zero(d, u)) row[j] = nh_simplify_short(d, nh_sub(d, row[j], nh_mul(d, row[k], u)), 0);
+            if (!nh_is_zero(d, u)) row[j] = nh_simplify_short(d, nh_sub(d, row[j], nh_mul(d, row[k], u)), lu->longest);
         }
     }
 }
@@ -62,13 +70,13 @@ static void eliminate(nh_lu *lu, size_t r, size_t k)
 nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score, void *context, size_t *rank)
 {
     nh_lu *lu = nh_alloc(sizeof *lu);
-    *lu = (nh_lu){.dag = dag, .n = n, .a = nh_alloc_array(n * n + 1, sizeof *lu->a), .row = nh_alloc_array(n + 1, sizeof *lu->row)};
+    *lu = (nh_lu){.dag = dag, .n = n, .longest = nh_simplify_longest(n), .a = nh_alloc_array(n * n + 1, sizeof *lu->a), .row = nh_alloc_array(n + 1, sizeof *lu->row)};
     if (n) memcpy(lu->a, a, n * n * sizeof *a);
     for (size_t i = 0; i < n; i++) lu->row[i] = i;
     size_t r = 0; /* = k until a column has no pivot; from then on only the rank is of interest */
     for (size_t k = 0; k < n && !nh_interrupted(); k++) {
         size_t best;
-        if (choose_pivot(lu, r, k, score, context, &best) == 0) continue;
+        if (choose_pivot(lu, r, k, a[k * n + k], score, context, &best) == 0) continue;
         swap_rows(lu, r, best);
         eliminate(lu, r++, k);
     }

@@ -38,11 +38,16 @@ void nh_bordered_expressions(const nh_model *o, nh_ex *K, nh_ex *h, nh_ex *F, nh
     size_t m = o->m, k = o->k;
     nh_ex *q = nh_alloc_array(2 * m, sizeof *q), *v = q + m;
     for (size_t s = 0; s < m; s++) q[s] = y->coordinate[s].q, v[s] = y->coordinate[s].v;
+    nh_ex rest = y->lagrangian; /* what is not known of bodies and joints */
+    const nh_chain *chain = nh_model_chain(o, &rest);
+    if (chain) nh_chain_bias(chain, &(nh_chain_scope){.dag = d, .arena = o->arena, .t = y->t, .m = m, .q = q, .v = v}, h);
     for (size_t s = 0; s < m; s++) {
-        nh_ex p = nh_diff(d, y->lagrangian, v[s]);
-        h[s] = nh_sub(d, nh_diff(d, p, y->t), nh_add(d, nh_diff(d, y->lagrangian, q[s]), y->force[s]));
+        nh_ex p = nh_diff(d, rest, v[s]), own = chain ? h[s] : nh_int(d, 0);
+        h[s] = nh_sub(d, nh_diff(d, p, y->t), nh_add(d, nh_diff(d, rest, q[s]), y->force[s]));
         h[s] = nh_add(d, h[s], nh_diff_along(d, p, m, q, v));
+        if (chain) h[s] = nh_add(d, h[s], own);
         for (size_t r = 0; r < m; r++) K[s + r * m] = nh_diff(d, p, v[r]);
+        for (size_t r = 0; r < m && chain; r++) K[s + r * m] = nh_add(d, K[s + r * m], chain->K[s * m + r]);
     }
     for (size_t a = 0; a < k; a++) {
         f[a] = nh_constraint_without_poles(o, a);

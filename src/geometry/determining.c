@@ -30,7 +30,7 @@ static nh_ex slope(const nh_model *o, nh_determining_operator op, size_t l, size
     nh_dag *d = o->dag;
     nh_ex e = along(o, op, l, o->pbar[i]);
     if (op == NH_DETERMINING_X0) return nh_add(d, e, o->A[i]);
-    return op == NH_DETERMINING_X ? nh_add(d, e, o->G[i * o->n + l]) : nh_sub(d, e, o->M[i * o->n + l]);
+    return op == NH_DETERMINING_X ? nh_add(d, e, nh_model_G(o)[i * o->n + l]) : nh_sub(d, e, o->M[i * o->n + l]);
 }
 
 /* (14), (15), (16) for op = X_0, X_l, Y_l. */
@@ -63,7 +63,7 @@ static void by_current(writer *w, nh_determining_operator op)
     add(w, nh_int(d, 1), op, NH_DETERMINING_PHI, 0);
     if (op == NH_DETERMINING_X) add(w, nh_neg(d, o->A[l]), NH_DETERMINING_PLAIN, NH_DETERMINING_Z0, 0);
     for (size_t i = 0; i < n; i++) {
-        nh_ex e = op == NH_DETERMINING_X0 ? o->A[i] : op == NH_DETERMINING_X ? o->G[i * n + l] : nh_neg(d, o->M[i * n + l]);
+        nh_ex e = op == NH_DETERMINING_X0 ? o->A[i] : op == NH_DETERMINING_X ? nh_model_G(o)[i * n + l] : nh_neg(d, o->M[i * n + l]);
         add(w, e, NH_DETERMINING_PLAIN, NH_DETERMINING_ZETA, i);
     }
     for (size_t i = 0; i < n && op == NH_DETERMINING_X; i++) add(w, o->M[i * n + l], NH_DETERMINING_PLAIN, NH_DETERMINING_W, i);

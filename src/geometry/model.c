@@ -14,7 +14,7 @@ static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, 
 enum { large_length = 3000 }; /* nh_complexity of a Lagrangian */
 
 /* Behind a budget longer formulas are better than none; of an ended run nothing is kept: see nh_model_create. */
-static nh_ex simple(const nh_model *o, nh_ex e) { return nh_budget_spent() || nh_interrupted() ? e : nh_simplify_short(o->dag, e, 0); }
+static nh_ex simple(const nh_model *o, nh_ex e) { return nh_budget_spent() || nh_interrupted() ? e : nh_simplify_short(o->dag, e, nh_simplify_longest(o->n)); }
 
 /* ---- derivatives along fields ---- */
 
@@ -101,11 +101,21 @@ typedef struct {
     nh_ex tau;
 } slopes;
 
+static bool is_large(const nh_model *o) { return !o->chart->implicit && !nh_complexity_within(o->dag, o->system->lagrangian, large_length); }
+
+const nh_chain *nh_model_chain(const nh_model *o, nh_ex *rest)
+{
+    const nh_chain *c = o->system->chain;
+    if (!c || !is_large(o)) return NULL;
+    *rest = nh_sub(o->dag, o->system->lagrangian, nh_sub(o->dag, c->kinetic, c->potential));
+    return c;
+}
+
 static slopes slopes_of(const nh_model *o)
 {
     nh_dag *d = o->dag;
     const nh_system *y = o->system;
-    slopes s = {.large = !o->chart->implicit && nh_complexity(d, y->lagrangian) > large_length};
+    slopes s = {.large = is_large(o)};
     nh_ex *symbol = nh_arena_alloc(o->arena, (4 * o->m + 1) * sizeof *symbol);
     s.dq = symbol + 2 * o->m;
     s.dv = s.dq + o->m;
@@ -124,10 +134,10 @@ static void inertial_forces(nh_model *o, slopes *slope)
 {
     nh_dag *d = o->dag;
     const nh_system *y = o->system;
-    const nh_chain *c = y->chain;
-    if (!slope->large || !c) return;
+    nh_ex rest;
+    const nh_chain *c = nh_model_chain(o, &rest);
+    if (!c) return;
     nh_ex *q = take(o, 3 * o->m), *v = q + o->m, *bias = v + o->m;
-    nh_ex rest = nh_sub(d, y->lagrangian, nh_sub(d, c->kinetic, c->potential));
     for (size_t s = 0; s < o->m; s++) q[s] = y->coordinate[s].q, v[s] = y->coordinate[s].v;
     nh_chain_bias(c, &(nh_chain_scope){.dag = d, .arena = o->arena, .t = y->t, .m = o->m, .q = q, .v = v}, bias);
     slope->inertial = take(o, o->m);
@@ -193,6 +203,33 @@ static nh_ex along(const nh_model *o, nh_ex *known, size_t i, size_t s)
     return *e ? *e : (*e = nh_model_X(o, i, o->p[s]));
 }
 
+/* A_i */
+static nh_ex force_along(const nh_model *o, const slopes *slope, size_t i)
+{
+    nh_dag *d = o->dag;
+    nh_ex A = nh_int(d, 0);
+    for (size_t s = 0; s < o->m; s++) {
+        nh_ex R = o->R[s * o->n + i];
+        if (nh_is_zero(d, R)) continue;
+        nh_ex force = slope->inertial ? nh_add(d, slope->inertial[s], nh_model_compose(o, o->system->force[s]))
+                                      : nh_sub(d, applied_force(o, slope, s), rate_of_momentum(o, slope, s));
+        A = nh_add(d, A, nh_mul(d, R, force));
+    }
+    return simple(o, A);
+}
+
+/* G_ij as it comes; X has room for all X_i(p_s). */
+static nh_ex gyroscopic(const nh_model *o, nh_ex *X, size_t i, size_t j)
+{
+    nh_dag *d = o->dag;
+    nh_ex G = nh_int(d, 0);
+    for (size_t s = 0; s < o->m; s++) {
+        G = nh_add(d, G, nh_mul(d, along(o, X, i, s), o->R[s * o->n + j]));
+        G = nh_sub(d, G, nh_mul(d, along(o, X, j, s), o->R[s * o->n + i]));
+    }
+    return G;
+}
+
 static void matrices(nh_model *o, const slopes *slope)
 {
     nh_dag *d = o->dag;
@@ -200,28 +237,31 @@ static void matrices(nh_model *o, const slopes *slope)
     nh_ex *X = take(o, n * o->m);
     memset(X, 0, n * o->m * sizeof *X);
     for (size_t i = 0; i < n && !nh_interrupted(); i++) {
-        o->A[i] = nh_int(d, 0);
-        for (size_t s = 0; s < o->m; s++) {
-            nh_ex R = o->R[s * n + i];
-            if (nh_is_zero(d, R)) continue;
-            nh_ex force = slope->inertial ? nh_add(d, slope->inertial[s], nh_model_compose(o, o->system->force[s]))
-                                          : nh_sub(d, applied_force(o, slope, s), rate_of_momentum(o, slope, s));
-            o->A[i] = nh_add(d, o->A[i], nh_mul(d, R, force));
-        }
-        o->A[i] = simple(o, o->A[i]);
+        o->A[i] = force_along(o, slope, i);
         for (size_t j = 0; j < n && !nh_interrupted(); j++) {
-            nh_ex G = nh_int(d, 0);
-            for (size_t s = 0; s < o->m; s++) {
-                if (j > i) G = nh_add(d, G, nh_mul(d, along(o, X, i, s), o->R[s * n + j]));
-                if (j > i) G = nh_sub(d, G, nh_mul(d, along(o, X, j, s), o->R[s * n + i]));
-            }
+            nh_ex G = j > i && o->G ? gyroscopic(o, X, i, j) : 0;
             o->M[i * n + j] = j < i ? o->M[j * n + i] : simple(o, o->M[i * n + j]);
-            if (j <= i) continue;
-            o->G[i * n + j] = simple(o, G);
-            o->G[j * n + i] = nh_neg(d, o->G[i * n + j]);
+            if (j > i && o->G) o->G[i * n + j] = simple(o, G), o->G[j * n + i] = nh_neg(d, o->G[i * n + j]);
         }
-        o->G[i * n + i] = nh_int(d, 0);
+        if (o->G) o->G[i * n + i] = nh_int(d, 0);
     }
+}
+
+const nh_ex *nh_model_G(const nh_model *model)
+{
+    nh_model *o = (nh_model *)model;
+    size_t n = o->n;
+    if (o->G) return o->G;
+    nh_ex *X = take(o, n * o->m);
+    memset(X, 0, n * o->m * sizeof *X);
+    o->G = take(o, n * n);
+    for (size_t i = 0; i < n; i++) o->G[i * n + i] = nh_int(o->dag, 0);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i + 1; j < n; j++) {
+            o->G[i * n + j] = nh_interrupted() ? nh_int(o->dag, 0) : simple(o, gyroscopic(o, X, i, j));
+            o->G[j * n + i] = nh_neg(o->dag, o->G[i * n + j]);
+        }
+    return o->G;
 }
 
 static bool accelerations(nh_model *o, nh_error *error)
@@ -231,6 +271,16 @@ static bool accelerations(nh_model *o, nh_error *error)
     nh_lu_solve(o->M_lu, o->A, o->a);
     for (size_t i = 0; i < o->n; i++) o->a[i] = simple(o, o->a[i]);
     return true;
+}
+
+/* dL/dq^s + Q_s - Gamma(p_s), of bodies and joints without the derivatives of p_s by position. */
+static nh_ex unbalanced(const nh_model *o, const slopes *slope, size_t s)
+{
+    nh_dag *d = o->dag;
+    if (!slope->inertial) return nh_sub(d, applied_force(o, slope, s), nh_model_gamma(o, o->p[s]));
+    nh_ex c = nh_add(d, slope->inertial[s], nh_model_compose(o, o->system->force[s]));
+    for (size_t i = 0; i < o->n; i++) c = nh_sub(d, c, nh_mul(d, o->a[i], nh_model_Y(o, i, o->p[s])));
+    return c;
 }
 
 /* c_s = mu_a df^a/dv^s: solved in the rows of the most independent velocities (all of them for coordinate charts: the dependent ones). */
@@ -243,7 +293,7 @@ static bool multipliers(nh_model *o, const slopes *slope, nh_error *error)
     for (size_t s = 0; s < m; s++) o->reaction[s] = nh_int(d, 0);
     if (k == 0) return true;
     for (size_t s = 0; s < m; s++) {
-        c[s] = nh_sub(d, applied_force(o, slope, s), nh_model_gamma(o, o->p[s]));
+        c[s] = unbalanced(o, slope, s);
         if (m <= 12) c[s] = simple(o, c[s]);
         o->reaction[s] = nh_neg(d, c[s]);
         for (size_t a = 0; a < k; a++)
@@ -301,12 +351,12 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     o->pbar = take(o, n);
     o->M = take(o, n * n);
     o->A = take(o, n);
-    o->G = take(o, n * n);
     o->a = take(o, n);
     o->mu = take(o, k);
     o->nu = take(o, k * m);
     o->reaction = take(o, m);
     slopes slope = slopes_of(o);
+    if (!slope.large) o->G = take(o, n * n);
     momenta(o, &slope);
     mass_matrix(o);
     if (!nh_model_regular(o, error)) {

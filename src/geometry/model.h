@@ -28,7 +28,8 @@ typedef struct {
     nh_ex *rho, *R;         /* m; m x n, R[s*n + i] */
     nh_ex *p, E, Lbar;      /* m; */
     nh_ex *pbar;            /* n: dLbar/dw^i-like momenta p_s R^s_i, so that alpha(Z) = Lbar Z^0 + pbar_i zeta^i */
-    nh_ex *M, *A, *G;       /* n x n, n, n x n (row-major) */
+    nh_ex *M, *A;           /* n x n (row-major), n */
+    nh_ex *G;               /* n x n, by nh_model_G */
     nh_ex *a;               /* n: rates of the velocities */
     nh_ex *mu;              /* k multipliers, of f^a = lhs - rhs as the user wrote them */
     nh_ex *nu;              /* k x m: df^a/dv^s composed; annihilates R */
@@ -44,6 +45,12 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error);
 /* Only system, chart, rho and parameters, without any geometry: enough for motions with multipliers (nh_bordered). */
 nh_model *nh_model_bare(nh_system *system, nh_chart *chart);
 void nh_model_free(nh_model *model);
+
+/* G, made when it is first wanted where the Lagrangian is long: its n m derivatives of momenta are then most of the model, and no motion needs them. */
+const nh_ex *nh_model_G(const nh_model *model);
+
+/* The bodies and joints of a long Lagrangian, whose equations are known by recursion, and the rest of it; else NULL. */
+const nh_chain *nh_model_chain(const nh_model *model, nh_ex *rest);
 
 /* Derivatives along the basis fields. */
 nh_ex nh_model_X0(const nh_model *model, nh_ex e);

@@ -93,6 +93,20 @@ size_t nh_complexity(const nh_dag *dag, nh_ex e)
     return length;
 }
 
+/* What is left of `room` behind the symbols and numbers of e, as they stand on paper; 0 where there is no room for all. */
+static size_t room_behind(const nh_dag *dag, nh_ex e, size_t room)
+{
+    nh_kind kind = nh_kind_of(dag, e);
+    if (kind == NH_SYMBOL || kind == NH_NUMBER) return room - (room > 0);
+    for (size_t i = 0; i < nh_arity(dag, e) && room; i++) room = room_behind(dag, nh_child(dag, e, i), room);
+    return room;
+}
+
+bool nh_complexity_within(const nh_dag *dag, nh_ex e, size_t most)
+{
+    return room_behind(dag, e, most + 1) && nh_complexity(dag, e) <= most;
+}
+
 /* ---- which comes first ---- */
 
 /* A term with its coefficient, or a base with its exponent. */

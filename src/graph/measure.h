@@ -7,6 +7,9 @@
 /* How long e looks on paper: about the number of symbols, numbers and operators when it is printed. */
 size_t nh_complexity(const nh_dag *dag, nh_ex e);
 
+/* Is that at most `most`?  Without a look at the rest of what is longer. */
+bool nh_complexity_within(const nh_dag *dag, nh_ex e, size_t most);
+
 /* An order of expressions that depends on what they are and on the order of their symbols' declaration, not on which was made first: negative where a comes
  * before b, 0 for equal ones.  Short ones come first, then those with earlier symbols; of long ones no more is compared. */
 int nh_complexity_order(const nh_dag *dag, nh_ex a, nh_ex b);

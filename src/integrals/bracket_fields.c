@@ -68,7 +68,7 @@ static void along_position(const maker *x, size_t s, nh_ex *field)
         nh_ex e = nh_sub(x->d, nh_model_gamma(o, x->P[s * n + k]), along_zeta(x, k, o->rho[s]));
         for (size_t j = 0; j < n; j++) {
             e = nh_sub(x->d, e, product(x->d, x->P[s * n + j], nh_model_Y(o, j, o->a[k])));
-            for (size_t l = 0; l < n; l++) e = nh_add(x->d, e, product(x->d, x->P[s * n + j], product(x->d, o->G[l * n + j], x->inverse[l * n + k])));
+            for (size_t l = 0; l < n; l++) e = nh_add(x->d, e, product(x->d, x->P[s * n + j], product(x->d, nh_model_G(o)[l * n + j], x->inverse[l * n + k])));
         }
         add_Y(x, field, e, k);
     }
@@ -124,7 +124,7 @@ nh_bracket_fields *nh_bracket_fields_of(nh_arena *arena, const nh_submanifold *s
     nh_ex *half = nh_alloc_array(n * n + 1, sizeof *half);
     invert(&x);
     multiply(d, m, n, n, o->R, x.inverse, false, x.P);
-    multiply(d, n, n, n, x.inverse, o->G, true, half);
+    multiply(d, n, n, n, x.inverse, nh_model_G(o), true, half);
     multiply(d, n, n, n, half, x.inverse, false, x.H);
     out->gamma[0] = nh_int(d, 1);
     memcpy(out->gamma + 1, o->rho, m * sizeof *out->gamma);

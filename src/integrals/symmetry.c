@@ -34,7 +34,7 @@ static void equations_of(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *ze
     for (size_t j = 0; j < n; j++) {
         nh_ex nx = nh_sub(d, nh_model_X(o, j, phi), nh_mul(d, o->A[j], Z0)), ny = nh_model_Y(o, j, phi);
         for (size_t i = 0; i < n; i++) {
-            nx = nh_add(d, nx, nh_mul(d, o->G[i * n + j], zeta[i]));
+            nx = nh_add(d, nx, nh_mul(d, nh_model_G(o)[i * n + j], zeta[i]));
             nx = nh_add(d, nx, nh_mul(d, o->M[i * n + j], W[i]));
             ny = nh_sub(d, ny, nh_mul(d, o->M[i * n + j], zeta[i]));
         }
@@ -124,7 +124,7 @@ static void without_motion(nh_model *o, nh_symmetry *z)
     }
     for (size_t j = 0; j < n; j++) {
         nh_ex b = nh_neg(d, nh_model_X(o, j, z->phi));
-        for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * n + j], z->zeta[i]));
+        for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, nh_model_G(o)[i * n + j], z->zeta[i]));
         z->relative.velocity[j] = b;
     }
     solve(o, z->relative.velocity, z->relative.velocity);
@@ -137,7 +137,7 @@ static void solve_directly(nh_model *o, nh_symmetry *z)
     size_t n = o->n;
     for (size_t j = 0; j < n; j++) {
         nh_ex b = nh_sub(d, nh_mul(d, o->A[j], z->Z0), nh_model_X(o, j, z->phi));
-        for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * n + j], z->zeta[i]));
+        for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, nh_model_G(o)[i * n + j], z->zeta[i]));
         z->W[j] = nh_normal_is_zero(d, b, 0) == NH_ZERO ? nh_int(d, 0) : b; /* zero for an energy; told before M^-1 lengthens it */
     }
     solve(o, z->W, z->W);

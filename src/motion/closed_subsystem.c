@@ -142,9 +142,10 @@ static void make_tapes(nh_closed_subsystem *s)
     s->walls = nh_walls_between(o->dag, n, e, o->width, o->chart->symbol, wall);
     s->wall = s->walls ? frozen_tape(s, s->walls, wall) : NULL;
     s->instructions = n ? nh_tape_length(s->rate) : 0;
-    for (size_t j = 0; j < n; j++)
+    bool exact = n && !nh_dynamics_differences(s->instructions, n);
+    for (size_t j = 0; j < n && exact; j++)
         for (size_t i = 0; i < n; i++) e[n + i + j * n] = nh_diff(o->dag, e[i], symbol_of(o, s->state[j]));
-    s->jacobian = n ? frozen_tape(s, n * n, e + n) : NULL;
+    s->jacobian = exact ? frozen_tape(s, n * n, e + n) : NULL;
     for (size_t k = 0; k < levels; k++) {
         e[k] = s->network.level[k].value;
         e[levels + k] = s->network.level[k].slope;
@@ -312,6 +313,6 @@ nh_flow_problem nh_closed_subsystem_problem(nh_closed_subsystem_run *run, const 
     run->whole = whole;
     if (run->scene->smooth) run->whole = NULL;
     size_t guards = (run->whole ? run->whole->guards : 0) + run->scene->levels;
-    return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = scene_jacobian, .guards = guards, .guard = guards ? scene_guard : NULL,
+    return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = run->jacobian ? scene_jacobian : NULL, .guards = guards, .guard = guards ? scene_guard : NULL,
                              .walls = run->scene->walls, .wall = scene_walls};
 }

@@ -24,7 +24,7 @@ typedef struct {
     bool implicit;                  /* implicit velocities are needed */
     bool smooth;                    /* equations and what is watched are analytic for all kept states: the end of a chart is none for them */
     nh_dependency_graph network;
-    nh_tape *rate, *jacobian;       /* of the kept states, over points (t, q, w, u, c); NULL when nothing is kept */
+    nh_tape *rate, *jacobian;       /* of the kept states, over points (t, q, w, u, c); NULL when nothing is kept; no Jacobian where it is long */
     nh_tape *removed, *currents;    /* values and slopes of the levels over the same points; the currents over (t, q, w, u) */
     size_t walls;                   /* of the rates of the kept states (exact/walls.h) */
     nh_tape *wall;                  /* over the same points as rate; NULL: there are none */

@@ -12,7 +12,7 @@
 struct nh_dynamics {
     const nh_model *model;
     size_t m, n, size, width;
-    nh_tape *rate, *jacobian, *velocity; /* velocity: rho and R */
+    nh_tape *rate, *jacobian, *velocity; /* jacobian: NULL where it is long; velocity: rho and R */
     nh_tape_work *rate_work, *jacobian_work, *velocity_work;
     double *point, *out, *dense;
     nh_tape *constraint; /* df^a/dv^s (k x m, row-major), of constraints without poles; NULL: no pivot to watch */
@@ -34,6 +34,13 @@ static void make_rates(nh_dynamics *d)
     d->walls = nh_walls_between(o->dag, o->m + o->n, e, o->width, o->chart->symbol, wall);
     if (d->walls) d->wall = nh_model_tape(o, d->walls, wall), d->wall_work = nh_tape_work_create(d->wall);
     nh_free(e);
+}
+
+/* A robot of 40 joints has rates of 1e5 instructions, whose Jacobian would have 1e7: differences of the rates are then the cheaper ones. */
+bool nh_dynamics_differences(size_t length, size_t size)
+{
+    static const double most = 2e6;
+    return (double)length * (double)size > most;
 }
 
 static nh_tape *jacobian_tape(const nh_model *o)
@@ -82,10 +89,10 @@ nh_dynamics *nh_dynamics_create(const nh_model *o)
     nh_dynamics *d = nh_alloc(sizeof *d);
     *d = (nh_dynamics){.model = o, .m = o->m, .n = o->n, .size = o->m + o->n, .width = o->width};
     make_rates(d);
-    d->jacobian = jacobian_tape(o);
+    d->jacobian = nh_dynamics_differences(nh_tape_length(d->rate), d->size) ? NULL : jacobian_tape(o);
     d->velocity = velocity_tape(o);
     d->rate_work = nh_tape_work_create(d->rate);
-    d->jacobian_work = nh_tape_work_create(d->jacobian);
+    d->jacobian_work = d->jacobian ? nh_tape_work_create(d->jacobian) : NULL;
     d->velocity_work = nh_tape_work_create(d->velocity);
     d->point = nh_alloc_array(d->width, sizeof *d->point);
     d->out = nh_alloc_array(d->m * (1 + d->n) + 1, sizeof *d->out);
@@ -118,7 +125,7 @@ void nh_dynamics_jit(nh_dynamics *d, double patience)
 {
     d->patience = patience;
     nh_tape_jit(d->rate_work, patience);
-    nh_tape_jit(d->jacobian_work, patience);
+    if (d->jacobian) nh_tape_jit(d->jacobian_work, patience);
     if (d->constraint_work) nh_tape_jit(d->constraint_work, patience);
 }
 
@@ -185,7 +192,7 @@ static bool walls_of(double t, const double *z, double *value, void *context)
 
 nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
 {
-    return (nh_flow_problem){.size = d->size, .context = d, .rate = rate_of, .jacobian = jacobian_of, .guards = d->constraint ? 1 : 0, .guard = d->constraint ? pivot_of : NULL,
+    return (nh_flow_problem){.size = d->size, .context = d, .rate = rate_of, .jacobian = d->jacobian ? jacobian_of : NULL, .guards = d->constraint ? 1 : 0, .guard = d->constraint ? pivot_of : NULL,
                              .walls = d->walls, .wall = walls_of};
 }
 

@@ -17,6 +17,8 @@ typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
+/* Are differences better than an exact Jacobian, for rates of so many instructions in so many states? */
+bool nh_dynamics_differences(size_t length, size_t size);
 /* Long motions pass to machine code (nh_tape_jit).  The words say whether they have; NULL: nothing was tried. */
 void nh_dynamics_jit(nh_dynamics *dynamics, double patience);
 double nh_dynamics_patience(const nh_dynamics *dynamics);

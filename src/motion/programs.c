@@ -82,7 +82,7 @@ static size_t outputs(const nh_model *o, nh_program which, nh_ex *e)
     case NH_PROGRAM_PAIR:
         if (e) memcpy(e, o->R, m * n * sizeof *e);
         if (e) memcpy(e + m * n, o->M, n * n * sizeof *e);
-        if (e) memcpy(e + m * n + n * n, o->G, n * n * sizeof *e);
+        if (e) memcpy(e + m * n + n * n, nh_model_G(o), n * n * sizeof *e);
         return m * n + 2 * n * n;
     default:
         if (e) with_derivatives(o, 1, &o->E, e);
