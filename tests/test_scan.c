@@ -104,6 +104,8 @@ Test(scan, values_between_points_are_found_recognised_and_confirmed)
         {"sqrt(k + 1)/3", "k=0.5:50:41", "35", NULL, 35},
         {"k^2", "k=0.3:1.7:15", "sqrt(3)/3", "sqrt(2)", 0.57735026918962573},
         {"exp(k)", "k=0.15:1.05:10", "log(2)", NULL, 0.69314718055994529},
+        {"2/3*1e10*k", "k=1.3e-11:14e-11:14", "5e-11", NULL, 5e-11},
+        {"2/3*1e-10*k", "k=1.3e9:14e9:14", "5e9", NULL, 5e9},
         {"(k - 1)^3 + 1/3", "k=-0.55:0.8:9", "", NULL, 0}, /* special at 1 only */
     };
     for (size_t i = 0; i < sizeof families / sizeof *families; i++) {
@@ -117,7 +119,7 @@ Test(scan, values_between_points_are_found_recognised_and_confirmed)
         const cJSON *s = special(root, "k", families[i].exact);
         if (families[i].exact[0]) cr_assert_not_null(s, "%s: %s", families[i].coefficient, cJSON_PrintUnformatted(cJSON_GetObjectItem(root, "special")));
         if (s) {
-            cr_expect_float_eq(number_of(s, "k"), families[i].value, 1e-9 * fmax(1, families[i].value));
+            cr_expect_float_eq(number_of(s, "k"), families[i].value, 1e-9 * families[i].value);
             cr_expect_eq(number_of(s, "generic"), 3);
             cr_expect_eq(number_of(s, "dimension"), 6);
         }
@@ -195,7 +197,7 @@ static bool guessed(double value, const char *formula)
     nh_arena *arena = nh_arena_create();
     nh_setting guess[NH_SCAN_MOST_GUESSES];
     bool found = false;
-    size_t n = nh_scan_guess(arena, value, 1e-11, guess);
+    size_t n = nh_scan_guess(arena, value, 1e-11 * (value != 0 ? fabs(value) : 1), guess);
     for (size_t i = 0; i < n; i++) {
         const char *text = guess[i].formula ? guess[i].formula : nh_arena_printf(arena, "%lld/%lld", (long long)guess[i].top, (long long)guess[i].bottom);
         found |= !formula || !strcmp(text, formula);
@@ -214,6 +216,8 @@ Test(scan, constants_are_recognised_and_random_numbers_are_not)
     cr_expect(guessed(-2 * sqrt(3) / 5, "-2*sqrt(3)/5"));
     cr_expect(guessed(M_PI, "pi"));
     cr_expect(guessed(-3 * M_PI / 4, "-3*pi/4"));
+    cr_expect(guessed(2e-9, "2e-9"));
+    cr_expect(guessed(1e9 / 3, "10e8/3"));
     cr_expect(guessed(log(3), "log(3)"));
     cr_expect(guessed(log(2.0 / 7), "log(2/7)"));
     srand(3);

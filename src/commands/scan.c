@@ -141,6 +141,16 @@ static double coordinate(const nh_scan *x, const nh_scan_special *s, size_t axis
     return axis == s->axis ? s->value : nh_scan_at(x, s->place, axis)->value;
 }
 
+static const double one_place = 1e-9;
+
+/* The largest value along an axis, beside which two places are one or not. */
+static double size_along(const nh_scan_axis *a)
+{
+    double size = 0;
+    for (size_t i = 0; i < a->count; i++) size = fmax(size, fabs(a->value[i].value));
+    return size;
+}
+
 /* The same place, found twice: by two dips, or along two axes. */
 static bool known(const nh_scan *x, const nh_scan_special *s)
 {
@@ -148,7 +158,7 @@ static bool known(const nh_scan *x, const nh_scan_special *s)
         bool same = true;
         for (size_t a = 0; a < x->axes; a++) {
             double u = coordinate(x, &x->special[i], a), v = coordinate(x, s, a);
-            same = same && fabs(u - v) <= 1e-9 * fmax(1, fabs(v));
+            same = same && fabs(u - v) <= one_place * size_along(&x->axis[a]);
         }
         if (same) return true;
     }

@@ -1,7 +1,7 @@
 /* scan_recognise: what a number may be that is known to ten digits or so.
  *
- * A ratio; a root of a quadratic equation with small whole coefficients, found as a short vector of a lattice;
- * a ratio times pi; a logarithm of a ratio. These are guesses: whoever asks must check them. */
+ * A ratio, or one times a power of ten; a root of a quadratic equation with small whole coefficients, found as a short vector of a
+ * lattice; a ratio times pi; a logarithm of a ratio. These are guesses: whoever asks must check them. */
 #include <flint/fmpz.h>
 #include <flint/fmpz_lll.h>
 #include <flint/fmpz_mat.h>
@@ -38,7 +38,7 @@ static void guess_transcendental(nh_arena *arena, double value, double tolerance
 {
     nh_num r;
     if (ratio_of(value / M_PI, largest_factor, tolerance, &r)) put(out, n, (double)r.p / (double)r.q * M_PI, times_pi(arena, r));
-    if (fabs(value) >= 20 || !ratio_of(exp(value), largest_factor, fmax(fabs(value), 1) * tolerance, &r)) return;
+    if (fabs(value) >= 20 || !ratio_of(exp(value), largest_factor, fabs(value) * tolerance, &r)) return;
     put(out, n, log((double)r.p / (double)r.q), nh_arena_printf(arena, r.q == 1 ? "log(%" PRId64 ")" : "log(%" PRId64 "/%" PRId64 ")", r.p, r.q));
 }
 
@@ -88,17 +88,34 @@ static void guess_quadratic(nh_arena *arena, double value, double tolerance, nh_
     double root = square > 0 ? sqrt((double)square) : 0, bottom = 2 * (double)c[2];
     if (square <= 0 || root == floor(root)) return; /* rational ones are guessed already */
     double plus = (-(double)b + root) / bottom, minus = (-(double)b - root) / bottom, exact = fabs(plus - value) <= fabs(minus - value) ? plus : minus;
-    if (fabs(exact - value) > 10 * tolerance * fmax(1, fabs(value))) return;
+    if (fabs(exact - value) > 10 * tolerance * fabs(value)) return;
     put(out, n, exact, surd(arena, -b, exact == plus ? 1 : -1, square, 2 * c[2]));
 }
 
-size_t nh_scan_guess(nh_arena *arena, double value, double tolerance, nh_setting *out)
+/* value = r 10^e with few digits, where lengths, masses or times are in small or large units. */
+static void guess_power_of_ten(nh_arena *arena, double value, double tolerance, nh_setting *out, size_t *n)
 {
+    static const double most = 1000;
+    int e = (int)floor(log10(fabs(value)));
+    double power = pow(10, e);
+    nh_num r;
+    if (fabs(value) <= most && fabs(value) >= 1 / most) return; /* a ratio, or nothing simple */
+    if (!ratio_of(value / power, largest_denominator, tolerance, &r)) return;
+    char *number = nh_arena_printf(arena, r.q == 1 ? "%" PRId64 "e%d" : "%" PRId64 "e%d/%" PRId64, r.p, e, r.q);
+    put(out, n, (double)r.p / (double)r.q * power, number);
+}
+
+size_t nh_scan_guess(nh_arena *arena, double value, double error, nh_setting *out)
+{
+    static const double coarsest = 1e-6; /* what is known to fewer digits looks like many things */
     size_t n = 0;
     nh_num r;
-    if (fabs(value) < tolerance) out[n++] = (nh_setting){.value = 0, .top = 0, .bottom = 1};
+    if (fabs(value) <= error) out[n++] = (nh_setting){.value = 0, .top = 0, .bottom = 1};
+    if (value == 0) return n;
+    double tolerance = fmin(coarsest, error / fabs(value));
     if (ratio_of(value, largest_denominator, tolerance, &r))
         out[n++] = (nh_setting){.value = (double)r.p / (double)r.q, .top = r.p, .bottom = r.q};
+    guess_power_of_ten(arena, value, tolerance, out, &n);
     guess_quadratic(arena, value, tolerance, out, &n);
     guess_transcendental(arena, value, tolerance, out, &n);
     return n;

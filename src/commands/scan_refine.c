@@ -60,11 +60,10 @@ static double ask(task *t, const nh_setting *setting, bool generic)
 
 /* ---- location ---- */
 
-/* Between decimals, which are exact settings. */
-static nh_setting decimal(double value)
+/* Between decimals, which are exact settings, of twelve digits of `size`. */
+static nh_setting decimal(double value, double size)
 {
-    static const double digits = 1e12;
-    double rounded = round(value * digits) / digits;
+    double digits = pow(10, 12 - ceil(log10(size))), rounded = round(value * digits) / digits;
     nh_num x = nh_num_decimal(rounded);
     return (nh_setting){.value = rounded, .top = nh_num_short(x) ? x.p : 0, .bottom = nh_num_short(x) ? x.q : 0};
 }
@@ -73,7 +72,7 @@ static bool bisect(task *t)
 {
     double size = fmax(fabs(t->from), fabs(t->to));
     while (t->to - t->from > finest * size && !t->ended) {
-        nh_setting middle = decimal(0.5 * (t->from + t->to));
+        nh_setting middle = decimal(0.5 * (t->from + t->to), size);
         if (!(middle.value > t->from && middle.value < t->to)) break;
         double n = ask(t, &middle, false);
         if (!isfinite(n)) break;
@@ -128,7 +127,7 @@ static bool minimise(task *t, gsl_min_fminimizer *m)
     t->value = gsl_min_fminimizer_x_minimum(m);
     t->smallest = sqrt(gsl_min_fminimizer_f_minimum(m)) / scale;
     if (t->smallest < t->request->options.scan_root) polish(t, scale);
-    t->error = fmax(100 * t->smallest * (t->to - t->from), finest * fmax(fabs(t->value), 1));
+    t->error = fmax(100 * t->smallest * (t->to - t->from), finest * size);
     return !t->ended && t->smallest < t->request->options.scan_root;
 }
 
@@ -194,7 +193,7 @@ static void recognise(task *t)
     t->generic = t->jump->generic;
     if (!isfinite(t->generic) && t->kind != NH_SCAN_STEP) t->generic = ask(t, t->along_plain, true);
     if (t->kind == NH_SCAN_HIT) guess[0] = here;
-    else guesses = nh_scan_guess(t->arena, t->value, fmin(coarsest, t->error / fmax(fabs(t->value), 1e-3)), guess);
+    else guesses = nh_scan_guess(t->arena, t->value, t->error, guess);
     for (size_t k = 0; k < guesses && !t->confirmed && !t->ended; k++) {
         t->confirmed = confirms(t, &guess[k]);
         if (t->confirmed) t->name = name_of(t, &guess[k]), t->value = guess[k].value;
