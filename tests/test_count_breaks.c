@@ -23,7 +23,7 @@ static bool totals_at(const nh_model *o, size_t degree, size_t order, size_t att
     nh_counter c;
     nh_counter_open(&c, o, &q);
     bool regular = nh_count_regular_point(&c, attempt);
-    nh_count_series *s = regular ? nh_count_series_create(&c, order, &regular) : NULL;
+    nh_count_series *s = regular ? nh_count_series_create(&c, order, INFINITY, &regular) : NULL;
     memset(total, 0, (order + 1) * sizeof *total);
     if (s) {
         nh_graded_problem p = nh_count_problem(&c, s, degree, NH_ALL_DEGREES);

@@ -124,6 +124,25 @@ Test(sizes, ring_of_many, .timeout = 600)
     nh_analysis_free(r);
 }
 
+/* Pendula that hold each other, with default options: nothing but the energy, everything is tried, and no part of the search takes what it cannot use: of 40
+ * coordinates the series of a count would be gigabytes, products of all waves fill lists that no stage may have, and no state can be integrated alone. */
+Test(sizes, ring_of_pendula, .timeout = 600)
+{
+    size_t n = SWEEP_SANITIZED ? 12 : 40;
+    nh_text text;
+    nh_text_init(&text);
+    nh_text_add(&text, "name: ring\nparameters: [{name: g, value: 0.7}, {name: k, value: 1.3}]\ncoordinates: [");
+    for (size_t i = 0; i < n; i++) nh_text_addf(&text, "%s{name: a%zu, type: angle}", i ? ", " : "", i);
+    nh_text_add(&text, "]\nlagrangian: 0");
+    for (size_t i = 0; i < n; i++) nh_text_addf(&text, " + a%zu'^2/2 + g*cos(a%zu) + k*cos(a%zu - a%zu)", i, i, i, (i + 1) % n);
+    nh_text_add(&text, "\n");
+    nh_analysis *r = search(&text, 4000);
+    cr_expect_eq(r->independent, 1, "%zu", r->independent);
+    cr_expect(meant(r, "energy"));
+    cr_expect_eq(r->search, NH_SEARCH_EXHAUSTED, "%s", r->warnings ? r->warning[0] : "");
+    nh_analysis_free(r);
+}
+
 /* Energy, momentum, angular momentum and centre of mass. */
 Test(sizes, bodies_in_space, .timeout = 600)
 {

@@ -1,6 +1,7 @@
 /* Solutions as long series, recognised in the span of words. */
 #include "integrals/construct_internal.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/progress.h"
@@ -155,7 +156,7 @@ static nh_count_series *short_series(nh_construct_attempt *a, size_t degree)
 {
     bool regular;
     size_t order = (degree + beyond_degree / 2) * a->counter->frame->step;
-    return nh_count_series_create(a->counter, order < a->series->ring->order ? order : a->series->ring->order, &regular);
+    return nh_count_series_create(a->counter, order < a->series->ring->order ? order : a->series->ring->order, INFINITY, &regular);
 }
 
 static bool known_products(news *x, nh_construct_attempt *a, const nh_count_series *s, size_t degree, nh_count_functionals *f)
@@ -307,7 +308,7 @@ static outcome attempt_at(nh_construction *out, nh_construct_attempt *a, const n
     if (c->frame->kept != c->frame->all) return TOO_MUCH; /* functions on a leaf only */
     out->order = nh_construct_order(a, question->degree);
     if (!out->order) return TOO_MUCH;
-    a->series = nh_count_series_create(c, out->order, &regular);
+    a->series = nh_count_series_create(c, out->order, c->q->work, &regular);
     if (!a->series) return regular ? TOO_MUCH : UNLUCKY;
     a->field = a->series->ring->field;
     out->dimension = 0;

@@ -22,8 +22,8 @@ static bool has_parity(const nh_jet_equations *x, const nh_jet_ring *ring, const
     return true;
 }
 
-/* The ring of an order, and in it the coordinates, the fields and the rates. */
-nh_count_series *nh_count_series_create(nh_counter *c, size_t order, bool *regular)
+/* The ring of an order, and in it the coordinates, the fields and the rates.  What alone takes more than `most` work is not begun: 40 coordinates would take gigabytes. */
+nh_count_series *nh_count_series_create(nh_counter *c, size_t order, double most, bool *regular)
 {
     nh_jet_equations *x = c->equations;
     nh_adapted_frame *f = c->frame;
@@ -31,11 +31,15 @@ nh_count_series *nh_count_series_create(nh_counter *c, size_t order, bool *regul
     *regular = true;
     if (size == SIZE_MAX) return NULL;
     nh_count_series *s = nh_alloc(sizeof *s);
-    s->ring = nh_jet_ring_create(x->point->field, f->kept, f->weight, order);
+    *s = (nh_count_series){.ring = nh_jet_ring_create(x->point->field, f->kept, f->weight, order)};
+    c->work += (double)s->ring->pairs[size] * x->products;
+    if (c->work >= most) {
+        nh_count_series_free(s);
+        return NULL;
+    }
     s->coordinate = nh_alloc_array(f->all * size + 1, sizeof *s->coordinate);
     s->field = nh_alloc_array(x->fields * f->kept * size + 1, sizeof *s->field);
     s->rate = nh_alloc_array(x->n * nh_jet_equations_monomials(x->n) * size + 1, sizeof *s->rate);
-    c->work += (double)s->ring->pairs[size] * x->products;
     *regular = nh_adapted_frame_series(f, s->ring, s->coordinate, s->field) && nh_jet_equations_accelerations(x, s->ring, s->coordinate, s->rate);
     s->split = *regular && has_parity(x, s->ring, s->rate);
     if (*regular) return s;
@@ -119,7 +123,7 @@ static void read_totals(const nh_counter *c, const size_t *total, size_t from, n
 static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row *out)
 {
     bool regular;
-    nh_count_series *s = nh_count_series_create(c, order, &regular);
+    nh_count_series *s = nh_count_series_create(c, order, c->q->work, &regular);
     if (!s) return regular ? TOO_MUCH : UNLUCKY;
     size_t *total = nh_alloc_array(order + 1, sizeof *total), from;
     nh_differentials all, known;

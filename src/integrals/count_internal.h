@@ -36,7 +36,7 @@ typedef struct {
 } nh_count_series;
 
 /* NULL: too long, or the point is not `regular`. */
-nh_count_series *nh_count_series_create(nh_counter *counter, size_t order, bool *regular);
+nh_count_series *nh_count_series_create(nh_counter *counter, size_t order, double most, bool *regular);
 void nh_count_series_free(nh_count_series *series);
 nh_graded_problem nh_count_problem(const nh_counter *counter, const nh_count_series *series, size_t degree, nh_parity parity);
 

@@ -1,5 +1,6 @@
 /* Polynomial relations among integrals, modulo the prime: a product that is a combination of those before it is the leading one of a relation. */
 #include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 #include "integrals/count_internal.h"
@@ -87,7 +88,7 @@ static bool at_point(nh_counter *c, size_t degree, nh_arena *arena, size_t most,
 {
     bool regular;
     nh_count_monomials p = nh_count_monomials_list(c, degree);
-    nh_count_series *s = p.count && p.count <= most_monomials ? nh_count_series_create(c, (degree + beyond) * c->frame->step, &regular) : NULL;
+    nh_count_series *s = p.count && p.count <= most_monomials ? nh_count_series_create(c, (degree + beyond) * c->frame->step, INFINITY, &regular) : NULL;
     bool good = p.count > most_monomials || !p.count || s || !regular;
     if (s) {
         nh_count_functionals f = nh_count_functionals_create(s->ring, c->equations->n, p.count + spare, 314159);

@@ -78,6 +78,18 @@ typedef struct {
     nh_ex r, A, B;
 } equation;
 
+/* Do so many states that are not solved stand in one of the two only that their quotient depends on more than one? */
+static bool depends_on_many(const nh_explicit_curve *c, nh_ex own, nh_ex speed)
+{
+    enum { few = 3 }; /* some may go when it is simplified, which takes long */
+    size_t count = 0;
+    for (size_t i = 0; i < c->m->states && count <= few; i++) {
+        if (c->solved[i] || i == c->m->parameter) continue;
+        count += nh_depends(c->d, own, c->m->state[i]) != nh_depends(c->d, speed, c->m->state[i]);
+    }
+    return count > few;
+}
+
 /* `named`: also those that were refused. */
 static size_t equations(nh_explicit_curve *c, bool named, equation *out)
 {
@@ -85,7 +97,7 @@ static size_t equations(nh_explicit_curve *c, bool named, equation *out)
     size_t count = 0;
     for (size_t u = 0; u < c->m->states && !nh_explicit_too_long(c, speed); u++) {
         nh_ex own = nh_explicit_along(c, c->rate[u]);
-        if (c->solved[u] || nh_explicit_too_long(c, own)) continue;
+        if (c->solved[u] || nh_explicit_too_long(c, own) || depends_on_many(c, own, speed)) continue;
         nh_ex r = nh_explicit_split_roots(c, nh_explicit_simple(c, nh_div(c->d, own, speed)));
         size_t last = u, n = nh_explicit_unknowns(c, r, &last);
         if ((r == c->refused[u] && !named) || n > 1 || last != u || nh_explicit_too_long(c, r) || nh_explicit_degree(c, r, c->m->state[u], k) > 1) continue;

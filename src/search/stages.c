@@ -1,3 +1,4 @@
+#include <math.h>
 #include <string.h>
 
 #include "graph/diff.h"
@@ -95,6 +96,7 @@ static nh_expr_set waves(const nh_family_list *s, size_t harmonic)
     nh_expr_set_put(&l, nh_int(d, 1));
     for (size_t i = 0; i < s->w->waves; i++) {
         size_t n = l.n;
+        if (n == NH_MOST_EXPRS) break;
         for (size_t k = 1; k <= harmonic; k++) {
             nh_ex angle = nh_mul(d, nh_int(d, (int64_t)k), s->w->wave[i]), c = nh_call(d, NH_COS, angle), q = nh_call(d, NH_SIN, angle);
             for (size_t j = 0; j < n; j++) {
@@ -109,7 +111,7 @@ static nh_expr_set waves(const nh_family_list *s, size_t harmonic)
 nh_expr_set nh_expr_set_squares(const nh_family_list *s, const nh_expr_set *a)
 {
     nh_expr_set l = {0};
-    for (size_t i = 0; i < a->n; i++)
+    for (size_t i = 0; i < a->n && l.n < NH_MOST_EXPRS; i++)
         for (size_t j = 0; j <= i; j++) nh_expr_set_put(&l, nh_mul(s->o->dag, a->e[i], a->e[j]));
     return l;
 }
@@ -132,7 +134,7 @@ nh_expr_set nh_expr_set_lengths(const nh_family_list *s, bool squares_too, bool 
 static nh_expr_set times(const nh_family_list *s, const nh_expr_set *a, const nh_expr_set *b)
 {
     nh_expr_set l = {0};
-    for (size_t i = 0; i < a->n; i++)
+    for (size_t i = 0; i < a->n && l.n < NH_MOST_EXPRS; i++)
         for (size_t j = 0; j < b->n; j++) nh_expr_set_put(&l, nh_mul(s->o->dag, a->e[i], b->e[j]));
     return l;
 }
@@ -379,12 +381,13 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
         if (w->frames == o->n) l = frame_products(&s, base > NH_PENCIL_PLAIN);
         return nh_family_list_terms(&s, &l);
     }
-    nh_expr_set l = {0}, v = waves(&s, 1), q = nh_expr_set_positions(&s, false, false), f = nh_expr_set_functions(&s, false);
+    nh_expr_set l = {0}, v = {0}, q = nh_expr_set_positions(&s, false, false), f = nh_expr_set_functions(&s, false);
     nh_expr_set_put_all(&l, w->velocities, w->velocity);
     if (base == 2) nh_expr_set_put_all(&l, w->frames, w->frame);
     if (base == 2) nh_expr_set_put_all(&l, w->forms, w->form);
     size_t words_count = l.n;
-    for (size_t i = 0; i < words_count && base > 0 && words_count * v.n <= most_with_waves; i++)
+    if (base > 0 && (double)words_count * pow(3, (double)w->waves) <= most_with_waves) v = waves(&s, 1);
+    for (size_t i = 0; i < words_count; i++)
         for (size_t j = 0; j < v.n; j++) nh_expr_set_put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
     if (timely) nh_expr_set_put_time(&s, &l);
     if (growing) put_growing(&s, &l);
