@@ -7,6 +7,7 @@
 #include "catalogue.h"
 #include "integrals/region.h"
 #include "scratch.h"
+#include "search/explicit_motion.h"
 #include "commands/verify.h"
 #include "system/sample.h"
 #include "sweep.h"
@@ -69,6 +70,9 @@ static const piecewise PIECEWISE[] = {
     {"a force that turns with the side",
      "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nforces: [\"x = y'*sign(x)\", \"y = -x'*sign(x)\"]\nknown: {currents: [{name: momentum, expr: y' + abs(x)}]}\n", 2,
      "on each side of x = 0, where it jumps"},
+    {"a step that the sampling box does not see: y'*(step - pi) is constant in two of the cells",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x/2 - atan(tan(x/2)))*y\nknown: {currents: [{name: momentum, expr: x'}, {name: place, expr: x - t*x'}]}\n", 2,
+     "on each side of cos(x/2) = 0, where it jumps"},
     {"steps in time",
      "coordinates: [x]\nlagrangian: x'^2/2 - x*(t - atan(tan(pi*t))/pi)\n", 0, "on each side of cos(pi*t) = 0, where it jumps"},
     {"the domain knows one side only",
@@ -160,6 +164,10 @@ Test(piecewise, currents_are_continuous_along_motions)
             cr_expect(change > 0.02, "%s: the piece %s, %s, changes by %.1e only", p->name, r->piece[k].name, r->piece[k].region, change);
         }
         cr_expect(listed, "%s: nothing holds %s", p->name, p->region);
+        for (size_t j = 0; r->motion && j < r->motion->constants && !r->motion->region; j++) {
+            double change = r->motion->constant[j].at_start ? 0 : largest_change(r->model, r->motion->constant[j].value);
+            cr_expect(change < 5e-3, "%s: constant %zu of the explicit motion changes by %.1e", p->name, j + 1, change);
+        }
         nh_analysis_free(r);
     }
 }

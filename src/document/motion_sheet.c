@@ -9,7 +9,8 @@ static const char *words_of(nh_sheet *s, const nh_analysis *r)
     const nh_explicit_motion *m = r->motion;
     const char *fixed = m->fixed ? nh_fixed_text(r->model, m->fixed) : "";
     const char *rest = m->known < m->states ? " No closed form was found for the other states." : "";
-    return nh_sheet_label(s, "Along every motion, with $<%s>$ as the parameter; the numbers C are constant along motions.%s%s%s%s%s", nh_name_of(s->dag, m->state[m->parameter]), rest,
+    const char *where = m->region ? nh_arena_printf(r->arena, "While a motion stays in one region (%s)", m->region) : "Along every motion";
+    return nh_sheet_label(s, "%s, with $<%s>$ as the parameter; the numbers C are constant %s.%s%s%s%s%s", where, nh_name_of(s->dag, m->state[m->parameter]), m->region ? "there" : "along motions", rest,
                           *fixed ? " For " : "", fixed, *fixed ? "." : "",
                           r->branch ? nh_arena_printf(r->arena, " On the branch %s only.", r->branch) : "");
 }
@@ -52,5 +53,6 @@ void nh_motion_sheet_json(const nh_analysis *r, nh_json *to)
     nh_json_put_text(item, "parameter", nh_name_of(r->model->dag, m->state[m->parameter]));
     nh_json_put_bool(item, "complete", m->known == m->states);
     nh_json_put_text(item, "fixed", m->fixed ? nh_fixed_text(r->model, m->fixed) : NULL);
+    nh_json_put_text(item, "region", m->region);
     nh_sheet_json(nh_motion_sheet(r), item);
 }

@@ -130,8 +130,9 @@ typedef struct {
     const nh_model *o;
     nh_ball *ball;
     nh_ex phi, *term;
-    size_t terms;
+    size_t terms, failing;
     double digits;
+    nh_ex fails[NH_MOST_WALLS]; /* walls beside which it failed on both sides */
 } judge;
 
 /* Phi - Phi on the other side neither falls towards the wall nor is it rounding, and Phi stays finite. */
@@ -154,14 +155,15 @@ static bool jumps(judge *j, const nh_crossing *c)
 /* Does Gamma(Phi) vanish on this side?  1, 0, or -1 where it cannot be evaluated. */
 static int holds(judge *j, double *z)
 {
-    double ratio;
+    double ratio, mid, radius, size;
     bool zero = true;
     if (!nh_exact_at(j->o, j->ball, z)) return -1;
     if (nh_ball_relative_sum(j->ball, j->terms, j->term, &ratio)) return -ratio >= j->digits;
+    if (!nh_ball_value(j->ball, j->phi, &size, &radius)) return -1;
+    double least = fabs(size) * pow(10, -j->digits); /* terms that are 0 up to rounding, as those of y' (x - |x|), are small beside Phi */
     for (size_t i = 0; i < j->terms && zero; i++) {
-        double mid, radius;
         if (!nh_ball_value(j->ball, j->term[i], &mid, &radius)) return -1;
-        zero = mid == 0 && radius == 0;
+        zero = fabs(mid) + radius <= least;
     }
     return zero ? 1 : -1;
 }
@@ -170,15 +172,16 @@ static int holds(judge *j, double *z)
 
 /* What was seen at the crossings of one wall. */
 typedef struct {
-    bool below, above, jump; /* it failed below while it held above; the other way; it held on both sides and jumped */
+    bool below, above, jump; /* it failed below while it held above; the other way; it failed on neither side, and jumped */
 } seen;
 
 static void look(judge *j, const nh_crossing *c, seen *s)
 {
     int below = j->digits > 0 ? holds(j, c->point[0][0]) : 1, above = j->digits > 0 ? holds(j, c->point[1][0]) : 1;
+    if (below == 0 && above == 0 && j->failing < NH_MOST_WALLS && !(j->failing && j->fails[j->failing - 1] == c->wall)) j->fails[j->failing++] = c->wall;
     s->below |= below == 0 && above == 1;
     s->above |= above == 0 && below == 1;
-    s->jump |= below == 1 && above == 1 && jumps(j, c);
+    s->jump |= below != 0 && above != 0 && (below == 1 || above == 1) && jumps(j, c); /* where Phi is zero to the last digit its rate tells nothing */
 }
 
 static void note(nh_region *r, nh_ex wall, const seen *s, bool touches)
@@ -223,6 +226,8 @@ nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, 
     for (size_t i = 0; i < terrain->impulses; i++) out.wall[out.count] = terrain->impulse[i], out.kind[out.count++] = NH_REGION_IMPULSE;
     look_at_all(&j, &terrain->crossings, &out);
     look_at_all(&j, &own, &out);
+    /* Far from the sampling box it fails on both sides of a wall, and nothing else was seen to end it: another sheet of that wall does. */
+    for (size_t i = 0; i < j.failing && !out.count; i++) out.wall[out.count] = j.fails[i], out.kind[out.count++] = NH_REGION_PARTS;
     nh_free(j.term);
     nh_ball_free(j.ball);
     return out;

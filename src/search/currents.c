@@ -233,16 +233,20 @@ bool nh_currents_known(const nh_current_checker *b, nh_ex current) { return is_k
 
 /* ---- what holds in a part of the motions only ---- */
 
-/* Where the current holds; NULL: everywhere.  What cancels to fewer digits as printed need not do better anywhere. */
-static const char *region_of(nh_current_checker *b, const nh_current *f)
+const char *nh_currents_region(nh_current_checker *b, nh_ex phi, double digits)
 {
     nh_analysis *r = b->result;
     nh_model *o = r->model;
     if (!b->surveyed) b->terrain = nh_terrain_of(o, &r->options, r->arena);
     b->surveyed = true;
-    double digits = f->proof.proved ? 0 : fmax(least_almost, fmin(f->printed_digits, r->options.digits) / 2);
-    nh_region region = nh_region_of(o, &b->terrain, f->phi, digits, &r->options, r->arena);
+    nh_region region = nh_region_of(o, &b->terrain, phi, digits, &r->options, r->arena);
     return nh_region_text(o->dag, &region, r->arena);
+}
+
+/* What cancels to fewer digits as printed need not do better anywhere. */
+static const char *region_of(nh_current_checker *b, const nh_current *f)
+{
+    return nh_currents_region(b, f->phi, f->proof.proved ? 0 : fmax(least_almost, fmin(f->printed_digits, b->result->options.digits) / 2));
 }
 
 /* A function of the currents and of the pieces so far is no news. */

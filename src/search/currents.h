@@ -18,6 +18,9 @@ void nh_currents_put(nh_current_checker *bench, const nh_current *found);
 /* Is it a function of the currents found so far, or constant? */
 bool nh_currents_known(const nh_current_checker *bench, nh_ex phi);
 
+/* Where the current holds, in words; NULL: everywhere.  What is not proved holds to so many digits. */
+const char *nh_currents_region(nh_current_checker *bench, nh_ex phi, double digits);
+
 /* The same for a series, whose certificate was computed with it.  Nothing is added when it depends on the currents there are. */
 bool nh_currents_add_series(nh_current_checker *bench, nh_ex phi, const nh_series *series, double digits);
 

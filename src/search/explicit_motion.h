@@ -43,6 +43,7 @@ typedef struct nh_explicit_motion {
     nh_motion_root *root;
     nh_motion_integral *integral;
     const bool *fixed;       /* per parameter of the system: it has its value; NULL: none has */
+    const char *region;      /* where the constants are constant (integrals/region.h); NULL: along every motion */
 } nh_explicit_motion;
 
 /* With this state as parameter; `fixed` as in the result.  n currents of the chart may be used.  Signs are those at the points.  NULL where Gamma does

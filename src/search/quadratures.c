@@ -1,6 +1,7 @@
 #include "search/quadratures.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/budget.h"
 #include "base/progress.h"
@@ -8,6 +9,7 @@
 #include "exact/square.h"
 #include "graph/measure.h"
 #include "integrals/exact_points.h"
+#include "search/currents.h"
 #include "search/explicit_motion.h"
 
 /* Which parameters have their values, where some must: those that stand in functions and exponents of the equations of motion and of the currents, and those
@@ -149,6 +151,17 @@ static const nh_explicit_motion *try_all(nh_stage_solver *x, const bool *fixed, 
     return best;
 }
 
+/* Where its constants do not jump; NULL: everywhere. */
+static const char *region_of(nh_stage_solver *x, const nh_explicit_motion *m)
+{
+    const char *all = NULL;
+    for (size_t j = 0; j < m->constants; j++) {
+        const char *one = nh_currents_region(x->bench, m->constant[j].value, 0);
+        if (one && !(all && strstr(all, one))) all = all ? nh_arena_printf(x->r->arena, "%s, %s", all, one) : one;
+    }
+    return all;
+}
+
 void nh_quadratures_search(nh_stage_solver *x)
 {
     nh_analysis *r = x->r;
@@ -164,5 +177,9 @@ void nh_quadratures_search(nh_stage_solver *x)
         if (special && better(special, best)) best = special;
     }
     harvest(x, count, tried);
-    if (best && best->known > 1) r->motion = best;
+    if (!best || best->known <= 1) return;
+    nh_explicit_motion *m = nh_arena_alloc(r->arena, sizeof *m);
+    *m = *best;
+    m->region = region_of(x, m);
+    r->motion = m;
 }
