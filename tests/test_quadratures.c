@@ -9,6 +9,7 @@
 #include "document/facts.h"
 #include "graph/print.h"
 #include "search/explicit_motion.h"
+#include "search/motion_series.h"
 #include "sweep.h"
 
 /* ---- asking ---- */
@@ -329,4 +330,82 @@ Test(quadratures, one_dimension)
     check_integrals(ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*h'^2 + m*g*cos(h)\n"), "pendulum", 1, 3, 1);
     check_integrals(ask("name: central\nparameters: [{name: m, value: 1.3}, {name: k, value: 0.4}]\ncoordinates: [{name: r, type: length}, {name: p, type: angle}]\n"
                         "domain: {r: [0.5, 1.5]}\nlagrangian: m/2*(r'^2 + r^2*p'^2) - k*r^3\n"), "central force", 2, 5, 2);
+}
+
+/* ---- their series ---- */
+
+enum { places = 9 };
+
+static double sum_of(const nh_motion_series *v, size_t j, double d)
+{
+    double sum = 0;
+    for (size_t k = NH_MOTION_SERIES_TERMS; k-- > 0;) sum = sum * d + v->integral[j].coefficient[k];
+    return sum;
+}
+
+/* From the start of the checked motion: z = (t, q, w). */
+static nh_motion_series *series_of(const nh_analysis *r, double *z, double reach)
+{
+    const nh_validation *v = r->validation;
+    cr_assert(r->motion && v && v->count);
+    z[0] = v->time[0];
+    memcpy(z + 1, v->state, (r->model->m + r->model->n) * sizeof *z);
+    nh_motion_series *out = nh_motion_series_from(r->arena, r->model, r->motion, z, reach);
+    cr_assert_not_null(out);
+    for (size_t j = 0; j < out->integrals; j++) cr_expect(out->integral[j].bound > 0 && out->integral[j].bound < 1e-12);
+    return out;
+}
+
+/* The time of a pendulum, by Simpson's rule: t' = 1/h', h'^2 = h'_0^2 + 2 g (cos h - cos h_0). */
+Test(quadratures, series_of_the_pendulum)
+{
+    enum { pieces = 400 };
+    nh_analysis *r = ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*h'^2 + m*g*cos(h)\n");
+    cr_expect(r->motion->proved);
+    double z[8];
+    nh_motion_series *v = series_of(r, z, 3);
+    cr_assert(r->motion->parameter == 1 && v->integrals == 1);
+    cr_expect_gt(v->half, 1e-3);
+    for (int i = 0; i < places; i++) {
+        double d = v->half * (2.0 * i / (places - 1) - 1), width = d / pieces, sum = 0;
+        for (int k = 0; k <= pieces; k++) {
+            double h = z[1] + k * width, rate = copysign(sqrt(z[2] * z[2] + 4 * (cos(h) - cos(z[1]))), z[2]);
+            sum += (k == 0 || k == pieces ? 1 : k % 2 ? 4 : 2) / rate;
+        }
+        cr_expect_float_eq(sum_of(v, 0, d), sum * width / 3, 1e-14 * fabs(d) + v->integral[0].bound, "at %g", d);
+    }
+    nh_analysis_free(r);
+}
+
+/* The skate on a slope that turns ever slower, its motion computed from m v' = m b cos phi - d v, J w' = -d w, by Runge and Kutta's method. */
+static void skate(const double *y, double *out)
+{
+    const double m = 1.2, J = 0.4, d = 0.3, b = 0.6; /* y: phi, x, y, w, v */
+    out[0] = y[3], out[1] = y[4] * cos(y[0]), out[2] = y[4] * sin(y[0]), out[3] = -d / J * y[3], out[4] = b * cos(y[0]) - d / m * y[4];
+}
+
+Test(quadratures, series_of_a_skate)
+{
+    enum { states = 5, pieces = 400 };
+    nh_analysis *r = ask("name: slope\nparameters: [{name: m, value: 1.2}, {name: J, value: 0.4}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"
+                         "coordinates: [{name: phi, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
+                         "lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 + m*b*x\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
+                         "velocities: {names: [w, v], map: [\"phi' = w\", \"x' = v*cos(phi)\", \"y' = v*sin(phi)\"]}\n"
+                         "forces: [\"x = -d*x'\", \"y = -d*y'\", \"phi = -d*phi'\"]\n");
+    double z[8], y[states], k[4][states], at[states];
+    nh_motion_series *v = series_of(r, z, 3);
+    cr_assert(r->motion->proved && r->motion->parameter == 0 && v->integrals == 3);
+    memcpy(y, z + 1, sizeof y);
+    for (int i = 0; i <= pieces; i++) {
+        double d = v->half * i / pieces, width = v->half / pieces, rate = exp(0.25 * (z[0] + d)) * y[4] - exp(0.25 * z[0]) * z[5];
+        cr_expect_float_eq(sum_of(v, 0, d), rate, 1e-13);
+        cr_expect_float_eq(sum_of(v, 1, d), y[1] - z[2], 1e-13);
+        cr_expect_float_eq(sum_of(v, 2, d), y[2] - z[3], 1e-13);
+        for (int stage = 0; stage < 4; stage++) {
+            for (int j = 0; j < states; j++) at[j] = y[j] + (stage ? (stage == 3 ? 1 : 0.5) * width * k[stage - 1][j] : 0);
+            skate(at, k[stage]);
+        }
+        for (int j = 0; j < states; j++) y[j] += width / 6 * (k[0][j] + 2 * k[1][j] + 2 * k[2][j] + k[3][j]);
+    }
+    nh_analysis_free(r);
 }

@@ -17,6 +17,7 @@
 #include "search/constraint_integrals.h"
 #include "search/staged_search.h"
 #include "search/missing.h"
+#include "search/motion_series.h"
 #include "problem/time_scale.h"
 #include "search/routes.h"
 #include "search/theory.h"
@@ -245,6 +246,7 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
             nh_analysis_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances; the drift hardly falls with the tolerance, so it is not the error of the motion", r->found[k].name,
                            r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);
     }
+    nh_motion_series_add(r);
     if (r->validation->note[0]) nh_analysis_warn(r, "%s", r->validation->note);
     if (r->validation->checked && !r->validation->accuracy.held) nh_analysis_warn(r, "%s", r->validation->accuracy.why);
 }

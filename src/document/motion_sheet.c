@@ -2,6 +2,7 @@
 
 #include "integrals/fixed.h"
 #include "search/explicit_motion.h"
+#include "search/motion_series.h"
 
 /* The parameter, what the letters are, and for which values it holds. */
 static const char *words_of(nh_sheet *s, const nh_analysis *r)
@@ -10,12 +11,33 @@ static const char *words_of(nh_sheet *s, const nh_analysis *r)
     const char *fixed = m->fixed ? nh_fixed_text(r->model, m->fixed) : "";
     const char *rest = m->known < m->states ? " No closed form was found for the other states." : "";
     const char *where = m->region ? nh_arena_printf(r->arena, "While a motion stays in one region (%s)", m->region) : "Along every motion";
-    return nh_sheet_label(s, "%s, with $<%s>$ as the parameter; the numbers C are constant %s.%s%s%s%s%s", where, nh_name_of(s->dag, m->state[m->parameter]), m->region ? "there" : "along motions", rest,
+    return nh_sheet_label(s, "%s, with $<%s>$ as the parameter; the numbers C are constant %s.%s%s%s%s%s%s", where, nh_name_of(s->dag, m->state[m->parameter]), m->region ? "there" : "along motions",
+                          m->proved ? " Proved: these formulas satisfy the equations of motion." : "", rest,
                           *fixed ? " For " : "", fixed, *fixed ? "." : "",
                           r->branch ? nh_arena_printf(r->arena, " On the branch %s only.", r->branch) : "");
 }
 
 static const char *name(nh_sheet *s, nh_ex symbol) { return nh_sheet_label(s, "<%s>", nh_name_of(s->dag, symbol)); }
+
+static void series(nh_sheet *s, const nh_analysis *r)
+{
+    const nh_explicit_motion *m = r->motion;
+    const nh_motion_series *v = m->series;
+    if (!v) return;
+    const char *of = nh_name_of(s->dag, m->state[m->parameter]);
+    nh_sheet_begin(s, "series", "Series of the integrals",
+                   nh_sheet_label(s, "Along the checked motion, from its start at $<%s>_{0}$, with $Delta = <%s> - <%s>_{0}$. Where $|Delta|$ is at most $Delta_{max}$ each differs by at "
+                                     "most its $\\eps$ from its series: proved in ball arithmetic by Taylor's theorem.", of, of, of));
+    nh_sheet_formula(s, nh_sheet_label(s, "<%s>_{0}", of), nh_real(s->dag, v->start));
+    nh_sheet_formula(s, "Delta_{max}", nh_real(s->dag, v->half));
+    for (size_t j = 0; j < v->integrals; j++) {
+        const nh_motion_series_of_one *one = &v->integral[j];
+        nh_sheet_sum(s, "", name(s, one->symbol));
+        for (size_t k = 0; k < NH_MOTION_SERIES_TERMS; k++)
+            nh_sheet_add(s, nh_real(s->dag, one->coefficient[k]), k == 0 ? "" : k == 1 ? "Delta" : nh_sheet_label(s, "Delta^{%zu}", k));
+        nh_sheet_formula(s, nh_sheet_label(s, "\\eps_{%s}", name(s, one->symbol)), nh_real(s->dag, one->bound));
+    }
+}
 
 nh_sheet *nh_motion_sheet(const nh_analysis *r)
 {
@@ -37,6 +59,7 @@ nh_sheet *nh_motion_sheet(const nh_analysis *r)
     if (m->integrals) nh_sheet_begin(s, "integrals", "Integrals in it", "For these no closed form was found. Each is 0 at the start of the motion.");
     for (size_t i = 0; i < m->integrals; i++)
         nh_sheet_formula(s, nh_sheet_label(s, "d<%s>/d<%s>", nh_name_of(s->dag, m->integral[i].symbol), nh_name_of(s->dag, m->state[m->parameter])), m->integral[i].integrand);
+    series(s, r);
     nh_sheet_begin(s, "constants", m->integrals ? "Its constants, from the state at the start" : "Its constants, from the state at any time", "");
     for (size_t j = 0; j < m->constants; j++) nh_sheet_formula(s, name(s, m->constant[j].symbol), m->constant[j].value);
     return s;
@@ -52,6 +75,7 @@ void nh_motion_sheet_json(const nh_analysis *r, nh_json *to)
     nh_json *item = nh_json_put_object(to, "explicit_motion");
     nh_json_put_text(item, "parameter", nh_name_of(r->model->dag, m->state[m->parameter]));
     nh_json_put_bool(item, "complete", m->known == m->states);
+    nh_json_put_bool(item, "proved", m->proved);
     nh_json_put_text(item, "fixed", m->fixed ? nh_fixed_text(r->model, m->fixed) : NULL);
     nh_json_put_text(item, "region", m->region);
     nh_sheet_json(nh_motion_sheet(r), item);

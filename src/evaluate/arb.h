@@ -7,12 +7,14 @@
 #if __has_include(<flint/arb.h>)
 #include <flint/arb.h>
 #include <flint/arb_mat.h>
+#include <flint/arb_poly.h>
 #include <flint/acb.h>
 #include <flint/acb_elliptic.h>
 #include <flint/acb_hypgeom.h>
 #else
 #include <arb.h>
 #include <arb_mat.h>
+#include <arb_poly.h>
 #include <acb.h>
 #include <acb_elliptic.h>
 #include <acb_hypgeom.h>

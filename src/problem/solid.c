@@ -31,7 +31,8 @@ static nh_pose about_axle(nh_dag *d, const nh_pose *pose, const nh_wheel *w)
     nh_ex length = nh_sqrt(d, nh_dot(d, u, u));
     for (size_t k = 0; k < 3; k++) u[k] = nh_div(d, u[k], length);
     nh_cross(d, w->axis, u, v);
-    for (size_t k = 0; k < 3; k++) own.R[3 * k] = u[k], own.R[3 * k + 1] = v[k], own.R[3 * k + 2] = w->axis[k], own.p[k] = w->at[k];
+    for (size_t k = 0; k < 3; k++)
+        own.R[3 * k] = u[k], own.R[3 * k + 1] = v[k], own.R[3 * k + 2] = w->axis[k], own.p[k] = w->at[k];
     return nh_pose_product(d, pose, &own);
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/budget.h"
 #include "exact/normal.h"
+#include "graph/diff.h"
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"
 #include "integrals/prove.h"
@@ -59,6 +60,21 @@ static bool agrees(const nh_explicit_curve *c, size_t i)
     return off <= rounding * size && 2 * compared > count;
 }
 
+/* du/ds = Gamma(u)/Gamma(s) for all that is known, with what is known put in? */
+static bool satisfied(const nh_explicit_curve *c, const bool *known)
+{
+    const nh_explicit_motion *m = c->m;
+    nh_dag *d = c->d;
+    nh_ex speed = nh_explicit_along(c, c->rate[m->parameter]);
+    bool good = true;
+    for (size_t i = 0; i < m->states && good; i++) {
+        if (!known[i] || i == m->parameter) continue;
+        nh_ex off = nh_sub(d, nh_mul(d, nh_diff(d, c->value[i], c->s), speed), nh_explicit_along(c, c->rate[i]));
+        good = nh_explicit_vanishes(c, nh_explicit_simple(c, off));
+    }
+    return good;
+}
+
 /* What still depends on states that are not solved is not known.  A constant that is none, to all digits, ends it all. */
 static void conclude(nh_explicit_curve *c)
 {
@@ -76,6 +92,7 @@ static void conclude(nh_explicit_curve *c)
     }
     if (!constant) m->constants = 0;
     m->is_known = known;
+    m->proved = constant && satisfied(c, known);
     m->value = c->value;
 }
 

@@ -33,6 +33,9 @@ typedef struct {
     nh_ex symbol, integrand;
 } nh_motion_integral;
 
+/* search/motion_series.h */
+struct nh_motion_series;
+
 typedef struct nh_explicit_motion {
     size_t states, parameter, known; /* known: how many states are, with the parameter */
     const nh_ex *state;      /* t, q, w */
@@ -42,6 +45,8 @@ typedef struct nh_explicit_motion {
     nh_motion_constant *constant;
     nh_motion_root *root;
     nh_motion_integral *integral;
+    bool proved;             /* the known values satisfy the equations of motion, by differentiation and normal forms */
+    const struct nh_motion_series *series; /* of the integrals, along the checked motion; NULL: none */
     const bool *fixed;       /* per parameter of the system: it has its value; NULL: none has */
     const char *region;      /* where the constants are constant (integrals/region.h); NULL: along every motion */
 } nh_explicit_motion;

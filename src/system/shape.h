@@ -11,8 +11,18 @@ enum { NH_SHAPE_NUMBERS = 12 };
 /* In a plane: point: x, y; arrow: x, y, heading; disc: x, y, radius; wheel, seen from above: x, y, heading, radius; segment: x1, y1, x2, y2.
  * In space, the centre and sizes, then the first two axes of the body: ball: radius; cylinder: radius, height along the third axis; box: edges.
  * rod: its two ends. */
-typedef enum { NH_SHAPE_POINT, NH_SHAPE_ARROW, NH_SHAPE_DISC, NH_SHAPE_WHEEL, NH_SHAPE_SEGMENT, NH_SHAPE_BALL, NH_SHAPE_CYLINDER, NH_SHAPE_BOX, NH_SHAPE_ROD,
-               NH_SHAPE_KINDS } nh_shape_kind;
+typedef enum {
+    NH_SHAPE_POINT,
+    NH_SHAPE_ARROW,
+    NH_SHAPE_DISC,
+    NH_SHAPE_WHEEL,
+    NH_SHAPE_SEGMENT,
+    NH_SHAPE_BALL,
+    NH_SHAPE_CYLINDER,
+    NH_SHAPE_BOX,
+    NH_SHAPE_ROD,
+    NH_SHAPE_KINDS
+} nh_shape_kind;
 
 typedef struct {
     nh_shape_kind kind;
@@ -31,6 +41,7 @@ nh_shape nh_shape_solid(nh_shape_kind kind, const char *name, const nh_pose *pos
 /* One entry {kind: [expressions], name: ...} of a list `draw`; of a body in space with `turn: [z: angle, ...]`.  `parse` reads each expression, with its own
  * message where it cannot. */
 typedef bool nh_shape_parse(void *context, const nh_deck_node *node, nh_ex *out);
-bool nh_shape_read(const nh_deck *deck, const nh_deck_node *node, nh_dag *dag, nh_shape_parse *parse, void *context, nh_shape *out, nh_error *error);
+bool nh_shape_read(const nh_deck *deck, const nh_deck_node *node, nh_dag *dag, nh_shape_parse *parse, void *context,
+                   nh_shape *out, nh_error *error);
 
 #endif

@@ -1,0 +1,30 @@
+/* ball_series: Taylor series with rigorous bounds.
+ *
+ *     f(c + x) = sum_(k < N) a_k x^k + R(x),     R(x) = a_N(xi) x^N for a xi between c and c + x     (Taylor's theorem)
+ *
+ * The a_k are balls.  The coefficient a_N about all centres of an interval at once contains a_N(xi).  Beside the
+ * variable there are functions of it that are defined by others: roots, and integrals from c. */
+#ifndef NH_BALL_SERIES_H
+#define NH_BALL_SERIES_H
+
+#include "exact/ball.h"
+
+typedef struct nh_ball_series nh_ball_series;
+
+/* symbol^2 = of, with the sign of its value in the ball; or d symbol/d variable = of, 0 at the centre. */
+typedef struct {
+    nh_ex symbol, of;
+    bool integral;
+} nh_ball_defined;
+
+/* About the value that the variable has in the ball, which is borrowed like the rest. */
+nh_ball_series *nh_ball_series_create(const nh_dag *dag, nh_ball *ball, nh_ex variable, size_t defined,
+                                      const nh_ball_defined *define);
+void nh_ball_series_free(nh_ball_series *series);
+
+/* The terms of e below x^degree, and a bound of |R| for |x| <= half with what rounding the coefficients to doubles
+ * adds.  False where the series does not reach so far, or where e has functions without series. */
+bool nh_ball_series_take(nh_ball_series *series, nh_ex e, size_t degree, double half, double *coefficient,
+                         double *bound);
+
+#endif
