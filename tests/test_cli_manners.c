@@ -83,7 +83,7 @@ Test(cli_manners, new_writes_a_system_that_works_and_never_over_another)
     cr_expect_not_null(strstr(f.out, "nhsym analyze skate.yaml"));
     finished_clear(&f);
     f = run_expecting(&p, "analyze skate.yaml", 0);
-    cr_expect_not_null(strstr(f.out, "(momentum of phi)"), "%s", f.out);
+    cr_expect_not_null(strstr(f.out, "momentum of phi"), "%s", f.out);
     finished_clear(&f);
     write_here(&p, "mine.yaml", "my own work\n");
     f = run_expecting(&p, "new mine", 3);
@@ -313,10 +313,10 @@ Test(cli_manners, spectrum_and_drifts_are_drawn)
     place p = place_with_systems();
     finished f = run_expecting(&p, "analyze sleigh", 0);
     int height[200];
-    const char *line = strstr(f.out, "current route "), *bars = line ? strchr(line, '\n') + 1 : "";
+    const char *line = strstr(f.out, "current route: "), *bars = line ? line : "";
     cr_assert_eq(read_bars(bars, height, 200), 17u, "one bar for every independent column: %.200s", bars);
     for (size_t i = 0; i < 17; i++) cr_expect(i < 4 ? height[i] <= 2 : height[i] >= 7, "bar %zu is %d high", i, height[i]);
-    const char *drift = strstr(f.out, "  drift at tolerance"), *phi = drift ? strstr(drift, "  Phi1 ") : NULL;
+    const char *phi = strstr(f.out, "  Drift of Phi1 ");
     cr_assert(phi);
     cr_expect_eq(read_bars(phi, height, 200), 24u, "%.200s", phi);
     for (size_t i = 0; i < 24; i++) cr_expect(height[i] >= 1 && height[i] <= 5, "a drift of 1e-10 between 1e-16 and 1: %d", height[i]);

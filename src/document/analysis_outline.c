@@ -5,7 +5,6 @@
 #include "document/facts.h"
 #include "document/geometry_sheet.h"
 #include "document/motion_sheet.h"
-#include "document/summary.h"
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
 
@@ -34,22 +33,26 @@ static void meanings(nh_pen *p, const nh_analysis *r)
 
 static void answer(nh_pen *p, const nh_analysis *r)
 {
-    static const char *const class[] = {"found", "none", "undecided"};
+    static const char *const class[] = {"found", "none", "undecided"}, *const verdict[] = {"FOUND", "NONE", "UNDECIDED"};
     nh_text words;
     nh_text_init(&words);
     nh_facts_completeness(r, &words);
     nh_pen_open(p, NH_PEN_ANSWER, class[r->verdict], NULL);
+    if (p->ink->brief) nh_pen_say(p, "%s: ", verdict[r->verdict]);
     if (r->count)
         nh_pen_say(p, "%zu independent current%s of at most %zu", r->independent, plural(r->independent),
                    r->local_maximum);
+    else if (p->ink->brief)
+        nh_pen_say(p, "no current%s %s", r->pieces ? " of all motions" : "",
+                   r->verdict == NH_NONE ? "in this ansatz" : "so far");
     else nh_pen_say(p, "%s", nh_facts_nothing(r));
-    meanings(p, r);
-    nh_pen_say(p, ".");
+    if (p->ink->brief) nh_pen_say(p, " (search %s)", nh_search_word(r->search));
+    else meanings(p, r), nh_pen_say(p, ".");
     nh_pen_close(p, NH_PEN_ANSWER);
     if (r->count && r->verdict == NH_UNDECIDED)
         nh_pen_words(p, "Not all of them are certified; each card states its certificate.");
-    if (r->partial) nh_pen_warning(p, nh_facts_search(r));
-    else nh_pen_words(p, "%s", nh_facts_search(r));
+    if (r->partial && !p->ink->brief) nh_pen_warning(p, nh_facts_search(r));
+    else if (!p->ink->brief) nh_pen_words(p, "%s", nh_facts_search(r));
     if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
     nh_text_clear(&words);
 }
@@ -78,10 +81,6 @@ static void explicit_motion(nh_pen *p, const nh_analysis *r)
 void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
 {
     nh_pen pen, *p = &pen;
-    if (style.form == NH_PEN_TEXT) {
-        nh_summary(r, (nh_summary_style){style.colour, style.verbose}, out);
-        return;
-    }
     nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
     const nh_chart *chart = r->other && r->other->chart->roots ? r->other->chart : r->model->chart;
     nh_pen_subject subject = {.system = r->system,

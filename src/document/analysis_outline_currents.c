@@ -6,6 +6,7 @@
 #include "document/analysis_outline_internal.h"
 #include "document/facts.h"
 #include "document/formula.h"
+#include "graph/measure.h"
 #include "graph/print.h"
 
 /* ---- a current without closed form ---- */
@@ -87,6 +88,7 @@ static void series(nh_pen *p, const nh_analysis *r, const nh_current *f)
                  "search, on [%.6g, %.6g].",
                  s->degree, q, s->low, s->high);
     series_plot(p, r, f);
+    if (p->ink->brief) return; /* the JSON has them */
     nh_pen_open(p, NH_PEN_FOLD, NULL, "Chebyshev coefficients");
     for (size_t i = 0; i < s->words; i += beside) coefficients(p, s, i, i + beside < s->words ? i + beside : s->words);
     nh_pen_close(p, NH_PEN_FOLD);
@@ -100,8 +102,8 @@ static void certificate(nh_pen *p, const nh_analysis *r, const nh_current *f)
     if (f->proof.proved) nh_pen_say(p, "proved");
     else nh_pen_say(p, "conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
     nh_pen_say(p, "%s%s", nh_facts_holds(r->model, &f->proof, false), nh_facts_where(r, f));
+    nh_pen_say(p, "; residual %.2g outside the fit", f->heldout);
     nh_pen_close(p, NH_PEN_FACT);
-    nh_pen_fact(p, "Residual", "%.2g at points outside the fit", f->heldout);
 }
 
 static void tag(nh_pen *p, bool holds, const char *words)
@@ -128,27 +130,32 @@ static void tags(nh_pen *p, const nh_analysis *r, const nh_current *f)
     nh_pen_close(p, NH_PEN_TAGS);
 }
 
-/* The components that do not vanish, and by how much the bracket leaves the canonical distribution. */
+/* A sum of its components, or where that is long each by itself; and by how much the bracket leaves the canonical
+ * distribution. */
 static void field(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
+    enum { short_sum = 100 };
     nh_field_term *term;
+    double length = 0;
     size_t n = nh_formula_field(r, &f->symmetry, &term), k = f->symmetry.bracket_in_distribution ? 0 : r->model->k;
-    const char **label = nh_alloc_array(n + k + 1, sizeof *label);
-    nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
+    nh_sheet *sheet = nh_sheet_create(r->arena, r->model->dag);
+    sheet->analysis = r->analysis;
+    sheet->chart = p->of.chart;
+    sheet->shown = r->options.shown;
+    nh_sheet_begin(sheet, "", "", "");
+    for (size_t i = 0; i < n; i++) length += (double)nh_complexity(sheet->dag, term[i].coefficient);
+    if (length <= short_sum) nh_sheet_sum(sheet, "", "Z");
     for (size_t i = 0; i < n; i++) {
-        label[i] = nh_arena_printf(r->arena, "Z_{<%s>}", term[i].along ? term[i].along : "Gamma");
-        e[i] = term[i].coefficient;
+        const char *label = length > short_sum ? "Z_{<%s>}" : "\\frac{\\p}{\\p<%s>}", *along = term[i].along;
+        label = along ? nh_arena_printf(r->arena, label, along) : length > short_sum ? "Z_{Gamma}" : "Gamma";
+        if (length > short_sum) nh_sheet_formula(sheet, label, term[i].coefficient);
+        else nh_sheet_add(sheet, term[i].coefficient, label);
     }
-    nh_pen_open(p, NH_PEN_FOLD, NULL, "Its symmetry Z");
-    if (n && !term[0].along) nh_pen_words(p, "Written as a multiple of $Gamma$ plus the remaining components.");
-    p->ink->formulas(p->to, n, label, e);
-    if (!n) nh_pen_words(p, "It vanishes.");
-    if (k) nh_pen_words(p, "By how much $[Gamma,Z]$ leaves the canonical distribution:");
     for (size_t a = 0; a < k; a++)
-        nh_pen_formula(p, nh_arena_printf(r->arena, "i_{[Gamma,Z]}\\form^{%zu}", a + 1), f->symmetry.bracket_form[a]);
+        nh_sheet_formula(sheet, nh_sheet_label(sheet, "i_{[Gamma,Z]} \\form^{%zu}", a + 1), f->symmetry.bracket_form[a]);
+    nh_pen_open(p, NH_PEN_FOLD, NULL, "Its symmetry Z");
+    nh_pen_sheet(p, sheet);
     nh_pen_close(p, NH_PEN_FOLD);
-    nh_free(e);
-    nh_free(label);
 }
 
 /* |Phi - Phi(0)| over the size of its terms. */
@@ -156,7 +163,8 @@ static void drift_plot(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
     const nh_validation *v = r->validation;
     size_t j = 0;
-    if (!p->ink->screen || !v || v->count < 2 || !(f->drift.scale > 0)) return;
+    bool drawn = p->ink->screen || p->ink->brief;
+    if (!drawn || !v || v->count < 2 || !(f->drift.scale > 0)) return;
     const nh_track *track = r->tracks.track;
     while (j < v->watches && track[j].value != f->phi) j++;
     while (j < v->watches && track[j].kind != NH_TRACK_CURRENT) j++;
@@ -216,7 +224,7 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f)
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     certificate(p, r, f);
     if (v)
-        nh_pen_fact(p, "Drift", "%.2g along a motion computed with tolerance %.2g; %s",
+        nh_pen_fact(p, "Drift", "%.2g at tolerance %.2g; %s",
                     f->drift.drift[NH_DRIFT_RUNS - 1], v->tolerance[NH_DRIFT_RUNS - 1], nh_facts_drift(&f->drift));
     if (f->has_symmetry) {
         nh_pen_fact_begin(p, "Symmetry");
@@ -231,14 +239,16 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f)
 
 /* ---- what is not counted ---- */
 
-/* A function with one fact that other currents do not have. */
-static void uncounted(nh_pen *p, const nh_analysis *r, const nh_current *f, const char *fact, const char *value)
+/* A function with a property that other currents do not have. */
+static void uncounted(nh_pen *p, const nh_analysis *r, const nh_current *f, const char *property)
 {
     nh_pen_card(p, NULL);
     nh_pen_name_heading(p, f->name);
+    nh_pen_open(p, NH_PEN_TAGS, NULL, NULL);
+    tag(p, true, property);
+    nh_pen_close(p, NH_PEN_TAGS);
     nh_pen_formula(p, f->name, f->phi);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
-    nh_pen_fact(p, fact, "%s", value);
     certificate(p, r, f);
     nh_pen_close(p, NH_PEN_FACTS);
     as_text(p, r, f);
@@ -253,7 +263,7 @@ static void furthers(nh_pen *p, const nh_analysis *r)
             "These integrals are functions of the currents above, but no polynomials in them. They are not counted.");
     }
     for (size_t k = 0; k < r->furthers; k++)
-        uncounted(p, r, &r->further[k].current, "Degree", nh_arena_printf(r->arena, "%zu", r->further[k].degree));
+        uncounted(p, r, &r->further[k].current, nh_arena_printf(r->arena, "degree %zu", r->further[k].degree));
     if (r->relations) nh_pen_heading(p, "Relations");
     for (size_t k = 0; k < r->relations; k++) p->ink->equation(p->to, r->relation[k].left, r->relation[k].right);
 }
@@ -263,17 +273,18 @@ static void pieces(nh_pen *p, const nh_analysis *r)
     if (!r->pieces) return;
     nh_pen_heading(p, "Constant only in a region");
     nh_pen_words(p, "These functions are constant while a motion stays in the given region. They are not counted.");
-    for (size_t k = 0; k < r->pieces; k++) uncounted(p, r, &r->piece[k], "Holds", r->piece[k].region);
+    for (size_t k = 0; k < r->pieces; k++) uncounted(p, r, &r->piece[k], r->piece[k].region);
 }
 
 static void almost(nh_pen *p, const nh_analysis *r)
 {
+    enum { first_ones = 2 }; /* on a terminal */
     if (!r->almosts) return;
     nh_pen_heading(p, "Almost conserved, not currents");
     nh_pen_words(p, "In double precision these functions look constant. With more digits they change, or they have no "
                     "certificate. They "
                     "are not counted; the slowest comes first.");
-    for (size_t k = 0; k < r->almosts; k++) {
+    for (size_t k = 0; k < r->almosts && !(p->ink->brief && k == first_ones); k++) {
         const nh_near_current *a = &r->almost[k];
         nh_pen_card(p, NULL);
         nh_pen_formula(p, "", a->phi);
@@ -285,9 +296,12 @@ static void almost(nh_pen *p, const nh_analysis *r)
 void nh_analysis_write_currents(nh_pen *p, const nh_analysis *r)
 {
     const nh_analysis_file *a = r->analysis;
-    nh_pen_section(p, "currents", "Currents");
-    nh_pen_words(p, "A current is a function of time, coordinates and velocities that is constant along every motion.");
-    if (!r->count) nh_pen_words(p, "None was found. The stages of the search are listed below.");
+    if (!p->ink->brief) {
+        nh_pen_section(p, "currents", "Currents");
+        nh_pen_words(
+            p, "A current is a function of time, coordinates and velocities that is constant along every motion.");
+        if (!r->count) nh_pen_words(p, "None was found. The stages of the search are listed below.");
+    }
     for (size_t k = 0; k < r->count; k++) current(p, r, &r->found[k]);
     nh_pen_card_end(p);
     for (size_t i = 0; a && r->count && i < a->definitions; i++) {

@@ -49,13 +49,16 @@ void nh_analysis_write_motion(nh_pen *p, const nh_analysis *r)
     nh_time_series *c = nh_time_series_of_analysis(r);
     nh_pen_section(p, "motion", "A motion");
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    nh_pen_say(p, "%s in {%s}, t = %.4g to %.6g", v->method, v->chart, v->begin, v->end);
+    nh_pen_say(p, "%s in {%s}, t = %.4g to %.6g, %ld evaluations", v->method, v->chart, v->begin, v->end, v->evaluations);
     if (v->checked) nh_pen_say(p, ": %s", v->accuracy.why);
     nh_pen_say(p, ".");
     nh_pen_close(p, NH_PEN_WORDS);
     p->ink->series(p->to, c);
     nh_time_series_free(c);
     drifts(p, r);
+    if (v->scene)
+        nh_pen_words(p, "%s: the same values to %.2g, with %ld evaluations.", v->scene, v->scene_difference,
+                     v->scene_evaluations);
     second_opinion(p, r);
 }
 
@@ -146,7 +149,7 @@ static void samples(nh_pen *p, const nh_figure *f)
 
 void nh_analysis_write_figures(nh_pen *p, const nh_analysis *r)
 {
-    if (!r->figures) return;
+    if (!r->figures || p->ink->brief) return;
     nh_pen_section(p, "figures", "Figures");
     nh_pen_words(p, "The analysis file defines these figures.");
     for (size_t i = 0; i < r->figures; i++) {

@@ -42,28 +42,30 @@ static void spectrum_plot(nh_pen *p, const nh_analysis *r)
     nh_free(index);
 }
 
-/* A row for each number, a column for each route. */
+static void spectrum(nh_pen *p, const char *name, const nh_spectrum *s)
+{
+    if (!s->done) return;
+    nh_pen_fact_begin(p, name);
+    nh_pen_say(p, "%zu columns (%zu independent), %zu rows: ", s->columns, s->rank, s->rows);
+    if (!s->rank) nh_pen_say(p, "no column varies on the samples");
+    else if (!s->dimension) nh_pen_say(p, "no null value; the smallest is %.2g", s->spectrum[0]);
+    else {
+        nh_pen_say(p, "%zu null value%s up to %.2g", s->dimension, s->dimension == 1 ? "" : "s",
+                   s->spectrum[s->dimension - 1]);
+        if (s->dimension < s->rank) nh_pen_say(p, ", then %.2g: gap %.2g", s->spectrum[s->dimension], s->gap);
+        else nh_pen_say(p, ", and nothing else");
+    }
+    for (size_t i = 0; p->ink->brief && p->style.verbose && i < s->rank; i++)
+        nh_pen_say(p, i ? " %.2g" : "; all of them: %.2g", s->spectrum[i]);
+    nh_pen_close(p, NH_PEN_FACT);
+}
+
 static void spectra(nh_pen *p, const nh_analysis *r)
 {
-    const nh_spectrum *const route[] = {&r->current, &r->symmetry};
-    double number[2][NH_SPECTRUM_NUMBERS];
-    bool both = route[0]->done && route[1]->done;
-    if (!route[0]->done && !route[1]->done) return;
-    for (size_t k = 0; k < 2; k++)
-        if (route[k]->done) nh_facts_spectrum(route[k], number[k]);
-    nh_pen_table(p, "Linear problems",
-                 both             ? "route|current|symmetry"
-                 : route[0]->done ? "route|current"
-                                  : "route|symmetry");
-    const char *head = NH_SPECTRUM_HEADS;
-    for (size_t i = 0; i < NH_SPECTRUM_NUMBERS; i++, head += strcspn(head, "|"), head += *head == '|') {
-        nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
-        nh_pen_cell(p, NH_PEN_ROW_HEAD, "%s", nh_arena_printf(r->arena, "%.*s", (int)strcspn(head, "|"), head));
-        for (size_t k = 0; k < 2; k++)
-            if (route[k]->done) nh_pen_cell(p, NH_PEN_CELL, i < NH_SPECTRUM_COUNTS ? "%.10g" : "%.2g", number[k][i]);
-        nh_pen_close(p, NH_PEN_ROW);
-    }
-    nh_pen_table_end(p);
+    nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+    spectrum(p, "Current route", &r->current);
+    spectrum(p, "Symmetry route", &r->symmetry);
+    nh_pen_close(p, NH_PEN_FACTS);
 }
 
 static void comparisons(nh_pen *p, const nh_analysis *r)
@@ -108,8 +110,9 @@ static void stages(nh_pen *p, const nh_analysis *r)
         const nh_stage_record *s = &r->stage[i];
         if (s->skipped) nh_pen_row(p, "#%s|not tried, too large: %s||", s->name, nh_limit_words(r->arena, &s->limit));
         else
-            nh_pen_row(p, "#%s|%zu|%zu%s|%zu", s->name, s->columns, s->dimension, s->undecided ? " (undecided)" : "",
-                       s->found);
+            nh_pen_row(p, "#%s|%zu%s|%zu%s|%zu", s->name, s->columns,
+                       s->sectors > 1 ? nh_arena_printf(r->arena, " in %zu sectors", s->sectors) : "", s->dimension,
+                       s->undecided ? " (undecided)" : "", s->found);
     }
     nh_pen_table_end(p);
 }

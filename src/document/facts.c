@@ -102,13 +102,6 @@ const char *nh_facts_drift(const nh_drift *d)
     return tight < d->drift[0] ? "it falls with the tolerance" : "it is of the size of rounding error at every tolerance";
 }
 
-void nh_facts_spectrum(const nh_spectrum *s, double number[NH_SPECTRUM_NUMBERS])
-{
-    const double all[NH_SPECTRUM_NUMBERS] = {(double)s->columns, (double)s->rank, (double)s->rows, (double)s->dimension, s->dimension && s->dimension <= s->rank ? s->spectrum[s->dimension - 1] : NAN,
-                                             s->dimension < s->rank ? s->spectrum[s->dimension] : NAN, s->gap};
-    memcpy(number, all, sizeof all);
-}
-
 /* Some fixed and some not: only then there is something to say between all and none. */
 static bool some_fixed(const nh_model *o, const nh_proof *p) { return p->proved && p->fixed && !nh_fixed_all(o, p->fixed); }
 

@@ -47,11 +47,6 @@ const char *nh_facts_nothing(const nh_analysis *result);
 /* How the search ended: whole sentences. */
 const char *nh_facts_search(const nh_analysis *result);
 
-/* One linear problem in numbers, the first of them counts; NAN for what there is not. */
-enum { NH_SPECTRUM_COUNTS = 4, NH_SPECTRUM_NUMBERS = 7 };
-#define NH_SPECTRUM_HEADS "columns|independent|rows|null values|largest of them|next value|gap"
-void nh_facts_spectrum(const nh_spectrum *spectrum, double number[NH_SPECTRUM_NUMBERS]);
-
 /* For which parameters a statement holds: " for all m, a, k" (with `names`; else " for all parameter values"), " for k = 1", " for these parameter values only"; "" without parameters.  In JSON, under the key
  * "holds": "all parameters", an object of those that must have their values, "these values". */
 const char *nh_facts_holds(const nh_model *model, const nh_proof *proof, bool names);

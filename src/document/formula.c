@@ -22,7 +22,6 @@ nh_ex nh_formula_shortened(const nh_analysis_file *a, nh_dag *d, nh_ex e)
 
 nh_ex nh_formula_shown(const nh_analysis *r, nh_ex e) { return nh_chart_shown(r->other && r->other->chart->roots ? r->other->chart : r->model->chart, e); }
 
-nh_ex nh_formula_abbreviate(const nh_analysis *r, nh_ex e) { return nh_formula_shortened(r->analysis, r->model->dag, nh_formula_shown(r, e)); }
 
 /* ---- names for what is repeated ---- */
 

@@ -7,9 +7,8 @@
 
 /* e with the user's own abbreviations, from the analysis file (or NULL), instead of what they stand for. */
 nh_ex nh_formula_shortened(const nh_analysis_file *analysis, nh_dag *dag, nh_ex e);
-/* e without roots that are dependent velocities; and with the abbreviations besides. */
+/* e without roots that are dependent velocities. */
 nh_ex nh_formula_shown(const nh_analysis *result, nh_ex e);
-nh_ex nh_formula_abbreviate(const nh_analysis *result, nh_ex e);
 
 /* Long formulas with names for what occurs in them more than once: the n formulas are changed, part[i] = {name, value} in an order in which each uses only
  * names that come later.  Names are new to the graph: a letter, _ and a number.  Returns their number, at most NH_FORMULA_PARTS; 0 when all are short. */

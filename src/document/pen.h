@@ -77,7 +77,8 @@ typedef struct {
     nh_text text;            /* what `out` is until the end */
     nh_pen_subject of;
     bool colour;
-    size_t cells;            /* of the row, so far */
+    nh_text rows;            /* what `out` is within a table: cells end by tabs */
+    size_t cells;            /* of the row, and tags of the card, so far */
 } nh_plain_writer;
 
 typedef struct {

@@ -1,5 +1,6 @@
 /* The parts of a document as text for a terminal, which has neither figures, nor links, nor what others say already: the glossary, the system's file. */
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "document/facts.h"
@@ -12,14 +13,14 @@ static const struct {
     bool titled;
 } markup[NH_PEN_PARTS] = {
     [NH_PEN_SECTION] = {"\n", "", true}, [NH_PEN_CARD] = {"\n", "", true},
-    [NH_PEN_FOLD] = {"\n", "", true},    [NH_PEN_WORDS] = {"  ", "\n", false},
+    [NH_PEN_FOLD] = {"", "", false},     [NH_PEN_WORDS] = {"  ", "\n", false},
     [NH_PEN_ANSWER] = {"", "\n", false}, [NH_PEN_WARNING] = {"warning: ", "\n", false},
     [NH_PEN_HEADING] = {"\n", "", true}, [NH_PEN_FACTS] = {"", "", false},
     [NH_PEN_FACT] = {"", "\n", false},   [NH_PEN_FACT_NAME] = {"  ", ": ", false},
     [NH_PEN_SCREEN] = {"", "", false},   [NH_PEN_SUBHEADING] = {"\n", "\n", false},
-    [NH_PEN_NAME] = {"\n  ", "\n", false}, [NH_PEN_TAGS] = {"  ", "\n", false},
-    [NH_PEN_TAG] = {"", ". ", false},    [NH_PEN_BESIDE] = {"", "", false},
-    [NH_PEN_ROW] = {"  ", "\n", false},  [NH_PEN_CELL] = {"", "", false},
+    [NH_PEN_NAME] = {"\n", "", false},   [NH_PEN_TAGS] = {"", "\n", false},
+    [NH_PEN_TAG] = {"", "", false},      [NH_PEN_BESIDE] = {"", "", false},
+    [NH_PEN_ROW] = {"", "\n", false},    [NH_PEN_CELL] = {"", "", false},
     [NH_PEN_ROW_HEAD] = {"", "", false}, [NH_PEN_KIND] = {"", "", false},
 };
 
@@ -56,8 +57,9 @@ static void open(void *to, nh_pen_part part, const char *id, const char *title)
 {
     nh_plain_writer *w = to;
     (void)id;
-    if (part == NH_PEN_ROW) w->cells = 0;
-    if ((part == NH_PEN_CELL || part == NH_PEN_ROW_HEAD || part == NH_PEN_KIND) && w->cells++) words(w, "  ");
+    if (part == NH_PEN_ROW || part == NH_PEN_TAGS) w->cells = 0;
+    if ((part == NH_PEN_CELL || part == NH_PEN_ROW_HEAD || part == NH_PEN_KIND) && w->cells++) words(w, "\t");
+    if (part == NH_PEN_TAG) words(w, w->cells++ ? "; " : ": ");
     if (markup[part].titled && !title) return;
     words(w, markup[part].open);
     if (markup[part].titled) bold(w, title), words(w, "\n");
@@ -81,14 +83,14 @@ static void letters(void *to, const char *label)
 
 static void equation(void *to, const char *label, const char *formula)
 {
-    nh_text_addf(((nh_plain_writer *)to)->out, *label ? "    %s = %s\n" : "    %s%s\n", label, formula);
+    nh_text_addf(((nh_plain_writer *)to)->out, *label ? "  %s = %s\n" : "  %s%s\n", label, formula);
 }
 
-static void code(void *to, const char *text) { nh_text_addf(((nh_plain_writer *)to)->out, "    %s\n", text); }
+static void code(void *to, const char *text) { nh_text_addf(((nh_plain_writer *)to)->out, "  %s\n", text); }
 
 static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
 {
-    enum { indent = 4 };
+    enum { indent = 2 };
     nh_plain_writer *w = to;
     const nh_pen_subject *of = &w->of;
     nh_text *name = nh_alloc_array(n + 1, sizeof *name);
@@ -115,19 +117,142 @@ static void sheet(void *to, nh_sheet *formulas_of, bool headed)
     nh_sheet_text(formulas_of, w->colour, w->out);
 }
 
+/* ---- tables, in columns; where they are too wide for the line the first one, which has words, stands last ---- */
+
+enum { most_columns = 24, line_width = 80 };
+
+typedef struct {
+    size_t count, length[most_columns];
+    const char *cell[most_columns];
+} row_cells;
+
+/* A row of the buffer; what follows it. */
+static const char *read_row(const char *at, row_cells *row)
+{
+    *row = (row_cells){0};
+    for (bool more = true; more; at++) {
+        size_t length = strcspn(at, "\t\n");
+        if (row->count < most_columns) row->cell[row->count] = at, row->length[row->count++] = length;
+        at += length;
+        more = *at == '\t';
+    }
+    return at;
+}
+
+static size_t width_of(const char *text, size_t length)
+{
+    size_t width = 0;
+    for (size_t i = 0; i < length; i++) width += ((unsigned char)text[i] & 0xc0) != 0x80;
+    return width;
+}
+
+static void put_rows(nh_plain_writer *w, const char *rows)
+{
+    size_t width[most_columns] = {0}, all = 0;
+    row_cells row;
+    for (const char *at = rows; *at;) {
+        at = read_row(at, &row);
+        for (size_t k = 0; k < row.count; k++) width[k] = (size_t)fmax((double)width[k], (double)width_of(row.cell[k], row.length[k]));
+    }
+    for (size_t k = 0; k < most_columns; k++) all += width[k] ? width[k] + 2 : 0;
+    for (const char *at = rows; *at;) {
+        at = read_row(at, &row);
+        size_t first = all > line_width, pad = 2;
+        for (size_t i = 0; i < row.count; i++) {
+            size_t k = (i + first) % row.count;
+            if (!row.length[k] && i + 1 == row.count) continue;
+            nh_text_addf(w->out, "%*s%.*s", (int)pad, "", (int)row.length[k], row.cell[k]);
+            pad = 2 + width[k] - width_of(row.cell[k], row.length[k]);
+        }
+        words(w, "\n");
+    }
+}
+
 static void table(void *to, const char *caption, const char *heads)
 {
     nh_plain_writer *w = to;
-    nh_text_addf(w->out, "\n%s\n  ", caption);
-    for (const char *c = heads; *c; c++) nh_text_addf(w->out, *c == '|' ? "  " : "%c", *c);
+    nh_text_addf(w->out, *caption ? "\n%s\n" : "%s", caption);
+    w->out = &w->rows;
+    nh_text_init(w->out);
+    for (const char *c = heads; *c; c++)
+        if (*c != '#') nh_text_add_n(w->out, *c == '|' ? "\t" : c, 1);
     words(w, "\n");
 }
 
-static void table_end(void *to) { words(to, "\n"); }
+static void table_end(void *to)
+{
+    nh_plain_writer *w = to;
+    w->out = &w->text;
+    put_rows(w, nh_text_string(&w->rows));
+    nh_text_clear(&w->rows);
+}
 
-static void plot(void *to, nh_plot *figure, const char *caption) { (void)to, (void)figure, (void)caption; }
+/* ---- figures: where the axis is logarithmic, a bar for each value, or for the largest of some ---- */
 
-static void series(void *to, const nh_time_series *motion) { (void)to, (void)motion; }
+/* A bar between two powers of ten. */
+static const char *bar(double value, double lowest, double top)
+{
+    static const char *const bars[] = {"\u2581", "\u2582", "\u2583", "\u2584", "\u2585", "\u2586", "\u2587", "\u2588"};
+    enum { heights = sizeof bars / sizeof *bars };
+    double part = (log10(fmax(value, 1e-300)) - lowest) / fmax(top - lowest, 1);
+    return bars[(size_t)fmin(fmax(heights * part, 0), heights - 1)];
+}
+
+static void put_bars(nh_plain_writer *w, const nh_curve *c, bool timed, double lowest, double top)
+{
+    enum { most_bars = 48 };
+    size_t most_here = timed ? most_bars / 2 : most_bars, n = c->count < most_here ? c->count : most_here;
+    for (size_t k = 0; k < n; k++) {
+        double most = 0;
+        for (size_t i = k * c->count / n; i < (k + 1) * c->count / n; i++) most = fmax(most, c->y[i * c->y_stride]);
+        words(w, bar(most, lowest, top));
+    }
+    words(w, "\n");
+}
+
+static void plot(void *to, nh_plot *p, const char *caption)
+{
+    nh_plain_writer *w = to;
+    double top = 0;
+    (void)caption;
+    if (!p->log_y) return;
+    for (size_t k = 0; k < p->curves; k++)
+        for (size_t i = 0; i < p->curve[k].count; i++) top = fmax(top, log10(fmax(p->curve[k].y[i * p->curve[k].y_stride], 1)));
+    for (size_t k = 0; k < p->curves; k++) {
+        nh_text_addf(w->out, p->curves > 1 ? "  %s, %s: " : "  %s: ", p->title, p->curve[k].name);
+        put_bars(w, &p->curve[k], p->timed, log10(p->floor), top);
+    }
+}
+
+static void put_number(void *to, double value, int digits)
+{
+    open(to, NH_PEN_CELL, NULL, NULL);
+    number(to, value, digits);
+}
+
+/* What is watched, at a few times. */
+static void series(void *to, const nh_time_series *c)
+{
+    enum { rows = 5, digits = 8 };
+    nh_text heads;
+    nh_text_init(&heads);
+    for (size_t j = 0; j < c->lines; j++)
+        if (c->line[j].kind == NH_TRACK_WATCH) nh_text_addf(&heads, "|%s", c->line[j].name);
+    if (heads.length && c->count >= rows) {
+        nh_text_add(&heads, "|");
+        table(to, "", nh_arena_printf(c->model->arena, "t%.*s", (int)heads.length - 1, nh_text_string(&heads)));
+        for (size_t i = 0; i < rows; i++) {
+            size_t at = i * (c->count - 1) / (rows - 1);
+            open(to, NH_PEN_ROW, NULL, NULL);
+            put_number(to, c->time[at], digits / 2);
+            for (size_t j = 0; j < c->lines; j++)
+                if (c->line[j].kind == NH_TRACK_WATCH) put_number(to, c->line[j].value[at * c->line[j].stride], digits);
+            close(to, NH_PEN_ROW);
+        }
+        table_end(to);
+    }
+    nh_text_clear(&heads);
+}
 
 static void symmetry(void *to, const nh_symmetry *z)
 {
@@ -139,7 +264,7 @@ static void glossary(void *to, const char *list) { (void)to, (void)list; }
 static void end(void *to, const nh_run *run)
 {
     nh_plain_writer *w = to;
-    (void)run;
+    if (run && isfinite(run->seconds)) nh_text_addf(w->out, "\n%.0f ms\n", 1e3 * run->seconds);
     nh_sheet_fold(nh_text_string(&w->text), w->folded);
     nh_text_clear(&w->text);
 }

@@ -64,6 +64,24 @@ static void written(nh_pen *p, const nh_system *s)
 
 /* ---- as it was understood ---- */
 
+/* Which functions the constraints alone keep constant. */
+static void integrals(nh_pen *p, const nh_analysis *r)
+{
+    size_t hidden = r->constraint.hidden, left = hidden - r->integrals;
+    if (!hidden) return;
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    nh_pen_say(p, "%zu %s%s: ", hidden, r->constraint.holonomic ? "integral" : "hidden holonomic constraint",
+               hidden == 1 ? "" : "s");
+    for (size_t i = 0; i < r->integrals; i++) {
+        const nh_current *f = &r->found[r->integral[i]];
+        nh_pen_say(p, "%s", i ? ", " : "");
+        nh_pen_say(p, "<%s> = const%s", f->name, f->local ? " (local)" : "");
+    }
+    if (left) nh_pen_say(p, "%s%zu without a closed form in this ansatz", r->integrals ? ", and " : "", left);
+    nh_pen_say(p, ".");
+    nh_pen_close(p, NH_PEN_WORDS);
+}
+
 static void kind(nh_pen *p, const nh_analysis *r)
 {
     nh_text words;
@@ -82,6 +100,7 @@ static void kind(nh_pen *p, const nh_analysis *r)
     if (words.length) nh_pen_say(p, " Everything was %s.", nh_text_string(&words));
     nh_text_clear(&words);
     nh_pen_close(p, NH_PEN_WORDS);
+    integrals(p, r);
 }
 
 /* Formulas under a heading; folded away where they are many lines long: then they are there to be looked up. */
@@ -111,12 +130,13 @@ static void multipliers(nh_pen *p, const nh_model *o)
         label[o->k + s] = nh_arena_printf(o->arena, "F_%s", o->system->coordinate[s].name);
         e[o->k + s] = o->reaction[s];
     }
-    block(p, o->dag, "Chetaev multipliers and constraint force", o->k + o->m, label, e);
+    if (p->ink->brief) block(p, o->dag, "Chetaev multipliers", o->k, label, e);
+    else block(p, o->dag, "Chetaev multipliers and constraint force", o->k + o->m, label, e);
     nh_free(e);
     nh_free(label);
 }
 
-static void equations(nh_pen *p, const nh_model *o)
+static void equations(nh_pen *p, const nh_model *o, bool more)
 {
     static const char *const functions[] = {"L", "E"};
     const char **label = nh_alloc_array(o->n + 1, sizeof *label);
@@ -124,24 +144,25 @@ static void equations(nh_pen *p, const nh_model *o)
     nh_pen_open(p, NH_PEN_SUBHEADING, NULL, NULL);
     nh_pen_say(p, "In {%s}", o->chart->name);
     nh_pen_close(p, NH_PEN_SUBHEADING);
-    block(p, o->dag, "Constrained Lagrangian and energy", 2, functions, (const nh_ex[]){o->Lbar, o->E});
+    if (!p->ink->brief) block(p, o->dag, "Constrained Lagrangian and energy", 2, functions, (const nh_ex[]){o->Lbar, o->E});
     block(p, o->dag, nh_facts_equations(o), o->n, label, o->a);
-    multipliers(p, o);
+    if (more) multipliers(p, o);
     nh_free(label);
 }
 
 void nh_pen_system(nh_pen *p, const nh_model *model, const nh_analysis *r)
 {
-    if (p->ink->brief) return;
+    bool brief = p->ink->brief;
+    if (brief && !r) return;
     nh_pen_section(p, "system", "The system");
-    written(p, p->of.system);
+    if (!brief) written(p, p->of.system);
     if (!model) return;
-    nh_pen_heading(p, "As it was understood");
+    if (!brief) nh_pen_heading(p, "As it was understood");
     if (r) kind(p, r);
-    equations(p, model);
+    equations(p, model, true);
     if (!r || !r->other) return;
     nh_pen_open(p, NH_PEN_FOLD, NULL, "In the other velocities");
-    equations(p, r->other);
+    equations(p, r->other, !brief);
     nh_pen_close(p, NH_PEN_FOLD);
 }
 
