@@ -449,10 +449,10 @@ Test(plane, documents_show_the_plane)
     finished_clear(&f);
     f = run_expecting(&p, "classify a.yaml --over mu --set la=2 --degree 2 --quiet --html out/line.html --tex out/line.tex", 0);
     char *text = file_of(&p, "line.html");
-    cr_expect(strstr(text, "Where there are more") && strstr(text, "mu = 0"), "a value");
+    cr_expect(strstr(text, "<h2>More for</h2>") && strstr(text, "mu = 0"), "a value");
     free(text);
     text = file_of(&p, "line.tex");
-    cr_expect(strstr(text, "\\section{Where there are more}"));
+    cr_expect(strstr(text, "\\section{More for}"));
     free(text);
     finished_clear(&f);
     place_clear(&p);

@@ -39,19 +39,20 @@ const char *nh_classification_end(const char *end)
     return end;
 }
 
-/* ---- text ---- */
+/* ---- lines ---- */
 
+/* "integrals polynomial in the velocities, over eps, with coefficients ..., on the level ..., with k = 2" */
 void nh_classification_head(const nh_classified *x, nh_text *out)
 {
-    nh_text_addf(out, "%s\n%s, over ", x->title, nh_classification_subject(x));
+    const nh_system *s = x->almost_all->system;
+    nh_text_addf(out, "Classified: %s, over ", nh_classification_subject(x));
     if (x->second) nh_text_addf(out, "%s and ", x->second);
     nh_text_addf(out, "%s%s", x->over, x->shape ? ", with coefficients that do not depend on cyclic coordinates" : "");
-    const nh_system *s = x->almost_all->system;
     for (size_t i = s->constraints - s->levels; i < s->constraints; i++)
-        nh_text_addf(out, "%s%s", i == s->constraints - s->levels ? "\n   on the level " : ", ", s->constraint[i].text);
+        nh_text_addf(out, "%s%s", i == s->constraints - s->levels ? ", on the level " : ", ", s->constraint[i].text);
     for (size_t i = 0; i < x->fixed; i++)
-        nh_text_addf(out, "%s%s = %.15g", i ? ", " : "\n   with ", x->other[i].name, x->other[i].value);
-    nh_text_add(out, "\n\n");
+        nh_text_addf(out, "%s%s = %.15g", i ? ", " : ", with ", x->other[i].name, x->other[i].value);
+    nh_text_add(out, ".\n");
 }
 
 /* Where the integrals for almost all values are known and proved, more is more. */
@@ -68,41 +69,11 @@ void nh_classification_almost_all(const nh_classified *x, size_t degree, const n
                  ? ", the same over several orders" : ", perhaps fewer");
 }
 
-void nh_classification_known(const nh_classified *x, nh_text *out)
-{
-    for (size_t k = 0; k < x->known; k++) {
-        const nh_current *f = nh_classified_current(x->almost_all, x->currents[k]);
-        char *text = nh_classification_current(x->almost_all, f, x->almost_all->options.shown);
-        nh_text_addf(out, "  %s = %s\n", f->name, text ? text : "... (too long to be shown; option `shown`)");
-        nh_free(text);
-    }
-}
-
-static void put_almost_all(const nh_classified *x, nh_text *out)
-{
-    nh_text_addf(out, "For almost all %s\n", x->over);
-    for (size_t d = 1; d <= of(x)->rows; d++)
-        nh_classification_almost_all(x, d, &of(x)->row[d - 1].number, of(x)->row[d - 1].known, out);
-    nh_classification_known(x, out);
-}
-
-/* The currents that were constructed, and what that proves. */
-static void currents_text(const nh_analysis *r, nh_text *out)
-{
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
-        if (!f->proof.proved || f->series) continue;
-        char *text = nh_classification_current(r, f, r->options.shown);
-        nh_text_addf(out, "    %s = %s\n", f->name, text ? text : "... (too long to be shown; option `shown`)");
-        nh_free(text);
-    }
-}
-
 void nh_classification_counted(const nh_classified *x, size_t degree, bool first, const nh_classify_number *n,
                                size_t almost_all, bool complete, nh_text *out)
 {
     const char *bounded = complete || x->of == NH_OF_INTEGRABILITY ? "" : n->settled ? "up to " : "at most ";
-    nh_text_add(out, first ? "    " : ", ");
+    nh_text_add(out, first ? "" : ", ");
     nh_classification_level(x, degree, out);
     nh_text_addf(out, ": %s", n->bounded ? bounded : "not counted");
     if (!n->bounded) return;
@@ -111,78 +82,33 @@ void nh_classification_counted(const nh_classified *x, size_t degree, bool first
     nh_classification_amount(x, almost_all, out);
 }
 
-void nh_classification_proof(const nh_classified *x, const nh_classified_value *at, size_t first, nh_text *out)
-{
-    if (at->shown) {
-        nh_text_addf(out, "    %s%s\n", at->shown, at->complete >= first ? ", proved" : "");
-        return;
-    }
-    if (!at->result) {
-        nh_text_addf(out, "    counted modulo primes; %s%s\n", x->question ? "" : "no currents: ",
-                     at->why ? at->why : "the run was ended");
-        return;
-    }
-    currents_text(at->result, out);
-    if (at->complete >= first)
-        nh_text_addf(out, "    all of them proved, and complete to degree %zu\n", at->complete);
-    else nh_text_add(out, "    proved, but fewer than were counted: the others were not constructed\n");
-}
-
-static void put_value(const nh_classified *x, size_t index, nh_text *out)
-{
-    const nh_classify_value *v = &of(x)->value[index];
-    const nh_classified_value *at = &x->value[index];
-    nh_text_addf(out, "  %s\n", nh_classified_words(x, &v->polynomial));
-    for (size_t d = v->first; d <= of(x)->rows; d++)
-        nh_classification_counted(x, d, d == v->first, &v->number[d], of(x)->row[d - 1].number.bound, at->complete >= d, out);
-    nh_text_add(out, "\n");
-    nh_classification_proof(x, at, v->first, out);
-}
-
-void nh_classification_open(const nh_classified *x, nh_text *out)
-{
-    for (size_t k = 0; k < of(x)->values; k++) {
-        const nh_classify_value *v = &of(x)->value[k];
-        if (!v->open) continue;
-        nh_text_addf(out, "\nNot decided at %s: ", nh_classified_words(x, &v->polynomial));
-        nh_classification_level(x, v->open, out);
-        nh_text_add(out, ", of which there may be ");
-        nh_classification_beyond(x, of(x)->row[v->open - 1].number.bound, out);
-        nh_text_addf(out, ". %s\n", nh_classification_decide);
-    }
-}
-
-static void put_values(const nh_classified *x, nh_text *out)
-{
-    size_t n = count_special(x), degenerate = 0;
-    if (n) nh_text_addf(out, "\n%s\n", nh_classification_where(x));
-    for (size_t k = 0; k < of(x)->values; k++)
-        if (special(&of(x)->value[k])) put_value(x, k, out);
-    for (size_t k = 0; k < of(x)->values; k++) {
-        const nh_classify_value *v = &of(x)->value[k];
-        if (!v->degenerate) continue;
-        nh_text_addf(out, "%s%s", degenerate++ ? "; " : "\nDegenerate, and not looked at: ",
-                     nh_classified_words(x, &v->polynomial));
-    }
-    if (degenerate) nh_text_add(out, "\n");
-    nh_classification_open(x, out);
-}
-
-static void put_infinity(const nh_classified *x, nh_text *out)
+void nh_classification_left(const nh_classified *x, nh_text *out)
 {
     const nh_classification *c = of(x);
-    if (x->question) return;
-    if (!c->limit) {
-        nh_text_addf(out, "\nAs %s goes to infinity the equations of motion have no limit.\n", x->over);
-        return;
+    size_t degenerate = 0, first = 0;
+    for (size_t k = 0; k < c->values; k++) {
+        if (!c->value[k].degenerate) continue;
+        nh_text_addf(out, "%s%s", degenerate++ ? "; " : "Degenerate, and not looked at: ",
+                     nh_classified_words(x, &c->value[k].polynomial));
     }
-    size_t first = 0;
+    if (degenerate) nh_text_add(out, ".\n");
+    for (size_t k = 0; k < c->values; k++) {
+        const nh_classify_value *v = &c->value[k];
+        if (!v->open) continue;
+        nh_text_addf(out, "Not decided at %s: ", nh_classified_words(x, &v->polynomial));
+        nh_classification_level(x, v->open, out);
+        nh_text_add(out, ", of which there may be ");
+        nh_classification_beyond(x, c->row[v->open - 1].number.bound, out);
+        nh_text_addf(out, ". %s\n", nh_classification_decide);
+    }
+    if (x->question) return;
     for (size_t d = c->rows; d >= 1; d--)
         if (c->row[d - 1].infinite.bounded && c->row[d - 1].infinite.bound > c->row[d - 1].number.bound) first = d;
-    if (first)
-        nh_text_addf(out, "\nIn the limit of infinite %s: up to %zu instead of %zu at degree %zu.\n", x->over,
+    if (!c->limit) nh_text_addf(out, "As %s goes to infinity the equations of motion have no limit.\n", x->over);
+    else if (!first) nh_text_addf(out, "In the limit of infinite %s: not more.\n", x->over);
+    else
+        nh_text_addf(out, "In the limit of infinite %s: up to %zu instead of %zu at degree %zu.\n", x->over,
                      c->row[first - 1].infinite.bound, c->row[first - 1].number.bound, first);
-    else nh_text_addf(out, "\nIn the limit of infinite %s: not more.\n", x->over);
 }
 
 /* What one degree excludes. */
@@ -210,11 +136,11 @@ static void put_excluded(const nh_classified *x, size_t degree, bool verbose, nh
     nh_text_add(out, ")\n");
 }
 
-static void put_all_excluded(const nh_classified *x, bool verbose, nh_text *out)
+void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *out)
 {
     const nh_classification *c = of(x);
     if (!c->rows) return;
-    nh_text_addf(out, "\n%s values, proved:\n", count_special(x) ? "No other" : "No special");
+    nh_text_addf(out, "%s values, proved:\n", count_special(x) ? "No other" : "No special");
     size_t theorems = 0, known = 0, primes = 0;
     for (size_t d = 1; d <= c->rows; d++) {
         const nh_classify_row *row = &c->row[d - 1];
@@ -228,25 +154,3 @@ static void put_all_excluded(const nh_classified *x, bool verbose, nh_text *out)
     if (known == c->rows)
         nh_text_addf(out, "  With `--option theorem=%zu` so many primes are taken that no number is left out.\n", primes);
 }
-
-void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *out)
-{
-    const char *end = of(x)->end;
-    put_all_excluded(x, verbose, out);
-    if (end && x->question) nh_text_addf(out, "\nThe question was not answered: %s.\n", nh_classification_end(end));
-    else if (end) nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", of(x)->rows + 1, nh_classification_end(end));
-}
-
-void nh_classification_text(const nh_classified *x, bool verbose, nh_text *out)
-{
-    nh_classification_head(x, out);
-    if (of(x)->obstacle) {
-        nh_text_addf(out, "Nothing can be said: %s.\n", of(x)->obstacle);
-        return;
-    }
-    put_almost_all(x, out);
-    put_values(x, out);
-    put_infinity(x, out);
-    nh_classification_excluded(x, verbose, out);
-}
-

@@ -8,7 +8,7 @@
 /* A current as text, on the heap; NULL: longer than `shown`. */
 char *nh_classification_current(const nh_analysis *result, const nh_current *current, double shown);
 
-/* ---- text ---- */
+/* ---- words ---- */
 
 const char *nh_classification_end(const char *end);
 extern const char *const nh_classification_decide; /* what may decide an open number */
@@ -22,25 +22,20 @@ void nh_classification_level(const nh_classified *classified, size_t level, nh_t
 void nh_classification_amount(const nh_classified *classified, size_t bound, nh_text *out);
 void nh_classification_beyond(const nh_classified *classified, size_t bound, nh_text *out); /* "more than 3" */
 
-/* Title, parameters, and values of the others. */
+/* What is classified, over which parameters, with which values of the others. */
 void nh_classification_head(const nh_classified *classified, nh_text *out);
-/* A line for one degree, and the currents that hold for all values. */
+/* A line for one degree. */
 void nh_classification_almost_all(const nh_classified *classified, size_t degree, const nh_classify_number *number,
                                   size_t known, nh_text *out);
-void nh_classification_known(const nh_classified *classified, nh_text *out);
 /* "degree 2: 3 instead of 2" */
 void nh_classification_counted(const nh_classified *classified, size_t degree, bool first,
                                const nh_classify_number *number, size_t almost_all, bool complete, nh_text *out);
-void nh_classification_proof(const nh_classified *classified, const nh_classified_value *at, size_t first,
-                             nh_text *out);
 
-/* What is proved where there are not more; what was not decided. */
+/* What was not looked at, or not decided; what is proved where there are not more. */
+void nh_classification_left(const nh_classified *classified, nh_text *out);
 void nh_classification_excluded(const nh_classified *classified, bool verbose, nh_text *out);
+void nh_classification_plane_left(const nh_classified_plane *classified, nh_text *out);
 void nh_classification_plane_excluded(const nh_classified_plane *classified, bool verbose, nh_text *out);
-void nh_classification_open(const nh_classified *classified, nh_text *out);
-void nh_classification_plane_open(const nh_classified_plane *classified, nh_text *out);
-
-/* ---- page and LaTeX ---- */
 
 /* The plane of both parameters: curves and points by the number of integrals of the highest degree. */
 void nh_classification_picture(const nh_classified_plane *plane, nh_pen *pen);

@@ -1,4 +1,4 @@
-/* The parts of a classification in the order of its page and of its LaTeX document. */
+/* A classification as a document. */
 #include <string.h>
 
 #include "document/classification_internal.h"
@@ -47,12 +47,10 @@ static void put_numbers(const nh_classified *x, pen *p, size_t rows, const nh_cl
 
 static void put_no_currents(const nh_classified *x, pen *p, const char *why)
 {
-    nh_text text;
-    nh_text_init(&text);
-    nh_text_addf(&text, "Counted modulo primes%s%s.", x->question ? "; " : ". No currents: ",
-                 why ? why : "the run was ended");
-    put_lines(p, &text);
+    nh_pen_words(p, "Counted modulo primes%s%s.", x->question ? "; " : ". No currents: ", why ? why : "the run was ended");
 }
+
+static const char fewer[] = "proved, but fewer than were counted: the others were not constructed";
 
 static void put_value(const nh_classified *x, pen *p, const nh_classified_value *at, size_t first)
 {
@@ -65,8 +63,15 @@ static void put_value(const nh_classified *x, pen *p, const nh_classified_value 
         return;
     }
     put_currents(p, at->result, at->result->count, NULL);
-    nh_pen_words(p, "%s", at->complete >= first ? "All of them are proved, and there are no others up to these degrees."
-             : "They are proved, but fewer than were counted.");
+    if (at->complete >= first) nh_pen_words(p, "all of them proved, and complete to degree %zu", at->complete);
+    else nh_pen_words(p, "%s", fewer);
+}
+
+static void put_almost_all(const nh_classified *x, pen *p, nh_text *degrees)
+{
+    nh_pen_section(p, "almost", x->second ? "For almost all values" : nh_arena_printf(x->arena, "For almost all %s", x->over));
+    put_lines(p, degrees);
+    put_currents(p, x->almost_all, x->known, x->currents);
 }
 
 /* ---- one parameter ---- */
@@ -77,24 +82,25 @@ static void outline_line(const nh_classified *x, pen *p)
     size_t almost_all[NH_COUNT_HIGHEST_DEGREE + 1] = {0}, written = 0;
     nh_text text;
     nh_text_init(&text);
-    for (size_t d = 1; d <= c->rows; d++) almost_all[d] = c->row[d - 1].number.bound;
+    for (size_t d = 1; d <= c->rows; d++) {
+        almost_all[d] = c->row[d - 1].number.bound;
+        nh_classification_almost_all(x, d, &c->row[d - 1].number, c->row[d - 1].known, &text);
+    }
+    put_almost_all(x, p, &text);
     for (size_t k = 0; k < c->values; k++) {
         const nh_classify_value *v = &c->value[k];
         if (!v->first || v->degenerate) continue;
-        if (!written++) nh_pen_section(p, "special", x->question ? nh_classification_where(x) : "Where there are more");
+        if (!written++) nh_pen_section(p, "special", nh_classification_where(x));
         nh_pen_card(p, nh_classified_words(x, &v->polynomial));
         put_numbers(x, p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
         put_value(x, p, &x->value[k], v->first);
     }
-    nh_pen_section(p, "almost", "For almost all values");
-    for (size_t d = 1; d <= c->rows; d++)
-        nh_classification_almost_all(x, d, &c->row[d - 1].number, c->row[d - 1].known, &text);
-    put_lines(p, &text);
-    put_currents(p, x->almost_all, x->known, x->currents);
     nh_pen_section(p, "excluded", "What is excluded");
-    nh_classification_open(x, &text);
-    nh_classification_excluded(x, true, &text);
+    nh_classification_left(x, &text);
+    nh_classification_excluded(x, !p->ink->brief || p->style.verbose, &text);
     put_lines(p, &text);
+    if (c->end && x->question) nh_pen_words(p, "The question was not answered: %s.", nh_classification_end(c->end));
+    else if (c->end) nh_pen_words(p, "Degree %zu was not reached: %s.", c->rows + 1, nh_classification_end(c->end));
 }
 
 /* ---- two ---- */
@@ -110,8 +116,10 @@ static void outline_curve(const plane *x, pen *p, size_t k, const size_t *almost
         return;
     }
     put_currents(p, at->along->almost_all, at->along->known, at->along->currents);
-    nh_pen_words(p, "%s", at->complete ? "All of them are proved for every value on the curve, and there are no others for almost all."
-             : "They are proved, but fewer than were counted.");
+    if (at->complete)
+        nh_pen_words(p, "all of them proved for every %s, and complete to degree %zu for almost all", at->along->over,
+                     at->complete);
+    else nh_pen_words(p, "%s", fewer);
 }
 
 static const char *place_of(const plane *x, const nh_classified_point *q)
@@ -121,6 +129,8 @@ static const char *place_of(const plane *x, const nh_classified_point *q)
     for (int v = 1; v >= 0; v--)
         nh_text_addf(&text, q->about[v] - q->about[v] == 0 ? "%s%s = %s" : "%s%.0s%s", v ? "" : ", ", x->over[v],
                      q->value[v]);
+    if (q->curve != SIZE_MAX)
+        nh_text_addf(&text, "   (on %s)", nh_classified_curve_words(x, &x->plane->curve[q->curve].polynomial));
     const char *out = nh_arena_strdup(x->family->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
@@ -132,30 +142,32 @@ static void outline_plane(const plane *x, pen *p)
     size_t almost_all[NH_COUNT_HIGHEST_DEGREE + 1] = {0}, written = 0;
     nh_text text;
     nh_text_init(&text);
-    for (size_t d = 1; d <= o->rows; d++) almost_all[d] = o->row[d - 1].number.bound;
-    nh_pen_section(p, "picture", "The plane of both parameters");
-    nh_classification_picture(x, p);
+    if (!p->ink->brief) {
+        nh_pen_section(p, "picture", "The plane of both parameters");
+        nh_classification_picture(x, p);
+    }
+    for (size_t d = 1; d <= o->rows; d++) {
+        almost_all[d] = o->row[d - 1].number.bound;
+        nh_classification_almost_all(x->family, d, &o->row[d - 1].number, o->row[d - 1].known, &text);
+    }
+    put_almost_all(x->family, p, &text);
     for (size_t k = 0; k < o->curves; k++) {
         if (!o->curve[k].first || o->curve[k].degenerate) continue;
-        if (!written++) nh_pen_section(p, "curves", "Curves with more");
+        if (!written++) nh_pen_section(p, "curves", "More on the curves");
         outline_curve(x, p, k, almost_all);
     }
     for (size_t k = 0; k < x->points; k++) {
         const nh_classified_point *q = &x->point[k];
-        if (!k) nh_pen_section(p, "points", "Points with more");
+        if (!k) nh_pen_section(p, "points", "More at the points");
         nh_pen_card(p, place_of(x, q));
         put_numbers(x->family, p, o->rows, q->number, q->first, q->at->complete, almost_all);
         put_value(x->family, p, q->at, q->first);
     }
-    nh_pen_section(p, "almost", "For almost all values");
-    for (size_t d = 1; d <= o->rows; d++)
-        nh_classification_almost_all(x->family, d, &o->row[d - 1].number, o->row[d - 1].known, &text);
-    put_lines(p, &text);
-    put_currents(p, x->family->almost_all, x->family->known, x->family->currents);
     nh_pen_section(p, "excluded", "What is excluded");
-    nh_classification_plane_open(x, &text);
-    nh_classification_plane_excluded(x, true, &text);
+    nh_classification_plane_left(x, &text);
+    nh_classification_plane_excluded(x, !p->ink->brief || p->style.verbose, &text);
     put_lines(p, &text);
+    if (o->end) nh_pen_words(p, "Degree %zu was not reached: %s.", o->rows + 1, nh_classification_end(o->end));
 }
 
 static size_t count_line(const nh_classified *x)
@@ -186,22 +198,27 @@ static void answer(pen *p, const nh_classified *line, const plane *x)
     else nh_pen_say(p, ", polynomial in the velocities up to degree %zu.", rows);
 }
 
-void nh_classification_write(const nh_classified *line, const plane *x, const nh_run *run, nh_pen_style style, nh_text *out)
+void nh_classification_write(const nh_classified *line, const plane *x, const nh_run *run, nh_pen_style style,
+                             nh_text *out)
 {
-    const nh_analysis *r = (x ? x->family : line)->almost_all;
-    if (style.form == NH_PEN_TEXT && x) nh_classification_plane_text(x, style.verbose, out);
-    else if (style.form == NH_PEN_TEXT) nh_classification_text(line, style.verbose, out);
-    if (style.form == NH_PEN_TEXT) return;
+    const nh_classified *family = x ? x->family : line;
+    const nh_analysis *r = family->almost_all;
     nh_pen_subject subject = {.system = r->system, .dag = r->model->dag, .chart = r->model->chart, .shown = run->shown};
     pen all, *p = &all;
+    nh_text head;
+    nh_text_init(&head);
     nh_pen_begin(p, style, &subject, "classification", out);
     nh_pen_open(p, NH_PEN_ANSWER, "found", NULL);
     answer(p, line, x);
     nh_pen_close(p, NH_PEN_ANSWER);
+    nh_classification_head(family, &head);
+    put_lines(p, &head);
     p->ink->links(p->to, x ? "picture|The plane|almost|For almost all values|excluded|What is excluded|system|System|words|Words|repeat|Repeat it"
                   : "almost|For almost all values|excluded|What is excluded|system|System|words|Words|repeat|Repeat it");
-    if (x) outline_plane(x, p);
-    else outline_line(line, p);
+    if (!(x ? x->plane->obstacle : line->classification->obstacle)) {
+        if (x) outline_plane(x, p);
+        else outline_line(line, p);
+    }
     nh_pen_system(p, r->model, NULL);
     nh_pen_glossary(p, "current, degree, proved, complete");
     nh_pen_end(p, run);

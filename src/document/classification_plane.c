@@ -1,4 +1,4 @@
-/* The classification over two parameters as text and as JSON. */
+/* The classification over two parameters: what is not among its values, in words; and as JSON. */
 #include <inttypes.h>
 #include <math.h>
 
@@ -33,84 +33,24 @@ static bool closed(const plane *x)
     return all;
 }
 
-/* ---- text ---- */
+/* ---- lines ---- */
 
-static void put_numbers(const plane *x, const nh_classify_number *number, size_t first, size_t complete, nh_text *out)
-{
-    for (size_t d = first; d <= x->plane->rows; d++)
-        nh_classification_counted(x->family, d, d == first, &number[d], x->plane->row[d - 1].number.bound, complete >= d, out);
-    nh_text_add(out, "\n");
-}
-
-static void put_curve(const plane *x, size_t index, nh_text *out)
-{
-    const nh_plane_curve *c = &x->plane->curve[index];
-    const nh_classified_curve *at = &x->curve[index];
-    nh_text_addf(out, "  %s\n", nh_classified_curve_words(x, &c->polynomial));
-    put_numbers(x, c->number, c->first, at->complete, out);
-    if (!at->along) {
-        nh_text_addf(out, "    counted modulo primes; no currents: %s\n", at->why ? at->why : "the run was ended");
-        return;
-    }
-    const nh_classified *along = at->along;
-    for (size_t k = 0; k < along->known; k++) {
-        const nh_current *f = nh_classified_current(along->almost_all, along->currents[k]);
-        char *text = nh_classification_current(along->almost_all, f, along->almost_all->options.shown);
-        nh_text_addf(out, "    %s = %s\n", f->name, text ? text : "... (too long to be shown; option `shown`)");
-        nh_free(text);
-    }
-    if (at->complete)
-        nh_text_addf(out, "    all of them proved for every %s, and complete to degree %zu for almost all\n",
-                     along->over, at->complete);
-    else nh_text_add(out, "    proved, but fewer than were counted: the others were not constructed\n");
-}
-
-static void put_point(const plane *x, const nh_classified_point *p, nh_text *out)
-{
-    for (int k = 1; k >= 0; k--) {
-        nh_text_add(out, k ? "  " : ", ");
-        if (p->about[k] - p->about[k] == 0) nh_text_addf(out, "%s = ", x->over[k]);
-        nh_text_add(out, p->value[k]);
-    }
-    if (p->curve != SIZE_MAX)
-        nh_text_addf(out, "   (on %s)", nh_classified_curve_words(x, &x->plane->curve[p->curve].polynomial));
-    nh_text_add(out, "\n");
-    put_numbers(x, p->number, p->first, p->at->complete, out);
-    nh_classification_proof(x->family, p->at, p->first, out);
-}
-
-static void put_special(const plane *x, nh_text *out)
-{
-    size_t written = 0;
-    for (size_t k = 0; k < x->plane->curves; k++) {
-        if (!special(&x->plane->curve[k])) continue;
-        nh_text_add(out, written++ ? "" : "\nMore on the curves\n");
-        put_curve(x, k, out);
-    }
-    for (size_t k = 0; k < x->points; k++) {
-        nh_text_add(out, k ? "" : "\nMore at the points\n");
-        put_point(x, &x->point[k], out);
-    }
-    written = 0;
-    for (size_t k = 0; k < x->plane->curves; k++) {
-        const nh_plane_curve *c = &x->plane->curve[k];
-        if (c->degenerate)
-            nh_text_addf(out, "%s%s", written++ ? "; " : "\nDegenerate, and not looked at: ",
-                         nh_classified_curve_words(x, &c->polynomial));
-    }
-    nh_text_add(out, written ? "\n" : "");
-}
-
-void nh_classification_plane_open(const plane *x, nh_text *out)
+void nh_classification_plane_left(const plane *x, nh_text *out)
 {
     const nh_plane *o = x->plane;
+    size_t written = 0;
+    for (size_t k = 0; k < o->curves; k++)
+        if (o->curve[k].degenerate)
+            nh_text_addf(out, "%s%s", written++ ? "; " : "Degenerate, and not looked at: ",
+                         nh_classified_curve_words(x, &o->curve[k].polynomial));
+    nh_text_add(out, written ? ".\n" : "");
     for (size_t k = 0; k < o->curves; k++)
         if (o->curve[k].open)
-            nh_text_addf(out, "\nNot decided on %s: how many there are of degree %zu. %s\n",
+            nh_text_addf(out, "Not decided on %s: how many there are of degree %zu. %s\n",
                          nh_classified_curve_words(x, &o->curve[k].polynomial), o->curve[k].open, nh_classification_decide);
     for (size_t k = 0; k < o->lines; k++)
         if (unexamined(x, &o->line[k]))
-            nh_text_addf(out, "\nNot examined, or not up to the highest degree: points with %s.\n",
+            nh_text_addf(out, "Not examined, or not up to the highest degree: points with %s.\n",
                          nh_classified_values(x->family, x->over[1], &o->line[k].across));
 }
 
@@ -119,7 +59,7 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
     const nh_plane *o = x->plane;
     bool any = x->points > 0;
     for (size_t k = 0; k < o->curves; k++) any |= special(&o->curve[k]);
-    if (o->rows) nh_text_addf(out, "\n%s:\n", any ? "Nowhere else" : "Nowhere more");
+    if (o->rows) nh_text_addf(out, "%s:\n", any ? "Nowhere else" : "Nowhere more");
     for (size_t d = 1; d <= o->rows; d++) {
         const nh_plane_row *row = &o->row[d - 1];
         if (!row->lifted || row->height < 1) {
@@ -141,24 +81,6 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
         nh_text_addf(out, "  Other pairs of higher degree were not looked at where %s is no such ratio: determinants are larger than the option `plane`.\n", x->over[1]);
     else if (o->rows)
         nh_text_add(out, "  Another pair of algebraic numbers could have more only if modulo all of the primes it lies on one of the curves or has a residue of a point that was examined, or none. Infinite values were not looked at.\n");
-    if (o->end) nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", o->rows + 1, nh_classification_end(o->end));
-}
-
-void nh_classification_plane_text(const plane *x, bool verbose, nh_text *out)
-{
-    const nh_plane *o = x->plane;
-    nh_classification_head(x->family, out);
-    if (o->obstacle) {
-        nh_text_addf(out, "Nothing can be said: %s.\n", o->obstacle);
-        return;
-    }
-    nh_text_addf(out, "For almost all %s, %s\n", x->over[1], x->over[0]);
-    for (size_t d = 1; d <= o->rows; d++)
-        nh_classification_almost_all(x->family, d, &o->row[d - 1].number, o->row[d - 1].known, out);
-    nh_classification_known(x->family, out);
-    put_special(x, out);
-    nh_classification_plane_open(x, out);
-    nh_classification_plane_excluded(x, verbose, out);
 }
 
 /* ---- JSON ---- */

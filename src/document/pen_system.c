@@ -130,6 +130,8 @@ static void multipliers(nh_pen *p, const nh_model *o)
         label[o->k + s] = nh_arena_printf(o->arena, "F_%s", o->system->coordinate[s].name);
         e[o->k + s] = o->reaction[s];
     }
+    for (size_t a = 0; a < o->k && (p->ink->brief || o->k > 1); a++)
+        nh_pen_words(p, "<%s> is the multiplier of <%s>.", label[a], o->system->constraint[a].text);
     if (p->ink->brief) block(p, o->dag, "Chetaev multipliers", o->k, label, e);
     else block(p, o->dag, "Chetaev multipliers and constraint force", o->k + o->m, label, e);
     nh_free(e);
