@@ -9,15 +9,16 @@
 enum { most_classes = 6 };
 
 static const char caution[] =
-    "A scan is a search by numbers: it misses special values between points whose dip is narrower than the grid, and those of integrals "
+    "A scan is a search by numbers: it misses special values between points whose dip is narrower than the grid, and "
+    "those of integrals "
     "outside of its ansatz spaces. nhsym classify excludes values by proof where the parameter allows it.";
 
 /* ---- words ---- */
 
 static bool alike(const nh_scan_special *a, const nh_scan_special *b)
 {
-    return a->axis == b->axis && a->exact && b->exact && !strcmp(a->exact, b->exact) && a->confirmed == b->confirmed
-           && a->generic == b->generic && a->number[0] == b->number[0];
+    return a->axis == b->axis && a->exact && b->exact && !strcmp(a->exact, b->exact) && a->confirmed == b->confirmed &&
+           a->generic == b->generic && a->number[0] == b->number[0];
 }
 
 /* How many special values with this one's exact value, numbers and direction are listed, if it is the first of them; else 0. */
@@ -41,7 +42,8 @@ static const char *where(const nh_scan *x, size_t special)
     size_t lines = count_alike(x, special);
     nh_text_init(&text);
     if (!s->exact) nh_text_addf(&text, "%s = %.10g", x->axis[s->axis].name, s->value);
-    else if (strspn(s->exact, "-0123456789/") == strlen(s->exact)) nh_text_addf(&text, "%s = %s", x->axis[s->axis].name, s->exact);
+    else if (strspn(s->exact, "-0123456789/") == strlen(s->exact))
+        nh_text_addf(&text, "%s = %s", x->axis[s->axis].name, s->exact);
     else nh_text_addf(&text, "%s = %s = %.10g", x->axis[s->axis].name, s->exact, s->value);
     for (size_t a = 0; a < x->axes && lines < 2; a++)
         if (a != s->axis) nh_text_addf(&text, ", %s = %s", x->axis[a].name, nh_scan_at(x, s->place, a)->text);
@@ -58,9 +60,13 @@ static const char *what(const nh_scan *x, const nh_scan_special *s)
     double here = s->number[0];
     if (s->kind == NH_SCAN_STEP && isfinite(here))
         return nh_arena_printf(x->arena, "%s is %g below, %g there and %g above", name, s->below, here, s->above);
-    if (s->kind == NH_SCAN_STEP) return nh_arena_printf(x->arena, "%s is %g below and %g above; %s", name, s->below, s->above, s->why);
-    if (s->confirmed) return nh_arena_printf(x->arena, "%s is %g instead of %g: confirmed with the exact value", name, here, s->generic);
-    if (s->space) return nh_arena_printf(x->arena, "not confirmed: one more current in the space `%s`, but %s", s->space, s->why);
+    if (s->kind == NH_SCAN_STEP)
+        return nh_arena_printf(x->arena, "%s is %g below and %g above; %s", name, s->below, s->above, s->why);
+    if (s->confirmed)
+        return nh_arena_printf(x->arena, "%s is %g instead of %g: confirmed with the exact value", name, here,
+                               s->generic);
+    if (s->space)
+        return nh_arena_printf(x->arena, "not confirmed: one more current in the space `%s`, but %s", s->space, s->why);
     return nh_arena_printf(x->arena, "not confirmed: %s", s->why);
 }
 
@@ -130,8 +136,10 @@ static void answer(nh_pen *p, const nh_scan *x)
     for (size_t i = 0; i < x->specials; i++) sure += x->special[i].confirmed;
     nh_pen_open(p, NH_PEN_ANSWER, x->partial || x->chunked ? "undecided" : "found", NULL);
     if (x->chunked)
-        nh_pen_say(p, "This part: %zu of %zu units are finished. When all parts are, the same command without --chunk "
-                      "writes the result.", x->finished, x->units);
+        nh_pen_say(p,
+                   "This part: %zu of %zu units are finished. When all parts are, the same command without --chunk "
+                   "writes the result.",
+                   x->finished, x->units);
     else if (x->partial && x->finished < x->units)
         nh_pen_say(p, "Not finished: %zu of %zu units. The same command continues. ", x->finished, x->units);
     else if (x->partial)
@@ -181,7 +189,9 @@ static double *column(const nh_scan *x, size_t k)
     double *out = nh_arena_alloc(x->arena, (x->points + 1) * sizeof *out);
     for (size_t i = 0; i < x->points; i++) {
         const nh_scan_row *r = &x->row[i];
-        out[i] = !r->done ? NAN : k < NH_SCAN_MOST_NUMBERS ? r->number[k] : nh_scan_sigma(x, i, k - NH_SCAN_MOST_NUMBERS);
+        out[i] = !r->done                   ? NAN
+                 : k < NH_SCAN_MOST_NUMBERS ? r->number[k]
+                                            : nh_scan_sigma(x, i, k - NH_SCAN_MOST_NUMBERS);
     }
     return out;
 }
@@ -193,17 +203,41 @@ static void curves(nh_pen *p, const nh_scan *x)
     double *at = along(x, 0);
     bool shown = x->points < 200;
     for (size_t k = 0; k < x->source->count; k++)
-        curve[n++] = (nh_curve){.name = x->source->name[k], .count = count, .x = at, .y = column(x, k), .x_stride = 1, .y_stride = 1, .marks = shown};
-    nh_plot plot = {.title = "Numbers over the parameter", .description = "Each number at the points of the grid", .x_label = x->axis[0].name,
-                    .y_label = n == 1 ? x->source->name[0] : "number", .curves = n, .curve = curve};
+        curve[n++] = (nh_curve){.name = x->source->name[k],
+                                .count = count,
+                                .x = at,
+                                .y = column(x, k),
+                                .x_stride = 1,
+                                .y_stride = 1,
+                                .marks = shown};
+    nh_plot plot = {.title = "Numbers over the parameter",
+                    .description = "Each number at the points of the grid",
+                    .x_label = x->axis[0].name,
+                    .y_label = n == 1 ? x->source->name[0] : "number",
+                    .curves = n,
+                    .curve = curve};
     nh_pen_plot(p, &plot, "Numbers over the parameter. Lines join the points of the grid.");
     n = 0;
     for (size_t k = 0; k < x->spaces; k++)
         if (x->columns[k])
-            curve[n++] = (nh_curve){.name = nh_arena_printf(x->arena, "%zu", k + 1), .count = count, .x = at, .y = column(x, NH_SCAN_MOST_NUMBERS + k), .x_stride = 1, .y_stride = 1};
-    plot = (nh_plot){.title = "Smallest singular values over the parameter", .description = "A dip to zero is a value with one more current", .x_label = x->axis[0].name,
-                     .y_label = "singular value", .log_y = true, .floor = 1e-12, .curves = n, .curve = curve};
-    if (n) nh_pen_plot(p, &plot, "Smallest generalized singular value of each ansatz space that does not vanish everywhere. A dip to zero is a value with one more current.");
+            curve[n++] = (nh_curve){.name = nh_arena_printf(x->arena, "%zu", k + 1),
+                                    .count = count,
+                                    .x = at,
+                                    .y = column(x, NH_SCAN_MOST_NUMBERS + k),
+                                    .x_stride = 1,
+                                    .y_stride = 1};
+    plot = (nh_plot){.title = "Smallest singular values over the parameter",
+                     .description = "A dip to zero is a value with one more current",
+                     .x_label = x->axis[0].name,
+                     .y_label = "singular value",
+                     .log_y = true,
+                     .floor = 1e-12,
+                     .curves = n,
+                     .curve = curve};
+    if (n)
+        nh_pen_plot(p, &plot,
+                    "Smallest generalized singular value of each ansatz space that does not vanish everywhere. A dip "
+                    "to zero is a value with one more current.");
 }
 
 /* ---- over two ---- */
@@ -229,13 +263,22 @@ static size_t class_of(double value, double *class, size_t *classes)
     return k < most_classes ? k : most_classes - 1;
 }
 
-static void put_map(nh_pen *p, const nh_scan *x, const nh_cells *cells, size_t curves_before, nh_curve *curve, const char *title, const char *caption)
+static void put_map(nh_pen *p, const nh_scan *x, const nh_cells *cells, size_t curves_before, nh_curve *curve,
+                    const char *title, const char *caption)
 {
     double *at = nh_arena_alloc(x->arena, 4 * (x->specials + 1) * sizeof *at), *up = at + x->specials + 1;
     size_t n = curves_before, sure = marks(x, true, at, up);
     if (n % 2 && sure) n++, curve[n - 1] = (nh_curve){.name = ""}; /* an even one is filled */
-    if (sure) curve[n++] = (nh_curve){.name = "special values", .count = sure, .x = at, .y = up, .x_stride = 1, .y_stride = 1, .dots = true};
-    nh_plot plot = {.title = title, .description = caption, .x_label = x->axis[0].name, .y_label = x->axis[1].name, .curves = n, .curve = curve, .cells = cells};
+    if (sure)
+        curve[n++] = (nh_curve){
+            .name = "special values", .count = sure, .x = at, .y = up, .x_stride = 1, .y_stride = 1, .dots = true};
+    nh_plot plot = {.title = title,
+                    .description = caption,
+                    .x_label = x->axis[0].name,
+                    .y_label = x->axis[1].name,
+                    .curves = n,
+                    .curve = curve,
+                    .cells = cells};
     nh_pen_plot(p, &plot, caption);
 }
 
@@ -249,8 +292,11 @@ static void map_of_leading(nh_pen *p, const nh_scan *x, nh_cells *cells)
         if (isfinite(value[i])) snprintf(cells->fill[i], 8, "%s", nh_svg_colour(class_of(value[i], class, &classes)));
     }
     for (size_t k = 0; k < classes; k++)
-        curve[k] = (nh_curve){.name = nh_arena_printf(x->arena, "%s = %g%s", x->source->name[0], class[k], k + 1 == most_classes ? " or others" : ""), .dots = true};
-    put_map(p, x, cells, classes, curve, "The leading number over both parameters", "The leading number over both parameters; special values as points.");
+        curve[k] = (nh_curve){.name = nh_arena_printf(x->arena, "%s = %g%s", x->source->name[0], class[k],
+                                                      k + 1 == most_classes ? " or others" : ""),
+                              .dots = true};
+    put_map(p, x, cells, classes, curve, "The leading number over both parameters",
+            "The leading number over both parameters; special values as points.");
 }
 
 /* Of all spaces; INFINITY: not known. */
@@ -275,11 +321,15 @@ static void map_of_singular_values(nh_pen *p, const nh_scan *x, nh_cells *cells)
     }
     for (size_t i = 0; i < x->points; i++) {
         double least = smallest_at(x, i);
-        unsigned char shade = least == 0 ? 0 : high > low ? (unsigned char)(230 * log(fmin(least, high) / low) / log(high / low)) : 230;
+        unsigned char shade = least == 0   ? 0
+                              : high > low ? (unsigned char)(230 * log(fmin(least, high) / low) / log(high / low))
+                                           : 230;
         if (isfinite(least)) snprintf(cells->fill[i], 8, "#%02x%02x%02x", shade, shade, shade);
         else cells->fill[i][0] = 0;
     }
-    if (high > 0) put_map(p, x, cells, 0, curve, "The smallest singular value over both parameters", "The smallest of the singular values over both parameters, on a logarithmic scale: dark is small.");
+    if (high > 0)
+        put_map(p, x, cells, 0, curve, "The smallest singular value over both parameters",
+                "The smallest of the singular values over both parameters, on a logarithmic scale: dark is small.");
 }
 
 static void maps(nh_pen *p, const nh_scan *x)
