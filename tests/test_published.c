@@ -190,6 +190,12 @@ static const published PUBLISHED[] = {
      "coordinates: [T, {name: x, type: length}, {name: y, type: length}, {name: ph, type: angle}]\n"
      "lagrangian: (-((x - 1)/(x + 1))^2*T'^2 + ((x + 1)/(x - 1))^2*((x^2 - 1)^4/(x^2 - y^2)^3*(x'^2/(x^2 - 1) + y'^2/(1 - y^2)) + (x^2 - 1)*(1 - y^2)*ph'^2))/2\n"
      "domain: {x: [2, 4], y: [-0.7, 0.7]}\n", 3, 3},
+    /* S. A. Chaplygin, Mat. Sb. 28 (1911) 303: the centre of mass off the blade; frequencies in the angle that are roots */
+    {"Chaplygin's sleigh", "parameters: {m: 1.3, J: 0.4, a: 0.5}\ncoordinates: [x, y, {name: f, type: angle}]\n"
+     "lagrangian: m/2*((x' - a*f'*sin(f))^2 + (y' + a*f'*cos(f))^2) + J/2*f'^2\nconstraints: [\"x'*sin(f) = y'*cos(f)\"]\n", 3, 4},
+    /* A. Cordani, L. Gy. Feher and P. A. Horvathy, Phys. Lett. B 201 (1988) 481: the motion of two monopoles, with a vector of Runge and Lenz's kind */
+    {"Taub-NUT", "parameters: {m: 0.7, q: 0.4}\ncoordinates: [x, y, z]\ndefinitions: [\"r = sqrt(x^2 + y^2 + z^2)\"]\n"
+     "lagrangian: (1 + m/r)*(x'^2 + y'^2 + z'^2)/2 + q*z/r*(x*y' - y*x')/(x^2 + y^2) - q^2*(1 + m/r)/(2*m^2)\ndomain: {x: [0.5, 1.5], y: [0.5, 1.5], z: [0.3, 1]}\n", 5, 4},
     /* controls: C. Stoermer 1907; G. W. Hill 1878; V. Szebehely 1967; M. C. Gutzwiller, J. Math. Phys. 14 (1973) 139; G. K. Savvidy, Phys. Lett. B 130 (1983) 303 */
     {"Stoermer", "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + sin(th)^2/r*ph'\ndomain: {r: [0.5, 2], th: [0.4, 1.2]}\n", 2, 4},
@@ -309,4 +315,18 @@ Test(published, generic_systems_have_no_further_integrals)
     cr_expect_eq(r->relations, 0);
     cr_expect(r->completeness[NH_COMPLETE_IN_COORDINATES].linear);
     nh_analysis_free(r);
+}
+
+/* cos(sqrt(a) t) beside cos(t): no rational multiples of one angle, which residues show by the sign of the root; of a = 4 they are. */
+Test(published, frequencies_that_are_roots_are_followed)
+{
+    static const char *const value[] = {"2.3", "4"};
+    for (size_t i = 0; i < 2; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "parameters: {a: %s}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - a*x^2/2 + x*cos(t) - y^4\n", value[i]);
+        nh_analysis *r = analysed(text, -1);
+        const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_TIME];
+        cr_expect(r->independent == 3 && c->counted && c->degree >= 4 && !c->missing_at, "a = %s: %zu, complete to degree %zu", value[i], r->independent, c->degree);
+        nh_analysis_free(r);
+    }
 }

@@ -204,7 +204,10 @@ static nh_residue signed_power(nh_prime f, nh_residue base, int64_t exponent)
 bool nh_jet_point_root(nh_jet_point *x, nh_ex radicand, nh_residue value, nh_num exponent, nh_residue *out)
 {
     nh_jet_kernel *k = find(x, NH_JET_ROOT, radicand);
-    if (!k->chosen && !nh_residue_root(x->field, value, k->order, &k->value)) return false;
+    bool fresh = !k->chosen;
+    if (fresh && !nh_residue_root(x->field, value, k->order, &k->value)) return false;
+    bool turn = fresh && x->conjugates && k->order % 2 == 0 && nh_kind_of(x->dag, radicand) == NH_NUMBER;
+    if (turn && nh_residue_random(x->field, &x->random) % 2 == 0) k->value = nh_residue_negative(x->field, k->value);
     k->chosen = true;
     *out = signed_power(x->field, k->value, exponent.p * (int64_t)(k->order / (uint64_t)exponent.q));
     return true;

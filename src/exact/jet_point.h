@@ -37,6 +37,7 @@ typedef struct {
     nh_jet_kernel *kernel;
     size_t kernels, capacity;
     size_t pieces;          /* kernels |u| */
+    bool conjugates;        /* roots of numbers have any sign: another homomorphism from the numbers, for every choice */
     bool solutions;         /* named functions may be noted (graph/named_function.h) */
     const char *obstacle;   /* why expressions cannot be followed, or NULL */
 } nh_jet_point;

@@ -344,11 +344,12 @@ static bool atoms_at(nh_jet_equations *x, const nh_jet_ring *ring, bool real, nm
 
 bool nh_jet_equations_related(nh_jet_equations *x, nh_prime field)
 {
-    enum { order = 3, points = 2, most_tries = 200 };
+    enum { order = 3, points = 6, most_tries = 200 };
     size_t *one = nh_alloc_array(x->coordinates + 2, sizeof *one), variables = x->coordinates + !x->time, count;
     for (size_t k = 0; k < variables; k++) one[k] = 1;
     nh_jet_ring *ring = nh_jet_ring_create(field, variables, one, order);
     bool independent = true;
+    x->point->conjugates = true;
     for (int real = 0; real < 2 && independent; real++) {
         nmod_mat_t rows;
         nmod_mat_init(rows, (slong)x->point->kernels + 1, (slong)(points * ring->size), field.p);
@@ -363,6 +364,7 @@ bool nh_jet_equations_related(nh_jet_equations *x, nh_prime field)
         independent = found == points && (size_t)nmod_mat_rank(rows) == count;
         nmod_mat_clear(rows);
     }
+    x->point->conjugates = false;
     nh_jet_ring_free(ring);
     nh_free(one);
     return !independent;
