@@ -460,12 +460,21 @@ static double vanishes(const document *d, const char *text)
     " + M*r*e/2*(x1'*(varphi'*cos(varphi)*sin(theta) + theta'*sin(varphi)*cos(theta)) + x2'*(varphi'*sin(varphi)*sin(theta) - theta'*cos(theta)*cos(varphi))" \
     " - r*cos(theta)*sin(theta)*varphi'^2) - M*g*r*e/2*cos(theta)"
 
+/* Helmholtz's condition dF_i/dq'_j + dF_j/dq'_i = 0 of a force without accelerations, for i = j = x: by what it is violated. */
+static double helmholtz(const document *d)
+{
+    nh_dag *g = d->system->dag;
+    nh_ex slope = nh_diff(g, coefficient(d, "chetaev_equations", "F_x", ""), parsed(d, "x'"));
+    return differ(d, nh_mul(g, nh_int(g, 2), slope), parsed(d, "-2*(k^2 - 1)/k^2*m*phi'*tan(phi)"));
+}
+
 /* ---- by name ---- */
 
 static void by(const row *r, const document *d, double *printed, double *meant, char *value, size_t size)
 {
     const char *what = r->label;
     if (!strcmp(what, "euler")) *printed = euler(d);
+    else if (!strcmp(what, "helmholtz")) *printed = helmholtz(d);
     else if (!strcmp(what, "projection")) *printed = projection(d);
     else if (!strcmp(what, "chetaev")) *printed = chetaev(d);
     else if (!strcmp(what, "chetaev field")) *printed = chetaev_field(d);

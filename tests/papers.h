@@ -170,7 +170,7 @@ static const row ROWS[] = {
     {A, "4.2", "which have a field of case 1", IS, D_SYMMETRIES, .label = "equations.bracket_bounds.4.words",
         .printed = "So the currents with a field of case 1 are the functions of Phi1, and no others: proved.", .ours = true},
     {A, "4.2", "dimension of the point symmetries of the equations", VALUE, D_SYMMETRIES, "equation_symmetries", "dim_point", "", "5", .k = 0, .ours = true},
-    {A, "4.3", "the force is not variational", NOT, D_NONE, .printed = "the program has no test of Helmholtz's conditions"},
+    {A, "4.3", "the force is not variational: 2 dF_x/dx', which Helmholtz's conditions want to be 0, is -2 (k^2 - 1)/k^2 m phi' tan(phi)", BY, D_PHI1, .label = "helmholtz"},
 
     {C, "(2.1)-(2.4)", "metric of the crane's eight coordinates, (3.22)", BY, D_NONE, .label = "crane metric"},
     {C, "(2.5)", "cotangent lift of an action", NOT, D_NONE, .printed = "notation; `reduce` prolongs every generator to test it"},
