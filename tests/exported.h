@@ -15,6 +15,7 @@ static const double exported_time = 0.23, exported_input = 0.37;
 typedef struct {
     double *argument[NH_EXPORT_MOST_ARRAYS], *result[NH_EXPORT_MOST_ARRAYS];
     bool good;
+    double time;
 } exported_call;
 
 static inline nh_export *exported_make(const char *path, const char *of, const char *input)
@@ -123,7 +124,7 @@ static inline bool exported_newton(exported_scope *s, const nh_export_solve *q, 
 static inline bool exported_run(const nh_export *x, const nh_export_function *f, exported_call *c)
 {
     exported_scope s = {.f = f};
-    exported_know(&s, f->system->t, exported_time);
+    exported_know(&s, f->system->t, c->time);
     for (size_t i = 0; i < f->system->parameters; i++)
         exported_know(&s, f->system->parameter[i].symbol, x->input[i] ? exported_input : f->system->parameter[i].value);
     for (size_t a = 0; a < f->arguments; a++)
@@ -143,7 +144,7 @@ static inline bool exported_run(const nh_export *x, const nh_export_function *f,
 
 static inline exported_call exported_call_make(const nh_export *x, const nh_export_function *f, size_t probe)
 {
-    exported_call c = {.good = false};
+    exported_call c = {.time = exported_time};
     for (size_t a = 0; a < f->arguments; a++) {
         const nh_export_array *array = &f->argument[a];
         bool momenta = !strcmp(array->name, "momentum") || !strcmp(array->name, "group");

@@ -1,5 +1,5 @@
-/* export: what is written for C, C++, Python, SymPy and Octave computes what the expressions are, by tapes and LAPACK.
- */
+/* export: what is written for C, C++, Python, SymPy and Octave computes what the expressions are, by tapes and LAPACK, and the
+ * energies and multipliers that `simulate` gives along a motion. */
 #include "exported.h"
 #include "exported_systems.h"
 
@@ -8,16 +8,19 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
+#include "commands/simulate.h"
 #include "document/export.h"
 #include "scratch.h"
 #include "sweep.h"
 
-enum { probes = 2, share = 4 }; /* calls of each function; tests that share the systems */
+/* Calls of each function, of which the last is a state of a simulation where it gives the results; tests that share the systems. */
+enum { probes = 3, share = 4 };
 
 typedef struct {
     nh_export *x;
     const char *name;
     exported_call *call; /* probes for each function */
+    size_t simulated;    /* calls whose results are those of a simulation */
 } exported;
 
 typedef struct {
@@ -62,6 +65,70 @@ static exported_call call_of(const nh_export *x, const nh_export_function *f, si
     }
 }
 
+/* ---- a state of a simulation ---- */
+
+static const double *value_of(const nh_simulation *s, const char *name, nh_track_kind kind)
+{
+    const double *last = s->value + (s->motion->count - 1) * s->columns.count;
+    for (size_t k = 0; k < s->columns.count; k++)
+        if (s->columns.track[k].kind == kind && !strcmp(s->columns.track[k].name, name)) return last + k;
+    return NULL;
+}
+
+/* The last state of a short motion, and its energy or multipliers. False: the function has other arguments or results. */
+static bool call_at_end(const nh_simulation *s, const nh_export_function *f, exported_call *c)
+{
+    bool energy = !strcmp(f->name, "submanifold_energy");
+    if ((!energy && strcmp(f->name, "multipliers")) || f->solves) return false;
+    *c = (exported_call){.time = s->motion->time[s->motion->count - 1], .good = true};
+    for (size_t i = 0; i < f->results; i++)
+        c->result[i] = nh_alloc_array(f->result[i].rows * f->result[i].columns + 1, sizeof(double));
+    c->argument[0] = nh_alloc_array(f->argument[0].rows + 1, sizeof(double));
+    for (size_t i = 0; i < f->argument[0].rows; i++) {
+        const char *name = nh_name_of(f->dag, f->argument[0].e[i]);
+        const double *value = value_of(s, name, NH_TRACK_STATE);
+        cr_assert_not_null(value, "%s of %s is no column", name, s->system->name);
+        c->argument[0][i] = *value;
+    }
+    return true;
+}
+
+/* What simulation and export both give; other results are those of tapes at the same state. */
+static void results_at_end(const nh_simulation *s, const nh_export *x, const nh_export_function *f, exported_call *c)
+{
+    bool energy = !strcmp(f->name, "submanifold_energy");
+    cr_assert(exported_run(x, f, c), "%s of %s has no values", f->name, x->system->name);
+    for (size_t i = 0; i < (energy ? 1 : f->result[0].rows); i++) {
+        char column[20];
+        snprintf(column, sizeof column, energy ? "E" : "c%zu", i + 1);
+        const double *value = value_of(s, column, energy ? NH_TRACK_ENERGY : NH_TRACK_MULTIPLIER);
+        cr_assert_not_null(value, "%s: %s", s->system->name, column);
+        c->result[0][i] = *value;
+    }
+}
+
+/* In place of the last of the ordinary calls. */
+static void simulate(const char *path, exported *e)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = path, .until_given = true, .step = 0.1};
+    nh_options_default(&q.options);
+    q.options.until = 0.5;
+    nh_simulation *s = nh_simulation_create(&q, &error);
+    must(s != NULL, &error, path);
+    for (size_t i = 0; i < e->x->functions; i++) {
+        const nh_export_function *f = &e->x->function[i];
+        exported_call c;
+        if (!call_at_end(s, f, &c)) continue;
+        results_at_end(s, e->x, f, &c);
+        exported_call_clear(&e->call[i * probes + probes - 1]);
+        e->call[i * probes + probes - 1] = c;
+        e->simulated++;
+    }
+    nh_simulation_free(s);
+    cr_expect_gt(e->simulated, 0, "%s", path);
+}
+
 static exported make(const batch *b, const exported_system *s)
 {
     char path[SCRATCH + 100];
@@ -79,6 +146,7 @@ static exported make(const batch *b, const exported_system *s)
     e.call = nh_alloc_array(probes * e.x->functions + 1, sizeof *e.call);
     for (size_t i = 0; i < e.x->functions; i++)
         for (size_t p = 0; p < probes; p++) e.call[i * probes + p] = call_of(e.x, &e.x->function[i], p);
+    if (!s->text) simulate(path, &e);
     return e;
 }
 
@@ -113,12 +181,13 @@ static void compare(const batch *b, const char *language, const char *command, d
     snprintf(line, sizeof line, "cd %s && %s", b->folder, command);
     FILE *pipe = popen(line, "r");
     cr_assert_not_null(pipe);
-    size_t values = 0, calls = 0, systems = 0;
+    size_t values = 0, calls = 0, systems = 0, simulated = 0;
     double worst = 0;
     for (size_t s = 0; s < b->count; s++) {
         const exported *e = &b->of[s];
         if (wanted && !wanted(e)) continue;
         systems++;
+        simulated += e->simulated > 0;
         for (size_t k = 0; k < probes * e->x->functions; k++) {
             const nh_export_function *f = &e->x->function[k / probes];
             const exported_call *c = &e->call[k];
@@ -146,7 +215,8 @@ static void compare(const batch *b, const char *language, const char *command, d
     cr_expect_null(fgets(line, sizeof line, pipe), "%s prints more", language);
     cr_expect_eq(pclose(pipe), 0, "%s", language);
     cr_expect_geq(values, 20 * systems);
-    cr_log_info("%s: %zu calls, %zu values, largest difference %.1e", language, calls, values, worst);
+    cr_log_info("%s: %zu systems, %zu of them at states of a simulation; %zu calls, %zu values, largest difference %.1e",
+                language, systems, simulated, calls, values, worst);
 }
 
 static void put_list(nh_text *out, const char *open, size_t n, const double *x, const char *close)
@@ -170,7 +240,7 @@ static void c_call(const exported *e, const nh_export_function *f, const exporte
     if (e->x->inputs) nh_text_addf(out, "        const double u[] = {%.17g};\n", exported_input);
     for (size_t r = 0; r < f->results; r++)
         nh_text_addf(out, "        double r%zu[%zu];\n", r, f->result[r].rows * f->result[r].columns);
-    nh_text_addf(out, "        int code = %s_%s(%.17g", e->name, f->name, exported_time);
+    nh_text_addf(out, "        int code = %s_%s(%.17g", e->name, f->name, c->time);
     for (size_t a = 0; a < f->arguments; a++) nh_text_addf(out, ", a%zu", a);
     nh_text_addf(out, "%s", e->x->inputs ? ", u" : "");
     if (has_parameters(e->x)) nh_text_addf(out, ", &%s_default", e->name);
@@ -229,23 +299,23 @@ static void python_calls(const batch *b, const char *name, bool sympy, bool (*wa
 {
     static const char head[] =
         "import numpy as np\n"
-        "def call(f, *a, **k):\n"
+        "def call(f, t, *a, **k):\n"
         "    try:\n"
-        "        r = f(0.23, *[np.array(x) for x in a], **k)\n"
+        "        r = f(t, *[np.array(x) for x in a], **k)\n"
         "    except (ArithmeticError, np.linalg.LinAlgError):\n"
         "        return print(1)\n"
         "    print(0)\n"
         "    for x in r if isinstance(r, tuple) else (r,):\n"
         "        for y in np.ravel(x): print('%.17g' % y)\n"
         "    if not any(len(x) for x in a): return\n"
-        "    many = f(0.23, *[np.stack([x, np.array(x)*(1 + 1e-9), x], 1) for x in map(np.array, a)], **k)\n"
+        "    many = f(t, *[np.stack([x, np.array(x)*(1 + 1e-9), x], 1) for x in map(np.array, a)], **k)\n"
         "    for x, y in zip(*[z if isinstance(z, tuple) else (z,) for z in (r, many)]):\n"
         "        y = np.broadcast_to(y.T, (3,) + x.T.shape).T if y.ndim == x.ndim else y\n"
         "        assert y.shape == x.shape + (3,), (f.__name__, y.shape, x.shape)\n"
         "        assert np.max(np.abs(y[..., 2] - x)) <= 1e-12*(1 + np.max(np.abs(x))), f.__name__\n";
     static const char symbolic[] = "import sympy as sp\n"
-                                   "def call(f, *a, **k):\n"
-                                   "    r = f(0.23, *a, **k)\n"
+                                   "def call(f, t, *a, **k):\n"
+                                   "    r = f(t, *a, **k)\n"
                                    "    print(0)\n"
                                    "    for x in r if isinstance(r, tuple) else (r,):\n"
                                    "        for y in x: print('%.17g' % sp.N(y, 20))\n";
@@ -261,7 +331,7 @@ static void python_calls(const batch *b, const char *name, bool sympy, bool (*wa
         if (sympy) nh_text_add(&out, "p = m.Parameters(*[m.values[x] for x in m.parameters])\n");
         for (size_t k = 0; k < probes * e->x->functions; k++) {
             const nh_export_function *f = &e->x->function[k / probes];
-            nh_text_addf(&out, "call(m.%s", f->name);
+            nh_text_addf(&out, "call(m.%s, %.17g", f->name, e->call[k].time);
             for (size_t a = 0; a < f->arguments; a++)
                 put_list(&out, ", [", f->argument[a].rows, e->call[k].argument[a], "]");
             if (e->x->inputs) nh_text_addf(&out, ", inputs=[%.17g]", exported_input);
@@ -278,7 +348,7 @@ static bool few_coordinates(const exported *e)
     for (size_t i = 0; i < e->x->functions; i++)
         for (size_t k = 0; k < e->x->function[i].solves; k++)
             if (e->x->function[i].solve[k].newton) return false;
-    return e->x->system->coordinates <= 3 || !strcmp(e->name, "keywords");
+    return e->x->system->coordinates <= 5 || !strcmp(e->name, "keywords");
 }
 
 /* ---- Octave ---- */
@@ -299,7 +369,7 @@ static void octave_calls(const batch *b)
             const nh_export_function *f = &e->x->function[k / probes];
             nh_text_add(&out, "[");
             for (size_t r = 0; r < f->results; r++) nh_text_addf(&out, "%sr%zu", r ? ", " : "", r);
-            nh_text_addf(&out, "] = m.%s(0.23", f->name);
+            nh_text_addf(&out, "] = m.%s(%.17g", f->name, e->call[k].time);
             for (size_t a = 0; a < f->arguments; a++)
                 put_list(&out, ", [", f->argument[a].rows, e->call[k].argument[a], "]");
             if (e->x->inputs) nh_text_addf(&out, ", %.17g", exported_input);
