@@ -24,6 +24,8 @@ static nh_zero_verdict verdict_of(const char *text)
 Test(normal, identities)
 {
     static const char *const zero[] = {
+        "(m+n)^(1-x)-m*(m+n)^(-x)-n*(m+n)^(-x)", "(m+n)^(2-2*x+3*y)-m*(m+n)^(1-2*x+3*y)-n*(m+n)^(1-2*x+3*y)", "(m+n)^(1-m/(m+n))-m*(m+n)^(-m/(m+n))-n*(m+n)^(-m/(m+n))",
+        "(m+n)^(1/2-x/2)*(m+n)^(1/2+x/2)-m-n", "m*(m+n)^(1/2-x)+n*(m+n)^(1/2-x)-sqrt(m+n)*(m+n)^(1-x)", "(m+n)^(x*(y-1))*(m+n)^x-(m+n)^(x*y)",
         "0", "(x+y)^3-x^3-3*x^2*y-3*x*y^2-y^3", "1/(x-y)+1/(y-x)", "(x^2-y^2)/(x+y)-x+y",
         "1/(x*(x+1))-1/x+1/(x+1)", "sin(f)^2+cos(f)^2-1", "sin(a+b)-sin(a)*cos(b)-cos(a)*sin(b)",
         "cos(a-2*b)-cos(a)*cos(2*b)-sin(a)*sin(2*b)", "cos(2*x)-1+2*sin(x)^2", "sin(5*x)-16*sin(x)^5+20*sin(x)^3-5*sin(x)",

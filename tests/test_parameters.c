@@ -306,6 +306,23 @@ Test(parameters, gauge_momenta_have_parameters_whatever_the_values)
     }
 }
 
+/* A hoop that rolls round a cone: its exponent and what it is a power of hold three parameters. */
+Test(parameters, an_exponent_of_three_parameters)
+{
+    sweep_plain_only();
+    place p = place_make();
+    write_here(&p, "cone.yaml", "name: cone\ncoordinates: [r, {name: th, type: angle}, {name: psi, type: angle}]\nparameters: {m: 1.3, I: 0.7, al: 0.4, g: 9.81, R: 0.5}\n"
+                                "lagrangian: m/2*(r'^2/sin(al)^2 + r^2*th'^2) + I/2*psi'^2 - m*g*r/tan(al)\nconstraints: [\"r*th' - R*psi' = 0\"]\ndomain: {r: [0.5, 2]}\n");
+    finished f = run(&p, "analyze cone.yaml --json -");
+    cJSON *root = cJSON_Parse(f.out);
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(root, "currents"), *item;
+    cr_assert_eq(cJSON_GetArraySize(list), 2, "%s", f.err);
+    cJSON_ArrayForEach(item, list) cr_expect_str_eq(text_of(item, "holds"), "all parameters", "%s", text_of(item, "expression"));
+    cJSON_Delete(root);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* The masses' ratio, although both sums of distances keep their roots in the potential. */
 Test(parameters, generators_have_parameters_whatever_the_values)
 {

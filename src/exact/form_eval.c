@@ -85,9 +85,8 @@ static quotient eval_power(nh_form *f, nh_ex base, nh_ex exponent)
     }
     default: break;
     }
-    if (nh_kind_of(dag, exponent) != NH_SUM) return eval_growth(f, NH_KERNEL_POWER, base, exponent);
-    nh_ex number = nh_number(dag, nh_constant_of(dag, exponent));
-    quotient q = eval_growth(f, NH_KERNEL_POWER, base, nh_sub(dag, exponent, number));
+    nh_ex rest, number = nh_exponent_number(dag, exponent, &rest);
+    quotient q = eval_growth(f, NH_KERNEL_POWER, base, rest);
     return nh_is_zero(dag, number) ? q : nh_quotient_mul(f->field, eval_power(f, base, number), q);
 }
 

@@ -88,6 +88,20 @@ nh_exponent_kind nh_exponent_kind_of(const nh_dag *dag, nh_ex exponent)
     return x.q == 1 ? NH_EXPONENT_WHOLE : NH_EXPONENT_ROOT;
 }
 
+nh_ex nh_exponent_number(nh_dag *dag, nh_ex exponent, nh_ex *rest)
+{
+    nh_parts parts = {0};
+    nh_ex number = nh_int(dag, 0), sum = number;
+    split(dag, &parts, exponent);
+    for (size_t i = 0; i < parts.count; i++) {
+        nh_ex *to = nh_is_number(dag, parts.item[i].atom, 1) ? &number : &sum;
+        *to = nh_add(dag, *to, nh_mul(dag, nh_number(dag, parts.item[i].coefficient), parts.item[i].atom));
+    }
+    nh_free(parts.item);
+    *rest = sum;
+    return number;
+}
+
 /* ---- collecting ---- */
 
 void nh_kernels_init(nh_kernels *kernels, nh_dag *dag, bool literal, bool opaque)
@@ -164,6 +178,7 @@ static void collect(nh_kernels *k, nh_ex e, int depth);
 
 static void collect_power(nh_kernels *k, nh_ex base, nh_ex exponent, int depth)
 {
+    nh_ex number, rest;
     switch (nh_exponent_kind_of(k->dag, exponent)) {
     case NH_EXPONENT_WHOLE: collect(k, base, depth); break;
     case NH_EXPONENT_ROOT:
@@ -172,13 +187,9 @@ static void collect_power(nh_kernels *k, nh_ex base, nh_ex exponent, int depth)
         break;
     case NH_EXPONENT_OPAQUE: note_plain(k, nh_pow(k->dag, base, exponent)); break;
     case NH_EXPONENT_SYMBOLIC:
-        /* b^(n + x) = b^n b^x: the number is treated as above */
-        if (nh_kind_of(k->dag, exponent) == NH_SUM) {
-            nh_ex number = nh_number(k->dag, nh_constant_of(k->dag, exponent));
-            if (!nh_is_zero(k->dag, number)) collect_power(k, base, number, depth);
-            exponent = nh_sub(k->dag, exponent, number);
-        }
-        note_parts(k, NH_KERNEL_POWER, base, exponent);
+        number = nh_exponent_number(k->dag, exponent, &rest);
+        if (!nh_is_zero(k->dag, number)) collect_power(k, base, number, depth);
+        note_parts(k, NH_KERNEL_POWER, base, rest);
     }
 }
 

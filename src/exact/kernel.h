@@ -88,4 +88,7 @@ bool nh_quarter_turns(const nh_dag *dag, nh_part part, int64_t *turns);
 typedef enum { NH_EXPONENT_WHOLE, NH_EXPONENT_ROOT, NH_EXPONENT_OPAQUE, NH_EXPONENT_SYMBOLIC } nh_exponent_kind;
 nh_exponent_kind nh_exponent_kind_of(const nh_dag *dag, nh_ex exponent);
 
+/* b^(n + x) = b^n b^x: the number n of an exponent, and x in *rest.  (-1 (x - 1) is such a sum, too.) */
+nh_ex nh_exponent_number(nh_dag *dag, nh_ex exponent, nh_ex *rest);
+
 #endif
