@@ -212,6 +212,32 @@ Test(statements, a_constant_current_is_trivial_on_the_submanifold)
     place_clear(&p);
 }
 
+/* A rate whose terms cancel within themselves is zero to the digits of what they consist of: rounding is no counterexample. */
+Test(statements, rounding_is_no_rate)
+{
+    static const struct {
+        const char *expression;
+        bool conserved;
+    } row[] = {
+        {"th'+(m*r^2+I*r^2)^(I/m)-(m+I)^(I/m)*r^(2*I/m)", true},
+        {"th'+(m*r^2+I*r)^(I/m)-(m*r+I)^(I/m)*r^(I/m)", true},
+        {"th'+1e-18*r", false},
+        {"th'*(1+1e-30*r)", false},
+        {"(1e9+r)*th'-1e9*th'", false},
+    };
+    place p = place_make();
+    write_here(&p, "free.yaml", "name: free\nparameters: {m: 1.3, I: 0.7}\ncoordinates: [r, th]\nlagrangian: m/2*(r'^2 + th'^2) + 0*I\ndomain: {r: [0.5, 2]}\n");
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        char line[200];
+        snprintf(line, sizeof line, "free.yaml --current %s", row[i].expression);
+        reports r = verify(&p, line, !row[i].conserved);
+        cr_expect_eq((bool)cJSON_IsTrue(item(r.json, "conserved")), row[i].conserved, "%s: %s", row[i].expression, r.text);
+        cr_expect_eq(strstr(r.text, "The rate of change along the motion is") != NULL, !row[i].conserved, "%s", row[i].expression);
+        reports_clear(&r);
+    }
+    place_clear(&p);
+}
+
 /* ---- modulo the constraints ---- */
 
 #define FOUR_COORDINATES "parameters: [{name: m, value: 1.3}, {name: g, value: 0.9}]\n" \

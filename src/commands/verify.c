@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "graph/diff.h"
+#include "graph/terms.h"
 #include "exact/normal.h"
 #include "integrals/independence.h"
 #include "search/branch.h"
@@ -75,18 +76,24 @@ void nh_verification_free(nh_verification *v)
 
 /* ---- the worst point of an expression that should vanish ---- */
 
-/* |e| / max(sum of |terms|, floor): where it is largest the point is kept. */
+static const double rounding = 64 * DBL_EPSILON;
+
+/* |e| / sum of |terms|: where it is largest the point is kept.  What is no more than the rounding of what cancels within the terms is relative to that. */
 static bool worst_point(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term, double *residual)
 {
     size_t count = points->count, worst = count;
-    double *value = nh_alloc_array(n * count + 1, sizeof *value), most = 0, rate = 0;
+    double *value = nh_alloc_array((n + 1) * count + 1, sizeof *value), most = 0, rate = 0;
+    nh_ex within = nh_int(v->model->dag, 0);
+    for (size_t j = 0; j < n; j++) within = nh_add(v->model->dag, within, nh_terms_uncancelled(v->model->dag, term[j]));
     nh_points_evaluate(points, v->model, n, term, value);
+    nh_points_evaluate(points, v->model, 1, &within, value + n * count);
     for (size_t p = 0; p < count; p++) {
         double sum = 0, size = 0;
         for (size_t j = 0; j < n; j++) {
             sum += value[j * count + p];
             size += fabs(value[j * count + p]);
         }
+        if (fabs(sum) <= rounding * value[n * count + p]) size = value[n * count + p];
         double r = size > 0 ? fabs(sum) / size : 0;
         if (!isfinite(r) || r <= most) continue;
         most = r;

@@ -1,6 +1,7 @@
 #include "graph/terms.h"
 
 #include "base/memory.h"
+#include "graph/index.h"
 
 size_t nh_terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
 {
@@ -27,6 +28,50 @@ nh_ex nh_terms_moduli(nh_dag *d, nh_ex e)
     for (size_t i = 0; i < nh_arity(d, e); i++)
         sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i))));
     return sum;
+}
+
+static nh_ex uncancelled(nh_dag *d, nh_ex e, nh_index *known);
+
+static nh_ex uncancelled_sum(nh_dag *d, nh_ex e, nh_index *known)
+{
+    nh_num constant = nh_constant_of(d, e);
+    nh_ex sum = nh_call(d, NH_ABS, nh_number(d, constant));
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex c = nh_call(d, NH_ABS, nh_number(d, nh_coefficient_of(d, e, i)));
+        sum = nh_add(d, sum, nh_mul(d, c, uncancelled(d, nh_child(d, e, i), known)));
+    }
+    return sum;
+}
+
+static nh_ex uncancelled_product(nh_dag *d, nh_ex e, nh_index *known)
+{
+    nh_ex product = nh_call(d, NH_ABS, nh_number(d, nh_constant_of(d, e)));
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex base = nh_child(d, e, i), x = nh_exponent_of(d, e, i);
+        bool whole = nh_kind_of(d, x) == NH_NUMBER && nh_num_short(nh_number_of(d, x)) && nh_number_of(d, x).q == 1 && nh_number_of(d, x).p > 0;
+        product = nh_mul(d, product, whole ? nh_pow(d, uncancelled(d, base, known), x) : nh_call(d, NH_ABS, nh_pow(d, base, x)));
+    }
+    return product;
+}
+
+/* `known`: a shared graph has exponentially many paths. */
+static nh_ex uncancelled(nh_dag *d, nh_ex e, nh_index *known)
+{
+    uint32_t before;
+    nh_kind kind = nh_kind_of(d, e);
+    if (kind != NH_SUM && kind != NH_PRODUCT) return nh_call(d, NH_ABS, e);
+    if (nh_index_get(known, e, &before)) return before;
+    nh_ex size = kind == NH_SUM ? uncancelled_sum(d, e, known) : uncancelled_product(d, e, known);
+    nh_index_put(known, e, size);
+    return size;
+}
+
+nh_ex nh_terms_uncancelled(nh_dag *d, nh_ex e)
+{
+    nh_index known = {0};
+    nh_ex size = uncancelled(d, e, &known);
+    nh_index_clear(&known);
+    return size;
 }
 
 /* The exponent of a base in a term; whole and not negative, otherwise 0. */

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "graph/diff.h"
+#include "graph/terms.h"
 #include "exact/normal.h"
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"
@@ -10,14 +11,27 @@
 
 enum { wanted_points = 4, most_tries = 40, double_digits = 8, patience = 5 }; /* longer proofs of what is certified */
 
+/* The digits to which the terms cancel against each other; where each cancels in itself already, relative to all that cancels in them. */
+static bool cancels(nh_ball *ball, size_t n, const nh_ex *term, nh_ex sum, nh_ex size, double *log10_ratio)
+{
+    double bound, scale;
+    if (nh_ball_relative_sum(ball, n, term, log10_ratio)) return true;
+    if (!nh_ball_log10_bound(ball, sum, &bound) || !nh_ball_log10_bound(ball, size, &scale)) return false;
+    *log10_ratio = isfinite(scale) ? bound - scale : -INFINITY;
+    return true;
+}
+
 static void cancel(const nh_model *o, size_t n, const nh_ex *term, const nh_options *options, nh_proof *proof)
 {
+    nh_ex sum = nh_int(o->dag, 0);
+    for (size_t i = 0; i < n; i++) sum = nh_add(o->dag, sum, term[i]);
+    nh_ex size = nh_terms_uncancelled(o->dag, sum);
     nh_ball *ball = nh_ball_create(o->dag, (long)options->bits);
     uint64_t state = (uint64_t)options->seed + 77;
     double least = INFINITY;
     for (int tries = 0; tries < most_tries && proof->points < wanted_points; tries++) {
         double log10_ratio;
-        if (!nh_exact_point(o, ball, &state) || !nh_ball_relative_sum(ball, n, term, &log10_ratio)) continue;
+        if (!nh_exact_point(o, ball, &state) || !cancels(ball, n, term, sum, size, &log10_ratio)) continue;
         least = fmin(least, -log10_ratio);
         proof->points++;
     }

@@ -136,12 +136,13 @@ nh_ex nh_invariance_sum(const nh_kinetic *k)
     return minus ? nh_child(d, k->V, 0) : k->V;
 }
 
-/* A potential of many terms may be too large for one proof: xi of each term vanishes by itself, often. */
+/* A potential of many terms may be too large for one proof, or for one with all parameters: xi of each term vanishes by itself, often. */
 static void prove_by_terms(const nh_kinetic *k, const nh_ex *xi, const nh_options *options, nh_condition *c)
 {
     nh_dag *d = k->dag;
     nh_ex V = nh_invariance_sum(k);
-    if (!c->holds || c->proved || nh_kind_of(d, V) != NH_SUM) return;
+    nh_condition whole = *c;
+    if (!c->holds || (c->proved && c->all_parameters) || nh_kind_of(d, V) != NH_SUM) return;
     c->proved = c->all_parameters = true;
     c->fixed = NULL;
     for (size_t i = 0; i < nh_arity(d, V) && c->proved; i++) {
@@ -149,6 +150,7 @@ static void prove_by_terms(const nh_kinetic *k, const nh_ex *xi, const nh_option
         if (nh_normal_is_zero(d, rate, (size_t)options->proof_terms) == NH_ZERO) continue;
         join(k, c, nh_prove_zero(k->model, 1, &rate, true, options));
     }
+    if (whole.proved && !(c->proved && c->all_parameters)) *c = whole;
 }
 
 /* What the change of L is made of, coordinate by coordinate: sum |xi^s dL/dq^s| + |xi^s' dL/dv^s|. */
