@@ -40,6 +40,8 @@ INCLUDES = -Isrc $(patsubst -I%,-isystem %,$(MPI_INCLUDE))
 OWN_CPPFLAGS = $(INCLUDES) -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -MMD -MP
 COMPILE  = $(CC) $(OWN_CPPFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS)
 LINK     = $(CC) $(OPT) $(CFLAGS) $(LDFLAGS)
+# As this file is read: not with what a target adds.
+FLAGS   := $(subst ','\'',$(COMPILE))
 # What other versions have in other places: SUNDIALS 7 a core of its own, whose headers want MPI's where it was built with MPI (as Debian's is); FLINT 2
 # Arb as a library of its own.
 has      = $(if $(findstring /,$(shell $(CC) -print-file-name=lib$(1).so)),-l$(1))
@@ -83,7 +85,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests install uninstall wheel deb deb-source bench catalogue papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean packages test-packages check-packages
+.PHONY: all library sleigh check check-all threads tests install uninstall wheel deb deb-source bench catalogue papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -196,7 +198,7 @@ $(BUILD)/nhsym-mpi: $(CLI_MPI) $(BUILD)/libnhsym.a
 	@echo "  link $@"
 	@$(LINK) $(CLI_MPI) $(BUILD)/libnhsym.a $(call libraries,archive) $$(pkg-config --libs mpi-c) -o $@
 
-$(BUILD)/mpi/%.o: src/cli/%.c
+$(BUILD)/mpi/%.o: src/cli/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	@echo "  cc   $<"
 	@$(COMPILE) $(patsubst -I%,-isystem %,$(shell pkg-config --cflags-only-I mpi-c)) -c $< -o $@
@@ -223,7 +225,13 @@ $(BUILD)/src/exact/residue.o $(BUILD)/src/exact/residue_matrix.o: OWN_CFLAGS += 
 # Where systems are looked for at last (src/problem/places.c).
 $(BUILD)/src/problem/places.o: OWN_CPPFLAGS += -DNH_DATADIR='"$(PREFIX)/share/nhsym"'
 
-$(BUILD)/%.o: %.c
+# Objects that were compiled in another way are compiled again.
+$(BUILD)/flags: FORCE
+	@mkdir -p $(@D)
+	@echo '$(FLAGS)' | cmp -s - $@ || echo '$(FLAGS)' >$@
+FORCE:
+
+$(BUILD)/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	@echo "  cc   $<"
 	@$(COMPILE) -c $< -o $@

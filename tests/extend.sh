@@ -15,7 +15,7 @@ trap 'rm -rf "$copy"' EXIT
 mkdir "$copy/build"
 cp -a src systems analyses Makefile "$copy" || exit 2
 cp -a tests "$copy" || exit 2 # the Makefile names its parts
-[ "$how" = quick ] || cp -a build/src build/libnhsym.a build/fingerprint.o "$copy/build" || exit 2
+[ "$how" = quick ] || cp -a build/src build/flags build/libnhsym.a build/fingerprint.o "$copy/build" || exit 2
 cd "$copy" || exit 2
 
 awk -v changed="$copy/changed" '
