@@ -32,7 +32,6 @@ void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text); /* <t
 /* A number with so many significant digits; a dash when it is not finite. */
 void nh_html_number(nh_html_writer *w, double value, int digits);
 void nh_html_count(nh_html_writer *w, size_t value);
-void nh_html_cell(nh_html_writer *w, double value, int digits); /* of a table */
 /* A text of the expression language as a formula, broken where a line may end; as code when it is no formula. */
 void nh_html_source(nh_html_writer *w, const char *text);
 /* The same for a name within the text. */
@@ -47,7 +46,6 @@ void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption);
 /* A table: its caption and column heads, separated by |; rows are between this and the end. */
 void nh_html_table(nh_html_writer *w, const char *caption, const char *heads);
 void nh_html_table_end(nh_html_writer *w);
-void nh_html_warning(nh_html_writer *w, const char *text);
 
 /* ---- a page: the title, then the answer, then links to its sections ("id|name|id|name"), then what follows, then how to repeat it ---- */
 

@@ -55,13 +55,6 @@ void nh_html_number(nh_html_writer *w, double value, int digits)
     nh_html_add(w, "</data>");
 }
 
-void nh_html_cell(nh_html_writer *w, double value, int digits)
-{
-    nh_html_add(w, "<td>");
-    nh_html_number(w, value, digits);
-    nh_html_add(w, "</td>");
-}
-
 void nh_html_count(nh_html_writer *w, size_t value) { nh_text_addf(w->out, "<data value=\"%zu\">%zu</data>", value, value); }
 
 static void name_figure(size_t number, char id[FIGURE_ID]) { snprintf(id, FIGURE_ID, "fig%zu", number); }
@@ -122,13 +115,6 @@ void nh_html_table(nh_html_writer *w, const char *caption, const char *heads)
 }
 
 void nh_html_table_end(nh_html_writer *w) { nh_html_add(w, "</tbody></table></div>\n"); }
-
-void nh_html_warning(nh_html_writer *w, const char *text)
-{
-    nh_html_add(w, "<p class=\"warning\"><strong>Warning:</strong> ");
-    nh_html_text(w, text);
-    nh_html_add(w, "</p>\n");
-}
 
 /* ---- a page ---- */
 
