@@ -46,6 +46,21 @@ Test(limits, every_command_has_the_brake)
     place_clear(&p);
 }
 
+/* Before a regular point of the family is known as well. */
+Test(limits, a_classification_has_the_brake)
+{
+    static const char *const seconds[] = {"0.001", "0.05", "0.1"};
+    place p = place_with_systems();
+    char line[200];
+    for (size_t i = 0; i < sizeof seconds / sizeof *seconds; i++) {
+        snprintf(line, sizeof line, "classify sleigh --over m --max-seconds %s", seconds[i]);
+        finished f = run_expecting(&p, line, 5);
+        cr_expect(ends(&f), "%s: %s%s", line, f.out, f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 /* The program alone takes more than this. */
 Test(limits, every_command_has_the_brake_on_memory)
 {

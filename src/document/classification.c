@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "document/classification_internal.h"
 #include "document/facts.h"
 #include "graph/print.h"
@@ -28,14 +29,14 @@ char *nh_classification_current(const nh_analysis *r, const nh_current *f, doubl
 
 const char *const nh_classification_decide = "A count with more work may decide it: `--option count_work=N`.";
 
-const char *nh_classification_end(const char *end)
+const char *nh_classification_end(const char *end, char *room, size_t size)
 {
     if (!strcmp(end, "work")) return "the count of integrals takes more work than the option `count_work`";
     if (!strcmp(end, "staircase")) return "looking for the values takes more work than the option `staircase`";
     if (!strcmp(end, "unknowns")) return "the linear system has more unknowns than the option `pencil`";
     if (!strcmp(end, "plane")) return "the determinants are larger than the option `plane`";
     if (!strcmp(end, "curves")) return "there are more curves, and the determinants are larger than the option `plane`";
-    if (!strcmp(end, "time")) return "the run was ended";
+    if (!strcmp(end, "time")) return nh_ended_words(room, size), room;
     return end;
 }
 

@@ -10,7 +10,7 @@ char *nh_classification_current(const nh_analysis *result, const nh_current *cur
 
 /* ---- words ---- */
 
-const char *nh_classification_end(const char *end);
+const char *nh_classification_end(const char *end, char *room, size_t size);
 extern const char *const nh_classification_decide; /* what may decide an open number */
 
 /* classification_wording.c: "integrals polynomial in the velocities", "More for", "more conservation laws than almost

@@ -99,8 +99,9 @@ static void outline_line(const nh_classified *x, pen *p)
     nh_classification_left(x, &text);
     nh_classification_excluded(x, !p->ink->brief || p->style.verbose, &text);
     put_lines(p, &text);
-    if (c->end && x->question) nh_pen_words(p, "The question was not answered: %s.", nh_classification_end(c->end));
-    else if (c->end) nh_pen_words(p, "Degree %zu was not reached: %s.", c->rows + 1, nh_classification_end(c->end));
+    char words[200];
+    if (c->end && x->question) nh_pen_words(p, "The question was not answered: %s.", nh_classification_end(c->end, words, sizeof words));
+    else if (c->end) nh_pen_words(p, "Degree %zu was not reached: %s.", c->rows + 1, nh_classification_end(c->end, words, sizeof words));
 }
 
 /* ---- two ---- */
@@ -167,7 +168,8 @@ static void outline_plane(const plane *x, pen *p)
     nh_classification_plane_left(x, &text);
     nh_classification_plane_excluded(x, !p->ink->brief || p->style.verbose, &text);
     put_lines(p, &text);
-    if (o->end) nh_pen_words(p, "Degree %zu was not reached: %s.", o->rows + 1, nh_classification_end(o->end));
+    char words[200];
+    if (o->end) nh_pen_words(p, "Degree %zu was not reached: %s.", o->rows + 1, nh_classification_end(o->end, words, sizeof words));
 }
 
 static size_t count_line(const nh_classified *x)

@@ -289,6 +289,7 @@ static void run(search *s)
         if (c->limit)
             nh_classify_count(s, degree, &infinite, row.number.bound, NULL, &c->row[degree - 1].infinite);
     }
+    if (c->rows < last_degree(s) && !c->end) c->end = "time";
     if (s->family.obstacle && !c->rows) c->obstacle = s->family.obstacle;
     c->step = nh_parametric_step(&s->family);
 }

@@ -179,7 +179,8 @@ bool nh_parametric_choose(nh_parametric *f, nh_prime field, uint64_t seed)
 size_t nh_parametric_kept(const nh_parametric *f) { return plain(f) ? f->kept : f->counter.frame->kept; }
 size_t nh_parametric_step(const nh_parametric *f)
 {
-    return f->linear ? f->linear->step : plain(f) ? 1 : f->counter.frame->step;
+    const nh_adapted_frame *frame = f->counter.frame;
+    return f->linear ? f->linear->step : plain(f) ? 1 : frame ? frame->step : 0;
 }
 
 /* ---- series at one value ---- */

@@ -89,6 +89,6 @@ void nh_parametric_back(const nh_parametric_variable *variable, nh_prime field, 
 
 /* Weights of the coordinates of the series, how many they are, and the largest. */
 size_t nh_parametric_kept(const nh_parametric *family);
-size_t nh_parametric_step(const nh_parametric *family);
+size_t nh_parametric_step(const nh_parametric *family); /* 0: of no regular point, also after the time limit */
 
 #endif
