@@ -327,7 +327,7 @@ static void count_interrupted(nh_ensemble *e)
     size_t each = e->count * e->n;
     e->incomplete = 0;
     for (size_t i = 0; i < e->members && each; i++) e->incomplete += isnan(e->value[(i + 1) * each - 1]) != 0;
-    snprintf(e->note, sizeof e->note, "interrupted");
+    nh_ended_words(e->note, sizeof e->note);
 }
 
 /* All that were left out, or all. */
