@@ -200,6 +200,27 @@ static inline finished run_vector(const place *p, const manner *how, char **argu
     return f;
 }
 
+/* A line that was folded at 80 columns, with deeper lines after it, as one line again: the first word of each did not fit on the line before. */
+static inline void unfold(char *text)
+{
+    size_t base = strspn(text, " "), columns = 0;
+    char *to = text;
+    for (const char *from = text; *from;) {
+        size_t indent = strspn(from + 1, " "), word = strcspn(from + 1 + indent, " \n");
+        bool folded = *from == '\n' && indent > base && columns + 1 + word > 80;
+        if (folded) {
+            *to++ = ' ';
+            from += 1 + indent;
+            columns = indent;
+            continue;
+        }
+        if (*from == '\n') base = indent;
+        columns = *from == '\n' ? 0 : columns + ((*from & 0xc0) != 0x80); /* of UTF-8 */
+        *to++ = *from++;
+    }
+    *to = 0;
+}
+
 static inline void finished_clear(finished *f)
 {
     free(f->out);

@@ -56,6 +56,8 @@ void nh_analysis_warn(nh_analysis *r, const char *format, ...)
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
+    for (size_t k = 0; k < r->warnings; k++)
+        if (!strcmp(r->warning[k], text)) return; /* said by another search of the same system */
     r->warning[r->warnings++] = nh_arena_strdup(r->arena, text);
 }
 
