@@ -81,10 +81,11 @@ awk 'FNR == 1 { before = "" }
 
 # ---- cited sources and sections exist ----
 grep -noE '\[[A-Za-z]*:? ?[A-Z][A-Za-z]+[0-9]{4}[a-z]?' src/*/*.c src/*/*.h tests/*.c tests/*.h tests/*.sh README.md docs/*.md | grep -v '^docs/references.md' |
-    sed 's/^\([^:]*:[0-9]*\):.*[^A-Za-z]\([A-Z][A-Za-z]*[0-9]\{4\}[a-z]\{0,1\}\)$/\1 \2/' | while read -r place key; do
+    sed 's/^\([^:]*:[0-9]*\):.*[^A-Za-z]\([A-Z][A-Za-z]*[0-9]\{4\}[a-z]\{0,1\}\)$/\1 \2/' | awk '!seen[$2]++' | while read -r place key; do
     grep -q "^\* \*\*\[$key\]\*\*" docs/references.md || echo "$place: [$key] is not in docs/references.md"
 done >>"$offences"
-grep -noE 'docs/[a-z]+\.md(, sec\. [0-9]+)?' src/*/*.c src/*/*.h README.md docs/*.md tests/*.[ch] tests/*.sh Makefile | while IFS=: read -r file line citation; do
+grep -noE 'docs/[a-z]+\.md(, sec\. [0-9]+)?' src/*/*.c src/*/*.h README.md docs/*.md tests/*.[ch] tests/*.sh Makefile |
+    awk -F : '!seen[$3]++' | while IFS=: read -r file line citation; do
     page=${citation%%,*}
     [ -f "$page" ] || [ "$page" = docs/performance.md ] || echo "$file:$line: $page is not there"
     case "$citation" in

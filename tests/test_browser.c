@@ -316,7 +316,7 @@ Test(browser, pages_are_as_they_should_be)
     sweep_plain_only();
     bool skipped = false;
     for (size_t i = 0; !skipped && i < sizeof SYSTEMS / sizeof *SYSTEMS; i++) {
-        if (!sweep_tries(i, 4, 4)) continue;
+        if (!sweep_tries(i, 8, 8)) continue;
         char line[200];
         place p;
         snprintf(line, sizeof line, "analyze %s --quiet --html page.html --json page.json", SYSTEMS[i]);

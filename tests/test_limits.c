@@ -65,7 +65,7 @@ Test(limits, a_classification_has_the_brake)
 Test(limits, an_ensemble_names_its_limit)
 {
     place p = place_with_nasty();
-    finished f = run_expecting(&p, "simulate nasty/many_coordinates.yaml --initial \"x1'=0.1\" --until 100 --ensemble 200 --watch x1 --max-seconds 0.2", 5);
+    finished f = run_expecting(&p, "simulate nasty/many_coordinates.yaml --initial x1'=0.1 --until 100 --ensemble 200 --watch x1 --max-seconds 0.2", 5);
     cr_expect(strstr(f.err, "the time limit of 0.2 s was reached"), "%s", f.err);
     cr_expect_null(strstr(f.err, "interrupted"));
     finished_clear(&f);

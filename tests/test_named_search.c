@@ -65,6 +65,7 @@ Test(named_search, airy)
  * Bessel's own equation. */
 Test(named_search, bessel)
 {
+    sweep_plain_only();
     expect_named(ask_text(HEAD("{name: g, value: 9}, {name: a, value: 1}, {name: v, "
                                "value: 0.3}") "lagrangian: (a + v*t)^2*x'^2/2 - g*(a + "
                                               "v*t)*x^2/2\ndomain: {t: [0.1, 2]}\n"),

@@ -238,7 +238,7 @@ Test(parameters, rates_of_shipped_systems_are_named)
 /* Gamma is long for want of a short M^-1; the fields are short. */
 Test(parameters, coefficients_of_long_relations_have_parameters)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     cJSON *ball = all_hold("chaplygin_ball"), *other = all_hold("chaplygin_ball --set A=1.2 --set B=1.6 --set r=0.5");
     const cJSON *item;
     cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(ball, "currents"))

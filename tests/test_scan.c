@@ -391,6 +391,7 @@ Test(scan, a_worker_that_dies_is_replaced)
 
 Test(scan, an_interruption_keeps_what_there_is)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "whole", "");

@@ -161,7 +161,7 @@ Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120)
  * that ratios of 2 x 2 determinants of (f1, f2) do not depend on it. */
 Test(series, the_interval_does_not_matter, .timeout = 120)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     static const double at[3] = {1.1, 1.5, 1.9}, ends[2][2] = {{1.0, 2.1}, {0.3, 2.8}};
     double determinant[2][3];
     for (int i = 0; i < 2; i++) {
@@ -292,6 +292,7 @@ Test(series, one_linear_equation, .timeout = 200)
 
 Test(series, more_than_one, .timeout = 200)
 {
+    sweep_plain_only();
     for (size_t i = 5; i < driven_count; i++)
         if (sweep_tries(i, 1, 5)) all_of(i);
 }

@@ -93,6 +93,7 @@ static void chain(nh_text *text, size_t n, bool closed)
 
 Test(sizes, chains, .timeout = 600)
 {
+    sweep_plain_only();
     static const size_t sizes[] = {6, 8, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         if (!sweep_tries(s, 1, 16)) continue;
@@ -107,6 +108,7 @@ Test(sizes, chains, .timeout = 600)
 /* The total momentum, the centre of mass, the energy. */
 Test(sizes, ring_of_many, .timeout = 600)
 {
+    sweep_plain_only();
     static const char *const wanted[] = {"m*(x1' + ", "m*(t*(x1' + "};
     nh_text text;
     chain(&text, many(), true);

@@ -292,6 +292,7 @@ static void write_branches(const place *p)
 /* Printed with the velocity, not the root, every current holds on both branches: asked of each of them by itself. */
 Test(statements, currents_are_printed_so_that_they_hold_on_both_branches)
 {
+    sweep_plain_only();
     place p = place_make();
     write_branches(&p);
     reports r = analyze(&p, "up.yaml");

@@ -230,6 +230,7 @@ Test(symmetry_space, of_the_sleigh_only_functions_of_the_energy_have_their_brack
 
 Test(symmetry_space, a_skate_on_a_slope)
 {
+    sweep_plain_only();
     place p = place_make();
     char *json = equations_of(&p, SKATE, "");
     cJSON *root = cJSON_Parse(json);
@@ -245,6 +246,7 @@ Test(symmetry_space, a_skate_on_a_slope)
 /* Roots of numbers have residues modulo some primes alone: a point has to have all of these. */
 Test(symmetry_space, roots_of_numbers)
 {
+    sweep_plain_only();
     static const char *const root_of[] = {"2", "3", "5", "7", "10", "13"};
     for (size_t i = 0; i < sizeof root_of / sizeof *root_of; i++) {
         char text[700];

@@ -204,6 +204,7 @@ Test(theory, sleigh_as_printed_is_the_tabulated_one)
 
 Test(theory, thick_disk_as_printed_is_the_tabulated_one)
 {
+    sweep_plain_only();
     static const char *const parameter[] = {"r", "e", "M", "I1", "I3", "g"};
     cJSON *data = oracle_read("tests/data/disk_oracle.json");
     const cJSON *set;
@@ -506,6 +507,7 @@ static const char *const BASE[4] = {"psi1", "psi2", "phi1", "phi2"}; /* the orde
 /* Khat, Upsilon, H(x, p) and the momenta of the group, of the first stage. */
 Test(theory, first_stage_of_the_crane_as_printed_is_the_tabulated_one)
 {
+    sweep_plain_only();
     cJSON *data = oracle_read("tests/data/crane_oracle.json");
     const cJSON *set = oracle_get(data, "sets")->child, *point;
     nh_setting setting[20];

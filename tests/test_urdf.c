@@ -95,6 +95,7 @@ static double largest(const double *v, size_t n)
 
 Test(urdf, wheels_roll_over_a_thousand_units_of_time)
 {
+    sweep_plain_only();
     for (size_t i = 0; i < robot_count; i++) {
         rolling x;
         double q[MOST_COORDINATES], v[MOST_COORDINATES], slip[3], worst = 0, speed = 0;
@@ -209,6 +210,7 @@ static const char massive[] = "<robot name=\"cart-1\">\n"
 
 Test(urdf, wheels_and_base_are_named_on_the_command_line_or_in_a_file_beside_it)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "cart.urdf", cart);
     write_here(&p, "cart.yaml", "urdf: cart.urdf\nwheels: [l.wheel, {body: r_wheel, radius: 0.1}]\n");
@@ -363,7 +365,7 @@ static void energies(const char *csv, double *first, double *last)
 
 Test(urdf, a_robot_of_thirty_joints_is_simulated_and_exported)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     place p = place_make();
     double first, last;
     write_humanoid(&p, "many.urdf", 4, 7);
