@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "document/svg.h"
 
-enum { wide = 240, high = 150, margin = 14, most_points = 120, colours = 6 };
+enum { wide = 240, high = 150, margin = 14, colours = 6 };
 
 static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 
@@ -75,13 +75,17 @@ static bool fit(portrait *p)
 
 static void track(const portrait *p, size_t s)
 {
-    size_t step = p->count / most_points + 1;
+    static const double nearest = 1.5; /* pixels between two points: a fast motion needs every state, a slow one few */
     bool on = false;
+    double last_x = 0, last_y = 0;
     nh_text_addf(p->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.2\" stroke-opacity=\"0.6\" d=\"", colour[s % colours]);
-    for (size_t i = 0; i < p->count; i += step) {
-        double x = value(p, s, 0, i), y = value(p, s, 1, i);
+    for (size_t i = 0; i < p->count; i++) {
+        double x = across(p, value(p, s, 0, i)), y = up(p, value(p, s, 1, i));
         bool here = isfinite(x) && isfinite(y);
-        if (here) nh_text_addf(p->out, "%s%.1f %.1f", on ? "L" : "M", across(p, x), up(p, y));
+        if (here && on && hypot(x - last_x, y - last_y) < nearest && i + 1 < p->count) continue;
+        if (here) nh_text_addf(p->out, "%s%.1f %.1f", on ? "L" : "M", x, y);
+        last_x = x;
+        last_y = y;
         on = here;
     }
     nh_text_add(p->out, "\"/>\n");
