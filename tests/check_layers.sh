@@ -73,12 +73,6 @@ done | awk '
     }
     END { for (entry in listed) if (!(entry in used)) print "docs/glossary.md: no name needs the prefix " entry }' docs/glossary.md - >>"$offences"
 
-# ---- braces: that of a function begins a line, any other ends one ----
-awk 'FNR == 1 { before = "" }
-    /^[a-z][^;=]*\) ?\{$/ && !/^(typedef|struct|enum|union)/ { print FILENAME ":" FNR ": the brace of a function begins a line" }
-    /^ +\{$/ && before ~ /(\)|else|do)$/ { print FILENAME ":" FNR ": the brace of a statement ends its line" }
-    { before = $0 }' src/*/*.c src/*/*.h >>"$offences"
-
 # ---- cited sources and sections exist ----
 grep -noE '\[[A-Za-z]*:? ?[A-Z][A-Za-z]+[0-9]{4}[a-z]?' src/*/*.c src/*/*.h tests/*.c tests/*.h tests/*.sh README.md docs/*.md | grep -v '^docs/references.md' |
     sed 's/^\([^:]*:[0-9]*\):.*[^A-Za-z]\([A-Z][A-Za-z]*[0-9]\{4\}[a-z]\{0,1\}\)$/\1 \2/' | awk '!seen[$2]++' | while read -r place key; do

@@ -107,7 +107,7 @@ static void set_long(arb_t out, nh_num c, long bits)
     mpq_clear(v);
 }
 
-static void set_number(nh_ball *ball, arb_t out, nh_num c)
+void nh_ball_set_number(const nh_ball *ball, arb_t out, nh_num c)
 {
     if (nh_num_short(c)) set_ratio(out, c.p, c.q, ball->bits);
     else if (nh_num_exact(c)) set_long(out, c, ball->bits);
@@ -127,10 +127,10 @@ static bool eval_sum(nh_ball *ball, nh_ex e, arb_t out)
     arb_init(term);
     arb_init(c);
     bool fine = true;
-    set_number(ball, out, nh_constant_of(ball->dag, e));
+    nh_ball_set_number(ball, out, nh_constant_of(ball->dag, e));
     for (size_t i = 0; i < nh_arity(ball->dag, e) && fine; i++) {
         fine = eval(ball, nh_child(ball->dag, e, i), term);
-        set_number(ball, c, nh_coefficient_of(ball->dag, e, i));
+        nh_ball_set_number(ball, c, nh_coefficient_of(ball->dag, e, i));
         if (fine) arb_addmul(out, c, term, ball->bits);
     }
     arb_clear(term);
@@ -171,7 +171,7 @@ static bool eval_product(nh_ball *ball, nh_ex e, arb_t out)
     arb_t factor;
     arb_init(factor);
     bool fine = true;
-    set_number(ball, out, nh_constant_of(ball->dag, e));
+    nh_ball_set_number(ball, out, nh_constant_of(ball->dag, e));
     for (size_t i = 0; i < nh_arity(ball->dag, e) && fine; i++) {
         fine = eval(ball, nh_child(ball->dag, e, i), factor)
                && eval_power(ball, factor, nh_exponent_of(ball->dag, e, i));
@@ -244,7 +244,7 @@ static bool eval_node(nh_ball *ball, nh_ex e, arb_t out)
     double each = nh_kind_of(ball->dag, e) == NH_FUNCTION ? function : (double)nh_arity(ball->dag, e) + 1;
     nh_work_add(NH_WORK_BALL, each * nh_ball_products(ball->bits));
     switch (nh_kind_of(ball->dag, e)) {
-    case NH_NUMBER: set_number(ball, out, nh_number_of(ball->dag, e)); return true;
+    case NH_NUMBER: nh_ball_set_number(ball, out, nh_number_of(ball->dag, e)); return true;
     case NH_SYMBOL: return eval_symbol(ball, e, out);
     case NH_SUM: return eval_sum(ball, e, out);
     case NH_PRODUCT: return eval_product(ball, e, out);

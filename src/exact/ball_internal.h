@@ -8,6 +8,9 @@
 /* The value of e; false when it is not finite or a symbol has no value. */
 bool nh_ball_eval(nh_ball *ball, nh_ex e, arb_t out);
 
+/* A number of the graph, to the ball's bits. */
+void nh_ball_set_number(const nh_ball *ball, arb_t out, nh_num c);
+
 /* Products of words in a product of two numbers of so many bits; what else is done with them counts as if they were longer. */
 double nh_ball_products(long bits);
 

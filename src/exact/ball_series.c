@@ -140,16 +140,6 @@ static bool constant(nh_ball_series *s, nh_ex e, arb_poly_t out)
     return fine;
 }
 
-/* A number beside a term; very long ones end the series. */
-static void number(const nh_ball_series *s, nh_num c, arb_t out)
-{
-    if (!nh_num_exact(c)) arb_set_d(out, c.d);
-    else if (nh_num_short(c)) {
-        arb_set_si(out, c.p);
-        arb_div_si(out, out, c.q, s->bits);
-    } else arb_indeterminate(out);
-}
-
 static bool eval_sum(nh_ball_series *s, nh_ex e, arb_poly_t out)
 {
     arb_poly_t term;
@@ -157,11 +147,11 @@ static bool eval_sum(nh_ball_series *s, nh_ex e, arb_poly_t out)
     arb_poly_init(term);
     arb_init(c);
     bool fine = true;
-    number(s, nh_constant_of(s->dag, e), c);
+    nh_ball_set_number(s->ball, c, nh_constant_of(s->dag, e));
     arb_poly_set_coeff_arb(out, 0, c);
     for (size_t i = 0; i < nh_arity(s->dag, e) && fine; i++) {
         fine = eval(s, nh_child(s->dag, e, i), term);
-        number(s, nh_coefficient_of(s->dag, e, i), c);
+        nh_ball_set_number(s->ball, c, nh_coefficient_of(s->dag, e, i));
         arb_poly_scalar_mul(term, term, c, s->bits);
         arb_poly_add(out, out, term, s->bits);
     }
@@ -200,7 +190,7 @@ static bool eval_product(nh_ball_series *s, nh_ex e, arb_poly_t out)
     arb_poly_init(factor);
     arb_init(c);
     bool fine = true;
-    number(s, nh_constant_of(s->dag, e), c);
+    nh_ball_set_number(s->ball, c, nh_constant_of(s->dag, e));
     arb_poly_set_coeff_arb(out, 0, c);
     for (size_t i = 0; i < nh_arity(s->dag, e) && fine; i++) {
         fine = eval(s, nh_child(s->dag, e, i), factor) && power(s, factor, nh_exponent_of(s->dag, e, i));

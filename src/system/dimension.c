@@ -70,7 +70,7 @@ static void put_term(checker *k, nh_ex e)
     nh_free(text);
 }
 
-/* The first fault of an expression is told; a later one may follow from it. */
+/* Reports the first fault of an expression only: a later one may follow from it. */
 static void tell(checker *k, nh_ex a, nh_unit first, nh_ex b, nh_unit second)
 {
     if (k->fault->length) return;
