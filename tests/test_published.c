@@ -173,6 +173,12 @@ static const published PUBLISHED[] = {
     /* E. G. Kalnins, J. M. Kress, W. Miller and P. Winternitz, J. Math. Phys. 44 (2003) 5811; E. G. Kalnins, W. Miller and G. S. Pogosyan, J. Math. Phys. 37 (1996) 6439 */
     {"Darboux's space I", "parameters: {a: 0.4, b: 0.7, c: 0.3}\ncoordinates: [u, v]\n"
      "lagrangian: 2*u*(u'^2 + v'^2) - a*(4*u^2 + v^2)/(4*u) - b/u - c/(u*v^2)\ndomain: {u: [0.5, 2], v: [0.5, 2]}\n", 3, 6},
+    /* E. G. Kalnins, J. M. Kress, W. Miller and P. Winternitz, J. Math. Phys. 44 (2003) 5811: words with (x^2 + 1)^-n and x^-k are sums of fewer of them */
+    {"Darboux's space II", "parameters: {a: 0.4, b: 0.3}\ncoordinates: [x, y]\n"
+     "lagrangian: (x^2 + 1)/x^2*(x'^2 + y'^2)/2 - x^2/(x^2 + 1)*(a*(x^2/4 + y^2) + b*y)\n" QUADRANT, 3, 6},
+    /* E. T. Whittaker, Analytical Dynamics (1937), sec. 53: two centres in elliptic coordinates */
+    {"two centres, elliptic coordinates", "parameters: {a: 0.3, b: 0.4}\ncoordinates: [u, v]\n"
+     "lagrangian: (cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)/2 + (a*cosh(u) + b*cos(v))/(cosh(u)^2 - cos(v)^2)\ndomain: {u: [0.5, 2], v: [0.5, 2]}\n", 2, 6},
     {"three inverse squares on the sphere", "parameters: {a: 0.4, b: 0.7, c: 0.3}\ncoordinates: [{name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: (th'^2 + sin(th)^2*ph'^2)/2 - a/(sin(th)*cos(ph))^2 - b/(sin(th)*sin(ph))^2 - c/cos(th)^2\ndomain: {th: [0.4, 1.2], ph: [0.4, 1.2]}\n", 3, 6},
     /* A. Marchesiello and L. Snobl, J. Phys. A 50 (2017) 245202: a helical magnetic field */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact/residue_matrix.h"
 #include "integrals/closed_letters.h"
 
 static const double tiny = 1e-9;
@@ -191,6 +192,62 @@ nh_ex nh_known_motions_word(const nh_known_motions_words *w, size_t word)
     nh_ex e = nh_int(d, 1);
     for (size_t i = 0; i < w->letters; i++) e = nh_mul(d, e, w->letter[i].power[w->choice[word * w->letters + i]].shown);
     return e;
+}
+
+/* ---- independent words ---- */
+
+/* Values of all words at the point of the equations.  False: it is no regular one. */
+static bool values_at(const nh_known_motions_words *w, const nh_jet_ring *point, nh_residue *value,
+                      nh_residue *out)
+{
+    nh_jet_equations *x = w->equations;
+    nh_jet_eval *v = nh_jet_equations_eval(x, point, x->at);
+    size_t first = 0;
+    bool good = true;
+    for (size_t i = 0; i < w->letters && good; i++)
+        for (size_t k = 0; k < w->letter[i].powers && good; k++)
+            good = nh_jet_eval_all(v, 1, &w->letter[i].power[k].value, &value[first++]);
+    for (size_t k = 0; k < w->words && good; k++) {
+        const uint16_t *choice = w->choice + k * w->letters;
+        out[k] = 1;
+        first = 0;
+        for (size_t i = 0; i < w->letters; first += w->letter[i++].powers)
+            if (choice[i]) out[k] = nh_residue_mul(point->field, out[k], value[first + choice[i]]);
+    }
+    nh_jet_eval_free(v);
+    return good;
+}
+
+static void keep_words(nh_known_motions_words *w, size_t count, const size_t *chosen)
+{
+    for (size_t k = 0; k < count; k++) {
+        memmove(w->choice + k * w->letters, w->choice + chosen[k] * w->letters, w->letters * sizeof *w->choice);
+        w->price[k] = w->price[chosen[k]];
+    }
+    w->words = count;
+}
+
+double nh_known_motions_words_reduce(nh_known_motions_words *w)
+{
+    enum { spare = 8, most_tries = 64, rows_together = 4 }; /* rows_together: dense algebra, in the time of a product */
+    nh_jet_equations *x = w->equations;
+    nh_prime field = nh_jet_point_prime(x->point, 0);
+    size_t n = w->words, one = 1, rows = n + spare, found = 0, powers = 0;
+    size_t *chosen = nh_alloc_array(n + 1, sizeof *chosen);
+    for (size_t i = 0; i < w->letters; i++) powers += w->letter[i].powers;
+    nh_jet_ring *point = nh_jet_ring_create(field, 1, &one, 0);
+    nh_residue *matrix = nh_alloc_array(rows * n + 1, sizeof *matrix);
+    nh_residue *value = nh_alloc_array(powers + 1, sizeof *value);
+    for (uint64_t seed = 1; found < rows && seed < most_tries * rows; seed++) {
+        nh_jet_equations_choose(x, field, seed);
+        found += values_at(w, point, value, matrix + found * n);
+    }
+    if (found == rows) keep_words(w, nh_residue_matrix_echelon(field, rows, n, n, matrix, chosen), chosen);
+    nh_jet_ring_free(point);
+    nh_free(value);
+    nh_free(matrix);
+    nh_free(chosen);
+    return (double)rows * (double)rows * (double)rows / rows_together;
 }
 
 /* ---- values ---- */

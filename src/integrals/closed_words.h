@@ -41,6 +41,11 @@ typedef struct {
 nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words, bool secular);
 void nh_known_motions_words_free(nh_known_motions_words *words);
 
+/* Leave out words that are linear combinations of cheaper ones (partial fractions, sines and cosines in denominators),
+ * by values at random points; returns products of residues.  The equations stand at another point afterwards.  Roots
+ * that are related may have other signs at other points: their words stay. */
+double nh_known_motions_words_reduce(nh_known_motions_words *words);
+
 /* The coordinates that a word depends on, and the word with parameters as symbols. */
 uint32_t nh_known_motions_word_coordinates(const nh_known_motions_words *words, size_t word);
 nh_ex nh_known_motions_word(const nh_known_motions_words *words, size_t word);

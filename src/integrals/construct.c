@@ -336,6 +336,7 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     *out = (nh_construction){.arena = arena};
     nh_counter_open(&c, model, &q);
     nh_known_motions_words *words = c.equations->obstacle ? NULL : nh_known_motions_words_create(c.equations, question->price, question->most_words, question->secular);
+    if (words && !c.equations->obstacle) c.work += nh_known_motions_words_reduce(words);
     nh_velocity_frame frame = nh_velocity_frame_of(c.equations);
     outcome o = words ? UNLUCKY : TOO_MUCH;
     for (size_t point = 0; point < most_points && o == UNLUCKY && !c.equations->obstacle && !nh_late(); point++) {
