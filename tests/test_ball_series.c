@@ -79,7 +79,12 @@ Test(ball_series, bounds_hold)
                                         "cosh(x)/(2 + sinh(x))^3",
                                         "a^2 - 3/7",
                                         "x",
-                                        "(2 + x)^(-1/2) + x^5"};
+                                        "(2 + x)^(-1/2) + x^5",
+                                        "tanh(a*x) + asinh(x)/3",
+                                        "acosh(2 + x)*atanh(x)",
+                                        "atan2(x - 2, x - 1) + atan2(1 + x, a)",
+                                        "abs(x - 2)*sign(x - 1)",
+                                        "2^x + (1 + x)^(a*x)"};
     nh_ball_set_ratio(ball, a, 7, 3);
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         nh_ex e = read(texts[i]);
@@ -107,9 +112,41 @@ Test(ball_series, roots_and_integrals)
                   centre, 0.1, 2, other, "L");
 }
 
+/* From centre to centre: the integral keeps its value, the root its sign; there is no way across a zero of the root. */
+Test(ball_series, the_centre_moves)
+{
+    const nh_ball_defined define[] = {{R, read("3 - x^2"), false}, {J, nh_div(dag, x, R), true}, {L, nh_mul(dag, J, x), true}};
+    static const double centre[] = {1, 1.2, 1.4, 1.2, 0.7, 0.1, -0.5};
+    nh_ball_set_double(ball, x, 1);
+    nh_ball_set_expression(ball, R, read("-sqrt(2)"));
+    nh_ball_set_ratio(ball, J, 0, 1);
+    nh_ball_set_ratio(ball, L, 0, 1);
+    nh_ball_series *s = nh_ball_series_create(dag, ball, x, 3, define);
+    nh_ball *other = nh_ball_create(dag, 256);
+    nh_ex is_R = read("-sqrt(3 - x^2)"), is_J = read("sqrt(3 - x^2) - sqrt(2)");
+    /* J x = x sqrt(3 - x^2) - sqrt(2) x, whose integral from 1 follows */
+    nh_ex is_L = read("2*sqrt(2)/3 - (3 - x^2)^(3/2)/3 - sqrt(2)*(x^2 - 1)/2");
+    for (size_t i = 1; i < sizeof centre / sizeof *centre; i++) {
+        cr_assert(nh_ball_series_move(s, centre[i]), "to %g", centre[i]);
+        nh_ball_set_double(other, x, centre[i]);
+        for (int j = 0; j < 3; j++) {
+            double mid, radius, is, digits;
+            cr_assert(nh_ball_value(ball, (nh_ex[]){R, J, L}[j], &mid, &radius));
+            cr_assert(nh_ball_value(other, (nh_ex[]){is_R, is_J, is_L}[j], &is, &digits));
+            cr_expect_float_eq(mid, is, radius + 4e-16, "%d at %g: %.17g, %.17g", j, centre[i], mid, is);
+            cr_expect_lt(radius, 1e-13);
+        }
+    }
+    cr_expect_not(nh_ball_series_move(s, -1.8));
+    double mid, radius;
+    cr_expect(nh_ball_value(ball, x, &mid, &radius) && mid <= -0.5 && mid > -sqrt(3));
+    nh_ball_free(other);
+    nh_ball_series_free(s);
+}
+
 Test(ball_series, what_has_none_is_refused)
 {
-    static const char *const texts[] = {"log(x)", "sqrt(x)", "1/x", "abs(x - 1/4)", "bessel_j(0, x)", "2^x"};
+    static const char *const texts[] = {"log(x)", "sqrt(x)", "1/x", "abs(x - 1/4)", "bessel_j(0, x)", "acosh(x)", "atan2(x - 1/4, -1)", "(-2)^x"};
     double c[degree], bound;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         nh_ex e = read(texts[i]);

@@ -334,46 +334,58 @@ Test(quadratures, one_dimension)
 
 /* ---- their series ---- */
 
-enum { places = 9 };
-
-static double sum_of(const nh_motion_series *v, size_t j, double d)
-{
-    double sum = 0;
-    for (size_t k = NH_MOTION_SERIES_TERMS; k-- > 0;) sum = sum * d + v->integral[j].coefficient[k];
-    return sum;
-}
-
 /* From the start of the checked motion: z = (t, q, w). */
-static nh_motion_series *series_of(const nh_analysis *r, double *z, double reach)
+static nh_motion_series *series_of(const nh_analysis *r, double *z, double low, double high)
 {
     const nh_validation *v = r->validation;
     cr_assert(r->motion && v && v->count);
     z[0] = v->time[0];
     memcpy(z + 1, v->state, (r->model->m + r->model->n) * sizeof *z);
-    nh_motion_series *out = nh_motion_series_from(r->arena, r->model, r->motion, z, reach);
+    double start = z[r->motion->parameter];
+    nh_motion_series *out = nh_motion_series_from(r->arena, r->model, r->motion, z, start + low, start + high);
     cr_assert_not_null(out);
-    for (size_t j = 0; j < out->integrals; j++) cr_expect(out->integral[j].bound > 0 && out->integral[j].bound < 1e-12);
+    cr_assert_eq(out->link[out->first].centre, start);
+    for (size_t i = 0; i < out->links; i++) {
+        const nh_motion_series_link *l = &out->link[i];
+        if (i) cr_expect_float_eq(l->centre - l->half, l[-1].centre + l[-1].half, 1e-14);
+        for (size_t j = 0; j < out->integrals; j++) cr_expect(l->integral[j].bound > 0 && l->integral[j].bound < 2e-12 * (1 + fabs(l->integral[j].coefficient[0])));
+    }
     return out;
 }
 
-/* The time of a pendulum, by Simpson's rule: t' = 1/h', h'^2 = h'_0^2 + 2 g (cos h - cos h_0). */
+/* 1/h' of the pendulum that starts with z, where h' keeps its sign. */
+static double pace(const double *z, double h) { return 1 / copysign(sqrt(z[2] * z[2] + 4 * (cos(h) - cos(z[1]))), z[2]); }
+
+/* Its integral, by Simpson's rule. */
+static double time_between(const double *z, double from, double to)
+{
+    enum { pieces = 300 };
+    double width = (to - from) / pieces, sum = 0;
+    for (int k = 0; k <= pieces; k++) sum += (k == 0 || k == pieces ? 1 : k % 2 ? 4 : 2) * pace(z, from + k * width);
+    return sum * width / 3;
+}
+
+/* The time of a pendulum, t' = 1/h', h'^2 = h'_0^2 + 2 g (cos h - cos h_0), on either side of the start nearly to where it turns. */
 Test(quadratures, series_of_the_pendulum)
 {
-    enum { pieces = 400 };
     nh_analysis *r = ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*h'^2 + m*g*cos(h)\n");
     cr_expect(r->motion->proved);
     double z[8];
-    nh_motion_series *v = series_of(r, z, 3);
+    nh_motion_series *v = series_of(r, z, -3, 3);
     cr_assert(r->motion->parameter == 1 && v->integrals == 1);
-    cr_expect_gt(v->half, 1e-3);
-    for (int i = 0; i < places; i++) {
-        double d = v->half * (2.0 * i / (places - 1) - 1), width = d / pieces, sum = 0;
-        for (int k = 0; k <= pieces; k++) {
-            double h = z[1] + k * width, rate = copysign(sqrt(z[2] * z[2] + 4 * (cos(h) - cos(z[1]))), z[2]);
-            sum += (k == 0 || k == pieces ? 1 : k % 2 ? 4 : 2) / rate;
+    double turns = acos(cos(z[1]) - z[2] * z[2] / 4), value = 0, h = z[1];
+    cr_expect_lt(nh_motion_series_begin(v), -0.95 * turns, "%g of %g", nh_motion_series_begin(v), turns);
+    cr_expect_gt(nh_motion_series_end(v), 0.95 * turns, "%g of %g", nh_motion_series_end(v), turns);
+    for (int side = -1; side <= 1; side += 2, value = 0, h = z[1])
+        for (size_t i = v->first; i < v->links; i += (size_t)side) {
+            const nh_motion_series_link *l = &v->link[i];
+            for (int k = -2; k <= 2; k++) {
+                double to = l->centre + side * k * l->half / 2;
+                value += time_between(z, h, to);
+                h = to;
+                cr_expect_float_eq(nh_motion_series_value(l, 0, h), value, 5e-14 * (1 + fabs(value)) + l->integral[0].bound, "interval %zu at %g", i, h);
+            }
         }
-        cr_expect_float_eq(sum_of(v, 0, d), sum * width / 3, 1e-14 * fabs(d) + v->integral[0].bound, "at %g", d);
-    }
     nh_analysis_free(r);
 }
 
@@ -386,26 +398,33 @@ static void skate(const double *y, double *out)
 
 Test(quadratures, series_of_a_skate)
 {
-    enum { states = 5, pieces = 400 };
+    enum { states = 5, pieces = 200 };
     nh_analysis *r = ask("name: slope\nparameters: [{name: m, value: 1.2}, {name: J, value: 0.4}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"
                          "coordinates: [{name: phi, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
                          "lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 + m*b*x\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
                          "velocities: {names: [w, v], map: [\"phi' = w\", \"x' = v*cos(phi)\", \"y' = v*sin(phi)\"]}\n"
                          "forces: [\"x = -d*x'\", \"y = -d*y'\", \"phi = -d*phi'\"]\n");
     double z[8], y[states], k[4][states], at[states];
-    nh_motion_series *v = series_of(r, z, 3);
+    nh_motion_series *v = series_of(r, z, 0, 6);
     cr_assert(r->motion->proved && r->motion->parameter == 0 && v->integrals == 3);
+    cr_expect(v->links > 3 && v->first == 0 && nh_motion_series_end(v) >= z[0] + 6);
     memcpy(y, z + 1, sizeof y);
-    for (int i = 0; i <= pieces; i++) {
-        double d = v->half * i / pieces, width = v->half / pieces, rate = exp(0.25 * (z[0] + d)) * y[4] - exp(0.25 * z[0]) * z[5];
-        cr_expect_float_eq(sum_of(v, 0, d), rate, 1e-13);
-        cr_expect_float_eq(sum_of(v, 1, d), y[1] - z[2], 1e-13);
-        cr_expect_float_eq(sum_of(v, 2, d), y[2] - z[3], 1e-13);
-        for (int stage = 0; stage < 4; stage++) {
-            for (int j = 0; j < states; j++) at[j] = y[j] + (stage ? (stage == 3 ? 1 : 0.5) * width * k[stage - 1][j] : 0);
-            skate(at, k[stage]);
+    double t = z[0];
+    for (size_t i = 0; i < v->links; i++) {
+        const nh_motion_series_link *l = &v->link[i];
+        double width = (l->centre + l->half - t) / pieces;
+        for (int p = 0; p <= pieces; p++) {
+            double rate = exp(0.25 * t) * y[4] - exp(0.25 * z[0]) * z[5];
+            cr_expect_float_eq(nh_motion_series_value(l, 0, t), rate, 1e-12 * (1 + fabs(rate)));
+            cr_expect_float_eq(nh_motion_series_value(l, 1, t), y[1] - z[2], 2e-12);
+            cr_expect_float_eq(nh_motion_series_value(l, 2, t), y[2] - z[3], 2e-12);
+            for (int stage = 0; stage < 4 && p < pieces; stage++) {
+                for (int j = 0; j < states; j++) at[j] = y[j] + (stage ? (stage == 3 ? 1 : 0.5) * width * k[stage - 1][j] : 0);
+                skate(at, k[stage]);
+            }
+            for (int j = 0; j < states && p < pieces; j++) y[j] += width / 6 * (k[0][j] + 2 * k[1][j] + 2 * k[2][j] + k[3][j]);
+            t += p < pieces ? width : 0;
         }
-        for (int j = 0; j < states; j++) y[j] += width / 6 * (k[0][j] + 2 * k[1][j] + 2 * k[2][j] + k[3][j]);
     }
     nh_analysis_free(r);
 }

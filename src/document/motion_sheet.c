@@ -1,5 +1,7 @@
 #include "document/motion_sheet.h"
 
+#include <math.h>
+
 #include "integrals/fixed.h"
 #include "search/explicit_motion.h"
 #include "search/motion_series.h"
@@ -19,6 +21,44 @@ static const char *words_of(nh_sheet *s, const nh_analysis *r)
 
 static const char *name(nh_sheet *s, nh_ex symbol) { return nh_sheet_label(s, "<%s>", nh_name_of(s->dag, symbol)); }
 
+/* The interval about the start, in full. */
+static void first_series(nh_sheet *s, const nh_motion_series *v, const char *of)
+{
+    const nh_motion_series_link *first = &v->link[v->first];
+    nh_sheet_formula(s, nh_sheet_label(s, "<%s>_{0}", of), nh_real(s->dag, first->centre));
+    nh_sheet_formula(s, "Delta_{max}", nh_real(s->dag, first->half));
+    for (size_t j = 0; j < v->integrals; j++) {
+        const nh_motion_series_of_one *one = &first->integral[j];
+        nh_sheet_sum(s, "", name(s, one->symbol));
+        for (size_t k = 0; k < NH_MOTION_SERIES_TERMS; k++)
+            nh_sheet_add(s, nh_real(s->dag, one->coefficient[k]), k == 0 ? "" : k == 1 ? "Delta" : nh_sheet_label(s, "Delta^{%zu}", k));
+        nh_sheet_formula(s, nh_sheet_label(s, "\\eps_{%s}", name(s, one->symbol)), nh_real(s->dag, one->bound));
+    }
+}
+
+static double largest_bound(const nh_motion_series *v)
+{
+    double out = 0;
+    for (size_t i = 0; i < v->links; i++)
+        for (size_t j = 0; j < v->integrals; j++) out = fmax(out, v->link[i].integral[j].bound);
+    return out;
+}
+
+/* The chain of all intervals: how far it goes, and the integrals at its ends. */
+static void other_series(nh_sheet *s, const nh_motion_series *v, const char *of)
+{
+    const double end[] = {nh_motion_series_begin(v), nh_motion_series_end(v)};
+    const nh_motion_series_link *at[] = {&v->link[0], &v->link[v->links - 1]};
+    bool whole = end[0] <= v->low && end[1] >= v->high;
+    nh_sheet_words(s, nh_sheet_label(s, "%zu intervals beside one another, each with such series about its own centre, cover $<%s>$ from %.6g to %.6g%s. The largest $\\eps$ is %.1e. "
+                                        "The JSON has all coefficients (explicit_motion.intervals).", v->links, of, end[0], end[1],
+                                     whole ? ", where the checked motion goes" : nh_sheet_label(s, "; the checked motion goes from %.6g to %.6g", v->low, v->high), largest_bound(v)));
+    for (size_t j = 0; j < v->integrals; j++)
+        for (int e = 0; e < 2; e++)
+            if (e == 0 ? v->first > 0 : v->first + 1 < v->links)
+                nh_sheet_formula(s, nh_sheet_label(s, "%s(%.6g)", name(s, at[e]->integral[j].symbol), end[e]), nh_real(s->dag, nh_motion_series_value(at[e], j, end[e])));
+}
+
 static void series(nh_sheet *s, const nh_analysis *r)
 {
     const nh_explicit_motion *m = r->motion;
@@ -28,15 +68,8 @@ static void series(nh_sheet *s, const nh_analysis *r)
     nh_sheet_begin(s, "series", "Series of the integrals",
                    nh_sheet_label(s, "Along the checked motion, from its start at $<%s>_{0}$, with $Delta = <%s> - <%s>_{0}$. Where $|Delta|$ is at most $Delta_{max}$ each differs by at "
                                      "most its $\\eps$ from its series: proved in ball arithmetic by Taylor's theorem.", of, of, of));
-    nh_sheet_formula(s, nh_sheet_label(s, "<%s>_{0}", of), nh_real(s->dag, v->start));
-    nh_sheet_formula(s, "Delta_{max}", nh_real(s->dag, v->half));
-    for (size_t j = 0; j < v->integrals; j++) {
-        const nh_motion_series_of_one *one = &v->integral[j];
-        nh_sheet_sum(s, "", name(s, one->symbol));
-        for (size_t k = 0; k < NH_MOTION_SERIES_TERMS; k++)
-            nh_sheet_add(s, nh_real(s->dag, one->coefficient[k]), k == 0 ? "" : k == 1 ? "Delta" : nh_sheet_label(s, "Delta^{%zu}", k));
-        nh_sheet_formula(s, nh_sheet_label(s, "\\eps_{%s}", name(s, one->symbol)), nh_real(s->dag, one->bound));
-    }
+    first_series(s, v, of);
+    if (v->links > 1) other_series(s, v, of);
 }
 
 nh_sheet *nh_motion_sheet(const nh_analysis *r)
@@ -65,6 +98,30 @@ nh_sheet *nh_motion_sheet(const nh_analysis *r)
     return s;
 }
 
+/* Every interval of the chain, with the coefficients of (s - centre)^k. */
+static void intervals_json(const nh_analysis *r, nh_json *to)
+{
+    const nh_motion_series *v = r->motion->series;
+    if (!v) {
+        nh_json_put_null(to, "intervals");
+        return;
+    }
+    nh_json *intervals = nh_json_put_array(to, "intervals");
+    for (size_t i = 0; i < v->links; i++) {
+        nh_json *item = nh_json_add_object(intervals);
+        nh_json_put_number(item, "centre", v->link[i].centre);
+        nh_json_put_number(item, "half", v->link[i].half);
+        nh_json *integrals = nh_json_put_array(item, "integrals");
+        for (size_t j = 0; j < v->integrals; j++) {
+            const nh_motion_series_of_one *one = &v->link[i].integral[j];
+            nh_json *of = nh_json_add_object(integrals);
+            nh_json_put_text(of, "name", nh_name_of(r->model->dag, one->symbol));
+            nh_json_put_numbers(of, "coefficients", NH_MOTION_SERIES_TERMS, one->coefficient, 1);
+            nh_json_put_number(of, "bound", one->bound);
+        }
+    }
+}
+
 void nh_motion_sheet_json(const nh_analysis *r, nh_json *to)
 {
     const nh_explicit_motion *m = r->motion;
@@ -78,5 +135,6 @@ void nh_motion_sheet_json(const nh_analysis *r, nh_json *to)
     nh_json_put_bool(item, "proved", m->proved);
     nh_json_put_text(item, "fixed", m->fixed ? nh_fixed_text(r->model, m->fixed) : NULL);
     nh_json_put_text(item, "region", m->region);
+    intervals_json(r, item);
     nh_sheet_json(nh_motion_sheet(r), item);
 }

@@ -89,6 +89,8 @@ void nh_ball_set_ratio(nh_ball *ball, nh_ex symbol, int64_t p, int64_t q)
 
 void nh_ball_set_double(nh_ball *ball, nh_ex symbol, double value) { arb_set_d(place(ball, symbol), value); }
 
+void nh_ball_set_arb(nh_ball *ball, nh_ex symbol, const arb_t value) { arb_set(place(ball, symbol), value); }
+
 /* ---- nodes ---- */
 
 static bool eval(nh_ball *ball, nh_ex e, arb_t out);

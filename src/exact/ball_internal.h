@@ -8,6 +8,8 @@
 /* The value of e; false when it is not finite or a symbol has no value. */
 bool nh_ball_eval(nh_ball *ball, nh_ex e, arb_t out);
 
+void nh_ball_set_arb(nh_ball *ball, nh_ex symbol, const arb_t value);
+
 /* A number of the graph, to the ball's bits. */
 void nh_ball_set_number(const nh_ball *ball, arb_t out, nh_num c);
 

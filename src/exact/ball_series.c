@@ -4,8 +4,9 @@
 
 #include "base/memory.h"
 #include "exact/ball_internal.h"
+#include "exact/ball_series_internal.h"
 
-enum { pieces = 8 }; /* of the interval, on either side of the centre: balls around short pieces are small */
+enum { pieces = 8, steps = 4, far = 32 }; /* pieces of the interval, on either side of the centre: balls around short pieces are small; steps of a move, terms of each */
 
 typedef struct {
     bool known, fine;
@@ -21,7 +22,7 @@ struct nh_ball_series {
     long bits;
     slong terms;          /* of the series that are computed now */
     arb_t from, interval; /* a place, and a ball around all that follows it until the next */
-    arb_ptr at_from;      /* per defined symbol: an integral's value there */
+    arb_ptr at_from, at_centre; /* per defined symbol: an integral's value there */
     size_t nodes, used;
     memo *of;   /* per node */
     nh_ex *use; /* those that are known */
@@ -41,6 +42,7 @@ nh_ball_series *nh_ball_series_create(const nh_dag *dag, nh_ball *ball, nh_ex va
     arb_init(s->from);
     arb_init(s->interval);
     s->at_from = _arb_vec_init((slong)defined);
+    s->at_centre = _arb_vec_init((slong)defined);
     s->of = nh_alloc_array(s->nodes + 1, sizeof *s->of);
     s->use = nh_alloc_array(s->nodes + 1, sizeof *s->use);
     for (size_t i = 0; i < s->nodes; i++) s->of[i].known = false;
@@ -64,6 +66,7 @@ void nh_ball_series_free(nh_ball_series *s)
     arb_clear(s->from);
     arb_clear(s->interval);
     _arb_vec_clear(s->at_from, (slong)s->defined);
+    _arb_vec_clear(s->at_centre, (slong)s->defined);
     nh_free(s->use);
     nh_free(s->of);
     nh_free(s);
@@ -160,26 +163,18 @@ static bool eval_sum(nh_ball_series *s, nh_ex e, arb_poly_t out)
     return fine;
 }
 
-/* base^x in place; x is a constant. */
+/* base^x in place. */
 static bool power(nh_ball_series *s, arb_poly_t base, nh_ex exponent)
 {
-    if (moves(s, exponent)) return false;
-    bool numeric = nh_kind_of(s->dag, exponent) == NH_NUMBER;
-    nh_num x = numeric ? nh_number_of(s->dag, exponent) : nh_num_int(0);
-    enum { largest = 1000 };
-    if (numeric && x.q == 1 && llabs((long long)x.p) < largest) {
-        arb_poly_pow_ui_trunc_binexp(base, base, (ulong)llabs((long long)x.p), s->terms, s->bits);
-        if (x.p < 0) arb_poly_inv_series(base, base, s->terms, s->bits);
-        return true;
+    if (nh_kind_of(s->dag, exponent) == NH_NUMBER) {
+        nh_num x = nh_number_of(s->dag, exponent);
+        if ((x.q == 1 || x.q == 2) && nh_poly_half_power(base, x.p, x.q == 1 ? 2 : 1, s->terms, s->bits)) return true;
     }
-    arb_t value;
-    arb_init(value);
-    bool fine = nh_ball_eval(s->ball, exponent, value);
-    if (fine && numeric && x.q == 2 && llabs((long long)x.p) == 1) {
-        if (x.p > 0) arb_poly_sqrt_series(base, base, s->terms, s->bits);
-        else arb_poly_rsqrt_series(base, base, s->terms, s->bits);
-    } else if (fine) arb_poly_pow_arb_series(base, base, value, s->terms, s->bits);
-    arb_clear(value);
+    arb_poly_t x;
+    arb_poly_init(x);
+    bool fine = eval(s, exponent, x);
+    if (fine) nh_poly_power(base, x, s->terms, s->bits);
+    arb_poly_clear(x);
     return fine;
 }
 
@@ -204,20 +199,13 @@ static bool eval_product(nh_ball_series *s, nh_ex e, arb_poly_t out)
 static bool eval_function(nh_ball_series *s, nh_ex e, arb_poly_t out)
 {
     nh_function f = nh_function_of(s->dag, e);
-    if (nh_is_named_function(f) || f == NH_ATAN2 || !eval(s, nh_child(s->dag, e, 0), out)) return false;
-    switch (f) {
-    case NH_SIN: arb_poly_sin_series(out, out, s->terms, s->bits); return true;
-    case NH_COS: arb_poly_cos_series(out, out, s->terms, s->bits); return true;
-    case NH_TAN: arb_poly_tan_series(out, out, s->terms, s->bits); return true;
-    case NH_ASIN: arb_poly_asin_series(out, out, s->terms, s->bits); return true;
-    case NH_ACOS: arb_poly_acos_series(out, out, s->terms, s->bits); return true;
-    case NH_ATAN: arb_poly_atan_series(out, out, s->terms, s->bits); return true;
-    case NH_SINH: arb_poly_sinh_series(out, out, s->terms, s->bits); return true;
-    case NH_COSH: arb_poly_cosh_series(out, out, s->terms, s->bits); return true;
-    case NH_EXP: arb_poly_exp_series(out, out, s->terms, s->bits); return true;
-    case NH_LOG: arb_poly_log_series(out, out, s->terms, s->bits); return true;
-    default: return false;
-    }
+    if (f != NH_ATAN2) return eval(s, nh_child(s->dag, e, 0), out) && nh_poly_function(f, out, s->terms, s->bits);
+    arb_poly_t other;
+    arb_poly_init(other);
+    bool fine = eval(s, nh_child(s->dag, e, 0), out) && eval(s, nh_child(s->dag, e, 1), other) &&
+                nh_poly_angle(out, other, s->terms, s->bits);
+    arb_poly_clear(other);
+    return fine;
 }
 
 /* Finite in all its coefficients; else nothing. */
@@ -300,6 +288,23 @@ static bool take_terms(nh_ball_series *s, nh_ex e, size_t degree, double half, d
     return fine;
 }
 
+static void set_vector(const nh_ball_series *s, arb_ptr to, arb_srcptr from)
+{
+    _arb_vec_set(to, from, (slong)s->defined);
+}
+
+/* The variable at its centre, and the integrals there. */
+static bool stand_at_centre(nh_ball_series *s, arb_t centre)
+{
+    bool fine = nh_ball_eval(s->ball, s->variable, centre);
+    for (size_t i = 0; i < s->defined; i++)
+        if (s->define[i].integral) fine = fine && nh_ball_eval(s->ball, s->define[i].symbol, s->at_centre + i);
+    arb_set(s->from, centre);
+    arb_set(s->interval, centre);
+    set_vector(s, s->at_from, s->at_centre);
+    return fine;
+}
+
 /* From one place to the next, a width w further: the integrals there. */
 static bool go_on(nh_ball_series *s, const arb_t w)
 {
@@ -321,7 +326,7 @@ static bool go_on(nh_ball_series *s, const arb_t w)
 }
 
 /* The largest |a_N| on one side of the centre. */
-static bool largest_last(nh_ball_series *s, nh_ex e, const arb_t centre, size_t degree, double step, double *largest)
+static bool largest_last(nh_ball_series *s, nh_ex e, const arb_t centre, size_t degree, double step, arb_t largest)
 {
     arb_poly_t p;
     arb_t w, end, last;
@@ -329,7 +334,7 @@ static bool largest_last(nh_ball_series *s, nh_ex e, const arb_t centre, size_t 
     arb_init(w), arb_init(end), arb_init(last);
     arb_set_d(w, step);
     arb_set(s->from, centre);
-    for (size_t i = 0; i < s->defined; i++) arb_zero(s->at_from + i);
+    set_vector(s, s->at_from, s->at_centre);
     s->terms = (slong)degree + 1;
     bool fine = true;
     for (int i = 0; i < pieces && fine; i++) {
@@ -337,7 +342,8 @@ static bool largest_last(nh_ball_series *s, nh_ex e, const arb_t centre, size_t 
         arb_union(s->interval, s->from, end, s->bits);
         fine = eval(s, e, p);
         arb_poly_get_coeff_arb(last, p, (slong)degree);
-        *largest = fmax(*largest, upper(last));
+        arb_abs(last, last);
+        arb_max(largest, largest, last, s->bits);
         fine = fine && go_on(s, w);
         forget(s);
     }
@@ -349,17 +355,74 @@ static bool largest_last(nh_ball_series *s, nh_ex e, const arb_t centre, size_t 
 bool nh_ball_series_take(nh_ball_series *s, nh_ex e, size_t degree, double half, double *coefficient, double *bound)
 {
     static const double upwards = 1 + 1e-12; /* doubles below are rounded to nearest */
-    arb_t centre;
-    double last = 0;
-    arb_init(centre);
-    bool fine = nh_ball_eval(s->ball, s->variable, centre);
+    arb_t centre, last;
+    arb_init(centre), arb_init(last);
+    bool fine = stand_at_centre(s, centre) && take_terms(s, e, degree, half, coefficient, bound);
+    for (int side = -1; side <= 1 && fine; side += 2)
+        fine = largest_last(s, e, centre, degree, side * (upwards * half / pieces), last);
+    if (fine) *bound = upwards * (*bound + upper(last) * pow(half, (double)degree));
+    arb_clear(last), arb_clear(centre);
+    return fine && isfinite(*bound);
+}
+
+/* The symbol's value at a distance from the centre: the terms there, and the last one's bound on the way. */
+static bool value_at(nh_ball_series *s, nh_ex symbol, const arb_t centre, const arb_t distance, double step, arb_t out)
+{
+    arb_poly_t p;
+    arb_t last;
+    arb_poly_init(p);
+    arb_init(last);
+    s->terms = far;
     arb_set(s->from, centre);
     arb_set(s->interval, centre);
-    for (size_t i = 0; i < s->defined; i++) arb_zero(s->at_from + i);
-    fine = fine && take_terms(s, e, degree, half, coefficient, bound);
-    for (int side = -1; side <= 1 && fine; side += 2)
-        fine = largest_last(s, e, centre, degree, side * (upwards * half / pieces), &last);
-    if (fine) *bound = upwards * (*bound + last * pow(half, (double)degree));
-    arb_clear(centre);
-    return fine && isfinite(*bound);
+    set_vector(s, s->at_from, s->at_centre);
+    bool fine = eval(s, symbol, p);
+    forget(s);
+    fine = fine && largest_last(s, symbol, centre, far, step, last);
+    if (fine) {
+        arb_poly_evaluate(out, p, distance, s->bits);
+        arb_pow_ui(s->interval, distance, far, s->bits);
+        arb_mul(last, last, s->interval, s->bits);
+        arb_add_error(out, last);
+    }
+    arb_clear(last);
+    arb_poly_clear(p);
+    return fine && arb_is_finite(out);
+}
+
+/* The variable goes to a place so near that the terms there fall quickly. */
+static bool step_to(nh_ball_series *s, const arb_t to)
+{
+    static const double upwards = 1 + 1e-12;
+    arb_t centre, distance;
+    arb_init(centre), arb_init(distance);
+    arb_ptr value = _arb_vec_init((slong)s->defined);
+    bool fine = stand_at_centre(s, centre);
+    arb_sub(distance, to, centre, s->bits);
+    double step = upwards * arf_get_d(arb_midref(distance), ARF_RND_NEAR) / pieces;
+    for (size_t i = 0; i < s->defined && fine; i++)
+        fine = value_at(s, s->define[i].symbol, centre, distance, step, value + i);
+    if (fine) nh_ball_set_arb(s->ball, s->variable, to);
+    for (size_t i = 0; i < s->defined && fine; i++) nh_ball_set_arb(s->ball, s->define[i].symbol, value + i);
+    _arb_vec_clear(value, (slong)s->defined);
+    arb_clear(distance), arb_clear(centre);
+    return fine;
+}
+
+bool nh_ball_series_move(nh_ball_series *s, double to)
+{
+    arb_t from, end, place;
+    arb_init(from), arb_init(end), arb_init(place);
+    bool fine = nh_ball_eval(s->ball, s->variable, from);
+    arb_set_d(end, to);
+    for (int i = 1; i <= steps && fine; i++) {
+        arb_sub(place, end, from, s->bits);
+        arb_mul_si(place, place, i, s->bits);
+        arb_div_si(place, place, steps, s->bits);
+        arb_add(place, place, from, s->bits);
+        arb_get_mid_arb(place, place);
+        fine = step_to(s, i < steps ? place : end);
+    }
+    arb_clear(place), arb_clear(end), arb_clear(from);
+    return fine;
 }

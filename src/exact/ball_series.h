@@ -3,7 +3,7 @@
  *     f(c + x) = sum_(k < N) a_k x^k + R(x),     R(x) = a_N(xi) x^N for a xi between c and c + x     (Taylor's theorem)
  *
  * The a_k are balls.  The coefficient a_N about all centres of an interval at once contains a_N(xi).  Beside the
- * variable there are functions of it that are defined by others: roots, and integrals from c. */
+ * variable there are functions of it that are defined by others: roots and integrals. */
 #ifndef NH_BALL_SERIES_H
 #define NH_BALL_SERIES_H
 
@@ -11,7 +11,7 @@
 
 typedef struct nh_ball_series nh_ball_series;
 
-/* symbol^2 = of, with the sign of its value in the ball; or d symbol/d variable = of, 0 at the centre. */
+/* symbol^2 = of, with the sign of its value in the ball; or d symbol/d variable = of, with its value there. */
 typedef struct {
     nh_ex symbol, of;
     bool integral;
@@ -26,5 +26,9 @@ void nh_ball_series_free(nh_ball_series *series);
  * adds.  False where the series does not reach so far, or where e has functions without series. */
 bool nh_ball_series_take(nh_ball_series *series, nh_ex e, size_t degree, double half, double *coefficient,
                          double *bound);
+
+/* The centre goes to `to`: the ball gets the values there of the variable, the roots and the integrals, enclosed by
+ * series of many terms.  False where a series does not exist on the way: the ball has the values at a place before. */
+bool nh_ball_series_move(nh_ball_series *series, double to);
 
 #endif
