@@ -396,14 +396,39 @@ Test(html, formulas_are_set_as_they_are_written)
     }
 }
 
-static void join(void *context, const char *piece)
+static void join(void *context, const char *piece, nh_typeset_follows follows)
 {
+    (void)follows;
     nh_text_add(context, piece);
     nh_text_add(context, " | ");
 }
 
-static void widest_piece(void *context, const char *piece)
+static void kinds_of_breaks(void *context, const char *piece, nh_typeset_follows follows)
 {
+    (void)piece;
+    nh_text_add(context, follows == NH_FOLLOWS_FACTOR ? "*" : follows == NH_FOLLOWS_TERM ? "+" : ".");
+}
+
+/* A product that goes on in the next line shows an operator at the end of this one; a sum's next line has its own. */
+Test(html, products_that_go_on)
+{
+    static const char *const cases[][2] = {
+        {"(a1 + a2 + a3 + a4 + a5)*(b1 + b2 + b3 + b4 + b5)", "++++*++++."},
+        {"a1 + a2 + a3", "++."},
+        {"(a1 + a2 + a3 + a4 + a5)/(b1 + b2 + b3 + b4 + b5)", "+++++++++."},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_text out;
+        nh_text_init(&out);
+        nh_typeset_pieces(cases[i][0], NH_MATHML, 6, kinds_of_breaks, &out);
+        cr_expect_str_eq(nh_text_string(&out), cases[i][1], "%s", cases[i][0]);
+        nh_text_clear(&out);
+    }
+}
+
+static void widest_piece(void *context, const char *piece, nh_typeset_follows follows)
+{
+    (void)follows;
     size_t *most = context, symbols = 0;
     for (const char *c = piece; (c = strstr(c, "<m")); c++) symbols += c[2] == 'i' || c[2] == 'n';
     if (symbols > *most) *most = symbols;

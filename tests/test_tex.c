@@ -14,8 +14,9 @@
 
 /* ---- pieces ---- */
 
-static void join(void *context, const char *piece)
+static void join(void *context, const char *piece, nh_typeset_follows follows)
 {
+    (void)follows;
     nh_text_add(context, piece);
     nh_text_add(context, " | ");
 }
@@ -54,8 +55,9 @@ typedef struct {
 } seen;
 
 /* Groups begin and end within a piece, so that TeX may break between any two. */
-static void look(void *context, const char *piece)
+static void look(void *context, const char *piece, nh_typeset_follows follows)
 {
+    (void)follows;
     seen *s = context;
     int depth = 0;
     size_t letters = 0;

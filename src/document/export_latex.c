@@ -93,7 +93,11 @@ static void add_row(rows *r, const char *left, const char *right)
     r->list[r->count++] = (row){nh_strdup(left), nh_strdup(right)};
 }
 
-static void put_piece(void *context, const char *piece) { nh_text_add(context, piece); }
+static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
+{
+    (void)follows;
+    nh_text_add(context, piece);
+}
 
 /* Short ones in a row are aligned; a long one is a paragraph that TeX breaks. */
 static void put_rows(rows *r, nh_text *out)

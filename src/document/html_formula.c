@@ -29,12 +29,13 @@ static void add_compact(nh_text *out, const char *piece)
     }
 }
 
-static void write_piece(void *context, const char *piece)
+/* Where a line ends between factors, the page shows a dot: the sign of a soft hyphen (html_page.c). */
+static void write_piece(void *context, const char *piece, nh_typeset_follows follows)
 {
     nh_html_writer *w = context;
     nh_html_add(w, "<math displaystyle=\"true\">");
     add_compact(w->out, piece);
-    nh_html_add(w, "</math> ");
+    nh_html_add(w, follows == NH_FOLLOWS_FACTOR ? "</math>\u00ad" : "</math> ");
 }
 
 void nh_html_source(nh_html_writer *w, const char *text)

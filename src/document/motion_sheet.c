@@ -31,7 +31,8 @@ static void first_series(nh_sheet *s, const nh_motion_series *v, const char *of)
         const nh_motion_series_of_one *one = &first->integral[j];
         nh_sheet_sum(s, "", name(s, one->symbol));
         for (size_t k = 0; k < NH_MOTION_SERIES_TERMS; k++)
-            nh_sheet_add(s, nh_real(s->dag, one->coefficient[k]), k == 0 ? "" : k == 1 ? "Delta" : nh_sheet_label(s, "Delta^{%zu}", k));
+            nh_sheet_add(s, nh_real(s->dag, one->coefficient[k]),
+                         k == 0 ? "" : k == 1 ? "Delta" : nh_sheet_label(s, "Delta^{%zu}", k));
         nh_sheet_formula(s, nh_sheet_label(s, "\\eps_{%s}", name(s, one->symbol)), nh_real(s->dag, one->bound));
     }
 }
@@ -44,19 +45,28 @@ static double largest_bound(const nh_motion_series *v)
     return out;
 }
 
+/* The integrals at one end of the chain, where it has more than one interval on that side. */
+static void at_end(nh_sheet *s, const nh_motion_series *v, size_t link, double end)
+{
+    const nh_motion_series_link *at = &v->link[link];
+    for (size_t j = 0; j < v->integrals && link != v->first; j++)
+        nh_sheet_formula(s, nh_sheet_label(s, "%s(%.6g)", name(s, at->integral[j].symbol), end),
+                         nh_real(s->dag, nh_motion_series_value(at, j, end)));
+}
+
 /* The chain of all intervals: how far it goes, and the integrals at its ends. */
 static void other_series(nh_sheet *s, const nh_motion_series *v, const char *of)
 {
-    const double end[] = {nh_motion_series_begin(v), nh_motion_series_end(v)};
-    const nh_motion_series_link *at[] = {&v->link[0], &v->link[v->links - 1]};
-    bool whole = end[0] <= v->low && end[1] >= v->high;
-    nh_sheet_words(s, nh_sheet_label(s, "%zu intervals beside one another, each with such series about its own centre, cover $<%s>$ from %.6g to %.6g%s. The largest $\\eps$ is %.1e. "
-                                        "The JSON has all coefficients (explicit_motion.intervals).", v->links, of, end[0], end[1],
-                                     whole ? ", where the checked motion goes" : nh_sheet_label(s, "; the checked motion goes from %.6g to %.6g", v->low, v->high), largest_bound(v)));
-    for (size_t j = 0; j < v->integrals; j++)
-        for (int e = 0; e < 2; e++)
-            if (e == 0 ? v->first > 0 : v->first + 1 < v->links)
-                nh_sheet_formula(s, nh_sheet_label(s, "%s(%.6g)", name(s, at[e]->integral[j].symbol), end[e]), nh_real(s->dag, nh_motion_series_value(at[e], j, end[e])));
+    double begin = nh_motion_series_begin(v), end = nh_motion_series_end(v);
+    const char *rest = nh_sheet_label(s, "; the checked motion goes from %.6g to %.6g", v->low, v->high);
+    if (begin <= v->low && end >= v->high) rest = ", where the checked motion goes";
+    nh_sheet_words(s, nh_sheet_label(s,
+                                     "%zu intervals beside one another, each with such series about its own centre, "
+                                     "cover $<%s>$ from %.6g to %.6g%s. The largest $\\eps$ is %.1e. "
+                                     "The JSON has all coefficients (explicit_motion.intervals).",
+                                     v->links, of, begin, end, rest, largest_bound(v)));
+    at_end(s, v, 0, begin);
+    at_end(s, v, v->links - 1, end);
 }
 
 static void series(nh_sheet *s, const nh_analysis *r)

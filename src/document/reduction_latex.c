@@ -18,7 +18,11 @@ static void put_stage_name(const nh_reduction *r, size_t i, const char *before, 
 
 enum { wide_row = 60 }; /* letters that fit on a line beside the name */
 
-static void put_piece(void *context, const char *piece) { nh_text_add(context, piece); }
+static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
+{
+    (void)follows;
+    nh_text_add(context, piece);
+}
 
 /* Rows of one alignment when all fit on a line, otherwise paragraphs that TeX breaks. */
 static void put_stage_latex(const nh_reduction *r, const nh_reduction_stage *s, nh_text *out)

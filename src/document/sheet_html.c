@@ -26,10 +26,11 @@ static void put_words(nh_html_writer *w, const char *words)
     nh_html_add(w, "</p>\n");
 }
 
-static void put_piece(void *context, const char *piece)
+static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
 {
-    nh_text *pieces = context;
-    nh_text_addf(pieces, "%s%s", pieces->length ? "</math> <math displaystyle=\"true\">" : "", piece);
+    nh_text_add(context, piece);
+    if (follows != NH_FOLLOWS_NOTHING)
+        nh_text_addf(context, "</math>%s<math displaystyle=\"true\">", follows == NH_FOLLOWS_FACTOR ? "\u00ad" : " ");
 }
 
 /* A line may end between the pieces of a coefficient, but neither behind a sign nor before the factor. */

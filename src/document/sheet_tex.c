@@ -4,7 +4,11 @@
 #include "document/sheet.h"
 #include "document/typeset.h"
 
-static void put_piece(void *context, const char *piece) { nh_text_addf(context, "%s\n", piece); }
+static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
+{
+    (void)follows;
+    nh_text_addf(context, "%s\n", piece);
+}
 
 static void notation(nh_tex_writer *w, const char *label) { nh_notation_write(label, NH_NOTATION_LATEX, w->out); }
 

@@ -149,8 +149,9 @@ const char *const nh_tex_formula_macro =
     "\\providecommand{\\nhformula}[1]{\\par\\addvspace{4pt plus 1pt}{\\parindent=0pt\\leftskip=2em\\rightskip=0pt plus 1fil\\hangindent=2em\\hangafter=1\\binoppenalty=10000\\relpenalty=10000"
     "\\lineskiplimit=3pt\\lineskip=4pt $\\displaystyle #1$\\par}\\addvspace{4pt plus 1pt}}\n";
 
-static void put_piece(void *context, const char *piece)
+static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
 {
+    (void)follows;
     nh_text_addf(context, "%s\n", piece);
 }
 

@@ -261,10 +261,12 @@ static bool starts_with_name_of_function(const nh_formula_node *e)
     return e->kind == NH_FORMULA_NODE_CALL && strcmp(e->text, "sqrt") && strcmp(e->text, "abs");
 }
 
-void nh_typeset_times(const writer *w, const nh_formula_node *factor)
+bool nh_typeset_times(const writer *w, const nh_formula_node *factor)
 {
-    add(w, starts_with_number(factor) ? w->s->dot_times : w->s->times);
+    bool dot = starts_with_number(factor);
+    add(w, dot ? w->s->dot_times : w->s->times);
     if (w->form == NH_MATHML && starts_with_name_of_function(factor)) add(w, "<mspace width=\"0.17em\"/>");
+    return dot;
 }
 
 static void product(const writer *w, const nh_formula_node *e)

@@ -43,8 +43,8 @@ bool nh_typeset_is_named(const char *name);
 const nh_formula_node *nh_typeset_named_head(const nh_typeset_writer *w, const nh_formula_node *call);
 /* Behind argument k of those. */
 void nh_typeset_named_comma(const nh_typeset_writer *w, const char *name, size_t k);
-/* What stands between two factors; `factor` is the second. */
-void nh_typeset_times(const nh_typeset_writer *w, const nh_formula_node *factor);
+/* What stands between two factors; `factor` is the second.  True: a dot. */
+bool nh_typeset_times(const nh_typeset_writer *w, const nh_formula_node *factor);
 
 /* NULL when the text is not of the language. */
 nh_formula_node *nh_typeset_read(nh_arena *arena, const char *text);

@@ -59,9 +59,9 @@ static bool wide(const flow *f, const nh_formula_node *e) { return width(e) > f-
 /* ---- breaks ---- */
 
 /* A line may end here; the dearer, the deeper inside the formula. */
-static void may_break(flow *f, int penalty)
+static void may_break(flow *f, int penalty, nh_typeset_follows follows)
 {
-    f->piece(f->context, nh_text_string(&f->text));
+    f->piece(f->context, nh_text_string(&f->text), follows);
     f->count++;
     nh_text_clear(&f->text);
     if (f->w.form == NH_LATEX) nh_text_addf(&f->text, "\\penalty%d ", penalty);
@@ -97,7 +97,7 @@ static void factor(flow *f, const nh_formula_node *e, bool alone, int depth)
 static void sum(flow *f, const nh_formula_node *e, int depth)
 {
     for (const nh_formula_node *c = e->child; c; c = c->next) {
-        if (c != e->child) may_break(f, of_sum(depth));
+        if (c != e->child) may_break(f, of_sum(depth), NH_FOLLOWS_TERM);
         if (c->minus) add(f, c == e->child ? f->w.s->minus : f->w.s->next_minus);
         else if (c != e->child) add(f, f->w.s->next_plus);
         factor(f, c, true, depth);
@@ -117,8 +117,8 @@ static void factors(flow *f, const nh_formula_node *first, bool beside, bool all
 {
     for (const nh_formula_node *c = first; c; c = c->next) {
         if (!all && apart(f, first, c) != beside) continue;
-        if (begun) nh_typeset_times(&f->w, c);
-        if (begun && beside) may_break(f, of_product(depth));
+        bool dot = begun && nh_typeset_times(&f->w, c);
+        if (begun && beside) may_break(f, of_product(depth), dot ? NH_FOLLOWS_TERM : NH_FOLLOWS_FACTOR);
         factor(f, c, false, depth);
         begun = true;
     }
@@ -153,7 +153,7 @@ static void fraction(flow *f, const nh_formula_node *e, int depth)
         return;
     }
     factor(f, above, false, depth);
-    may_break(f, of_product(depth));
+    may_break(f, of_product(depth), NH_FOLLOWS_TERM);
     add(f, f->w.s->slash);
     bracketed(f, below, depth);
 }
@@ -172,7 +172,7 @@ static void call(flow *f, const nh_formula_node *e, int depth)
         open_up(f, c, depth + 1);
         if (c->next && named) nh_typeset_named_comma(&f->w, e->text, k++);
         else if (c->next) add(f, s->comma);
-        if (c->next) may_break(f, of_sum(depth + 1));
+        if (c->next) may_break(f, of_sum(depth + 1), NH_FOLLOWS_TERM);
     }
     if (root) add(f, s->power[0]);
     add(f, bar ? s->wide_bar : s->wide_close);
@@ -197,7 +197,7 @@ static void open_up(flow *f, const nh_formula_node *e, int depth)
 {
     if (e->kind == NH_FORMULA_NODE_EQUATION) {
         open_up(f, e->child, depth);
-        may_break(f, 0);
+        may_break(f, 0, NH_FOLLOWS_TERM);
         add(f, f->w.s->equal);
         open_up(f, e->child->next, depth);
     } else if (e->kind == NH_FORMULA_NODE_SUM) {
@@ -228,7 +228,7 @@ size_t nh_typeset_pieces(const char *text, nh_typeset_form form, double widest, 
     f.w = (nh_typeset_writer){form, nh_typeset_script_of(form), &f.text};
     nh_text_init(&f.text);
     if (e) open_up(&f, e, 0);
-    if (e) piece(context, nh_text_string(&f.text));
+    if (e) piece(context, nh_text_string(&f.text), NH_FOLLOWS_NOTHING);
     nh_text_clear(&f.text);
     nh_arena_free(arena);
     return e ? f.count + 1 : 0;

@@ -6,7 +6,9 @@
 #include "exact/ball_internal.h"
 #include "exact/ball_series_internal.h"
 
-enum { pieces = 8, steps = 4, far = 32 }; /* pieces of the interval, on either side of the centre: balls around short pieces are small; steps of a move, terms of each */
+/* Pieces of the interval on either side of the centre: balls around short pieces are small.  Steps of a move, and the
+ * terms of each. */
+enum { pieces = 8, steps = 4, far = 32 };
 
 typedef struct {
     bool known, fine;
@@ -168,12 +170,13 @@ static bool power(nh_ball_series *s, arb_poly_t base, nh_ex exponent)
 {
     if (nh_kind_of(s->dag, exponent) == NH_NUMBER) {
         nh_num x = nh_number_of(s->dag, exponent);
-        if ((x.q == 1 || x.q == 2) && nh_poly_half_power(base, x.p, x.q == 1 ? 2 : 1, s->terms, s->bits)) return true;
+        bool halves = x.q == 1 || x.q == 2;
+        if (halves && nh_ball_series_half_power(base, x.p, 2 / x.q, s->terms, s->bits)) return true;
     }
     arb_poly_t x;
     arb_poly_init(x);
     bool fine = eval(s, exponent, x);
-    if (fine) nh_poly_power(base, x, s->terms, s->bits);
+    if (fine) nh_ball_series_power(base, x, s->terms, s->bits);
     arb_poly_clear(x);
     return fine;
 }
@@ -199,11 +202,11 @@ static bool eval_product(nh_ball_series *s, nh_ex e, arb_poly_t out)
 static bool eval_function(nh_ball_series *s, nh_ex e, arb_poly_t out)
 {
     nh_function f = nh_function_of(s->dag, e);
-    if (f != NH_ATAN2) return eval(s, nh_child(s->dag, e, 0), out) && nh_poly_function(f, out, s->terms, s->bits);
+    if (!eval(s, nh_child(s->dag, e, 0), out)) return false;
+    if (f != NH_ATAN2) return nh_ball_series_function(f, out, s->terms, s->bits);
     arb_poly_t other;
     arb_poly_init(other);
-    bool fine = eval(s, nh_child(s->dag, e, 0), out) && eval(s, nh_child(s->dag, e, 1), other) &&
-                nh_poly_angle(out, other, s->terms, s->bits);
+    bool fine = eval(s, nh_child(s->dag, e, 1), other) && nh_ball_series_angle(out, other, s->terms, s->bits);
     arb_poly_clear(other);
     return fine;
 }

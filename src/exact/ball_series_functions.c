@@ -59,7 +59,7 @@ static bool sided(nh_function f, arb_poly_t p)
 }
 
 /* d atan2(y, x) = (x dy - y dx)/(x^2 + y^2) */
-bool nh_poly_angle(arb_poly_t y, const arb_poly_t x, slong terms, slong bits)
+bool nh_ball_series_angle(arb_poly_t y, const arb_poly_t x, slong terms, slong bits)
 {
     arb_poly_t top, part, norm;
     arb_t first, u, v;
@@ -95,7 +95,7 @@ static void tanh_series(arb_poly_t p, slong terms, slong bits)
     arb_poly_clear(c);
 }
 
-bool nh_poly_function(nh_function f, arb_poly_t p, slong terms, slong bits)
+bool nh_ball_series_function(nh_function f, arb_poly_t p, slong terms, slong bits)
 {
     switch (f) {
     case NH_SIN: arb_poly_sin_series(p, p, terms, bits); return true;
@@ -118,7 +118,7 @@ bool nh_poly_function(nh_function f, arb_poly_t p, slong terms, slong bits)
     }
 }
 
-bool nh_poly_half_power(arb_poly_t p, int64_t n, int64_t halves, slong terms, slong bits)
+bool nh_ball_series_half_power(arb_poly_t p, int64_t n, int64_t halves, slong terms, slong bits)
 {
     enum { largest = 1000 };
     if (llabs((long long)n) > largest) return false;
@@ -128,7 +128,7 @@ bool nh_poly_half_power(arb_poly_t p, int64_t n, int64_t halves, slong terms, sl
     return true;
 }
 
-void nh_poly_power(arb_poly_t p, const arb_poly_t x, slong terms, slong bits)
+void nh_ball_series_power(arb_poly_t p, const arb_poly_t x, slong terms, slong bits)
 {
     if (arb_poly_length(x) < 2) {
         arb_t first;

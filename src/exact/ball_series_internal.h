@@ -7,12 +7,12 @@
 
 /* Of p, in place, below x^terms.  Where the function has a kink or a pole, or does not exist, coefficients are not
  * finite, or the answer is false.  False: a function without series here. */
-bool nh_poly_function(nh_function f, arb_poly_t p, slong terms, slong bits);
+bool nh_ball_series_function(nh_function f, arb_poly_t p, slong terms, slong bits);
 /* y := the angle of (x, y); false on its cut. */
-bool nh_poly_angle(arb_poly_t y, const arb_poly_t x, slong terms, slong bits);
+bool nh_ball_series_angle(arb_poly_t y, const arb_poly_t x, slong terms, slong bits);
 /* p := p^(halves n/2); false, and p as it was: n is too large. */
-bool nh_poly_half_power(arb_poly_t p, int64_t n, int64_t halves, slong terms, slong bits);
+bool nh_ball_series_half_power(arb_poly_t p, int64_t n, int64_t halves, slong terms, slong bits);
 /* p := p^x */
-void nh_poly_power(arb_poly_t p, const arb_poly_t x, slong terms, slong bits);
+void nh_ball_series_power(arb_poly_t p, const arb_poly_t x, slong terms, slong bits);
 
 #endif

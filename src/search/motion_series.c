@@ -70,7 +70,8 @@ static bool take_all(nh_ball_series *series, const nh_explicit_motion *m, nh_mot
 }
 
 /* The largest interval beside `edge` on this side, or about it (side = 0), no longer than 2 half. */
-static bool next_link(nh_ball_series *series, const nh_explicit_motion *m, double edge, int side, nh_motion_series_link *out)
+static bool next_link(nh_ball_series *series, const nh_explicit_motion *m, double edge, int side,
+                      nh_motion_series_link *out)
 {
     static const double shorter = 0.7;
     bool found = false;
@@ -82,7 +83,7 @@ static bool next_link(nh_ball_series *series, const nh_explicit_motion *m, doubl
     return found;
 }
 
-/* On one side of the start, as far as `to`: the number of intervals.  They end where they become short beside the way. */
+/* On one side of the start, as far as `to`: the number of intervals.  They end where they are short beside the way. */
 static size_t chain(nh_arena *arena, nh_ball_series *series, const nh_explicit_motion *m,
                     const nh_motion_series_link *first, int side, double to, nh_motion_series_link *out)
 {
@@ -104,8 +105,8 @@ static size_t chain(nh_arena *arena, nh_ball_series *series, const nh_explicit_m
 }
 
 /* Those below in reverse, the first, those above. */
-static void join(nh_motion_series *out, size_t below, const nh_motion_series_link *down, const nh_motion_series_link *first,
-                 size_t above, const nh_motion_series_link *up)
+static void join(nh_motion_series *out, size_t below, const nh_motion_series_link *down,
+                 const nh_motion_series_link *first, size_t above, const nh_motion_series_link *up)
 {
     for (size_t i = 0; i < below; i++) out->link[i] = down[below - 1 - i];
     out->first = below;
