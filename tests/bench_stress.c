@@ -29,11 +29,12 @@ static void put_row(const char *command, const char *over, const nh_robustness *
     fflush(stdout);
     wrong += count[NH_UNDETECTED];
     if (!verbose && !count[NH_UNDETECTED]) return;
-    nh_text text;
-    nh_text_init(&text);
-    nh_robustness_text(s, true, &text);
-    fputs(nh_text_string(&text), stderr);
-    nh_text_clear(&text);
+    for (size_t i = 0; i < s->maps; i++)
+        for (size_t j = 0; j < s->map[i].cells; j++) {
+            const nh_robustness_cell *c = &s->map[i].cell[j];
+            if (verbose || c->status == NH_UNDETECTED)
+                fprintf(stderr, "%s: %g, %g, %s: %s: %s\n", s->map[i].name, c->at, c->second_at, c->method, nh_run_record_status_name(c->status), c->note ? c->note : "");
+        }
 }
 
 static nh_robustness *stress_of(const char *path, const char *over, double budget)

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/escape.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "document/unfinished.h"
@@ -128,27 +127,20 @@ bool nh_cli_written(nh_cli *cli, bool good, nh_error *error) { return nh_output_
 
 /* ---- of a run that has no result ---- */
 
-/* Words are not printed where a table or code is expected. */
-static bool write_unfinished(nh_cli *cli, const nh_unfinished *u, nh_error *error)
+static void render_unfinished(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
 {
-    nh_text text;
-    bool good = true, table = cli->to || !strcmp(cli->command, "simulate");
-    nh_text_init(&text);
-    nh_unfinished_text(u, &text);
-    if (nh_cli_speaks(cli) && !table) {
-        nh_text shown;
-        nh_text_init(&shown);
-        nh_escape_terminal(nh_text_string(&text), &shown);
-        fputs(nh_text_string(&shown), stdout);
-        nh_text_clear(&shown);
-    }
-    if (cli->folder) good = nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), &text, error);
-    nh_text_clear(&text);
-    if (cli->json && good) good = nh_cli_write_json(cli, nh_unfinished_json(u), error);
-    if (cli->html && good) {
-        nh_unfinished_page(u, &text);
-        good = nh_cli_write(cli, cli->html, &text, error);
-    }
+    nh_unfinished_write(result, run, style, out);
+}
+
+/* Words are not printed where a table or code is expected. */
+static bool write_unfinished(nh_cli *cli, const nh_unfinished *u, const nh_run *run, nh_error *error)
+{
+    bool quiet = cli->quiet;
+    cli->quiet |= cli->to || !strcmp(cli->command, "simulate");
+    bool good = nh_cli_write_words(cli, render_unfinished, u, run, error);
+    cli->quiet = quiet;
+    if (cli->json && good) good = nh_cli_write_json(cli, nh_unfinished_json(u, run), error);
+    good = good && nh_cli_write_documents(cli, render_unfinished, u, run, error);
     return nh_cli_written(cli, good, error);
 }
 
@@ -162,8 +154,8 @@ int nh_cli_failed(nh_cli *cli, const nh_run *run, nh_error *error)
     nh_ended_words(why, sizeof why);
     nh_system *system = run->system_path ? nh_system_read(run->system_path, cli->settings, cli->setting, error) : NULL;
     nh_error_clear(error);
-    nh_unfinished u = {system, run, doing, why, !strcmp(cli->command, "analyze")};
-    bool good = !system || write_unfinished(cli, &u, error);
+    nh_unfinished u = {system, doing, why, !strcmp(cli->command, "analyze")};
+    bool good = !system || write_unfinished(cli, &u, run, error);
     nh_system_free(system);
     if (good) nh_fail_ended(error, "before there was a result%s%s", *doing ? ": " : "", doing);
     return error->code;

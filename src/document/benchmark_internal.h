@@ -2,8 +2,6 @@
 #ifndef NH_DOCUMENT_BENCHMARK_INTERNAL_H
 #define NH_DOCUMENT_BENCHMARK_INTERNAL_H
 
-#include "base/json.h"
-#include "base/text.h"
 #include "commands/benchmark.h"
 
 /* What has to be said of the reference, at most so many sentences. */
@@ -14,9 +12,7 @@ size_t nh_benchmark_warnings(const nh_benchmark *comparison, const char *out[NH_
 enum { NH_BENCHMARK_GOALS = 4 };
 extern const double nh_benchmark_goal[NH_BENCHMARK_GOALS];
 
-/* The discrete problem. */
-void nh_fits_text(const nh_benchmark *comparison, bool verbose, nh_text *out);
-void nh_fits_json(const nh_benchmark *comparison, nh_json *root);
+/* Of the discrete problem: */
 const char *nh_fitted_word(const nh_fitted *fitted); /* "accurate", "too few", ...; in JSON the first is "right" */
 
 #endif

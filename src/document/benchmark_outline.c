@@ -9,7 +9,10 @@
 
 enum { most_lines = 35 }; /* colours times dashes */
 
-static bool same_line(const nh_run_record *a, const nh_run_record *b) { return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation); }
+static bool same_line(const nh_run_record *a, const nh_run_record *b)
+{
+    return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation);
+}
 
 static bool shown(const nh_run_record *m) { return m->status <= NH_FLAGGED && isfinite(m->error) && m->seconds > 0; }
 
@@ -26,26 +29,107 @@ static void answer(nh_pen *p, const nh_benchmark *c)
     if (best) nh_pen_say(p, "Fastest below an error of a millionth: %s in {%s}.", best->method, best->formulation);
     else nh_pen_say(p, "No method came below an error of a millionth.");
     nh_pen_close(p, NH_PEN_ANSWER);
-    nh_pen_words(p, "One motion, t = %.6g to %.6g, by every integrator in every formulation, measured on this machine. Reference: {%s}; {%s} agrees to %.1g, "
-                 "so that smaller errors mean nothing.", c->begin, c->end, c->reference, c->second, c->agreement);
+    nh_pen_words(p, "One motion, t = %.6g to %.6g, by every integrator in every formulation, measured on this machine.",
+                 c->begin, c->end);
+    nh_pen_words(p, "Reference: {%s}; {%s} agrees to %.1g, so that smaller errors mean nothing.", c->reference,
+                 c->second, c->agreement);
     const char *warning[NH_BENCHMARK_WARNINGS];
     for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++) nh_pen_warning(p, warning[i]);
     if (c->partial) nh_pen_warning(p, "the budget ended before every method had all its runs; --budget allows more");
 }
 
+/* How long a run took, and how far it is off; `each`: with the drift of every current. */
+static void put_run(nh_pen *p, const nh_benchmark *c, const nh_run_record *m, bool each)
+{
+    nh_pen_say(p, "%s %.3g: error %.1g", set_by(m), set_to(m), m->error);
+    for (size_t k = 0; each && k < c->currents && m->drift && isfinite(m->error); k++)
+        if (!isnan(m->drift[k])) nh_pen_say(p, ", drift of <%s> %.1g", c->current[k], m->drift[k]);
+    if (!each && isfinite(m->worst_drift)) nh_pen_say(p, ", drift %.1g", m->worst_drift);
+    nh_pen_say(p, ", %.3g seconds, %.10g evaluations", m->seconds, (double)m->evaluations);
+}
+
 static void fastest(nh_pen *p, const nh_benchmark *c)
 {
-    nh_pen_table(p, "The fastest below an error of ...", "error below|method|formulation|set to|error|drift|seconds|evaluations");
+    bool reduced = false;
+    nh_pen_heading(p, "The fastest below an error");
+    nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     for (size_t i = 0; i < NH_BENCHMARK_GOALS; i++) {
         char goal[24];
         const nh_run_record *m = nh_benchmark_fastest(c, 0, c->count, nh_benchmark_goal[i], false);
-        snprintf(goal, sizeof goal, "10^(%.0f)", log10(nh_benchmark_goal[i]));
-        if (m)
-            nh_pen_row(p, "#<%s>|%s|{%s}|%s %.3g|%.2g|%.2g|%.3g|%.10g", goal, m->method, m->formulation, set_by(m), set_to(m), m->error, m->worst_drift,
-                       m->seconds, (double)m->evaluations);
+        if (!m) continue;
+        snprintf(goal, sizeof goal, "%.0e", nh_benchmark_goal[i]);
+        nh_pen_fact_begin(p, goal);
+        nh_pen_say(p, "%s in {%s}, ", m->method, m->formulation);
+        put_run(p, c, m, false);
+        nh_pen_say(p, "%s", nh_benchmark_goal[i] < c->agreement ? " (further than the reference is confirmed)" : "");
+        nh_pen_close(p, NH_PEN_FACT);
     }
-    nh_pen_table_end(p);
+    if (c->currents) {
+        nh_pen_fact_begin(p, "currents watched");
+        for (size_t k = 0; k < c->currents; k++) nh_pen_say(p, k ? ", <%s>" : "<%s>", c->current[k]);
+        nh_pen_close(p, NH_PEN_FACT);
+    }
+    nh_pen_close(p, NH_PEN_FACTS);
+    for (size_t i = 0; i < c->count; i++) reduced |= c->item[i].reduced;
+    if (reduced)
+        nh_pen_words(p,
+                     "Reduced equations (the group divided out) compute shape and momenta only, and are left out here; "
+                     "errors are those of their own states.");
     for (size_t i = 0; i < c->refused; i++) nh_pen_words(p, "Not used, %s.", c->refusal[i]);
+}
+
+/* The run after the last one of this method and formulation. */
+static size_t line_end(const nh_benchmark *c, size_t from)
+{
+    size_t next = from + 1;
+    while (next < c->count && same_line(&c->item[from], &c->item[next])) next++;
+    return next;
+}
+
+/* A method: what it takes to each error; the worst that happened to its runs. */
+static void put_times(nh_pen *p, const nh_benchmark *c, size_t from, size_t to)
+{
+    const nh_run_record *last = NULL;
+    nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
+    nh_pen_cell(p, NH_PEN_ROW_HEAD, "%s", c->item[from].method);
+    for (size_t i = 0; i < NH_BENCHMARK_GOALS; i++) {
+        const nh_run_record *m = nh_benchmark_fastest(c, from, to, nh_benchmark_goal[i], true);
+        nh_pen_cell(p, NH_PEN_CELL, "%.2g", m ? m->seconds : NAN);
+    }
+    for (size_t i = from; i < to; i++)
+        if (c->item[i].status >= NH_FLAGGED && !(last && last->status == NH_UNDETECTED)) last = &c->item[i];
+    if (last) {
+        nh_pen_open(p, NH_PEN_KIND, nh_run_record_status_name(last->status), NULL);
+        nh_pen_say(p, "%s", nh_run_record_status_name(last->status));
+        nh_pen_close(p, NH_PEN_KIND);
+    } else {
+        nh_pen_cell(p, NH_PEN_CELL, "%s", "");
+    }
+    nh_pen_close(p, NH_PEN_ROW);
+}
+
+static void times(nh_pen *p, const nh_benchmark *c)
+{
+    const char *formulation = "";
+    nh_text heads;
+    nh_text_init(&heads);
+    nh_text_add(&heads, "method");
+    for (size_t i = 0; i < NH_BENCHMARK_GOALS; i++) nh_text_addf(&heads, "|#%.0e", nh_benchmark_goal[i]);
+    nh_text_add(&heads, "|others");
+    nh_pen_open(p, NH_PEN_FOLD, NULL, "Seconds to an error");
+    nh_pen_words(p, "Seconds until the error is below the head of the column, and what happened to other "
+                    "runs of the method.");
+    for (size_t i = 0, next; i < c->count; i = next) {
+        next = line_end(c, i);
+        if (strcmp(formulation, c->item[i].formulation)) {
+            if (i) nh_pen_table_end(p);
+            nh_pen_table(p, formulation = c->item[i].formulation, nh_text_string(&heads));
+        }
+        put_times(p, c, i, next);
+    }
+    if (c->count) nh_pen_table_end(p);
+    nh_pen_close(p, NH_PEN_FOLD);
+    nh_text_clear(&heads);
 }
 
 /* ---- time against error ---- */
@@ -55,28 +139,46 @@ static void flush(nh_pen *p, const char *formulation, size_t n, const nh_curve *
     char title[200], caption[300];
     if (!n) return;
     snprintf(title, sizeof title, "Time against error, %.120s", formulation);
-    snprintf(caption, sizeof caption, "Seconds against error, %.120s. Down and to the left is better; each line is one method from loose to tight.",
-             formulation);
-    nh_plot plot = {.title = title, .description = "Both axes are logarithmic", .x_label = "error, relative", .y_label = "seconds", .log_x = true,
-                    .log_y = true, .floor = 1e-17, .curves = n, .curve = curve};
+    snprintf(
+        caption, sizeof caption,
+        "Seconds against error, %.120s. Down and to the left is better; each line is one method from loose to tight.",
+        formulation);
+    nh_plot plot = {.title = title,
+                    .description = "Both axes are logarithmic",
+                    .x_label = "error, relative",
+                    .y_label = "seconds",
+                    .log_x = true,
+                    .log_y = true,
+                    .floor = 1e-17,
+                    .curves = n,
+                    .curve = curve};
     nh_pen_plot(p, &plot, caption);
 }
 
 /* One plot per formulation, one line per method. */
 static void plots(nh_pen *p, const nh_benchmark *c)
 {
+    if (p->ink->brief) return;
     double *x = nh_alloc_array(2 * c->count + 1, sizeof *x), *y = x + c->count;
     nh_curve curve[most_lines];
     size_t n = 0;
     for (size_t i = 0, next; i < c->count; i = next) {
         size_t points = 0;
-        for (next = i; next < c->count && same_line(&c->item[i], &c->item[next]); next++) {
-            const nh_run_record *m = &c->item[next];
+        next = line_end(c, i);
+        for (size_t j = i; j < next; j++) {
+            const nh_run_record *m = &c->item[j];
             if (!shown(m)) continue;
             x[i + points] = fmax(m->error, fmax(c->agreement, 1e-16));
             y[i + points++] = m->seconds;
         }
-        if (points) curve[n++] = (nh_curve){.name = c->item[i].method, .count = points, .x = x + i, .x_stride = 1, .y = y + i, .y_stride = 1, .marks = true};
+        if (points)
+            curve[n++] = (nh_curve){.name = c->item[i].method,
+                                    .count = points,
+                                    .x = x + i,
+                                    .x_stride = 1,
+                                    .y = y + i,
+                                    .y_stride = 1,
+                                    .marks = true};
         bool last = next == c->count || strcmp(c->item[i].formulation, c->item[next].formulation);
         if (!last && n < most_lines) continue;
         flush(p, c->item[i].formulation, n, curve);
@@ -85,14 +187,39 @@ static void plots(nh_pen *p, const nh_benchmark *c)
     nh_free(x);
 }
 
+static void all_runs_brief(nh_pen *p, const nh_benchmark *c)
+{
+    const char *formulation = "";
+    for (size_t i = 0; i < c->count && p->style.verbose; i++) {
+        const nh_run_record *m = &c->item[i];
+        if (strcmp(formulation, m->formulation)) {
+            if (i) nh_pen_close(p, NH_PEN_FACTS);
+            else nh_pen_heading(p, "All runs (* no other one is both faster and more accurate)");
+            nh_pen_words(p, "{%s}", formulation = m->formulation);
+            nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+        }
+        nh_pen_fact_begin(p, m->method);
+        nh_pen_say(p, "%s%s, ", nh_run_record_status_name(m->status), m->front ? " *" : "");
+        put_run(p, c, m, true);
+        nh_pen_say(p, m->note && m->note[0] ? "; %s" : "%s", m->note ? m->note : "");
+        nh_pen_close(p, NH_PEN_FACT);
+    }
+    if (*formulation) nh_pen_close(p, NH_PEN_FACTS);
+}
+
 static void all_runs(nh_pen *p, const nh_benchmark *c)
 {
+    if (p->ink->brief) {
+        all_runs_brief(p, c);
+        return;
+    }
     nh_pen_open(p, NH_PEN_FOLD, NULL, "All runs");
     nh_pen_table(p, "All runs", "method|formulation|set to|status|error|drift|seconds|evaluations|note");
     for (size_t i = 0; i < c->count; i++) {
         const nh_run_record *m = &c->item[i];
-        nh_pen_row(p, "%s|{%s}|%s %.3g|!%s|%.2g|%.2g|%.3g|%.10g|%s", m->method, m->formulation, set_by(m), set_to(m), nh_run_record_status_name(m->status),
-                   m->error, m->worst_drift, m->seconds, (double)m->evaluations, m->note ? m->note : "");
+        nh_pen_row(p, "%s|{%s}|%s %.3g|!%s|%.2g|%.2g|%.3g|%.10g|%s", m->method, m->formulation, set_by(m), set_to(m),
+                   nh_run_record_status_name(m->status), m->error, m->worst_drift, m->seconds, (double)m->evaluations,
+                   m->note ? m->note : "");
     }
     nh_pen_table_end(p);
     nh_pen_close(p, NH_PEN_FOLD);
@@ -104,14 +231,18 @@ static void derivatives(nh_pen *p, const nh_benchmark *c)
     nh_pen_table(p, "One Jacobian of the equations of motion", "by|seconds|evaluations|off by");
     for (size_t i = 0; i < c->derivatives; i++) {
         const nh_derivative *d = &c->derivative[i];
-        if (isfinite(d->seconds)) nh_pen_row(p, "%s|%.3g|%.10g|%.1g", d->method, d->seconds, (double)d->evaluations, d->error);
+        if (isfinite(d->seconds))
+            nh_pen_row(p, "%s|%.3g|%.10g|%.1g", d->method, d->seconds, (double)d->evaluations, d->error);
     }
     nh_pen_table_end(p);
 }
 
 /* ---- the discrete problem ---- */
 
-static bool same_way(const nh_fitted *a, const nh_fitted *b) { return !strcmp(a->basis, b->basis) && !strcmp(a->route, b->route) && !strcmp(a->solver, b->solver); }
+static bool same_way(const nh_fitted *a, const nh_fitted *b)
+{
+    return !strcmp(a->basis, b->basis) && !strcmp(a->route, b->route) && !strcmp(a->solver, b->solver);
+}
 
 /* One plot per size of the ansatz; one line per way to solve it, over the samples. */
 static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last)
@@ -127,35 +258,71 @@ static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last
         double *at = x + 2 * n * room, *y = at + room;
         size_t count = 0;
         for (size_t j = i; j < last && !told; j++)
-            if (same_way(&c->fit[i], &c->fit[j]) && c->fit[j].right && isfinite(c->fit[j].error)) at[count] = fmax(c->fit[j].error, 1e-17), y[count++] = c->fit[j].seconds;
+            if (same_way(&c->fit[i], &c->fit[j]) && c->fit[j].right && isfinite(c->fit[j].error))
+                at[count] = fmax(c->fit[j].error, 1e-17), y[count++] = c->fit[j].seconds;
         if (!count) continue;
         snprintf(name[n], sizeof *name, "%.30s, %.30s, %.30s", c->fit[i].basis, c->fit[i].route, c->fit[i].solver);
-        curve[n] = (nh_curve){.name = name[n], .count = count, .x = at, .x_stride = 1, .y = y, .y_stride = 1, .marks = true};
+        curve[n] =
+            (nh_curve){.name = name[n], .count = count, .x = at, .x_stride = 1, .y = y, .y_stride = 1, .marks = true};
         n++;
     }
     snprintf(title, sizeof title, "Time against error, %zu functions", c->fit[first].functions);
-    nh_plot plot = {.title = title, .description = "Both axes are logarithmic", .x_label = "distance of the known currents from the null space", .y_label = "seconds", .log_x = true, .log_y = true, .floor = 1e-18, .curves = n, .curve = curve};
+    nh_plot plot = {.title = title,
+                    .description = "Both axes are logarithmic",
+                    .x_label = "distance of the known currents from the null space",
+                    .y_label = "seconds",
+                    .log_x = true,
+                    .log_y = true,
+                    .floor = 1e-18,
+                    .curves = n,
+                    .curve = curve};
     snprintf(caption, sizeof caption, "%s. Each line is one way to solve it, with few to many samples.", title);
     if (n) nh_pen_plot(p, &plot, caption);
     nh_free(x);
+}
+
+/* Of each number of functions the way that is tried first, those that no other one beats, and the most samples of the most functions. */
+static void fits_brief(nh_pen *p, const nh_benchmark *c)
+{
+    size_t most = c->fit[c->fits - 1].functions, first = 0;
+    nh_pen_table(p, "Solutions", "columns|samples|basis|route|solver|error|seconds|result");
+    for (size_t i = 0; i < c->fits; i++) {
+        const nh_fitted *m = &c->fit[i];
+        if (m->functions != c->fit[first].functions) first = i;
+        if (p->style.verbose || i == first || m->front || (m->functions == most && m->samples == c->fit[first].samples))
+            nh_pen_row(p, "%zu|%zu|%s|%s|%s|%.1g|%.2g|%s%s", m->columns, m->samples, m->basis, m->route, m->solver,
+                       m->error, m->seconds, nh_fitted_word(m), m->front ? " *" : "");
+    }
+    nh_pen_table_end(p);
+    nh_pen_words(p, "* accurate, and no other of as many functions is both faster and more exact%s.",
+                 p->style.verbose ? "" : "; --verbose shows all");
+    if (c->fits_partial) nh_pen_words(p, "There was no time for more functions; --budget allows more.");
 }
 
 static void discrete(nh_pen *p, const nh_benchmark *c)
 {
     if (!c->fits) return;
     nh_pen_section(p, "discrete", "The discrete problem");
-    nh_pen_words(p, "The linear problem by which nhsym analyze finds currents, of polynomials in velocities, sines, cosines and coordinates, solved in several ways: "
-                 "by how far the known currents are from its null space, and how long it takes. Down and to the left is better.");
+    nh_pen_words(p,
+                 "The linear problem by which nhsym analyze finds currents, of polynomials in velocities, sines, "
+                 "cosines and coordinates, solved in several ways: "
+                 "by how far the known currents are from its null space, and how long it takes.%s",
+                 p->ink->brief ? "" : " Down and to the left is better.");
+    if (p->ink->brief) {
+        fits_brief(p, c);
+        return;
+    }
     for (size_t i = 0, next; i < c->fits; i = next) {
         for (next = i; next < c->fits && c->fit[next].functions == c->fit[i].functions;) next++;
         fit_plot(p, c, i, next);
     }
     nh_pen_open(p, NH_PEN_FOLD, NULL, "All solutions");
-    nh_pen_table(p, "All solutions", "functions|columns|samples|basis|route|solver|null values|gap|error|seconds|result");
+    nh_pen_table(p, "All solutions",
+                 "functions|columns|samples|basis|route|solver|null values|gap|error|seconds|result");
     for (size_t i = 0; i < c->fits; i++) {
         const nh_fitted *m = &c->fit[i];
-        nh_pen_row(p, "%zu|%zu|%zu|%s|%s|%s|%zu|%.2g|%.2g|%.3g|%s", m->functions, m->columns, m->samples, m->basis, m->route, m->solver, m->dimension, m->gap,
-                   m->error, m->seconds, nh_fitted_word(m));
+        nh_pen_row(p, "%zu|%zu|%zu|%s|%s|%s|%zu|%.2g|%.2g|%.3g|%s", m->functions, m->columns, m->samples, m->basis,
+                   m->route, m->solver, m->dimension, m->gap, m->error, m->seconds, nh_fitted_word(m));
     }
     nh_pen_table_end(p);
     nh_pen_close(p, NH_PEN_FOLD);
@@ -164,7 +331,8 @@ static void discrete(nh_pen *p, const nh_benchmark *c)
 /* ---- where methods fail ---- */
 
 /* A table: the first quantity downwards, across it the methods, or for one method the second quantity. */
-static void map_of(nh_pen *p, const nh_robustness_map *map, size_t first, size_t step, size_t across, const char *caption, const char *corner)
+static void map_of(nh_pen *p, const nh_robustness_map *map, size_t first, size_t step, size_t across,
+                   const char *caption, const char *corner)
 {
     const nh_robustness_cell *cell = map->cell + first;
     nh_text heads;
@@ -209,32 +377,57 @@ static void map_table(nh_pen *p, const nh_robustness_map *map)
     }
 }
 
+/* What a terminal's cells do not show: why. */
+static void put_notes(nh_pen *p, const nh_robustness_map *map)
+{
+    nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+    for (size_t i = 0; i < map->cells; i++) {
+        const nh_robustness_cell *at = &map->cell[i];
+        if (!at->note || !at->note[0]) continue;
+        nh_pen_fact_begin(p, at->method);
+        nh_pen_say(p, "at %.4g", at->at);
+        if (map->second_axis) nh_pen_say(p, ", %.4g", at->second_at);
+        nh_pen_say(p, " %s: %s", nh_run_record_status_name(at->status), at->note);
+        nh_pen_close(p, NH_PEN_FACT);
+    }
+    nh_pen_close(p, NH_PEN_FACTS);
+}
+
 static void robustness(nh_pen *p, const nh_robustness *s)
 {
     if (!s) return;
     nh_pen_section(p, "robustness", "Where methods fail");
-    nh_pen_words(p, "Accurate; flagged: accurate, and a safeguard triggered; detected: not accurate, and a safeguard says so; "
-                 "failed: ended early, with a reason; timeout; undetected: not accurate, and no safeguard triggered.");
-    for (size_t i = 0; i < s->maps; i++) map_table(p, &s->map[i]);
+    nh_pen_words(p,
+                 "At tolerance %.1g; an error below %.1g is accurate. Flagged: accurate, and a safeguard triggered; "
+                 "detected: not accurate, and a safeguard says so; "
+                 "failed: ended early, with a reason; timeout; undetected: not accurate, and no safeguard triggered.",
+                 s->tolerance, s->accuracy);
+    for (size_t i = 0; i < s->maps; i++) {
+        map_table(p, &s->map[i]);
+        if (p->ink->brief && p->style.verbose) put_notes(p, &s->map[i]);
+    }
+    if (!p->ink->brief) return; /* a page has each cell in its colour */
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    nh_pen_say(p, "In all:");
+    for (int k = 0; k <= NH_UNDETECTED; k++)
+        nh_pen_say(p, "%s %zu %s", k ? "," : "", s->count[k], nh_run_record_status_name((nh_run_record_status)k));
+    nh_pen_close(p, NH_PEN_WORDS);
 }
 
-void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_run *run, nh_pen_style style, nh_text *out)
+void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_run *run, nh_pen_style style,
+                        nh_text *out)
 {
     const nh_simulation *q = c->question;
     nh_pen pen, *p = &pen;
     char sections[200];
-    if (style.form == NH_PEN_TEXT) {
-        nh_benchmark_text(c, style.verbose, out);
-        if (s) nh_robustness_text(s, style.verbose, out);
-        return;
-    }
     nh_pen_subject subject = {.system = q->system, .analysis = q->analysis, .dag = q->model->dag, .shown = run->shown};
     nh_pen_begin(p, style, &subject, "integrators compared", out);
     answer(p, c);
-    snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|words|Words|repeat|Repeat it", c->fits ? "discrete|The discrete problem|" : "",
-             s ? "robustness|Where they fail|" : "");
+    snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|words|Words|repeat|Repeat it",
+             c->fits ? "discrete|The discrete problem|" : "", s ? "robustness|Where they fail|" : "");
     p->ink->links(p->to, sections);
     nh_pen_section(p, "methods", "Methods");
+    times(p, c);
     fastest(p, c);
     plots(p, c);
     derivatives(p, c);

@@ -117,7 +117,7 @@ static void sheet(void *to, nh_sheet *formulas_of, bool headed)
     nh_sheet_text(formulas_of, w->colour, w->out);
 }
 
-/* ---- tables, in columns; where they are too wide for the line the first one, which has words, stands last ---- */
+/* ---- tables ---- */
 
 enum { most_columns = 24, line_width = 80 };
 
@@ -146,25 +146,50 @@ static size_t width_of(const char *text, size_t length)
     return width;
 }
 
-static void put_rows(nh_plain_writer *w, const char *rows)
+/* The first column, and the columns from..to-1; `moved`: the first column stands behind them. */
+static void put_columns(nh_plain_writer *w, const char *rows, const size_t *width, size_t from, size_t to, bool moved)
 {
-    size_t width[most_columns] = {0}, all = 0;
     row_cells row;
     for (const char *at = rows; *at;) {
         at = read_row(at, &row);
-        for (size_t k = 0; k < row.count; k++) width[k] = (size_t)fmax((double)width[k], (double)width_of(row.cell[k], row.length[k]));
-    }
-    for (size_t k = 0; k < most_columns; k++) all += width[k] ? width[k] + 2 : 0;
-    for (const char *at = rows; *at;) {
-        at = read_row(at, &row);
-        size_t first = all > line_width, pad = 2;
-        for (size_t i = 0; i < row.count; i++) {
-            size_t k = (i + first) % row.count;
-            if (!row.length[k] && i + 1 == row.count) continue;
+        size_t end = to < row.count ? to : row.count, shown = end > from ? 1 + end - from : 1, pad = 2;
+        for (size_t i = 0; i < shown; i++) {
+            size_t j = (i + moved) % shown, k = j ? from + j - 1 : 0;
+            if (!row.length[k] && i + 1 == shown) continue;
             nh_text_addf(w->out, "%*s%.*s", (int)pad, "", (int)row.length[k], row.cell[k]);
             pad = 2 + width[k] - width_of(row.cell[k], row.length[k]);
         }
         words(w, "\n");
+    }
+}
+
+/* In columns.  Where they are too wide for the line, a first one that is the widest has words, and stands last; else those that have no room stand below, each
+ * time with the first one. */
+static void put_rows(nh_plain_writer *w, const char *rows)
+{
+    size_t width[most_columns] = {0}, all = 0, widest = 0, columns = 0, to;
+    row_cells row;
+    for (const char *at = rows; *at;) {
+        at = read_row(at, &row);
+        if (row.count > columns) columns = row.count;
+        for (size_t k = 0; k < row.count; k++)
+            width[k] = (size_t)fmax((double)width[k], (double)width_of(row.cell[k], row.length[k]));
+    }
+    for (size_t k = 0; k < columns; k++) {
+        all += width[k] ? width[k] + 2 : 0;
+        if (k && width[k] > widest) widest = width[k];
+    }
+    size_t first = width[0] + 2;
+    bool words_first = width[0] >= widest && all - first <= line_width, parts = first + widest + 2 <= line_width;
+    if (all <= line_width || words_first || !parts) {
+        put_columns(w, rows, width, 1, columns, all > line_width);
+        return;
+    }
+    for (size_t from = 1; from < columns; from = to) {
+        size_t used = first;
+        for (to = from; to < columns && used + width[to] + 2 <= line_width; to++) used += width[to] + 2;
+        if (from > 1) words(w, "\n");
+        put_columns(w, rows, width, from, to, false);
     }
 }
 
@@ -217,7 +242,8 @@ static void plot(void *to, nh_plot *p, const char *caption)
     (void)caption;
     if (!p->log_y) return;
     for (size_t k = 0; k < p->curves; k++)
-        for (size_t i = 0; i < p->curve[k].count; i++) top = fmax(top, log10(fmax(p->curve[k].y[i * p->curve[k].y_stride], 1)));
+        for (size_t i = 0; i < p->curve[k].count; i++)
+            top = fmax(top, log10(fmax(p->curve[k].y[i * p->curve[k].y_stride], 1)));
     for (size_t k = 0; k < p->curves; k++) {
         nh_text_addf(w->out, p->curves > 1 ? "  %s, %s: " : "  %s: ", p->title, p->curve[k].name);
         put_bars(w, &p->curve[k], p->timed, log10(p->floor), top);
@@ -269,5 +295,6 @@ static void end(void *to, const nh_run *run)
     nh_text_clear(&w->text);
 }
 
-const nh_pen_ink nh_pen_plain = {false, true, begin, links, open, close, words, number, count, words, words, letters, equation, code, formulas,
-                                 sheet, table, table_end, plot, series, symmetry, glossary, end};
+const nh_pen_ink nh_pen_plain = {false, true,      begin, links,   open,     close,    words,    number,
+                                 count, words,     words, letters, equation, code,     formulas, sheet,
+                                 table, table_end, plot,  series,  symmetry, glossary, end};

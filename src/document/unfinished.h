@@ -2,19 +2,17 @@
 #ifndef NH_UNFINISHED_H
 #define NH_UNFINISHED_H
 
-#include "base/text.h"
-#include "document/provenance.h"
+#include "document/pen.h"
 
 typedef struct {
     const nh_system *system;
-    const nh_run *run;
     const char *doing; /* or "" */
     const char *why;   /* "the time limit of 1 s was reached" */
     bool search;       /* of `analyze`: it has a verdict */
 } nh_unfinished;
 
-void nh_unfinished_text(const nh_unfinished *unfinished, nh_text *out);
-char *nh_unfinished_json(const nh_unfinished *unfinished);
-void nh_unfinished_page(const nh_unfinished *unfinished, nh_text *out);
+/* A heap string (nh_free). */
+char *nh_unfinished_json(const nh_unfinished *unfinished, const nh_run *run);
+void nh_unfinished_write(const nh_unfinished *unfinished, const nh_run *run, nh_pen_style style, nh_text *out);
 
 #endif
