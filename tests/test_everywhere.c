@@ -97,3 +97,26 @@ Test(everywhere, processors)
     compare("an old processor", "--threads 1", old, 1e-5, 1e-6);
     compare("another processor", "--threads 2", other, 1e-5, 1e-6);
 }
+
+/* The values that a stage of the search takes for zero are bounded by rounding, which every library has its own of: how many
+ * null vectors there are is decided by the currents that they are. */
+Test(everywhere, rounding_does_not_count_null_vectors)
+{
+    place p = place_with_systems();
+    static const char *const bound[] = {"--option zero=1", "--option zero=100"};
+    static const char *const key[] = {"dimension", "found", "undecided"};
+    cJSON *root[2], *stages[2];
+    for (size_t i = 0; i < 2; i++) {
+        root[i] = answer(&p, "analyze quartic_oscillator --no-analysis --until 1", bound[i], NULL);
+        stages[i] = cJSON_GetObjectItem(root[i], "stages");
+        cr_assert(cJSON_GetArraySize(stages[i]) > 3, "%d stages", cJSON_GetArraySize(stages[i]));
+    }
+    cr_assert_eq(cJSON_GetArraySize(stages[0]), cJSON_GetArraySize(stages[1]));
+    for (int s = 0; s < cJSON_GetArraySize(stages[0]); s++)
+        for (size_t k = 0; k < sizeof key / sizeof *key; k++)
+            cr_expect(cJSON_Compare(cJSON_GetObjectItem(cJSON_GetArrayItem(stages[0], s), key[k]),
+                                    cJSON_GetObjectItem(cJSON_GetArrayItem(stages[1], s), key[k]), true),
+                      "stage %d: another %s", s, key[k]);
+    for (size_t i = 0; i < 2; i++) cJSON_Delete(root[i]);
+    place_clear(&p);
+}

@@ -217,6 +217,22 @@ static size_t harvest(nh_stage_solver *x, const nh_solved *s, size_t count, bool
     return found;
 }
 
+/* How many of the likely null vectors are no functions of the currents found so far: whether these are null vectors
+ * remains open. */
+static size_t still_open(nh_stage_solver *x, const nh_solved *s)
+{
+    nh_candidates *list =
+        nh_echelon(x->r->model, s->fit, s->ansatz, s->nullspace, s->nullspace->likely, &x->r->options);
+    nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
+    size_t all = list->count;
+    compare(x, list, kind); /* may shorten the list */
+    size_t open = all - list->count;
+    for (size_t k = 0; k < list->count; k++) open += kind[k] != NH_DEPENDENT && kind[k] != NH_CONSTANT;
+    nh_free(kind);
+    nh_candidates_free(list);
+    return open;
+}
+
 void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families, const nh_family *family)
 {
     nh_progress(name, nh_budget_part());
@@ -232,12 +248,16 @@ void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families
     if (s.nullspace) {
         note->dimension = s.nullspace->dimension;
         note->gap = s.nullspace->gap;
-        note->undecided = s.nullspace->likely > s.nullspace->dimension;
         r->samples = s.fit->count > r->samples ? s.fit->count : r->samples;
         r->beyond += nh_points_equations(s.fit) - s.fit->count;
         r->rejected += s.fit->tried - nh_points_equations(s.fit);
         note->found = harvest(x, &s, s.nullspace->dimension, true);
-        if (s.nullspace->likely > s.nullspace->dimension) note->found += harvest(x, &s, s.nullspace->likely, false);
+        if (s.nullspace->likely > s.nullspace->dimension) {
+            /* how many of them are certain hangs on rounding; what they are does not */
+            note->found += harvest(x, &s, s.nullspace->likely, false);
+            note->undecided = still_open(x, &s) > 0;
+            if (!note->undecided) note->dimension = s.nullspace->likely;
+        }
         keep_spectrum(x, s.nullspace, note->found > 0);
     }
     note->seconds = nh_clock() - start;
