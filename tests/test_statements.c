@@ -240,6 +240,21 @@ Test(statements, rounding_is_no_rate)
     place_clear(&p);
 }
 
+/* Of an integral of the constraints every term of the Noether equations vanishes: what rounding leaves has no size to be
+ * compared with. */
+Test(statements, a_residual_without_a_size_is_decided_exactly)
+{
+    place p = place_make();
+    write_here(&p, "ball.yaml", "name: ball\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - 1.9*y^2 - 3.1*z^2\n"
+                                "constraints: [\"x*x' + y*y' + z*z' = 0\"]\ndomain: {y: [0.5, 1]}\n");
+    reports r = analyze(&p, "ball.yaml");
+    const cJSON *current;
+    cr_expect_not_null(strstr(r.text, ": integral of the constraints"), "%s", r.text);
+    cJSON_ArrayForEach(current, item(r.json, "currents")) cr_expect_lt(item(item(current, "symmetry"), "residual")->valuedouble, 1e-9, "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
 /* ---- modulo the constraints ---- */
 
 #define FOUR_COORDINATES "parameters: [{name: m, value: 1.3}, {name: g, value: 0.9}]\n" \
