@@ -220,3 +220,31 @@ Test(reduce_scales, velocities_off_the_constraints)
         remove(path);
     }
 }
+
+/* A light-like constraint, y'^2 = x'^2 + (c p')^2, in a unit of length of which c = 10^9 make one: the translations are there, and
+ * velocities that are not given follow from the constraint. */
+Test(reduce_scales, nonlinear_constraint_in_small_units)
+{
+    static const struct {
+        const char *initial;
+        bool allowed;
+    } of[] = {{"x'=3e9, p'=4", true}, {"x'=3e9, y'=5e9", true}, {"y'=5e9", true}, {"x'=3e9, y'=5e9, p'=4", true}, {"x'=3e9, y'=-5e9, p'=4", true}, {"x'=3e9, y'=5e9, p'=4.001", false}};
+    char path[SCRATCH];
+    cr_assert(scratch_text(path, "name: light\ncoordinates: [x, y, {name: p, type: angle}]\nlagrangian: 1e-18*(x'^2 + y'^2)/2 + p'^2/2\nconstraints: [\"y'^2 = x'^2 + 1e18*p'^2\"]\n"));
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        nh_error error = {0};
+        nh_reduce_request q = {.system_path = path, .initial = of[i].initial};
+        nh_options_default(&q.options);
+        q.options.until = 1;
+        nh_reduction *r = nh_reduction_create(&q, &error);
+        cr_expect_eq(r != NULL, of[i].allowed, "%s: %s", of[i].initial, error.what ? error.what : "taken");
+        if (r) {
+            const double *v = r->initial.v;
+            cr_expect_eq(r->group->action.d, 3, "%s: %zu translations of 3", of[i].initial, r->group->action.d);
+            cr_expect_lt(fabs(v[1] * v[1] - v[0] * v[0] - 1e18 * v[2] * v[2]), 1e-9 * v[1] * v[1], "%s: %g %g %g", of[i].initial, v[0], v[1], v[2]);
+        }
+        nh_error_clear(&error);
+        nh_reduction_free(r);
+    }
+    remove(path);
+}

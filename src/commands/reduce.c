@@ -8,7 +8,6 @@
 
 #include "base/linalg.h"
 #include "base/progress.h"
-#include "geometry/bordered.h"
 #include "geometry/model.h"
 #include "reduction/subspace.h"
 #include "commands/reduce_internal.h"
@@ -36,112 +35,6 @@ bool nh_reduction_late(nh_reduction *r, const char *what)
     const char *option = nh_ended_option() ? nh_ended_option() : "--max-seconds"; /* late, not ended */
     nh_reduction_warn(r, "a limit prevented %s; raise it by %s", what, option);
     return r->partial = true;
-}
-
-/* ---- the initial state ---- */
-
-/* Metric lengths of coordinates, by which their velocities compare; all 1 where there is no metric. */
-static void metric_units(const nh_kinetic *k, const double *q, double *unit)
-{
-    size_t m = k->m;
-    double *K = nh_alloc_array(m * m + 1, sizeof *K);
-    bool metric = k->metric && k->autonomous;
-    if (metric) nh_kinetic_values(k, m * m, k->K, q, K);
-    for (size_t s = 0; s < m; s++) unit[s] = metric && K[s * (m + 1)] > 0 ? sqrt(K[s * (m + 1)]) : 1;
-    nh_free(K);
-}
-
-/* How large omega(v) + b can be for velocities of this size: |b| + |omega| |v|, lengths by the metric's diagonal (Cauchy and Schwarz). */
-static double largest_value(size_t m, const double *unit, const double *omega, double b, const double *v)
-{
-    double form = 0, speed = 0;
-    for (size_t s = 0; s < m; s++) form = hypot(form, omega[s] / unit[s]), speed = hypot(speed, unit[s] * v[s]);
-    return fabs(b) + form * speed;
-}
-
-/* Change the velocities that are not `fixed` (NULL: none is) as little as possible so that they satisfy the constraints; returns the largest
- * omega^A(v) + b^A that is left, relative to what it can be for velocities of this size. */
-static double satisfy(const nh_kinetic *k, const double *q, const bool *fixed, double *v)
-{
-    size_t m = k->m, f = k->f, ld = m > f ? m : f;
-    double *a = nh_alloc_array(f * m + ld + 1, sizeof *a), *b = a + f * m, *omega = nh_alloc_array(f * m + 1, sizeof *omega), left = 0;
-    double *offset = nh_alloc_array(f + m + 1, sizeof *offset), *unit = offset + f;
-    metric_units(k, q, unit);
-    if (f) nh_kinetic_values(k, f * m, k->omega, q, omega);
-    if (f) nh_kinetic_values(k, f, k->b, q, offset);
-    for (size_t i = 0; i < f; i++) {
-        double size = 0;
-        for (size_t s = 0; s < m; s++) size = hypot(size, omega[i * m + s]);
-        if (size > 0) b[i] = offset[i] /= size;
-        for (size_t s = 0; s < m && size > 0; s++) {
-            omega[i * m + s] /= size;
-            a[i + s * f] = fixed && fixed[s] ? 0 : omega[i * m + s];
-            b[i] += omega[i * m + s] * v[s];
-        }
-    }
-    if (f && nh_least_squares(f, m, a, 1, b, ld, 1e-13) >= 0)
-        for (size_t s = 0; s < m; s++)
-            if (!fixed || !fixed[s]) v[s] -= b[s];
-    for (size_t i = 0; i < f; i++) {
-        double rest = offset[i];
-        for (size_t s = 0; s < m; s++) rest += omega[i * m + s] * v[s];
-        if (rest != 0) left = fmax(left, fabs(rest) / largest_value(m, unit, omega + i * m, offset[i], v));
-    }
-    nh_free(a);
-    nh_free(omega);
-    nh_free(offset);
-    return left;
-}
-
-static bool velocities(nh_reduction *r, const nh_reduce_request *q, const bool *given, nh_error *error)
-{
-    static const double allowed = 1e-9;
-    bool *all = nh_arena_alloc(r->arena, r->kinetic->m * sizeof *all);
-    for (size_t s = 0; s < r->kinetic->m; s++) all[s] = true;
-    double left = satisfy(r->kinetic, r->initial.q, given ? given : all, r->initial.v);
-    if (left <= allowed) return true;
-    if (q->project) return satisfy(r->kinetic, r->initial.q, NULL, r->initial.v) <= allowed || nh_fail(error, NH_NUMERIC, "", "no velocities near the initial ones satisfy the constraints");
-    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the residual is %.3g of their size", left);
-    return nh_error_hint(error, "omit velocities that the constraints determine, or use --project, which takes the nearest allowed velocities");
-}
-
-/* The same for constraints of any kind: to the nearest velocities that satisfy them, which those that are given must not notice. */
-static bool project(nh_reduction *r, const nh_reduce_request *q, const bool *given, nh_error *error)
-{
-    static const double allowed = 1e-9;
-    size_t m = r->kinetic->m;
-    double *v = nh_alloc_array(m + 1, sizeof *v), off = 0;
-    memcpy(v, r->initial.v, m * sizeof *v);
-    nh_bordered *b = nh_bordered_create(r->model);
-    bool found = nh_bordered_project(b, 0, r->initial.q, r->initial.v);
-    for (size_t s = 0; s < m; s++)
-        if (!given || given[s]) off = fmax(off, fabs(v[s] - r->initial.v[s]));
-    if (nh_largest(m, v) > 0) off /= nh_largest(m, v);
-    nh_bordered_free(b);
-    nh_free(v);
-    if (!found) return nh_fail(error, NH_NUMERIC, "", "no velocities near the initial ones satisfy the constraints");
-    if (off <= allowed || q->project) return true;
-    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the distance to the nearest allowed velocities is %.3g of their size", off);
-    return nh_error_hint(error, "give other values, or use --project, which takes these velocities");
-}
-
-static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
-{
-    size_t m = r->kinetic->m;
-    r->initial = (nh_state){.q = nh_arena_alloc(r->arena, m * sizeof(double)), .v = nh_arena_alloc(r->arena, m * sizeof(double))};
-    memcpy(r->initial.q, r->kinetic->place, m * sizeof(double));
-    memcpy(r->initial.v, r->kinetic->speed, m * sizeof(double));
-    if (!q->initial) return true;
-    nh_analysis_file *own = nh_simulate_initial(NULL, q->initial, error);
-    bool good = own && nh_analysis_file_resolve(own, r->model, error);
-    if (good) {
-        memcpy(r->initial.q, own->initial.q, m * sizeof(double));
-        memcpy(r->initial.v, own->initial.v, m * sizeof(double));
-        if (r->kinetic->affine && r->kinetic->autonomous) good = velocities(r, q, own->initial.given, error);
-        else if (r->kinetic->f) good = project(r, q, own->initial.given, error);
-    }
-    nh_analysis_file_free(own);
-    return good;
 }
 
 /* ---- the group ---- */
@@ -397,7 +290,7 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     r->chart = q->chart;
     nh_linalg_threads(1);
     nh_progress("the symmetry group", -1);
-    bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && starts_well(r, error) && joint_by_joint(r, q, error);
+    bool good = open_system(r, q, error) && find_groups(r, q, error) && nh_reduction_initial(r, q, error) && starts_well(r, error) && joint_by_joint(r, q, error);
     bool some = r->kinetic && (r->kinetic->reducible || r->kinetic->general);
     if (good && !some && r->group->action.d) nh_reduction_warn(r, "%s: the equations are reduced directly, without a connection and without momenta", r->kinetic->obstacle);
     bool divide = good && r->group->action.d;

@@ -13,6 +13,10 @@ enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000, NH_REDUCTION_ALLO
 /* Of nh_flow_options, for every motion that is compared: errors are relative to the size that each state has had. */
 static inline double nh_reduction_absolute(const nh_reduction *r) { return fmax(r->options.absolute, DBL_MIN); }
 
+/* reduce_start.c: the state of q->initial, its velocities made to satisfy the constraints; refused where those that are
+ * given do not. */
+bool nh_reduction_initial(nh_reduction *reduction, const nh_reduce_request *request, nh_error *error);
+
 /* What stages are compared with. */
 typedef struct {
     nh_reduction *r;

@@ -185,24 +185,27 @@ bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *
     return good;
 }
 
-bool nh_bordered_project(nh_bordered *b, double t, const double *q, double *v)
+bool nh_bordered_project(nh_bordered *b, double t, const double *q, const bool *fixed, double *v)
 {
-    enum { most_steps = 12 };
-    static const double converged = 1e-12; /* the last step, beside the velocities */
+    enum { most_steps = 60 };
+    static const double converged = 1e-12, satisfied = 1e-9; /* the last step, and what is left, beside the velocities */
     size_t m = b->m, k = b->k;
     double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
     for (int step = 0; step < most_steps && k; step++) {
-        double size = 0, speed = 0;
+        double size = 0, speed = 0, left = 0;
         if (!nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f)) return false;
         memset(b->right, 0, (m + k) * sizeof *b->right);
         for (size_t a = 0; a < k; a++) b->right[a] = -f[a];
-        if (nh_least_squares(k, m, F, 1, b->right, m + k, 1e-12) < 0) return false; /* the shortest of the solutions */
+        for (size_t s = 0; s < m; s++)
+            for (size_t a = 0; a < k; a++) F[a + s * k] *= fixed && fixed[s] ? 0 : b->unit[s];
+        if (nh_least_squares(k, m, F, 1, b->right, m + k, 1e-12) < 0) return false; /* the shortest of the solutions; 0 where fixed */
         for (size_t s = 0; s < m; s++) {
-            v[s] += b->right[s];
-            size = fmax(size, fabs(b->right[s]) / b->unit[s]);
+            v[s] += b->right[s] * b->unit[s];
+            size = fmax(size, fabs(b->right[s]));
             speed = fmax(speed, fabs(v[s]) / b->unit[s]);
         }
-        if (size <= converged * speed) return true;
+        for (size_t a = 0; a < k; a++) left = fmax(left, fabs(f[a]));
+        if (size <= converged * speed) return left <= satisfied * speed;
     }
     return k == 0;
 }

@@ -38,8 +38,9 @@ void nh_bordered_accelerations_batch(nh_bordered *bordered, size_t count, const 
 /* force[s] = mu_a df^a/dv^s at (t, q, v), m values.  False when not finite. */
 bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const double *v, const double *mu, double *force);
 
-/* The velocities on the constraints that are nearest to v, by Gauss-Newton; v is overwritten.  False when that does not converge. */
-bool nh_bordered_project(nh_bordered *bordered, double t, const double *q, double *v);
+/* The velocities on the constraints that are nearest to v, in the units of their coordinates, by Gauss-Newton; v is overwritten, but where it is `fixed`
+ * (m entries; NULL: nowhere).  False when that does not converge. */
+bool nh_bordered_project(nh_bordered *bordered, double t, const double *q, const bool *fixed, double *v);
 
 /* The entries as expressions of t, q, q': K (m x m, column-major), h (m), F (k x m, column-major), g (k), f (k); constraints without poles, not normalised. */
 void nh_bordered_expressions(const nh_model *model, nh_ex *K, nh_ex *h, nh_ex *F, nh_ex *g, nh_ex *f);

@@ -203,7 +203,7 @@ static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t
     static const double too_steep = 1e6;
     size_t m = o->m, n = o->n, width = o->width, at = p->beyond->count;
     double fast = 0, *rate = nh_alloc_array(m, sizeof *rate);
-    bool good = steepness > g->steepest && steepness < too_steep && nh_bordered_project(b, t, q, v) && nh_bordered_accelerations(b, t, q, v, rate);
+    bool good = steepness > g->steepest && steepness < too_steep && nh_bordered_project(b, t, q, NULL, v) && nh_bordered_accelerations(b, t, q, v, rate);
     for (size_t s = 0; s < m && good; s++) fast = fmax(fast, fmax(fabs(v[s]), fabs(rate[s]) / g->rate) / g->speed[s]);
     if (good && fast < too_fast) {
         double **to = p->beyond->column;

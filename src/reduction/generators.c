@@ -205,6 +205,24 @@ static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *
 
 static bool complete(const nh_generators *found, const nh_jets *jets) { return jets && found->count >= jets->dimension; }
 
+/* d/dq of the coordinates that neither the kinetic energy nor the potential nor the constraints contain: they need no
+ * fit, which units that lie far apart may spoil.  Taken where that is more than was found. */
+static void cyclic(nh_generators *out, const nh_kinetic *k, const nh_options *options)
+{
+    nh_generators found = *out;
+    nh_ex *component = nh_alloc_array(k->m + 1, sizeof *component);
+    found.generator = nh_arena_alloc(k->arena, (k->m + 1) * sizeof *found.generator);
+    found.count = 0;
+    for (size_t j = 0; j < k->m; j++) {
+        for (size_t i = 0; i < k->m; i++) component[i] = nh_int(k->dag, i == j);
+        nh_generator_init(&found.generator[found.count], k, NULL, component, options);
+        const nh_generator *g = &found.generator[found.count];
+        found.count += g->invariant && nh_generator_proof(k, g).proved;
+    }
+    if (found.count > out->count) *out = found;
+    nh_free(component);
+}
+
 bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, const nh_options *options, nh_error *error)
 {
     *out = (nh_generators){0};
@@ -222,6 +240,7 @@ bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *
         one_library(out, k, jets, level, 3, &joints, options, error, &good);
         enough = complete(out, jets);
     }
+    if (good && out->count < k->m && !complete(out, jets)) cyclic(out, k, options);
     nh_joint_fields_clear(&joints);
     return good;
 }

@@ -52,7 +52,7 @@ nh_pose nh_joint_at_rest(const nh_system *s, const nh_pose *pose)
     return out;
 }
 
-/* The size of a pivot at one place. */
+/* The size of a pivot at one place.  What vanishes identically never comes here; what is small is no zero. */
 static double score(void *context, nh_ex e)
 {
     enum { most = 128 };
@@ -70,7 +70,7 @@ static double score(void *context, nh_ex e)
     nh_tape_eval(tape, scratch, point, &x);
     nh_tape_work_free(scratch);
     nh_tape_free(tape);
-    return isfinite(x) && fabs(x) > 1e-12 ? fabs(x) : 0;
+    return isfinite(x) ? fabs(x) : 0;
 }
 
 nh_joint_rates *nh_joint_rates_create(const nh_system *system, const nh_joint *j)

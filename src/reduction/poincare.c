@@ -189,13 +189,18 @@ static bool accelerations(place *p)
     return good;
 }
 
+/* The vectors of the group that the constraints allow, chi; in the units of units_of, so that no form or generator is
+ * small because of its unit. */
 static void distribution(place *p, double small)
 {
     size_t m = p->m, n = p->n, d = p->d, f = p->f;
-    double *forms = nh_alloc_array(f * d + 1, sizeof *forms);
+    double *forms = nh_alloc_array(f * d + d + f + 1, sizeof *forms), *scale = forms + f * d;
+    units_of(p, scale);
     for (size_t c = 0; c < f; c++)
-        for (size_t a = 0; a < d; a++) forms[c + a * f] = p->omega[c * m + n + a];
-    p->r = nh_kernel(f, d, forms, small * fmax(nh_largest(f * d, forms), 1e-300), p->chi, NULL, NULL);
+        for (size_t a = 0; a < d; a++) forms[c + a * f] = p->omega[c * m + n + a] * scale[a] * scale[d + c];
+    p->r = nh_kernel(f, d, forms, small, p->chi, NULL, NULL);
+    for (size_t j = 0; j < p->r; j++)
+        for (size_t a = 0; a < d; a++) p->chi[a + j * d] *= scale[a];
     for (size_t a = 0; a < d; a++) {
         p->v[a] = p->u[n + a];
         for (size_t i = 0; i < n; i++) p->v[a] += p->A[a * n + i] * p->u[i];
