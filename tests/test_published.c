@@ -179,6 +179,15 @@ static const published PUBLISHED[] = {
     /* E. T. Whittaker, Analytical Dynamics (1937), sec. 53: two centres in elliptic coordinates */
     {"two centres, elliptic coordinates", "parameters: {a: 0.3, b: 0.4}\ncoordinates: [u, v]\n"
      "lagrangian: (cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)/2 + (a*cosh(u) + b*cos(v))/(cosh(u)^2 - cos(v)^2)\ndomain: {u: [0.5, 2], v: [0.5, 2]}\n", 2, 6},
+    /* on leaves of a constraint that can be integrated, whose constant stands in the coefficients: E. Rosochatius, Archiv der Mathematik und Physik 63 (1879) 411,
+     * and C. Neumann, J. reine angew. Math. 56 (1859) 46; P. W. Higgs, J. Phys. A 12 (1979) 309 */
+    {"Rosochatius, Cartesian", "parameters: {a: 0.7, b: 1.3, c: 2.1, e: 0.3, f: 0.4, g: 0.5}\ncoordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (a*x^2 + b*y^2 + c*z^2)/2 - e/x^2 - f/y^2 - g/z^2\n"
+     "constraints: [\"x*x' + y*y' + z*z' = 0\"]\n" OCTANT, 3, 4},
+    {"Neumann, Cartesian", "parameters: {a: 0.7, b: 1.3, c: 2.1}\ncoordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (a*x^2 + b*y^2 + c*z^2)/2\nconstraints: [\"x*x' + y*y' + z*z' = 0\"]\n" OCTANT, 3, 4},
+    {"Kepler on the sphere, Cartesian", "parameters: {k: 0.7}\ncoordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 + k*z/sqrt(x^2 + y^2)\nconstraints: [\"x*x' + y*y' + z*z' = 0\"]\n" OCTANT, 4, 4},
     {"three inverse squares on the sphere", "parameters: {a: 0.4, b: 0.7, c: 0.3}\ncoordinates: [{name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: (th'^2 + sin(th)^2*ph'^2)/2 - a/(sin(th)*cos(ph))^2 - b/(sin(th)*sin(ph))^2 - c/cos(th)^2\ndomain: {th: [0.4, 1.2], ph: [0.4, 1.2]}\n", 3, 6},
     /* A. Marchesiello and L. Snobl, J. Phys. A 50 (2017) 245202: a helical magnetic field */

@@ -305,7 +305,6 @@ static outcome attempt_at(nh_construction *out, nh_construct_attempt *a, const n
 {
     nh_counter *c = a->counter;
     bool regular;
-    if (c->frame->kept != c->frame->all) return TOO_MUCH; /* functions on a leaf only */
     out->order = nh_construct_order(a, question->degree);
     if (!out->order) return TOO_MUCH;
     a->series = nh_count_series_create(c, out->order, c->q->work, &regular);

@@ -31,7 +31,8 @@ static void least_weights(const nh_adapted_frame *f, size_t *weight)
 bool nh_construct_words_scarce(const nh_construct_attempt *a, size_t order, size_t words, const size_t *word)
 {
     const nh_adapted_frame *f = a->counter->frame;
-    size_t m = f->all, *weight = nh_alloc_array(m + 1, sizeof *weight), *own = nh_alloc_array(m + 1, sizeof *own);
+    size_t m = f->all, leaf = f->kept, *weight = nh_alloc_array(m + 1, sizeof *weight);
+    size_t *own = nh_alloc_array(m + 1, sizeof *own);
     bool good = true;
     least_weights(f, weight);
     for (uint32_t set = 1; set < (uint32_t)1 << m && good; set++) {
@@ -39,8 +40,9 @@ bool nh_construct_words_scarce(const nh_construct_attempt *a, size_t order, size
         for (size_t k = 0; k < m; k++)
             if (set >> k & 1) own[variables++] = weight[k];
         for (size_t k = 0; k < words; k++) among += !(nh_known_motions_word_coordinates(a->words, word ? word[k] : k) & ~set);
-        room = nh_jet_ring_size(variables, variables == m ? f->weight : own, order, most_coefficients);
-        good = among + (variables < m ? spare_few : spare) <= room;
+        bool all = variables >= leaf; /* so many coordinates have any values on the leaf */
+        room = nh_jet_ring_size(all ? leaf : variables, all ? f->weight : own, order, most_coefficients);
+        good = among + (all ? spare : spare_few) <= room;
     }
     nh_free(own);
     nh_free(weight);

@@ -12,7 +12,7 @@ static const double no_degree = INFINITY; /* not polynomial in the velocities */
 
 /* ---- degrees ---- */
 
-static bool has_velocities(const nh_model *o, nh_ex e)
+bool nh_counted_has_velocities(const nh_model *o, nh_ex e)
 {
     bool has = false;
     for (size_t i = 0; i < o->n && !has; i++) has = nh_depends(o->dag, e, o->chart->w[i]);
@@ -24,7 +24,7 @@ static double degree_of(const nh_model *o, nh_ex e)
 {
     nh_dag *d = o->dag;
     double degree = 0;
-    if (!has_velocities(o, e)) return 0;
+    if (!nh_counted_has_velocities(o, e)) return 0;
     if (nh_kind_of(d, e) == NH_SYMBOL) return 1;
     if (nh_kind_of(d, e) != NH_SUM && nh_kind_of(d, e) != NH_PRODUCT) return no_degree;
     for (size_t k = 0; k < nh_arity(d, e); k++) {

@@ -24,6 +24,8 @@ bool nh_counted_superfluous(nh_counted *counted, size_t families, const nh_famil
 /* The degree of an ansatz in the velocities, infinite where it is not polynomial in them; `timely` is set where it contains t. */
 double nh_counted_degree(const nh_model *model, size_t families, const nh_family *family, bool *timely);
 
+bool nh_counted_has_velocities(const nh_model *model, nh_ex e);
+
 /* Can nothing of this degree be new, with any functions of the coordinates, or of t and them? */
 bool nh_counted_covers(nh_counted *counted, size_t degree, bool timely);
 

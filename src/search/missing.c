@@ -113,15 +113,45 @@ static bool lift_further(search *s, size_t degree, const nh_family *all)
     return found;
 }
 
+enum { most_constants = 10 };
+
+static bool is_constant_of_leaf(const nh_model *o, const nh_current *f)
+{
+    return f->proof.proved && !nh_counted_has_velocities(o, f->phi) && !nh_depends(o->dag, f->phi, o->system->t);
+}
+
+/* Products of what is constant on the leaves of integrable constraints, 1 first: coefficients may depend on it. */
+static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
+{
+    enum { highest = 2 };
+    const nh_model *o = r->model;
+    size_t n = 0, first = 0;
+    out[n++] = nh_int(o->dag, 1);
+    for (size_t power = 0; power < highest; power++) {
+        size_t last = n;
+        for (size_t k = 0; k < r->count; k++)
+            for (size_t j = first; j < last && n < most_constants && is_constant_of_leaf(o, &r->found[k]); j++) {
+                nh_ex product = nh_mul(o->dag, out[j], r->found[k].phi);
+                bool known = false;
+                for (size_t i = 0; i < n; i++) known |= out[i] == product;
+                if (!known) out[n++] = product;
+            }
+        first = last;
+    }
+    return n;
+}
+
 /* Is the list of its terms that of a current? */
 static bool lift(search *s, size_t degree, const nh_constructed *c, bool further)
 {
     nh_analysis *r = s->climb.r;
     nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
-    nh_ex *term = nh_arena_alloc(r->arena, c->terms * sizeof *term);
-    size_t before = r->count;
-    memcpy(term, c->term, c->terms * sizeof *term);
-    *all = (nh_family){.kind = NH_TERMS, .terms = c->terms, .term = term};
+    nh_ex constant[most_constants];
+    size_t before = r->count, constants = constants_of_leaf(r, constant), terms = 0;
+    nh_ex *term = nh_arena_alloc(r->arena, constants * c->terms * sizeof *term);
+    for (size_t j = 0; j < c->terms; j++)
+        for (size_t k = 0; k < constants; k++) term[terms++] = nh_mul(r->model->dag, c->term[j], constant[k]);
+    *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
     s->climb.wide = true;
     nh_stage_solver_stage(&s->climb, nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree), 1, all);
     return r->count > before || (further && lift_further(s, degree, all));
