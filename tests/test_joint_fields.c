@@ -77,6 +77,50 @@ Test(joint_fields, give_what_the_jets_count)
     }
 }
 
+/* Through its own centre of mass the hand's last axis leaves a flat metric of 15 symmetries, of which some have no closed form: a bracket that is one of
+ * those is said to be none of the combinations; all others are, by differences of the fields. */
+Test(joint_fields, brackets_that_leave_the_closed_forms)
+{
+    enum { m = 5, most = 15 };
+    static const double h = 1e-5, q0[m] = {0.3, -0.2, 0.4, 0.7, -0.5};
+    nh_error error = {0};
+    nh_options options;
+    nh_options_default(&options);
+    reducible x = reducible_make(nh_system_parse("test.yaml", "name: test\n" HEAD
+        "bodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5], center: [0.1, 0.2, 0]}, {name: b, mass: m, inertia: [A, A, 0.2]}]\njoints:\n"
+        "  - {type: schoenflies, child: a, coordinates: [x, y, z, h]}\n  - {type: revolute, parent: a, child: b, at: [0.4, 0, 0], coordinates: [p]}\n", 0, NULL, &error), 1, &error);
+    cr_assert_not_null(x.kinetic, "%s", error.what);
+    nh_group *g = nh_group_find(x.kinetic, &options, &error);
+    must(g != NULL, &error, "the group");
+    const nh_action *action = &g->action;
+    size_t d = action->d, outside = 0;
+    cr_assert(g->jets->dimension == 15 && g->missing > 0 && d <= most && !action->closes);
+    double E[m * most], above[m][m * most], below[m][m * most], q[m];
+    nh_action_values(action, q0, E);
+    for (size_t s = 0; s < m; s++) {
+        memcpy(q, q0, sizeof q);
+        q[s] += h, nh_action_values(action, q, above[s]);
+        q[s] -= 2 * h, nh_action_values(action, q, below[s]);
+    }
+    for (size_t a = 0; a < d; a++)
+        for (size_t b = 0; b < d; b++) {
+            bool left = action->outside[a * d + b];
+            outside += left;
+            for (size_t i = 0; i < m && !left; i++) {
+                double bracket = 0, sum = 0;
+                for (size_t s = 0; s < m; s++) {
+                    bracket += E[s + a * m] * (above[s][i + b * m] - below[s][i + b * m]) / (2 * h);
+                    bracket -= E[s + b * m] * (above[s][i + a * m] - below[s][i + a * m]) / (2 * h);
+                }
+                for (size_t k = 0; k < d; k++) sum -= action->algebra.c[(a * d + b) * d + k] * E[i + k * m];
+                cr_expect_float_eq(bracket, sum, 1e-8, "[e_%zu, e_%zu] along %zu: %g, %g", a + 1, b + 1, i, bracket, sum);
+            }
+        }
+    cr_expect_gt(outside, 0);
+    nh_group_free(g);
+    reducible_clear(&x);
+}
+
 /* A sum of several fields of joints with the parameters in its coefficients: a plate turns about its centre of mass. */
 Test(joint_fields, coefficients_over_the_parameters)
 {

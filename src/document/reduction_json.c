@@ -1,3 +1,4 @@
+#include <math.h>
 #include <string.h>
 
 #include "base/json.h"
@@ -48,7 +49,16 @@ static void put_fields(nh_json *to, const nh_action *g)
     }
 }
 
-/* What is not zero of the same, with the parameters: {"of": [1, 4], "is": {"2": "(a + b)/a"}}. */
+static nh_json *pair_of(nh_json *list, size_t a, size_t b)
+{
+    nh_json *item = nh_json_add_object(list), *of = nh_json_put_array(item, "of");
+    nh_json_add_number(of, (double)a + 1);
+    nh_json_add_number(of, (double)b + 1);
+    return item;
+}
+
+/* What is not zero of the same, with the parameters: {"of": [1, 4], "is": {"2": "(a + b)/a"}}; null for a bracket that
+ * is no combination of the generators. */
 static void put_brackets(nh_json *to, const nh_action *g)
 {
     nh_json *list = nh_json_put_array(to, "brackets");
@@ -56,14 +66,15 @@ static void put_brackets(nh_json *to, const nh_action *g)
     for (size_t a = 0; a < g->d; a++)
         for (size_t b = a + 1; b < g->d; b++) {
             nh_json *item = NULL, *is = NULL;
+            if (g->outside[a * g->d + b]) {
+                item = pair_of(list, a, b);
+                nh_json_put_null(item, "is");
+            }
             for (size_t k = 0; k < g->d; k++) {
                 nh_ex c = g->constant[(a * g->d + b) * g->d + k];
                 if (nh_is_zero(d, c)) continue;
                 if (!item) {
-                    item = nh_json_add_object(list);
-                    nh_json *of = nh_json_put_array(item, "of");
-                    nh_json_add_number(of, (double)a + 1);
-                    nh_json_add_number(of, (double)b + 1);
+                    item = pair_of(list, a, b);
                     is = nh_json_put_object(item, "is");
                 }
                 put_expression(is, nh_arena_printf(g->kinetic->arena, "%zu", k + 1), d, c);
@@ -71,14 +82,16 @@ static void put_brackets(nh_json *to, const nh_action *g)
         }
 }
 
-static void put_algebra(nh_json *to, const nh_algebra *g)
+static void put_algebra(nh_json *to, const nh_action *action)
 {
+    const nh_algebra *g = &action->algebra;
     nh_json *outer = nh_json_put_array(to, "structure_constants");
     for (size_t a = 0; a < g->d; a++) {
         nh_json *row = nh_json_add_array(outer);
         for (size_t b = 0; b < g->d; b++) {
             nh_json *entry = nh_json_add_array(row);
-            for (size_t k = 0; k < g->d; k++) nh_json_add_number(entry, g->c[(a * g->d + b) * g->d + k]);
+            for (size_t k = 0; k < g->d; k++)
+                nh_json_add_number(entry, action->outside[a * g->d + b] ? NAN : g->c[(a * g->d + b) * g->d + k]);
         }
     }
 }
@@ -115,7 +128,7 @@ static void put_group(nh_json *root, const char *key, const nh_reduction *r, con
     nh_json_put_text(global, "name", !g->local ? g->name : g->global_name ? g->global_name : NULL);
     nh_json_put_bool(global, "complete", g->missing == 0);
     put_fields(to, &g->action);
-    put_algebra(to, &g->action.algebra);
+    put_algebra(to, &g->action);
     put_brackets(to, &g->action);
     put_momentum_map(to, &g->action);
     nh_json_put_number(to, "centre", (double)g->report.centre);

@@ -85,6 +85,7 @@ static void find_constants(nh_action *g, const nh_options *options)
             nh_field_bracket(k, e + a * m, e + c * m, b + (a * d + c) * m);
             for (size_t s = 0; s < m; s++) b[(c * d + a) * m + s] = nh_neg(k->dag, b[(a * d + c) * m + s]);
         }
+    g->outside = nh_arena_alloc(k->arena, d * d * sizeof *g->outside);
     double *E = stacked(k, d, e), *B = stacked(k, d * d, b);
     double *rest = nh_alloc_array(long_m * d * d + d + d * d + 1, sizeof *rest), *unit = rest + long_m * d * d;
     normalise(k, d, E, B, unit);
@@ -100,6 +101,8 @@ static void find_constants(nh_action *g, const nh_options *options)
             g->worst[0] = pair / d;
             g->worst[1] = pair % d;
         }
+        g->outside[pair] = off > options->group;
+        for (size_t i = 0; i < d && g->outside[pair]; i++) g->algebra.c[pair * d + i] = 0;
     }
     g->closes = g->closure <= options->group;
     for (size_t i = 0; i < d * d * d; i++) {

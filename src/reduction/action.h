@@ -23,6 +23,7 @@ typedef struct {
     bool closes;
     double closure;            /* largest residual of a bracket, relative */
     size_t worst[2];           /* that bracket */
+    bool *outside;             /* d x d: no combination of the generators; its constants are 0 and say nothing */
     size_t orbit;              /* rank E at generic points; d - orbit: isotropy */
     bool free;                 /* at every sample point */
     double least;              /* the least sigma_min / sigma_max of E, columns scaled */
