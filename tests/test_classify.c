@@ -323,7 +323,7 @@ static void expect_bound(const char *potential, size_t degree, size_t order)
     must(o != NULL, &error, "the model");
     nh_count_question q = {.generic = true, .degree = degree, .work = 1e10};
     nh_parametric family;
-    nh_parametric_open(&family, o, 0, SIZE_MAX, false, NULL, &q);
+    nh_parametric_open(&family, o, (size_t[3]){0, SIZE_MAX, SIZE_MAX}, false, NULL, &q);
     nh_parity parity = degree % 2 ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
     for (size_t i = 0; i < primes; i++) {
         bool regular;
@@ -563,7 +563,7 @@ Test(classify, the_command_refuses)
 {
     static const struct {
         const char *line, *words;
-    } lines[] = {{"classify henon_heiles_sk", "over which parameter"}, {"classify henon_heiles_sk --over B", "not a parameter"}, {"classify --over A", "over which parameter"}, {"classify henon_heiles_sk --over eps,,B", "nothing stands between two commas"}, {"classify henon_heiles_sk --over a,b,c", "more than two"},
+    } lines[] = {{"classify henon_heiles_sk", "over which parameter"}, {"classify henon_heiles_sk --over B", "not a parameter"}, {"classify --over A", "over which parameter"}, {"classify henon_heiles_sk --over eps,,B", "nothing stands between two commas"}, {"classify henon_heiles_sk --over a,b,c,d", "more than three"},
                  {"classify toda_lattice --over x --svg a.svg", "does not take --svg"}};
     place p = place_with_systems();
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {

@@ -47,8 +47,9 @@
     X(words,            2000,    1,      20000, whole, "words",    "functions of the coordinates that the coefficients of a missing integral are made of, at most") \
     X(quadrature_length, 400,    10,     1e6,   whole, "symbols",  "longer formulas are not integrated for explicit motions")                \
     X(pencil,           6000,   10,      1e6,   whole, "unknowns", "classify: largest linear system for integrals at a degree")                 \
-    X(plane,            100,     2,      1e4,   whole, "",         "classify over two parameters: largest determinant")                        \
+    X(plane,            100,     2,      1e4,   whole, "",         "classify over two or three parameters: largest determinant")                        \
     X(lines,            10,      0,      1000,  whole, "",         "classify over two parameters: beyond `plane` the first one takes all ratios up to this height; 0: none") \
+    X(planes,           4,      0,      100,   whole, "",         "classify over three parameters: the first one takes all ratios up to this height; 0: none")                \
     X(staircase,        5e10,   1e6,    1e15,  real,  "products", "classify: of residues that looking for the values of one degree may take")  \
     X(theorem,          150,    0,      1e5,   whole, "primes",   "classify: so many at most for a proof that leaves out no number; 0: none") \
     X(shown,            600,     10,     1e9,   whole, "symbols",  "longer formulas are not written out in the summary")                     \

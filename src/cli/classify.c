@@ -6,23 +6,24 @@
 #include "cli/cli.h"
 #include "document/classification.h"
 
-/* "eps" or "B, eps" */
+/* "eps", "B, eps" or "A, B, eps" */
 static bool read_names(nh_cli *cli, nh_classify_request *q, nh_error *error)
 {
-    const char *name[3];
+    const char *name[4];
     size_t count = 0;
     for (const char *at = cli->over; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
         at += strspn(at, " ");
         size_t length = strcspn(at, ", ");
         if (length == 0) return nh_fail(error, NH_USAGE, "", "--over `%s` lacks the name of a parameter", cli->over);
-        if (count < 3) name[count++] = nh_arena_strndup(cli->arena, at, length);
+        if (count < 4) name[count++] = nh_arena_strndup(cli->arena, at, length);
     }
-    if (count > 2) {
-        nh_fail(error, NH_USAGE, "", "--over `%s` names more than two parameters", cli->over);
+    if (count > 3) {
+        nh_fail(error, NH_USAGE, "", "--over `%s` names more than three parameters", cli->over);
         return nh_error_hint(error, "give the others values with --set");
     }
     q->over = name[0];
     q->second = count > 1 ? name[1] : NULL;
+    q->third = count > 2 ? name[2] : NULL;
     return true;
 }
 
@@ -39,8 +40,9 @@ static bool read_question(nh_cli *cli, nh_classify_request *q, nh_error *error)
     q->of = (nh_linear_question)of;
     if (of < NH_LINEAR_QUESTIONS && (of == NH_OF_CURRENTS || !q->second)) return true;
     if (of < NH_LINEAR_QUESTIONS) {
-        nh_fail(error, NH_USAGE, "", "--of %s takes one parameter, not two", cli->of);
-        return nh_error_hint(error, "give the other a value with --set");
+        nh_fail(error, NH_USAGE, "", "--of %s takes one parameter, not %s", cli->of, q->third ? "three" : "two");
+        return nh_error_hint(error, q->third ? "give the others values with --set" : "give the other a value with "
+                             "--set");
     }
     nh_fail(error, NH_USAGE, "", "--of does not know `%s`", cli->of);
     const char *near = nh_text_nearest(cli->of, names, NH_LINEAR_QUESTIONS);
@@ -61,32 +63,36 @@ static bool request_of(nh_cli *cli, nh_classify_request *q, nh_error *error)
     return q->system_path != NULL;
 }
 
-/* Text and JSON; what may be written of one of both kinds of results. */
+/* What may be written of one of the three kinds of results. */
 typedef struct {
     nh_classified *line;
     nh_classified_plane *plane;
+    nh_classified_space *space;
     bool partial;
     const char *obstacle;
 } answer;
 
 static bool classify(const nh_classify_request *q, answer *a, nh_error *error)
 {
-    if (q->second) a->plane = nh_classify_plane_system(q, error);
+    if (q->third) a->space = nh_classify_space_system(q, error);
+    else if (q->second) a->plane = nh_classify_plane_system(q, error);
     else a->line = nh_classify_system(q, error);
+    if (a->space) a->partial = a->space->partial, a->obstacle = a->space->space->obstacle;
     if (a->plane) a->partial = a->plane->partial, a->obstacle = a->plane->plane->obstacle;
     if (a->line) a->partial = a->line->partial, a->obstacle = a->line->classification->obstacle;
-    return a->line || a->plane;
+    return a->line || a->plane || a->space;
 }
 
 static char *json_of(const answer *a, const nh_run *run)
 {
-    return a->plane ? nh_classification_plane_json(a->plane, run) : nh_classification_json(a->line, run);
+    return a->space ? nh_classification_space_json(a->space, run)
+        : a->plane ? nh_classification_plane_json(a->plane, run) : nh_classification_json(a->line, run);
 }
 
 static void render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     const answer *a = result;
-    nh_classification_write(a->line, a->plane, run, style, out);
+    nh_classification_write(a->line, a->plane, a->space, run, style, out);
 }
 
 int nh_cli_classify(nh_cli *cli, nh_error *error)
@@ -107,5 +113,6 @@ int nh_cli_classify(nh_cli *cli, nh_error *error)
     if (good && a.obstacle) nh_fail(error, NH_NUMERIC, "", "%s", a.obstacle);
     if (a.line) nh_classified_free(a.line);
     if (a.plane) nh_classified_plane_free(a.plane);
+    if (a.space) nh_classified_space_free(a.space);
     return !good ? (int)error->code : nh_interrupted() ? (int)nh_ended_code() : a.partial ? NH_LIMIT : (int)error->code;
 }

@@ -27,7 +27,8 @@ static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_
     for (size_t i = 0; i < s->parameters; i++) {
         nh_num value = nh_num_decimal(s->parameter[i].value);
         const char *name = s->parameter[i].name;
-        if (!strcmp(name, q->over) || (q->second && !strcmp(name, q->second))) continue;
+        if (!strcmp(name, q->over) || (q->second && !strcmp(name, q->second)) || (q->third && !strcmp(name, q->third)))
+            continue;
         if (!nh_num_short(value))
             return nh_fail(error, NH_USAGE, "", "the value %.17g of `%s` has too many digits for a classification",
                            s->parameter[i].value, name);
@@ -75,21 +76,28 @@ static bool polynomial_in_velocities(const nh_analysis *r, const nh_current *f)
 
 static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error *error)
 {
-    size_t parameter = 0, second = 0;
+    const char *name[3] = {q->over, q->second, q->third};
+    nh_setting at[3];
+    size_t count = q->third ? 3 : q->second ? 2 : 1, parameter[3];
     nh_system *s = nh_system_read(q->system_path, q->settings, q->setting, error);
     if (!s) return false;
-    bool good = nh_classified_parameter(s, q->over, &parameter, error)
-        && (!q->second || nh_classified_parameter(s, q->second, &second, error));
-    if (good && q->second && second == parameter)
-        good = nh_fail(error, NH_USAGE, "", "--over names `%s` twice", q->over);
+    bool good = true;
+    for (size_t k = 0; k < count && good; k++) {
+        static const double apart[] = {1, 1.0313, 0.9527};
+        good = nh_classified_parameter(s, name[k], &parameter[k], error);
+        for (size_t j = 0; j < k && good; j++)
+            if (parameter[j] == parameter[k]) good = nh_fail(error, NH_USAGE, "", "--over names `%s` twice", name[k]);
+        name[k] = nh_arena_strdup(x->arena, name[k]);
+        if (good) at[k] = (nh_setting){.name = name[k],
+                            .value = unimportant(s->parameter[parameter[k]].value * apart[k])};
+    }
     if (good && fix_others(x, q, s, error)) {
         x->name = nh_arena_strdup(x->arena, s->name);
         x->title = nh_arena_strdup(x->arena, s->title);
-        x->over = nh_arena_strdup(x->arena, q->over);
-        x->second = q->second ? nh_arena_strdup(x->arena, q->second) : NULL;
-        nh_setting at[2] = {{.name = x->over, .value = unimportant(s->parameter[parameter].value)},
-                            {.name = x->second, .value = unimportant(s->parameter[second].value * 1.0313)}};
-        x->almost_all = nh_classified_analyse(x, q, q->second ? 2 : 1, at, error);
+        x->over = name[0];
+        x->second = name[1];
+        x->third = name[2];
+        x->almost_all = nh_classified_analyse(x, q, count, at, error);
     }
     nh_system_free(s);
     return x->almost_all != NULL;
@@ -134,6 +142,12 @@ size_t nh_classified_complete(const nh_analysis *r)
     return c->counted && !c->count.obstacle ? c->degree : 0;
 }
 
+size_t nh_classified_complete_everywhere(const nh_classified *x)
+{
+    const nh_analysis *r = x->almost_all;
+    return x->known == r->count + r->furthers ? nh_classified_complete(r) : 0;
+}
+
 static void analyse_value(nh_classified *x, const nh_classify_request *q, const nh_classify_value *v,
                           nh_classified_value *out)
 {
@@ -173,6 +187,7 @@ nh_classify_question nh_classified_question(nh_classified *x, const nh_classify_
                                      .products = q->options.staircase, .theorem = (size_t)q->options.theorem,
                                      .unknowns = (size_t)q->options.pencil, .plane = (size_t)q->options.plane,
                                      .lines = (size_t)q->options.lines,
+                                     .planes = (size_t)q->options.planes,
                                      .known = x->known, .current = known};
     nh_error none;
     nh_error_clear(&none);

@@ -22,7 +22,11 @@ void nh_classified_confirm(nh_classified *classified, const nh_classify_request 
 /* With these values beside those of the other parameters. */
 nh_analysis *nh_classified_analyse(const nh_classified *classified, const nh_classify_request *request, size_t count,
                                    const nh_setting *at, nh_error *error);
+/* The value that a system that was read gives to a name: a ratio, in the arena, and about; NULL: none. */
+const char *nh_classified_value_of(nh_arena *arena, const nh_system *system, const char *name, double *about);
 /* The degree up to which its currents account for the number of integrals; 0: none. */
 size_t nh_classified_complete(const nh_analysis *analysis);
+/* The same for what was proved for every value, where the equations of a family are free of its parameters. */
+size_t nh_classified_complete_everywhere(const nh_classified *family);
 
 #endif

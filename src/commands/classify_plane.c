@@ -83,15 +83,19 @@ static size_t complete_along(const plane *x, const nh_plane_curve *c, const nh_c
 {
     const nh_classification *of = along->classification;
     size_t d = 0;
+    if (of->obstacle == nh_parametric_constant) {
+        d = nh_classified_complete_everywhere(along);
+        return c->first && d >= c->first ? d : 0;
+    }
     while (d < of->rows && d < x->plane->rows && of->row[d].known == of->row[d].number.bound) d++;
-    return !of->obstacle && d >= c->first ? d : 0;
+    return c->first && !of->obstacle && d >= c->first ? d : 0;
 }
 
 static void classify_curve(plane *x, const nh_classify_request *q, const nh_plane_curve *c, nh_classified_curve *out)
 {
     nh_error error;
     nh_error_clear(&error);
-    if (!c->first || c->degenerate) return;
+    if (c->degenerate) return;
     nh_special_curve other = turned(x, &c->polynomial);
     const char *name[2] = {x->over[0], x->over[1]}, *formula = graph_of(x, &c->polynomial);
     if (!formula) {
@@ -106,8 +110,8 @@ static void classify_curve(plane *x, const nh_classify_request *q, const nh_plan
     const char *bound = name[out->upright], *free = name[!out->upright];
     size_t count = x->family->others;
     nh_setting *setting = nh_arena_alloc(x->family->arena, (count + 1) * sizeof *setting);
-    memcpy(setting, x->family->other, count * sizeof *setting);
-    setting[count] = (nh_setting){.name = bound, .formula = formula};
+    memcpy(setting + 1, x->family->other, count * sizeof *setting); /* of which some may depend on this one */
+    setting[0] = (nh_setting){.name = bound, .formula = formula};
     nh_classify_request request = *q;
     request.over = free;
     request.second = NULL;
@@ -145,6 +149,7 @@ static void isolated_point(plane *x, const nh_classify_request *q, size_t index,
     int64_t top[2], bottom[2];
     nh_classified_rational(&line->across, &top[1], &bottom[1]);
     nh_classified_point p = {.first = v->first, .number = v->number, .curve = SIZE_MAX, .at = out};
+    p.root = &v->polynomial;
     p.rational = nh_classified_rational(&v->polynomial, &top[0], &bottom[0]);
     for (int k = 0; k < 2; k++) {
         bool known = k || p.rational;
@@ -163,14 +168,13 @@ static void isolated_point(plane *x, const nh_classify_request *q, size_t index,
     add_point(x, capacity, &p);
 }
 
-/* The value that a system that was read gives to a name. */
-static const char *value_of(const plane *x, const nh_system *s, const char *name, double *about)
+const char *nh_classified_value_of(nh_arena *arena, const nh_system *s, const char *name, double *about)
 {
     for (size_t i = 0; i < s->definitions; i++) {
         if (strcmp(s->definition[i].name, name) || nh_kind_of(s->dag, s->definition[i].value) != NH_NUMBER) continue;
         nh_num n = nh_number_of(s->dag, s->definition[i].value);
         *about = nh_num_value(n);
-        return nh_num_short(n) ? ratio(x->family->arena, n.p, n.q) : NULL;
+        return nh_num_short(n) ? ratio(arena, n.p, n.q) : NULL;
     }
     return NULL;
 }
@@ -193,7 +197,7 @@ static void points_on_curve(plane *x, size_t index, size_t *capacity)
         nh_classified_point p = {.first = v->first, .number = v->number, .curve = index, .at = &c->along->value[k],
                                  .about = {NAN, NAN}};
         for (int i = 0; i < 2 && p.at->result; i++)
-            p.value[i] = value_of(x, p.at->result->system, x->over[i], &p.about[i]);
+            p.value[i] = nh_classified_value_of(x->family->arena, p.at->result->system, x->over[i], &p.about[i]);
         p.rational = p.value[0] && p.value[1];
         if (!p.rational) {
             p.value[c->upright] = c->graph;

@@ -36,6 +36,7 @@ const char *nh_classification_end(const char *end, char *room, size_t size)
     if (!strcmp(end, "unknowns")) return "the linear system has more unknowns than the option `pencil`";
     if (!strcmp(end, "plane")) return "the determinants are larger than the option `plane`";
     if (!strcmp(end, "curves")) return "there are more curves, and the determinants are larger than the option `plane`";
+    if (!strcmp(end, "surfaces")) return "the special surfaces have too high a degree in the first parameter";
     if (!strcmp(end, "time")) return nh_ended_words(room, size), room;
     return end;
 }
@@ -47,6 +48,7 @@ void nh_classification_head(const nh_classified *x, nh_text *out)
 {
     const nh_system *s = x->almost_all->system;
     nh_text_addf(out, "Classified: %s, over ", nh_classification_subject(x));
+    if (x->third) nh_text_addf(out, "%s, ", x->third);
     if (x->second) nh_text_addf(out, "%s and ", x->second);
     nh_text_addf(out, "%s%s", x->over, x->shape ? ", with coefficients that do not depend on cyclic coordinates" : "");
     for (size_t i = s->constraints - s->levels; i < s->constraints; i++)

@@ -1,4 +1,4 @@
-/* classification: the special values of one parameter or of two as a document, and as JSON
+/* classification: the special values of one, two or three parameters as a document, and as JSON
  * (docs/schema/classification.json). */
 #ifndef NH_REPORT_CLASSIFICATION_H
 #define NH_REPORT_CLASSIFICATION_H
@@ -9,8 +9,11 @@
 
 char *nh_classification_json(const nh_classified *classified, const nh_run *run);
 char *nh_classification_plane_json(const nh_classified_plane *classified, const nh_run *run);
+char *nh_classification_space_json(const nh_classified_space *classified, const nh_run *run);
 
-/* One of both is there. */
-void nh_classification_write(const nh_classified *line, const nh_classified_plane *plane, const nh_run *run, nh_pen_style style, nh_text *out);
+/* One of the three is there. */
+void nh_classification_write(const nh_classified *line, const nh_classified_plane *plane,
+                             const nh_classified_space *space,
+                             const nh_run *run, nh_pen_style style, nh_text *out);
 
 #endif

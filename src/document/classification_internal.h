@@ -37,6 +37,27 @@ void nh_classification_excluded(const nh_classified *classified, bool verbose, n
 void nh_classification_plane_left(const nh_classified_plane *classified, nh_text *out);
 void nh_classification_plane_excluded(const nh_classified_plane *classified, bool verbose, nh_text *out);
 
+/* ---- outlines: classification_outline.c ---- */
+
+/* Every line as words; the text is cleared. */
+void nh_classification_write_lines(nh_pen *pen, nh_text *text);
+void nh_classification_write_currents(nh_pen *pen, const nh_analysis *result, size_t count, const size_t *index);
+/* Numbers by degree, from the first one that is another than for almost all values. */
+void nh_classification_write_numbers(const nh_classified *classified, nh_pen *pen, size_t rows,
+                                     const nh_classify_number *number,
+                                     size_t first, size_t complete, const size_t *almost_all);
+void nh_classification_write_no_currents(const nh_classified *classified, nh_pen *pen, const char *why);
+void nh_classification_write_value(const nh_classified *classified, nh_pen *pen, const nh_classified_value *at,
+                                   size_t first);
+void nh_classification_write_almost_all(const nh_classified *classified, nh_pen *pen, nh_text *degrees);
+extern const char nh_classification_fewer[];
+
+/* classification_space.c: "1 surface, 2 curves and no points with more ..", and the sections of a document. */
+void nh_classification_space_answer(const nh_classified_space *space, nh_pen *pen);
+void nh_classification_outline_space(const nh_classified_space *space, nh_pen *pen);
+/* Planes of the last two parameters at values of the first one. */
+void nh_classification_slices(const nh_classified_space *space, nh_pen *pen);
+
 /* The plane of both parameters: curves and points by the number of integrals of the highest degree. */
 void nh_classification_picture(const nh_classified_plane *plane, nh_pen *pen);
 

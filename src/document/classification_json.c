@@ -32,6 +32,7 @@ void nh_classification_put_head(const nh_classified *x, nh_json *root)
     nh_json_put_text(root, "version", NH_VERSION);
     nh_json_put_text(root, "system", x->name);
     nh_json *over = nh_json_put_array(root, "over");
+    if (x->third) nh_json_add_text(over, x->third);
     if (x->second) nh_json_add_text(over, x->second);
     nh_json_add_text(over, x->over);
     nh_json *parameters = nh_json_put_object(root, "parameters");

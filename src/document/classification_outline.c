@@ -9,7 +9,7 @@ typedef nh_pen pen;
 /* ---- pieces ---- */
 
 /* Every line as words; blanks before it are left out. */
-static void put_lines(pen *p, nh_text *text)
+void nh_classification_write_lines(pen *p, nh_text *text)
 {
     char *line = nh_strdup(nh_text_string(text));
     for (char *at = line, *end; *at; at = end) {
@@ -22,7 +22,7 @@ static void put_lines(pen *p, nh_text *text)
     nh_text_clear(text);
 }
 
-static void put_currents(pen *p, const nh_analysis *r, size_t count, const size_t *index)
+void nh_classification_write_currents(pen *p, const nh_analysis *r, size_t count, const size_t *index)
 {
     for (size_t k = 0; k < count; k++) {
         const nh_current *f = nh_classified_current(r, index ? index[k] : k);
@@ -34,7 +34,8 @@ static void put_currents(pen *p, const nh_analysis *r, size_t count, const size_
     }
 }
 
-static void put_numbers(const nh_classified *x, pen *p, size_t rows, const nh_classify_number *n, size_t first,
+void nh_classification_write_numbers(const nh_classified *x, pen *p, size_t rows, const nh_classify_number *n,
+                                     size_t first,
                         size_t complete, const size_t *almost_all)
 {
     nh_text text;
@@ -42,36 +43,36 @@ static void put_numbers(const nh_classified *x, pen *p, size_t rows, const nh_cl
     for (size_t d = first; d <= rows; d++)
         nh_classification_counted(x, d, d == first, &n[d], almost_all[d], complete >= d, &text);
     nh_text_add(&text, ".");
-    put_lines(p, &text);
+    nh_classification_write_lines(p, &text);
 }
 
-static void put_no_currents(const nh_classified *x, pen *p, const char *why)
+void nh_classification_write_no_currents(const nh_classified *x, pen *p, const char *why)
 {
     nh_pen_words(p, "Counted modulo primes%s%s.", x->question ? "; " : ". No currents: ", why ? why : "the run was ended");
 }
 
-static const char fewer[] = "proved, but fewer than were counted: the others were not constructed";
+const char nh_classification_fewer[] = "proved, but fewer than were counted: the others were not constructed";
 
-static void put_value(const nh_classified *x, pen *p, const nh_classified_value *at, size_t first)
+void nh_classification_write_value(const nh_classified *x, pen *p, const nh_classified_value *at, size_t first)
 {
     if (at->shown) {
         nh_pen_words(p, "%s%s.", at->shown, at->complete >= first ? ", proved" : "");
         return;
     }
     if (!at->result) {
-        put_no_currents(x, p, at->why);
+        nh_classification_write_no_currents(x, p, at->why);
         return;
     }
-    put_currents(p, at->result, at->result->count, NULL);
+    nh_classification_write_currents(p, at->result, at->result->count, NULL);
     if (at->complete >= first) nh_pen_words(p, "all of them proved, and complete to degree %zu", at->complete);
-    else nh_pen_words(p, "%s", fewer);
+    else nh_pen_words(p, "%s", nh_classification_fewer);
 }
 
-static void put_almost_all(const nh_classified *x, pen *p, nh_text *degrees)
+void nh_classification_write_almost_all(const nh_classified *x, pen *p, nh_text *degrees)
 {
     nh_pen_section(p, "almost", x->second ? "For almost all values" : nh_arena_printf(x->arena, "For almost all %s", x->over));
-    put_lines(p, degrees);
-    put_currents(p, x->almost_all, x->known, x->currents);
+    nh_classification_write_lines(p, degrees);
+    nh_classification_write_currents(p, x->almost_all, x->known, x->currents);
 }
 
 /* ---- one parameter ---- */
@@ -86,19 +87,19 @@ static void outline_line(const nh_classified *x, pen *p)
         almost_all[d] = c->row[d - 1].number.bound;
         nh_classification_almost_all(x, d, &c->row[d - 1].number, c->row[d - 1].known, &text);
     }
-    put_almost_all(x, p, &text);
+    nh_classification_write_almost_all(x, p, &text);
     for (size_t k = 0; k < c->values; k++) {
         const nh_classify_value *v = &c->value[k];
         if (!v->first || v->degenerate) continue;
         if (!written++) nh_pen_section(p, "special", nh_classification_where(x));
         nh_pen_card(p, nh_classified_words(x, &v->polynomial));
-        put_numbers(x, p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
-        put_value(x, p, &x->value[k], v->first);
+        nh_classification_write_numbers(x, p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
+        nh_classification_write_value(x, p, &x->value[k], v->first);
     }
     nh_pen_section(p, "excluded", "What is excluded");
     nh_classification_left(x, &text);
     nh_classification_excluded(x, !p->ink->brief || p->style.verbose, &text);
-    put_lines(p, &text);
+    nh_classification_write_lines(p, &text);
     char words[200];
     if (c->end && x->question) nh_pen_words(p, "The question was not answered: %s.", nh_classification_end(c->end, words, sizeof words));
     else if (c->end) nh_pen_words(p, "Degree %zu was not reached: %s.", c->rows + 1, nh_classification_end(c->end, words, sizeof words));
@@ -111,16 +112,16 @@ static void outline_curve(const plane *x, pen *p, size_t k, const size_t *almost
     const nh_plane_curve *c = &x->plane->curve[k];
     const nh_classified_curve *at = &x->curve[k];
     nh_pen_card(p, nh_classified_curve_words(x, &c->polynomial));
-    put_numbers(x->family, p, x->plane->rows, c->number, c->first, at->complete, almost_all);
+    nh_classification_write_numbers(x->family, p, x->plane->rows, c->number, c->first, at->complete, almost_all);
     if (!at->along) {
-        put_no_currents(x->family, p, at->why);
+        nh_classification_write_no_currents(x->family, p, at->why);
         return;
     }
-    put_currents(p, at->along->almost_all, at->along->known, at->along->currents);
+    nh_classification_write_currents(p, at->along->almost_all, at->along->known, at->along->currents);
     if (at->complete)
         nh_pen_words(p, "all of them proved for every %s, and complete to degree %zu for almost all", at->along->over,
                      at->complete);
-    else nh_pen_words(p, "%s", fewer);
+    else nh_pen_words(p, "%s", nh_classification_fewer);
 }
 
 static const char *place_of(const plane *x, const nh_classified_point *q)
@@ -151,7 +152,7 @@ static void outline_plane(const plane *x, pen *p)
         almost_all[d] = o->row[d - 1].number.bound;
         nh_classification_almost_all(x->family, d, &o->row[d - 1].number, o->row[d - 1].known, &text);
     }
-    put_almost_all(x->family, p, &text);
+    nh_classification_write_almost_all(x->family, p, &text);
     for (size_t k = 0; k < o->curves; k++) {
         if (!o->curve[k].first || o->curve[k].degenerate) continue;
         if (!written++) nh_pen_section(p, "curves", "More on the curves");
@@ -161,13 +162,13 @@ static void outline_plane(const plane *x, pen *p)
         const nh_classified_point *q = &x->point[k];
         if (!k) nh_pen_section(p, "points", "More at the points");
         nh_pen_card(p, place_of(x, q));
-        put_numbers(x->family, p, o->rows, q->number, q->first, q->at->complete, almost_all);
-        put_value(x->family, p, q->at, q->first);
+        nh_classification_write_numbers(x->family, p, o->rows, q->number, q->first, q->at->complete, almost_all);
+        nh_classification_write_value(x->family, p, q->at, q->first);
     }
     nh_pen_section(p, "excluded", "What is excluded");
     nh_classification_plane_left(x, &text);
     nh_classification_plane_excluded(x, !p->ink->brief || p->style.verbose, &text);
-    put_lines(p, &text);
+    nh_classification_write_lines(p, &text);
     char words[200];
     if (o->end) nh_pen_words(p, "Degree %zu was not reached: %s.", o->rows + 1, nh_classification_end(o->end, words, sizeof words));
 }
@@ -181,16 +182,17 @@ static size_t count_line(const nh_classified *x)
 }
 
 /* "1 curve and 2 points with more conservation laws" */
-static void answer(pen *p, const nh_classified *line, const plane *x)
+static void answer(pen *p, const nh_classified *line, const plane *x, const nh_classified_space *y)
 {
-    const char *obstacle = x ? x->plane->obstacle : line->classification->obstacle;
-    size_t curves = 0, rows = x ? x->plane->rows : line->classification->rows;
+    const char *obstacle = y ? y->space->obstacle : x ? x->plane->obstacle : line->classification->obstacle;
+    size_t curves = 0, rows = y ? y->space->rows : x ? x->plane->rows : line->classification->rows;
     for (size_t k = 0; x && k < x->plane->curves; k++) curves += x->plane->curve[k].first && !x->plane->curve[k].degenerate;
     if (obstacle) {
         nh_pen_say(p, "Nothing can be said: %s.", obstacle);
         return;
     }
-    if (x)
+    if (y) nh_classification_space_answer(y, p);
+    else if (x)
         nh_pen_say(p, "%zu curve%s and %zu point%s with more conservation laws than almost all", curves,
                      curves == 1 ? "" : "s", x->points, x->points == 1 ? "" : "s");
     else
@@ -200,10 +202,12 @@ static void answer(pen *p, const nh_classified *line, const plane *x)
     else nh_pen_say(p, ", polynomial in the velocities up to degree %zu.", rows);
 }
 
-void nh_classification_write(const nh_classified *line, const plane *x, const nh_run *run, nh_pen_style style,
-                             nh_text *out)
+void nh_classification_write(const nh_classified *line, const plane *x, const nh_classified_space *y, const nh_run *run,
+                             nh_pen_style style, nh_text *out)
 {
-    const nh_classified *family = x ? x->family : line;
+    static const char over_one[] = "almost|For almost all values|excluded|What is "
+        "excluded|system|System|words|Words|repeat|Repeat it";
+    const nh_classified *family = y ? y->family : x ? x->family : line;
     const nh_analysis *r = family->almost_all;
     nh_pen_subject subject = {.system = r->system, .dag = r->model->dag, .chart = r->model->chart, .shown = run->shown};
     pen all, *p = &all;
@@ -211,16 +215,15 @@ void nh_classification_write(const nh_classified *line, const plane *x, const nh
     nh_text_init(&head);
     nh_pen_begin(p, style, &subject, "classification", out);
     nh_pen_open(p, NH_PEN_ANSWER, "found", NULL);
-    answer(p, line, x);
+    answer(p, line, x, y);
     nh_pen_close(p, NH_PEN_ANSWER);
     nh_classification_head(family, &head);
-    put_lines(p, &head);
-    p->ink->links(p->to, x ? "picture|The plane|almost|For almost all values|excluded|What is excluded|system|System|words|Words|repeat|Repeat it"
-                  : "almost|For almost all values|excluded|What is excluded|system|System|words|Words|repeat|Repeat it");
-    if (!(x ? x->plane->obstacle : line->classification->obstacle)) {
-        if (x) outline_plane(x, p);
-        else outline_line(line, p);
-    }
+    nh_classification_write_lines(p, &head);
+    const char *picture = y ? "picture|Slices" : x ? "picture|The plane" : NULL;
+    p->ink->links(p->to, picture ? nh_arena_printf(family->arena, "%s|%s", picture, over_one) : over_one);
+    if (y && !y->space->obstacle) nh_classification_outline_space(y, p);
+    else if (x && !x->plane->obstacle) outline_plane(x, p);
+    else if (line && !line->classification->obstacle) outline_line(line, p);
     nh_pen_system(p, r->model, NULL);
     nh_pen_glossary(p, "current, degree, proved, complete");
     nh_pen_end(p, run);

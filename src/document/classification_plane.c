@@ -24,7 +24,8 @@ static bool closed(const plane *x)
     const nh_plane *o = x->plane;
     bool all = o->rows == x->family->degree && !x->partial;
     for (size_t d = 0; d < o->rows; d++) all &= o->row[d].lifted && exact(&o->row[d]);
-    for (size_t k = 0; k < o->curves; k++) all &= !o->curve[k].open;
+    for (size_t k = 0; k < o->curves; k++)
+        all &= !o->curve[k].open && (o->curve[k].first || o->curve[k].degenerate || x->curve[k].along);
     for (size_t k = 0; k < o->lines; k++) {
         const nh_classification *line = o->line[k].line;
         all &= !unexamined(x, &o->line[k]);
@@ -48,6 +49,9 @@ void nh_classification_plane_left(const plane *x, nh_text *out)
         if (o->curve[k].open)
             nh_text_addf(out, "Not decided on %s: how many there are of degree %zu. %s\n",
                          nh_classified_curve_words(x, &o->curve[k].polynomial), o->curve[k].open, nh_classification_decide);
+    for (size_t k = 0; k < o->curves; k++) /* on which there are not more */
+        if (!o->curve[k].first && !o->curve[k].degenerate && !x->curve[k].along)
+            nh_text_addf(out, "Not examined: points on %s.\n", nh_classified_curve_words(x, &o->curve[k].polynomial));
     for (size_t k = 0; k < o->lines; k++)
         if (unexamined(x, &o->line[k]))
             nh_text_addf(out, "Not examined, or not up to the highest degree: points with %s.\n",

@@ -58,6 +58,13 @@ nh_residue nh_residue_power(nh_prime f, nh_residue a, uint64_t exponent)
 
 nh_residue nh_residue_inverse(nh_prime f, nh_residue a) { return (nh_residue)n_invmod(a, f.p); }
 
+bool nh_residue_ratio(nh_prime f, int64_t top, int64_t bottom, nh_residue *out)
+{
+    nh_residue below = nh_residue_of(f, bottom);
+    if (below) *out = nh_residue_mul(f, nh_residue_of(f, top), nh_residue_inverse(f, below));
+    return below != 0;
+}
+
 bool nh_residue_root(nh_prime f, nh_residue a, uint64_t order, nh_residue *root)
 {
     for (; order % 2 == 0; order /= 2) { /* p = 3 modulo 4: of two roots one is a square again */

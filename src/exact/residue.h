@@ -62,6 +62,8 @@ void nh_residue_add_multiple(nh_prime f, size_t n, nh_residue *restrict y, const
 nh_residue nh_residue_of(nh_prime f, int64_t value);
 nh_residue nh_residue_power(nh_prime f, nh_residue a, uint64_t exponent);
 nh_residue nh_residue_inverse(nh_prime f, nh_residue a); /* of a residue that is not 0 */
+/* False: the prime divides the bottom. */
+bool nh_residue_ratio(nh_prime f, int64_t top, int64_t bottom, nh_residue *out);
 
 /* The root of this order, for whole orders whose odd part is prime to p - 1: of a square root the one that is a square itself.  False when
  * there is none, or a is 0. */

@@ -26,6 +26,10 @@ typedef struct {
     bool two;
     size_t second;           /* where there are two; with bottom > 0 it is held at top/bottom */
     int64_t top, bottom;
+    bool three;
+    size_t third;            /* where there are three: at which ratio it is held; bottom == 0: the search says */
+    int64_t third_top, third_bottom;
+    size_t planes;           /* with three, the height of nu whose planes are looked at one after another */
     size_t plane;            /* with two, the largest determinant; beyond it */
     size_t lines;            /* the height of mu whose lines are looked at one after another */
     bool shape;              /* coefficients do not depend on cyclic coordinates */

@@ -15,8 +15,8 @@ void nh_classify_open(search *s, const nh_model *model, const nh_classify_questi
 {
     *s = (search){.q = q, .count = {.generic = true, .degree = q->degree, .work = q->work, .known = q->known,
                                     .current = q->current}};
-    nh_parametric_open(&s->family, model, q->parameter, q->two ? q->second : SIZE_MAX, q->shape, q->linear,
-                       &s->count);
+    size_t parameter[3] = {q->parameter, q->two ? q->second : SIZE_MAX, q->three ? q->third : SIZE_MAX};
+    nh_parametric_open(&s->family, model, parameter, q->shape, q->linear, &s->count);
     s->family.held = q->two && q->bottom > 0;
 }
 
@@ -31,11 +31,10 @@ nh_parametric_series *nh_classify_series(search *s, nh_prime f, uint64_t seed, s
 {
     nh_parametric_series *x = NULL;
     bool regular = false;
-    if (s->q->two && s->q->bottom > 0) {
-        nh_residue bottom = nh_residue_of(f, s->q->bottom);
-        if (!bottom) return NULL;
-        s->family.value = nh_residue_mul(f, nh_residue_of(f, s->q->top), nh_residue_inverse(f, bottom));
-    }
+    const nh_classify_question *q = s->q;
+    if (q->two && q->bottom > 0 && !nh_residue_ratio(f, q->top, q->bottom, &s->family.value)) return NULL;
+    if (q->three && q->third_bottom > 0 && !nh_residue_ratio(f, q->third_top, q->third_bottom, &s->family.third_value))
+        return NULL;
     for (uint64_t attempt = 0; attempt < most_points && !regular && !s->family.obstacle && !nh_late(); attempt++)
         if (nh_parametric_choose(&s->family, f, seed + 1000 * attempt))
             x = nh_parametric_series_create(&s->family, order, &regular);
@@ -50,6 +49,15 @@ static bool residue_of(search *s, const place *p, nh_prime f, nh_residue *out)
     uint64_t random = f.p;
     *out = nh_residue_random(f, &random);
     if (s->q->two && s->q->bottom == 0) s->family.value = nh_residue_random(f, &random);
+    if (s->q->three && s->q->third_bottom == 0) s->family.third_value = nh_residue_random(f, &random);
+    if (p->kind == NH_CLASSIFY_SURFACE) {
+        nh_residue at[3];
+        bool found = nh_special_surface_point(p->surface, f, f.p, at);
+        *out = at[0];
+        s->family.value = at[1];
+        s->family.third_value = at[2];
+        return found;
+    }
     if (p->kind == NH_CLASSIFY_CURVE) return nh_special_curve_point(p->curve, f, f.p, out, &s->family.value);
     return p->kind != NH_CLASSIFY_ROOT || nh_special_root(p->root, f, out);
 }

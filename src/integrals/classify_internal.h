@@ -4,6 +4,7 @@
 
 #include "integrals/classify.h"
 #include "integrals/special_curves.h"
+#include "integrals/special_surfaces.h"
 
 typedef struct {
     const nh_classify_question *q;
@@ -16,12 +17,15 @@ typedef struct {
 /* Obstacles are in the family, which is to be closed. */
 void nh_classify_open(nh_classify_search *search, const nh_model *model, const nh_classify_question *question);
 
-/* At which value the equations are taken; of two parameters mu has the value of the question, or a random one. */
-typedef enum { NH_CLASSIFY_ANY, NH_CLASSIFY_ROOT, NH_CLASSIFY_INFINITE, NH_CLASSIFY_CURVE } nh_classify_kind;
+/* At which value the equations are taken; of two parameters mu has the value of the question, or a random one, and so
+ * has nu of three. */
+typedef enum { NH_CLASSIFY_ANY, NH_CLASSIFY_ROOT, NH_CLASSIFY_INFINITE, NH_CLASSIFY_CURVE,
+               NH_CLASSIFY_SURFACE } nh_classify_kind;
 typedef struct {
     nh_classify_kind kind;
     const nh_special_factor *root;
     const nh_special_curve *curve;
+    const nh_special_surface *surface;
 } nh_classify_place;
 
 /* The index-th prime modulo which the numbers below roots have them. */

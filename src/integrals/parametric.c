@@ -16,7 +16,8 @@ static bool depends(const nh_parametric *f, nh_ex e)
 {
     const nh_jet_equations *x = f->counter.equations;
     return nh_depends(x->dag, e, symbol_of(f))
-        || (f->second != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->second]));
+        || (f->second != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->second]))
+        || (f->third != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->third]));
 }
 
 static size_t factor_of(nh_parametric *f, nh_ex base)
@@ -93,6 +94,8 @@ static bool among(const nh_parametric *f, size_t n, const nh_ex *e, nh_ex symbol
     return false;
 }
 
+const char *const nh_parametric_constant = "the equations do not depend on the parameter";
+
 static bool in_equations(const nh_parametric *f, nh_ex symbol)
 {
     const nh_jet_equations *x = f->counter.equations;
@@ -122,8 +125,9 @@ static void look(nh_parametric *f)
     if (inside_functions(f)) f->obstacle = "the parameter occurs inside of a function or a root";
     else if (!plain(f) && any_depends(f, x->m, x->rho)) f->obstacle = "the constraints depend on the parameter";
     else if (!in_equations(f, symbol_of(f))
-             || (f->second != SIZE_MAX && !in_equations(f, x->model->parameter[f->second])))
-        f->obstacle = "the equations do not depend on the parameter";
+             && (f->second == SIZE_MAX || !in_equations(f, x->model->parameter[f->second]))
+             && (f->third == SIZE_MAX || !in_equations(f, x->model->parameter[f->third])))
+        f->obstacle = nh_parametric_constant;
     if (f->obstacle) return;
     nh_parametric_denominators(f, x->n * x->n, x->M, f->of_mass);
     nh_parametric_denominators(f, x->n, x->A, f->of_rest);
@@ -134,10 +138,11 @@ static void look(nh_parametric *f)
     }
 }
 
-void nh_parametric_open(nh_parametric *f, const nh_model *model, size_t parameter, size_t second, bool shape,
+void nh_parametric_open(nh_parametric *f, const nh_model *model, const size_t parameter[3], bool shape,
                         const nh_linear_family *linear, const nh_count_question *question)
 {
-    *f = (nh_parametric){.parameter = parameter, .second = second, .shape = shape, .linear = linear};
+    *f = (nh_parametric){.parameter = parameter[0], .second = parameter[1], .third = parameter[2], .shape = shape,
+                         .linear = linear};
     nh_counter_open(&f->counter, model, question);
     nh_jet_equations *x = f->counter.equations;
     f->index = nh_alloc_array(x->coordinates + 1, sizeof *f->index);
@@ -279,6 +284,7 @@ bool nh_parametric_motion(nh_parametric *f, const nh_jet_ring *r, nh_residue *co
     size_t length = rates_at + x->n * nh_jet_equations_monomials(x->n) * r->size;
     x->at[x->coordinates + f->parameter] = lambda;
     if (f->second != SIZE_MAX) x->at[x->coordinates + f->second] = mu;
+    if (f->third != SIZE_MAX) x->at[x->coordinates + f->third] = f->third_value;
     bool good = plain(f) ? plain_series(f, r, coordinate, out + r->size)
         : nh_adapted_frame_series(f->counter.frame, r, coordinate, out + r->size);
     good = good && multiplier(f, r, coordinate, out)

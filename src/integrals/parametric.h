@@ -15,7 +15,7 @@
  * coefficients times what clears them. They are in the coordinates of the file, or in those of the family.
  *
  * With two parameters, lambda and mu, there are G_ij for lambda^i mu^j. A second parameter may also be held at a
- * residue. */
+ * residue, and a third one, nu, is always. */
 #ifndef NH_PARAMETRIC_H
 #define NH_PARAMETRIC_H
 
@@ -29,6 +29,8 @@ typedef struct {
     size_t second;           /* mu; SIZE_MAX: there is none */
     bool held;               /* mu is this residue, */
     nh_residue value;        /* and the series are those of one parameter */
+    size_t third;            /* nu, which is held at a residue always; SIZE_MAX: there is none */
+    nh_residue third_value;
     bool shape;              /* without cyclic coordinates */
     const nh_linear_family *linear; /* or NULL */
     nh_ex *entry;            /* its coefficients and masses, canonical */
@@ -41,8 +43,12 @@ typedef struct {
 /* Is e a rational function of the symbol?  Integrals that are not cannot be followed. */
 bool nh_parametric_rational(nh_dag *dag, nh_ex e, nh_ex symbol);
 
-/* Borrows the model and the question, of which the parameters are indeterminates. */
-void nh_parametric_open(nh_parametric *family, const nh_model *model, size_t parameter, size_t second, bool shape,
+/* The obstacle where the equations are free of all parameters. */
+extern const char *const nh_parametric_constant;
+
+/* Borrows the model and the question, of which the parameters (lambda, mu, nu; SIZE_MAX: there is none) are
+ * indeterminates. */
+void nh_parametric_open(nh_parametric *family, const nh_model *model, const size_t parameter[3], bool shape,
                         const nh_linear_family *linear, const nh_count_question *question);
 void nh_parametric_close(nh_parametric *family);
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "integrals/classify_internal.h"
+#include "integrals/plane_internal.h"
 #include "integrals/plane_sweep.h"
 
 enum { least_primes = 4, places = 3 };
@@ -50,22 +50,23 @@ static nh_residue_surface singular(const nh_parametric_series *x)
 }
 
 /* A determinant at one point, times Q. */
-static bool determinants(search *s, const nh_parametric_series *x, size_t degree, uint64_t seed, nh_plane_row *row,
+static bool determinants(nh_classify_search *s, const nh_parametric_series *x, size_t degree, uint64_t seed,
+                         nh_plane_row *row,
                          nh_residue_surface *out, nh_residue_surface *Q)
 {
     nh_prime f = x->ring->field;
     nh_sparse_pencil pencil = {0};
     nh_parametric_variable variable[2] = {{.origin = 0}};
     nh_parity parity = !x->split ? NH_ALL_DEGREES : degree % 2 ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
-    bool good = nh_parametric_pencil(&s->s.family, x, degree, parity, s->s.q->unknowns, &pencil, variable);
+    bool good = nh_parametric_pencil(&s->family, x, degree, parity, s->q->unknowns, &pencil, variable);
     if (good) {
-        nh_staircase_matrices m = nh_staircase_reduce(&pencil, f, &s->s.products);
+        nh_staircase_matrices m = nh_staircase_reduce(&pencil, f, &s->products);
         size_t rank = nh_compression_rank(&m, f), size = rank * (m.degree > m.second ? m.degree : m.second);
         row->unknowns = pencil.columns;
         row->power[0] = pencil.degree;
         row->power[1] = pencil.second;
         if (size > row->size) row->size = size;
-        good = size <= s->s.q->plane && s->s.products >= 0 && !nh_late();
+        good = size <= s->q->plane && s->products >= 0 && !nh_late();
         *Q = singular(x);
         nh_residue_surface d;
         good = good && nh_compression_determinant(&m, f, rank, seed, &d);
@@ -77,17 +78,16 @@ static bool determinants(search *s, const nh_parametric_series *x, size_t degree
     return good;
 }
 
-/* Modulo one prime, at three points: two leave intersections of curves that belong to them. */
-static bool zeros_modulo(search *s, size_t degree, size_t prime, nh_plane_row *row, nh_common_curves *out)
+bool nh_plane_zeros(nh_classify_search *s, size_t degree, size_t prime, nh_plane_row *row, nh_common_curves *out)
 {
     nh_residue_surface d[places] = {{.degree = {0}}}, Q[places] = {{.degree = {0}}};
     bool good = true;
     for (uint64_t k = 0; k < places && good; k++) {
-        nh_parametric_series *x = nh_classify_series(&s->s, nh_classify_prime(&s->s, prime), 101 + 10 * k, row->number.order);
+        nh_parametric_series *x = nh_classify_series(s, nh_classify_prime(s, prime), 101 + 10 * k, row->number.order);
         good = x && determinants(s, x, degree, 31 + 1000 * k + prime, row, &d[k], &Q[k]);
         nh_parametric_series_free(x);
     }
-    if (good) good = nh_common_curves_find(nh_classify_prime(&s->s, prime), places, d, places, Q, out);
+    if (good) good = nh_common_curves_find(nh_classify_prime(s, prime), places, d, places, Q, out);
     for (size_t k = 0; k < places; k++) {
         nh_free(d[k].coefficient);
         nh_free(Q[k].coefficient);
@@ -210,7 +210,7 @@ static bool find_zeros(search *s, size_t degree, nh_plane_row *row)
     s->s.products = s->s.q->products;
     for (size_t prime = 0; prime < NH_CLASSIFY_MOST_PRIMES && good && !row->lifted; prime++) {
         nh_common_curves curves = {.across = {0, NULL}};
-        good = zeros_modulo(s, degree, prime, row, &curves);
+        good = nh_plane_zeros(&s->s, degree, prime, row, &curves);
         if (!good) {
             nh_common_curves_clear(&curves);
             break;

@@ -173,7 +173,7 @@ char *nh_classified_document(const nh_classified *c, nh_format format, nh_error 
     nh_text_init(&text);
     (void)error;
     if (format == NH_FORMAT_JSON) return nh_classification_json(c, &run);
-    nh_classification_write(c, NULL, &run, style_of(format), &text);
+    nh_classification_write(c, NULL, NULL, &run, style_of(format), &text);
     return taken(&text);
 }
 

@@ -1,0 +1,183 @@
+/* Special values of three parameters: surfaces from their sections, families of the literature (whose files hold no
+ * answers), planted surfaces, curves and points, and the command. */
+#include <criterion/criterion.h>
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "integrals/special_surfaces.h"
+#include "program.h"
+
+/* ---- surfaces ---- */
+
+/* (lambda (nu^2 + 3) - mu nu + 1)(2 mu + nu) at one nu, monic in lambda mu; `low`: without the first factor's lambda. */
+static nh_residue_surface section_at(nh_prime f, nh_residue nu)
+{
+    nh_residue_surface s = {.degree = {1, 2}, .coefficient = nh_alloc_array(6, sizeof(nh_residue))};
+    nh_residue a = nh_residue_add(f, nh_residue_mul(f, nu, nu), 3), first[2][2] = {{1, a}, {nh_residue_negative(f, nu), 0}}, second[2] = {nu, 2};
+    nh_residue scale = nh_residue_inverse(f, nh_residue_mul(f, 2, a));
+    for (size_t j = 0; j < 2; j++)
+        for (size_t k = 0; k < 2; k++)
+            for (size_t i = 0; i < 2; i++)
+                nh_residue_add_multiple(f, 1, &s.coefficient[2 * (j + k) + i], &first[j][i], nh_residue_mul(f, second[k], scale));
+    return s;
+}
+
+Test(space, surfaces_come_from_sections)
+{
+    enum { primes = 4, sections = 8 };
+    nh_prime prime[primes];
+    nh_residue_volume volume[primes];
+    for (size_t i = 0; i < primes; i++) {
+        nh_residue nu[sections];
+        nh_residue_surface section[sections];
+        prime[i] = nh_prime_at(i);
+        for (size_t k = 0; k < sections; k++) section[k] = section_at(prime[i], nu[k] = (nh_residue)(100 + 7 * k));
+        nh_residue_volume none;
+        cr_expect_not(nh_residue_volume_from(prime[i], 4, nu, section, &none)); /* of degree 3 over degree 2 */
+        cr_assert(nh_residue_volume_from(prime[i], sections, nu, section, &volume[i]));
+        for (size_t k = 0; k < sections; k++) nh_free(section[k].coefficient);
+    }
+    nh_special_surfaces s = nh_special_surfaces_lift(primes, prime, volume);
+    cr_assert(s.lifted);
+    cr_assert_eq(s.surfaces, 2);
+    const nh_special_surface *plane = &s.surface[0], *curved = &s.surface[1];
+    cr_assert(plane->degree[0] == 0 && plane->degree[1] == 1 && plane->degree[2] == 1);
+    cr_assert(curved->degree[0] == 1 && curved->degree[1] == 1 && curved->degree[2] == 2);
+    cr_expect(plane->coefficient[1] == 2 && plane->coefficient[2] == 1);
+
+    nh_residue at[3];
+    cr_assert(nh_special_surface_point(plane, prime[0], 5, at));
+    cr_expect_eq(nh_residue_add(prime[0], nh_residue_mul(prime[0], 2, at[1]), at[2]), 0);
+
+    nh_residue_surface part = section_at(prime[0], 55);
+    cr_expect(nh_special_surfaces_cover(2, s.surface, prime[0], 55, &part));
+    cr_expect_not(nh_special_surfaces_cover(1, s.surface, prime[0], 55, &part));
+    cr_expect_not(nh_special_surfaces_cover(2, s.surface, prime[0], 56, &part));
+    nh_free(part.coefficient);
+
+    /* on nu = -2 mu: lambda (4 mu^2 + 3) + 2 mu^2 + 1 */
+    nh_special_curve meet;
+    cr_assert(nh_special_surface_section(curved, plane, 2, &meet));
+    cr_assert(meet.degree[0] == 1 && meet.degree[1] == 2);
+    static const int64_t expected[6] = {1, 3, 0, 0, 2, 4};
+    cr_expect_arr_eq(meet.coefficient, expected, sizeof expected);
+    nh_special_curve itself;
+    cr_assert(nh_special_surface_section(plane, plane, 2, &itself));
+    cr_expect(nh_special_curve_covers(&itself, &meet));
+    cr_expect_not(nh_special_curve_covers(&meet, &(nh_special_curve){.degree = {1, 0}, .coefficient = (int64_t[]){0, 1}}));
+    nh_free(itself.coefficient);
+    nh_free(meet.coefficient);
+    nh_special_surfaces_clear(&s);
+    for (size_t i = 0; i < primes; i++) nh_free(volume[i].coefficient);
+}
+
+/* ---- families ---- */
+
+static const cJSON *key(const cJSON *object, const char *name) { return cJSON_GetObjectItem(object, name); }
+
+/* "eps - 2 = 0 @2:6" and "A=1 B=2 eps=3 @2:6", each on a line: where, from which degree, how many. */
+static void describe(const cJSON *root, char *out, size_t size)
+{
+    const cJSON *item;
+    size_t n = 0;
+    *out = 0;
+    cJSON_ArrayForEach(item, key(root, "special"))
+    {
+        const cJSON *where = key(item, "where"), *value;
+        if (cJSON_IsString(where)) n += (size_t)snprintf(out + n, size - n, "%s ", cJSON_GetStringValue(where));
+        else
+            cJSON_ArrayForEach(value, where)
+                n += (size_t)snprintf(out + n, size - n, "%s=%s ", value->string, cJSON_GetStringValue(value));
+        n += (size_t)snprintf(out + n, size - n, "@%g:%g%s\n", cJSON_GetNumberValue(key(item, "from_degree")),
+                              cJSON_GetNumberValue(key(item, "dimension")), cJSON_IsTrue(key(item, "proved")) ? "" : " open");
+    }
+}
+
+static void expect_special(const place *p, const char *arguments, const char *expected)
+{
+    char line[800], found[3000];
+    snprintf(line, sizeof line, "classify %.600s --quiet --json -", arguments);
+    finished f = run_expecting(p, line, 0);
+    cJSON *root = cJSON_Parse(f.out);
+    cr_assert_not_null(root, "%s", f.out);
+    describe(root, found, sizeof found);
+    cr_expect_str_eq(found, expected, "%s", arguments);
+    cr_expect(cJSON_IsNull(key(root, "ended_by")));
+    cJSON_Delete(root);
+    finished_clear(&f);
+}
+
+/* [Hietarinta1987] with every ratio of frequencies. */
+Test(space, henon_heiles)
+{
+    place p = place_make();
+    char line[500];
+    snprintf(line, sizeof line, "%.300s/tests/data/classify/henon_heiles.yaml --over A,B,eps --degree 2 --option planes=1", p.project);
+    expect_special(&p, line, "eps - 2 = 0 @2:3\nB = A, 3*eps - 1 = 0 @2:3\n");
+    place_clear(&p);
+}
+
+static void write_system(const place *p, const char *parameters, const char *potential)
+{
+    char path[PATH_MAX + 30];
+    snprintf(path, sizeof path, "%s/a.yaml", p->folder);
+    FILE *file = fopen(path, "w");
+    cr_assert_not_null(file);
+    fprintf(file, "name: a\nparameters: {%s}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (%s)\n", parameters, potential);
+    fclose(file);
+}
+
+/* Potentials that are separable where the couplings vanish: on a surface, on two curves (one in a plane of the first parameter),
+ * at a point; and what no separable potential is a part of. */
+Test(space, planted_surfaces_curves_and_points)
+{
+    static const char free_values[] = "u: 0.41, v: 0.37, w: 0.29";
+    place p = place_make();
+    write_system(&p, free_values, "x^4 + y^3 + (u*w - v^2 + 2)*(x^2*y + x*y^3)");
+    expect_special(&p, "a.yaml --over u,v,w --degree 2 --option planes=1", "w*u - v^2 + 2 = 0 @2:3\n");
+    write_system(&p, free_values, "x^4 + y^3 + (w - u*v)*(x^2*y + x*y^3) + (v - 3*u)*(x*y^2 + 2*x^3*y)");
+    expect_special(&p, "a.yaml --over u,v,w --degree 2 --option planes=1", "v = 3*u, w - 3*u^2 = 0 @2:3\n");
+    write_system(&p, free_values, "x^4 + y^3 + (2*u - 1)*(x^2*y + x*y^3) + (v - w^2)*(x*y^2 + 2*x^3*y)");
+    expect_special(&p, "a.yaml --over u,v,w --degree 2 --option planes=2", "u = 1/2, w^2 - v = 0 @2:3\n");
+    write_system(&p, free_values, "x^4 + y^3 + (u + 2)*(x^2*y + x*y^3) + (v - 7)*(x*y^2 + 2*x^3*y) + (5*w + 1)*x^2*y^2");
+    expect_special(&p, "a.yaml --over u,v,w --degree 2 --option planes=2", "u=-2 v=7 w=-1/5 @2:3\n");
+    write_system(&p, free_values, "x^4 + y^3 + x^2*y + u*x*y^3 + v*(x*y^2 + 2*x^3*y) + w*x^2*y^2");
+    expect_special(&p, "a.yaml --over u,v,w --degree 2 --option planes=2", "");
+    place_clear(&p);
+}
+
+/* With v = w = 0 oscillators, of the frequencies 1 and sqrt(u): found on the surface, whatever planes are looked at. */
+Test(space, what_lies_on_a_surface_is_found_once)
+{
+    place p = place_make();
+    write_system(&p, "u: 0.41, v: 0.37, w: 0.29", "x^2 + u*y^2 + v*y^4 + w*x^2*y");
+    expect_special(&p, "a.yaml --over u,v,w --degree 2 --option planes=1",
+                   "w = 0 @2:3\nu=1 v=0 w=0 @1:6\nu=0 v=0 w=0 @1:4\nu=4 v=0 w=0 @2:4\nu=1/4 v=0 w=0 @2:4\n");
+    place_clear(&p);
+}
+
+/* ---- the command ---- */
+
+Test(space, the_command_says_what_is_not_excluded)
+{
+    place p = place_make();
+    char line[500];
+    snprintf(line, sizeof line, "classify %.300s/tests/data/classify/henon_heiles.yaml --over A,B,eps --degree 2 --option planes=1 --html a.html --tex a.tex", p.project);
+    finished f = run_expecting(&p, line, 0);
+    cr_expect(strstr(f.out, "1 surface, 1 curve and 0 points"), "%s", f.out);
+    cr_expect(strstr(f.out, "all of them proved for every A and B, and complete to degree 2"), "%s", f.out);
+    cr_expect(strstr(f.out, "in 3 planes of constant A, no other pair of rational numbers B, eps"), "%s", f.out);
+    cr_expect(strstr(f.out, "for other\n    values of A"), "%s", f.out);
+    finished_clear(&f);
+    f = run_expecting(&p, "classify a.yaml --over a,b,c,d", 2);
+    cr_expect(strstr(f.err, "names more than three parameters"), "%s", f.err);
+    finished_clear(&f);
+    snprintf(line, sizeof line, "classify %.300s/tests/data/classify/henon_heiles.yaml --over A,B,A", p.project);
+    f = run_expecting(&p, line, 2);
+    cr_expect(strstr(f.err, "names `A` twice"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
