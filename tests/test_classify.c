@@ -574,3 +574,24 @@ Test(classify, the_command_refuses)
     }
     place_clear(&p);
 }
+
+/* A double is written with the digits that it needs. */
+Test(classify, numbers_have_their_shortest_digits)
+{
+    place p = place_make();
+    char path[PATH_MAX + 30];
+    snprintf(path, sizeof path, "%s/a.yaml", p.folder);
+    FILE *file = fopen(path, "w");
+    cr_assert_not_null(file);
+    fprintf(file, "name: a\nparameters: {M: 1.989e30, k: 0.1234567890123, b: 1}\ncoordinates: [x, y]\n"
+            "lagrangian: M*(x'^2 + y'^2)/2 - M*(x^2 + b*y^2)/2 - k*x^2*y\n");
+    fclose(file);
+    finished f = run_expecting(&p, "classify a.yaml --over b", 2);
+    cr_expect(strstr(f.err, "the value 1.989e+30 of `M` has too many digits"), "%s", f.err);
+    finished_clear(&f);
+    f = run_expecting(&p, "classify a.yaml --over b --set M=1e-7 --degree 1", 0);
+    cr_expect(strstr(f.out, "= 0.1234567890123."), "%s", f.out);
+    cr_expect(strstr(f.out, "M = 1e-07") || strstr(f.out, "M = 1e-7"), "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}

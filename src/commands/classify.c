@@ -29,9 +29,12 @@ static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_
         const char *name = s->parameter[i].name;
         if (!strcmp(name, q->over) || (q->second && !strcmp(name, q->second)) || (q->third && !strcmp(name, q->third)))
             continue;
-        if (!nh_num_short(value))
-            return nh_fail(error, NH_USAGE, "", "the value %.17g of `%s` has too many digits for a classification",
-                           s->parameter[i].value, name);
+        if (!nh_num_short(value)) {
+            char digits[32];
+            nh_text_number(s->parameter[i].value, digits, sizeof digits);
+            return nh_fail(error, NH_USAGE, "", "the value %s of `%s` has too many digits for a classification",
+                           digits, name);
+        }
         x->other[x->others++] = (nh_setting){.name = nh_arena_strdup(x->arena, name), .value = s->parameter[i].value,
                                              .top = value.p, .bottom = value.q};
     }

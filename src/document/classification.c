@@ -53,8 +53,11 @@ void nh_classification_head(const nh_classified *x, nh_text *out)
     nh_text_addf(out, "%s%s", x->over, x->shape ? ", with coefficients that do not depend on cyclic coordinates" : "");
     for (size_t i = s->constraints - s->levels; i < s->constraints; i++)
         nh_text_addf(out, "%s%s", i == s->constraints - s->levels ? ", on the level " : ", ", s->constraint[i].text);
-    for (size_t i = 0; i < x->fixed; i++)
-        nh_text_addf(out, "%s%s = %.15g", i ? ", " : ", with ", x->other[i].name, x->other[i].value);
+    for (size_t i = 0; i < x->fixed; i++) {
+        char digits[32];
+        nh_text_number(x->other[i].value, digits, sizeof digits);
+        nh_text_addf(out, "%s%s = %s", i ? ", " : ", with ", x->other[i].name, digits);
+    }
     nh_text_add(out, ".\n");
 }
 

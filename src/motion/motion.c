@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/text.h"
 
 /* CVODE and IDA refuse to work below some 10 roundings; the error stops falling well before. */
 static const double smallest_rtol = 1e-14;
@@ -27,9 +28,12 @@ static bool check_times(size_t count, const double *times, nh_error *error)
         return nh_fail(error, NH_INPUT, "", "an output time is not a finite number");
     bool backward = times[count - 1] < times[0];
     for (size_t i = 1; i < count; i++)
-        if (backward ? times[i] > times[i - 1] : times[i] < times[i - 1])
-            return nh_fail(error, NH_INPUT, "", "the output times must all rise or all fall, but time %zu is %.17g after %.17g",
-                           i + 1, times[i], times[i - 1]);
+        if (backward ? times[i] > times[i - 1] : times[i] < times[i - 1]) {
+            char digits[2][32];
+            for (size_t k = 0; k < 2; k++) nh_text_number(times[i - k], digits[k], sizeof digits[k]);
+            return nh_fail(error, NH_INPUT, "", "the output times must all rise or all fall, but time %zu is %s after %s",
+                           i + 1, digits[0], digits[1]);
+        }
     return true;
 }
 
