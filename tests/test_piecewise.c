@@ -19,6 +19,10 @@ typedef struct {
 } piecewise;
 
 static const piecewise PIECEWISE[] = {
+    {"a wall of velocities to which both sides lead",
+     "parameters: [{name: a, value: 0.5}]\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - a*abs(x'*y - y'*x)\n"
+     "known: {currents: [{name: energy, expr: x'^2 + y'^2}]}\n",
+     1, "on each side of y*x' - x*y' = 0, where it jumps"},
     {"|x|", "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - abs(x)\nknown: {currents: [{name: energy, expr: x'^2/2 + abs(x)}]}\n", 1, NULL},
     {"root of a square of a difference",
      "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - sqrt((x - y)^2)\n"

@@ -63,7 +63,7 @@ static bool halve(finder *x, size_t i, bool of_slope, double a, double b, double
     return fmax(fabs(fa), fabs(fb)) < 1e-4 * largest;
 }
 
-/* ---- does the motion cross there? ---- */
+/* ---- do motions arrive there? ---- */
 
 typedef struct {
     double speed, strength; /* Gamma(g)/|grad g|, max |Gamma|, both in units of the box */
@@ -86,7 +86,8 @@ static bool passage_at(finder *x, nh_ex g, double *z, passage *p)
     return size > 0 && isfinite(p->speed);
 }
 
-static bool is_crossed(finder *x, nh_crossing *c)
+/* From one side at least motions arrive. */
+static bool is_reached(finder *x, nh_crossing *c)
 {
     passage far[2], near[2];
     for (int side = 0; side < 2; side++) {
@@ -96,7 +97,7 @@ static bool is_crossed(finder *x, nh_crossing *c)
         bool diverges = near[side].strength * depth[2] > far[side].strength * depth[1] / 2;
         if (stops || diverges) return false;
     }
-    return c->touches ? near[0].speed * near[1].speed < 0 : near[0].speed * near[1].speed > 0;
+    return near[1].speed < 0 || (c->touches ? near[0].speed < 0 : near[0].speed > 0);
 }
 
 static void keep(finder *x, size_t i, double s, bool touches)
@@ -113,7 +114,7 @@ static void keep(finder *x, size_t i, double s, bool touches)
     for (int side = 0; side < 2; side++)
         for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++)
             if (!c.point[side][k]) return; /* the function has one sign so near to where it seemed to change it */
-    if (!is_crossed(x, &c)) return;
+    if (!is_reached(x, &c)) return;
     x->list.item[x->list.count++] = c;
     x->found[i]++;
 }

@@ -1,7 +1,7 @@
 /* region: where does a current hold?
  *
  * A proof, or any number of digits, says that Gamma(Phi) = 0 wherever everything is smooth.  At a wall that motions
- * cross Phi may still jump: then it is one current on each side and no current of the whole motion.  Or Gamma(Phi) =
+ * reach Phi may still jump: then it is one current on each side and no current of the whole motion.  Or Gamma(Phi) =
  * 0 on one side only, the side of the sampling box.  Decided at crossings: Phi in ball arithmetic nearer and nearer
  * to the wall on both sides (a difference that does not fall is a jump; what grows without bound is a pole, which no
  * motion with a finite Phi reaches), and Gamma(Phi) there.
