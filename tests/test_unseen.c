@@ -51,6 +51,13 @@ static const unseen UNSEEN[] = {
      "domain: {x: [0.5e-10, 1.5e-10], y: [-1e-10, 1e-10]}\n"
      "known: {currents: [{name: energy, expr: \"m/2*(x'^2 + y'^2) - k*e^2/sqrt(x^2 + y^2)\"}, {name: turning, expr: \"x*y' - y*x'\"}]}\n",
      3},
+    /* at rest there is no force: the rate is that of the gyroscopic one */
+    {"electron in a magnetic field in SI units",
+     "parameters: [{name: m, value: 9.1e-31}, {name: q, value: 1.6e-19}, {name: B, value: 0.5}]\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: m/2*(x'^2 + y'^2) + q*B*(x*y' - y*x')/2\n"
+     "known: {currents: [{name: centre, expr: \"m*x' - q*B*y\"}, {name: energy, expr: \"m/2*(x'^2 + y'^2)\"}]}\n",
+     4},
     {"stiff spring",
      "parameters: [{name: m, value: 1e-9}, {name: k, value: 1}]\n"
      "coordinates: [x, y]\n"

@@ -101,6 +101,9 @@ typedef struct {
     nh_tape_work *work;
     double *out, *dense, *slope; /* slope: m x n, by which R is a number without units */
     double *speed, rate; /* speeds_of */
+    /* Of time, about 1/rate: so that what is a small rate does not depend on it.  A power of 1024, by which no digit
+     * is lost. */
+    double unit;
     double steepest; /* largest |R| that is accepted in a chart of coordinate velocities: 1 / pivot */
 } guard;
 
@@ -120,6 +123,7 @@ static guard guard_create(const nh_model *o, double pivot)
     nh_chart_slopes(o->chart, g.slope);
     g.speed = g.slope + m * n;
     g.rate = speeds_of(o, g.speed);
+    g.unit = exp2(-10 * round(log2(g.rate) / 10));
     nh_free(e);
     return g;
 }
@@ -175,7 +179,7 @@ static double accept(guard *g, const double *z, nh_points *p, double *steepness)
         *largest = fmax(*largest, size);
     }
     *steepness = steep;
-    if (fast < too_fast && strong < too_fast && steep < g->steepest) return 1 / (1 + strong + fast);
+    if (fast < too_fast && strong < too_fast && steep < g->steepest) return g->unit / (1 + strong + fast);
     p->degenerate++;
     return 0;
 }
@@ -212,7 +216,7 @@ static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t
         for (size_t i = 0; i < n; i++) to[1 + m + i][at] = v[o->chart->free[i]];
         for (size_t s = 0; s < m; s++) to[width + s][at] = v[s];
         for (size_t i = 0; i < n; i++) to[width + m + i][at] = rate[o->chart->free[i]];
-        p->beyond->weight[p->beyond->count++] = pow(g->steepest / steepness, 2) / (1 + fast);
+        p->beyond->weight[p->beyond->count++] = g->unit * pow(g->steepest / steepness, 2) / (1 + fast);
     }
     nh_free(rate);
 }

@@ -20,27 +20,50 @@ static double half_width(const nh_model *o, size_t s)
 /* Of the coordinate whose velocity w^i is; 1 for quasi-velocities. */
 static double length_of(const nh_model *o, size_t i) { return o->chart->quasi ? 1 : half_width(o, o->chart->free[i]); }
 
-static double omega(const nh_model *o)
+/* The accelerations at probe p, its velocities multiplied by `part`. */
+static bool accelerations(const nh_model *o, nh_tape *tape, nh_tape_work *work, size_t p, double part, double *z, double *out)
 {
     const nh_chart *c = o->chart;
-    nh_tape *tape = nh_model_tape(o, o->n, o->a);
+    memcpy(z, c->probe + p * c->width, c->width * sizeof *z);
+    for (size_t i = 0; i < o->n; i++) z[1 + o->m + i] *= part;
+    if (!nh_chart_complete(c, z)) return false;
+    nh_tape_eval(tape, work, z, out);
+    for (size_t i = 0; i < o->n; i++)
+        if (!isfinite(out[i])) return false;
+    return true;
+}
+
+static double median(size_t count, double *list)
+{
+    qsort(list, count, sizeof *list, ascending);
+    return list[count / 2];
+}
+
+/* At rest, and what is added there by small velocities, which gyroscopic forces and friction multiply by a rate. */
+static double omega(const nh_model *o)
+{
+    static const double small = 1e-3;
+    const nh_chart *c = o->chart;
+    size_t n = o->n, rest = 0, slow = 0;
+    nh_tape *tape = nh_model_tape(o, n, o->a);
     nh_tape_work *work = nh_tape_work_create(tape);
-    double *z = nh_alloc_array(c->width, sizeof *z), *a = nh_alloc_array(o->n * c->probes + 1, sizeof *a), *out = nh_alloc_array(o->n + 1, sizeof *out), most = 0;
-    size_t count = 0;
+    double *z = nh_alloc_array(c->width, sizeof *z), *out = nh_alloc_array(2 * n + 1, sizeof *out), most = 0;
+    double *a = nh_alloc_array((n + 1) * c->probes + 1, sizeof *a), *rate = a + n * c->probes;
     for (size_t p = 0; p < c->probes; p++) {
-        bool finite = true;
-        memcpy(z, c->probe + p * c->width, c->width * sizeof *z);
-        for (size_t i = 0; i < o->n; i++) z[1 + o->m + i] = 0;
-        if (!nh_chart_complete(c, z)) continue;
-        nh_tape_eval(tape, work, z, out);
-        for (size_t i = 0; i < o->n; i++) finite &= isfinite(out[i]);
-        for (size_t i = 0; i < o->n && finite; i++) a[i * c->probes + count] = fabs(out[i]);
-        count += finite;
+        double change = 0, speed = 0;
+        if (accelerations(o, tape, work, p, 0, z, out)) {
+            for (size_t i = 0; i < n; i++) a[i * c->probes + rest] = fabs(out[i]);
+            rest++;
+        }
+        if (!accelerations(o, tape, work, p, -small, z, out) || !accelerations(o, tape, work, p, small, z, out + n)) continue;
+        for (size_t i = 0; i < n; i++) {
+            change = fmax(change, fabs(out[n + i] - out[i]) / (2 * length_of(o, i)));
+            speed = fmax(speed, fabs(z[1 + o->m + i]) / length_of(o, i));
+        }
+        if (speed > 0) rate[slow++] = change / speed;
     }
-    for (size_t i = 0; i < o->n && count; i++) {
-        qsort(a + i * c->probes, count, sizeof *a, ascending);
-        most = fmax(most, sqrt(a[i * c->probes + count / 2] / length_of(o, i)));
-    }
+    for (size_t i = 0; i < n && rest; i++) most = fmax(most, sqrt(median(rest, a + i * c->probes) / length_of(o, i)));
+    if (slow) most = fmax(most, median(slow, rate));
     nh_free(out);
     nh_free(a);
     nh_free(z);

@@ -3,7 +3,9 @@
  * By default velocities are drawn from [-1.5, 1.5] and t from [0, 1].  Where the forces at rest turn the motion around in much less than that, all that
  * samples would see are the forces.  With L_s the half width of a coordinate's interval and
  *
- *     Omega = max_i sqrt(median |a^i| / L_i)      at rest, over the probes of the chart,
+ *     Omega = max(max_i sqrt(median |a^i| / L_i), median (|da| / |v|))
+ *
+ * over the probes of the chart, a^i at rest, da what small velocities v add to that (gyroscopic forces, friction), both in units of L_i,
  *
  * velocities are then drawn from 1.5 L_s Omega [-1, 1] and t from [0, 1/Omega]. */
 #ifndef NH_TIME_SCALE_H
