@@ -1,4 +1,4 @@
-"""What `nhsym classify` says of two nonholonomic families that are classified nowhere else, by another way: brute force.
+"""What `nhsym classify` says of four nonholonomic families that are classified nowhere else, by another way: brute force.
 
 The equations of motion are derived here by hand, with other coordinates; the unknowns are all Taylor coefficients of an
 integral in these coordinates, without frames, weights or parameters: numbers only, modulo 2^31 - 1, which is none of
@@ -106,14 +106,14 @@ def residue(x):
     return x.numerator * pow(x.denominator, P - 2, P) % P
 
 
-def contact(b, c):
-    """z' = y x', V = (x^2 + b y^2 + c z^2)/2; w = (x', y'):  (1 + y^2) x'' = -x - c y z - y x' y',  y'' = -b y."""
-    b, c = residue(b), residue(c)
+def contact(b, c, a=1):
+    """z' = y x', V = (a x^2 + b y^2 + c z^2)/2; w = (x', y'):  (1 + y^2) x'' = -a x - c y z - y x' y',  y'' = -b y."""
+    a, b, c = residue(a), residue(b), residue(c)
     D = {(0, 0, 0): 1, (0, 2, 0): 1}
     y = {(0, 1, 0): 1}
     return [
         (0, None, (1, 0), D), (2, None, (1, 0), times(D, y)), (1, None, (0, 1), D),
-        (None, 0, (0, 0), {(1, 0, 0): P - 1, (0, 1, 1): -c % P}), (None, 0, (1, 1), {(0, 1, 0): P - 1}),
+        (None, 0, (0, 0), {(1, 0, 0): -a % P, (0, 1, 1): -c % P}), (None, 0, (1, 1), {(0, 1, 0): P - 1}),
         (None, 1, (0, 0), times(D, {(0, 1, 0): -b % P})),
     ]
 
@@ -129,10 +129,37 @@ def knife(b, c):
     return [(0, None, (1, 0), times(D, D)), (1, None, (0, 1), cosine), (2, None, (0, 1), sine), (None, 1, (0, 0), force)]
 
 
+def knife_quadratic(b, c, a):
+    """The same with V = (a x^2 + b y^2)/2 + c x y."""
+    a, b, c = residue(a), residue(b), residue(c)
+    D = {(0, 0, 0): 1, (2, 0, 0): 1}
+    cosine, sine = {(0, 0, 0): 2, (2, 0, 0): P - 2}, {(1, 0, 0): 4}
+    force = times(cosine, {(0, 1, 0): -a % P, (0, 0, 1): -c % P})
+    for e, x in times(sine, {(0, 1, 0): -c % P, (0, 0, 1): -b % P}).items():
+        add(force, e, x)
+    return [(0, None, (1, 0), times(D, D)), (1, None, (0, 1), cosine), (2, None, (0, 1), sine), (None, 1, (0, 0), force)]
+
+
 def contact_claim(b, c, degree):
     if degree == 1:
         return 2 if b == 0 else 1
     return 5 if b == c == 0 else 4 if b == 0 or c == 4 * b else 3
+
+
+def contact_three_claim(b, c, degree, a):
+    if a == b == c == 0:
+        return 5 if degree == 1 else 15
+    if degree == 1:
+        return 2 if b == 0 or (a == 0 and c in (0, b)) else 1
+    if a == 0 and c == b:
+        return 6
+    return 5 if b == c == 0 else 4 if b == 0 or c == 4 * b or (a == 0 and (c == 0 or 4 * c == b)) else 3
+
+
+def knife_three_claim(b, c, degree, a):
+    if a == b == c == 0:
+        return 6 if degree == 1 else 20
+    return 2 if degree == 1 else 6 if a == b and c == 0 else 4
 
 
 FAMILIES = [
@@ -141,6 +168,29 @@ FAMILIES = [
     ("knife edges in cubic potentials", knife, lambda b, c, degree: 2 if degree == 1 else 4,
      [("7/10", "2/5"), (0, 0), (1, 0), ("1/3", 0), (0, 1), (-1, 0), (-3, 0), (1, "1/3"), (0, "1/3"), (16, 0), (2, 5)]),
 ]
+
+
+THREE = [
+    ("a particle with a contact constraint, three oscillators", contact, contact_three_claim,
+     [(3, "7/10", "2/5"), (0, 2, "1/2"), (0, 2, 2), (0, 2, 8), (0, 2, 0), (5, 0, 0), (5, 0, 2), (1, 1, 1), (2, 2, 8),
+      (3, 4, 1), (1, 4, 1), (4, 1, 1), (2, 4, 4)]),
+    ("knife edges in quadratic potentials", knife_quadratic, knife_three_claim,
+     [("3/2", "7/10", "2/5"), (2, 2, 0), (2, 2, 1), (0, 0, 1), (0, 0, 0), (1, 4, 0), (1, 0, 0), (1, 1, 1), (4, 1, 2), (-1, 1, 0)]),
+]
+
+
+def three():
+    """Values in the order a, b, c."""
+    wrong = 0
+    print("\n| family | a | b | c | degree 1 | degree 2 | classify |\n|---|---|---|---|---|---|---|")
+    for name, family, claim, values in THREE:
+        for a, b, c in values[: 2 if "--few" in sys.argv else None]:
+            a, b, c = Fraction(a), Fraction(b), Fraction(c)
+            found = [number(family(b, c, a), degree) for degree in (1, 2)]
+            said = [claim(b, c, degree, a) for degree in (1, 2)]
+            wrong += found != said
+            print(f"| {name} | {a} | {b} | {c} | {found[0]} | {found[1]} | {said[0]}, {said[1]} |", flush=True)
+    return wrong
 
 
 def main():
@@ -154,7 +204,7 @@ def main():
             said = [claim(b, c, degree) for degree in (1, 2)]
             wrong += found != said
             print(f"| {name} | {b} | {c} | {found[0]} | {found[1]} | {said[0]}, {said[1]} |", flush=True)
-    return wrong > 0
+    return wrong + three() > 0
 
 
 if __name__ == "__main__":

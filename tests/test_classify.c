@@ -595,3 +595,23 @@ Test(classify, numbers_have_their_shortest_digits)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* What stays open names the option, and more of it decides. */
+Test(classify, an_open_value_names_the_option_that_decides_it)
+{
+    place p = place_make();
+    char line[500];
+    const char *text = "classify %.300s/tests/data/classify/henon_heiles.yaml --over eps --set B=1 --degree 2 --option count_work=%s";
+    snprintf(line, sizeof line, text, p.project, "1e5");
+    finished f = run_expecting(&p, line, 0);
+    cr_expect(strstr(f.out, "0 values of eps"), "%s", f.out);
+    cr_expect(strstr(f.out, "Not decided at eps = 1/3: degree 2"), "%s", f.out);
+    cr_expect(strstr(f.out, "`--option count_work=N`"), "%s", f.out);
+    finished_clear(&f);
+    snprintf(line, sizeof line, text, p.project, "1e6");
+    f = run_expecting(&p, line, 0);
+    cr_expect(strstr(f.out, "2 values of eps"), "%s", f.out);
+    cr_expect_not(strstr(f.out, "Not decided"), "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
