@@ -124,7 +124,7 @@ static void explain_methods(void)
 static void explain_functions(void)
 {
     static const char row[] = "%-24s %s\n";
-    puts("sin cos tan asin acos atan atan2(y, x) sinh cosh tanh asinh acosh atanh exp log sqrt abs, and functions without elementary form.\n"
+    puts(NH_ELEMENTARY_WORDS "atan2(y, x) sqrt abs, and functions without elementary form.\n"
          "Of these the last argument may move, the others are numbers or parameters; f_prime is the derivative, as in bessel_j_prime(n, x).\n");
     for (size_t i = 0; i < nh_glossary_functions(); i++) {
         nh_glossary_entry f = nh_glossary_function_at(i);

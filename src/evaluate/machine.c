@@ -63,7 +63,9 @@ static void put_instruction(const nh_tape *t, const uint32_t *writer, const nh_i
 
 static void put_prototypes(nh_text *out)
 {
-    static const char *const one[] = {"sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp", "log", "sqrt", "fabs"};
+#define X(id, name, parity, at_zero, at_one) #name,
+    static const char *const one[] = {NH_ELEMENTARY_TABLE(X) "sqrt", "fabs"};
+#undef X
     for (size_t i = 0; i < sizeof one / sizeof *one; i++) nh_text_addf(out, "double %s(double);\n", one[i]);
     nh_text_add(out, "double pow(double, double);\ndouble atan2(double, double);\n"
                      "static double sign(double a) { return a > 0 ? 1 : a < 0 ? -1 : a; }\n\n");

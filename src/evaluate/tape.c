@@ -13,29 +13,19 @@ static const double call = 8, each_value = 0.3; /* units of an evaluation beside
 
 /* ---- values of single operations ---- */
 
+#define X(id, name, parity, at_zero, at_one) \
+    case NH_##id: return name(a);
 static double call_value(unsigned f, double a, double b)
 {
     switch (f) {
-    case NH_SIN: return sin(a);
-    case NH_COS: return cos(a);
-    case NH_TAN: return tan(a);
-    case NH_ASIN: return asin(a);
-    case NH_ACOS: return acos(a);
-    case NH_ATAN: return atan(a);
-    case NH_SINH: return sinh(a);
-    case NH_COSH: return cosh(a);
-    case NH_TANH: return tanh(a);
-    case NH_ASINH: return asinh(a);
-    case NH_ACOSH: return acosh(a);
-    case NH_ATANH: return atanh(a);
-    case NH_EXP: return exp(a);
-    case NH_LOG: return log(a);
+        NH_ELEMENTARY_TABLE(X)
     case NH_ABS: return fabs(a);
     case NH_SIGN: return a > 0 ? 1 : a < 0 ? -1 : a;
     case NH_ATAN2: return atan2(a, b);
     default: return NAN;
     }
 }
+#undef X
 
 /* Of a named function; `more` may be NULL where it takes no more than two arguments. */
 static double named_value(unsigned op, double a, double b, const nh_more_arguments *more, const double *r)

@@ -80,36 +80,24 @@ KERNEL(k_inv, 1 / a[i])
 KERNEL(k_square, a[i] * a[i])
 KERNEL(k_sqrt, sqrt(a[i]))
 FUNCTION(k_pow, pow(a[i], b[i]))
-FUNCTION(k_sin, sin(a[i]))
-FUNCTION(k_cos, cos(a[i]))
-FUNCTION(k_tan, tan(a[i]))
-FUNCTION(k_asin, asin(a[i]))
-FUNCTION(k_acos, acos(a[i]))
-FUNCTION(k_atan, atan(a[i]))
-FUNCTION(k_sinh, sinh(a[i]))
-FUNCTION(k_cosh, cosh(a[i]))
-FUNCTION(k_tanh, tanh(a[i]))
-FUNCTION(k_asinh, asinh(a[i]))
-FUNCTION(k_acosh, acosh(a[i]))
-FUNCTION(k_atanh, atanh(a[i]))
-FUNCTION(k_exp, exp(a[i]))
-FUNCTION(k_log, log(a[i]))
+#define X(id, name, parity, at_zero, at_one) FUNCTION(k_##name, name(a[i]))
+NH_ELEMENTARY_TABLE(X)
+#undef X
 KERNEL(k_abs, fabs(a[i]))
 KERNEL(k_sign, a[i] > 0 ? 1 : a[i] < 0 ? -1 : a[i])
 FUNCTION(k_atan2, atan2(a[i], b[i]))
 
 typedef void kernel(size_t n, double *restrict to, const double *a, const double *b);
 
+#define X(id, name, parity, at_zero, at_one) [NH_OP_FUNCTION + NH_##id] = k_##name,
 static kernel *const table[] = {
     [NH_OP_ADD] = k_add, [NH_OP_SUB] = k_sub, [NH_OP_MUL] = k_mul, [NH_OP_DIV] = k_div, [NH_OP_NEG] = k_neg,
     [NH_OP_INV] = k_inv, [NH_OP_SQUARE] = k_square, [NH_OP_SQRT] = k_sqrt, [NH_OP_POW] = k_pow,
-    [NH_OP_FUNCTION + NH_SIN] = k_sin, [NH_OP_FUNCTION + NH_COS] = k_cos, [NH_OP_FUNCTION + NH_TAN] = k_tan,
-    [NH_OP_FUNCTION + NH_ASIN] = k_asin, [NH_OP_FUNCTION + NH_ACOS] = k_acos, [NH_OP_FUNCTION + NH_ATAN] = k_atan,
-    [NH_OP_FUNCTION + NH_SINH] = k_sinh, [NH_OP_FUNCTION + NH_COSH] = k_cosh, [NH_OP_FUNCTION + NH_TANH] = k_tanh,
-    [NH_OP_FUNCTION + NH_ASINH] = k_asinh, [NH_OP_FUNCTION + NH_ACOSH] = k_acosh, [NH_OP_FUNCTION + NH_ATANH] = k_atanh,
-    [NH_OP_FUNCTION + NH_EXP] = k_exp, [NH_OP_FUNCTION + NH_LOG] = k_log, [NH_OP_FUNCTION + NH_ABS] = k_abs,
+    NH_ELEMENTARY_TABLE(X)
+    [NH_OP_FUNCTION + NH_ABS] = k_abs,
     [NH_OP_FUNCTION + NH_SIGN] = k_sign, [NH_OP_FUNCTION + NH_ATAN2] = k_atan2,
 };
+#undef X
 
 /* Rows of this work memory: inputs are copied in, so that a short batch can be padded with its first point to whole blocks. */
 static void prepare(const nh_tape *tape, nh_tape_work *work)

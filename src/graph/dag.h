@@ -24,9 +24,32 @@ typedef struct nh_dag nh_dag;
 
 typedef enum { NH_NUMBER, NH_SYMBOL, NH_SUM, NH_PRODUCT, NH_FUNCTION } nh_kind;
 
+/* Elementary functions of one argument, which have the names of the C library: identifier, name, parity (-1 odd, 1 even,
+ * 0 neither), values at 0 and at 1 where these are whole numbers (-1: no such rule).  Values of a point and of a batch,
+ * their declarations in machine code, and what messages list are made of these rows. */
+#define NH_ELEMENTARY_TABLE(X)   \
+    X(SIN, sin, -1, 0, -1)       \
+    X(COS, cos, 1, 1, -1)        \
+    X(TAN, tan, -1, 0, -1)       \
+    X(ASIN, asin, -1, 0, -1)     \
+    X(ACOS, acos, 0, -1, 0)      \
+    X(ATAN, atan, -1, 0, -1)     \
+    X(SINH, sinh, -1, 0, -1)     \
+    X(COSH, cosh, 1, 1, -1)      \
+    X(TANH, tanh, -1, 0, -1)     \
+    X(ASINH, asinh, -1, 0, -1)   \
+    X(ACOSH, acosh, 0, -1, 0)    \
+    X(ATANH, atanh, -1, 0, -1)   \
+    X(EXP, exp, 0, 1, -1)        \
+    X(LOG, log, 0, -1, 0)
+/* "sin cos ... log " */
+#define NH_ELEMENTARY_WORD(id, name, parity, at_zero, at_one) #name " "
+#define NH_ELEMENTARY_WORDS NH_ELEMENTARY_TABLE(NH_ELEMENTARY_WORD)
+
+#define X(id, name, parity, at_zero, at_one) NH_##id,
 typedef enum {
-    NH_SIN, NH_COS, NH_TAN, NH_ASIN, NH_ACOS, NH_ATAN, NH_SINH, NH_COSH, NH_TANH, NH_ASINH, NH_ACOSH, NH_ATANH,
-    NH_EXP, NH_LOG, NH_ABS, NH_SIGN, NH_ATAN2, NH_PI,
+    NH_ELEMENTARY_TABLE(X)
+    NH_ABS, NH_SIGN, NH_ATAN2, NH_PI,
     /* Named functions (named_function.h): solutions of a linear equation of second order, each followed by its derivative; */
     NH_LEGENDRE_P, NH_LEGENDRE_P_PRIME, NH_LEGENDRE_Q, NH_LEGENDRE_Q_PRIME, NH_HYP2F1, NH_HYP2F1_PRIME, NH_GAUSS_F, NH_GAUSS_F_PRIME,
     NH_HYP1F1, NH_HYP1F1_PRIME, NH_HYPERU, NH_HYPERU_PRIME, NH_BESSEL_J, NH_BESSEL_J_PRIME, NH_BESSEL_Y, NH_BESSEL_Y_PRIME,
@@ -34,6 +57,7 @@ typedef enum {
     NH_ELLIPTIC_K, NH_ELLIPTIC_E, NH_ELLIPTIC_F, NH_ELLIPTIC_EINC, /* elliptic integrals */
     NH_FUNCTION_COUNT
 } nh_function;
+#undef X
 
 enum { NH_MOST_ARGUMENTS = 4 }; /* of a function */
 

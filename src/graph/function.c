@@ -8,7 +8,8 @@
 #define NAMED(f, name, arity, arguments) [NH_##f] = {name, arity, 0, -1, -1, NULL, arguments}
 #define PAIR(f, name, arity, arguments) NAMED(f, name, arity, arguments), NAMED(f##_PRIME, name "_prime", arity, arguments)
 
-/* of(0) or of(1) where these are whole numbers; -1 where there is no such rule. */
+#define X(id, name, parity, at_zero, at_one) [NH_##id] = {#name, 1, parity, at_zero, at_one, name},
+/* The members of NH_ELEMENTARY_TABLE. */
 static const struct {
     const char *name;
     int arity, parity; /* parity: -1 odd, 1 even, 0 neither */
@@ -16,13 +17,7 @@ static const struct {
     double (*f)(double);
     const char *arguments; /* of a named function */
 } table[NH_FUNCTION_COUNT] = {
-    [NH_SIN] = {"sin", 1, -1, 0, -1, sin},       [NH_COS] = {"cos", 1, 1, 1, -1, cos},
-    [NH_TAN] = {"tan", 1, -1, 0, -1, tan},       [NH_ASIN] = {"asin", 1, -1, 0, -1, asin},
-    [NH_ACOS] = {"acos", 1, 0, -1, 0, acos},     [NH_ATAN] = {"atan", 1, -1, 0, -1, atan},
-    [NH_SINH] = {"sinh", 1, -1, 0, -1, sinh},    [NH_COSH] = {"cosh", 1, 1, 1, -1, cosh},
-    [NH_TANH] = {"tanh", 1, -1, 0, -1, tanh},    [NH_ASINH] = {"asinh", 1, -1, 0, -1, asinh},
-    [NH_ACOSH] = {"acosh", 1, 0, -1, 0, acosh},  [NH_ATANH] = {"atanh", 1, -1, 0, -1, atanh},
-    [NH_EXP] = {"exp", 1, 0, 1, -1, exp},        [NH_LOG] = {"log", 1, 0, -1, 0, log},
+    NH_ELEMENTARY_TABLE(X)
     [NH_ABS] = {"abs", 1, 1, 0, 1, fabs},        [NH_SIGN] = {"sign", 1, -1, 0, 1, NULL},
     [NH_ATAN2] = {"atan2", 2, 0, -1, -1, NULL},  [NH_PI] = {"pi", 0, 0, -1, -1, NULL},
     PAIR(LEGENDRE_P, "legendre_p", 2, "n, x"), PAIR(LEGENDRE_Q, "legendre_q", 2, "n, x"), PAIR(HYP2F1, "hyp2f1", 4, "a, b, c, x"),
@@ -32,6 +27,7 @@ static const struct {
     NAMED(ELLIPTIC_K, "elliptic_k", 1, "m"), NAMED(ELLIPTIC_E, "elliptic_e", 1, "m"), NAMED(ELLIPTIC_F, "elliptic_f", 2, "u, m"),
     NAMED(ELLIPTIC_EINC, "elliptic_einc", 2, "u, m"),
 };
+#undef X
 
 const char *nh_function_name(nh_function f) { return table[f].name; }
 size_t nh_function_arity(nh_function f) { return (size_t)table[f].arity; }

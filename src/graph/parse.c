@@ -268,8 +268,7 @@ static bool unresolved(parser *p, const char *word, size_t at)
     const char *instead = unknown && called ? nh_function_elsewhere(word) : NULL;
     if (instead) return hint(p, "%s", instead);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
-    return hint(p, "the functions are: sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log sqrt abs "
-                   "and those of `nhsym explain functions`");
+    return hint(p, "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs and those of `nhsym explain functions`");
 }
 
 /* A name that is not the language's own: the caller knows it. */
