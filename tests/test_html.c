@@ -167,7 +167,7 @@ Test(html, every_number_is_in_the_json)
 {
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
-        if (!sweep_tries(s + 1, 3, 8)) continue;
+        if (!sweep_tries(s + 1, 5, 10)) continue;
         char line[200];
         cJSON *json;
         snprintf(line, sizeof line, "analyze %s", SYSTEMS[s]);
@@ -328,6 +328,7 @@ Test(html, the_page_needs_nothing_else)
 /* Units of coordinates label the axes, where all of one kind have the same. */
 Test(html, units_are_on_the_axes)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "u.yaml", "coordinates:\n  - {name: phi, type: angle}\n  - {name: x, type: length, unit: km}\n  - {name: y, type: length, unit: km}\n  - {name: u, unit: A}\n"
                              "  - {name: w, unit: V}\nlagrangian: phi'^2 + x'^2 + y'^2 + u'^2 + w'^2 - x^2\n");
@@ -344,6 +345,7 @@ Test(html, units_are_on_the_axes)
 /* A disk that is full leaves the page that was there. */
 Test(html, a_page_is_written_whole_or_not_at_all)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     write_here(&p, "page.html", "an older page");
     finished f = run_so(&p, &(manner){.file_limit = 20000}, "analyze sleigh --quiet --html page.html");

@@ -131,6 +131,11 @@ char *nh_benchmark_json(const nh_benchmark *c, const nh_robustness *s, const nh_
     nh_json *refused = nh_json_put_array(root, "refused");
     for (size_t i = 0; i < c->refused; i++) nh_json_add_text(refused, c->refusal[i]);
     nh_json_put_bool(root, "partial", c->partial);
+    if (s) {
+        nh_json *robustness = nh_json_put_object(root, "robustness");
+        nh_json_put_number(robustness, "tolerance", s->tolerance);
+        nh_json_put_number(robustness, "accuracy", s->accuracy);
+    }
     nh_json *maps = nh_json_put_array(root, "stress"); /* the older word, for the scripts that read it */
     for (size_t i = 0; s && i < s->maps; i++) put_map(&s->map[i], maps);
     nh_json *warnings = nh_json_put_array(root, "warnings");

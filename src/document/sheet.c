@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "exact/normal.h"
-#include "graph/measure.h"
 #include "graph/print.h"
 #include "document/formula.h"
 #include "document/notation.h"
@@ -100,22 +99,6 @@ void nh_sheet_words(nh_sheet *s, const char *words) { add_line(s->arena, &s->sec
 
 static nh_ex as_shown(const nh_sheet *s, const nh_sheet_section *c, nh_ex e) { return s->chart && !c->literal ? nh_chart_shown(s->chart, e) : e; }
 
-static bool is_shown(const nh_sheet *s, nh_ex e) { return (double)nh_complexity(s->dag, e) <= s->shown; }
-
-/* The parts that stand in what is shown, or in such a part: values use later names only. */
-static size_t needed_parts(const nh_sheet *s, size_t n, const nh_ex *e, size_t parts, nh_formula_part *part)
-{
-    size_t kept = 0;
-    for (size_t k = 0; k < parts; k++) {
-        bool needed = false;
-        for (size_t i = 0; i < n && !needed; i++) needed = is_shown(s, e[i]) && nh_depends(s->dag, e[i], part[k].symbol);
-        for (size_t j = 0; j < kept && !needed; j++)
-            needed = is_shown(s, part[j].value) && nh_depends(s->dag, part[j].value, part[k].symbol);
-        if (needed) part[kept++] = part[k];
-    }
-    return kept;
-}
-
 /* Its own names, S_1, S_2, ...: one sequence for the sheet. */
 static void rename_parts(nh_sheet *s, size_t n, nh_ex *e, size_t parts, nh_formula_part *part)
 {
@@ -146,7 +129,7 @@ nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
             e[at++] = nh_formula_shortened(s->analysis, s->dag, as_shown(s, &c, c.line[i].term[j].coefficient));
         }
     }
-    size_t parts = needed_parts(s, n, e, nh_formula_parts(s->dag, n, e, part), part);
+    size_t parts = nh_formula_parts(s->dag, n, e, part);
     rename_parts(s, n, e, parts, part);
     for (size_t i = at = 0; i < c.lines; i++)
         for (size_t j = 0; j < line[i].left + line[i].right; j++) line[i].term[j].coefficient = e[at++];

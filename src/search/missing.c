@@ -6,7 +6,6 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "integrals/construct.h"
-#include "integrals/construct_rates.h"
 #include "integrals/echelon.h"
 #include "search/relations.h"
 #include "search/stage_solver.h"
@@ -163,7 +162,6 @@ static bool is_over(const search *s, bool further) { return further ? nh_budget_
 /* What is looked for: functions of the currents found too; in the shape alone; with words that are many-valued. */
 typedef struct {
     bool further, shape, secular;
-    const nh_construct_rates *rates;
 } manner;
 
 /* Words of one price. */
@@ -175,7 +173,6 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     bool general, found = false;
     nh_construct_question q = {.time = c->count.time, .shape = how.shape, .further = further, .secular = how.secular, .degree = degree, .price = price, .most_words = (size_t)r->options.words, .work = s->work, .current = phi};
-    q.rates = how.rates;
     q.known = nh_counted_proved(r, phi, &general, &q.independent);
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
@@ -216,11 +213,7 @@ static bool construct(search *s, const nh_completeness *c, bool further)
     double dearest = c->count.time ? 6 : 16, dearest_secular = 6, work = s->climb.r->options.construct * (further ? part : 1);
     bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) && !adds_nothing(s->climb.r, c));
     if (!wanted) return false;
-    size_t degree = further ? c->incomplete_at : c->missing_at;
-    nh_construct_rates rates = nh_construct_rates_of(s->climb.r->model, degree, c->count.time, part * work);
-    manner any = {.further = further, .rates = &rates}, shape = {.further = further, .shape = true}, secular = any;
-    secular.secular = true;
-    work = fmax(work - rates.work, 0);
+    manner any = {.further = further}, shape = {.further = further, .shape = true}, secular = {.further = further, .secular = true};
     return (s->cyclic && construct_up_to(s, c, shape, dearest, work)) || construct_up_to(s, c, any, dearest, work)
         || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }
