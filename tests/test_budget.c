@@ -73,7 +73,7 @@ Test(budget, ends_a_search_at_the_same_place_with_any_threads)
 {
     size_t i = 0;
     for (double work = 20; work < 1000; work *= 4) {
-        if (!sweep_tries(i++, 2, 4)) continue;
+        if (!sweep_tries(i++, 4, 4)) continue;
         nh_analysis *a = search("systems/car_with_trailer.yaml", work, 1e6, 1, 330), *b = search("systems/car_with_trailer.yaml", work, 1e6, 3, 330);
         cr_expect(same(a, b), "%g", work);
         cr_expect(a->partial && a->search == NH_SEARCH_CUT && a->verdict != NH_NONE, "%g", work);
@@ -117,6 +117,7 @@ Test(budget, names_what_brings_a_stage_in)
 
 Test(budget, complete_is_not_exhausted)
 {
+    sweep_plain_only();
     nh_analysis *all = search("systems/free_particle.yaml", 1e4, 1e6, 1, 330);
     cr_expect_eq(all->search, all->independent == all->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED);
     cr_expect_eq(all->independent, all->local_maximum);

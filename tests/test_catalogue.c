@@ -13,7 +13,7 @@ Test(catalogue, finds_what_is_known_and_nothing_false)
     size_t n = list("systems", name);
     cr_assert_geq(n, 1);
     for (size_t i = 0; i < n; free(name[i++])) {
-        if (!sweep_tries(i + 1, 20, 80)) continue;
+        if (!sweep_tries(i + 1, 30, 120)) continue;
         row o = compare_file("systems", name[i], 0, patience);
         cr_expect_eq(o.missing, o.excused, "%s: %s", name[i], o.names);
         cr_expect_eq(o.untrue, 0, "%s: %s", name[i], o.names);
@@ -79,7 +79,7 @@ Test(catalogue, the_multiplier_form_catches_what_is_not_conserved)
     sweep_plain_only();
     nh_error error;
     nh_error_clear(&error);
-    nh_analyze_request q = {.system_path = "systems/rolling_disk.yaml"};
+    nh_analyze_request q = {.system_path = "systems/appell_hamel.yaml"};
     nh_options_default(&q.options);
     nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s", error.what);

@@ -472,6 +472,7 @@ Test(chart, stress_over_what_is_not_there)
 
 Test(chart, stress_as_text_and_json)
 {
+    sweep_plain_only();
     nh_robustness *s = stress_of("systems/isotropic_oscillator.yaml", NULL, 3, 3);
     nh_benchmark *c = compare("systems/isotropic_oscillator.yaml", NULL, 3, 1);
     nh_text text;

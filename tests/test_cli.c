@@ -223,6 +223,7 @@ Test(cli, version_and_help)
 
 Test(cli, explain_knows_its_own_topics)
 {
+    sweep_plain_only();
     place p = place_make();
     finished all = run_expecting(&p, "explain", 0);
     char line[200], word[100];
@@ -304,6 +305,7 @@ Test(cli, list_and_show)
 
 Test(cli, a_system_of_ones_own_in_an_empty_folder)
 {
+    sweep_plain_only();
     static const char *const lines[] = {"analyze mine.yaml", "analyze ./mine.yaml", "analyze sub/mine.yaml", "analyze free"};
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
@@ -350,6 +352,7 @@ Test(cli, nhsym_path_is_searched_in_order)
 /* A folder of NHSYM_PATH without subfolders: files of one name, or of both kinds, do not stand in each other's way. */
 Test(cli, a_folder_may_hold_systems_and_analyses)
 {
+    sweep_plain_only();
     static const char *const path[] = {"NHSYM_PATH=mixed:bare", NULL};
     place p = place_make();
     folder_here(&p, "mixed", 0755);
@@ -430,6 +433,7 @@ static bool coloured(const finished *f) { return strchr(f->out, '\x1b') != NULL;
 
 Test(cli, colours_only_on_a_terminal_that_wants_them)
 {
+    sweep_plain_only();
     static const char *const without[] = {"NO_COLOR=1", "TERM=xterm", NULL}, *const with[] = {"TERM=xterm", NULL};
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);

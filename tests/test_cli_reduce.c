@@ -53,6 +53,7 @@ static const refusal refusals[] = {
 
 Test(cli_reduce, groups_that_will_not_do)
 {
+    sweep_plain_only();
     place p = place_make();
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         const refusal *c = &refusals[i];
@@ -128,6 +129,7 @@ Test(cli_reduce, accuracy_chooses_methods)
 /* A dashpot that stops the relative motion of two masses within 1e-6: what is left when their common motion is divided out is stiff. */
 Test(cli_reduce, accuracy_of_a_stiff_reduced_motion)
 {
+    sweep_plain_only();
     static const char text[] = "name: dashpot\nparameters: [{name: c, value: 500000}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                                "lagrangian: (x'^2 + y'^2)/2 - (x - y)^2/2\nforces: [\"x = -c*(x' - y')\", \"y = c*(x' - y')\"]\n";
     place p = place_make();

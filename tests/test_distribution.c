@@ -217,7 +217,7 @@ static const struct {
 Test(distribution, the_functions_that_constraints_conserve)
 {
     for (size_t i = 0; i < sizeof FUNCTIONS / sizeof *FUNCTIONS; i++) {
-        if (!sweep_tries(i, 2, 8)) continue;
+        if (!sweep_tries(i, 4, 16)) continue;
         nh_error error;
         nh_error_clear(&error);
         nh_analysis *r = analysed(FUNCTIONS[i].text, &error);

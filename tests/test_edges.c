@@ -6,6 +6,7 @@
 
 #include "catalogue.h"
 #include "scratch.h"
+#include "sweep.h"
 
 /* Is a current that is not certified conserved to the digits that are reported? */
 static bool holds(const multiplier_motion *motion, const nh_current *f)
@@ -49,9 +50,10 @@ static row judged(const char *path, const char *analysis, const char *name, doub
 /* nu = 1/k and 1 are both frequencies of the ansatz. */
 Test(edges, frequencies_that_nearly_coincide)
 {
+    sweep_plain_only();
     size_t i = 0;
     for (double d = 1e-2; d > 1e-14; d /= 100) {
-        if (!sweep_tries(i++, 1, 4)) continue;
+        if (!sweep_tries(i++, 2, 4)) continue;
         row o = judged("systems/sleigh.yaml", "analyses/sleigh.yaml", "k", 1 + d);
         cr_expect(o.wrong == 0, "k = 1 + %g: %s", d, o.names);
         cr_expect_geq(o.found, d > 1e-6 ? 3 : 1, "k = 1 + %g", d);
@@ -77,9 +79,10 @@ static void write_clustered(char path[SCRATCH], double r)
 /* All samples in a box of edge r about a point: there every function is nearly a polynomial, and many are nearly conserved. */
 Test(edges, samples_that_lie_close_together)
 {
+    sweep_plain_only();
     size_t i = 0;
     for (double r = 0.1; r > 1e-6; r /= 10) {
-        if (!sweep_tries(i++, 1, 4)) continue;
+        if (!sweep_tries(i++, 2, 4)) continue;
         char path[SCRATCH];
         write_clustered(path, r);
         row o = judged(path, "analyses/sleigh.yaml", NULL, 0);

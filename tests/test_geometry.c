@@ -47,7 +47,7 @@ static void everywhere(check *c)
 {
     for (size_t i = 0; i < SUBJECT_COUNT; i++)
         for (int quasi = 0; quasi <= SUBJECTS[i].chart; quasi++) {
-            if (!sweep_tries(i + (size_t)quasi, 1, 2)) continue;
+            if (!sweep_tries(i + (size_t)quasi, 2, 4)) continue;
             mechanics x = open(&SUBJECTS[i], quasi);
             c(&SUBJECTS[i], &x);
             mechanics_clear(&x);

@@ -52,7 +52,7 @@ static const chain chains[] = {
 Test(joint_fields, give_what_the_jets_count)
 {
     for (size_t i = 0; i < sizeof chains / sizeof *chains; i++) {
-        if (!sweep_tries(i, 1, 5)) continue;
+        if (!sweep_tries(i, 2, 5)) continue;
         nh_error error = {0};
         nh_options options;
         nh_options_default(&options);

@@ -145,7 +145,7 @@ Test(kinks, a_motion_that_is_held_ends)
     for (size_t a = 0; a < nh_method_count(); a++) {
         nh_error error = {0};
         nh_flow_options options = {.rtol = 1e-6, .absolute = 1e-3, .max_steps = 1e6};
-        if (nh_method_at(a)->order || !sweep_tries(a, 1, 4)) continue;
+        if (nh_method_at(a)->order || !sweep_tries(a, 2, 6)) continue;
         nh_motion *motion = nh_method_flow(nh_method_at(a), &problem, z, 3, times, &options, &error);
         must(motion != NULL, &error, nh_method_at(a)->name);
         cr_expect(!motion->complete && strstr(motion->note, "both sides lead back"), "%s: %s", nh_method_at(a)->name, motion->note);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "scratch.h"
+#include "sweep.h"
 
 /* A harmonic oscillator: energy and phase. */
 static const char oscillator[] = "name: spring\n"
@@ -288,6 +289,7 @@ static void *analyse(void *question)
 
 Test(library, two_contexts_work_at_once)
 {
+    sweep_plain_only();
     nh_question question[] = {{.system = "sleigh"}, {.system_text = oscillator}, {.system = "kepler", .options = "threads=2"}};
     enum { count = sizeof question / sizeof *question };
     pthread_t thread[count];
@@ -354,6 +356,7 @@ Test(library, every_document_can_be_had)
 
 Test(library, the_example_compiles_and_prints_the_currents)
 {
+    sweep_plain_only();
     char command[1000], line[2000], path[SCRATCH];
     bool momentum = false, energy = false;
     const char *build = getenv("NHSYM");

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "program.h"
+#include "sweep.h"
 
 /* Words of a line, in which '...' and "..." are one word. */
 static finished run_line(place *p, const char *line)
@@ -35,6 +36,7 @@ static void alike(place *p, const char *a, const char *b)
 
 Test(lists, in_one_piece_or_in_several)
 {
+    sweep_plain_only();
     static const char *const pairs[][2] = {
         {"simulate sleigh --initial omega=2 --until 1 --step 0.5 --set m=3 --set k=3", "simulate sleigh --initial omega=2 --until 1 --step 0.5 --set 'm = 3; k=3'"},
         {"simulate sleigh --initial omega=2,v=1 --until 1 --step 0.5", "simulate sleigh --initial omega=2 --initial ' v = 1 ' --until 1 --step 0.5"},

@@ -88,6 +88,7 @@ Test(named_search, bessel)
 
 Test(named_search, kummer)
 {
+    sweep_plain_only();
     expect_named(ask_text(HEAD("{name: a, value: 1.3}") "lagrangian: x'^2/2 + (t^2/4 + "
                                                         "a)*x^2/2\ndomain: {t: [0.5, 2]}\n"),
                  2, "hyp", 2);
@@ -159,6 +160,7 @@ Test(named_search, equations_without_names, .timeout = 120)
 
 Test(named_search, products_of_named_functions)
 {
+    sweep_plain_only();
     expect_named(ask_text(INVERSE_SQUARE("w*t", "[0.5, 2]")), 2, "airy_", 2);
     expect_named(ask_text(INVERSE_SQUARE("-w*t^2", "[0.5, 1.5]")), 2, "bessel_", 2);
     expect_equation(ask_text(INVERSE_SQUARE("1 + w*cos(t)", "[0, 1]")), 2, "f(t)*(x'^2 + 2*k/x^2) + .., f = u*v with solutions u and v of u'' = (-w*cos(t) - 1)*u");
@@ -167,5 +169,6 @@ Test(named_search, products_of_named_functions)
 /* y'' = -z and z' = t y couple three words and no two of them: an equation of third order that is no symmetric square. */
 Test(named_search, third_order_without_names)
 {
+    sweep_plain_only();
     expect_equation(ask_text("name: test\ncoordinates: [y, z]\nlagrangian: (y'^2 + z'^2)/2 - y*z\nconstraints: [\"z' = t*y\"]\ndomain: {t: [0.5, 1.5]}\n"), 3, "f''' = ");
 }

@@ -133,6 +133,7 @@ Test(oracle, nonlinear_constraint_in_space_with_a_symmetry_of_case_2)
 
 Test(oracle, disk)
 {
+    sweep_plain_only();
     static const char *const key[ORACLE_QUANTITIES] = {"Lbar", "Lbar_a", "Abar", "Bbar", "acc", "ydd", "mu", "eps_prime"};
     static const char *const parameter[] = {"r", "e", "M", "I1", "I3", "g"};
     cJSON *data = oracle_read("tests/data/disk_oracle.json");

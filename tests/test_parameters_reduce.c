@@ -73,6 +73,7 @@ Test(parameters_reduce, constants_of_a_group_are_symbols)
 
 Test(parameters_reduce, brackets_in_words_have_symbols)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "reduce three_bodies");
     cr_expect_not_null(strstr(f.out, "[e_1,e_4] = -(a + b)/a e_2"), "%s", f.out);
@@ -83,6 +84,7 @@ Test(parameters_reduce, brackets_in_words_have_symbols)
 /* The fields of joints: null vectors of conditions with parameters. */
 Test(parameters_reduce, fields_of_joints_have_symbols)
 {
+    sweep_plain_only();
     cJSON *file = answer(helix, ""), *other = answer(helix, "--set h=0.31416 --set l=1.27 --set m=0.9");
     same(at(file, "joints"), at(other, "joints"), "fields of joints");
     cJSON_Delete(file);
@@ -140,6 +142,7 @@ Test(parameters_reduce, a_density_says_for_which_values)
 /* Near a pole of the coordinates 1e-9 of what has to be integrated is lost: at these values the density was not recognised. */
 Test(parameters_reduce, a_density_is_found_for_values_far_apart)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "reduce ball_on_slope --set m=6 --set J=7 --set r=9 --set b=5");
     cr_expect_not_null(strstr(f.out, "density = cos(theta)*cos(psi)\n"), "%s", f.out);
@@ -173,7 +176,7 @@ Test(parameters_reduce, equations_of_a_special_group_say_so)
 static void sample(const char *const *name, size_t n, bool currents)
 {
     for (size_t i = 0; i < n; i++) {
-        if (!sweep_tries(i, 4, 16)) continue;
+        if (!sweep_tries(i, 8, 32)) continue;
         char path[200];
         snprintf(path, sizeof path, "systems/%s.yaml", name[i]);
         parameters_row o = parameters_of(path, currents, !currents, 1);

@@ -149,7 +149,7 @@ static double largest_change(const nh_model *o, nh_ex phi)
 Test(piecewise, currents_are_continuous_along_motions)
 {
     for (size_t i = 0; i < COUNT; i++) {
-        if (!sweep_tries(i, 3, 12)) continue;
+        if (!sweep_tries(i, 6, 18)) continue;
         const piecewise *p = &PIECEWISE[i];
         nh_analysis *r = analysed(p->text);
         row o = {.rate = -INFINITY};
@@ -180,6 +180,7 @@ Test(piecewise, currents_are_continuous_along_motions)
  * motion, and what they conserve is no current.  What is left of L = d/dt (x |x|) and so on is none. */
 Test(piecewise, an_impulse_is_no_passage)
 {
+    sweep_plain_only();
     static const struct {
         const char *text, *region;
     } of[] = {

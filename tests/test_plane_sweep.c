@@ -45,6 +45,7 @@ static const cJSON *degree(const cJSON *root, int d) { return cJSON_GetArrayItem
 /* What determinants of size 31 say (test_plane), by lines. */
 Test(plane_sweep, lines_find_what_determinants_find)
 {
+    sweep_plain_only();
     cJSON *root = classified("henon_heiles.yaml --over B,eps --set A=1 --degree 4 --option plane=20 --option lines=16");
     expect(root, "B", "eps", "eps - 2 = 0@2 1,1/3@2 16,16/3@4");
     cr_expect_eq(key(degree(root, 3), "lines")->valueint, 0);
@@ -56,6 +57,7 @@ Test(plane_sweep, lines_find_what_determinants_find)
 /* What lies beyond the height is not found, and not excluded either. */
 Test(plane_sweep, no_more_is_excluded_than_was_looked_at)
 {
+    sweep_plain_only();
     cJSON *root = classified("henon_heiles.yaml --over B,eps --set A=1 --degree 4 --option plane=20 --option lines=7");
     expect(root, "B", "eps", "eps - 2 = 0@2 1,1/3@2");
     cr_expect_eq(key(degree(root, 4), "excluded_height")->valueint, 7);

@@ -8,15 +8,15 @@
 
 #include "sweep.h"
 
-/* One file of them; `least`: as many tests must pass at least, so that none is lost silently. */
-static void run(const char *file, int least)
+/* All files in one process, which imports NumPy and SymPy once. */
+Test(python, package)
 {
-    char command[300], line[1000], said[20000] = "";
+    enum { least = 45 }; /* so many tests must pass, so that none is lost silently */
+    char line[1000], said[20000] = "";
     int  passed = 0;
     if (SWEEP_SANITIZED) cr_log_warn("skipped: Python loads the library of the plain build");
     sweep_plain_only();
-    snprintf(command, sizeof command, "sh tests/python.sh -m pytest -q -p no:cacheprovider src/python/tests/%s 2>&1", file);
-    FILE *pipe = popen(command, "r");
+    FILE *pipe = popen("sh tests/python.sh -m pytest -q -p no:cacheprovider src/python/tests 2>&1", "r");
     cr_assert(pipe);
     while (fgets(line, sizeof line, pipe)) {
         if (strlen(said) + strlen(line) < sizeof said) strcat(said, line);
@@ -29,14 +29,6 @@ static void run(const char *file, int least)
         cr_log_warn("skipped: %s", said);
         cr_skip_test("no Python");
     }
-    cr_expect(WIFEXITED(status) && WEXITSTATUS(status) == 0, "%s:\n%s", file, said);
-    cr_expect_geq(passed, least, "%s:\n%s", file, said);
+    cr_expect(WIFEXITED(status) && WEXITSTATUS(status) == 0, "%s", said);
+    cr_expect_geq(passed, least, "%s", said);
 }
-
-Test(python, signatures) { run("test_header.py", 3); }
-Test(python, formulas) { run("test_formula.py", 8); }
-Test(python, systems) { run("test_system.py", 8); }
-Test(python, results) { run("test_results.py", 8); }
-Test(python, calls) { run("test_calls.py", 5); }
-Test(python, package) { run("test_package.py", 2); }
-Test(python, notebook) { run("test_notebook.py", 3); }

@@ -124,6 +124,7 @@ Test(reduce_statements, stages_that_do_not_follow_each_other)
 /* Currents that are conserved without a closed form are conserved. */
 Test(reduce_statements, momenta_without_a_closed_form)
 {
+    sweep_plain_only();
     told t = tell_file("systems/euler_disk.yaml", 0, NULL);
     cr_assert_eq(t.r->momenta.count, 0);
     SAYS(TEXT(t), "The 2 of stage 2, linear in the velocities, are conserved; no momentum of the group has a closed form");

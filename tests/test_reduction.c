@@ -107,6 +107,7 @@ static const size_t FIRST[] = {0, 1, 2, 3, 4, 5}, CRANE_FOUR[] = {0, 1, 4, 5};
 
 Test(reduction, equations_on_a_slice_and_reconstruction_agree_with_the_full_motion)
 {
+    sweep_plain_only();
     master_against_full("crane, d = 4", CRANE, NULL, 4, CRANE_FOUR, 2, 1e-10);
     master_against_full("crane, d = 6", CRANE, NULL, 6, FIRST, 2, 1e-10);
     master_against_full("snakeboard", SNAKEBOARD, NULL, 4, FIRST, 0.5, 1e-10);
@@ -318,6 +319,7 @@ static void chaplygin_against_master(const char *name, nh_system *system, const 
 
 Test(reduction, almost_symplectic_equations_agree_with_those_in_the_frame)
 {
+    sweep_plain_only();
     static const size_t cart[] = {0, 1, 4}, ball[] = {0, 1}, particle[] = {1};
     nh_error error = {0};
     chaplygin_against_master("crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, 1e-10);
@@ -557,6 +559,7 @@ static void momenta_of(const char *name, nh_system *system, size_t count, size_t
 
 Test(reduction, conserved_momenta_come_from_constraint_symmetries)
 {
+    sweep_plain_only();
     nh_error error = {0};
     momenta_of("vertical disk", nh_system_read("systems/vertical_disk.yaml", 0, NULL, &error), 2, 0);
     momenta_of("snakeboard", nh_system_parse("snakeboard", SNAKEBOARD, 0, NULL, &error), 1, 1);

@@ -85,7 +85,7 @@ Test(schema, what_analyze_writes_fits)
     cJSON *schema = read_json("docs/schema/analyze.json");
     place p = place_make();
     for (size_t i = 0; i < sizeof LINES / sizeof *LINES; i++) {
-        if (!sweep_tries(i, 2, 11)) continue;
+        if (!sweep_tries(i, 4, 16)) continue;
         char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
         snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
         snprintf(line, sizeof line, "analyze %s --quiet --json r.json", LINES[i]);
@@ -113,6 +113,7 @@ Test(schema, what_analyze_writes_fits)
 
 Test(schema, what_classify_writes_fits)
 {
+    sweep_plain_only();
     static const char *const lines[] = {"classify/henon_heiles.yaml --over eps", "classify/atwood.yaml --over mu --degree 2", "classify/knife.yaml --over b --degree 1 --shape",
                                         "classify/quartic.yaml --over mu,b --degree 2"};
     cJSON *schema = read_json("docs/schema/classification.json");

@@ -4,6 +4,7 @@
 
 #include "motion/method.h"
 #include "program.h"
+#include "sweep.h"
 
 /* A line of words in single quotes for a shell; the program is $N. */
 static finished run_shell(const place *p, const char *line)
@@ -25,6 +26,7 @@ static const char *const oscillator = "name: spring\nparameters: [{name: w, valu
 /* x = cos 2t at t = 3 by every method, as exactly as its order promises. */
 Test(simulate, every_method_has_a_word)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "spring.yaml", oscillator);
     for (size_t i = 0; i < nh_method_count(); i++) {

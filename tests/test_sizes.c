@@ -49,9 +49,10 @@ static bool meant(const nh_analysis *r, const char *words)
 /* Of different frequencies: the energy and the phase of each. */
 Test(sizes, oscillators, .timeout = 600)
 {
+    sweep_plain_only();
     static const size_t sizes[] = {4, 5, 6, 8, 12};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-        if (!sweep_tries(s, 1, 16)) continue;
+        if (!sweep_tries(s, 2, 16)) continue;
         nh_text text;
         coordinates(&text, sizes[s], "x");
         for (size_t i = 1; i <= sizes[s]; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
@@ -70,6 +71,7 @@ static size_t many(void) { return sweep_whole() ? 40 : SWEEP_SANITIZED ? 6 : 16;
 /* In blocks of two each, and what is said about each takes no more than it has to: half of what may be computed is enough for all. */
 Test(sizes, many_oscillators, .timeout = 600)
 {
+    sweep_plain_only();
     size_t n = many();
     nh_text text;
     coordinates(&text, n, "x");
@@ -96,7 +98,7 @@ Test(sizes, chains, .timeout = 600)
     sweep_plain_only();
     static const size_t sizes[] = {6, 8, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-        if (!sweep_tries(s, 1, 16)) continue;
+        if (!sweep_tries(s, 2, 16)) continue;
         nh_text text;
         chain(&text, sizes[s], false);
         nh_analysis *r = search(&text, 0);

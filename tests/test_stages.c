@@ -12,6 +12,7 @@
 #include "reduction/poincare.h"
 #include "reduction/subspace.h"
 #include "system/sample.h"
+#include "sweep.h"
 
 /* ---- six chains of normal subgroups, three inner products each, as `reduce --equations` prints them ---- */
 
@@ -190,6 +191,7 @@ static void shown_rates(shown_chain *x, const double *eta, const double *beta, d
 
 Test(stages, reference_values_as_printed)
 {
+    sweep_plain_only();
     cJSON *data = oracle_read("tests/data/stages_oracle.json");
     tally constants = {.what = "constants"}, bracket = {.what = "bracket"}, rates = {.what = "beta'"};
     double misprint = 0;

@@ -105,6 +105,7 @@ Test(statements, projectable_is_said_alike)
 /* Semiholonomic is a property of linear and affine constraints: of nonlinear ones nothing is said. */
 Test(statements, semiholonomic_is_for_constraints_that_it_is_defined_for)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     reports r = analyze(&p, "constant_speed");
     cr_expect(cJSON_IsNull(item(item(r.json, "constraint"), "semiholonomic")), "%s", cJSON_Print(item(r.json, "constraint")));
@@ -124,7 +125,7 @@ Test(statements, the_constraints_are_named_alike)
     static const char *const systems[] = {"appell_hamel", "skate_on_belt", "sleigh", "bead_on_turning_wire"};
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof systems / sizeof *systems; s++) {
-        if (!sweep_tries(s + 1, 1, 4)) continue;
+        if (!sweep_tries(s + 1, 2, 4)) continue;
         reports r = analyze(&p, systems[s]);
         const cJSON *c = item(r.json, "constraint");
         const char *type = item(c, "type")->valuestring;
@@ -161,10 +162,11 @@ Test(statements, a_drift_of_zero_is_zero)
 /* Every component and every i_[Gamma,Z] phi^a of the text is in the document and on the page. */
 Test(statements, a_field_is_complete_in_every_report)
 {
+    sweep_plain_only();
     static const char *const systems[] = {"sleigh", "constant_speed", "skate_on_belt", "relativistic_particle", "appell_hamel"};
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof systems / sizeof *systems; s++) {
-        if (!sweep_tries(s + 3, 1, 5)) continue;
+        if (!sweep_tries(s + 3, 2, 5)) continue;
         reports r = analyze(&p, systems[s]);
         size_t along = occurrences(r.text, "d/d"), components = occurrences(r.text, "\n  Z_"), forms = occurrences(r.text, "\n  i_[Gamma,Z] phi^");
         cr_assert_gt(along + components, 0u);

@@ -83,6 +83,7 @@ Test(stress, a_plane_on_the_page)
 
 Test(stress, a_map_that_the_file_names)
 {
+    sweep_plain_only();
     nh_robustness *s = map_over("systems/suslov.yaml", "inertia ratios up to 1e6", 0);
     cr_assert(s->maps == 1 && s->map[0].cells == 125 && !strcmp(s->map[0].axis, "A") && !strcmp(s->map[0].second_axis, "C"));
     cr_expect(s->count[NH_UNDETECTED] == 0 && s->count[NH_ACCURATE] + s->count[NH_FLAGGED] > 100, "%zu right", s->count[NH_ACCURATE]);
@@ -103,7 +104,7 @@ Test(stress, every_named_map_can_be_read)
             nh_system *system = nh_system_read(path, 0, NULL, &error);
             must(system != NULL, &error, path);
             for (size_t i = 0; i < system->robustness_maps; i++, named++) /* a name that does not fit fails here */
-                if (sweep_tries(named, 3, 10)) nh_robustness_free(map_within(path, system->robustness_map[i].name, 0, 1e-3));
+                if (sweep_tries(named, 6, 20)) nh_robustness_free(map_within(path, system->robustness_map[i].name, 0, 1e-3));
             nh_system_free(system);
         }
     }

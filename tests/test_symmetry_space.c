@@ -212,6 +212,7 @@ static size_t verified(place *p, const cJSON *root, const char *section, const c
 
 Test(symmetry_space, of_the_sleigh_only_functions_of_the_energy_have_their_brackets_in_the_distribution)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "analyze sleigh --set k=3 --equations --json=r.json");
     cr_assert_eq(f.code, 0, "%s", f.err);
@@ -249,6 +250,7 @@ Test(symmetry_space, roots_of_numbers)
     sweep_plain_only();
     static const char *const root_of[] = {"2", "3", "5", "7", "10", "13"};
     for (size_t i = 0; i < sizeof root_of / sizeof *root_of; i++) {
+        if (!sweep_tries(i, 2, 6)) continue;
         char text[700];
         place p = place_make();
         snprintf(text, sizeof text, "name: rooted\nparameters: [{name: m, value: 1.2}, {name: J, value: 0.4}]\ncoordinates: [{name: f, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
@@ -319,6 +321,7 @@ static void point_symmetries(const char *text, double points, double dynamical)
 /* Lie's numbers for equations of second order: 8, 3, 2. */
 Test(symmetry_space, point_symmetries_of_one_equation)
 {
+    sweep_plain_only();
     point_symmetries(LINE("x'^2/2"), 8, 0);
     point_symmetries(LINE("x'^2/2 - k/x^2"), 3, 0);
     point_symmetries(LINE("x'^2/2 - k*x^4"), 2, 0);

@@ -101,9 +101,10 @@ static const char *const SYSTEMS[] = {"sleigh", "euler_disk --option work=900", 
 /* \nhnumber{all digits}{as shown}: the JSON has it to the last digit, and what is shown is it, rounded. */
 Test(tex, every_number_is_in_the_json)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
-        if (!sweep_tries(s, 3, 8)) continue;
+        if (!sweep_tries(s, 5, 10)) continue;
         char line[200];
         snprintf(line, sizeof line, "analyze %s --quiet --tex a.tex --json a.json", SYSTEMS[s]);
         finished f = run(&p, line);
@@ -195,7 +196,7 @@ Test(tex, reductions_are_documents)
     sweep_plain_only();
     place p = place_with_systems();
     for (size_t i = 0; i < sizeof REDUCED / sizeof *REDUCED; i++) {
-        if (!sweep_tries(i, 2, 5)) continue;
+        if (!sweep_tries(i, 3, 6)) continue;
         char line[200];
         snprintf(line, sizeof line, "reduce %s --equations --quiet --tex r.tex --json r.json", REDUCED[i]);
         finished f = run_expecting(&p, line, 0);

@@ -192,6 +192,7 @@ static const char PHI2[] = "m*x'/cos(phi)*sin(phi/k) + m*a*k*phi'*cos(phi/k)";
 
 Test(theory, sleigh_as_printed_is_the_tabulated_one)
 {
+    sweep_plain_only();
     cJSON *data = oracle_read("tests/data/sleigh_oracle.json");
     const cJSON *set;
     cJSON_ArrayForEach(set, oracle_get(data, "sets")) {
@@ -433,6 +434,7 @@ static void check_determining(const char *path, const char *current)
 
 Test(theory, determining_equations_as_printed_hold_for_symmetries_and_for_no_other_field)
 {
+    sweep_plain_only();
     check_determining("systems/sleigh.yaml", PHI2);
     check_determining("systems/appell_hamel.yaml", "(x*y' - x'*y)/sqrt(x'^2 + y'^2)");
     check_determining("systems/nonholonomic_particle.yaml", "y - t*y'");

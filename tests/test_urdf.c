@@ -160,6 +160,7 @@ static size_t allowed(const rolling *x, const rolling_robot *given, const double
 
 Test(urdf, energies_and_equations_are_those_of_an_independent_computation)
 {
+    sweep_plain_only();
     static const size_t freedom[robot_count] = {4, 2, 2};
     for (size_t i = 0; i < robot_count; i++) {
         rolling x;
