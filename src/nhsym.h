@@ -109,6 +109,8 @@ typedef struct nh_benchmark    nh_benchmark;    /* integrators compared on one m
 
 NH_API nh_analysis     *nh_analyze(nh_problem *problem, nh_error *error);
 NH_API nh_simulation   *nh_simulate(nh_problem *problem, nh_error *error);
+/* The same with zeros of expressions along the motion, as --event and --section take them; both may be NULL: "y = 0, falling, stop; x' - 1", "x, rising".  They stand in its JSON. */
+NH_API nh_simulation *nh_simulate_zeros(nh_problem *problem, const char *events, const char *section, nh_error *error);
 NH_API nh_reduction    *nh_reduce(nh_problem *problem, nh_error *error);
 NH_API nh_verification *nh_verify_current(nh_problem *problem, const char *current, nh_error *error); /* "m*v" */
 NH_API nh_verification *nh_verify_field(nh_problem *problem, const char *field, nh_error *error);     /* "Z0=1; phi=phi'; x=x'" */

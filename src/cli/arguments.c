@@ -10,7 +10,7 @@
 #include "problem/input.h"
 
 enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_pdf, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_max_memory, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
-       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base, opt_on,
+       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base, opt_on, opt_event, opt_section, opt_axes,
 #define X(name, form, writer) opt_##name,
        NH_PEN_FORM_TABLE(X)
 #undef X
@@ -47,7 +47,11 @@ static bool assignment(nh_cli *cli, const char *text, const char *option, char *
     return true;
 }
 
-/* A list may stand in one option, or in several. */
+/* A list may stand in one option, or in several: with semicolons or commas between. */
+static const char *also(nh_cli *cli, const char *before, const char *more)
+{
+    return before ? nh_arena_printf(cli->arena, "%s; %s", before, more) : more;
+}
 static const char *joined(nh_cli *cli, const char *before, const char *more) { return before ? nh_arena_printf(cli->arena, "%s, %s", before, more) : more; }
 
 /* Every entry of a list, without the blanks around it. */
@@ -311,6 +315,9 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_base: cli->base = value; return true;
     case opt_name: cli->name = value; return true;
     case opt_watch: cli->watch = joined(cli, cli->watch, value); return true;
+    case opt_event: cli->event = also(cli, cli->event, value); return true;
+    case opt_section: cli->section = value; return true;
+    case opt_axes: cli->axes = value; return true;
     case opt_svg: cli->svg = value; return true;
     case opt_pdf: cli->pdf = value; return true;
     case opt_budget: return seconds(value, &cli->budget, error);
@@ -326,8 +333,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_shape: return cli->shape = true;
     case opt_scene: return cli->scene = true;
     case opt_equations: return cli->equations = true;
-    case opt_chain: cli->chain = cli->chain ? nh_arena_printf(cli->arena, "%s; %s", cli->chain, value) : value; return true;
-    case opt_inner: cli->inner = cli->inner ? nh_arena_printf(cli->arena, "%s; %s", cli->inner, value) : value; return true;
+    case opt_chain: cli->chain = also(cli, cli->chain, value); return true;
+    case opt_inner: cli->inner = also(cli, cli->inner, value); return true;
     case opt_group: cli->group = joined(cli, cli->group, value); return true;
     case opt_current: cli->current = value; return true;
     case opt_field: cli->field = joined(cli, cli->field, value); return true;

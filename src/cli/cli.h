@@ -45,7 +45,7 @@ typedef struct {
     const char *group, *chain, *inner, *to; /* of reduce; `to` of export, too */
     const char *input, *name;  /* of export */
     bool project, weak;
-    const char *watch;           /* of simulate */
+    const char *watch, *event, *section, *axes; /* of simulate */
     const char *over;            /* of benchmark and classify: every --over, with commas */
     size_t wheels;
     const char **wheel, *base;   /* --wheel, each; --base */

@@ -119,6 +119,9 @@ static const struct {
     {"over", "simulate benchmark", "parameters,coordinates,velocities", ""},
     {"over", "classify scan", "parameters", ""},
     {"watch", "", "coordinates,velocities", ""},
+    {"event", "", "coordinates,velocities", ""},
+    {"section", "", "coordinates,velocities", ""},
+    {"axes", "", "coordinates,velocities", ""},
     {"current", "", "parameters,coordinates,velocities", ""},
     {"field", "", "coordinates", "="},
 };

@@ -13,8 +13,25 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
         return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
-    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .method = cli->method, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project, .draw = cli->html || cli->tex,
-                               .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
+    *q = (nh_simulate_request){.settings = cli->settings,
+                               .setting = cli->setting,
+                               .chart = cli->velocities,
+                               .initial = cli->initial,
+                               .step = cli->step,
+                               .watch = cli->watch,
+                               .event = cli->event,
+                               .section = cli->section,
+                               .axes = cli->axes,
+                               .scene = cli->scene,
+                               .method = cli->method,
+                               .accuracy = cli->accuracy,
+                               .ensemble = cli->ensemble,
+                               .spread = cli->spread > 0 ? cli->spread : 0.1,
+                               .project = cli->project,
+                               .draw = cli->html || cli->tex,
+                               .until_given = cli->until_given,
+                               .tolerance_given = cli->tolerance_given,
+                               .options = cli->options};
     q->system_path = nh_cli_system(cli, name, error);
     if (!q->system_path) return false;
     if (cli->analysis) return (q->analysis_path = nh_places_find(cli->arena, "analyses", cli->analysis, error)) != NULL;
@@ -32,13 +49,46 @@ static void put_scene(const nh_simulation *s)
                 1e3 * s->whole_seconds, s->whole_evaluations, s->whole_difference);
 }
 
+/* What happened when, the first few of it. */
+static void put_events(const nh_simulation *s)
+{
+    enum { most = 20 };
+    size_t shown = 0, all = s->motion->events - (s->has_section ? nh_events_of(s, s->events - 1) : 0);
+    for (size_t i = 0; i < s->motion->events && shown < most; i++) {
+        const nh_event_found *found = &s->motion->event[i];
+        if (s->event[found->which].section) continue;
+        bool end = s->motion->stopped && i + 1 == s->motion->events;
+        fprintf(stderr, "nhsym: %s at t = %.15g, %s%s\n", s->event[found->which].name, found->time,
+                nh_direction_word(found->direction), end ? ": the motion ends" : "");
+        shown++;
+    }
+    if (shown < all) fprintf(stderr, "nhsym: and %zu more; --json and -o write all of them\n", all - shown);
+    for (size_t i = 0; i < s->events; i++)
+        if (!nh_events_of(s, i))
+            fprintf(stderr, "nhsym: %s has no zero along this motion (%s)\n", s->event[i].name,
+                    nh_direction_word(s->event[i].event.direction));
+}
+
 static void put_notes(const nh_cli *cli, const nh_simulation *s)
 {
     if (s->begin) fprintf(stderr, "nhsym: no initial state is given: --initial \"%s\"\n", s->begin);
     if (s->scene && (cli->watch || cli->scene)) put_scene(s);
     if (cli->verbose && s->trajectory) fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation, s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
+    if (s->events) put_events(s);
+    if (s->motion && s->motion->complete && s->motion->note[0]) fprintf(stderr, "nhsym: %s\n", s->motion->note);
     if (s->held) fprintf(stderr, "nhsym: %s\n", s->why);
     if (s->ensemble && s->ensemble->alone && !s->checked) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
+}
+
+/* Events and section as files of the folder. */
+static bool put_zeros(nh_cli *cli, const nh_simulation *s, nh_error *error)
+{
+    nh_text text;
+    nh_text_init(&text);
+    if (s->events > s->has_section) nh_events_csv(s, &text);
+    if (text.length && !nh_cli_write(cli, nh_cli_in_folder(cli, "events.csv"), &text, error)) return false;
+    if (s->has_section) nh_section_csv(s, &text);
+    return !text.length || nh_cli_write(cli, nh_cli_in_folder(cli, "section.csv"), &text, error);
 }
 
 /* The table, and with it the notes on standard error: --quiet leaves them out, and the table as well where a file holds the result. */
@@ -48,9 +98,11 @@ static bool put_table(nh_cli *cli, const nh_simulation *s, nh_error *error)
     nh_text text;
     nh_text_init(&text);
     if (s->ensemble) nh_ensemble_csv(s, &text);
+    else if (s->has_section && !cli->folder) nh_section_csv(s, &text);
     else nh_motion_csv(s, &text);
     if (cli->folder && !nh_cli_write(cli, nh_cli_in_folder(cli, "motion.csv"), &text, error)) return false;
     if (!cli->folder) fputs(nh_text_string(&text), stdout), nh_text_clear(&text);
+    if (cli->folder && !put_zeros(cli, s, error)) return false;
     if (!cli->quiet) put_notes(cli, s);
     return true;
 }
@@ -67,10 +119,21 @@ static void complain(const nh_simulation *s, nh_error *error)
     if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->why : s->motion->note);
 }
 
+/* The sections of all motions in one picture. */
+static bool put_section_picture(nh_cli *cli, const nh_section_plot *section, nh_error *error)
+{
+    nh_text picture;
+    nh_plot plot = nh_section_plot_of(section);
+    nh_text_init(&picture);
+    nh_svg_plot(&plot, &picture);
+    return nh_cli_write_picture(cli, &picture, error);
+}
+
 /* The motions of a table one by one, as a table or as JSON. */
 static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_simulate_rows *rows, nh_error *error)
 {
     nh_text text;
+    nh_section_plot section = {0};
     nh_json *root = cli->json ? nh_members_json() : NULL;
     bool good = true;
     nh_text_init(&text);
@@ -85,6 +148,7 @@ static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_
         if (row->initial) q.initial = row->initial, q.from = row->from;
         nh_simulation *s = nh_simulation_create(&q, error);
         good = s != NULL;
+        if (good && q.section) nh_section_plot_add(&section, s);
         if (good && root) nh_member_json(s, row, root);
         if (good && !root) nh_member_csv(s, i, row, &text);
         if (good) complain(s, error);
@@ -95,6 +159,8 @@ static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_
     if (nh_cli_delivers(cli)) fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
     if (root) good = nh_cli_write_json(cli, nh_json_finish(root), error) && good;
+    if (good && (cli->svg || cli->pdf)) good = put_section_picture(cli, &section, error);
+    nh_section_plot_clear(&section);
     good = nh_cli_written(cli, good, error);
     return good && nh_interrupted() ? (int)nh_ended_code() : (int)error->code;
 }
@@ -141,14 +207,21 @@ static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows
     }
     if (cli->overs && !write_combinations(cli, error)) return *code = (int)error->code, false;
     const char *document = nh_cli_wants_document(cli);
-    const char *other = cli->ensemble ? "ensemble" : cli->folder ? "output" : document ? document : cli->svg ? "svg" : cli->pdf ? "pdf" : NULL;
+    const char *other = cli->ensemble  ? "ensemble"
+                        : cli->folder  ? "output"
+                        : document     ? document
+                        : cli->section ? NULL
+                        : cli->svg     ? "svg"
+                        : cli->pdf     ? "pdf"
+                                       : NULL;
     bool good = !other;
     if (!good) {
         nh_fail(error, NH_USAGE, "", "--%s, and --%s as well", option, other);
         nh_error_hint(error, "several motions are one table, or JSON");
     }
     good = good && nh_simulate_rows_read(cli->arena, q, cli->table, rows, error);
-    if (good && (rows->parameters || q->method || rows->count == 1)) return *code = one_by_one(cli, q, rows, error), false;
+    if (good && (rows->parameters || q->method || q->event || q->section || rows->count == 1))
+        return *code = one_by_one(cli, q, rows, error), false;
     if (!good) return *code = (int)error->code, false;
     q->ensemble = rows->count;
     q->table = rows;

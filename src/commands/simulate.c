@@ -180,6 +180,9 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     for (size_t k = 0; k < s->columns.count; k++) by_terms[k] = s->columns.track[k].kind == NH_TRACK_CURRENT || s->columns.track[k].kind == NH_TRACK_ENERGY;
     nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns.count, .e = e, .by_terms = by_terms,
                                      .smallest = q->watch || q->scene, .project = q->project};
+    nh_event *event = nh_arena_alloc(s->arena, (s->events + 1) * sizeof *event);
+    for (size_t i = 0; i < s->events; i++) event[i] = s->event[i].event;
+    request.events = s->events, request.event = event;
     nh_ex *known;
     if (!use_method(s, q, times, &request, error)) return false;
     if (request.smallest) request.currents = known_currents(s, &known), request.current = known;
@@ -198,7 +201,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     if (!s->trajectory->scene) return true;
     s->scene = nh_simulate_words(s, s->trajectory->scene, nh_closed_subsystem_words);
     s->idle = nh_simulate_words(s, s->trajectory->scene, nh_closed_subsystem_idle_words);
-    if (!s->checked) compare_with_whole(s, &request);
+    if (!s->checked && !s->events) compare_with_whole(s, &request);
     return true;
 }
 
@@ -243,7 +246,9 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
     s->arena = arena;
     if (nh_simulate_read(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
     if (times) s->astray = words_astray(s, &initial);
-    if (times && choose_columns(s, q, error) && integrate(s, q, &initial, count, times, error)) return s;
+    if (times && choose_columns(s, q, error) && nh_simulate_events(s, q, error) &&
+        integrate(s, q, &initial, count, times, error))
+        return s;
     nh_simulation_free(s);
     return NULL;
 }

@@ -19,6 +19,13 @@ typedef struct {
     nh_simulate_row *row;
 } nh_simulate_rows;
 
+/* An expression whose zeros along the motion are recorded, or end it. */
+typedef struct {
+    const char *name; /* as it was typed, without the words behind it */
+    bool section;     /* of --section: the last one */
+    nh_event event;
+} nh_simulated_event;
+
 typedef struct {
     const char *system_path, *analysis_path; /* analysis may be NULL: its initial state, time and watched quantities are used */
     size_t settings;
@@ -27,6 +34,9 @@ typedef struct {
     const char *initial;                     /* "phi=0, omega=2", or NULL: that of the analysis file, else a state on the constraints */
     const char *from;                        /* where that is written, for messages; NULL: --initial */
     const char *watch;                       /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
+    const char *event;   /* "y = 0, falling, stop; phi'": zeros that are recorded, or end the motion; or NULL */
+    const char *section; /* "x, rising": a Poincare section; or NULL */
+    const char *axes;    /* "y, y'": the columns of its picture; NULL: chosen */
     bool scene;                              /* the same with what the analysis file watches */
     bool draw;                               /* follow what is drawn, too (one motion with all columns) */
     bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
@@ -53,6 +63,10 @@ struct nh_simulation {
     double scene_seconds, whole_seconds, whole_difference; /* the least times of both, and how far what is watched is off, relative to its size along the motion */
     long whole_evaluations;
     nh_observables columns;    /* with the drawing only where it was asked for, at the end */
+    size_t events;             /* those of --event, then that of --section */
+    nh_simulated_event *event;
+    bool has_section;
+    size_t axis[2];       /* columns of the section's picture */
     nh_motion *motion;    /* its states are those of the scene, where there is one */
     double *value;        /* motion->count x columns.count, row by row */
     nh_programs *programs; /* of a method with fixed steps */

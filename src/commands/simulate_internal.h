@@ -7,6 +7,9 @@
 /* What `write` says of a scene, in the simulation's memory. */
 const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene, void (*write)(const nh_closed_subsystem *scene, nh_text *out));
 
+/* --event, --section and --axes, after the columns. */
+bool nh_simulate_events(nh_simulation *s, const nh_simulate_request *request, nh_error *error);
+
 /* An ensemble instead of the one motion that `motion` asks for. */
 bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *request, const nh_trajectory_request *motion, nh_error *error);
 

@@ -52,8 +52,23 @@ static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, con
     return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "it has %s", names_of(arena, names, n));
 }
 
+/* What the request's initial state says of names that the table has no column for. */
+static void keep_given(const char *given, size_t columns, const char *const *name, nh_text *words)
+{
+    for (const char *at = given; at && *at; at += *at == ',') {
+        size_t length = nh_text_entry(at, ","), blank = strspn(at, " "), end = strcspn(at, "= ,");
+        if (blank) end = blank + strcspn(at + blank, "= ,");
+        bool taken = end <= blank;
+        for (size_t j = 0; j < columns; j++)
+            taken |= strlen(name[j]) == end - blank && !strncmp(name[j], at + blank, end - blank);
+        if (!taken) nh_text_addf(words, "%s%.*s", words->length ? ", " : "", (int)(length - blank), at + blank);
+        at += length;
+    }
+}
+
 /* The row as words behind --initial and as settings, after those of the request. */
-static bool read_row(nh_arena *arena, const nh_table *t, size_t row, const char *const *name, const column_kind *kind, nh_simulate_row *out, nh_error *error)
+static bool read_row(nh_arena *arena, const char *given, const nh_table *t, size_t row, const char *const *name,
+                     const column_kind *kind, nh_simulate_row *out, nh_error *error)
 {
     nh_text words;
     nh_text_init(&words);
@@ -68,6 +83,7 @@ static bool read_row(nh_arena *arena, const nh_table *t, size_t row, const char 
         p->name = name[j];
         good = nh_table_number(arena, t, row, j, &p->value, error);
     }
+    if (words.length) keep_given(given, t->columns, name, &words);
     out->initial = words.length ? nh_arena_strdup(arena, nh_text_string(&words)) : NULL;
     nh_text_clear(&words);
     return good;
@@ -89,7 +105,8 @@ bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *q, const 
         if (kind[j] == COLUMN_STATE) good = is_state(arena, t, s, name[j], error);
     }
     nh_system_free(s);
-    for (; out->count < t->rows && good; out->count++) good = read_row(arena, t, out->count, name, kind, &out->row[out->count], error);
+    for (; out->count < t->rows && good; out->count++)
+        good = read_row(arena, q->initial, t, out->count, name, kind, &out->row[out->count], error);
     return good;
 }
 

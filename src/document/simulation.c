@@ -87,6 +87,36 @@ static void put_rows(const nh_simulation *s, const char *first, nh_text *out)
     }
 }
 
+/* Of the zeros number `which`, or of all with their names in front. */
+static void put_events(const nh_simulation *s, const char *first, bool all, size_t which, nh_text *out)
+{
+    size_t shown = shown_of(s);
+    for (size_t i = 0; i < s->motion->events; i++) {
+        const nh_event_found *e = &s->motion->event[i];
+        if (all ? s->event[e->which].section : e->which != which) continue;
+        nh_text_add(out, first);
+        if (all) nh_text_addf(out, "\"%s\",%s,", s->event[e->which].name, nh_direction_word(e->direction));
+        put(out, e->time);
+        for (size_t k = 0; k < shown; k++) {
+            nh_text_add(out, ",");
+            put(out, s->trajectory->event_value[i * s->columns.count + k]);
+        }
+        nh_text_add(out, "\n");
+    }
+}
+
+void nh_events_csv(const nh_simulation *s, nh_text *out)
+{
+    put_names(s, "event,direction,t", shown_of(s), out);
+    put_events(s, "", true, 0, out);
+}
+
+void nh_section_csv(const nh_simulation *s, nh_text *out)
+{
+    put_names(s, "t", shown_of(s), out);
+    put_events(s, "", false, s->events - 1, out);
+}
+
 void nh_motion_csv(const nh_simulation *s, nh_text *out)
 {
     put_names(s, "t", shown_of(s), out);
@@ -104,7 +134,8 @@ void nh_member_csv(const nh_simulation *s, size_t member, const nh_simulate_row 
     nh_text_clear(&first);
     nh_text_addf(&first, "%zu,", member);
     for (size_t i = 0; i < row->settings; i++) put(&first, row->setting[i].value), nh_text_add(&first, ",");
-    put_rows(s, nh_text_string(&first), out);
+    if (s->has_section) put_events(s, nh_text_string(&first), false, s->events - 1, out);
+    else put_rows(s, nh_text_string(&first), out);
     nh_text_clear(&first);
 }
 
@@ -198,6 +229,36 @@ char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
     return nh_json_finish(root);
 }
 
+/* One expression and where it is zero: times, directions and the columns there. */
+static void put_zeros(const nh_simulation *s, size_t which, nh_json *item)
+{
+    const nh_simulated_event *event = &s->event[which];
+    size_t n = nh_events_of(s, which), count = s->columns.count, at = 0;
+    nh_json_put_text(item, "of", event->name);
+    nh_json_put_text(item, "direction", nh_direction_word(event->event.direction));
+    if (!event->section) nh_json_put_bool(item, "stop", event->event.stop);
+    double *time = nh_alloc_array((2 + count) * n + 1, sizeof *time), *rising = time + n, *value = rising + n;
+    for (size_t i = 0; i < s->motion->events; i++) {
+        if (s->motion->event[i].which != which) continue;
+        time[at] = s->motion->event[i].time;
+        rising[at] = s->motion->event[i].direction;
+        memcpy(value + at++ * count, s->trajectory->event_value + i * count, count * sizeof *value);
+    }
+    nh_json_put_numbers(item, "time", n, time, 1);
+    nh_json_put_numbers(item, "sign", n, rising, 1);
+    nh_json *values = nh_json_put_object(item, "values");
+    for (size_t k = 0; k < shown_of(s); k++) nh_json_put_numbers(values, s->columns.track[k].name, n, value + k, count);
+    nh_free(time);
+}
+
+static void put_all_zeros(const nh_simulation *s, nh_json *root)
+{
+    if (!s->events) return;
+    nh_json *list = s->event[0].section ? NULL : nh_json_put_array(root, "events");
+    for (size_t i = 0; i < s->events; i++)
+        put_zeros(s, i, s->event[i].section ? nh_json_put_object(root, "section") : nh_json_add_object(list));
+}
+
 static void put_motion(const nh_simulation *s, nh_json *root)
 {
     static const char *const groups[] = {"states", "currents", "multipliers", "energies", "watch"};
@@ -219,6 +280,7 @@ static void put_motion(const nh_simulation *s, nh_json *root)
     for (int kind = NH_TRACK_STATE; kind <= NH_TRACK_WATCH; kind++) nh_time_series_json(c, root, groups[kind], (nh_track_kind)kind);
     if (c->shapes) nh_time_series_json_drawing(c, root);
     nh_time_series_free(c);
+    put_all_zeros(s, root);
     nh_json *stats = nh_json_put_object(root, "stats");
     nh_json_put_number(stats, "evaluations", (double)s->motion->evaluations);
     nh_json_put_number(stats, "steps", (double)s->motion->steps);

@@ -19,6 +19,25 @@ void nh_accuracy_json(const nh_accuracy *a, nh_json *root);
 /* A picture: what is watched, or the coordinates, over time; of an ensemble one quantity of all members. */
 void nh_motion_svg(const nh_simulation *simulation, nh_text *out);
 
+/* Events of --event as a table: event, direction, t and the columns of the motion; points of --section: t and these columns. */
+void nh_events_csv(const nh_simulation *simulation, nh_text *out);
+void nh_section_csv(const nh_simulation *simulation, nh_text *out);
+/* "rising", "falling" or "both"; and how often expression number `which` was zero. */
+const char *nh_direction_word(int direction);
+size_t nh_events_of(const nh_simulation *simulation, size_t which);
+/* Both on a page. */
+void nh_events_write(nh_pen *pen, const nh_simulation *simulation);
+
+/* The points of the sections of several motions, in two of their columns.  Zeros are an empty one. */
+typedef struct {
+    size_t members;
+    nh_curve *curve;
+    char title[300], x_label[100], y_label[100];
+} nh_section_plot;
+void nh_section_plot_add(nh_section_plot *plot, const nh_simulation *simulation);
+nh_plot nh_section_plot_of(const nh_section_plot *plot);
+void nh_section_plot_clear(nh_section_plot *plot);
+
 /* The same of an ensemble: a column `member` in front; a list of objects. */
 void nh_ensemble_csv(const nh_simulation *simulation, nh_text *out);
 char *nh_ensemble_json(const nh_simulation *simulation, const nh_run *run);

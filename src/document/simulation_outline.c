@@ -15,7 +15,10 @@ static void answer(nh_pen *p, const nh_simulation *s)
     nh_pen_open(p, NH_PEN_ANSWER, complete && !(s->checked && !s->held) ? "found" : "undecided", NULL);
     if (e) nh_pen_say(p, "%zu motions", e->members);
     else nh_pen_say(p, "A motion");
-    nh_pen_say(p, " from t = %.6g to %.6g%s.", time[0], time[count - 1], complete ? "" : e ? "; not all members reach the end" : ", where it ended early");
+    nh_pen_say(p, " from t = %.6g to %.6g%s.", time[0], time[count - 1],
+               complete ? e || !s->motion->stopped ? "" : ", where an event ends it"
+               : e      ? "; not all members reach the end"
+                        : ", where it ended early");
     nh_pen_close(p, NH_PEN_ANSWER);
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     nh_pen_say(p, "%s in {%s}", s->method, s->formulation);
@@ -59,11 +62,14 @@ void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_style
     nh_time_series *c = e ? NULL : nh_time_series_of_simulation(s);
     nh_pen_begin(p, style, &subject, e ? "many motions" : "a motion", out);
     answer(p, s);
-    p->ink->links(p->to, "motion|Motion|system|System|repeat|Repeat it");
+    p->ink->links(p->to, !s->events       ? "motion|Motion|system|System|repeat|Repeat it"
+                         : s->has_section ? "motion|Motion|events|Section|system|System|repeat|Repeat it"
+                                          : "motion|Motion|events|Events|system|System|repeat|Repeat it");
     if (note[0]) nh_pen_warning(p, note);
     nh_pen_section(p, "motion", "Motion");
     if (c) p->ink->series(p->to, c);
     else fans(p, s);
+    nh_events_write(p, s);
     nh_pen_words(p, "%.10g evaluations of the equations, %.3g seconds of integration.", (double)(e ? e->evaluations : s->motion->evaluations),
                  e ? e->seconds : s->motion->seconds);
     nh_pen_system(p, s->model, NULL);

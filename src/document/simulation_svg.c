@@ -31,6 +31,14 @@ static size_t curves_of_members(const nh_simulation *s, nh_curve curve[most_memb
 void nh_motion_svg(const nh_simulation *s, nh_text *out)
 {
     nh_curve curve[most_members];
+    if (s->has_section) {
+        nh_section_plot section = {0};
+        nh_section_plot_add(&section, s);
+        nh_plot picture = nh_section_plot_of(&section);
+        nh_svg_plot(&picture, out);
+        nh_section_plot_clear(&section);
+        return;
+    }
     size_t n = s->ensemble ? curves_of_members(s, curve) : curves_of_motion(s, curve);
     char title[200];
     snprintf(title, sizeof title, "%.150s over time", s->system->title);

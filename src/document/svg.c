@@ -217,7 +217,10 @@ static bool visible(const canvas *c, const nh_curve *f, size_t i, double *x, dou
 static void dots(const canvas *c, const nh_curve *f, size_t k)
 {
     double x, y;
-    for (size_t i = 0; i < f->count; i++)
+    for (size_t i = 0; i < f->count && c->plot->fan; i++)
+        if (visible(c, f, i, &x, &y))
+            nh_text_addf(c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"1.1\" fill=\"%s\"/>", x, y, colour[k % colours]);
+    for (size_t i = 0; i < f->count && !c->plot->fan; i++)
         if (visible(c, f, i, &x, &y)) nh_text_addf(c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>", x, y, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
 }
 

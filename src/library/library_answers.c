@@ -39,9 +39,13 @@ static nh_simulate_request motion_of(const nh_problem *p)
                                  .method = p->method, .tolerance_given = p->tolerance_given, .until_given = p->question.until > 0, .options = p->options};
 }
 
-nh_simulation *nh_simulate(nh_problem *p, nh_error *error)
+nh_simulation *nh_simulate(nh_problem *p, nh_error *error) { return nh_simulate_zeros(p, NULL, NULL, error); }
+
+nh_simulation *nh_simulate_zeros(nh_problem *p, const char *events, const char *section, nh_error *error)
 {
     nh_simulate_request request = motion_of(p);
+    request.event = events;
+    request.section = section;
     nh_error_clear(error);
     nh_problem_enter(p);
     nh_simulation *s = nh_simulation_create(&request, error);

@@ -18,6 +18,7 @@
 #include "motion/kinks.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"
+#include "motion/stepping.h"
 
 /* ARKODE 6.1, which comes with SUNDIALS 7.1, has these in common for all its steppers. */
 #if NH_SUNDIALS_SINCE(7, 1)
@@ -60,7 +61,9 @@ typedef struct {
     const nh_flow_problem *problem;
     nh_sundials sundials;
     void *arkode;
+    const nh_flow_options *options;
     N_Vector state;
+    double before, now; /* times of `old` and `state` */
     nh_sizes sizes;
     double rtol;
     SUNMatrix matrix; /* of implicit steps */
@@ -121,13 +124,14 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     motion->evaluations = work->evaluations;
     if (work->solver) jacobians_of(work->arkode, &motion->jacobians);
     if (flag == ARK_TSTOP_RETURN) *time = target;
+    work->before = before, work->now = *time;
     nh_guard_verdict verdict = flag >= 0 ? nh_guards_judge(&work->guards, before, *time, NV_DATA_S(work->state), motion) : NH_GUARD_KEPT;
     nh_kink_verdict kink = flag >= 0 && verdict == NH_GUARD_KEPT ? nh_kinks_judge(&work->kinks, work->problem, before, work->old, *time, NV_DATA_S(work->state), motion) : NH_KINK_NONE;
     if (kink == NH_KINK_BACK) verdict = NH_GUARD_BACK;
     if (kink == NH_KINK_CROSSED) flag = reset(work->arkode, *time, work->state);
     if (verdict != NH_GUARD_KEPT) {
         memcpy(NV_DATA_S(work->state), work->old, bytes);
-        *time = before;
+        work->now = *time = before;
         flag = reset(work->arkode, before, work->state);
         if (flag >= 0) return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
     }
@@ -138,12 +142,38 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     return NH_STEP_FAILED;
 }
 
+/* Inside the last implicit step, where events are looked for: a motion of its own from the beginning of the step (ARKODE interpolates
+ * long steps badly). */
+static bool state_inside(pairs_work *work, double time, double *state)
+{
+    const double times[2] = {work->before, time};
+    nh_flow_options options = *work->options;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    options.watch = NULL;
+    nh_motion *motion = nh_arkode(NH_ESDIRK_5, work->problem, work->old, 2, times, &options, &ignored);
+    bool good = motion && motion->complete;
+    if (good) memcpy(state, motion->state + work->problem->size, work->problem->size * sizeof *state);
+    if (motion) work->evaluations += motion->evaluations;
+    nh_motion_free(motion);
+    return good;
+}
+
+/* Steps end at the output times. */
 static bool pairs_state(double time, double *state, void *context)
 {
     pairs_work *work = context;
-    (void)time;
+    if (work->solver && time != work->now) return state_inside(work, time, state);
     memcpy(state, NV_DATA_S(work->state), work->problem->size * sizeof *state);
     return true;
+}
+
+static bool rate_of_problem(double t, const double *z, double *rate, void *context)
+{
+    pairs_work *work = context;
+    work->evaluations++;
+    nh_effort_add(work->each);
+    return work->problem->rate(t, z, rate, work->problem->context);
 }
 
 static void pairs_stuck(nh_motion *motion, void *context)
@@ -187,7 +217,11 @@ nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, co
 {
     nh_motion *motion = nh_motion_start(problem->size, problem->size, initial, count, times, options, error);
     if (!motion || motion->complete) return motion;
-    pairs_work work = {.problem = problem, .times = times, .count = count, .old = nh_alloc_array(problem->size + 1, sizeof *work.old)};
+    pairs_work work = {.problem = problem,
+                       .options = options,
+                       .times = times,
+                       .count = count,
+                       .old = nh_alloc_array(problem->size + 1, sizeof *work.old)};
     nh_guards_begin(&work.guards, problem, options, initial, count, times);
     nh_kinks_begin(&work.kinks, problem, initial, count, times);
     work.rtol = nh_motion_rtol(motion, options);
@@ -195,7 +229,13 @@ nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, co
     double n = (double)problem->size;
     work.each = stage_units[implicit] + stage_vectors[implicit] * n;
     if (set_up(&work, method, initial, options)) {
-        nh_stepper stepper = {.context = &work, .advance = pairs_advance, .state = pairs_state, .stuck = pairs_stuck, .step_effort = step_units[implicit] + (implicit ? flop * n * n * n : 0)};
+        nh_stepper stepper = {.context = &work,
+                              .advance = pairs_advance,
+                              .state = pairs_state,
+                              .stuck = pairs_stuck,
+                              .step_effort = step_units[implicit] + (implicit ? flop * n * n * n : 0),
+                              .rate = implicit ? NULL : rate_of_problem,
+                              .rate_context = &work};
         nh_kinks_coarser(&work.kinks, (implicit ? part_across_implicit : part_across) * work.rtol * work.sizes.tau);
         nh_motion_run(motion, count, times, options, &stepper);
     } else {

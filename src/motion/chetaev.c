@@ -27,6 +27,7 @@
 #include "base/memory.h"
 #include "base/saddle.h"
 #include "motion/sundials.h"
+#include "motion/stepping.h"
 
 /* The multipliers take part in the error test, or they would be wrong between the steps wherever (q,v) allows long ones (by
  * 10 % at rtol 1e-9 in a test); but they follow the accelerations, which are one order less exact than (q,v), so their

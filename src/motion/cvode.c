@@ -18,6 +18,7 @@
 #include "motion/kink_crossing.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"
+#include "motion/stepping.h"
 
 enum { most_fails = 40 }; /* of the error test in one step: at a jump it is shortened many times */
 
@@ -34,6 +35,7 @@ static const double cvode_step = 800, cvode_rate = 80, cvode_vectors = 90, cvode
 
 typedef struct {
     const nh_flow_problem *problem;
+    const nh_flow_options *options;
     nh_sundials sundials;
     void *cvode;
     N_Vector state;
@@ -190,7 +192,8 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
     count_set_ups(work);
     if (flag >= 0) {
         nh_sizes_follow(&work->sizes, *time, NV_DATA_S(work->state));
-        nh_kink_crossing leap = {before, *time, work->old, &work->sizes, work->rtol, work->count, work->times};
+        nh_kink_crossing leap = {before,     *time,       work->old,   &work->sizes,
+                                 work->rtol, work->count, work->times, work->options->watch};
         work->across = nh_kink_crossing_make(&work->kinks, work->problem, &leap, cvode_state, work, motion);
     }
     if (work->across) {
@@ -277,7 +280,12 @@ nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_
     if (!motion || motion->complete)
         return motion;
     double n = (double)problem->size;
-    cvode_work work = {.problem = problem, .stop = times[count - 1], .each = cvode_rate + cvode_vectors * n, .count = count, .times = times};
+    cvode_work work = {.problem = problem,
+                       .options = options,
+                       .stop = times[count - 1],
+                       .each = cvode_rate + cvode_vectors * n,
+                       .count = count,
+                       .times = times};
     bool good = check_start(problem, times[0], initial, error);
     if (!good)
         goto done;

@@ -12,6 +12,7 @@
 #include "motion/safeguards.h"
 #include "motion/kinks.h"
 #include "motion/sizes.h"
+#include "motion/stepping.h"
 
 static const double part_across = 1e-3; /* of the tolerance: what a step across a kink may spoil */
 
@@ -114,6 +115,11 @@ static int call_rate(double t, const double *z, double *rate, void *context)
     for (size_t i = 0; i < work->problem->size; i++)
         if (!isfinite(rate[i])) return GSL_FAILURE;
     return GSL_SUCCESS;
+}
+
+static bool rate_of_problem(double t, const double *z, double *rate, void *context)
+{
+    return call_rate(t, z, rate, context) == GSL_SUCCESS;
 }
 
 static bool changed_after(const explicit_work *work, double t, double *z)
@@ -261,7 +267,13 @@ nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *probl
     bool good = set_up(&work, method);
     nh_kinks_coarser(&work.kinks, part_across * work.rtol * work.sizes.tau);
     if (good) {
-        nh_stepper stepper = {.context = &work, .advance = explicit_advance, .state = work.between ? between_state : explicit_state, .stuck = explicit_stuck, .step_effort = step_units[method]};
+        nh_stepper stepper = {.context = &work,
+                              .advance = explicit_advance,
+                              .state = work.between ? between_state : explicit_state,
+                              .stuck = explicit_stuck,
+                              .step_effort = step_units[method],
+                              .rate = work.between ? NULL : rate_of_problem,
+                              .rate_context = &work};
         nh_motion_run(motion, count, times, options, &stepper);
         motion->evaluations = work.evaluations;
     } else {

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/progress.h"
+#include "motion/events.h"
 #include "motion/gsl_odeiv.h"
 
 static const double few = 64; /* in `least`: at least so far behind a wall, and as far as it was to it, a one-step method goes */
@@ -25,9 +26,10 @@ static nh_motion *by_one_step_method(const nh_kinks *k, const nh_flow_problem *p
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    double *times = nh_alloc_array(l->count + 2, sizeof *times), *scale = nh_alloc_array(k->size, sizeof *scale);
-    for (size_t i = 0; i < k->size; i++) scale[i] = nh_sizes_absolute(l->sizes, l->rtol, i) / l->rtol;
-    nh_flow_options options = {.rtol = l->rtol, .scale = scale, .guarded = true, .cancelled = nh_interrupted_callback};
+    double *times = nh_alloc_array(l->count + 2, sizeof *times), *scale = nh_alloc_array(k->change.size, sizeof *scale);
+    for (size_t i = 0; i < k->change.size; i++) scale[i] = nh_sizes_absolute(l->sizes, l->rtol, i) / l->rtol;
+    nh_flow_options options = {
+        .rtol = l->rtol, .scale = scale, .watch = l->watch, .guarded = true, .cancelled = nh_interrupted_callback};
     size_t count = times_of(l, end, times);
     nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, p, l->old, count, times, &options, &ignored); /* stages that are solved for would be too inexact to come near a wall */
     nh_free(scale);
@@ -37,7 +39,7 @@ static nh_motion *by_one_step_method(const nh_kinks *k, const nh_flow_problem *p
 
 nh_motion *nh_kink_crossing_make(nh_kinks *k, const nh_flow_problem *p, const nh_kink_crossing *l, nh_inside *state, void *context, nh_motion *motion)
 {
-    if (!k->walls || l->now == l->before) return NULL;
+    if (!k->change.count || l->now == l->before) return NULL;
     double at = nh_kinks_first(k, l->before, l->now, state, context), last = l->times[l->count - 1];
     if (isnan(at)) return NULL;
     double end = at + copysign(fmax(fabs(at - l->before), few * k->least), l->now - l->before);
@@ -46,7 +48,10 @@ nh_motion *nh_kink_crossing_make(nh_kinks *k, const nh_flow_problem *p, const nh
     if (!across) return NULL;
     if (!across->complete || across->note[0]) nh_motion_note(motion, "%s", across->note);
     motion->guard_hit = across->guard_hit;
-    memcpy(k->z, across->end_state, k->size * sizeof *k->z);
+    nh_events_append(motion, across);
+    motion->searched = across->end_time;
+    motion->stopped = across->stopped;
+    memcpy(k->change.z, across->end_state, k->change.size * sizeof *k->change.z);
     nh_kinks_go_over(k, across->end_time, motion);
     return across;
 }

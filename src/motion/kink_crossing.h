@@ -12,6 +12,7 @@ typedef struct {
     double rtol;
     size_t count;           /* times that are wanted */
     const double *times;
+    const nh_event_watch *watch; /* of the motion */
 } nh_kink_crossing;
 
 /* Was there a wall in the step?  NULL: no.  Otherwise the motion from before the step to behind the wall by a one-step method, at the times that are wanted and at its end. */

@@ -2,31 +2,25 @@
  *
  * Between two walls (exact/walls.h) the right-hand side is smooth, and the error control of an integrator is reliable.  Across a wall it is not: where
  * the force is constant on both sides steps become so long that they skip a whole excursion to the other side without a visible error.  So the functions
- * of the walls are sampled inside each step, more densely until they are resolved, and the first change of a sign is found.
+ * of the walls are sampled inside each step (sign_changes.h), and the first change of a sign is found.
  *
  * A step over a wall is taken back. A one-step method goes back to the beginning of the step and approaches the wall by steps of which no stage is behind it; only one as
  * short as the rounding of the time leads across.  A method with many steps behind it leaves that to a one-step method, and starts again behind the wall. */
 #ifndef NH_KINKS_H
 #define NH_KINKS_H
 
+#include "motion/sign_changes.h"
 #include "motion/sizes.h"
 
-/* The state at a time inside of the last step. */
-typedef bool nh_inside(double time, double *state, void *context);
-
 typedef struct {
-    size_t walls, size;
-    bool (*wall)(double t, const double *z, double *value, void *context);
-    void *context;
-    double *side;       /* of each wall, on which the motion is: +1, -1; 0: not known yet */
-    double *sample, *probe, *z; /* the walls' functions along a step, and at one more time; a state */
+    nh_sign_changes change; /* of the walls */
     double *ends;       /* of a one-step method: states and rates at both ends of the step */
     double longest;     /* for it: no step is to be longer now (INFINITY: it may) */
     double least;       /* steps as short as this one may lead across a wall */
     double from, seen;  /* where its step begins, and the first time in it at which the rates were evaluated behind a wall (INFINITY: never) */
     double span, last;  /* of the whole motion; when the last of so many crossings was */
     bool held;          /* the motion cannot leave a wall */
-    long crossed, samples;
+    long crossed;
 } nh_kinks;
 
 /* For a motion from z at times[0] to times[count - 1]. */
@@ -46,7 +40,7 @@ nh_kink_verdict nh_kinks_judge(nh_kinks *kinks, const nh_flow_problem *problem, 
 
 /* The first time in a step at which a wall is crossed (NAN: none); `state` gives the states inside of it. */
 double nh_kinks_first(nh_kinks *kinks, double before, double now, nh_inside *state, void *context);
-/* From now on the motion is behind the wall, at the state in kinks->z. */
+/* From now on the motion is behind the wall, at the state in kinks->change.z. */
 void nh_kinks_go_over(nh_kinks *kinks, double t, nh_motion *motion);
 
 #endif

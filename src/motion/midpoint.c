@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "motion/stepping.h"
 #include "graph/diff.h"
 
 enum { most_iterations = 30, usual_iterations = 4, gauss_points = 5, most_substeps = 5 };
@@ -367,7 +368,13 @@ nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool compos
     k->step = options->step > 0 ? options->step : fabs(times[count - 1] - times[0]) / 100;
     memcpy(k->z0, initial, size * sizeof *initial);
     follow(k);
-    nh_stepper stepper = {.context = k, .advance = midpoint_advance, .state = midpoint_state, .stuck = midpoint_stuck, .step_effort = (double)k->substeps * (step_units + step_vectors * (double)size)};
+    nh_stepper stepper = {.context = k,
+                          .advance = midpoint_advance,
+                          .state = midpoint_state,
+                          .stuck = midpoint_stuck,
+                          .step_effort = (double)k->substeps * (step_units + step_vectors * (double)size),
+                          .rate = nh_programs_rate,
+                          .rate_context = programs};
     nh_motion_run(motion, count, times, options, &stepper);
     work_free(k);
     return motion;

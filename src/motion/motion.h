@@ -13,6 +13,24 @@
 
 typedef enum { NH_ADAMS, NH_BDF } nh_flow_method;
 
+/* Functions whose zeros along a motion are wanted (events.h). */
+typedef struct {
+    size_t count;
+    /* Their values and, behind these, the sizes of their terms: 2 count numbers. */
+    bool (*value)(double t, const double *z, double *value, void *context);
+    void *context;
+    const int *direction; /* count: +1 rising along t, -1 falling, 0 both */
+    const bool *stop;     /* count: the motion ends at the first such zero */
+    double tolerance;     /* relative to the sizes: a value that is no larger has no sign */
+    double begin;         /* where the whole motion begins: a zero there is recorded, and ends nothing */
+} nh_event_watch;
+
+typedef struct {
+    double time;
+    size_t which;  /* function */
+    int direction; /* +1, -1 */
+} nh_event_found;
+
 typedef struct {
     size_t size;
     void *context;
@@ -42,6 +60,7 @@ typedef struct {
     /* Called after every step of a one-step method with the new state, which it may change (a projection); false: it could not. */
     bool (*after)(double t, double *z, void *context);
     void *after_context;
+    const nh_event_watch *watch; /* NULL: nothing is watched */
     bool guarded;            /* guards end the motions of one-step methods, too (safeguards.h); those of CVODE they always do */
 } nh_flow_options;
 
@@ -50,13 +69,18 @@ typedef struct {
     size_t size;
     double *time;     /* count */
     double *state;    /* count x size, row by row: state[i*size + j] */
-    bool complete;    /* all wanted times were reached */
+    bool complete;    /* all wanted times were reached, or a zero at which it was to stop */
     long guard_hit;   /* index of the guard that ended it, or -1 */
     double end_time;  /* where it ended */
     double *end_state; /* size: the state there; at a guard it is past the last output, and the next chart starts from it */
     long evaluations, steps, jacobians;
     double effort;    /* units of base/effort.h that it took */
     double seconds;   /* of wall-clock time, to be shown */
+    size_t events;    /* zeros that were watched for, in the order of the motion */
+    nh_event_found *event;
+    double *event_state; /* events x size */
+    bool stopped;        /* at the last of them, which is the last output, too; then it is complete */
+    double searched;     /* up to this time a part of the integrator has found them already (NAN: nowhere) */
     char note[256];   /* why it ended early, in words */
 } nh_motion;
 
@@ -72,6 +96,9 @@ typedef struct {
     nh_step (*advance)(double *time, nh_motion *motion, void *context);
     /* The state at a time inside the last step; false when there is none. */
     bool (*state)(double time, double *state, void *context);
+    /* NULL: `state` gives the states inside the last step, too.  Otherwise the rates, from which they are computed where they are wanted. */
+    bool (*rate)(double t, const double *z, double *rate, void *rate_context);
+    void *rate_context;
     double step_effort;   /* units of one step, beside the right-hand sides and what is counted elsewhere */
     /* The last NH_STUCK_AFTER steps did not move the time, or very many hardly: write the note. */
     void (*stuck)(nh_motion *motion, void *context);
@@ -83,9 +110,6 @@ enum { NH_STUCK_AFTER = 100, NH_ADVANCE_AFTER = 1000 };
  * (with `given` scales) make no sense. */
 nh_motion *nh_motion_start(size_t size, size_t given, const double *initial, size_t count, const double *times,
                            const nh_flow_options *options, nh_error *error);
-/* Step until all times are reached, or something ends the motion early. */
-void nh_motion_run(nh_motion *motion, size_t count, const double *times, const nh_flow_options *options,
-                   const nh_stepper *stepper);
 /* rtol, but not below what double precision allows (the note tells). */
 double nh_motion_rtol(nh_motion *motion, const nh_flow_options *options);
 /* Add a sentence to the note. */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/linalg.h"
 #include "base/parallel.h"
 #include "graph/diff.h"
 
@@ -116,6 +117,14 @@ const double *nh_programs_at(nh_programs *s, nh_program which, double t, const d
     nh_tape_eval(p->tape, p->work, s->point, p->out);
     s->evaluations++;
     return p->out;
+}
+
+bool nh_programs_rate(double t, const double *z, double *rate, void *programs)
+{
+    nh_programs *s = programs;
+    size_t size = s->model->m + s->model->n;
+    memcpy(rate, nh_programs_at(s, NH_PROGRAM_RATE, t, z), size * sizeof *rate);
+    return nh_all_finite(size, rate);
 }
 
 const nh_tape *nh_programs_tape(nh_programs *s, nh_program which)

@@ -21,6 +21,8 @@ const nh_model *nh_programs_model(const nh_programs *programs);
 
 /* Values at (t, z), until the same program is evaluated again. */
 const double *nh_programs_at(nh_programs *programs, nh_program which, double t, const double *z);
+/* f (size) as motion.h has right-hand sides; the context is an nh_programs. */
+bool nh_programs_rate(double t, const double *z, double *rate, void *programs);
 /* The compiled program, for who evaluates it by other arithmetic: over points (t, q, w). */
 const nh_tape *nh_programs_tape(nh_programs *programs, nh_program which);
 /* The fastest of the rates f, as a frequency: |f_j| beside the largest value that the chart allows z_j. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "motion/tableau.h"
+#include "motion/stepping.h"
 
 enum { most_iterations = 20, most_halvings = 3 };
 static const double conserved = 1e-9; /* relative rate of the energy at the probes that is rounding */
@@ -152,7 +153,14 @@ nh_motion *nh_relaxation(nh_programs *programs, nh_relaxation_rule rule, const d
     k.step = options->step > 0 ? options->step : fabs(times[count - 1] - times[0]) / 100;
     memcpy(k.z, initial, size * sizeof *initial);
     k.energy = nh_programs_at(programs, NH_PROGRAM_GRADIENT, k.t, k.z)[size];
-    nh_stepper stepper = {.context = &k, .advance = relaxation_advance, .state = relaxation_state, .stuck = relaxation_stuck, .step_effort = step_units + stage_vectors * (double)k.tableau.stages * (double)(k.tableau.stages * size)};
+    nh_stepper stepper = {.context = &k,
+                          .advance = relaxation_advance,
+                          .state = relaxation_state,
+                          .stuck = relaxation_stuck,
+                          .step_effort =
+                              step_units + stage_vectors * (double)k.tableau.stages * (double)(k.tableau.stages * size),
+                          .rate = nh_programs_rate,
+                          .rate_context = programs};
     nh_motion_run(motion, count, times, options, &stepper);
     nh_free(k.z);
     return motion;

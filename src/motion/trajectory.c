@@ -10,84 +10,10 @@
 
 #include "base/clock.h"
 #include "base/progress.h"
+#include "graph/terms.h"
 #include "motion/sizes.h"
 
 static const double steepest = 10; /* |R| of a chart of coordinate velocities, without units, beyond which its formulas lose digits */
-
-/* ---- expressions along a motion ---- */
-
-typedef bool to_point(void *context, double t, const double *z, double *point);
-
-static bool point_of_all(void *context, double t, const double *z, double *point) { return nh_dynamics_point(context, t, z, point); }
-static bool point_of_scene(void *context, double t, const double *z, double *point) { return nh_closed_subsystem_point(context, t, z, point); }
-
-static bool values_along(const nh_model *model, to_point *place, void *context, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
-{
-    nh_tape *tape = nh_model_tape(model, n, e);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    double *point = nh_alloc_array(model->width, sizeof *point);
-    bool good = true;
-    for (size_t i = 0; i < motion->count && good; i++) {
-        good = place(context, motion->time[i], motion->state + i * motion->size, point);
-        if (good) nh_tape_eval(tape, work, point, value + i * n);
-    }
-    nh_free(point);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return good;
-}
-
-/* An expression of the chart in (t, q, v), where it holds beyond the chart: implicit velocities and roots are velocities there.  `inverse`:
- * quasi-velocities in v. */
-static nh_ex everywhere(const nh_model *o, const nh_ex *inverse, nh_ex e)
-{
-    const nh_chart *c = o->chart;
-    for (size_t s = 0; s < o->m; s++)
-        if (e == o->rho[s]) return o->system->coordinate[s].v;
-    nh_ex *v = nh_alloc_array(c->implicit + 1, sizeof *v);
-    for (size_t a = 0; a < c->implicit; a++) v[a] = o->system->coordinate[c->dependent[a]].v;
-    e = nh_substitute(o->dag, e, c->implicit, c->u, v);
-    nh_free(v);
-    if (c->quasi) e = nh_substitute(o->dag, e, o->n, c->w, inverse);
-    return c->branch ? nh_chart_both_branches(c, e) : e;
-}
-
-/* Along a motion in (q, v). */
-static void along_everywhere(const nh_model *o, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
-{
-    size_t m = o->m;
-    nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(n + 1, sizeof *out);
-    double *point = nh_alloc_array(1 + 2 * m, sizeof *point);
-    in[0] = o->system->t;
-    for (size_t s = 0; s < m; s++) {
-        in[1 + s] = o->system->coordinate[s].q;
-        in[1 + m + s] = o->system->coordinate[s].v;
-    }
-    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
-    if (o->chart->quasi) nh_chart_inverse(o->chart, inverse);
-    for (size_t k = 0; k < n; k++) out[k] = everywhere(o, inverse, e[k]);
-    nh_free(inverse);
-    nh_tape *tape = nh_tape_create(o->dag, 1 + 2 * m, in, n, out, o->system->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    for (size_t i = 0; i < motion->count; i++) {
-        point[0] = motion->time[i];
-        memcpy(point + 1, motion->state + i * 2 * m, 2 * m * sizeof *point);
-        nh_tape_eval(tape, work, point, value + i * n);
-    }
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(point);
-    nh_free(out);
-    nh_free(in);
-}
-
-bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
-{
-    const nh_model *o = nh_dynamics_model(dynamics);
-    if (motion->size <= o->m + o->n) return values_along(o, point_of_all, dynamics, motion, n, e, value);
-    along_everywhere(o, motion, n, e, value);
-    return true;
-}
 
 /* The largest |z| along a motion, and what sizes.h says of states that are zero all along it.  Zeros of a chart that breaks down have no such size. */
 static void sizes_of_states(nh_dynamics *dynamics, const nh_motion *motion, double *large)
@@ -128,20 +54,6 @@ bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t 
     return good;
 }
 
-bool nh_states_in_coordinates(nh_dynamics *dynamics, const nh_motion *motion, double *states)
-{
-    const nh_model *o = nh_dynamics_model(dynamics);
-    size_t m = o->m;
-    double *v = nh_alloc_array(motion->count * m + 1, sizeof *v);
-    bool good = nh_along(dynamics, motion, m, o->rho, v);
-    for (size_t i = 0; i < motion->count; i++) {
-        memcpy(states + 2 * i * m, motion->state + i * motion->size, m * sizeof *states);
-        memcpy(states + (2 * i + 1) * m, v + i * m, m * sizeof *states);
-    }
-    nh_free(v);
-    return good;
-}
-
 /* ---- charts that break down ---- */
 
 bool nh_may_leave_chart(const nh_model *o)
@@ -175,6 +87,11 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
     return flag;
 }
 
+static bool point_of_scene(void *context, double t, const double *z, double *point)
+{
+    return nh_closed_subsystem_point(context, t, z, point);
+}
+
 /* The entries of R that kept states alone decide; the others do not enter their equations. */
 static bool scene_is_steep(const nh_closed_subsystem *s, nh_closed_subsystem_run *run, const nh_motion *motion)
 {
@@ -190,8 +107,10 @@ static bool scene_is_steep(const nh_closed_subsystem *s, nh_closed_subsystem_run
         if (known) factor[n] = factor[i], e[n++] = o->R[i];
     }
     double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
-    bool any = false, good = values_along(o, point_of_scene, run, motion, n, e, R);
+    nh_along_values *entries = nh_along_values_create(o, point_of_scene, run, n, e);
+    bool any = false, good = nh_along_values_outputs(entries, motion, R);
     if (good) nh_free(steep(motion->count, n, R, factor, &any));
+    nh_along_values_free(entries);
     nh_free(R);
     nh_free(factor);
     nh_free(e);
@@ -237,6 +156,8 @@ typedef struct {
     double *z0, deadline;
     nh_flow_options how;
     bool leave; /* the chart ends on the way */
+    nh_event_watch watch;
+    nh_ex *watched; /* the events' expressions and the sizes of their terms */
 } job;
 
 static bool late(void *context) { return nh_interrupted() || nh_clock() > *(double *)context; }
@@ -257,6 +178,60 @@ bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double
     return met;
 }
 
+/* ---- events ---- */
+
+static bool value_of_watch(double t, const double *z, double *value, void *context)
+{
+    return nh_along_values_at(context, t, z, value);
+}
+
+/* From now on motions watch for the events, whose expressions these are (NULL: they do not). */
+static void watch(job *j, nh_along_values *values)
+{
+    nh_along_values_free(j->watch.context);
+    j->watch.context = values;
+    j->how.watch = values ? &j->watch : NULL;
+}
+
+static void open_watch(job *j)
+{
+    const nh_trajectory_request *q = j->q;
+    int *direction = nh_alloc_array(q->events + 1, sizeof *direction);
+    bool *stop = nh_alloc_array(q->events + 1, sizeof *stop);
+    j->watched = nh_alloc_array(q->n + 2 * q->events + 1, sizeof *j->watched);
+    for (size_t i = 0; i < q->events; i++) {
+        j->watched[i] = q->event[i].e;
+        j->watched[q->events + i] = nh_terms_uncancelled(q->model->dag, q->event[i].e);
+        direction[i] = q->event[i].direction;
+        stop[i] = q->event[i].stop;
+    }
+    j->watch = (nh_event_watch){.count = q->events,
+                                .value = value_of_watch,
+                                .direction = direction,
+                                .stop = stop,
+                                .tolerance = q->options->tolerance,
+                                .begin = q->times[0]};
+}
+
+static void close_watch(job *j)
+{
+    watch(j, NULL);
+    nh_free((int *)j->watch.direction);
+    nh_free((bool *)j->watch.stop);
+    nh_free(j->watched);
+}
+
+/* The wanted values along the motion and at its events, by expressions that are freed. */
+static bool take_values(job *j, nh_along_values *values, const nh_motion *motion)
+{
+    nh_free(j->out->event_value);
+    j->out->event_value = nh_alloc_array(motion->events * j->q->n + 1, sizeof *j->out->event_value);
+    bool good = nh_along_values_outputs(values, motion, j->out->value) &&
+                nh_along_values_events(values, motion, j->out->event_value);
+    nh_along_values_free(values);
+    return good;
+}
+
 static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
 {
     const double ends[2] = {j->q->times[0], j->q->times[j->q->count - 1]};
@@ -266,8 +241,15 @@ static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
 /* The scene's states from the start of all.  *failed: the current (its number) that did not determine its state all the way, or -1. */
 static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *failed, nh_error *error)
 {
-    nh_closed_subsystem *s = j->out->scene = nh_closed_subsystem_create(j->q->model, j->q->n, j->q->e, currents, current);
+    size_t events = j->q->events;
+    nh_ex *e = nh_alloc_array(j->q->n + events + 1, sizeof *e);
+    if (j->q->n) memcpy(e, j->q->e, j->q->n * sizeof *e);
+    memcpy(e + j->q->n, j->watched, events * sizeof *e);
+    nh_closed_subsystem *s = j->out->scene =
+        nh_closed_subsystem_create(j->q->model, j->q->n + events, e, currents, current);
+    nh_free(e);
     nh_closed_subsystem_run *run = nh_closed_subsystem_run_create(s, j->q->times[0], j->z0);
+    if (events) watch(j, nh_along_values_create(j->q->model, point_of_scene, run, 2 * events, j->watched));
     nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_closed_subsystem_problem(run, &whole);
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
@@ -275,7 +257,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     bool starts = s->kept && nh_closed_subsystem_run_failed(run) < 0 && (s->smooth || !j->leave);
     nh_motion *motion = starts ? nh_automatic_or(j->method, &problem, small, j->q->count, j->q->times, &j->how, &j->used, error) : NULL;
     bool good = motion && !(nh_may_leave_chart(j->q->model) && ((!s->smooth && !motion->complete) || scene_is_steep(s, run, motion)));
-    if (good) good = values_along(j->q->model, point_of_scene, run, motion, j->q->n, j->q->e, j->out->value);
+    if (good) good = take_values(j, nh_along_values_create(j->q->model, point_of_scene, run, j->q->n, j->q->e), motion);
     if (good && s->levels) good = motion->complete;
     *failed = -1;
     if (!good && s->levels) {
@@ -285,6 +267,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
             if (current[k] == s->network.level[level].current) *failed = (long)k;
     }
     j->out->motion = motion;
+    watch(j, NULL);
     say_machine(nh_closed_subsystem_run_words(run), j->out->machine);
     nh_free(small);
     nh_closed_subsystem_run_free(run);
@@ -320,23 +303,12 @@ static nh_motion *in_own_velocities(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
     nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
+    if (q->events) watch(j, nh_along_values_of(j->dynamics, false, 2 * q->events, j->watched));
     if (!fixed_steps(j)) return nh_automatic_or(j->method, &problem, j->z0, q->count, q->times, &j->how, &j->used, error);
     nh_programs *own = q->programs ? NULL : nh_programs_create(q->model);
     nh_motion *motion = nh_method_steps(j->method, own ? own : q->programs, j->z0, q->count, q->times, &j->how, error);
     nh_programs_free(own);
     return motion;
-}
-
-/* The motion in (q, v) instead of (q, w). */
-static bool to_coordinates(nh_dynamics *dynamics, nh_motion *motion)
-{
-    size_t size = 2 * nh_dynamics_model(dynamics)->m;
-    double *states = nh_alloc_array(motion->count * size + 1, sizeof *states);
-    bool good = nh_states_in_coordinates(dynamics, motion, states);
-    nh_free(motion->state);
-    motion->state = states;
-    motion->size = size;
-    return good;
 }
 
 /* By the equations of motion of the other model, unless its chart breaks down on the way; values as in all coordinates. */
@@ -348,15 +320,17 @@ static bool in_other_velocities(job *j, nh_error *error)
     double *z0 = nh_alloc_array(q->other->m + q->other->n + 1, sizeof *z0);
     nh_dynamics_jit(other, q->options->compile);
     bool starts = nh_dynamics_start(other, q->initial, q->project, z0, error) && !meets_pivot(j, other, z0);
+    if (q->events) watch(j, nh_along_values_by_other(q->model, other, 2 * q->events, j->watched));
     nh_motion *motion = starts ? nh_automatic_or(j->method, &problem, z0, q->count, q->times, &j->how, &j->used, error) : NULL;
+    watch(j, NULL);
     bool steep = false;
     if (motion) nh_free(nh_steep_points(other, motion, &steep));
-    bool good = motion && motion->complete && !steep && to_coordinates(other, motion);
+    bool good = motion && motion->complete && !steep && nh_motion_to_coordinates(other, motion);
     if (good) {
         j->out->motion = motion;
         j->out->formulation = q->other->chart->quasi ? NH_ON_SUBMANIFOLD ", in quasi-velocities" : NH_ON_SUBMANIFOLD ", in coordinate velocities";
         say_machine(nh_dynamics_words(other), j->out->machine);
-        if (q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
+        take_values(j, nh_along_values_of(j->dynamics, true, q->n, q->e), motion);
     } else {
         nh_motion_free(motion);
     }
@@ -378,11 +352,13 @@ static void in_all_states(job *j, nh_error *error)
     bool out_of_time = late(&j->deadline) || (motion && spent_all(q, motion));
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
+        if (q->events) watch(j, nh_along_values_of(j->dynamics, true, 2 * q->events, j->watched));
         j->out->formulation = "all coordinates, accelerations from the bordered system";
         motion = nh_motion_everywhere(j->dynamics, fixed_steps(j) ? NULL : j->method, j->z0, q->count, q->times, &j->how, j->out->machine, &j->used, error);
     }
     j->out->motion = motion;
-    if (motion && q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
+    if (motion)
+        take_values(j, nh_along_values_of(j->dynamics, motion->size > q->model->m + q->model->n, q->n, q->e), motion);
 }
 
 nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *error)
@@ -396,6 +372,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     j.how.step = q->step;
     j.how.cancelled = late;
     j.how.cancel_context = &j.deadline;
+    open_watch(&j);
     nh_error ignored;
     nh_error_clear(&ignored);
     if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error)) {
@@ -404,6 +381,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
         bool scene = q->smallest && !fixed_steps(&j);
         if (!(scene && in_scene(&j, &ignored)) && !(other && in_other_velocities(&j, &ignored))) in_all_states(&j, error);
     }
+    close_watch(&j);
     nh_dynamics_free(j.dynamics);
     nh_free(j.z0);
     if (j.used) out->method = j.used->name;
@@ -418,5 +396,6 @@ void nh_trajectory_free(nh_trajectory *trajectory)
     nh_motion_free(trajectory->motion);
     nh_closed_subsystem_free(trajectory->scene);
     nh_free(trajectory->value);
+    nh_free(trajectory->event_value);
     nh_free(trajectory);
 }

@@ -4,6 +4,7 @@
 
 #include "base/option.h"
 #include "motion/method.h"
+#include "motion/along.h"
 #include "motion/closed_subsystem.h"
 
 /* The formulation in the model's own velocities, as reports name it. */
@@ -16,6 +17,13 @@ typedef enum {
     NH_ALL_COORDINATES   /* the bordered system from the start */
 } nh_velocities;
 
+/* A zero along the motion that is recorded, or that ends it. */
+typedef struct {
+    nh_ex e;       /* of the chart */
+    int direction; /* +1 rising along t, -1 falling, 0 both */
+    bool stop;
+} nh_event;
+
 typedef struct {
     const nh_model *model;
     const nh_state *initial;
@@ -25,6 +33,8 @@ typedef struct {
     size_t n;
     const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
     const bool *by_terms;     /* n, or NULL: their errors are relative to the largest of their terms, with an accuracy (accuracy.h) */
+    size_t events;            /* motion.h: found */
+    const nh_event *event;
     bool smallest;            /* integrate only what they need */
     size_t currents;          /* of the chart, known to be conserved: they may make states superfluous there */
     const nh_ex *current;
@@ -42,6 +52,7 @@ typedef struct {
     nh_motion *motion;        /* in (q, w), in (q, v), or in the kept states of the scene */
     const char *method, *formulation;
     double *value;            /* count x n, row by row: value[i * n + k] */
+    double *event_value;      /* the same at the events: motion->events x n */
     nh_closed_subsystem *scene;          /* NULL: all states were integrated */
     char machine[320];        /* how the equations were evaluated, in words */
 } nh_trajectory;
@@ -51,12 +62,6 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *request, nh_err
 void nh_trajectory_free(nh_trajectory *trajectory);
 
 /* ---- parts, also for the validation ---- */
-
-/* value[i * n + k]: expression k of the chart at output i of a motion in (q, w) or in (q, v).  False where implicit velocities cannot be found. */
-bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value);
-
-/* (q, v) at the outputs of a motion in (q, w), into states (motion->count x 2m).  False where implicit velocities cannot be found. */
-bool nh_states_in_coordinates(nh_dynamics *dynamics, const nh_motion *motion, double *states);
 
 /* How large each expression is along a motion: the largest |e|, and of the first-order change of e when each state changes by its own largest value, with any signs;
  * so what is zero but for rounding is as large as what it is made of. */

@@ -51,6 +51,7 @@ SIGNATURES = {
     "nh_problem_parameter": (c_char_p, [c_void_p, c_size_t, POINTER(c_double)]),
     "nh_analyze": (c_void_p, [c_void_p, _error]),
     "nh_simulate": (c_void_p, [c_void_p, _error]),
+    "nh_simulate_zeros": (c_void_p, [c_void_p, c_char_p, c_char_p, _error]),
     "nh_reduce": (c_void_p, [c_void_p, _error]),
     "nh_verify_current": (c_void_p, [c_void_p, c_char_p, _error]),
     "nh_verify_field": (c_void_p, [c_void_p, c_char_p, _error]),

@@ -317,6 +317,12 @@ class Simulation(Result):
             return super().__getitem__(key)
         raise _no_entry(key, self.table)
 
+    @property
+    def section_table(self):
+        """The points of `simulate(section=..)`, as `table` has the motion."""
+        section = self.json["section"]
+        return {"t": numpy.array(section["time"]), **{name: numpy.array(column, float) for name, column in section["values"].items()}}
+
     def states(self):
         """Positions and velocities of all coordinates, two arrays with one row per coordinate."""
         missing = [name for q in self._coordinates for name in (q, q + "'") if name not in self.table]

@@ -243,11 +243,13 @@ class System:
         ask = library().nh_verify_current if field is None else library().nh_verify_field
         return p.call(lambda error: ask(p.address, text, error), progress, lambda a: Verification(a, p))
 
-    def simulate(self, initial=None, until=None, step=None, accuracy=None, method=None, watch=None, options=None, progress=None):
+    def simulate(self, initial=None, until=None, step=None, accuracy=None, method=None, watch=None, options=None, progress=None, events=None, section=None):
         """A motion: initial={"phi": 0, "omega": 2} (left out: a state on the constraints); watch=["y"] or {"T": "m/2*v^2"}; accuracy: the largest allowed error;
-        method: an integrator by name, as `nhsym explain methods` lists them."""
+        method: an integrator by name, as `nhsym explain methods` lists them; events=["y = 0, falling, stop"]: zeros that are recorded, or end the motion; section="x": a
+        Poincare section, whose points are `section_table`."""
         p = self._ask(dict(initial=_pairs(initial), until=until, step=step, accuracy=accuracy, method=method, watch=_list(watch), options=options))
-        return p.call(lambda error: library().nh_simulate(p.address, error), progress, lambda a: Simulation(a, p))
+        events, section = (None if text is None else text.encode() for text in (events if events is None or isinstance(events, str) else "; ".join(events), section))
+        return p.call(lambda error: library().nh_simulate_zeros(p.address, events, section, error), progress, lambda a: Simulation(a, p))
 
     def reduce(self, initial=None, until=None, accuracy=None, options=None, progress=None):
         """The symmetry group and the reduced equations."""

@@ -1,0 +1,308 @@
+#include "motion/events.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#include <gsl/gsl_roots.h>
+
+#include "base/memory.h"
+#include "motion/sign_changes.h"
+
+enum { most_iterations = 100, refinements = 6 };
+static const double roundings = 4;   /* of the time: how short the interval around a zero becomes */
+static const double far_off = 1e3;   /* how far from a zero a function is much larger: in such intervals, */
+static const double distant = 1e-4;  /* and in parts of the step */
+static const double few = 100;       /* in such intervals: too near to tell */
+static const double most_jump = 0.5; /* of the size there: more beside the zero is a jump */
+
+struct nh_event_search {
+    const nh_event_watch *watch;
+    const nh_stepper *stepper;
+    nh_sign_changes change;
+    double *raw;   /* values and sizes, 2 count */
+    bool *pending; /* per function: zero at the beginning of the whole motion, and of no sign since */
+    double before, now;
+    double *old, *end, *work; /* states at both ends of the last step, and one more */
+    double *off, *first;      /* the distance of the completing step from `end`; the state at the beginning of all */
+    gsl_odeiv2_step *step;    /* completes steppers without states inside their steps; NULL: this one has them */
+    gsl_odeiv2_system system;
+    bool completed; /* `off` is that of the last step */
+    size_t which;   /* the function whose zero is wanted */
+    double jumped, lost,
+        unknown; /* times of a jump, of a function that changes too often, of one without values; NAN */
+};
+
+/* ---- states inside a step ---- */
+
+static int call_rate(double t, const double *z, double *rate, void *context)
+{
+    const nh_stepper *s = ((nh_event_search *)context)->stepper;
+    return s->rate(t, z, rate, s->rate_context) ? GSL_SUCCESS : GSL_FAILURE;
+}
+
+/* From `old` to z at a time in the step. */
+static bool step_to(nh_event_search *c, double time, double *z)
+{
+    memcpy(z, c->old, c->change.size * sizeof *z);
+    return gsl_odeiv2_step_apply(c->step, c->before, time - c->before, z, c->work, NULL, NULL, &c->system) ==
+           GSL_SUCCESS;
+}
+
+static bool inside(double time, double *z, void *context)
+{
+    nh_event_search *c = context;
+    size_t size = c->change.size;
+    if (time == c->before || time == c->now) return memcpy(z, time == c->now ? c->end : c->old, size * sizeof *z), true;
+    if (!c->step) return c->stepper->state(time, z, c->stepper->context);
+    if (!c->completed) {
+        if (!step_to(c, c->now, c->off)) return false;
+        for (size_t i = 0; i < size; i++) c->off[i] = c->end[i] - c->off[i];
+        c->completed = true;
+    }
+    double part = (time - c->before) / (c->now - c->before);
+    if (!step_to(c, time, z)) return false;
+    for (size_t i = 0; i < size; i++) z[i] += part * part * c->off[i];
+    return true;
+}
+
+/* ---- values ---- */
+
+/* The values, 0 where they are no larger than what the tolerance allows. */
+static bool signed_value(double t, const double *z, double *value, void *context)
+{
+    nh_event_search *c = context;
+    size_t n = c->watch->count;
+    if (!c->watch->value(t, z, c->raw, c->watch->context)) return false;
+    for (size_t i = 0; i < n; i++) {
+        value[i] = fabs(c->raw[i]) <= c->watch->tolerance * c->raw[n + i] ? 0 : c->raw[i];
+        if (isnan(value[i]) && isnan(c->unknown)) c->unknown = t;
+    }
+    return true;
+}
+
+static double value_of_one(double t, void *context)
+{
+    nh_event_search *c = context;
+    bool good = inside(t, c->change.z, c) && c->watch->value(t, c->change.z, c->raw, c->watch->context);
+    return good ? c->raw[c->which] : NAN;
+}
+
+/* ---- zeros ---- */
+
+/* Beside a zero a function is far smaller than at some distance; beside a jump or a pole it is not. */
+static bool jumps(nh_event_search *c, double root, double near)
+{
+    double low = fmin(c->before, c->now), high = fmax(c->before, c->now),
+           far = fmax(far_off * near, distant * (high - low));
+    double left = fmax(root - far, low), right = fmin(root + far, high);
+    if (root - left < few * near || right - root < few * near)
+        return false; /* at an end of the step: it cannot be told */
+    return fabs(value_of_one(root - near, c)) > most_jump * fabs(value_of_one(left, c)) &&
+           fabs(value_of_one(root + near, c)) > most_jump * fabs(value_of_one(right, c));
+}
+
+/* Brent's method between two times; false: the function jumps there. */
+static bool solve(nh_event_search *c, double near, double far, double *root)
+{
+    gsl_function f = {.function = value_of_one, .params = c};
+    double at_near = value_of_one(near, c), at_far = value_of_one(far, c), low = fmin(near, far),
+           high = fmax(near, far);
+    *root = at_near == 0 ? near : far;
+    if (!(at_near * at_far < 0)) { /* one of them is zero but for rounding */
+        *root = fabs(at_near) < fabs(at_far) ? near : far;
+        return true;
+    }
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    double enough = roundings * DBL_EPSILON * fmax(fabs(low), fabs(high));
+    bool good = gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS;
+    for (int i = 0; i < most_iterations && good; i++) {
+        good = gsl_root_fsolver_iterate(solver) == GSL_SUCCESS;
+        if (good) *root = gsl_root_fsolver_root(solver);
+        if (gsl_root_fsolver_x_upper(solver) - gsl_root_fsolver_x_lower(solver) <= enough ||
+            value_of_one(*root, c) == 0)
+            break;
+    }
+    gsl_root_fsolver_free(solver);
+    return !jumps(c, *root, enough);
+}
+
+static void append(nh_motion *motion, double time, size_t which, int direction, const double *state)
+{
+    size_t n = motion->events, size = motion->size, room = 8;
+    while (room < n) room *= 2;
+    if (n == 0 || n == room) { /* all are used */
+        room = n ? 2 * n : room;
+        nh_event_found *all = nh_alloc_array(room, sizeof *all);
+        double *states = nh_alloc_array(room, size * sizeof *states);
+        if (n)
+            memcpy(all, motion->event, n * sizeof *all), memcpy(states, motion->event_state, n * size * sizeof *states);
+        nh_free(motion->event);
+        nh_free(motion->event_state);
+        motion->event = all;
+        motion->event_state = states;
+    }
+    motion->event[n] = (nh_event_found){time, which, direction};
+    memcpy(motion->event_state + n * size, state, size * sizeof *state);
+    motion->events++;
+}
+
+/* The last one goes before those that are later on the way from `begin`. */
+static void put_in_order(nh_motion *motion, double begin, size_t from)
+{
+    size_t size = motion->size;
+    for (size_t k = motion->events - 1;
+         k > from && fabs(motion->event[k].time - begin) < fabs(motion->event[k - 1].time - begin); k--) {
+        nh_event_found swap = motion->event[k];
+        motion->event[k] = motion->event[k - 1];
+        motion->event[k - 1] = swap;
+        for (size_t i = 0; i < size; i++) {
+            double one = motion->event_state[k * size + i];
+            motion->event_state[k * size + i] = motion->event_state[(k - 1) * size + i];
+            motion->event_state[(k - 1) * size + i] = one;
+        }
+    }
+}
+
+void nh_events_append(nh_motion *motion, const nh_motion *part)
+{
+    for (size_t k = 0; k < part->events; k++)
+        append(motion, part->event[k].time, part->event[k].which, part->event[k].direction,
+               part->event_state + k * part->size);
+}
+
+static bool is_wanted(const nh_event_search *c, size_t which, int direction)
+{
+    return c->watch->direction[which] == 0 || c->watch->direction[which] == direction;
+}
+
+/* What was zero at the beginning and has a sign now was a zero there, in the direction of this sign. */
+static void settle_beginning(nh_event_search *c, nh_motion *motion)
+{
+    int way = c->now < c->before ? -1 : 1;
+    for (size_t i = 0; i < c->watch->count; i++) {
+        if (!c->pending[i] || c->change.side[i] == 0) continue;
+        int direction = (c->change.side[i] > 0 ? 1 : -1) * way;
+        c->pending[i] = false;
+        if (!is_wanted(c, i, direction)) continue;
+        append(motion, c->watch->begin, i, direction, c->first);
+        put_in_order(motion, c->watch->begin, 0);
+    }
+}
+
+/* All that have changed their sign between near and far, in order, up to the first that stops the motion.  Their sides change. */
+static bool take_zeros(nh_event_search *c, double near, double far, nh_motion *motion)
+{
+    nh_sign_changes *s = &c->change;
+    size_t from = motion->events;
+    int way = c->now < c->before ? -1 : 1;
+    double *at = c->work + s->size, root; /* room for the values */
+    if (!nh_sign_changes_at(s, far, at)) return false;
+    for (size_t i = 0; i < s->count; i++) {
+        if (!(at[i] * s->side[i] < 0)) continue;
+        int direction = (at[i] > 0 ? 1 : -1) * way;
+        s->side[i] = -s->side[i];
+        c->which = i;
+        if (!solve(c, near, far, &root)) {
+            c->jumped = root;
+            continue;
+        }
+        if (!is_wanted(c, i, direction) || !inside(root, s->z, c)) continue;
+        append(motion, root, i, direction, s->z);
+        put_in_order(motion, c->watch->begin, from);
+    }
+    for (size_t k = from; k < motion->events; k++)
+        if (c->watch->stop[motion->event[k].which]) return motion->events = k + 1, true;
+    return false;
+}
+
+bool nh_event_search_step(nh_event_search *c, double now, nh_motion *motion)
+{
+    nh_sign_changes *s = &c->change;
+    double near, far, from = c->before;
+    bool stop = motion->stopped;
+    c->now = now;
+    c->completed = false;
+    if (now == c->before || stop || !c->stepper->state(now, c->end, c->stepper->context)) return stop;
+    if (motion->searched == now) nh_sign_changes_take_sides(s, now, c->end);
+    else
+        while (!stop && from != now && nh_sign_changes_first(s, from, now, &near, &far)) {
+            stop = take_zeros(c, near, far, motion);
+            from = far;
+        }
+    if (s->exhausted && isnan(c->lost)) c->lost = from;
+    settle_beginning(c, motion);
+    memcpy(c->old, c->end, s->size * sizeof *c->old);
+    c->before = now;
+    return stop;
+}
+
+void nh_event_search_end(const nh_event_search *c, nh_motion *motion)
+{
+    bool zero = false;
+    for (size_t i = 0; i < c->watch->count; i++) zero |= c->pending[i];
+    if (zero)
+        nh_motion_note(motion,
+                       "what is watched for a zero is zero all along, but for the tolerance: no event is told from it");
+    if (!isnan(c->jumped))
+        nh_motion_note(motion,
+                       "what is watched for a zero jumps from one sign to the other at t = %.10g: that is no event",
+                       c->jumped);
+    if (!isnan(c->lost))
+        nh_motion_note(motion,
+                       "what is watched for a zero changes too fast near t = %.10g: events may be missing; use a "
+                       "smaller tolerance",
+                       c->lost);
+    if (!isnan(c->unknown))
+        nh_motion_note(motion, "what is watched for a zero has no value near t = %.10g: events may be missing",
+                       c->unknown);
+}
+
+nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_options *options,
+                                        const nh_stepper *stepper)
+{
+    const nh_event_watch *watch = options->watch;
+    if (!watch || !watch->count) return NULL;
+    size_t size = motion->size, n = watch->count;
+    nh_event_search *c = nh_alloc(sizeof *c);
+    *c = (nh_event_search){.watch = watch,
+                           .stepper = stepper,
+                           .before = motion->end_time,
+                           .now = motion->end_time,
+                           .jumped = NAN,
+                           .lost = NAN,
+                           .unknown = NAN};
+    c->change = (nh_sign_changes){.count = n,
+                                  .size = size,
+                                  .value = signed_value,
+                                  .context = c,
+                                  .closer = refinements,
+                                  .inside = inside,
+                                  .inside_context = c};
+    c->raw = nh_alloc_array(2 * n, sizeof *c->raw);
+    c->pending = nh_alloc_array(n, sizeof *c->pending);
+    c->old = nh_alloc_array(5 * size + n, sizeof *c->old);
+    c->end = c->old + size, c->off = c->end + size, c->first = c->off + size, c->work = c->first + size;
+    memcpy(c->old, motion->end_state, size * sizeof *c->old);
+    memcpy(c->first, motion->end_state, size * sizeof *c->first);
+    gsl_set_error_handler_off();
+    c->system = (gsl_odeiv2_system){.function = call_rate, .dimension = size, .params = c};
+    if (stepper->rate) c->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size);
+    nh_sign_changes_open(&c->change);
+    nh_sign_changes_take_sides(&c->change, c->before, c->old);
+    for (size_t i = 0; i < n; i++) c->pending[i] = c->change.side[i] == 0 && c->before == watch->begin;
+    return c;
+}
+
+void nh_event_search_free(nh_event_search *c)
+{
+    if (!c) return;
+    if (c->step) gsl_odeiv2_step_free(c->step);
+    nh_sign_changes_clear(&c->change);
+    nh_free(c->raw);
+    nh_free(c->pending);
+    nh_free(c->old);
+    nh_free(c);
+}

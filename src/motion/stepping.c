@@ -1,0 +1,124 @@
+#include "motion/stepping.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/effort.h"
+#include "base/linalg.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "motion/events.h"
+
+static const double default_max_steps = 1e7;
+static const double least_advance = 1e-10; /* of the whole time, in NH_ADVANCE_AFTER steps: no motion gets to its end so; */
+enum {
+    most_slow = 200
+}; /* but through a zero of a velocity whose size is not yet known, after as many times as many steps */
+
+/* Output at the wanted times up to `now`; false when a state there is not finite. */
+static bool store_reached(nh_motion *motion, size_t count, const double *times, double now, const nh_stepper *stepper)
+{
+    bool backward = times[count - 1] < times[0];
+    while (motion->count < count && (backward ? times[motion->count] >= now : times[motion->count] <= now)) {
+        double wanted = times[motion->count], *row = motion->state + motion->count * motion->size;
+        if (!stepper->state(wanted, row, stepper->context) || !nh_all_finite(motion->size, row)) {
+            nh_motion_note(motion, "the state is not finite at t = %.10g", wanted);
+            return false;
+        }
+        motion->time[motion->count++] = wanted;
+    }
+    return true;
+}
+
+/* How far a long motion has come. */
+static void tell(const nh_motion *motion, size_t count, const double *times)
+{
+    enum { steps_between_words = 2048 };
+    double span = times[count - 1] - times[0];
+    if (motion->steps > 0 && motion->steps % steps_between_words == 0 && span != 0 && !nh_in_turns())
+        nh_progress("a motion", (motion->end_time - times[0]) / span);
+}
+
+/* Whether the motion may take another step. */
+static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double begin)
+{
+    if (options->effort > 0 && nh_effort() - begin > options->effort) {
+        nh_motion_note(motion, "the limit of %.2g counted operations was reached at t = %.10g", options->effort,
+                       motion->end_time);
+        return false;
+    }
+    double limit = options->max_steps > 0 ? options->max_steps : default_max_steps;
+    bool cancelled =
+        options->cancelled && options->cancelled(options->cancel_context); /* this may compute for a while */
+    if (nh_interrupted()) nh_motion_note(motion, "interrupted at t = %.10g", motion->end_time);
+    else if (cancelled) nh_motion_note(motion, "cancelled at t = %.10g", motion->end_time);
+    else if ((double)motion->steps >= limit)
+        nh_motion_note(motion, "the limit of %g steps was reached at t = %.10g; allow more steps or a larger tolerance",
+                       limit, motion->end_time);
+    else return true;
+    return false;
+}
+
+static void keep_end_state(nh_motion *motion, double *work, const nh_stepper *stepper)
+{
+    if (stepper->state(motion->end_time, work, stepper->context) && nh_all_finite(motion->size, work))
+        memcpy(motion->end_state, work, motion->size * sizeof *work);
+}
+
+/* The outputs before the zero at which the motion stops, and that zero as the last one. */
+static void stop_at_zero(nh_motion *motion, size_t count, const double *times, const nh_stepper *stepper)
+{
+    size_t last = motion->events - 1, size = motion->size;
+    double time = motion->event[last].time;
+    const double *state = motion->event_state + last * size;
+    motion->stopped = store_reached(motion, count, times, time, stepper);
+    if (motion->stopped && motion->count < count && motion->time[motion->count - 1] != time) {
+        motion->time[motion->count] = time;
+        memcpy(motion->state + motion->count++ * size, state, size * sizeof *state);
+    }
+    motion->end_time = time;
+    memcpy(motion->end_state, state, size * sizeof *state);
+}
+
+void nh_motion_run(nh_motion *motion, size_t count, const double *times, const nh_flow_options *options,
+                   const nh_stepper *stepper)
+{
+    double begin = nh_clock(), before = nh_effort();
+    double *work = nh_alloc_array(motion->size, sizeof *work);
+    nh_event_search *search = nh_event_search_create(motion, options, stepper);
+    bool stop = false;
+    nh_step step = NH_STEP_ON;
+    bool given = nh_turn_give(); /* steps evaluate tapes, and touch no expressions */
+    double mark = motion->end_time, least = least_advance * fabs(times[count - 1] - times[0]);
+    for (int stuck = 0, slow = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, before);) {
+        double time = motion->end_time;
+        tell(motion, count, times);
+        step = stepper->advance(&time, motion, stepper->context);
+        if (step == NH_STEP_FAILED) break;
+        motion->steps++;
+        nh_effort_add(stepper->step_effort);
+        stuck = time == motion->end_time ? stuck + 1 : 0;
+        motion->end_time = time;
+        if (search && (stop = nh_event_search_step(search, time, motion))) break;
+        if (!store_reached(motion, count, times, time, stepper)) break;
+        if (motion->steps % NH_ADVANCE_AFTER == 0) {
+            slow = fabs(time - mark) < least ? slow + 1 : 0;
+            mark = time;
+        }
+        if (stuck == NH_STUCK_AFTER || slow == most_slow) {
+            stepper->stuck(motion, stepper->context);
+            break;
+        }
+    }
+    if (stop) stop_at_zero(motion, count, times, stepper);
+    else if (motion->steps > 0) keep_end_state(motion, work, stepper);
+    if (search) nh_event_search_end(search, motion);
+    nh_event_search_free(search);
+    if (given) nh_turn_take();
+    motion->complete = motion->count == count || motion->stopped;
+    nh_free(work);
+    motion->seconds = nh_clock() - begin;
+    motion->effort = nh_effort() - before;
+}

@@ -1,0 +1,285 @@
+/* nhsym simulate --event and --section: zeros along motions, against closed forms. */
+#include <criterion/criterion.h>
+#include <math.h>
+
+#include "base/json.h"
+#include "motion/method.h"
+#include "program.h"
+
+static const char *const pendulum =
+    "name: pendulum\ncoordinates: [{name: phi, type: angle}]\nlagrangian: phi'^2/2 + cos(phi)\n";
+static const char *const henon_heiles =
+    "name: hh\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2 - y^2)/2 - x^2*y + y^3/3\n";
+static const char *const ball =
+    "name: ball\nparameters: [{name: g, value: 10}]\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - g*y\n";
+
+static finished run_shell(const place *p, const char *format, ...)
+{
+    char line[2000], command[4096];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(line, sizeof line, format, list);
+    va_end(list);
+    snprintf(command, sizeof command, "N='%.400s'; %s", p->program, line);
+    return run_vector(p, &(manner){0}, (char *[]){"sh", "-c", command, NULL});
+}
+
+/* The JSON of `nhsym simulate LINE --json -`. */
+static nh_json *simulated(const place *p, const char *line)
+{
+    finished f = run_shell(p, "$N simulate %s --json -", line);
+    nh_json *root = f.code == 0 ? nh_json_parse(f.out) : NULL;
+    cr_assert(root, "%s: exit code %d\n%s", line, f.code, f.err);
+    finished_clear(&f);
+    return root;
+}
+
+static const nh_json *event(const nh_json *root, size_t which)
+{
+    return nh_json_entry(nh_json_get(root, "events"), which);
+}
+static size_t count(const nh_json *zeros) { return nh_json_count(nh_json_get(zeros, "time")); }
+static double time_of(const nh_json *zeros, size_t i) { return nh_json_number_at(nh_json_get(zeros, "time"), i); }
+static double sign_of(const nh_json *zeros, size_t i) { return nh_json_number_at(nh_json_get(zeros, "sign"), i); }
+static double value_of(const nh_json *zeros, const char *name, size_t i)
+{
+    return nh_json_number_at(nh_json_get(nh_json_get(zeros, "values"), name), i);
+}
+
+static double period(double amplitude) /* 2 pi / agm(1, cos(amplitude/2)) */
+{
+    double a = 1, b = cos(amplitude / 2);
+    while (fabs(a - b) > 1e-15) {
+        double mean = (a + b) / 2;
+        b = sqrt(a * b);
+        a = mean;
+    }
+    return 2 * acos(-1) / a;
+}
+
+/* Half a period of the pendulum by every method, as exactly as its order promises; the last row of the table is the event. */
+Test(events, half_a_period_by_every_method)
+{
+    place p = place_make();
+    write_here(&p, "pendulum.yaml", pendulum);
+    for (size_t i = 0; i < nh_method_count(); i++) {
+        const nh_method *method = nh_method_at(i);
+        char line[300];
+        snprintf(
+            line, sizeof line,
+            "pendulum.yaml --initial phi=2 --until 20 --step 0.25 --tolerance 1e-11 --event \"phi', stop\" --method %s",
+            method->word);
+        nh_json *root = simulated(&p, line);
+        const nh_json *e = event(root, 0), *time = nh_json_get(root, "time");
+        double allowed = method->order == 0   ? 1e-9
+                         : method->order == 2 ? 1e-4
+                                              : 3e-8,
+               off = fabs(time_of(e, 1) - period(2) / 2);
+        cr_expect(count(e) == 2 && off < allowed, "%s: off by %g", method->word, off);
+        cr_expect(time_of(e, 0) == 0 && sign_of(e, 0) == -1 && sign_of(e, 1) == 1 && nh_json_is_true(root, "complete"),
+                  "%s", method->word);
+        cr_expect(nh_json_number_at(time, nh_json_count(time) - 1) == time_of(e, 1),
+                  "%s: the last output is not the event", method->word);
+        nh_json_free(root);
+    }
+    place_clear(&p);
+}
+
+/* Ten periods: the times are those of the closed form, the states are on the zero. */
+Test(events, directions)
+{
+    place p = place_make();
+    write_here(&p, "pendulum.yaml", pendulum);
+    nh_json *root = simulated(&p, "pendulum.yaml --initial phi=2 --until 83 --step 83 --tolerance 1e-12 --event 'phi = "
+                                  "0, rising; phi, falling' --event \"phi = 1\"");
+    double T = period(2);
+    cr_assert_eq(count(event(root, 0)), 10);
+    cr_assert_eq(count(event(root, 1)), 10);
+    cr_assert_eq(count(event(root, 2)), 20);
+    for (size_t i = 0; i < 10; i++) {
+        cr_expect(fabs(time_of(event(root, 0), i) - T * (0.75 + (double)i)) < 1e-9 &&
+                      fabs(value_of(event(root, 0), "phi", i)) < 1e-13,
+                  "%.15g", time_of(event(root, 0), i));
+        cr_expect(fabs(time_of(event(root, 1), i) - T * (0.25 + (double)i)) < 1e-9, "%.15g",
+                  time_of(event(root, 1), i));
+    }
+    nh_json_free(root);
+    place_clear(&p);
+}
+
+/* A throw from the ground: the start is a zero and ends nothing; also against the time. */
+Test(events, at_the_start)
+{
+    place p = place_make();
+    write_here(&p, "ball.yaml", ball);
+    nh_json *root = simulated(&p, "ball.yaml --initial \"x'=1, y'=5\" --event 'y, stop' --event 'x - t' --until 7");
+    const nh_json *e = event(root, 0);
+    cr_assert_eq(count(e), 2);
+    cr_expect(time_of(e, 0) == 0 && sign_of(e, 0) == 1 && fabs(time_of(e, 1) - 1) < 1e-13 &&
+              fabs(value_of(e, "x", 1) - 1) < 1e-13);
+    cr_expect_eq(count(event(root, 1)), 0, "x = t all along is no event");
+    nh_json_free(root);
+    root = simulated(&p, "ball.yaml --initial \"x'=1, y'=5, y=-1\" --event 'y, stop' --until -3");
+    cr_expect(count(event(root, 0)) == 0, "a throw backward in time does not come back");
+    nh_json_free(root);
+    root = simulated(&p, "ball.yaml --initial \"x'=1, y'=-5\" --event 'y, stop' --until -3");
+    cr_expect(count(event(root, 0)) == 2 && fabs(time_of(event(root, 0), 1) + 1) < 1e-13 &&
+                  sign_of(event(root, 0), 1) == 1,
+              "rising is along t, whatever the direction of the motion");
+    nh_json_free(root);
+    place_clear(&p);
+}
+
+/* The highest point of the pendulum is -2: 1e-8 above it there are two zeros 1e-4 apart, 1e-7 below it there is none; a pole and a jump are none either. */
+Test(events, grazing_and_jumps)
+{
+    place p = place_make();
+    write_here(&p, "pendulum.yaml", pendulum);
+    nh_json *root = simulated(&p, "pendulum.yaml --initial phi=2 --until 8 --tolerance 1e-12 --event 'phi + 2 - 1e-8; "
+                                  "phi + 2 + 1e-7; 1/phi; phi/abs(phi)'");
+    double half = sqrt(2 * 1e-8 / sin(2));
+    const nh_json *e = event(root, 0);
+    cr_assert_eq(count(e), 2);
+    cr_expect(fabs(time_of(e, 0) - (period(2) / 2 - half)) < 1e-7 &&
+                  fabs(time_of(e, 1) - (period(2) / 2 + half)) < 1e-7,
+              "%.12g %.12g", time_of(e, 0), time_of(e, 1));
+    for (size_t i = 1; i < 4; i++) cr_expect_eq(count(event(root, i)), 0, "%s", nh_json_text(event(root, i), "of"));
+    const nh_json *warnings = nh_json_get(root, "warnings");
+    cr_expect(nh_json_count(warnings) == 1, "a jump is told");
+    nh_json_free(root);
+    place_clear(&p);
+}
+
+/* Far more zeros than steps. */
+Test(events, many_in_one_step)
+{
+    place p = place_make();
+    write_here(&p, "ball.yaml",
+               ball); /* its steps are 8 s long, and 1 s from one sample to the next: sin(100 t) looks slow at these */
+    nh_json *root = simulated(&p, "ball.yaml --initial \"x'=1\" --until 10 --event 'sin(100*t)'");
+    const nh_json *e = event(root, 0);
+    cr_assert_eq(count(e), 319);
+    for (size_t i = 0; i < 319; i++)
+        cr_expect(fabs(time_of(e, i) - (double)i * acos(-1) / 100) < 1e-14 * (1 + (double)i));
+    nh_json_free(root);
+    place_clear(&p);
+}
+
+/* x = exp(-t) beside a rate of 1e6, and dry friction, of which the first turn is at pi - atan(0.01/0.9). */
+Test(events, stiff_and_with_friction)
+{
+    static const char *const methods[] = {"auto", "bdf", "adams", "esdirk", "verner"};
+    place p = place_make();
+    write_here(&p, "stiff.yaml",
+               "name: stiff\ncoordinates: [x]\nlagrangian: (x'^2 - 1e6*x^2)/2\nforces: [x = -(1e6 + 1)*x']\n");
+    write_here(&p, "friction.yaml",
+               "name: friction\ncoordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nforces: [x = -0.1*x'/abs(x')]\n");
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        char line[300];
+        double turn = acos(-1) - atan(0.01 / 0.9);
+        snprintf(line, sizeof line,
+                 "friction.yaml --initial \"x=1, x'=-0.01\" --until 4 --tolerance 1e-10 --event \"x'\" --method %s",
+                 methods[i]);
+        nh_json *root = simulated(&p, line);
+        cr_expect(count(event(root, 0)) == 1 && fabs(time_of(event(root, 0), 0) - turn) < 1e-8 &&
+                      nh_json_count(nh_json_get(root, "warnings")) == 0,
+                  "%s: %.15g, not %.15g", methods[i], time_of(event(root, 0), 0), turn);
+        nh_json_free(root);
+        if (i > 3) break; /* an explicit method does not get through a stiff motion */
+        snprintf(line, sizeof line, "stiff.yaml --initial \"x=1, x'=-1\" --until 4 --event \"x = 0.5\" --method %s",
+                 methods[i]);
+        root = simulated(&p, line);
+        cr_expect(count(event(root, 0)) == 1 && fabs(time_of(event(root, 0), 0) - log(2)) < 1e-7, "%s: %.15g",
+                  methods[i], time_of(event(root, 0), 0));
+        nh_json_free(root);
+    }
+    place_clear(&p);
+}
+
+/* One time in quasi-velocities, in coordinate velocities with all coordinates where these end, and in the smallest model: omega = 1 of the sleigh. */
+Test(events, in_every_formulation)
+{
+    static const char *const ways[] = {"", "--velocities coordinates", "--watch omega",
+                                       "--method midpoint-4 --step 0.01"};
+    place p = place_with_systems();
+    double time[4], crossing[4];
+    for (size_t i = 0; i < 4; i++) {
+        char line[300];
+        snprintf(
+            line, sizeof line,
+            "sleigh --initial 'omega=2, v=1' --until 4 --tolerance 1e-12 --event 'omega = 1' --event 'cos(phi)' %s",
+            ways[i]);
+        nh_json *root = simulated(&p, line);
+        time[i] = time_of(event(root, 0), 0);
+        crossing[i] = time_of(event(root, 1), 0);
+        cr_expect(fabs(time[i] - time[0]) < 1e-9 && fabs(crossing[i] - crossing[0]) < 1e-9, "%s: %.15g %.15g", ways[i],
+                  time[i], crossing[i]);
+        nh_json_free(root);
+    }
+    place_clear(&p);
+}
+
+/* Every point lies on the section, has the energy of the start, and rises. */
+Test(events, section_of_henon_heiles)
+{
+    place p = place_make();
+    write_here(&p, "hh.yaml", henon_heiles);
+    nh_json *root =
+        simulated(&p, "hh.yaml --initial \"y=0.1, x'=0.4\" --until 500 --step 500 --section x --tolerance 1e-12");
+    const nh_json *s = nh_json_get(root, "section");
+    cr_assert(count(s) > 70 && time_of(s, 0) == 0, "%zu points", count(s));
+    for (size_t i = 0; i < count(s); i++) {
+        cr_expect(fabs(value_of(s, "x", i)) < 1e-12 && value_of(s, "x'", i) > 0 &&
+                  fabs(value_of(s, "E", i) - value_of(s, "E", 0)) < 1e-11);
+        cr_expect(i == 0 || time_of(s, i) > time_of(s, i - 1) + 1);
+    }
+    nh_json_free(root);
+    place_clear(&p);
+}
+
+/* Tables, a folder, and one picture of the sections of several motions. */
+Test(events, tables_and_pictures)
+{
+    place p = place_make();
+    write_here(&p, "hh.yaml", henon_heiles);
+    finished f =
+        run_shell(&p, "$N simulate hh.yaml --initial \"x'=0.4\" --over y=0:0.2:3 --until 60 --section 'x, both' --axes "
+                      "\"y, y'\" --svg s.svg && grep -c '<circle' s.svg && $N simulate hh.yaml --initial "
+                      "\"y=0.1, x'=0.4\" --until 30 --step 30 --event 'y, falling' --section x -o out -q && head -1 "
+                      "out/events.csv && head -1 out/section.csv && wc -l < out/motion.csv && "
+                      "grep -o '<h2[^>]*>Section' out/report.html | wc -l && $N simulate hh.yaml --initial \"y=0.1, "
+                      "x'=0.4\" --until 30 --section x | head -1");
+    cr_expect_eq(f.code, 0, "%s", f.err);
+    cr_expect(strstr(f.out, "event,direction,t,x,y,x_dot,y_dot,E\nt,x,y,x_dot,y_dot,E\n3\n1\nt,x,y,x_dot,y_dot,E\n"),
+              "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(events, errors_say_where)
+{
+    static const struct {
+        const char *line, *words;
+    } cases[] = {
+        {"--event 'ph'", "--event:1: unknown name `ph`"},
+        {"--event 'phi + '", "--event:"},
+        {"--event 'phi, rsing'", "hint: did you mean `rising`?"},
+        {"--event '3'", "`3` never changes along a motion"},
+        {"--event ''", "--event names no expression"},
+        {"--section 'phi, stop'", "where rising, falling or both may stand"},
+        {"--section \"phi; phi'\"", "--section needs one expression, found 2"},
+        {"--section phi --axes 'phi, ph'", "did you mean `phi`?"},
+        {"--section phi --axes phi", "--axes needs two columns"},
+        {"--axes \"phi, phi'\"", "--axes without --section"},
+        {"--event phi --ensemble 3", "--ensemble, and --event as well"},
+        {"--event 'phi, stop' --accuracy 1e-6", "leave out `stop` or --accuracy"},
+    };
+    place p = place_make();
+    write_here(&p, "pendulum.yaml", pendulum);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        finished f = run_shell(&p, "$N simulate pendulum.yaml --initial phi=2 %s", cases[i].line);
+        cr_expect(f.code == 2 && strstr(f.err, cases[i].words), "%s: exit code %d\n%s", cases[i].line, f.code, f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
