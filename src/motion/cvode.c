@@ -38,7 +38,7 @@ typedef struct {
     const nh_flow_options *options;
     nh_sundials sundials;
     void *cvode;
-    N_Vector state;
+    N_Vector state, inside; /* now; at a time in the last step, whose end the next one begins from */
     nh_sizes sizes;
     nh_kinks kinks;
     nh_motion *across; /* a wall: what a one-step method made of the last step, behind which the next one starts anew; NULL: it goes on */
@@ -157,9 +157,9 @@ static bool cvode_state(double time, double *state, void *context)
     cvode_work *work = context;
     if (work->across)
         return nh_kink_crossing_state(work->across, time, state);
-    if (CVodeGetDky(work->cvode, time, 0, work->state) != CV_SUCCESS)
+    if (CVodeGetDky(work->cvode, time, 0, work->inside) != CV_SUCCESS)
         return false;
-    memcpy(state, NV_DATA_S(work->state), work->problem->size * sizeof *state);
+    memcpy(state, NV_DATA_S(work->inside), work->problem->size * sizeof *state);
     return true;
 }
 
@@ -221,7 +221,8 @@ static bool create_objects(cvode_work *work, nh_flow_method method)
         return false;
     work->state = N_VNew_Serial(size, work->sundials.context);
     work->matrix = SUNDenseMatrix(size, size, work->sundials.context);
-    if (!work->state || !work->matrix)
+    work->inside = work->state ? N_VClone(work->state) : NULL;
+    if (!work->inside || !work->matrix)
         return false;
     work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials.context);
     work->cvode = CVodeCreate(method == NH_BDF ? CV_BDF : CV_ADAMS, work->sundials.context);
@@ -252,6 +253,7 @@ static void destroy_objects(cvode_work *work)
     CVodeFree(&work->cvode);
     SUNLinSolFree(work->solver);
     SUNMatDestroy(work->matrix);
+    if (work->inside) N_VDestroy(work->inside);
     N_VDestroy(work->state);
     nh_sundials_close(&work->sundials);
     nh_free(work->root);
