@@ -257,6 +257,23 @@ Test(statements, a_residual_without_a_size_is_decided_exactly)
     place_clear(&p);
 }
 
+/* A relation among currents must not look like one with coordinates. */
+Test(statements, no_current_is_named_as_a_coordinate)
+{
+    place p = place_make();
+    write_here(&p, "named.yaml", "name: named\nparameters: {Psi2: 0.7}\ncoordinates: [Phi1, x]\nlagrangian: (Phi1'^2 + Psi2*x'^2)/2\n");
+    reports r = analyze(&p, "named.yaml");
+    const cJSON *current;
+    cJSON_ArrayForEach(current, item(r.json, "currents"))
+    {
+        const char *name = item(current, "name")->valuestring;
+        cr_expect(!strncmp(name, "Xi", 2), "%s", name);
+    }
+    cr_expect(strstr(r.text, "\nXi1: ") && !strstr(r.text, "\nPhi1: "), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
 /* ---- modulo the constraints ---- */
 
 #define FOUR_COORDINATES "parameters: [{name: m, value: 1.3}, {name: g, value: 0.9}]\n" \

@@ -166,6 +166,7 @@ struct nh_analysis {
     nh_special *special;
     size_t count, capacity, independent, local_maximum;
     size_t open;              /* null vectors that could be true but got no certificate */
+    const char *letter;       /* of the names of currents, as Phi in Phi1; see nh_currents_name */
     nh_current *found;
     size_t pieces;            /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
     nh_current *piece;

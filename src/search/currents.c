@@ -73,6 +73,27 @@ static void sort(nh_analysis *r)
     }
 }
 
+/* Is a symbol named by these letters and a number? */
+static bool is_used(const nh_dag *d, const char *letters)
+{
+    enum { most = 99 };
+    char name[24];
+    nh_ex symbol;
+    for (int k = 0; k <= most; k++) {
+        snprintf(name, sizeof name, "%s%d", letters, k);
+        if (nh_symbol_find(d, name, &symbol)) return true;
+    }
+    return false;
+}
+
+const char *nh_currents_name(nh_analysis *r, size_t number)
+{
+    static const char *const letters[] = {"Phi", "Psi", "Xi", "Current"};
+    for (size_t i = 0; !r->letter; i++)
+        if (i + 1 == sizeof letters / sizeof *letters || !is_used(r->model->dag, letters[i])) r->letter = letters[i];
+    return nh_arena_printf(r->arena, "%s%zu", r->letter, number);
+}
+
 /* What doubles propose, with many digits at exact points: they have the last word. */
 static void decide_ranks(nh_analysis *r, const nh_ex *phi, nh_independence *kind)
 {
@@ -105,7 +126,7 @@ static void independence(nh_analysis *r, const nh_points *generic)
         r->found[k].independence = kind[k];
         r->found[k].fraction = fraction[k];
         r->independent += kind[k] == NH_INDEPENDENT;
-        r->found[k].name = nh_arena_printf(r->arena, "Phi%zu", k + 1);
+        r->found[k].name = nh_currents_name(r, k + 1);
     }
     nh_free(fraction);
     nh_free(kind);
@@ -392,7 +413,7 @@ static void name_pieces(nh_current_checker *b)
     for (size_t k = 0; k < r->pieces; k++) {
         if (nh_currents_known(b, r->piece[k].phi)) continue;
         r->piece[kept] = r->piece[k];
-        r->piece[kept].name = nh_arena_printf(r->arena, "Phi%zu", r->count + kept + 1);
+        r->piece[kept].name = nh_currents_name(r, r->count + kept + 1);
         kept++;
     }
     r->pieces = kept;

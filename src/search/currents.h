@@ -15,6 +15,9 @@ bool nh_currents_add(nh_current_checker *bench, nh_candidate *candidate, const n
 /* Append one that was checked before. */
 void nh_currents_put(nh_current_checker *bench, const nh_current *found);
 
+/* "Phi3"; "Psi3" where the system has a symbol such as Phi1, and so on.  Belongs to the arena of the analysis. */
+const char *nh_currents_name(nh_analysis *analysis, size_t number);
+
 /* Is it a function of the currents found so far, or constant? */
 bool nh_currents_known(const nh_current_checker *bench, nh_ex phi);
 

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "integrals/construct.h"
 #include "integrals/echelon.h"
+#include "search/currents.h"
 #include "search/relations.h"
 #include "search/stage_solver.h"
 
@@ -247,7 +248,7 @@ static void look(nh_analysis *r)
     take_back(&s);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.climb.bench);
-    for (size_t k = 0; k < r->furthers; k++) r->further[k].current.name = nh_arena_printf(r->arena, "Phi%zu", r->count + r->pieces + k + 1);
+    for (size_t k = 0; k < r->furthers; k++) r->further[k].current.name = nh_currents_name(r, r->count + r->pieces + k + 1);
     if (r->furthers) nh_relations_find(r);
     nh_stage_solver_end(&s.climb);
     bool all = r->independent >= r->local_maximum;
