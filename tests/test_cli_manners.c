@@ -423,3 +423,24 @@ Test(cli_manners, quiet_keeps_a_table_that_nothing_else_holds)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* A definition of the analysis file stands once, in the part of the first current that needs it: a before b1 before c of the lattice, R of the sleigh. */
+Test(cli_manners, definitions_stand_where_they_are_needed)
+{
+    place p = place_make();
+    finished f = run_expecting(&p, "analyze sleigh", 0);
+    const char *current = strstr(f.out, "\n  Phi4 = "), *definition = current ? strstr(current, "\n  R = ") : NULL;
+    const char *next = current ? strstr(current, "Certified") : NULL;
+    cr_assert(current && definition && next, "%s", f.out);
+    cr_expect_lt(definition, next);
+    cr_expect_null(strstr(definition + 1, "\n  R = "));
+    cr_expect_eq(definition, strstr(f.out, "\n  R = "));
+    finished_clear(&f);
+    f = run_expecting(&p, "analyze toda_lattice", 0);
+    for (const char *const *name = (const char *const[]){"\n  a = ", "\n  b1 = ", "\n  c = ", NULL}; *name; name++) {
+        const char *once = strstr(f.out, *name);
+        cr_expect(once && !strstr(once + 1, *name), "%s", *name);
+    }
+    finished_clear(&f);
+    place_clear(&p);
+}

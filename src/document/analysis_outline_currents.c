@@ -1,6 +1,8 @@
 /* The currents of an analysis: formula, certificate, symmetry; then what is not counted. */
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "document/analysis_outline_internal.h"
@@ -212,7 +214,53 @@ static void as_text(nh_pen *p, const nh_analysis *r, const nh_current *f)
     nh_free(text);
 }
 
-static void current(nh_pen *p, const nh_analysis *r, const nh_current *f)
+/* ---- definitions of the analysis file ---- */
+
+/* Does the name stand in the current, or in its field, as they are shown? */
+static bool stands_in(const nh_analysis *r, const nh_current *f, const char *name)
+{
+    nh_dag *d = r->model->dag;
+    nh_ex symbol = nh_symbol(d, name);
+    nh_field_term *term;
+    bool any = !f->series && nh_depends(d, nh_formula_shown(r, f->phi), symbol);
+    size_t n = f->has_symmetry && !f->series && !any ? nh_formula_field(r, &f->symmetry, &term) : 0;
+    for (size_t i = 0; i < n && !any; i++)
+        any = nh_depends(d, nh_formula_shortened(r->analysis, d, term[i].coefficient), symbol);
+    return any;
+}
+
+static bool of_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
+
+static bool has_word(const char *text, const char *word)
+{
+    size_t length = strlen(word);
+    for (const char *at = text; (at = strstr(at, word)); at++)
+        if ((at == text || !of_name(at[-1])) && !of_name(at[length])) return true;
+    return false;
+}
+
+/* Those that the current needs, or all (NULL), and that have not been told: with those that stand in them. */
+static void definitions(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *told)
+{
+    const nh_analysis_file *a = r->analysis;
+    size_t n = a ? a->definitions : 0;
+    bool any = false, *now = nh_arena_alloc(r->arena, (n + 1) * sizeof *now);
+    for (size_t i = n; i-- > 0;) {
+        now[i] = !told[i] && (!f || stands_in(r, f, a->definition[i].name));
+        for (size_t j = i + 1; j < n && !told[i] && !now[i]; j++)
+            now[i] = now[j] && has_word(a->definition[j].text, a->definition[i].name);
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (!now[i]) continue;
+        if (!any) nh_pen_words(p, "where");
+        p->ink->equation(p->to, a->definition[i].name, a->definition[i].text);
+        any = told[i] = true;
+    }
+}
+
+/* ---- a current ---- */
+
+static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *told)
 {
     const nh_validation *v = r->validation;
     nh_pen_card(p, NULL);
@@ -221,6 +269,7 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f)
     if (f->relation) p->ink->equation(p->to, "", f->relation);
     if (f->series) series(p, r, f);
     else nh_pen_formula(p, f->name, f->phi);
+    definitions(p, r, f, told);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     certificate(p, r, f);
     if (v)
@@ -302,12 +351,11 @@ void nh_analysis_write_currents(nh_pen *p, const nh_analysis *r)
             p, "A current is a function of time, coordinates and velocities that is constant along every motion.");
         if (!r->count) nh_pen_words(p, "None was found. The stages of the search are listed below.");
     }
-    for (size_t k = 0; k < r->count; k++) current(p, r, &r->found[k]);
+    bool *told = nh_arena_alloc(r->arena, ((a ? a->definitions : 0) + 1) * sizeof *told);
+    memset(told, 0, ((a ? a->definitions : 0) + 1) * sizeof *told);
+    for (size_t k = 0; k < r->count; k++) current(p, r, &r->found[k], told);
     nh_pen_card_end(p);
-    for (size_t i = 0; a && r->count && i < a->definitions; i++) {
-        if (i == 0) nh_pen_words(p, "where");
-        p->ink->equation(p->to, a->definition[i].name, a->definition[i].text);
-    }
+    if (r->count) definitions(p, r, NULL, told);
     furthers(p, r);
     pieces(p, r);
     almost(p, r);
