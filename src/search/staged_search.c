@@ -85,7 +85,7 @@ static void how_it_ended(nh_analysis *r, bool spent)
 
 bool nh_staged_search_run(nh_analysis *r, nh_error *error)
 {
-    enum { counted_from = 1, pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 5, time_after = 17 };
+    enum { counted_from = 1, pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 5, time_after = 14 };
     nh_stage_solver x;
     if (!nh_stage_solver_begin(&x, r, error)) return false;
     nh_budget_begin(r->options.work);

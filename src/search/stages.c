@@ -88,8 +88,8 @@ nh_expr_set nh_expr_set_functions(const nh_family_list *s, bool one)
     return l;
 }
 
-/* prod over the angles of {1, cos, sin}, to the given harmonic. */
-static nh_expr_set waves(const nh_family_list *s, size_t harmonic)
+/* prod over the angles of {1, cos, sin}. */
+static nh_expr_set waves(const nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
     nh_expr_set l = {0};
@@ -97,12 +97,10 @@ static nh_expr_set waves(const nh_family_list *s, size_t harmonic)
     for (size_t i = 0; i < s->w->waves; i++) {
         size_t n = l.n;
         if (n == NH_MOST_EXPRS) break;
-        for (size_t k = 1; k <= harmonic; k++) {
-            nh_ex angle = nh_mul(d, nh_int(d, (int64_t)k), s->w->wave[i]), c = nh_call(d, NH_COS, angle), q = nh_call(d, NH_SIN, angle);
-            for (size_t j = 0; j < n; j++) {
-                nh_expr_set_put(&l, nh_mul(d, l.e[j], c));
-                nh_expr_set_put(&l, nh_mul(d, l.e[j], q));
-            }
+        nh_ex angle = s->w->wave[i], c = nh_call(d, NH_COS, angle), q = nh_call(d, NH_SIN, angle);
+        for (size_t j = 0; j < n; j++) {
+            nh_expr_set_put(&l, nh_mul(d, l.e[j], c));
+            nh_expr_set_put(&l, nh_mul(d, l.e[j], q));
         }
     }
     return l;
@@ -141,7 +139,7 @@ static nh_expr_set times(const nh_family_list *s, const nh_expr_set *a, const nh
 
 static nh_expr_set frame_products(const nh_family_list *s, bool squares_too)
 {
-    nh_expr_set f = {0}, w = waves(s, 1), some = nh_expr_set_lengths(s, false, !squares_too), all = nh_expr_set_lengths(s, true, false), g = nh_expr_set_functions(s, false);
+    nh_expr_set f = {0}, w = waves(s), some = nh_expr_set_lengths(s, false, !squares_too), all = nh_expr_set_lengths(s, true, false), g = nh_expr_set_functions(s, false);
     nh_expr_set_put_all(&f, s->w->frames, s->w->frame);
     nh_expr_set out = times(s, &f, &some), sq = nh_expr_set_squares(s, &f), more = times(s, &sq, &all);
     if (squares_too) nh_expr_set_put_all(&out, more.n, more.e);
@@ -178,7 +176,7 @@ static void stage_words_positions(nh_family_list *s)
 
 static void stage_linear_waves(nh_family_list *s)
 {
-    nh_expr_set l = linear_words(s), w = waves(s, 1);
+    nh_expr_set l = linear_words(s), w = waves(s);
     if (s->w->waves) nh_family_list_product_of_sets(s, &l, &w);
 }
 
@@ -210,15 +208,6 @@ static void stage_degree_2(nh_family_list *s) { stage_total(s, 2, true); }
 static void stage_degree_3(nh_family_list *s) { stage_total(s, 3, false); }
 static void stage_degree_4(nh_family_list *s) { stage_total(s, 4, false); }
 static void stage_degree_6(nh_family_list *s) { stage_total(s, 6, false); }
-
-static void stage_quadratic_waves(nh_family_list *s)
-{
-    nh_expr_set l = linear_words(s), q = nh_expr_set_squares(s, &l), w = waves(s, 1), f = nh_expr_set_functions(s, false);
-    if (!s->w->waves) return;
-    nh_family_list_product_of_sets(s, &q, &w);
-    nh_family_list_add(s, nh_family_list_terms(s, &w));
-    nh_family_list_add(s, nh_family_list_terms(s, &f));
-}
 
 /* L has terms of degree one in the velocities: a magnetic field. */
 static bool is_magnetic(const nh_family_list *s)
@@ -254,12 +243,6 @@ static void stage_ratios(nh_family_list *s)
     nh_family_list_add(s, nh_family_list_terms(s, &qt));
 }
 
-static void stage_linear_waves_2(nh_family_list *s)
-{
-    nh_expr_set l = linear_words(s), w = waves(s, 2);
-    if (s->w->waves) nh_family_list_product_of_sets(s, &l, &w);
-}
-
 typedef struct {
     const char *name;
     void (*build)(nh_family_list *);
@@ -280,20 +263,15 @@ static const recipe stages[] = {
     {"total degree 2 times the system's own functions", stage_degree_2},
     {"quadratic forms times positions", stage_weights},
     {"weighted degree 4 in the frame of the kinetic energy", nh_stage_weight_4},
-    {"weighted degree 4 in the system's own forms", nh_stage_forms_4},
     {"squares of velocities times positions of higher degree, energy and functions times lower", nh_stage_separation},
     {"cubic in velocities times positions, velocities times functions and positions", nh_stage_cubic},
     {"degree four in velocities, as homogeneous as the potential", nh_stage_homogeneous},
-    {"velocities times products of functions of one coordinate", nh_stage_one_coordinate},
     {"squares of single momenta, the energy, and functions of one coordinate", nh_stage_separated},
-    {"squares of momenta times functions of one coordinate", nh_stage_momenta},
     {"squares of positions and velocities times functions of time", nh_stage_time},
     {"squares of the frame times lengths and first harmonics", stage_frame},
     {"squares of the frame times lengths and half angles", nh_stage_half_angles},
     {"ratios of velocities", stage_ratios},
     {"total degree 3", stage_degree_3},
-    {"quadratic forms times first harmonics", stage_quadratic_waves},
-    {"velocities and forms times second harmonics", stage_linear_waves_2},
     {"total degree 4", stage_degree_4},
     {"total degree 6", stage_degree_6},
 };
@@ -386,7 +364,7 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
     if (base == 2) nh_expr_set_put_all(&l, w->frames, w->frame);
     if (base == 2) nh_expr_set_put_all(&l, w->forms, w->form);
     size_t words_count = l.n;
-    if (base > 0 && (double)words_count * pow(3, (double)w->waves) <= most_with_waves) v = waves(&s, 1);
+    if (base > 0 && (double)words_count * pow(3, (double)w->waves) <= most_with_waves) v = waves(&s);
     for (size_t i = 0; i < words_count; i++)
         for (size_t j = 0; j < v.n; j++) nh_expr_set_put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
     if (timely) nh_expr_set_put_time(&s, &l);

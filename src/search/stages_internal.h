@@ -57,25 +57,21 @@ void nh_stage_turns(nh_family_list *shelf);
 
 /* ---- stages_weighted.c ---- */
 
-/* Degree four with weights, in the frame of the kinetic energy and in the system's own forms. */
+/* Degree four with weights, in the frame of the kinetic energy. */
 void nh_stage_weight_4(nh_family_list *shelf);
-void nh_stage_forms_4(nh_family_list *shelf);
 
 /* ---- stages_separation.c ---- */
 
 void nh_stage_separation(nh_family_list *shelf);
 /* Squares of single momenta, and the energy, with coefficients that are functions of one coordinate each, and these. */
 void nh_stage_separated(nh_family_list *shelf);
-/* Squares of momenta with coefficients that are functions of one coordinate each (Carter's constant). */
-void nh_stage_momenta(nh_family_list *shelf);
 /* Quasi-homogeneous polynomials of degree four in the velocities, for polynomial potentials. */
 void nh_stage_homogeneous(nh_family_list *shelf);
 /* Cubic in the velocities times positions, the system's functions with one velocity (Holt, Fokas and Lagerstrom). */
 void nh_stage_cubic(nh_family_list *shelf);
 /* Half angles: parabolic coordinates seen from polar ones. */
 void nh_stage_half_angles(nh_family_list *shelf);
-/* 1 and products of functions of one coordinate, and velocities with these. */
+/* 1 and products of functions of one coordinate. */
 nh_expr_set nh_expr_set_one_coordinate(const nh_family_list *shelf);
-void nh_stage_one_coordinate(nh_family_list *shelf);
 
 #endif

@@ -107,19 +107,6 @@ void nh_stage_separated(nh_family_list *s)
     nh_family_list_add(s, nh_family_list_terms(s, &c));
 }
 
-void nh_stage_momenta(nh_family_list *s)
-{
-    nh_expr_set p = {0}, c = {0}, e = {0}, none = nh_expr_set_functions(s, false);
-    if (s->o->k || s->w->frames == 0) return; /* constant metrics: polynomials */
-    c = coefficients(s);
-    nh_expr_set_put_all(&p, s->o->m, s->o->p);
-    nh_expr_set_put(&e, s->o->E);
-    nh_expr_set pp = nh_expr_set_squares(s, &p);
-    nh_expr_set_put_all(&pp, 1, e.e);
-    nh_family_list_product_of_sets(s, &pp, &c);
-    nh_family_list_product_of_sets(s, &none, &c);
-}
-
 /* sin q, cos q; else q and the system's functions with their derivatives (cosh, sinh). */
 static void put_factors(const nh_family_list *s, nh_ex q, nh_expr_set *l)
 {
@@ -150,15 +137,6 @@ nh_expr_set nh_expr_set_one_coordinate(const nh_family_list *s)
             for (size_t k = 0; k < n; k++) nh_expr_set_put(&all, nh_mul(d, all.e[k], own.e[j]));
     }
     return all;
-}
-
-void nh_stage_one_coordinate(nh_family_list *s)
-{
-    nh_expr_set w = {0};
-    if (s->w->positions > 3) return;
-    nh_expr_set all = nh_expr_set_one_coordinate(s);
-    nh_expr_set_put_all(&w, s->o->n, s->o->chart->w);
-    if (all.n > 3) nh_family_list_product_of_sets(s, &w, &all);
 }
 
 /* Parabolic coordinates are r cos^2(q/2), r sin^2(q/2): what separates in them is quadratic in the frame times lengths and half angles. */

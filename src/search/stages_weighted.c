@@ -48,12 +48,3 @@ void nh_stage_weight_4(nh_family_list *s)
     else nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
     weighted(s, &u, &f);
 }
-
-/* The same in the forms that the system itself shows, where they are as many as the velocities. */
-void nh_stage_forms_4(nh_family_list *s)
-{
-    nh_expr_set u = {0}, f = weight_two(s);
-    if (s->w->forms != s->o->n) return;
-    nh_expr_set_put_all(&u, s->w->forms, s->w->form);
-    weighted(s, &u, &f);
-}
