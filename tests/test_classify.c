@@ -620,3 +620,27 @@ Test(classify, an_open_value_names_the_option_that_decides_it)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* With sines: separable where the coupling is without the product of both cosines, and nowhere else. */
+Test(classify, no_number_is_left_out_with_sines)
+{
+    static const char *const lagrangian[] = {
+        "(x'^2 + y'^2)/2 - cos(x) - cos(y) - (a - 1/2)*cos(x)*cos(y)",
+        "(x'^2 + sin(x)^2*y'^2)/2 - cos(x) - (2*a - 1)*cos(x)^2*sin(y)",
+    };
+    place p = place_make();
+    char path[PATH_MAX + 30];
+    snprintf(path, sizeof path, "%s/a.yaml", p.folder);
+    for (size_t i = 0; i < sizeof lagrangian / sizeof *lagrangian; i++) {
+        FILE *file = fopen(path, "w");
+        cr_assert_not_null(file);
+        fprintf(file, "name: a\nparameters: {a: 0.7}\ncoordinates: [x, y]\nlagrangian: %s\n", lagrangian[i]);
+        fclose(file);
+        finished f = run_expecting(&p, "classify a.yaml --over a --degree 2", 0);
+        cr_expect(strstr(f.out, "1 value of a"), "%s", f.out);
+        cr_expect(strstr(f.out, "a = 1/2"), "%s", f.out);
+        cr_expect(strstr(f.out, "degree 2: no number, real or complex, has more than 2"), "%s", f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}

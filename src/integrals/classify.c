@@ -163,6 +163,21 @@ static void count_values(search *s, size_t degree)
 
 enum { coordinates_tried = 27, least_coordinate = 1, choices = 3, unlucky = 20 };
 
+/* The tangent of half the angle is a whole number. */
+static void choose_angle(nh_jet_point *point, nh_ex coordinate, int64_t q0)
+{
+    nh_prime f = point->field;
+    nh_residue u = nh_residue_of(f, nh_special_bound_tangent(q0)), square = nh_residue_mul(f, u, u);
+    nh_residue inverse = nh_residue_inverse(f, nh_residue_add(f, 1, square));
+    for (size_t i = 0; i < point->kernels; i++) {
+        nh_jet_kernel *k = &point->kernel[i];
+        if (k->kind != NH_JET_CIRCLE || k->key != coordinate || k->order != 1) continue;
+        k->value = nh_residue_mul(f, nh_residue_sub(f, 1, square), inverse);
+        k->sine = nh_residue_mul(f, nh_residue_add(f, u, u), inverse);
+        k->chosen = true;
+    }
+}
+
 /* Whole coordinates at which the nullity modulo a prime is that of the random points, and how long special values can be. */
 static bool bound_at(search *s, size_t degree, const nh_classify_row *row, int64_t *q0, nh_special_bound *out)
 {
@@ -173,6 +188,7 @@ static bool bound_at(search *s, size_t degree, const nh_classify_row *row, int64
         for (size_t k = 0, rest = trial; k < x->coordinates; k++, rest /= choices) {
             q0[k] = least_coordinate + (int64_t)(rest % choices);
             x->at[k] = (nh_residue)q0[k];
+            choose_angle(x->point, x->coordinate[k], q0[k]);
         }
         nh_residue_polynomial chi = {0}, Q = {0};
         nh_classify_row here = {0};

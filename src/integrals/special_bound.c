@@ -10,12 +10,13 @@
 
 enum { most_variables = 16, most_terms = 2000 };
 
-/* size lambda^power q^at w^velocity times d/dq_index (derivative) or d/dw_index; before D is multiplied exponents may be negative. */
+/* size lambda^power q^at sin(q)^sine cos(q)^cosine w^velocity times d/dq_index (derivative) or d/dw_index; before D is
+ * multiplied exponents may be negative. */
 typedef struct {
     bool derivative;
     size_t index;
     double size;
-    int64_t power, at[most_variables], velocity[most_variables];
+    int64_t power, at[most_variables], velocity[most_variables], sine[most_variables], cosine[most_variables];
 } term;
 
 typedef struct {
@@ -24,13 +25,14 @@ typedef struct {
     nh_dag *dag;
     size_t terms, capacity;
     term *term;
-    double whole;            /* D = whole lambda^(power) q^(at) */
-    int64_t power, at[most_variables];
+    double whole;            /* D = whole lambda^(power) q^(at) sin(q)^(sine) cos(q)^(cosine) */
+    int64_t power, at[most_variables], sine[most_variables], cosine[most_variables];
+    int64_t turns[most_variables]; /* the highest degree in sin(q_k) and cos(q_k), of D too */
 } bound;
 
 /* ---- terms ---- */
 
-/* Exponents of one kernel: false where it is no coordinate, velocity or the parameter. */
+/* Exponents of one kernel: false where it is no coordinate, its sine or cosine, velocity or the parameter. */
 static bool put_exponent(const bound *b, nh_ex kernel, int64_t exponent, term *t)
 {
     const nh_jet_equations *x = b->x;
@@ -42,6 +44,12 @@ static bool put_exponent(const bound *b, nh_ex kernel, int64_t exponent, term *t
     for (size_t k = 0; k < x->coordinates; k++)
         if (kernel == x->coordinate[k]) {
             t->at[k] += exponent;
+            return true;
+        } else if (kernel == nh_call(b->dag, NH_SIN, x->coordinate[k])) {
+            t->sine[k] += exponent;
+            return true;
+        } else if (kernel == nh_call(b->dag, NH_COS, x->coordinate[k])) {
+            t->cosine[k] += exponent;
             return true;
         }
     for (size_t i = 0; i < x->n; i++)
@@ -99,8 +107,11 @@ static bool add_component(bound *b, nh_forms *forms, nh_arena *arena, nh_ex e, b
     for (size_t i = first; i < b->terms; i++) {
         const term *t = &b->term[i];
         if (-t->power > b->power) b->power = -t->power;
-        for (size_t k = 0; k < b->x->coordinates; k++)
+        for (size_t k = 0; k < b->x->coordinates; k++) {
             if (-t->at[k] > b->at[k]) b->at[k] = -t->at[k];
+            if (-t->sine[k] > b->sine[k]) b->sine[k] = -t->sine[k];
+            if (-t->cosine[k] > b->cosine[k]) b->cosine[k] = -t->cosine[k];
+        }
     }
     return good;
 }
@@ -122,7 +133,13 @@ static bool read(bound *b)
     for (size_t i = 0; i < b->terms; i++) {
         b->term[i].size *= b->whole;
         b->term[i].power += b->power;
-        for (size_t k = 0; k < x->coordinates; k++) b->term[i].at[k] += b->at[k];
+        for (size_t k = 0; k < x->coordinates; k++) {
+            term *t = &b->term[i];
+            t->at[k] += b->at[k];
+            int64_t degree = (t->sine[k] += b->sine[k]) + (t->cosine[k] += b->cosine[k]);
+            if (degree > b->turns[k]) b->turns[k] = degree;
+            if (b->sine[k] + b->cosine[k] > b->turns[k]) b->turns[k] = b->sine[k] + b->cosine[k];
+        }
     }
     return good;
 }
@@ -137,6 +154,13 @@ static bool next(size_t n, size_t degree, size_t *e)
     while (i < n && sum == degree) sum -= e[i], e[i++] = 0;
     if (i < n) e[i]++;
     return i < n;
+}
+
+/* Of the sine and cosine where the tangent of half the angle is u. */
+static double denominator(int64_t q0)
+{
+    double u = (double)nh_special_bound_tangent(q0);
+    return 1 + u * u;
 }
 
 /* What one term adds to the row of w^beta and the derivative e. */
@@ -157,6 +181,7 @@ static double entry(const bound *b, const term *t, size_t degree, const size_t *
         for (size_t j = 0; j < b->family->kept; j++)
             if (b->family->index[j] == k) further = (double)e[j];
         size *= pow(fabs((double)q0[k]) + further, (double)t->at[k]);
+        size *= pow(denominator(q0[k]), (double)b->turns[k]) * pow(1 + (double)(t->sine[k] + t->cosine[k]), further);
     }
     return size;
 }
@@ -189,6 +214,8 @@ static double largest(const bound *b, size_t degree, nh_parity parity, size_t or
     return sum;
 }
 
+int64_t nh_special_bound_tangent(int64_t coordinate) { return coordinate + 1; }
+
 bool nh_special_bound_find(const nh_parametric *family, size_t degree, nh_parity parity, size_t order, const int64_t *q0,
                            size_t rank, nh_special_bound *out)
 {
@@ -197,7 +224,8 @@ bool nh_special_bound_find(const nh_parametric *family, size_t degree, nh_parity
     bool good = read(&b);
     if (good) {
         double multiplier = log2(b.whole);
-        for (size_t k = 0; k < b.x->coordinates; k++) multiplier += (double)b.at[k] * log2(fabs((double)q0[k]));
+        for (size_t k = 0; k < b.x->coordinates; k++)
+            multiplier += (double)b.at[k] * log2(fabs((double)q0[k])) + (double)b.turns[k] * log2(denominator(q0[k]));
         for (size_t i = 0; i < b.terms; i++)
             if (b.term[i].power > power) power = b.term[i].power;
         /* what rounding takes away is less */
