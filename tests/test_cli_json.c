@@ -258,7 +258,7 @@ Test(cli_json, threads_do_not_change_the_output, .timeout = 300)
 {
     sweep_plain_only();
     place p = place_with_project();
-    char *a = without_timing(json_of(&p, "analyze lagrange_top --threads 1 --max-seconds 1000 --json -", 0)), *b = without_timing(json_of(&p, "analyze lagrange_top --threads 3 --max-seconds 1000 --json -", 0));
+    char *a = without_timing(json_of(&p, "analyze vertical_disk --threads 1 --max-seconds 1000 --json -", 0)), *b = without_timing(json_of(&p, "analyze vertical_disk --threads 3 --max-seconds 1000 --json -", 0));
     cr_expect_str_eq(a, b);
     free(a);
     free(b);
