@@ -257,6 +257,24 @@ Test(statements, a_residual_without_a_size_is_decided_exactly)
     place_clear(&p);
 }
 
+/* A rate that doubles cannot tell from its rounding, atanh of nearly one, is measured in balls. */
+Test(statements, a_residual_is_no_rounding)
+{
+    if (!sweep_tries(1, 1, 4)) return; /* four seconds */
+    place p = place_make();
+    write_here(&p, "skate.yaml", "name: skate\nparameters: {b: 1e-9}\ncoordinates: [x, y, {name: p, type: angle}]\n"
+                                 "lagrangian: (x'^2 + y'^2)/2 + b*p'^2/2\nconstraints: [\"x'*sin(p) - y'*cos(p) = b*p'\"]\n");
+    reports r = analyze(&p, "skate.yaml");
+    const cJSON *current;
+    cJSON_ArrayForEach(current, item(r.json, "currents"))
+    {
+        double residual = item(current, "heldout_residual")->valuedouble;
+        cr_expect_lt(residual, 1e-6, "%s: %g", item(current, "name")->valuestring, residual);
+    }
+    reports_clear(&r);
+    place_clear(&p);
+}
+
 /* A relation among currents must not look like one with coordinates. */
 Test(statements, no_current_is_named_as_a_coordinate)
 {
