@@ -189,6 +189,18 @@ static const published PUBLISHED[] = {
      "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (a*x^2 + b*y^2 + c*z^2)/2\nconstraints: [\"x*x' + y*y' + z*z' = 0\"]\n" OCTANT, 3, 4},
     {"Kepler on the sphere, Cartesian", "parameters: {k: 0.7}\ncoordinates: [x, y, z]\n"
      "lagrangian: (x'^2 + y'^2 + z'^2)/2 + k*z/sqrt(x^2 + y^2)\nconstraints: [\"x*x' + y*y' + z*z' = 0\"]\n" OCTANT, 4, 4},
+    /* H. V. McIntosh and A. Cisneros, J. Math. Phys. 11 (1970) 896 */
+    {"MICZ-Kepler", "parameters: {k: 0.7, m: 0.4}\ncoordinates: [x, y, z]\ndefinitions: [\"r = sqrt(x^2 + y^2 + z^2)\"]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 + m*z*(x*y' - y*x')/(r*(x^2 + y^2)) + k/r - m^2/(2*r^2)\n" OCTANT, 5, 4},
+    /* J. F. Carinena, M. F. Ranada, M. Santander and M. Senthilvelan, Nonlinearity 17 (2004) 1941 */
+    {"oscillator with a mass that depends on the position", "parameters: {l: 0.3, a: 0.8}\ncoordinates: [x, y]\n"
+     "lagrangian: (x'^2 + y'^2 + l*(x*y' - y*x')^2)/(2*(1 + l*(x^2 + y^2))) - a^2*(x^2 + y^2)/(2*(1 + l*(x^2 + y^2)))\n", 3, 6},
+    /* N. E. Zhukovsky, J. Russ. Phys.-Chem. Soc. 17 (1885) 81; V. Volterra, Acta Math. 22 (1899) 201 */
+    {"gyrostat of Zhukovsky and Volterra", "parameters: {A: 1, B: 1.5, C: 2.2, l: 0.3, k: 0.2}\n" ANGLES BODY
+     "lagrangian: (A*W1^2 + B*W2^2 + C*W3^2)/2 + l*W1 + k*W3\n" TURNED, 4, 4},
+    /* P. W. Higgs and H. I. Leemon, J. Phys. A 12 (1979) 309 and 489: Kepler's problem in gnomonic coordinates */
+    {"Kepler on the sphere, gnomonic", "parameters: {w: 0.7, K: 0.4}\ncoordinates: [x, y]\n"
+     "lagrangian: ((1 + K*y^2)*x'^2 - 2*K*x*y*x'*y' + (1 + K*x^2)*y'^2)/(2*(1 + K*(x^2 + y^2))^2) + w/sqrt(x^2 + y^2)\n" QUADRANT, 3, 6},
     {"three inverse squares on the sphere", "parameters: {a: 0.4, b: 0.7, c: 0.3}\ncoordinates: [{name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: (th'^2 + sin(th)^2*ph'^2)/2 - a/(sin(th)*cos(ph))^2 - b/(sin(th)*sin(ph))^2 - c/cos(th)^2\ndomain: {th: [0.4, 1.2], ph: [0.4, 1.2]}\n", 3, 6},
     /* A. Marchesiello and L. Snobl, J. Phys. A 50 (2017) 245202: a helical magnetic field */
