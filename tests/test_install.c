@@ -31,7 +31,6 @@ Test(install, installs_compiles_runs_and_leaves_no_trace)
 /* What a packager gives comes after the project's own, which stays. */
 Test(install, flags_are_added)
 {
-    sweep_plain_only();
     char said[20000];
     int  code = run("MAKEFLAGS= CPPFLAGS=-DGIVEN=1 make -n -s -W src/base/text.c SANITIZE= CFLAGS=-O0 LDFLAGS=-Wl,--given build/src/base/text.o build/nhsym 2>&1 | grep -e ' -c src/base/text.c ' -e '-o build/nhsym'", said, sizeof said);
     cr_assert_eq(code, 0, "%s", said);

@@ -360,7 +360,6 @@ enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 
 Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed)
 {
-    sweep_plain_only();
     for (size_t i = 0; i < COUNT; i++) {
         if (!sweep_tries(i, 9, 36)) continue;
         const unseen *u = &UNSEEN[i];
