@@ -380,6 +380,8 @@ Test(cli_manners, a_file_of_another_name_is_found)
     write_here(&p, "bike.txt", "name: bike\n");
     check_hint(&p, "analyze bkie.yaml", 3, "\nhint: did you mean `bike.yaml`?\n");
     check_hint(&p, "analyze ./bike.yml", 3, "\nhint: did you mean `./bike.yaml`?\n");
+    check_hint(&p, "analyze bike.yml", 3, "\nhint: did you mean `bike.yaml`?\n");
+    check_hint(&p, "analyze bike.yam", 3, "\nhint: did you mean the file `bike.yaml`?\n");
     check_hint(&p, "analyze bike.txt", 3, "\nhint: there is a file of this name here: write ./bike.txt\n");
     place_clear(&p);
 }
@@ -442,5 +444,20 @@ Test(cli_manners, definitions_stand_where_they_are_needed)
         cr_expect(once && !strstr(once + 1, *name), "%s", *name);
     }
     finished_clear(&f);
+
+/* Coordinates as a map are those of the list; a unit in the place of a type is explained; a map completes an included list. */
+Test(cli_manners, coordinates_as_a_map)
+{
+    place p = place_make();
+    write_here(&p, "map.yaml", "name: m\ncoordinates: {x: length, phi: {type: angle, doc: heading}}\nlagrangian: (x'^2 + phi'^2)/2\n");
+    write_here(&p, "more.yaml", "include: map.yaml\nname: more\ncoordinates: {z: length}\nlagrangian: (x'^2 + phi'^2 + z'^2)/2\n");
+    write_here(&p, "unit.yaml", "name: m\ncoordinates: {x: m}\nlagrangian: x'^2/2\n");
+    finished f = run_expecting(&p, "simulate map.yaml --initial x'=1,phi=2 --until 1 --step 1", 0);
+    cr_expect(strstr(f.out, "t,x,phi,x_dot,phi_dot,E\n0,0,2,1,0,0.5\n"), "%s", f.out);
+    finished_clear(&f);
+    f = run_expecting(&p, "show --of coordinates more.yaml", 0);
+    cr_expect_str_eq(f.out, "x\nphi\nz\n");
+    finished_clear(&f);
+    check_hint(&p, "analyze unit.yaml", 3, "\nhint: a unit stands beside it: {type: length, unit: m}\n");
     place_clear(&p);
 }

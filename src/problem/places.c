@@ -72,7 +72,7 @@ static size_t places(nh_arena *arena, const char *kind, place *out)
 
 bool nh_places_is_path(const char *name)
 {
-    static const char *const endings[] = {".yaml", ".urdf", ".xml", ".xacro"};
+    static const char *const endings[] = {".yaml", ".yml", ".urdf", ".xml", ".xacro"};
     size_t length = strlen(name);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         size_t n = strlen(endings[i]);
@@ -170,9 +170,10 @@ const char *nh_places_find(nh_arena *arena, const char *kind, const char *name, 
     const char **names;
     size_t count = nh_places_names(arena, kind, &names);
     nh_fail(error, NH_INPUT, "", "there is no %s `%s` in ./%s, in NHSYM_PATH or among the installed ones", strcmp(kind, "systems") ? "analysis" : "system", name, kind);
-    const char *near = nh_text_nearest(name, names, count), *file = nh_arena_printf(arena, "%s.yaml", name);
+    const char *near = nh_text_nearest(name, names, count), *file = nh_arena_printf(arena, "%s.yaml", name), *beside = strchr(name, '.') ? file_near(arena, name) : NULL;
     if (!access(file, F_OK)) nh_error_hint(error, "did you mean the file %s?  Write its whole name", file);
     else if (!access(name, F_OK)) nh_error_hint(error, "there is a file of this name here: write ./%s", name);
+    else if (beside) nh_error_hint(error, "did you mean the file `%s`?", beside);
     else if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else nh_error_hint(error, "give the path of a file, or a name that `nhsym list` shows");
     return NULL;

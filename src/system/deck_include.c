@@ -6,7 +6,7 @@
 
 enum { deepest = 16 };
 
-static const nh_deck_node *merged(nh_arena *arena, const nh_deck_node *base, const nh_deck_node *own);
+static const nh_deck_node *merged(nh_arena *arena, const char *key, const nh_deck_node *base, const nh_deck_node *own);
 
 /* Entries {name: x} of a list stand for the same thing when x is the same. */
 static const char *name_of(const nh_deck_node *item)
@@ -32,7 +32,7 @@ static void put_entry(nh_arena *arena, nh_deck_node *map, const nh_deck_node *ke
     for (size_t i = 0; i < map->count; i++) {
         if (strcmp(map->key[i]->text, key->text)) continue;
         map->key[i] = key;
-        map->item[i] = merged(arena, map->item[i], value);
+        map->item[i] = merged(arena, key->text, map->item[i], value);
         return;
     }
     map->key[map->count] = key;
@@ -46,8 +46,8 @@ static bool all_named(const nh_deck_node *list)
     return all;
 }
 
-/* An entry `x: 1` or `x: {...}` as {name: x, value: 1} or {name: x, ...}; where it stands in the file stays known. */
-static const nh_deck_node *named_item(nh_arena *arena, const nh_deck_node *key, const nh_deck_node *value)
+/* An entry `x: 1` or `x: {...}` as {name: x, KEY: 1} or {name: x, ...}; where it stands in the file stays known. */
+static const nh_deck_node *named_item(nh_arena *arena, const char *short_for, const nh_deck_node *key, const nh_deck_node *value)
 {
     bool whole = value->kind == NH_DECK_MAP;
     size_t count = whole ? value->count : 1;
@@ -59,13 +59,13 @@ static const nh_deck_node *named_item(nh_arena *arena, const nh_deck_node *key, 
     node->key = nh_arena_alloc(arena, (count + 1) * sizeof *node->key);
     word[0] = word[1] = *key;
     word[0].text = "name";
-    word[1].text = "value";
+    word[1].text = short_for;
     put_entry(arena, node, &word[0], key);
     for (size_t i = 0; i < count; i++) put_entry(arena, node, whole ? value->key[i] : &word[1], whole ? value->item[i] : value);
     return node;
 }
 
-static const nh_deck_node *listed(nh_arena *arena, const nh_deck_node *map)
+static const nh_deck_node *listed(nh_arena *arena, const char *short_for, const nh_deck_node *map)
 {
     if (map->kind != NH_DECK_MAP) return map;
     nh_deck_node *list = nh_arena_alloc(arena, sizeof *list);
@@ -73,16 +73,20 @@ static const nh_deck_node *listed(nh_arena *arena, const nh_deck_node *map)
     list->kind = NH_DECK_LIST;
     list->key = NULL;
     list->item = nh_arena_alloc(arena, (map->count + 1) * sizeof *list->item);
-    for (size_t i = 0; i < map->count; i++) list->item[i] = named_item(arena, map->key[i], map->item[i]);
+    for (size_t i = 0; i < map->count; i++) list->item[i] = named_item(arena, short_for, map->key[i], map->item[i]);
     return list;
 }
 
-const nh_deck_node *nh_deck_named(nh_deck *deck, const nh_deck_node *node) { return listed(deck->arena, node); }
-
-static const nh_deck_node *merged(nh_arena *arena, const nh_deck_node *base, const nh_deck_node *own)
+const nh_deck_node *nh_deck_named(nh_deck *deck, const char *short_for, const nh_deck_node *node)
 {
-    if (all_named(base)) own = listed(arena, own);
-    else if (all_named(own)) base = listed(arena, base);
+    return listed(deck->arena, short_for, node);
+}
+
+static const nh_deck_node *merged(nh_arena *arena, const char *key, const nh_deck_node *base, const nh_deck_node *own)
+{
+    const char *short_for = key && !strcmp(key, "coordinates") ? "type" : "value";
+    if (all_named(base)) own = listed(arena, short_for, own);
+    else if (all_named(own)) base = listed(arena, short_for, base);
     if (base->kind != own->kind || own->kind == NH_DECK_SCALAR) return own;
     nh_deck_node *node = nh_arena_alloc(arena, sizeof *node);
     *node = *own;
@@ -139,7 +143,7 @@ static bool include(nh_deck *deck, int depth, nh_deck_prepare *prepare, nh_error
     nh_free(text);
     if (!deck->included || !include(deck->included, depth + 1, prepare, error)) return false;
     if (!nh_deck_is(deck->included, deck->included->root, NH_DECK_MAP, "an included file (name: ..., ...)", error)) return false;
-    deck->root = merged(deck->arena, deck->included->root, without(deck->arena, deck->root, "include"));
+    deck->root = merged(deck->arena, NULL, deck->included->root, without(deck->arena, deck->root, "include"));
     return true;
 }
 

@@ -86,7 +86,7 @@ static bool read_parameters(reader *r)
     static const char *const keys[] = {"name", "value", "unit", "doc", "input"};
     const nh_deck_node *list = nh_deck_get(r->root, "parameters");
     nh_system *s = r->system;
-    if (list) list = nh_deck_named(r->deck, list);
+    if (list) list = nh_deck_named(r->deck, "value", list);
     if (list && !nh_deck_is(r->deck, list, NH_DECK_LIST, "parameters", r->error)) return false;
     size_t n = list ? list->count : 0;
     s->parameter = nh_system_take(r, n, sizeof *s->parameter);
@@ -122,17 +122,20 @@ static bool read_type(reader *r, const nh_deck_node *node, nh_coordinate_type *o
     }
     nh_deck_fail(r->deck, node, 0, r->error, "unknown type `%s`; expected angle, length or number", node->text);
     const char *near = nh_text_nearest(node->text, names, 3);
-    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+    if (near) return nh_error_hint(r->error, "did you mean `%s`?", near);
+    nh_unit_fault fault;
+    return nh_is_unit(node->text, &fault) ? nh_error_hint(r->error, "a unit stands beside it: {type: length, unit: %s}", node->text) : false;
 }
 
 static bool read_coordinates(reader *r)
 {
     enum { most_coordinates = 100 };
     static const char *const keys[] = {"name", "type", "doc", "unit"};
-    const nh_deck_node *list;
-    size_t n;
+    const nh_deck_node *list = nh_deck_get(r->root, "coordinates");
+    size_t n = list ? list->count : 0;
     nh_system *s = r->system;
-    if (!nh_system_list_of(r, r->root, "coordinates", &list, &n)) return false;
+    if (list && list->kind == NH_DECK_MAP) list = nh_deck_named(r->deck, "type", list);
+    else if (!nh_system_list_of(r, r->root, "coordinates", &list, &n)) return false;
     if (n + (s->chain ? s->chain->screws : 0) == 0) {
         nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");

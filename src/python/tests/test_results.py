@@ -69,6 +69,12 @@ def test_every_formula_of_a_result_goes_to_sympy(analysis, sleigh):
     assert sum(walk(reduction[key], False) for key in reduction.json) > 10 and FORMULAS
 
 
+def test_events_and_section():
+    motion = nhsym.system("henon_heiles").simulate(initial={"y": 0.1, "x'": 0.4}, until=60, events=["y, falling", "t = 50, stop"], section="x")
+    assert motion.table["t"][-1] == pytest.approx(50, abs=1e-12) and motion.json["events"][1]["time"] == [motion.table["t"][-1]]
+    assert len(motion.section_table["t"]) == 8 and abs(motion.section_table["x"]).max() < 1e-12 and (motion.section_table["x'"] > 0).all()
+
+
 def test_a_motion(sleigh, analysis):
     motion = sleigh.simulate(initial={"omega": 2}, until=2, step=0.1)
     assert len(motion.table["t"]) == 21 and motion.complete and motion["phi"][0] == 0
