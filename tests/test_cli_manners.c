@@ -444,6 +444,8 @@ Test(cli_manners, definitions_stand_where_they_are_needed)
         cr_expect(once && !strstr(once + 1, *name), "%s", *name);
     }
     finished_clear(&f);
+    place_clear(&p);
+}
 
 /* Coordinates as a map are those of the list; a unit in the place of a type is explained; a map completes an included list. */
 Test(cli_manners, coordinates_as_a_map)
