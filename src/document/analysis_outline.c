@@ -54,6 +54,8 @@ static void answer(nh_pen *p, const nh_analysis *r)
     if (r->partial && !p->ink->brief) nh_pen_warning(p, nh_facts_search(r));
     else if (!p->ink->brief) nh_pen_words(p, "%s", nh_facts_search(r));
     if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
+    if (p->ink->brief && nh_facts_given(r) && r->search == NH_SEARCH_EXHAUSTED)
+        nh_pen_words(p, "The ansatz is that of the analysis file. With --no-analysis the program chooses what it tries.");
     nh_text_clear(&words);
 }
 

@@ -171,6 +171,8 @@ const char *nh_facts_nothing(const nh_analysis *r)
     return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far" : "Undecided: no candidate has a certificate";
 }
 
+bool nh_facts_given(const nh_analysis *r) { return r->analysis && r->analysis->families > 0; }
+
 const char *nh_facts_search(const nh_analysis *r)
 {
     size_t left_out = nh_analysis_left_out(r);
@@ -181,7 +183,11 @@ const char *nh_facts_search(const nh_analysis *r)
     if (left_out)
         return nh_arena_printf(r->arena, "The search is exhausted: it tried every stage except %zu that %s too large; the list of stages names the option that allows %s.", left_out, left_out == 1 ? "is" : "are",
                                left_out == 1 ? "it" : "them");
-    return counted ? "The search is exhausted: it tried every stage." : "The search is exhausted: it tried every stage. Other currents may exist.";
+    if (nh_facts_given(r))
+        return "The search is exhausted: it tried the ansatz of the analysis file, and nothing else. With --no-analysis "
+               "the program chooses what it tries.";
+    return counted ? "The search is exhausted: it tried every stage."
+                   : "The search is exhausted: it tried every stage. Other currents may exist.";
 }
 
 void nh_facts_completeness(const nh_analysis *r, nh_text *out)

@@ -44,6 +44,8 @@ const char *nh_facts_where(const nh_analysis *result, const nh_current *found);
 
 /* What is said where no current was found. */
 const char *nh_facts_nothing(const nh_analysis *result);
+/* The ansatz is the analysis file's: nothing else was tried. */
+bool nh_facts_given(const nh_analysis *result);
 /* How the search ended: whole sentences. */
 const char *nh_facts_search(const nh_analysis *result);
 
