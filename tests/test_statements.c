@@ -292,6 +292,50 @@ Test(statements, no_current_is_named_as_a_coordinate)
     place_clear(&p);
 }
 
+/* ---- by names that the reader knows ---- */
+
+#define OSCILLATOR(parameter, known) "name: o\nparameters: {" parameter ": 2}\ncoordinates: [x, y]\n" \
+    "lagrangian: (x'^2 + y'^2)/2 - " parameter "*(x^2 + y^2)/2\nknown: {currents: [" known "]}\n"
+
+/* What is found is told by the file's own currents: one of the amplitudes by a multiple, one by a sum, one by a product. */
+#define SINE(q) q "'*sin(t*sqrt(k)) - sqrt(k)*" q "*cos(t*sqrt(k))"
+Test(statements, a_current_is_told_by_those_that_the_file_knows)
+{
+    place p = place_make();
+    write_here(&p, "o.yaml", OSCILLATOR("k", "{name: sine, expr: 3*(" SINE("x") ")},\n"
+                                             "  {name: sum, expr: " SINE("x") " + x'*cos(t*sqrt(k)) + sqrt(k)*x*sin(t*sqrt(k))},\n"
+                                             "  {name: ratio, expr: (" SINE("y") ")/(" SINE("x") ")}"));
+    reports r = analyze(&p, "o.yaml");
+    size_t told = 0;
+    const cJSON *current;
+    cJSON_ArrayForEach(current, item(r.json, "currents"))
+    {
+        const cJSON *known = item(current, "known");
+        cr_expect(cJSON_IsNull(known) || (strchr(known->valuestring, '[') && strstr(r.text, known->valuestring)
+                                          && strstr(r.page, known->valuestring)), "%s", r.text);
+        told += cJSON_IsString(known);
+    }
+    cr_expect_eq(told, 3, "%zu: %s", told, r.text);
+    cr_expect(strstr(r.text, "Phi2 = [sine]/3;") && strstr(r.text, "Phi3 = [sum] - [sine]/3;")
+                  && strstr(r.text, "Phi4 = [sine]*[ratio]/3;"), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* d/dt belongs to -E: both are printed, unless E is a name of the system. */
+Test(statements, minus_the_energy_is_printed_with_the_energy)
+{
+    place p = place_make();
+    write_here(&p, "k.yaml", OSCILLATOR("k", ""));
+    write_here(&p, "e.yaml", OSCILLATOR("E", ""));
+    reports with = analyze(&p, "k.yaml"), without = analyze(&p, "e.yaml");
+    cr_expect(strstr(with.text, " = -E\n  E = (x'^2 + y'^2 + k*(x^2 + y^2))/2\n"), "%s", with.text);
+    cr_expect(!strstr(without.text, " = -E\n") && strstr(without.text, " = -(x'^2 + y'^2 + E*(x^2 + y^2))/2\n"), "%s", without.text);
+    reports_clear(&with);
+    reports_clear(&without);
+    place_clear(&p);
+}
+
 /* ---- modulo the constraints ---- */
 
 #define FOUR_COORDINATES "parameters: [{name: m, value: 1.3}, {name: g, value: 0.9}]\n" \

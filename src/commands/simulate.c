@@ -56,8 +56,10 @@ static void list_columns(nh_simulation *s, bool draw)
     nh_error_clear(&ignored);
     nh_observables_add_states(t);
     for (size_t k = 0; k < s->system->currents; k++) {
+        const nh_named *known = &s->system->current[k];
         nh_ex e;
-        if (nh_analysis_file_to_chart(o, s->system->current[k].value, &e, &ignored)) nh_observables_add(t, s->system->current[k].name, NH_TRACK_CURRENT, e);
+        if (!known->out_of_reach && nh_analysis_file_to_chart(o, known->value, &e, &ignored))
+            nh_observables_add(t, known->name, NH_TRACK_CURRENT, e);
     }
     for (size_t a = 0; a < o->k; a++) nh_observables_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, o->mu[a]);
     nh_observables_add(t, "E", NH_TRACK_ENERGY, o->E);
@@ -139,8 +141,9 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
         (*out)[n++] = momentum;
     }
     for (size_t k = 0; k < s->system->currents; k++) {
+        const nh_named *known = &s->system->current[k];
         nh_error_clear(&ignored);
-        n += nh_analysis_file_to_chart(s->model, s->system->current[k].value, &(*out)[n], &ignored);
+        n += !known->out_of_reach && nh_analysis_file_to_chart(s->model, known->value, &(*out)[n], &ignored);
     }
     return n;
 }

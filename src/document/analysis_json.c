@@ -344,6 +344,7 @@ static void put_current(const writer *w, nh_json *currents, const nh_current *f)
     nh_json_put_bool(item, "independent", f->independence == NH_INDEPENDENT);
     nh_json_put_text(item, "independence_by", f->rank.proved ? "proof" : f->rank.answer != NH_RANK_UNDECIDED ? "digits" : "doubles");
     nh_json_put_text(item, "relation", f->relation);
+    nh_json_put_text(item, "known", f->known);
     nh_json_put_bool(item, "local", f->local);
     put_series(w, item, f->series);
     put_drift(w, item, f);

@@ -260,6 +260,16 @@ static void definitions(nh_pen *p, const nh_analysis *r, const nh_current *f, bo
 
 /* ---- a current ---- */
 
+/* The field d/dt belongs to minus the energy: with it E, which the reader knows, and not only its negative. */
+static void closed_form(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    nh_dag *d = r->model->dag;
+    nh_ex E = nh_symbol(d, "E");
+    bool minus = f->energy && !strncmp(f->meaning, "minus", 5) && !nh_depends(d, f->phi, E);
+    if (minus) p->ink->formulas(p->to, 2, (const char *[]){f->name, "E"}, (nh_ex[]){nh_neg(d, E), nh_neg(d, f->phi)});
+    else nh_pen_formula(p, f->name, f->phi);
+}
+
 static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *told)
 {
     const nh_validation *v = r->validation;
@@ -268,9 +278,10 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *
     tags(p, r, f);
     if (f->relation) p->ink->equation(p->to, "", f->relation);
     if (f->series) series(p, r, f);
-    else nh_pen_formula(p, f->name, f->phi);
+    else closed_form(p, r, f);
     definitions(p, r, f, told);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+    if (f->known) nh_pen_fact(p, "Known", "%s; brackets mark currents that the system file gives", f->known);
     certificate(p, r, f);
     if (v)
         nh_pen_fact(p, "Drift", "%.2g at tolerance %.2g; %s",

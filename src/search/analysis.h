@@ -44,6 +44,7 @@ typedef struct {
     double fraction;
     nh_rank rank;             /* how that was decided; undecided: by doubles */
     const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
+    const char *known;        /* of currents that the system's file knows, in brackets: "Phi4 = [Phi3]/a^2", or NULL */
     bool has_symmetry, by_current_route, by_symmetry_route, local;
     bool on_both;             /* of two branches: as printed, current and field hold on the other one too */
     const char *region;       /* of a piece: where it holds, "for x > 0" */

@@ -448,5 +448,6 @@ void nh_currents_finish(nh_current_checker *b)
     sort(b->result);
     independence(b->result, b->generic);
     if (forget_known_series(b->result)) independence(b->result, b->generic);
+    nh_dependence_on_known(b->result);
     miss_energy(b);
 }

@@ -7,6 +7,7 @@
 #include "exact/normal.h"
 #include "graph/print.h"
 #include "exact/relation.h"
+#include "problem/analysis_file.h"
 
 enum { most_currents = 6, point_factor = 3 };
 
@@ -36,7 +37,8 @@ static monomials build(nh_analysis *r, size_t n, const nh_ex *symbol, const nh_e
     return m;
 }
 
-/* The null vector of the monomials' values with the fewest entries: the columns are added one by one until they first become dependent. */
+/* The null vector of the monomials' values with the fewest entries: the columns are added one by one until they first
+ * become dependent. */
 static bool numeric_relation(const nh_points *points, const nh_model *o, const monomials *m, bool *used)
 {
     size_t count = points->count, n = m->count;
@@ -128,6 +130,80 @@ void nh_dependence_relations(nh_analysis *r)
         if (r->found[k].independence != NH_DEPENDENT) continue;
         if (!points) points = nh_points_create(r->model, point_factor * monomial_count, 1, (uint64_t)r->options.seed + 303, &ignored);
         if (points) relate(r, &r->found[k], points);
+    }
+    nh_points_free(points);
+}
+
+/* ---- with the currents that the system's file knows ---- */
+
+enum { most_known = 6 };
+
+/* Those that can be written in the chart, "[Phi3]" where the file says Phi3: the found ones may have the same names. */
+static size_t known_currents(nh_analysis *r, nh_ex *symbol, nh_ex *phi)
+{
+    const nh_system *s = r->model->system;
+    size_t n = 0;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    for (size_t k = 0; k < s->currents && n < most_known; k++) {
+        if (!nh_analysis_file_to_chart(r->model, s->current[k].value, &phi[n], &ignored)) continue;
+        symbol[n++] = nh_symbol_fresh(r->model->dag, nh_arena_printf(r->arena, "[%s]", s->current[k].name));
+    }
+    return n;
+}
+
+/* The constant multiple that it is of one of them; otherwise the sum of multiples. */
+static const char *combination(nh_analysis *r, const nh_points *points, size_t n, const nh_ex *symbol, const nh_ex *phi)
+{
+    nh_ex name[most_known + 1], value[most_known + 1];
+    bool used[most_known + 1] = {false};
+    for (size_t k = 0; k < n; k++) {
+        monomials two = {2, (nh_ex[]){symbol[k], symbol[n]}, (nh_ex[]){phi[k], phi[n]}};
+        bool both[2] = {false, false};
+        if (!numeric_relation(points, r->model, &two, both)) continue;
+        const char *text = exact_relation(r, &two, both, symbol[n]);
+        if (text) return text;
+    }
+    memcpy(name, symbol, (n + 1) * sizeof *name);
+    memcpy(value, phi, (n + 1) * sizeof *value);
+    monomials all = {n + 1, name, value};
+    return numeric_relation(points, r->model, &all, used) && used[n] ? exact_relation(r, &all, used, symbol[n]) : NULL;
+}
+
+/* Otherwise the product or the quotient of two of them, up to a constant factor. */
+static const char *product(nh_analysis *r, const nh_points *points, size_t n, const nh_ex *symbol, const nh_ex *phi)
+{
+    nh_dag *d = r->model->dag;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            for (size_t quotient = j <= i ? 0 : 1; quotient < 2; quotient++) {
+                if (quotient && i == j) continue;
+                nh_ex name = quotient ? nh_div(d, symbol[i], symbol[j]) : nh_mul(d, symbol[i], symbol[j]);
+                nh_ex value = quotient ? nh_div(d, phi[i], phi[j]) : nh_mul(d, phi[i], phi[j]);
+                monomials two = {2, (nh_ex[]){name, symbol[n]}, (nh_ex[]){value, phi[n]}};
+                bool used[2] = {false, false};
+                const char *text =
+                    numeric_relation(points, r->model, &two, used) ? exact_relation(r, &two, used, symbol[n]) : NULL;
+                if (text) return text;
+            }
+    return NULL;
+}
+
+void nh_dependence_on_known(nh_analysis *r)
+{
+    nh_ex symbol[most_known + 1], phi[most_known + 1];
+    size_t n = r->model->system->currents ? known_currents(r, symbol, phi) : 0;
+    nh_points *points = NULL;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (n) points = nh_points_create(r->model, point_factor * (most_known + 1), 1, (uint64_t)r->options.seed + 307, &ignored);
+    for (size_t k = 0; k < r->count && points; k++) {
+        nh_current *f = &r->found[k];
+        if (f->meaning[0] || f->series) continue;
+        symbol[n] = nh_symbol_fresh(r->model->dag, f->name);
+        phi[n] = f->phi;
+        f->known = combination(r, points, n, symbol, phi);
+        if (!f->known) f->known = product(r, points, n, symbol, phi);
     }
     nh_points_free(points);
 }
