@@ -26,6 +26,12 @@ Test(cli_manners, help_fits_a_screen)
             finished_clear(&same);
         }
         cr_expect_not_null(strstr(one.out, "Example\n  nhsym "), "%s", one.out);
+        /* what an option does for this command, in one line of a wide terminal, and for no other command */
+        static const char *const others[] = {"analyze:", "verify:", "simulate:", "benchmark:", "scan:", "export:"};
+        for (size_t k = 0; k < sizeof others / sizeof *others; k++)
+            cr_expect_null(strstr(one.out, others[k]), "help %s: %s", name, others[k]);
+        for (const char *c2 = one.out; *c2; c2 = strchr(c2, '\n') + 1)
+            cr_expect_leq(strcspn(c2, "\n"), 140u, "help %s: %.150s", name, c2);
         finished_clear(&one);
     }
     cr_expect_eq(commands, 13);

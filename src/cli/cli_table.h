@@ -20,7 +20,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan", "write the result as one self-contained page") \
     X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan", "write the result as a LaTeX document")                                 \
     X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "LaTeX without a preamble, to include in another document")                      \
-    X('o',             "output",      required_argument, "DIR",                "analyze verify simulate reduce classify benchmark scan export", "-o: write all files into a folder; scan: the folder of its parts and its result")                      \
+    X('o',             "output",      required_argument, "DIR",                "analyze verify simulate reduce classify benchmark scan export", "-o: write all files into a folder")                      \
     X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \
     X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
@@ -38,21 +38,21 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_ensemble,    "ensemble",    required_argument, "N",                  "simulate", "N motions at once, from states around the initial state")             \
     X(opt_spread,      "spread",      required_argument, "S",                  "simulate", "relative spread of initial states")                                                       \
     X(opt_robustness, "robustness",  no_argument,       "",                   "benchmark", "maps of where the methods fail")                                          \
-    X(opt_over,        "over",        required_argument, "RANGES",             "simulate benchmark classify scan", "simulate: a motion for each value of a parameter, coordinate or velocity, k=1:2:11 or k=1,2,5/2; benchmark: the robustness map of these ranges, as in a=1e-9:1, omega=1:9; classify: the parameter, or two as in B,eps; scan: as simulate; repeatable")    \
+    X(opt_over,        "over",        required_argument, "RANGES",             "simulate benchmark classify scan", "values or ranges of parameters; repeatable")    \
     X(opt_shape,       "shape",       no_argument,       "",                   "classify", "only integrals whose coefficients do not depend on cyclic coordinates") \
-    X(opt_of,          "of",          required_argument, "WORDS", "verify scan classify export show", "verify: a symmetry of constraint or equations; classify: currents, measure, hamiltonization, symmetries, constraints; scan: which numbers, count (of integrals), analyze or reduce; export: parts, of equations, momenta, submanifold, currents, reduced; show: only the names of parameters, coordinates, velocities, one per line")              \
+    X(opt_of,          "of",          required_argument, "WORDS", "verify scan classify export show", "what is asked for")              \
     X(opt_number,      "number",      required_argument, "NAME",               "scan", "a number by its path in the JSON, as in group.dimension; repeatable")          \
     X(opt_workers,     "workers",     required_argument, "N",                  "scan", "processes that share the work; it does not change the result")                 \
     X(opt_chunk,       "chunk",       required_argument, "I/N",                "scan", "only part I of N, for job arrays; then once without it")                       \
     X(opt_budget,      "budget",      required_argument, "TIME",               "benchmark", "time to spend on measurements: 5s, 200ms")                                          \
-    X(opt_svg,         "svg",         required_argument, "FILE",               "benchmark simulate", "write a picture: error against time, or the columns over time")                                         \
+    X(opt_svg,         "svg",         required_argument, "FILE",               "benchmark simulate", "write a picture")                                         \
     X(opt_pdf,         "pdf",         required_argument, "FILE",               "benchmark simulate", "the same picture as PDF, by the program rsvg-convert")                                         \
     X(opt_group,       "group",       required_argument, "FIELDS",             "reduce export", "\"1, 2\" or \"x=1; theta=1\": the group to divide out")                        \
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
     X(opt_inner,       "inner",       required_argument, "\"1,4=1/2; 4,4=3\"",  "reduce", "the inner product of generators that chooses the lifts by stages; else orthonormal") \
     X(opt_weak,        "weak",        no_argument,       "",                   "reduce export", "also allow symmetries up to a total derivative")              \
-    X(opt_to,          "to",          required_argument, "c|python|sympy|matlab|latex|json", "reduce export", "the language of the exported code; reduce: print the reduced equations so, or the motions as csv") \
-    X(opt_input,       "input",       required_argument, "\"u=sin(t)\"",       "simulate export", "simulate: a parameter over time, an expression of t or FILE.csv:COLUMN; export: NAMES of parameters that are arguments") \
+    X(opt_to,          "to",          required_argument, "c|python|sympy|matlab|latex|json", "reduce export", "the language of the exported code") \
+    X(opt_input,       "input",       required_argument, "\"u=sin(t)\"",       "simulate export", "parameters that are inputs; repeatable") \
     X(opt_name,        "name",        required_argument, "NAME",               "export", "what names of files and functions begin with") \
     X(opt_tolerance,   "tolerance",   required_argument, "EPS",                "analyze simulate benchmark reduce", "relative tolerance of the motions")                                  \
     X(opt_until,       "until",       required_argument, "T",                  "analyze simulate benchmark reduce", "end time of the motions")                                       \
@@ -70,6 +70,26 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan export", "no colours; NO_COLOR does the same")       \
     X('h',             "help",        no_argument,       "",                   "", "-h: list the options of the command")                                               \
     X(opt_version,     "version",     no_argument,       "",                   "", "print the version")
+
+/* What an option means for one of its commands, where the table above cannot say it for all:
+ * option, commands, meaning. */
+#define NH_CLI_MEANING_TABLE(X)                                                                                   \
+    X("over", "simulate", "a motion for each value of a parameter, coordinate or velocity: k=1:2:11; repeatable") \
+    X("over", "benchmark", "maps of where the methods fail over these ranges: a=1e-9:1, omega=1:9; repeatable")   \
+    X("over", "classify", "the parameter, or up to three of them: B,eps")                                         \
+    X("over", "scan", "the grid: values of a parameter, k=1:4:61 or k=1,2,5/2; repeatable")                       \
+    X("of", "verify", "the field is a symmetry of this: constraint, or equations (of motion)")                    \
+    X("of", "classify", "the question: currents, measure, hamiltonization, symmetries or constraints")            \
+    X("of", "scan", "which numbers: count (of integrals), analyze or reduce")                                     \
+    X("of", "export", "the parts: equations, momenta, submanifold, currents, reduced")                            \
+    X("of", "show", "only these names, one per line: parameters, coordinates, velocities")                        \
+    X("output", "scan", "the folder of its parts and its result")                                                 \
+    X("output", "export", "write the code into files of this folder")                                             \
+    X("svg", "benchmark", "write a picture: error against time")                                                  \
+    X("svg", "simulate", "write a picture: the columns over time, or a section")                                  \
+    X("to", "reduce", "print the reduced equations as code, or the motions as csv")                               \
+    X("input", "simulate", "a parameter over time: an expression of t, or FILE.csv:COLUMN")                       \
+    X("input", "export", "parameters that are arguments of the code: \"u, v\"")
 
 /* Old names: still read, and shown nowhere.  Of options: code, old name, argument; of commands: old name, name. */
 #define NH_CLI_OLD_OPTION_TABLE(X)                    \

@@ -25,29 +25,43 @@ static const option_word options[] = {NH_CLI_OPTION_TABLE(X)};
 #define X(name, operand, meaning, example) {#name, operand, meaning, example},
 static const command_word commands[] = {NH_CLI_COMMAND_TABLE(X)};
 #undef X
+#define X(option, commands, meaning) {option, commands, meaning},
+static const struct {
+    const char *option, *commands, *meaning;
+} meanings[] = {NH_CLI_MEANING_TABLE(X)};
+#undef X
+enum { meaning_count = sizeof meanings / sizeof *meanings };
 enum { option_count = sizeof options / sizeof *options, command_count = sizeof commands / sizeof *commands };
 
 /* The letter of "-q: no summary", or 0. */
 static char letter(const option_word *o) { return o->meaning[0] == '-' && o->meaning[2] == ':' ? o->meaning[1] : 0; }
-static const char *meaning(const option_word *o) { return letter(o) ? o->meaning + 4 : o->meaning; }
+
+/* For a command, or (NULL) for all. */
+static const char *meaning(const option_word *o, const char *command)
+{
+    for (size_t i = 0; command && i < meaning_count; i++)
+        if (!strcmp(meanings[i].option, o->name) && nh_word_among(meanings[i].commands, command))
+            return meanings[i].meaning;
+    return letter(o) ? o->meaning + 4 : o->meaning;
+}
 
 static bool takes(const command_word *c, const option_word *o) { return nh_word_among(o->commands, c->name); }
 
 /* ---- screens ---- */
 
-static void put_option(const option_word *o)
+static void put_option(const option_word *o, const char *command)
 {
     char head[80], first[6] = "";
     if (letter(o)) snprintf(first, sizeof first, "-%c, ", letter(o));
     snprintf(head, sizeof head, "%s--%s%s%s", first, o->name, o->shown[0] ? " " : "", o->shown);
-    printf("  %-31s %s\n", head, meaning(o));
+    printf("  %-31s %s\n", head, meaning(o, command));
 }
 
 static void one_command(const command_word *c)
 {
     printf("nhsym %s%s%s   %s\n\n", c->name, c->operand[0] ? " " : "", c->operand, c->meaning);
     for (size_t i = 0; i < option_count; i++)
-        if (takes(c, &options[i])) put_option(&options[i]);
+        if (takes(c, &options[i])) put_option(&options[i], c->name);
     printf("\nExample\n  %s\n", c->example);
 }
 
@@ -98,9 +112,15 @@ static void manual_page(void)
         fputs("\\fR ", stdout);
         roff(options[i].shown);
         putchar('\n');
-        roff(options[i].meaning);
+        roff(meaning(&options[i], NULL));
         if (options[i].commands[0]) printf(" (%s)", options[i].commands);
         putchar('\n');
+        for (size_t j = 0; j < meaning_count; j++) {
+            if (strcmp(meanings[j].option, options[i].name)) continue;
+            printf(".br\n%s: ", meanings[j].commands);
+            roff(meanings[j].meaning);
+            putchar('\n');
+        }
     }
     puts(".SH EXIT STATUS\n0 success; 1 verify answers no; 2 an error in the command line; 3 an error in a file; 4 a numerical failure; the message gives the reason; 5 a limit was reached; 130 interrupted. "
          "After 5 and 130 the output files hold partial results, marked partial.\n.SH ENVIRONMENT\n.TP\n.B NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NHSYM_CC\nthe C compiler for long motions (default: cc); empty: no compiler\n.TP\n.B NO_COLOR\n"
@@ -253,7 +273,7 @@ static void zsh(void)
         for (size_t j = 0; j < option_count; j++) {
             if (!takes(&commands[i], &options[j])) continue;
             printf(" \\\n    '--%s%s[", options[j].name, options[j].argument == required_argument ? "=" : "");
-            for (const char *c = meaning(&options[j]); *c; c++) {
+            for (const char *c = meaning(&options[j], commands[i].name); *c; c++) {
                 char one[2] = {*c, 0};
                 if (strchr("[]:", *c)) putchar('\\');
                 quoted(one);
@@ -288,7 +308,7 @@ static void fish(void)
         bool file = is_file(&options[j]), required = options[j].argument == required_argument;
         printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -l %s %s -d '", options[j].commands, options[j].name,
                file ? "-r -F" : required ? "-x" : "");
-        for (const char *c = meaning(&options[j]); *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
+        for (const char *c = meaning(&options[j], NULL); *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
         if (has_values(&options[j])) fputs("' -a '", stdout), put_values(options[j].name, options[j].shown, " ");
         puts("'");
     }
