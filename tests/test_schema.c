@@ -1,6 +1,8 @@
-/* docs/schema/analyze.json says what `analyze --json` writes: checked by the part of JSON Schema that it uses. */
+/* docs/schema: the JSON of analyze, classify, scan, export, benchmark and simulate is checked by the part of JSON Schema
+ * that these files use. */
 #include <cjson/cJSON.h>
 
+#include "base/text.h"
 #include "program.h"
 #include "sweep.h"
 
@@ -47,8 +49,40 @@ static bool members_fit(const cJSON *schema, const cJSON *v, const char *where, 
     return true;
 }
 
+/* "#/$defs/NAME": of the document that holds the schema. */
+static cJSON *whole;
+static const cJSON *named(const char *reference)
+{
+    static const char begin[] = "#/$defs/";
+    cr_assert(!strncmp(reference, begin, sizeof begin - 1), "%s", reference);
+    const cJSON *all = cJSON_GetObjectItemCaseSensitive(whole, "$defs"),
+                *own = cJSON_GetObjectItemCaseSensitive(all, reference + sizeof begin - 1);
+    cr_assert_not_null(own, "%s", reference);
+    return own;
+}
+
+/* Exactly one of the forms. */
+static bool fits_one(const cJSON *forms, const cJSON *v, const char *where, verdict *out)
+{
+    int count = 0;
+    nh_text all;
+    nh_text_init(&all);
+    for (const cJSON *form = forms->child; form; form = form->next) {
+        verdict of = {""};
+        if (fits(form, v, where, &of)) count++;
+        else nh_text_addf(&all, "; %s", of.fault);
+    }
+    if (count != 1) no(out, where, count ? "has several forms" : "has no form", nh_text_string(&all));
+    nh_text_clear(&all);
+    return count == 1;
+}
+
 static bool fits(const cJSON *schema, const cJSON *v, const char *where, verdict *out)
 {
+    const cJSON *reference = cJSON_GetObjectItemCaseSensitive(schema, "$ref"),
+                *forms = cJSON_GetObjectItemCaseSensitive(schema, "oneOf");
+    if (reference) return fits(named(reference->valuestring), v, where, out);
+    if (forms && !fits_one(forms, v, where, out)) return false;
     const cJSON *type = cJSON_GetObjectItemCaseSensitive(schema, "type"), *items = cJSON_GetObjectItemCaseSensitive(schema, "items");
     const cJSON *fixed = cJSON_GetObjectItemCaseSensitive(schema, "const"), *choices = cJSON_GetObjectItemCaseSensitive(schema, "enum");
     if (type && !is_type(type, type_of(v))) return no(out, where, "is a", type_of(v));
@@ -212,5 +246,49 @@ Test(schema, what_chart_writes_fits)
         finished_clear(&f);
     }
     cJSON_Delete(schema);
+    place_clear(&p);
+}
+
+/* One motion, a scene, zeros, motions together and one by one, a drawing, and what is left when there is no time. */
+Test(schema, what_simulate_writes_fits)
+{
+    static const struct {
+        const char *words, *part; /* a key of this form */
+        int code;
+    } lines[] = {
+        {"sleigh --step 5 --accuracy 1e-8", "states", 0},
+        {"sleigh --scene --step 5", "whole_model", 0},
+        {"sleigh --event phi-1 --event x=0,falling --html m.html", "drawing", 0},
+        {"henon_heiles --initial x'=0.4 --section x --until 20", "section", 0},
+        {"sleigh --ensemble 3 --step 5", "members", 0},
+        {"sleigh --ensemble 3 --step 5 --accuracy 1e-6", "members", 0},
+        {"sleigh --over k=1,2 --over omega=1,2 --step 5 --watch phi", "motions", 0},
+        {"snakeboard --method midpoint-4 --step 0.1 --until 1", "multipliers", 0},
+        {"sleigh --max-seconds 1e-9", "unfinished", 5},
+    };
+    place p = place_make();
+    whole = read_json("docs/schema/simulate.json");
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
+        snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
+        snprintf(line, sizeof line, "simulate %s --quiet --json m.json", lines[i].words);
+        finished f = run_so(&p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
+        cr_assert_eq(f.code, lines[i].code, "%s: %s", line, f.err);
+        snprintf(path, sizeof path, "%s/m.json", p.folder);
+        cJSON *root = read_json(path);
+        verdict v = {""};
+        cr_expect(fits(whole, root, "", &v), "%s: %s", lines[i].words, v.fault);
+        cr_expect_not_null(cJSON_GetObjectItemCaseSensitive(root, lines[i].part), "%s: %s", line, lines[i].part);
+        cJSON_AddNumberToObject(cJSON_GetObjectItem(root, "run"), "more", 1);
+        cr_expect_not(fits(whole, root, "", &v), "an unknown key");
+        cJSON_DeleteItemFromObject(cJSON_GetObjectItem(root, "run"), "more");
+        cJSON_DeleteItemFromObject(root, lines[i].part);
+        bool optional = !strcmp(lines[i].part, "whole_model") || !strcmp(lines[i].part, "drawing")
+                        || !strcmp(lines[i].part, "section");
+        cr_expect_eq(fits(whole, root, "", &v), optional, "without %s", lines[i].part);
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    cJSON_Delete(whole);
     place_clear(&p);
 }

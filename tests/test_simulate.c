@@ -157,7 +157,7 @@ Test(simulate, tables_of_initial_states_and_parameters)
         {"x,x_dot\n1,0\n0,2\n", "", "member,t,x,x_dot,E\n0,0,1,0,2\n0,1,", "", 0},
         {"x, \"w\"\n2,1\n# a comment\n\n1+1,3\n", "", "member,w,t,x,x_dot,E\n0,1,0,2,0,2\n0,1,1,", "", 0},
         {"x\n2\n1\n", "--method relaxation-8", "member,t,x,x_dot,E\n0,0,2,0,8\n", "", 0},
-        {"x\n3\n", "--json -", "{\n\t\"schema\":\t1,\n\t\"motions\":\t[{", "", 0},
+        {"x\n3\n", "--json -", "{\n\t\"schema\":\t1,\n\t\"version\":\t", "", 0},
         {"xx\n2\n", "", "", "starts.csv: the column `xx` is no coordinate, velocity or parameter of spring\nhint: did you mean `x`?", 3},
         {"x,w\n2,1\n1\n", "", "", "starts.csv:3: this line has 1 fields, but the line of names has 2", 3},
         {"x,w\n2,one\n", "", "", "starts.csv:2: `w` needs a number, found `one`", 3},

@@ -134,8 +134,10 @@ static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_
 {
     nh_text text;
     nh_section_plot section = {0};
-    nh_json *root = cli->json ? nh_members_json() : NULL;
-    bool good = true;
+    nh_json *root = cli->json ? nh_json_object() : NULL;
+    nh_run run = nh_cli_run(cli, request->system_path, request->analysis_path);
+    bool good = true, complete = true;
+    size_t done = 0;
     nh_text_init(&text);
     for (size_t i = 0; i < rows->count && good && !nh_interrupted(); i++) {
         const nh_simulate_row *row = &rows->row[i];
@@ -149,15 +151,17 @@ static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_
         nh_simulation *s = nh_simulation_create(&q, error);
         good = s != NULL;
         if (good && q.section) nh_section_plot_add(&section, s);
-        if (good && root) nh_member_json(s, row, root);
+        if (good && root) nh_member_json(s, row, &run, root), complete = complete && s->motion->complete;
         if (good && !root) nh_member_csv(s, i, row, &text);
         if (good) complain(s, error);
         nh_simulate_row_blame(row, error);
         nh_simulation_free(s);
+        done += good;
     }
     nh_cli_progress_end();
     if (nh_cli_delivers(cli)) fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
+    if (root) nh_json_put_bool(root, "complete", complete && done == rows->count);
     if (root) good = nh_cli_write_json(cli, nh_json_finish(root), error) && good;
     if (good && (cli->svg || cli->pdf)) good = put_section_picture(cli, &section, error);
     nh_section_plot_clear(&section);

@@ -201,11 +201,19 @@ static void put_accuracy_of_all(const nh_simulation *s, nh_json *root)
     nh_json_put_text(item, "why", a->why);
 }
 
+/* What every document begins with. */
+static void put_head(const nh_system *system, nh_json *root)
+{
+    nh_json_put_number(root, "schema", 1);
+    nh_json_put_text(root, "version", NH_VERSION);
+    nh_json_put_text(root, "system", system->name);
+}
+
 char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
 {
     const nh_ensemble *e = s->ensemble;
     nh_json *root = nh_json_object();
-    nh_json_put_number(root, "schema", 1);
+    put_head(s->system, root);
     nh_json_put_text(root, "method", s->method);
     nh_json_put_text(root, "formulation", s->formulation);
     nh_json_put_text(root, "scene", s->scene);
@@ -294,22 +302,32 @@ static void put_motion(const nh_simulation *s, nh_json *root)
 char *nh_motion_json(const nh_simulation *s, const nh_run *run)
 {
     nh_json *root = nh_json_object();
-    nh_json_put_number(root, "schema", 1);
+    put_head(s->system, root);
     put_motion(s, root);
     if (run) nh_run_json(run, s->system, root);
     return nh_json_finish(root);
 }
 
-nh_json *nh_members_json(void)
+/* The parameters that no row of the table sets. */
+static void put_common_parameters(const nh_system *system, const nh_simulate_row *row, nh_json *root)
 {
-    nh_json *root = nh_json_object();
-    nh_json_put_number(root, "schema", 1);
-    nh_json_put_array(root, "motions");
-    return root;
+    nh_json *parameters = nh_json_put_object(root, "parameters");
+    for (size_t i = 0; i < system->parameters; i++) {
+        const char *name = system->parameter[i].name;
+        size_t k = 0;
+        while (k < row->settings && strcmp(row->setting[k].name, name)) k++;
+        if (k == row->settings) nh_json_put_number(parameters, name, system->parameter[i].value);
+    }
 }
 
-void nh_member_json(const nh_simulation *s, const nh_simulate_row *row, nh_json *root)
+void nh_member_json(const nh_simulation *s, const nh_simulate_row *row, const nh_run *run, nh_json *root)
 {
+    if (!nh_json_get(root, "motions")) {
+        put_head(s->system, root);
+        put_common_parameters(s->system, row, root);
+        nh_run_json(run, s->system, root);
+        nh_json_put_array(root, "motions");
+    }
     nh_json *item = nh_json_add_object(nh_json_get(root, "motions")), *set = nh_json_put_object(item, "set");
     for (size_t i = 0; i < row->settings; i++) nh_json_put_number(set, row->setting[i].name, row->setting[i].value);
     nh_json_put_text(item, "initial", row->initial);

@@ -42,10 +42,9 @@ void nh_section_plot_clear(nh_section_plot *plot);
 void nh_ensemble_csv(const nh_simulation *simulation, nh_text *out);
 char *nh_ensemble_json(const nh_simulation *simulation, const nh_run *run);
 
-/* Motions of a table that are computed one by one: rows behind those before, with columns for the member and its parameters; entries of `motions` of a document that
- * nh_members_json begins. */
+/* Motions of a table that are computed one by one: rows behind those before, with columns for the member and its
+ * parameters; entries of `motions` of an object, to which the first of them adds what all share. */
 void nh_member_csv(const nh_simulation *simulation, size_t member, const nh_simulate_row *row, nh_text *out);
-nh_json *nh_members_json(void);
-void nh_member_json(const nh_simulation *simulation, const nh_simulate_row *row, nh_json *root);
+void nh_member_json(const nh_simulation *simulation, const nh_simulate_row *row, const nh_run *run, nh_json *root);
 
 #endif
