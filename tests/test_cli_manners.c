@@ -453,18 +453,23 @@ Test(cli_manners, definitions_stand_where_they_are_needed)
     place_clear(&p);
 }
 
-/* Coordinates as a map are those of the list; a unit in the place of a type is explained; a map completes an included list. */
+/* Coordinates as a map, or as a list of pairs, are those of the list; a unit in the place of a type is explained; a map completes an included list. */
 Test(cli_manners, coordinates_as_a_map)
 {
     place p = place_make();
     write_here(&p, "map.yaml", "name: m\ncoordinates: {x: length, phi: {type: angle, doc: heading}}\nlagrangian: (x'^2 + phi'^2)/2\n");
     write_here(&p, "more.yaml", "include: map.yaml\nname: more\ncoordinates: {z: length}\nlagrangian: (x'^2 + phi'^2 + z'^2)/2\n");
+    write_here(&p, "pairs.yaml", "name: m\nparameters: [a: 2, b: 3]\ncoordinates: [x: length, phi: {type: angle}, y]\n"
+                                 "lagrangian: (a*x'^2 + b*phi'^2 + y'^2)/2\n");
     write_here(&p, "unit.yaml", "name: m\ncoordinates: {x: m}\nlagrangian: x'^2/2\n");
     finished f = run_expecting(&p, "simulate map.yaml --initial x'=1,phi=2 --until 1 --step 1", 0);
     cr_expect(strstr(f.out, "t,x,phi,x_dot,phi_dot,E\n0,0,2,1,0,0.5\n"), "%s", f.out);
     finished_clear(&f);
     f = run_expecting(&p, "show --of coordinates more.yaml", 0);
     cr_expect_str_eq(f.out, "x\nphi\nz\n");
+    finished_clear(&f);
+    f = run_expecting(&p, "simulate pairs.yaml --initial x'=1,phi'=2 --until 1 --step 1", 0);
+    cr_expect(strstr(f.out, "t,x,phi,y,x_dot,phi_dot,y_dot,E\n0,0,0,0,1,2,0,7\n"), "%s", f.out);
     finished_clear(&f);
     check_hint(&p, "analyze unit.yaml", 3, "\nhint: a unit stands beside it: {type: length, unit: m}\n");
     place_clear(&p);

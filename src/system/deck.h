@@ -42,7 +42,8 @@ typedef bool nh_deck_prepare(nh_deck *deck, nh_error *error);
 bool nh_deck_include(nh_deck *deck, nh_deck_prepare *prepare, nh_error *error);
 /* In a map (anything else stays as it is), the key `old` is read as `key`, which is its name now.  Both at once are refused. */
 bool nh_deck_rename(nh_deck *deck, const nh_deck_node *map, const char *old, const char *key, nh_error *error);
-/* A map {x: 1, y: {unit: m}} as the list [{name: x, KEY: 1}, {name: y, unit: m}] that it is short for (KEY: short_for); any other node as it is. */
+/* A map {x: 1, y: {unit: m}}, or a list [x: 1, y: {unit: m}], as the list [{name: x, KEY: 1}, {name: y, unit: m}] that
+ * it is short for (KEY: short_for); a scalar, and other items of a list, as they are. */
 const nh_deck_node *nh_deck_named(nh_deck *deck, const char *short_for, const nh_deck_node *node);
 const nh_deck_node *nh_deck_root(const nh_deck *deck);
 const char *nh_deck_name(const nh_deck *deck);

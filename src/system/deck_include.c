@@ -65,15 +65,27 @@ static const nh_deck_node *named_item(nh_arena *arena, const char *short_for, co
     return node;
 }
 
-static const nh_deck_node *listed(nh_arena *arena, const char *short_for, const nh_deck_node *map)
+/* [x: 1, ..] is what YAML reads as a list of maps of one entry: {x: 1} is an entry of {x: 1, ..}. */
+static bool is_entry(const char *short_for, const nh_deck_node *item)
 {
-    if (map->kind != NH_DECK_MAP) return map;
+    return item->kind == NH_DECK_MAP && item->count == 1 && strcmp(item->key[0]->text, "name") &&
+           strcmp(item->key[0]->text, short_for);
+}
+
+static const nh_deck_node *listed(nh_arena *arena, const char *short_for, const nh_deck_node *from)
+{
+    if (from->kind == NH_DECK_SCALAR) return from;
     nh_deck_node *list = nh_arena_alloc(arena, sizeof *list);
-    *list = *map;
+    *list = *from;
     list->kind = NH_DECK_LIST;
     list->key = NULL;
-    list->item = nh_arena_alloc(arena, (map->count + 1) * sizeof *list->item);
-    for (size_t i = 0; i < map->count; i++) list->item[i] = named_item(arena, short_for, map->key[i], map->item[i]);
+    list->item = nh_arena_alloc(arena, (from->count + 1) * sizeof *list->item);
+    for (size_t i = 0; i < from->count; i++) {
+        const nh_deck_node *item = from->item[i], *entry = from->kind == NH_DECK_MAP ? from : item;
+        bool whole = from->kind == NH_DECK_LIST && !is_entry(short_for, item);
+        size_t k = entry == from ? i : 0;
+        list->item[i] = whole ? item : named_item(arena, short_for, entry->key[k], entry->item[k]);
+    }
     return list;
 }
 

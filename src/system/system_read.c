@@ -134,7 +134,7 @@ static bool read_coordinates(reader *r)
     const nh_deck_node *list = nh_deck_get(r->root, "coordinates");
     size_t n = list ? list->count : 0;
     nh_system *s = r->system;
-    if (list && list->kind == NH_DECK_MAP) list = nh_deck_named(r->deck, "type", list);
+    if (list && list->kind != NH_DECK_SCALAR) list = nh_deck_named(r->deck, "type", list);
     else if (!nh_system_list_of(r, r->root, "coordinates", &list, &n)) return false;
     if (n + (s->chain ? s->chain->screws : 0) == 0) {
         nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
