@@ -6,9 +6,10 @@
 #include "exact/ball_internal.h"
 #include "exact/ball_series_internal.h"
 
-/* Pieces of the interval on either side of the centre: balls around short pieces are small.  Steps of a move, and the
- * terms of each. */
-enum { pieces = 8, steps = 4, far = 32 };
+/* Pieces of the interval on either side of the centre, and of a step of a move: balls around short pieces are small.
+ * Terms beyond the degree that are bounded at the centre, where balls are points: only the one after them is bounded on
+ * pieces.  The terms of a step, and the bits of bounds. */
+enum { pieces = 4, pieces_of_step = 2, beyond = 4, far = 20, few_bits = 64 };
 
 typedef struct {
     bool known, fine;
@@ -273,27 +274,29 @@ static double rounded(const nh_ball_series *s, const arb_poly_t p, slong k, doub
     return out;
 }
 
-/* The terms about the centre. */
-static bool take_terms(nh_ball_series *s, nh_ex e, size_t degree, double half, double *coefficient, double *bound)
+/* The terms of each e about the centre, and what those that are left out and rounding add at a distance of half. */
+static bool take_terms(nh_ball_series *s, size_t count, const nh_ex *e, size_t degree, double half, double *coefficient,
+                       double *bound)
 {
     arb_poly_t p;
     arb_poly_init(p);
-    s->terms = (slong)degree;
-    bool fine = eval(s, e, p);
-    *bound = 0;
-    for (size_t k = 0; k < degree && fine; k++) {
-        double off;
-        coefficient[k] = rounded(s, p, (slong)k, &off);
-        *bound += off * pow(half, (double)k);
+    s->terms = (slong)degree + beyond;
+    bool fine = true;
+    for (size_t i = 0; i < count && fine; i++) {
+        fine = eval(s, e[i], p);
+        bound[i] = 0;
+        for (size_t k = 0; k < degree + beyond && fine; k++) {
+            double off, value = rounded(s, p, (slong)k, &off);
+            if (k < degree)
+                coefficient[i * degree + k] = value;
+            else
+                off += fabs(value);
+            bound[i] += off * pow(half, (double)k);
+        }
     }
     forget(s);
     arb_poly_clear(p);
     return fine;
-}
-
-static void set_vector(const nh_ball_series *s, arb_ptr to, arb_srcptr from)
-{
-    _arb_vec_set(to, from, (slong)s->defined);
 }
 
 /* The variable at its centre, and the integrals there. */
@@ -304,7 +307,7 @@ static bool stand_at_centre(nh_ball_series *s, arb_t centre)
         if (s->define[i].integral) fine = fine && nh_ball_eval(s->ball, s->define[i].symbol, s->at_centre + i);
     arb_set(s->from, centre);
     arb_set(s->interval, centre);
-    set_vector(s, s->at_from, s->at_centre);
+    _arb_vec_set(s->at_from, s->at_centre, (slong)s->defined);
     return fine;
 }
 
@@ -328,69 +331,86 @@ static bool go_on(nh_ball_series *s, const arb_t w)
     return fine;
 }
 
-/* The largest |a_N| on one side of the centre. */
-static bool largest_last(nh_ball_series *s, nh_ex e, const arb_t centre, size_t degree, double step, arb_t largest)
+/* The largest |a_N| of each e on one side of the centre.  They are bounds: few bits do. */
+static bool largest_last(nh_ball_series *s, size_t count, const nh_ex *e, const arb_t centre, slong degree, int parts,
+                         double reach, arb_ptr largest)
 {
     arb_poly_t p;
     arb_t w, end, last;
     arb_poly_init(p);
     arb_init(w), arb_init(end), arb_init(last);
-    arb_set_d(w, step);
+    arb_set_d(w, reach / parts);
     arb_set(s->from, centre);
-    set_vector(s, s->at_from, s->at_centre);
-    s->terms = (slong)degree + 1;
+    _arb_vec_set(s->at_from, s->at_centre, (slong)s->defined);
+    s->terms = degree + 1;
+    long all_bits = s->bits;
+    s->bits = few_bits;
     bool fine = true;
-    for (int i = 0; i < pieces && fine; i++) {
+    for (int i = 0; i < parts && fine; i++) {
         arb_add(end, s->from, w, s->bits);
         arb_union(s->interval, s->from, end, s->bits);
-        fine = eval(s, e, p);
-        arb_poly_get_coeff_arb(last, p, (slong)degree);
-        arb_abs(last, last);
-        arb_max(largest, largest, last, s->bits);
+        for (size_t j = 0; j < count && fine; j++) {
+            fine = eval(s, e[j], p);
+            arb_poly_get_coeff_arb(last, p, degree);
+            arb_abs(last, last);
+            arb_max(largest + j, largest + j, last, s->bits);
+        }
         fine = fine && go_on(s, w);
         forget(s);
     }
+    s->bits = all_bits;
     arb_clear(last), arb_clear(end), arb_clear(w);
     arb_poly_clear(p);
     return fine;
 }
 
-bool nh_ball_series_take(nh_ball_series *s, nh_ex e, size_t degree, double half, double *coefficient, double *bound)
+bool nh_ball_series_take(nh_ball_series *s, size_t count, const nh_ex *e, size_t degree, double half,
+                         double *coefficient, double *bound)
 {
     static const double upwards = 1 + 1e-12; /* doubles below are rounded to nearest */
-    arb_t centre, last;
-    arb_init(centre), arb_init(last);
-    bool fine = stand_at_centre(s, centre) && take_terms(s, e, degree, half, coefficient, bound);
+    slong all = (slong)degree + beyond;
+    arb_t centre;
+    arb_init(centre);
+    arb_ptr last = _arb_vec_init((slong)count);
+    bool fine = stand_at_centre(s, centre) && take_terms(s, count, e, degree, half, coefficient, bound);
     for (int side = -1; side <= 1 && fine; side += 2)
-        fine = largest_last(s, e, centre, degree, side * (upwards * half / pieces), last);
-    if (fine) *bound = upwards * (*bound + upper(last) * pow(half, (double)degree));
-    arb_clear(last), arb_clear(centre);
-    return fine && isfinite(*bound);
+        fine = largest_last(s, count, e, centre, all, pieces, side * (upwards * half), last);
+    for (size_t i = 0; i < count && fine; i++) {
+        bound[i] = upwards * (bound[i] + upper(last + i) * pow(half, (double)all));
+        fine = isfinite(bound[i]);
+    }
+    _arb_vec_clear(last, (slong)count);
+    arb_clear(centre);
+    return fine;
 }
 
-/* The symbol's value at a distance from the centre: the terms there, and the last one's bound on the way. */
-static bool value_at(nh_ball_series *s, nh_ex symbol, const arb_t centre, const arb_t distance, double step, arb_t out)
+/* The symbols' values at a distance from the centre: the terms there, and the last one's bound on the way. */
+static bool values_at(nh_ball_series *s, const nh_ex *symbol, const arb_t centre, const arb_t distance, double reach,
+                      arb_ptr out)
 {
     arb_poly_t p;
-    arb_t last;
+    arb_t power;
     arb_poly_init(p);
-    arb_init(last);
+    arb_init(power);
+    arb_ptr last = _arb_vec_init((slong)s->defined);
     s->terms = far;
-    arb_set(s->from, centre);
-    arb_set(s->interval, centre);
-    set_vector(s, s->at_from, s->at_centre);
-    bool fine = eval(s, symbol, p);
-    forget(s);
-    fine = fine && largest_last(s, symbol, centre, far, step, last);
-    if (fine) {
-        arb_poly_evaluate(out, p, distance, s->bits);
-        arb_pow_ui(s->interval, distance, far, s->bits);
-        arb_mul(last, last, s->interval, s->bits);
-        arb_add_error(out, last);
+    bool fine = true;
+    for (size_t i = 0; i < s->defined && fine; i++) {
+        fine = eval(s, symbol[i], p);
+        arb_poly_evaluate(out + i, p, distance, s->bits);
     }
-    arb_clear(last);
+    forget(s);
+    fine = fine && largest_last(s, s->defined, symbol, centre, far, pieces_of_step, reach, last);
+    arb_pow_ui(power, distance, far, s->bits);
+    for (size_t i = 0; i < s->defined && fine; i++) {
+        arb_mul(last + i, last + i, power, s->bits);
+        arb_add_error(out + i, last + i);
+        fine = arb_is_finite(out + i);
+    }
+    _arb_vec_clear(last, (slong)s->defined);
+    arb_clear(power);
     arb_poly_clear(p);
-    return fine && arb_is_finite(out);
+    return fine;
 }
 
 /* The variable goes to a place so near that the terms there fall quickly. */
@@ -400,24 +420,30 @@ static bool step_to(nh_ball_series *s, const arb_t to)
     arb_t centre, distance;
     arb_init(centre), arb_init(distance);
     arb_ptr value = _arb_vec_init((slong)s->defined);
+    nh_ex *symbol = nh_alloc_array(s->defined + 1, sizeof *symbol);
+    for (size_t i = 0; i < s->defined; i++) symbol[i] = s->define[i].symbol;
     bool fine = stand_at_centre(s, centre);
     arb_sub(distance, to, centre, s->bits);
-    double step = upwards * arf_get_d(arb_midref(distance), ARF_RND_NEAR) / pieces;
-    for (size_t i = 0; i < s->defined && fine; i++)
-        fine = value_at(s, s->define[i].symbol, centre, distance, step, value + i);
+    double reach = upwards * arf_get_d(arb_midref(distance), ARF_RND_NEAR);
+    fine = fine && values_at(s, symbol, centre, distance, reach, value);
     if (fine) nh_ball_set_arb(s->ball, s->variable, to);
-    for (size_t i = 0; i < s->defined && fine; i++) nh_ball_set_arb(s->ball, s->define[i].symbol, value + i);
+    for (size_t i = 0; i < s->defined && fine; i++) nh_ball_set_arb(s->ball, symbol[i], value + i);
+    nh_free(symbol);
     _arb_vec_clear(value, (slong)s->defined);
     arb_clear(distance), arb_clear(centre);
     return fine;
 }
 
-bool nh_ball_series_move(nh_ball_series *s, double to)
+bool nh_ball_series_move(nh_ball_series *s, double to, double step)
 {
+    enum { most_steps = 1000 };
+    static const double rounding = 1e-9;
     arb_t from, end, place;
     arb_init(from), arb_init(end), arb_init(place);
     bool fine = nh_ball_eval(s->ball, s->variable, from);
     arb_set_d(end, to);
+    double count = fine ? ceil(fabs(to - arf_get_d(arb_midref(from), ARF_RND_NEAR)) / step - rounding) : 0;
+    int steps = (int)fmax(1, fmin(count, most_steps));
     for (int i = 1; i <= steps && fine; i++) {
         arb_sub(place, end, from, s->bits);
         arb_mul_si(place, place, i, s->bits);

@@ -22,13 +22,15 @@ nh_ball_series *nh_ball_series_create(const nh_dag *dag, nh_ball *ball, nh_ex va
                                       const nh_ball_defined *define);
 void nh_ball_series_free(nh_ball_series *series);
 
-/* The terms of e below x^degree, and a bound of |R| for |x| <= half with what rounding the coefficients to doubles
- * adds.  False where the series does not reach so far, or where e has functions without series. */
-bool nh_ball_series_take(nh_ball_series *series, nh_ex e, size_t degree, double half, double *coefficient,
-                         double *bound);
+/* The terms below x^degree of each of `count` expressions, one row of `degree` after the other, and bounds of |R| for
+ * |x| <= half with what rounding the coefficients to doubles adds.  False where a series does not reach so far, or
+ * where an e has functions without series. */
+bool nh_ball_series_take(nh_ball_series *series, size_t count, const nh_ex *e, size_t degree, double half,
+                         double *coefficient, double *bound);
 
-/* The centre goes to `to`: the ball gets the values there of the variable, the roots and the integrals, enclosed by
- * series of many terms.  False where a series does not exist on the way: the ball has the values at a place before. */
-bool nh_ball_series_move(nh_ball_series *series, double to);
+/* The centre goes to `to` in steps no longer than `step`: the ball gets the values there of the variable, the roots
+ * and the integrals, enclosed by series; short steps keep them sharp.  False where a series does not exist on the way:
+ * the ball has the values at a place before. */
+bool nh_ball_series_move(nh_ball_series *series, double to, double step);
 
 #endif

@@ -8,7 +8,8 @@
 #include "exact/ball_series.h"
 #include "integrals/exact_points.h"
 
-enum { most_defined = 16, tries = 50, most_links = 48, bits = 128 }; /* most_links: on either side of the start */
+/* most_links, most_tries: on either side of the start */
+enum { most_defined = 16, most_links = 32, most_tries = 32, bits = 128 };
 
 /* States, parameters, constants and roots at the start; integrals are 0 there. */
 static nh_ball *at_start(const nh_model *o, const nh_explicit_motion *m, const double *z)
@@ -32,14 +33,14 @@ static size_t list(const nh_explicit_motion *m, nh_ball_defined *out)
     return n;
 }
 
-/* Is the bound small beside the largest term? */
-static bool sharp(const nh_motion_series_of_one *s, double half)
+/* A bound beside what it may be, a part of the largest term: at most 1 where it is small. */
+static double excess(const nh_motion_series_of_one *s, double half)
 {
     static const double part = 1e-12;
     double size = 0;
     for (size_t k = 0; k < NH_MOTION_SERIES_TERMS; k++)
         size = fmax(size, fabs(s->coefficient[k]) * pow(half, (double)k));
-    return s->bound <= part * size;
+    return s->bound / (part * size);
 }
 
 /* To two digits, upwards. */
@@ -55,51 +56,86 @@ static double upwards(double bound)
     return out;
 }
 
-/* The series about the centre, where the ball stands. */
-static bool take_all(nh_ball_series *series, const nh_explicit_motion *m, nh_motion_series_link *out)
+/* What follows goes into every try of an interval. */
+typedef struct {
+    nh_ball_series *series;
+    const nh_explicit_motion *m;
+    nh_ex *symbol; /* the integrals, and room for the coefficients and bounds of all */
+    double *coefficient, *bound;
+    size_t tries; /* that are left */
+} trial;
+
+static trial trial_of(nh_arena *arena, nh_ball_series *series, const nh_explicit_motion *m)
 {
-    bool fine = true;
-    for (size_t j = 0; j < m->integrals && fine; j++) {
-        nh_motion_series_of_one *s = &out->integral[j];
-        s->symbol = m->integral[j].symbol;
-        fine = nh_ball_series_take(series, s->symbol, NH_MOTION_SERIES_TERMS, out->half, s->coefficient, &s->bound) &&
-               sharp(s, out->half);
-    }
-    for (size_t j = 0; j < m->integrals && fine; j++) out->integral[j].bound = upwards(out->integral[j].bound);
-    return fine;
+    trial t = {.series = series, .m = m, .tries = most_tries};
+    t.symbol = nh_arena_alloc(arena, (m->integrals + 1) * sizeof *t.symbol);
+    t.coefficient = nh_arena_alloc(arena, (m->integrals + 1) * NH_MOTION_SERIES_TERMS * sizeof *t.coefficient);
+    t.bound = nh_arena_alloc(arena, (m->integrals + 1) * sizeof *t.bound);
+    for (size_t j = 0; j < m->integrals; j++) t.symbol[j] = m->integral[j].symbol;
+    return t;
 }
 
-/* The largest interval beside `edge` on this side, or about it (side = 0), no longer than 2 half. */
-static bool next_link(nh_ball_series *series, const nh_explicit_motion *m, double edge, int side,
-                      nh_motion_series_link *out)
+/* The series about the centre, where the ball stands; the largest excess of a bound, INFINITY without bounds. */
+static double take_all(const trial *t, nh_motion_series_link *out)
 {
-    static const double shorter = 0.7;
+    double most = 0;
+    if (!nh_ball_series_take(t->series, t->m->integrals, t->symbol, NH_MOTION_SERIES_TERMS, out->half, t->coefficient,
+                             t->bound))
+        return INFINITY;
+    for (size_t j = 0; j < t->m->integrals; j++) {
+        nh_motion_series_of_one *s = &out->integral[j];
+        s->symbol = t->symbol[j];
+        s->bound = t->bound[j];
+        memcpy(s->coefficient, t->coefficient + j * NH_MOTION_SERIES_TERMS, sizeof s->coefficient);
+        most = fmax(most, excess(s, out->half));
+        s->bound = upwards(s->bound);
+    }
+    return most;
+}
+
+/* The length at which the bound would be what it may be: bounds grow like x^(terms), those of pieces faster. */
+static double ideal(double half, double excess_there)
+{
+    static const double most = 2;
+    return half * fmin(most, pow(excess_there, -1.0 / (NH_MOTION_SERIES_TERMS + 4)));
+}
+
+/* An interval beside `edge` on this side, or about it (side = 0), no longer than 2 half.  As in the step control of a
+ * numerical integration the length follows from the bound of the try before: *best is the length for the next one. */
+static bool next_link(trial *t, double edge, int side, nh_motion_series_link *out, double *best)
+{
+    static const double shorter = 0.7, shortest = 0.3;
     bool found = false;
-    for (int i = 0; i < tries && !found; i++) {
+    while (!found && t->tries) {
+        t->tries--;
         out->centre = edge + side * out->half;
-        found = (!side || nh_ball_series_move(series, out->centre)) && take_all(series, m, out);
-        if (!found) out->half *= shorter;
+        double most = INFINITY;
+        if (!side || nh_ball_series_move(t->series, out->centre, out->half / 2)) most = take_all(t, out);
+        found = most <= 1;
+        if (found) *best = ideal(out->half, most);
+        else out->half *= isfinite(most) ? fmax(shortest, fmin(shorter, ideal(1, most))) : shorter;
     }
     return found;
 }
 
-/* On one side of the start, as far as `to`: the number of intervals.  They end where they are short beside the way. */
-static size_t chain(nh_arena *arena, nh_ball_series *series, const nh_explicit_motion *m,
-                    const nh_motion_series_link *first, int side, double to, nh_motion_series_link *out)
+/* On one side of the start, as far as `to`: the number of intervals.  They end where they are short beside the way, and
+ * after a number of tries.  Near a zero of a root each length is the same part of the one before. */
+static size_t chain(nh_arena *arena, trial *t, const nh_motion_series_link *first, int side, double to, double best,
+                    nh_motion_series_link *out)
 {
-    static const double longer = 1.5, short_of_all = 1e-3;
-    double edge = first->centre + side * first->half, half = first->half, whole = fabs(to - first->centre);
+    static const double safe = 0.9, short_of_all = 1.5e-3;
+    double edge = first->centre + side * first->half, whole = fabs(to - first->centre), before = best;
     size_t n = 0;
     while (n < most_links && side * (to - edge) > 0) {
         nh_motion_series_link *l = &out[n];
-        l->half = fmin(longer * half, fabs(to - edge) / 2);
-        l->integral = nh_arena_alloc(arena, (m->integrals + 1) * sizeof *l->integral);
-        bool last = l->half < longer * half;
-        if (!next_link(series, m, edge, side, l)) break;
+        double half = safe * best * fmin(1, best / before), rest = fabs(to - edge) / 2;
+        l->half = fmin(half, rest);
+        l->integral = nh_arena_alloc(arena, (t->m->integrals + 1) * sizeof *l->integral);
+        before = best;
+        if (!next_link(t, edge, side, l, &best)) break;
         n++;
-        half = l->half;
-        edge = last && l->half >= fabs(to - edge) / 2 ? to : l->centre + side * half;
-        if (half < short_of_all * whole) break;
+        edge = l->half >= rest ? to : l->centre + side * l->half;
+        if (l->half < short_of_all * whole) break;
     }
     return n;
 }
@@ -128,12 +164,14 @@ nh_motion_series *nh_motion_series_from(nh_arena *arena, const nh_model *o, cons
     nh_ex parameter = m->state[m->parameter];
     size_t links[2] = {0}, defined = list(m, define);
     bool found = true;
+    double best = 0;
     for (int side = 0; side < 2 && found; side++) {
         nh_ball *ball = at_start(o, m, z);
         nh_ball_series *series = nh_ball_series_create(o->dag, ball, parameter, defined, define);
         beside[side] = nh_arena_alloc(arena, most_links * sizeof *beside[side]);
-        if (side == 0) found = next_link(series, m, start, 0, &first);
-        if (found) links[side] = chain(arena, series, m, &first, side ? 1 : -1, side ? high : low, beside[side]);
+        trial t = trial_of(arena, series, m);
+        if (side == 0) found = next_link(&t, start, 0, &first, &best);
+        if (found) links[side] = chain(arena, &t, &first, side ? 1 : -1, side ? high : low, best, beside[side]);
         nh_ball_series_free(series);
         nh_ball_free(ball);
     }

@@ -29,9 +29,9 @@ typedef struct nh_motion_series {
     nh_motion_series_link *link;    /* in ascending order */
 } nh_motion_series;
 
-/* From the state z = (t, q, w), whose parameter goes from `low` to `high`.  Each interval is the largest on which all
- * bounds are small beside the series; the chain ends where the motion does, or where intervals become too short: at a
- * zero of a root, where the motion turns.  In the arena; NULL: there is none. */
+/* From the state z = (t, q, w), whose parameter goes from `low` to `high`.  On each interval all bounds are
+ * small beside the series; the chain ends where the motion does, where intervals become too short (at a zero of a root,
+ * where the motion turns), or after a number of tries.  In the arena; NULL: there is none. */
 nh_motion_series *nh_motion_series_from(nh_arena *arena, const nh_model *model, const nh_explicit_motion *motion,
                                         const double *z, double low, double high);
 /* Where the chain begins and ends. */
