@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "motion/arkode.h"
 #include "motion/cvode.h"
 
 /* ---- systems ---- */
@@ -429,6 +430,22 @@ static void assert_refused(const nh_flow_problem *problem, const double *initial
     cr_assert_null(nh_cvode(problem, initial, count, times, options, &error));
     cr_expect_eq(error.code, code);
     cr_expect_not_null(strstr(error.what, words), "\"%s\" lacks \"%s\"", error.what, words);
+}
+
+/* Runge-Kutta pairs, implicit and explicit ones, name the right-hand side, too. */
+Test(flow, no_method_starts_where_there_is_no_rate)
+{
+    static const nh_arkode_method methods[] = {NH_DORMAND_PRINCE_5, NH_VERNER_6, NH_FEHLBERG_8, NH_ESDIRK_5};
+    oscillator_data data = {.frequency = 2.385, .wall = -1};
+    nh_flow_problem walled = {.size = 2, .rate = oscillator, .context = &data};
+    nh_flow_options good = {.rtol = 1e-9};
+    const double times[] = {0, 1};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        nh_error error = {0};
+        cr_assert_null(nh_arkode(methods[i], &walled, oscillator_start, 2, times, &good, &error));
+        cr_expect_eq(error.code, NH_NUMERIC);
+        cr_expect_not_null(strstr(error.what, "right-hand side cannot be evaluated at the initial"), "%s", error.what);
+    }
 }
 
 Test(flow, what_cannot_start_is_an_error)

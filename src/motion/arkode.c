@@ -217,6 +217,10 @@ nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, co
 {
     nh_motion *motion = nh_motion_start(problem->size, problem->size, initial, count, times, options, error);
     if (!motion || motion->complete) return motion;
+    if (!nh_motion_check_start(problem, times[0], initial, error)) {
+        nh_motion_free(motion);
+        return NULL;
+    }
     pairs_work work = {.problem = problem,
                        .options = options,
                        .times = times,

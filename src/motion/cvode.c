@@ -263,18 +263,6 @@ static void destroy_objects(cvode_work *work)
     nh_kinks_clear(&work->kinks);
 }
 
-/* The right-hand side at the start: a motion that cannot begin is an error, one that cannot go on is not. */
-static bool check_start(const nh_flow_problem *problem, double t, const double *initial, nh_error *error)
-{
-    double *rate = nh_alloc_array(problem->size, sizeof *rate);
-    bool good = problem->rate(t, initial, rate, problem->context) && nh_all_finite(problem->size, rate);
-    nh_free(rate);
-    if (good)
-        return true;
-    nh_fail(error, NH_NUMERIC, "", "the right-hand side cannot be evaluated at the initial state (t = %.10g)", t);
-    return nh_error_hint(error, "check the initial values, or use coordinates that are regular there");
-}
-
 nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
                    const nh_flow_options *options, nh_error *error)
 {
@@ -288,7 +276,7 @@ nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_
                        .each = cvode_rate + cvode_vectors * n,
                        .count = count,
                        .times = times};
-    bool good = check_start(problem, times[0], initial, error);
+    bool good = nh_motion_check_start(problem, times[0], initial, error);
     if (!good)
         goto done;
     work.rtol = nh_motion_rtol(motion, options);

@@ -122,3 +122,13 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
     motion->seconds = nh_clock() - begin;
     motion->effort = nh_effort() - before;
 }
+
+bool nh_motion_check_start(const nh_flow_problem *problem, double t, const double *initial, nh_error *error)
+{
+    double *rate = nh_alloc_array(problem->size + 1, sizeof *rate);
+    bool good = problem->rate(t, initial, rate, problem->context) && nh_all_finite(problem->size, rate);
+    nh_free(rate);
+    if (good) return true;
+    nh_fail(error, NH_NUMERIC, "", "the right-hand side cannot be evaluated at the initial state (t = %.10g)", t);
+    return nh_error_hint(error, "check the initial values, or use coordinates that are regular there");
+}
