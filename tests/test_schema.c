@@ -264,6 +264,7 @@ Test(schema, what_simulate_writes_fits)
         {"sleigh --ensemble 3 --step 5 --accuracy 1e-6", "members", 0},
         {"sleigh --over k=1,2 --over omega=1,2 --step 5 --watch phi", "motions", 0},
         {"snakeboard --method midpoint-4 --step 0.1 --until 1", "multipliers", 0},
+        {"sleigh --option steps=10", "states", 5}, /* a limit of work */
         {"sleigh --max-seconds 1e-9", "unfinished", 5},
     };
     place p = place_make();
@@ -279,6 +280,8 @@ Test(schema, what_simulate_writes_fits)
         verdict v = {""};
         cr_expect(fits(whole, root, "", &v), "%s: %s", lines[i].words, v.fault);
         cr_expect_not_null(cJSON_GetObjectItemCaseSensitive(root, lines[i].part), "%s: %s", line, lines[i].part);
+        const cJSON *partial = cJSON_GetObjectItemCaseSensitive(root, "partial");
+        cr_expect_eq(cJSON_IsTrue(partial), lines[i].code == 5, "%s", line);
         cJSON_AddNumberToObject(cJSON_GetObjectItem(root, "run"), "more", 1);
         cr_expect_not(fits(whole, root, "", &v), "an unknown key");
         cJSON_DeleteItemFromObject(cJSON_GetObjectItem(root, "run"), "more");

@@ -116,7 +116,9 @@ static void complain(const nh_simulation *s, nh_error *error)
     if (s->ensemble) return;
     if (unsure && s->columns.count > 1)
         nh_error_hint(error, "`%s` is the least certain of %zu columns; choose the wanted columns by --watch", s->columns.track[s->accuracy.quantity].name, s->columns.count);
-    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->why : s->motion->note);
+    if (!s->motion->complete)
+        nh_fail(error, s->motion->limited ? NH_LIMIT : NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time,
+                s->checked && nh_interrupted() ? s->why : s->motion->note);
 }
 
 /* The sections of all motions in one picture. */
@@ -162,6 +164,7 @@ static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_
     if (nh_cli_delivers(cli)) fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
     if (root) nh_json_put_bool(root, "complete", complete && done == rows->count);
+    if (root) nh_json_put_bool(root, "partial", nh_interrupted());
     if (root) good = nh_cli_write_json(cli, nh_json_finish(root), error) && good;
     if (good && (cli->svg || cli->pdf)) good = put_section_picture(cli, &section, error);
     nh_section_plot_clear(&section);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "document/time_series.h"
 
 static void put(nh_text *out, double x)
@@ -219,6 +220,7 @@ char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
     nh_json_put_text(root, "scene", s->scene);
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", e->incomplete == 0);
+    nh_json_put_bool(root, "partial", e->incomplete > 0 && nh_interrupted());
     put_accuracy_of_all(s, root);
     nh_json_put_numbers(root, "time", e->count, e->time, 1);
     nh_json *members = nh_json_put_array(root, "members");
@@ -282,6 +284,7 @@ static void put_motion(const nh_simulation *s, nh_json *root)
     }
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", s->motion->complete);
+    nh_json_put_bool(root, "partial", !s->motion->complete && (s->motion->limited || nh_interrupted()));
     nh_accuracy_json(s->checked ? &s->accuracy : NULL, root);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);
     nh_time_series *c = nh_time_series_of_simulation(s);

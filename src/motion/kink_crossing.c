@@ -48,6 +48,7 @@ nh_motion *nh_kink_crossing_make(nh_kinks *k, const nh_flow_problem *p, const nh
     if (!across) return NULL;
     if (!across->complete || across->note[0]) nh_motion_note(motion, "%s", across->note);
     motion->guard_hit = across->guard_hit;
+    motion->limited = across->limited;
     nh_events_append(motion, across);
     motion->searched = across->end_time;
     motion->stopped = across->stopped;

@@ -70,6 +70,7 @@ typedef struct {
     double *time;     /* count */
     double *state;    /* count x size, row by row: state[i*size + j] */
     bool complete;    /* all wanted times were reached, or a zero at which it was to stop */
+    bool limited;     /* it ended early at the limit of steps or of counted operations */
     long guard_hit;   /* index of the guard that ended it, or -1 */
     double end_time;  /* where it ended */
     double *end_state; /* size: the state there; at a guard it is past the last output, and the next chart starts from it */

@@ -47,6 +47,7 @@ static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double 
     if (options->effort > 0 && nh_effort() - begin > options->effort) {
         nh_motion_note(motion, "the limit of %.2g counted operations was reached at t = %.10g", options->effort,
                        motion->end_time);
+        motion->limited = true;
         return false;
     }
     double limit = options->max_steps > 0 ? options->max_steps : default_max_steps;
@@ -54,10 +55,11 @@ static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double 
         options->cancelled && options->cancelled(options->cancel_context); /* this may compute for a while */
     if (nh_interrupted()) nh_motion_note(motion, "interrupted at t = %.10g", motion->end_time);
     else if (cancelled) nh_motion_note(motion, "cancelled at t = %.10g", motion->end_time);
-    else if ((double)motion->steps >= limit)
+    else if ((double)motion->steps >= limit) {
+        motion->limited = true;
         nh_motion_note(motion, "the limit of %g steps was reached at t = %.10g; allow more steps or a larger tolerance",
                        limit, motion->end_time);
-    else return true;
+    } else return true;
     return false;
 }
 
