@@ -163,7 +163,7 @@ size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena,
     nh_ex *e = nh_alloc_array(s->currents + 1, sizeof *e);
     for (size_t k = 0; k <= s->currents; k++) {
         nh_ex phi = o->E;
-        if (k && s->current[k - 1].out_of_reach) continue;
+        if (k && s->current[k - 1].unwatched) continue;
         if (k && !nh_analysis_file_to_chart(o, s->current[k - 1].value, &phi, &ignored)) continue;
         if (k && y->currents && y->current[0] == o->E && same_current(o, o->E, phi)) continue;
         if (!is_conserved(o, phi)) {

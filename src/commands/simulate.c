@@ -58,7 +58,7 @@ static void list_columns(nh_simulation *s, bool draw)
     for (size_t k = 0; k < s->system->currents; k++) {
         const nh_named *known = &s->system->current[k];
         nh_ex e;
-        if (!known->out_of_reach && nh_analysis_file_to_chart(o, known->value, &e, &ignored))
+        if (!known->unwatched && nh_analysis_file_to_chart(o, known->value, &e, &ignored))
             nh_observables_add(t, known->name, NH_TRACK_CURRENT, e);
     }
     for (size_t a = 0; a < o->k; a++) nh_observables_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, o->mu[a]);
@@ -143,7 +143,7 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
     for (size_t k = 0; k < s->system->currents; k++) {
         const nh_named *known = &s->system->current[k];
         nh_error_clear(&ignored);
-        n += !known->out_of_reach && nh_analysis_file_to_chart(s->model, known->value, &(*out)[n], &ignored);
+        n += !known->unwatched && nh_analysis_file_to_chart(s->model, known->value, &(*out)[n], &ignored);
     }
     return n;
 }

@@ -42,6 +42,7 @@ typedef struct {
     const char *name, *text;
     nh_ex value;
     const char *out_of_reach; /* of a known current: why the program's own ansatz does not hold it, or NULL */
+    bool unwatched;           /* of a known current: no column of a motion */
 } nh_named;
 
 typedef struct {

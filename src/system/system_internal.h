@@ -24,6 +24,8 @@ typedef struct {
  * "name = expression"; and the optional parts of the file. */
 void *nh_system_take(nh_system_reader *r, size_t count, size_t size);
 bool nh_system_list_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const nh_deck_node **out, size_t *count);
+/* true or false; false where there is no such key.  `meaning` is the hint for anything else. */
+bool nh_system_truth_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const char *meaning, bool *out);
 bool nh_system_text_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const char *fallback, const char **out);
 bool nh_system_assignment_name(nh_system_reader *r, const nh_deck_node *node, const char *what, const char **name);
 bool nh_system_read_right_side(nh_system_reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out);

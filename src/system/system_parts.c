@@ -217,9 +217,19 @@ bool nh_system_read_drawing(nh_system_reader *r)
     return true;
 }
 
+bool nh_system_truth_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const char *meaning, bool *out)
+{
+    const nh_deck_node *node = nh_deck_get(map, key);
+    *out = node && node->kind == NH_DECK_SCALAR && node->plain && !strcmp(node->text, "true");
+    if (!node || *out || (node->kind == NH_DECK_SCALAR && node->plain && !strcmp(node->text, "false"))) return true;
+    if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, key, r->error)) return false;
+    nh_deck_fail(r->deck, node, 0, r->error, "`%s` must be true or false, found `%s`", key, node->text);
+    return nh_error_hint(r->error, "%s", meaning);
+}
+
 static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, const char *key, nh_named **out, size_t *count)
 {
-    static const char *const keys[] = {"name", "expr", "doc", "out_of_reach"};
+    static const char *const keys[] = {"name", "expr", "doc", "out_of_reach", "unwatched"};
     const nh_deck_node *list;
     size_t n;
     if (!nh_system_list_of(r, known, key, &list, &n)) return false;
@@ -227,12 +237,15 @@ static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, cons
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i];
         if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "an entry {name: ..., expr: ...}", r->error)) return false;
-        if (!nh_deck_only(r->deck, item, keys, 4, r->error)) return false;
+        if (!nh_deck_only(r->deck, item, keys, 5, r->error)) return false;
         const nh_deck_node *expr = nh_deck_get(item, "expr");
         if (!expr) return nh_deck_fail(r->deck, item, 0, r->error, "this entry has no `expr`");
         (*out)[i] = (nh_named){.text = expr->text};
         if (!nh_system_text_of(r, item, "name", "", &(*out)[i].name)) return false;
         if (!nh_system_text_of(r, item, "out_of_reach", NULL, &(*out)[i].out_of_reach)) return false;
+        if (!nh_system_truth_of(r, item, "unwatched", "a current without a column in `simulate` and `benchmark`",
+                                &(*out)[i].unwatched))
+            return false;
         if (!nh_system_expression(r->system, r->deck, expr, 0, NULL, &(*out)[i].value, r->error)) return false;
         *count = i + 1;
     }

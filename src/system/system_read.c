@@ -71,16 +71,6 @@ static bool read_unit(reader *r, const nh_deck_node *item, const char **out)
     return nh_error_hint(r->error, "use SI units and units accepted with them, such as m, kg m^2, N/m, rad/s, 1/s, deg; write any other unit under `doc`");
 }
 
-static bool read_truth(reader *r, const nh_deck_node *item, const char *key, bool *out)
-{
-    const nh_deck_node *node = nh_deck_get(item, key);
-    *out = node && node->kind == NH_DECK_SCALAR && node->plain && !strcmp(node->text, "true");
-    if (!node || *out || (node->kind == NH_DECK_SCALAR && node->plain && !strcmp(node->text, "false"))) return true;
-    if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, key, r->error)) return false;
-    nh_deck_fail(r->deck, node, 0, r->error, "`%s` must be true or false, found `%s`", key, node->text);
-    return nh_error_hint(r->error, "an input may change with time: `nhsym export` makes it an argument");
-}
-
 static bool read_parameters(reader *r)
 {
     static const char *const keys[] = {"name", "value", "unit", "doc", "input"};
@@ -99,7 +89,10 @@ static bool read_parameters(reader *r)
         if (!nh_system_new_name(r, name)) return false;
         nh_parameter *p = &s->parameter[i];
         *p = (nh_parameter){.name = name->text};
-        if (!read_unit(r, item, &p->unit) || !nh_system_text_of(r, item, "doc", "", &p->doc) || !read_truth(r, item, "input", &p->input)) return false;
+        if (!read_unit(r, item, &p->unit) || !nh_system_text_of(r, item, "doc", "", &p->doc) || 
+            !nh_system_truth_of(r, item, "input", "an input may change with time: `nhsym export` makes it an argument",
+                                &p->input))
+            return false;
         if (!value) return nh_deck_fail(r->deck, item, 0, r->error, "the parameter `%s` has no `value`", p->name);
         if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error)) return false;
         p->symbol = nh_symbol(s->dag, p->name);
