@@ -1,8 +1,9 @@
 /* context: the state of one computation: counted work, time limit, progress report, and the files that it
  * has read.
  *
- * Every thread works for one context: for that of the process, unless it entered another; the threads that base/parallel.h starts work for the context of
- * the thread that started them.  So two threads with a context each do not disturb one another. */
+ * Every thread works for one context: for that of the process, unless it entered another; the threads that
+ * base/parallel.h starts work for the context of the thread that started them.  So two threads with a context each do
+ * not disturb one another. */
 #ifndef NH_CONTEXT_H
 #define NH_CONTEXT_H
 

@@ -29,7 +29,8 @@ struct nh_context {
     pthread_mutex_t      saying_lock;
     char                 saying[nh_context_longest_saying];
     atomic_bool          interrupted, reached;
-    double               limit, limit_seconds, deadline; /* by the monotonic clock; set between computations, read by all of their threads */
+    /* by the monotonic clock; set between computations, read by all of their threads */
+    double               limit, limit_seconds, deadline;
     double               most_memory; /* bytes; likewise; 0: no limit */
     _Atomic double       next_look;   /* at the memory, by the same clock */
     atomic_bool          filled;      /* it was the memory that ended it */

@@ -23,8 +23,10 @@ size_t nh_utf8_decode(const char *text, size_t left, uint32_t *code)
 bool nh_is_invisible(uint32_t code)
 {
     if (code < 0x20) return code != '\t' && code != '\n' && code != '\r';
-    bool turns = code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
-    return turns || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029 || code == 0xFEFF || code == 0xFFFE || code == 0xFFFF;
+    bool turns = code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x202A && code <= 0x202E) ||
+                 (code >= 0x2066 && code <= 0x2069);
+    return turns || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029 || code == 0xFEFF ||
+           code == 0xFFFE || code == 0xFFFF;
 }
 
 /* The next character of the text, which has `*bytes`: itself, or '?' where it is invisible or not UTF-8. */
@@ -81,6 +83,7 @@ void nh_escape_terminal(const char *text, nh_text *out)
 {
     for (size_t bytes, written; *text; text += bytes) {
         const char *c = next(text, &bytes, &written);
-        nh_text_add_n(out, *c == '\r' && text[1] != '\n' ? "?" : c, written); /* alone it goes back over what was written */
+        /* alone it goes back over what was written */
+        nh_text_add_n(out, *c == '\r' && text[1] != '\n' ? "?" : c, written);
     }
 }

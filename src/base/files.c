@@ -74,7 +74,8 @@ static char *copy_of(const char *bytes, size_t length)
 static void keep(nh_context *c, const char *path, const char *text, size_t length)
 {
     nh_known_file *f = nh_alloc(sizeof *f);
-    *f = (nh_known_file){.next = c->file, .path = copy_of(path, strlen(path)), .text = copy_of(text, length), .length = length};
+    *f = (nh_known_file){
+        .next = c->file, .path = copy_of(path, strlen(path)), .text = copy_of(text, length), .length = length};
     c->file = f;
 }
 

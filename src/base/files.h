@@ -1,7 +1,7 @@
 /* files: reads each file once per run.
  *
- * What was read stays in memory while this is on, so that all parts of a run see one text, whatever becomes of the file meanwhile, and so that a
- * pipe can be read as often as it is needed. */
+ * What was read stays in memory while this is on, so that all parts of a run see one text, whatever becomes of the file
+ * meanwhile, and so that a pipe can be read as often as it is needed. */
 #ifndef NH_FILES_H
 #define NH_FILES_H
 
@@ -13,7 +13,8 @@
 void nh_files_begin(void);
 void nh_files_end(void);
 
-/* The files of several runs in turn: those that are kept in this context change places with a store's, which begins as NULL. */
+/* The files of several runs in turn: those that are kept in this context change places with a store's, which begins as
+   NULL. */
 typedef struct nh_known_file *nh_file_store;
 void nh_files_swap(nh_file_store *store);
 void nh_files_free(nh_file_store store);

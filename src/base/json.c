@@ -30,7 +30,8 @@ static nh_json *add(nh_json *array, cJSON *item)
 
 static cJSON *text_or_null(const char *text) { return text ? cJSON_CreateString(text) : cJSON_CreateNull(); }
 
-/* Without memory cJSON would leave out what does not fit: it allocates as everything here does, which does not return then. */
+/* Without memory cJSON would leave out what does not fit: it allocates as everything here does, which does not return
+   then. */
 nh_json *nh_json_object(void)
 {
     static cJSON_Hooks hooks = {nh_alloc, nh_free};
@@ -44,7 +45,10 @@ void nh_json_put_number(nh_json *object, const char *key, double value) { put(ob
 void nh_json_put_text(nh_json *object, const char *key, const char *text) { put(object, key, text_or_null(text)); }
 void nh_json_put_bool(nh_json *object, const char *key, bool value) { put(object, key, cJSON_CreateBool(value)); }
 void nh_json_put_null(nh_json *object, const char *key) { put(object, key, cJSON_CreateNull()); }
-void nh_json_put_copy(nh_json *object, const char *key, const nh_json *value) { put(object, key, cJSON_Duplicate(value, 1)); }
+void nh_json_put_copy(nh_json *object, const char *key, const nh_json *value)
+{
+    put(object, key, cJSON_Duplicate(value, 1));
+}
 nh_json *nh_json_add_object(nh_json *array) { return add(array, cJSON_CreateObject()); }
 nh_json *nh_json_add_array(nh_json *array) { return add(array, cJSON_CreateArray()); }
 void nh_json_add_number(nh_json *array, double value) { add(array, number(value)); }
@@ -80,7 +84,10 @@ char *nh_json_line(nh_json *root)
 
 nh_json *nh_json_parse(const char *text) { return cJSON_Parse(text); }
 void nh_json_free(nh_json *root) { cJSON_Delete(root); }
-const char *nh_json_text(const nh_json *object, const char *key) { return cJSON_GetStringValue(nh_json_get(object, key)); }
+const char *nh_json_text(const nh_json *object, const char *key)
+{
+    return cJSON_GetStringValue(nh_json_get(object, key));
+}
 
 double nh_json_value(const nh_json *object, const char *key)
 {

@@ -25,7 +25,8 @@ enum {
     SVD = 12, PIVOTED = 3, EIGEN = 20 /* times m n min(m, n) multiplications */
 };
 
-static const double CALL = 350, ROW = 50, FLOP = 0.4; /* units of effort: of LAPACK, per row, and per multiplication in small matrices */
+/* units of effort: of LAPACK, per row, and per multiplication in small matrices */
+static const double CALL = 350, ROW = 50, FLOP = 0.4;
 
 void nh_linalg_threads(int count)
 {
@@ -72,7 +73,8 @@ struct nh_qr {
     size_t capacity; /* rows `block` can hold */
     double *r;       /* columns x columns */
     double *block;   /* capacity x columns */
-    double *full;    /* the same: rows that are on their way into the triangle; where nothing is done aside it is the same memory */
+    /* the same: rows that are on their way into the triangle; where nothing is done aside it is the same memory */
+    double *full;
     size_t filled;   /* rows in `full` */
     nh_aside *aside; /* what is on its way */
     double *t;       /* PANEL x PANEL */
@@ -117,14 +119,15 @@ void nh_qr_free(nh_qr *qr)
     nh_free(qr);
 }
 
-/* With V the reflectors of panel columns first..first+count, stored in the block (on R they are the identity), and T their
- * triangle, Q^T = 1 - [1; V] T^T [1; V]^T on the columns to the right:
+/* With V the reflectors of panel columns first..first+count, stored in the block (on R they are the identity), and T
+ * their triangle, Q^T = 1 - [1; V] T^T [1; V]^T on the columns to the right:
  *
  *     W = T^T (R_right + V^T B_right),   R_right -= W,   B_right -= V W */
 static void reflect(nh_qr *qr, size_t first, size_t count, const double *t, size_t right, size_t columns)
 {
     size_t n = qr->columns;
-    lapack_int k = (lapack_int)count, c = (lapack_int)columns, m = (lapack_int)qr->filled, ld = (lapack_int)qr->capacity;
+    lapack_int k = (lapack_int)count, c = (lapack_int)columns, m = (lapack_int)qr->filled,
+               ld = (lapack_int)qr->capacity;
     const double *v = qr->full + first * qr->capacity;
     double *b = qr->full + right * qr->capacity, *r = qr->r + first + right * n, *w = qr->work;
     for (size_t j = 0; j < columns; j++)
@@ -137,14 +140,15 @@ static void reflect(nh_qr *qr, size_t first, size_t count, const double *t, size
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, c, k, -1.0, v, ld, w, k, 1.0, b, ld);
 }
 
-/* Reflectors of a panel, by halves: nearly all flops are then matrix products, where LAPACK's dtpqrt does matrix-vector ones
- * (13 % slower at 1000 columns).  The triangle of both halves is [T1 T12; 0 T2] with T12 = -T1 V1^T V2 T2. */
+/* Reflectors of a panel, by halves: nearly all flops are then matrix products, where LAPACK's dtpqrt does matrix-vector
+ * ones (13 % slower at 1000 columns).  The triangle of both halves is [T1 T12; 0 T2] with T12 = -T1 V1^T V2 T2. */
 static void factorise(nh_qr *qr, size_t first, size_t count, double *t)
 {
     lapack_int m = (lapack_int)qr->filled, n = (lapack_int)qr->columns, ld = (lapack_int)qr->capacity;
     double *v = qr->full + first * qr->capacity;
     if (count <= LEAF) {
-        LAPACKE_dtpqrt2_work(LAPACK_COL_MAJOR, m, (lapack_int)count, 0, qr->r + first * (qr->columns + 1), n, v, ld, t, PANEL);
+        LAPACKE_dtpqrt2_work(LAPACK_COL_MAJOR, m, (lapack_int)count, 0, qr->r + first * (qr->columns + 1), n, v, ld, t,
+                             PANEL);
         return;
     }
     size_t half = count / 2, rest = count - half;
@@ -153,12 +157,14 @@ static void factorise(nh_qr *qr, size_t first, size_t count, double *t)
     reflect(qr, first, half, t, first + half, rest);
     factorise(qr, first + half, rest, t2);
     lapack_int k1 = (lapack_int)half, k2 = (lapack_int)rest;
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, k1, k2, m, -1.0, v, ld, v + half * qr->capacity, ld, 0.0, t12, PANEL);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, k1, k2, m, -1.0, v, ld, v + half * qr->capacity, ld, 0.0, t12,
+                PANEL);
     cblas_dtrmm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, k1, k2, 1.0, t, PANEL, t12, PANEL);
     cblas_dtrmm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, k1, k2, 1.0, t2, PANEL, t12, PANEL);
 }
 
-/* [R; block] = Q R', panel by panel: a reflector acts on one row of R and all rows of the block, so the zeros of R stay. */
+/* [R; block] = Q R', panel by panel: a reflector acts on one row of R and all rows of the block, so the zeros of R
+   stay. */
 static void absorb(void *context)
 {
     nh_qr *qr = context;
@@ -170,7 +176,8 @@ static void absorb(void *context)
     }
 }
 
-/* The rows that wait go into the triangle; with a second block they are exchanged for it, and the caller need not wait. */
+/* The rows that wait go into the triangle; with a second block they are exchanged for it, and the caller need not
+   wait. */
 static void flush(nh_qr *qr)
 {
     await(qr);
@@ -185,8 +192,8 @@ static void flush(nh_qr *qr)
     else qr->aside = nh_aside_begin(absorb, qr);
 }
 
-/* All rows go through the buffer, however they arrive: so the triangle is the same to the last bit for every way of cutting
- * the rows into blocks. */
+/* All rows go through the buffer, however they arrive: so the triangle is the same to the last bit for every way of
+ * cutting the rows into blocks. */
 void nh_qr_add(nh_qr *qr, size_t rows, double *block, size_t ld)
 {
     nh_work_add(NH_WORK_DENSE, product(rows, qr->columns, qr->columns + SMALLEST_BLOCK));
@@ -252,10 +259,12 @@ static void compute_svd(void *context)
 {
     decomposition *d = context;
     char job = d->u ? 'S' : 'N';
-    lapack_int rows = (lapack_int)d->m, columns = (lapack_int)d->n, ld = leading(d->m), ldvt = leading(smaller(d->m, d->n));
+    lapack_int rows = (lapack_int)d->m, columns = (lapack_int)d->n, ld = leading(d->m),
+               ldvt = leading(smaller(d->m, d->n));
     double *superdiagonal = d->slow ? nh_alloc_array(smaller(d->m, d->n), sizeof *superdiagonal) : NULL;
     if (d->slow)
-        d->ok = LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt, superdiagonal) == 0;
+        d->ok = LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt,
+                               superdiagonal) == 0;
     else
         d->ok = LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt) == 0;
     nh_free(superdiagonal);
@@ -279,7 +288,13 @@ bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
     nh_work_add(NH_WORK_DENSE, SVD * product(m, n, k));
     for (int slow = 0; slow < 2 && !ok; slow++) {
         decomposition *d = nh_alloc(sizeof *d);
-        *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .u = sides ? kept(m * k, NULL) : NULL, .vt = sides ? kept(k * n, NULL) : NULL, .slow = slow};
+        *d = (decomposition){.m = m,
+                             .n = n,
+                             .a = kept(m * n, a),
+                             .s = kept(k, NULL),
+                             .u = sides ? kept(m * k, NULL) : NULL,
+                             .vt = sides ? kept(k * n, NULL) : NULL,
+                             .slow = slow};
         if (!run(compute_svd, d))
             return false;
         give(k, d->s, s);
@@ -343,8 +358,8 @@ int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size
     lapack_int *order = nh_alloc_array(n, sizeof *order);
     for (size_t j = 0; j < nrhs && m < n; j++)
         memset(b + m + j * ldb, 0, (n - m) * sizeof *b); /* read by LAPACKE's check for NaN, otherwise only written */
-    lapack_int info = LAPACKE_dgelsy(LAPACK_COL_MAJOR, (lapack_int)m, (lapack_int)n, (lapack_int)nrhs, a, (lapack_int)m, b,
-                                     (lapack_int)ldb, order, rcond, &rank);
+    lapack_int info = LAPACKE_dgelsy(LAPACK_COL_MAJOR, (lapack_int)m, (lapack_int)n, (lapack_int)nrhs, a, (lapack_int)m,
+                                     b, (lapack_int)ldb, order, rcond, &rank);
     nh_free(order);
     return info == 0 ? (int)rank : -1;
 }
@@ -358,8 +373,8 @@ void nh_multiply(size_t m, size_t n, size_t k, const double *a, const double *b,
     if (m == 0 || n == 0 || k == 0)
         return;
     nh_work_add(NH_WORK_DENSE, product(m, n, k));
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (lapack_int)m, (lapack_int)n, (lapack_int)k, 1.0, a, (lapack_int)m, b,
-                (lapack_int)k, 0.0, c, (lapack_int)m);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (lapack_int)m, (lapack_int)n, (lapack_int)k, 1.0, a,
+                (lapack_int)m, b, (lapack_int)k, 0.0, c, (lapack_int)m);
 }
 
 void nh_solve_triangle_right(size_t m, size_t n, const double *r, size_t ldr, double *b)
@@ -376,8 +391,8 @@ void nh_solve_triangle(size_t n, size_t nrhs, const double *r, size_t ldr, doubl
     if (n == 0 || nrhs == 0)
         return;
     nh_work_add(NH_WORK_DENSE, product(n, n, nrhs) / 2);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)n, (lapack_int)nrhs, 1.0, r,
-                (lapack_int)ldr, x, (lapack_int)ldx);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)n, (lapack_int)nrhs, 1.0,
+                r, (lapack_int)ldr, x, (lapack_int)ldx);
 }
 
 double nh_determinant(size_t n, double *a)

@@ -6,14 +6,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Threads of BLAS.  One is best: starting its own costs more than most problems are worth, and ours (base/parallel.h) do not change results. */
+/* Threads of BLAS.  One is best: starting its own costs more than most problems are worth, and ours (base/parallel.h)
+   do not change results. */
 void nh_linalg_threads(int count);
 
-/* Whether there is neither NaN nor infinity in x (count).  LAPACK's iterations may not end on a NaN: nothing below lets one in. */
+/* Whether there is neither NaN nor infinity in x (count).  LAPACK's iterations may not end on a NaN: nothing below lets
+   one in. */
 bool nh_all_finite(size_t count, const double *x);
 
-/* Streaming QR: feed blocks of rows, keep only the triangle.  Memory O(columns^2).  With more than one thread it is computed beside the caller, who goes on to the
- * next rows; the triangle is the same to the last bit. */
+/* Streaming QR: feed blocks of rows, keep only the triangle.  Memory O(columns^2).  With more than one thread it is
+ * computed beside the caller, who goes on to the next rows; the triangle is the same to the last bit. */
 typedef struct nh_qr nh_qr;
 nh_qr *nh_qr_create(size_t columns, size_t threads);
 void nh_qr_free(nh_qr *qr);
@@ -24,19 +26,20 @@ void nh_qr_add(nh_qr *qr, size_t rows, double *block, size_t ld);
 void nh_qr_triangle(nh_qr *qr, double *r);
 size_t nh_qr_rows(const nh_qr *qr); /* rows seen so far */
 
-/* Singular values (descending) of a (m x n), left vectors u (m x min, may be NULL), right vectors vt (min x n, may be NULL).
- * False when the iteration fails, or when the user interrupts a large one (base/progress.h). */
+/* Singular values (descending) of a (m x n), left vectors u (m x min, may be NULL), right vectors vt (min x n, may be
+ * NULL). False when the iteration fails, or when the user interrupts a large one (base/progress.h). */
 bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt);
 
-/* Eigenvalues of a general n x n matrix (overwritten); right eigenvectors in LAPACK's packing into v (n x n), may be NULL. */
+/* Eigenvalues of a general n x n matrix (overwritten); right eigenvectors in LAPACK's packing into v (n x n), may be
+   NULL. */
 bool nh_eigen(size_t n, double *a, double *re, double *im, double *v);
 
-/* Solve a x = b for nrhs right-hand sides, n x n (both overwritten, x in b); *rcond gets the reciprocal condition number (may
- * be NULL).  False when singular. */
+/* Solve a x = b for nrhs right-hand sides, n x n (both overwritten, x in b); *rcond gets the reciprocal condition
+ * number (may be NULL).  False when singular. */
 bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond);
 
-/* Least squares min |a x - b| (m x n, rank-revealing with relative tolerance rcond); x (n x nrhs) in the head of b (ldb = max(m,n)).
- * Returns the rank, or -1 when the iteration fails. */
+/* Least squares min |a x - b| (m x n, rank-revealing with relative tolerance rcond); x (n x nrhs) in the head of b (ldb
+ * = max(m,n)). Returns the rank, or -1 when the iteration fails. */
 int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size_t ldb, double rcond);
 
 /* The determinant of a (n x n, overwritten), by elimination with row pivots. */

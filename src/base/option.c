@@ -54,12 +54,15 @@ bool nh_options_set(nh_options *options, const char *name, const char *value, nh
     if (index == count) {
         nh_fail(error, NH_USAGE, "", "there is no option `%s`", name);
         const char *near = nh_text_nearest(name, names, count);
-        return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "`nhsym explain options` lists them");
+        return near ? nh_error_hint(error, "did you mean `%s`?", near)
+                    : nh_error_hint(error, "`nhsym explain options` lists them");
     }
     double x;
-    if (!nh_text_to_number(value, &x)) return nh_fail(error, NH_USAGE, "", "the option `%s` needs a number, found `%s`", name, value);
+    if (!nh_text_to_number(value, &x))
+        return nh_fail(error, NH_USAGE, "", "the option `%s` needs a number, found `%s`", name, value);
     if (!(x >= table[index].low && x <= table[index].high))
-        return nh_fail(error, NH_USAGE, "", "the option `%s` must lie between %g and %g, found `%s`", name, table[index].low, table[index].high, value);
+        return nh_fail(error, NH_USAGE, "", "the option `%s` must lie between %g and %g, found `%s`", name,
+                       table[index].low, table[index].high, value);
     if (table[index].kind == NH_OPTION_whole && x != floor(x))
         return nh_fail(error, NH_USAGE, "", "the option `%s` needs a whole number, found `%s`", name, value);
     *field(options, index) = x;

@@ -107,7 +107,8 @@ typedef struct {
 
 void nh_options_default(nh_options *options);
 
-/* "name=value" or a name and a value; unknown names, values out of range and fractions of what is whole are refused with a suggestion. */
+/* "name=value" or a name and a value; unknown names, values out of range and fractions of what is whole are refused
+   with a suggestion. */
 bool nh_options_set(nh_options *options, const char *name, const char *value, nh_error *error);
 
 /* The name of an option that may be given by its old one; any other word as it is. */

@@ -25,7 +25,8 @@ static int write_all(int file, const char *text, size_t length)
         text += n;
         length -= (size_t)n;
     }
-    return fsync(file) && errno != EINVAL ? errno : 0; /* EINVAL: something that cannot be synchronised, such as a pipe */
+    /* EINVAL: something that cannot be synchronised, such as a pipe */
+    return fsync(file) && errno != EINVAL ? errno : 0;
 }
 
 /* A device or pipe (/dev/stdout) cannot be replaced by a rename: it is written directly. */
@@ -52,8 +53,10 @@ static int open_beside(const char *path, nh_output_file *out)
     return file;
 }
 
-/* A temporary file beside `path` with the whole text on the disk; *direct: it was written to `path` itself, which is no regular file. */
-static bool write_beside(const char *path, const char *text, size_t length, nh_output_file *out, bool *direct, nh_error *error)
+/* A temporary file beside `path` with the whole text on the disk; *direct: it was written to `path` itself, which is no
+   regular file. */
+static bool write_beside(const char *path, const char *text, size_t length, nh_output_file *out, bool *direct,
+                         nh_error *error)
 {
     struct stat info;
     mode_t mode = 0644;

@@ -176,7 +176,12 @@ static void look_every(struct timespec *until)
 bool nh_interruptible(void (*job)(void *), void (*release)(void *), void *context)
 {
     errand *e = nh_alloc(sizeof *e);
-    *e = (errand){.job = job, .release = release, .context = context, .here = nh_context_here(), .lock = PTHREAD_MUTEX_INITIALIZER, .ended = PTHREAD_COND_INITIALIZER};
+    *e = (errand){.job = job,
+                  .release = release,
+                  .context = context,
+                  .here = nh_context_here(),
+                  .lock = PTHREAD_MUTEX_INITIALIZER,
+                  .ended = PTHREAD_COND_INITIALIZER};
     pthread_t thread;
     if (pthread_create(&thread, NULL, go, e)) { /* then it cannot be left */
         errand_free(e);

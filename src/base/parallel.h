@@ -1,6 +1,7 @@
 /* parallel: independent jobs on a few threads.
  *
- * The assignment of jobs to threads varies between runs; each job writes only to its own memory, so the result does not depend on it. */
+ * The assignment of jobs to threads varies between runs; each job writes only to its own memory, so the result does not
+ * depend on it. */
 #ifndef NH_PARALLEL_H
 #define NH_PARALLEL_H
 
@@ -10,9 +11,9 @@
 /* job(i, context) for i = 0 .. jobs-1.  With one thread, or when none can be started, the caller does them in order. */
 void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context);
 
-/* The same for jobs that use and change what they share, as motions do with the graph of their model's expressions: only one goes on at a time, but for what it does
- * between nh_turn_give() and nh_turn_take(), which touches nothing shared.  These two do nothing elsewhere, nor where the turn is given or taken already, and
- * say whether they did. */
+/* The same for jobs that use and change what they share, as motions do with the graph of their model's expressions:
+ * only one goes on at a time, but for what it does between nh_turn_give() and nh_turn_take(), which touches nothing
+ * shared.  These two do nothing elsewhere, nor where the turn is given or taken already, and say whether they did. */
 void nh_parallel_in_turns(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context);
 bool nh_turn_give(void);
 bool nh_turn_take(void);
@@ -22,19 +23,20 @@ bool nh_in_turns(void);
 /* As many as are wanted; 0: one for each processor that the process may use. */
 size_t nh_threads(double wanted);
 
-/* job(context) beside the caller, who must wait for its end and release it by nh_aside_end (NULL: nothing to wait for).  When no thread can be started it is
- * done at once. */
+/* job(context) beside the caller, who must wait for its end and release it by nh_aside_end (NULL: nothing to wait for).
+ * When no thread can be started it is done at once. */
 typedef struct nh_aside nh_aside;
 nh_aside *nh_aside_begin(void (*job)(void *context), void *context);
 void nh_aside_end(nh_aside *aside);
 
-/* A long call into a library that cannot be asked to stop: job(context) on a thread of its own, while the caller looks out for an interruption (base/progress.h).
- * False when one comes: then the job goes on without the caller until it ends, or the process does; context must own all that it needs and is
- * released after it.  True: the job is done, and context is still the caller's. */
+/* A long call into a library that cannot be asked to stop: job(context) on a thread of its own, while the caller looks
+ * out for an interruption (base/progress.h). False when one comes: then the job goes on without the caller until it
+ * ends, or the process does; context must own all that it needs and is released after it.  True: the job is done, and
+ * context is still the caller's. */
 bool nh_interruptible(void (*job)(void *context), void (*release)(void *context), void *context);
 
-/* How many of them still run without a caller.  While there are any the process must not end by exit(): OpenBLAS then waits for its own threads
- * for ever.  _exit() is safe. */
+/* How many of them still run without a caller.  While there are any the process must not end by exit(): OpenBLAS then
+ * waits for its own threads for ever.  _exit() is safe. */
 size_t nh_jobs_left(void);
 
 #endif

@@ -113,7 +113,8 @@ void nh_ended_words(char *out, size_t size)
 {
     nh_context *c = nh_context_here();
     if (atomic_load(&c->interrupted)) snprintf(out, size, "interrupted");
-    else if (atomic_load(&c->filled)) snprintf(out, size, "the memory limit of %g MB was reached", c->most_memory / NH_MEGABYTE);
+    else if (atomic_load(&c->filled))
+        snprintf(out, size, "the memory limit of %g MB was reached", c->most_memory / NH_MEGABYTE);
     else snprintf(out, size, "the time limit of %g s was reached", c->limit_seconds);
 }
 

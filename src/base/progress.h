@@ -1,8 +1,10 @@
-/* progress: progress reports of a long computation, and its early end by a signal, or by the limit of time or memory of the run. One per context (base/context.h).
+/* progress: progress reports of a long computation, and its early end by a signal, or by the limit of time or memory of
+ * the run. One per context (base/context.h).
  *
- * All ends are one thing to whoever computes: nh_interrupted() is true from then on for ever, and the computation returns soon, with what it has.  What it says
- * then is partial: nothing that was computed afterwards is a proof or a refutation.  The limits are emergency brakes.  How much is computed in a run that they do
- * not end is decided by counted work, not by time. */
+ * All ends are one thing to whoever computes: nh_interrupted() is true from then on for ever, and the computation
+ * returns soon, with what it has.  What it says then is partial: nothing that was computed afterwards is a proof or a
+ * refutation.  The limits are emergency brakes.  How much is computed in a run that they do not end is decided by
+ * counted work, not by time. */
 #ifndef NH_PROGRESS_H
 #define NH_PROGRESS_H
 
@@ -24,25 +26,29 @@ void nh_interrupt(void);
 void nh_interrupt_context(nh_context *context);
 /* What comes from here on was not interrupted. */
 void nh_interrupt_clear(void);
-/* The time limit of the run: `seconds` from now, as the user feels them (not of the processor); none when they are not finite. */
+/* The time limit of the run: `seconds` from now, as the user feels them (not of the processor); none when they are not
+   finite. */
 void nh_limit_set(double seconds);
-/* The same for the memory of the process, in bytes; none when 0.  It is looked at now and then: a hundred times a second. */
+/* The same for the memory of the process, in bytes; none when 0.  It is looked at now and then: a hundred times a
+   second. */
 void nh_limit_memory_set(double bytes);
-/* All is computed: a limit that was not reached is reached no more, so that a result is the same however long it takes to write it. */
+/* All is computed: a limit that was not reached is reached no more, so that a result is the same however long it takes
+   to write it. */
 void nh_limit_pass(void);
 /* Ended, by any of them. */
 bool nh_interrupted(void);
 /* Ended by a limit. */
 bool nh_limit_reached(void);
-/* Of an ended computation: its exit code, "interrupted" or "the time limit of 1 s was reached", and the option that raises the limit, or NULL. */
+/* Of an ended computation: its exit code, "interrupted" or "the time limit of 1 s was reached", and the option that
+   raises the limit, or NULL. */
 nh_code nh_ended_code(void);
 void nh_ended_words(char *out, size_t size);
 const char *nh_ended_option(void);
 /* Records that it was ended, while doing that, with the cure; returns false. */
 bool nh_fail_ended(nh_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A moment after which no new part is begun, so that time is left for what follows: `seconds` from now, and earlier where the limit is near; none when
- * they are not finite. */
+/* A moment after which no new part is begun, so that time is left for what follows: `seconds` from now, and earlier
+ * where the limit is near; none when they are not finite. */
 void nh_deadline_set(double seconds);
 /* Ended, or behind that moment. */
 bool nh_late(void);

@@ -16,7 +16,8 @@ static double row_size(size_t m, const double *K, const double *s, size_t i)
     return most;
 }
 
-/* From the diagonal, beyond which a positive matrix has nothing larger; rows of others are brought to the size one together.  0 for empty rows. */
+/* From the diagonal, beyond which a positive matrix has nothing larger; rows of others are brought to the size one
+   together.  0 for empty rows. */
 static void scale_metric(size_t m, const double *K, double *s)
 {
     enum { sweeps = 8 }; /* each takes at least the root of what is amiss */
@@ -37,7 +38,8 @@ static void scale_border(size_t m, size_t k, const double *F, double *s, double 
 {
     for (size_t c = 0; c < k; c++) {
         double most = 0, bare = 0;
-        for (size_t j = 0; j < m; j++) most = fmax(most, fabs(F[c + j * k]) * s[j]), bare = fmax(bare, fabs(F[c + j * k]));
+        for (size_t j = 0; j < m; j++)
+            most = fmax(most, fabs(F[c + j * k]) * s[j]), bare = fmax(bare, fabs(F[c + j * k]));
         e[c] = scale(most > 0 ? most : bare);
     }
     for (size_t j = 0; j < m; j++) {
@@ -49,7 +51,8 @@ static void scale_border(size_t m, size_t k, const double *F, double *s, double 
 
 size_t nh_saddle_work(size_t m, size_t k) { return (m + k) * (m + k + 2) + 1; }
 
-bool nh_saddle_solve(size_t m, size_t k, const double *K, const double *F, const double *h, const double *g, double *a, double *mu, double *rcond, double *work)
+bool nh_saddle_solve(size_t m, size_t k, const double *K, const double *F, const double *h, const double *g, double *a,
+                     double *mu, double *rcond, double *work)
 {
     size_t n = m + k;
     double *matrix = work, *right = matrix + n * n, *s = right + n, *e = s + m;

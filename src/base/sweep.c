@@ -184,7 +184,10 @@ static size_t missing(const nh_sweep *s, size_t *unit)
 }
 
 /* The same words from first to last: a log has a line now and then, not one for every item. */
-void nh_sweep_say(const nh_sweep *s, size_t done, size_t all) { nh_progress(s->doing, all ? (double)done / (double)all : 1); }
+void nh_sweep_say(const nh_sweep *s, size_t done, size_t all)
+{
+    nh_progress(s->doing, all ? (double)done / (double)all : 1);
+}
 
 /* What an item says of itself would hide how far the whole has come. */
 static nh_progress_handler *be_quiet(void **context)

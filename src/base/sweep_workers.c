@@ -44,7 +44,8 @@ _Noreturn static void work(const pool *p)
     nh_progress_set(NULL, NULL);
     if (p->sweep->begin_worker) p->sweep->begin_worker();
     shared *c = p->common;
-    for (size_t i; !nh_interrupted() && !orphan() && !atomic_load(&c->failed) && (i = atomic_fetch_add(&c->next, 1)) < p->units;) {
+    for (size_t i; !nh_interrupted() && !orphan() && !atomic_load(&c->failed) &&
+                   (i = atomic_fetch_add(&c->next, 1)) < p->units;) {
         if (nh_sweep_do_unit(p->sweep, p->unit[i], &c->items_done, orphan, &error)) continue;
         if (atomic_exchange(&c->failed, true)) break;
         c->error = error;
@@ -70,7 +71,8 @@ static bool died(pool *p, size_t k, int status, nh_sweep_state *state)
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return false;
     state->deaths++;
     if (WIFSIGNALED(status))
-        snprintf(state->death, sizeof state->death, "a worker was ended by signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status)));
+        snprintf(state->death, sizeof state->death, "a worker was ended by signal %d (%s)", WTERMSIG(status),
+                 strsignal(WTERMSIG(status)));
     else snprintf(state->death, sizeof state->death, "a worker ended with code %d", WEXITSTATUS(status));
     return true;
 }
@@ -115,9 +117,11 @@ bool nh_sweep_do_in_workers(const nh_sweep *s, size_t units, const size_t *unit,
     pool p = {.sweep = s, .units = units, .unit = unit, .common = common};
     size_t wanted = s->workers < units ? s->workers : units;
     if (wanted > most_workers) wanted = most_workers;
-    if (common == MAP_FAILED) return nh_fail(error, NH_LIMIT, "", "there is no memory for the workers: %s", strerror(errno));
+    if (common == MAP_FAILED)
+        return nh_fail(error, NH_LIMIT, "", "there is no memory for the workers: %s", strerror(errno));
     parent = getpid();
-    for (size_t i = 0; i < units; i++) p.items += s->items - unit[i] * s->per_unit < s->per_unit ? s->items - unit[i] * s->per_unit : s->per_unit;
+    for (size_t i = 0; i < units; i++)
+        p.items += s->items - unit[i] * s->per_unit < s->per_unit ? s->items - unit[i] * s->per_unit : s->per_unit;
     fflush(NULL);
     for (size_t k = 0; k < wanted && start(&p);) k++;
     bool begun = p.running > 0;

@@ -59,8 +59,9 @@ void nh_text_addf(nh_text *text, const char *format, ...)
 
 /* ---- numbers ----
  *
- * 15 digits are what a decimal survives, 17 what a double needs; the first that reads back is the shortest.  Output is mostly numbers, and printf takes longest: so it is
- * asked once, for 17 digits, and fewer are found by rounding those. */
+ * 15 digits are what a decimal survives, 17 what a double needs; the first that reads back is the shortest.  Output is
+ * mostly numbers, and printf takes longest: so it is asked once, for 17 digits, and fewer are found by rounding
+ * those. */
 
 enum { most_digits = 17, least_digits = 15 };
 
@@ -147,7 +148,8 @@ static bool reads_back(const decimal *d, double value)
 void nh_text_number(double value, char *out, size_t size)
 {
     char text[32] = "0"; /* "-0" means nothing to a reader */
-    if (!isfinite(value)) snprintf(text, sizeof text, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf"); /* printf would write "-nan" for some */
+    /* printf would write "-nan" for some */
+    if (!isfinite(value)) snprintf(text, sizeof text, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
     else if (value != 0) {
         decimal all = decimal_of(value, most_digits), best = all;
         for (int count = most_digits - 1; count >= least_digits; count--) {
@@ -294,6 +296,7 @@ uint64_t nh_text_fingerprint(uint64_t before, const char *bytes, size_t length)
 size_t nh_text_entry(const char *text, const char *separators)
 {
     size_t length = 0;
-    for (int depth = 0; text[length] && (depth > 0 || !strchr(separators, text[length])); length++) depth += (text[length] == '(') - (text[length] == ')');
+    for (int depth = 0; text[length] && (depth > 0 || !strchr(separators, text[length])); length++)
+        depth += (text[length] == '(') - (text[length] == ')');
     return length;
 }

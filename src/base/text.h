@@ -23,7 +23,8 @@ void nh_text_number(double value, char *out, size_t size);
 
 /* Is it [+-] digits [. digits] [e [+-] digits], with a digit before or after the point, and nothing else? */
 bool nh_text_is_number(const char *text);
-/* Its value; false, and *out as it was, when it is none, or one that no double holds: too large, or so small that it would become 0. */
+/* Its value; false, and *out as it was, when it is none, or one that no double holds: too large, or so small that it
+   would become 0. */
 bool nh_text_to_number(const char *text, double *out);
 
 /* The candidate nearest to `word` (Damerau-Levenshtein, case ignored), or NULL when none is near enough to be
@@ -33,7 +34,8 @@ const char *nh_text_nearest(const char *word, const char *const *candidates, siz
 /* A number that tells texts apart (FNV-1a), continued from that of what stands before; from 0. */
 uint64_t nh_text_fingerprint(uint64_t before, const char *bytes, size_t length);
 
-/* Lists on the command line: the length of the entry at `text`, which ends at one of the separators outside parentheses, or with the text. */
+/* Lists on the command line: the length of the entry at `text`, which ends at one of the separators outside
+   parentheses, or with the text. */
 size_t nh_text_entry(const char *text, const char *separators);
 
 /* Columns that `string` takes on a terminal (UTF-8 code points; no wide characters are used here). */

@@ -9,10 +9,64 @@
 #include "cli/cli_table.h"
 #include "problem/input.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_pdf, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_max_memory, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
-       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base, opt_on, opt_event, opt_section, opt_axes,
+enum {
+    opt_set = 256,
+    opt_analysis,
+    opt_no_analysis,
+    opt_velocities,
+    opt_json,
+    opt_fragment,
+    opt_current,
+    opt_field,
+    opt_initial,
+    opt_project,
+    opt_method,
+    opt_initial_table,
+    opt_step,
+    opt_watch,
+    opt_scene,
+    opt_budget,
+    opt_svg,
+    opt_pdf,
+    opt_group,
+    opt_chain,
+    opt_inner,
+    opt_weak,
+    opt_to,
+    opt_tolerance,
+    opt_until,
+    opt_seed,
+    opt_samples,
+    opt_columns,
+    opt_degree,
+    opt_threads,
+    opt_max_seconds,
+    opt_max_memory,
+    opt_option,
+    opt_progress,
+    opt_no_color,
+    opt_version,
+    opt_accuracy,
+    opt_ensemble,
+    opt_spread,
+    opt_robustness,
+    opt_over,
+    opt_shape,
+    opt_equations,
+    opt_of,
+    opt_number,
+    opt_workers,
+    opt_chunk,
+    opt_input,
+    opt_name,
+    opt_wheel,
+    opt_base,
+    opt_on,
+    opt_event,
+    opt_section,
+    opt_axes,
 #define X(name, form, writer) opt_##name,
-       NH_PEN_FORM_TABLE(X)
+    NH_PEN_FORM_TABLE(X)
 #undef X
 };
 
@@ -33,7 +87,8 @@ static const char all_commands[] = NH_CLI_COMMAND_TABLE(X);
 enum { owner_count = sizeof owners / sizeof *owners };
 
 /* "name=value" cut at the sign. */
-static bool assignment(nh_cli *cli, const char *text, const char *option, char **name, const char **value, nh_error *error)
+static bool assignment(nh_cli *cli, const char *text, const char *option, char **name, const char **value,
+                       nh_error *error)
 {
     const char *equal = strchr(text, '=');
     if (!equal || equal == text) {
@@ -52,16 +107,22 @@ static const char *also(nh_cli *cli, const char *before, const char *more)
 {
     return before ? nh_arena_printf(cli->arena, "%s; %s", before, more) : more;
 }
-static const char *joined(nh_cli *cli, const char *before, const char *more) { return before ? nh_arena_printf(cli->arena, "%s, %s", before, more) : more; }
+static const char *joined(nh_cli *cli, const char *before, const char *more)
+{
+    return before ? nh_arena_printf(cli->arena, "%s, %s", before, more) : more;
+}
 
 /* Every entry of a list, without the blanks around it. */
-static bool each(nh_cli *cli, const char *list, const char *option, bool (*take)(nh_cli *, const char *, nh_error *), nh_error *error)
+static bool each(nh_cli *cli, const char *list, const char *option, bool (*take)(nh_cli *, const char *, nh_error *),
+                 nh_error *error)
 {
     for (const char *at = list;; at++) {
         at += strspn(at, " ");
         size_t length = nh_text_entry(at, ",;"), end = length;
         while (end && at[end - 1] == ' ') end--;
-        if (!end && (at[length] || at == list)) return nh_fail(error, NH_USAGE, "", "--%s: nothing stands %s `%s`", option, at == list ? "first in" : "between two commas of", list);
+        if (!end && (at[length] || at == list))
+            return nh_fail(error, NH_USAGE, "", "--%s: nothing stands %s `%s`", option,
+                           at == list ? "first in" : "between two commas of", list);
         if (end && !take(cli, nh_arena_strndup(cli->arena, at, end), error)) return false;
         at += length;
         if (!*at) return true;
@@ -75,7 +136,8 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     const char *value;
     if (!assignment(cli, text, "set", &name, &value, error)) return false;
     double x;
-    if (!nh_text_to_number(value, &x)) return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
+    if (!nh_text_to_number(value, &x))
+        return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
     cli->setting[cli->settings++] = (nh_setting){.name = name, .value = x};
     return true;
 }
@@ -93,9 +155,18 @@ static bool set_input(nh_cli *cli, const char *text, nh_error *error)
     return true;
 }
 
-static bool add_wheel(nh_cli *cli, const char *text, nh_error *error) { return (void)error, cli->wheel[cli->wheels++] = text, true; }
-static bool add_level(nh_cli *cli, const char *text, nh_error *error) { return (void)error, cli->on[cli->ons++] = text, true; }
-static bool add_number(nh_cli *cli, const char *text, nh_error *error) { return (void)error, cli->number[cli->numbers++] = text, true; }
+static bool add_wheel(nh_cli *cli, const char *text, nh_error *error)
+{
+    return (void)error, cli->wheel[cli->wheels++] = text, true;
+}
+static bool add_level(nh_cli *cli, const char *text, nh_error *error)
+{
+    return (void)error, cli->on[cli->ons++] = text, true;
+}
+static bool add_number(nh_cli *cli, const char *text, nh_error *error)
+{
+    return (void)error, cli->number[cli->numbers++] = text, true;
+}
 
 /* "k=1:2:11", "k=1", "B"; what follows a comma and has no name is one more value: k=1,2,5/2. */
 static bool add_range(nh_cli *cli, const char *text, nh_error *error)
@@ -158,7 +229,8 @@ static bool members(const char *text, size_t *out, nh_error *error)
     double x;
     if (!positive(text, "ensemble", &x, error)) return false;
     *out = (size_t)x;
-    return (x == (double)*out && x <= 1e7) || nh_fail(error, NH_USAGE, "", "--ensemble needs a whole number of members up to 1e7, found `%s`", text);
+    return (x == (double)*out && x <= 1e7) ||
+           nh_fail(error, NH_USAGE, "", "--ensemble needs a whole number of members up to 1e7, found `%s`", text);
 }
 
 static bool whole(const char *text, const char *option, size_t most, size_t *out, nh_error *error)
@@ -177,7 +249,8 @@ static bool set_chunk(nh_cli *cli, const char *text, nh_error *error)
     nh_error ignored;
     nh_error_clear(&ignored);
     bool good = slash && whole(slash + 1, "chunk", 1000000, &cli->chunks, &ignored);
-    good = good && whole(nh_arena_strndup(cli->arena, text, (size_t)(slash - text)), "chunk", cli->chunks, &cli->chunk, &ignored);
+    good = good && whole(nh_arena_strndup(cli->arena, text, (size_t)(slash - text)), "chunk", cli->chunks, &cli->chunk,
+                         &ignored);
     if (good) return cli->chunk--, true;
     nh_fail(error, NH_USAGE, "", "--chunk needs I/N with I from 1 to N, found `%s`", text);
     return nh_error_hint(error, "--chunk 3/40 is the third of forty parts");
@@ -207,7 +280,8 @@ static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
     return nh_error_hint(error, "--progress takes auto, always or never");
 }
 
-/* The bytes of the dashes that a word begins with, also of those that word processors put for `--`: U+2013, U+2014, U+2212. */
+/* The bytes of the dashes that a word begins with, also of those that word processors put for `--`: U+2013, U+2014,
+   U+2212. */
 static size_t dashes(const char *word)
 {
     static const char *const typeset[] = {"\xe2\x80\x93", "\xe2\x80\x94", "\xe2\x88\x92"};
@@ -253,7 +327,8 @@ static bool unknown_option(const nh_cli *cli, const char *word, nh_error *error)
     const char *near = nh_text_nearest(word + dashes(word), names, n);
     for (const struct option *o = long_options; near && o->name; o++)
         if (!strcmp(near, o->name)) near = name_of(o->val); /* an old name: the one of today */
-    return near ? nh_error_hint(error, "did you mean `--%s`?", near) : nh_error_hint(error, "`%s` lists them", help_of(cli));
+    return near ? nh_error_hint(error, "did you mean `--%s`?", near)
+                : nh_error_hint(error, "`%s` lists them", help_of(cli));
 }
 
 /* Is it a whole name of an option, up to its end or `=`? */
@@ -264,12 +339,15 @@ static bool is_option(const char *name)
     return false;
 }
 
-/* getopt takes any beginning of a name that is not ambiguous: a script that uses one breaks with the next option that begins like it, so they are refused. */
+/* getopt takes any beginning of a name that is not ambiguous: a script that uses one breaks with the next option that
+   begins like it, so they are refused. */
 static bool in_full(const nh_cli *cli, const char *word, int code, nh_error *error)
 {
     size_t length = strcspn(word, "=");
     bool named = false;
-    if (strncmp(word, "--", 2)) return !(word[0] == '-' && word[1] && word[2] && is_option(word + 1)) || unknown_option(cli, word, error); /* -html is not -h -t -m -l */
+    /* -html is not -h -t -m -l */
+    if (strncmp(word, "--", 2))
+        return !(word[0] == '-' && word[1] && word[2] && is_option(word + 1)) || unknown_option(cli, word, error);
     for (const struct option *o = long_options; o->name; o++) {
         named = named || o->val == code;
         if (o->val == code && strlen(o->name) + 2 == length && !strncmp(word + 2, o->name, length - 2)) return true;
@@ -299,7 +377,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 {
     switch (code) {
     case opt_set: return each(cli, value, "set", set_parameter, error);
-    case opt_seed: case opt_samples: case opt_tolerance: case opt_until: case opt_threads: case opt_columns: case opt_degree: return set_number(cli, code, value, error);
+    case opt_seed: case opt_samples: case opt_tolerance: case opt_until:
+    case opt_threads: case opt_columns: case opt_degree: return set_number(cli, code, value, error);
     case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
     case opt_max_memory: return size(value, &cli->options.max_memory, error);
     case opt_initial: cli->initial = joined(cli, cli->initial, value); return true;
@@ -359,7 +438,10 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 /* Numbers of any computation, and how much is said, may stand behind every command: scripts give them to all. */
 static bool for_all(int code)
 {
-    static const int codes[] = {'q', 'v', 'h', opt_no_color, opt_progress, opt_version, opt_option, opt_seed, opt_samples, opt_columns, opt_degree, opt_tolerance, opt_until, opt_threads, opt_max_seconds, opt_max_memory};
+    static const int codes[] = {'q',           'v',           'h',       opt_no_color, opt_progress,
+                                opt_version,   opt_option,    opt_seed,  opt_samples,  opt_columns,
+                                opt_degree,    opt_tolerance, opt_until, opt_threads,  opt_max_seconds,
+                                opt_max_memory};
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
         if (code == codes[i]) return true;
     return false;
@@ -372,13 +454,14 @@ static bool all_belong(const nh_cli *cli, const bool *given, nh_error *error)
     for (size_t i = 0; i < owner_count; i++) {
         if (!given[i] || for_all(owners[i].code) || nh_word_among(owners[i].commands, cli->command)) continue;
         nh_fail(error, NH_USAGE, "", "`nhsym %s` does not take --%s", cli->command, owners[i].name);
-        return nh_error_hint(error, "`nhsym help %s` lists its options; this one belongs to: %s", cli->command, owners[i].commands);
+        return nh_error_hint(error, "`nhsym help %s` lists its options; this one belongs to: %s", cli->command,
+                             owners[i].commands);
     }
     return true;
 }
 
-/* "--json FILE" with a space: getopt does not join an optional value, but the format promises it.  Before the system's name, a
- * word counts as FILE when it ends in .json. */
+/* "--json FILE" with a space: getopt does not join an optional value, but the format promises it.  Before the system's
+ * name, a word counts as FILE when it ends in .json. */
 static const char *optional_value(const nh_cli *cli, int argc, char **argv)
 {
     if (optarg || optind >= argc) return optarg;

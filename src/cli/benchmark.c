@@ -34,18 +34,22 @@ int nh_cli_benchmark(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
     nh_cli_progress_begin(cli);
-    if (!nh_cli_motion_request(cli, "nhsym benchmark sleigh", &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
+    if (!nh_cli_motion_request(cli, "nhsym benchmark sleigh", &request, error) || !nh_cli_use_folder(cli, error) ||
+        !nh_cli_can_write(cli, error))
+        return error->code;
     /* without a budget of its own a map counts steps, so that it is the same on a busy machine */
     const double longest = 300;
     double budget = cli->budget > 0 ? cli->budget : 5, of_maps = cli->budget > 0 ? budget / 2 : longest;
     bool maps = cli->robustness || cli->over; /* ranges are those of a map */
     nh_benchmark *c = nh_benchmark_run(&request, maps && cli->budget > 0 ? budget / 2 : budget, error);
-    nh_robustness *s = c && maps && !nh_interrupted() ? nh_robustness_create(&request, cli->over, of_maps, error) : NULL;
+    nh_robustness *s =
+        c && maps && !nh_interrupted() ? nh_robustness_create(&request, cli->over, of_maps, error) : NULL;
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (c && error->code == NH_OK) write_all(cli, &run, c, s, error);
     nh_robustness_free(s);
-    if (c && error->code == NH_OK && nh_interrupted()) nh_fail_ended(error, "while methods were compared: this is what was measured until then");
+    if (c && error->code == NH_OK && nh_interrupted())
+        nh_fail_ended(error, "while methods were compared: this is what was measured until then");
     nh_benchmark_free(c);
     return c ? (int)error->code : nh_cli_failed(cli, &run, error);
 }

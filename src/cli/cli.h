@@ -19,7 +19,8 @@
 
 typedef enum { NH_PROGRESS_AUTO, NH_PROGRESS_ALWAYS, NH_PROGRESS_NEVER } nh_cli_progress;
 
-/* A value of an option in the text that completes a file: there from byte `begin` on, in what was typed from byte `offset` on. */
+/* A value of an option in the text that completes a file: there from byte `begin` on, in what was typed from byte
+   `offset` on. */
 typedef struct {
     size_t begin, offset;
     const char *option, *typed;
@@ -96,8 +97,8 @@ NH_CLI_COMMAND_TABLE(X)
 /* What simulate and benchmark ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);
 
-/* Before the work: what is being done is shown on stderr, as --progress says; --max-seconds, --max-memory, SIGINT and SIGTERM end the work with what there is.  After it, before
- * anything is written: signals end the process at once. */
+/* Before the work: what is being done is shown on stderr, as --progress says; --max-seconds, --max-memory, SIGINT and
+ * SIGTERM end the work with what there is.  After it, before anything is written: signals end the process at once. */
 void nh_cli_progress_begin(const nh_cli *cli);
 void nh_cli_progress_end(void);
 /* Of these two: signals and the limits of time (none when it is not finite) and memory (none when it is 0). */
@@ -109,20 +110,23 @@ void nh_cli_guard_writing(void);
 /* The file of a system by name or path, with --wheel and --base; notes of the file go to standard error. */
 const char *nh_cli_system(nh_cli *cli, const char *word, nh_error *error);
 
-/* An error in what these options added to the file is one of the command line: the message shows the option and its value as it was typed. */
+/* An error in what these options added to the file is one of the command line: the message shows the option and its
+   value as it was typed. */
 void nh_cli_blame(const nh_cli *cli, nh_error *error);
 
 /* To repeat this command. */
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);
-/* No result came of the work: the exit code.  Where it was ended that is the reason, whatever failed for it, and what is known is written. */
+/* No result came of the work: the exit code.  Where it was ended that is the reason, whatever failed for it, and what
+   is known is written. */
 int nh_cli_failed(nh_cli *cli, const nh_run *run, nh_error *error);
-/* Is the summary printed?  Not with --quiet, nor where an output takes standard output.  And what a command is called for, such as a table or code: with
- * --quiet as well, unless a file holds the result. */
+/* Is the summary printed?  Not with --quiet, nor where an output takes standard output.  And what a command is called
+ * for, such as a table or code: with --quiet as well, unless a file holds the result. */
 bool nh_cli_speaks(const nh_cli *cli);
 bool nh_cli_delivers(const nh_cli *cli);
 /* Called before the computation: an output folder without write access is reported at once. */
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error);
-/* A text for a file or standard output (`-`), which is cleared; a JSON, which is freed, for --json.  The files take their places together, in the last of these: with `good`, or not at all. */
+/* A text for a file or standard output (`-`), which is cleared; a JSON, which is freed, for --json.  The files take
+   their places together, in the last of these: with `good`, or not at all. */
 bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error);
 /* A picture to where --svg and --pdf want it; its text is cleared.  And the bytes of the PDF. */
 bool nh_cli_write_picture(nh_cli *cli, nh_text *svg, nh_error *error);
@@ -130,7 +134,8 @@ bool nh_cli_pdf(const nh_text *svg, nh_text *out, nh_error *error);
 bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error);
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);
 
-/* A result in words, which are printed and stand in the folder of -o; its page and its LaTeX document, where they are wanted. */
+/* A result in words, which are printed and stand in the folder of -o; its page and its LaTeX document, where they are
+   wanted. */
 typedef void nh_cli_render(const void *result, const nh_run *run, nh_pen_style style, nh_text *out);
 bool nh_cli_write_words(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error);
 /* The name of the first option that asks for a document; NULL: none does. */
@@ -140,7 +145,8 @@ bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *resu
 /* -o DIR: make the folder; everything goes there, but for what has a place of its own. */
 bool nh_cli_use_folder(nh_cli *cli, nh_error *error);
 const char *nh_cli_in_folder(nh_cli *cli, const char *name);
-/* The figures of a page as files of their own; those of an older run that this one does not have go when the files take their places. */
+/* The figures of a page as files of their own; those of an older run that this one does not have go when the files take
+   their places. */
 bool nh_cli_write_figures(nh_cli *cli, const char *page, nh_error *error);
 
 #endif

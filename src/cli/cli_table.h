@@ -1,4 +1,5 @@
-/* cli_table: one table of commands and one of options, for help, manual page, completions and the parser of the command line. */
+/* cli_table: one table of commands and one of options, for help, manual page, completions and the parser of the command
+   line. */
 #ifndef NH_CLI_TABLE_H
 #define NH_CLI_TABLE_H
 

@@ -68,7 +68,8 @@ int nh_cli_export(nh_cli *cli, nh_error *error)
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     if (!x) return nh_cli_failed(cli, &run, error);
-    bool good = nh_export_prefix(x, cli->name, &prefix, error) && nh_export_possible(x, target, error), partial = x->partial;
+    bool good = nh_export_prefix(x, cli->name, &prefix, error) && nh_export_possible(x, target, error),
+         partial = x->partial;
     if (good && cli->folder) {
         good = write_files(cli, x, target, prefix, &run, error);
     } else if (good) {

@@ -11,9 +11,15 @@
 #include "cli/cli.h"
 #include "document/html.h"
 
-static const char *figure_name(nh_cli *cli, size_t number) { return nh_arena_printf(cli->arena, "figure%zu.svg", number); }
+static const char *figure_name(nh_cli *cli, size_t number)
+{
+    return nh_arena_printf(cli->arena, "figure%zu.svg", number);
+}
 
-const char *nh_cli_in_folder(nh_cli *cli, const char *name) { return nh_arena_printf(cli->arena, "%s/%s", cli->folder, name); }
+const char *nh_cli_in_folder(nh_cli *cli, const char *name)
+{
+    return nh_arena_printf(cli->arena, "%s/%s", cli->folder, name);
+}
 
 bool nh_cli_use_folder(nh_cli *cli, nh_error *error)
 {
@@ -44,7 +50,8 @@ static bool is_ours(const char *path, size_t number)
     char text[400] = "";
     struct stat info;
     int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
-    bool regular = file >= 0 && !fstat(file, &info) && S_ISREG(info.st_mode), begun = regular && read(file, text, sizeof text - 1) > 0;
+    bool regular = file >= 0 && !fstat(file, &info) && S_ISREG(info.st_mode),
+         begun = regular && read(file, text, sizeof text - 1) > 0;
     if (file >= 0) close(file);
     return begun && nh_html_is_figure(text, number);
 }

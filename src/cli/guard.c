@@ -1,8 +1,10 @@
 /* guard: signals and the limits of time and memory.
  *
- * One thread waits for all of them.  The first signal, and a limit, end the computation by base/progress.h: it returns soon, with what it has.  A second signal, one that
- * comes while results are written, and a computation that has still not come back when it has used `grace` more of the processor, or `more` of the memory, end the
- * process at once: without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that comes while results are written takes nothing away from them. */
+ * One thread waits for all of them.  The first signal, and a limit, end the computation by base/progress.h: it returns
+ * soon, with what it has.  A second signal, one that comes while results are written, and a computation that has still
+ * not come back when it has used `grace` more of the processor, or `more` of the memory, end the process at once:
+ * without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that
+ * comes while results are written takes nothing away from them. */
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
@@ -27,8 +29,10 @@ static void end_at_once(int code, const char *reached, const char *option)
     nh_progress_last(doing, sizeof doing);
     if (code == NH_INTERRUPTED) dprintf(STDERR_FILENO, "nhsym: interrupted\n");
     else
-        dprintf(STDERR_FILENO, "nhsym: %s%s%sthe %s limit was reached before any result could be written\nhint: raise it by %s\n", doing, *doing ? ": " : "",
-                atomic_load(&writing) ? "the results were being written when " : "", reached, option);
+        dprintf(STDERR_FILENO,
+                "nhsym: %s%s%sthe %s limit was reached before any result could be written\nhint: raise it by %s\n",
+                doing, *doing ? ": " : "", atomic_load(&writing) ? "the results were being written when " : "", reached,
+                option);
     _exit(code);
 }
 
@@ -52,8 +56,9 @@ static int next_signal(const sigset_t *set)
     return number > 0 ? number : 0;
 }
 
-/* What a computation may take to come back: of the processor, so that a busy machine does not take a result away.  What is known is then written, which ends by itself: it may
- * take `patience` times as long, as may whoever waits for something else than the processor. */
+/* What a computation may take to come back: of the processor, so that a busy machine does not take a result away.  What
+ * is known is then written, which ends by itself: it may take `patience` times as long, as may whoever waits for
+ * something else than the processor. */
 static bool past_grace(void)
 {
     static const double part = 0.12, more = 0.12, patience = 10;
@@ -61,7 +66,8 @@ static bool past_grace(void)
     double grace = part * limit + more, now = nh_clock();
     if (now < end) return false;
     if (used == 0) used = nh_clock_of_process();
-    return nh_clock_of_process() - used > (atomic_load(&writing) ? patience : 1) * grace || now - end > patience * grace;
+    return nh_clock_of_process() - used > (atomic_load(&writing) ? patience : 1) * grace ||
+           now - end > patience * grace;
 }
 
 /* So much more than the limit is left for what a computation needs to come back, and to write what there is. */
@@ -87,8 +93,8 @@ static void *stand(void *unused)
     return unused;
 }
 
-/* A thread that a library began before main takes signals that all of ours leave to the guard: they are passed on.  Where no guard could be had the first ends the
- * computation, and the second the process. */
+/* A thread that a library began before main takes signals that all of ours leave to the guard: they are passed on.
+ * Where no guard could be had the first ends the computation, and the second the process. */
 static void on_signal(int number)
 {
     if (atomic_load(&standing)) {

@@ -95,8 +95,10 @@ static void roff(const char *text)
 
 static void manual_page(void)
 {
-    puts(".TH NHSYM 1 \"\" \"nhsym " NH_VERSION "\" \"User Commands\"\n.SH NAME\nnhsym \\- symmetries and conservation laws of mechanical systems with constraints\n.SH SYNOPSIS");
-    for (size_t i = 0; i < command_count; i++) printf(".B nhsym %s\n.I %s\n.br\n", commands[i].name, commands[i].operand[0] ? commands[i].operand : "\\&");
+    puts(".TH NHSYM 1 \"\" \"nhsym " NH_VERSION "\" \"User Commands\"\n.SH NAME\nnhsym \\- symmetries and conservation "
+                                                "laws of mechanical systems with constraints\n.SH SYNOPSIS");
+    for (size_t i = 0; i < command_count; i++)
+        printf(".B nhsym %s\n.I %s\n.br\n", commands[i].name, commands[i].operand[0] ? commands[i].operand : "\\&");
     puts(".SH COMMANDS");
     for (size_t i = 0; i < command_count; i++) {
         printf(".TP\n.B %s\n", commands[i].name);
@@ -122,14 +124,18 @@ static void manual_page(void)
             putchar('\n');
         }
     }
-    puts(".SH EXIT STATUS\n0 success; 1 verify answers no; 2 an error in the command line; 3 an error in a file; 4 a numerical failure; the message gives the reason; 5 a limit was reached; 130 interrupted. "
-         "After 5 and 130 the output files hold partial results, marked partial.\n.SH ENVIRONMENT\n.TP\n.B NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NHSYM_CC\nthe C compiler for long motions (default: cc); empty: no compiler\n.TP\n.B NO_COLOR\n"
+    puts(".SH EXIT STATUS\n0 success; 1 verify answers no; 2 an error in the command line; 3 an error in a file; 4 a "
+         "numerical failure; the message gives the reason; 5 a limit was reached; 130 interrupted. "
+         "After 5 and 130 the output files hold partial results, marked partial.\n.SH ENVIRONMENT\n.TP\n.B "
+         "NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NHSYM_CC\nthe C compiler for "
+         "long motions (default: cc); empty: no compiler\n.TP\n.B NO_COLOR\n"
          "no colours");
 }
 
 /* ---- completions ---- */
 
-/* Options whose values are, or begin with, names of the system: which names, as `nhsym show --of` takes them, and what follows one. */
+/* Options whose values are, or begin with, names of the system: which names, as `nhsym show --of` takes them, and what
+   follows one. */
 static const struct {
     const char *option, *commands, *of, *behind;
 } named[] = {
@@ -151,7 +157,9 @@ enum { named_count = sizeof named / sizeof *named };
 static size_t names_for(const char *option, const char *command)
 {
     size_t i = 0;
-    while (i < named_count && (strcmp(named[i].option, option) || (command && *named[i].commands && !nh_word_among(named[i].commands, command)))) i++;
+    while (i < named_count && (strcmp(named[i].option, option) ||
+                               (command && *named[i].commands && !nh_word_among(named[i].commands, command))))
+        i++;
     return i;
 }
 
@@ -182,10 +190,17 @@ static void put_values(const char *name, const char *shown, const char *between)
     }
 }
 
-static bool has_values(const option_word *o) { return (strchr(o->shown, '|') && o->shown[0] != '[') || nh_word_among("method option of", o->name); }
-static bool is_file(const option_word *o) { return !strcmp(o->shown, "FILE") || !strcmp(o->shown, "DIR") || strstr(o->shown, "FILE|-"); }
+static bool has_values(const option_word *o)
+{
+    return (strchr(o->shown, '|') && o->shown[0] != '[') || nh_word_among("method option of", o->name);
+}
+static bool is_file(const option_word *o)
+{
+    return !strcmp(o->shown, "FILE") || !strcmp(o->shown, "DIR") || strstr(o->shown, "FILE|-");
+}
 
-/* The names of the system that stands on the line, behind the last comma of the word; in a word without quotes a prime needs a backslash. */
+/* The names of the system that stands on the line, behind the last comma of the word; in a word without quotes a prime
+   needs a backslash. */
 static const char bash_names[] = "# bash completion for nhsym; written by `nhsym help bash`\n"
     "_nhsym_names() {\n"
     "    local word=${COMP_WORDS[COMP_CWORD]} each name names=\"\" begin end\n"
@@ -206,7 +221,8 @@ static void bash_named(const char *option)
         if (strcmp(named[i].option, option)) continue;
         fputs(" ", stdout);
         for (const char *c = named[i].commands; *c; c++) putchar(*c == ' ' ? '|' : *c);
-        printf("%s) COMPREPLY=(); _nhsym_names %s \"%s\" ;;", *named[i].commands ? "" : "*", named[i].of, named[i].behind);
+        printf("%s) COMPREPLY=(); _nhsym_names %s \"%s\" ;;", *named[i].commands ? "" : "*", named[i].of,
+               named[i].behind);
     }
     puts(" esac; return ;;");
 }
@@ -214,7 +230,8 @@ static void bash_named(const char *option)
 static void bash(void)
 {
     fputs(bash_names, stdout);
-    puts("_nhsym() {\n    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\"\n    case $before in");
+    puts("_nhsym() {\n    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\"\n    "
+         "case $before in");
     for (size_t i = 0; i < option_count; i++) {
         if (options[i].argument != required_argument) continue;
         if (names_for(options[i].name, NULL) < named_count) {
@@ -222,10 +239,13 @@ static void bash(void)
             continue;
         }
         bool file = is_file(&options[i]), equation = !strcmp(options[i].name, "option");
-        printf("    %.1s%.1s%.1s--%s) %sCOMPREPLY=(", letter(&options[i]) ? "-" : "", letter(&options[i]) ? &options[i].meaning[1] : "", letter(&options[i]) ? "|" : "", options[i].name,
+        printf("    %.1s%.1s%.1s--%s) %sCOMPREPLY=(", letter(&options[i]) ? "-" : "",
+               letter(&options[i]) ? &options[i].meaning[1] : "", letter(&options[i]) ? "|" : "", options[i].name,
                equation ? "compopt -o nospace 2>/dev/null; " : "");
         if (file) fputs("$(compgen -f -- \"$word\")", stdout);
-        else fputs("$(compgen -W \"", stdout), put_values(options[i].name, options[i].shown, " "), fputs("\" -- \"$word\")", stdout);
+        else
+            fputs("$(compgen -W \"", stdout), put_values(options[i].name, options[i].shown, " "),
+                fputs("\" -- \"$word\")", stdout);
         puts("); return ;;");
     }
     fputs("    esac\n    if [ \"$COMP_CWORD\" = 1 ]; then COMPREPLY=($(compgen -W \"", stdout);
@@ -244,7 +264,9 @@ static void bash(void)
         puts("\" -- \"$word\")); return ;;");
     }
     puts("    esac\n    case $word in\n    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
-         "    *) COMPREPLY=($(compgen -W \"$(nhsym list 2>/dev/null | cut -d' ' -f1)\" -- \"$word\") $(compgen -f -X '!*.yaml' -- \"$word\") $(compgen -f -X '!*.urdf' -- \"$word\") $(compgen -d -- \"$word\")) ;;\n    esac\n}\ncomplete -F _nhsym nhsym");
+         "    *) COMPREPLY=($(compgen -W \"$(nhsym list 2>/dev/null | cut -d' ' -f1)\" -- \"$word\") $(compgen -f -X "
+         "'!*.yaml' -- \"$word\") $(compgen -f -X '!*.urdf' -- \"$word\") $(compgen -d -- \"$word\")) ;;\n    "
+         "esac\n}\ncomplete -F _nhsym nhsym");
 }
 
 /* In single quotes of a shell. */
@@ -259,7 +281,8 @@ static void zsh(void)
 {
     puts("#compdef nhsym\n# written by `nhsym help zsh`\n"
          "_nhsym_names() {\n    local each\n    local -a names\n    for each in ${line[@]} ${words[3,CURRENT-1]}; do\n"
-         "        [[ $each = -* ]] && continue\n        names=(${(f)\"$(nhsym show ${(Q)each} --of $1 2>/dev/null)\"}) && [[ -n $names ]] && break\n    done\n"
+         "        [[ $each = -* ]] && continue\n        names=(${(f)\"$(nhsym show ${(Q)each} --of $1 2>/dev/null)\"}) "
+         "&& [[ -n $names ]] && break\n    done\n"
          "    compset -P '*[,; ]'\n    compadd -S \"$2\" -q -a names\n}\n"
          "local -a commands systems\ncommands=(");
     for (size_t i = 0; i < command_count; i++) {
@@ -267,7 +290,8 @@ static void zsh(void)
         quoted(commands[i].meaning);
         puts("'");
     }
-    puts(")\nif (( CURRENT == 2 )); then _describe command commands; return; fi\nsystems=(${(f)\"$(nhsym list 2>/dev/null | cut -d' ' -f1)\"})\ncase $words[2] in");
+    puts(")\nif (( CURRENT == 2 )); then _describe command commands; return; fi\nsystems=(${(f)\"$(nhsym list "
+         "2>/dev/null | cut -d' ' -f1)\"})\ncase $words[2] in");
     for (size_t i = 0; i < command_count; i++) {
         printf("%s) _arguments", commands[i].name);
         for (size_t j = 0; j < option_count; j++) {
@@ -279,13 +303,16 @@ static void zsh(void)
                 quoted(one);
             }
             size_t row = names_for(options[j].name, commands[i].name);
-            printf("]%s", options[j].argument != required_argument ? "" : is_file(&options[j]) ? ":file:_files" : ":value:");
+            printf("]%s", options[j].argument != required_argument ? ""
+                          : is_file(&options[j])                   ? ":file:_files"
+                                                                   : ":value:");
             if (row < named_count) printf("{_nhsym_names %s \"%s\"}", named[row].of, named[row].behind);
             if (has_values(&options[j])) putchar('('), put_values(options[j].name, options[j].shown, " "), putchar(')');
             putchar('\'');
         }
         fputs(" \\\n    '*:word:", stdout);
-        if (nh_word_among("explain help", commands[i].name)) putchar('('), put_values(commands[i].name, "", " "), putchar(')');
+        if (nh_word_among("explain help", commands[i].name))
+            putchar('('), put_values(commands[i].name, "", " "), putchar(')');
         else fputs("->system", stdout);
         puts("' ;;");
     }
@@ -295,9 +322,11 @@ static void zsh(void)
 static void fish(void)
 {
     puts("# fish completion for nhsym; written by `nhsym help fish`\n"
-         "function __nhsym_names\n    set -l begin (string replace -r '[^,; \"]*$' '' -- (commandline -ct) | string replace -r '^[\"\\']' '')\n"
+         "function __nhsym_names\n    set -l begin (string replace -r '[^,; \"]*$' '' -- (commandline -ct) | string "
+         "replace -r '^[\"\\']' '')\n"
          "    for each in (commandline -opc)[3..-1]\n        string match -q -- '-*' $each; and continue\n"
-         "        set -l names (nhsym show $each --of $argv[1] 2>/dev/null); or continue\n        string replace -r '^(.*)$' \"$begin\\$1$argv[2]\" -- $names\n        return\n    end\nend\n"
+         "        set -l names (nhsym show $each --of $argv[1] 2>/dev/null); or continue\n        string replace -r "
+         "'^(.*)$' \"$begin\\$1$argv[2]\" -- $names\n        return\n    end\nend\n"
          "complete -c nhsym -f");
     for (size_t i = 0; i < command_count; i++) {
         printf("complete -c nhsym -n __fish_use_subcommand -a %s -d '", commands[i].name);
@@ -306,8 +335,11 @@ static void fish(void)
     }
     for (size_t j = 0; j < option_count; j++) {
         bool file = is_file(&options[j]), required = options[j].argument == required_argument;
-        printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -l %s %s -d '", options[j].commands, options[j].name,
-               file ? "-r -F" : required ? "-x" : "");
+        printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -l %s %s -d '", options[j].commands,
+               options[j].name,
+               file       ? "-r -F"
+               : required ? "-x"
+                          : "");
         for (const char *c = meaning(&options[j], NULL); *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
         if (has_values(&options[j])) fputs("' -a '", stdout), put_values(options[j].name, options[j].shown, " ");
         puts("'");
@@ -319,9 +351,12 @@ static void fish(void)
     }
     for (size_t i = 0; i < named_count; i++)
         printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -l %s -x -a '(__nhsym_names %s \"%s\")'\n",
-               *named[i].commands ? named[i].commands : "analyze verify simulate benchmark reduce classify scan export", named[i].option, named[i].of, named[i].behind);
-    puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
-         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan' -k -a '(__fish_complete_suffix .yaml .urdf)'");
+               *named[i].commands ? named[i].commands : "analyze verify simulate benchmark reduce classify scan export",
+               named[i].option, named[i].of, named[i].behind);
+    puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export "
+         "scan show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
+         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export "
+         "scan' -k -a '(__fish_complete_suffix .yaml .urdf)'");
 }
 
 int nh_cli_help(nh_cli *cli, nh_error *error)
@@ -339,5 +374,7 @@ int nh_cli_help(nh_cli *cli, nh_error *error)
         if (!strcmp(about, commands[i].name)) return one_command(&commands[i]), NH_OK;
     nh_fail(error, NH_USAGE, "", "there is no command `%s`", about);
     const char *near = nh_cli_command_near(about);
-    return near ? nh_error_hint(error, "did you mean `nhsym help %s`?", near) : nh_error_hint(error, "`nhsym help` lists the commands"), NH_USAGE;
+    return near ? nh_error_hint(error, "did you mean `nhsym help %s`?", near)
+                : nh_error_hint(error, "`nhsym help` lists the commands"),
+           NH_USAGE;
 }

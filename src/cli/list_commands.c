@@ -19,7 +19,9 @@ int nh_cli_list(nh_cli *cli, nh_error *error)
 {
     if (cli->operands) {
         nh_fail(error, NH_USAGE, "", "`nhsym list` takes no name, found `%s`", cli->operand[0]);
-        return nh_error_hint(error, "`nhsym list | grep %s` shows the systems with this word in their name or title", cli->operand[0]), NH_USAGE;
+        return nh_error_hint(error, "`nhsym list | grep %s` shows the systems with this word in their name or title",
+                             cli->operand[0]),
+               NH_USAGE;
     }
     const char **names;
     size_t count = nh_places_names(cli->arena, "systems", &names);
@@ -64,7 +66,9 @@ static int show_names(const nh_cli *cli, const char *path, nh_error *error)
         size_t length = strcspn(at, ", "), k = 0;
         while (k < 3 && (strlen(words[k]) != length || strncmp(words[k], at, length))) k++;
         if (k < 3) wanted[k] = true;
-        else nh_fail(error, NH_USAGE, "", "--of does not know `%.*s`", (int)length, at), nh_error_hint(error, "`nhsym show` takes parameters, coordinates and velocities");
+        else
+            nh_fail(error, NH_USAGE, "", "--of does not know `%.*s`", (int)length, at),
+                nh_error_hint(error, "`nhsym show` takes parameters, coordinates and velocities");
         at += strcspn(at, ",");
     }
     nh_system *s = error->code == NH_OK ? nh_system_read(path, 0, NULL, error) : NULL;
@@ -91,7 +95,8 @@ int nh_cli_show(nh_cli *cli, nh_error *error)
     size_t length;
     char *text = nh_files_read(path, NH_DECK_SIZE_LIMIT, &length, error);
     if (!text) return error->code;
-    if (length > NH_DECK_SIZE_LIMIT) nh_fail(error, NH_INPUT, path, "the file is larger than %d MiB", NH_DECK_SIZE_LIMIT >> 20);
+    if (length > NH_DECK_SIZE_LIMIT)
+        nh_fail(error, NH_INPUT, path, "the file is larger than %d MiB", NH_DECK_SIZE_LIMIT >> 20);
     size_t blank = strspn(text, " \t\r\n");
     if (error->code == NH_OK && text[blank] == '<') return nh_free(text), show_whole(path, error);
     nh_text shown;
@@ -125,13 +130,16 @@ static void explain_functions(void)
 {
     static const char row[] = "%-24s %s\n";
     puts(NH_ELEMENTARY_WORDS "atan2(y, x) sqrt abs, and functions without elementary form.\n"
-         "Of these the last argument may move, the others are numbers or parameters; f_prime is the derivative, as in bessel_j_prime(n, x).\n");
+                             "Of these the last argument may move, the others are numbers or parameters; f_prime is "
+                             "the derivative, as in bessel_j_prime(n, x).\n");
     for (size_t i = 0; i < nh_glossary_functions(); i++) {
         nh_glossary_entry f = nh_glossary_function_at(i);
         printf(row, f.word, f.text);
     }
-    puts("\nBoth arguments of elliptic_f and elliptic_einc may move.  Values are computed by Arb, right to the last digits of a double; where a function\n"
-         "is not real, it has none.  Proofs use its differential equation, neighbouring orders and Wronski's determinant.");
+    puts("\nBoth arguments of elliptic_f and elliptic_einc may move.  Values are computed by Arb, right to the last "
+         "digits of a double; where a function\n"
+         "is not real, it has none.  Proofs use its differential equation, neighbouring orders and Wronski's "
+         "determinant.");
 }
 
 /* The words behind `explain`, with a blank between them. */
@@ -142,7 +150,8 @@ static const char *words_of(nh_cli *cli)
     return out;
 }
 
-/* "stage" finds the stages of a reduction and of a search, "constraint" the constraint submanifold.  How many begin like this? */
+/* "stage" finds the stages of a reduction and of a search, "constraint" the constraint submanifold.  How many begin
+   like this? */
 static size_t explain_beginning(const char *word)
 {
     size_t found = 0, length = strlen(word);
@@ -166,8 +175,10 @@ int nh_cli_explain(nh_cli *cli, nh_error *error)
         if (!word) printf(row, topic.word, topic.text);
         else if (!strcmp(word, topic.word)) return puts(topic.text), NH_OK;
     }
-    if (!word) return printf(row, "options", "all numerical options (nhsym explain options)"), printf(row, "methods", "all integrators (nhsym explain methods)"),
-        printf(row, "functions", "functions of formulas (nhsym explain functions)"), NH_OK;
+    if (!word)
+        return printf(row, "options", "all numerical options (nhsym explain options)"),
+               printf(row, "methods", "all integrators (nhsym explain methods)"),
+               printf(row, "functions", "functions of formulas (nhsym explain functions)"), NH_OK;
     if (!strcmp(word, "options")) return explain_options(), NH_OK;
     if (!strcmp(word, "methods")) return explain_methods(), NH_OK;
     if (!strcmp(word, "functions")) return explain_functions(), NH_OK;
@@ -177,7 +188,8 @@ int nh_cli_explain(nh_cli *cli, nh_error *error)
     names[count + 2] = "functions";
     nh_fail(error, NH_USAGE, "", "there is no topic `%s`", word);
     const char *near = nh_text_nearest(word, names, count + 3);
-    for (size_t i = cli->operands; i-- && !near;) near = nh_text_nearest(cli->operand[i], names, count + 3); /* "canonical distribution" */
+    /* "canonical distribution" */
+    for (size_t i = cli->operands; i-- && !near;) near = nh_text_nearest(cli->operand[i], names, count + 3);
     if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else nh_error_hint(error, "`nhsym explain` lists the topics");
     return NH_USAGE;

@@ -86,7 +86,8 @@ int main(int argc, char **argv)
     MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &level);
     MPI_Comm_rank(MPI_COMM_WORLD, &t.rank);
     MPI_Comm_size(MPI_COMM_WORLD, &t.size);
-    t.served = t.rank == 0 && t.size > 1 && level >= MPI_THREAD_MULTIPLE && pthread_create(&t.server, NULL, serve, &t) == 0;
+    t.served =
+        t.rank == 0 && t.size > 1 && level >= MPI_THREAD_MULTIPLE && pthread_create(&t.server, NULL, serve, &t) == 0;
     bool server = t.served;
     MPI_Bcast(&t.served, 1, MPI_C_BOOL, 0, MPI_COMM_WORLD);
     nh_team shared = {.rank = (size_t)t.rank, .size = (size_t)t.size, .next = next_unit, .meet = meet, .context = &t};

@@ -56,7 +56,8 @@ int nh_cli_new(nh_cli *cli, nh_error *error)
         bool there = errno == EEXIST;
         if (there) nh_fail(error, NH_INPUT, path, "this file exists already; it was not changed");
         else nh_fail(error, NH_INPUT, path, "this file could not be created: %s", strerror(errno));
-        nh_error_hint(error, there ? "choose another name, or remove the file first" : "nhsym writes the file into the current folder; change to another folder");
+        nh_error_hint(error, there ? "choose another name, or remove the file first"
+                                   : "nhsym writes the file into the current folder; change to another folder");
         return NH_INPUT;
     }
     bool good = fprintf(stream, pattern, name, name) > 0;

@@ -1,6 +1,7 @@
 /* pdf: a picture as PDF, by the program rsvg-convert of librsvg.
  *
- * A program instead of the library: its two dozen libraries would have to be loaded by every short command, and nobody who wants no PDF needs it. */
+ * A program instead of the library: its two dozen libraries would have to be loaded by every short command, and nobody
+ * who wants no PDF needs it. */
 #include <errno.h>
 #include <signal.h>
 #include <spawn.h>
@@ -52,7 +53,8 @@ static bool read_all(FILE *file, nh_text *out)
 bool nh_cli_pdf(const nh_text *svg, nh_text *out, nh_error *error)
 {
     FILE *in = tmpfile(), *made = tmpfile();
-    bool files = in && made && fwrite(nh_text_string(svg), 1, svg->length, in) == svg->length && !fflush(in) && lseek(fileno(in), 0, SEEK_SET) == 0;
+    bool files = in && made && fwrite(nh_text_string(svg), 1, svg->length, in) == svg->length && !fflush(in) &&
+                 lseek(fileno(in), 0, SEEK_SET) == 0;
     int status = files ? convert(in, made) : -1;
     const char *why = status < 0 ? strerror(errno) : NULL;
     bool good = status == 0 && read_all(made, out);

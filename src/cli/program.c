@@ -50,7 +50,8 @@ static int run(nh_cli *cli, nh_error *error)
     nh_fail(error, NH_USAGE, "", "there is no command `%s`", cli->command);
     const char *near = nh_cli_command_near(cli->command);
     if (near) nh_error_hint(error, "did you mean `nhsym %s`?", near);
-    else if (nh_places_look(cli->arena, "systems", cli->command)) nh_error_hint(error, "the command stands first, as in `nhsym analyze %s`", cli->command);
+    else if (nh_places_look(cli->arena, "systems", cli->command))
+        nh_error_hint(error, "the command stands first, as in `nhsym analyze %s`", cli->command);
     else nh_error_hint(error, "`nhsym help` lists the commands");
     return NH_USAGE;
 }

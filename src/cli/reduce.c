@@ -13,7 +13,8 @@ static bool language_known(const char *word, nh_error *error)
     if (!word || !strcmp(word, csv) || nh_export_target_of(word, &target, error)) return true;
     bool near = nh_text_nearest(word, &only, 1) != NULL;
     if (near || !strstr(error->hint, "did you mean")) error->hint[0] = 0;
-    return near ? nh_error_hint(error, "did you mean `csv`?") : nh_error_hint(error, "--to takes c, python, sympy, matlab, latex or json, and csv for the motions");
+    return near ? nh_error_hint(error, "did you mean `csv`?")
+                : nh_error_hint(error, "--to takes c, python, sympy, matlab, latex or json, and csv for the motions");
 }
 
 static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
@@ -22,7 +23,18 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "`nhsym reduce` needs a system");
         return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
     }
-    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .inner = cli->inner, .accuracy = cli->accuracy, .equations = cli->equations, .options = cli->options};
+    *q = (nh_reduce_request){.settings = cli->settings,
+                             .setting = cli->setting,
+                             .chart = cli->velocities,
+                             .initial = cli->initial,
+                             .project = cli->project,
+                             .weak = cli->weak,
+                             .group = cli->group,
+                             .chain = cli->chain,
+                             .inner = cli->inner,
+                             .accuracy = cli->accuracy,
+                             .equations = cli->equations,
+                             .options = cli->options};
     if (!language_known(cli->to, error)) return false;
     q->system_path = nh_cli_system(cli, cli->operand[0], error);
     return q->system_path != NULL;
@@ -66,18 +78,28 @@ static void complain(const nh_reduction *r, double accuracy, nh_error *error)
 {
     for (size_t i = 0; i < r->stages && error->code == NH_OK; i++) {
         const nh_reduction_stage *s = &r->stage[i];
-        if (!s->compared) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: stage %zu could not be compared with the full motion", accuracy, i + 1);
-        else if (!s->complete || s->reached < r->until) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached to the end: stage %zu was compared to t = %.6g%s", accuracy, i + 1, s->reached, s->complete ? ", the time up to which the full motion is known" : "");
-        else if (!(s->agreement < accuracy)) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: stage %zu is %.1e from the full motion", accuracy, i + 1, s->agreement);
+        if (!s->compared)
+            nh_fail(error, NH_NUMERIC, "",
+                    "the accuracy %.1e was not reached: stage %zu could not be compared with the full motion", accuracy,
+                    i + 1);
+        else if (!s->complete || s->reached < r->until)
+            nh_fail(error, NH_NUMERIC, "",
+                    "the accuracy %.1e was not reached to the end: stage %zu was compared to t = %.6g%s", accuracy,
+                    i + 1, s->reached, s->complete ? ", the time up to which the full motion is known" : "");
+        else if (!(s->agreement < accuracy))
+            nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: stage %zu is %.1e from the full motion",
+                    accuracy, i + 1, s->agreement);
     }
-    if (r->stages && r->full.method && !r->full.held && error->code == NH_OK) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: %s", accuracy, r->full.why);
+    if (r->stages && r->full.method && !r->full.held && error->code == NH_OK)
+        nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: %s", accuracy, r->full.why);
 }
 
 int nh_cli_reduce(nh_cli *cli, nh_error *error)
 {
     nh_reduce_request request;
     nh_cli_progress_begin(cli);
-    if (!request_of(cli, &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
+    if (!request_of(cli, &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error))
+        return error->code;
     nh_reduction *r = nh_reduction_create(&request, error);
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);

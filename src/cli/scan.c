@@ -15,15 +15,27 @@ static bool request_of(nh_cli *cli, nh_scan_request *q, nh_scan_source *source, 
 {
     static const char example[] = "nhsym scan sleigh --over k=1:4:61 -o DIR";
     if (cli->operands != 1 || !cli->overs || !cli->folder) {
-        nh_fail(error, NH_USAGE, "", cli->operands != 1 ? "scan which system?" : !cli->overs ? "scan over which values of which parameter?"
-                                                                                              : "into which folder?");
+        nh_fail(error, NH_USAGE, "",
+                cli->operands != 1 ? "scan which system?"
+                : !cli->overs      ? "scan over which values of which parameter?"
+                                   : "into which folder?");
         return nh_error_hint(error, "%s", example);
     }
     const char *path = nh_cli_system(cli, cli->operand[0], error);
-    *q = (nh_scan_request){.system_path = path, .settings = cli->settings, .setting = cli->setting, .axes = cli->overs,
-                           .over = cli->over_list, .source = source, .options = cli->options, .program = nh_cli_program(),
-                           .folder = cli->folder, .chunk = cli->chunk, .chunks = cli->chunks, .workers = cli->workers,
-                           .begin_worker = nh_cli_guard_worker, .team = cli->team};
+    *q = (nh_scan_request){.system_path = path,
+                           .settings = cli->settings,
+                           .setting = cli->setting,
+                           .axes = cli->overs,
+                           .over = cli->over_list,
+                           .source = source,
+                           .options = cli->options,
+                           .program = nh_cli_program(),
+                           .folder = cli->folder,
+                           .chunk = cli->chunk,
+                           .chunks = cli->chunks,
+                           .workers = cli->workers,
+                           .begin_worker = nh_cli_guard_worker,
+                           .team = cli->team};
     if (!path) return false;
     if (!q->workers || (q->team && q->team->size > 1)) q->workers = 1;
     if (q->team && q->team->size > 1 && !q->options.threads) q->options.threads = 1;
@@ -63,7 +75,8 @@ static int code_of(const nh_scan *x, nh_error *error)
 {
     if (nh_interrupted()) return nh_ended_code();
     if (x->finished == x->units && !(x->partial && !x->chunked)) return NH_OK;
-    nh_fail(error, NH_NUMERIC, "", "%zu of %zu units were not computed%s%s", x->units - x->finished, x->units, x->death ? ": " : "", x->death ? x->death : "");
+    nh_fail(error, NH_NUMERIC, "", "%zu of %zu units were not computed%s%s", x->units - x->finished, x->units,
+            x->death ? ": " : "", x->death ? x->death : "");
     nh_error_hint(error, "%s", kept);
     return error->code;
 }
@@ -81,7 +94,10 @@ int nh_cli_scan(nh_cli *cli, nh_error *error)
         if (error->code == NH_NUMERIC) *error->hint = 0, nh_error_hint(error, "%s", kept);
         return error->code;
     }
-    if (x->deaths) fprintf(stderr, "nhsym: %zu time%s a worker ended early, and what it had begun was computed again; the last time %s\n", x->deaths, x->deaths == 1 ? "" : "s", x->death);
+    if (x->deaths)
+        fprintf(stderr,
+                "nhsym: %zu time%s a worker ended early, and what it had begun was computed again; the last time %s\n",
+                x->deaths, x->deaths == 1 ? "" : "s", x->death);
     run.command = x->question; /* who computed it, and where to, is no part of the answer */
     bool good = write_all(cli, x, &run, error);
     if (!good) *error->hint = 0, nh_error_hint(error, "%s", kept);

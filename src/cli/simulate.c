@@ -45,8 +45,10 @@ static void put_scene(const nh_simulation *s)
     fprintf(stderr, "nhsym: %s\n", s->scene);
     if (s->idle && s->idle[0]) fprintf(stderr, "nhsym: %s\n", s->idle);
     if (s->compared)
-        fprintf(stderr, "nhsym: %.3g ms and %ld evaluations; the whole model takes %.3g ms and %ld, and differs by %.0e\n", 1e3 * s->scene_seconds, s->motion->evaluations,
-                1e3 * s->whole_seconds, s->whole_evaluations, s->whole_difference);
+        fprintf(stderr,
+                "nhsym: %.3g ms and %ld evaluations; the whole model takes %.3g ms and %ld, and differs by %.0e\n",
+                1e3 * s->scene_seconds, s->motion->evaluations, 1e3 * s->whole_seconds, s->whole_evaluations,
+                s->whole_difference);
 }
 
 /* What happened when, the first few of it. */
@@ -73,11 +75,14 @@ static void put_notes(const nh_cli *cli, const nh_simulation *s)
 {
     if (s->begin) fprintf(stderr, "nhsym: no initial state is given: --initial \"%s\"\n", s->begin);
     if (s->scene && (cli->watch || cli->scene)) put_scene(s);
-    if (cli->verbose && s->trajectory) fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation, s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
+    if (cli->verbose && s->trajectory)
+        fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation,
+                s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
     if (s->events) put_events(s);
     if (s->motion && s->motion->complete && s->motion->note[0]) fprintf(stderr, "nhsym: %s\n", s->motion->note);
     if (s->held) fprintf(stderr, "nhsym: %s\n", s->why);
-    if (s->ensemble && s->ensemble->alone && !s->checked) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
+    if (s->ensemble && s->ensemble->alone && !s->checked)
+        fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
 }
 
 /* Events and section as files of the folder. */
@@ -91,7 +96,8 @@ static bool put_zeros(nh_cli *cli, const nh_simulation *s, nh_error *error)
     return !text.length || nh_cli_write(cli, nh_cli_in_folder(cli, "section.csv"), &text, error);
 }
 
-/* The table, and with it the notes on standard error: --quiet leaves them out, and the table as well where a file holds the result. */
+/* The table, and with it the notes on standard error: --quiet leaves them out, and the table as well where a file holds
+   the result. */
 static bool put_table(nh_cli *cli, const nh_simulation *s, nh_error *error)
 {
     if (!cli->folder && (cli->json || !nh_cli_delivers(cli))) return true;
@@ -110,15 +116,18 @@ static bool put_table(nh_cli *cli, const nh_simulation *s, nh_error *error)
 /* Motions that ended early or missed the requested accuracy. */
 static void complain(const nh_simulation *s, nh_error *error)
 {
-    if (s->ensemble && s->ensemble->incomplete) nh_fail(error, NH_NUMERIC, "", "%zu members did not reach the end; %s", s->ensemble->incomplete, s->ensemble->note);
+    if (s->ensemble && s->ensemble->incomplete)
+        nh_fail(error, NH_NUMERIC, "", "%zu members did not reach the end; %s", s->ensemble->incomplete,
+                s->ensemble->note);
     bool unsure = s->checked && !s->held && (s->ensemble || s->motion->complete);
     if (unsure) nh_fail(error, NH_NUMERIC, "", "%s", s->why);
     if (s->ensemble) return;
     if (unsure && s->columns.count > 1)
-        nh_error_hint(error, "`%s` is the least certain of %zu columns; choose the wanted columns by --watch", s->columns.track[s->accuracy.quantity].name, s->columns.count);
+        nh_error_hint(error, "`%s` is the least certain of %zu columns; choose the wanted columns by --watch",
+                      s->columns.track[s->accuracy.quantity].name, s->columns.count);
     if (!s->motion->complete)
-        nh_fail(error, s->motion->limited ? NH_LIMIT : NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time,
-                s->checked && nh_interrupted() ? s->why : s->motion->note);
+        nh_fail(error, s->motion->limited ? NH_LIMIT : NH_NUMERIC, "", "the motion ended at t = %g: %s",
+                s->motion->end_time, s->checked && nh_interrupted() ? s->why : s->motion->note);
 }
 
 /* The sections of all motions in one picture. */
@@ -184,7 +193,8 @@ static bool write_combinations(nh_cli *cli, nh_error *error)
     bool good = true;
     for (size_t i = 0; i < cli->overs && good; i++) {
         good = nh_scan_read_axis(cli->arena, cli->over_list[i], &axis[i], error);
-        if (good && axis[i].count > most / rows) good = nh_fail(error, NH_USAGE, "", "--over: there are more than %zu combinations", most);
+        if (good && axis[i].count > most / rows)
+            good = nh_fail(error, NH_USAGE, "", "--over: there are more than %zu combinations", most);
         if (good) rows *= axis[i].count, nh_text_addf(&text, "%s%s", i ? "," : "", axis[i].name);
     }
     for (size_t row = 0; row < rows && good; row++) {
@@ -202,7 +212,8 @@ static bool write_combinations(nh_cli *cli, nh_error *error)
     return good;
 }
 
-/* --initial-table: its motions together, as an ensemble, or one by one where they differ in more than the initial state.  False: see the code. */
+/* --initial-table: its motions together, as an ensemble, or one by one where they differ in more than the initial
+   state.  False: see the code. */
 static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows, int *code, nh_error *error)
 {
     *code = NH_OK;
@@ -250,7 +261,9 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     int code;
     nh_cli_progress_begin(cli);
     if (!nh_cli_motion_request(cli, example, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
-    if (cli->input) return nh_fail(error, NH_USAGE, "", "--input needs NAME=EXPR, found `%s`", cli->input), nh_error_hint(error, "for example: --input \"%s=sin(t)\"", cli->input), NH_USAGE;
+    if (cli->input)
+        return nh_fail(error, NH_USAGE, "", "--input needs NAME=EXPR, found `%s`", cli->input),
+               nh_error_hint(error, "for example: --input \"%s=sin(t)\"", cli->input), NH_USAGE;
     if (!together(cli, &request, &rows, &code, error)) return code;
     if (!nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_simulation *s = nh_simulation_create(&request, error);
@@ -258,7 +271,8 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (!s) return nh_cli_failed(cli, &run, error);
     bool good = put_table(cli, s, error);
-    if (cli->json && good) good = nh_cli_write_json(cli, s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run), error);
+    if (cli->json && good)
+        good = nh_cli_write_json(cli, s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run), error);
     good = good && nh_cli_write_documents(cli, render, s, &run, error);
     if ((cli->svg || cli->pdf) && good) {
         nh_text picture;

@@ -27,7 +27,8 @@ static void note(nh_cli *cli, const nh_text *out, const char *option, const char
         if (cli->pieces) memcpy(more, cli->piece, cli->pieces * sizeof *more);
         cli->piece = more;
     }
-    cli->piece[cli->pieces++] = (nh_cli_piece){.begin = out->length + 1, .offset = offset, .option = option, .typed = typed};
+    cli->piece[cli->pieces++] =
+        (nh_cli_piece){.begin = out->length + 1, .offset = offset, .option = option, .typed = typed};
 }
 
 /* typed[begin .. end) as a word of the text. */
@@ -60,10 +61,12 @@ static const char *completed(nh_cli *cli, const char *path)
     nh_text_init(&text);
     nh_text_add(&text, "{include: ");
     put_quoted(&text, slash ? slash + 1 : path);
-    for (size_t i = 0; i < cli->wheels; i++) nh_text_add(&text, i ? ", " : ", wheels: ["), put_wheel(cli, &text, cli->wheel[i]);
+    for (size_t i = 0; i < cli->wheels; i++)
+        nh_text_add(&text, i ? ", " : ", wheels: ["), put_wheel(cli, &text, cli->wheel[i]);
     if (cli->wheels) nh_text_add(&text, "]");
     if (cli->base) nh_text_add(&text, ", base: "), put_typed(cli, &text, "--base", cli->base, 0, strlen(cli->base));
-    for (size_t i = 0; i < cli->ons; i++) nh_text_add(&text, i ? ", " : ", levels: ["), put_typed(cli, &text, "--on", cli->on[i], 0, strlen(cli->on[i]));
+    for (size_t i = 0; i < cli->ons; i++)
+        nh_text_add(&text, i ? ", " : ", levels: ["), put_typed(cli, &text, "--on", cli->on[i], 0, strlen(cli->on[i]));
     nh_text_add(&text, cli->ons ? "]}\n" : "}\n");
     const char *name = nh_arena_printf(cli->arena, "%s%s", path, words_of_line);
     nh_files_add(name, nh_text_string(&text), text.length);
@@ -77,13 +80,17 @@ void nh_cli_blame(const nh_cli *cli, nh_error *error)
     const char *place = cli->completed && error->code != NH_OK ? strstr(error->where, words_of_line) : NULL;
     size_t line = 0, column = 0, at = 0;
     if (!place || sscanf(place + strlen(words_of_line), ":%zu:%zu", &line, &column) != 2 || line != 1) return;
-    for (size_t seen = 0; cli->completed[at] && (seen += ((unsigned char)cli->completed[at] & 0xC0) != 0x80) < column;) at++; /* columns count characters */
+    /* columns count characters */
+    for (size_t seen = 0; cli->completed[at] && (seen += ((unsigned char)cli->completed[at] & 0xC0) != 0x80) < column;)
+        at++;
     const nh_cli_piece *piece = NULL;
-    for (size_t i = 0; i < cli->pieces && cli->piece[i].begin <= at + 1; i++) piece = &cli->piece[i]; /* + 1: its quote counts, too */
+    /* + 1: its quote counts, too */
+    for (size_t i = 0; i < cli->pieces && cli->piece[i].begin <= at + 1; i++) piece = &cli->piece[i];
     if (!piece) return;
     nh_error own;
     nh_error_clear(&own);
-    nh_deck_fail_typed(piece->option, piece->typed, piece->offset + (at > piece->begin ? at - piece->begin : 0), &own, "%s", error->what);
+    nh_deck_fail_typed(piece->option, piece->typed, piece->offset + (at > piece->begin ? at - piece->begin : 0), &own,
+                       "%s", error->what);
     if (error->hint[0]) nh_error_hint(&own, "%s", error->hint);
     *error = own;
 }
@@ -92,10 +99,12 @@ const char *nh_cli_system(nh_cli *cli, const char *word, nh_error *error)
 {
     const char *path = nh_places_find(cli->arena, "systems", word, error);
     if (path && (cli->wheels || cli->base || cli->ons)) path = completed(cli, path);
-    if (!path || cli->quiet || !strcmp(cli->command, "analyze") || !strcmp(cli->command, "show")) return path; /* an analysis has warnings of its own */
+    /* an analysis has warnings of its own */
+    if (!path || cli->quiet || !strcmp(cli->command, "analyze") || !strcmp(cli->command, "show")) return path;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_system *system = nh_system_read(path, cli->settings, cli->setting, &ignored); /* whoever reads it says what is wrong */
+    /* whoever reads it says what is wrong */
+    nh_system *system = nh_system_read(path, cli->settings, cli->setting, &ignored);
     for (size_t i = 0; system && i < system->notes; i++) fprintf(stderr, "nhsym: %s\n", system->note[i]);
     nh_system_free(system);
     return path;

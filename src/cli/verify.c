@@ -23,7 +23,8 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error
     nh_system *system = path ? nh_system_read(path, cli->settings, cli->setting, error) : NULL;
     if (!system) return false;
     if (motions) *out = nh_verification_of_motions(system, cli->velocities, cli->field, &cli->options, error);
-    else if (cli->current) *out = nh_verification_of_current(system, cli->velocities, cli->current, &cli->options, error);
+    else if (cli->current)
+        *out = nh_verification_of_current(system, cli->velocities, cli->current, &cli->options, error);
     else *out = nh_verification_of_field(system, cli->velocities, cli->field, &cli->options, error);
     if (*out && cli->equations) nh_verification_write_out(*out, &cli->options);
     return *out != NULL;
@@ -39,7 +40,8 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
     nh_verification *v = NULL;
     nh_run run = nh_cli_run(cli, NULL, NULL);
     nh_cli_progress_begin(cli);
-    if (!nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return nh_cli_failed(cli, &run, error);
+    if (!nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v)
+        return nh_cli_failed(cli, &run, error);
     nh_cli_progress_end();
     bool conserved = v->conserved;
     bool good = nh_cli_write_words(cli, render, v, &run, error);

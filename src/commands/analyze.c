@@ -68,7 +68,9 @@ static bool turn_to_initial(nh_analysis *r, nh_chart_choice choice, const nh_ana
     nh_analysis_file_free(r->analysis);
     r->model = NULL;
     r->analysis = nh_analysis_file_read(q->analysis_path, error);
-    if (r->analysis) r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, (uint64_t)r->options.seed, error), error);
+    if (r->analysis)
+        r->model =
+            nh_model_create(r->system, nh_chart_create(r->system, choice, (uint64_t)r->options.seed, error), error);
     return r->model && nh_analysis_file_resolve(r->analysis, r->model, error);
 }
 
@@ -80,7 +82,10 @@ static bool set_pace(nh_analysis *r, nh_chart_choice choice, nh_error *error)
     nh_model_free(r->model);
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, (uint64_t)r->options.seed, error), error);
     r->pace = Omega;
-    nh_analysis_warn(r, "the forces act within %.1e units of time: without `domain:`, the samples of t extend to this time, and the velocities are scaled with it", 1 / Omega);
+    nh_analysis_warn(r,
+                     "the forces act within %.1e units of time: without `domain:`, the samples of t extend to this "
+                     "time, and the velocities are scaled with it",
+                     1 / Omega);
     return r->model != NULL;
 }
 
@@ -91,12 +96,15 @@ static bool make_models(nh_analysis *r, const nh_analyze_request *q, nh_error *e
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, seed, error), error);
     if (!r->model || !set_pace(r, choice, error) || !turn_to_initial(r, choice, q, error)) return false;
     if (r->model->chart->replaced)
-        nh_analysis_warn(r, "the constraints barely determine the dependent velocities of the system file on the sampling domain (pivots below %g): the program uses the chart %s instead",
-                       nh_chart_least_pivot, r->model->chart->name);
+        nh_analysis_warn(r,
+                         "the constraints barely determine the dependent velocities of the system file on the sampling "
+                         "domain (pivots below %g): the program uses the chart %s instead",
+                         nh_chart_least_pivot, r->model->chart->name);
     nh_error ignored;
     nh_error_clear(&ignored);
     if (r->model->chart->quasi && r->system->constraints)
-        r->other = nh_model_create(r->system, nh_chart_create(r->system, NH_CHART_COORDINATES, seed, &ignored), &ignored);
+        r->other =
+            nh_model_create(r->system, nh_chart_create(r->system, NH_CHART_COORDINATES, seed, &ignored), &ignored);
     if (ignored.code != NH_OK) nh_analysis_warn(r, "the chart of coordinate velocities: %s", ignored.what);
     r->local_maximum = 2 * r->model->m - r->model->k;
     r->constraint = nh_distribution_of(r->model);
@@ -127,8 +135,10 @@ static nh_nullspace *current_route(nh_analysis *r, const nh_ansatz *a, const nh_
     return s;
 }
 
-/* The null vectors; then, where the spectrum is in doubt, those that are only likely, of which a certificate decides. */
-static void collect(nh_analysis *r, nh_current_checker *bench, const nh_ansatz *a, const nh_points *points, const nh_nullspace *s)
+/* The null vectors; then, where the spectrum is in doubt, those that are only likely, of which a certificate
+   decides. */
+static void collect(nh_analysis *r, nh_current_checker *bench, const nh_ansatz *a, const nh_points *points,
+                    const nh_nullspace *s)
 {
     bool sure = s->likely == s->dimension;
     nh_candidates *list = nh_echelon(r->model, points, a, s, sure ? s->dimension : s->likely, &r->options);
@@ -175,7 +185,8 @@ static void watch_deadline(nh_analysis *r)
     if (late) r->search = NH_SEARCH_CUT;
     if (late && !nh_interrupted()) {
         r->partial = true;
-        nh_analysis_warn(r, "the time limit of %g s ended the search; raise it by --max-seconds", r->options.max_seconds);
+        nh_analysis_warn(r, "the time limit of %g s ended the search; raise it by --max-seconds",
+                         r->options.max_seconds);
     }
     nh_deadline_set(INFINITY);
 }
@@ -183,12 +194,15 @@ static void watch_deadline(nh_analysis *r)
 /* FOUND needs a certificate for every current; NONE needs a spectrum without a gap at rounding. */
 static void conclude(nh_analysis *r)
 {
-    bool kept_out = r->search == NH_SEARCH_CUT || (r->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(r)), open = r->open > 0 || kept_out, failed = r->count == 0 && r->current.dimension > 0;
+    bool kept_out = r->search == NH_SEARCH_CUT || (r->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(r)),
+         open = r->open > 0 || kept_out, failed = r->count == 0 && r->current.dimension > 0;
     r->verdict = r->count == 0 ? (open || failed || r->pieces ? NH_UNDECIDED : NH_NONE) : NH_FOUND;
     if (r->count == 0 && kept_out)
-        nh_analysis_warn(r, "stages beyond a limit may contain further currents%s", nh_analysis_left_out(r) ? ": the list of stages names the options to raise" : "");
+        nh_analysis_warn(r, "stages beyond a limit may contain further currents%s",
+                         nh_analysis_left_out(r) ? ": the list of stages names the options to raise" : "");
     if (r->count == 0 && r->open)
-        nh_analysis_warn(r, "some null vectors have no certificate: to decide, use another ansatz or more samples (--samples)");
+        nh_analysis_warn(
+            r, "some null vectors have no certificate: to decide, use another ansatz or more samples (--samples)");
     if (r->stages == 0 && r->current.rank_in_doubt)
         nh_analysis_warn(r, "two columns of the ansatz are nearly dependent: the option `rank` decides which are kept");
 }
@@ -205,7 +219,9 @@ static const nh_observable *list_tracks(nh_analysis *r)
     nh_observables_add_drawing(t, r->analysis);
     nh_observables_add_watches(t, r->analysis);
     nh_observable *watch = nh_arena_alloc(r->arena, (t->count + 1) * sizeof *watch);
-    for (size_t i = 0; i < t->count; i++) watch[i] = (nh_observable){t->track[i].name, t->track[i].value, t->track[i].kind == NH_TRACK_WATCH, t->track[i].kind == NH_TRACK_CURRENT || t->track[i].kind == NH_TRACK_ENERGY};
+    for (size_t i = 0; i < t->count; i++)
+        watch[i] = (nh_observable){t->track[i].name, t->track[i].value, t->track[i].kind == NH_TRACK_WATCH,
+                                   t->track[i].kind == NH_TRACK_CURRENT || t->track[i].kind == NH_TRACK_ENERGY};
     return watch;
 }
 
@@ -229,8 +245,19 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
     const nh_observable *watch = list_tracks(r);
     nh_choice choice = {.system = r->system, .model = r->model};
     nh_choice_open(&choice, true);
-    nh_validation_request request = {.model = r->model, .other = r->other, .currents = r->count, .current = phi, .valid = valid, .watches = r->tracks.count, .watch = watch, .initial = &initial,
-                                     .until = r->options.until, .outputs = motion_outputs, .options = &r->options, .accuracy = q->accuracy, .ways = &choice.ways};
+    nh_validation_request request = {.model = r->model,
+                                     .other = r->other,
+                                     .currents = r->count,
+                                     .current = phi,
+                                     .valid = valid,
+                                     .watches = r->tracks.count,
+                                     .watch = watch,
+                                     .initial = &initial,
+                                     .until = r->options.until,
+                                     .outputs = motion_outputs,
+                                     .options = &r->options,
+                                     .accuracy = q->accuracy,
+                                     .ways = &choice.ways};
     r->validation = nh_validate(&request, &trouble);
     nh_choice_close(&choice);
     if (!r->validation) {
@@ -240,18 +267,24 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
     for (size_t k = 0; k < r->count; k++) {
         r->found[k].drift = r->validation->current[k];
         if (r->found[k].drift.in_doubles > 0)
-            nh_analysis_warn(r, "the formula of %s loses digits along the test motion: its values in double precision change by %.1e; with 77 digits, along the same motion, they change by %.1e", r->found[k].name,
-                           r->found[k].drift.in_doubles, r->found[k].drift.drift[NH_DRIFT_RUNS - 1]);
+            nh_analysis_warn(r,
+                             "the formula of %s loses digits along the test motion: its values in double precision "
+                             "change by %.1e; with 77 digits, along the same motion, they change by %.1e",
+                             r->found[k].name, r->found[k].drift.in_doubles,
+                             r->found[k].drift.drift[NH_DRIFT_RUNS - 1]);
         if (!r->found[k].drift.explained)
-            nh_analysis_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances; the drift hardly falls with the tolerance, so it is not the error of the motion", r->found[k].name,
-                           r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);
+            nh_analysis_warn(r,
+                             "%s drifts by %.1e along the test motion, more than %g tolerances; the drift hardly falls "
+                             "with the tolerance, so it is not the error of the motion",
+                             r->found[k].name, r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);
     }
     nh_motion_series_add(r);
     if (r->validation->note[0]) nh_analysis_warn(r, "%s", r->validation->note);
     if (r->validation->checked && !r->validation->accuracy.held) nh_analysis_warn(r, "%s", r->validation->accuracy.why);
 }
 
-/* An upper bound for the dimension of the space of currents polynomial in the velocities of degree two, functions of t as coefficients where these were counted. */
+/* An upper bound for the dimension of the space of currents polynomial in the velocities of degree two, functions of t
+   as coefficients where these were counted. */
 static size_t counted_currents(const nh_analysis *r)
 {
     for (size_t k = NH_COMPLETENESS_KINDS; k-- > 0;) {
@@ -281,6 +314,17 @@ static void write_out(nh_analysis *r)
 }
 
 /* ---- the pipeline ---- */
+
+static void say_what_ended_it(nh_analysis *r)
+{
+    char words[80];
+    const char *option = nh_ended_option();
+    nh_ended_words(words, sizeof words);
+    r->partial = true;
+    nh_analysis_warn(r, "%s: the results are partial%s%s%s", words,
+                     r->validation ? "" : ", and no motion was computed", option ? "; raise the limit by " : "",
+                     option ? option : "");
+}
 
 static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
 {
@@ -317,7 +361,9 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
         solved = solved && linear_problem(r, families, family, &clock, error);
         if (!solved && !nh_late()) return false;
         if (!solved) nh_error_clear(error);
-        r->search = !solved ? NH_SEARCH_CUT : r->independent >= r->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
+        r->search = !solved                              ? NH_SEARCH_CUT
+                    : r->independent >= r->local_maximum ? NH_SEARCH_COMPLETE
+                                                         : NH_SEARCH_EXHAUSTED;
     }
     watch_deadline(r);
     if (!nh_late()) nh_missing_count(r, r->stages > 0);
@@ -329,12 +375,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     if (!nh_interrupted()) validate(r, q);
     if (!nh_interrupted() && q->equations) write_out(r);
     if (!nh_interrupted() && !q->no_figures) nh_figures_compute(r, q, families, family);
-    if (nh_interrupted()) {
-        r->partial = true;
-        char words[80];
-        nh_ended_words(words, sizeof words);
-        nh_analysis_warn(r, "%s: the results are partial%s%s%s", words, r->validation ? "" : ", and no motion was computed", nh_ended_option() ? "; raise the limit by " : "", nh_ended_option() ? nh_ended_option() : "");
-    }
+    if (nh_interrupted()) say_what_ended_it(r);
     r->timing.validation = lap(&clock);
     r->timing.total = nh_clock() - start;
     return true;

@@ -10,7 +10,8 @@ enum { levels = NH_BENCHMARK_LEVELS, most_repeats = 7, most_halvings = 8 };
 static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 static const double step_ratio = 4; /* of fixed steps, from level to level */
 static const double enough_seconds = 3e-3;             /* repetitions stop after this time */
-static const double least_part = 1.0 / 64;             /* of a time of which no eighth was reached, that is tried next */
+/* of a time of which no eighth was reached, that is tried next */
+static const double least_part = 1.0 / 64;
 static const double share_of_fits = 0.25;              /* of the budget, for the discrete problem, beside it */
 
 const char *nh_run_record_status_name(nh_run_record_status status)
@@ -32,12 +33,23 @@ static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_b
 /* A count is the same on a busy machine. */
 static double most_steps(const nh_benchmark_work *c) { return c->once ? c->options.robustness_steps : 1e8; }
 
-static bool out_of_time(nh_benchmark_work *c, const nh_motion *motion) { return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)) || (c->effort > 0 && motion->effort >= c->effort); }
+static bool out_of_time(nh_benchmark_work *c, const nh_motion *motion)
+{
+    return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)) ||
+           (c->effort > 0 && motion->effort >= c->effort);
+}
 
-static nh_motion *integrate(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double step, nh_error *error)
+static nh_motion *integrate(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double step,
+                            nh_error *error)
 {
     nh_formulation *f = &c->formulation[k->formulation];
-    nh_flow_options how = {.rtol = tolerance, .step = step, .scale = f->scale, .max_steps = most_steps(c), .effort = c->effort, .cancelled = late, .cancel_context = c};
+    nh_flow_options how = {.rtol = tolerance,
+                           .step = step,
+                           .scale = f->scale,
+                           .max_steps = most_steps(c),
+                           .effort = c->effort,
+                           .cancelled = late,
+                           .cancel_context = c};
     const double *times = c->yard.times;
     if (!k->method) {
         nh_chetaev_problem problem = nh_bordered_problem(f->bordered);
@@ -48,8 +60,11 @@ static nh_motion *integrate(nh_benchmark_work *c, const nh_candidate_run *k, dou
         nh_chetaev_motion_free(full);
         return motion;
     }
-    if (k->method->order) return nh_method_steps(k->method, f->programs, f->z0, NH_BENCHMARK_OUTPUTS, times, &how, error);
-    nh_projection *p = k->projected ? nh_projection_create(f->model, c->held_currents, c->held, times[0], times[NH_BENCHMARK_OUTPUTS - 1], f->z0) : NULL;
+    if (k->method->order)
+        return nh_method_steps(k->method, f->programs, f->z0, NH_BENCHMARK_OUTPUTS, times, &how, error);
+    nh_projection *p = k->projected ? nh_projection_create(f->model, c->held_currents, c->held, times[0],
+                                                           times[NH_BENCHMARK_OUTPUTS - 1], f->z0)
+                                    : NULL;
     if (p) how.after = nh_projection_apply;
     how.after_context = p;
     nh_motion *motion = nh_method_flow(k->method, &f->problem, f->z0, NH_BENCHMARK_OUTPUTS, times, &how, error);
@@ -66,10 +81,12 @@ static bool breaks_down(nh_formulation *f, const nh_motion *motion)
     return any || f->breaks;
 }
 
-static nh_run_record_status status_of(const nh_options *o, const nh_run_record *m, bool complete, bool cancelled, bool guarded)
+static nh_run_record_status status_of(const nh_options *o, const nh_run_record *m, bool complete, bool cancelled,
+                                      bool guarded)
 {
     if (!complete) return guarded ? NH_DETECTED : cancelled ? NH_TIMEOUT : NH_FAILED;
-    bool wrong = isnan(m->tolerance) ? !(m->error <= o->benchmark_fixed) : !(m->error <= fmax(o->benchmark_error, o->benchmark_far * m->tolerance));
+    bool wrong = isnan(m->tolerance) ? !(m->error <= o->benchmark_fixed)
+                                     : !(m->error <= fmax(o->benchmark_error, o->benchmark_far * m->tolerance));
     if (guarded) return wrong ? NH_DETECTED : NH_FLAGGED;
     return wrong ? NH_UNDETECTED : NH_ACCURATE;
 }
@@ -84,7 +101,8 @@ static void judge(nh_benchmark_work *c, const nh_candidate_run *k, nh_motion *mo
     bool good = f->reduced || nh_formulation_states(f, motion, states);
     if (motion->complete && f->reduced) {
         m->error = nh_reduced_error(f, motion);
-        for (size_t i = 0; i < n; i++) m->drift[i] = c->yard.current[i] == c->model->E ? (m->worst_drift = nh_reduced_drift(f, motion)) : NAN;
+        for (size_t i = 0; i < n; i++)
+            m->drift[i] = c->yard.current[i] == c->model->E ? (m->worst_drift = nh_reduced_drift(f, motion)) : NAN;
     } else if (motion->complete && good) {
         m->error = nh_reference_solution_error(&c->yard, motion->count, states);
         nh_reference_solution_drifts(&c->yard, motion->count, states, m->drift);
@@ -93,22 +111,41 @@ static void judge(nh_benchmark_work *c, const nh_candidate_run *k, nh_motion *mo
     }
     bool steep = breaks_down(f, motion), doubtful = c->out->doubtful && !f->reduced;
     m->status = status_of(&c->options, m, motion->complete && good, out_of_time(c, motion), steep || doubtful);
-    m->note = nh_arena_strdup(c->out->arena, motion->note[0] ? motion->note : steep ? "the chart breaks down on the way" : doubtful ? "no two methods agree on this motion" : "");
+    m->note = nh_arena_strdup(c->out->arena, motion->note[0] ? motion->note
+                                             : steep         ? "the chart breaks down on the way"
+                                             : doubtful      ? "no two methods agree on this motion"
+                                                             : "");
     nh_free(states);
 }
 
 /* The least time of some repetitions; everything else from the first. */
-void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double tolerance, double step, nh_run_record *m)
+void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double tolerance, double step,
+                               nh_run_record *m)
 {
     nh_error error;
     nh_error_clear(&error);
     double begin = nh_clock(), left = c->begun + c->budget - begin;
     c->deadline = begin + fmax(left / 4, 0.01);
-    nh_progress(k->method ? k->method->name : k->index == 2 ? "IDA, index 2" : "IDA, index 1", (nh_clock() - c->begun) / c->budget);
-    *m = (nh_run_record){.method = !k->method ? k->index == 2 ? "IDA, index 2" : "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
-                       .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers", .tolerance = tolerance,
-                       .step = step, .reduced = c->formulation[k->formulation].reduced != NULL, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
-    for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && nh_clock() - begin < enough_seconds)); i++) {
+    nh_progress(k->method       ? k->method->name
+                : k->index == 2 ? "IDA, index 2"
+                                : "IDA, index 1",
+                (nh_clock() - c->begun) / c->budget);
+    *m =
+        (nh_run_record){.method = !k->method     ? k->index == 2 ? "IDA, index 2" : "IDA, index 1"
+                                  : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name)
+                                                 : k->method->name,
+                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers",
+                        .tolerance = tolerance,
+                        .step = step,
+                        .reduced = c->formulation[k->formulation].reduced != NULL,
+                        .error = NAN,
+                        .worst_drift = NAN,
+                        .seconds = INFINITY,
+                        .note = "",
+                        .status = NH_FAILED};
+    for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT &&
+                                                                    nh_clock() - begin < enough_seconds));
+         i++) {
         nh_motion *motion = integrate(c, k, tolerance, step, &error);
         if (motion && i == 0) judge(c, k, motion, m);
         if (motion) m->seconds = fmin(m->seconds, motion->seconds);
@@ -126,8 +163,8 @@ void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double
 
 static const double units = 1e9; /* of effort in a second */
 
-/* A motion that decides what is compared, and until when: in counted work, as much as a part of the budget is on an ordinary machine.  A cell of a map counts steps,
- * and has a deadline where the map got a budget. */
+/* A motion that decides what is compared, and until when: in counted work, as much as a part of the budget is on an
+ * ordinary machine.  A cell of a map counts steps, and has a deadline where the map got a budget. */
 static nh_motion *integrate_counted(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double part)
 {
     nh_error ignored;
@@ -144,7 +181,8 @@ static bool states_of(nh_benchmark_work *c, size_t formulation, const char *meth
     c->hurried |= motion && !motion->complete && out_of_time(c, motion);
     c->effort = 0;
     if (motion && motion->count > c->reached) c->reached = motion->count;
-    bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) && nh_formulation_states(&c->formulation[formulation], motion, states);
+    bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) &&
+                nh_formulation_states(&c->formulation[formulation], motion, states);
     nh_motion_free(motion);
     return good;
 }
@@ -156,7 +194,8 @@ typedef struct {
 } pair;
 
 /* These states become the reference, if what says how far they can be trusted says that it is further. */
-static void prefer(nh_benchmark_work *c, double agreement, const double *states, const char *reference, const char *second)
+static void prefer(nh_benchmark_work *c, double agreement, const double *states, const char *reference,
+                   const char *second)
 {
     if (!(agreement < c->out->agreement)) return;
     memcpy(c->yard.state, states, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *states);
@@ -175,7 +214,8 @@ static double agreement_of(nh_benchmark_work *c, double *states, const double *o
     return agreement;
 }
 
-/* In one formulation; taken when they agree better than what there is.  `states` and `other` are work space.  False: the first had no time. */
+/* In one formulation; taken when they agree better than what there is.  `states` and `other` are work space.  False:
+   the first had no time. */
 static bool try_pair(nh_benchmark_work *c, const pair *p, size_t f, double *states, double *other)
 {
     nh_arena *arena = c->out->arena;
@@ -188,23 +228,31 @@ static bool try_pair(nh_benchmark_work *c, const pair *p, size_t f, double *stat
         return !late_here;
     }
     const char *name = nh_arena_printf(arena, "%s at %.0e in %s", p->first, p->first_tolerance, c->formulation[f].name);
-    if (states_of(c, f, p->second, p->second_tolerance, other)) prefer(c, agreement_of(c, states, other), states, name, nh_arena_printf(arena, "%s at %.0e", p->second, p->second_tolerance));
-    for (size_t k = 0; k < c->closeds && !(c->out->agreement < c->options.benchmark_trusted); k++) /* where the second does not agree, a closed form may */
-        if (c->closed[k].whole) prefer(c, nh_closed_off(c, &c->closed[k], states, &ignored), states, name, nh_arena_printf(arena, "closed form \"%s\"", c->closed[k].motion->name));
+    if (states_of(c, f, p->second, p->second_tolerance, other))
+        prefer(c, agreement_of(c, states, other), states, name,
+               nh_arena_printf(arena, "%s at %.0e", p->second, p->second_tolerance));
+    /* where the second does not agree, a closed form may */
+    for (size_t k = 0; k < c->closeds && !(c->out->agreement < c->options.benchmark_trusted); k++)
+        if (c->closed[k].whole)
+            prefer(c, nh_closed_off(c, &c->closed[k], states, &ignored), states, name,
+                   nh_arena_printf(arena, "closed form \"%s\"", c->closed[k].motion->name));
     c->hurried |= hurried;
     return true;
 }
 
-/* In the chart; in all coordinates where the chart breaks down or the two methods disagree; by implicit methods where the motion is too stiff for the explicit one. */
+/* In the chart; in all coordinates where the chart breaks down or the two methods disagree; by implicit methods where
+   the motion is too stiff for the explicit one. */
 bool nh_benchmark_work_reference(nh_benchmark_work *c, nh_error *error)
 {
-    static const pair pairs[] = {{"GSL rk8pd", "CVODE Adams", 1e-14, 1e-13}, {"ARKODE ESDIRK", "CVODE BDF", 1e-13, 1e-13}};
+    static const pair pairs[] = {{"GSL rk8pd", "CVODE Adams", 1e-14, 1e-13},
+                                 {"ARKODE ESDIRK", "CVODE BDF", 1e-13, 1e-13}};
     size_t size = NH_BENCHMARK_OUTPUTS * 2 * c->model->m;
     double *states = nh_alloc_array(size, sizeof *states), *other = nh_alloc_array(size, sizeof *other);
     c->out->agreement = INFINITY;
     for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
         bool time = true; /* where there is none in one formulation there is none in the next, which takes longer */
-        for (size_t f = 0; f < c->formulations && (time || c->once) && !(c->out->agreement < c->options.benchmark_trusted); f++)
+        for (size_t f = 0;
+             f < c->formulations && (time || c->once) && !(c->out->agreement < c->options.benchmark_trusted); f++)
             if (!c->formulation[f].breaks) time = try_pair(c, &pairs[p], f, states, other);
     }
     nh_free(states);
@@ -214,18 +262,26 @@ bool nh_benchmark_work_reference(nh_benchmark_work *c, nh_error *error)
         nh_reference_solution_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
         return true;
     }
-    nh_fail(error, NH_NUMERIC, "", "no reference could be computed: the motion does not reach t = %g by two methods", c->out->end);
-    return nh_error_hint(error, c->hurried && !c->once ? "there was no time for more: choose an earlier --until or a larger --budget" : "choose an earlier --until, another --initial or other --velocities");
+    nh_fail(error, NH_NUMERIC, "", "no reference could be computed: the motion does not reach t = %g by two methods",
+            c->out->end);
+    return nh_error_hint(error, c->hurried && !c->once
+                                    ? "there was no time for more: choose an earlier --until or a larger --budget"
+                                    : "choose an earlier --until, another --initial or other --velocities");
 }
 
 /* ---- all methods in all formulations ---- */
 
 static void add(nh_benchmark_work *c, const nh_method *method, size_t formulation, bool projected)
 {
-    if (c->candidates < NH_BENCHMARK_CANDIDATES) c->candidate[c->candidates++] = (nh_candidate_run){.method = method, .formulation = formulation, .projected = projected};
+    if (c->candidates < NH_BENCHMARK_CANDIDATES)
+        c->candidate[c->candidates++] =
+            (nh_candidate_run){.method = method, .formulation = formulation, .projected = projected};
 }
 
-void nh_benchmark_work_add(nh_benchmark_work *c, const nh_method *method, size_t formulation) { add(c, method, formulation, false); }
+void nh_benchmark_work_add(nh_benchmark_work *c, const nh_method *method, size_t formulation)
+{
+    add(c, method, formulation, false);
+}
 
 void nh_benchmark_work_refuse(nh_benchmark_work *c, const char *method, const char *why)
 {
@@ -245,7 +301,8 @@ static void choose_currents(nh_benchmark_work *c)
     size_t n = c->yard.currents;
     const char **why = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *why);
     c->held = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *c->held);
-    nh_projection_choose(c->model, n, c->yard.current, c->yard.times[0], c->yard.times[NH_BENCHMARK_OUTPUTS - 1], c->formulation[0].z0, why);
+    nh_projection_choose(c->model, n, c->yard.current, c->yard.times[0], c->yard.times[NH_BENCHMARK_OUTPUTS - 1],
+                         c->formulation[0].z0, why);
     for (size_t k = 0; k < n; k++) {
         if (!why[k]) c->held[c->held_currents++] = c->yard.current[k];
         else nh_benchmark_work_refuse(c, nh_arena_printf(c->out->arena, "projection onto %s", c->yard.name[k]), why[k]);
@@ -254,15 +311,22 @@ static void choose_currents(nh_benchmark_work *c)
 
 static void list_candidates(nh_benchmark_work *c)
 {
-    static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF", "Lagrange-d'Alembert, order 4", "relaxation, order 8"}; /* in the other formulations */
+    /* in the other formulations */
+    static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF", "Lagrange-d'Alembert, order 4",
+                                            "relaxation, order 8"};
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
         const char *why = nh_method_refused(m, c->formulation[0].programs);
         if (why) nh_benchmark_work_refuse(c, m->name, why);
         else add(c, m, 0, false);
     }
-    if (!c->yard.currents) nh_benchmark_work_refuse(c, "projection", "the energy is not conserved, and the file knows no current; `known:` may hold one that `nhsym analyze` finds");
-    else if (c->model->chart->implicit) nh_benchmark_work_refuse(c, "projection", "the constraints are solved by Newton's method inside the equations of motion");
+    if (!c->yard.currents)
+        nh_benchmark_work_refuse(c, "projection",
+                                 "the energy is not conserved, and the file knows no current; `known:` may hold one "
+                                 "that `nhsym analyze` finds");
+    else if (c->model->chart->implicit)
+        nh_benchmark_work_refuse(c, "projection",
+                                 "the constraints are solved by Newton's method inside the equations of motion");
     else {
         choose_currents(c);
         if (c->held_currents) add(c, nh_method_find("GSL rk8pd"), 0, true);
@@ -270,7 +334,8 @@ static void list_candidates(nh_benchmark_work *c)
     for (size_t f = 1; f < c->formulations; f++)
         for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
             const nh_method *m = nh_method_find(elsewhere[i]);
-            if (!m->order || (c->formulation[f].model && !nh_method_refused(m, c->formulation[f].programs))) add(c, m, f, false);
+            if (!m->order || (c->formulation[f].model && !nh_method_refused(m, c->formulation[f].programs)))
+                add(c, m, f, false);
         }
     for (int index = 1; index <= (c->model->k ? 2 : 1); index++) {
         add(c, NULL, c->formulations - 1, false);
@@ -309,8 +374,11 @@ static void collect(nh_benchmark_work *c)
         m->front = m->status == NH_ACCURATE && !m->reduced; /* what is flagged is no advice */
         for (size_t j = 0; j < out->count && m->front; j++) {
             const nh_run_record *o = &out->item[j];
-            double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement); /* smaller ones cannot be told apart */
-            if (o->status == NH_ACCURATE && !o->reduced && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
+            /* smaller ones cannot be told apart */
+            double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement);
+            if (o->status == NH_ACCURATE && !o->reduced && o->seconds <= m->seconds && other <= mine &&
+                (o->seconds < m->seconds || other < mine))
+                m->front = false;
         }
     }
 }
@@ -321,13 +389,19 @@ static bool open_formulations(nh_benchmark_work *c, nh_error *error)
     nh_error ignored;
     nh_error_clear(&ignored);
     double absolute = c->absolute;
-    if (c->model->chart->quasi) c->other = nh_model_create(s->system, nh_chart_create(s->system, NH_CHART_COORDINATES, 1, &ignored), &ignored);
-    if (!nh_formulation_open(&c->formulation[c->formulations++], s->model, &c->initial, c->project, absolute, c->out->arena, error)) return false;
+    if (c->model->chart->quasi)
+        c->other = nh_model_create(s->system, nh_chart_create(s->system, NH_CHART_COORDINATES, 1, &ignored), &ignored);
+    if (!nh_formulation_open(&c->formulation[c->formulations++], s->model, &c->initial, c->project, absolute,
+                             c->out->arena, error))
+        return false;
     if (c->other) {
-        if (nh_formulation_open(&c->formulation[c->formulations], c->other, &c->initial, c->project, absolute, c->out->arena, &ignored)) c->formulations++;
+        if (nh_formulation_open(&c->formulation[c->formulations], c->other, &c->initial, c->project, absolute,
+                                c->out->arena, &ignored))
+            c->formulations++;
         else nh_formulation_close(&c->formulation[c->formulations]);
     }
-    return nh_formulation_open_all(&c->formulation[c->formulations++], &c->formulation[0], c->initial.t, c->out->arena, error);
+    return nh_formulation_open_all(&c->formulation[c->formulations++], &c->formulation[0], c->initial.t, c->out->arena,
+                                   error);
 }
 
 /* One motion with the guard in each chart. */
@@ -344,11 +418,18 @@ static void watch_charts(nh_benchmark_work *c)
     }
 }
 
-static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request, size_t coordinate, double turn, bool once, double budget, nh_error *error)
+static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request, size_t coordinate, double turn,
+                       bool once, double budget, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_benchmark *out = nh_arena_alloc(arena, sizeof *out);
-    *c = (nh_benchmark_work){.out = out, .budget = budget, .begun = nh_clock(), .absolute = request->options.absolute, .options = request->options, .project = request->project, .once = once};
+    *c = (nh_benchmark_work){.out = out,
+                             .budget = budget,
+                             .begun = nh_clock(),
+                             .absolute = request->options.absolute,
+                             .options = request->options,
+                             .project = request->project,
+                             .once = once};
     out->arena = arena;
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
@@ -360,11 +441,16 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
     c->yard.state = nh_arena_alloc(arena, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *c->yard.state);
     out->begin = c->initial.t;
     for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++)
-        c->yard.times[i] = i + 1 == NH_BENCHMARK_OUTPUTS ? out->end : out->begin + (out->end - out->begin) * (double)i / (NH_BENCHMARK_OUTPUTS - 1);
-    if (!(fabs(out->end - out->begin) > 0)) return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
+        c->yard.times[i] = i + 1 == NH_BENCHMARK_OUTPUTS
+                               ? out->end
+                               : out->begin + (out->end - out->begin) * (double)i / (NH_BENCHMARK_OUTPUTS - 1);
+    if (!(fabs(out->end - out->begin) > 0))
+        return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
     size_t known = c->model->system->currents;
     const char **astray = nh_arena_alloc(arena, (known + 1) * sizeof *astray);
-    for (size_t i = nh_reference_solution_currents(&c->yard, arena, astray); i-- > 0;) nh_benchmark_work_refuse(c, nh_arena_printf(arena, "the known current \"%s\"", astray[i]), "it is not conserved with these parameters");
+    for (size_t i = nh_reference_solution_currents(&c->yard, arena, astray); i-- > 0;)
+        nh_benchmark_work_refuse(c, nh_arena_printf(arena, "the known current \"%s\"", astray[i]),
+                                 "it is not conserved with these parameters");
     out->currents = c->yard.currents;
     out->current = c->yard.name;
     if (!open_formulations(c, error)) return false;
@@ -373,9 +459,13 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
     return true;
 }
 
-bool nh_benchmark_work_open(nh_benchmark_work *c, const nh_simulate_request *request, double budget, nh_error *error) { return open_bench(c, request, 0, 0, false, budget, error); }
+bool nh_benchmark_work_open(nh_benchmark_work *c, const nh_simulate_request *request, double budget, nh_error *error)
+{
+    return open_bench(c, request, 0, 0, false, budget, error);
+}
 
-bool nh_benchmark_work_open_once(nh_benchmark_work *c, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error)
+bool nh_benchmark_work_open_once(nh_benchmark_work *c, const nh_simulate_request *request, size_t coordinate,
+                                 double turn, double budget, nh_error *error)
 {
     return open_bench(c, request, coordinate, turn, true, budget, error);
 }
@@ -402,14 +492,16 @@ static void end_bench(nh_benchmark_work *c)
     nh_benchmark_free(c->out);
 }
 
-/* A final time that nobody chose may lie behind a singularity, or be a million periods: it is halved, or divided by more where not even a part was reached, until there is a motion. */
+/* A final time that nobody chose may lie behind a singularity, or be a million periods: it is halved, or divided by
+   more where not even a part was reached, until there is a motion. */
 static bool open_somewhere(nh_benchmark_work *c, const nh_simulate_request *request, double budget, nh_error *error)
 {
     nh_simulate_request q = *request;
     for (int i = 0; i < most_halvings; i++) {
         nh_error_clear(error);
         if (!nh_benchmark_work_open(c, &q, budget, error)) break;
-        bool chosen = request->until_given || (c->out->question->analysis && c->out->question->analysis->has_until), last = chosen || i + 1 == most_halvings;
+        bool chosen = request->until_given || (c->out->question->analysis && c->out->question->analysis->has_until),
+             last = chosen || i + 1 == most_halvings;
         bool there = nh_benchmark_work_reference(c, error);
         c->out->doubtful = there && !(c->out->agreement < c->options.benchmark_trusted);
         if (there && (last || !c->out->doubtful)) {
@@ -418,7 +510,10 @@ static bool open_somewhere(nh_benchmark_work *c, const nh_simulate_request *requ
         }
         if (last) break;
         q.until_given = true;
-        q.options.until = c->out->begin + (c->out->end - c->out->begin) * (c->reached > 1 ? fmin(0.5, (double)(c->reached - 1) / (NH_BENCHMARK_OUTPUTS - 1)) : least_part);
+        q.options.until =
+            c->out->begin +
+            (c->out->end - c->out->begin) *
+                (c->reached > 1 ? fmin(0.5, (double)(c->reached - 1) / (NH_BENCHMARK_OUTPUTS - 1)) : least_part);
         end_bench(c);
     }
     end_bench(c);

@@ -1,8 +1,10 @@
-/* benchmark: speed against accuracy.  One motion of one system by every integrator in every formulation, at several tolerances or steps, measured
- * now on this machine: error against a reference, drift of every known current, time, evaluations.
+/* benchmark: speed against accuracy.  One motion of one system by every integrator in every formulation, at several
+ * tolerances or steps, measured now on this machine: error against a reference, drift of every known current, time,
+ * evaluations.
  *
- * The reference is a Runge-Kutta motion of order 8 at the smallest tolerance; a second method at a tight tolerance says how far it can be
- * trusted.  Errors are the largest over output times, coordinates and velocities, relative to the largest value of each along the motion. */
+ * The reference is a Runge-Kutta motion of order 8 at the smallest tolerance; a second method at a tight tolerance says
+ * how far it can be trusted.  Errors are the largest over output times, coordinates and velocities, relative to the
+ * largest value of each along the motion. */
 #ifndef NH_BENCHMARK_H
 #define NH_BENCHMARK_H
 
@@ -18,7 +20,8 @@ typedef struct {
     double seconds;              /* the least of some repetitions, without preparations */
     long evaluations;
     nh_run_record_status status;
-    bool reduced;                /* of reduced equations, which compute less: errors are of their own states, and it does not count below */
+    /* of reduced equations, which compute less: errors are of their own states, and it does not count below */
+    bool reduced;
     bool front;                  /* nothing measured is both faster and more accurate */
     const char *note;            /* why it failed, or empty */
 } nh_run_record;
@@ -26,7 +29,9 @@ typedef struct {
 /* The Jacobian of the equations of motion at the chart's probes. */
 typedef struct {
     const char *method;
-    double error;     /* the largest difference from the exact one, relative to its largest entry (or 1); NAN where none could be computed */
+    /* the largest difference from the exact one, relative to its largest entry (or 1); NAN where none could be
+       computed */
+    double error;
     double seconds;   /* of one Jacobian */
     long evaluations; /* of the right-hand side (of the exact derivatives: 1) */
 } nh_derivative;
@@ -37,7 +42,8 @@ typedef struct {
     const char *basis, *route, *solver;
     size_t rank, dimension, wanted; /* independent columns; of the null space; the same by the most careful way */
     double gap;                  /* of the spectrum after the null values */
-    double error;                /* distance of the known currents from the space, at points not used; NAN: none is in the span */
+    /* distance of the known currents from the space, at points not used; NAN: none is in the span */
+    double error;
     double seconds;              /* rows and solution, without sampling */
     bool good, undecided, right, front;
 } nh_fitted;
@@ -60,7 +66,9 @@ struct nh_benchmark {
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
     bool partial;                /* the budget ended it */
-    bool doubtful;               /* they do not agree well enough for it to be a reference (options.benchmark_trusted): errors then say little, and nothing is accurate */
+    /* they do not agree well enough for it to be a reference (options.benchmark_trusted): errors then say little, and
+       nothing is accurate */
+    bool doubtful;
     bool shortened;              /* the motion did not reach the time that was meant, and nobody had chosen that */
 };
 

@@ -1,5 +1,6 @@
-/* benchmark_derivatives: the Jacobian of the equations of motion, exact from the graph, by a complex step or by differences of the right-hand side: what each
- * costs, and how far it is off.  At the chart's probes; exact derivatives are the reference. */
+/* benchmark_derivatives: the Jacobian of the equations of motion, exact from the graph, by a complex step or by
+ * differences of the right-hand side: what each costs, and how far it is off.  At the chart's probes; exact derivatives
+ * are the reference. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -10,7 +11,8 @@
 #include "commands/benchmark_internal.h"
 
 enum { exact_derivatives, complex_step, forward, central_differences, extrapolated, kinds };
-static const char *const names[kinds] = {"exact, from the graph", "complex step", "forward differences", "central differences", "central differences, extrapolated"};
+static const char *const names[kinds] = {"exact, from the graph", "complex step", "forward differences",
+                                         "central differences", "central differences, extrapolated"};
 static const double tiny = 1e-100; /* the complex step */
 static const double enough_seconds = 2e-3; /* repetitions stop after this time */
 
@@ -58,7 +60,8 @@ static bool by_complex_step(differences *d, double t, double *J)
     return true;
 }
 
-/* Steps near the best for errors of order 1, 2 and 4 and rounding: eps^(1/2), eps^(1/3), eps^(1/5), times the largest |z_j| of all points. */
+/* Steps near the best for errors of order 1, 2 and 4 and rounding: eps^(1/2), eps^(1/3), eps^(1/5), times the largest
+   |z_j| of all points. */
 static bool jacobian(differences *d, int kind, double t, double *J)
 {
     size_t n = d->n;
@@ -66,7 +69,9 @@ static bool jacobian(differences *d, int kind, double t, double *J)
     if (kind == complex_step) return by_complex_step(d, t, J);
     if (kind == forward && !rate_at(d, t, 0, 0, d->low)) return false;
     for (size_t j = 0; j < n; j++) {
-        double *column = J + j * n, h = d->size[j] * pow(DBL_EPSILON, kind == forward ? 1.0 / 2 : kind == central_differences ? 1.0 / 3 : 1.0 / 5);
+        double *column = J + j * n, h = d->size[j] * pow(DBL_EPSILON, kind == forward               ? 1.0 / 2
+                                                                      : kind == central_differences ? 1.0 / 3
+                                                                                                    : 1.0 / 5);
         if (kind == forward) {
             if (!rate_at(d, t, j, h, d->high)) return false;
             for (size_t i = 0; i < n; i++) column[i] = (d->high[i] - d->low[i]) / h;
@@ -135,7 +140,8 @@ void nh_benchmark_derivatives(const nh_formulation *f, nh_benchmark *out)
     }
     out->derivative = nh_arena_alloc(out->arena, kinds * sizeof *out->derivative);
     for (int k = 0; k < kinds; k++)
-        if (k != complex_step || d.tape) measure(&d, f->model->chart, k, J, J + n * n, &out->derivative[out->derivatives++]);
+        if (k != complex_step || d.tape)
+            measure(&d, f->model->chart, k, J, J + n * n, &out->derivative[out->derivatives++]);
     nh_free(d.work);
     nh_free(d.in);
     nh_free(J);

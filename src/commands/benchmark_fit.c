@@ -1,9 +1,11 @@
-/* benchmark_fit: the discrete problem.  The null space of the sampled equations for the polynomials of degree 1, 2, 3, ... in the chart's velocities, in the
- * sines and cosines of the angles and in the other coordinates on which the equations of motion depend, over
+/* benchmark_fit: the discrete problem.  The null space of the sampled equations for the polynomials of degree 1, 2, 3,
+ * ... in the chart's velocities, in the sines and cosines of the angles and in the other coordinates on which the
+ * equations of motion depend, over
  *
  *     samples x columns x basis (monomials, Chebyshev) x route (current, symmetry) x solver (generalized, plain SVD):
  *
- * time, gap, dimension, and how far the known currents are from the space that was found, at points that the fit has not seen. */
+ * time, gap, dimension, and how far the known currents are from the space that was found, at points that the fit has
+ * not seen. */
 #include <math.h>
 #include <string.h>
 
@@ -60,7 +62,8 @@ static void find_known(fit *f)
     f->known = 0;
     for (size_t k = 0; k < y->currents && n < rows; k++) {
         double *phi = nh_span_values(f->model, f->heldout, 1, &y->current[k], 1, &unit);
-        if (nh_span_distance(rows, n, all, 1, phi) < in_span) memcpy(f->value + rows * f->known++, phi, rows * sizeof *phi);
+        if (nh_span_distance(rows, n, all, 1, phi) < in_span)
+            memcpy(f->value + rows * f->known++, phi, rows * sizeof *phi);
         nh_free(phi);
     }
     nh_free(all);
@@ -77,7 +80,8 @@ typedef struct {
     double seconds;
 } solved;
 
-static bool assemble_and_solve(fit *f, const nh_ansatz *a, const nh_points *points, bool symmetry, bool plain, solved *s)
+static bool assemble_and_solve(fit *f, const nh_ansatz *a, const nh_points *points, bool symmetry, bool plain,
+                               solved *s)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -87,7 +91,9 @@ static bool assemble_and_solve(fit *f, const nh_ansatz *a, const nh_points *poin
     columns_of(a, s->e);
     s->columns = a->columns;
     if (symmetry) {
-        s->columns = a->columns * (f->model->n + 1) <= most_field_columns ? nh_rows_field_columns(f->model, a->columns, s->e, &column) : 0;
+        s->columns = a->columns * (f->model->n + 1) <= most_field_columns
+                         ? nh_rows_field_columns(f->model, a->columns, s->e, &column)
+                         : 0;
         if (!s->columns || points->count * (f->model->n + 1) < s->columns + 16) return false;
     }
     double begin = nh_clock();
@@ -99,7 +105,8 @@ static bool assemble_and_solve(fit *f, const nh_ansatz *a, const nh_points *poin
         nh_rows_current(rows, points, NULL, equations);
         nh_rows_free(rows);
     }
-    s->space = plain ? nh_nullspace_plain(equations, &limits, &ignored) : nh_nullspace_solve(equations, &limits, &ignored);
+    s->space =
+        plain ? nh_nullspace_plain(equations, &limits, &ignored) : nh_nullspace_solve(equations, &limits, &ignored);
     s->seconds = nh_clock() - begin;
     nh_equations_free(equations);
     if (symmetry) {
@@ -130,9 +137,15 @@ static void measure(fit *f, size_t points_wanted, bool chebyshev, bool symmetry,
     nh_error_clear(&ignored);
     nh_points *points = nh_points_create(f->model, points_wanted, 1, (uint64_t)f->options.seed, &ignored);
     double begin = nh_clock();
-    *out = (nh_fitted){.functions = a->columns, .samples = points_wanted, .basis = chebyshev ? "Chebyshev" : "monomials", .route = symmetry ? "symmetry" : "current",
-                       .solver = plain ? "plain SVD" : "generalized", .seconds = INFINITY, .error = NAN};
-    for (int i = 0; points && i < most_repeats && !nh_interrupted() && (i == 0 || nh_clock() - begin < enough_seconds); i++) {
+    *out = (nh_fitted){.functions = a->columns,
+                       .samples = points_wanted,
+                       .basis = chebyshev ? "Chebyshev" : "monomials",
+                       .route = symmetry ? "symmetry" : "current",
+                       .solver = plain ? "plain SVD" : "generalized",
+                       .seconds = INFINITY,
+                       .error = NAN};
+    for (int i = 0; points && i < most_repeats && !nh_interrupted() && (i == 0 || nh_clock() - begin < enough_seconds);
+         i++) {
         solved s = {0};
         bool good = assemble_and_solve(f, a, points, symmetry, plain, &s);
         if (good && i == 0) judge(f, &s, out);
@@ -166,7 +179,8 @@ static void measure_level(fit *f)
             bool symmetry = way & 4, careful = d + 1 == densities && !(way & 3);
             if (careful) f->wanted[symmetry] = m->dimension, known[symmetry] = true;
             m->wanted = f->wanted[symmetry];
-            m->right = known[symmetry] && !m->undecided && m->dimension == m->wanted && !(m->error > f->options.agreement);
+            m->right =
+                known[symmetry] && !m->undecided && m->dimension == m->wanted && !(m->error > f->options.agreement);
         }
     }
     out->fits_partial |= past(f);
@@ -179,7 +193,9 @@ static void mark_front(nh_benchmark *out)
         m->front = m->right && isfinite(m->error);
         for (size_t j = 0; j < out->fits && m->front; j++) {
             const nh_fitted *o = &out->fit[j];
-            if (o->functions == m->functions && o->right && o->seconds <= m->seconds && o->error <= m->error && (o->seconds < m->seconds || o->error < m->error)) m->front = false;
+            if (o->functions == m->functions && o->right && o->seconds <= m->seconds && o->error <= m->error &&
+                (o->seconds < m->seconds || o->error < m->error))
+                m->front = false;
         }
     }
 }
@@ -204,7 +220,8 @@ size_t nh_fit_letters(const nh_model *o, nh_ex *out)
     for (size_t s = 0; s < o->m; s++) {
         nh_ex q = o->system->coordinate[s].q;
         bool occurs = false;
-        for (size_t i = 0; i < o->m + o->n && !occurs; i++) occurs = nh_depends(o->dag, i < o->m ? o->rho[i] : o->a[i - o->m], q);
+        for (size_t i = 0; i < o->m + o->n && !occurs; i++)
+            occurs = nh_depends(o->dag, i < o->m ? o->rho[i] : o->a[i - o->m], q);
         if (!occurs) continue;
         bool wave = nh_fit_is_wave(o, q);
         if (wave) out[n++] = nh_call(o->dag, NH_SIN, q);

@@ -6,7 +6,8 @@
 
 /* Does a sine or cosine of the equations of motion depend on q? */
 bool nh_fit_is_wave(const nh_model *model, nh_ex q);
-/* The chart's velocities, sines and cosines of angles and the other coordinates on which the equations depend; room for 3 m. */
+/* The chart's velocities, sines and cosines of angles and the other coordinates on which the equations depend; room for
+   3 m. */
 size_t nh_fit_letters(const nh_model *model, nh_ex *out);
 
 #endif

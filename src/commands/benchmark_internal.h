@@ -8,7 +8,13 @@
 #include "commands/benchmark.h"
 #include "commands/reduce.h"
 
-enum { NH_BENCHMARK_OUTPUTS = 9, NH_BENCHMARK_LEVELS = 5, NH_BENCHMARK_FORMULATIONS = 3, NH_CHART_REDUCED = 4, NH_BENCHMARK_CANDIDATES = 64 };
+enum {
+    NH_BENCHMARK_OUTPUTS = 9,
+    NH_BENCHMARK_LEVELS = 5,
+    NH_BENCHMARK_FORMULATIONS = 3,
+    NH_CHART_REDUCED = 4,
+    NH_BENCHMARK_CANDIDATES = 64
+};
 
 typedef struct {
     const char *name;
@@ -36,7 +42,8 @@ typedef struct {
 } nh_reference_solution;
 
 /* In a model's chart.  False when the initial state is refused. */
-bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute, nh_arena *arena, nh_error *error);
+bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute,
+                         nh_arena *arena, nh_error *error);
 /* In all coordinates, from the initial state of a formulation in a chart. */
 bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t, nh_arena *arena, nh_error *error);
 void nh_formulation_close(nh_formulation *f);
@@ -44,7 +51,8 @@ void nh_formulation_close(nh_formulation *f);
 /* (q, v) of a motion of this formulation at its outputs into y (count x 2m); false where they cannot be computed. */
 bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y);
 
-/* Known currents of the system file that are conserved, and the energy if it is.  The names of those that are not, as many as it returns (room for all known ones). */
+/* Known currents of the system file that are conserved, and the energy if it is.  The names of those that are not, as
+   many as it returns (room for all known ones). */
 size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena, const char **astray);
 /* After the reference states are there. */
 void nh_reference_solution_scales(nh_reference_solution *y, nh_arena *arena, double least);
@@ -95,7 +103,9 @@ typedef struct {
     nh_candidate_run candidate[NH_BENCHMARK_CANDIDATES];
     nh_run_record *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
-    double effort; /* of a motion that decides what is compared, in place of the deadline: the same on every machine; 0: the deadline */
+    /* of a motion that decides what is compared, in place of the deadline: the same on every machine; 0: the
+       deadline */
+    double effort;
     nh_options options;
     bool project, once; /* once: no repetitions, the time does not matter; steps are limited instead */
     size_t reached;     /* outputs of the reference's longest run */
@@ -103,10 +113,12 @@ typedef struct {
 } nh_benchmark_work;
 
 /* System, formulations and charts of a request; close it also on failure (and free `out`). */
-bool nh_benchmark_work_open(nh_benchmark_work *bench, const nh_simulate_request *request, double budget, nh_error *error);
-/* The same without repetitions, with at most options.robustness_steps steps per motion, one coordinate of the initial state moved, and velocities that the constraints allow
- * there. */
-bool nh_benchmark_work_open_once(nh_benchmark_work *bench, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error);
+bool nh_benchmark_work_open(nh_benchmark_work *bench, const nh_simulate_request *request, double budget,
+                            nh_error *error);
+/* The same without repetitions, with at most options.robustness_steps steps per motion, one coordinate of the initial
+ * state moved, and velocities that the constraints allow there. */
+bool nh_benchmark_work_open_once(nh_benchmark_work *bench, const nh_simulate_request *request, size_t coordinate,
+                                 double turn, double budget, nh_error *error);
 void nh_benchmark_work_close(nh_benchmark_work *bench);
 /* The reference: in the chart; in all coordinates where the chart breaks down or the two methods disagree. */
 bool nh_benchmark_work_reference(nh_benchmark_work *bench, nh_error *error);
@@ -116,7 +128,8 @@ void nh_benchmark_work_no_reference(nh_benchmark_work *bench);
 void nh_benchmark_work_add(nh_benchmark_work *bench, const nh_method *method, size_t formulation);
 void nh_benchmark_work_refuse(nh_benchmark_work *bench, const char *method, const char *why);
 /* One run, with repetitions for its time unless bench->once. */
-void nh_benchmark_work_measure(nh_benchmark_work *bench, nh_candidate_run *candidate, double tolerance, double step, nh_run_record *measured);
+void nh_benchmark_work_measure(nh_benchmark_work *bench, nh_candidate_run *candidate, double tolerance, double step,
+                               nh_run_record *measured);
 /* The discrete problem, in about so many seconds. */
 void nh_benchmark_fit(nh_benchmark_work *bench, double seconds);
 

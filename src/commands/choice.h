@@ -14,7 +14,8 @@ typedef struct {
     nh_integration_plans ways;       /* to be given to nh_trajectory_accurate while this stays where it is */
 } nh_choice;
 
-/* `plain`: only the model's own velocities and methods with error control can be used.  The fields up to `deriving` are filled in.  nh_choice_close. */
+/* `plain`: only the model's own velocities and methods with error control can be used.  The fields up to `deriving` are
+   filled in.  nh_choice_close. */
 void nh_choice_open(nh_choice *choice, bool plain);
 void nh_choice_close(nh_choice *choice);
 

@@ -130,13 +130,15 @@ void nh_classified_space_free(nh_classified_space *classified);
 /* "eps - 2 = 0", in the names of the space; in the arena of its family. */
 const char *nh_classified_surface_words(const nh_classified_space *space, const nh_special_surface *surface);
 
-/* The current of this index, where those behind the currents found are functions of them that are polynomial in the velocities. */
+/* The current of this index, where those behind the currents found are functions of them that are polynomial in the
+   velocities. */
 const nh_current *nh_classified_current(const nh_analysis *analysis, size_t index);
 
 /* "eps = 1/3", "C^2 - 3 = 0 (C = -1.7320508, 1.7320508)"; in the arena. */
 const char *nh_classified_words(const nh_classified *classified, const nh_special_factor *polynomial);
 /* The same for a parameter of this name. */
-const char *nh_classified_values(const nh_classified *classified, const char *name, const nh_special_factor *polynomial);
+const char *nh_classified_values(const nh_classified *classified, const char *name,
+                                 const nh_special_factor *polynomial);
 /* "eps - 2 = 0", in the names of the plane; in the arena of its family. */
 const char *nh_classified_curve_words(const nh_classified_plane *plane, const nh_special_curve *curve);
 /* Is it one rational number? */

@@ -1,4 +1,5 @@
-/* From a system file and the names of two parameters to special curves and points, with the currents that hold there. */
+/* From a system file and the names of two parameters to special curves and points, with the currents that hold
+   there. */
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
@@ -153,7 +154,8 @@ static void isolated_point(plane *x, const nh_classify_request *q, size_t index,
     p.rational = nh_classified_rational(&v->polynomial, &top[0], &bottom[0]);
     for (int k = 0; k < 2; k++) {
         bool known = k || p.rational;
-        p.value[k] = known ? ratio(arena, top[k], bottom[k]) : nh_classified_values(x->family, x->over[0], &v->polynomial);
+        p.value[k] =
+            known ? ratio(arena, top[k], bottom[k]) : nh_classified_values(x->family, x->over[0], &v->polynomial);
         p.about[k] = known ? (double)top[k] / (double)bottom[k] : NAN;
     }
     out->why = "currents are constructed at rational values only";

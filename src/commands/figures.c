@@ -11,26 +11,42 @@ enum { outputs = 601, scan_points = 128, scan_values = 401 };
 /* ---- one motion ---- */
 
 /* A motion with one parameter changed, read anew: initial values and expressions may depend on it. */
-static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q, const nh_figure_request *f, double value, nh_state *initial, double *until, nh_error *error)
+static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q, const nh_figure_request *f,
+                        double value, nh_state *initial, double *until, nh_error *error)
 {
     nh_setting *setting = nh_arena_alloc(s->arena, (q->settings + 1) * sizeof *setting);
     size_t settings = q->settings;
     if (settings) memcpy(setting, q->setting, settings * sizeof *setting);
     if (f->values) setting[settings++] = (nh_setting){.name = f->vary, .value = value};
-    nh_simulate_request motion = {.system_path = q->system_path, .analysis_path = q->analysis_path, .settings = settings, .setting = setting, .chart = q->chart,
-                                  .options = r->options, .until_given = true, .tolerance_given = true};
+    nh_simulate_request motion = {.system_path = q->system_path,
+                                  .analysis_path = q->analysis_path,
+                                  .settings = settings,
+                                  .setting = setting,
+                                  .chart = q->chart,
+                                  .options = r->options,
+                                  .until_given = true,
+                                  .tolerance_given = true};
     if (motion.chart == NH_CHART_AUTO) motion.chart = r->analysis->chart;
     return nh_simulate_read(s, &motion, initial, until, error);
 }
 
-/* From the initial time to `end`, which may lie before it: quantity k at value[i * n + k], i counted from the initial time. */
-static nh_trajectory *integrate(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q, const nh_figure_request *f, const nh_state *initial, double end, size_t count, double *times, nh_error *error)
+/* From the initial time to `end`, which may lie before it: quantity k at value[i * n + k], i counted from the initial
+   time. */
+static nh_trajectory *integrate(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q,
+                                const nh_figure_request *f, const nh_state *initial, double end, size_t count,
+                                double *times, nh_error *error)
 {
     nh_options options = r->options;
     nh_ex *e = nh_arena_alloc(s->arena, (f->quantities + 1) * sizeof *e);
     for (size_t k = 0; k < f->quantities; k++) e[k] = f->quantity[k].value;
     for (size_t i = 0; i < count; i++) times[i] = initial->t + (end - initial->t) * (double)i / (double)(count - 1);
-    nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = f->quantities, .e = e};
+    nh_trajectory_request request = {.model = s->model,
+                                     .initial = initial,
+                                     .count = count,
+                                     .times = times,
+                                     .options = &options,
+                                     .n = f->quantities,
+                                     .e = e};
     if (!(q->accuracy > 0)) return nh_trajectory_create(&request, error);
     nh_accuracy ignored;
     nh_choice choice = {.system = s->system, .model = s->model, .seed = (uint64_t)options.seed};
@@ -57,7 +73,8 @@ static void join(course *c, const nh_trajectory *part, size_t n, bool back)
     }
 }
 
-static bool follow(nh_analysis *r, const nh_analyze_request *q, size_t which, double value, course *out, nh_error *error)
+static bool follow(nh_analysis *r, const nh_analyze_request *q, size_t which, double value, course *out,
+                   nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_simulation *s = nh_arena_alloc(arena, sizeof *s);
@@ -106,10 +123,14 @@ static void add_motion(nh_analysis *r, nh_figure *figure, const course *c, doubl
     const nh_figure_request *f = figure->request;
     size_t n = f->quantities;
     if (f->kind == NH_FIGURE_PATH) {
-        figure->curve[figure->curves++] = (nh_figure_curve){name_of(r, f, 0, value), 0, value, c->count, column(r, c, n, 0), column(r, c, n, 1), n > 2 ? column(r, c, n, 2) : NULL};
+        figure->curve[figure->curves++] = (nh_figure_curve){
+            name_of(r, f, 0, value),          0, value, c->count, column(r, c, n, 0), column(r, c, n, 1),
+            n > 2 ? column(r, c, n, 2) : NULL};
         return;
     }
-    for (size_t k = 0; k < n; k++) figure->curve[figure->curves++] = (nh_figure_curve){name_of(r, f, k, value), k, value, c->count, c->time, column(r, c, n, k), NULL};
+    for (size_t k = 0; k < n; k++)
+        figure->curve[figure->curves++] =
+            (nh_figure_curve){name_of(r, f, k, value), k, value, c->count, c->time, column(r, c, n, k), NULL};
 }
 
 static void motions(nh_analysis *r, const nh_analyze_request *q, size_t which, nh_figure *figure)
@@ -133,17 +154,22 @@ static void scan(nh_analysis *r, nh_figure *figure)
     const nh_unknown *u = &a->unknown[figure->request->unknown];
     nh_error trouble;
     nh_error_clear(&trouble);
-    double *x = nh_arena_alloc(r->arena, scan_values * sizeof *x), *y = nh_arena_alloc(r->arena, scan_values * sizeof *y);
+    double *x = nh_arena_alloc(r->arena, scan_values * sizeof *x),
+           *y = nh_arena_alloc(r->arena, scan_values * sizeof *y);
     for (size_t i = 0; i < scan_values; i++) x[i] = u->low + (u->high - u->low) * (double)i / (scan_values - 1);
     nh_points *points = nh_points_create(r->model, scan_points, 1, (uint64_t)r->options.seed, &trouble);
-    bool good = points && r->hits && nh_unknowns_scan(r->model, points, a->families, a->family, u, &r->options, r->hits->generic, scan_values, x, y, &trouble);
+    bool good = points && r->hits &&
+                nh_unknowns_scan(r->model, points, a->families, a->family, u, &r->options, r->hits->generic,
+                                 scan_values, x, y, &trouble);
     nh_points_free(points);
     if (!good) {
-        nh_analysis_warn(r, "figure `%s`: %s", figure->request->title, trouble.code != NH_OK ? trouble.what : "the unknown was not searched");
+        nh_analysis_warn(r, "figure `%s`: %s", figure->request->title,
+                         trouble.code != NH_OK ? trouble.what : "the unknown was not searched");
         return;
     }
     figure->curve = nh_arena_alloc(r->arena, 2 * sizeof *figure->curve);
-    figure->curve[figure->curves++] = (nh_figure_curve){nh_name_of(r->model->dag, u->symbol), 0, NAN, scan_values, x, y, NULL};
+    figure->curve[figure->curves++] =
+        (nh_figure_curve){nh_name_of(r->model->dag, u->symbol), 0, NAN, scan_values, x, y, NULL};
 }
 
 /* The two sides of the gap for one number of samples; NAN where there is no such value. */
@@ -171,8 +197,10 @@ static void samples(nh_analysis *r, size_t families, const nh_family *family, nh
     const nh_figure_request *f = figure->request;
     nh_error trouble;
     nh_error_clear(&trouble);
-    nh_points *ranges = families ? nh_points_create(r->model, scan_points, 1, (uint64_t)r->options.seed, &trouble) : NULL;
-    nh_ansatz *a = ranges ? nh_ansatz_create(r->model, ranges, families, family, (size_t)r->options.columns, &trouble) : NULL;
+    nh_points *ranges =
+        families ? nh_points_create(r->model, scan_points, 1, (uint64_t)r->options.seed, &trouble) : NULL;
+    nh_ansatz *a =
+        ranges ? nh_ansatz_create(r->model, ranges, families, family, (size_t)r->options.columns, &trouble) : NULL;
     nh_points_free(ranges);
     double *x = nh_arena_alloc(r->arena, (f->values + 1) * sizeof *x), *y[2], gap[2];
     size_t n = 0;
@@ -184,9 +212,13 @@ static void samples(nh_analysis *r, size_t families, const nh_family *family, nh
         y[1][n++] = gap[1];
     }
     nh_ansatz_free(a);
-    if (!n) nh_analysis_warn(r, "figure `%s`: %s", f->title, trouble.code != NH_OK ? trouble.what : "it needs an ansatz in the analysis file");
+    if (!n)
+        nh_analysis_warn(r, "figure `%s`: %s", f->title,
+                         trouble.code != NH_OK ? trouble.what : "it needs an ansatz in the analysis file");
     figure->curve = nh_arena_alloc(r->arena, 2 * sizeof *figure->curve);
-    for (int j = 0; j < 2 && n; j++) figure->curve[figure->curves++] = (nh_figure_curve){j ? "smallest value above the gap" : "largest null value", 0, NAN, n, x, y[j], NULL};
+    for (int j = 0; j < 2 && n; j++)
+        figure->curve[figure->curves++] =
+            (nh_figure_curve){j ? "smallest value above the gap" : "largest null value", 0, NAN, n, x, y[j], NULL};
 }
 
 void nh_figures_compute(nh_analysis *r, const nh_analyze_request *q, size_t families, const nh_family *family)

@@ -1,12 +1,13 @@
-/* figures: the curves of the figures of an analysis file: paths and quantities along motions, repeated over the values of a parameter, the smallest
- * singular value over an unknown, the gap over the number of samples. */
+/* figures: the curves of the figures of an analysis file: paths and quantities along motions, repeated over the values
+ * of a parameter, the smallest singular value over an unknown, the gap over the number of samples. */
 #ifndef NH_FIGURES_H
 #define NH_FIGURES_H
 
 #include "commands/analyze_request.h"
 
-/* Fills result->figure.  A curve that cannot be computed is left out with a warning.  The families are those of the ansatz with the unknowns' values in place;
- * 0 where the program chose it. */
-void nh_figures_compute(nh_analysis *result, const nh_analyze_request *request, size_t families, const nh_family *family);
+/* Fills result->figure.  A curve that cannot be computed is left out with a warning.  The families are those of the
+ * ansatz with the unknowns' values in place; 0 where the program chose it. */
+void nh_figures_compute(nh_analysis *result, const nh_analyze_request *request, size_t families,
+                        const nh_family *family);
 
 #endif

@@ -1,7 +1,8 @@
-/* known_motions: the closed forms that a system file knows of its motions (known: motions:), as references of the benchmark.
+/* known_motions: the closed forms that a system file knows of its motions (known: motions:), as references of the
+ * benchmark.
  *
- * A closed form is a claim: it is used only where two methods that agree with each other agree with it, too; where they do not agree with each other, a complete
- * one takes the place of the second. */
+ * A closed form is a claim: it is used only where two methods that agree with each other agree with it, too; where they
+ * do not agree with each other, a complete one takes the place of the second. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +14,8 @@ static const double fits = 1e-9;       /* a condition on the initial state holds
 
 /* ---- what it says ---- */
 
-/* The numbers that the initial state gives, then the conditions: false where they cannot be had or a condition fails. */
+/* The numbers that the initial state gives, then the conditions: false where they cannot be had or a condition
+   fails. */
 static bool at_the_start(const nh_benchmark_work *c, const nh_known_motion *k, double *value)
 {
     const nh_model *o = c->model;
@@ -23,7 +25,9 @@ static bool at_the_start(const nh_benchmark_work *c, const nh_known_motion *k, d
     nh_error ignored;
     nh_error_clear(&ignored);
     bool good = nh_dynamics_point(c->formulation[0].dynamics, c->yard.times[0], c->formulation[0].z0, point);
-    for (size_t i = 0; i < n && good; i++) good = nh_analysis_file_to_chart(o, i < k->starts ? k->start[i].value : k->condition[i - k->starts], &e[i], &ignored);
+    for (size_t i = 0; i < n && good; i++)
+        good = nh_analysis_file_to_chart(o, i < k->starts ? k->start[i].value : k->condition[i - k->starts], &e[i],
+                                         &ignored);
     if (good) {
         nh_tape *tape = nh_model_tape(o, n, e);
         nh_tape_work *work = nh_tape_work_create(tape);
@@ -86,10 +90,15 @@ void nh_known_motions_open(nh_benchmark_work *c)
         const nh_known_motion *k = &known[i];
         nh_known_motions *f = &c->closed[c->closeds];
         double *start = nh_alloc_array(k->starts + k->conditions + 1, sizeof *start);
-        *f = (nh_known_motions){.motion = k, .state = nh_arena_alloc(arena, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *f->state), .whole = k->values == c->model->m};
+        *f = (nh_known_motions){.motion = k,
+                                .state =
+                                    nh_arena_alloc(arena, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *f->state),
+                                .whole = k->values == c->model->m};
         bool fitting = at_the_start(c, k, start);
         if (fitting && along(c, k, start, f->state)) c->closeds++;
-        else if (fitting) nh_benchmark_work_refuse(c, nh_arena_printf(arena, "closed form \"%s\"", k->name), "it has no value on the way");
+        else if (fitting)
+            nh_benchmark_work_refuse(c, nh_arena_printf(arena, "closed form \"%s\"", k->name),
+                                     "it has no value on the way");
         nh_free(start);
     }
 }
@@ -119,7 +128,11 @@ static const char *names_of(const nh_benchmark_work *c, const nh_known_motions *
     size_t left = f->motion->values;
     for (size_t j = 0; j < c->model->m; j++) {
         if (!f->motion->given[j]) continue;
-        text = nh_arena_printf(c->out->arena, "%s%s%s", text, !text[0] ? "" : left == 1 ? " and " : ", ", s->coordinate[j].name);
+        text = nh_arena_printf(c->out->arena, "%s%s%s", text,
+                               !text[0]    ? ""
+                               : left == 1 ? " and "
+                                           : ", ",
+                               s->coordinate[j].name);
         left--;
     }
     return text;
@@ -130,8 +143,10 @@ static void refuse(nh_benchmark_work *c, const nh_known_motions *f, double off, 
     const nh_system *s = c->model->system;
     size_t m = c->model->m, j = worst % (2 * m);
     const char *name = j < m ? s->coordinate[j].name : nh_name_of(c->model->dag, s->coordinate[j - m].v);
-    nh_benchmark_work_refuse(c, nh_arena_printf(c->out->arena, "closed form \"%s\"", f->motion->name),
-                    nh_arena_printf(c->out->arena, "it is not this motion: %s is off by %.0e at t = %g, where %s agree to %.0e", name, off, c->yard.times[worst / (2 * m)], methods, c->out->agreement));
+    nh_benchmark_work_refuse(
+        c, nh_arena_printf(c->out->arena, "closed form \"%s\"", f->motion->name),
+        nh_arena_printf(c->out->arena, "it is not this motion: %s is off by %.0e at t = %g, where %s agree to %.0e",
+                        name, off, c->yard.times[worst / (2 * m)], methods, c->out->agreement));
 }
 
 void nh_known_motions_use(nh_benchmark_work *c)
@@ -142,7 +157,8 @@ void nh_known_motions_use(nh_benchmark_work *c)
         const nh_known_motions *f = &c->closed[k];
         size_t worst;
         double off = nh_closed_off(c, f, c->yard.state, &worst);
-        if (!(off <= fmax(fmin(c->options.benchmark_closed * c->out->agreement, c->options.benchmark_trusted), least_off))) {
+        if (!(off <=
+              fmax(fmin(c->options.benchmark_closed * c->out->agreement, c->options.benchmark_trusted), least_off))) {
             refuse(c, f, off, worst, methods);
             continue;
         }
@@ -154,7 +170,8 @@ void nh_known_motions_use(nh_benchmark_work *c)
             c->out->agreement = off;
             return;
         }
-        c->out->reference = nh_arena_printf(c->out->arena, "closed form \"%s\" of %s, otherwise %s", f->motion->name, names_of(c, f), c->out->reference);
+        c->out->reference = nh_arena_printf(c->out->arena, "closed form \"%s\" of %s, otherwise %s", f->motion->name,
+                                            names_of(c, f), c->out->reference);
         c->out->agreement = fmax(c->out->agreement, off);
     }
 }

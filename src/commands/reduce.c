@@ -26,7 +26,8 @@ void nh_reduction_warn(nh_reduction *r, const char *format, ...)
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
-    if (r->warnings < sizeof r->warning / sizeof *r->warning) r->warning[r->warnings++] = nh_arena_strdup(r->arena, text);
+    if (r->warnings < sizeof r->warning / sizeof *r->warning)
+        r->warning[r->warnings++] = nh_arena_strdup(r->arena, text);
 }
 
 bool nh_reduction_late(nh_reduction *r, const char *what)
@@ -48,12 +49,15 @@ static void trim(const char *text, size_t *begin, size_t *end)
 
 static bool bad_field(const nh_reduction *r, const char *typed, size_t begin, size_t end, nh_error *error)
 {
-    nh_deck_fail_typed("--group", typed, begin, error, "`%.*s` is not a component of a vector field", (int)(end - begin), typed + begin);
-    return nh_error_hint(error, "write fields as `%s=1; ...`; separate components by commas, fields by semicolons", r->kinetic->name[0]);
+    nh_deck_fail_typed("--group", typed, begin, error, "`%.*s` is not a component of a vector field",
+                       (int)(end - begin), typed + begin);
+    return nh_error_hint(error, "write fields as `%s=1; ...`; separate components by commas, fields by semicolons",
+                         r->kinetic->name[0]);
 }
 
 /* "x=-y" in typed[begin .. end) */
-static bool parse_component(nh_reduction *r, const char *typed, size_t begin, size_t end, nh_ex *component, nh_error *error)
+static bool parse_component(nh_reduction *r, const char *typed, size_t begin, size_t end, nh_ex *component,
+                            nh_error *error)
 {
     const nh_kinetic *k = r->kinetic;
     trim(typed, &begin, &end);
@@ -67,12 +71,17 @@ static bool parse_component(nh_reduction *r, const char *typed, size_t begin, si
         nh_deck_fail_typed("--group", typed, begin, error, "`%.100s` is not a coordinate", name);
         const char *near = nh_text_nearest(name, k->name, k->m);
         return near ? nh_error_hint(error, "did you mean `%s`?", near)
-                    : nh_error_hint(error, "write fields as `%s=1; ...`; separate components by commas, fields by semicolons", k->name[0]);
+                    : nh_error_hint(error,
+                                    "write fields as `%s=1; ...`; separate components by commas, fields by semicolons",
+                                    k->name[0]);
     }
-    if (!nh_system_expression_part(r->system, "--group", typed, right, end - right, 0, NULL, &component[s], error)) return false;
+    if (!nh_system_expression_part(r->system, "--group", typed, right, end - right, 0, NULL, &component[s], error))
+        return false;
     for (size_t j = 0; j < k->m; j++)
         if (nh_depends(k->dag, component[s], k->v[j]))
-            return nh_deck_fail_typed("--group", typed, right, error, "the component of `%s` contains a velocity; symmetries are fields on configuration space", name);
+            return nh_deck_fail_typed(
+                "--group", typed, right, error,
+                "the component of `%s` contains a velocity; symmetries are fields on configuration space", name);
     return true;
 }
 
@@ -117,7 +126,8 @@ static bool group_of_file(nh_reduction *r, nh_error *error)
 {
     const nh_system *s = r->system;
     nh_generator *g = nh_alloc_array(s->symmetries, sizeof *g);
-    for (size_t i = 0; i < s->symmetries; i++) nh_generator_init(&g[i], r->kinetic, NULL, s->symmetry + i * s->coordinates, &r->options);
+    for (size_t i = 0; i < s->symmetries; i++)
+        nh_generator_init(&g[i], r->kinetic, NULL, s->symmetry + i * s->coordinates, &r->options);
     r->group = nh_group_of(r->kinetic, s->symmetries, g, &r->options);
     nh_free(g);
     return nh_action_check(&r->group->action, &r->options, error);
@@ -139,7 +149,9 @@ static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
         }
         good = i >= 1 && (size_t)i <= d;
         if (good) g[n++] = r->all->action.generator[i - 1];
-        else nh_deck_fail_typed("--group", text, (size_t)(c - text), error, "there is no generator %ld; the group has %zu", i, d);
+        else
+            nh_deck_fail_typed("--group", text, (size_t)(c - text), error,
+                               "there is no generator %ld; the group has %zu", i, d);
         c = end;
     }
     if (good) r->group = nh_group_of(r->kinetic, n, g, &r->options);
@@ -163,14 +175,17 @@ static void count_weaker(nh_reduction *r)
 
 static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
-    if (q->group && !q->group[strspn(q->group, " ,;\t")]) return nh_fail(error, NH_USAGE, "--group", "give vector fields or numbers of generators");
+    if (q->group && !q->group[strspn(q->group, " ,;\t")])
+        return nh_fail(error, NH_USAGE, "--group", "give vector fields or numbers of generators");
     bool numbers = q->group && !q->group[strspn(q->group, "0123456789 ,;")];
     if (!q->group && r->system->symmetries) return group_of_file(r, error);
     if (!q->group || numbers) {
         r->all = nh_group_find(r->kinetic, &r->options, error);
         if (!r->all) return false;
         count_weaker(r);
-        if (r->all->missing) nh_reduction_warn(r, "%zu further local symmetr%s: the search found no closed form", r->all->missing, r->all->missing == 1 ? "y exists" : "ies exist");
+        if (r->all->missing)
+            nh_reduction_warn(r, "%zu further local symmetr%s: the search found no closed form", r->all->missing,
+                              r->all->missing == 1 ? "y exists" : "ies exist");
     }
     if (numbers) return group_of_numbers(r, q->group, error);
     if (q->group) return group_of_fields(r, q->group, error);
@@ -178,11 +193,14 @@ static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     return true;
 }
 
-/* At a place that the group does not move as it moves others there is nothing to divide out: an error where the group was given, else a warning. */
+/* At a place that the group does not move as it moves others there is nothing to divide out: an error where the group
+   was given, else a warning. */
 static bool starts_well(nh_reduction *r, nh_error *error)
 {
     nh_error trouble = {0};
-    if (!r->kinetic->metric || nh_action_check_at(&r->group->action, r->initial.q, &r->options, r->group->given ? error : &trouble)) return true;
+    if (!r->kinetic->metric ||
+        nh_action_check_at(&r->group->action, r->initial.q, &r->options, r->group->given ? error : &trouble))
+        return true;
     if (r->group->given) return false;
     nh_reduction_warn(r, "at the initial position, %s", trouble.what);
     return true;
@@ -195,17 +213,20 @@ static bool joint_by_joint(nh_reduction *r, const nh_reduce_request *q, nh_error
     r->joints = nh_chain_symmetries_find(r->system, (uint64_t)q->options.seed, error);
     if (!r->joints) return false;
     r->of_joint = nh_arena_alloc(r->arena, (r->joints->fields + 1) * sizeof *r->of_joint);
-    for (size_t i = 0; i < r->joints->fields; i++) nh_generator_init(&r->of_joint[i], r->kinetic, NULL, r->joints->field[i].component, &r->options);
+    for (size_t i = 0; i < r->joints->fields; i++)
+        nh_generator_init(&r->of_joint[i], r->kinetic, NULL, r->joints->field[i].component, &r->options);
     return true;
 }
 
 /* ---- all of it ---- */
 
-/* Where the metric and the constraints say little about what is wrong, the equations of motion say it with its place in the file. */
+/* Where the metric and the constraints say little about what is wrong, the equations of motion say it with its place in
+   the file. */
 static void explain_failure(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
     nh_error better = {0};
-    nh_model *whole = nh_model_create(r->system, nh_chart_create(r->system, q->chart, (uint64_t)q->options.seed, &better), &better);
+    nh_model *whole =
+        nh_model_create(r->system, nh_chart_create(r->system, q->chart, (uint64_t)q->options.seed, &better), &better);
     if (!whole && better.code != NH_OK) *error = better;
     nh_model_free(whole);
 }
@@ -220,7 +241,9 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     if (!r->kinetic) explain_failure(r, q, error);
     if (!r->kinetic || !q->weak) return r->kinetic != NULL;
     if (!r->kinetic->general) {
-        nh_fail(error, NH_USAGE, "", "--weak needs a kinetic energy quadratic in the velocities and constraints that are at most affine: %s", r->kinetic->obstacle);
+        nh_fail(error, NH_USAGE, "",
+                "--weak needs a kinetic energy quadratic in the velocities and constraints that are at most affine: %s",
+                r->kinetic->obstacle);
         return nh_error_hint(error, "remove --weak");
     }
     r->strict = r->kinetic;
@@ -233,7 +256,8 @@ static bool conserved(nh_reduction *r)
 {
     nh_error trouble = {0};
     if (r->strict) nh_quasi_symmetry_momenta(&r->momenta, r->strict, &r->group->action, &r->options);
-    else if (!nh_reduction_quotient_momenta(r, &trouble)) nh_reduction_warn(r, "the search for conserved momenta was skipped: %s", trouble.what);
+    else if (!nh_reduction_quotient_momenta(r, &trouble))
+        nh_reduction_warn(r, "the search for conserved momenta was skipped: %s", trouble.what);
     nh_error_clear(&trouble);
     return true;
 }
@@ -280,7 +304,8 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     r->wanted = q->accuracy;
     if (q->accuracy > 0) r->options.tolerance = q->accuracy / NH_REDUCTION_ALLOWED;
     if (!(r->options.tolerance >= finest)) {
-        nh_fail(error, NH_USAGE, "", "reduced motions can be compared to %.0e at best; %.0e was requested", NH_REDUCTION_ALLOWED * finest, q->accuracy);
+        nh_fail(error, NH_USAGE, "", "reduced motions can be compared to %.0e at best; %.0e was requested",
+                NH_REDUCTION_ALLOWED * finest, q->accuracy);
         nh_reduction_free(r);
         return NULL;
     }
@@ -290,20 +315,25 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     r->chart = q->chart;
     nh_linalg_threads(1);
     nh_progress("the symmetry group", -1);
-    bool good = open_system(r, q, error) && find_groups(r, q, error) && nh_reduction_initial(r, q, error) && starts_well(r, error) && joint_by_joint(r, q, error);
+    bool good = open_system(r, q, error) && find_groups(r, q, error) && nh_reduction_initial(r, q, error) &&
+                starts_well(r, error) && joint_by_joint(r, q, error);
     bool some = r->kinetic && (r->kinetic->reducible || r->kinetic->general);
-    if (good && !some && r->group->action.d) nh_reduction_warn(r, "%s: the equations are reduced directly, without a connection and without momenta", r->kinetic->obstacle);
+    if (good && !some && r->group->action.d)
+        nh_reduction_warn(r, "%s: the equations are reduced directly, without a connection and without momenta",
+                          r->kinetic->obstacle);
     bool divide = good && r->group->action.d;
     if (divide) nh_progress("reduced equations, and motions of both", -1);
     if (divide) good = divide_by_group(r, error);
-    if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = some && !r->strict ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
+    if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta"))
+        good = some && !r->strict ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
     if (good && nh_momenta_unproved(&r->momenta, &r->group->action)) confirm(r);
     if (good && q->equations) nh_reduction_write_out(r);
     if (good) nh_momenta_mark(&r->momenta, r->kinetic);
     if (nh_interrupted()) {
         char words[80];
         nh_ended_words(words, sizeof words);
-        nh_reduction_warn(r, "%s: the results are partial%s%s", words, nh_ended_option() ? "; raise the limit by " : "", nh_ended_option() ? nh_ended_option() : "");
+        nh_reduction_warn(r, "%s: the results are partial%s%s", words, nh_ended_option() ? "; raise the limit by " : "",
+                          nh_ended_option() ? nh_ended_option() : "");
         r->partial = true;
     }
     if (good && nh_interrupted()) nh_error_clear(error);

@@ -25,10 +25,16 @@ typedef struct {
     const char *initial;      /* "phi=0, omega=2", or NULL; velocities that are not named follow from the constraints */
     bool project;             /* move velocities that violate the constraints to the nearest that do not */
     bool weak;                /* also symmetries that change L by a total derivative */
-    const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
-    const char *inner;        /* "1,4=1/2; 4,4=3": entries of the inner product g0 of these generators, which chooses the lifts by stages; NULL: they are orthonormal */
+    /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL:
+       found */
+    const char *chain;
+    /* "1,4=1/2; 4,4=3": entries of the inner product g0 of these generators, which chooses the lifts by stages; NULL:
+       they are orthonormal */
+    const char *inner;
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
-    double accuracy;          /* to which reduced and full motions must agree: their methods and tolerances are chosen for it, options.tolerance is a hundredth of it; 0: none is asked for */
+    /* to which reduced and full motions must agree: their methods and tolerances are chosen for it, options.tolerance
+       is a hundredth of it; 0: none is asked for */
+    double accuracy;
     bool equations;           /* with the objects of the theory written out */
     nh_options options;
 } nh_reduce_request;
@@ -37,7 +43,8 @@ typedef struct {
 typedef struct {
     const char *method;       /* NULL: nothing was chosen */
     double tolerance, step;   /* one of them is NAN */
-    double error;             /* of the full motion: how far a tighter one is from it; of a stage: from the full motion */
+    /* of the full motion: how far a tighter one is from it; of a stage: from the full motion */
+    double error;
     long evaluations;         /* of this motion, with the group's */
     double effort, seconds;   /* counted (base/effort.h), which decides; and the time, which is shown */
     const char *next;         /* of a stage: the second cheapest method; NULL: no other reaches it */
@@ -52,11 +59,18 @@ typedef struct {
     const char *what, *why;   /* "e3", "a Chaplygin stage" */
 } nh_reduction_unused;
 
-typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_SLICE, NH_STAGE_QUOTIENT } nh_stage_kind;
+typedef enum {
+    NH_STAGE_CHAPLYGIN,
+    NH_STAGE_SECOND,
+    NH_STAGE_POINCARE,
+    NH_STAGE_SLICE,
+    NH_STAGE_QUOTIENT
+} nh_stage_kind;
 
 /* What is shown of a stage where its objects are asked for. */
 typedef struct {
-    const nh_ex *inverse;     /* of the metric on the shape space: of the first and second kind; NULL where it is not known */
+    /* of the metric on the shape space: of the first and second kind; NULL where it is not known */
+    const nh_ex *inverse;
     const nh_ex *locked;      /* second kind: of the locked inertia */
     const nh_lagrange_poincare *bundle; /* third kind */
 } nh_reduction_theory;
@@ -70,7 +84,8 @@ typedef struct {
     const char **name;        /* of the momenta */
 } nh_reduction_motion;
 
-/* One stage, written on a slice through the initial state; `shown` is the same on the slice y = 0, where it is regular there. */
+/* One stage, written on a slice through the initial state; `shown` is the same on the slice y = 0, where it is regular
+   there. */
 typedef struct {
     nh_stage_kind kind;
     char *group;              /* name of the group divided out */
@@ -80,7 +95,8 @@ typedef struct {
     const nh_reduced *reduced, *shown;
     const double *start;      /* (x, p) at the initial state, of `reduced` */
     const nh_chaplygin *chaplygin; /* shown; of the first kind */
-    nh_chaplygin_measure measure;  /* of the first kind, and of the second for an abelian group (its factor: for two shape coordinates at most) */
+    /* of the first kind, and of the second for an abelian group (its factor: for two shape coordinates at most) */
+    nh_chaplygin_measure measure;
     nh_measure_conditions conditions; /* where there is no measure, or no factor: for which parameters there would be */
     const nh_second *second;  /* shown; of the second kind */
     bool by_stages;           /* third kind: were the equations by stages formed? */
@@ -88,12 +104,19 @@ typedef struct {
     nh_poincare poincare;
     nh_linear_momenta linear; /* of the shown equations; third and fourth kind */
     double linear_drift;      /* of these currents along the reduced motion; negative: not followed */
-    bool against_full;        /* compared with the full motion; false: a second stage whose shape moves under the first group, compared with the first */
-    double agreement;         /* largest difference of a position, relative to the size that positions have had by then (angles: 1 + size) */
-    double unsure;            /* how well the full motion itself is known, measured where the agreement exceeds 100 tolerances; else 0 */
+    /* compared with the full motion; false: a second stage whose shape moves under the first group, compared with the
+       first */
+    bool against_full;
+    /* largest difference of a position, relative to the size that positions have had by then (angles: 1 + size) */
+    double agreement;
+    /* how well the full motion itself is known, measured where the agreement exceeds 100 tolerances; else 0 */
+    double unsure;
     double reached;           /* time up to which */
-    double energy_drift;      /* of the reduced motion, relative to the largest of its terms until then; negative: not followed */
-    double momentum_drift;    /* second kind: of the spatial momentum, relative to the largest that one of this energy can have; negative: not followed */
+    /* of the reduced motion, relative to the largest of its terms until then; negative: not followed */
+    double energy_drift;
+    /* second kind: of the spatial momentum, relative to the largest that one of this energy can have; negative: not
+       followed */
+    double momentum_drift;
     double seconds, speedup;  /* of the reduced motion; full over reduced */
     size_t restarts, charts;  /* of the group's coordinates; changes of the slice or of the velocities */
     nh_reduction_choice choice; /* with an accuracy */
@@ -112,7 +135,8 @@ struct nh_reduction {
     nh_frame_motion *frame;   /* of a quotient; NULL */
     nh_chart_choice chart;
     nh_kinetic *kinetic;
-    nh_kinetic *strict;       /* the true one, where `kinetic` has the potential as a force (quasi_symmetry.h); else NULL */
+    /* the true one, where `kinetic` has the potential as a force (quasi_symmetry.h); else NULL */
+    nh_kinetic *strict;
     size_t weaker;            /* symmetries that change L by a total derivative, beyond those counted in `all` */
     nh_group *all;            /* the whole symmetry group; NULL where fields were given */
     nh_group *group;          /* the one that is reduced by (may be `all`) */
@@ -126,7 +150,9 @@ struct nh_reduction {
     size_t full_count;        /* those that the full motion reaches, */
     const double *full_place; /* and its places: full_count x m */
     double full_reached;      /* time up to which the full motion is known well enough to be compared with */
-    const nh_slice *kept[2];  /* the slices that are shown, of the first stage and of the whole group, and their equations: good for every initial state */
+    /* the slices that are shown, of the first stage and of the whole group, and their equations: good for every initial
+       state */
+    const nh_slice *kept[2];
     const nh_chaplygin *kept_chaplygin;
     const nh_reduced *kept_whole;
     bool brief;               /* motions only: no equations to show, no tests of measures and stages */
@@ -136,7 +162,8 @@ struct nh_reduction {
     nh_second second[2];
     nh_ideals chain;
     const char *chain_text, *inner_text;
-    const nh_ex *inner;       /* g0 of the generators of the stage that is written by stages, d x d; NULL: they are orthonormal */
+    /* g0 of the generators of the stage that is written by stages, d x d; NULL: they are orthonormal */
+    const nh_ex *inner;
     size_t unused_count;
     nh_reduction_unused unused[24];
     nh_momenta momenta;
@@ -151,12 +178,13 @@ struct nh_reduction {
 
 /* NULL with a message on bad input (a file, fields that are no symmetries or do not close, a singular place). */
 nh_reduction *nh_reduction_create(const nh_reduce_request *request, nh_error *error);
-/* The stages once more from another initial state, the sample point `place` of r->kinetic, with all that is compared (what is shown is not made again). */
+/* The stages once more from another initial state, the sample point `place` of r->kinetic, with all that is compared
+   (what is shown is not made again). */
 bool nh_reduction_again(nh_reduction *reduction, size_t place, nh_error *error);
 
 const char *nh_stage_kind_name(nh_stage_kind kind);
-/* Is a stage's motion further from the full one than 100 tolerances and what the full one itself is unsure by?  (The triangle's inequality: then it is further
- * than 100 tolerances from the true motion.) */
+/* Is a stage's motion further from the full one than 100 tolerances and what the full one itself is unsure by?  (The
+ * triangle's inequality: then it is further than 100 tolerances from the true motion.) */
 bool nh_stage_apart(const nh_reduction_stage *stage, const nh_options *options);
 
 #endif

@@ -1,8 +1,8 @@
 /* reduce_accurate: the full motion that reduced ones are compared with, where an accuracy is wanted.
  *
  * accuracy.h chooses its method, equations and tolerance.  What counts here is the distance of places
- * (reduce_full.c), which is another norm: so the motion is computed once more with a much smaller tolerance, and is accepted where that moves it by less than a quarter of what is wanted.  The
- * finer of the two is the reference. */
+ * (reduce_full.c), which is another norm: so the motion is computed once more with a much smaller tolerance, and is
+ * accepted where that moves it by less than a quarter of what is wanted.  The finer of the two is the reference. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,10 +12,13 @@
 #include "commands/reduce_internal.h"
 
 enum { most_attempts = 4 };
-static const double share = 0.25, finer = 0.03, tightest = 1e-14; /* of what is wanted: the full motion's; tolerance of the check */
+/* of what is wanted: the full motion's; tolerance of the check */
+static const double share = 0.25, finer = 0.03, tightest = 1e-14;
 
-/* A run by the method and equations of another, at a tolerance so many times as large, or with steps that have an error so many times as large. */
-static nh_trajectory *once_more(const nh_trajectory_request *request, const nh_trajectory *t, const nh_accuracy *a, double part)
+/* A run by the method and equations of another, at a tolerance so many times as large, or with steps that have an error
+   so many times as large. */
+static nh_trajectory *once_more(const nh_trajectory_request *request, const nh_trajectory *t, const nh_accuracy *a,
+                                double part)
 {
     nh_trajectory_request q = *request;
     nh_options options = *q.options;
@@ -34,7 +37,8 @@ static nh_trajectory *once_more(const nh_trajectory_request *request, const nh_t
 static double part_of(const nh_accuracy *a) { return isnan(a->step) && a->tolerance * finer < tightest ? 3 : finer; }
 
 /* The time of a quick motion is that of the quicker of two. */
-static void time_again(const nh_trajectory_request *request, const nh_trajectory *t, const nh_accuracy *a, nh_reduction_choice *c)
+static void time_again(const nh_trajectory_request *request, const nh_trajectory *t, const nh_accuracy *a,
+                       nh_reduction_choice *c)
 {
     static const double quick = 0.02;
     if (!(c->seconds < quick)) return;
@@ -50,20 +54,34 @@ static void explain(nh_reduction *r, const nh_accuracy *a)
     char setting[60];
     if (isnan(c->step)) snprintf(setting, sizeof setting, "tolerance %.1e", c->tolerance);
     else snprintf(setting, sizeof setting, "steps of %.2g", c->step);
-    if (c->held) snprintf(c->why, sizeof c->why, "%s at %s: error %.1e, measured against a tighter run%.300s", c->method, setting, c->error, from ? from : "");
-    else snprintf(c->why, sizeof c->why, "the full motion is not known to %.1e: %s at %s is %.1e from a run at another tolerance", share * r->wanted, c->method, setting, c->error);
+    if (c->held)
+        snprintf(c->why, sizeof c->why, "%s at %s: error %.1e, measured against a tighter run%.300s", c->method,
+                 setting, c->error, from ? from : "");
+    else
+        snprintf(c->why, sizeof c->why,
+                 "the full motion is not known to %.1e: %s at %s is %.1e from a run at another tolerance",
+                 share * r->wanted, c->method, setting, c->error);
 }
 
 /* What one attempt gave, as reference: the finer of the two motions. */
-static void take(nh_reduction_bench *b, const nh_trajectory_request *request, const nh_trajectory *t, const nh_trajectory *other, const nh_accuracy *a)
+static void take(nh_reduction_bench *b, const nh_trajectory_request *request, const nh_trajectory *t,
+                 const nh_trajectory *other, const nh_accuracy *a)
 {
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
     nh_reduction_choice *c = &r->full;
     int runs = c->runs;
-    *c = (nh_reduction_choice){.method = t->method, .tolerance = a->tolerance, .step = a->step, .evaluations = t->motion->evaluations, .effort = t->motion->effort, .seconds = t->motion->seconds, .times = NAN, .runs = runs};
+    *c = (nh_reduction_choice){.method = t->method,
+                               .tolerance = a->tolerance,
+                               .step = a->step,
+                               .evaluations = t->motion->evaluations,
+                               .effort = t->motion->effort,
+                               .seconds = t->motion->seconds,
+                               .times = NAN,
+                               .runs = runs};
     r->full_formulation = t->formulation;
-    b->reached = nh_reduction_reliable(r->kinetic, NH_REDUCTION_OUTPUTS, t->value, m, other->value, m, share * r->wanted, &c->error);
+    b->reached = nh_reduction_reliable(r->kinetic, NH_REDUCTION_OUTPUTS, t->value, m, other->value, m,
+                                       share * r->wanted, &c->error);
     c->held = b->reached == NH_REDUCTION_OUTPUTS;
     memcpy(b->full, part_of(a) < 1 ? other->value : t->value, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
     if (c->held) time_again(request, t, a, c);
@@ -82,10 +100,16 @@ static bool attempts(nh_reduction_bench *b, const nh_trajectory_request *request
     for (int i = 0; i < most_attempts && !r->full.held && !nh_interrupted(); i++) {
         nh_error trouble = {0};
         nh_accuracy a;
-        nh_trajectory *t = nh_trajectory_accurate(request, eps, &ways, &a, &trouble), *other = complete(t) ? once_more(request, t, &a, part_of(&a)) : NULL;
+        nh_trajectory *t = nh_trajectory_accurate(request, eps, &ways, &a, &trouble),
+                      *other = complete(t) ? once_more(request, t, &a, part_of(&a)) : NULL;
         r->full.runs += a.runs + 1;
         if (complete(other)) take(b, request, t, other, &a);
-        else if (!some) snprintf(r->full.why, sizeof r->full.why, "%.400s", !t ? trouble.what : !complete(t) ? t->motion->note : other ? other->motion->note : "a tighter motion could not be computed");
+        else if (!some)
+            snprintf(r->full.why, sizeof r->full.why, "%.400s",
+                     !t             ? trouble.what
+                     : !complete(t) ? t->motion->note
+                     : other        ? other->motion->note
+                                    : "a tighter motion could not be computed");
         some |= complete(other);
         eps = fmax(eps * fmax(fmin(share * r->wanted / (4 * r->full.error), 0.1), 1e-4), 1e-13);
         bool last = !complete(other) || (isnan(a.step) && a.tolerance <= 2 * tightest);
@@ -99,7 +123,8 @@ static bool attempts(nh_reduction_bench *b, const nh_trajectory_request *request
 
 bool nh_reduction_full_accurate(nh_reduction_bench *b)
 {
-    static const double part = 1e-3, least = 5e-14; /* of what is wanted: the tolerance of motions that nothing is chosen for */
+    /* of what is wanted: the tolerance of motions that nothing is chosen for */
+    static const double part = 1e-3, least = 5e-14;
     nh_reduction *r = b->r;
     nh_error trouble = {0};
     r->full = (nh_reduction_choice){.step = NAN, .times = NAN};
@@ -114,7 +139,13 @@ bool nh_reduction_full_accurate(nh_reduction_bench *b)
     options.compile = 0; /* reduced motions are interpreted: so their times compare */
     nh_ex *place = nh_arena_alloc(r->arena, m * sizeof *place);
     for (size_t s = 0; s < m; s++) place[s] = r->whole->system->coordinate[s].q;
-    nh_trajectory_request request = {.model = r->whole, .initial = &r->initial, .count = NH_REDUCTION_OUTPUTS, .times = b->times, .options = &options, .n = m, .e = place};
+    nh_trajectory_request request = {.model = r->whole,
+                                     .initial = &r->initial,
+                                     .count = NH_REDUCTION_OUTPUTS,
+                                     .times = b->times,
+                                     .options = &options,
+                                     .n = m,
+                                     .e = place};
     b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
     if (!attempts(b, &request)) {
         b->full = NULL;

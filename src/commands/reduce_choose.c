@@ -1,8 +1,10 @@
 /* reduce_choose: by which method a reduced motion is computed that is to agree with the full one to a wanted accuracy.
  *
- * A race in counted work (base/effort.h): each method with error control runs, with the group's motion, at ever smaller tolerances until its places are near enough to the
- * full motion's; no run may need more than twice the cheapest that was.  At first none may need more than a quarter of a second's work, so that a method that is no good for
- * these equations (an explicit one on stiff ones) does not hold up the others; that grows until one gets through.  Nothing is estimated: the comparison is the one that is wanted. */
+ * A race in counted work (base/effort.h): each method with error control runs, with the group's motion, at ever smaller
+ * tolerances until its places are near enough to the full motion's; no run may need more than twice the cheapest that
+ * was.  At first none may need more than a quarter of a second's work, so that a method that is no good for these
+ * equations (an explicit one on stiff ones) does not hold up the others; that grows until one gets through.  Nothing is
+ * estimated: the comparison is the one that is wanted. */
 #include <math.h>
 #include <stdio.h>
 
@@ -11,7 +13,8 @@
 
 enum { most_runs = 7 };       /* of one method */
 static const double aim = 0.5, loosest = 1e-5, tightest = 1e-14; /* aim: in what is wanted; tolerances */
-static const double patient = 2.5e8, more = 16, longest = 2e12, least_limit = 1e7; /* units of effort: the first limit; times that the next; what no limit is above; or below */
+/* units of effort: the first limit; times that the next; what no limit is above; or below */
+static const double patient = 2.5e8, more = 16, longest = 2e12, least_limit = 1e7;
 static const double quick = 0.01; /* seconds: the time of a run so short is taken twice, to be shown */
 
 typedef struct {
@@ -34,7 +37,8 @@ typedef struct {
 static nh_reconstruction *run(race *q, const nh_method *method, double tolerance, double effort)
 {
     nh_error ignored = {0};
-    nh_reconstruct_how how = {.method = method, .tolerance = tolerance, .steps = q->b->r->options.steps, .effort = effort};
+    nh_reconstruct_how how = {
+        .method = method, .tolerance = tolerance, .steps = q->b->r->options.steps, .effort = effort};
     q->runs++;
     nh_reconstruction *c = nh_reduction_follow(q->b, q->s, q->course, true, &how, &ignored);
     nh_error_clear(&ignored);
@@ -42,9 +46,13 @@ static nh_reconstruction *run(race *q, const nh_method *method, double tolerance
 }
 
 /* As far as what it is compared with goes, or as there are equations. */
-static bool goes_far_enough(const race *q, const nh_reconstruction *c) { return c->count >= q->course->reached || c->dependent; }
+static bool goes_far_enough(const race *q, const nh_reconstruction *c)
+{
+    return c->count >= q->course->reached || c->dependent;
+}
 
-static void keep(race *q, nh_reconstruction *c, const nh_method *method, double tolerance, double distance, double effort)
+static void keep(race *q, nh_reconstruction *c, const nh_method *method, double tolerance, double distance,
+                 double effort)
 {
     nh_reconstruction_free(q->best);
     q->best = c;
@@ -112,14 +120,24 @@ static void explain(race *q, size_t n, const runner *m)
     char *end = c->why + at;
     size_t left = sizeof c->why - (size_t)at;
     if (!reached && c->held) snprintf(end, left, ": the closest to %s", with);
-    else if (!reached && isfinite(q->distance)) snprintf(end, left, " is %.1e from %s, and no method comes closer", q->distance, with);
+    else if (!reached && isfinite(q->distance))
+        snprintf(end, left, " is %.1e from %s, and no method comes closer", q->distance, with);
     else if (!reached) snprintf(end, left, ": no method reaches the time up to which %s is known", with);
-    else if (c->next && c->times < 1.05) snprintf(end, left, ": the cheapest of %zu methods that agree with %s to %.1e; the next, %s, costs the same", reached, with, aim * q->wanted, c->next);
-    else if (c->next) snprintf(end, left, ": the cheapest of %zu methods that agree with %s to %.1e; the next, %s, needs %.2g times as much counted work", reached, with, aim * q->wanted, c->next, c->times);
-    else snprintf(end, left, ": the only method that agrees with %s to %.1e within twice the counted work", with, aim * q->wanted);
+    else if (c->next && c->times < 1.05)
+        snprintf(end, left, ": the cheapest of %zu methods that agree with %s to %.1e; the next, %s, costs the same",
+                 reached, with, aim * q->wanted, c->next);
+    else if (c->next)
+        snprintf(end, left,
+                 ": the cheapest of %zu methods that agree with %s to %.1e; the next, %s, needs %.2g times as much "
+                 "counted work",
+                 reached, with, aim * q->wanted, c->next, c->times);
+    else
+        snprintf(end, left, ": the only method that agrees with %s to %.1e within twice the counted work", with,
+                 aim * q->wanted);
 }
 
-nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, nh_reconstruct_how *how)
+nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage *s,
+                                       const nh_reduction_time_series *course, nh_reconstruct_how *how)
 {
     nh_reduction *r = b->r;
     race q = {.b = b, .s = s, .course = course, .wanted = r->wanted, .distance = INFINITY, .effort = INFINITY};
@@ -135,10 +153,17 @@ nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage
         }
         if (!left) break;
     }
-    if (isinf(q.effort) && !nh_interrupted()) nh_reduction_late(r, "the runs of slower methods for the motion of a stage");
+    if (isinf(q.effort) && !nh_interrupted())
+        nh_reduction_late(r, "the runs of slower methods for the motion of a stage");
     *how = q.how;
     if (q.best) {
-        s->choice = (nh_reduction_choice){.method = q.how.method->name, .tolerance = q.how.tolerance, .step = NAN, .error = q.distance, .evaluations = q.best->evaluations, .effort = q.best->effort, .runs = q.runs};
+        s->choice = (nh_reduction_choice){.method = q.how.method->name,
+                                          .tolerance = q.how.tolerance,
+                                          .step = NAN,
+                                          .error = q.distance,
+                                          .evaluations = q.best->evaluations,
+                                          .effort = q.best->effort,
+                                          .runs = q.runs};
         s->choice.seconds = time_of(&q);
         s->choice.held = q.distance < q.wanted;
         explain(&q, n, m);

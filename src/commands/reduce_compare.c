@@ -5,22 +5,28 @@
 
 #include "commands/reduce_internal.h"
 
-nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *b, const nh_reduction_stage *s, const nh_reduction_time_series *c, bool group, const nh_reconstruct_how *how, nh_error *error)
+nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *b, const nh_reduction_stage *s,
+                                       const nh_reduction_time_series *c, bool group, const nh_reconstruct_how *how,
+                                       nh_error *error)
 {
     nh_reconstruct_how own = *how;
     double *place = nh_alloc_array(s->action->kinetic->m + 1, sizeof *place);
     own.absolute = nh_reduction_absolute(b->r);
-    if (c->reached) own.place = place, nh_reduction_first_sizes(s->action->kinetic, c->reached, c->want, c->stride, place);
-    nh_reconstruction *out = c->atlas ? nh_reconstruct_over(c->atlas, c->q, c->v, group, c->outputs, b->times, &own, error)
-                                      : nh_reconstruct(s->reduced, s->slice, c->z, c->outputs, b->times, &own, error);
+    if (c->reached)
+        own.place = place, nh_reduction_first_sizes(s->action->kinetic, c->reached, c->want, c->stride, place);
+    nh_reconstruction *out = c->atlas
+                                 ? nh_reconstruct_over(c->atlas, c->q, c->v, group, c->outputs, b->times, &own, error)
+                                 : nh_reconstruct(s->reduced, s->slice, c->z, c->outputs, b->times, &own, error);
     nh_free(place);
     return out;
 }
 
-double nh_reduction_farthest(const nh_reduction_stage *s, const nh_reduction_time_series *c, const nh_reconstruction *motion)
+double nh_reduction_farthest(const nh_reduction_stage *s, const nh_reduction_time_series *c,
+                             const nh_reconstruction *motion)
 {
     double worst;
-    nh_reduction_reliable(s->action->kinetic, motion->count < c->reached ? motion->count : c->reached, motion->q, motion->m, c->want, c->stride, INFINITY, &worst);
+    nh_reduction_reliable(s->action->kinetic, motion->count < c->reached ? motion->count : c->reached, motion->q,
+                          motion->m, c->want, c->stride, INFINITY, &worst);
     return worst;
 }
 
@@ -32,7 +38,8 @@ static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_
         double off = fabs(c->energy[i] - c->energy[0]);
         if (off > 0) s->energy_drift = fmax(s->energy_drift, off / c->energy_size[i]);
     }
-    if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, c->first, c->first_chart, c->z);
+    if (s->linear.count && c->charts == 0)
+        s->linear_drift = nh_linear_momenta_drift(&s->linear, c->first, c->first_chart, c->z);
     s->charts = c->charts;
     s->seconds = c->seconds;
     s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
@@ -48,11 +55,13 @@ static void keep(nh_reduction *r, nh_reduction_stage *s, const nh_reconstruction
     if (c->count > 0) memcpy(q, c->q, c->count * c->m * sizeof *q);
     for (size_t i = 0; i < charted * momenta; i++) p[i] = c->z[i / momenta * c->size + n + i % momenta];
     for (size_t k = 0; k < momenta; k++) name[k] = nh_arena_printf(r->arena, "%s", c->first->momentum[k]);
-    s->motion = (nh_reduction_motion){.count = c->count, .m = c->m, .q = q, .charted = charted, .momenta = momenta, .p = p, .name = name};
+    s->motion = (nh_reduction_motion){
+        .count = c->count, .m = c->m, .q = q, .charted = charted, .momenta = momenta, .p = p, .name = name};
 }
 
 /* How far it goes and how near it comes. */
-static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, const nh_reconstruction *c)
+static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course,
+                       const nh_reconstruction *c)
 {
     size_t n = c->count < course->reached ? c->count : course->reached;
     s->complete = c->complete && course->outputs == NH_REDUCTION_OUTPUTS;
@@ -67,7 +76,8 @@ static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const
 }
 
 /* The reduced motion alone. */
-static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, const nh_reconstruct_how *how)
+static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course,
+                          const nh_reconstruct_how *how)
 {
     nh_error trouble = {0};
     nh_reconstruction *c = nh_reduction_follow(b, s, course, false, how, &trouble);
@@ -77,7 +87,8 @@ static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, const nh
 }
 
 /* With the group's motion; false when it cannot be started. */
-static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, const nh_reconstruct_how *how, bool first)
+static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course,
+                              const nh_reconstruct_how *how, bool first)
 {
     nh_error trouble = {0};
     nh_reconstruction *c = nh_reduction_follow(b, s, course, true, how, &trouble);
@@ -90,7 +101,8 @@ static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, cons
     return true;
 }
 
-/* Where the two are apart the reduced motion is computed again with a smaller tolerance: it may be the more sensitive one. */
+/* Where the two are apart the reduced motion is computed again with a smaller tolerance: it may be the more sensitive
+   one. */
 static bool nearer(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course)
 {
     static const double apart = 50, finer = 0.02, least = 2e-14; /* apart in tolerances */
@@ -115,7 +127,8 @@ static void chosen(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduct
     nh_reconstruction *c = nh_reduction_choose(b, s, course, &how);
     if (!c) {
         nh_error trouble = {0};
-        nh_reconstruction_free(nh_reduction_follow(b, s, course, true, &(nh_reconstruct_how){.tolerance = b->rtol, .steps = NH_REDUCTION_STEPS}, &trouble));
+        nh_reconstruction_free(nh_reduction_follow(
+            b, s, course, true, &(nh_reconstruct_how){.tolerance = b->rtol, .steps = NH_REDUCTION_STEPS}, &trouble));
         snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
         nh_error_clear(&trouble);
         return;
@@ -143,10 +156,18 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh
         chosen(b, s, course);
         return;
     }
-    if (course->atlas) reduced_alone(b, s, course, &(nh_reconstruct_how){.tolerance = b->rtol, .steps = fmin(r->options.steps, NH_REDUCTION_STEPS)});
+    if (course->atlas)
+        reduced_alone(b, s, course,
+                      &(nh_reconstruct_how){.tolerance = b->rtol, .steps = fmin(r->options.steps, NH_REDUCTION_STEPS)});
     if (!nearer(b, s, course) || s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;
     s->unsure = nh_reduction_unsure(b);
-    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s differs by %.1e from the motion of reference, more than %d tolerances", s->group, s->agreement, NH_REDUCTION_ALLOWED);
+    if (nh_stage_apart(s, &r->options))
+        nh_reduction_warn(
+            r, "the reduced motion by %s differs by %.1e from the motion of reference, more than %d tolerances",
+            s->group, s->agreement, NH_REDUCTION_ALLOWED);
 }
 
-bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options) { return s->compared && !(s->agreement <= NH_REDUCTION_ALLOWED * options->tolerance + s->unsure); }
+bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options)
+{
+    return s->compared && !(s->agreement <= NH_REDUCTION_ALLOWED * options->tolerance + s->unsure);
+}

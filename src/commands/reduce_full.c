@@ -6,9 +6,10 @@
 #include "commands/reduce_internal.h"
 #include "motion/automatic.h"
 
-/* What differences count beside: angles have one size together, and so have other coordinates, of which rotations mix the errors: the largest of them, or the
- * largest as the metric compares them, sqrt(K_rr / K_ss) size_r, where that is smaller (a light body beside a heavy one).  Lengths that are zero but for rounding
- * are compared with a part of the radius of gyration, sqrt(K_aa / K_ss). */
+/* What differences count beside: angles have one size together, and so have other coordinates, of which rotations mix
+ * the errors: the largest of them, or the largest as the metric compares them, sqrt(K_rr / K_ss) size_r, where that is
+ * smaller (a light body beside a heavy one).  Lengths that are zero but for rounding are compared with a part of the
+ * radius of gyration, sqrt(K_aa / K_ss). */
 typedef struct {
     double angles, lengths, metric, gyration;
 } yardsticks;
@@ -32,7 +33,8 @@ static yardsticks yardsticks_of(const nh_kinetic *k, const double *K, const doub
 static double beside(const yardsticks *y, bool angle, double unit)
 {
     if (!(unit > 0)) return y->lengths > 0 ? y->lengths : 1; /* without inertia */
-    static const double rounding = 1e-6; /* of the radius of gyration: below it differences of 1e-13 of that radius would count */
+    /* of the radius of gyration: below it differences of 1e-13 of that radius would count */
+    static const double rounding = 1e-6;
     double size = angle ? y->angles : fmax(fmin(y->lengths, y->metric / unit), rounding * y->gyration / unit);
     return size > 0 ? size : 1; /* all is zero: there is no size */
 }
@@ -52,8 +54,9 @@ static void grow(const nh_kinetic *k, const double *q, double *size)
     for (size_t s = 0; s < k->m; s++) size[s] = fmax(size[s], fabs(q[s]));
 }
 
-/* How far two places are apart: angles modulo 2 pi, relative to the sizes that coordinates have had, measured by the metric with unit diagonal.  Near a pole of
- * the coordinates large differences of two angles may mean nearly the same place, and only the metric tells. */
+/* How far two places are apart: angles modulo 2 pi, relative to the sizes that coordinates have had, measured by the
+ * metric with unit diagonal.  Near a pole of the coordinates large differences of two angles may mean nearly the same
+ * place, and only the metric tells. */
 static double distance(const nh_kinetic *k, const double *a, const double *b, const double *size)
 {
     static const double turn = 6.283185307179586;
@@ -72,13 +75,15 @@ static double distance(const nh_kinetic *k, const double *a, const double *b, co
     return isfinite(square) ? sqrt(fmax(square, 0)) : INFINITY;
 }
 
-size_t nh_reduction_reliable(const nh_kinetic *k, size_t count, const double *a, size_t a_stride, const double *b, size_t b_stride, double allowed, double *farthest)
+size_t nh_reduction_reliable(const nh_kinetic *k, size_t count, const double *a, size_t a_stride, const double *b,
+                             size_t b_stride, double allowed, double *farthest)
 {
     double *size = nh_alloc_array(k->m + 1, sizeof *size);
     size_t n = count;
     *farthest = 0;
     for (size_t i = 0; i < count; i++) {
-        for (size_t next = i; next < count && next <= i + 1; next++) grow(k, b + next * b_stride, size); /* a motion may start from zeros */
+        /* a motion may start from zeros */
+        for (size_t next = i; next < count && next <= i + 1; next++) grow(k, b + next * b_stride, size);
         double off = distance(k, a + i * a_stride, b + i * b_stride, size);
         if (!(off <= allowed) && i < n) n = i;
         *farthest = fmax(*farthest, off);
@@ -100,19 +105,24 @@ void nh_reduction_first_sizes(const nh_kinetic *k, size_t count, const double *a
 
 static size_t reliable(const nh_kinetic *k, const nh_motion *a, const nh_motion *b, double allowed, double *farthest)
 {
-    return nh_reduction_reliable(k, a->count < b->count ? a->count : b->count, a->state, a->size, b->state, b->size, allowed, farthest);
+    return nh_reduction_reliable(k, a->count < b->count ? a->count : b->count, a->state, a->size, b->state, b->size,
+                                 allowed, farthest);
 }
 
 /* ---- the full motion ---- */
 
 /* By a method, or by the one that suits (NULL). */
-static nh_motion *full_by(nh_reduction_bench *b, const nh_method *method, double rtol, size_t outputs, const nh_method **used, nh_error *error)
+static nh_motion *full_by(nh_reduction_bench *b, const nh_method *method, double rtol, size_t outputs,
+                          const nh_method **used, nh_error *error)
 {
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
     nh_bordered *bordered = nh_bordered_create(r->model);
     nh_flow_problem problem = nh_bordered_flow(bordered);
-    nh_flow_options options = {.method = NH_ADAMS, .absolute = nh_reduction_absolute(r), .rtol = rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    nh_flow_options options = {.method = NH_ADAMS,
+                               .absolute = nh_reduction_absolute(r),
+                               .rtol = rtol,
+                               .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     double *z = nh_alloc_array(2 * m, sizeof *z);
     memcpy(z, r->initial.q, m * sizeof *z);
     memcpy(z + m, r->initial.v, m * sizeof *z);
@@ -143,8 +153,17 @@ static void take_usual(nh_reduction *r, const pair *p, bool held)
     char reason[sizeof c->why];
     snprintf(reason, sizeof reason, "%s", c->why);
     r->full_formulation = "all coordinates, accelerations from the bordered system";
-    *c = (nh_reduction_choice){.method = p->method->name, .tolerance = p->tolerance, .step = NAN, .error = p->off, .evaluations = p->coarse->evaluations, .seconds = p->coarse->seconds, .times = NAN, .runs = 2, .held = held};
-    snprintf(c->why, sizeof c->why, "%s at tolerance %.1e; none is chosen because %.400s", c->method, p->tolerance, reason);
+    *c = (nh_reduction_choice){.method = p->method->name,
+                               .tolerance = p->tolerance,
+                               .step = NAN,
+                               .error = p->off,
+                               .evaluations = p->coarse->evaluations,
+                               .seconds = p->coarse->seconds,
+                               .times = NAN,
+                               .runs = 2,
+                               .held = held};
+    snprintf(c->why, sizeof c->why, "%s at tolerance %.1e; none is chosen because %.400s", c->method, p->tolerance,
+             reason);
 }
 
 /* The motion and how far it is known, into the reduction. */
@@ -159,13 +178,17 @@ static void take(nh_reduction_bench *b, const pair *p)
     b->finest = p->finest;
     r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
     if (b->reached < fine->count)
-        nh_reduction_warn(r, "the full motion is accurate only up to t = %.4g: it approaches a singularity of the coordinates there, or it is chaotic", r->full_reached);
+        nh_reduction_warn(r,
+                          "the full motion is accurate only up to t = %.4g: it approaches a singularity of the "
+                          "coordinates there, or it is chaotic",
+                          r->full_reached);
     b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
     for (size_t i = 0; i < fine->count; i++) memcpy(b->full + i * m, fine->state + i * fine->size, m * sizeof *b->full);
 }
 
-/* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up along a motion: the tolerance with which
- * all are computed is a hundredth of the one that is asked for, or less where the full motion shows that this would not do. */
+/* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up
+ * along a motion: the tolerance with which all are computed is a hundredth of the one that is asked for, or less where
+ * the full motion shows that this would not do. */
 static bool full_motion(nh_reduction_bench *b, nh_error *error)
 {
     static const double part = 0.01, least = 3e-13, aim = 10; /* aim: in tolerances */
@@ -175,8 +198,12 @@ static bool full_motion(nh_reduction_bench *b, nh_error *error)
     p.coarse = full_by(b, NULL, b->rtol, NH_REDUCTION_OUTPUTS, &p.method, error);
     const nh_motion *coarse = p.coarse;
     /* one that ends early, with steps that become smaller and smaller, is not brought to its end a second time */
-    size_t outputs = coarse && !coarse->complete && coarse->guard_hit < 0 && coarse->count > 1 ? coarse->count : NH_REDUCTION_OUTPUTS;
-    const char *ended = outputs < NH_REDUCTION_OUTPUTS ? nh_arena_printf(r->arena, "the full motion ended at t = %.4g: %s", coarse->end_time, coarse->note) : NULL;
+    size_t outputs = coarse && !coarse->complete && coarse->guard_hit < 0 && coarse->count > 1 ? coarse->count
+                                                                                               : NH_REDUCTION_OUTPUTS;
+    const char *ended =
+        outputs < NH_REDUCTION_OUTPUTS
+            ? nh_arena_printf(r->arena, "the full motion ended at t = %.4g: %s", coarse->end_time, coarse->note)
+            : NULL;
     p.fine = coarse ? full_by(b, p.method, p.finest, outputs, NULL, error) : NULL;
     if (p.fine) reliable(r->kinetic, p.coarse, p.fine, INFINITY, &p.off);
     if (p.fine && p.off > aim * r->options.tolerance && b->rtol > least) {
@@ -189,7 +216,8 @@ static bool full_motion(nh_reduction_bench *b, nh_error *error)
         judge(b, &p);
         take(b, &p);
         if (ended) nh_reduction_warn(r, "%s", ended);
-        else if (!p.fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", p.fine->end_time, p.fine->note);
+        else if (!p.fine->complete)
+            nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", p.fine->end_time, p.fine->note);
     }
     if (b->full && r->wanted > 0) take_usual(r, &p, b->reached == NH_REDUCTION_OUTPUTS);
     nh_motion_free(p.coarse);
@@ -197,9 +225,13 @@ static bool full_motion(nh_reduction_bench *b, nh_error *error)
     return b->full != NULL;
 }
 
-bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error) { return (b->r->wanted > 0 && nh_reduction_full_accurate(b)) || full_motion(b, error); }
+bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
+{
+    return (b->r->wanted > 0 && nh_reduction_full_accurate(b)) || full_motion(b, error);
+}
 
-/* Errors of one size, made at other places of the motion: what remains of them at the outputs is how well a motion in all coordinates is known, whatever its sensitivity. */
+/* Errors of one size, made at other places of the motion: what remains of them at the outputs is how well a motion in
+   all coordinates is known, whatever its sensitivity. */
 double nh_reduction_unsure(nh_reduction_bench *b)
 {
     static const double finest = 1e-13, coarser[] = {2, 5};
@@ -209,7 +241,9 @@ double nh_reduction_unsure(nh_reduction_bench *b)
         nh_error ignored = {0};
         nh_motion *other = full_by(b, b->method, coarser[t] * fmax(b->finest, finest), b->reached, NULL, &ignored);
         double off = 0;
-        if (other) nh_reduction_reliable(k, b->reached < other->count ? b->reached : other->count, other->state, other->size, b->full, k->m, INFINITY, &off);
+        if (other)
+            nh_reduction_reliable(k, b->reached < other->count ? b->reached : other->count, other->state, other->size,
+                                  b->full, k->m, INFINITY, &off);
         b->unsure = fmax(b->unsure, off);
         nh_motion_free(other);
         nh_error_clear(&ignored);

@@ -1,5 +1,6 @@
-/* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages), reduce_compare.c (their motions), reduce_whole.c (the whole group at once) and
- * reduce_quotient.c (other systems), reduce_unused.c (what is not used, and why). */
+/* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages),
+ * reduce_compare.c (their motions), reduce_whole.c (the whole group at once) and reduce_quotient.c (other systems),
+ * reduce_unused.c (what is not used, and why). */
 #ifndef NH_REDUCE_INTERNAL_H
 #define NH_REDUCE_INTERNAL_H
 
@@ -8,7 +9,8 @@
 
 #include "commands/reduce.h"
 
-enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000, NH_REDUCTION_ALLOWED = 100 }; /* the last one in tolerances */
+/* the last one in tolerances */
+enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000, NH_REDUCTION_ALLOWED = 100 };
 
 /* Of nh_flow_options, for every motion that is compared: errors are relative to the size that each state has had. */
 static inline double nh_reduction_absolute(const nh_reduction *r) { return fmax(r->options.absolute, DBL_MIN); }
@@ -29,25 +31,33 @@ typedef struct {
     double unsure;        /* see nh_reduction_unsure; 0: not measured */
 } nh_reduction_bench;
 
-/* The reference, and the tolerance of all motions; where an accuracy is wanted by the method that reaches it at least cost. */
+/* The reference, and the tolerance of all motions; where an accuracy is wanted by the method that reaches it at least
+   cost. */
 bool nh_reduction_full_motion(nh_reduction_bench *bench, nh_error *error);
-/* The same by a method that is chosen for r->wanted: its error is measured in the distance that decides, and is a quarter of that.  False: the motion does not reach its end, or its equations
- * are not to be had; r->full.why says so, and nothing else has changed. */
+/* The same by a method that is chosen for r->wanted: its error is measured in the distance that decides, and is a
+ * quarter of that.  False: the motion does not reach its end, or its equations are not to be had; r->full.why says so,
+ * and nothing else has changed. */
 bool nh_reduction_full_accurate(nh_reduction_bench *bench);
-/* The number of outputs up to which two motions (rows of m or more) are no further apart than `allowed`; the largest distance: of angles modulo 2 pi, relative to
- * 1 + the largest of their sizes, of other coordinates relative to the largest of theirs, so far along the motion. */
-size_t nh_reduction_reliable(const nh_kinetic *kinetic, size_t count, const double *a, size_t a_stride, const double *b, size_t b_stride, double allowed, double *farthest);
-/* What differences of each coordinate count beside at the first output, and so at least: of a motion of rows of m or more. */
+/* The number of outputs up to which two motions (rows of m or more) are no further apart than `allowed`; the largest
+ * distance: of angles modulo 2 pi, relative to 1 + the largest of their sizes, of other coordinates relative to the
+ * largest of theirs, so far along the motion. */
+size_t nh_reduction_reliable(const nh_kinetic *kinetic, size_t count, const double *a, size_t a_stride, const double *b,
+                             size_t b_stride, double allowed, double *farthest);
+/* What differences of each coordinate count beside at the first output, and so at least: of a motion of rows of m or
+   more. */
 void nh_reduction_first_sizes(const nh_kinetic *kinetic, size_t count, const double *a, size_t stride, double *size);
-/* How far full motions with two other tolerances are from the reference at most (it is trusted no further than to 100 tolerances, and this is no larger). */
+/* How far full motions with two other tolerances are from the reference at most (it is trusted no further than to 100
+   tolerances, and this is no larger). */
 double nh_reduction_unsure(nh_reduction_bench *bench);
 
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
-void nh_reduction_make_slices(nh_reduction *reduction, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown);
+void nh_reduction_make_slices(nh_reduction *reduction, const nh_action *action, const double *q, nh_slice **through,
+                              nh_slice **shown);
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *reduction, nh_stage_kind kind, const nh_action *action);
 /* The motion of a stage and the one that it is to meet. */
 typedef struct {
-    nh_atlas *atlas;       /* in its charts, from a place and its velocity in the coordinates of the action's kinetic ... */
+    /* in its charts, from a place and its velocity in the coordinates of the action's kinetic ... */
+    nh_atlas *atlas;
     const double *q, *v;
     const double *z;       /* ... or (atlas NULL) on the stage's slice alone, from this state */
     size_t outputs;
@@ -56,11 +66,16 @@ typedef struct {
 } nh_reduction_time_series;
 
 /* One motion, with the group's or without. */
-nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *bench, const nh_reduction_stage *stage, const nh_reduction_time_series *course, bool group, const nh_reconstruct_how *how, nh_error *error);
+nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *bench, const nh_reduction_stage *stage,
+                                       const nh_reduction_time_series *course, bool group,
+                                       const nh_reconstruct_how *how, nh_error *error);
 /* The largest distance of a motion with the group's from the one that it is to meet, as far as both go. */
-double nh_reduction_farthest(const nh_reduction_stage *stage, const nh_reduction_time_series *course, const nh_reconstruction *motion);
-/* The cheapest motion that agrees with the full one to r->wanted, or where none does the nearest; and how it is computed.  NULL: none could be started. */
-nh_reconstruction *nh_reduction_choose(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_time_series *course, nh_reconstruct_how *how);
+double nh_reduction_farthest(const nh_reduction_stage *stage, const nh_reduction_time_series *course,
+                             const nh_reconstruction *motion);
+/* The cheapest motion that agrees with the full one to r->wanted, or where none does the nearest; and how it is
+   computed.  NULL: none could be started. */
+nh_reconstruction *nh_reduction_choose(nh_reduction_bench *bench, nh_reduction_stage *stage,
+                                       const nh_reduction_time_series *course, nh_reconstruct_how *how);
 /* Integrate, reconstruct, compare; all that the stage says of it. */
 void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_time_series *course);
 
@@ -75,10 +90,11 @@ bool nh_reduction_whole_model(nh_reduction *reduction, nh_error *error);
 bool nh_reduction_quotient(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
 bool nh_reduction_quotient_momenta(nh_reduction *reduction, nh_error *error);
 
-/* Why there is no Chaplygin stage, and why a second one goes without generators: used (of the group's): those that the first or the second have; on a field that
- * normalises the first group (or NULL) the condition (ii) decides. */
+/* Why there is no Chaplygin stage, and why a second one goes without generators: used (of the group's): those that the
+ * first or the second have; on a field that normalises the first group (or NULL) the condition (ii) decides. */
 void nh_reduction_no_chaplygin(nh_reduction *reduction);
-void nh_reduction_not_in_second(nh_reduction *reduction, const nh_chaplygin *first, const bool *used, const bool *normalises);
+void nh_reduction_not_in_second(nh_reduction *reduction, const nh_chaplygin *first, const bool *used,
+                                const bool *normalises);
 
 /* What --equations shows of the stages. */
 void nh_reduction_write_out(nh_reduction *reduction);

@@ -22,9 +22,11 @@ static char *name_of(nh_reduction *r, const nh_action *action)
 }
 
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
-void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown)
+void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const double *q, nh_slice **through,
+                              nh_slice **shown)
 {
-    size_t m = action->kinetic->m, d = action->d, *shape = nh_arena_alloc(r->arena, (m + 1) * sizeof *shape), *along = shape + (m - d);
+    size_t m = action->kinetic->m, d = action->d, *shape = nh_arena_alloc(r->arena, (m + 1) * sizeof *shape),
+           *along = shape + (m - d);
     double *y = nh_alloc_array(d + 1, sizeof *y), *zero = nh_alloc_array(d + 1, sizeof *zero);
     nh_slice_choose(action, shape, along);
     bool same = true;
@@ -46,7 +48,14 @@ nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, 
     nh_reduction_stage *s = &r->stage[r->stages++];
     bool local = false;
     for (size_t a = 0; a < action->d; a++) local |= action->generator[a].local;
-    *s = (nh_reduction_stage){.local = local, .kind = kind, .action = action, .group = name_of(r, action), .against_full = true, .linear_drift = -1, .energy_drift = -1, .momentum_drift = -1};
+    *s = (nh_reduction_stage){.local = local,
+                              .kind = kind,
+                              .action = action,
+                              .group = name_of(r, action),
+                              .against_full = true,
+                              .linear_drift = -1,
+                              .energy_drift = -1,
+                              .momentum_drift = -1};
     return s;
 }
 
@@ -59,10 +68,12 @@ static const nh_chaplygin *chaplygin_on(nh_reduction *r, const nh_slice *slice, 
 }
 
 /* Existence on the slice through the initial state, the closed form on the one that is shown. */
-static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_slice *shown, const nh_ex *Ks, const nh_ex *Us)
+static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *slice, const nh_ex *K, const nh_ex *U,
+                                       const nh_slice *shown, const nh_ex *Ks, const nh_ex *Us)
 {
     nh_chaplygin_measure m = nh_chaplygin_measure_of(slice, K, U, &r->options);
-    if (m.tested && m.measure && m.size > r->options.group) m.closed = nh_density_find(shown, Ks, Us, &r->options, &m.density, &m.proof);
+    if (m.tested && m.measure && m.size > r->options.group)
+        m.closed = nh_density_find(shown, Ks, Us, &r->options, &m.density, &m.proof);
     nh_ex size = m.closed ? nh_call(shown->dag, NH_ABS, m.density) : 0; /* its sign is no matter */
     if (m.closed) m.local = nh_kinetic_many_valued(shown->kinetic, 1, &size);
     return m;
@@ -72,16 +83,22 @@ static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *sl
 static void conditions_of(nh_reduction *r, nh_reduction_stage *s, const nh_slice *shown, const nh_ex *K, const nh_ex *U)
 {
     const nh_chaplygin_measure *m = &s->measure;
-    if (m->tested && !(m->measure && m->factor) && r->system->parameters && !nh_reduction_late(r, "conditions for a measure")) s->conditions = nh_measure_conditions_of(r->arena, shown, K, U);
+    if (m->tested && !(m->measure && m->factor) && r->system->parameters &&
+        !nh_reduction_late(r, "conditions for a measure"))
+        s->conditions = nh_measure_conditions_of(r->arena, shown, K, U);
 }
 
-static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, const nh_chaplygin **through, nh_error *error)
+static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, const nh_chaplygin **through,
+                            nh_error *error)
 {
     nh_reduction *r = b->r;
     nh_slice *slice, *shown;
     size_t m = r->kinetic->m;
     nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
-    const nh_chaplygin *c = *through = chaplygin_on(r, slice, error), *pretty = slice->K == shown->K ? c : r->brief && r->kept_chaplygin ? r->kept_chaplygin : chaplygin_on(r, shown, error);
+    const nh_chaplygin *c = *through = chaplygin_on(r, slice, error), *pretty = slice->K == shown->K ? c
+                                                                                : r->brief && r->kept_chaplygin
+                                                                                    ? r->kept_chaplygin
+                                                                                    : chaplygin_on(r, shown, error);
     if (!c || !pretty) return false;
     if (pretty != c) r->kept_chaplygin = pretty;
     nh_reduction_stage *s = nh_reduction_new_stage(r, NH_STAGE_CHAPLYGIN, action);
@@ -100,7 +117,14 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
         nh_atlas_add(atlas, pretty->slice, &pretty->reduced, independent, NULL);
         nh_atlas_prefer(atlas);
     }
-    nh_reduction_compare(b, s, &(nh_reduction_time_series){.atlas = atlas, .q = r->initial.q, .v = r->initial.v, .outputs = NH_REDUCTION_OUTPUTS, .want = b->full, .stride = m, .reached = b->reached});
+    nh_reduction_compare(b, s,
+                         &(nh_reduction_time_series){.atlas = atlas,
+                                                     .q = r->initial.q,
+                                                     .v = r->initial.v,
+                                                     .outputs = NH_REDUCTION_OUTPUTS,
+                                                     .want = b->full,
+                                                     .stride = m,
+                                                     .reached = b->reached});
     nh_atlas_free(atlas);
     return true;
 }
@@ -108,20 +132,23 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
 /* ---- the second stage ---- */
 
 /* Combinations of the generators outside the first group that normalise it and satisfy (ii), as fields on Q. */
-static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t rest, const size_t *index, nh_ex *field, bool *used)
+static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t rest, const size_t *index, nh_ex *field,
+                            bool *used)
 {
     nh_dag *d = r->kinetic->dag;
     size_t m = r->kinetic->m;
     nh_ex *all = nh_alloc_array(rest * m + rest + 1, sizeof *all), *exact = all + rest * m;
     double *c = nh_alloc_array(rest * rest + 1, sizeof *c);
-    for (size_t i = 0; i < rest; i++) memcpy(all + i * m, r->group->action.generator[index[i]].component, m * sizeof *all);
+    for (size_t i = 0; i < rest; i++)
+        memcpy(all + i * m, r->group->action.generator[index[i]].component, m * sizeof *all);
     size_t n = nh_second_candidates(first, rest, all, &r->options, c);
     for (size_t j = 0; j < n; j++) {
         nh_second_coefficients(first, rest, all, c + j * rest, &r->options, exact);
         for (size_t i = 0; i < rest; i++) used[index[i]] |= c[j * rest + i] != 0;
         for (size_t s = 0; s < m; s++) {
             field[j * m + s] = nh_int(d, 0);
-            for (size_t i = 0; i < rest; i++) field[j * m + s] = nh_add(d, field[j * m + s], nh_mul(d, exact[i], all[i * m + s]));
+            for (size_t i = 0; i < rest; i++)
+                field[j * m + s] = nh_add(d, field[j * m + s], nh_mul(d, exact[i], all[i * m + s]));
         }
     }
     nh_free(all);
@@ -129,11 +156,13 @@ static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t r
     return n;
 }
 
-/* The largest |e_a^s (p_s + ahat_s)| that momenta of this energy can have (Cauchy and Schwarz): sqrt(e_a K e_a) sqrt(p K^-1 p) + |e_a^s ahat_s|.  The momentum
- * itself may be zero but for rounding, which is no larger than a part of this. */
+/* The largest |e_a^s (p_s + ahat_s)| that momenta of this energy can have (Cauchy and Schwarz): sqrt(e_a K e_a) sqrt(p
+ * K^-1 p) + |e_a^s ahat_s|.  The momentum itself may be zero but for rounding, which is no larger than a part of
+ * this. */
 static double largest_momentum(size_t n, const double *K, const double *e, const double *p, const double *magnetic)
 {
-    double *factor = nh_alloc_array(n * n + n, sizeof *factor), *v = factor + n * n, length = 0, twice = 0, of_magnetic = 0;
+    double *factor = nh_alloc_array(n * n + n, sizeof *factor), *v = factor + n * n, length = 0, twice = 0,
+           of_magnetic = 0;
     memcpy(factor, K, n * n * sizeof *factor);
     memcpy(v, p, n * sizeof *v);
     bool good = nh_solve(n, factor, 1, v, NULL);
@@ -147,16 +176,21 @@ static double largest_momentum(size_t n, const double *K, const double *e, const
 }
 
 /* Drift of e_a^s (p_s + ahat_s) along the once reduced motion, and that motion's positions. */
-static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, const nh_second *t, const double *z, double *drift, size_t *reached)
+static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, const nh_second *t, const double *z,
+                            double *drift, size_t *reached)
 {
     nh_reduction *r = b->r;
     size_t n = first->n, d = t->d;
     nh_error trouble = {0};
     nh_reduced_flow *flow = nh_reduced_flow_create(&first->reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
-    nh_flow_options options = {.method = NH_ADAMS, .absolute = nh_reduction_absolute(r), .rtol = b->rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    nh_flow_options options = {.method = NH_ADAMS,
+                               .absolute = nh_reduction_absolute(r),
+                               .rtol = b->rtol,
+                               .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     nh_motion *motion = nh_automatic(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, NULL, &trouble);
-    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d + n + n * n, sizeof *E);
+    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out),
+           *E = nh_alloc_array(n * d + 2 * d + n + n * n, sizeof *E);
     double *start = E + n * d, *size = start + d, *magnetic = size + d, *K = magnetic + n;
     *reached = motion ? motion->count : 0;
     *drift = *reached > 1 ? 0 : -1;
@@ -199,30 +233,38 @@ static nh_action both_groups(const nh_action *first, size_t d, const nh_ex *fiel
     nh_generator *g = nh_alloc_array(first->d + d + 1, sizeof *g);
     nh_action both;
     memcpy(g, first->generator, first->d * sizeof *g);
-    for (size_t b = 0; b < d; b++) nh_generator_init(&g[first->d + b], first->kinetic, NULL, field + b * first->kinetic->m, options);
+    for (size_t b = 0; b < d; b++)
+        nh_generator_init(&g[first->d + b], first->kinetic, NULL, field + b * first->kinetic->m, options);
     nh_action_init(&both, first->kinetic, first->d + d, g, options);
     nh_free(g);
     return both;
 }
 
-/* q, v: the initial state, or that moved along the first group's orbit onto the slice of `first`; simple: the first stage as it is shown. */
-static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const nh_chaplygin *simple, const double *q, const double *v, size_t d, const nh_ex *field, nh_error *error)
+/* q, v: the initial state, or that moved along the first group's orbit onto the slice of `first`; simple: the first
+   stage as it is shown. */
+static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const nh_chaplygin *simple, const double *q,
+                         const double *v, size_t d, const nh_ex *field, nh_error *error)
 {
     nh_reduction *r = b->r;
     nh_second *t = &r->second[0], *pretty = t;
     const nh_slice *s1 = first->slice;
     size_t n = first->n, *shape = nh_alloc_array(2 * n + 2, sizeof *shape), *along = shape + n + 1;
-    double *x = nh_alloc_array(8 * n + 8, sizeof *x), *u = x + n, *z = u + s1->m + 1, *y0 = nh_alloc_array(n + 1, sizeof *y0);
+    double *x = nh_alloc_array(8 * n + 8, sizeof *x), *u = x + n, *z = u + s1->m + 1,
+           *y0 = nh_alloc_array(n + 1, sizeof *y0);
     bool good = nh_second_init(t, first, d, field, &r->options, error);
     if (good) {
         nh_slice_choose(&t->action, shape, along);
         for (size_t i = 0; i < n; i++) x[i] = q[s1->shape[i]];
         for (size_t a = 0; a < d; a++) y0[a] = x[along[a]];
-        good = nh_second_equations(t, shape, along, y0, error) && nh_slice_components(s1, q, v, u) && nh_reduced_start(&first->reduced, x, u, z);
+        good = nh_second_equations(t, shape, along, y0, error) && nh_slice_components(s1, q, v, u) &&
+               nh_reduced_start(&first->reduced, x, u, z);
     }
     if (good && (simple != first || nh_largest(d, y0) > 0) && !r->brief) { /* the same on slices at simple places */
         nh_error trouble = {0};
-        if (nh_slice_nice(&t->action, along, y0) && nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) && nh_second_equations(&r->second[1], shape, along, y0, &trouble)) pretty = &r->second[1];
+        if (nh_slice_nice(&t->action, along, y0) &&
+            nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) &&
+            nh_second_equations(&r->second[1], shape, along, y0, &trouble))
+            pretty = &r->second[1];
     }
     if (good) {
         size_t reached;
@@ -232,7 +274,8 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
         s->shown_slice = &pretty->slice;
-        if (t->abelian && first->plain && first->d && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
+        if (t->abelian && first->plain && first->d && !r->brief)
+            s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
         conditions_of(r, s, &pretty->slice, pretty->Kt, pretty->U);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);
@@ -240,7 +283,14 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         nh_action both = both_groups(s1->action, d, field, &r->options);
         nh_atlas *atlas = nh_atlas_create_second(t, both.closes ? &both : NULL);
         nh_atlas_add(atlas, &t->slice, &t->reduced, NULL, t);
-        nh_reduction_compare(b, s, &(nh_reduction_time_series){.atlas = atlas, .q = x, .v = u, .outputs = NH_REDUCTION_OUTPUTS, .want = full ? full : want, .stride = n, .reached = full ? b->reached : reached});
+        nh_reduction_compare(b, s,
+                             &(nh_reduction_time_series){.atlas = atlas,
+                                                         .q = x,
+                                                         .v = u,
+                                                         .outputs = NH_REDUCTION_OUTPUTS,
+                                                         .want = full ? full : want,
+                                                         .stride = n,
+                                                         .reached = full ? b->reached : reached});
         nh_atlas_free(atlas);
         nh_action_clear(&both);
     }
@@ -254,7 +304,8 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
 {
     nh_reduction *r = b->r;
     const nh_action *g = &r->group->action;
-    size_t f = r->kinetic->f, m = r->kinetic->m, *index = nh_alloc_array(2 * g->d + 2, sizeof *index), *rest = index + g->d + 1;
+    size_t f = r->kinetic->f, m = r->kinetic->m, *index = nh_alloc_array(2 * g->d + 2, sizeof *index),
+           *rest = index + g->d + 1;
     const nh_chaplygin *first = NULL;
     double *q = nh_alloc_array(2 * m + NH_REACH_MOST * f + 1, sizeof *q), *v = q + m;
     bool good = true;
@@ -268,7 +319,9 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         const nh_chaplygin *shown = good ? r->stage[0].chaplygin : NULL;
         if (good && shown != first && nh_slice_reach(shown->slice, q, v, v + m) < SIZE_MAX) first = shown;
         nh_free(t);
-        size_t n = good && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
+        size_t n = good && !nh_reduction_late(r, "a second stage")
+                       ? nh_group_normaliser(r->group, f, index, &r->options, rest)
+                       : 0;
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         bool *used = nh_alloc_array(2 * g->d + 1, sizeof *used), *normalises = used + g->d;
         for (size_t i = 0; i < f; i++) used[index[i]] = true;
@@ -277,8 +330,13 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_error trouble = {0};
         if (good && !nh_interrupted()) nh_reduction_not_in_second(r, first, used, normalises);
         nh_free(used);
-        if (n && !d && !first->plain) nh_reduction_warn(r, "stage 1 is not reduced further: forces of the reduced system act along the further symmetries (%zu) that normalise the first group, so no momentum is conserved", n);
-        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, shown, q, v, d, field, &trouble)) nh_reduction_warn(r, "stage 1 is not reduced further: %s", trouble.what);
+        if (n && !d && !first->plain)
+            nh_reduction_warn(r,
+                              "stage 1 is not reduced further: forces of the reduced system act along the further "
+                              "symmetries (%zu) that normalise the first group, so no momentum is conserved",
+                              n);
+        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, shown, q, v, d, field, &trouble))
+            nh_reduction_warn(r, "stage 1 is not reduced further: %s", trouble.what);
         nh_free(field);
     } else if (g->d) nh_reduction_no_chaplygin(r);
     nh_free(index);
@@ -286,13 +344,14 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
     return good;
 }
 
-/* Without constraints the first stage divides out nothing, G = {e}, Upsilon = 0, and the second one is the reduction on the level sets of the momentum: Routh's, or of the
- * cotangent bundle [ChhabraEmami2014, sec. 2.3]. */
+/* Without constraints the first stage divides out nothing, G = {e}, Upsilon = 0, and the second one is the reduction on
+ * the level sets of the momentum: Routh's, or of the cotangent bundle [ChhabraEmami2014, sec. 2.3]. */
 static bool momentum_levels(nh_reduction_bench *b, nh_error *error)
 {
     nh_reduction *r = b->r;
     const nh_action *g = &r->group->action;
-    size_t m = r->kinetic->m, *index = nh_alloc_array(g->d + m + 1, sizeof *index), *shape = index + g->d, n = nh_group_free_subset(r->group, &r->options, index);
+    size_t m = r->kinetic->m, *index = nh_alloc_array(g->d + m + 1, sizeof *index), *shape = index + g->d,
+           n = nh_group_free_subset(r->group, &r->options, index);
     nh_slice *whole = nh_arena_alloc(r->arena, sizeof *whole);
     nh_ex *field = nh_alloc_array(g->d * m + 1, sizeof *field);
     double nothing = 0;
@@ -329,16 +388,23 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
         nh_reduction_warn(r, "no subgroup acts freely on the sample points");
         return true;
     }
-    if (r->action[1].d < g->d) nh_reduction_warn(r, "the whole group does not act freely (isotropy of dimension %zu); the reduction uses a subgroup of dimension %zu", g->d - g->orbit, r->action[1].d);
+    if (r->action[1].d < g->d)
+        nh_reduction_warn(r,
+                          "the whole group does not act freely (isotropy of dimension %zu); the reduction uses a "
+                          "subgroup of dimension %zu",
+                          g->d - g->orbit, r->action[1].d);
     nh_error trouble = {0};
-    bool good = quotient ? nh_reduction_quotient(&b, &r->action[1], &trouble) : nh_reduction_whole(&b, &r->action[1], &trouble);
+    bool good =
+        quotient ? nh_reduction_quotient(&b, &r->action[1], &trouble) : nh_reduction_whole(&b, &r->action[1], &trouble);
     if (!good && (r->chain_text || r->inner_text)) {
         if (error) *error = trouble;
         return false;
     }
     if (trouble.code != NH_OK) nh_reduction_warn(r, "the system is not reduced by the whole group: %s", trouble.what);
-    bool levels = good && !r->kinetic->f && !quotient && !nh_interrupted() && !nh_reduction_late(r, "level sets of the momentum");
+    bool levels =
+        good && !r->kinetic->f && !quotient && !nh_interrupted() && !nh_reduction_late(r, "level sets of the momentum");
     nh_error_clear(&trouble);
-    if (levels && !momentum_levels(&b, &trouble)) nh_reduction_warn(r, "not reduced on level sets of the momentum: %s", trouble.what);
+    if (levels && !momentum_levels(&b, &trouble))
+        nh_reduction_warn(r, "not reduced on level sets of the momentum: %s", trouble.what);
     return true;
 }

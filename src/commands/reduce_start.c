@@ -83,8 +83,8 @@ static bool velocities(nh_reduction *r, const nh_reduce_request *q, const bool *
 }
 
 /* Velocities that were not given, for constraints of any kind: those that the chart calls dependent follow from the
- * constraints, on its branch, the others are zero, as in `simulate`; where that is not possible, all of them are changed
- * as little as possible from those of a sample point. */
+ * constraints, on its branch, the others are zero, as in `simulate`; where that is not possible, all of them are
+ * changed as little as possible from those of a sample point. */
 static void fill(nh_reduction *r, nh_bordered *b, const bool *given)
 {
     const nh_chart *c = r->model->chart;
@@ -105,8 +105,8 @@ static void fill(nh_reduction *r, nh_bordered *b, const bool *given)
     nh_free(fixed);
 }
 
-/* The same for constraints of any kind: to the nearest velocities that satisfy them, which those that are given must not
- * notice. */
+/* The same for constraints of any kind: to the nearest velocities that satisfy them, which those that are given must
+ * not notice. */
 static bool project(nh_reduction *r, const nh_reduce_request *q, const bool *given, nh_error *error)
 {
     static const double allowed = 1e-9;

@@ -1,4 +1,5 @@
-/* What --equations shows of the stages beside what they are computed with: inverse metrics, and the whole group's bundle. */
+/* What --equations shows of the stages beside what they are computed with: inverse metrics, and the whole group's
+   bundle. */
 #include "commands/reduce_internal.h"
 
 #include "base/progress.h"
@@ -27,7 +28,8 @@ void nh_reduction_write_out(nh_reduction *r)
         nh_reduction_stage *s = &r->stage[i];
         nh_reduction_theory *t = nh_arena_alloc(r->arena, sizeof *t);
         *t = (nh_reduction_theory){0};
-        if (s->kind == NH_STAGE_CHAPLYGIN) t->inverse = inverse_of(r->arena, s->chaplygin->slice, s->chaplygin->n, s->chaplygin->K);
+        if (s->kind == NH_STAGE_CHAPLYGIN)
+            t->inverse = inverse_of(r->arena, s->chaplygin->slice, s->chaplygin->n, s->chaplygin->K);
         if (s->kind == NH_STAGE_SECOND) {
             t->inverse = inverse_of(r->arena, &s->second->slice, s->second->n, s->second->Kt);
             t->locked = inverse_of(r->arena, &s->second->slice, s->second->d, s->second->inertia);

@@ -29,14 +29,19 @@ static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order
     nh_free(used);
     if (good && n == d) return blocks + (size[blocks] > 0);
     nh_fail(error, NH_USAGE, "--chain", "a chain must name every generator of the group once, found `%.100s`", text);
-    nh_error_hint(error, "--chain \"3; 1, 2\": generators of the quotient first, those of the smallest normal subgroup last");
+    nh_error_hint(error,
+                  "--chain \"3; 1, 2\": generators of the quotient first, those of the smallest normal subgroup last");
     return 0;
 }
 
 static bool bad_inner(size_t d, const char *typed, size_t at, nh_error *error)
 {
-    nh_deck_fail_typed("--inner", typed, at, error, "this is not an entry of an inner product on the %zu generators of the group", d);
-    return nh_error_hint(error, "--inner \"1,%zu=1/2; %zu,%zu=3\": numbers of two generators, and the value; what is not given is 1 on the diagonal and 0 beside it", d, d, d);
+    nh_deck_fail_typed("--inner", typed, at, error,
+                       "this is not an entry of an inner product on the %zu generators of the group", d);
+    return nh_error_hint(error,
+                         "--inner \"1,%zu=1/2; %zu,%zu=3\": numbers of two generators, and the value; what is not "
+                         "given is 1 on the diagonal and 0 beside it",
+                         d, d, d);
 }
 
 /* "1,4=1/2; 4,4=3" as expressions of the parameters. */
@@ -51,12 +56,16 @@ static bool read_inner(nh_reduction *r, size_t d, nh_error *error)
         length = strcspn(typed + at, ";");
         int end = 0;
         if (!length) continue;
-        if (sscanf(typed + at, "%zu , %zu = %n", &i, &j, &end) != 2 || !end || i < 1 || j < 1 || i > d || j > d || (size_t)end > length) return bad_inner(d, typed, at, error);
+        if (sscanf(typed + at, "%zu , %zu = %n", &i, &j, &end) != 2 || !end || i < 1 || j < 1 || i > d || j > d ||
+            (size_t)end > length)
+            return bad_inner(d, typed, at, error);
         size_t right = at + (size_t)end;
-        if (!nh_system_expression_part(r->system, "--inner", typed, right, at + length - right, 0, NULL, &value, error)) return false;
+        if (!nh_system_expression_part(r->system, "--inner", typed, right, at + length - right, 0, NULL, &value, error))
+            return false;
         for (size_t s = 0; s < r->kinetic->m; s++)
             if (nh_depends(dag, value, r->kinetic->q[s]) || nh_depends(dag, value, r->kinetic->v[s]))
-                return nh_deck_fail_typed("--inner", typed, right, error, "this is not constant: values may contain parameters only");
+                return nh_deck_fail_typed("--inner", typed, right, error,
+                                          "this is not constant: values may contain parameters only");
         g[(i - 1) * d + j - 1] = g[(j - 1) * d + i - 1] = value;
     }
     r->inner = g;
@@ -88,7 +97,8 @@ static bool inner_product(nh_reduction *r, const nh_slice *slice, double *metric
     if (!r->inner_text) return true;
     if (!read_inner(r, d, error)) return false;
     nh_kinetic_values(r->kinetic, d * d, r->inner, r->initial.q, metric);
-    return positive(d, metric) || nh_fail(error, NH_USAGE, "--inner", "`%.200s` is not positive definite", r->inner_text);
+    return positive(d, metric) ||
+           nh_fail(error, NH_USAGE, "--inner", "`%.200s` is not positive definite", r->inner_text);
 }
 
 /* The equations by stages. */
@@ -97,8 +107,10 @@ static bool by_stages(nh_reduction *r, nh_reduction_stage *s, nh_error *error)
     const nh_slice *slice = s->slice;
     size_t d = slice->d, *size = nh_alloc_array(2 * d + 2, sizeof *size), *order = size + d + 1;
     double *metric = nh_alloc_array(d * d + 1, sizeof *metric);
-    size_t blocks = r->chain_text ? read_chain(r->chain_text, d, size, order, error) : nh_ideals_find(&slice->action->algebra, size, order);
-    bool good = blocks > 0 && inner_product(r, slice, metric, error) && nh_ideals_init(&r->chain, &slice->action->algebra, blocks, size, order, metric, error);
+    size_t blocks = r->chain_text ? read_chain(r->chain_text, d, size, order, error)
+                                  : nh_ideals_find(&slice->action->algebra, size, order);
+    bool good = blocks > 0 && inner_product(r, slice, metric, error) &&
+                nh_ideals_init(&r->chain, &slice->action->algebra, blocks, size, order, metric, error);
     if (good) good = s->by_stages = nh_poincare_check(&s->poincare, slice, &r->chain, &r->options, error);
     s->chain = &r->chain;
     nh_free(size);
@@ -126,7 +138,8 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
         if (pretty != o) r->kept_whole = pretty;
         nh_error_clear(&ignored);
     }
-    nh_reduction_stage *s = nh_reduction_new_stage(r, action->dimension_assumption && r->kinetic->reducible ? NH_STAGE_POINCARE : NH_STAGE_SLICE, action);
+    nh_reduction_stage *s = nh_reduction_new_stage(
+        r, action->dimension_assumption && r->kinetic->reducible ? NH_STAGE_POINCARE : NH_STAGE_SLICE, action);
     s->slice = slice;
     s->reduced = o;
     s->shown = pretty;
@@ -138,7 +151,14 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
         nh_atlas_add(atlas, shown, pretty, own, NULL);
         nh_atlas_prefer(atlas);
     }
-    nh_reduction_compare(b, s, &(nh_reduction_time_series){.atlas = atlas, .q = r->initial.q, .v = r->initial.v, .outputs = NH_REDUCTION_OUTPUTS, .want = b->full, .stride = m, .reached = b->reached});
+    nh_reduction_compare(b, s,
+                         &(nh_reduction_time_series){.atlas = atlas,
+                                                     .q = r->initial.q,
+                                                     .v = r->initial.v,
+                                                     .outputs = NH_REDUCTION_OUTPUTS,
+                                                     .want = b->full,
+                                                     .stride = m,
+                                                     .reached = b->reached});
     nh_atlas_free(atlas);
     nh_error trouble = {0};
     bool given = r->chain_text || r->inner_text;
@@ -152,7 +172,8 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
 bool nh_reduction_free_subgroup(nh_reduction *r, nh_action *out)
 {
     const nh_action *g = &r->group->action;
-    size_t d = g->d, *index = nh_alloc_array(d + 1, sizeof *index), n = nh_group_free_subset(r->group, &r->options, index);
+    size_t d = g->d, *index = nh_alloc_array(d + 1, sizeof *index),
+           n = nh_group_free_subset(r->group, &r->options, index);
     double *t = nh_alloc_array(d * n + 1, sizeof *t);
     for (size_t i = 0; i < n; i++) t[index[i] + i * d] = 1;
     if (n) nh_action_sub(out, g, n, t, &r->options);

@@ -7,7 +7,8 @@
 #include "graph/terms.h"
 #include "commands/benchmark_internal.h"
 
-static const double conserved = 1e-9; /* relative rate at the probes below which a known current is taken for conserved with these parameters */
+/* relative rate at the probes below which a known current is taken for conserved with these parameters */
+static const double conserved = 1e-9;
 
 /* ---- formulations ---- */
 
@@ -18,9 +19,11 @@ static void sized(nh_formulation *f, size_t m, double absolute, nh_arena *arena)
     for (size_t i = 0; i < 2 * m; i++) f->scale[i] = absolute;
 }
 
-bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute, nh_arena *arena, nh_error *error)
+bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute,
+                         nh_arena *arena, nh_error *error)
 {
-    *f = (nh_formulation){.name = nh_arena_strdup(arena, model->chart->name), .model = model, .size = model->m + model->n};
+    *f = (nh_formulation){
+        .name = nh_arena_strdup(arena, model->chart->name), .model = model, .size = model->m + model->n};
     sized(f, model->m, absolute, arena);
     f->dynamics = nh_dynamics_create(model);
     f->problem = nh_dynamics_problem(f->dynamics);
@@ -35,7 +38,8 @@ bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t,
     f->problem = nh_bordered_flow(f->bordered);
     sized(f, o->m, chart->scale[0], arena);
     nh_motion start = {.count = 1, .size = chart->size, .time = &t, .state = chart->z0};
-    return nh_formulation_states(chart, &start, f->z0) || nh_fail(error, NH_NUMERIC, "", "the velocities cannot be found at the initial state");
+    return nh_formulation_states(chart, &start, f->z0) ||
+           nh_fail(error, NH_NUMERIC, "", "the velocities cannot be found at the initial state");
 }
 
 void nh_formulation_close(nh_formulation *f)
@@ -56,7 +60,8 @@ bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y
 
 /* ---- currents ---- */
 
-/* Is dPhi/dt = sum_j dPhi/dz_j z_j' zero at the probes, beside the terms of the sum?  Near the end of a chart these are large. */
+/* Is dPhi/dt = sum_j dPhi/dz_j z_j' zero at the probes, beside the terms of the sum?  Near the end of a chart these are
+   large. */
 static bool is_conserved(const nh_model *o, nh_ex phi)
 {
     size_t size = o->m + o->n, n = 3 * size + 2;
@@ -65,7 +70,8 @@ static bool is_conserved(const nh_model *o, nh_ex phi)
     e[0] = nh_model_gamma(o, phi);
     e[1] = phi;
     for (size_t j = 0; j < size; j++) {
-        nh_ex z = o->chart->symbol[1 + j], slope = nh_diff(o->dag, phi, z), rate = j < o->m ? o->rho[j] : o->a[j - o->m];
+        nh_ex z = o->chart->symbol[1 + j], slope = nh_diff(o->dag, phi, z),
+              rate = j < o->m ? o->rho[j] : o->a[j - o->m];
         e[2 + j] = nh_mul(o->dag, slope, rate);
         e[2 + size + j] = nh_mul(o->dag, slope, z);
         e[2 + 2 * size + j] = rate;
@@ -91,7 +97,8 @@ static bool is_conserved(const nh_model *o, nh_ex phi)
 static bool to_coordinates(const nh_model *o, size_t n, const nh_ex *e, nh_ex *out)
 {
     const nh_chart *c = o->chart;
-    nh_ex *from = nh_alloc_array(o->n + c->implicit + 1, sizeof *from), *to = nh_alloc_array(o->n + c->implicit + 1, sizeof *to);
+    nh_ex *from = nh_alloc_array(o->n + c->implicit + 1, sizeof *from),
+          *to = nh_alloc_array(o->n + c->implicit + 1, sizeof *to);
     bool good = !c->quasi || nh_chart_inverse(c, to);
     for (size_t i = 0; i < o->n; i++) {
         from[i] = c->w[i];
@@ -121,7 +128,8 @@ static void compile(nh_reference_solution *y, const nh_ex *e)
         out[k] = e[k];
         for (size_t j = 0; j < 2 * m; j++) out[n + k * 2 * m + j] = nh_diff(o->dag, e[k], in[1 + j]);
     }
-    y->tape = nh_tape_create(o->dag, 1 + 2 * m, in, n * (1 + 2 * m), out, o->system->parameters, o->parameter, o->parameter_value);
+    y->tape = nh_tape_create(o->dag, 1 + 2 * m, in, n * (1 + 2 * m), out, o->system->parameters, o->parameter,
+                             o->parameter_value);
     nh_free(in);
     nh_free(out);
 }
@@ -179,7 +187,8 @@ size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena,
     return others;
 }
 
-/* The size of a coordinate or velocity in a current.  An angle that winds up is no larger for it: with its whole value a drift would look ever smaller. */
+/* The size of a coordinate or velocity in a current.  An angle that winds up is no larger for it: with its whole value
+   a drift would look ever smaller. */
 static double size_of(const nh_model *o, size_t j, double y, double least)
 {
     double size = fmax(fabs(y), least);
@@ -204,12 +213,14 @@ void nh_reference_solution_scales(nh_reference_solution *y, nh_arena *arena, dou
         for (size_t j = 0; j < m2; j++) y->scale[j] = fmax(y->scale[j], fabs(at[j]));
         for (size_t k = 0; k < n; k++) {
             double size = fabs(out[k]);
-            for (size_t j = 0; j < m2; j++) size = fmax(size, fabs(out[n + k * m2 + j]) * size_of(y->model, j, at[j], least));
+            for (size_t j = 0; j < m2; j++)
+                size = fmax(size, fabs(out[n + k * m2 + j]) * size_of(y->model, j, at[j], least));
             if (isfinite(size)) y->current_scale[k] = fmax(y->current_scale[k], size);
             if (i == 0) y->current_start[k] = out[k];
         }
     }
-    for (size_t k = 0; k < n; k++) y->current_scale[k] = y->current_scale[k] > 0 ? y->current_scale[k] : 1; /* zero, with all that it is made of */
+    /* zero, with all that it is made of */
+    for (size_t k = 0; k < n; k++) y->current_scale[k] = y->current_scale[k] > 0 ? y->current_scale[k] : 1;
     nh_tape_work_free(work);
     nh_free(in);
     nh_free(out);

@@ -9,10 +9,13 @@
 enum { most_values = 12, most_parameters = 12 };
 static const char *const methods[] = {"GSL rk8pd", "GSL rkf45", "ARKODE Dormand-Prince", "CVODE Adams", "CVODE BDF"};
 enum { method_count = NH_ROBUSTNESS_METHODS };
-static const char *const stepping[] = {"midpoint", "Lagrange-d'Alembert", "Lagrange-d'Alembert, order 4", "energy-preserving", "relaxation, order 4"};
-_Static_assert(sizeof methods / sizeof *methods == method_count && sizeof stepping / sizeof *stepping == method_count, "as many of both");
+static const char *const stepping[] = {"midpoint", "Lagrange-d'Alembert", "Lagrange-d'Alembert, order 4",
+                                       "energy-preserving", "relaxation, order 4"};
+_Static_assert(sizeof methods / sizeof *methods == method_count && sizeof stepping / sizeof *stepping == method_count,
+               "as many of both");
 enum { longer_times = 4, longer_by_steps = 3 }; /* the first of these: */
-static const double longer[longer_times] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6}, parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
+static const double longer[longer_times] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6},
+                    parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
 static const double least_cell = 0.02; /* seconds that a value has at least */
 
 bool nh_robustness_late(const nh_robustness_work *w) { return nh_interrupted() || nh_clock() > w->begun + w->budget; }
@@ -22,23 +25,28 @@ bool nh_robustness_late(const nh_robustness_work *w) { return nh_interrupted() |
 static double drift_of(const nh_run_record *m) { return isnan(m->worst_drift) ? 0 : m->worst_drift; }
 
 /* Which safeguard triggered for a run that ended?  NULL: none. */
-static const char *guard_of(nh_benchmark_work *b, const nh_candidate_run *k, const nh_run_record *m, double step, const nh_options *o)
+static const char *guard_of(nh_benchmark_work *b, const nh_candidate_run *k, const nh_run_record *m, double step,
+                            const nh_options *o)
 {
     nh_arena *arena = b->out->arena;
     nh_run_record tight;
     nh_candidate_run again = *k;
     if (m->status == NH_FLAGGED || m->status == NH_DETECTED) return "the pivot of the chart";
     if (drift_of(m) > o->robustness_error) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
-    nh_benchmark_work_measure(b, &again, step > 0 ? NAN : o->robustness_tolerance / 10, step > 0 ? step / 2 : NAN, &tight);
+    nh_benchmark_work_measure(b, &again, step > 0 ? NAN : o->robustness_tolerance / 10, step > 0 ? step / 2 : NAN,
+                              &tight);
     if (tight.status == NH_TIMEOUT) b->hurried = true; /* it says nothing */
     if (tight.status == NH_TIMEOUT) return NULL;
-    if (tight.status == NH_FAILED) return step > 0 ? "half the step does not reach the end" : "a tighter tolerance does not reach the end";
+    if (tight.status == NH_FAILED)
+        return step > 0 ? "half the step does not reach the end" : "a tighter tolerance does not reach the end";
     /* both against the same reference, so that the difference of the errors bounds that of the states from below */
-    if (fabs(tight.error - m->error) > o->robustness_error / 4) return step > 0 ? "half the step gives another motion" : "a tighter tolerance gives another motion";
+    if (fabs(tight.error - m->error) > o->robustness_error / 4)
+        return step > 0 ? "half the step gives another motion" : "a tighter tolerance gives another motion";
     return NULL;
 }
 
-static void decide(nh_benchmark_work *b, const nh_candidate_run *k, nh_run_record *m, bool reference, double step, const nh_options *o, nh_robustness_cell *cell)
+static void decide(nh_benchmark_work *b, const nh_candidate_run *k, nh_run_record *m, bool reference, double step,
+                   const nh_options *o, nh_robustness_cell *cell)
 {
     bool ended = m->status != NH_FAILED && m->status != NH_TIMEOUT;
     const char *guard = ended && (reference || !b->hurried) ? guard_of(b, k, m, step, o) : NULL;
@@ -56,9 +64,11 @@ static void decide(nh_benchmark_work *b, const nh_candidate_run *k, nh_run_recor
     } else cell->status = good ? guard ? NH_FLAGGED : NH_ACCURATE : guard ? NH_DETECTED : NH_UNDETECTED;
 }
 
-static void try_method(nh_benchmark_work *b, const char *name, bool in_coordinates, bool reference, double step, const nh_options *o, nh_robustness_cell *cell)
+static void try_method(nh_benchmark_work *b, const char *name, bool in_coordinates, bool reference, double step,
+                       const nh_options *o, nh_robustness_cell *cell)
 {
-    nh_candidate_run k = {.method = nh_method_find(name), .formulation = in_coordinates && b->formulations == NH_BENCHMARK_FORMULATIONS ? 1 : 0};
+    nh_candidate_run k = {.method = nh_method_find(name),
+                          .formulation = in_coordinates && b->formulations == NH_BENCHMARK_FORMULATIONS ? 1 : 0};
     nh_run_record m;
     const char *refused = nh_method_refused(k.method, b->formulation[k.formulation].programs);
     if (refused) {
@@ -70,14 +80,18 @@ static void try_method(nh_benchmark_work *b, const char *name, bool in_coordinat
     decide(b, &k, &m, reference, step, o, cell);
 }
 
-void nh_robustness_try(nh_robustness_work *w, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_robustness_cell *cell)
+void nh_robustness_try(nh_robustness_work *w, const nh_simulate_request *request, double turn, size_t coordinate,
+                       bool in_coordinates, nh_robustness_cell *cell)
 {
     nh_error error;
     nh_error_clear(&error);
-    double left = w->begun + w->budget - nh_clock(), budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
+    double left = w->begun + w->budget - nh_clock(),
+           budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
     nh_benchmark_work b;
     bool opened = nh_benchmark_work_open_once(&b, request, coordinate, turn, budget, &error);
-    bool reference = opened && nh_benchmark_work_reference(&b, &error) && b.out->agreement <= request->options.robustness_error; /* else the two say nothing about what is accurate */
+    /* else the two say nothing about what is accurate */
+    bool reference =
+        opened && nh_benchmark_work_reference(&b, &error) && b.out->agreement <= request->options.robustness_error;
     if (opened && !reference) nh_benchmark_work_no_reference(&b);
     for (size_t i = 0; i < method_count; i++) {
         cell[i].method = w->step > 0 ? stepping[i] : methods[i];
@@ -94,11 +108,15 @@ void nh_robustness_try(nh_robustness_work *w, const nh_simulate_request *request
 
 /* ---- maps ---- */
 
-nh_robustness_map *nh_robustness_add_map(nh_robustness_work *w, const char *name, const char *axis, size_t values, size_t methods_here)
+nh_robustness_map *nh_robustness_add_map(nh_robustness_work *w, const char *name, const char *axis, size_t values,
+                                         size_t methods_here)
 {
     nh_arena *arena = w->out->arena;
     nh_robustness_map *map = &w->out->map[w->out->maps++];
-    *map = (nh_robustness_map){.name = nh_arena_strdup(arena, name), .axis = nh_arena_strdup(arena, axis), .methods = methods_here, .cells = values * methods_here};
+    *map = (nh_robustness_map){.name = nh_arena_strdup(arena, name),
+                               .axis = nh_arena_strdup(arena, axis),
+                               .methods = methods_here,
+                               .cells = values * methods_here};
     map->cell = nh_arena_alloc(arena, map->cells * sizeof *map->cell);
     return map;
 }
@@ -126,7 +144,8 @@ static void map_time(nh_robustness_work *w, const char *name, size_t count, doub
 static void map_absolute(nh_robustness_work *w)
 {
     enum { count = sizeof absolute / sizeof *absolute };
-    nh_robustness_map *map = nh_robustness_add_map(w, "badly scaled", "size below which errors are absolute", count, method_count);
+    nh_robustness_map *map =
+        nh_robustness_add_map(w, "badly scaled", "size below which errors are absolute", count, method_count);
     for (size_t v = 0; v < count; v++) {
         nh_simulate_request q = *w->request;
         q.options.absolute = absolute[v];
@@ -138,7 +157,8 @@ static void map_absolute(nh_robustness_work *w)
 static void map_parameter(nh_robustness_work *w, const char *name, double value)
 {
     enum { count = sizeof parameter / sizeof *parameter };
-    nh_robustness_map *map = nh_robustness_add_map(w, nh_arena_printf(w->out->arena, "parameter %s", name), name, count, method_count);
+    nh_robustness_map *map =
+        nh_robustness_add_map(w, nh_arena_printf(w->out->arena, "parameter %s", name), name, count, method_count);
     nh_setting *setting = nh_arena_alloc(w->out->arena, (w->request->settings + 1) * sizeof *setting);
     if (w->request->settings) memcpy(setting, w->request->setting, w->request->settings * sizeof *setting);
     for (size_t v = 0; v < count; v++) {
@@ -153,7 +173,9 @@ static void map_parameter(nh_robustness_work *w, const char *name, double value)
 
 static void map_angle(nh_robustness_work *w, const char *name, size_t coordinate)
 {
-    nh_robustness_map *map = nh_robustness_add_map(w, nh_arena_printf(w->out->arena, "%s turned, chart of coordinate velocities", name), name, most_values, method_count);
+    nh_robustness_map *map =
+        nh_robustness_add_map(w, nh_arena_printf(w->out->arena, "%s turned, chart of coordinate velocities", name),
+                              name, most_values, method_count);
     for (size_t v = 0; v < most_values; v++) {
         double turn = 2 * acos(-1) * (double)v / most_values;
         set_at(map, v, turn);
@@ -172,9 +194,12 @@ static bool all_maps(nh_robustness_work *w, const nh_benchmark_work *plain, nh_e
 {
     const nh_system *s = plain->out->question->system;
     bool charts = plain->formulations == NH_BENCHMARK_FORMULATIONS || (!plain->model->chart->quasi && plain->model->k);
-    size_t parameters = s->parameters < most_parameters ? s->parameters : most_parameters, angles = angles_of(s, charts);
-    w->out->map = nh_arena_alloc(w->out->arena, (3 + s->robustness_maps + parameters + angles + NH_ROBUSTNESS_FITS) * sizeof *w->out->map);
-    w->values_left = longer_times + sizeof absolute / sizeof *absolute + parameters * (sizeof parameter / sizeof *parameter) + angles * most_values + longer_by_steps;
+    size_t parameters = s->parameters < most_parameters ? s->parameters : most_parameters,
+           angles = angles_of(s, charts);
+    w->out->map = nh_arena_alloc(w->out->arena, (3 + s->robustness_maps + parameters + angles + NH_ROBUSTNESS_FITS) *
+                                                    sizeof *w->out->map);
+    w->values_left = longer_times + sizeof absolute / sizeof *absolute +
+                     parameters * (sizeof parameter / sizeof *parameter) + angles * most_values + longer_by_steps;
     nh_robustness_fits(w, plain);
     for (size_t i = 0; i < s->robustness_maps; i++)
         if (!nh_robustness_named(w, plain, &s->robustness_map[i], error)) return false;
@@ -183,7 +208,8 @@ static bool all_maps(nh_robustness_work *w, const nh_benchmark_work *plain, nh_e
         if (s->coordinate[i].type == NH_ANGLE) map_angle(w, s->coordinate[i].name, i);
     for (size_t i = 0; i < parameters; i++) map_parameter(w, s->parameter[i].name, s->parameter[i].value);
     double begin = plain->out->begin, end = plain->out->end;
-    map_time(w, "long times by fixed steps", longer_by_steps, fabs(end - begin) / (4 * w->request->options.benchmark_steps), begin, end);
+    map_time(w, "long times by fixed steps", longer_by_steps,
+             fabs(end - begin) / (4 * w->request->options.benchmark_steps), begin, end);
     map_time(w, "long times", longer_times, 0, begin, end);
     return true;
 }
@@ -195,20 +221,26 @@ static bool one_map(nh_robustness_work *w, const nh_benchmark_work *plain, const
     w->out->map = nh_arena_alloc(w->out->arena, NH_ROBUSTNESS_FITS * sizeof *w->out->map);
     if (!strcmp(over, "samples")) return nh_robustness_fits(w, plain), true;
     for (size_t i = 0; i < s->robustness_maps; i++)
-        if (!strcmp(over, s->robustness_map[i].name)) return nh_robustness_named(w, plain, &s->robustness_map[i], error);
+        if (!strcmp(over, s->robustness_map[i].name))
+            return nh_robustness_named(w, plain, &s->robustness_map[i], error);
     if (!s->robustness_maps || strchr(over, '=')) return nh_robustness_axes(w, plain, w->request, NULL, over, error);
     nh_fail(error, NH_USAGE, "", "--over `%s` is neither a range nor a robustness map of this system", over);
-    return nh_error_hint(error, "--over \"NAME=LOW:HIGH\", or one of its maps, such as --over \"%s\"", s->robustness_map[0].name);
+    return nh_error_hint(error, "--over \"NAME=LOW:HIGH\", or one of its maps, such as --over \"%s\"",
+                         s->robustness_map[0].name);
 }
 
-nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error)
+nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget,
+                                    nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_robustness *out = nh_arena_alloc(arena, sizeof *out);
-    *out = (nh_robustness){.arena = arena, .tolerance = request->options.robustness_tolerance, .accuracy = request->options.robustness_error};
+    *out = (nh_robustness){.arena = arena,
+                           .tolerance = request->options.robustness_tolerance,
+                           .accuracy = request->options.robustness_error};
     nh_robustness_work w = {.out = out, .request = request, .begun = nh_clock(), .budget = budget};
     nh_benchmark_work plain;
-    bool good = nh_benchmark_work_open_once(&plain, request, 0, 0, budget, error) && (over ? one_map(&w, &plain, over, error) : all_maps(&w, &plain, error));
+    bool good = nh_benchmark_work_open_once(&plain, request, 0, 0, budget, error) &&
+                (over ? one_map(&w, &plain, over, error) : all_maps(&w, &plain, error));
     nh_benchmark_work_close(&plain);
     nh_benchmark_free(plain.out);
     for (size_t i = 0; i < out->maps; i++)

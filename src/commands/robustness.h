@@ -1,4 +1,5 @@
-/* robustness: what the integrators do where methods fail.  Maps over one thing that is made worse, with one cell per value and method:
+/* robustness: what the integrators do where methods fail.  Maps over one thing that is made worse, with one cell per
+ * value and method:
  *
  *     accurate    within the accuracy, and no safeguard triggered
  *     flagged     within it, and a safeguard triggered
@@ -9,10 +10,12 @@
  *
  * Safeguards: the pivot of the chart, the drift of every known current, and a second run at a tenth of the tolerance.
  *
- * Maps: the time, ten to a thousand times longer, also by methods with a fixed step; the size below which errors count as absolute, wrong by powers of ten, which is
- * what badly scaled units do; every parameter, made small and large (masses and lengths that vanish, stiffness); every angle of the initial state, turned once
- * around, in the chart of coordinate velocities; those that the system file names (`robustness`); and the discrete problem where it is hardly determined
- * (robustness_fit.c).  A motion that needs more than options.robustness_steps is out of time: a count, so that a map is the same on a busy machine. */
+ * Maps: the time, ten to a thousand times longer, also by methods with a fixed step; the size below which errors count
+ * as absolute, wrong by powers of ten, which is what badly scaled units do; every parameter, made small and large
+ * (masses and lengths that vanish, stiffness); every angle of the initial state, turned once around, in the chart of
+ * coordinate velocities; those that the system file names (`robustness`); and the discrete problem where it is hardly
+ * determined (robustness_fit.c).  A motion that needs more than options.robustness_steps is out of time: a count, so
+ * that a map is the same on a busy machine. */
 #ifndef NH_ROBUSTNESS_H
 #define NH_ROBUSTNESS_H
 
@@ -22,8 +25,11 @@ typedef struct {
     double at, second_at; /* on the axes; the second 0 where there is none */
     const char *method;
     nh_run_record_status status;
-    double error, drift; /* NAN where there is no reference or no result (of the discrete problem: rate of what was found, and distance of known currents from it, at other points); largest
-                            drift of a known current, NAN where none is known */
+    /* NAN where there is no reference or no result.  Of the discrete problem: rate of what was found, and distance of
+       known currents from it, at other points. */
+    double error;
+    /* largest drift of a known current, NAN where none is known */
+    double drift;
     const char *note;  /* which guard, or why it failed */
 } nh_robustness_cell;
 
@@ -41,11 +47,13 @@ typedef struct {
     size_t count[NH_UNDETECTED + 1]; /* cells per status */
 } nh_robustness;
 
-/* `over`: "NAME=LOW:HIGH" or "NAME=LOW:HIGH:VALUES", or two of them with a comma between: one map over these parameters, numbers of the initial state or
- * options instead of all others; or the name of a map of the system file; or "samples", the maps of the discrete problem; NULL: all.  `budget`: seconds for all,
- * HUGE_VAL: only steps are counted.  NULL with a message when the system itself cannot be read.  The tolerance of
- * every run and the error that counts as accurate are request->options.robustness_tolerance and robustness_error. */
-nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error);
+/* `over`: "NAME=LOW:HIGH" or "NAME=LOW:HIGH:VALUES", or two of them with a comma between: one map over these
+ * parameters, numbers of the initial state or options instead of all others; or the name of a map of the system file;
+ * or "samples", the maps of the discrete problem; NULL: all.  `budget`: seconds for all, HUGE_VAL: only steps are
+ * counted.  NULL with a message when the system itself cannot be read.  The tolerance of every run and the error that
+ * counts as accurate are request->options.robustness_tolerance and robustness_error. */
+nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget,
+                                    nh_error *error);
 void nh_robustness_free(nh_robustness *maps);
 
 #endif

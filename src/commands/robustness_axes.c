@@ -22,7 +22,9 @@ typedef struct {
 static bool unreadable(const char *text, nh_error *error)
 {
     nh_fail(error, NH_USAGE, "", "--over `%s` is no range", text);
-    return nh_error_hint(error, "it is written --over \"NAME=LOW:HIGH\", or NAME=LOW:HIGH:VALUES, one or two of them with a comma between");
+    return nh_error_hint(
+        error,
+        "it is written --over \"NAME=LOW:HIGH\", or NAME=LOW:HIGH:VALUES, one or two of them with a comma between");
 }
 
 static bool read_axis(nh_arena *arena, const char *text, axis *a, nh_error *error)
@@ -51,29 +53,36 @@ static bool know(const nh_benchmark_work *plain, const nh_simulate_request *requ
     for (size_t i = 0; i < s->parameters; i++)
         if (!strcmp(a->name, s->parameter[i].name)) return true; /* AXIS_PARAMETER */
     bool initial = false;
-    for (size_t i = 0; i < s->coordinates; i++) initial |= !strcmp(a->name, s->coordinate[i].name) || !strcmp(a->name, nh_name_of(o->dag, s->coordinate[i].v));
+    for (size_t i = 0; i < s->coordinates; i++)
+        initial |= !strcmp(a->name, s->coordinate[i].name) || !strcmp(a->name, nh_name_of(o->dag, s->coordinate[i].v));
     for (size_t i = 0; i < o->n; i++) initial |= !strcmp(a->name, nh_name_of(o->dag, o->chart->w[i]));
     a->kind = initial ? AXIS_INITIAL : AXIS_OPTION;
     if (initial && request->initial) return true;
     if (initial) {
         nh_fail(error, NH_USAGE, "", "--over `%s` changes the initial state, which is not given", a->name);
-        return nh_error_hint(error, "--initial \"%s=0\" gives it; omitted values are 0 or follow from the constraints", a->name);
+        return nh_error_hint(error, "--initial \"%s=0\" gives it; omitted values are 0 or follow from the constraints",
+                             a->name);
     }
     a->name = nh_option_name(a->name);
     for (size_t i = 0; i < nh_option_count(); i++)
         if (!strcmp(a->name, nh_option_at(i).name)) return true;
     nh_fail(error, NH_USAGE, "", "--over `%s`: there is no such parameter, coordinate, velocity or option", a->name);
-    return nh_error_hint(error, "`nhsym show` prints the system; options are those of `nhsym explain options`, such as until or absolute");
+    return nh_error_hint(
+        error,
+        "`nhsym show` prints the system; options are those of `nhsym explain options`, such as until or absolute");
 }
 
 /* Up to two; 0 with a message when something is wrong. */
-static size_t read_axes(nh_arena *arena, const nh_benchmark_work *plain, const nh_simulate_request *request, const char *over, axis *a, nh_error *error)
+static size_t read_axes(nh_arena *arena, const nh_benchmark_work *plain, const nh_simulate_request *request,
+                        const char *over, axis *a, nh_error *error)
 {
     size_t n = 0;
     char *text = nh_arena_strdup(arena, over), *rest = text;
     for (char *part; (part = strsep(&rest, ",;"));) {
         while (*part == ' ') part++;
-        if (n == most_axes) return nh_fail(error, NH_USAGE, "", "--over takes at most %d ranges", most_axes), nh_error_hint(error, "set further parameters one at a time by --set"), 0;
+        if (n == most_axes)
+            return nh_fail(error, NH_USAGE, "", "--over takes at most %d ranges", most_axes),
+                   nh_error_hint(error, "set further parameters one at a time by --set"), 0;
         if (!read_axis(arena, part, &a[n], error) || !know(plain, request, &a[n], error)) return 0;
         n++;
     }
@@ -100,12 +109,14 @@ static const char *with_initial(nh_arena *arena, const char *initial, const char
     for (char *part; (part = strsep(&rest, ",;"));) {
         part += strspn(part, " ");
         size_t length = strcspn(part, "= ");
-        if (*part && (length != strlen(name) || strncmp(part, name, length))) out = nh_arena_printf(arena, "%s, %s", out, part);
+        if (*part && (length != strlen(name) || strncmp(part, name, length)))
+            out = nh_arena_printf(arena, "%s, %s", out, part);
     }
     return out;
 }
 
-static bool change(nh_arena *arena, const axis *a, double value, nh_simulate_request *q, nh_setting *setting, nh_error *error)
+static bool change(nh_arena *arena, const axis *a, double value, nh_simulate_request *q, nh_setting *setting,
+                   nh_error *error)
 {
     if (a->kind == AXIS_INITIAL) {
         q->initial = with_initial(arena, q->initial, a->name, value);
@@ -120,7 +131,8 @@ static bool change(nh_arena *arena, const axis *a, double value, nh_simulate_req
     return true;
 }
 
-bool nh_robustness_axes(nh_robustness_work *w, const nh_benchmark_work *plain, const nh_simulate_request *request, const char *name, const char *over, nh_error *error)
+bool nh_robustness_axes(nh_robustness_work *w, const nh_benchmark_work *plain, const nh_simulate_request *request,
+                        const char *name, const char *over, nh_error *error)
 {
     nh_arena *arena = w->out->arena;
     axis a[most_axes];
@@ -137,7 +149,8 @@ bool nh_robustness_axes(nh_robustness_work *w, const nh_benchmark_work *plain, c
         nh_robustness_cell *cell = map->cell + i * map->methods;
         double x = value_at(&a[0], i / second), y = n == 1 ? 0 : value_at(&a[1], i % second);
         q.setting = setting;
-        if (!change(arena, &a[0], x, &q, setting, error) || (n > 1 && !change(arena, &a[1], y, &q, setting, error))) return false;
+        if (!change(arena, &a[0], x, &q, setting, error) || (n > 1 && !change(arena, &a[1], y, &q, setting, error)))
+            return false;
         for (size_t k = 0; k < map->methods; k++) cell[k].at = x, cell[k].second_at = y;
         nh_robustness_try(w, &q, 0, 0, false, cell);
     }
@@ -151,13 +164,19 @@ bool nh_robustness_named(nh_robustness_work *w, const nh_benchmark_work *plain, 
     nh_simulate_request q = *w->request;
     nh_setting *setting = nh_arena_alloc(w->out->arena, (q.settings + s->settings + 1) * sizeof *setting);
     if (q.settings) memcpy(setting, q.setting, q.settings * sizeof *setting);
-    for (size_t i = 0; i < s->settings; i++) setting[q.settings++] = (nh_setting){.name = s->setting[i].name, .value = s->setting[i].value};
+    for (size_t i = 0; i < s->settings; i++)
+        setting[q.settings++] = (nh_setting){.name = s->setting[i].name, .value = s->setting[i].value};
     q.setting = setting;
     if (s->initial) q.initial = s->initial;
-    if (s->velocities) q.chart = !strcmp(s->velocities, "auto") ? NH_CHART_AUTO : !strcmp(s->velocities, "quasi") ? NH_CHART_QUASI : NH_CHART_COORDINATES;
+    if (s->velocities)
+        q.chart = !strcmp(s->velocities, "auto")    ? NH_CHART_AUTO
+                  : !strcmp(s->velocities, "quasi") ? NH_CHART_QUASI
+                                                    : NH_CHART_COORDINATES;
     if (s->until > 0) q.options.until = s->until, q.until_given = true;
     for (size_t i = 0; i < s->options; i++)
-        if (!nh_options_set(&q.options, s->option[i].name, nh_arena_printf(w->out->arena, "%.17g", s->option[i].value), error)) return false;
+        if (!nh_options_set(&q.options, s->option[i].name, nh_arena_printf(w->out->arena, "%.17g", s->option[i].value),
+                            error))
+            return false;
     w->step = s->step;
     bool good = nh_robustness_axes(w, plain, &q, s->name, s->over, error);
     w->step = 0;

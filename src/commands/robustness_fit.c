@@ -1,9 +1,11 @@
-/* robustness_fit: the discrete problem where it is hardly determined.  Samples that crowd in a corner of the domain, samples with noise, a column that nearly depends on
- * others, and two frequencies that nearly coincide; by both routes and by both solvers.
+/* robustness_fit: the discrete problem where it is hardly determined.  Samples that crowd in a corner of the domain,
+ * samples with noise, a column that nearly depends on others, and two frequencies that nearly coincide; by both routes
+ * and by both solvers.
  *
- * The truth is the dimension by the generalized solver from many points of the whole domain, with the column far from the others and the frequencies far apart.
- * Guards: the spectrum's own verdict (undecided, a gap above rounding, a rank in doubt), fewer independent columns than elsewhere, a null vector that is not conserved
- * at points over the whole domain, and a known current that is missing. */
+ * The truth is the dimension by the generalized solver from many points of the whole domain, with the column far from
+ * the others and the frequencies far apart. Guards: the spectrum's own verdict (undecided, a gap above rounding, a rank
+ * in doubt), fewer independent columns than elsewhere, a null vector that is not conserved at points over the whole
+ * domain, and a known current that is missing. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,11 +18,16 @@
 #include "commands/robustness_internal.h"
 
 enum { levels = 6, most_ways = 4, most_field_columns = 400, truth_density = 10, density = 4, most_degree = 4 };
-static const double radius[levels] = {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5}, noise[levels] = {0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3}, apart[levels] = {0.1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15};
+static const double radius[levels] = {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5},
+                    noise[levels] = {0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3},
+                    apart[levels] = {0.1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15};
 static const double far_apart = 0.37;
-static const double conserved = 1e-6; /* rate at held-out points, relative to the variation, of what is conserved as far as coefficients of about ten digits tell */
+/* rate at held-out points, relative to the variation, of what is conserved as far as coefficients of about ten digits
+   tell */
+static const double conserved = 1e-6;
 static const double in_span = 1e-10, constant = 1e-9;
-static const char *const way_name[most_ways] = {"current, generalized", "current, plain SVD", "symmetry, generalized", "symmetry, plain SVD"};
+static const char *const way_name[most_ways] = {"current, generalized", "current, plain SVD", "symmetry, generalized",
+                                                "symmetry, plain SVD"};
 
 typedef struct {
     nh_robustness_work *w;
@@ -72,7 +79,8 @@ static void blur(fit *f, size_t rows, double *column, double size)
     for (size_t p = 0; p < rows; p++) column[p] += size * largest * chance(f);
 }
 
-static void add_current_rows(fit *f, const nh_points *points, size_t n, const nh_ex *e, double size, nh_equations *equations)
+static void add_current_rows(fit *f, const nh_points *points, size_t n, const nh_ex *e, double size,
+                             nh_equations *equations)
 {
     size_t rows = points->count;
     double *rate = nh_alloc_array(2 * rows * n + 1, sizeof *rate), *value = rate + rows * n;
@@ -89,11 +97,13 @@ static bool solve(fit *f, const nh_points *points, size_t n, const nh_ex *e, int
     nh_field_column *column = NULL;
     nh_error error;
     nh_error_clear(&error);
-    *s = (solved){.columns = n, .e = nh_alloc_array(n + 1, sizeof *s->e), .why = "the symmetry route has too many columns"};
+    *s = (solved){
+        .columns = n, .e = nh_alloc_array(n + 1, sizeof *s->e), .why = "the symmetry route has too many columns"};
     memcpy(s->e, e, n * sizeof *e);
     if (symmetry) {
         s->columns = nh_rows_field_columns(f->model, n, e, &column);
-        if (!s->columns || s->columns > most_field_columns || points->count * (f->model->n + 1) < s->columns + 16) return false;
+        if (!s->columns || s->columns > most_field_columns || points->count * (f->model->n + 1) < s->columns + 16)
+            return false;
         nh_free(s->e);
         s->e = nh_alloc_array(s->columns + 1, sizeof *s->e);
         for (size_t j = 0; j < s->columns; j++) s->e[j] = nh_rows_field_current(f->model, &column[j]);
@@ -101,7 +111,8 @@ static bool solve(fit *f, const nh_points *points, size_t n, const nh_ex *e, int
     nh_equations *equations = nh_equations_create(s->columns, 1);
     if (symmetry) nh_rows_symmetry(f->model, s->columns, column, points, equations);
     else add_current_rows(f, points, n, e, size, equations);
-    s->space = plain ? nh_nullspace_plain(equations, &f->limits, &error) : nh_nullspace_solve(equations, &f->limits, &error);
+    s->space =
+        plain ? nh_nullspace_plain(equations, &f->limits, &error) : nh_nullspace_solve(equations, &f->limits, &error);
     nh_equations_free(equations);
     snprintf(s->why, sizeof s->why, "%.119s", error.what);
     return s->space != NULL;
@@ -109,11 +120,13 @@ static bool solve(fit *f, const nh_points *points, size_t n, const nh_ex *e, int
 
 /* ---- guards ---- */
 
-/* How many null vectors are not conserved, or are constant, at points that the fit has not seen; the largest rate relative to the variation. */
+/* How many null vectors are not conserved, or are constant, at points that the fit has not seen; the largest rate
+   relative to the variation. */
 static size_t refuted(const fit *f, const solved *s, double *worst)
 {
     size_t rows = f->heldout->count, n = s->columns, k = s->space->dimension, bad = 0;
-    double *rate = nh_alloc_array(2 * rows * n + 1, sizeof *rate), *value = rate + rows * n, *r = nh_alloc_array(2 * rows * k + 1, sizeof *r), *v = r + rows * k;
+    double *rate = nh_alloc_array(2 * rows * n + 1, sizeof *rate), *value = rate + rows * n,
+           *r = nh_alloc_array(2 * rows * k + 1, sizeof *r), *v = r + rows * k;
     evaluate(f, f->heldout, n, s->e, rate, value);
     nh_multiply(rows, k, n, rate, s->space->vector, r);
     nh_multiply(rows, k, n, value, s->space->vector, v);
@@ -133,11 +146,13 @@ static size_t refuted(const fit *f, const solved *s, double *worst)
     return bad;
 }
 
-/* Is some combination of the null vectors as good as constant elsewhere?  Then one of them is no current but a dependence of the columns. */
+/* Is some combination of the null vectors as good as constant elsewhere?  Then one of them is no current but a
+   dependence of the columns. */
 static bool hardly_vary(const fit *f, const solved *s)
 {
     size_t rows = f->heldout->count, k = s->space->dimension;
-    double *v = nh_span_values(f->model, f->heldout, s->columns, s->e, k, s->space->vector), *sigma = nh_alloc_array(k + 1, sizeof *sigma);
+    double *v = nh_span_values(f->model, f->heldout, s->columns, s->e, k, s->space->vector),
+           *sigma = nh_alloc_array(k + 1, sizeof *sigma);
     bool bad = k > 0 && (!nh_svd(rows, k, v, sigma, NULL, NULL) || !(sigma[k - 1] > conserved * sigma[0]));
     nh_free(sigma);
     nh_free(v);
@@ -150,10 +165,12 @@ static double missing(const fit *f, const solved *s)
     size_t n = s->columns, rows = f->heldout->count;
     double *one = nh_alloc_array(n * n + 1, sizeof *one), unit = 1, worst = NAN;
     for (size_t j = 0; j < n; j++) one[j + j * n] = 1;
-    double *all = nh_span_values(f->model, f->heldout, n, s->e, n, one), *found = nh_span_values(f->model, f->heldout, n, s->e, s->space->dimension, s->space->vector);
+    double *all = nh_span_values(f->model, f->heldout, n, s->e, n, one),
+           *found = nh_span_values(f->model, f->heldout, n, s->e, s->space->dimension, s->space->vector);
     for (size_t k = 0; k < f->plain->yard.currents && n < rows; k++) {
         double *phi = nh_span_values(f->model, f->heldout, 1, &f->plain->yard.current[k], 1, &unit);
-        if (nh_span_distance(rows, n, all, 1, phi) < in_span) worst = fmax(isnan(worst) ? 0 : worst, nh_span_distance(rows, s->space->dimension, found, 1, phi));
+        if (nh_span_distance(rows, n, all, 1, phi) < in_span)
+            worst = fmax(isnan(worst) ? 0 : worst, nh_span_distance(rows, s->space->dimension, found, 1, phi));
         nh_free(phi);
     }
     nh_free(found);
@@ -169,7 +186,9 @@ static const char *guard_of(fit *f, const solved *s, size_t rank, double *error)
     double rate = 0, lost = missing(f, s);
     size_t bad = refuted(f, s, &rate);
     *error = fmax(rate, isnan(lost) ? 0 : lost);
-    if (bad) return nh_arena_printf(arena, "%zu of %zu null vectors are not conserved, or constant, elsewhere in the domain", bad, n->dimension);
+    if (bad)
+        return nh_arena_printf(arena, "%zu of %zu null vectors are not conserved, or constant, elsewhere in the domain",
+                               bad, n->dimension);
     if (hardly_vary(f, s)) return "null vectors that depend on each other elsewhere in the domain";
     if (n->verdict == NH_UNDECIDED) return "the spectrum does not decide";
     if (n->likely > n->dimension) return "a wide gap above values that are not at rounding";
@@ -195,7 +214,8 @@ static truth truth_of(fit *f, size_t n, const nh_ex *e, int way)
     return t;
 }
 
-static void fill(fit *f, const truth *t, const nh_points *points, size_t n, const nh_ex *e, int way, double size, nh_robustness_cell *cell)
+static void fill(fit *f, const truth *t, const nh_points *points, size_t n, const nh_ex *e, int way, double size,
+                 nh_robustness_cell *cell)
 {
     solved s;
     bool good = solve(f, points, n, e, way, size, &s);
@@ -206,7 +226,8 @@ static void fill(fit *f, const truth *t, const nh_points *points, size_t n, cons
         const char *guard = guard_of(f, &s, t->rank, &cell->error);
         bool right = s.space->dimension == t->dimension;
         cell->status = right ? guard ? NH_FLAGGED : NH_ACCURATE : guard ? NH_DETECTED : NH_UNDETECTED;
-        cell->note = nh_arena_printf(f->w->out->arena, "%zu found, %zu are there%s%s", s.space->dimension, t->dimension, guard ? ": " : "", guard ? guard : "");
+        cell->note = nh_arena_printf(f->w->out->arena, "%zu found, %zu are there%s%s", s.space->dimension, t->dimension,
+                                     guard ? ": " : "", guard ? guard : "");
     }
     solved_clear(&s);
 }
@@ -214,7 +235,13 @@ static void fill(fit *f, const truth *t, const nh_points *points, size_t n, cons
 static nh_robustness_map *open_map(fit *f, const char *name, const char *axis, const double *at, int ways)
 {
     nh_robustness_map *map = nh_robustness_add_map(f->w, name, axis, levels, (size_t)ways);
-    for (size_t i = 0; i < map->cells; i++) map->cell[i] = (nh_robustness_cell){.at = at[i / (size_t)ways], .method = way_name[i % (size_t)ways], .error = NAN, .drift = NAN, .status = NH_TIMEOUT, .note = "there was no time for it"};
+    for (size_t i = 0; i < map->cells; i++)
+        map->cell[i] = (nh_robustness_cell){.at = at[i / (size_t)ways],
+                                            .method = way_name[i % (size_t)ways],
+                                            .error = NAN,
+                                            .drift = NAN,
+                                            .status = NH_TIMEOUT,
+                                            .note = "there was no time for it"};
     return map;
 }
 
@@ -225,10 +252,12 @@ static nh_points *crowded(const fit *f, double part)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_points *points = nh_points_create(f->model, f->points->count, 1, (uint64_t)f->w->request->options.seed, &ignored);
+    nh_points *points =
+        nh_points_create(f->model, f->points->count, 1, (uint64_t)f->w->request->options.seed, &ignored);
     for (size_t j = 0; points && j < points->width; j++) {
         double middle = points->column[j][0];
-        for (size_t p = 0; p < points->count; p++) points->column[j][p] = middle + part * (points->column[j][p] - middle);
+        for (size_t p = 0; p < points->count; p++)
+            points->column[j][p] = middle + part * (points->column[j][p] - middle);
     }
     return points;
 }
@@ -252,7 +281,8 @@ static void map_noisy(fit *f)
     nh_robustness_map *map = open_map(f, "noisy samples", "noise, relative", noise, ways);
     for (int way = 0; way < ways; way++) {
         truth t = truth_of(f, f->columns, f->e, way);
-        for (size_t i = 0; i < levels && !late(f); i++) fill(f, &t, f->points, f->columns, f->e, way, noise[i], &map->cell[i * ways + (size_t)way]);
+        for (size_t i = 0; i < levels && !late(f); i++)
+            fill(f, &t, f->points, f->columns, f->e, way, noise[i], &map->cell[i * ways + (size_t)way]);
     }
 }
 
@@ -260,9 +290,11 @@ static void map_noisy(fit *f)
 static size_t with_neighbour(fit *f, double part, nh_ex *e)
 {
     nh_dag *d = f->model->dag;
-    nh_ex sum = nh_add(d, nh_mul(d, nh_real(d, 0.83), f->letter[0]), nh_mul(d, nh_real(d, 0.29), f->letter[f->letters - 1]));
+    nh_ex sum =
+        nh_add(d, nh_mul(d, nh_real(d, 0.83), f->letter[0]), nh_mul(d, nh_real(d, 0.29), f->letter[f->letters - 1]));
     memcpy(e, f->e, f->columns * sizeof *e);
-    e[f->columns] = nh_add(d, f->e[f->columns - 1], nh_mul(d, nh_real(d, part), nh_call(d, NH_SIN, nh_add(d, sum, nh_real(d, 0.41)))));
+    e[f->columns] = nh_add(d, f->e[f->columns - 1],
+                           nh_mul(d, nh_real(d, part), nh_call(d, NH_SIN, nh_add(d, sum, nh_real(d, 0.41)))));
     return f->columns + 1;
 }
 
@@ -275,7 +307,8 @@ static size_t with_frequencies(fit *f, double part, nh_ex *e)
     while (wave < o->m && !nh_fit_is_wave(o, o->system->coordinate[wave].q)) wave++;
     if (wave == o->m) return 0;
     nh_ex q = o->system->coordinate[wave].q, other = nh_mul(d, nh_real(d, 1 + part), q);
-    nh_ex factor[] = {nh_int(d, 1), nh_call(d, NH_SIN, q), nh_call(d, NH_COS, q), nh_call(d, NH_SIN, other), nh_call(d, NH_COS, other)};
+    nh_ex factor[] = {nh_int(d, 1), nh_call(d, NH_SIN, q), nh_call(d, NH_COS, q), nh_call(d, NH_SIN, other),
+                      nh_call(d, NH_COS, other)};
     for (size_t i = 0; i < o->n; i++)
         for (size_t k = 0; k < sizeof factor / sizeof *factor; k++) e[n++] = nh_mul(d, o->chart->w[i], factor[k]);
     return n;
@@ -323,7 +356,11 @@ void nh_robustness_fits(nh_robustness_work *w, const nh_benchmark_work *plain)
     size_t most = (size_t)o->robustness_columns + 1;
     nh_error ignored;
     nh_error_clear(&ignored);
-    fit f = {.w = w, .plain = plain, .model = plain->out->question->model, .limits = nh_nullspace_options_from(o), .state = 88172645463325252u};
+    fit f = {.w = w,
+             .plain = plain,
+             .model = plain->out->question->model,
+             .limits = nh_nullspace_options_from(o),
+             .state = 88172645463325252u};
     if (f.model->chart->implicit) return; /* velocities that are solved for cannot be moved freely */
     f.heldout = nh_points_create(f.model, density * most, 1, seed + 77, &ignored);
     f.points = nh_points_create(f.model, density * most + 16, 1, seed, &ignored);

@@ -1,4 +1,5 @@
-/* robustness_internal: one value of a map, for the maps of robustness.c and those that a user names (robustness_axes.c). */
+/* robustness_internal: one value of a map, for the maps of robustness.c and those that a user names
+   (robustness_axes.c). */
 #ifndef NH_ROBUSTNESS_INTERNAL_H
 #define NH_ROBUSTNESS_INTERNAL_H
 
@@ -15,17 +16,23 @@ typedef struct {
     double step;        /* methods with this fixed step instead of those with error control; 0: the latter */
 } nh_robustness_work;
 
-/* All methods on one motion, in the first formulation or in coordinate velocities; `turn` is added to one coordinate of the initial state. */
-void nh_robustness_try(nh_robustness_work *work, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_robustness_cell *cell);
+/* All methods on one motion, in the first formulation or in coordinate velocities; `turn` is added to one coordinate of
+   the initial state. */
+void nh_robustness_try(nh_robustness_work *work, const nh_simulate_request *request, double turn, size_t coordinate,
+                       bool in_coordinates, nh_robustness_cell *cell);
 /* out->map must have room. */
-nh_robustness_map *nh_robustness_add_map(nh_robustness_work *work, const char *name, const char *axis, size_t values, size_t methods);
+nh_robustness_map *nh_robustness_add_map(nh_robustness_work *work, const char *name, const char *axis, size_t values,
+                                         size_t methods);
 /* The map of NAME=LOW:HIGH or two of them; name NULL: it is called what it goes over. */
-bool nh_robustness_axes(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_simulate_request *request, const char *name, const char *over, nh_error *error);
+bool nh_robustness_axes(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_simulate_request *request,
+                        const char *name, const char *over, nh_error *error);
 /* A map that the system file names. */
-bool nh_robustness_named(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_named_map *map, nh_error *error);
+bool nh_robustness_named(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_named_map *map,
+                         nh_error *error);
 /* Is the time of all maps over? */
 bool nh_robustness_late(const nh_robustness_work *work);
-/* The maps of the discrete problem: clustered and noisy samples, an ansatz at the edge of dependence, frequencies that nearly coincide. */
+/* The maps of the discrete problem: clustered and noisy samples, an ansatz at the edge of dependence, frequencies that
+   nearly coincide. */
 void nh_robustness_fits(nh_robustness_work *work, const nh_benchmark_work *plain);
 enum { NH_ROBUSTNESS_FITS = 4 };
 

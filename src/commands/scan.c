@@ -46,7 +46,8 @@ static const char *question_of(const nh_scan *x, const nh_scan_request *q)
         nh_text_add(&text, " --over ");
         for (const char *c = q->over[i]; *c; c++) nh_text_add_n(&text, c, *c != ' ');
     }
-    for (size_t i = 0; i < q->source->count && !q->source->usual; i++) nh_text_addf(&text, " --number %s", q->source->name[i]);
+    for (size_t i = 0; i < q->source->count && !q->source->usual; i++)
+        nh_text_addf(&text, " --number %s", q->source->name[i]);
     for (size_t i = 0; i < q->settings; i++) {
         nh_text_number(q->setting[i].value, value, sizeof value);
         nh_text_addf(&text, " --set %s=%s", q->setting[i].name, value);
@@ -114,7 +115,8 @@ static double seconds_of_a_point(void *context)
 static void read_row(nh_scan *x, const char *line, nh_scan_row *row)
 {
     nh_json *from = line ? nh_json_parse(line) : NULL;
-    const nh_json *numbers = nh_json_get(from, "n"), *smallest = nh_json_get(from, "s"), *vanishing = nh_json_get(from, "v");
+    const nh_json *numbers = nh_json_get(from, "n"), *smallest = nh_json_get(from, "s"),
+                  *vanishing = nh_json_get(from, "v");
     row->number = nh_arena_alloc(x->arena, (x->source->count + 1) * sizeof *row->number);
     row->smallest = nh_arena_alloc(x->arena, (x->spaces + 1) * sizeof *row->smallest);
     row->vanishing = nh_arena_alloc(x->arena, (x->spaces + 1) * sizeof *row->vanishing);
@@ -170,8 +172,12 @@ static bool known(const nh_scan *x, const nh_scan_special *s)
 static nh_sweep sweep_of(const work *w, const char *fingerprint)
 {
     const nh_scan_request *q = w->request;
-    return (nh_sweep){.folder = nh_arena_printf(w->scan->arena, "%s/units", q->folder), .fingerprint = fingerprint, .workers = q->workers,
-                      .team = q->team, .begin_worker = q->begin_worker, .context = (void *)w};
+    return (nh_sweep){.folder = nh_arena_printf(w->scan->arena, "%s/units", q->folder),
+                      .fingerprint = fingerprint,
+                      .workers = q->workers,
+                      .team = q->team,
+                      .begin_worker = q->begin_worker,
+                      .context = (void *)w};
 }
 
 static bool run_sweep(nh_scan *x, const nh_sweep *s, nh_sweep_state *state, const char ***line, nh_error *error)
@@ -190,7 +196,8 @@ static size_t most_common(const nh_scan *x, size_t space)
     size_t best = 0, times = 0;
     for (size_t n = 0; n <= x->columns[space]; n++) {
         size_t k = 0;
-        for (size_t i = 0; i < x->points; i++) k += x->row[i].done && isfinite(x->row[i].smallest[space]) && x->row[i].vanishing[space] == n;
+        for (size_t i = 0; i < x->points; i++)
+            k += x->row[i].done && isfinite(x->row[i].smallest[space]) && x->row[i].vanishing[space] == n;
         if (k > times) times = k, best = n;
     }
     return best;

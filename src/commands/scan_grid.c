@@ -46,7 +46,8 @@ static bool read_range(nh_arena *arena, const char *text, nh_scan_axis *a, nh_er
     nh_num low, high;
     char *end;
     long count = second ? strtol(second + 1, &end, 10) : 0;
-    if (!second || *end || count < 2 || !read_exact(equal, (size_t)(first - equal), &low)) return unreadable(text, error);
+    if (!second || *end || count < 2 || !read_exact(equal, (size_t)(first - equal), &low))
+        return unreadable(text, error);
     if (!read_exact(first + 1, (size_t)(second - first - 1), &high)) return unreadable(text, error);
     if ((size_t)count > most_points) return nh_fail(error, NH_USAGE, "", "--over `%s` has too many values", text);
     nh_num step = nh_num_mul(nh_num_add(high, nh_num_mul(nh_num_ratio(-1, 1), low)), nh_num_ratio(1, count - 1));
@@ -114,12 +115,14 @@ bool nh_scan_read_grid(nh_scan *x, const nh_scan_request *q, nh_error *error)
 {
     x->points = 1;
     if (q->axes > NH_SCAN_MOST_AXES)
-        return nh_fail(error, NH_USAGE, "", "a scan has at most %d parameters, but --over is given %zu times", NH_SCAN_MOST_AXES, q->axes);
+        return nh_fail(error, NH_USAGE, "", "a scan has at most %d parameters, but --over is given %zu times",
+                       NH_SCAN_MOST_AXES, q->axes);
     for (size_t i = 0; i < q->axes; i++) {
         nh_scan_axis *a = &x->axis[x->axes];
         if (!nh_scan_read_axis(x->arena, q->over[i], a, error) || !is_parameter(x, a->name, error)) return false;
         x->axes++;
-        if (a->count > most_points / x->points) return nh_fail(error, NH_USAGE, "", "the grid has more than %zu points", most_points);
+        if (a->count > most_points / x->points)
+            return nh_fail(error, NH_USAGE, "", "the grid has more than %zu points", most_points);
         x->points *= a->count;
     }
     return true;
@@ -151,7 +154,8 @@ nh_setting *nh_scan_settings(const nh_scan *x, const nh_scan_request *q, nh_aren
     if (q->settings) memcpy(out, q->setting, q->settings * sizeof *out);
     for (size_t i = 0; i < x->axes; i++) {
         const nh_scan_value *v = nh_scan_at(x, point, i);
-        out[q->settings + i] = (nh_setting){.name = x->axis[i].name, .value = v->value, .top = v->top, .bottom = exact ? v->bottom : 0};
+        out[q->settings + i] =
+            (nh_setting){.name = x->axis[i].name, .value = v->value, .top = v->top, .bottom = exact ? v->bottom : 0};
     }
     *count = q->settings + x->axes;
     return out;

@@ -51,7 +51,8 @@ bool nh_scan_read_special(nh_scan *scan, const char *line, const nh_scan_jump *j
 /* ---- scan_recognise.c ---- */
 
 enum { NH_SCAN_MOST_GUESSES = 12 };
-/* What a number may be that is known up to `error`, the simplest first: constants of the expression language, in the arena. */
+/* What a number may be that is known up to `error`, the simplest first: constants of the expression language, in the
+   arena. */
 size_t nh_scan_guess(nh_arena *arena, double value, double error, nh_setting *out);
 
 #endif

@@ -64,8 +64,8 @@ static double vanishing_of(const line *l, size_t i, size_t space)
 
 static bool is_hit(const line *l, size_t i)
 {
-    return i > 0 && i + 1 < l->count && isfinite(leading(l, i)) && leading(l, i) != l->generic && leading(l, i - 1) == l->generic
-           && leading(l, i + 1) == l->generic;
+    return i > 0 && i + 1 < l->count && isfinite(leading(l, i)) && leading(l, i) != l->generic &&
+           leading(l, i - 1) == l->generic && leading(l, i + 1) == l->generic;
 }
 
 static void find_steps(line *l)
@@ -93,7 +93,8 @@ static double bottom_of(const line *l, size_t i, size_t space, double generic)
     double x0 = at(l, i - 1) - at(l, i), x1 = at(l, i + 1) - at(l, i);
     double a = sigma(l, i - 1, space, generic), b = sigma(l, i, space, generic), c = sigma(l, i + 1, space, generic);
     if (!isfinite(a + b + c) || !(b < a) || !(b < c) || b == 0) return INFINITY;
-    double u = (a * a - b * b) / x0, v = (c * c - b * b) / x1, curvature = (v - u) / (x1 - x0), slope = u - curvature * x0;
+    double u = (a * a - b * b) / x0, v = (c * c - b * b) / x1, curvature = (v - u) / (x1 - x0),
+           slope = u - curvature * x0;
     return fmax(0, 1 - slope * slope / (4 * curvature) / (b * b));
 }
 

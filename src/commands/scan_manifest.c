@@ -19,7 +19,10 @@
 static const double unit_seconds = 10;
 static const size_t least_units = 32; /* of a small grid, so that several workers share it */
 
-static const char *hexadecimal(nh_arena *arena, uint64_t number) { return nh_arena_printf(arena, "%016" PRIx64, number); }
+static const char *hexadecimal(nh_arena *arena, uint64_t number)
+{
+    return nh_arena_printf(arena, "%016" PRIx64, number);
+}
 
 static bool make_folder(const char *path, nh_error *error)
 {
@@ -30,11 +33,13 @@ static bool make_folder(const char *path, nh_error *error)
 
 /* ---- reading ---- */
 
-static bool differs(const nh_json *m, const char *key, const char *mine, const char *what, const char *path, nh_error *error)
+static bool differs(const nh_json *m, const char *key, const char *mine, const char *what, const char *path,
+                    nh_error *error)
 {
     const char *there = nh_json_text(m, key);
     if (there && !strcmp(there, mine)) return false;
-    nh_fail(error, NH_USAGE, path, "this folder holds a scan %s: there `%.200s`, here `%.200s`", what, there ? there : "", mine);
+    nh_fail(error, NH_USAGE, path, "this folder holds a scan %s: there `%.200s`, here `%.200s`", what,
+            there ? there : "", mine);
     nh_error_hint(error, "give another folder, or remove this one");
     return true;
 }
@@ -107,7 +112,8 @@ bool nh_scan_manifest(nh_scan *x, const nh_scan_request *q, double (*seconds_of_
 {
     const char *path = nh_arena_printf(x->arena, "%s/manifest.json", q->folder);
     const char *files = hexadecimal(x->arena, nh_files_fingerprint());
-    if (!make_folder(q->folder, error) || !make_folder(nh_arena_printf(x->arena, "%s/units", q->folder), error)) return false;
+    if (!make_folder(q->folder, error) || !make_folder(nh_arena_printf(x->arena, "%s/units", q->folder), error))
+        return false;
     char *text = read_manifest(path);
     if (!text) {
         char *mine = manifest_text(x, q->program, files, seconds_of_a_point(context));

@@ -1,7 +1,7 @@
 /* scan_recognise: what a number may be that is known to ten digits or so.
  *
- * A ratio, or one times a power of ten; a root of a quadratic equation with small whole coefficients, found as a short vector of a
- * lattice; a ratio times pi; a logarithm of a ratio. These are guesses: whoever asks must check them. */
+ * A ratio, or one times a power of ten; a root of a quadratic equation with small whole coefficients, found as a short
+ * vector of a lattice; a ratio times pi; a logarithm of a ratio. These are guesses: whoever asks must check them. */
 #include <flint/fmpz.h>
 #include <flint/fmpz_lll.h>
 #include <flint/fmpz_mat.h>
@@ -11,7 +11,8 @@
 #include "commands/scan_internal.h"
 #include "integrals/recognise.h"
 
-enum { largest_denominator = 1000, largest_factor = 60 }; /* so few that one of them is near a random number in a thousand */
+/* so few that one of them is near a random number in a thousand */
+enum { largest_denominator = 1000, largest_factor = 60 };
 
 static void put(nh_setting *out, size_t *n, double value, const char *formula)
 {
@@ -30,16 +31,19 @@ static const char *times_pi(nh_arena *arena, nh_num r)
 {
     const char *sign = r.p < 0 ? "-" : "";
     const char *top = r.p == 1 || r.p == -1 ? "pi" : nh_arena_printf(arena, "%" PRId64 "*pi", r.p < 0 ? -r.p : r.p);
-    return r.q == 1 ? nh_arena_printf(arena, "%s%s", sign, top) : nh_arena_printf(arena, "%s%s/%" PRId64, sign, top, r.q);
+    return r.q == 1 ? nh_arena_printf(arena, "%s%s", sign, top)
+                    : nh_arena_printf(arena, "%s%s/%" PRId64, sign, top, r.q);
 }
 
 /* value = r pi with at most 60 parts, or value = log r. */
 static void guess_transcendental(nh_arena *arena, double value, double tolerance, nh_setting *out, size_t *n)
 {
     nh_num r;
-    if (ratio_of(value / M_PI, largest_factor, tolerance, &r)) put(out, n, (double)r.p / (double)r.q * M_PI, times_pi(arena, r));
+    if (ratio_of(value / M_PI, largest_factor, tolerance, &r))
+        put(out, n, (double)r.p / (double)r.q * M_PI, times_pi(arena, r));
     if (fabs(value) >= 20 || !ratio_of(exp(value), largest_factor, fabs(value) * tolerance, &r)) return;
-    put(out, n, log((double)r.p / (double)r.q), nh_arena_printf(arena, r.q == 1 ? "log(%" PRId64 ")" : "log(%" PRId64 "/%" PRId64 ")", r.p, r.q));
+    put(out, n, log((double)r.p / (double)r.q),
+        nh_arena_printf(arena, r.q == 1 ? "log(%" PRId64 ")" : "log(%" PRId64 "/%" PRId64 ")", r.p, r.q));
 }
 
 /* c0 + c1 x + c2 x^2 = 0: the rows (1 0 0 | T), (0 1 0 | T x), (0 0 1 | T x^2) have a short combination. */
@@ -75,7 +79,8 @@ static const char *surd(nh_arena *arena, int64_t p, int64_t m, int64_t d, int64_
     int64_t size = m < 0 ? -m : m;
     const char *root = nh_arena_printf(arena, "sqrt(%" PRId64 ")", d);
     if (size != 1) root = nh_arena_printf(arena, "%" PRId64 "*%s", size, root);
-    const char *top = !p ? nh_arena_printf(arena, "%s%s", m < 0 ? "-" : "", root) : nh_arena_printf(arena, "%" PRId64 "%s%s", p, m < 0 ? "-" : "+", root);
+    const char *top = !p ? nh_arena_printf(arena, "%s%s", m < 0 ? "-" : "", root)
+                         : nh_arena_printf(arena, "%" PRId64 "%s%s", p, m < 0 ? "-" : "+", root);
     if (r == 1) return top;
     return nh_arena_printf(arena, p ? "(%s)/%" PRId64 : "%s/%" PRId64, top, r);
 }
@@ -87,7 +92,8 @@ static void guess_quadratic(nh_arena *arena, double value, double tolerance, nh_
     int64_t b = c[1], square = b * b - 4 * c[0] * c[2];
     double root = square > 0 ? sqrt((double)square) : 0, bottom = 2 * (double)c[2];
     if (square <= 0 || root == floor(root)) return; /* rational ones are guessed already */
-    double plus = (-(double)b + root) / bottom, minus = (-(double)b - root) / bottom, exact = fabs(plus - value) <= fabs(minus - value) ? plus : minus;
+    double plus = (-(double)b + root) / bottom, minus = (-(double)b - root) / bottom,
+           exact = fabs(plus - value) <= fabs(minus - value) ? plus : minus;
     if (fabs(exact - value) > 10 * tolerance * fabs(value)) return;
     put(out, n, exact, surd(arena, -b, exact == plus ? 1 : -1, square, 2 * c[2]));
 }

@@ -48,11 +48,14 @@ static double leading_at(const task *t, ptrdiff_t offset)
 static double ask(task *t, const nh_setting *setting, bool generic)
 {
     const char *why = NULL, *name = t->along->name;
-    nh_setting *all = setting->bottom > 0 || setting->formula ? t->exact : t->plain, *along = setting->bottom > 0 || setting->formula ? t->along : t->along_plain;
+    nh_setting *all = setting->bottom > 0 || setting->formula ? t->exact : t->plain,
+               *along = setting->bottom > 0 || setting->formula ? t->along : t->along_plain;
     nh_setting before = *along;
     *along = *setting;
     along->name = name;
-    if (!t->ended) t->ended = !t->request->source->at(t->request->source->context, t->arena, t->settings, all, generic, t->number, &why);
+    if (!t->ended)
+        t->ended =
+            !t->request->source->at(t->request->source->context, t->arena, t->settings, all, generic, t->number, &why);
     *along = before;
     t->why = why;
     return t->ended ? NAN : t->number[0];
@@ -92,16 +95,19 @@ static double square_at(double value, void *context)
     t->along_plain->value = value;
     t->ended = t->ended || nh_interrupted();
     if (t->ended) return 0;
-    nh_scan_spectra(t->scan, t->request, t->settings, t->plain, space, t->jump->vanishing[t->space], smallest, vanishing);
+    nh_scan_spectra(t->scan, t->request, t->settings, t->plain, space, t->jump->vanishing[t->space], smallest,
+                    vanishing);
     return isfinite(smallest[space]) ? smallest[space] * smallest[space] : 1e100;
 }
 
-/* Near a root sigma = c |lambda - lambda0|: two values, one on each side, give lambda0 better than a minimum can be told. */
+/* Near a root sigma = c |lambda - lambda0|: two values, one on each side, give lambda0 better than a minimum can be
+   told. */
 static void polish(task *t, double scale)
 {
     static const double steps[] = {1e-4, 1e-6};
     for (size_t k = 0; k < sizeof steps / sizeof *steps && !t->ended; k++) {
-        double h = steps[k] * (t->to - t->from), left = sqrt(square_at(t->value - h, t)), right = sqrt(square_at(t->value + h, t));
+        double h = steps[k] * (t->to - t->from), left = sqrt(square_at(t->value - h, t)),
+               right = sqrt(square_at(t->value + h, t));
         double shift = h * (left - right) / (left + right);
         if (!(fabs(shift) < h)) return;
         double there = sqrt(square_at(t->value + shift, t)) / scale;
@@ -115,7 +121,8 @@ static void polish(task *t, double scale)
 static bool minimise(task *t, gsl_min_fminimizer *m)
 {
     enum { most = 80, tried = 6 };
-    double size = fmax(fabs(t->from), fabs(t->to)), scale = sqrt(fmin(gsl_min_fminimizer_f_lower(m), gsl_min_fminimizer_f_upper(m)));
+    double size = fmax(fabs(t->from), fabs(t->to)),
+           scale = sqrt(fmin(gsl_min_fminimizer_f_lower(m), gsl_min_fminimizer_f_upper(m)));
     double before = gsl_min_fminimizer_f_minimum(m);
     for (int k = 0; k < most && !t->ended; k++) {
         if (gsl_min_fminimizer_iterate(m)) break;
@@ -179,7 +186,8 @@ static void look_at_ends(task *t)
 {
     size_t last = t->scan->axis[t->jump->axis].count - 1;
     if (t->kind != NH_SCAN_STEP || !t->confirmed) return;
-    bool first = t->value == axis_value(t, 0) && t->number[0] == t->below, end = t->value == axis_value(t, last) && t->number[0] == t->above;
+    bool first = t->value == axis_value(t, 0) && t->number[0] == t->below,
+         end = t->value == axis_value(t, last) && t->number[0] == t->above;
     if (!first && !end) return;
     t->kind = NH_SCAN_HIT;
     t->generic = first ? t->above : t->below;
@@ -198,7 +206,8 @@ static void recognise(task *t)
         t->confirmed = confirms(t, &guess[k]);
         if (t->confirmed) t->name = name_of(t, &guess[k]), t->value = guess[k].value;
         else if (!why)
-            why = nh_arena_printf(t->arena, "with exactly %s %s", name_of(t, &guess[k]), t->why ? t->why : "the number is the same as around it");
+            why = nh_arena_printf(t->arena, "with exactly %s %s", name_of(t, &guess[k]),
+                                  t->why ? t->why : "the number is the same as around it");
     }
     if (t->kind == NH_SCAN_HIT) t->name = name_of(t, &here);
     look_at_ends(t);
@@ -250,7 +259,9 @@ bool nh_scan_read_special(nh_scan *x, const char *line, const nh_scan_jump *jump
     bool found = isfinite(nh_json_value(from, "value"));
     double space = nh_json_value(from, "space");
     const nh_json *numbers = nh_json_get(from, "number");
-    *out = (nh_scan_special){.kind = found ? (nh_scan_kind)nh_json_value(from, "kind") : jump->kind, .axis = jump->axis, .place = jump->place};
+    *out = (nh_scan_special){.kind = found ? (nh_scan_kind)nh_json_value(from, "kind") : jump->kind,
+                             .axis = jump->axis,
+                             .place = jump->place};
     if (found) {
         out->value = nh_json_value(from, "value");
         out->generic = nh_json_value(from, "generic");

@@ -1,7 +1,7 @@
 /* scan_spaces: the smallest generalized singular values of ansatz spaces, as functions of the parameters.
  *
- * The spaces are stages of the search that are small enough, with the parameters as symbols, so that a space is the same
- * at every value. The values are those of integrals/nullspace.h. */
+ * The spaces are stages of the search that are small enough, with the parameters as symbols, so that a space is the
+ * same at every value. The values are those of integrals/nullspace.h. */
 #include <math.h>
 
 #include "commands/scan_internal.h"
@@ -46,7 +46,8 @@ static nh_ansatz *space_at(const scene *s, const nh_scan_request *q, size_t inde
     nh_error_clear(&ignored);
     if (!nh_stage_at(s->model->arena, s->model, &s->words, index, stage)) return NULL;
     if (!stage->families || nh_ansatz_size(stage->families, stage->family) > 2 * q->options.scan_columns) return NULL;
-    return nh_ansatz_create(s->model, s->ranges, stage->families, stage->family, (size_t)q->options.scan_columns, &ignored);
+    return nh_ansatz_create(s->model, s->ranges, stage->families, stage->family, (size_t)q->options.scan_columns,
+                            &ignored);
 }
 
 bool nh_scan_list_spaces(nh_scan *x, const nh_scan_request *q, nh_error *error)
@@ -60,8 +61,10 @@ bool nh_scan_list_spaces(nh_scan *x, const nh_scan_request *q, nh_error *error)
     if (!q->source->spectra) return true;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!scene_begin(&s, q, settings, setting, &ignored)) return ignored.code != NH_INPUT || nh_fail(error, ignored.code, ignored.where, "%s", ignored.what);
-    for (size_t i = 0; x->spaces < NH_SCAN_MOST_SPACES && nh_stage_at(s.model->arena, s.model, &s.words, i, &stage); i++) {
+    if (!scene_begin(&s, q, settings, setting, &ignored))
+        return ignored.code != NH_INPUT || nh_fail(error, ignored.code, ignored.where, "%s", ignored.what);
+    for (size_t i = 0; x->spaces < NH_SCAN_MOST_SPACES && nh_stage_at(s.model->arena, s.model, &s.words, i, &stage);
+         i++) {
         nh_ansatz *a = space_at(&s, q, i, &stage);
         x->columns[i] = a ? a->columns : 0;
         x->space[i] = stage.name;
@@ -72,12 +75,14 @@ bool nh_scan_list_spaces(nh_scan *x, const nh_scan_request *q, nh_error *error)
     return true;
 }
 
-static void spectrum(const scene *s, const nh_scan_request *q, nh_ansatz *a, size_t index, double *smallest, size_t *vanishing)
+static void spectrum(const scene *s, const nh_scan_request *q, nh_ansatz *a, size_t index, double *smallest,
+                     size_t *vanishing)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
     size_t count = samples_per_column * a->columns;
-    nh_points *points = nh_points_cover(s->model, count < least_samples ? least_samples : count, (uint64_t)q->options.seed, &ignored);
+    nh_points *points =
+        nh_points_cover(s->model, count < least_samples ? least_samples : count, (uint64_t)q->options.seed, &ignored);
     if (!points) return;
     nh_equations *equations = nh_equations_create(a->columns, 1);
     nh_equations_leave_out(equations);
@@ -96,8 +101,8 @@ static void spectrum(const scene *s, const nh_scan_request *q, nh_ansatz *a, siz
     nh_points_free(points);
 }
 
-void nh_scan_spectra(const nh_scan *x, const nh_scan_request *q, size_t settings, const nh_setting *setting, size_t space,
-                     size_t index, double *smallest, size_t *vanishing)
+void nh_scan_spectra(const nh_scan *x, const nh_scan_request *q, size_t settings, const nh_setting *setting,
+                     size_t space, size_t index, double *smallest, size_t *vanishing)
 {
     scene s;
     nh_stage stage;

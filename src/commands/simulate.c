@@ -10,7 +10,8 @@
 #include "graph/terms.h"
 
 enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
-static const double small_motion = 1e8, most_whole = 1e9; /* units of effort: a motion that needs less is compared with the whole model's, which may need so much */
+/* units of effort: a motion that needs less is compared with the whole model's, which may need so much */
+static const double small_motion = 1e8, most_whole = 1e9;
 static const double repeated = 0.1;                      /* seconds: shorter comparisons are timed again */
 
 /* ---- what is wanted along the motion ---- */
@@ -31,7 +32,9 @@ static bool read_watch(nh_simulation *s, const char *typed, nh_error *error)
         while (to > text && to[-1] == ' ') to--;
         nh_ex e;
         const char *name = nh_arena_strndup(s->arena, text, (size_t)(to - text)), *right = equal ? equal + 1 : text;
-        if (!nh_system_expression_part(s->system, "--watch", typed, (size_t)(right - typed), (size_t)(end - right), extras, extra, &e, error)) return false;
+        if (!nh_system_expression_part(s->system, "--watch", typed, (size_t)(right - typed), (size_t)(end - right),
+                                       extras, extra, &e, error))
+            return false;
         if (!nh_analysis_file_to_chart(o, e, &e, error)) return false;
         nh_observables_add(&s->columns, name, NH_TRACK_WATCH, e);
     }
@@ -61,22 +64,29 @@ static void list_columns(nh_simulation *s, bool draw)
         if (!known->unwatched && nh_analysis_file_to_chart(o, known->value, &e, &ignored))
             nh_observables_add(t, known->name, NH_TRACK_CURRENT, e);
     }
-    for (size_t a = 0; a < o->k; a++) nh_observables_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, o->mu[a]);
+    for (size_t a = 0; a < o->k; a++)
+        nh_observables_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, o->mu[a]);
     nh_observables_add(t, "E", NH_TRACK_ENERGY, o->E);
     nh_observables_add_watches(t, s->analysis);
     if (draw) nh_observables_add_drawing(t, s->analysis);
 }
 
-static double *output_times(nh_simulation *s, const nh_simulate_request *q, double begin, double end, size_t *count, nh_error *error)
+static double *output_times(nh_simulation *s, const nh_simulate_request *q, double begin, double end, size_t *count,
+                            nh_error *error)
 {
-    double span = fabs(end - begin), step = q->step > 0 ? q->step : span / default_outputs, steps = ceil(span / step * (1 - 1e-12));
+    double span = fabs(end - begin), step = q->step > 0 ? q->step : span / default_outputs,
+           steps = ceil(span / step * (1 - 1e-12));
     if (!(span > 0) || !(steps < most_outputs)) {
-        nh_fail(error, NH_USAGE, "", span > 0 ? "the output step %g is too small for the time %g" : "the motion ends where it begins (t = %g)", span > 0 ? step : end, span);
+        nh_fail(error, NH_USAGE, "",
+                span > 0 ? "the output step %g is too small for the time %g"
+                         : "the motion ends where it begins (t = %g)",
+                span > 0 ? step : end, span);
         return NULL;
     }
     *count = (size_t)steps + 1;
     double *times = nh_arena_alloc(s->arena, *count * sizeof *times);
-    for (size_t i = 0; i < *count; i++) times[i] = i + 1 == *count ? end : begin + (end > begin ? step : -step) * (double)i;
+    for (size_t i = 0; i < *count; i++)
+        times[i] = i + 1 == *count ? end : begin + (end > begin ? step : -step) * (double)i;
     return times;
 }
 
@@ -114,8 +124,10 @@ static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
     whole.max_effort = most_whole;
     if (!s->trajectory->scene || s->motion->effort > small_motion || !s->motion->complete) return;
     double begin = nh_clock(), few = s->motion->seconds, all = INFINITY;
-    for (int i = 0; i < most_comparisons && (i == 0 || nh_clock() - begin < repeated); i++) { /* the least times: other programs run, too */
-        nh_trajectory *t = nh_trajectory_create(&whole, &ignored), *again = i ? nh_trajectory_create(q, &ignored) : NULL;
+    /* the least times: other programs run, too */
+    for (int i = 0; i < most_comparisons && (i == 0 || nh_clock() - begin < repeated); i++) {
+        nh_trajectory *t = nh_trajectory_create(&whole, &ignored),
+                      *again = i ? nh_trajectory_create(q, &ignored) : NULL;
         bool complete = t && t->motion->complete;
         if (i == 0) s->compared = complete;
         if (complete && i == 0) s->whole_difference = difference_from(s, &whole, t);
@@ -128,7 +140,8 @@ static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
     s->whole_seconds = all;
 }
 
-/* What the system file knows, in the model's chart: currents, and the momenta p_s xi^s of its symmetries (which the scene tests). */
+/* What the system file knows, in the model's chart: currents, and the momenta p_s xi^s of its symmetries (which the
+   scene tests). */
 static size_t known_currents(nh_simulation *s, nh_ex **out)
 {
     nh_error ignored;
@@ -137,7 +150,8 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
     *out = nh_arena_alloc(s->arena, (s->system->currents + s->system->symmetries + 1) * sizeof **out);
     for (size_t i = 0; i < s->system->symmetries; i++) {
         nh_ex momentum = nh_int(d, 0);
-        for (size_t j = 0; j < m; j++) momentum = nh_add(d, momentum, nh_mul(d, s->model->p[j], s->system->symmetry[i * m + j]));
+        for (size_t j = 0; j < m; j++)
+            momentum = nh_add(d, momentum, nh_mul(d, s->model->p[j], s->system->symmetry[i * m + j]));
         (*out)[n++] = momentum;
     }
     for (size_t k = 0; k < s->system->currents; k++) {
@@ -151,17 +165,23 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
 /* From what the method is chosen. */
 static void open_choice(nh_simulation *s, const nh_simulate_request *q, bool plain)
 {
-    s->ways = (nh_choice){.system = s->system, .model = s->model, .seed = (uint64_t)q->options.seed, .may_derive = q->chart == NH_CHART_AUTO, .deriving = s->deriving};
+    s->ways = (nh_choice){.system = s->system,
+                          .model = s->model,
+                          .seed = (uint64_t)q->options.seed,
+                          .may_derive = q->chart == NH_CHART_AUTO,
+                          .deriving = s->deriving};
     nh_choice_open(&s->ways, plain);
 }
 
 /* The method of the request, with its steps from one output to the next where these are fixed. */
-static bool use_method(nh_simulation *s, const nh_simulate_request *q, const double *times, nh_trajectory_request *request, nh_error *error)
+static bool use_method(nh_simulation *s, const nh_simulate_request *q, const double *times,
+                       nh_trajectory_request *request, nh_error *error)
 {
     const nh_method *method = request->method = q->method;
     if (!method) return true;
     if (q->accuracy > 0 || q->ensemble) {
-        nh_fail(error, NH_USAGE, "", "%s, and --method as well", q->ensemble ? "an ensemble has its own methods" : "--accuracy chooses the method");
+        nh_fail(error, NH_USAGE, "", "%s, and --method as well",
+                q->ensemble ? "an ensemble has its own methods" : "--accuracy chooses the method");
         return nh_error_hint(error, "leave one of the two options out");
     }
     if (!method->order) return true;
@@ -173,16 +193,26 @@ static bool use_method(nh_simulation *s, const nh_simulate_request *q, const dou
     return nh_error_hint(error, "`nhsym explain methods` lists the others");
 }
 
-static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count, const double *times, nh_error *error)
+static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count,
+                      const double *times, nh_error *error)
 {
     nh_options options = q->options;
     options.tolerance = s->tolerance;
     nh_ex *e = nh_arena_alloc(s->arena, (s->columns.count + 1) * sizeof *e);
     for (size_t k = 0; k < s->columns.count; k++) e[k] = s->columns.track[k].value;
     bool *by_terms = nh_arena_alloc(s->arena, (s->columns.count + 1) * sizeof *by_terms);
-    for (size_t k = 0; k < s->columns.count; k++) by_terms[k] = s->columns.track[k].kind == NH_TRACK_CURRENT || s->columns.track[k].kind == NH_TRACK_ENERGY;
-    nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns.count, .e = e, .by_terms = by_terms,
-                                     .smallest = q->watch || q->scene, .project = q->project};
+    for (size_t k = 0; k < s->columns.count; k++)
+        by_terms[k] = s->columns.track[k].kind == NH_TRACK_CURRENT || s->columns.track[k].kind == NH_TRACK_ENERGY;
+    nh_trajectory_request request = {.model = s->model,
+                                     .initial = initial,
+                                     .count = count,
+                                     .times = times,
+                                     .options = &options,
+                                     .n = s->columns.count,
+                                     .e = e,
+                                     .by_terms = by_terms,
+                                     .smallest = q->watch || q->scene,
+                                     .project = q->project};
     nh_event *event = nh_arena_alloc(s->arena, (s->events + 1) * sizeof *event);
     for (size_t i = 0; i < s->events; i++) event[i] = s->event[i].event;
     request.events = s->events, request.event = event;
@@ -192,7 +222,8 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->checked = q->accuracy > 0;
     if (s->checked) open_choice(s, q, request.smallest);
     if (q->ensemble) return nh_simulate_many(s, q, &request, error);
-    s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, &s->ways.ways, &s->accuracy, error) : nh_trajectory_create(&request, error);
+    s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, &s->ways.ways, &s->accuracy, error)
+                               : nh_trajectory_create(&request, error);
     if (!s->trajectory) return false;
     if (s->checked) s->tolerance = s->accuracy.tolerance, s->held = s->accuracy.held, s->why = s->accuracy.why;
     s->motion = s->trajectory->motion;
@@ -200,7 +231,9 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
     if (!s->trajectory->scene && request.smallest && !(q->method && q->method->order)) /* it was tried */
-        s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller subsystem reaches the end", s->motion->size, strstr(s->formulation, "all coordinates") ? "in all coordinates" : "in the chart");
+        s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller subsystem reaches the end",
+                                   s->motion->size,
+                                   strstr(s->formulation, "all coordinates") ? "in all coordinates" : "in the chart");
     if (!s->trajectory->scene) return true;
     s->scene = nh_simulate_words(s, s->trajectory->scene, nh_closed_subsystem_words);
     s->idle = nh_simulate_words(s, s->trajectory->scene, nh_closed_subsystem_idle_words);
@@ -208,15 +241,17 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     return true;
 }
 
-/* The distance of the initial position from where a constraint between positions holds, |f|/|df/dq|: its time derivative, which is all that the equations
- * of motion know, keeps f as it is.  f is zero beside its terms, or what a part of each coordinate changes in it. */
+/* The distance of the initial position from where a constraint between positions holds, |f|/|df/dq|: its time
+ * derivative, which is all that the equations of motion know, keeps f as it is.  f is zero beside its terms, or what a
+ * part of each coordinate changes in it. */
 static const char *words_astray(const nh_simulation *s, const nh_state *at)
 {
     static const double small = 1e-6;
     const nh_model *o = s->model;
     size_t m = o->m;
     nh_ex *e = nh_arena_alloc(s->arena, (m + 2) * sizeof *e), *in = nh_arena_alloc(s->arena, (m + 1) * sizeof *in);
-    double *value = nh_arena_alloc(s->arena, (m + 2) * sizeof *value), *z = nh_arena_alloc(s->arena, (m + 1) * sizeof *z);
+    double *value = nh_arena_alloc(s->arena, (m + 2) * sizeof *value),
+           *z = nh_arena_alloc(s->arena, (m + 1) * sizeof *z);
     in[0] = o->system->t;
     z[0] = at->t;
     for (size_t i = 0; i < m; i++) in[1 + i] = o->system->coordinate[i].q, z[1 + i] = at->q[i];
@@ -226,14 +261,17 @@ static const char *words_astray(const nh_simulation *s, const nh_state *at)
         if (!c->position) continue;
         e[0] = c->level, e[m + 1] = nh_terms_moduli(o->dag, c->level);
         for (size_t i = 0; i < m; i++) e[1 + i] = nh_diff(o->dag, c->level, in[1 + i]);
-        nh_tape *tape = nh_tape_create(o->dag, m + 1, in, m + 2, e, o->system->parameters, o->parameter, o->parameter_value);
+        nh_tape *tape =
+            nh_tape_create(o->dag, m + 1, in, m + 2, e, o->system->parameters, o->parameter, o->parameter_value);
         nh_tape_work *work = nh_tape_work_create(tape);
         nh_tape_eval(tape, work, z, value);
         nh_tape_work_free(work);
         nh_tape_free(tape);
         for (size_t i = 0; i < m; i++) slope = hypot(slope, value[1 + i]), size += fabs(value[1 + i] * at->q[i]);
         if (fabs(value[0]) > small * (size + value[m + 1]))
-            return nh_arena_printf(s->arena, "the initial position does not satisfy %s: the error is about %.2g; along the motion left side minus right side stays %.6g",
+            return nh_arena_printf(s->arena,
+                                   "the initial position does not satisfy %s: the error is about %.2g; along the "
+                                   "motion left side minus right side stays %.6g",
                                    c->text, fabs(value[0]) / slope, value[0]);
     }
     return NULL;
@@ -258,7 +296,8 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
 
 /* ---- in which velocities? ---- */
 
-/* How many states the smallest model for what is watched keeps in this chart; SIZE_MAX: it cannot be told.  *quasi: is it a chart of quasi-velocities? */
+/* How many states the smallest model for what is watched keeps in this chart; SIZE_MAX: it cannot be told.  *quasi: is
+   it a chart of quasi-velocities? */
 static size_t states_kept(const nh_simulate_request *q, bool *quasi)
 {
     nh_error ignored;
@@ -304,7 +343,8 @@ nh_simulation *nh_simulation_create(const nh_simulate_request *q, nh_error *erro
         nh_error_clear(&ignored);
         other.chart = NH_CHART_COORDINATES;
         nh_simulation *s = simulate_in_chart(&other, &ignored);
-        if (s && s->trajectory->scene && s->motion->complete && (!s->checked || s->held)) return s; /* the chart may end on the way */
+        /* the chart may end on the way */
+        if (s && s->trajectory->scene && s->motion->complete && (!s->checked || s->held)) return s;
         nh_simulation_free(s);
     }
     return simulate_in_chart(q, error);

@@ -27,11 +27,13 @@ typedef struct {
 } nh_simulated_event;
 
 typedef struct {
-    const char *system_path, *analysis_path; /* analysis may be NULL: its initial state, time and watched quantities are used */
+    /* analysis may be NULL: its initial state, time and watched quantities are used */
+    const char *system_path, *analysis_path;
     size_t settings;
     const nh_setting *setting;
     nh_chart_choice chart;
-    const char *initial;                     /* "phi=0, omega=2", or NULL: that of the analysis file, else a state on the constraints */
+    /* "phi=0, omega=2", or NULL: that of the analysis file, else a state on the constraints */
+    const char *initial;
     const char *from;                        /* where that is written, for messages; NULL: --initial */
     const char *watch;                       /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
     const char *event;   /* "y = 0, falling, stop; phi'": zeros that are recorded, or end the motion; or NULL */
@@ -39,13 +41,16 @@ typedef struct {
     const char *axes;    /* "y, y'": the columns of its picture; NULL: chosen */
     bool scene;                              /* the same with what the analysis file watches */
     bool draw;                               /* follow what is drawn, too (one motion with all columns) */
-    bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
+    /* project: velocities that violate the constraints are moved onto them */
+    bool until_given, tolerance_given, project;
     double step;                             /* output spacing; 0: a hundredth of the time */
     const nh_method *method;                 /* NULL: the one that suits, or with an accuracy the cheapest */
-    double accuracy;                         /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
+    /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
+    double accuracy;
     size_t ensemble;                         /* members; 0: one motion */
     const nh_simulate_rows *table;           /* their initial states; NULL: around the given one */
-    double spread;                           /* of their initial states about the given one, relative to max(|z_i|, 1) */
+    /* of their initial states about the given one, relative to max(|z_i|, 1) */
+    double spread;
     nh_options options;
 } nh_simulate_request;
 
@@ -56,11 +61,14 @@ struct nh_simulation {
     nh_model *model;
     const char *method, *formulation;
     const char *scene;    /* the smallest model in words; NULL: all states were integrated */
-    const char *begin;    /* no initial state was given: the one that was chosen, as it is written behind --initial; NULL */
-    const char *astray;   /* the initial position violates a constraint between positions: which, and by how much; NULL */
+    /* no initial state was given: the one that was chosen, as it is written behind --initial; NULL */
+    const char *begin;
+    /* the initial position violates a constraint between positions: which, and by how much; NULL */
+    const char *astray;
     const char *idle;     /* parameters and bodies without influence on what is watched, in words; empty: all matter */
     bool compared;        /* the whole model was integrated too, because the motion is short */
-    double scene_seconds, whole_seconds, whole_difference; /* the least times of both, and how far what is watched is off, relative to its size along the motion */
+    /* the least times of both, and how far what is watched is off, relative to its size along the motion */
+    double scene_seconds, whole_seconds, whole_difference;
     long whole_evaluations;
     nh_observables columns;    /* with the drawing only where it was asked for, at the end */
     size_t events;             /* those of --event, then that of --section */
@@ -82,17 +90,21 @@ struct nh_simulation {
 };
 
 /* A file of comma-separated values with a line of names: coordinates, velocities (x' or x_dot) and parameters. */
-bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *request, const char *path, nh_simulate_rows *rows, nh_error *error);
+bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *request, const char *path,
+                           nh_simulate_rows *rows, nh_error *error);
 
 /* An error without a place is that of this row. */
 void nh_simulate_row_blame(const nh_simulate_row *row, nh_error *error);
 
 nh_simulation *nh_simulation_create(const nh_simulate_request *request, nh_error *error);
-/* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model).  `from`: where it is written, for messages; NULL: --initial. */
+/* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model).  `from`: where it is
+   written, for messages; NULL: --initial. */
 nh_analysis_file *nh_simulate_initial(const char *from, const char *initial, nh_error *error);
 
-/* The first part of it, into a simulation that has an arena and nothing else: system, analysis, model, tolerance, the initial state
- * (one on the constraints where none is given) and the final time.  Also on failure: nh_simulation_free. */
-bool nh_simulate_read(nh_simulation *simulation, const nh_simulate_request *request, nh_state *initial, double *until, nh_error *error);
+/* The first part of it, into a simulation that has an arena and nothing else: system, analysis, model, tolerance, the
+ * initial state (one on the constraints where none is given) and the final time.  Also on failure:
+ * nh_simulation_free. */
+bool nh_simulate_read(nh_simulation *simulation, const nh_simulate_request *request, nh_state *initial, double *until,
+                      nh_error *error);
 
 #endif

@@ -5,15 +5,18 @@
 #include "commands/simulate.h"
 
 /* What `write` says of a scene, in the simulation's memory. */
-const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene, void (*write)(const nh_closed_subsystem *scene, nh_text *out));
+const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene,
+                              void (*write)(const nh_closed_subsystem *scene, nh_text *out));
 
 /* --event, --section and --axes, after the columns. */
 bool nh_simulate_events(nh_simulation *s, const nh_simulate_request *request, nh_error *error);
 
 /* An ensemble instead of the one motion that `motion` asks for. */
-bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *request, const nh_trajectory_request *motion, nh_error *error);
+bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *request, const nh_trajectory_request *motion,
+                      nh_error *error);
 
 /* The state (q, w) of a row, which begins at the given time. */
-bool nh_simulate_row_start(nh_simulation *s, const nh_simulate_row *row, nh_dynamics *dynamics, double time, bool project, double *z, nh_error *error);
+bool nh_simulate_row_start(nh_simulation *s, const nh_simulate_row *row, nh_dynamics *dynamics, double time,
+                           bool project, double *z, nh_error *error);
 
 #endif

@@ -3,7 +3,8 @@
 
 #include "base/parallel.h"
 
-const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene, void (*write)(const nh_closed_subsystem *scene, nh_text *out))
+const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene,
+                              void (*write)(const nh_closed_subsystem *scene, nh_text *out))
 {
     nh_text words;
     nh_text_init(&words);
@@ -14,36 +15,43 @@ const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene
 }
 
 /* The states of all members, row by row. */
-static bool initial_states(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion, double *initial, nh_error *error)
+static bool initial_states(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion,
+                           double *initial, nh_error *error)
 {
     size_t size = s->model->m + s->model->n;
     double *z0 = nh_arena_alloc(s->arena, size * sizeof *z0);
     nh_dynamics *d = nh_dynamics_create(s->model);
     bool good = true;
     for (size_t i = 0; q->table && i < q->ensemble && good; i++)
-        good = nh_simulate_row_start(s, &q->table->row[i], d, motion->initial->t, motion->project, initial + i * size, error);
+        good = nh_simulate_row_start(s, &q->table->row[i], d, motion->initial->t, motion->project, initial + i * size,
+                                     error);
     if (!q->table) good = nh_dynamics_start(d, motion->initial, motion->project, z0, error);
     if (!q->table && good) nh_ensemble_states(size, z0, q->ensemble, q->spread, (uint64_t)q->options.seed, initial);
     nh_dynamics_free(d);
     return good;
 }
 
-bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion, nh_error *error)
+bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion,
+                      nh_error *error)
 {
     size_t size = s->model->m + s->model->n, threads = nh_threads(q->options.threads);
     double *initial = nh_alloc_array(q->ensemble, size * sizeof *initial);
     if (initial_states(s, q, motion, initial, error)) {
-        if (s->checked) s->ensemble = nh_ensemble_accurate(motion, q->ensemble, initial, threads, q->accuracy, &s->ways.ways, &s->accuracy_of_all, error);
+        if (s->checked)
+            s->ensemble = nh_ensemble_accurate(motion, q->ensemble, initial, threads, q->accuracy, &s->ways.ways,
+                                               &s->accuracy_of_all, error);
         else s->ensemble = nh_ensemble_create(motion, q->ensemble, initial, threads, error);
     }
     nh_free(initial);
     if (!s->ensemble) return false;
-    if (s->checked) s->tolerance = s->accuracy_of_all.tolerance, s->held = s->accuracy_of_all.held, s->why = s->accuracy_of_all.why;
+    if (s->checked)
+        s->tolerance = s->accuracy_of_all.tolerance, s->held = s->accuracy_of_all.held, s->why = s->accuracy_of_all.why;
     s->method = "Prince-Dormand 8, in batches";
     s->formulation = NH_ON_SUBMANIFOLD;
     const nh_ensemble_accuracy *a = s->checked && s->accuracy_of_all.all_alone ? &s->accuracy_of_all : NULL;
     if (a) s->method = nh_arena_printf(s->arena, "%s, each alone", a->way.method->name);
-    if (a && a->way.velocities == NH_ALL_COORDINATES) s->formulation = "all coordinates, accelerations from the bordered system";
+    if (a && a->way.velocities == NH_ALL_COORDINATES)
+        s->formulation = "all coordinates, accelerations from the bordered system";
     if (!a || motion->smallest) s->scene = nh_simulate_words(s, s->ensemble->scene, nh_closed_subsystem_words);
     return true;
 }

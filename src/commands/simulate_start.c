@@ -1,4 +1,5 @@
-/* simulate_start: the system, the analysis file and the initial state of a motion: the one that is given, or one on the constraints. */
+/* simulate_start: the system, the analysis file and the initial state of a motion: the one that is given, or one on the
+   constraints. */
 #include "commands/simulate_internal.h"
 
 #include <math.h>
@@ -20,13 +21,16 @@ static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_
 {
     double begin = nh_budget_used();
     nh_progress("the equations of motion", -1);
-    s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
+    s->model =
+        nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
     s->deriving = 1e6 * (nh_budget_used() - begin);
     if (!s->model || (s->analysis && !nh_analysis_file_resolve(s->analysis, s->model, error))) return false;
-    return !q->initial || ((*own = nh_simulate_initial(q->from, q->initial, error)) && nh_analysis_file_resolve(*own, s->model, error));
+    return !q->initial || ((*own = nh_simulate_initial(q->from, q->initial, error)) &&
+                           nh_analysis_file_resolve(*own, s->model, error));
 }
 
-/* The initial state chooses the branch of a quadratic constraint, and, where those of the chart do not follow from the constraints there, the dependent velocities. */
+/* The initial state chooses the branch of a quadratic constraint, and, where those of the chart do not follow from the
+   constraints there, the dependent velocities. */
 static bool needs_other_chart(nh_simulation *s, const nh_state *at)
 {
     size_t *dependent = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof *dependent);
@@ -108,7 +112,8 @@ static bool choose_initial(nh_simulation *s, nh_state *initial)
     const nh_model *o = s->model;
     if (!o->chart->probes) return false;
     double *z = nh_arena_alloc(s->arena, o->width * sizeof *z);
-    *initial = (nh_state){.q = nh_arena_alloc(s->arena, o->m * sizeof(double)), .v = nh_arena_alloc(s->arena, o->m * sizeof(double))};
+    *initial = (nh_state){.q = nh_arena_alloc(s->arena, o->m * sizeof(double)),
+                          .v = nh_arena_alloc(s->arena, o->m * sizeof(double))};
     memcpy(z, o->chart->probe, o->width * sizeof *z);
     if (!depends_on_time(o)) z[0] = 0;
     if (!round_point(o, z) || !velocities_at(o, z, initial->v)) {
@@ -125,7 +130,8 @@ static bool no_initial(const nh_simulation *s, nh_error *error)
 {
     const char *name = s->system->coordinate[0].name;
     nh_fail(error, NH_USAGE, "", "simulate needs an initial state, and none was found on the constraints");
-    return nh_error_hint(error, "--initial \"%s=0, %s'=1\"; omitted values are 0 or follow from the constraints", name, name);
+    return nh_error_hint(error, "--initial \"%s=0, %s'=1\"; omitted values are 0 or follow from the constraints", name,
+                         name);
 }
 
 bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, nh_state *initial, double *until, nh_error *error)
@@ -139,7 +145,8 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, nh_state *
     if (!(s->system = nh_system_read(q->system_path, count + q->settings, setting, error))) return false;
     bool good = resolve(s, q, &own, error);
     const nh_analysis_file *first = own ? own : s->analysis;
-    if (good && first && first->has_initial && needs_other_chart(s, &first->initial)) good = resolve_again(s, q, &own, error);
+    if (good && first && first->has_initial && needs_other_chart(s, &first->initial))
+        good = resolve_again(s, q, &own, error);
     if (!good) {
         nh_analysis_file_free(own);
         return false;
@@ -158,7 +165,8 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, nh_state *
         }
     }
     *until = !q->until_given && s->analysis && s->analysis->has_until ? s->analysis->until : q->options.until;
-    s->tolerance = !q->tolerance_given && s->analysis && s->analysis->has_tolerance ? s->analysis->tolerance : q->options.tolerance;
+    s->tolerance = !q->tolerance_given && s->analysis && s->analysis->has_tolerance ? s->analysis->tolerance
+                                                                                    : q->options.tolerance;
     nh_analysis_file_free(own);
     if (given) return true;
     return choose_initial(s, initial) || no_initial(s, error);

@@ -15,7 +15,8 @@ static const char *state_name(nh_arena *arena, const nh_system *s, const char *n
     for (size_t i = 0; i < s->coordinates; i++) {
         const char *own = s->coordinate[i].name;
         if (!strcmp(own, name)) return name;
-        if (strlen(own) + tail == length && !strncmp(own, name, length - tail) && !strcmp(name + length - tail, dot)) return nh_arena_printf(arena, "%s'", own);
+        if (strlen(own) + tail == length && !strncmp(own, name, length - tail) && !strcmp(name + length - tail, dot))
+            return nh_arena_printf(arena, "%s'", own);
     }
     return name;
 }
@@ -47,9 +48,11 @@ static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, con
         if (!strcmp(names[i], name)) return true;
     for (size_t i = 0; i < s->parameters; i++) names[n++] = s->parameter[i].name;
     bool option = !strncmp(t->path, "--", 2); /* --over makes a table, too */
-    nh_fail(error, option ? NH_USAGE : NH_INPUT, t->path, "%s`%s` is no coordinate, velocity or parameter of %s", option ? "" : "the column ", name, s->name);
+    nh_fail(error, option ? NH_USAGE : NH_INPUT, t->path, "%s`%s` is no coordinate, velocity or parameter of %s",
+            option ? "" : "the column ", name, s->name);
     const char *near = nh_text_nearest(name, names, n);
-    return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "it has %s", names_of(arena, names, n));
+    return near ? nh_error_hint(error, "did you mean `%s`?", near)
+                : nh_error_hint(error, "it has %s", names_of(arena, names, n));
 }
 
 /* What the request's initial state says of names that the table has no column for. */
@@ -89,7 +92,8 @@ static bool read_row(nh_arena *arena, const char *given, const nh_table *t, size
     return good;
 }
 
-bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *q, const char *path, nh_simulate_rows *out, nh_error *error)
+bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *q, const char *path, nh_simulate_rows *out,
+                           nh_error *error)
 {
     nh_table *t = nh_table_read(arena, path, error);
     nh_system *s = t ? nh_system_read(q->system_path, q->settings, q->setting, error) : NULL;
@@ -115,11 +119,15 @@ void nh_simulate_row_blame(const nh_simulate_row *row, nh_error *error)
     if (error->code != NH_OK && !error->where[0]) snprintf(error->where, sizeof error->where, "%s", row->from);
 }
 
-bool nh_simulate_row_start(nh_simulation *s, const nh_simulate_row *row, nh_dynamics *d, double time, bool project, double *z, nh_error *error)
+bool nh_simulate_row_start(nh_simulation *s, const nh_simulate_row *row, nh_dynamics *d, double time, bool project,
+                           double *z, nh_error *error)
 {
     nh_analysis_file *own = nh_simulate_initial(row->from, row->initial ? row->initial : "", error);
     bool good = own && nh_analysis_file_resolve(own, s->model, error);
-    if (good && own->initial.t != time) good = nh_fail(error, NH_INPUT, row->from, "all motions of a table begin at one time, but t is %g here and %g in the first row", own->initial.t, time);
+    if (good && own->initial.t != time)
+        good = nh_fail(error, NH_INPUT, row->from,
+                       "all motions of a table begin at one time, but t is %g here and %g in the first row",
+                       own->initial.t, time);
     good = good && nh_dynamics_start(d, &own->initial, project, z, error);
     nh_simulate_row_blame(row, error);
     nh_analysis_file_free(own);

@@ -33,7 +33,8 @@ static void ask_other_branch(nh_verification *v, nh_ex e, const nh_options *opti
     nh_error_clear(&ignored);
     nh_model *other = v->conserved ? nh_branch_other(v->model, options) : NULL;
     nh_ex phi;
-    if (other && nh_analysis_file_to_chart(other, e, &phi, &ignored)) v->on_both = nh_branch_conserves(other, phi, &v->proof, options);
+    if (other && nh_analysis_file_to_chart(other, e, &phi, &ignored))
+        v->on_both = nh_branch_conserves(other, phi, &v->proof, options);
     nh_model_free(other);
 }
 
@@ -78,7 +79,8 @@ void nh_verification_free(nh_verification *v)
 
 static const double rounding = 64 * DBL_EPSILON;
 
-/* |e| / sum of |terms|: where it is largest the point is kept.  What is no more than the rounding of what cancels within the terms is relative to that. */
+/* |e| / sum of |terms|: where it is largest the point is kept.  What is no more than the rounding of what cancels
+   within the terms is relative to that. */
 static bool worst_point(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term, double *residual)
 {
     size_t count = points->count, worst = count;
@@ -116,13 +118,15 @@ static bool accepts(const nh_proof *proof, double residual, const nh_options *op
     return proof->proved || (proof->digits >= enough && residual <= options->heldout);
 }
 
-/* Constant on the submanifold: all derivatives vanish there, by normal form; or wherever it is smooth, however it is written. */
+/* Constant on the submanifold: all derivatives vanish there, by normal form; or wherever it is smooth, however it is
+   written. */
 static bool is_constant(const nh_model *o, const nh_points *generic, nh_ex phi, const nh_options *options)
 {
     nh_independence kind;
     bool proved = true;
     for (size_t j = 0; j < 1 + o->m + o->n && proved; j++)
-        proved = nh_normal_is_zero(o->dag, nh_diff(o->dag, phi, o->chart->symbol[j]), (size_t)options->proof_terms) == NH_ZERO;
+        proved = nh_normal_is_zero(o->dag, nh_diff(o->dag, phi, o->chart->symbol[j]), (size_t)options->proof_terms) ==
+                 NH_ZERO;
     if (proved) return true;
     nh_independence_test(o, generic, 1, &phi, options->sure, options->doubt, &kind, NULL);
     return kind == NH_CONSTANT;
@@ -145,7 +149,8 @@ static bool describe(nh_verification *v, const nh_options *options, nh_error *er
 static void delimit(nh_verification *v, const nh_options *options)
 {
     nh_terrain terrain = nh_terrain_of(v->model, options, v->arena);
-    nh_region region = nh_region_of(v->model, &terrain, v->current, v->proof.proved ? 0 : v->proof.digits / 2, options, v->arena);
+    nh_region region =
+        nh_region_of(v->model, &terrain, v->current, v->proof.proved ? 0 : v->proof.digits / 2, options, v->arena);
     v->region = nh_region_text(v->model->dag, &region, v->arena);
     v->conserved = !v->region;
 }
@@ -166,12 +171,14 @@ static bool examine(nh_verification *v, const nh_options *options, nh_error *err
     return !v->conserved || describe(v, options, error);
 }
 
-nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
+nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *text,
+                                            const nh_options *options, nh_error *error)
 {
     nh_verification *v = start(system, chart, options, error);
     nh_ex e;
     if (!v) return NULL;
-    bool good = nh_system_expression_text(system, "--current", text, 0, NULL, &e, error) && nh_analysis_file_to_chart(v->model, e, &v->current, error);
+    bool good = nh_system_expression_text(system, "--current", text, 0, NULL, &e, error) &&
+                nh_analysis_file_to_chart(v->model, e, &v->current, error);
     if (good) {
         v->current = nh_simplify(v->model->dag, v->current);
         good = examine(v, options, error);
@@ -195,7 +202,10 @@ static bool component(nh_verification *v, const char *typed, size_t begin, size_
     if (begin == end) return true;
     const char *equal = memchr(typed + begin, '=', end - begin);
     size_t right = equal ? (size_t)(equal - typed) + 1 : end, n = right - 1 - begin;
-    if (!equal) return nh_deck_fail_typed("--field", typed, begin, error, "a component `name=expression` was expected, found `%.*s`", (int)(end - begin), typed + begin);
+    if (!equal)
+        return nh_deck_fail_typed("--field", typed, begin, error,
+                                  "a component `name=expression` was expected, found `%.*s`", (int)(end - begin),
+                                  typed + begin);
     while (n && typed[begin + n - 1] == ' ') n--;
     char *name = nh_arena_strndup(v->arena, typed + begin, n);
     long index = nh_system_coordinate(v->system, name);
@@ -207,13 +217,18 @@ static bool component(nh_verification *v, const char *typed, size_t begin, size_
             g->has_W = true;
         }
     if (!to) {
-        nh_deck_fail_typed("--field", typed, begin, error, "`%s` is neither Z0 nor a coordinate nor a velocity of the chart", name);
-        return nh_error_hint(error, "the components along time (Z0) and along the coordinates determine the field; omitted components are 0");
+        nh_deck_fail_typed("--field", typed, begin, error,
+                           "`%s` is neither Z0 nor a coordinate nor a velocity of the chart", name);
+        return nh_error_hint(
+            error,
+            "the components along time (Z0) and along the coordinates determine the field; omitted components are 0");
     }
-    return nh_system_expression_part(v->system, "--field", typed, right, end - right, 0, NULL, &e, error) && nh_analysis_file_to_chart(v->model, e, to, error);
+    return nh_system_expression_part(v->system, "--field", typed, right, end - right, 0, NULL, &e, error) &&
+           nh_analysis_file_to_chart(v->model, e, to, error);
 }
 
-/* zeta with Z^s = zeta^i R^s_i + rho^s Z^0, from n rows of R: those of the free coordinates, or least squares for quasi-velocities. */
+/* zeta with Z^s = zeta^i R^s_i + rho^s Z^0, from n rows of R: those of the free coordinates, or least squares for
+   quasi-velocities. */
 static bool solve_zeta(nh_verification *v, nh_ex time, const nh_ex *space, nh_ex *zeta, nh_error *error)
 {
     const nh_model *o = v->model;
@@ -231,7 +246,8 @@ static bool solve_zeta(nh_verification *v, nh_ex time, const nh_ex *space, nh_ex
         for (size_t j = 0; j < n; j++) N[i * n + j] = nh_int(d, 0);
         for (size_t s = 0; s < m; s++) {
             zeta[i] = nh_add(d, zeta[i], nh_mul(d, o->R[s * n + i], rest[s]));
-            for (size_t j = 0; j < n; j++) N[i * n + j] = nh_add(d, N[i * n + j], nh_mul(d, o->R[s * n + i], o->R[s * n + j]));
+            for (size_t j = 0; j < n; j++)
+                N[i * n + j] = nh_add(d, N[i * n + j], nh_mul(d, o->R[s * n + i], o->R[s * n + j]));
         }
     }
     for (size_t i = 0; i < n * n; i++) N[i] = nh_simplify(d, N[i]);
@@ -257,8 +273,8 @@ static void outside(nh_verification *v, const given *g)
     }
 }
 
-/* The terms of the k-th condition: Z in the canonical distribution (as many as constraints), (N0), (NY) (n); (NX) (n) only determines W and is checked
- * only when the user gave W. */
+/* The terms of the k-th condition: Z in the canonical distribution (as many as constraints), (N0), (NY) (n); (NX) (n)
+ * only determines W and is checked only when the user gave W. */
 static size_t condition(nh_verification *v, const given *g, size_t k, nh_ex *term)
 {
     const nh_model *o = v->model;
@@ -320,8 +336,10 @@ static bool check_field(nh_verification *v, const given *g, const nh_options *op
 static bool read_field(nh_verification *v, const char *text, given *g, nh_error *error)
 {
     const nh_model *o = v->model;
-    *g = (given){.time = nh_int(o->dag, 0), .space = nh_arena_alloc(v->arena, (o->m + 1) * sizeof(nh_ex)),
-                 .zeta = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex)), .W = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex))};
+    *g = (given){.time = nh_int(o->dag, 0),
+                 .space = nh_arena_alloc(v->arena, (o->m + 1) * sizeof(nh_ex)),
+                 .zeta = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex)),
+                 .W = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex))};
     bool good = true; /* node 0 is the number 0 */
     for (const char *p = text; good && *p;) {
         size_t length = nh_text_entry(p, ",;");
@@ -331,7 +349,8 @@ static bool read_field(nh_verification *v, const char *text, given *g, nh_error 
     return good;
 }
 
-nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
+nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *text,
+                                          const nh_options *options, nh_error *error)
 {
     nh_verification *v = start(system, chart, options, error);
     if (!v) return NULL;
@@ -353,11 +372,13 @@ static nh_ex along_places(const nh_model *o, const given *g, nh_ex e)
 {
     nh_dag *d = o->dag;
     nh_ex sum = nh_mul(d, g->time, nh_diff(d, e, o->system->t));
-    for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_mul(d, g->space[s], nh_diff(d, e, o->system->coordinate[s].q)));
+    for (size_t s = 0; s < o->m; s++)
+        sum = nh_add(d, sum, nh_mul(d, g->space[s], nh_diff(d, e, o->system->coordinate[s].q)));
     return sum;
 }
 
-/* W from [Gamma,Z]^s = f rho^s, where the user gave none: R^s_i W^i = Gamma(Z^s) - Z_q(rho^s) - f rho^s, with Gamma(Z^s) and f = Gamma(Z^0). */
+/* W from [Gamma,Z]^s = f rho^s, where the user gave none: R^s_i W^i = Gamma(Z^s) - Z_q(rho^s) - f rho^s, with
+   Gamma(Z^s) and f = Gamma(Z^0). */
 static bool prolong(nh_verification *v, given *g, nh_error *error)
 {
     const nh_model *o = v->model;
@@ -383,7 +404,8 @@ static void motion_condition(nh_verification *v, const given *g, size_t k, nh_ex
     term[0] = nh_model_gamma(o, own);
     term[1] = nh_neg(o->dag, nh_model_along(o, &Z, motion));
     term[2] = nh_neg(o->dag, nh_mul(o->dag, v->factor, motion));
-    v->equation = nh_arena_printf(v->arena, "[Gamma,Z] - f Gamma along %s", place ? v->system->coordinate[k].name : nh_name_of(o->dag, o->chart->w[k - o->m]));
+    v->equation = nh_arena_printf(v->arena, "[Gamma,Z] - f Gamma along %s",
+                                  place ? v->system->coordinate[k].name : nh_name_of(o->dag, o->chart->w[k - o->m]));
 }
 
 /* Z(Phi) of the currents that the system file knows. */
@@ -397,11 +419,13 @@ static void make_currents(nh_verification *v, const given *g)
         nh_ex phi;
         nh_error_clear(&ignored);
         if (!nh_analysis_file_to_chart(v->model, y->current[i].value, &phi, &ignored)) continue;
-        v->make[v->made++] = (nh_named){.name = y->current[i].name, .value = nh_simplify(v->model->dag, nh_model_along(v->model, &Z, phi))};
+        v->make[v->made++] = (nh_named){.name = y->current[i].name,
+                                        .value = nh_simplify(v->model->dag, nh_model_along(v->model, &Z, phi))};
     }
 }
 
-nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
+nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *text,
+                                            const nh_options *options, nh_error *error)
 {
     nh_verification *v = start(system, chart, options, error);
     if (!v) return NULL;
@@ -436,7 +460,8 @@ void nh_verification_write_out(nh_verification *v, const nh_options *options)
     nh_error ignored;
     nh_error_clear(&ignored);
     if (v->model->chart->quasi && v->system->constraints)
-        v->other = nh_model_create(v->system, nh_chart_create(v->system, NH_CHART_COORDINATES, (uint64_t)options->seed, &ignored), &ignored);
+        v->other = nh_model_create(
+            v->system, nh_chart_create(v->system, NH_CHART_COORDINATES, (uint64_t)options->seed, &ignored), &ignored);
     v->theory = nh_theory_of(v->arena, v->model, v->other, 1, options);
     if (!v->has_symmetry || v->trivial) return;
     nh_theory_add(v->arena, v->theory, "Phi", &v->symmetry);

@@ -1,7 +1,8 @@
 /* verify: tests whether a function is a first integral, or a field a constraint symmetry.
  *
- * A current is confirmed by proof or by its digits, and shown with the field it comes from; or refuted with a point at which its rate is
- * not zero.  A field Z^0, Z^s is a constraint symmetry when zeta^i from it satisfies (N0), (NX), (NY). */
+ * A current is confirmed by proof or by its digits, and shown with the field it comes from; or refuted with a point at
+ * which its rate is not zero.  A field Z^0, Z^s is a constraint symmetry when zeta^i from it satisfies (N0), (NX),
+ * (NY). */
 #ifndef NH_VERIFY_H
 #define NH_VERIFY_H
 
@@ -11,17 +12,23 @@ struct nh_verification {
     nh_arena *arena;
     nh_system *system;
     nh_model *model;
-    nh_ex current;            /* in the chart; of a field: its current alpha(Z), if it lies in the canonical distribution */
+    /* in the chart; of a field: its current alpha(Z), if it lies in the canonical distribution */
+    nh_ex current;
     nh_ex *form;              /* of a field: i_Z phi^a, one for each constraint; else NULL */
     bool outside;             /* of a field: they do not vanish, Z is not in the canonical distribution */
-    bool of_equations;        /* of a field: is it a symmetry of the equations of motion, [Gamma,Z] = f Gamma, and no constraint symmetry is asked for */
+    /* of a field: is it a symmetry of the equations of motion, [Gamma,Z] = f Gamma, and no constraint symmetry is asked
+       for */
+    bool of_equations;
     nh_ex factor;             /* then: f = Gamma(Z^0); `current` means nothing */
-    size_t made;              /* then: known currents of the system file, and what Z makes of them: currents too [CechMusilova2014, sec. 3.3] */
+    /* then: known currents of the system file, and what Z makes of them: currents too [CechMusilova2014, sec. 3.3] */
+    size_t made;
     nh_named *make;
     bool conserved;           /* or: is a symmetry */
-    const char *region;       /* a current is conserved in a part of the motions only: where (integrals/region.h); then `conserved` is false */
+    /* a current is conserved in a part of the motions only: where (integrals/region.h); then `conserved` is false */
+    const char *region;
     bool trivial;             /* the current is constant */
-    const char *branch, *other_branch; /* of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */
+    /* of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */
+    const char *branch, *other_branch;
     bool on_both;             /* a current, as it was asked for, is conserved on the other branch too */
     bool has_symmetry;
     nh_symmetry symmetry;
@@ -36,12 +43,16 @@ struct nh_verification {
 };
 
 /* NULL for bad input. */
-nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *current, const nh_options *options, nh_error *error);
+nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *current,
+                                            const nh_options *options, nh_error *error);
 /* "Z0=..; phi=..; x=..": components along t and the coordinates, those not named are 0. */
-nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);
+nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *field,
+                                          const nh_options *options, nh_error *error);
 
-/* Is it a symmetry of the equations of motion?  Components along velocities that are not named follow from the others: Z is prolonged. */
-nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);
+/* Is it a symmetry of the equations of motion?  Components along velocities that are not named follow from the others:
+   Z is prolonged. */
+nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *field,
+                                            const nh_options *options, nh_error *error);
 /* The geometry written out, with the bracket of the field where there is one. */
 void nh_verification_write_out(nh_verification *verification, const nh_options *options);
 

@@ -92,7 +92,8 @@ static void put_constraint(const writer *w, nh_json *to)
     nh_json *item = nh_json_put_object(to, "constraint");
     nh_json_put_text(item, "type", nh_constraint_type_name(d->type));
     nh_json_put_bool(item, "homogeneous", d->homogeneous);
-    if (d->type == NH_NONLINEAR) nh_json_put_null(item, "semiholonomic"); /* defined for linear and affine constraints */
+    /* defined for linear and affine constraints */
+    if (d->type == NH_NONLINEAR) nh_json_put_null(item, "semiholonomic");
     else nh_json_put_bool(item, "semiholonomic", d->holonomic);
     nh_json_put_bool(item, "holonomic", d->holonomic);
     nh_json_put_bool(item, "rheonomic", d->rheonomic);
@@ -118,7 +119,8 @@ static void put_system(const writer *w, nh_json *to)
     nh_json_put_text(to, "system", r->system->name);
     nh_json_put_text(to, "title", r->system->title);
     nh_json *parameters = nh_json_put_object(to, "parameters");
-    for (size_t i = 0; i < r->system->parameters; i++) nh_json_put_number(parameters, r->system->parameter[i].name, r->system->parameter[i].value);
+    for (size_t i = 0; i < r->system->parameters; i++)
+        nh_json_put_number(parameters, r->system->parameter[i].name, r->system->parameter[i].value);
     nh_json *dimension = nh_json_put_object(to, "dimension");
     nh_json_put_number(dimension, "coordinates", (double)r->model->m);
     nh_json_put_number(dimension, "constraints", (double)r->model->k);
@@ -259,7 +261,8 @@ static void put_field(const writer *w, nh_json *to, const nh_current *f)
     nh_field_term *term;
     size_t terms = z->along_motion ? nh_formula_field(r, z, &term) : 0;
     nh_json *relative = terms ? nh_json_put_object(item, "components_with_gamma") : NULL;
-    for (size_t i = 0; i < terms; i++) put_expression(w, relative, term[i].along ? term[i].along : "Gamma", term[i].coefficient);
+    for (size_t i = 0; i < terms; i++)
+        put_expression(w, relative, term[i].along ? term[i].along : "Gamma", term[i].coefficient);
     if (!relative) nh_json_put_null(item, "components_with_gamma");
     nh_json_put_number(item, "residual", z->noether_residual);
     put_expressions(w, item, "i_bracket_phi", o->k, z->bracket_form);
@@ -298,7 +301,8 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
     nh_json *table = nh_json_put_array(item, "coefficients");
     for (size_t i = 0; i < series->words; i++) {
         nh_json *row = nh_json_add_array(table);
-        for (size_t k = 0; k <= series->degree; k++) nh_json_add_number(row, series->coefficient[i * series->stride + k]);
+        for (size_t k = 0; k <= series->degree; k++)
+            nh_json_add_number(row, series->coefficient[i * series->stride + k]);
     }
 }
 
@@ -338,11 +342,15 @@ static void put_current(const writer *w, nh_json *currents, const nh_current *f)
     if (w->r->model->chart->branch) nh_json_put_bool(item, "on_both_branches", f->on_both);
     else nh_json_put_null(item, "on_both_branches");
     nh_ex positive[NH_MOST_REAL_WHERE];
-    put_expressions(w, item, "real_where_positive", f->series ? 0 : nh_real_where(w->r->model, f->phi, positive), positive);
+    put_expressions(w, item, "real_where_positive", f->series ? 0 : nh_real_where(w->r->model, f->phi, positive),
+                    positive);
     nh_json_put_bool(item, "exact", f->exact);
     nh_json_put_number(item, "printed_digits", floor(f->printed_digits));
     nh_json_put_bool(item, "independent", f->independence == NH_INDEPENDENT);
-    nh_json_put_text(item, "independence_by", f->rank.proved ? "proof" : f->rank.answer != NH_RANK_UNDECIDED ? "digits" : "doubles");
+    nh_json_put_text(item, "independence_by",
+                     f->rank.proved                        ? "proof"
+                     : f->rank.answer != NH_RANK_UNDECIDED ? "digits"
+                                                           : "doubles");
     nh_json_put_text(item, "relation", f->relation);
     nh_json_put_text(item, "known", f->known);
     nh_json_put_bool(item, "local", f->local);
@@ -376,7 +384,9 @@ static void put_others(const writer *w, nh_json *root)
         nh_json_put_number(item, "degree", (double)g->degree);
     }
     list = nh_json_put_array(root, "relations");
-    for (size_t k = 0; k < w->r->relations; k++) nh_json_add_text(list, nh_arena_printf(w->r->arena, "%s = %s", w->r->relation[k].left, w->r->relation[k].right));
+    for (size_t k = 0; k < w->r->relations; k++)
+        nh_json_add_text(list,
+                         nh_arena_printf(w->r->arena, "%s = %s", w->r->relation[k].left, w->r->relation[k].right));
 }
 
 static void put_almost(const writer *w, nh_json *root)
@@ -425,15 +435,19 @@ char *nh_analysis_json(const nh_analysis *r)
     nh_analysis_json_validation(r, root);
     nh_analysis_json_figures(r, root);
     nh_json_put_bool(root, "partial", r->partial);
-    nh_run_json(&(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total}, r->system, root);
+    nh_run_json(
+        &(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total},
+        r->system, root);
     put_timing(&r->timing, root);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);
     char note[200];
-    snprintf(note, sizeof note, "%zu formula%s longer than %.0f symbols and null here (option `written`)", left_out, left_out == 1 ? " is" : "s are", r->options.written);
+    snprintf(note, sizeof note, "%zu formula%s longer than %.0f symbols and null here (option `written`)", left_out,
+             left_out == 1 ? " is" : "s are", r->options.written);
     if (left_out) nh_json_add_text(warnings, note);
     size_t holes = nh_analysis_json_holes(r);
-    snprintf(note, sizeof note, "%zu values along the motion are not finite, as at a pole of the chart, and null here", holes);
+    snprintf(note, sizeof note, "%zu values along the motion are not finite, as at a pole of the chart, and null here",
+             holes);
     if (holes) nh_json_add_text(warnings, note);
     return nh_json_finish(root);
 }

@@ -1,4 +1,5 @@
-/* The count of the integrals as JSON: "completeness", for the coordinates alone or, of a system that depends on time, with it; "in_time" inside of the former. */
+/* The count of the integrals as JSON: "completeness", for the coordinates alone or, of a system that depends on time,
+   with it; "in_time" inside of the former. */
 #include <stdio.h>
 
 #include "document/analysis_json_internal.h"
@@ -10,7 +11,8 @@ static void put_new(nh_json *to, const nh_completeness *c)
     for (size_t d = 0; d < c->count.rows; d++) {
         const nh_count_row *row = &c->count.row[d];
         snprintf(degree, sizeof degree, "%zu", row->degree);
-        if (row->complete && row->bound > row->lower) nh_json_put_number(fresh, degree, (double)(row->bound - row->lower));
+        if (row->complete && row->bound > row->lower)
+            nh_json_put_number(fresh, degree, (double)(row->bound - row->lower));
     }
 }
 
@@ -50,8 +52,14 @@ static nh_json *put_count(nh_json *to, const char *key, const nh_completeness *c
     else nh_json_put_null(item, "order");
     nh_json_put_bool(item, "stable", row && (row->settled || row->complete));
     nh_json_put_number(item, "prime", (double)c->count.prime);
-    nh_json_put_text(item, "of", !c->degree ? NULL : c->linear ? "polynomials in the currents" : "functions of the currents");
-    nh_json_put_text(item, "proved", !c->degree || !c->linear ? NULL : c->generic ? "for generic parameters" : "for these values");
+    nh_json_put_text(item, "of",
+                     !c->degree  ? NULL
+                     : c->linear ? "polynomials in the currents"
+                                 : "functions of the currents");
+    nh_json_put_text(item, "proved",
+                     !c->degree || !c->linear ? NULL
+                     : c->generic             ? "for generic parameters"
+                                              : "for these values");
     nh_json_put_number(item, "step", (double)c->count.step);
     nh_json_put_number(item, "leaf", (double)c->count.leaf);
     if (c->missing_at) nh_json_put_number(item, "missing_at", (double)c->missing_at);

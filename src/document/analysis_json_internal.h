@@ -5,7 +5,8 @@
 #include "base/json.h"
 #include "document/analysis_json.h"
 
-void nh_analysis_json_validation(const nh_analysis *result, nh_json *to); /* the motion, and what stayed constant on it */
+/* the motion, and what stayed constant on it */
+void nh_analysis_json_validation(const nh_analysis *result, nh_json *to);
 void nh_analysis_json_figures(const nh_analysis *result, nh_json *to);    /* those of the analysis file */
 /* How many values along the motion have no value. */
 size_t nh_analysis_json_holes(const nh_analysis *result);

@@ -39,7 +39,8 @@ void nh_analysis_json_validation(const nh_analysis *r, nh_json *to)
     nh_json_put_numbers(item, "tolerances", NH_DRIFT_RUNS, v->tolerance, 1);
     nh_accuracy_json(v->checked ? &v->accuracy : NULL, item);
     nh_json *drift = nh_json_put_object(item, "drift");
-    for (size_t k = 0; k < v->currents; k++) nh_json_put_numbers(drift, r->found[k].name, NH_DRIFT_RUNS, v->current[k].drift, 1);
+    for (size_t k = 0; k < v->currents; k++)
+        nh_json_put_numbers(drift, r->found[k].name, NH_DRIFT_RUNS, v->current[k].drift, 1);
     if (v->multiplier_form) {
         nh_json *full = nh_json_put_object(item, "multiplier_form");
         nh_json_put_text(full, "method", v->multiplier_method);
@@ -99,7 +100,8 @@ size_t nh_analysis_json_holes(const nh_analysis *r)
     size_t holes = 0, k = r->model->k;
     for (size_t j = 0; v && j < v->watches; j++) {
         bool series = false; /* it ends with its interval */
-        for (size_t c = 0; c < r->count; c++) series |= r->found[c].series && r->tracks.track[j].value == r->found[c].phi;
+        for (size_t c = 0; c < r->count; c++)
+            series |= r->found[c].series && r->tracks.track[j].value == r->found[c].phi;
         for (size_t i = 0; i < v->count && !series; i++) holes += !isfinite(v->watch[i * v->watches + j]);
     }
     for (size_t i = 0; v && i < v->count * k; i++) holes += !isfinite(v->multiplier[i]);

@@ -33,7 +33,8 @@ static void meanings(nh_pen *p, const nh_analysis *r)
 
 static void answer(nh_pen *p, const nh_analysis *r)
 {
-    static const char *const class[] = {"found", "none", "undecided"}, *const verdict[] = {"FOUND", "NONE", "UNDECIDED"};
+    static const char *const class[] = {"found", "none", "undecided"}, *const verdict[] = {"FOUND", "NONE",
+                                                                                           "UNDECIDED"};
     nh_text words;
     nh_text_init(&words);
     nh_facts_completeness(r, &words);
@@ -55,7 +56,8 @@ static void answer(nh_pen *p, const nh_analysis *r)
     else if (!p->ink->brief) nh_pen_words(p, "%s", nh_facts_search(r));
     if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
     if (p->ink->brief && nh_facts_given(r) && r->search == NH_SEARCH_EXHAUSTED)
-        nh_pen_words(p, "The ansatz is that of the analysis file. With --no-analysis the program chooses what it tries.");
+        nh_pen_words(p,
+                     "The ansatz is that of the analysis file. With --no-analysis the program chooses what it tries.");
     nh_text_clear(&words);
 }
 

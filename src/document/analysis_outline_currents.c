@@ -154,7 +154,8 @@ static void field(nh_pen *p, const nh_analysis *r, const nh_current *f)
         else nh_sheet_add(sheet, term[i].coefficient, label);
     }
     for (size_t a = 0; a < k; a++)
-        nh_sheet_formula(sheet, nh_sheet_label(sheet, "i_{[Gamma,Z]} \\form^{%zu}", a + 1), f->symmetry.bracket_form[a]);
+        nh_sheet_formula(sheet, nh_sheet_label(sheet, "i_{[Gamma,Z]} \\form^{%zu}", a + 1),
+                         f->symmetry.bracket_form[a]);
     nh_pen_open(p, NH_PEN_FOLD, NULL, "Its symmetry Z");
     nh_pen_sheet(p, sheet);
     nh_pen_close(p, NH_PEN_FOLD);

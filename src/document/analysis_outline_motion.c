@@ -49,7 +49,8 @@ void nh_analysis_write_motion(nh_pen *p, const nh_analysis *r)
     nh_time_series *c = nh_time_series_of_analysis(r);
     nh_pen_section(p, "motion", "A motion");
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    nh_pen_say(p, "%s in {%s}, t = %.4g to %.6g, %ld evaluations", v->method, v->chart, v->begin, v->end, v->evaluations);
+    nh_pen_say(p, "%s in {%s}, t = %.4g to %.6g, %ld evaluations", v->method, v->chart, v->begin, v->end,
+               v->evaluations);
     if (v->checked) nh_pen_say(p, ": %s", v->accuracy.why);
     nh_pen_say(p, ".");
     nh_pen_close(p, NH_PEN_WORDS);

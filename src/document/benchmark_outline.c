@@ -281,7 +281,8 @@ static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last
     nh_free(x);
 }
 
-/* Of each number of functions the way that is tried first, those that no other one beats, and the most samples of the most functions. */
+/* Of each number of functions the way that is tried first, those that no other one beats, and the most samples of the
+   most functions. */
 static void fits_brief(nh_pen *p, const nh_benchmark *c)
 {
     size_t most = c->fit[c->fits - 1].functions, first = 0;

@@ -135,8 +135,9 @@ static void put_excluded(const nh_classified *x, size_t degree, bool verbose, nh
     nh_text_add(out, "\n");
     if (!verbose || !lifted) return;
     if (row->theorem)
-        nh_text_addf(out, "    (coefficients of special values have at most %.0f bits; others are excluded modulo %zu primes)\n",
-                     row->bits, row->theorem_primes);
+        nh_text_addf(
+            out, "    (coefficients of special values have at most %.0f bits; others are excluded modulo %zu primes)\n",
+            row->bits, row->theorem_primes);
     nh_text_addf(out, "    (%zu unknowns, order %zu, modulo", row->unknowns, row->number.order);
     for (size_t i = 0; i < row->primes; i++) nh_text_addf(out, "%s %" PRIu64, i ? "," : "", row->prime[i]);
     nh_text_add(out, ")\n");
@@ -156,7 +157,9 @@ void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *o
         if (row->theorem_primes > primes) primes = row->theorem_primes;
     }
     if (theorems == c->rows) return;
-    nh_text_add(out, "  Another algebraic number could be one only if modulo all of the primes it has the residue of a value that was examined, or none.\n");
+    nh_text_add(out, "  Another algebraic number could be one only if modulo all of the primes it has the residue of a "
+                     "value that was examined, or none.\n");
     if (known == c->rows)
-        nh_text_addf(out, "  With `--option theorem=%zu` so many primes are taken that no number is left out.\n", primes);
+        nh_text_addf(out, "  With `--option theorem=%zu` so many primes are taken that no number is left out.\n",
+                     primes);
 }

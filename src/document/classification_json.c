@@ -41,7 +41,8 @@ void nh_classification_put_head(const nh_classified *x, nh_json *root)
     nh_json_put_bool(root, "shape", x->shape);
     const nh_system *s = x->almost_all->system;
     nh_json *levels = nh_json_put_array(root, "levels");
-    for (size_t i = s->constraints - s->levels; i < s->constraints; i++) nh_json_add_text(levels, s->constraint[i].text);
+    for (size_t i = s->constraints - s->levels; i < s->constraints; i++)
+        nh_json_add_text(levels, s->constraint[i].text);
     nh_json_put_number(root, "degree", (double)x->degree);
 }
 

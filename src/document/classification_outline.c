@@ -48,7 +48,8 @@ void nh_classification_write_numbers(const nh_classified *x, pen *p, size_t rows
 
 void nh_classification_write_no_currents(const nh_classified *x, pen *p, const char *why)
 {
-    nh_pen_words(p, "Counted modulo primes%s%s.", x->question ? "; " : ". No currents: ", why ? why : "the run was ended");
+    nh_pen_words(p, "Counted modulo primes%s%s.",
+                 x->question ? "; " : ". No currents: ", why ? why : "the run was ended");
 }
 
 const char nh_classification_fewer[] = "proved, but fewer than were counted: the others were not constructed";
@@ -70,7 +71,8 @@ void nh_classification_write_value(const nh_classified *x, pen *p, const nh_clas
 
 void nh_classification_write_almost_all(const nh_classified *x, pen *p, nh_text *degrees)
 {
-    nh_pen_section(p, "almost", x->second ? "For almost all values" : nh_arena_printf(x->arena, "For almost all %s", x->over));
+    nh_pen_section(p, "almost",
+                   x->second ? "For almost all values" : nh_arena_printf(x->arena, "For almost all %s", x->over));
     nh_classification_write_lines(p, degrees);
     nh_classification_write_currents(p, x->almost_all, x->known, x->currents);
 }
@@ -101,8 +103,11 @@ static void outline_line(const nh_classified *x, pen *p)
     nh_classification_excluded(x, !p->ink->brief || p->style.verbose, &text);
     nh_classification_write_lines(p, &text);
     char words[200];
-    if (c->end && x->question) nh_pen_words(p, "The question was not answered: %s.", nh_classification_end(c->end, words, sizeof words));
-    else if (c->end) nh_pen_words(p, "Degree %zu was not reached: %s.", c->rows + 1, nh_classification_end(c->end, words, sizeof words));
+    if (c->end && x->question)
+        nh_pen_words(p, "The question was not answered: %s.", nh_classification_end(c->end, words, sizeof words));
+    else if (c->end)
+        nh_pen_words(p, "Degree %zu was not reached: %s.", c->rows + 1,
+                     nh_classification_end(c->end, words, sizeof words));
 }
 
 /* ---- two ---- */
@@ -170,7 +175,9 @@ static void outline_plane(const plane *x, pen *p)
     nh_classification_plane_excluded(x, !p->ink->brief || p->style.verbose, &text);
     nh_classification_write_lines(p, &text);
     char words[200];
-    if (o->end) nh_pen_words(p, "Degree %zu was not reached: %s.", o->rows + 1, nh_classification_end(o->end, words, sizeof words));
+    if (o->end)
+        nh_pen_words(p, "Degree %zu was not reached: %s.", o->rows + 1,
+                     nh_classification_end(o->end, words, sizeof words));
 }
 
 static size_t count_line(const nh_classified *x)
@@ -186,7 +193,8 @@ static void answer(pen *p, const nh_classified *line, const plane *x, const nh_c
 {
     const char *obstacle = y ? y->space->obstacle : x ? x->plane->obstacle : line->classification->obstacle;
     size_t curves = 0, rows = y ? y->space->rows : x ? x->plane->rows : line->classification->rows;
-    for (size_t k = 0; x && k < x->plane->curves; k++) curves += x->plane->curve[k].first && !x->plane->curve[k].degenerate;
+    for (size_t k = 0; x && k < x->plane->curves; k++)
+        curves += x->plane->curve[k].first && !x->plane->curve[k].degenerate;
     if (obstacle) {
         nh_pen_say(p, "Nothing can be said: %s.", obstacle);
         return;

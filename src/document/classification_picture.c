@@ -126,8 +126,9 @@ void nh_classification_picture(const plane *x, nh_pen *pen)
     }
     all_points(&d, x);
     const char *only = d.count == 1 ? d.curve[0].name : NULL; /* it has no legend */
-    const char *caption = nh_arena_printf(d.arena, "Numbers of integrals of degree %zu, with the constant 1%s%s; elsewhere %zu.",
-                                          rows, only ? ": " : "", only ? only : "", x->plane->row[rows - 1].number.bound);
+    const char *caption =
+        nh_arena_printf(d.arena, "Numbers of integrals of degree %zu, with the constant 1%s%s; elsewhere %zu.", rows,
+                        only ? ": " : "", only ? only : "", x->plane->row[rows - 1].number.bound);
     nh_plot plot = {.title = "Where there are more conservation laws", .description = caption, .x_label = x->over[1],
                     .y_label = x->over[0], .curves = d.count, .curve = d.curve};
     if (d.count) pen->ink->plot(pen->to, &plot, caption);

@@ -12,7 +12,8 @@ static bool exact(const nh_plane_row *row) { return row->number.bound == row->kn
 
 static bool special(const nh_plane_curve *c) { return c->first > 0 && !c->degenerate; }
 
-/* mu is a root of a polynomial that has no rational one, or the line was not reached, or not up to the highest degree. */
+/* mu is a root of a polynomial that has no rational one, or the line was not reached, or not up to the highest
+   degree. */
 static bool unexamined(const plane *x, const nh_plane_line *l)
 {
     return l->across.degree > 1 || (!l->line && x->partial) || (l->line && l->line->rows < x->plane->rows);
@@ -48,7 +49,8 @@ void nh_classification_plane_left(const plane *x, nh_text *out)
     for (size_t k = 0; k < o->curves; k++)
         if (o->curve[k].open)
             nh_text_addf(out, "Not decided on %s: how many there are of degree %zu. %s\n",
-                         nh_classified_curve_words(x, &o->curve[k].polynomial), o->curve[k].open, nh_classification_decide);
+                         nh_classified_curve_words(x, &o->curve[k].polynomial), o->curve[k].open,
+                         nh_classification_decide);
     for (size_t k = 0; k < o->curves; k++) /* on which there are not more */
         if (!o->curve[k].first && !o->curve[k].degenerate && !x->curve[k].along)
             nh_text_addf(out, "Not examined: points on %s.\n", nh_classified_curve_words(x, &o->curve[k].polynomial));
@@ -67,13 +69,17 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
     for (size_t d = 1; d <= o->rows; d++) {
         const nh_plane_row *row = &o->row[d - 1];
         if (!row->lifted || row->height < 1) {
-            nh_text_addf(out, "  degree %zu: curves and points, here or at a lower degree, are known modulo primes only\n", d);
+            nh_text_addf(
+                out, "  degree %zu: curves and points, here or at a lower degree, are known modulo primes only\n", d);
             continue;
         }
-        nh_text_addf(out, "  degree %zu: no other pair of rational numbers with numerators and denominators up to %.1e has more than %zu\n",
+        nh_text_addf(out,
+                     "  degree %zu: no other pair of rational numbers with numerators and denominators up to %.1e has "
+                     "more than %zu\n",
                      d, row->height, row->number.bound);
         if (row->swept)
-            nh_text_addf(out, "    (by %zu lines of %s modulo %" PRIu64 ", and those of the points)\n", row->swept, x->over[1], row->prime[0]);
+            nh_text_addf(out, "    (by %zu lines of %s modulo %" PRIu64 ", and those of the points)\n", row->swept,
+                         x->over[1], row->prime[0]);
         else if (verbose) {
             nh_text_addf(out, "    (%zu unknowns, order %zu, determinants of size %zu, modulo", row->unknowns,
                          row->number.order, row->size);
@@ -82,9 +88,15 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
         }
     }
     if (o->rows && o->row[o->rows - 1].swept)
-        nh_text_addf(out, "  Other pairs of higher degree were not looked at where %s is no such ratio: determinants are larger than the option `plane`.\n", x->over[1]);
+        nh_text_addf(out,
+                     "  Other pairs of higher degree were not looked at where %s is no such ratio: determinants are "
+                     "larger than the option `plane`.\n",
+                     x->over[1]);
     else if (o->rows)
-        nh_text_add(out, "  Another pair of algebraic numbers could have more only if modulo all of the primes it lies on one of the curves or has a residue of a point that was examined, or none. Infinite values were not looked at.\n");
+        nh_text_add(
+            out,
+            "  Another pair of algebraic numbers could have more only if modulo all of the primes it lies on one of "
+            "the curves or has a residue of a point that was examined, or none. Infinite values were not looked at.\n");
 }
 
 /* ---- JSON ---- */

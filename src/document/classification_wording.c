@@ -8,8 +8,9 @@ static const struct {
 } WORDS[NH_LINEAR_QUESTIONS] = {
     [NH_OF_CURRENTS] = {"integrals polynomial in the velocities", "More for", "more conservation laws than almost all"},
     [NH_OF_MEASURE] = {"invariant measures exp(sigma(q)) dq dw", "An invariant measure for", "an invariant measure"},
-    [NH_OF_HAMILTONIZATION] = {"conformal factors on the shape space, by which the reduced equations become Hamiltonian",
-                               "A conformal factor for", "a conformal factor"},
+    [NH_OF_HAMILTONIZATION] =
+        {"conformal factors on the shape space, by which the reduced equations become Hamiltonian",
+         "A conformal factor for", "a conformal factor"},
     [NH_OF_SYMMETRIES] = {"infinitesimal symmetries of Lagrangian and constraints", "More symmetries for",
                           "more symmetries than almost all"},
     [NH_OF_INTEGRABILITY] = {"directions that brackets of the allowed motions have", "Fewer directions for",

@@ -140,7 +140,8 @@ void nh_export_summary(const nh_export *x, nh_text *out)
 
 bool nh_export_possible(const nh_export *x, nh_export_target target, nh_error *error)
 {
-    static const nh_source_language *const language[] = {&nh_source_c, &nh_source_python, &nh_source_sympy, &nh_source_matlab};
+    static const nh_source_language *const language[] = {&nh_source_c, &nh_source_python, &nh_source_sympy,
+                                                         &nh_source_matlab};
     for (size_t i = 0; i < x->functions && target < NH_EXPORT_LATEX; i++) {
         nh_ex *e;
         const nh_export_function *f = &x->function[i];
@@ -148,8 +149,10 @@ bool nh_export_possible(const nh_export *x, nh_export_target target, nh_error *e
         for (size_t k = 0; k < n; k++) {
             const char *name = nh_source_lacks(language[target], f->dag, e[k]);
             if (!name) continue;
-            nh_fail(error, NH_USAGE, "--to", "no common library of %s has the function %s, which `%s` needs", language[target]->name, name, f->name);
-            return nh_error_hint(error, "--to python has all functions, by SciPy and mpmath; latex and json write them as they are");
+            nh_fail(error, NH_USAGE, "--to", "no common library of %s has the function %s, which `%s` needs",
+                    language[target]->name, name, f->name);
+            return nh_error_hint(
+                error, "--to python has all functions, by SciPy and mpmath; latex and json write them as they are");
         }
     }
     return true;

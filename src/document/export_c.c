@@ -224,9 +224,14 @@ static void newton_end(nh_export_body *b, size_t i)
     nh_text_add(b->out, "        double change_ = 0, size_ = 0;\n");
     nh_text_addf(b->out, "        if (step_ == 40 || nh_solve(%zu, %s, %s)) return -1;\n", n, b->matrix[i], step);
     nh_text_addf(b->out, "        for (int i_ = 0; i_ < %zu; i_++) {\n            %s[i_] -= %s[i_];\n", n, x, step);
-    nh_text_addf(b->out, "            change_ = fmax(change_, fabs(%s[i_]));\n            size_ = fmax(size_, fabs(%s[i_]));\n        }\n", step, x);
-    nh_text_add(b->out, "        if (change_ <= 4e-16*size_ || (change_ < 1e-13*fmax(size_, 1e-2) && change_ >= last_/2)) break;\n"
-                        "        last_ = change_;\n    }\n");
+    nh_text_addf(b->out,
+                 "            change_ = fmax(change_, fabs(%s[i_]));\n            size_ = fmax(size_, fabs(%s[i_]));\n "
+                 "       }\n",
+                 step, x);
+    nh_text_add(
+        b->out,
+        "        if (change_ <= 4e-16*size_ || (change_ < 1e-13*fmax(size_, 1e-2) && change_ >= last_/2)) break;\n"
+        "        last_ = change_;\n    }\n");
     nh_export_indent(b, "    ");
 }
 

@@ -80,8 +80,10 @@ static void newton_end(nh_export_body *b, size_t i)
     nh_text_add(b->out, "        if step_ == 41, error('the iteration for velocities does not converge'); end\n");
     nh_text_addf(b->out, "        %s = %s\\%s;\n        %s = %s - %s;\n", step, b->matrix[i], step, x, x, step);
     nh_text_addf(b->out, "        change_ = max(abs(%s));\n        size_ = max(abs(%s));\n", step, x);
-    nh_text_add(b->out, "        if change_ <= 4e-16*size_ || (change_ < 1e-13*max(size_, 1e-2) && change_ >= last_/2), break; end\n"
-                        "        last_ = change_;\n    end\n");
+    nh_text_add(
+        b->out,
+        "        if change_ <= 4e-16*size_ || (change_ < 1e-13*max(size_, 1e-2) && change_ >= last_/2), break; end\n"
+        "        last_ = change_;\n    end\n");
     nh_export_indent(b, "    ");
 }
 

@@ -146,19 +146,21 @@ static void solve(nh_export_body *b, size_t i)
 
 static void newton(nh_export_body *b, size_t i)
 {
-    nh_text_addf(b->out, "    %s = np.array(%s, dtype=float)\n    done_, last_ = False, np.inf\n    for step_ in range(40):\n",
+    nh_text_addf(b->out,
+                 "    %s = np.array(%s, dtype=float)\n    done_, last_ = False, np.inf\n    for step_ in range(40):\n",
                  b->unknown[i], b->argument[b->f->solve[i].guess]);
     nh_export_indent(b, "        ");
 }
 
 static void newton_end(nh_export_body *b, size_t i)
 {
-    nh_text_addf(b->out,
-                 "        step_ = _solve(%s, %s)\n        %s = %s - step_\n        small_, last_ = _small(step_, %s, last_)\n"
-                 "        done_ = done_ | small_\n        if np.all(done_):\n            break\n"
-                 "    else:\n        raise ArithmeticError(\"the iteration for velocities "
-                 "does not converge\")\n",
-                 b->matrix[i], b->right[i], b->unknown[i], b->unknown[i], b->unknown[i]);
+    nh_text_addf(
+        b->out,
+        "        step_ = _solve(%s, %s)\n        %s = %s - step_\n        small_, last_ = _small(step_, %s, last_)\n"
+        "        done_ = done_ | small_\n        if np.all(done_):\n            break\n"
+        "    else:\n        raise ArithmeticError(\"the iteration for velocities "
+        "does not converge\")\n",
+        b->matrix[i], b->right[i], b->unknown[i], b->unknown[i], b->unknown[i]);
     nh_export_indent(b, "    ");
 }
 

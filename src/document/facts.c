@@ -51,11 +51,13 @@ static void ranks(nh_text *out, const char *before, size_t n, const size_t *rank
 
 void nh_facts_constraint(const nh_analysis *r, nh_text *out)
 {
-    static const char *const spaces[] = {"growth vector ", "growth vector with time ", "growth vector on the submanifold "};
+    static const char *const spaces[] = {"growth vector ", "growth vector with time ",
+                                         "growth vector on the submanifold "};
     const nh_distribution *d = &r->constraint;
     const nh_growth *g = &d->growth;
-    nh_text_addf(out, "%s%s constraint%s%s (%s", d->type == NH_NONLINEAR && d->homogeneous ? "homogeneous " : "", nh_constraint_type_name(d->type),
-                 r->model->k == 1 ? "" : "s", d->rheonomic ? ", time-dependent" : "", nh_constraint_integrability(r->model, d));
+    nh_text_addf(out, "%s%s constraint%s%s (%s", d->type == NH_NONLINEAR && d->homogeneous ? "homogeneous " : "",
+                 nh_constraint_type_name(d->type), r->model->k == 1 ? "" : "s", d->rheonomic ? ", time-dependent" : "",
+                 nh_constraint_integrability(r->model, d));
     if (g->length > 1) {
         nh_text_add(out, "; ");
         ranks(out, spaces[g->space], g->length, g->rank);
@@ -85,25 +87,36 @@ void nh_facts_symmetry(const nh_symmetry *z, nh_facts_form form, const char *bet
     switch (z->kase) {
     case 1: nh_text_addf(out, "%s is a symmetry of the equations of motion (case 1)", s->Z); break;
     case 2: nh_text_addf(out, "%s = a %s + b %s (case 2)", s->bracket, s->Gamma, s->Z); break;
-    case 3: nh_text_addf(out, "%s is not a symmetry of the equations of motion, nor is %s = a %s + b %s (case 3)", s->Z, s->bracket, s->Gamma, s->Z); break;
+    case 3:
+        nh_text_addf(out, "%s is not a symmetry of the equations of motion, nor is %s = a %s + b %s (case 3)", s->Z,
+                     s->bracket, s->Gamma, s->Z);
+        break;
     default: nh_text_addf(out, "%s (1, 2 or 3) could not be decided", s->the_case);
     }
-    nh_text_addf(out, "%s%s %s the canonical distribution", between, s->bracket, z->bracket_in_distribution ? "lies in" : "leaves");
+    nh_text_addf(out, "%s%s %s the canonical distribution", between, s->bracket,
+                 z->bracket_in_distribution ? "lies in" : "leaves");
     if (z->projectable) nh_text_addf(out, "; %s is projectable", s->Z);
 }
 
-const char *nh_facts_equations(const nh_model *o) { return o->k ? "Equations of motion on the constraint submanifold" : "Equations of motion"; }
+const char *nh_facts_equations(const nh_model *o)
+{
+    return o->k ? "Equations of motion on the constraint submanifold" : "Equations of motion";
+}
 
 const char *nh_facts_drift(const nh_drift *d)
 {
     double tight = d->drift[NH_DRIFT_RUNS - 1];
     if (tight == 0) return "it does not change at all";
     if (!d->falls) return "it does not fall with the tolerance";
-    return tight < d->drift[0] ? "it falls with the tolerance" : "it is of the size of rounding error at every tolerance";
+    return tight < d->drift[0] ? "it falls with the tolerance"
+                               : "it is of the size of rounding error at every tolerance";
 }
 
 /* Some fixed and some not: only then there is something to say between all and none. */
-static bool some_fixed(const nh_model *o, const nh_proof *p) { return p->proved && p->fixed && !nh_fixed_all(o, p->fixed); }
+static bool some_fixed(const nh_model *o, const nh_proof *p)
+{
+    return p->proved && p->fixed && !nh_fixed_all(o, p->fixed);
+}
 
 const char *nh_facts_holds(const nh_model *o, const nh_proof *p, bool names)
 {
@@ -114,13 +127,17 @@ const char *nh_facts_holds(const nh_model *o, const nh_proof *p, bool names)
     if (!names) return " for all parameter values";
     nh_text text;
     nh_text_init(&text);
-    for (size_t i = 0; i < s->parameters; i++) nh_text_addf(&text, "%s%s", i ? ", " : " for all ", s->parameter[i].name);
+    for (size_t i = 0; i < s->parameters; i++)
+        nh_text_addf(&text, "%s%s", i ? ", " : " for all ", s->parameter[i].name);
     const char *out = nh_arena_strdup(o->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
 }
 
-static const char *all_or_these(const nh_model *o, const nh_proof *p) { return p->all_parameters || !o->system->parameters ? "all parameters" : "these values"; }
+static const char *all_or_these(const nh_model *o, const nh_proof *p)
+{
+    return p->all_parameters || !o->system->parameters ? "all parameters" : "these values";
+}
 
 static void put_fixed(nh_json *object, const nh_model *o, const bool *fixed)
 {
@@ -154,7 +171,9 @@ const char *nh_facts_where(const nh_analysis *r, const nh_current *f)
 {
     nh_ex positive[NH_MOST_REAL_WHERE];
     size_t n = f->series ? 0 : nh_real_where(r->model, f->phi, positive);
-    const char *out = !r->model->chart->branch ? "" : f->on_both ? ", on both branches" : nh_arena_printf(r->arena, ", on the branch %s only", r->branch);
+    const char *out = !r->model->chart->branch ? ""
+                      : f->on_both             ? ", on both branches"
+                                               : nh_arena_printf(r->arena, ", on the branch %s only", r->branch);
     for (size_t i = 0; i < n; i++) {
         char *text = nh_print_string(r->model->dag, positive[i]);
         out = nh_arena_printf(r->arena, "%s%s%s > 0", out, i ? " and " : ", real where ", text);
@@ -168,7 +187,8 @@ const char *nh_facts_where(const nh_analysis *r, const nh_current *f)
 const char *nh_facts_nothing(const nh_analysis *r)
 {
     if (r->verdict == NH_NONE) return "No current in this ansatz";
-    return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far" : "Undecided: no candidate has a certificate";
+    return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far"
+                                                                 : "Undecided: no candidate has a certificate";
 }
 
 bool nh_facts_given(const nh_analysis *r) { return r->analysis && r->analysis->families > 0; }
@@ -177,14 +197,19 @@ const char *nh_facts_search(const nh_analysis *r)
 {
     size_t left_out = nh_analysis_left_out(r);
     bool counted = false; /* what else there can be is said by the count */
-    for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++) counted |= r->completeness[i].counted && !r->completeness[i].count.obstacle;
-    if (r->search == NH_SEARCH_COMPLETE) return "The search is complete. There cannot be more currents: together they determine every orbit locally.";
+    for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++)
+        counted |= r->completeness[i].counted && !r->completeness[i].count.obstacle;
+    if (r->search == NH_SEARCH_COMPLETE)
+        return "The search is complete. There cannot be more currents: together they determine every orbit locally.";
     if (r->search == NH_SEARCH_CUT) return "A limit ended the search before the last stage: more currents may exist.";
     if (left_out)
-        return nh_arena_printf(r->arena, "The search is exhausted: it tried every stage except %zu that %s too large; the list of stages names the option that allows %s.", left_out, left_out == 1 ? "is" : "are",
-                               left_out == 1 ? "it" : "them");
+        return nh_arena_printf(r->arena,
+                               "The search is exhausted: it tried every stage except %zu that %s too large; the list "
+                               "of stages names the option that allows %s.",
+                               left_out, left_out == 1 ? "is" : "are", left_out == 1 ? "it" : "them");
     if (nh_facts_given(r))
-        return "The search is exhausted: it tried the ansatz of the analysis file, and nothing else. With --no-analysis "
+        return "The search is exhausted: it tried the ansatz of the analysis file, and nothing else. With "
+               "--no-analysis "
                "the program chooses what it tries.";
     return counted ? "The search is exhausted: it tried every stage."
                    : "The search is exhausted: it tried every stage. Other currents may exist.";
@@ -193,6 +218,7 @@ const char *nh_facts_search(const nh_analysis *r)
 void nh_facts_completeness(const nh_analysis *r, nh_text *out)
 {
     size_t uncertain = 0;
-    for (size_t k = 0; k < r->count; k++) uncertain += r->found[k].independence == NH_INDEPENDENT && (!r->found[k].proof.proved || r->found[k].series);
+    for (size_t k = 0; k < r->count; k++)
+        uncertain += r->found[k].independence == NH_INDEPENDENT && (!r->found[k].proof.proved || r->found[k].series);
     nh_completeness_words(r->completeness, uncertain, out);
 }

@@ -6,7 +6,8 @@
 #include "base/text.h"
 #include "search/analysis.h"
 
-/* A number for people: all its digits; then the shown ones, as [minus] mantissa [times 10^power], without a mantissa where that is 1.  False: not finite. */
+/* A number for people: all its digits; then the shown ones, as [minus] mantissa [times 10^power], without a mantissa
+   where that is 1.  False: not finite. */
 typedef struct {
     char all[40], mantissa[60];
     bool minus, has_power;
@@ -14,8 +15,8 @@ typedef struct {
 } nh_shown_number;
 bool nh_facts_number(double value, int digits, nh_shown_number *out);
 
-/* Words with a list of names in parentheses at their end, such as a chart has: "coordinate velocities (x', y')".  The words before the parenthesis, and
- * the list; NULL without such a list. */
+/* Words with a list of names in parentheses at their end, such as a chart has: "coordinate velocities (x', y')".  The
+ * words before the parenthesis, and the list; NULL without such a list. */
 const char *nh_facts_list(const char *text, char *words, size_t size);
 /* The next name of a list; false after the last. */
 bool nh_facts_next(const char **list, char *name, size_t size);
@@ -23,21 +24,23 @@ bool nh_facts_next(const char **list, char *name, size_t size);
 /* "homogeneous nonlinear constraint, time-dependent (nonholonomic; growth vector 2,3)" */
 void nh_facts_constraint(const nh_analysis *result, nh_text *out);
 
-/* What kind of symmetry Z is: its case, whether [Gamma,Z] lies in the canonical distribution, whether Z is projectable.  `between`: what stands between the
- * case and the rest. */
+/* What kind of symmetry Z is: its case, whether [Gamma,Z] lies in the canonical distribution, whether Z is projectable.
+ * `between`: what stands between the case and the rest. */
 typedef enum { NH_FACTS_TEXT, NH_FACTS_PAGE, NH_FACTS_TEX } nh_facts_form;
 void nh_facts_symmetry(const nh_symmetry *symmetry, nh_facts_form form, const char *between, nh_text *out);
 
 /* The heading of w' = a(t, q, w), from which the constraints are eliminated and nothing else. */
 const char *nh_facts_equations(const nh_model *model);
 
-/* Whether the currents found are all that are polynomial in the velocities, in sentences; "" when this was not counted. */
+/* Whether the currents found are all that are polynomial in the velocities, in sentences; "" when this was not
+   counted. */
 void nh_facts_completeness(const nh_analysis *result, nh_text *out);
 
 /* How the drift of a current behaves when the tolerance of the integration falls. */
 const char *nh_facts_drift(const nh_drift *drift);
 
-/* Of a constraint with two branches (else ""): which was computed, and whether the equations hold on the other one; and of a current on which it holds. */
+/* Of a constraint with two branches (else ""): which was computed, and whether the equations hold on the other one; and
+   of a current on which it holds. */
 void nh_facts_branch(const nh_analysis *result, nh_text *out);
 /* ", on both branches", ", real where m*l^2 - I > 0", or nothing. */
 const char *nh_facts_where(const nh_analysis *result, const nh_current *found);
@@ -49,8 +52,9 @@ bool nh_facts_given(const nh_analysis *result);
 /* How the search ended: whole sentences. */
 const char *nh_facts_search(const nh_analysis *result);
 
-/* For which parameters a statement holds: " for all m, a, k" (with `names`; else " for all parameter values"), " for k = 1", " for these parameter values only"; "" without parameters.  In JSON, under the key
- * "holds": "all parameters", an object of those that must have their values, "these values". */
+/* For which parameters a statement holds: " for all m, a, k" (with `names`; else " for all parameter values"), " for k
+ * = 1", " for these parameter values only"; "" without parameters.  In JSON, under the key "holds": "all parameters",
+ * an object of those that must have their values, "these values". */
 const char *nh_facts_holds(const nh_model *model, const nh_proof *proof, bool names);
 void nh_facts_put_holds(nh_json *item, const nh_model *model, const nh_proof *proof);
 void nh_facts_add_holds(nh_json *list, const nh_model *model, const nh_proof *proof);

@@ -20,14 +20,17 @@ nh_ex nh_formula_shortened(const nh_analysis_file *a, nh_dag *d, nh_ex e)
     return e;
 }
 
-nh_ex nh_formula_shown(const nh_analysis *r, nh_ex e) { return nh_chart_shown(r->other && r->other->chart->roots ? r->other->chart : r->model->chart, e); }
-
+nh_ex nh_formula_shown(const nh_analysis *r, nh_ex e)
+{
+    return nh_chart_shown(r->other && r->other->chart->roots ? r->other->chart : r->model->chart, e);
+}
 
 /* ---- names for what is repeated ---- */
 
 enum { most_names = 10 * NH_FORMULA_PARTS, long_formula = 120, largest_graph = 20000, least_gain = 12 };
 
-/* How often does each node below n stand in the text of the formulas?  A child has a smaller index than what it stands in. */
+/* How often does each node below n stand in the text of the formulas?  A child has a smaller index than what it stands
+   in. */
 static void occurrences(const nh_dag *d, size_t n, double *times)
 {
     for (size_t e = n; e-- > 0;) {
@@ -42,7 +45,8 @@ static void occurrences(const nh_dag *d, size_t n, double *times)
 }
 
 /* The node whose name saves the most; false when nothing saves enough.  What stands alone on a line needs no name. */
-static bool most_repeated(const nh_dag *d, size_t formulas, const nh_ex *e, size_t parts, const nh_formula_part *part, nh_ex *best)
+static bool most_repeated(const nh_dag *d, size_t formulas, const nh_ex *e, size_t parts, const nh_formula_part *part,
+                          nh_ex *best)
 {
     size_t n = nh_dag_size(d);
     double *times = nh_alloc_array(n + 1, sizeof *times), gain = least_gain;
@@ -132,7 +136,9 @@ char *nh_formula_text(nh_dag *d, nh_ex e, double shown)
     char *text = nh_print_short(d, e, shown), size[120];
     if (text) return text;
     double length = (double)nh_complexity(d, e);
-    if (length < 1e9) snprintf(size, sizeof size, "... (%.0f symbols, too long to be shown; --option shown=%.0f shows them)", length, length);
+    if (length < 1e9)
+        snprintf(size, sizeof size, "... (%.0f symbols, too long to be shown; --option shown=%.0f shows them)", length,
+                 length);
     else snprintf(size, sizeof size, "... (too long to be shown)");
     return nh_strdup(size);
 }
@@ -150,5 +156,6 @@ bool nh_formula_is_sum(const char *text)
 const char *nh_formula_doubt(const nh_current *f)
 {
     if (f->exact) return " (not proved)";
-    return f->asked && f->refined >= f->proof.digits ? " with its coefficients refined" : " (coefficients fitted in double precision)";
+    return f->asked && f->refined >= f->proof.digits ? " with its coefficients refined"
+                                                     : " (coefficients fitted in double precision)";
 }

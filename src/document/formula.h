@@ -10,8 +10,9 @@ nh_ex nh_formula_shortened(const nh_analysis_file *analysis, nh_dag *dag, nh_ex 
 /* e without roots that are dependent velocities. */
 nh_ex nh_formula_shown(const nh_analysis *result, nh_ex e);
 
-/* Long formulas with names for what occurs in them more than once: the n formulas are changed, part[i] = {name, value} in an order in which each uses only
- * names that come later.  Names are new to the graph: a letter, _ and a number.  Returns their number, at most NH_FORMULA_PARTS; 0 when all are short. */
+/* Long formulas with names for what occurs in them more than once: the n formulas are changed, part[i] = {name, value}
+ * in an order in which each uses only names that come later.  Names are new to the graph: a letter, _ and a number.
+ * Returns their number, at most NH_FORMULA_PARTS; 0 when all are short. */
 enum { NH_FORMULA_PARTS = 12 };
 typedef struct {
     char name[16];
@@ -19,9 +20,9 @@ typedef struct {
 } nh_formula_part;
 size_t nh_formula_parts(nh_dag *dag, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS]);
 
-/* The symmetry of a current as a sum of coefficients along basis fields: d/dt, d/dq, d/dx' of the chart of coordinate velocities (or of the only
- * one); or along Gamma first and then the rest, where that is much shorter.  Terms that vanish are left out.  The list belongs to the model's
- * arena. */
+/* The symmetry of a current as a sum of coefficients along basis fields: d/dt, d/dq, d/dx' of the chart of coordinate
+ * velocities (or of the only one); or along Gamma first and then the rest, where that is much shorter.  Terms that
+ * vanish are left out.  The list belongs to the model's arena. */
 typedef struct {
     nh_ex coefficient;
     const char *along; /* t, a coordinate or a velocity; NULL: Gamma */

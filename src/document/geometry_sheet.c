@@ -26,7 +26,10 @@ static void formula(const builder *b, nh_ex e, const char *format, const char *f
     nh_sheet_formula(b->s, nh_sheet_label(b->s, format, first, second), e);
 }
 
-static void add(const builder *b, nh_ex e, const char *format, const char *name) { nh_sheet_add(b->s, e, nh_sheet_label(b->s, format, name)); }
+static void add(const builder *b, nh_ex e, const char *format, const char *name)
+{
+    nh_sheet_add(b->s, e, nh_sheet_label(b->s, format, name));
+}
 
 /* ---- the constraints ---- */
 
@@ -35,14 +38,20 @@ static void normal_form(const builder *b)
     const nh_model *o = b->o;
     if (!b->t->submanifold->normal) return;
     char *branch = o->chart->branch ? nh_chart_branch_name(o->chart, o->chart->branch) : NULL;
-    nh_sheet_begin(b->s, "normal_form", "Normal form of the constraints",
-                   branch ? nh_sheet_label(b->s, "Dependent velocities as functions of the others, on the branch %s.", branch) : "Dependent velocities as functions g of the others.");
+    nh_sheet_begin(
+        b->s, "normal_form", "Normal form of the constraints",
+        branch ? nh_sheet_label(b->s, "Dependent velocities as functions of the others, on the branch %s.", branch)
+               : "Dependent velocities as functions g of the others.");
     nh_free(branch);
-    b->s->section[b->s->sections - 1].literal = true; /* a root stands for itself here, not for the velocity that it is */
+    /* a root stands for itself here, not for the velocity that it is */
+    b->s->section[b->s->sections - 1].literal = true;
     for (size_t a = 0; a < o->k; a++) {
         nh_ex g = o->rho[o->chart->dependent[a]];
-        bool implicit = nh_kind_of(b->d, g) == NH_SYMBOL && o->chart->implicit && g == o->chart->u[a < o->chart->implicit ? a : 0];
-        if (implicit) nh_sheet_words(b->s, nh_sheet_label(b->s, "$<%s'>$ has no closed form: the constraints determine it.", dependent(b, a)));
+        bool implicit =
+            nh_kind_of(b->d, g) == NH_SYMBOL && o->chart->implicit && g == o->chart->u[a < o->chart->implicit ? a : 0];
+        if (implicit)
+            nh_sheet_words(b->s, nh_sheet_label(b->s, "$<%s'>$ has no closed form: the constraints determine it.",
+                                                dependent(b, a)));
         else formula(b, g, "<%s'>", dependent(b, a), NULL);
     }
 }
@@ -63,7 +72,9 @@ static void distribution(const builder *b)
     const nh_model *o = b->o;
     bool quasi = o->chart->quasi;
     nh_sheet_begin(b->s, "canonical_distribution", "Canonical distribution",
-                   o->k ? "The fields that the forms $\\form^{a}$ annihilate; these span it." : "Without constraints: spanned by the derivative along motions, less the accelerations, and the directions of positions and velocities.");
+                   o->k ? "The fields that the forms $\\form^{a}$ annihilate; these span it."
+                        : "Without constraints: spanned by the derivative along motions, less the accelerations, and "
+                          "the directions of positions and velocities.");
     forms(b);
     nh_sheet_sum(b->s, "", quasi ? "X_{0}" : "\\frac{\\dcp}{\\d t}");
     nh_sheet_add(b->s, nh_int(b->d, 1), "\\frac{\\p}{\\p t}");
@@ -85,10 +96,12 @@ static void lagrangian(const builder *b)
     const nh_model *o = b->o;
     const nh_submanifold *s = b->t->submanifold;
     nh_sheet_begin(b->s, "lagrangian", "Lagrangian on the constraint submanifold",
-                   s->normal ? "$\\bar{L}$ is L with the constraints inserted, $\\bar{L}_{a}$ its derivative by a dependent velocity, before they are inserted; p are the momenta, E is the energy."
+                   s->normal ? "$\\bar{L}$ is L with the constraints inserted, $\\bar{L}_{a}$ its derivative by a "
+                               "dependent velocity, before they are inserted; p are the momenta, E is the energy."
                              : "$\\bar{L}$ is L in the velocities of the chart; p are the momenta, E is the energy.");
     formula(b, o->Lbar, "\\bar{L}", NULL, NULL);
-    for (size_t a = 0; a < o->k && s->normal; a++) formula(b, o->p[o->chart->dependent[a]], "\\bar{L}_{<%s>}", dependent(b, a), NULL);
+    for (size_t a = 0; a < o->k && s->normal; a++)
+        formula(b, o->p[o->chart->dependent[a]], "\\bar{L}_{<%s>}", dependent(b, a), NULL);
     for (size_t l = 0; l < o->n; l++) formula(b, o->pbar[l], "\\frac{\\p\\bar{L}}{\\p<%s>}", velocity(b, l), NULL);
     for (size_t i = 0; i < o->m; i++) formula(b, o->p[i], "p_{<%s>}", coordinate(b, i), NULL);
     formula(b, o->E, "E", NULL, NULL);
@@ -102,7 +115,11 @@ static void euler(const builder *b)
     const nh_model *o = b->o;
     const nh_submanifold *s = b->t->submanifold;
     if (o->chart->quasi) return; /* a frame of velocities that is no chart of positions has more terms: Abar has them */
-    nh_sheet_begin(b->s, "euler_expressions", "Euler expressions", !o->k ? "The derivative by $q^{l}$, less the rate of the derivative by the velocity l." : "Of a function f: its constraint derivative by $q^{l}$, less the rate of its derivative by the velocity l. The reduced equations are $\\eps_{l}(\\bar{L})-\\bar{L}_{a} \\eps_{l}(g^{a})=0$.");
+    nh_sheet_begin(
+        b->s, "euler_expressions", "Euler expressions",
+        !o->k ? "The derivative by $q^{l}$, less the rate of the derivative by the velocity l."
+              : "Of a function f: its constraint derivative by $q^{l}$, less the rate of its derivative by the "
+                "velocity l. The reduced equations are $\\eps_{l}(\\bar{L})-\\bar{L}_{a} \\eps_{l}(g^{a})=0$.");
     for (size_t l = 0; l < o->n; l++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\eps_{<%s>}(\\bar{L})", index_of(b, l)));
         nh_sheet_add(b->s, s->force[l], "");
@@ -112,7 +129,8 @@ static void euler(const builder *b)
         for (size_t l = 0; l < o->n; l++) {
             nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\eps_{<%s>}(g^{<%s>})", index_of(b, l), dependent(b, a)));
             nh_sheet_add(b->s, s->turn[a * o->n + l], "");
-            for (size_t r = 0; r < o->n; r++) nh_sheet_add(b->s, nh_neg(b->d, s->bend[(a * o->n + l) * o->n + r]), rate(b, r));
+            for (size_t r = 0; r < o->n; r++)
+                nh_sheet_add(b->s, nh_neg(b->d, s->bend[(a * o->n + l) * o->n + r]), rate(b, r));
         }
 }
 
@@ -123,14 +141,17 @@ static void matrix(const builder *b, const nh_ex *e, bool minus, const char *for
     size_t n = b->o->n;
     for (size_t l = 0; l < n; l++)
         for (size_t s = l + !diagonal; s < n; s++)
-            if (!nh_is_zero(b->d, e[l * n + s])) formula(b, minus ? nh_neg(b->d, e[l * n + s]) : e[l * n + s], format, index_of(b, l), index_of(b, s));
+            if (!nh_is_zero(b->d, e[l * n + s]))
+                formula(b, minus ? nh_neg(b->d, e[l * n + s]) : e[l * n + s], format, index_of(b, l), index_of(b, s));
 }
 
 static void reduced(const builder *b)
 {
     const nh_model *o = b->o;
-    nh_sheet_begin(b->s, "reduced_equations", "Reduced equations (9)",
-                   "$\\bar{A}_{l}+\\bar{B}_{l,s} <w'>^{s}=0$ for the independent velocities w. $\\bar{B}$ and its inverse are symmetric; G, the braces of (18) and (20), is antisymmetric. Entries that are not listed vanish.");
+    nh_sheet_begin(
+        b->s, "reduced_equations", "Reduced equations (9)",
+        "$\\bar{A}_{l}+\\bar{B}_{l,s} <w'>^{s}=0$ for the independent velocities w. $\\bar{B}$ and its inverse are "
+        "symmetric; G, the braces of (18) and (20), is antisymmetric. Entries that are not listed vanish.");
     for (size_t l = 0; l < o->n; l++) formula(b, o->A[l], "\\bar{A}_{<%s>}", index_of(b, l), NULL);
     matrix(b, o->M, true, "\\bar{B}_{<%s>,<%s>}", true);
     matrix(b, b->t->submanifold->inverse, false, "(\\bar{B}^{-1})_{<%s>,<%s>}", true);
@@ -151,7 +172,8 @@ static void field(const builder *b, const nh_model *o, nh_ex time, const nh_ex *
 
 static void semispray(const builder *b)
 {
-    nh_sheet_begin(b->s, "semispray", "Constraint semispray (21)", "The field of the equations of motion on the constraint submanifold.");
+    nh_sheet_begin(b->s, "semispray", "Constraint semispray (21)",
+                   "The field of the equations of motion on the constraint submanifold.");
     nh_sheet_sum(b->s, "", "Gamma");
     field(b, b->o, nh_int(b->d, 1), b->o->rho, b->o->a);
 }
@@ -161,28 +183,35 @@ static void chetaev(const builder *b)
 {
     const nh_model *o = b->o;
     const nh_submanifold *s = b->t->submanifold;
-    nh_sheet_begin(b->s, "chetaev_equations", o->k ? "Chetaev's equations with multipliers (10)" : "Lagrange's equations (2)",
-                   o->k ? "In all velocities, for the constraints as they were written; then multipliers and force of the constraints, with the constraints inserted." : "");
+    nh_sheet_begin(b->s, "chetaev_equations",
+                   o->k ? "Chetaev's equations with multipliers (10)" : "Lagrange's equations (2)",
+                   o->k ? "In all velocities, for the constraints as they were written; then multipliers and force of "
+                          "the constraints, with the constraints inserted."
+                        : "");
     for (size_t i = 0; i < o->m; i++) {
         nh_sheet_sum(b->s, "", "");
         nh_sheet_add(b->s, s->free_A[i], "");
         for (size_t r = 0; r < o->m; r++) add(b, s->free_B[i * o->m + r], "<%s''>", coordinate(b, r));
         if (o->k) nh_sheet_equals(b->s);
-        for (size_t a = 0; a < o->k; a++) nh_sheet_add(b->s, s->f_v[a * o->m + i], o->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1));
+        for (size_t a = 0; a < o->k; a++)
+            nh_sheet_add(b->s, s->f_v[a * o->m + i], o->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1));
     }
-    for (size_t a = 0; a < o->k; a++) nh_sheet_formula(b->s, o->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1), o->mu[a]);
+    for (size_t a = 0; a < o->k; a++)
+        nh_sheet_formula(b->s, o->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1), o->mu[a]);
     for (size_t i = 0; i < o->m && o->k; i++) formula(b, o->reaction[i], "F_{<%s>}", coordinate(b, i), NULL);
 }
 
 /* (46): mu_a df^a/dq'^s by parts. */
 static void inertial(const builder *b)
 {
-    static const char *const names[] = {"F^{centrifugal}_{<%s>}", "F^{Coriolis}_{<%s>}", "F^{further}_{<%s>}", "F^{applied}_{<%s>}"};
+    static const char *const names[] = {"F^{centrifugal}_{<%s>}", "F^{Coriolis}_{<%s>}", "F^{further}_{<%s>}",
+                                        "F^{applied}_{<%s>}"};
     const nh_inertial *f = b->t->inertial;
     const nh_model *o = b->o;
     if (!f) return;
     nh_sheet_begin(b->s, "inertial_forces", "The force of the constraints as inertial forces (46)",
-                   "Left side of Chetaev's equation along each length, by its parts; those not listed vanish. Minus their sum is the force of the constraints.");
+                   "Left side of Chetaev's equation along each length, by its parts; those not listed vanish. Minus "
+                   "their sum is the force of the constraints.");
     for (size_t c = 0; c < o->m; c++) {
         if (o->system->coordinate[c].type != NH_LENGTH) continue;
         for (int turning = 1; turning >= 0; turning--) {
@@ -190,7 +219,10 @@ static void inertial(const builder *b)
             for (size_t r = 0; r < o->m; r++) {
                 nh_ex e = f->of->free_B[c * o->m + r];
                 if (nh_is_zero(b->d, e) || (o->system->coordinate[r].type == NH_ANGLE) != turning) continue;
-                if (!any) nh_sheet_sum(b->s, "", nh_sheet_label(b->s, turning ? "F^{Euler}_{<%s>}" : "F^{translational}_{<%s>}", coordinate(b, c)));
+                if (!any)
+                    nh_sheet_sum(b->s, "",
+                                 nh_sheet_label(b->s, turning ? "F^{Euler}_{<%s>}" : "F^{translational}_{<%s>}",
+                                                coordinate(b, c)));
                 any = true;
                 add(b, e, "<%s''>", coordinate(b, r));
             }
@@ -209,7 +241,8 @@ static const char *unknown(const builder *b, const nh_determining_term *t)
     switch (t->of) {
     case NH_DETERMINING_PHI: return "Phi";
     case NH_DETERMINING_Z0: return "Z^{0}";
-    case NH_DETERMINING_W: return nh_sheet_label(b->s, b->o->chart->quasi ? "W^{<%s>}" : "\\tilde{Z}^{<%s>}", index_of(b, t->index));
+    case NH_DETERMINING_W:
+        return nh_sheet_label(b->s, b->o->chart->quasi ? "W^{<%s>}" : "\\tilde{Z}^{<%s>}", index_of(b, t->index));
     default: return nh_sheet_label(b->s, t->of == NH_DETERMINING_Z ? "Z^{<%s>}" : "zeta^{<%s>}", index_of(b, t->index));
     }
 }
@@ -220,8 +253,10 @@ static const char *operated(const builder *b, const nh_determining_term *t)
     bool quasi = b->o->chart->quasi;
     if (t->along == NH_DETERMINING_PLAIN) return of;
     if (t->along == NH_DETERMINING_X0) return nh_sheet_label(b->s, quasi ? "X_{0}(%s)" : "\\frac{\\dcp %s}{\\d t}", of);
-    if (t->along == NH_DETERMINING_Y) return nh_sheet_label(b->s, "\\frac{\\p %s}{\\p<%s>}", of, velocity(b, t->direction));
-    return quasi ? nh_sheet_label(b->s, "X_{<%s>}(%s)", index_of(b, t->direction), of) : nh_sheet_label(b->s, "\\frac{\\pc %s}{\\p<%s>}", of, index_of(b, t->direction));
+    if (t->along == NH_DETERMINING_Y)
+        return nh_sheet_label(b->s, "\\frac{\\p %s}{\\p<%s>}", of, velocity(b, t->direction));
+    return quasi ? nh_sheet_label(b->s, "X_{<%s>}(%s)", index_of(b, t->direction), of)
+                 : nh_sheet_label(b->s, "\\frac{\\pc %s}{\\p<%s>}", of, index_of(b, t->direction));
 }
 
 static void determining(const builder *b)
@@ -230,9 +265,12 @@ static void determining(const builder *b)
     const nh_model *o = b->o;
     bool quasi = o->chart->quasi;
     nh_sheet_begin(b->s, "determining_equations", "Determining equations of constraint symmetries (14)-(19)",
-                   quasi ? "Unknown: the functions of $Z=Z^{0} X_{0}+zeta^{l} X_{l}+W^{l} Y_{l}$. With the current $Phi$ (13), equations (17)-(19) say the same as (14)-(16)."
-                         : "Unknown: the components $Z^{0}$, $Z^{l}$ and those along velocities, $\\tilde{Z}^{l}$, of a field in the canonical distribution. "
-                           "With its current $Phi$ (13) and $zeta^{l}$, equations (17)-(19) say the same as (14)-(16).");
+                   quasi
+                       ? "Unknown: the functions of $Z=Z^{0} X_{0}+zeta^{l} X_{l}+W^{l} Y_{l}$. With the current $Phi$ "
+                         "(13), equations (17)-(19) say the same as (14)-(16)."
+                       : "Unknown: the components $Z^{0}$, $Z^{l}$ and those along velocities, $\\tilde{Z}^{l}$, of a "
+                         "field in the canonical distribution. "
+                         "With its current $Phi$ (13) and $zeta^{l}$, equations (17)-(19) say the same as (14)-(16).");
     for (size_t l = 0; l < o->n && !quasi; l++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "zeta^{<%s>}", index_of(b, l)));
         add(b, nh_int(b->d, 1), "Z^{<%s>}", index_of(b, l));
@@ -244,7 +282,10 @@ static void determining(const builder *b)
     for (size_t i = 0; i < all->count; i++) {
         const nh_determining_equation *e = &all->equation[i];
         bool one = e->number == 14 || e->number == 17;
-        nh_sheet_sum(b->s, one ? nh_sheet_label(b->s, "(%d)", e->number) : nh_sheet_label(b->s, "(%d, <%s>)", e->number, index_of(b, e->direction)), "");
+        nh_sheet_sum(b->s,
+                     one ? nh_sheet_label(b->s, "(%d)", e->number)
+                         : nh_sheet_label(b->s, "(%d, <%s>)", e->number, index_of(b, e->direction)),
+                     "");
         for (size_t j = 0; j < e->terms; j++) nh_sheet_add(b->s, e->term[j].coefficient, operated(b, &e->term[j]));
     }
 }
@@ -272,16 +313,21 @@ static void currents(const builder *b)
     const nh_theory *t = b->t;
     if (!t->brackets) return;
     nh_sheet_begin(b->s, "currents", "Brackets of the currents' fields",
-                   "The Lie derivative of the constraint form along Z is $F_{a} \\form^{a}$ (12); $[Gamma,Z]=a Gamma+b Z$ in case 1, with b = 0, and in case 2. $i_{[Gamma,Z]}\\form^{a}$ is what the bracket has outside of the canonical distribution (22).");
+                   "The Lie derivative of the constraint form along Z is $F_{a} \\form^{a}$ (12); $[Gamma,Z]=a Gamma+b "
+                   "Z$ in case 1, with b = 0, and in case 2. $i_{[Gamma,Z]}\\form^{a}$ is what the bracket has outside "
+                   "of the canonical distribution (22).");
     for (size_t i = 0; i < t->brackets; i++) {
         const struct nh_theory_bracket *c = &t->bracket[i];
-        for (size_t a = 0; a < b->o->k; a++) nh_sheet_formula(b->s, nh_sheet_label(b->s, "F_{%zu}(<%s>)", a + 1, c->name), c->bracket->F[a]);
+        for (size_t a = 0; a < b->o->k; a++)
+            nh_sheet_formula(b->s, nh_sheet_label(b->s, "F_{%zu}(<%s>)", a + 1, c->name), c->bracket->F[a]);
         bracket_field(b, c);
         if (c->bracket->decided) {
             formula(b, c->bracket->a, "a(<%s>)", c->name, NULL);
             if (c->symmetry->kase == 2) formula(b, c->bracket->b, "b(<%s>)", c->name, NULL);
         }
-        for (size_t a = 0; a < b->o->k; a++) nh_sheet_formula(b->s, nh_sheet_label(b->s, "i_{[Gamma,Z(<%s>)]}\\form^{%zu}", c->name, a + 1), c->bracket->form[a]);
+        for (size_t a = 0; a < b->o->k; a++)
+            nh_sheet_formula(b->s, nh_sheet_label(b->s, "i_{[Gamma,Z(<%s>)]}\\form^{%zu}", c->name, a + 1),
+                             c->bracket->form[a]);
     }
 }
 

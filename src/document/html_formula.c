@@ -17,7 +17,10 @@ static void add_compact(nh_text *out, const char *piece)
 {
     static const char row[] = "<mrow>", end[] = "</mrow>";
     for (const char *c = piece, *next; *c; c = next) {
-        const char *inner = c + sizeof row - 1, *close = !strncmp(c, row, sizeof row - 1) && inner[0] == '<' && inner[1] == 'm' && strchr("in", inner[2]) ? strstr(inner, "</m") : NULL;
+        const char *inner = c + sizeof row - 1, *close = !strncmp(c, row, sizeof row - 1) && inner[0] == '<' &&
+                                                                 inner[1] == 'm' && strchr("in", inner[2])
+                                                             ? strstr(inner, "</m")
+                                                             : NULL;
         const char *after = close ? close + sizeof "</mi>" - 1 : NULL;
         next = c + 1;
         if (after && after[-1] == '>' && !strncmp(after, end, sizeof end - 1)) {
@@ -90,7 +93,8 @@ static void too_long(nh_html_writer *w, const char *label, nh_ex e)
     bool known = (double)nh_complexity(w->dag, e) <= w->written;
     nh_html_add(w, "<div class=\"formula\">");
     put_label(w, label);
-    nh_html_add(w, known ? "<em>too long for a page; the JSON has it</em></div>\n" : "<em>too long to be written out</em></div>\n");
+    nh_html_add(w, known ? "<em>too long for a page; the JSON has it</em></div>\n"
+                         : "<em>too long to be written out</em></div>\n");
 }
 
 /* Does it still need part i, itself or through another part?  Values use later names only. */
@@ -145,7 +149,8 @@ void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, con
     bool needed[NH_FORMULA_PARTS] = {false}, any = false, *shown = nh_alloc_array(n + 1, sizeof *shown);
     double used_up = 0;
     nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
-    for (size_t i = 0; i < n; i++) brief[i] = nh_formula_shortened(w->analysis, w->dag, w->chart ? nh_chart_shown(w->chart, e[i]) : e[i]);
+    for (size_t i = 0; i < n; i++)
+        brief[i] = nh_formula_shortened(w->analysis, w->dag, w->chart ? nh_chart_shown(w->chart, e[i]) : e[i]);
     size_t parts = nh_formula_parts(w->dag, n, brief, part);
     for (size_t i = 0; i < n; i++) shown[i] = room(w, brief[i], parts, part, needed, &used_up);
     for (size_t k = 0; k < parts; k++) any |= needed[k];

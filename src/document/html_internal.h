@@ -38,8 +38,8 @@ void nh_html_source(nh_html_writer *w, const char *text);
 void nh_html_name(nh_html_writer *w, const char *name);
 /* Words with a list of names in parentheses at their end, such as a chart has: the names as formulas. */
 void nh_html_chart_name(nh_html_writer *w, const char *name);
-/* label = e for formulas that belong together, with the user's abbreviations: what occurs in them more than once gets one name for all; or that one is
- * too long for a page.  A label is "", a name, or MathML, which begins with <. */
+/* label = e for formulas that belong together, with the user's abbreviations: what occurs in them more than once gets
+ * one name for all; or that one is too long for a page.  A label is "", a name, or MathML, which begins with <. */
 void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e);
 /* A figure with its caption; the plot gets an id. */
 void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption);
@@ -47,7 +47,8 @@ void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption);
 void nh_html_table(nh_html_writer *w, const char *caption, const char *heads);
 void nh_html_table_end(nh_html_writer *w);
 
-/* ---- a page: the title, then the answer, then links to its sections ("id|name|id|name"), then what follows, then how to repeat it ---- */
+/* ---- a page: the title, then the answer, then links to its sections ("id|name|id|name"), then what follows, then how
+   to repeat it ---- */
 
 void nh_html_begin(nh_html_writer *w, const char *what);
 void nh_html_links(nh_html_writer *w, const char *sections);

@@ -17,7 +17,8 @@ void nh_html_text(nh_html_writer *w, const char *text) { nh_escape_xml(text, w->
 
 void nh_html_prose(nh_html_writer *w, const char *text)
 {
-    static const char *const raised[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+    static const char *const raised[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                         "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     for (const char *c = text; *c;) {
         const char *digit = c + 1 + (c[0] == '^' && c[1] == '-');
         if (*c != '^' || *digit < '0' || *digit > '9') {
@@ -51,11 +52,16 @@ void nh_html_number(nh_html_writer *w, double value, int digits)
         return;
     }
     nh_text_addf(w->out, "<data value=\"%s\">%s%s", n.all, n.minus ? "\u2212" : "", n.mantissa);
-    if (n.has_power) nh_text_addf(w->out, "%s10<sup>%s%d</sup>", n.mantissa[0] ? "\u00b7" : "", n.power < 0 ? "\u2212" : "", abs(n.power));
+    if (n.has_power)
+        nh_text_addf(w->out, "%s10<sup>%s%d</sup>", n.mantissa[0] ? "\u00b7" : "", n.power < 0 ? "\u2212" : "",
+                     abs(n.power));
     nh_html_add(w, "</data>");
 }
 
-void nh_html_count(nh_html_writer *w, size_t value) { nh_text_addf(w->out, "<data value=\"%zu\">%zu</data>", value, value); }
+void nh_html_count(nh_html_writer *w, size_t value)
+{
+    nh_text_addf(w->out, "<data value=\"%zu\">%zu</data>", value, value);
+}
 
 static void name_figure(size_t number, char id[FIGURE_ID]) { snprintf(id, FIGURE_ID, "fig%zu", number); }
 
@@ -120,13 +126,16 @@ void nh_html_table_end(nh_html_writer *w) { nh_html_add(w, "</tbody></table></di
 
 void nh_html_begin(nh_html_writer *w, const char *what)
 {
-    nh_html_add(w, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+    nh_html_add(w, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta "
+                   "charset=\"utf-8\"/>\n"
                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-                   "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; font-src data:; script-src 'unsafe-inline'\"/>\n"
+                   "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+                   "'unsafe-inline'; font-src data:; script-src 'unsafe-inline'\"/>\n"
                    "<meta name=\"generator\" content=\"nhsym " NH_VERSION "\"/>\n<title>");
     nh_html_text(w, w->system->title);
     if (what) nh_text_addf(w->out, ": %s", what);
-    nh_html_add(w, " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n@font-face{font-family:'nhsym math';src:url(data:font/woff2;base64,");
+    nh_html_add(w, " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n@font-face{font-family:'nhsym "
+                   "math';src:url(data:font/woff2;base64,");
     nh_html_add(w, nh_html_font);
     nh_html_add(w, ") format('woff2')}\n");
     nh_html_add(w, nh_html_style);
@@ -167,7 +176,8 @@ void nh_html_end(nh_html_writer *w)
 /* The text of the glossary with letters for their names. */
 static void with_letters(nh_html_writer *w, const char *text)
 {
-    static const char *const letter[][2] = {{"Gamma", "\u0393"}, {"Phi", "\u03a6"}, {"alpha", "\u03b1"}, {"mu_a", "\u03bc\u2090"}};
+    static const char *const letter[][2] = {
+        {"Gamma", "\u0393"}, {"Phi", "\u03a6"}, {"alpha", "\u03b1"}, {"mu_a", "\u03bc\u2090"}};
     while (*text) {
         size_t k = 0, length = 1;
         while (k < 4 && strncmp(text, letter[k][0], strlen(letter[k][0]))) k++;

@@ -9,23 +9,35 @@ enum { most_curves = 7, most_frames = 401 };
 
 /* ---- plots over time ---- */
 
-static void flush(nh_html_writer *w, const nh_time_series *c, const char *what, const char *axis, const char *caption, size_t n, nh_curve *curve)
+static void flush(nh_html_writer *w, const nh_time_series *c, const char *what, const char *axis, const char *caption,
+                  size_t n, nh_curve *curve)
 {
     char title[200], alone[160];
     if (n == 0) return;
     snprintf(title, sizeof title, "%s over time", what);
-    if (n == 1) snprintf(alone, sizeof alone, "%.80s%.60s", curve[0].name, strchr(axis, '/') ? strchr(axis, '/') - 1 : ""); /* no legend names it */
-    nh_plot plot = {.title = title, .description = caption, .x_label = "t", .y_label = n == 1 ? alone : axis, .timed = c->count > 1, .curves = n, .curve = curve};
+    /* no legend names it */
+    if (n == 1)
+        snprintf(alone, sizeof alone, "%.80s%.60s", curve[0].name, strchr(axis, '/') ? strchr(axis, '/') - 1 : "");
+    nh_plot plot = {.title = title,
+                    .description = caption,
+                    .x_label = "t",
+                    .y_label = n == 1 ? alone : axis,
+                    .timed = c->count > 1,
+                    .curves = n,
+                    .curve = curve};
     nh_html_figure(w, &plot, caption);
 }
 
 static nh_curve curve_of(const nh_time_series *c, const nh_line *line)
 {
-    return (nh_curve){.name = line->name, .count = c->count, .x = c->time, .x_stride = 1, .y = line->value, .y_stride = line->stride};
+    return (nh_curve){
+        .name = line->name, .count = c->count, .x = c->time, .x_stride = 1, .y = line->value, .y_stride = line->stride};
 }
 
-/* Lines of one kind in plots of at most so many curves.  `skip` of the kind are left out at the front, `take` are shown. */
-static void lines(nh_html_writer *w, const nh_time_series *c, nh_track_kind kind, size_t skip, size_t take, const char *what, const char *axis, const char *caption)
+/* Lines of one kind in plots of at most so many curves.  `skip` of the kind are left out at the front, `take` are
+   shown. */
+static void lines(nh_html_writer *w, const nh_time_series *c, nh_track_kind kind, size_t skip, size_t take,
+                  const char *what, const char *axis, const char *caption)
 {
     nh_curve curve[most_curves];
     char letter[most_curves][24];
@@ -61,7 +73,9 @@ static void positions(nh_html_writer *w, const nh_time_series *c)
     static const struct {
         nh_coordinate_type type;
         const char *what, *caption;
-    } kind[] = {{NH_ANGLE, "angle", "Angles over time."}, {NH_LENGTH, "length", "Lengths over time."}, {NH_PLAIN, "coordinate", "Other coordinates over time."}};
+    } kind[] = {{NH_ANGLE, "angle", "Angles over time."},
+                {NH_LENGTH, "length", "Lengths over time."},
+                {NH_PLAIN, "coordinate", "Other coordinates over time."}};
     const nh_system *s = w->system;
     for (size_t k = 0; k < 3; k++) {
         nh_curve curve[most_curves];
@@ -88,20 +102,32 @@ static void constancy(nh_html_writer *w, const nh_time_series *c)
     for (size_t j = 0; j < c->lines && n < most_curves; j++) {
         const nh_line *line = &c->line[j];
         if (line->kind != NH_TRACK_CURRENT) continue;
-        for (size_t i = 0; i < c->count; i++) y[n * c->count + i] = fabs(line->value[i * line->stride] - line->value[0]);
-        curve[n] = (nh_curve){.name = line->name, .count = c->count, .x = c->time, .x_stride = 1, .y = y + n * c->count, .y_stride = 1};
+        for (size_t i = 0; i < c->count; i++)
+            y[n * c->count + i] = fabs(line->value[i * line->stride] - line->value[0]);
+        curve[n] = (nh_curve){
+            .name = line->name, .count = c->count, .x = c->time, .x_stride = 1, .y = y + n * c->count, .y_stride = 1};
         n++;
     }
-    nh_plot plot = {.title = "Change of the known currents", .description = "Absolute change since the start on a logarithmic scale", .x_label = "t", .y_label = "change", .log_y = true,
-                    .floor = 1e-17, .timed = c->count > 1, .curves = n, .curve = curve};
-    if (n) nh_html_figure(w, &plot, "Change of the known currents since the start, a measure of the error of the motion.");
+    nh_plot plot = {.title = "Change of the known currents",
+                    .description = "Absolute change since the start on a logarithmic scale",
+                    .x_label = "t",
+                    .y_label = "change",
+                    .log_y = true,
+                    .floor = 1e-17,
+                    .timed = c->count > 1,
+                    .curves = n,
+                    .curve = curve};
+    if (n)
+        nh_html_figure(w, &plot, "Change of the known currents since the start, a measure of the error of the motion.");
     nh_free(y);
 }
 
 static void velocities(nh_html_writer *w, const nh_time_series *c)
 {
     size_t m = c->model->m;
-    if (c->model->chart->quasi) lines(w, c, NH_TRACK_STATE, 2 * m, c->lines, "Quasi-velocities", "quasi-velocity", "Quasi-velocities over time.");
+    if (c->model->chart->quasi)
+        lines(w, c, NH_TRACK_STATE, 2 * m, c->lines, "Quasi-velocities", "quasi-velocity",
+              "Quasi-velocities over time.");
     else lines(w, c, NH_TRACK_STATE, m, m, "Velocities", "velocity", "Velocities over time.");
 }
 
@@ -129,14 +155,24 @@ static void path_plot(nh_html_writer *w, const nh_time_series *c)
         if (c->shape[i].kind == NH_SHAPE_SEGMENT || nh_shape_in_space(c->shape[i].kind)) continue;
         const nh_line *x = nh_time_series_shape(c, i, 0), *y = nh_time_series_shape(c, i, 1);
         shape_name(c, i, name[n], sizeof name[n]);
-        curve[n] = (nh_curve){.name = name[n], .count = c->count, .x = x->value, .x_stride = x->stride, .y = y->value, .y_stride = y->stride};
+        curve[n] = (nh_curve){.name = name[n],
+                              .count = c->count,
+                              .x = x->value,
+                              .x_stride = x->stride,
+                              .y = y->value,
+                              .y_stride = y->stride};
         bool heads = c->shape[i].kind == NH_SHAPE_ARROW || c->shape[i].kind == NH_SHAPE_WHEEL;
         if (heads) curve[n].heading = nh_time_series_shape(c, i, 2)->value;
         n++;
     }
     if (!n) return;
-    nh_plot plot = {.title = "Path in the plane", .description = "The path of the motion in the plane, both axes on one scale", .x_label = "first axis", .y_label = "second axis",
-                    .equal = true, .curves = n, .curve = curve};
+    nh_plot plot = {.title = "Path in the plane",
+                    .description = "The path of the motion in the plane, both axes on one scale",
+                    .x_label = "first axis",
+                    .y_label = "second axis",
+                    .equal = true,
+                    .curves = n,
+                    .curve = curve};
     const nh_system *s = w->system;
     bool marks = false;
     for (size_t k = 0; k < n; k++) marks |= curve[k].heading != NULL;
@@ -146,7 +182,9 @@ static void path_plot(nh_html_writer *w, const nh_time_series *c)
             if (s->coordinate[i].q == c->shape[k].value[0]) plot.x_label = s->coordinate[i].name;
             if (s->coordinate[i].q == c->shape[k].value[1]) plot.y_label = s->coordinate[i].name;
         }
-    nh_html_figure(w, &plot, marks ? "Path of the motion; the marks show the heading of a body at equal time steps." : "Path of the motion.");
+    nh_html_figure(w, &plot,
+                   marks ? "Path of the motion; the marks show the heading of a body at equal time steps."
+                         : "Path of the motion.");
 }
 
 static void number(nh_html_writer *w, double value, int digits)
@@ -190,7 +228,8 @@ static void data(nh_html_writer *w, const nh_time_series *c)
     for (size_t i = 0; i < c->shapes; i++) {
         if (w->space && c->shape[i].flat) continue;
         nh_text_addf(w->out, "%s{\"kind\":\"%s\",\"v\":[", shown++ ? "," : "", nh_shape_name(c->shape[i].kind));
-        for (size_t j = 0; j < nh_shape_numbers(c->shape[i].kind); j++) frames(w, j ? "," : "", c->count, nh_time_series_shape(c, i, j), step, w->space);
+        for (size_t j = 0; j < nh_shape_numbers(c->shape[i].kind); j++)
+            frames(w, j ? "," : "", c->count, nh_time_series_shape(c, i, j), step, w->space);
         nh_html_add(w, "]}");
     }
     nh_html_add(w, "]}</script>\n");
@@ -201,17 +240,20 @@ static void player(nh_html_writer *w, const nh_time_series *c)
     for (size_t i = 0; i < c->shapes; i++) w->space |= nh_shape_in_space(c->shape[i].kind);
     nh_html_add(w, "<div id=\"player\" hidden=\"hidden\">\n");
     if (c->shapes) {
-        nh_html_add(w, "<figure><svg id=\"scene\" class=\"plot\" role=\"img\" aria-label=\"The system in motion; the slider below chooses the time\" viewBox=\"0 0 640 420\" width=\"640\" height=\"420\"></svg>"
+        nh_html_add(w, "<figure><svg id=\"scene\" class=\"plot\" role=\"img\" aria-label=\"The system in motion; the "
+                       "slider below chooses the time\" viewBox=\"0 0 640 420\" width=\"640\" height=\"420\"></svg>"
                        "<figcaption>The system in motion, with its path. Drawn: ");
         nh_html_text(w, w->space ? "bodies in space, in perspective" : c->drawing);
         nh_html_add(w, ".</figcaption></figure>\n");
     }
-    nh_html_add(w, "<div class=\"controls\"><button type=\"button\" id=\"play\" aria-label=\"play or pause\">Play</button>"
-                   "<input type=\"range\" id=\"when\" min=\"0\" max=\"1000\" value=\"0\" step=\"1\" aria-label=\"time\"/> "
-                   "<output id=\"clock\" for=\"when\">t = 0</output>\n"
-                   "<label>speed <select id=\"speed\"><option>0.25</option><option>0.5</option><option selected=\"selected\">1</option>"
-                   "<option>2</option><option>4</option></select></label> "
-                   "<label><input type=\"checkbox\" id=\"loop\"/> loop</label> ");
+    nh_html_add(w,
+                "<div class=\"controls\"><button type=\"button\" id=\"play\" aria-label=\"play or pause\">Play</button>"
+                "<input type=\"range\" id=\"when\" min=\"0\" max=\"1000\" value=\"0\" step=\"1\" aria-label=\"time\"/> "
+                "<output id=\"clock\" for=\"when\">t = 0</output>\n"
+                "<label>speed <select id=\"speed\"><option>0.25</option><option>0.5</option><option "
+                "selected=\"selected\">1</option>"
+                "<option>2</option><option>4</option></select></label> "
+                "<label><input type=\"checkbox\" id=\"loop\"/> loop</label> ");
     if (c->shapes) nh_html_add(w, "<button type=\"button\" id=\"full\">Full screen</button>");
     nh_html_add(w, "</div></div>\n");
     data(w, c);
@@ -227,6 +269,7 @@ void nh_html_time_series(nh_html_writer *w, const nh_time_series *c)
     lines(w, c, NH_TRACK_ENERGY, 0, c->lines, "Energy", "E", "The energy function over time.");
     lines(w, c, NH_TRACK_WATCH, 0, c->lines, "Observables", "value", "Observables over time.");
     lines(w, c, NH_TRACK_MULTIPLIER, 0, c->lines, "Chetaev multipliers", "multiplier",
-          c->model->k == 1 ? "The Chetaev multiplier over time." : "Chetaev multipliers over time, in the order of the constraints.");
+          c->model->k == 1 ? "The Chetaev multiplier over time."
+                           : "Chetaev multipliers over time, in the order of the constraints.");
     if (!c->drifts_elsewhere) constancy(w, c);
 }

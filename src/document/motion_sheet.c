@@ -12,8 +12,10 @@ static const char *words_of(nh_sheet *s, const nh_analysis *r)
     const nh_explicit_motion *m = r->motion;
     const char *fixed = m->fixed ? nh_fixed_text(r->model, m->fixed) : "";
     const char *rest = m->known < m->states ? " No closed form was found for the other states." : "";
-    const char *where = m->region ? nh_arena_printf(r->arena, "While a motion stays in one region (%s)", m->region) : "Along every motion";
-    return nh_sheet_label(s, "%s, with $<%s>$ as the parameter; the numbers C are constant %s.%s%s%s%s%s%s", where, nh_name_of(s->dag, m->state[m->parameter]), m->region ? "there" : "along motions",
+    const char *where = m->region ? nh_arena_printf(r->arena, "While a motion stays in one region (%s)", m->region)
+                                  : "Along every motion";
+    return nh_sheet_label(s, "%s, with $<%s>$ as the parameter; the numbers C are constant %s.%s%s%s%s%s%s", where,
+                          nh_name_of(s->dag, m->state[m->parameter]), m->region ? "there" : "along motions",
                           m->proved ? " Proved: these formulas satisfy the equations of motion." : "", rest,
                           *fixed ? " For " : "", fixed, *fixed ? "." : "",
                           r->branch ? nh_arena_printf(r->arena, " On the branch %s only.", r->branch) : "");
@@ -76,8 +78,11 @@ static void series(nh_sheet *s, const nh_analysis *r)
     if (!v) return;
     const char *of = nh_name_of(s->dag, m->state[m->parameter]);
     nh_sheet_begin(s, "series", "Series of the integrals",
-                   nh_sheet_label(s, "Along the checked motion, from its start at $<%s>_{0}$, with $Delta = <%s> - <%s>_{0}$. Where $|Delta|$ is at most $Delta_{max}$ each differs by at "
-                                     "most its $\\eps$ from its series: proved in ball arithmetic by Taylor's theorem.", of, of, of));
+                   nh_sheet_label(s,
+                                  "Along the checked motion, from its start at $<%s>_{0}$, with $Delta = <%s> - "
+                                  "<%s>_{0}$. Where $|Delta|$ is at most $Delta_{max}$ each differs by at "
+                                  "most its $\\eps$ from its series: proved in ball arithmetic by Taylor's theorem.",
+                                  of, of, of));
     first_series(s, v, of);
     if (v->links > 1) other_series(s, v, of);
 }
@@ -99,11 +104,18 @@ nh_sheet *nh_motion_sheet(const nh_analysis *r)
         nh_sheet_formula(s, nh_sheet_label(s, "<%s>^{2}", nh_name_of(s->dag, m->root[i].symbol)), m->root[i].square);
         nh_sheet_formula(s, name(s, m->root[i].symbol), m->root[i].value);
     }
-    if (m->integrals) nh_sheet_begin(s, "integrals", "Integrals in it", "For these no closed form was found. Each is 0 at the start of the motion.");
+    if (m->integrals)
+        nh_sheet_begin(s, "integrals", "Integrals in it",
+                       "For these no closed form was found. Each is 0 at the start of the motion.");
     for (size_t i = 0; i < m->integrals; i++)
-        nh_sheet_formula(s, nh_sheet_label(s, "d<%s>/d<%s>", nh_name_of(s->dag, m->integral[i].symbol), nh_name_of(s->dag, m->state[m->parameter])), m->integral[i].integrand);
+        nh_sheet_formula(s,
+                         nh_sheet_label(s, "d<%s>/d<%s>", nh_name_of(s->dag, m->integral[i].symbol),
+                                        nh_name_of(s->dag, m->state[m->parameter])),
+                         m->integral[i].integrand);
     series(s, r);
-    nh_sheet_begin(s, "constants", m->integrals ? "Its constants, from the state at the start" : "Its constants, from the state at any time", "");
+    nh_sheet_begin(
+        s, "constants",
+        m->integrals ? "Its constants, from the state at the start" : "Its constants, from the state at any time", "");
     for (size_t j = 0; j < m->constants; j++) nh_sheet_formula(s, name(s, m->constant[j].symbol), m->constant[j].value);
     return s;
 }

@@ -22,7 +22,8 @@ static void name(nh_notation_form form, const char *text, size_t length, nh_text
     const char *word = nh_text_string(&plain);
     bool number = strspn(word, "0123456789") == length;
     if (form == NH_NOTATION_TEXT) nh_text_add(out, word);
-    else if (number || !nh_typeset(word, form == NH_NOTATION_LATEX ? NH_LATEX : NH_MATHML, out)) nh_text_addf(out, form == NH_NOTATION_LATEX ? "%s" : "<mn>%s</mn>", word);
+    else if (number || !nh_typeset(word, form == NH_NOTATION_LATEX ? NH_LATEX : NH_MATHML, out))
+        nh_text_addf(out, form == NH_NOTATION_LATEX ? "%s" : "<mn>%s</mn>", word);
     nh_text_clear(&plain);
 }
 
@@ -41,7 +42,8 @@ static const struct {
 } signs[] = {
     {"p", {"d", "<mo>\u2202</mo>", "\\partial "}},
     {"pc", {"d_c ", "<msub><mo>\u2202</mo><mi>c</mi></msub>", "\\partial_c "}},
-    {"dcp", {"d'_c ", "<msubsup><mi mathvariant=\"normal\">d</mi><mi>c</mi><mo>\u2032</mo></msubsup>", "\\mathrm{d}'_c "}},
+    {"dcp",
+     {"d'_c ", "<msubsup><mi mathvariant=\"normal\">d</mi><mi>c</mi><mo>\u2032</mo></msubsup>", "\\mathrm{d}'_c "}},
     {"d", {"d", "<mi mathvariant=\"normal\">d</mi>", "\\mathrm{d}"}},
     {"form", {"phi", "<mi>\u03d5</mi>", "\\phi"}},
     {"eps", {"eps", "<mi>\u03b5</mi>", "\\varepsilon"}},
@@ -84,7 +86,8 @@ static void command(reader *r, nh_text *out)
         return;
     }
     for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
-        if (strlen(signs[i].name) == length && !strncmp(word, signs[i].name, length)) nh_text_add(out, signs[i].form[r->form]);
+        if (strlen(signs[i].name) == length && !strncmp(word, signs[i].name, length))
+            nh_text_add(out, signs[i].form[r->form]);
     for (size_t i = 0; i < sizeof accents / sizeof *accents; i++) {
         if (strlen(accents[i].name) != length || strncmp(word, accents[i].name, length)) continue;
         nh_text_add(out, accents[i].form[r->form][0]);
@@ -99,7 +102,9 @@ static void sign(nh_notation_form form, char c, nh_text *out)
     const char *minus = c == '-' && form == NH_NOTATION_MATHML ? "\u2212" : NULL;
     if (form != NH_NOTATION_MATHML) nh_text_add_n(out, &c, 1);
     else if (c == '>') nh_text_add(out, "<mo>&gt;</mo>");
-    else if (c != ' ') nh_text_addf(out, strchr("()[]", c) ? "<mo stretchy=\"false\">%.*s</mo>" : "<mo>%.*s</mo>", minus ? 3 : 1, minus ? minus : &c);
+    else if (c != ' ')
+        nh_text_addf(out, strchr("()[]", c) ? "<mo stretchy=\"false\">%.*s</mo>" : "<mo>%.*s</mo>", minus ? 3 : 1,
+                     minus ? minus : &c);
 }
 
 /* What scripts may follow, and these. */
@@ -128,7 +133,9 @@ static void atom(reader *r, nh_text *out)
     const char *below = nh_text_string(&script[0]), *above = nh_text_string(&script[1]), *b = nh_text_string(&base);
     bool page = r->form == NH_NOTATION_MATHML, latex = r->form == NH_NOTATION_LATEX;
     if (page && *below && *above) nh_text_addf(out, "<msubsup><mrow>%s</mrow>%s%s</msubsup>", b, below, above);
-    else if (page && (*below || *above)) nh_text_addf(out, *below ? "<msub><mrow>%s</mrow>%s</msub>" : "<msup><mrow>%s</mrow>%s</msup>", b, *below ? below : above);
+    else if (page && (*below || *above))
+        nh_text_addf(out, *below ? "<msub><mrow>%s</mrow>%s</msub>" : "<msup><mrow>%s</mrow>%s</msup>", b,
+                     *below ? below : above);
     else nh_text_addf(out, latex && (*below || *above) ? "{%s}" : "%s", b);
     if (!page && *below) nh_text_addf(out, latex ? "_{%s}" : "_%s", below);
     if (!page && *above) nh_text_addf(out, latex ? "^{%s}" : "^%s", above);

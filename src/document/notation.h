@@ -4,7 +4,8 @@
  *
  *     <phi'>            a name of the system, as formulas have it; letters and digits outside of < > likewise
  *     \bar{A} \tilde{Z} \hat{A} \breve{A}   accents;  _{..} ^{..}  scripts behind a name or a closed group
- *     \frac{..}{..}     a fraction, in text with a stroke;  \p  the sign of a partial derivative, \pc and \dcp  those with the index c
+ *     \frac{..}{..}     a fraction, in text with a stroke;  \p  the sign of a partial derivative, \pc and \dcp  those
+ *                       with the index c
  *     \form \eps      the letter of the forms phi^a, that of the Euler operators
  *     ( ) [ ] , + - = blank     themselves */
 #ifndef NH_NOTATION_H
@@ -16,8 +17,8 @@ typedef enum { NH_NOTATION_TEXT, NH_NOTATION_MATHML, NH_NOTATION_LATEX } nh_nota
 
 void nh_notation_write(const char *label, nh_notation_form form, nh_text *out);
 
-/* Words with labels between dollar signs: the next part of them, which is written into `part` (to be cleared), and whether it is a label; false after the
- * last. */
+/* Words with labels between dollar signs: the next part of them, which is written into `part` (to be cleared), and
+ * whether it is a label; false after the last. */
 bool nh_notation_next(const char **words, nh_text *part, bool *label);
 
 #endif

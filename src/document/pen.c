@@ -101,7 +101,8 @@ static void plain(nh_pen *p, const char *from, const char *to)
     nh_text_clear(&text);
 }
 
-/* One argument; *at stands on its %, and then behind it.  The list is passed as a pointer, so that what is read is read. */
+/* One argument; *at stands on its %, and then behind it.  The list is passed as a pointer, so that what is read is
+   read. */
 static void argument(nh_pen *p, const char **at, char before, va_list *list)
 {
     const char *c = *at + 1;

@@ -1,10 +1,11 @@
 /* pen: a document written once, for a page, for LaTeX and for a terminal.
  *
- * A document is a sequence of parts, which may hold parts; a part of words holds words, numbers, names and formulas.  A form of output is one
- * nh_pen_ink.  In formats, as of printf:  %s words; %zu and %ld a count; %.3g a number with so many digits; {%s} words with names in
- * parentheses, such as a chart has; <%s> a formula of the expression language; $..$ letters of the theory, as notation.h has them.
- * In rows | ends a cell, and a cell that begins with # heads its row; one that begins with ! has its words as its kind, by which a page
- * colours it.  A head of a column that begins with # is a number. */
+ * A document is a sequence of parts, which may hold parts; a part of words holds words, numbers, names and formulas.  A
+ * form of output is one nh_pen_ink.  In formats, as of printf:  %s words; %zu and %ld a count; %.3g a number with so
+ * many digits; {%s} words with names in parentheses, such as a chart has; <%s> a formula of the expression language;
+ * $..$ letters of the theory, as notation.h has them. In rows | ends a cell, and a cell that begins with # heads its
+ * row; one that begins with ! has its words as its kind, by which a page colours it.  A head of a column that begins
+ * with # is a number. */
 #ifndef NH_PEN_H
 #define NH_PEN_H
 
@@ -12,18 +13,40 @@
 #include "document/sheet.h"
 #include "document/tex_internal.h"
 
-/* SCREEN: folded, on pages only, and not on their print.  NAME: of a card, as a formula.  TAGS: the properties of a card, one TAG each.
- * BESIDE: figures that stand side by side where there is room. */
-typedef enum { NH_PEN_SECTION, NH_PEN_CARD, NH_PEN_FOLD, NH_PEN_SCREEN, NH_PEN_WORDS, NH_PEN_ANSWER, NH_PEN_WARNING, NH_PEN_HEADING, NH_PEN_SUBHEADING,
-               NH_PEN_NAME, NH_PEN_TAGS, NH_PEN_TAG, NH_PEN_FACTS, NH_PEN_FACT, NH_PEN_FACT_NAME, NH_PEN_BESIDE,
-               NH_PEN_ROW, NH_PEN_CELL, NH_PEN_ROW_HEAD, NH_PEN_KIND, NH_PEN_PARTS } nh_pen_part;
+/* SCREEN: folded, on pages only, and not on their print.  NAME: of a card, as a formula.  TAGS: the properties of a
+ * card, one TAG each. BESIDE: figures that stand side by side where there is room. */
+typedef enum {
+    NH_PEN_SECTION,
+    NH_PEN_CARD,
+    NH_PEN_FOLD,
+    NH_PEN_SCREEN,
+    NH_PEN_WORDS,
+    NH_PEN_ANSWER,
+    NH_PEN_WARNING,
+    NH_PEN_HEADING,
+    NH_PEN_SUBHEADING,
+    NH_PEN_NAME,
+    NH_PEN_TAGS,
+    NH_PEN_TAG,
+    NH_PEN_FACTS,
+    NH_PEN_FACT,
+    NH_PEN_FACT_NAME,
+    NH_PEN_BESIDE,
+    NH_PEN_ROW,
+    NH_PEN_CELL,
+    NH_PEN_ROW_HEAD,
+    NH_PEN_KIND,
+    NH_PEN_PARTS
+} nh_pen_part;
 
 typedef struct {
     bool screen;                                     /* has it parts for the screen? */
-    bool brief;                                      /* a terminal's: without what the user wrote, and without long explanations */
+    /* a terminal's: without what the user wrote, and without long explanations */
+    bool brief;
     void (*begin)(void *to, const char *what);
     void (*links)(void *to, const char *sections);
-    /* `id`: of a section; the class of an answer and the kind of a cell.  `title` may be NULL; of a kind it is a remark. */
+    /* `id`: of a section; the class of an answer and the kind of a cell.  `title` may be NULL; of a kind it is a
+       remark. */
     void (*open)(void *to, nh_pen_part part, const char *id, const char *title);
     void (*close)(void *to, nh_pen_part part);
     void (*words)(void *to, const char *words);
@@ -46,8 +69,8 @@ typedef struct {
     void (*end)(void *to, const nh_run *run);
 } nh_pen_ink;
 
-/* The forms of documents that have an option of the command line: its name, which is that of the ink nh_pen_NAME, too; the form; the member of nh_pen
- * that the ink writes to. */
+/* The forms of documents that have an option of the command line: its name, which is that of the ink nh_pen_NAME, too;
+ * the form; the member of nh_pen that the ink writes to. */
 #define NH_PEN_FORM_TABLE(X)    \
     X(html, NH_PEN_PAGE, page)  \
     X(tex,  NH_PEN_LATEX, tex)
@@ -56,13 +79,15 @@ typedef struct {
 typedef enum { NH_PEN_FORM_TABLE(X) NH_PEN_TEXT } nh_pen_form;
 #undef X
 
-/* `fragment`: LaTeX without the lines before and after the body.  `verbose`: with all the numbers.  `colour`: a terminal that has it. */
+/* `fragment`: LaTeX without the lines before and after the body.  `verbose`: with all the numbers.  `colour`: a
+   terminal that has it. */
 typedef struct {
     nh_pen_form form;
     bool fragment, verbose, colour;
 } nh_pen_style;
 
-/* What a document is about; formulas longer than `shown` are left out of it, those longer than `written` (0: none) of the JSON. */
+/* What a document is about; formulas longer than `shown` are left out of it, those longer than `written` (0: none) of
+   the JSON. */
 typedef struct {
     const nh_system *system;
     const nh_analysis_file *analysis;
@@ -107,7 +132,8 @@ void nh_pen_end(nh_pen *pen, const nh_run *run);
 void nh_pen_section(nh_pen *pen, const char *id, const char *title);
 void nh_pen_card(nh_pen *pen, const char *title);
 void nh_pen_card_end(nh_pen *pen);
-/* The system as it was written; with a model its equations, with an analysis the kind of its constraints.  Then its geometry, if there is one. */
+/* The system as it was written; with a model its equations, with an analysis the kind of its constraints.  Then its
+   geometry, if there is one. */
 void nh_pen_system(nh_pen *pen, const nh_model *model, const nh_analysis *analysis);
 void nh_pen_geometry(nh_pen *pen, nh_arena *arena, const struct nh_theory *theory);
 void nh_pen_glossary(nh_pen *pen, const char *words);
@@ -119,14 +145,17 @@ void nh_pen_open(nh_pen *pen, nh_pen_part part, const char *id, const char *titl
 void nh_pen_close(nh_pen *pen, nh_pen_part part);
 void nh_pen_say(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));    /* into the open part */
 void nh_pen_words(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));  /* a paragraph */
-void nh_pen_fact(nh_pen *pen, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4))); /* of a list of facts */
-void nh_pen_fact_begin(nh_pen *pen, const char *name);                                          /* it ends by nh_pen_close */
+/* of a list of facts */
+void nh_pen_fact(nh_pen *pen, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* it ends by nh_pen_close */
+void nh_pen_fact_begin(nh_pen *pen, const char *name);
 void nh_pen_name(nh_pen *pen, const char *name); /* of a coordinate, a velocity, .., within words */
 /* A field: the sum of its components times d/d(coordinate), within words. */
 void nh_pen_field(nh_pen *pen, nh_dag *dag, size_t n, const char *const *coordinate, const nh_ex *component);
 void nh_pen_sheet(nh_pen *pen, nh_sheet *sheet); /* NULL: nothing */
 void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void nh_pen_cell(nh_pen *pen, nh_pen_part part, const char *format, ...) __attribute__((format(printf, 3, 4))); /* of an open row */
+/* of an open row */
+void nh_pen_cell(nh_pen *pen, nh_pen_part part, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void nh_pen_heading(nh_pen *pen, const char *title);             /* of a section: it ends the card */
 void nh_pen_name_heading(nh_pen *pen, const char *name);         /* of a card */
 void nh_pen_code(nh_pen *pen, const char *text);

@@ -5,7 +5,8 @@
 #include "document/pen.h"
 
 static const struct {
-    const char *open, *titled, *close; /* before the id or the title; before the title of a part that has one; at its end */
+    /* before the id or the title; before the title of a part that has one; at its end */
+    const char *open, *titled, *close;
 } markup[NH_PEN_PARTS] = {
     [NH_PEN_SECTION] = {"<section id=\"", "<h2>", "</section>\n"},
     [NH_PEN_CARD] = {"<article class=\"card\">\n", "<h3>", "</article>\n"},
@@ -38,12 +39,15 @@ static void open(void *to, nh_pen_part part, const char *id, const char *title)
     if (part == NH_PEN_CARD || part == NH_PEN_SECTION) ((nh_html_writer *)to)->names = 0;
     nh_html_add(to, markup[part].open);
     if (id) nh_html_text(to, id);
-    if (part == NH_PEN_KIND && title && *title) nh_html_add(to, "\" title=\""), nh_html_text(to, title); /* where the pointer rests on it */
+    /* where the pointer rests on it */
+    if (part == NH_PEN_KIND && title && *title) nh_html_add(to, "\" title=\""), nh_html_text(to, title);
     if (id) nh_html_add(to, "\">");
     if (!title || !markup[part].titled) return;
     nh_html_add(to, markup[part].titled);
     nh_html_prose(to, title);
-    nh_html_add(to, part == NH_PEN_SECTION ? "</h2>\n" : part == NH_PEN_FOLD || part == NH_PEN_SCREEN ? "</summary>\n" : "</h3>\n");
+    nh_html_add(to, part == NH_PEN_SECTION                         ? "</h2>\n"
+                    : part == NH_PEN_FOLD || part == NH_PEN_SCREEN ? "</summary>\n"
+                                                                   : "</h3>\n");
 }
 
 static void close(void *to, nh_pen_part part) { nh_html_add(to, markup[part].close); }
@@ -91,7 +95,10 @@ static void formulas(void *to, size_t n, const char *const *label, const nh_ex *
     nh_free(mathml);
 }
 
-static void sheet(void *to, nh_sheet *formulas_of, bool headed) { nh_sheet_html(formulas_of, headed ? "h4" : "h3", to); }
+static void sheet(void *to, nh_sheet *formulas_of, bool headed)
+{
+    nh_sheet_html(formulas_of, headed ? "h4" : "h3", to);
+}
 
 static void table(void *to, const char *caption, const char *heads) { nh_html_table(to, caption, heads); }
 
@@ -115,5 +122,6 @@ static void end(void *to, const nh_run *run)
     nh_html_end(to);
 }
 
-const nh_pen_ink nh_pen_html = {true, false, begin, links, open, close, words, number, count, names, source, letters, equation, code, formulas,
-                                sheet, table, table_end, plot, series, symmetry, glossary, end};
+const nh_pen_ink nh_pen_html = {true,  false,     begin,  links,   open,     close,    words,    number,
+                                count, names,     source, letters, equation, code,     formulas, sheet,
+                                table, table_end, plot,   series,  symmetry, glossary, end};

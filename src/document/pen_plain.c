@@ -1,4 +1,5 @@
-/* The parts of a document as text for a terminal, which has neither figures, nor links, nor what others say already: the glossary, the system's file. */
+/* The parts of a document as text for a terminal, which has neither figures, nor links, nor what others say already:
+   the glossary, the system's file. */
 #include <math.h>
 #include <string.h>
 
@@ -163,8 +164,8 @@ static void put_columns(nh_plain_writer *w, const char *rows, const size_t *widt
     }
 }
 
-/* In columns.  Where they are too wide for the line, a first one that is the widest has words, and stands last; else those that have no room stand below, each
- * time with the first one. */
+/* In columns.  Where they are too wide for the line, a first one that is the widest has words, and stands last; else
+ * those that have no room stand below, each time with the first one. */
 static void put_rows(nh_plain_writer *w, const char *rows)
 {
     size_t width[most_columns] = {0}, all = 0, widest = 0, columns = 0, to;

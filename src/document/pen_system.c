@@ -146,7 +146,8 @@ static void equations(nh_pen *p, const nh_model *o, bool more)
     nh_pen_open(p, NH_PEN_SUBHEADING, NULL, NULL);
     nh_pen_say(p, "In {%s}", o->chart->name);
     nh_pen_close(p, NH_PEN_SUBHEADING);
-    if (!p->ink->brief) block(p, o->dag, "Constrained Lagrangian and energy", 2, functions, (const nh_ex[]){o->Lbar, o->E});
+    if (!p->ink->brief)
+        block(p, o->dag, "Constrained Lagrangian and energy", 2, functions, (const nh_ex[]){o->Lbar, o->E});
     block(p, o->dag, nh_facts_equations(o), o->n, label, o->a);
     if (more) multipliers(p, o);
     nh_free(label);

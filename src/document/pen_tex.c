@@ -113,7 +113,10 @@ static void formulas(void *to, size_t n, const char *const *label, const nh_ex *
     }
 }
 
-static void sheet(void *to, nh_sheet *formulas_of, bool headed) { nh_sheet_tex(formulas_of, headed ? "subsubsection" : "subsection", to); }
+static void sheet(void *to, nh_sheet *formulas_of, bool headed)
+{
+    nh_sheet_tex(formulas_of, headed ? "subsubsection" : "subsection", to);
+}
 
 /* Columns of equal width whose words are set ragged. */
 static void table(void *to, const char *caption, const char *heads)
@@ -122,7 +125,8 @@ static void table(void *to, const char *caption, const char *heads)
     size_t n = 1;
     for (const char *c = heads; *c; c++) n += *c == '|';
     nh_tex_words(w, caption);
-    nh_text_addf(w->out, "\n{\\footnotesize\\begin{longtable}{*{%zu}{p{%.3f\\linewidth}}}\n", n, 0.98 / (double)n - 0.025);
+    nh_text_addf(w->out, "\n{\\footnotesize\\begin{longtable}{*{%zu}{p{%.3f\\linewidth}}}\n", n,
+                 0.98 / (double)n - 0.025);
     for (size_t length; n-- > 0; heads += length + (heads[length] == '|')) {
         length = strcspn(heads, "|");
         char *head = nh_alloc_array(length + 1, 1);
@@ -146,7 +150,13 @@ static void series(void *to, const nh_time_series *motion)
     nh_tex_writer *w = to;
     nh_text rest;
     nh_text_init(&rest);
-    nh_html_writer page = {.out = &rest, .system = w->system, .analysis = w->analysis, .dag = w->dag, .shown = w->shown, .sink = draw, .context = w};
+    nh_html_writer page = {.out = &rest,
+                           .system = w->system,
+                           .analysis = w->analysis,
+                           .dag = w->dag,
+                           .shown = w->shown,
+                           .sink = draw,
+                           .context = w};
     nh_html_time_series(&page, motion);
     nh_text_clear(&rest);
 }
@@ -166,5 +176,6 @@ static void end(void *to, const nh_run *run)
     nh_tex_add(w, w->fragment ? "\\par\\endgroup\n" : "\\par\\endgroup\n\\end{document}\n");
 }
 
-const nh_pen_ink nh_pen_tex = {false, false, begin, links, open, close, words, number, count, names, source, letters, equation, code, formulas,
-                               sheet, table, table_end, plot, series, symmetry, glossary, end};
+const nh_pen_ink nh_pen_tex = {false, false,     begin,  links,   open,     close,    words,    number,
+                               count, names,     source, letters, equation, code,     formulas, sheet,
+                               table, table_end, plot,   series,  symmetry, glossary, end};

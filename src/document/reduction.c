@@ -36,8 +36,12 @@ size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s
         if (!trivial) e[n++] = (nh_reduction_equation){nh_name_of(d, o->x[i]), shortened(r, o->dx[i])};
         if (!trivial) e[n - 1].name = nh_arena_printf(arena, "%s'", e[n - 1].name);
     }
-    for (size_t i = 0; i < o->r; i++) e[n++] = (nh_reduction_equation){nh_arena_printf(arena, "%s'", o->momentum[i]), shortened(r, o->F[i])};
-    for (size_t a = 0; a < o->d; a++) e[n++] = (nh_reduction_equation){nh_arena_printf(arena, "%s_%zu", s->kind == NH_STAGE_SECOND ? "eta" : "zeta", a + 1), shortened(r, o->zeta[a])};
+    for (size_t i = 0; i < o->r; i++)
+        e[n++] = (nh_reduction_equation){nh_arena_printf(arena, "%s'", o->momentum[i]), shortened(r, o->F[i])};
+    for (size_t a = 0; a < o->d; a++)
+        e[n++] = (nh_reduction_equation){
+            nh_arena_printf(arena, "%s_%zu", s->kind == NH_STAGE_SECOND ? "eta" : "zeta", a + 1),
+            shortened(r, o->zeta[a])};
     *out = e;
     return n;
 }

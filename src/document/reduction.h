@@ -16,22 +16,27 @@ void nh_reduction_csv(const nh_reduction *reduction, nh_text *out);
 /* The reduced equations of every stage: a block of equations each, to be read into another document. */
 void nh_reduction_latex(const nh_reduction *reduction, nh_text *out);
 
-/* The reduced equations of a stage: M_ij, x', p', zeta as pairs of a name and an expression; n pairs in the kinetic's arena.  Expressions are
- * simplified where that is quick. */
+/* The reduced equations of a stage: M_ij, x', p', zeta as pairs of a name and an expression; n pairs in the kinetic's
+ * arena.  Expressions are simplified where that is quick. */
 typedef struct {
     const char *name;
     nh_ex value;
 } nh_reduction_equation;
-size_t nh_reduction_equations(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_reduction_equation **out);
+size_t nh_reduction_equations(const nh_reduction *reduction, const nh_reduction_stage *stage,
+                              nh_reduction_equation **out);
 
-/* Those that are shown: without zeta_1 = zeta1, a velocity of the group that serves as one of the equations; and what the letters in them mean. */
-size_t nh_reduction_shown(const nh_reduction *reduction, const nh_reduction_stage *stage, const char ***label, nh_ex **value);
+/* Those that are shown: without zeta_1 = zeta1, a velocity of the group that serves as one of the equations; and what
+   the letters in them mean. */
+size_t nh_reduction_shown(const nh_reduction *reduction, const nh_reduction_stage *stage, const char ***label,
+                          nh_ex **value);
 const char *nh_reduction_letters(const nh_reduction *reduction, const nh_reduction_stage *stage);
 
-/* "Stage 3, in one step instead of stages 1 and 2": the first and the second one build on each other, what divides the whole group is an alternative. */
+/* "Stage 3, in one step instead of stages 1 and 2": the first and the second one build on each other, what divides the
+   whole group is an alternative. */
 const char *nh_reduction_stage_title(const nh_reduction *reduction, size_t stage);
-/* "Chaplygin reduction by": what the stage is, before the name of its group.  The whole group at once: Euler-Poincare where the shape space is a point, else
- * Lagrange-Poincare; with d'Alembert where there are constraints [CendraDiaz2018]. */
+/* "Chaplygin reduction by": what the stage is, before the name of its group.  The whole group at once: Euler-Poincare
+ * where the shape space is a point, else Lagrange-Poincare; with d'Alembert where there are constraints
+ * [CendraDiaz2018]. */
 const char *nh_reduction_stage_kind(const nh_reduction_stage *stage);
 /* " for k = 2": what the stage's group needs to be one of symmetries; "" where that is nothing. */
 const char *nh_reduction_stage_holds(const nh_reduction *reduction, const nh_reduction_stage *stage);
@@ -44,7 +49,8 @@ const char *nh_reduction_globally(const nh_reduction *reduction, const nh_group 
 const char *nh_reduction_no_energy(const nh_reduction *reduction, const nh_reduction_stage *stage);
 /* "energy", or the moving energy of affine constraints. */
 const char *nh_reduction_energy(const nh_reduction *reduction, const nh_reduction_stage *stage);
-/* The stage whose momenta obey a linear equation in the shape, so that as many currents are conserved though none may have a closed form; or SIZE_MAX. */
+/* The stage whose momenta obey a linear equation in the shape, so that as many currents are conserved though none may
+   have a closed form; or SIZE_MAX. */
 size_t nh_reduction_linear_stage(const nh_reduction *reduction);
 /* "J", or "E - J"; other letters where the system has these for something else. */
 const char *nh_reduction_momentum_name(const nh_reduction *reduction, const nh_momentum *momentum);

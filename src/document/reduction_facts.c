@@ -5,7 +5,10 @@
 
 #include "document/facts.h"
 
-bool nh_reduction_on_levels(const nh_reduction_stage *s) { return s->kind == NH_STAGE_SECOND && s->second->first->d == 0; }
+bool nh_reduction_on_levels(const nh_reduction_stage *s)
+{
+    return s->kind == NH_STAGE_SECOND && s->second->first->d == 0;
+}
 
 bool nh_reduction_instead(const nh_reduction *r, size_t i)
 {
@@ -17,15 +20,19 @@ const char *nh_reduction_stage_title(const nh_reduction *r, size_t i)
 {
     nh_arena *arena = r->kinetic->arena;
     if (!nh_reduction_instead(r, i)) return nh_arena_printf(arena, "Stage %zu", i + 1);
-    if (nh_reduction_on_levels(&r->stage[i])) return nh_arena_printf(arena, "Stage %zu, instead of stage %zu", i + 1, i);
+    if (nh_reduction_on_levels(&r->stage[i]))
+        return nh_arena_printf(arena, "Stage %zu, instead of stage %zu", i + 1, i);
     if (i == 1) return nh_arena_printf(arena, "Stage %zu, in one step instead of stage 1", i + 1);
     return nh_arena_printf(arena, "Stage %zu, in one step instead of stages 1 %s %zu", i + 1, i == 2 ? "and" : "to", i);
 }
 
 const char *nh_reduction_stage_kind(const nh_reduction_stage *s)
 {
-    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", NULL, "equations on a slice of", "the quotient by"};
-    if (nh_reduction_on_levels(s)) return s->second->abelian ? "Routh's reduction, on level sets of the momentum, by" : "reduction of the cotangent bundle, on level sets of the momentum, by";
+    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", NULL, "equations on a slice of",
+                                         "the quotient by"};
+    if (nh_reduction_on_levels(s))
+        return s->second->abelian ? "Routh's reduction, on level sets of the momentum, by"
+                                  : "reduction of the cotangent bundle, on level sets of the momentum, by";
     if (s->kind != NH_STAGE_POINCARE) return titles[s->kind];
     bool shape = s->shown->n > 0, constrained = s->shown_slice->f > 0;
     if (shape) return constrained ? "Lagrange-d'Alembert-Poincare equations of" : "Lagrange-Poincare equations of";
@@ -35,7 +42,8 @@ const char *nh_reduction_stage_kind(const nh_reduction_stage *s)
 /* zeta_1 = zeta1 */
 static bool names_itself(const nh_dag *d, const nh_reduction_equation *e)
 {
-    const char *bar = strchr(e->name, '_'), *name = nh_kind_of(d, e->value) == NH_SYMBOL ? nh_name_of(d, e->value) : NULL;
+    const char *bar = strchr(e->name, '_'),
+               *name = nh_kind_of(d, e->value) == NH_SYMBOL ? nh_name_of(d, e->value) : NULL;
     size_t length = bar ? (size_t)(bar - e->name) : 0;
     return bar && name && !strncmp(name, e->name, length) && !strcmp(name + length, bar + 1);
 }
@@ -58,17 +66,28 @@ const char *nh_reduction_letters(const nh_reduction *r, const nh_reduction_stage
     const char *p = shape ? "p: momenta of the shape; " : "";
     static const char group[] = "velocity of the group along its field a, in the body frame";
     switch (s->kind) {
-    case NH_STAGE_CHAPLYGIN: return nh_arena_printf(arena, s->shown->d ? "%s$zeta_{a}$: %s" : "%s", s->shown->d ? p : "p: momenta of the shape", group);
-    case NH_STAGE_SECOND: return nh_arena_printf(arena, "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ the velocity %sthat belongs to it; $eta_{a}$: %s", p, shape ? "$eta_{a} + A <x'>$ " : "", group);
+    case NH_STAGE_CHAPLYGIN:
+        return nh_arena_printf(arena, s->shown->d ? "%s$zeta_{a}$: %s" : "%s",
+                               s->shown->d ? p : "p: momenta of the shape", group);
+    case NH_STAGE_SECOND:
+        return nh_arena_printf(arena,
+                               "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ the velocity %sthat "
+                               "belongs to it; $eta_{a}$: %s",
+                               p, shape ? "$eta_{a} + A <x'>$ " : "", group);
     case NH_STAGE_QUOTIENT: return nh_arena_printf(arena, "$zeta_{a}$: %s", group);
-    default: return nh_arena_printf(arena, "%s$zeta_{a}$, written zeta1, .. where it is one of the independent velocities: %s; $mu_{a}$: its momentum", p, group);
+    default:
+        return nh_arena_printf(
+            arena,
+            "%s$zeta_{a}$, written zeta1, .. where it is one of the independent velocities: %s; $mu_{a}$: its momentum",
+            p, group);
     }
 }
 
 const char *nh_reduction_stage_holds(const nh_reduction *r, const nh_reduction_stage *s)
 {
     nh_proof all = {.proved = true, .all_parameters = true};
-    for (size_t a = 0; a < s->action->d; a++) all = nh_proof_both(r->kinetic->model, all, nh_generator_proof(r->kinetic, &s->action->generator[a]));
+    for (size_t a = 0; a < s->action->d; a++)
+        all = nh_proof_both(r->kinetic->model, all, nh_generator_proof(r->kinetic, &s->action->generator[a]));
     if (all.all_parameters || !r->system->parameters) return "";
     return all.proved ? nh_facts_holds(r->kinetic->model, &all, false) : " to rounding";
 }
@@ -98,7 +117,9 @@ size_t nh_reduction_linear_stage(const nh_reduction *r)
 const char *nh_reduction_momentum_kind(const nh_momentum *p)
 {
     if (p->moving) return "energy less the momentum of";
-    return p->horizontal ? "horizontal symmetry: momentum of" : p->gauge ? "gauge momentum of" : "not horizontal, but conserved: momentum of";
+    return p->horizontal ? "horizontal symmetry: momentum of"
+           : p->gauge    ? "gauge momentum of"
+                         : "not horizontal, but conserved: momentum of";
 }
 
 const char *nh_reduction_globally(const nh_reduction *r, const nh_group *g)

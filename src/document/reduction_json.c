@@ -32,7 +32,8 @@ static void put_fields(nh_json *to, const nh_action *g)
     for (size_t a = 0; a < g->d; a++) {
         nh_json *item = nh_json_add_object(list);
         for (size_t s = 0; s < k->m; s++)
-            if (!nh_is_zero(k->dag, g->generator[a].component[s])) put_expression(item, k->name[s], k->dag, g->generator[a].component[s]);
+            if (!nh_is_zero(k->dag, g->generator[a].component[s]))
+                put_expression(item, k->name[s], k->dag, g->generator[a].component[s]);
     }
     nh_json *holds = nh_json_put_array(to, "holds");
     for (size_t a = 0; a < g->d; a++) {
@@ -111,7 +112,9 @@ static void put_momentum_map(nh_json *to, const nh_action *g)
         nh_ex sum = nh_int(k->dag, 0);
         for (size_t s = 0; s < k->m; s++)
             if (!nh_is_zero(k->dag, g->generator[a].component[s]))
-                sum = nh_add(k->dag, sum, nh_mul(k->dag, g->generator[a].component[s], nh_diff(k->dag, k->model->system->lagrangian, k->v[s])));
+                sum = nh_add(k->dag, sum,
+                             nh_mul(k->dag, g->generator[a].component[s],
+                                    nh_diff(k->dag, k->model->system->lagrangian, k->v[s])));
         char *text = nh_print_string(k->dag, nh_simplify(k->dag, sum));
         nh_json_add_text(list, text);
         nh_free(text);
@@ -231,7 +234,8 @@ static void put_chaplygin(nh_json *to, const nh_reduction *r, const nh_reduction
                 nh_free(text);
             }
             nh_ex sum = nh_int(c->dag, 0);
-            for (size_t k = 0; k < c->n; k++) sum = nh_add(c->dag, sum, nh_mul(c->dag, c->U[(k * c->n + i) * c->n + j], c->reduced.w[k]));
+            for (size_t k = 0; k < c->n; k++)
+                sum = nh_add(c->dag, sum, nh_mul(c->dag, c->U[(k * c->n + i) * c->n + j], c->reduced.w[k]));
             put_expression(other, "value", c->dag, sum);
         }
     if (!c->plain) {
@@ -266,7 +270,8 @@ static void put_chain(nh_json *to, const nh_reduction_stage *s)
     nh_json *list = nh_json_put_array(to, "chain"), *check;
     for (size_t j = 0; j < c->blocks; j++) {
         nh_json *block = nh_json_add_array(list);
-        for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) nh_json_add_number(block, (double)c->order[i] + 1);
+        for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++)
+            nh_json_add_number(block, (double)c->order[i] + 1);
     }
     check = nh_json_put_object(to, "by_stages");
     nh_json_put_number(check, "intersection", (double)p->dimension);
@@ -317,17 +322,20 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     put_fields(to, s->action);
     for (size_t i = 0; i < s->shown->n; i++) nh_json_add_text(list, nh_name_of(d, s->shown->x[i]));
     nh_json *slice = nh_json_put_object(to, "slice");
-    for (size_t a = 0; a < s->shown_slice->d; a++) put_expression(slice, s->shown_slice->kinetic->name[s->shown_slice->along[a]], d, s->shown_slice->y[a]);
+    for (size_t a = 0; a < s->shown_slice->d; a++)
+        put_expression(slice, s->shown_slice->kinetic->name[s->shown_slice->along[a]], d, s->shown_slice->y[a]);
     list = nh_json_put_array(to, "velocities");
     for (size_t i = 0; i < s->shown->r; i++) nh_json_add_text(list, nh_name_of(d, s->shown->w[i]));
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
     size_t momenta = s->shown->plain ? 0 : s->shown->r;
-    nh_json *momentum = nh_json_put_array(to, "momentum"), *equations = nh_json_put_array(to, "equations"), *group = nh_json_put_array(to, "group_velocity");
+    nh_json *momentum = nh_json_put_array(to, "momentum"), *equations = nh_json_put_array(to, "equations"),
+            *group = nh_json_put_array(to, "group_velocity");
     for (size_t i = 0; i < n; i++) {
         bool rate = i >= momenta && i + s->shown->d < n;
         nh_json *item = nh_json_add_object(i < momenta ? momentum : rate ? equations : group);
-        nh_json_put_text(item, "of", rate ? nh_arena_strndup(r->kinetic->arena, e[i].name, strlen(e[i].name) - 1) : e[i].name);
+        nh_json_put_text(item, "of",
+                         rate ? nh_arena_strndup(r->kinetic->arena, e[i].name, strlen(e[i].name) - 1) : e[i].name);
         put_expression(item, rate ? "rate" : "value", d, e[i].value);
     }
     if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, r, s);
@@ -344,7 +352,8 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
         if (s->linear_drift >= 0) nh_json_put_number(linear, "drift", s->linear_drift);
         else nh_json_put_null(linear, "drift");
     }
-    if (s->compared) nh_json_put_number(to, s->against_full ? "agreement_with_full" : "agreement_with_first", s->agreement);
+    if (s->compared)
+        nh_json_put_number(to, s->against_full ? "agreement_with_full" : "agreement_with_first", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
     if (s->unsure > 0) nh_json_put_number(to, "unsure", s->unsure);
     const char *why = nh_reduction_no_energy(r, s);
@@ -367,7 +376,11 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_json *item = nh_json_add_object(list), *field = nh_json_put_object(item, "field");
-        nh_json_put_text(item, "kind", p->moving ? "moving energy" : p->horizontal ? "horizontal" : p->gauge ? "gauge" : "momentum");
+        nh_json_put_text(item, "kind",
+                         p->moving       ? "moving energy"
+                         : p->horizontal ? "horizontal"
+                         : p->gauge      ? "gauge"
+                                         : "momentum");
         for (size_t s = 0; s < k->m; s++)
             if (!nh_is_zero(k->dag, p->field[s])) put_expression(field, k->name[s], k->dag, p->field[s]);
         put_expression(item, "expression", k->dag, p->value);
@@ -399,7 +412,8 @@ static void put_joints(nh_json *root, const nh_reduction *r)
         nh_json_put_text(item, "rule", nh_chain_rule_name(c->field[i].rule));
         field = nh_json_put_object(item, "field");
         for (size_t s = 0; s < r->kinetic->m; s++)
-            if (!nh_is_zero(r->kinetic->dag, g->component[s])) put_expression(field, r->kinetic->name[s], r->kinetic->dag, g->component[s]);
+            if (!nh_is_zero(r->kinetic->dag, g->component[s]))
+                put_expression(field, r->kinetic->name[s], r->kinetic->dag, g->component[s]);
         nh_json_put_bool(item, "kinetic_energy", g->metric.holds);
         nh_json_put_bool(item, "potential", g->potential.holds);
         nh_json_put_bool(item, "constraints", g->constraints.holds);
@@ -414,7 +428,8 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     nh_json_put_text(root, "version", NH_VERSION);
     nh_json_put_text(root, "system", r->system->name);
     parameters = nh_json_put_object(root, "parameters");
-    for (size_t i = 0; i < r->system->parameters; i++) nh_json_put_number(parameters, r->system->parameter[i].name, r->system->parameter[i].value);
+    for (size_t i = 0; i < r->system->parameters; i++)
+        nh_json_put_number(parameters, r->system->parameter[i].name, r->system->parameter[i].value);
     put_group(root, "group", r, r->all ? r->all : r->group);
     if (r->all && r->group != r->all) put_group(root, "divided", r, r->group);
     const nh_action *g = &r->group->action;

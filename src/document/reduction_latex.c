@@ -12,8 +12,8 @@ static void put_stage_name(const nh_reduction *r, size_t i, const char *before, 
 {
     const nh_reduction_stage *s = &r->stage[i];
     const char *holds = nh_reduction_stage_holds(r, s);
-    nh_text_addf(out, "%s%s (%s), by %s%s%s%s", before, nh_reduction_stage_title(r, i), nh_stage_kind_name(s->kind), s->group, s->local ? ", which acts locally" : "",
-                 *holds ? ", a group of symmetries" : "", holds);
+    nh_text_addf(out, "%s%s (%s), by %s%s%s%s", before, nh_reduction_stage_title(r, i), nh_stage_kind_name(s->kind),
+                 s->group, s->local ? ", which acts locally" : "", *holds ? ", a group of symmetries" : "", holds);
 }
 
 enum { wide_row = 60 }; /* letters that fit on a line beside the name */
@@ -54,7 +54,8 @@ void nh_reduction_latex(const nh_reduction *r, nh_text *out)
 {
     nh_text_add(out, "% ");
     nh_escape_line(r->system->title, out);
-    nh_text_addf(out, ": reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n%s", nh_tex_formula_macro);
+    nh_text_addf(out, ": reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n%s",
+                 nh_tex_formula_macro);
     for (size_t i = 0; i < r->stages; i++) {
         put_stage_name(r, i, "\n% ", out);
         nh_text_add(out, "\n");

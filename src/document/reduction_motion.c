@@ -1,4 +1,5 @@
-/* reduction_motion: the motions of the stages beside the full one, as figures, as comma-separated values and as JSON. */
+/* reduction_motion: the motions of the stages beside the full one, as figures, as comma-separated values and as
+   JSON. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +10,8 @@
 
 enum { together = 3, every = 4 }; /* coordinates in one figure: each has a line, and a point at every fourth time */
 
-/* The full motion of the coordinate of that name; NULL where the stage's coordinates are not the system's: they move under the first group. */
+/* The full motion of the coordinate of that name; NULL where the stage's coordinates are not the system's: they move
+   under the first group. */
 static const double *full_of(const nh_reduction *r, const nh_reduction_stage *s, const char *name)
 {
     if (!s->against_full) return NULL;

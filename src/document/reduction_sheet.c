@@ -1,11 +1,18 @@
-/* reduction_sheet: a stage of the first kind; the second in reduction_sheet_second.c, the whole group in reduction_sheet_bundle.c. */
+/* reduction_sheet: a stage of the first kind; the second in reduction_sheet_second.c, the whole group in
+   reduction_sheet_bundle.c. */
 #include "document/reduction_sheet.h"
 
 #include "document/reduction_sheet_internal.h"
 
-static void add(const nh_reduction_builder *b, nh_ex e, const char *format, size_t a) { nh_sheet_add(b->s, e, nh_sheet_label(b->s, format, a)); }
+static void add(const nh_reduction_builder *b, nh_ex e, const char *format, size_t a)
+{
+    nh_sheet_add(b->s, e, nh_sheet_label(b->s, format, a));
+}
 
-const char *nh_reduction_sheet_x(const nh_reduction_builder *b, const nh_slice *s, size_t i) { return nh_name_of(b->d, s->x[i]); }
+const char *nh_reduction_sheet_x(const nh_reduction_builder *b, const nh_slice *s, size_t i)
+{
+    return nh_name_of(b->d, s->x[i]);
+}
 
 void nh_reduction_sheet_frame(const nh_reduction_builder *b, const nh_slice *s)
 {
@@ -17,11 +24,15 @@ void nh_reduction_sheet_frame(const nh_reduction_builder *b, const nh_slice *s)
         nh_free(value);
     }
     nh_sheet_begin(b->s, "frame", "Slice and generators",
-                   nh_sheet_label(b->s, "On the slice %s. The $e_{a}$ span V, the directions of the orbits; $zeta^{a}$ is the group's velocity in the body frame.", nh_text_string(&where)));
+                   nh_sheet_label(b->s,
+                                  "On the slice %s. The $e_{a}$ span V, the directions of the orbits; $zeta^{a}$ is "
+                                  "the group's velocity in the body frame.",
+                                  nh_text_string(&where)));
     nh_text_clear(&where);
     for (size_t a = 0; a < s->d; a++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "e_{%zu}", a + 1));
-        for (size_t r = 0; r < s->m; r++) nh_sheet_add(b->s, s->E[r * s->d + a], nh_sheet_label(b->s, "\\frac{\\p}{\\p<%s>}", s->kinetic->name[r]));
+        for (size_t r = 0; r < s->m; r++)
+            nh_sheet_add(b->s, s->E[r * s->d + a], nh_sheet_label(b->s, "\\frac{\\p}{\\p<%s>}", s->kinetic->name[r]));
     }
 }
 
@@ -31,7 +42,10 @@ void nh_reduction_sheet_lift(const nh_reduction_builder *b, const nh_slice *s, c
     size_t n = s->n, d = s->d;
     for (size_t a = 0; a < d; a++)
         for (size_t i = 0; i < n; i++)
-            if (!nh_is_zero(b->d, A[a * n + i])) nh_sheet_formula(b->s, nh_sheet_label(b->s, "%s^{%zu}_{<%s>}", letter, a + 1, nh_reduction_sheet_x(b, s, i)), A[a * n + i]);
+            if (!nh_is_zero(b->d, A[a * n + i]))
+                nh_sheet_formula(b->s,
+                                 nh_sheet_label(b->s, "%s^{%zu}_{<%s>}", letter, a + 1, nh_reduction_sheet_x(b, s, i)),
+                                 A[a * n + i]);
     for (size_t i = 0; i < n; i++) {
         const char *x = nh_reduction_sheet_x(b, s, i);
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "hor(\\frac{\\p}{\\p<%s>})", x));
@@ -48,7 +62,10 @@ void nh_reduction_sheet_curvature(const nh_reduction_builder *b, const nh_slice 
             for (size_t j = i + 1; j < n; j++) {
                 nh_ex e = B[(a * n + i) * n + j];
                 if (nh_is_zero(b->d, e)) continue;
-                nh_sheet_formula(b->s, nh_sheet_label(b->s, "%s^{%zu}_{<%s>,<%s>}", letter, a + 1, nh_reduction_sheet_x(b, s, i), nh_reduction_sheet_x(b, s, j)), e);
+                nh_sheet_formula(b->s,
+                                 nh_sheet_label(b->s, "%s^{%zu}_{<%s>,<%s>}", letter, a + 1,
+                                                nh_reduction_sheet_x(b, s, i), nh_reduction_sheet_x(b, s, j)),
+                                 e);
                 listed++;
             }
     if (!listed) nh_sheet_words(b->s, "The curvature vanishes.");
@@ -59,11 +76,16 @@ void nh_reduction_sheet_symmetric(const nh_reduction_builder *b, const nh_slice 
 {
     for (size_t i = 0; i < s->n; i++)
         for (size_t j = i; j < s->n; j++)
-            if (!nh_is_zero(b->d, e[i * s->n + j])) nh_sheet_formula(b->s, nh_sheet_label(b->s, "%s_{<%s>,<%s>}", letter, nh_reduction_sheet_x(b, s, i), nh_reduction_sheet_x(b, s, j)), e[i * s->n + j]);
+            if (!nh_is_zero(b->d, e[i * s->n + j]))
+                nh_sheet_formula(b->s,
+                                 nh_sheet_label(b->s, "%s_{<%s>,<%s>}", letter, nh_reduction_sheet_x(b, s, i),
+                                                nh_reduction_sheet_x(b, s, j)),
+                                 e[i * s->n + j]);
 }
 
 /* 1/2 p K^-1 p as terms; names of two momenta by their indices. */
-static void quadratic(const nh_reduction_builder *b, size_t n, const nh_ex *inverse, const char *(*name)(const nh_reduction_builder *, size_t), bool numbered)
+static void quadratic(const nh_reduction_builder *b, size_t n, const nh_ex *inverse,
+                      const char *(*name)(const nh_reduction_builder *, size_t), bool numbered)
 {
     for (size_t i = 0; i < n; i++)
         for (size_t j = i; j < n; j++) {
@@ -74,10 +96,16 @@ static void quadratic(const nh_reduction_builder *b, size_t n, const nh_ex *inve
         }
 }
 
-static const char *shape_name(const nh_reduction_builder *b, size_t i) { return nh_sheet_label(b->s, "<%s>", nh_reduction_sheet_x(b, b->slice, i)); }
+static const char *shape_name(const nh_reduction_builder *b, size_t i)
+{
+    return nh_sheet_label(b->s, "<%s>", nh_reduction_sheet_x(b, b->slice, i));
+}
 static const char *group_name(const nh_reduction_builder *b, size_t a) { return nh_sheet_label(b->s, "%zu", a + 1); }
 
-static const char *speed(const nh_reduction_builder *b, size_t i) { return nh_sheet_label(b->s, "<%s'>", nh_reduction_sheet_x(b, b->slice, i)); }
+static const char *speed(const nh_reduction_builder *b, size_t i)
+{
+    return nh_sheet_label(b->s, "<%s'>", nh_reduction_sheet_x(b, b->slice, i));
+}
 
 /* 1/2 x' K x' as terms. */
 void nh_reduction_sheet_kinetic(const nh_reduction_builder *b, const nh_ex *K)
@@ -86,11 +114,14 @@ void nh_reduction_sheet_kinetic(const nh_reduction_builder *b, const nh_ex *K)
     for (size_t i = 0; i < n; i++)
         for (size_t j = i; j < n; j++) {
             nh_ex e = i == j ? nh_mul(b->d, nh_ratio(b->d, 1, 2), K[i * n + j]) : K[i * n + j];
-            nh_sheet_add(b->s, e, i == j ? nh_sheet_label(b->s, "%s^{2}", speed(b, i)) : nh_sheet_label(b->s, "%s %s", speed(b, i), speed(b, j)));
+            nh_sheet_add(b->s, e,
+                         i == j ? nh_sheet_label(b->s, "%s^{2}", speed(b, i))
+                                : nh_sheet_label(b->s, "%s %s", speed(b, i), speed(b, j)));
         }
 }
 
-void nh_reduction_sheet_hamiltonian(const nh_reduction_builder *b, const char *label, const nh_ex *inverse, const nh_ex *locked, nh_ex V)
+void nh_reduction_sheet_hamiltonian(const nh_reduction_builder *b, const char *label, const nh_ex *inverse,
+                                    const nh_ex *locked, nh_ex V)
 {
     nh_sheet_sum(b->s, "", label);
     quadratic(b, b->slice->n, inverse, shape_name, false);
@@ -103,8 +134,10 @@ void nh_reduction_sheet_hamiltonian(const nh_reduction_builder *b, const char *l
 static void gyroscopic(const nh_reduction_builder *b, const nh_chaplygin *c)
 {
     size_t n = c->n, d = c->d, listed = 0;
-    nh_sheet_begin(b->s, "gyroscopic_form", "Momentum of the group and almost-symplectic form",
-                   "$J_{a}$ is the group's momentum in the body frame; the form is $\\d x\\wedge\\d p + \\frac{1}{2} Upsilon_{i,j} \\d x^{i}\\wedge\\d x^{j}$ with $Upsilon_{i,j}=J_{a} B^{a}_{i,j}$, eqs. 2.11 and 2.12.");
+    nh_sheet_begin(
+        b->s, "gyroscopic_form", "Momentum of the group and almost-symplectic form",
+        "$J_{a}$ is the group's momentum in the body frame; the form is $\\d x\\wedge\\d p + \\frac{1}{2} "
+        "Upsilon_{i,j} \\d x^{i}\\wedge\\d x^{j}$ with $Upsilon_{i,j}=J_{a} B^{a}_{i,j}$, eqs. 2.11 and 2.12.");
     for (size_t a = 0; a < d; a++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "J_{%zu}", a + 1));
         for (size_t j = 0; j < n; j++) nh_sheet_add(b->s, c->J[a * n + j], speed(b, j));
@@ -114,7 +147,9 @@ static void gyroscopic(const nh_reduction_builder *b, const nh_chaplygin *c)
             bool any = false;
             for (size_t k = 0; k < n; k++) any |= !nh_is_zero(b->d, c->U[(k * n + i) * n + j]);
             if (!any) continue;
-            nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "Upsilon_{<%s>,<%s>}", nh_reduction_sheet_x(b, c->slice, i), nh_reduction_sheet_x(b, c->slice, j)));
+            nh_sheet_sum(b->s, "",
+                         nh_sheet_label(b->s, "Upsilon_{<%s>,<%s>}", nh_reduction_sheet_x(b, c->slice, i),
+                                        nh_reduction_sheet_x(b, c->slice, j)));
             for (size_t k = 0; k < n; k++) nh_sheet_add(b->s, c->U[(k * n + i) * n + j], speed(b, k));
             listed++;
         }
@@ -127,11 +162,15 @@ static void chaplygin(nh_reduction_builder *b, const nh_chaplygin *c, const nh_r
     b->slice = c->slice;
     nh_reduction_sheet_frame(b, c->slice);
     nh_sheet_begin(b->s, "connection", "Connection, horizontal lift and curvature",
-                   "$zeta=-\\hat{A} <x'>$ where the constraints hold ([ChhabraEmami2014], eq. 2.8). The lifts span the constraint distribution D, which meets V in 0 only: S = 0. "
-                   "$B^{a}_{i,j}=\\p_{i} A^{a}_{j}-\\p_{j} A^{a}_{i}-C^{a}_{b,c} A^{b}_{i} A^{c}_{j}$. Entries that are not listed vanish.");
+                   "$zeta=-\\hat{A} <x'>$ where the constraints hold ([ChhabraEmami2014], eq. 2.8). The lifts span the "
+                   "constraint distribution D, which meets V in 0 only: S = 0. "
+                   "$B^{a}_{i,j}=\\p_{i} A^{a}_{j}-\\p_{j} A^{a}_{i}-C^{a}_{b,c} A^{b}_{i} A^{c}_{j}$. Entries that "
+                   "are not listed vanish.");
     nh_reduction_sheet_lift(b, c->slice, c->A, "\\hat{A}");
     nh_reduction_sheet_curvature(b, c->slice, c->B, "B");
-    nh_sheet_begin(b->s, "hamiltonian", "Reduced Lagrangian and Hamiltonian", "$\\hat{K}=H^{T} K H$ with the metric K of the kinetic energy and the lift H; $p_{i}=\\hat{K}_{i,j} <x'>^{j}$ (eq. 2.10).");
+    nh_sheet_begin(b->s, "hamiltonian", "Reduced Lagrangian and Hamiltonian",
+                   "$\\hat{K}=H^{T} K H$ with the metric K of the kinetic energy and the lift H; $p_{i}=\\hat{K}_{i,j} "
+                   "<x'>^{j}$ (eq. 2.10).");
     nh_reduction_sheet_symmetric(b, c->slice, c->K, "\\hat{K}");
     nh_sheet_sum(b->s, "", "\\hat{L}");
     nh_reduction_sheet_kinetic(b, c->K);

@@ -1,4 +1,5 @@
-/* reduction_sheet: the objects of a stage of a reduction as a sheet, in the letters of [ChhabraEmami2014] and [CendraDiaz2018]. */
+/* reduction_sheet: the objects of a stage of a reduction as a sheet, in the letters of [ChhabraEmami2014] and
+   [CendraDiaz2018]. */
 #ifndef NH_REDUCTION_SHEET_H
 #define NH_REDUCTION_SHEET_H
 
@@ -9,7 +10,8 @@
 nh_sheet *nh_reduction_brackets_sheet(const nh_reduction *reduction, const nh_action *group);
 /* The equations of a stage: one section without a heading. */
 nh_sheet *nh_reduction_equations_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
-/* Formulas that the remarks on a stage refer to, the density of its measure and the matrix of its linear momenta; NULL where there are none. */
+/* Formulas that the remarks on a stage refer to, the density of its measure and the matrix of its linear momenta; NULL
+   where there are none. */
 nh_sheet *nh_reduction_remarks_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
 /* NULL for stages without such objects, and where they were not asked for. */
 nh_sheet *nh_reduction_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);

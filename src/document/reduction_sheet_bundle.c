@@ -3,15 +3,25 @@
 
 #include "exact/normal.h"
 
-static const char *number(const nh_reduction_builder *b, const char *letter, size_t a) { return nh_sheet_label(b->s, "%s_{%zu}", letter, a + 1); }
-static const char *speed(const nh_reduction_builder *b, const nh_slice *s, size_t i) { return nh_sheet_label(b->s, "<%s'>", nh_reduction_sheet_x(b, s, i)); }
+static const char *number(const nh_reduction_builder *b, const char *letter, size_t a)
+{
+    return nh_sheet_label(b->s, "%s_{%zu}", letter, a + 1);
+}
+static const char *speed(const nh_reduction_builder *b, const nh_slice *s, size_t i)
+{
+    return nh_sheet_label(b->s, "<%s'>", nh_reduction_sheet_x(b, s, i));
+}
 
 /* S, and with the lifts D. */
 static void distribution(const nh_reduction_builder *b, const nh_lagrange_poincare *l)
 {
-    nh_sheet_begin(b->s, "connection", "Nonholonomic connection and curvature",
-                   l->slice->f ? "S is what V and the constraint distribution D have in common. The $chi_{a}$ span S, with the lifts they span D. The lifts are orthogonal to S for the kinetic energy. Entries that are not listed vanish."
-                               : "Without constraints S is the whole algebra and the connection the mechanical one. Entries that are not listed vanish.");
+    nh_sheet_begin(
+        b->s, "connection", "Nonholonomic connection and curvature",
+        l->slice->f
+            ? "S is what V and the constraint distribution D have in common. The $chi_{a}$ span S, with the lifts they "
+              "span D. The lifts are orthogonal to S for the kinetic energy. Entries that are not listed vanish."
+            : "Without constraints S is the whole algebra and the connection the mechanical one. Entries that are not "
+              "listed vanish.");
     for (size_t p = 0; p < l->r; p++) {
         nh_sheet_sum(b->s, "", number(b, "chi", p));
         for (size_t a = 0; a < l->d; a++) nh_sheet_add(b->s, l->chi[a * l->r + p], number(b, "e", a));
@@ -24,22 +34,28 @@ static void lagrangian(const nh_reduction_builder *b, const nh_lagrange_poincare
 {
     const nh_slice *s = l->slice;
     nh_sheet_begin(b->s, "lagrangian", "Reduced Lagrangian and momenta",
-                   "$v=zeta+A <x'>=nu_{a} chi_{a}$ lies in S; $omega=v-A <x'>$ is the body velocity; $mu=\\frac{\\p l}{\\p v}$, $pi_{i}=\\frac{\\p l}{\\p<x'>^{i}}$.");
+                   "$v=zeta+A <x'>=nu_{a} chi_{a}$ lies in S; $omega=v-A <x'>$ is the body velocity; $mu=\\frac{\\p "
+                   "l}{\\p v}$, $pi_{i}=\\frac{\\p l}{\\p<x'>^{i}}$.");
     nh_sheet_sum(b->s, "", "l");
     for (size_t i = 0; i < l->n; i++)
         for (size_t j = i; j < l->n; j++) {
             nh_ex e = i == j ? nh_mul(b->d, nh_ratio(b->d, 1, 2), l->Kh[i * l->n + j]) : l->Kh[i * l->n + j];
-            nh_sheet_add(b->s, e, i == j ? nh_sheet_label(b->s, "%s^{2}", speed(b, s, i)) : nh_sheet_label(b->s, "%s %s", speed(b, s, i), speed(b, s, j)));
+            nh_sheet_add(b->s, e,
+                         i == j ? nh_sheet_label(b->s, "%s^{2}", speed(b, s, i))
+                                : nh_sheet_label(b->s, "%s %s", speed(b, s, i), speed(b, s, j)));
         }
     for (size_t p = 0; p < l->r; p++)
         for (size_t q = p; q < l->r; q++) {
             nh_ex e = p == q ? nh_mul(b->d, nh_ratio(b->d, 1, 2), l->I[p * l->r + q]) : l->I[p * l->r + q];
-            nh_sheet_add(b->s, e, p == q ? nh_sheet_label(b->s, "nu_{%zu}^{2}", p + 1) : nh_sheet_label(b->s, "nu_{%zu} nu_{%zu}", p + 1, q + 1));
+            nh_sheet_add(b->s, e,
+                         p == q ? nh_sheet_label(b->s, "nu_{%zu}^{2}", p + 1)
+                                : nh_sheet_label(b->s, "nu_{%zu} nu_{%zu}", p + 1, q + 1));
         }
     nh_sheet_add(b->s, nh_neg(b->d, s->V), "");
     for (size_t a = 0; a < l->d; a++) nh_sheet_formula(b->s, number(b, "omega", a), l->omega[a]);
     for (size_t a = 0; a < l->d; a++) nh_sheet_formula(b->s, number(b, "mu", a), l->mu[a]);
-    for (size_t i = 0; i < l->n; i++) nh_sheet_formula(b->s, nh_sheet_label(b->s, "pi_{<%s>}", nh_reduction_sheet_x(b, s, i)), l->pi[i]);
+    for (size_t i = 0; i < l->n; i++)
+        nh_sheet_formula(b->s, nh_sheet_label(b->s, "pi_{<%s>}", nh_reduction_sheet_x(b, s, i)), l->pi[i]);
 }
 
 static void column(const nh_lagrange_poincare *l, const nh_ex *matrix, size_t width, size_t c, nh_ex *out)
@@ -56,7 +72,8 @@ static void equations(const nh_reduction_builder *b, const nh_lagrange_poincare 
 {
     nh_ex *chi = nh_alloc_array(3 * l->d + 1, sizeof *chi), *out = chi + l->d, *A = out + l->d;
     nh_sheet_begin(b->s, "equations", "Vertical and horizontal equations",
-                   "$mu'(chi)=mu([omega,chi])$ for each chi of S, which is not differentiated ([CendraDiaz2018], sec. 5); $\\pidot_{i}=\\frac{\\p l}{\\p x^{i}}+mu_{a} B^{a}_{i,j} <x'>^{j}+mu([A_{i},v])$.");
+                   "$mu'(chi)=mu([omega,chi])$ for each chi of S, which is not differentiated ([CendraDiaz2018], sec. "
+                   "5); $\\pidot_{i}=\\frac{\\p l}{\\p x^{i}}+mu_{a} B^{a}_{i,j} <x'>^{j}+mu([A_{i},v])$.");
     for (size_t p = 0; p < l->r; p++) {
         column(l, l->chi, l->r, p, chi);
         nh_lagrange_poincare_bracket(l, l->omega, chi, out);
@@ -69,9 +86,11 @@ static void equations(const nh_reduction_builder *b, const nh_lagrange_poincare 
         column(l, l->A, l->n, i, A);
         nh_lagrange_poincare_bracket(l, A, l->v, out);
         for (size_t a = 0; a < l->d; a++)
-            for (size_t j = 0; j < l->n; j++) out[a] = nh_add(b->d, out[a], nh_mul(b->d, l->B[(a * l->n + i) * l->n + j], l->dx[j]));
+            for (size_t j = 0; j < l->n; j++)
+                out[a] = nh_add(b->d, out[a], nh_mul(b->d, l->B[(a * l->n + i) * l->n + j], l->dx[j]));
         nh_sheet_sum(b->s, "", "");
-        nh_sheet_add(b->s, nh_int(b->d, 1), nh_sheet_label(b->s, "\\pidot_{<%s>}", nh_reduction_sheet_x(b, l->slice, i)));
+        nh_sheet_add(b->s, nh_int(b->d, 1),
+                     nh_sheet_label(b->s, "\\pidot_{<%s>}", nh_reduction_sheet_x(b, l->slice, i)));
         nh_sheet_equals(b->s);
         nh_sheet_add(b->s, l->slope[i], "");
         add_momenta(b, l, out);

@@ -16,7 +16,10 @@ static void put_brackets(nh_sheet *s, const nh_action *g)
         for (size_t b = a + 1; b < g->d; b++) {
             bool any = false;
             if (g->outside[a * g->d + b])
-                nh_sheet_words(s, nh_sheet_label(s, "$[e_{%zu},e_{%zu}]$ is none of their combinations: a symmetry without a closed form.", a + 1, b + 1));
+                nh_sheet_words(
+                    s, nh_sheet_label(
+                           s, "$[e_{%zu},e_{%zu}]$ is none of their combinations: a symmetry without a closed form.",
+                           a + 1, b + 1));
             for (size_t k = 0; k < g->d; k++) {
                 nh_ex c = g->constant[(a * g->d + b) * g->d + k];
                 if (nh_is_zero(d, c)) continue;
@@ -32,7 +35,10 @@ nh_sheet *nh_reduction_brackets_sheet(const nh_reduction *r, const nh_action *g)
     nh_sheet *s = sheet_of(r);
     nh_sheet_begin(s, "brackets", "", "");
     put_brackets(s, g);
-    s->section->words = s->section->lines ? "Brackets of the Lie algebra, $[e_{a},e_{b}]=C^{c}_{a,b} e_{c}$; those that are not listed vanish." : "All brackets vanish.";
+    s->section->words =
+        s->section->lines
+            ? "Brackets of the Lie algebra, $[e_{a},e_{b}]=C^{c}_{a,b} e_{c}$; those that are not listed vanish."
+            : "All brackets vanish.";
     return s;
 }
 

@@ -1,13 +1,18 @@
-/* A second stage, or the reduction of a system without constraints: locked inertia, mechanical connection, N_theta, Xi_theta [ChhabraEmami2014, sec. 2.3].
+/* A second stage, or the reduction of a system without constraints: locked inertia, mechanical connection, N_theta,
+ * Xi_theta [ChhabraEmami2014, sec. 2.3].
  *
- *     alpha_theta = <theta, A>,    Xi_theta = d alpha_theta:  Xi(hor_i, hor_j) = theta_a B^a_ij,  Xi(e_a, e_b) = theta([e_a, e_b]),  Xi(hor_i, e_a) = 0     (2.17), (2.20)
+ *     alpha_theta = <theta, A>,    Xi_theta = d alpha_theta:  Xi(hor_i, hor_j) = theta_a B^a_ij,  Xi(e_a, e_b) =
+ *     theta([e_a, e_b]),  Xi(hor_i, e_a) = 0     (2.17), (2.20)
  *
  * with A the whole connection and theta in the body frame, where it is m; n_theta is the kernel of theta([., .]). */
 #include "exact/normal.h"
 #include "exact/solve.h"
 #include "document/reduction_sheet_internal.h"
 
-static const char *number(const nh_reduction_builder *b, const char *letter, size_t a) { return nh_sheet_label(b->s, "%s_{%zu}", letter, a + 1); }
+static const char *number(const nh_reduction_builder *b, const char *letter, size_t a)
+{
+    return nh_sheet_label(b->s, "%s_{%zu}", letter, a + 1);
+}
 
 /* theta_a Bv^a_ij; without words where the group is not abelian, since then Xi has more. */
 static void on_lifts(const nh_reduction_builder *b, const nh_second *t)
@@ -18,7 +23,9 @@ static void on_lifts(const nh_reduction_builder *b, const nh_second *t)
             bool any = false;
             for (size_t a = 0; a < d; a++) any |= !nh_is_zero(b->d, t->Bv[(a * n + i) * n + j]);
             if (!any) continue;
-            nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "Xi_{<%s>,<%s>}", nh_reduction_sheet_x(b, &t->slice, i), nh_reduction_sheet_x(b, &t->slice, j)));
+            nh_sheet_sum(b->s, "",
+                         nh_sheet_label(b->s, "Xi_{<%s>,<%s>}", nh_reduction_sheet_x(b, &t->slice, i),
+                                        nh_reduction_sheet_x(b, &t->slice, j)));
             for (size_t a = 0; a < d; a++) nh_sheet_add(b->s, t->Bv[(a * n + i) * n + j], number(b, "theta", a));
             listed++;
         }
@@ -86,17 +93,27 @@ static void magnetic(const nh_reduction_builder *b, const nh_second *t)
 {
     size_t d = t->d;
     nh_ex *theta = nh_alloc_array(d * d + d + 1, sizeof *theta), *form = theta + d;
-    nh_sheet_begin(b->s, "magnetic_form", "Isotropy of the momentum and magnetic form",
-                   t->abelian ? "$N_{theta}=N$: the level set is divided by the whole group. $Xi_{theta}=\\d alpha_{theta}$, $alpha_{theta}=theta_{a} (zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is the magnetic form ([ChhabraEmami2014], eq. 2.20)."
-                              : nh_sheet_label(b->s, "$theta$ is the momentum in the body frame, which moves on a coadjoint orbit of dimension %zu. The $xi$ span the algebra of $N_{theta}$, of dimension %zu, for a generic $theta$: "
-                                               "$theta([xi,e_{a}])=0$. $Xi_{theta}=\\d alpha_{theta}$, $alpha_{theta}=theta_{a} (zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is $theta_{a} B^{a}_{i,j}$ on lifts and $theta([e_{a},e_{b}])$ on orbits ([ChhabraEmami2014], eq. 2.17); "
-                                               "on one of each it vanishes.", t->orbit, d - t->orbit));
+    nh_sheet_begin(
+        b->s, "magnetic_form", "Isotropy of the momentum and magnetic form",
+        t->abelian
+            ? "$N_{theta}=N$: the level set is divided by the whole group. $Xi_{theta}=\\d alpha_{theta}$, "
+              "$alpha_{theta}=theta_{a} (zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is the magnetic form "
+              "([ChhabraEmami2014], eq. 2.20)."
+            : nh_sheet_label(b->s,
+                             "$theta$ is the momentum in the body frame, which moves on a coadjoint orbit of dimension "
+                             "%zu. The $xi$ span the algebra of $N_{theta}$, of dimension %zu, for a generic $theta$: "
+                             "$theta([xi,e_{a}])=0$. $Xi_{theta}=\\d alpha_{theta}$, $alpha_{theta}=theta_{a} "
+                             "(zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is $theta_{a} B^{a}_{i,j}$ on lifts and "
+                             "$theta([e_{a},e_{b}])$ on orbits ([ChhabraEmami2014], eq. 2.17); "
+                             "on one of each it vanishes.",
+                             t->orbit, d - t->orbit));
     on_lifts(b, t);
     for (size_t k = 0; k < d; k++) theta[k] = nh_symbol_fresh(b->d, nh_sheet_label(b->s, "theta_%zu", k + 1));
     pairing(t, theta, form);
     for (size_t a = 0; a < d && !t->abelian; a++)
         for (size_t c = a + 1; c < d; c++)
-            if (!nh_is_zero(b->d, form[a * d + c])) nh_sheet_formula(b->s, nh_sheet_label(b->s, "Xi(e_{%zu},e_{%zu})", a + 1, c + 1), form[a * d + c]);
+            if (!nh_is_zero(b->d, form[a * d + c]))
+                nh_sheet_formula(b->s, nh_sheet_label(b->s, "Xi(e_{%zu},e_{%zu})", a + 1, c + 1), form[a * d + c]);
     if (!t->abelian) isotropy(b, t, form);
     nh_free(theta);
 }
@@ -105,11 +122,15 @@ static void connection(const nh_reduction_builder *b, const nh_second *t)
 {
     size_t d = t->d;
     nh_sheet_begin(b->s, "mechanical_connection", "Locked inertia and mechanical connection",
-                   t->first->d ? "$I_{a,b}$ is the metric of the first stage on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} <x'>$ is the momentum, which is kept ([ChhabraEmami2014], eq. 2.14)."
-                               : "$I_{a,b}$ is the metric on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} <x'>$ is the momentum, which is kept ([ChhabraEmami2014], eq. 2.14).");
+                   t->first->d
+                       ? "$I_{a,b}$ is the metric of the first stage on the orbits; $theta_{a}=I_{a,b} v^{b}$ with "
+                         "$v=zeta+\\breve{A} <x'>$ is the momentum, which is kept ([ChhabraEmami2014], eq. 2.14)."
+                       : "$I_{a,b}$ is the metric on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} "
+                         "<x'>$ is the momentum, which is kept ([ChhabraEmami2014], eq. 2.14).");
     for (size_t a = 0; a < d; a++)
         for (size_t c = a; c < d; c++)
-            if (!nh_is_zero(b->d, t->inertia[a * d + c])) nh_sheet_formula(b->s, nh_sheet_label(b->s, "I_{%zu,%zu}", a + 1, c + 1), t->inertia[a * d + c]);
+            if (!nh_is_zero(b->d, t->inertia[a * d + c]))
+                nh_sheet_formula(b->s, nh_sheet_label(b->s, "I_{%zu,%zu}", a + 1, c + 1), t->inertia[a * d + c]);
     nh_reduction_sheet_lift(b, &t->slice, t->Av, "\\breve{A}");
     if (t->n > 1) nh_reduction_sheet_curvature(b, &t->slice, t->Bv, "B");
 }
@@ -123,7 +144,9 @@ static void routhian(const nh_reduction_builder *b, const nh_second *t, const nh
     for (size_t a = 0; a < d; a++)
         for (size_t c = a; c < d; c++) {
             nh_ex e = nh_neg(b->d, a == c ? nh_mul(b->d, nh_ratio(b->d, 1, 2), locked[a * d + c]) : locked[a * d + c]);
-            nh_sheet_add(b->s, e, a == c ? nh_sheet_label(b->s, "theta_{%zu}^{2}", a + 1) : nh_sheet_label(b->s, "theta_{%zu} theta_{%zu}", a + 1, c + 1));
+            nh_sheet_add(b->s, e,
+                         a == c ? nh_sheet_label(b->s, "theta_{%zu}^{2}", a + 1)
+                                : nh_sheet_label(b->s, "theta_{%zu} theta_{%zu}", a + 1, c + 1));
         }
     nh_sheet_add(b->s, nh_neg(b->d, t->slice.V), "");
 }
@@ -135,8 +158,11 @@ void nh_reduction_sheet_second(nh_reduction_builder *b, const nh_second *t, cons
     connection(b, t);
     magnetic(b, t);
     nh_sheet_begin(b->s, "hamiltonian", "Momentum level set, reduced Lagrangian and Hamiltonian",
-                   t->first->d ? "$\\hat{p}$ are the momenta of the first stage, p those that remain. $R_{theta}$ is Routh's function: with the forces of $Xi_{theta}$ and $Upsilon$ its equations are those of the stage."
-                               : "$\\hat{p}$ are the momenta before the reduction, p those that remain. $R_{theta}$ is Routh's function: with the force of $Xi_{theta}$ its equations are those of the stage.");
+                   t->first->d
+                       ? "$\\hat{p}$ are the momenta of the first stage, p those that remain. $R_{theta}$ is Routh's "
+                         "function: with the forces of $Xi_{theta}$ and $Upsilon$ its equations are those of the stage."
+                       : "$\\hat{p}$ are the momenta before the reduction, p those that remain. $R_{theta}$ is Routh's "
+                         "function: with the force of $Xi_{theta}$ its equations are those of the stage.");
     for (size_t i = 0; i < t->n; i++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\hat{p}_{<%s>}", nh_reduction_sheet_x(b, &t->slice, i)));
         nh_sheet_add(b->s, nh_int(b->d, 1), nh_sheet_label(b->s, "p_{<%s>}", nh_reduction_sheet_x(b, &t->slice, i)));
@@ -145,5 +171,6 @@ void nh_reduction_sheet_second(nh_reduction_builder *b, const nh_second *t, cons
     nh_reduction_sheet_symmetric(b, &t->slice, t->Kt, "\\breve{K}");
     if (!theory->locked) return;
     routhian(b, t, theory->locked);
-    if (theory->inverse || !t->n) nh_reduction_sheet_hamiltonian(b, "\\breve{H}", theory->inverse, theory->locked, t->slice.V);
+    if (theory->inverse || !t->n)
+        nh_reduction_sheet_hamiltonian(b, "\\breve{H}", theory->inverse, theory->locked, t->slice.V);
 }

@@ -1,4 +1,5 @@
-/* The whole group block by block, along a chain g = n_0 > n_1 > ..., each an ideal of the one before [CendraDiaz2018, sec. 2 to 5]; the same numbers: reduction/ideal_chain.h.
+/* The whole group block by block, along a chain g = n_0 > n_1 > ..., each an ideal of the one before [CendraDiaz2018,
+ * sec. 2 to 5]; the same numbers: reduction/ideal_chain.h.
  *
  *     H_j x = x - (its part in n_(j+1), by g0),        xi = sum_j H_j xi_j
  *     a_j(x, y) = -([H_j x, H_j y] - H_j [H_j x, H_j y]_j),      b_j(x, N) = [H_j x, N],      beta_j = H_j^T mu */
@@ -17,7 +18,10 @@ typedef struct {
     nh_ex *whole;        /* d: scratch */
 } stages;
 
-static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b) { return nh_is_zero(d, a) || nh_is_zero(d, b) ? sum : nh_add(d, sum, nh_mul(d, a, b)); }
+static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
+{
+    return nh_is_zero(d, a) || nh_is_zero(d, b) ? sum : nh_add(d, sum, nh_mul(d, a, b));
+}
 
 static double any_pivot(void *dag, nh_ex e) { return !nh_is_zero(dag, nh_simplify(dag, e)); }
 
@@ -39,10 +43,17 @@ static void lift_one(const stages *s, const nh_ex *inner, size_t i)
     nh_free(behind);
 }
 
-static stages stages_of(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *c, const nh_ex *inner)
+static stages stages_of(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *c,
+                        const nh_ex *inner)
 {
     size_t d = l->d;
-    stages s = {.b = b, .l = l, .chain = c, .dag = b->d, .d = d, .block = nh_alloc_array(d + 1, sizeof *s.block), .lift = nh_alloc_array(d * d + d + 1, sizeof *s.lift)};
+    stages s = {.b = b,
+                .l = l,
+                .chain = c,
+                .dag = b->d,
+                .d = d,
+                .block = nh_alloc_array(d + 1, sizeof *s.block),
+                .lift = nh_alloc_array(d * d + d + 1, sizeof *s.lift)};
     s.whole = s.lift + d * d;
     for (size_t j = 0; j < c->blocks; j++)
         for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) s.block[c->order[i]] = j;
@@ -75,7 +86,10 @@ static void split(const stages *s, const nh_ex *xi, nh_ex *parts)
     nh_free(rest);
 }
 
-static const char *number(const stages *s, const char *letter, size_t a) { return nh_sheet_label(s->b->s, "%s_{%zu}", letter, a + 1); }
+static const char *number(const stages *s, const char *letter, size_t a)
+{
+    return nh_sheet_label(s->b->s, "%s_{%zu}", letter, a + 1);
+}
 
 /* ---- the chain ---- */
 
@@ -86,12 +100,19 @@ static void heading(const stages *s, bool given)
     nh_text_init(&words);
     for (size_t j = 0; j < c->blocks; j++) {
         nh_text_addf(&words, "%sblock %zu", j ? "; " : "", j);
-        for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) nh_text_addf(&words, " $e_{%zu}$", c->order[i] + 1);
+        for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++)
+            nh_text_addf(&words, " $e_{%zu}$", c->order[i] + 1);
     }
-    nh_sheet_begin(s->b->s, "chain", "Chain of subgroups",
-                   nh_sheet_label(s->b->s, "%s. $n_{j}$ is spanned by block j and those behind it, an ideal of $n_{j-1}$ ([CendraDiaz2018], theorem 2.3). $g_{0}$: %s. $a_{j}(x,y)$ is minus the part of $[H_{j} x,H_{j} y]$ in $n_{j+1}$, "
-                                           "$b_{j}(x,N)=[H_{j} x,N]$; those not listed vanish.", nh_text_string(&words),
-                                  given ? "the inner product that was given; the lifts $H_{j}$ are orthogonal to $n_{j+1}$ in it" : "the inner product in which the generators are orthonormal, so that each is its own lift $H_{j}$"));
+    nh_sheet_begin(
+        s->b->s, "chain", "Chain of subgroups",
+        nh_sheet_label(
+            s->b->s,
+            "%s. $n_{j}$ is spanned by block j and those behind it, an ideal of $n_{j-1}$ ([CendraDiaz2018], theorem "
+            "2.3). $g_{0}$: %s. $a_{j}(x,y)$ is minus the part of $[H_{j} x,H_{j} y]$ in $n_{j+1}$, "
+            "$b_{j}(x,N)=[H_{j} x,N]$; those not listed vanish.",
+            nh_text_string(&words),
+            given ? "the inner product that was given; the lifts $H_{j}$ are orthogonal to $n_{j+1}$ in it"
+                  : "the inner product in which the generators are orthonormal, so that each is its own lift $H_{j}$"));
     nh_text_clear(&words);
     for (size_t i = 0; i < s->d && given; i++) {
         nh_sheet_sum(s->b->s, "", nh_sheet_label(s->b->s, "H_{%zu} e_{%zu}", s->block[i], i + 1));
@@ -105,7 +126,8 @@ static void map(const stages *s, size_t x, size_t y)
     size_t d = s->d, j = s->block[x], k = s->block[y];
     nh_ex *u = nh_alloc_array(5 * d + 1, sizeof *u), *v = u + d, *out = v + d, *parts = out + d, *unit = parts + d;
     bool any = false;
-    for (size_t a = 0; a < d; a++) u[a] = s->lift[a * d + x], v[a] = k == j ? s->lift[a * d + y] : nh_int(s->dag, a == y);
+    for (size_t a = 0; a < d; a++)
+        u[a] = s->lift[a * d + x], v[a] = k == j ? s->lift[a * d + y] : nh_int(s->dag, a == y);
     nh_lagrange_poincare_bracket(s->l, u, v, out);
     if (k == j) {
         split(s, out, parts);
@@ -115,7 +137,10 @@ static void map(const stages *s, size_t x, size_t y)
     for (size_t a = 0; a < d; a++) {
         nh_ex e = nh_simplify(s->dag, out[a]);
         if (nh_is_zero(s->dag, e)) continue;
-        if (!any) nh_sheet_sum(s->b->s, "", nh_sheet_label(s->b->s, k == j ? "a_{%zu}(e_{%zu},e_{%zu})" : "b_{%zu}(e_{%zu},e_{%zu})", j, x + 1, y + 1));
+        if (!any)
+            nh_sheet_sum(s->b->s, "",
+                         nh_sheet_label(s->b->s, k == j ? "a_{%zu}(e_{%zu},e_{%zu})" : "b_{%zu}(e_{%zu},e_{%zu})", j,
+                                        x + 1, y + 1));
         any = true;
         nh_sheet_add(s->b->s, e, number(s, "e", a));
     }
@@ -159,18 +184,22 @@ static void vertical(const stages *s, size_t p)
         for (size_t j = 0; j < i; j++) {
             joined(s, omega, j, j + 1, x);
             joined(s, chi, j, j + 1, y);
-            contribution(s, i, x, y, nh_sheet_label(o, "beta_{%zu}(-a_{%zu}(omega_{%zu},chi_{%zu;%zu}))", i, j, j, p + 1, j));
+            contribution(s, i, x, y,
+                         nh_sheet_label(o, "beta_{%zu}(-a_{%zu}(omega_{%zu},chi_{%zu;%zu}))", i, j, j, p + 1, j));
             joined(s, chi, j + 1, blocks, y);
-            contribution(s, i, x, y, nh_sheet_label(o, "beta_{%zu}(b_{%zu}(omega_{%zu},chi_{%zu;>%zu}))", i, j, j, p + 1, j));
+            contribution(s, i, x, y,
+                         nh_sheet_label(o, "beta_{%zu}(b_{%zu}(omega_{%zu},chi_{%zu;>%zu}))", i, j, j, p + 1, j));
             joined(s, omega, j + 1, blocks, x);
             joined(s, chi, j, j + 1, y);
-            contribution(s, i, x, y, nh_sheet_label(o, "beta_{%zu}(-b_{%zu}(chi_{%zu;%zu},omega_{>%zu}))", i, j, p + 1, j, j));
+            contribution(s, i, x, y,
+                         nh_sheet_label(o, "beta_{%zu}(-b_{%zu}(chi_{%zu;%zu},omega_{>%zu}))", i, j, p + 1, j, j));
         }
     }
     nh_free(omega);
 }
 
-void nh_reduction_sheet_stages(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *c, const nh_ex *inner)
+void nh_reduction_sheet_stages(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *c,
+                               const nh_ex *inner)
 {
     stages s = stages_of(b, l, c, inner);
     heading(&s, inner != NULL);
@@ -179,8 +208,10 @@ void nh_reduction_sheet_stages(const nh_reduction_builder *b, const nh_lagrange_
             if (s.block[y] > s.block[x] || (s.block[y] == s.block[x] && y > x)) map(&s, x, y);
     /* sum_j beta_j'(chi_j) = sum_i <beta_i, [omega, chi]_i>, with the bracket in parts [CendraDiaz2018, eq. 14] */
     nh_sheet_begin(b->s, "by_stages", "Vertical equations by stages, block by block",
-                   "$beta_{j}=mu H_{j}$ is the part of $mu$ on block j, $omega=\\Sigma_{j} H_{j} omega_{j}$ and $chi=\\Sigma_{j} H_{j} chi_{j}$. For each chi the sum of the parts below is "
-                   "$\\Sigma_{j} beta'_{j}(chi_{j})$ ([CendraDiaz2018], eq. 14); the sum over all blocks is needed, since chi need not lie in one of them.");
+                   "$beta_{j}=mu H_{j}$ is the part of $mu$ on block j, $omega=\\Sigma_{j} H_{j} omega_{j}$ and "
+                   "$chi=\\Sigma_{j} H_{j} chi_{j}$. For each chi the sum of the parts below is "
+                   "$\\Sigma_{j} beta'_{j}(chi_{j})$ ([CendraDiaz2018], eq. 14); the sum over all blocks is needed, "
+                   "since chi need not lie in one of them.");
     for (size_t p = 0; p < l->r; p++) vertical(&s, p);
     nh_free(s.block);
     nh_free(s.lift);

@@ -7,7 +7,8 @@
 
 static bool taken(const char *name)
 {
-    static const char *const keys[] = {"at", "numbers", "dimension", "spectrum", "generic", "exact", "along", "kind", "confirmed", "why", "below", "above"};
+    static const char *const keys[] = {"at",    "numbers", "dimension", "spectrum", "generic", "exact",
+                                       "along", "kind",    "confirmed", "why",      "below",   "above"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (!strcmp(name, keys[i])) return true;
     return false;
@@ -17,9 +18,11 @@ static bool taken(const char *name)
 static void put_place(const nh_scan *x, size_t point, const nh_scan_special *s, nh_json *to)
 {
     for (size_t a = 0; a < x->axes; a++)
-        if (!taken(x->axis[a].name)) nh_json_put_number(to, x->axis[a].name, s && s->axis == a ? s->value : nh_scan_at(x, point, a)->value);
+        if (!taken(x->axis[a].name))
+            nh_json_put_number(to, x->axis[a].name, s && s->axis == a ? s->value : nh_scan_at(x, point, a)->value);
     nh_json *at = nh_json_put_object(to, "at");
-    for (size_t a = 0; a < x->axes; a++) nh_json_put_text(at, x->axis[a].name, s && s->axis == a ? s->exact : nh_scan_at(x, point, a)->text);
+    for (size_t a = 0; a < x->axes; a++)
+        nh_json_put_text(at, x->axis[a].name, s && s->axis == a ? s->exact : nh_scan_at(x, point, a)->text);
 }
 
 static void put_numbers(const nh_scan *x, const double *number, nh_json *to)

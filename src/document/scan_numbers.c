@@ -61,7 +61,8 @@ static char *count_document(const nh_scan_numbers_request *q, size_t settings, c
         nh_count c = nh_count_integrals(model, &question);
         text = count_json(&c, degree);
         if (c.obstacle) nh_fail(error, NH_NUMERIC, "", "%s", c.obstacle);
-        else if (c.rows < degree) nh_fail(error, NH_LIMIT, "", "counting at degree %zu needs more than the option `count_work`", degree);
+        else if (c.rows < degree)
+            nh_fail(error, NH_LIMIT, "", "counting at degree %zu needs more than the option `count_work`", degree);
     }
     nh_model_free(model);
     nh_system_free(s);
@@ -76,8 +77,8 @@ static nh_options unhurried(const nh_scan_numbers_request *q)
     return options;
 }
 
-static char *analysis_document(const nh_scan_numbers_request *q, size_t settings, const nh_setting *setting, bool generic,
-                               nh_error *error)
+static char *analysis_document(const nh_scan_numbers_request *q, size_t settings, const nh_setting *setting,
+                               bool generic, nh_error *error)
 {
     (void)generic;
     nh_analyze_request request = {.system_path = q->system_path, .settings = settings, .setting = setting,
@@ -88,11 +89,12 @@ static char *analysis_document(const nh_scan_numbers_request *q, size_t settings
     return text;
 }
 
-static char *reduction_document(const nh_scan_numbers_request *q, size_t settings, const nh_setting *setting, bool generic,
-                                nh_error *error)
+static char *reduction_document(const nh_scan_numbers_request *q, size_t settings, const nh_setting *setting,
+                                bool generic, nh_error *error)
 {
     (void)generic;
-    nh_reduce_request request = {.system_path = q->system_path, .settings = settings, .setting = setting, .options = unhurried(q)};
+    nh_reduce_request request = {
+        .system_path = q->system_path, .settings = settings, .setting = setting, .options = unhurried(q)};
     nh_reduction *r = nh_reduction_create(&request, error);
     char *text = r ? nh_reduction_json(r, NULL) : NULL;
     nh_reduction_free(r);
@@ -120,7 +122,8 @@ static const nh_json *step(const nh_json *from, const char *word, size_t length)
     if (!from || length == 0 || length >= sizeof key) return NULL;
     memcpy(key, word, length);
     key[length] = 0;
-    if (isdigit((unsigned char)key[0])) return nh_json_count(from) > strtoul(key, NULL, 10) ? nh_json_entry(from, strtoul(key, NULL, 10)) : NULL;
+    if (isdigit((unsigned char)key[0]))
+        return nh_json_count(from) > strtoul(key, NULL, 10) ? nh_json_entry(from, strtoul(key, NULL, 10)) : NULL;
     return nh_json_get(from, key);
 }
 
@@ -144,8 +147,8 @@ static bool is_time(const char *path)
     return !strncmp(path, "timing", 6) || (length > 2 && !strcmp(last + length - 2, "_s"));
 }
 
-static bool numbers_at(void *context, nh_arena *arena, size_t settings, const nh_setting *setting, bool generic, double *number,
-                       const char **why)
+static bool numbers_at(void *context, nh_arena *arena, size_t settings, const nh_setting *setting, bool generic,
+                       double *number, const char **why)
 {
     const numbers *x = context;
     nh_error error;
@@ -172,7 +175,8 @@ static bool choose(const nh_scan_numbers_request *q, size_t *command, nh_error *
     }
     nh_fail(error, NH_USAGE, "", "--of does not know `%s`", q->of);
     const char *near = nh_text_nearest(q->of, names, command_count);
-    return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "--of takes count, analyze or reduce");
+    return near ? nh_error_hint(error, "did you mean `%s`?", near)
+                : nh_error_hint(error, "--of takes count, analyze or reduce");
 }
 
 /* Where a path leaves the document: nearest of the names that are there. */
@@ -187,7 +191,8 @@ static bool no_number(const nh_json *root, const char *path, const char *of, nh_
     if (!*word) return nh_fail(error, NH_USAGE, "", "--number %s: this is no number in the JSON of %s", path, of);
     const char *names[200];
     size_t n = nh_json_names(at, sizeof names / sizeof *names, names);
-    nh_fail(error, NH_USAGE, "", "--number %s: there is no `%.*s` in the JSON of %s", path, (int)strcspn(word, "."), word, of);
+    nh_fail(error, NH_USAGE, "", "--number %s: there is no `%.*s` in the JSON of %s", path, (int)strcspn(word, "."),
+            word, of);
     const char *near = nh_text_nearest(word, names, n);
     if (near) return nh_error_hint(error, "did you mean `%.*s%s`?", (int)(word - path), path, near);
     return nh_error_hint(error, "a number is named by its path, as in group.dimension or currents.0.drift");
@@ -218,7 +223,8 @@ bool nh_scan_numbers(nh_arena *arena, const nh_scan_numbers_request *q, nh_scan_
     size_t k;
     if (!choose(q, &k, error)) return false;
     if (q->names >= NH_SCAN_MOST_NUMBERS)
-        return nh_fail(error, NH_USAGE, "", "--number is given %zu times, but a scan has at most %d numbers", q->names, NH_SCAN_MOST_NUMBERS - 1);
+        return nh_fail(error, NH_USAGE, "", "--number is given %zu times, but a scan has at most %d numbers", q->names,
+                       NH_SCAN_MOST_NUMBERS - 1);
     numbers *x = nh_arena_alloc(arena, sizeof *x);
     *x = (numbers){.request = *q, .document = commands[k].document};
     x->name = nh_arena_alloc(arena, (q->names + 3) * sizeof *x->name);
@@ -231,6 +237,12 @@ bool nh_scan_numbers(nh_arena *arena, const nh_scan_numbers_request *q, nh_scan_
         }
         if (strcmp(q->name[i], x->name[0])) x->name[x->names++] = q->name[i];
     }
-    *out = (nh_scan_source){.of = commands[k].of, .count = x->names, .name = x->name, .usual = !q->names, .spectra = commands[k].spectra, .at = numbers_at, .context = x};
+    *out = (nh_scan_source){.of = commands[k].of,
+                            .count = x->names,
+                            .name = x->name,
+                            .usual = !q->names,
+                            .spectra = commands[k].spectra,
+                            .at = numbers_at,
+                            .context = x};
     return !q->names || are_there(x, commands[k].of, error);
 }

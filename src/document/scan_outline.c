@@ -21,7 +21,8 @@ static bool alike(const nh_scan_special *a, const nh_scan_special *b)
            a->generic == b->generic && a->number[0] == b->number[0];
 }
 
-/* How many special values with this one's exact value, numbers and direction are listed, if it is the first of them; else 0. */
+/* How many special values with this one's exact value, numbers and direction are listed, if it is the first of them;
+   else 0. */
 static size_t count_alike(const nh_scan *x, size_t special)
 {
     size_t n = 0;

@@ -97,7 +97,10 @@ void nh_sheet_words(nh_sheet *s, const char *words) { add_line(s->arena, &s->sec
 
 /* ---- reading ---- */
 
-static nh_ex as_shown(const nh_sheet *s, const nh_sheet_section *c, nh_ex e) { return s->chart && !c->literal ? nh_chart_shown(s->chart, e) : e; }
+static nh_ex as_shown(const nh_sheet *s, const nh_sheet_section *c, nh_ex e)
+{
+    return s->chart && !c->literal ? nh_chart_shown(s->chart, e) : e;
+}
 
 /* Its own names, S_1, S_2, ...: one sequence for the sheet. */
 static void rename_parts(nh_sheet *s, size_t n, nh_ex *e, size_t parts, nh_formula_part *part)
@@ -174,7 +177,8 @@ static void put_expression(const nh_sheet *s, const nh_sheet_section *c, nh_json
     nh_free(text);
 }
 
-static void put_terms(const nh_sheet *s, const nh_sheet_section *c, nh_json *item, const char *key, size_t n, const nh_sheet_term *term)
+static void put_terms(const nh_sheet *s, const nh_sheet_section *c, nh_json *item, const char *key, size_t n,
+                      const nh_sheet_term *term)
 {
     nh_json *list = nh_json_put_array(item, key);
     for (size_t i = 0; i < n; i++) {

@@ -1,6 +1,7 @@
 /* sheet: formulas under headings, written once for text, JSON, page and LaTeX.
  *
- * A line is   label = c_1 f_1 + c_2 f_2 + ...   with expressions c and letters f of the theory (notation.h), or an equation, with such a sum on both
+ * A line is   label = c_1 f_1 + c_2 f_2 + ...   with expressions c and letters f of the theory (notation.h), or an
+ *             equation, with such a sum on both
  * sides; or words.  Lines belong to sections. */
 #ifndef NH_SHEET_H
 #define NH_SHEET_H
@@ -47,7 +48,8 @@ nh_sheet *nh_sheet_create(nh_arena *arena, nh_dag *dag);
 void nh_sheet_begin(nh_sheet *sheet, const char *key, const char *title, const char *words);
 /* label = e */
 void nh_sheet_formula(nh_sheet *sheet, const char *label, nh_ex e);
-/* label = the terms that follow; with a tag and without a label: an equation, (tag) terms = 0, or = what follows nh_sheet_equals. */
+/* label = the terms that follow; with a tag and without a label: an equation, (tag) terms = 0, or = what follows
+   nh_sheet_equals. */
 void nh_sheet_sum(nh_sheet *sheet, const char *tag, const char *label);
 void nh_sheet_add(nh_sheet *sheet, nh_ex coefficient, const char *factor); /* nothing where the coefficient is 0 */
 void nh_sheet_equals(nh_sheet *sheet);
@@ -57,10 +59,11 @@ const char *nh_sheet_label(nh_sheet *sheet, const char *format, ...) __attribute
 
 /* ---- reading it ---- */
 
-/* The section as text and page show it: with the user's abbreviations, and with names for what is repeated in long formulas, which are defined in lines
- * after the `own` first ones. */
+/* The section as text and page show it: with the user's abbreviations, and with names for what is repeated in long
+ * formulas, which are defined in lines after the `own` first ones. */
 nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, size_t *own);
-/* A coefficient before its factor: its sign, and the rest, which needs parentheses where it is a sum; "" for 1.  NULL: too long.  To be freed. */
+/* A coefficient before its factor: its sign, and the rest, which needs parentheses where it is a sum; "" for 1.  NULL:
+   too long.  To be freed. */
 char *nh_sheet_coefficient(const nh_sheet *sheet, const nh_sheet_term *term, bool *minus, bool *sum);
 
 /* Words with labels between dollar signs, as text. */
@@ -68,8 +71,10 @@ void nh_sheet_plain(const char *words, nh_text *out);
 void nh_sheet_text(nh_sheet *sheet, bool colour, nh_text *out);
 /* Any text, its lines broken at blanks so that they have at most 80 columns. */
 void nh_sheet_fold(const char *text, nh_text *out);
-/* Formulas without a sheet as text of 80 columns: label = value, with names for what is repeated in long ones, which follow. */
-void nh_sheet_formulas(nh_dag *dag, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown, nh_text *out);
+/* Formulas without a sheet as text of 80 columns: label = value, with names for what is repeated in long ones, which
+   follow. */
+void nh_sheet_formulas(nh_dag *dag, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown,
+                       nh_text *out);
 void nh_sheet_json(nh_sheet *sheet, nh_json *to);     /* a member of `to` for each section */
 void nh_sheet_html(nh_sheet *sheet, const char *heading, nh_html_writer *w); /* heading: h3 */
 void nh_sheet_tex(nh_sheet *sheet, const char *heading, nh_tex_writer *w);   /* heading: subsection */

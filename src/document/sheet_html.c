@@ -20,7 +20,9 @@ static void put_words(nh_html_writer *w, const char *words)
     bool label;
     nh_html_add(w, "<p>");
     for (; nh_notation_next(&words, &part, &label); nh_text_clear(&part)) {
-        if (label) nh_html_add(w, "<math>"), nh_notation_write(nh_text_string(&part), NH_NOTATION_MATHML, w->out), nh_html_add(w, "</math>");
+        if (label)
+            nh_html_add(w, "<math>"), nh_notation_write(nh_text_string(&part), NH_NOTATION_MATHML, w->out),
+                nh_html_add(w, "</math>");
         else nh_html_text(w, nh_text_string(&part));
     }
     nh_html_add(w, "</p>\n");
@@ -41,10 +43,13 @@ static void put_term(const nh_sheet *s, const nh_sheet_term *term, bool first, n
     nh_text pieces;
     nh_text_init(&pieces);
     if (!text) nh_text_add(&pieces, "<mtext>(too long for a page)</mtext>");
-    else if (text[0] && !nh_typeset_pieces(text, NH_MATHML, widest, put_piece, &pieces)) nh_text_add(&pieces, "<mtext>(nested too deep)</mtext>");
-    const char *sign = first ? (minus ? "<mo>\u2212</mo>" : "") : minus ? "<mo form=\"infix\">\u2212</mo>" : "<mo form=\"infix\">+</mo>";
-    nh_text_addf(w->out, "<math displaystyle=\"true\">%s%s%s%s", sign, sum ? "<mo stretchy=\"false\">(</mo>" : "", nh_text_string(&pieces),
-                 sum ? "<mo stretchy=\"false\">)</mo>" : "");
+    else if (text[0] && !nh_typeset_pieces(text, NH_MATHML, widest, put_piece, &pieces))
+        nh_text_add(&pieces, "<mtext>(nested too deep)</mtext>");
+    const char *sign = first   ? (minus ? "<mo>\u2212</mo>" : "")
+                       : minus ? "<mo form=\"infix\">\u2212</mo>"
+                               : "<mo form=\"infix\">+</mo>";
+    nh_text_addf(w->out, "<math displaystyle=\"true\">%s%s%s%s", sign, sum ? "<mo stretchy=\"false\">(</mo>" : "",
+                 nh_text_string(&pieces), sum ? "<mo stretchy=\"false\">)</mo>" : "");
     if (term->factor[0] && pieces.length) nh_html_add(w, "<mspace width=\"0.2em\"></mspace>");
     nh_notation_write(term->factor, NH_NOTATION_MATHML, w->out);
     nh_html_add(w, "</math> ");

@@ -21,7 +21,8 @@ static void terms(const nh_sheet *s, size_t n, const nh_sheet_term *term, nh_tex
         nh_tex_add(w, i ? (minus ? "\\nhbreak - " : "\\nhbreak + ") : minus ? "-" : "");
         nh_tex_add(w, sum ? "(" : "");
         if (!text) nh_tex_add(w, "(\\text{too long for a page})");
-        else if (text[0] && !nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, w->out)) nh_tex_add(w, "(\\text{nested too deep})");
+        else if (text[0] && !nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, w->out))
+            nh_tex_add(w, "(\\text{nested too deep})");
         nh_tex_add(w, sum ? ")" : "");
         nh_tex_add(w, term[i].factor[0] && text && text[0] ? "\\," : "");
         notation(w, term[i].factor);

@@ -9,7 +9,8 @@
 
 enum { line_width = 80, line_indent = 2 };
 
-/* Where a line that may have `room` characters is best broken: before a + or - with few parentheses open; else after a factor; 0: nowhere. */
+/* Where a line that may have `room` characters is best broken: before a + or - with few parentheses open; else after a
+   factor; 0: nowhere. */
 static size_t break_at(const char *text, size_t room)
 {
     size_t best = 0;
@@ -17,7 +18,8 @@ static size_t break_at(const char *text, size_t room)
     for (size_t i = 0; i < room && text[i]; i++) {
         depth += (text[i] == '(') - (text[i] == ')');
         bool equal = text[i + 1] == '=' && i > room / 4; /* not right after a label */
-        if (i == 0 || text[i] != ' ' || (!equal && text[i + 1] != '+' && text[i + 1] != '-') || text[i + 2] != ' ') continue;
+        if (i == 0 || text[i] != ' ' || (!equal && text[i + 1] != '+' && text[i + 1] != '-') || text[i + 2] != ' ')
+            continue;
         if (depth > least && i < best + room / 2) continue;
         least = depth;
         best = i;
@@ -39,7 +41,8 @@ static size_t blank_at(const char *text, size_t room)
 }
 
 /* Broken so that nothing runs beyond the last column; `hang`: of all lines but the first. */
-static void put_broken(nh_text *out, size_t indent, size_t hang, const char *text, size_t (*where)(const char *, size_t))
+static void put_broken(nh_text *out, size_t indent, size_t hang, const char *text,
+                       size_t (*where)(const char *, size_t))
 {
     nh_text_addf(out, "%*s", (int)indent, "");
     for (size_t room = line_width - indent; nh_text_width(text) > room; room = line_width - hang) {
@@ -52,8 +55,14 @@ static void put_broken(nh_text *out, size_t indent, size_t hang, const char *tex
     nh_text_addf(out, "%s\n", text);
 }
 
-static void wrapped(nh_text *out, size_t indent, const char *text) { put_broken(out, indent, indent + 4, text, break_at); }
-static void wrapped_words(nh_text *out, size_t indent, size_t hang, const char *text) { put_broken(out, indent, hang, text, blank_at); }
+static void wrapped(nh_text *out, size_t indent, const char *text)
+{
+    put_broken(out, indent, indent + 4, text, break_at);
+}
+static void wrapped_words(nh_text *out, size_t indent, size_t hang, const char *text)
+{
+    put_broken(out, indent, hang, text, blank_at);
+}
 
 void nh_sheet_plain(const char *words, nh_text *out)
 {
@@ -141,7 +150,8 @@ static void put_formula(nh_text *out, size_t indent, const char *label, char *va
     nh_free(value);
 }
 
-void nh_sheet_formulas(nh_dag *d, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown, nh_text *out)
+void nh_sheet_formulas(nh_dag *d, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown,
+                       nh_text *out)
 {
     nh_formula_part part[NH_FORMULA_PARTS];
     nh_ex *e = nh_alloc_array(n + 1, sizeof *e);

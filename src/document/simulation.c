@@ -17,8 +17,9 @@ static void put(nh_text *out, double x)
 
 /* ---- column names ----
  *
- * Of letters, digits and underscores, as gnuplot, R and pandas take them without quotes: x' is x_dot, and what an expression holds besides them is an underscore.  All are
- * different: a second column of one name (a known current that is called E, as the energy is) also says what it is. */
+ * Of letters, digits and underscores, as gnuplot, R and pandas take them without quotes: x' is x_dot, and what an
+ * expression holds besides them is an underscore.  All are different: a second column of one name (a known current that
+ * is called E, as the energy is) also says what it is. */
 
 static const char *plain_name(nh_arena *arena, const char *name)
 {
@@ -26,7 +27,8 @@ static const char *plain_name(nh_arena *arena, const char *name)
     nh_text_init(&out);
     if (isdigit((unsigned char)*name)) nh_text_add(&out, "v");
     for (const char *c = name; *c; c++) {
-        bool letter = isalnum((unsigned char)*c) || *c == '_' || (unsigned char)*c >= 0x80, gap = out.length && nh_text_string(&out)[out.length - 1] == '_';
+        bool letter = isalnum((unsigned char)*c) || *c == '_' || (unsigned char)*c >= 0x80,
+             gap = out.length && nh_text_string(&out)[out.length - 1] == '_';
         if (letter) nh_text_add_n(&out, c, 1);
         else if (*c == '\'') nh_text_add(&out, gap ? "dot" : "_dot");
         else if (!gap && out.length && c[1]) nh_text_add(&out, "_");
@@ -53,7 +55,8 @@ static const char **column_names(const nh_simulation *s)
         const char *name = plain_name(s->arena, t->track[k].name), *kind = kinds[t->track[k].kind];
         out[k] = name;
         if (is_taken(out, k, out[k])) out[k] = nh_arena_printf(s->arena, "%s_%s", name, kind);
-        for (int more = 2; is_taken(out, k, out[k]); more++) out[k] = nh_arena_printf(s->arena, "%s_%s_%d", name, kind, more);
+        for (int more = 2; is_taken(out, k, out[k]); more++)
+            out[k] = nh_arena_printf(s->arena, "%s_%s_%d", name, kind, more);
     }
     return out;
 }
@@ -156,7 +159,10 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
 }
 
 /* Where a method was chosen from. */
-static const char *const choices[] = {[NH_CHOICE_RACE] = "race", [NH_CHOICE_GIVEN] = "given", [NH_CHOICE_SURVEY] = "measured", [NH_CHOICE_SHORT] = "short"};
+static const char *const choices[] = {[NH_CHOICE_RACE] = "race",
+                                      [NH_CHOICE_GIVEN] = "given",
+                                      [NH_CHOICE_SURVEY] = "measured",
+                                      [NH_CHOICE_SHORT] = "short"};
 
 void nh_accuracy_json(const nh_accuracy *a, nh_json *root)
 {
@@ -226,7 +232,8 @@ char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
     nh_json *members = nh_json_put_array(root, "members");
     for (size_t i = 0; i < e->members; i++) {
         nh_json *member = nh_json_add_object(members);
-        for (size_t k = 0; k < e->n; k++) nh_json_put_numbers(member, s->columns.track[k].name, e->count, e->value + i * e->count * e->n + k, e->n);
+        for (size_t k = 0; k < e->n; k++)
+            nh_json_put_numbers(member, s->columns.track[k].name, e->count, e->value + i * e->count * e->n + k, e->n);
     }
     nh_json *stats = nh_json_put_object(root, "stats");
     nh_json_put_number(stats, "members", (double)e->members);
@@ -288,7 +295,8 @@ static void put_motion(const nh_simulation *s, nh_json *root)
     nh_accuracy_json(s->checked ? &s->accuracy : NULL, root);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);
     nh_time_series *c = nh_time_series_of_simulation(s);
-    for (int kind = NH_TRACK_STATE; kind <= NH_TRACK_WATCH; kind++) nh_time_series_json(c, root, groups[kind], (nh_track_kind)kind);
+    for (int kind = NH_TRACK_STATE; kind <= NH_TRACK_WATCH; kind++)
+        nh_time_series_json(c, root, groups[kind], (nh_track_kind)kind);
     if (c->shapes) nh_time_series_json_drawing(c, root);
     nh_time_series_free(c);
     put_all_zeros(s, root);

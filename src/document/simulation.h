@@ -19,7 +19,8 @@ void nh_accuracy_json(const nh_accuracy *a, nh_json *root);
 /* A picture: what is watched, or the coordinates, over time; of an ensemble one quantity of all members. */
 void nh_motion_svg(const nh_simulation *simulation, nh_text *out);
 
-/* Events of --event as a table: event, direction, t and the columns of the motion; points of --section: t and these columns. */
+/* Events of --event as a table: event, direction, t and the columns of the motion; points of --section: t and these
+   columns. */
 void nh_events_csv(const nh_simulation *simulation, nh_text *out);
 void nh_section_csv(const nh_simulation *simulation, nh_text *out);
 /* "rising", "falling" or "both"; and how often expression number `which` was zero. */

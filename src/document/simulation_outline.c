@@ -41,14 +41,24 @@ static void fans(nh_pen *p, const nh_simulation *s)
         const char *name = s->columns.track[k].name;
         char title[200];
         for (size_t j = 0; j < members; j++)
-            curve[j] = (nh_curve){.name = name, .count = e->count, .x = e->time, .x_stride = 1, .y = e->value + j * e->count * e->n + k, .y_stride = e->n};
+            curve[j] = (nh_curve){.name = name,
+                                  .count = e->count,
+                                  .x = e->time,
+                                  .x_stride = 1,
+                                  .y = e->value + j * e->count * e->n + k,
+                                  .y_stride = e->n};
         nh_text plain;
         nh_text_init(&plain);
         nh_typeset_plain(name, &plain);
         snprintf(title, sizeof title, "%.100s of the members over time", nh_text_string(&plain));
         nh_text_clear(&plain);
-        nh_plot plot = {.title = title, .description = "One thin line per member of the ensemble", .x_label = "t", .y_label = name,
-                        .fan = true, .curves = members, .curve = curve};
+        nh_plot plot = {.title = title,
+                        .description = "One thin line per member of the ensemble",
+                        .x_label = "t",
+                        .y_label = name,
+                        .fan = true,
+                        .curves = members,
+                        .curve = curve};
         nh_pen_plot(p, &plot, title);
     }
 }
@@ -70,8 +80,8 @@ void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_style
     if (c) p->ink->series(p->to, c);
     else fans(p, s);
     nh_events_write(p, s);
-    nh_pen_words(p, "%.10g evaluations of the equations, %.3g seconds of integration.", (double)(e ? e->evaluations : s->motion->evaluations),
-                 e ? e->seconds : s->motion->seconds);
+    nh_pen_words(p, "%.10g evaluations of the equations, %.3g seconds of integration.",
+                 (double)(e ? e->evaluations : s->motion->evaluations), e ? e->seconds : s->motion->seconds);
     nh_pen_system(p, s->model, NULL);
     nh_pen_end(p, run);
     nh_time_series_free(c);

@@ -7,8 +7,9 @@
     [NH_ASINH] = p hyper "sinh", [NH_ACOSH] = p hyper "cosh", [NH_ATANH] = p hyper "tanh", [NH_EXP] = p "exp", \
     [NH_LOG] = p "log", [NH_ATAN2] = p arc2
 
-/* Named functions.  GSL's are those of gsl/gsl_sf.h: Bessel functions need n >= 0 and x > 0, 2F1 needs |x| < 1; its 2F1_conj takes real and imaginary part
- * of a and of b, the conjugate.  Derivatives are written by functions of neighbouring orders [DLMF 10.6, 10.29, 13.3, 14.10, 15.5]. */
+/* Named functions.  GSL's are those of gsl/gsl_sf.h: Bessel functions need n >= 0 and x > 0, 2F1 needs |x| < 1; its
+ * 2F1_conj takes real and imaginary part of a and of b, the conjugate.  Derivatives are written by functions of
+ * neighbouring orders [DLMF 10.6, 10.29, 13.3, 14.10, 15.5]. */
 #define AI "gsl_sf_airy_Ai"
 #define BI "gsl_sf_airy_Bi"
 #define P0 ", GSL_PREC_DOUBLE)"

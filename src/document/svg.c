@@ -7,9 +7,21 @@
 #include "base/escape.h"
 #include "document/typeset.h"
 
-enum { width = 640, height = 300, left = 74, right = 22, top = 12, bottom = 46, legend_row = 18, colours = 7, most_ticks = 6, most_points = 801 };
+enum {
+    width = 640,
+    height = 300,
+    left = 74,
+    right = 22,
+    top = 12,
+    bottom = 46,
+    legend_row = 18,
+    colours = 7,
+    most_ticks = 6,
+    most_points = 801
+};
 
-static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A7A7A"};
+static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                            "#E69F00", "#56B4E9", "#7A7A7A"};
 static const char *const dashes[] = {"none", "7 3", "2 3", "9 3 2 3", "14 4"};
 
 /* One axis: value -> pixel. */
@@ -76,7 +88,9 @@ static void ranges(canvas *c)
     for (size_t k = 0; k < p->curves; k++) {
         const nh_curve *f = &p->curve[k];
         double x0, x1, y0, y1;
-        if (!nh_svg_range(f->count, f->x, f->x_stride, &x0, &x1) || !nh_svg_range(f->count, f->y, f->y_stride, &y0, &y1)) continue;
+        if (!nh_svg_range(f->count, f->x, f->x_stride, &x0, &x1) ||
+            !nh_svg_range(f->count, f->y, f->y_stride, &y0, &y1))
+            continue;
         c->x.low = any ? fmin(c->x.low, x0) : x0;
         c->x.high = any ? fmax(c->x.high, x1) : x1;
         c->y.low = any ? fmin(c->y.low, y0) : y0;
@@ -98,8 +112,10 @@ static void ranges(canvas *c)
 /* One scale for both: the tighter axis gives way. */
 static void equalise(canvas *c)
 {
-    double sx = (c->x.high - c->x.low) / (c->x.to - c->x.from), sy = (c->y.high - c->y.low) / (c->y.from - c->y.to), s = fmax(sx, sy);
-    double x = (c->x.low + c->x.high) / 2, y = (c->y.low + c->y.high) / 2, half_x = s * (c->x.to - c->x.from) / 2, half_y = s * (c->y.from - c->y.to) / 2;
+    double sx = (c->x.high - c->x.low) / (c->x.to - c->x.from), sy = (c->y.high - c->y.low) / (c->y.from - c->y.to),
+           s = fmax(sx, sy);
+    double x = (c->x.low + c->x.high) / 2, y = (c->y.low + c->y.high) / 2, half_x = s * (c->x.to - c->x.from) / 2,
+           half_y = s * (c->y.from - c->y.to) / 2;
     c->x.low = x - half_x;
     c->x.high = x + half_x;
     c->y.low = y - half_y;
@@ -128,7 +144,10 @@ static void label(const canvas *c, double x, double y, const char *anchor, const
     static const char alphanumeric[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
     const char *bar = strchr(text, '_');
     size_t index = bar && bar > text ? strspn(bar + 1, alphanumeric) : 0;
-    nh_text_addf(c->out, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" font-size=\"12\" fill=\"#808080\" font-family=\"sans-serif\">", class, x, y, anchor);
+    nh_text_addf(c->out,
+                 "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" font-size=\"12\" fill=\"#808080\" "
+                 "font-family=\"sans-serif\">",
+                 class, x, y, anchor);
     part(c, text, index ? (size_t)(bar - text) : strlen(text));
     if (index) {
         nh_text_add(c->out, "<tspan dy=\"0.3em\" font-size=\"75%\">");
@@ -153,8 +172,10 @@ static void named(const canvas *c, double x, double y, const char *anchor, const
 
 static void line(const canvas *c, double x1, double y1, double x2, double y2, const char *class)
 {
-    nh_text_addf(c->out, "<line class=\"%s\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#808080\" stroke-opacity=\"%s\"/>", class, x1, y1, x2, y2,
-                 strcmp(class, "grid") ? "1" : "0.25");
+    nh_text_addf(
+        c->out,
+        "<line class=\"%s\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#808080\" stroke-opacity=\"%s\"/>",
+        class, x1, y1, x2, y2, strcmp(class, "grid") ? "1" : "0.25");
 }
 
 static void tick(const canvas *c, bool vertical, double v, const char *text)
@@ -172,7 +193,8 @@ static void tick(const canvas *c, bool vertical, double v, const char *text)
 static void linear_ticks(const canvas *c, bool vertical)
 {
     const axis *a = vertical ? &c->y : &c->x;
-    double step = tick_step(a->high - a->low, vertical ? most_ticks : most_ticks + 2), first = ceil(a->low / step - 1e-9);
+    double step = tick_step(a->high - a->low, vertical ? most_ticks : most_ticks + 2),
+           first = ceil(a->low / step - 1e-9);
     if (!(fabs(first) < 1e9)) return;
     for (double i = first; i * step <= a->high + 1e-9 * step; i++) {
         char text[40];
@@ -184,17 +206,20 @@ static void linear_ticks(const canvas *c, bool vertical)
 
 static void power_of_ten(int e, char *out, size_t size)
 {
-    static const char *const digit[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+    static const char *const digit[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                        "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     char digits[12];
     size_t at = (size_t)snprintf(out, size, e < 0 ? "10\u207b" : "10");
     snprintf(digits, sizeof digits, "%d", e < 0 ? -e : e);
-    for (const char *c = digits; *c && at + 4 < size; c++) at += (size_t)snprintf(out + at, size - at, "%s", digit[*c - '0']);
+    for (const char *c = digits; *c && at + 4 < size; c++)
+        at += (size_t)snprintf(out + at, size - at, "%s", digit[*c - '0']);
 }
 
 static void decades(const canvas *c, bool vertical)
 {
     const axis *a = vertical ? &c->y : &c->x;
-    double first = ceil(log10(a->low) - 1e-9), last = floor(log10(a->high) + 1e-9), step = fmax(1, ceil((last - first) / (vertical ? most_ticks : most_ticks + 2)));
+    double first = ceil(log10(a->low) - 1e-9), last = floor(log10(a->high) + 1e-9),
+           step = fmax(1, ceil((last - first) / (vertical ? most_ticks : most_ticks + 2)));
     for (double e = first; e <= last; e += step) {
         char text[40];
         power_of_ten((int)e, text, sizeof text);
@@ -221,7 +246,10 @@ static void dots(const canvas *c, const nh_curve *f, size_t k)
         if (visible(c, f, i, &x, &y))
             nh_text_addf(c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"1.1\" fill=\"%s\"/>", x, y, colour[k % colours]);
     for (size_t i = 0; i < f->count && !c->plot->fan; i++)
-        if (visible(c, f, i, &x, &y)) nh_text_addf(c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>", x, y, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
+        if (visible(c, f, i, &x, &y))
+            nh_text_addf(c->out,
+                         "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>", x,
+                         y, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
 }
 
 /* Triangles that point where the body heads. */
@@ -233,17 +261,19 @@ static void headings(const canvas *c, const nh_curve *f, size_t k)
     for (size_t i = 0; i < f->count; i += step) {
         double angle = f->heading[i * f->y_stride], a = size * cos(angle), b = -size * sin(angle);
         if (!visible(c, f, i, &x, &y) || !isfinite(angle)) continue;
-        nh_text_addf(c->out, "<path fill=\"%s\" d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1fZ\"/>", colour[k % colours], x + a, y + b, x - a / 2 + b / 2, y - b / 2 - a / 2, x - a / 2 - b / 2,
-                     y - b / 2 + a / 2);
+        nh_text_addf(c->out, "<path fill=\"%s\" d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1fZ\"/>", colour[k % colours], x + a,
+                     y + b, x - a / 2 + b / 2, y - b / 2 - a / 2, x - a / 2 - b / 2, y - b / 2 + a / 2);
     }
 }
 
-/* A line through very many points, without those that lie on it: no point left out is farther than `near` from the line drawn. */
+/* A line through very many points, without those that lie on it: no point left out is farther than `near` from the line
+   drawn. */
 typedef struct {
     nh_text *out;
     bool on;
     size_t held;                              /* points since the last one written */
-    double last[2], next[2], low, high, turn; /* the last written; the newest; the directions that pass all between, about `turn` */
+    /* the last written; the newest; the directions that pass all between, about `turn` */
+    double last[2], next[2], low, high, turn;
 } pen;
 
 static void pen_write(pen *p, double x, double y)
@@ -284,7 +314,8 @@ static void pen_to(pen *p, double x, double y)
     p->held++;
 }
 
-/* A path in the plane, whose points are equally far apart in time: a cubic in time between them (Catmull and Rom's), for corners would be of the drawing's making. */
+/* A path in the plane, whose points are equally far apart in time: a cubic in time between them (Catmull and Rom's),
+   for corners would be of the drawing's making. */
 static void smooth(const canvas *c, const nh_curve *f)
 {
     double p[4][2] = {{0}};
@@ -301,7 +332,8 @@ static void smooth(const canvas *c, const nh_curve *f)
         if (!on) continue;
         if (first) p[0][0] = p[1][0], p[0][1] = p[1][1];
         if (first) nh_text_addf(c->out, "M%.1f %.1f", p[1][0], p[1][1]);
-        nh_text_addf(c->out, "C%.1f %.1f %.1f %.1f %.1f %.1f", p[1][0] + (p[2][0] - p[0][0]) / 6, p[1][1] + (p[2][1] - p[0][1]) / 6, p[2][0] - (p[3][0] - p[1][0]) / 6,
+        nh_text_addf(c->out, "C%.1f %.1f %.1f %.1f %.1f %.1f", p[1][0] + (p[2][0] - p[0][0]) / 6,
+                     p[1][1] + (p[2][1] - p[0][1]) / 6, p[2][0] - (p[3][0] - p[1][0]) / 6,
                      p[2][1] - (p[3][1] - p[1][1]) / 6, p[2][0], p[2][1]);
     }
 }
@@ -311,8 +343,11 @@ static void curve(const canvas *c, const nh_curve *f, size_t k)
     double x, y;
     bool thin = f->count > most_points;
     if (c->plot->fan) k = 0;
-    nh_text_addf(c->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"", colour[k % colours], c->plot->fan ? "0.9\" stroke-opacity=\"0.5" : "1.8",
-                 dashes[k % (sizeof dashes / sizeof *dashes)]);
+    nh_text_addf(
+        c->out,
+        "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"",
+        colour[k % colours], c->plot->fan ? "0.9\" stroke-opacity=\"0.5" : "1.8",
+        dashes[k % (sizeof dashes / sizeof *dashes)]);
     pen p = {.out = c->out};
     bool cubic = c->plot->equal && !thin && f->count > 3;
     if (cubic) smooth(c, f);
@@ -337,9 +372,15 @@ static void cells(const canvas *c, const nh_cells *g)
     for (size_t i = 0; i < g->across; i++)
         for (size_t j = 0; j < g->up; j++) {
             const char *fill = g->fill[i * g->up + j];
-            double x0 = place(&c->x, edge(g->x, g->across, i, c->x.low, c->x.high)), x1 = place(&c->x, edge(g->x, g->across, i + 1, c->x.low, c->x.high));
-            double y0 = place(&c->y, edge(g->y, g->up, j + 1, c->y.low, c->y.high)), y1 = place(&c->y, edge(g->y, g->up, j, c->y.low, c->y.high));
-            if (fill[0]) nh_text_addf(c->out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" fill-opacity=\"0.6\"/>", x0, y0, x1 - x0, y1 - y0, fill);
+            double x0 = place(&c->x, edge(g->x, g->across, i, c->x.low, c->x.high)),
+                   x1 = place(&c->x, edge(g->x, g->across, i + 1, c->x.low, c->x.high));
+            double y0 = place(&c->y, edge(g->y, g->up, j + 1, c->y.low, c->y.high)),
+                   y1 = place(&c->y, edge(g->y, g->up, j, c->y.low, c->y.high));
+            if (fill[0])
+                nh_text_addf(
+                    c->out,
+                    "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" fill-opacity=\"0.6\"/>", x0,
+                    y0, x1 - x0, y1 - y0, fill);
         }
 }
 
@@ -359,10 +400,16 @@ static double legend(const canvas *c, bool draw)
         if (x + room > width - right && x > left) x = left, y += legend_row;
         if (draw) {
             bool is_dots = c->plot->curve[k].dots;
-            if (is_dots) nh_text_addf(c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>", x + 11, y - 4, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
+            if (is_dots)
+                nh_text_addf(
+                    c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>",
+                    x + 11, y - 4, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
             else
-                nh_text_addf(c->out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"1.8\" stroke-dasharray=\"%s\"/>", x, y - 4, x + 24, y - 4,
-                             colour[k % colours], dashes[k % (sizeof dashes / sizeof *dashes)]);
+                nh_text_addf(c->out,
+                             "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"1.8\" "
+                             "stroke-dasharray=\"%s\"/>",
+                             x, y - 4, x + 24, y - 4, colour[k % colours],
+                             dashes[k % (sizeof dashes / sizeof *dashes)]);
             named(c, x + 28, y, "start", "legend", c->plot->curve[k].name);
         }
         x += room;
@@ -372,7 +419,10 @@ static double legend(const canvas *c, bool draw)
 
 static void begin(const char *id, nh_text *out)
 {
-    nh_text_addf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" id=\"%s\" role=\"img\" aria-labelledby=\"%s-t %s-d\"", id, id, id);
+    nh_text_addf(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" id=\"%s\" role=\"img\" aria-labelledby=\"%s-t %s-d\"",
+        id, id, id);
 }
 
 bool nh_svg_is_plot(const char *text, const char *id)
@@ -390,7 +440,9 @@ static void head(const canvas *c)
     const nh_plot *p = c->plot;
     begin(p->id, c->out);
     nh_text_addf(c->out, " viewBox=\"0 0 %d %.0f\" width=\"%d\" height=\"%.0f\"", width, c->height, width, c->height);
-    if (p->timed) nh_text_addf(c->out, " data-t0=\"%.9g\" data-t1=\"%.9g\" data-x0=\"%.1f\" data-x1=\"%.1f\"", c->x.low, c->x.high, c->x.from, c->x.to);
+    if (p->timed)
+        nh_text_addf(c->out, " data-t0=\"%.9g\" data-t1=\"%.9g\" data-x0=\"%.1f\" data-x1=\"%.1f\"", c->x.low,
+                     c->x.high, c->x.from, c->x.to);
     nh_text_addf(c->out, "><title id=\"%s-t\">", p->id);
     nh_escape_xml(p->title, c->out);
     nh_text_addf(c->out, "</title><desc id=\"%s-d\">", p->id);
@@ -425,6 +477,10 @@ void nh_svg_plot(const nh_plot *p, nh_text *out)
     for (size_t k = 0; k < p->curves; k++)
         if (p->curve[k].dots) dots(&c, &p->curve[k], k);
         else curve(&c, &p->curve[k], k);
-    if (p->timed) nh_text_addf(out, "<line class=\"now\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#D55E00\" visibility=\"hidden\"/>", c.x.from, c.y.from, c.x.from, c.y.to);
+    if (p->timed)
+        nh_text_addf(out,
+                     "<line class=\"now\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#D55E00\" "
+                     "visibility=\"hidden\"/>",
+                     c.x.from, c.y.from, c.x.from, c.y.to);
     nh_text_add(out, "</svg>\n");
 }

@@ -1,7 +1,8 @@
 /* svg: plots with axes, ticks and a legend as stand-alone SVG elements.
  *
- * The colours are those of Okabe and Ito, which colour-blind readers can distinguish; lines also differ by their dashes.  What is not finite interrupts
- * a line.  Text is escaped.  Classes let a page change the colours of axes and text; without a style sheet they are grey. */
+ * The colours are those of Okabe and Ito, which colour-blind readers can distinguish; lines also differ by their
+ * dashes.  What is not finite interrupts a line.  Text is escaped.  Classes let a page change the colours of axes and
+ * text; without a style sheet they are grey. */
 #ifndef NH_SVG_H
 #define NH_SVG_H
 

@@ -1,7 +1,7 @@
 /* tex_internal: LaTeX documents, for pdflatex or lualatex with amsmath and pgfplots.
  *
- * Formulas are paragraphs of mathematics, which TeX breaks by its own measures between the pieces of nh_typeset_pieces; every number stands in
- * \nhnumber{all its digits}{as shown}, as the JSON has it; plots hold their data. */
+ * Formulas are paragraphs of mathematics, which TeX breaks by its own measures between the pieces of nh_typeset_pieces;
+ * every number stands in \nhnumber{all its digits}{as shown}, as the JSON has it; plots hold their data. */
 #ifndef NH_TEX_INTERNAL_H
 #define NH_TEX_INTERNAL_H
 

@@ -2,18 +2,26 @@
 #include "base/versions.h"
 #include "document/tex_internal.h"
 
-static const char macros[] =
-    "\\providecommand{\\nhnumber}[2]{$#2$} % all digits, and what is shown\n"
-    "\\providecommand{\\nhbreak}{\\penalty0\\hskip0pt\\relax}\n"
-    "\\definecolor{nhblue}{HTML}{0072B2}\\definecolor{nhred}{HTML}{D55E00}\\definecolor{nhgreen}{HTML}{009E73}\\definecolor{nhpink}{HTML}{CC79A7}"
-    "\\definecolor{nhorange}{HTML}{E69F00}\\definecolor{nhsky}{HTML}{56B4E9}\n";
+static const char macros[] = "\\providecommand{\\nhnumber}[2]{$#2$} % all digits, and what is shown\n"
+                             "\\providecommand{\\nhbreak}{\\penalty0\\hskip0pt\\relax}\n"
+                             "\\definecolor{nhblue}{HTML}{0072B2}\\definecolor{nhred}{HTML}{D55E00}\\definecolor{"
+                             "nhgreen}{HTML}{009E73}\\definecolor{nhpink}{HTML}{CC79A7}"
+                             "\\definecolor{nhorange}{HTML}{E69F00}\\definecolor{nhsky}{HTML}{56B4E9}\n";
 
 void nh_tex_head(nh_tex_writer *w, const char *what)
 {
     static const char packages[] = "\\usepackage{amsmath,amssymb,longtable,pgfplots}\n";
     nh_tex_add(w, "% Written by nhsym " NH_VERSION ".\n");
-    if (w->fragment) nh_text_addf(w->out, "%% To be read by \\input; the document needs these lines before its beginning:\n%% %s%% \\pgfplotsset{compat=1.16}\n", packages);
-    else nh_text_addf(w->out, "\\documentclass[11pt,a4paper]{article}\n%s\\usepackage[margin=2.5cm]{geometry}\n\\pgfplotsset{compat=1.16}\n", packages);
+    if (w->fragment)
+        nh_text_addf(w->out,
+                     "%% To be read by \\input; the document needs these lines before its beginning:\n%% %s%% "
+                     "\\pgfplotsset{compat=1.16}\n",
+                     packages);
+    else
+        nh_text_addf(w->out,
+                     "\\documentclass[11pt,a4paper]{article}\n%s\\usepackage[margin=2.5cm]{geometry}\n\\pgfplotsset{"
+                     "compat=1.16}\n",
+                     packages);
     nh_tex_add(w, nh_tex_formula_macro);
     nh_tex_add(w, macros);
     if (w->fragment) return;

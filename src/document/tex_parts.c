@@ -18,14 +18,21 @@ static const struct {
     unsigned code;
     const char *latex;
 } letters[] = {
-    {0x2212, "$-$"}, {0x2013, "--"}, {0x2014, "---"}, {0x2018, "`"}, {0x2019, "'"}, {0x201c, "``"}, {0x201d, "''"}, {0x2026, "\\dots{}"}, {0xb2, "$^2$"}, {0xb3, "$^3$"},
-    {0xb9, "$^1$"}, {0xb0, "$^\\circ$"}, {0xb1, "$\\pm$"}, {0xb7, "$\\cdot$"}, {0xd7, "$\\times$"}, {0xb5, "$\\mu$"}, {0x2202, "$\\partial$"}, {0x2261, "$\\equiv$"},
-    {0x2264, "$\\le$"}, {0x2265, "$\\ge$"}, {0x2192, "$\\to$"}, {0x221e, "$\\infty$"}, {0x221a, "$\\surd$"},
-    {0x3b1, "$\\alpha$"}, {0x3b2, "$\\beta$"}, {0x3b3, "$\\gamma$"}, {0x3b4, "$\\delta$"}, {0x3b5, "$\\varepsilon$"}, {0x3b6, "$\\zeta$"}, {0x3b7, "$\\eta$"}, {0x3b8, "$\\theta$"},
-    {0x3b9, "$\\iota$"}, {0x3ba, "$\\kappa$"}, {0x3bb, "$\\lambda$"}, {0x3bc, "$\\mu$"}, {0x3bd, "$\\nu$"}, {0x3be, "$\\xi$"}, {0x3bf, "$o$"}, {0x3c0, "$\\pi$"}, {0x3c1, "$\\rho$"},
-    {0x3c2, "$\\varsigma$"}, {0x3c3, "$\\sigma$"}, {0x3c4, "$\\tau$"}, {0x3c5, "$\\upsilon$"}, {0x3c6, "$\\varphi$"}, {0x3c7, "$\\chi$"}, {0x3c8, "$\\psi$"}, {0x3c9, "$\\omega$"},
-    {0x393, "$\\Gamma$"}, {0x394, "$\\Delta$"}, {0x398, "$\\Theta$"}, {0x39b, "$\\Lambda$"}, {0x39e, "$\\Xi$"}, {0x3a0, "$\\Pi$"}, {0x3a3, "$\\Sigma$"}, {0x3a6, "$\\Phi$"},
-    {0x3a8, "$\\Psi$"}, {0x3a9, "$\\Omega$"},
+    {0x2212, "$-$"},         {0x2013, "--"},        {0x2014, "---"},      {0x2018, "`"},
+    {0x2019, "'"},           {0x201c, "``"},        {0x201d, "''"},       {0x2026, "\\dots{}"},
+    {0xb2, "$^2$"},          {0xb3, "$^3$"},        {0xb9, "$^1$"},       {0xb0, "$^\\circ$"},
+    {0xb1, "$\\pm$"},        {0xb7, "$\\cdot$"},    {0xd7, "$\\times$"},  {0xb5, "$\\mu$"},
+    {0x2202, "$\\partial$"}, {0x2261, "$\\equiv$"}, {0x2264, "$\\le$"},   {0x2265, "$\\ge$"},
+    {0x2192, "$\\to$"},      {0x221e, "$\\infty$"}, {0x221a, "$\\surd$"}, {0x3b1, "$\\alpha$"},
+    {0x3b2, "$\\beta$"},     {0x3b3, "$\\gamma$"},  {0x3b4, "$\\delta$"}, {0x3b5, "$\\varepsilon$"},
+    {0x3b6, "$\\zeta$"},     {0x3b7, "$\\eta$"},    {0x3b8, "$\\theta$"}, {0x3b9, "$\\iota$"},
+    {0x3ba, "$\\kappa$"},    {0x3bb, "$\\lambda$"}, {0x3bc, "$\\mu$"},    {0x3bd, "$\\nu$"},
+    {0x3be, "$\\xi$"},       {0x3bf, "$o$"},        {0x3c0, "$\\pi$"},    {0x3c1, "$\\rho$"},
+    {0x3c2, "$\\varsigma$"}, {0x3c3, "$\\sigma$"},  {0x3c4, "$\\tau$"},   {0x3c5, "$\\upsilon$"},
+    {0x3c6, "$\\varphi$"},   {0x3c7, "$\\chi$"},    {0x3c8, "$\\psi$"},   {0x3c9, "$\\omega$"},
+    {0x393, "$\\Gamma$"},    {0x394, "$\\Delta$"},  {0x398, "$\\Theta$"}, {0x39b, "$\\Lambda$"},
+    {0x39e, "$\\Xi$"},       {0x3a0, "$\\Pi$"},     {0x3a3, "$\\Sigma$"}, {0x3a6, "$\\Phi$"},
+    {0x3a8, "$\\Psi$"},      {0x3a9, "$\\Omega$"},
 };
 
 /* The code point at c, and how many bytes it takes; 0 for what is no UTF-8. */
@@ -41,10 +48,13 @@ static unsigned decode(const unsigned char *c, size_t *bytes)
     return n ? code : 0;
 }
 
-/* Letters with accents that every LaTeX has in its first encoding: not those with an ogonek, nor eth, thorn, eng, nor a ligature of the old Dutch. */
+/* Letters with accents that every LaTeX has in its first encoding: not those with an ogonek, nor eth, thorn, eng, nor a
+   ligature of the old Dutch. */
 static bool accented(unsigned code)
 {
-    static const unsigned missing[] = {0xd0, 0xd7, 0xde, 0xf0, 0xf7, 0xfe, 0x104, 0x105, 0x110, 0x111, 0x118, 0x119, 0x126, 0x127, 0x12e, 0x12f, 0x132, 0x133, 0x138, 0x13f, 0x140, 0x149, 0x14a, 0x14b, 0x166, 0x167, 0x172, 0x173};
+    static const unsigned missing[] = {0xd0,  0xd7,  0xde,  0xf0,  0xf7,  0xfe,  0x104, 0x105, 0x110, 0x111,
+                                       0x118, 0x119, 0x126, 0x127, 0x12e, 0x12f, 0x132, 0x133, 0x138, 0x13f,
+                                       0x140, 0x149, 0x14a, 0x14b, 0x166, 0x167, 0x172, 0x173};
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
         if (missing[i] == code) return false;
     return code >= 0xc0 && code <= 0x17e;
@@ -146,7 +156,8 @@ void nh_tex_name(nh_tex_writer *w, const char *text)
 }
 
 const char *const nh_tex_formula_macro =
-    "\\providecommand{\\nhformula}[1]{\\par\\addvspace{4pt plus 1pt}{\\parindent=0pt\\leftskip=2em\\rightskip=0pt plus 1fil\\hangindent=2em\\hangafter=1\\binoppenalty=10000\\relpenalty=10000"
+    "\\providecommand{\\nhformula}[1]{\\par\\addvspace{4pt plus 1pt}{\\parindent=0pt\\leftskip=2em\\rightskip=0pt plus "
+    "1fil\\hangindent=2em\\hangafter=1\\binoppenalty=10000\\relpenalty=10000"
     "\\lineskiplimit=3pt\\lineskip=4pt $\\displaystyle #1$\\par}\\addvspace{4pt plus 1pt}}\n";
 
 static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
@@ -155,7 +166,8 @@ static void put_piece(void *context, const char *piece, nh_typeset_follows follo
     nh_text_addf(context, "%s\n", piece);
 }
 
-/* `latex`: what stands before it, in LaTeX and followed by its sign; `plain`: the same where it is no formula of the language. */
+/* `latex`: what stands before it, in LaTeX and followed by its sign; `plain`: the same where it is no formula of the
+   language. */
 static void display(nh_tex_writer *w, const char *latex, const char *plain, const char *text)
 {
     nh_text formula;

@@ -7,7 +7,13 @@
 enum { most_points = 201, most_of_path = 601, marks = 16 };
 
 /* The colours of Okabe and Ito, as in svg.c; lines also differ by their dashes. */
-static const char *const styles[] = {"nhblue, solid", "nhred, dashed", "nhgreen, densely dotted", "nhpink, dash dot", "nhorange, loosely dashed", "nhsky, densely dashed", "gray, dash dot dot"};
+static const char *const styles[] = {"nhblue, solid",
+                                     "nhred, dashed",
+                                     "nhgreen, densely dotted",
+                                     "nhpink, dash dot",
+                                     "nhorange, loosely dashed",
+                                     "nhsky, densely dashed",
+                                     "gray, dash dot dot"};
 enum { style_count = sizeof styles / sizeof *styles };
 
 static void coordinate(nh_tex_writer *w, double value)
@@ -20,7 +26,8 @@ static void headings(nh_tex_writer *w, const nh_curve *f)
 {
     size_t step = f->count / marks + 1;
     for (size_t i = 0; i < f->count; i += step) {
-        double x = f->x[i * f->x_stride], y = f->y[i * f->y_stride], angle = f->heading[i * f->y_stride] * 180 / 3.14159265358979323846;
+        double x = f->x[i * f->x_stride], y = f->y[i * f->y_stride],
+               angle = f->heading[i * f->y_stride] * 180 / 3.14159265358979323846;
         if (!isfinite(x) || !isfinite(y) || !isfinite(angle)) continue;
         nh_text_addf(w->out, "\\draw[nhblue, -latex] (axis cs:%.6g,%.6g) -- ++(%.2f:9pt);\n", x, y, fmod(angle, 360));
     }
@@ -49,9 +56,11 @@ static void cells(nh_tex_writer *w, const nh_cells *c)
         for (size_t j = 0; j < c->up; j++) {
             unsigned red, green, blue;
             if (sscanf(c->fill[i * c->up + j], "#%2x%2x%2x", &red, &green, &blue) != 3) continue;
-            nh_text_addf(w->out, "\\fill[fill={rgb,255:red,%u;green,%u;blue,%u}] (axis cs:%.6g,%.6g) rectangle (axis cs:%.6g,%.6g);\n",
-                         red, green, blue, edge(c->x, c->across, i), edge(c->y, c->up, j), edge(c->x, c->across, i + 1),
-                         edge(c->y, c->up, j + 1));
+            nh_text_addf(
+                w->out,
+                "\\fill[fill={rgb,255:red,%u;green,%u;blue,%u}] (axis cs:%.6g,%.6g) rectangle (axis cs:%.6g,%.6g);\n",
+                red, green, blue, edge(c->x, c->across, i), edge(c->y, c->up, j), edge(c->x, c->across, i + 1),
+                edge(c->y, c->up, j + 1));
         }
 }
 
@@ -59,12 +68,20 @@ static void curve(nh_tex_writer *w, const nh_plot *p, size_t k)
 {
     const nh_curve *f = &p->curve[k];
     if (!f->count) { /* the name of a colour */
-        if (f->name[0]) nh_text_addf(w->out, "\\addlegendimage{%s, only marks, mark=square*}\n", styles[k % style_count]), legend(w, p, f);
+        if (f->name[0])
+            nh_text_addf(w->out, "\\addlegendimage{%s, only marks, mark=square*}\n", styles[k % style_count]),
+                legend(w, p, f);
         return;
     }
     size_t most = p->equal ? most_of_path : most_points, step = (f->count + most - 2) / (most - 1);
     if (step == 0) step = 1;
-    nh_text_addf(w->out, f->dots ? "\\addplot[%s, only marks, mark=%s, mark size=1.4pt] coordinates {" : "\\addplot[%s, thick%s] coordinates {", styles[k % style_count], f->dots ? k % 2 ? "o" : "*" : p->equal ? ", smooth" : "");
+    nh_text_addf(w->out,
+                 f->dots ? "\\addplot[%s, only marks, mark=%s, mark size=1.4pt] coordinates {"
+                         : "\\addplot[%s, thick%s] coordinates {",
+                 styles[k % style_count],
+                 f->dots    ? k % 2 ? "o" : "*"
+                 : p->equal ? ", smooth"
+                            : "");
     for (size_t n = 0; f->count && n <= (f->count - 2 + step) / step; n++) { /* the last one, too */
         size_t i = n * step < f->count ? n * step : f->count - 1;
         double y = f->y[i * f->y_stride];
@@ -93,17 +110,22 @@ static void range(nh_tex_writer *w, const nh_plot *p, bool vertical)
     double size = fmax(fabs(low), fabs(high));
     if (!isfinite(size) || high - low > 1e-4 * size) return;
     double span = size > 0 ? 0.1 * size : 1;
-    nh_text_addf(w->out, ", %cmin=%.6g, %cmax=%.6g", vertical ? 'y' : 'x', low - span, vertical ? 'y' : 'x', high + span);
+    nh_text_addf(w->out, ", %cmin=%.6g, %cmax=%.6g", vertical ? 'y' : 'x', low - span, vertical ? 'y' : 'x',
+                 high + span);
 }
 
 void nh_tex_plot(nh_tex_writer *w, const nh_plot *p, const char *caption)
 {
-    nh_text_addf(w->out, "\\begin{center}\n\\begin{tikzpicture}\n\\begin{axis}[width=0.92\\linewidth, height=%s, xlabel={", p->equal ? "0.6\\linewidth" : "5.2cm");
+    nh_text_addf(w->out,
+                 "\\begin{center}\n\\begin{tikzpicture}\n\\begin{axis}[width=0.92\\linewidth, height=%s, xlabel={",
+                 p->equal ? "0.6\\linewidth" : "5.2cm");
     nh_tex_name(w, p->x_label);
     nh_tex_add(w, "}, ylabel={");
     nh_tex_name(w, p->y_label);
-    nh_tex_add(w, "}, grid=major, grid style={gray!25}, unbounded coords=jump, label style={font=\\small}, tick label style={font=\\footnotesize}, "
-                  "legend columns=-1, legend style={draw=none, font=\\footnotesize, at={(0.5,1.03)}, anchor=south, /tikz/every even column/.append style={column sep=1em}}");
+    nh_tex_add(w, "}, grid=major, grid style={gray!25}, unbounded coords=jump, label style={font=\\small}, tick label "
+                  "style={font=\\footnotesize}, "
+                  "legend columns=-1, legend style={draw=none, font=\\footnotesize, at={(0.5,1.03)}, anchor=south, "
+                  "/tikz/every even column/.append style={column sep=1em}}");
     if (p->log_x) nh_tex_add(w, ", xmode=log");
     if (p->log_y) nh_tex_add(w, ", ymode=log");
     if (p->equal) nh_tex_add(w, ", axis equal");

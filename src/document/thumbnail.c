@@ -34,7 +34,10 @@ static void widen(double low[2], double high_end[2], double x, double y)
     low[1] = fmin(low[1], y), high_end[1] = fmax(high_end[1], y);
 }
 
-static int ascending(const void *a, const void *b) { return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b); }
+static int ascending(const void *a, const void *b)
+{
+    return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
+}
 
 /* A motion that runs away is shown until it is far from where it mostly is. */
 static size_t until_far(const portrait *p)
@@ -43,7 +46,9 @@ static size_t until_far(const portrait *p)
     const nh_time_series *c = p->course;
     double *away = nh_alloc_array(2 * c->count + 1, sizeof *away), *sorted = away + c->count;
     for (size_t s = 0; s < c->shapes; s++)
-        for (size_t i = 0; i < c->count && !nh_shape_in_space(c->shape[s].kind); i++) away[i] = fmax(away[i], hypot(value(p, s, 0, i) - value(p, s, 0, 0), value(p, s, 1, i) - value(p, s, 1, 0)));
+        for (size_t i = 0; i < c->count && !nh_shape_in_space(c->shape[s].kind); i++)
+            away[i] =
+                fmax(away[i], hypot(value(p, s, 0, i) - value(p, s, 0, 0), value(p, s, 1, i) - value(p, s, 1, 0)));
     for (size_t i = 0; i < c->count; i++) sorted[i] = away[i];
     qsort(sorted, c->count, sizeof *sorted, ascending);
     size_t n = 1;
@@ -60,7 +65,10 @@ static bool fit(portrait *p)
     for (size_t s = 0; s < c->shapes; s++)
         for (size_t i = 0; i < p->count && !nh_shape_in_space(c->shape[s].kind); i++) {
             nh_shape_kind kind = c->shape[s].kind;
-            double x = value(p, s, 0, i), y = value(p, s, 1, i), r = kind == NH_SHAPE_DISC ? fabs(value(p, s, 2, i)) : kind == NH_SHAPE_WHEEL ? fabs(value(p, s, 3, i)) : 0;
+            double x = value(p, s, 0, i), y = value(p, s, 1, i),
+                   r = kind == NH_SHAPE_DISC    ? fabs(value(p, s, 2, i))
+                       : kind == NH_SHAPE_WHEEL ? fabs(value(p, s, 3, i))
+                                                : 0;
             widen(low, top, x - r, y - r);
             widen(low, top, x + r, y + r);
             if (kind == NH_SHAPE_SEGMENT) widen(low, top, value(p, s, 2, i), value(p, s, 3, i));
@@ -69,7 +77,8 @@ static bool fit(portrait *p)
     double span = fmax(top[0] - low[0], top[1] - low[1]), least = span > 0 ? span / 50 : 1;
     p->x = (low[0] + top[0]) / 2;
     p->y = (low[1] + top[1]) / 2;
-    p->scale = fmin((wide - 2 * margin) / fmax(top[0] - low[0], least), (high - 2 * margin) / fmax(top[1] - low[1], least));
+    p->scale =
+        fmin((wide - 2 * margin) / fmax(top[0] - low[0], least), (high - 2 * margin) / fmax(top[1] - low[1], least));
     return true;
 }
 
@@ -78,7 +87,8 @@ static void track(const portrait *p, size_t s)
     static const double nearest = 1.5; /* pixels between two points: a fast motion needs every state, a slow one few */
     bool on = false;
     double last_x = 0, last_y = 0;
-    nh_text_addf(p->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.2\" stroke-opacity=\"0.6\" d=\"", colour[s % colours]);
+    nh_text_addf(p->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.2\" stroke-opacity=\"0.6\" d=\"",
+                 colour[s % colours]);
     for (size_t i = 0; i < p->count; i++) {
         double x = across(p, value(p, s, 0, i)), y = up(p, value(p, s, 1, i));
         bool here = isfinite(x) && isfinite(y);
@@ -93,8 +103,10 @@ static void track(const portrait *p, size_t s)
 
 static void line(const portrait *p, size_t s, double x1, double y1, double x2, double y2, double width)
 {
-    nh_text_addf(p->out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%g\" stroke-linecap=\"round\"/>\n", across(p, x1), up(p, y1), across(p, x2),
-                 up(p, y2), colour[s % colours], width);
+    nh_text_addf(p->out,
+                 "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%g\" "
+                 "stroke-linecap=\"round\"/>\n",
+                 across(p, x1), up(p, y1), across(p, x2), up(p, y2), colour[s % colours], width);
 }
 
 static void body(const portrait *p, size_t s)
@@ -107,12 +119,18 @@ static void body(const portrait *p, size_t s)
         if (!isfinite(v[j])) return;
     }
     if (kind == NH_SHAPE_SEGMENT) line(p, s, v[0], v[1], v[2], v[3], 2);
-    if (kind == NH_SHAPE_WHEEL) line(p, s, v[0] - v[3] * cos(v[2]), v[1] - v[3] * sin(v[2]), v[0] + v[3] * cos(v[2]), v[1] + v[3] * sin(v[2]), 4);
-    if (kind == NH_SHAPE_ARROW) line(p, s, v[0], v[1], v[0] + nose / p->scale * cos(v[2]), v[1] + nose / p->scale * sin(v[2]), 2);
-    if (kind == NH_SHAPE_POINT || kind == NH_SHAPE_ARROW) nh_text_addf(p->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%d\" fill=\"%s\"/>\n", across(p, v[0]), up(p, v[1]), dot, colour[s % colours]);
+    if (kind == NH_SHAPE_WHEEL)
+        line(p, s, v[0] - v[3] * cos(v[2]), v[1] - v[3] * sin(v[2]), v[0] + v[3] * cos(v[2]), v[1] + v[3] * sin(v[2]),
+             4);
+    if (kind == NH_SHAPE_ARROW)
+        line(p, s, v[0], v[1], v[0] + nose / p->scale * cos(v[2]), v[1] + nose / p->scale * sin(v[2]), 2);
+    if (kind == NH_SHAPE_POINT || kind == NH_SHAPE_ARROW)
+        nh_text_addf(p->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%d\" fill=\"%s\"/>\n", across(p, v[0]), up(p, v[1]),
+                     dot, colour[s % colours]);
     if (kind == NH_SHAPE_DISC)
-        nh_text_addf(p->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" fill-opacity=\"0.15\" stroke=\"%s\"/>\n", across(p, v[0]), up(p, v[1]), p->scale * fabs(v[2]), colour[s % colours],
-                     colour[s % colours]);
+        nh_text_addf(p->out,
+                     "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" fill-opacity=\"0.15\" stroke=\"%s\"/>\n",
+                     across(p, v[0]), up(p, v[1]), p->scale * fabs(v[2]), colour[s % colours], colour[s % colours]);
 }
 
 bool nh_thumbnail(const nh_time_series *c, const char *title, nh_text *out)
@@ -120,7 +138,10 @@ bool nh_thumbnail(const nh_time_series *c, const char *title, nh_text *out)
     portrait p = {.course = c, .out = out};
     p.count = until_far(&p);
     if (!c->shapes || !fit(&p)) return false;
-    nh_text_addf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\"><title>", wide, high, wide, high);
+    nh_text_addf(out,
+                 "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+                 "height=\"%d\"><title>",
+                 wide, high, wide, high);
     nh_escape_xml(title, out);
     nh_text_addf(out, "</title>\n<rect width=\"%d\" height=\"%d\" rx=\"6\" fill=\"#fff\"/>\n", wide, high);
     for (size_t s = 0; s < c->shapes; s++)

@@ -7,12 +7,15 @@
 enum { longest_name = 24 };
 
 /* With room for the multipliers and their names. */
-static nh_time_series *make(const nh_model *model, const nh_observables *t, size_t count, const double *time, const double *value, size_t stride)
+static nh_time_series *make(const nh_model *model, const nh_observables *t, size_t count, const double *time,
+                            const double *value, size_t stride)
 {
     nh_time_series *c = nh_alloc(sizeof *c);
-    *c = (nh_time_series){.model = model, .count = count, .time = time, .shapes = t->shapes, .shape = t->shape, .drawing = t->drawing};
+    *c = (nh_time_series){
+        .model = model, .count = count, .time = time, .shapes = t->shapes, .shape = t->shape, .drawing = t->drawing};
     c->line = nh_alloc_array(t->count + model->k + 1, sizeof *c->line + longest_name);
-    for (size_t j = 0; j < t->count; j++) c->line[c->lines++] = (nh_line){t->track[j].name, t->track[j].kind, value + j, stride};
+    for (size_t j = 0; j < t->count; j++)
+        c->line[c->lines++] = (nh_line){t->track[j].name, t->track[j].kind, value + j, stride};
     return c;
 }
 
@@ -56,7 +59,8 @@ nh_json *nh_time_series_json(const nh_time_series *c, nh_json *to, const char *k
 {
     nh_json *group = nh_json_put_object(to, key);
     for (size_t j = 0; j < c->lines; j++)
-        if (c->line[j].kind == kind) nh_json_put_numbers(group, c->line[j].name, c->count, c->line[j].value, c->line[j].stride);
+        if (c->line[j].kind == kind)
+            nh_json_put_numbers(group, c->line[j].name, c->count, c->line[j].value, c->line[j].stride);
     return group;
 }
 

@@ -4,26 +4,102 @@
 #include "document/typeset_internal.h"
 
 static const nh_typeset_script scripts[] = {
-    [NH_MATHML] = {{"<mrow>", "</mrow>"}, {"<mrow>", "</mrow>"}, {"<mfrac>", "", "</mfrac>"}, {"<msqrt>", "</msqrt>"}, {"<msup>", "", "</msup>"}, {"<msub>", "", "</msub>"},
-                   {"<mover accent=\"true\">", "<mo>\u02d9</mo></mover>"}, {"<mover accent=\"true\">", "<mo>\u00a8</mo></mover>"}, "<mo>(</mo>", "<mo>)</mo>",
-                   {"<mo>|</mo>", "<mo>|</mo>"}, "<mo>+</mo>", "<mo>\u2212</mo>", "<mo>=</mo>", "<mo>\u2062</mo><mspace width=\"0.12em\"/>", "<mo>\u00b7</mo>", "<mo>\u2061</mo>",
-                   "<mo>,</mo>", {"<mn>", "</mn>"}, {"<mi>", "</mi>"}, {"<mi mathvariant=\"normal\">", "</mi>"}, "<mi>\u03c0</mi>",
-                   "<mo stretchy=\"false\">(</mo>", "<mo stretchy=\"false\">)</mo>", "<mo stretchy=\"false\">|</mo>", "<mo>/</mo>", "<mo form=\"infix\">+</mo>", "<mo form=\"infix\">\u2212</mo>"},
-    [NH_LATEX] = {{"{", "}"}, {"", ""}, {"\\frac", "", ""}, {"\\sqrt{", "}"}, {"", "^", ""}, {"", "_", ""}, {"\\dot{", "}"}, {"\\ddot{", "}"}, "\\left(", "\\right)",
-                  {"\\left|", "\\right|"}, " + ", " - ", " = ", "\\,", "\\cdot ", "", ", ", {"", ""}, {"", ""}, {"\\mathrm{", "}"}, "\\pi ",
-                  "\\bigl(", "\\bigr)", "\\bigm|", "\\big/", " + ", " - "},
+    [NH_MATHML] = {{"<mrow>", "</mrow>"},
+                   {"<mrow>", "</mrow>"},
+                   {"<mfrac>", "", "</mfrac>"},
+                   {"<msqrt>", "</msqrt>"},
+                   {"<msup>", "", "</msup>"},
+                   {"<msub>", "", "</msub>"},
+                   {"<mover accent=\"true\">", "<mo>\u02d9</mo></mover>"},
+                   {"<mover accent=\"true\">", "<mo>\u00a8</mo></mover>"},
+                   "<mo>(</mo>",
+                   "<mo>)</mo>",
+                   {"<mo>|</mo>", "<mo>|</mo>"},
+                   "<mo>+</mo>",
+                   "<mo>\u2212</mo>",
+                   "<mo>=</mo>",
+                   "<mo>\u2062</mo><mspace width=\"0.12em\"/>",
+                   "<mo>\u00b7</mo>",
+                   "<mo>\u2061</mo>",
+                   "<mo>,</mo>",
+                   {"<mn>", "</mn>"},
+                   {"<mi>", "</mi>"},
+                   {"<mi mathvariant=\"normal\">", "</mi>"},
+                   "<mi>\u03c0</mi>",
+                   "<mo stretchy=\"false\">(</mo>",
+                   "<mo stretchy=\"false\">)</mo>",
+                   "<mo stretchy=\"false\">|</mo>",
+                   "<mo>/</mo>",
+                   "<mo form=\"infix\">+</mo>",
+                   "<mo form=\"infix\">\u2212</mo>"},
+    [NH_LATEX] = {{"{", "}"},
+                  {"", ""},
+                  {"\\frac", "", ""},
+                  {"\\sqrt{", "}"},
+                  {"", "^", ""},
+                  {"", "_", ""},
+                  {"\\dot{", "}"},
+                  {"\\ddot{", "}"},
+                  "\\left(",
+                  "\\right)",
+                  {"\\left|", "\\right|"},
+                  " + ",
+                  " - ",
+                  " = ",
+                  "\\,",
+                  "\\cdot ",
+                  "",
+                  ", ",
+                  {"", ""},
+                  {"", ""},
+                  {"\\mathrm{", "}"},
+                  "\\pi ",
+                  "\\bigl(",
+                  "\\bigr)",
+                  "\\bigm|",
+                  "\\big/",
+                  " + ",
+                  " - "},
 };
 
 static const struct {
     const char *name, *letter, *command;
 } greek[] = {
-    {"alpha", "α", "\\alpha "},    {"beta", "β", "\\beta "},     {"gamma", "γ", "\\gamma "},   {"delta", "δ", "\\delta "},    {"epsilon", "ε", "\\varepsilon "},
-    {"zeta", "ζ", "\\zeta "},      {"eta", "η", "\\eta "},       {"theta", "θ", "\\theta "},   {"iota", "ι", "\\iota "},      {"kappa", "κ", "\\kappa "},
-    {"lambda", "λ", "\\lambda "},  {"mu", "μ", "\\mu "},         {"nu", "ν", "\\nu "},         {"xi", "ξ", "\\xi "},          {"rho", "ρ", "\\rho "},
-    {"sigma", "σ", "\\sigma "},    {"tau", "τ", "\\tau "},       {"phi", "φ", "\\varphi "},    {"chi", "χ", "\\chi "},        {"psi", "ψ", "\\psi "},
-    {"omega", "ω", "\\omega "},    {"Gamma", "Γ", "\\Gamma "},   {"Delta", "Δ", "\\Delta "},   {"Theta", "Θ", "\\Theta "},    {"Lambda", "Λ", "\\Lambda "},
-    {"Xi", "Ξ", "\\Xi "},          {"Sigma", "Σ", "\\Sigma "},   {"Phi", "Φ", "\\Phi "},       {"Psi", "Ψ", "\\Psi "},        {"Omega", "Ω", "\\Omega "},
-    {"varphi", "φ", "\\varphi "},  {"Pi", "Π", "\\Pi "},         {"upsilon", "υ", "\\upsilon "}, {"Upsilon", "Υ", "\\Upsilon "}, {"vartheta", "ϑ", "\\vartheta "},
+    {"alpha", "α", "\\alpha "},
+    {"beta", "β", "\\beta "},
+    {"gamma", "γ", "\\gamma "},
+    {"delta", "δ", "\\delta "},
+    {"epsilon", "ε", "\\varepsilon "},
+    {"zeta", "ζ", "\\zeta "},
+    {"eta", "η", "\\eta "},
+    {"theta", "θ", "\\theta "},
+    {"iota", "ι", "\\iota "},
+    {"kappa", "κ", "\\kappa "},
+    {"lambda", "λ", "\\lambda "},
+    {"mu", "μ", "\\mu "},
+    {"nu", "ν", "\\nu "},
+    {"xi", "ξ", "\\xi "},
+    {"rho", "ρ", "\\rho "},
+    {"sigma", "σ", "\\sigma "},
+    {"tau", "τ", "\\tau "},
+    {"phi", "φ", "\\varphi "},
+    {"chi", "χ", "\\chi "},
+    {"psi", "ψ", "\\psi "},
+    {"omega", "ω", "\\omega "},
+    {"Gamma", "Γ", "\\Gamma "},
+    {"Delta", "Δ", "\\Delta "},
+    {"Theta", "Θ", "\\Theta "},
+    {"Lambda", "Λ", "\\Lambda "},
+    {"Xi", "Ξ", "\\Xi "},
+    {"Sigma", "Σ", "\\Sigma "},
+    {"Phi", "Φ", "\\Phi "},
+    {"Psi", "Ψ", "\\Psi "},
+    {"Omega", "Ω", "\\Omega "},
+    {"varphi", "φ", "\\varphi "},
+    {"Pi", "Π", "\\Pi "},
+    {"upsilon", "υ", "\\upsilon "},
+    {"Upsilon", "Υ", "\\Upsilon "},
+    {"vartheta", "ϑ", "\\vartheta "},
 };
 
 typedef nh_typeset_writer writer;
@@ -57,7 +133,10 @@ static size_t greek_letter(const char *text, size_t length)
     return i;
 }
 
-bool nh_typeset_is_greek(const char *text, size_t length) { return greek_letter(text, length) < sizeof greek / sizeof *greek; }
+bool nh_typeset_is_greek(const char *text, size_t length)
+{
+    return greek_letter(text, length) < sizeof greek / sizeof *greek;
+}
 
 /* A letter, or a word set upright.  Names are made of letters, digits and _ only. */
 static void word(const writer *w, const char *text, size_t length)
@@ -88,7 +167,8 @@ static void accented(const writer *w, const char *text, size_t length, const cha
     if (accent) add(w, accent[1]);
 }
 
-/* A stem, and as its index the digits at the end or what follows an underscore, which may have an index too; the accent, if any, is the stem's. */
+/* A stem, and as its index the digits at the end or what follows an underscore, which may have an index too; the
+   accent, if any, is the stem's. */
 static void name(const writer *w, const char *text, const char *const accent[2])
 {
     size_t length = strlen(text), base = length ? strcspn(text + 1, "_") + 1 : 0, below;
@@ -128,8 +208,11 @@ void nh_typeset_plain(const char *text, nh_text *out)
         text += length;
     }
     size_t digits = strspn(text + (*text == '_'), "0123456789");
-    if (length && digits && !strchr("_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ", text[(*text == '_') + digits] ? text[(*text == '_') + digits] : ' '))
-        for (text += *text == '_'; digits-- > 0; text++) nh_text_addf(out, "\xe2\x82%c", 0x80 + (*text - '0')); /* digits as indices: U+2080 and on */
+    if (length && digits &&
+        !strchr("_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ",
+                text[(*text == '_') + digits] ? text[(*text == '_') + digits] : ' '))
+        /* digits as indices: U+2080 and on */
+        for (text += *text == '_'; digits-- > 0; text++) nh_text_addf(out, "\xe2\x82%c", 0x80 + (*text - '0'));
     for (; *text; text++)
         if (*text == '\'') nh_text_add(out, "\u2032");
         else nh_text_add_n(out, text, 1);
@@ -150,7 +233,8 @@ static void number(const writer *w, const char *text)
     add(w, w->s->power[0]);
     nh_text_addf(w->out, "%s%s10%s%s", w->s->base[0], w->s->number[0], w->s->number[1], w->s->base[1]);
     add(w, w->s->power[1]);
-    nh_text_addf(w->out, "%s%s%s%s%s%s", w->s->group[0], minus ? w->s->minus : "", w->s->number[0], exponent, w->s->number[1], w->s->group[1]);
+    nh_text_addf(w->out, "%s%s%s%s%s%s", w->s->group[0], minus ? w->s->minus : "", w->s->number[0], exponent,
+                 w->s->number[1], w->s->group[1]);
     add(w, w->s->power[2]);
 }
 
@@ -220,9 +304,10 @@ static void call(const writer *w, const nh_formula_node *e)
 static void power(const writer *w, const nh_formula_node *e)
 {
     const nh_formula_node *base = e->child, *exponent = base->next;
-    bool on_function = base->kind == NH_FORMULA_NODE_CALL && exponent->kind == NH_FORMULA_NODE_NUMBER && strcmp(base->text, "sqrt") && strcmp(base->text, "abs") &&
-                       !nh_typeset_is_named(base->text);
-    bool plain = base->kind == NH_FORMULA_NODE_NAME || base->kind == NH_FORMULA_NODE_NUMBER || (base->kind == NH_FORMULA_NODE_CALL && !strcmp(base->text, "abs"));
+    bool on_function = base->kind == NH_FORMULA_NODE_CALL && exponent->kind == NH_FORMULA_NODE_NUMBER &&
+                       strcmp(base->text, "sqrt") && strcmp(base->text, "abs") && !nh_typeset_is_named(base->text);
+    bool plain = base->kind == NH_FORMULA_NODE_NAME || base->kind == NH_FORMULA_NODE_NUMBER ||
+                 (base->kind == NH_FORMULA_NODE_CALL && !strcmp(base->text, "abs"));
     add(w, w->s->power[0]);
     if (on_function) {
         add(w, w->s->base[0]);

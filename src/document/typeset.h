@@ -1,7 +1,8 @@
 /* typeset: formulas as MathML and LaTeX.
  *
- * From the text of an expression or equation, as a user wrote it or as nh_print wrote it, to MathML [w3.org/TR/mathml-core] or LaTeX: the
- * choices of the text (order of terms, what is factored out) are kept.  x' becomes a dot, Greek names become letters, x_1 and x1 get subscripts. */
+ * From the text of an expression or equation, as a user wrote it or as nh_print wrote it, to MathML
+ * [w3.org/TR/mathml-core] or LaTeX: the choices of the text (order of terms, what is factored out) are kept.  x'
+ * becomes a dot, Greek names become letters, x_1 and x1 get subscripts. */
 #ifndef NH_TYPESET_H
 #define NH_TYPESET_H
 
@@ -11,15 +12,17 @@
 
 typedef enum { NH_MATHML, NH_LATEX } nh_typeset_form;
 
-/* Adds the formula, without <math> or $, to `out`.  False, and nothing added, when the text is not one of the language, or nested too deep. */
+/* Adds the formula, without <math> or $, to `out`.  False, and nothing added, when the text is not one of the language,
+   or nested too deep. */
 bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out);
 
 /* A name for labels of plots, as plain text: phi1' becomes φ1′. */
 void nh_typeset_plain(const char *name, nh_text *out);
 
-/* The pieces that a line may be broken between, none of them much wider than `widest` letters: the terms of a sum, each with its sign, and the insides of
- * what is wide.  Put together they are the formula; in LaTeX each but the first begins with a penalty, as for TeX's own breaking of paragraphs.
- * Returns how many there are, calling `piece` for each; 0 as above. */
+/* The pieces that a line may be broken between, none of them much wider than `widest` letters: the terms of a sum, each
+ * with its sign, and the insides of what is wide.  Put together they are the formula; in LaTeX each but the first
+ * begins with a penalty, as for TeX's own breaking of paragraphs. Returns how many there are, calling `piece` for each;
+ * 0 as above. */
 /* Before a factor of the same product a line that ends there needs an operator. */
 typedef enum { NH_FOLLOWS_NOTHING, NH_FOLLOWS_TERM, NH_FOLLOWS_FACTOR } nh_typeset_follows;
 typedef void nh_typeset_piece(void *context, const char *formula, nh_typeset_follows follows);

@@ -5,7 +5,17 @@
 #include "base/memory.h"
 #include "document/typeset.h"
 
-typedef enum { NH_FORMULA_NODE_NUMBER, NH_FORMULA_NODE_NAME, NH_FORMULA_NODE_CALL, NH_FORMULA_NODE_MINUS, NH_FORMULA_NODE_SUM, NH_FORMULA_NODE_PRODUCT, NH_FORMULA_NODE_FRACTION, NH_FORMULA_NODE_POWER, NH_FORMULA_NODE_EQUATION } nh_formula_node_kind;
+typedef enum {
+    NH_FORMULA_NODE_NUMBER,
+    NH_FORMULA_NODE_NAME,
+    NH_FORMULA_NODE_CALL,
+    NH_FORMULA_NODE_MINUS,
+    NH_FORMULA_NODE_SUM,
+    NH_FORMULA_NODE_PRODUCT,
+    NH_FORMULA_NODE_FRACTION,
+    NH_FORMULA_NODE_POWER,
+    NH_FORMULA_NODE_EQUATION
+} nh_formula_node_kind;
 
 /* A formula as it stands on paper. */
 typedef struct nh_formula_node nh_formula_node;
@@ -18,9 +28,11 @@ struct nh_formula_node {
     nh_formula_node *next;      /* its neighbour */
 };
 
-/* How one form writes what formulas are made of: around a group, around what carries an index, a power or an accent, and so on. */
+/* How one form writes what formulas are made of: around a group, around what carries an index, a power or an accent,
+   and so on. */
 typedef struct {
-    const char *group[2], *base[2], *fraction[3], *root[2], *power[3], *below[3], *dot[2], *ddot[2], *open, *close, *bar[2];
+    const char *group[2], *base[2], *fraction[3], *root[2], *power[3], *below[3], *dot[2], *ddot[2], *open, *close,
+        *bar[2];
     const char *plus, *minus, *equal, *times, *dot_times, *apply, *comma, *number[2], *italic[2], *upright[2], *pi;
     const char *wide_open, *wide_close, *wide_bar, *slash; /* parentheses and bars that a line may end between */
     const char *next_plus, *next_minus; /* at the beginning of a piece */
@@ -38,7 +50,8 @@ typedef struct {
 void nh_typeset_put(const nh_typeset_writer *w, const nh_formula_node *e);
 /* The name of a function, without its argument. */
 void nh_typeset_function(const nh_typeset_writer *w, const char *name);
-/* Functions with letters and indices of their own (typeset_named.c): the letter with its index; returns the first of the arguments in parentheses. */
+/* Functions with letters and indices of their own (typeset_named.c): the letter with its index; returns the first of
+   the arguments in parentheses. */
 bool nh_typeset_is_named(const char *name);
 const nh_formula_node *nh_typeset_named_head(const nh_typeset_writer *w, const nh_formula_node *call);
 /* Behind argument k of those. */

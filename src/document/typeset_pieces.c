@@ -1,5 +1,6 @@
-/* Formulas in pieces, so that a line may end between them.  What is wide is opened until no piece is: a wide sum gets parentheses that do not
- * stretch, a wide numerator stands beside its fraction, a wide denominator after a slash, a wide root becomes a power. */
+/* Formulas in pieces, so that a line may end between them.  What is wide is opened until no piece is: a wide sum gets
+ * parentheses that do not stretch, a wide numerator stands beside its fraction, a wide denominator after a slash, a
+ * wide root becomes a power. */
 #include <string.h>
 
 #include "document/typeset_internal.h"
@@ -41,7 +42,8 @@ static double width(const nh_formula_node *e)
     switch (e->kind) {
     case NH_FORMULA_NODE_NUMBER: return 0.9 * (double)strlen(e->text);
     case NH_FORMULA_NODE_NAME: return width_of_name(e->text);
-    case NH_FORMULA_NODE_CALL: return (strcmp(e->text, "sqrt") ? 0.8 * (double)strlen(e->text) + 1.5 : 1) + widths(e->child, 1);
+    case NH_FORMULA_NODE_CALL:
+        return (strcmp(e->text, "sqrt") ? 0.8 * (double)strlen(e->text) + 1.5 : 1) + widths(e->child, 1);
     case NH_FORMULA_NODE_MINUS: return 2 + width(e->child);
     case NH_FORMULA_NODE_SUM: return widths(e->child, 2.5) + 2;
     case NH_FORMULA_NODE_PRODUCT: return widths(e->child, 0.4);
@@ -80,7 +82,8 @@ static void bracketed(flow *f, const nh_formula_node *e, int depth)
 /* Beside other factors or a sign; a slash beside others would be misread. */
 static void factor(flow *f, const nh_formula_node *e, bool alone, int depth)
 {
-    bool sum = e->kind == NH_FORMULA_NODE_SUM || e->kind == NH_FORMULA_NODE_MINUS, slash = e->kind == NH_FORMULA_NODE_FRACTION && wide(f, e->child->next) && !alone;
+    bool sum = e->kind == NH_FORMULA_NODE_SUM || e->kind == NH_FORMULA_NODE_MINUS,
+         slash = e->kind == NH_FORMULA_NODE_FRACTION && wide(f, e->child->next) && !alone;
     if (sum && !wide(f, e)) {
         add(f, f->w.s->group[0]);
         add(f, f->w.s->open);
@@ -176,7 +179,9 @@ static void call(flow *f, const nh_formula_node *e, int depth)
     }
     if (root) add(f, s->power[0]);
     add(f, bar ? s->wide_bar : s->wide_close);
-    if (root) nh_text_addf(&f->text, "%s%s%s1%s%s%s2%s%s%s", s->power[1], s->group[0], s->number[0], s->number[1], s->slash, s->number[0], s->number[1], s->group[1], s->power[2]);
+    if (root)
+        nh_text_addf(&f->text, "%s%s%s1%s%s%s2%s%s%s", s->power[1], s->group[0], s->number[0], s->number[1], s->slash,
+                     s->number[0], s->number[1], s->group[1], s->power[2]);
 }
 
 static void power(flow *f, const nh_formula_node *e, int depth)

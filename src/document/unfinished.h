@@ -1,4 +1,5 @@
-/* unfinished: the document of a run that ended before it had a result: the system and the step at which the run ended. */
+/* unfinished: the document of a run that ended before it had a result: the system and the step at which the run
+   ended. */
 #ifndef NH_UNFINISHED_H
 #define NH_UNFINISHED_H
 

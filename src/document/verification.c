@@ -47,8 +47,10 @@ static void put_symmetry(const nh_verification *v, nh_json *to)
     put_expression(v, item, "Z0", v->symmetry.Z0);
     components = nh_json_put_object(item, "components");
     put_expression(v, components, "t", v->symmetry.Z0);
-    for (size_t s = 0; s < v->model->m; s++) put_expression(v, components, v->system->coordinate[s].name, v->symmetry.field.space[s]);
-    for (size_t i = 0; i < v->model->n; i++) put_expression(v, components, nh_name_of(d, v->model->chart->w[i]), v->symmetry.W[i]);
+    for (size_t s = 0; s < v->model->m; s++)
+        put_expression(v, components, v->system->coordinate[s].name, v->symmetry.field.space[s]);
+    for (size_t i = 0; i < v->model->n; i++)
+        put_expression(v, components, nh_name_of(d, v->model->chart->w[i]), v->symmetry.W[i]);
     if (v->symmetry.kase) nh_json_put_number(item, "case", v->symmetry.kase);
     else nh_json_put_null(item, "case");
     nh_json_put_bool(item, "bracket_in_distribution", v->symmetry.bracket_in_distribution);
@@ -100,7 +102,8 @@ char *nh_verification_json(const nh_verification *v, const nh_run *run)
     nh_facts_put_holds(root, v->model, &v->proof);
     if (v->has_counterexample) {
         nh_json *point = nh_json_put_object(root, "counterexample");
-        for (size_t j = 0; j < v->model->width; j++) nh_json_put_number(point, nh_name_of(d, v->model->chart->symbol[j]), v->counterexample[j]);
+        for (size_t j = 0; j < v->model->width; j++)
+            nh_json_put_number(point, nh_name_of(d, v->model->chart->symbol[j]), v->counterexample[j]);
         nh_json_put_number(point, "rate", v->rate);
     } else {
         nh_json_put_null(root, "counterexample");

@@ -13,7 +13,8 @@ char *nh_verification_json(const nh_verification *verdict, const nh_run *run);
 
 void nh_verification_write(const nh_verification *verdict, const nh_run *run, nh_pen_style style, nh_text *out);
 
-/* Whose roots are shown as the velocities that they are; NULL where the answer holds on one branch only, and would not with the velocity. */
+/* Whose roots are shown as the velocities that they are; NULL where the answer holds on one branch only, and would not
+   with the velocity. */
 const nh_chart *nh_verification_chart(const nh_verification *verdict);
 /* On which branches of a quadratic constraint the answer holds: ", on both branches"; "" without any. */
 const char *nh_verification_branches(const nh_verification *verdict);

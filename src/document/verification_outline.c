@@ -15,8 +15,11 @@ static void answer(nh_pen *p, const nh_verification *v)
     if (v->conserved) {
         nh_pen_say(p, "Yes: this is %s", noun);
         if (v->proof.proved) nh_pen_say(p, ", proved%s", nh_facts_holds(v->model, &v->proof, false));
-        else nh_pen_say(p, ", to %.6g digits%s", floor(v->proof.digits), v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
-        nh_pen_say(p, "%s%s.", nh_verification_branches(v), v->trivial ? "; it is trivial: the current is a constant" : "");
+        else
+            nh_pen_say(p, ", to %.6g digits%s", floor(v->proof.digits),
+                       v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
+        nh_pen_say(p, "%s%s.", nh_verification_branches(v),
+                   v->trivial ? "; it is trivial: the current is a constant" : "");
     } else if (v->region) {
         nh_pen_say(p, "No: this is conserved only in a region: %s.", v->region);
     } else {
@@ -47,7 +50,9 @@ static void components(nh_pen *p, const nh_verification *v)
     const char **label = nh_alloc_array(1 + m + n, sizeof *label);
     nh_ex *e = nh_alloc_array(1 + m + n, sizeof *e);
     for (size_t i = 0; i < 1 + m + n; i++) {
-        const char *along = i == 0 ? "t" : i <= m ? v->system->coordinate[i - 1].name : nh_name_of(v->model->dag, v->model->chart->w[i - 1 - m]);
+        const char *along = i == 0   ? "t"
+                            : i <= m ? v->system->coordinate[i - 1].name
+                                     : nh_name_of(v->model->dag, v->model->chart->w[i - 1 - m]);
         e[count] = i == 0 ? v->symmetry.Z0 : i <= m ? v->symmetry.field.space[i - 1] : v->symmetry.W[i - 1 - m];
         label[count] = nh_arena_printf(v->arena, "Z_{<%s>}", along);
         count += !nh_is_zero(v->model->dag, e[count]);
@@ -69,7 +74,8 @@ static void made(nh_pen *p, const nh_verification *v)
 static void symmetry(nh_pen *p, const nh_verification *v)
 {
     if (!v->has_symmetry || v->trivial) return;
-    nh_pen_section(p, "symmetry", of_field(v) ? "The field, with its Chetaev components" : "The symmetry that gives it");
+    nh_pen_section(p, "symmetry",
+                   of_field(v) ? "The field, with its Chetaev components" : "The symmetry that gives it");
     components(p, v);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     nh_pen_fact_begin(p, "Symmetry");
@@ -95,7 +101,9 @@ static void outside(nh_pen *p, const nh_verification *v)
 static void question(nh_pen *p, const nh_verification *v)
 {
     bool field = of_field(v);
-    const char *title = v->outside || v->of_equations ? "The field" : field ? "The current of the field" : "The question";
+    const char *title = v->outside || v->of_equations ? "The field"
+                        : field                       ? "The current of the field"
+                                                      : "The question";
     nh_pen_section(p, "question", title);
     if (!field) nh_pen_words(p, "Does this stay constant along every motion?");
     nh_pen_card(p, NULL);
@@ -105,7 +113,8 @@ static void question(nh_pen *p, const nh_verification *v)
     made(p, v);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     nh_pen_fact(p, "Residual", "%.2g, the largest %s, relative to %s terms", v->residual,
-                field ? "residual of the conditions at random states" : "rate at random states", field ? "their" : "its");
+                field ? "residual of the conditions at random states" : "rate at random states",
+                field ? "their" : "its");
     nh_pen_close(p, NH_PEN_FACTS);
 }
 
@@ -117,10 +126,11 @@ void nh_verification_write(const nh_verification *v, const nh_run *run, nh_pen_s
         .system = v->system, .dag = v->model->dag, .chart = nh_verification_chart(v), .shown = run->shown};
     nh_pen_begin(p, style, &subject, of_field(v) ? "is it a symmetry?" : "is it conserved?", out);
     answer(p, v);
-    p->ink->links(p->to, v->has_counterexample
-                             ? "question|The question|counterexample|Where it fails|system|System|words|Words|repeat|Repeat it"
-                         : shown ? "question|The question|symmetry|The symmetry|system|System|words|Words|repeat|Repeat it"
-                                 : "question|The question|system|System|words|Words|repeat|Repeat it");
+    p->ink->links(p->to,
+                  v->has_counterexample
+                      ? "question|The question|counterexample|Where it fails|system|System|words|Words|repeat|Repeat it"
+                  : shown ? "question|The question|symmetry|The symmetry|system|System|words|Words|repeat|Repeat it"
+                          : "question|The question|system|System|words|Words|repeat|Repeat it");
     question(p, v);
     counterexample(p, v);
     symmetry(p, v);

@@ -3,64 +3,67 @@
 /* docs/glossary.md has the same words in the same order. */
 static const nh_glossary_entry entries[] = {
     {"system", "What a system file describes: coordinates, parameters, Lagrangian, forces, constraints; or bodies "
-     "and joints."},
+               "and joints."},
     {"constraint submanifold", "Times, positions and the velocities that the constraints allow."},
     {"velocities", "Coordinates on the fibres of the constraint submanifold: some of the coordinates' velocities, "
-     "or quasi-velocities."},
+                   "or quasi-velocities."},
     {"chart", "Positions with one choice of velocities."},
     {"distribution", "The canonical distribution: virtual displacements that the constraints allow. [Gamma,Z] may "
-     "leave it."},
+                     "leave it."},
     {"constraint semispray", "Gamma, the vector field of the equations of motion on the constraint submanifold."},
     {"Gamma", "The constraint semispray; along it a function has the rate of change Gamma(f)."},
     {"equations of motion", "On the constraint submanifold: the constraints are eliminated, nothing else."},
     {"reduced equations", "The equations that remain when the group is divided out as well (nhsym reduce)."},
     {"first integral", "A function of time, coordinates and velocities that every motion keeps constant: "
-     "Gamma(Phi) = 0."},
+                       "Gamma(Phi) = 0."},
     {"conserved quantity", "A first integral; the two mean the same."},
     {"current", "A first integral Phi, together with the field Z whose symmetry gives it: Gamma(Phi) = 0."},
     {"constraint symmetry", "A field Z in the canonical distribution with L_Z(alpha) = 0 on it; its current is "
-     "Phi = alpha(Z)."},
+                            "Phi = alpha(Z)."},
     {"symmetry", "The Chetaev field Z in the canonical distribution with L_Z(alpha) = 0 on it; its current is Phi "
-     "= alpha(Z)."},
+                 "= alpha(Z)."},
     {"case", "Z is a symmetry of the equations of motion, [Gamma,Z] = a Gamma (case 1); [Gamma,Z] = a Gamma + b Z "
-     "(case 2); neither (case 3)."},
+             "(case 2); neither (case 3)."},
     {"projectable", "The components of Z along time and coordinates do not depend on velocities.  Whether Z is a "
-     "symmetry of the equations of motion is another question."},
-    {"space of symmetries", "Constraint symmetries are linear in their currents; those that are projectable, of case 1, or have [Gamma,Z] in the "
-     "canonical distribution form subspaces (--equations)."},
-    {"symmetry of the equations", "A field S with [Gamma,S] = a Gamma: a point symmetry acts on time and positions, a dynamical one has components that "
-     "depend on velocities (--equations)."},
-    {"closure", "The fields Gamma, U_1, .. with all their brackets.  What it leaves constant are the currents with [Gamma,Z] in the canonical "
-     "distribution; its rank bounds their number (--equations)."},
+                    "symmetry of the equations of motion is another question."},
+    {"space of symmetries", "Constraint symmetries are linear in their currents; those that are projectable, of case "
+                            "1, or have [Gamma,Z] in the "
+                            "canonical distribution form subspaces (--equations)."},
+    {"symmetry of the equations", "A field S with [Gamma,S] = a Gamma: a point symmetry acts on time and positions, a "
+                                  "dynamical one has components that "
+                                  "depend on velocities (--equations)."},
+    {"closure", "The fields Gamma, U_1, .. with all their brackets.  What it leaves constant are the currents with "
+                "[Gamma,Z] in the canonical "
+                "distribution; its rank bounds their number (--equations)."},
     {"multiplier", "Chetaev's multiplier mu_a, one for each constraint: the force that keeps constraint a is mu_a "
-     "times its derivatives by the velocities."},
+                   "times its derivatives by the velocities."},
     {"degree", "Of a polynomial in the velocities, whatever its coefficients are."},
     {"local", "The current, field or density changes when an angle goes once around: it is defined on a part of "
-     "the configuration space only."},
+              "the configuration space only."},
     {"region", "Where a current holds that jumps, or ends, where motions cross a kink or a cut of |x|, sqrt(x^2), "
-     "atan2, ...  Such a current is not counted."},
+               "atan2, ...  Such a current is not counted."},
     {"independent", "Its gradient is not a combination of the gradients of the currents before it."},
     {"holonomic", "A constraint between positions, as it was given."},
     {"integrable", "The velocity constraints are integrable: as many functions of time and positions stay "
-     "constant."},
+                   "constant."},
     {"partly", "Partly integrable: some combinations of the constraints hold a function of time and positions "
-     "constant, others do not."},
+               "constant, others do not."},
     {"nonholonomic", "No function of time and positions is held constant by the constraints: every place can be "
-     "reached."},
+                     "reached."},
     {"semiholonomic", "eps'_l(g) = 0 for a constraint that is linear or affine in the velocities: it is "
-     "integrable.  Not defined for nonlinear constraints."},
+                      "integrable.  Not defined for nonlinear constraints."},
     {"hidden", "Hidden holonomic constraints: functions that the constraints alone keep constant, found by "
-     "brackets of the allowed directions."},
+               "brackets of the allowed directions."},
     {"growth", "Growth vector: the ranks of D, D + [D,D], ..., where D are the allowed directions."},
     {"group", "The symmetries that leave kinetic energy, potential and constraints invariant: fields on "
-     "configuration space (nhsym reduce)."},
+              "configuration space (nhsym reduce)."},
     {"algebra", "The infinitesimal form of a group: its fields and their brackets."},
     {"generator", "One basis element of the algebra of a group."},
     {"shape", "Coordinates on a slice through the orbits of a group; the reduced equations are written in them."},
     {"stage of a reduction", "The division by one group: Chaplygin's, a second one by further symmetry, or by the "
-     "whole group at once (Lagrange-d'Alembert-Poincare)."},
+                             "whole group at once (Lagrange-d'Alembert-Poincare)."},
     {"Chaplygin", "A system whose group's orbits and constraint distribution are complementary: V + D = TQ, V cap "
-     "D = 0.  It reduces to the shape space."},
+                  "D = 0.  It reduces to the shape space."},
     {"density", "Of a measure that the motions leave invariant."},
     {"question", "What a user wants to know: system, settings, initial state, limits."},
     {"problem", "A question whose files have been read."},
@@ -72,26 +75,28 @@ static const nh_glossary_entry entries[] = {
     {"verdict", "How an analysis answers: FOUND, NONE or UNDECIDED."},
     {"FOUND", "Currents were found and each is proved, or certified to at least 50 digits."},
     {"NONE", "No combination of the ansatz is conserved: every generalized singular value is far above rounding, "
-     "and nothing was left out."},
+             "and nothing was left out."},
     {"UNDECIDED", "Values between rounding and significance: take more samples or another ansatz; a current is "
-     "given with its digits."},
+                  "given with its digits."},
     {"search", "What tries one ansatz after another; it ends complete, exhausted or cut."},
     {"complete", "A search after which there cannot be more: as many independent currents as can exist locally."},
     {"exhausted", "A search that tried all that there was to try, but for stages that are too large: the list of "
-     "stages names the option that brings them in.  There may be currents of another kind."},
+                  "stages names the option that brings them in.  There may be currents of another kind."},
     {"cut", "A search that a limit of work or time ended before all was tried (exit code 5)."},
-    {"further integral", "Polynomial in the velocities and a function of the currents found, but no polynomial in them."},
-    {"completeness", "Every integral that is polynomial in the velocities up to a degree, whatever functions its "
+    {"further integral",
+     "Polynomial in the velocities and a function of the currents found, but no polynomial in them."},
+    {"completeness",
+     "Every integral that is polynomial in the velocities up to a degree, whatever functions its "
      "coefficients are, is a polynomial in the currents found.  It is proved by counting: an upper bound (power "
      "series modulo a prime) and a lower one (products of the currents) agree.  Integrals of other kinds, and "
      "those of higher degree, are not excluded."},
     {"proved", "The rate of change is zero as an exact expression."},
     {"certified", "The rate of change is zero to at least 50 digits in ball arithmetic."},
     {"residual", "The rate of change of a current at points that were not used to find it, relative to the size "
-     "of its terms: rounding is near 1e-16."},
+                 "of its terms: rounding is near 1e-16."},
     {"gap", "The smallest nonzero singular value over the largest vanishing one.  Below 1000 nothing is decided."},
     {"formulation", "The equations that an integrator solves: on the constraint submanifold, or in all "
-     "coordinates with multipliers."},
+                    "coordinates with multipliers."},
     {"integration plan", "A method with its tolerance or step, and the velocities that it is used in."},
     {"closed subsystem", "The states on which the wanted quantities depend; only these are integrated."},
     {"observable", "A quantity that is followed along a motion."},
@@ -100,14 +105,14 @@ static const nh_glossary_entry entries[] = {
     {"drift", "The largest change of a current along a computed motion, relative to the size of its terms."},
     {"benchmark", "Integrators compared on one motion: error against cost (nhsym benchmark)."},
     {"robustness map", "Where in a plane of parameters integrators are accurate, flagged, detected or undetected "
-     "(nhsym benchmark --robustness)."},
+                       "(nhsym benchmark --robustness)."},
     {"accurate", "Of a measured motion: the error is as small as its tolerance or step lets expect, and no "
-     "safeguard triggered.  In JSON: right."},
+                 "safeguard triggered.  In JSON: right."},
     {"flagged", "Accurate, and a safeguard triggered: the pivot of the chart; in maps also the drift of a "
-     "current, or a run at a tenth of the tolerance.  In JSON: warned."},
+                "current, or a run at a tenth of the tolerance.  In JSON: warned."},
     {"detected", "Not accurate, or ended early, and a safeguard says so.  In JSON: caught."},
     {"undetected", "Not accurate, and no safeguard triggered.  What counts as accurate: options benchmark_error, "
-     "benchmark_far and benchmark_fixed.  In JSON: wrong."},
+                   "benchmark_far and benchmark_fixed.  In JSON: wrong."},
     {"timeout", "A motion that was ended because it took too long, or too many steps."},
     {"scan", "Numbers of a system at every point of a grid of parameter values, and where they jump (nhsym scan)."},
     {"special value", "A value of a parameter at which there is more than for almost all values beside it."},

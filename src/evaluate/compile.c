@@ -24,7 +24,8 @@ static const double most_seconds = 60;
 
 struct nh_compilation {
     nh_leaving leaving; /* first; while there is a folder */
-    char folder[longest_path], source[longest_path + 16], object[longest_path + 16], message[longest_path + 16]; /* folder: empty when it is gone */
+    /* folder: empty when it is gone */
+    char folder[longest_path], source[longest_path + 16], object[longest_path + 16], message[longest_path + 16];
     const char *program;
     pid_t child;  /* 0: none runs */
     void *handle; /* of the loaded code */
@@ -65,7 +66,8 @@ static void forget(nh_leaving *leaving)
 static bool trustworthy(const char *path)
 {
     struct stat info;
-    return !stat(path, &info) && S_ISDIR(info.st_mode) && (!(info.st_mode & (S_IWGRP | S_IWOTH)) || (info.st_mode & S_ISVTX)) &&
+    return !stat(path, &info) && S_ISDIR(info.st_mode) &&
+           (!(info.st_mode & (S_IWGRP | S_IWOTH)) || (info.st_mode & S_ISVTX)) &&
            (info.st_uid == 0 || info.st_uid == geteuid());
 }
 
@@ -81,7 +83,8 @@ static bool make_folder(nh_compilation *c)
     if (!above || *above != '/') above = "/tmp";
     int length = snprintf(c->folder, sizeof c->folder, "%s/nhsym-XXXXXX", above);
     if (length >= (int)sizeof c->folder || !trustworthy(above)) {
-        snprintf(c->words, sizeof c->words, "not compiled: %.200s is no folder that only its owner can rename files in", above);
+        snprintf(c->words, sizeof c->words, "not compiled: %.200s is no folder that only its owner can rename files in",
+                 above);
         *c->folder = 0;
         return false;
     }
@@ -91,7 +94,8 @@ static bool make_folder(nh_compilation *c)
     if (made) nh_leave_add(&c->leaving);
     nh_leave_release();
     if (!made) {
-        snprintf(c->words, sizeof c->words, "not compiled: no folder can be made in %.200s: %s", above, strerror(errno));
+        snprintf(c->words, sizeof c->words, "not compiled: no folder can be made in %.200s: %s", above,
+                 strerror(errno));
         *c->folder = 0;
         return false;
     }
@@ -135,12 +139,14 @@ static char **surroundings(const nh_compilation *c)
 /* No option may change a value: no contraction to fused operations, no -ffast-math. */
 static bool start(nh_compilation *c)
 {
-    char *const argument[] = {(char *)c->program, "-std=c17", "-O2", "-w", "-fPIC", "-shared", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math",
-                              "-o", c->object, c->source, "-lm", NULL};
+    char *const argument[] = {
+        (char *)c->program, "-std=c17",           "-O2", "-w",      "-fPIC",   "-shared", "-ffp-contract=off",
+        "-fno-math-errno",  "-fno-trapping-math", "-o",  c->object, c->source, "-lm",     NULL};
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK); /* its own group: it has children, which are to be ended with it */
+    /* its own group: it has children, which are to be ended with it */
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
     sigset_t none;
     sigemptyset(&none); /* this thread may leave signals to another */
     posix_spawnattr_setsigmask(&attributes, &none);
@@ -180,8 +186,11 @@ static void load(nh_compilation *c)
     char *reason = NULL;
     if (still_ours(c->folder)) c->handle = dlopen(c->object, RTLD_NOW | RTLD_LOCAL);
     if (!c->handle) reason = dlerror();
-    if (c->handle) snprintf(c->words, sizeof c->words, "compiled by %.100s in %.2f s", c->program, nh_clock() - c->begun);
-    else snprintf(c->words, sizeof c->words, "not compiled: the code cannot be loaded: %.200s", reason ? reason : "its folder is not ours any more");
+    if (c->handle)
+        snprintf(c->words, sizeof c->words, "compiled by %.100s in %.2f s", c->program, nh_clock() - c->begun);
+    else
+        snprintf(c->words, sizeof c->words, "not compiled: the code cannot be loaded: %.200s",
+                 reason ? reason : "its folder is not ours any more");
 }
 
 static void explain(nh_compilation *c, int status)
@@ -190,8 +199,12 @@ static void explain(nh_compilation *c, int status)
     FILE *file = fopen(c->message, "r");
     if (file && fgets(line, sizeof line, file)) line[strcspn(line, "\n")] = 0;
     if (file) fclose(file);
-    if (WIFSIGNALED(status)) snprintf(c->words, sizeof c->words, "not compiled: %.100s was ended by signal %d", c->program, WTERMSIG(status));
-    else snprintf(c->words, sizeof c->words, "not compiled: %.100s failed with status %d%s%s", c->program, WEXITSTATUS(status), *line ? ": " : "", line);
+    if (WIFSIGNALED(status))
+        snprintf(c->words, sizeof c->words, "not compiled: %.100s was ended by signal %d", c->program,
+                 WTERMSIG(status));
+    else
+        snprintf(c->words, sizeof c->words, "not compiled: %.100s failed with status %d%s%s", c->program,
+                 WEXITSTATUS(status), *line ? ": " : "", line);
 }
 
 /* Has the compiler ended?  Then its code is loaded and the folder removed. */
@@ -213,7 +226,8 @@ static bool ended(nh_compilation *c)
 void *nh_compile_result(nh_compilation *c, const char *function, bool wait, bool *busy)
 {
     static const struct timespec pause = {0, 1000000};
-    while (c->child && !ended(c) && wait && nh_clock() - c->begun < most_seconds && !nh_interrupted()) nanosleep(&pause, NULL);
+    while (c->child && !ended(c) && wait && nh_clock() - c->begun < most_seconds && !nh_interrupted())
+        nanosleep(&pause, NULL);
     *busy = c->child != 0;
     return c->handle ? dlsym(c->handle, function) : NULL;
 }

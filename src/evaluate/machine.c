@@ -41,9 +41,10 @@ typedef struct {
 
 static notation notation_of(unsigned op)
 {
-    static const notation plain[] = {[NH_OP_ADD] = {"", " + ", ""}, [NH_OP_SUB] = {"", " - ", ""}, [NH_OP_MUL] = {"", " * ", ""}, [NH_OP_DIV] = {"", " / ", ""},
-                                     [NH_OP_NEG] = {"-", NULL, ""}, [NH_OP_INV] = {"1 / ", NULL, ""}, [NH_OP_SQUARE] = {"", " * ", ""},
-                                     [NH_OP_SQRT] = {"sqrt(", NULL, ")"}, [NH_OP_POW] = {"pow(", ", ", ")"}};
+    static const notation plain[] = {
+        [NH_OP_ADD] = {"", " + ", ""},    [NH_OP_SUB] = {"", " - ", ""},       [NH_OP_MUL] = {"", " * ", ""},
+        [NH_OP_DIV] = {"", " / ", ""},    [NH_OP_NEG] = {"-", NULL, ""},       [NH_OP_INV] = {"1 / ", NULL, ""},
+        [NH_OP_SQUARE] = {"", " * ", ""}, [NH_OP_SQRT] = {"sqrt(", NULL, ")"}, [NH_OP_POW] = {"pow(", ", ", ")"}};
     if (op < NH_OP_FUNCTION) return plain[op];
     return (notation){"(", op - NH_OP_FUNCTION == NH_ATAN2 ? ", " : NULL, ")"};
 }
@@ -51,7 +52,9 @@ static notation notation_of(unsigned op)
 static void put_instruction(const nh_tape *t, const uint32_t *writer, const nh_instruction *x, nh_text *out)
 {
     notation n = notation_of(x->op);
-    if (x->op >= NH_OP_FUNCTION) nh_text_add(out, x->op == NH_OP_FUNCTION + NH_ABS ? "fabs" : nh_function_name((nh_function)(x->op - NH_OP_FUNCTION)));
+    if (x->op >= NH_OP_FUNCTION)
+        nh_text_add(out, x->op == NH_OP_FUNCTION + NH_ABS ? "fabs"
+                                                          : nh_function_name((nh_function)(x->op - NH_OP_FUNCTION)));
     nh_text_add(out, n.before);
     put_register(t, writer, x->a, out);
     if (n.between) {
@@ -74,7 +77,8 @@ static void put_prototypes(nh_text *out)
 /* All inputs are read before the first output is written: they may be the same memory. */
 static void machine_text(const nh_tape *t, nh_text *out)
 {
-    uint32_t *writer = nh_alloc_array(t->registers + 1, sizeof *writer); /* 1 + instruction that wrote a register last; 0: none yet */
+    /* 1 + instruction that wrote a register last; 0: none yet */
+    uint32_t *writer = nh_alloc_array(t->registers + 1, sizeof *writer);
     put_prototypes(out);
     nh_text_addf(out, "void %s(const double *in, double *out)\n{\n", entry_point);
     for (size_t i = 0; i < t->inputs; i++) nh_text_addf(out, "    const double x%zu = in[%zu];\n", i, i);
@@ -118,7 +122,8 @@ void nh_machine_cleanup(void)
 static nh_machine *look_up(const nh_text *text)
 {
     for (size_t i = 0; i < shelved; i++)
-        if (shelf[i].text.length == text->length && !memcmp(shelf[i].text.data, text->data, text->length)) return &shelf[i];
+        if (shelf[i].text.length == text->length && !memcmp(shelf[i].text.data, text->data, text->length))
+            return &shelf[i];
     return NULL;
 }
 

@@ -9,7 +9,8 @@
 #include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
 
-static const double call = 8, each_value = 0.3; /* units of an evaluation beside its instructions: at all, and per input and output */
+/* units of an evaluation beside its instructions: at all, and per input and output */
+static const double call = 8, each_value = 0.3;
 
 /* ---- values of single operations ---- */
 
@@ -127,7 +128,10 @@ static uint32_t constant(compiler *c, double value)
     return k->to - 1;
 }
 
-static bool is_constant(const compiler *c, uint32_t r, double value) { return c->kind[r] == 'c' && c->constant[r] == value; }
+static bool is_constant(const compiler *c, uint32_t r, double value)
+{
+    return c->kind[r] == 'c' && c->constant[r] == value;
+}
 
 /* The register of this operation, known or new. */
 static uint32_t operation(compiler *c, unsigned op, uint32_t more, uint32_t a, uint32_t b)
@@ -347,7 +351,8 @@ static void assign(compiler *c, nh_tape *tape, const uint32_t *out)
     size_t depth = 0;
     for (size_t i = 0; i < c->length; i++) {
         nh_instruction x = c->code[i], y = {x.op, x.more, 0, place[x.a], place[x.b]};
-        y.to = place[x.to] = depth ? stack[--depth] : next++; /* before the operands are freed: kernels must not alias */
+        /* before the operands are freed: kernels must not alias */
+        y.to = place[x.to] = depth ? stack[--depth] : next++;
         size_t n = operands(c, &x, operand);
         for (size_t k = 0; k < n; k++)
             if (c->kind[operand[k]] == 't' && last[operand[k]] == i) stack[depth++] = place[operand[k]];
@@ -372,7 +377,8 @@ nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out,
     uint32_t *virtual_out = nh_alloc_array(n_out + 1, sizeof *virtual_out);
     for (size_t i = 0; i < n_out; i++) virtual_out[i] = c.value[out[i]] - 1;
     nh_tape *tape = nh_alloc(sizeof *tape);
-    *tape = (nh_tape){.inputs = n_in, .outputs = n_out, .length = c.length, .unbound = c.unbound, .has_unbound = c.has_unbound};
+    *tape = (nh_tape){
+        .inputs = n_in, .outputs = n_out, .length = c.length, .unbound = c.unbound, .has_unbound = c.has_unbound};
     tape->code = nh_alloc_array(c.length + 1, sizeof *tape->code);
     tape->output = nh_alloc_array(n_out + 1, sizeof *tape->output);
     tape->more = nh_alloc_array(c.mores + 1, sizeof *tape->more);
@@ -389,12 +395,14 @@ nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out,
     return tape;
 }
 
-/* Every instruction jumps to the next one by itself (GCC's labels as values): the processor then predicts each jump by where it stands, which makes
- * long tapes about twice, short ones up to four times as fast as one switch in a loop (docs/performance.md). */
+/* Every instruction jumps to the next one by itself (GCC's labels as values): the processor then predicts each jump by
+ * where it stands, which makes long tapes about twice, short ones up to four times as fast as one switch in a loop
+ * (docs/performance.md). */
 void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, double *out)
 {
-    static void *const plain[] = {[NH_OP_ADD] = &&add, [NH_OP_SUB] = &&sub, [NH_OP_MUL] = &&mul, [NH_OP_DIV] = &&div, [NH_OP_NEG] = &&other,
-                                  [NH_OP_INV] = &&other, [NH_OP_SQUARE] = &&square, [NH_OP_SQRT] = &&other, [NH_OP_POW] = &&other};
+    static void *const plain[] = {[NH_OP_ADD] = &&add,       [NH_OP_SUB] = &&sub,    [NH_OP_MUL] = &&mul,
+                                  [NH_OP_DIV] = &&div,       [NH_OP_NEG] = &&other,  [NH_OP_INV] = &&other,
+                                  [NH_OP_SQUARE] = &&square, [NH_OP_SQRT] = &&other, [NH_OP_POW] = &&other};
     nh_effort_add(tape->effort);
     if (work->code) {
         work->code(in, out);
@@ -426,8 +434,9 @@ square:
     r[x->to] = r[x->a] * r[x->a], x++;
     DISPATCH();
 other:
-    r[x->to] = nh_op_is_named(x->op) ? named_value(x->op, r[x->a], r[x->b], x->more ? &tape->more[x->more - 1] : NULL, r)
-                                     : op_value(x->op, r[x->a], r[x->b]);
+    r[x->to] = nh_op_is_named(x->op)
+                   ? named_value(x->op, r[x->a], r[x->b], x->more ? &tape->more[x->more - 1] : NULL, r)
+                   : op_value(x->op, r[x->a], r[x->b]);
     x++;
     DISPATCH();
 #undef DISPATCH

@@ -1,8 +1,8 @@
 /* tape: expressions compiled to a straight-line program, run at one point or at many.
  *
- * Dead code does not enter the tape, common subexpressions are computed once, what depends on parameters alone is folded when
- * the tape is made, and registers are reused as soon as their value is dead, so that a batch stays in the cache.
- * The tape is constant and may be shared by threads; each thread brings its own work memory. */
+ * Dead code does not enter the tape, common subexpressions are computed once, what depends on parameters alone is
+ * folded when the tape is made, and registers are reused as soon as their value is dead, so that a batch stays in the
+ * cache. The tape is constant and may be shared by threads; each thread brings its own work memory. */
 #ifndef NH_TAPE_H
 #define NH_TAPE_H
 
@@ -28,9 +28,10 @@ void nh_tape_work_free(nh_tape_work *work);
 /* One point: in[n_in], out[n_out].  What is undefined there comes out as inf or nan. */
 void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, double *out);
 
-/* Let long work at single points pass to machine code (machine.h): when the interpreter has spent `patience` times what compiling will cost,
- * the compiler is started beside it, and its code is used from when it is ready.  Whatever is to come, this costs at most about 1 + 1/patience
- * times the better choice. The results do not change.  Where nothing can be compiled the interpreter goes on.  patience <= 0: never. */
+/* Let long work at single points pass to machine code (machine.h): when the interpreter has spent `patience` times what
+ * compiling will cost, the compiler is started beside it, and its code is used from when it is ready.  Whatever is to
+ * come, this costs at most about 1 + 1/patience times the better choice. The results do not change.  Where nothing can
+ * be compiled the interpreter goes on.  patience <= 0: never. */
 void nh_tape_jit(nh_tape_work *work, double patience);
 /* At once, and wait for it; false: it stays with the interpreter. */
 bool nh_tape_compile(const nh_tape *tape, nh_tape_work *work);
@@ -39,6 +40,7 @@ const char *nh_tape_words(const nh_tape_work *work);
 
 /* `count` <= NH_BATCH points: in[j][p] is input j at point p, out[k][p] likewise.  Agrees with nh_tape_eval to a few
  * units in the last place of each operation (vector mathematics of glibc). */
-void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, const double *const *in, double *const *out);
+void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, const double *const *in,
+                        double *const *out);
 
 #endif

@@ -3,9 +3,9 @@
  * glibc's libmvec has vector versions of the elementary functions.  GCC uses them when the prototypes carry the `simd`
  * attribute, which avoids -ffast-math (that would also remove nan and inf from this file).
  *
- * Arithmetic is compiled for several instruction sets, and rounded alike by all of them.  Functions are not: libmvec's versions
- * for vectors of two, four and eight differ in last digits.  So they are computed four at a time wherever that is possible, in
- * every build: what a program answers must not depend on the machine that it runs on. */
+ * Arithmetic is compiled for several instruction sets, and rounded alike by all of them.  Functions are not: libmvec's
+ * versions for vectors of two, four and eight differ in last digits.  So they are computed four at a time wherever that
+ * is possible, in every build: what a program answers must not depend on the machine that it runs on. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,7 +99,8 @@ static kernel *const table[] = {
 };
 #undef X
 
-/* Rows of this work memory: inputs are copied in, so that a short batch can be padded with its first point to whole blocks. */
+/* Rows of this work memory: inputs are copied in, so that a short batch can be padded with its first point to whole
+   blocks. */
 static void prepare(const nh_tape *tape, nh_tape_work *work)
 {
     size_t bytes = (tape->registers + 1) * NH_BATCH * sizeof(double);
@@ -113,7 +114,8 @@ static void prepare(const nh_tape *tape, nh_tape_work *work)
 /* The points of padding have the value of the first. */
 static void named(const nh_tape *tape, const nh_instruction *x, double **row, size_t count, size_t padded)
 {
-    const double *third = x->more ? row[tape->more[x->more - 1].c] : row[x->a], *fourth = x->more ? row[tape->more[x->more - 1].d] : row[x->a];
+    const double *third = x->more ? row[tape->more[x->more - 1].c] : row[x->a],
+                 *fourth = x->more ? row[tape->more[x->more - 1].d] : row[x->a];
     for (size_t p = 0; p < count; p++) {
         const double argument[NH_MOST_ARGUMENTS] = {row[x->a][p], row[x->b][p], third[p], fourth[p]};
         row[x->to][p] = nh_named_value((nh_function)(x->op - NH_OP_FUNCTION), argument);
@@ -121,7 +123,8 @@ static void named(const nh_tape *tape, const nh_instruction *x, double **row, si
     for (size_t p = count; p < padded; p++) row[x->to][p] = row[x->to][0];
 }
 
-void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, const double *const *in, double *const *out)
+void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, const double *const *in,
+                        double *const *out)
 {
     if (count == 0) return;
     nh_effort_add(in_batch * tape->effort * (double)count);

@@ -86,8 +86,10 @@ void nh_tape_eval_complex(const nh_tape *tape, double complex *r, const double c
     if (tape->inputs) memcpy(r, in, tape->inputs * sizeof *r);
     for (const nh_instruction *x = tape->code, *end = x + tape->length; x < end; x++) {
         const nh_more_arguments *more = x->more ? &tape->more[x->more - 1] : NULL;
-        const double complex argument[NH_MOST_ARGUMENTS] = {r[x->a], r[x->b], more ? r[more->c] : 0, more ? r[more->d] : 0};
-        r[x->to] = nh_op_is_named(x->op) ? nh_named_value_complex((nh_function)(x->op - NH_OP_FUNCTION), argument) : value_of(x->op, r[x->a], r[x->b]);
+        const double complex argument[NH_MOST_ARGUMENTS] = {r[x->a], r[x->b], more ? r[more->c] : 0,
+                                                            more ? r[more->d] : 0};
+        r[x->to] = nh_op_is_named(x->op) ? nh_named_value_complex((nh_function)(x->op - NH_OP_FUNCTION), argument)
+                                         : value_of(x->op, r[x->a], r[x->b]);
     }
     for (size_t i = 0; i < tape->outputs; i++) out[i] = r[tape->output[i]];
 }

@@ -54,6 +54,9 @@ void nh_tape_look(const nh_tape *tape, nh_tape_work *work);
 double nh_op_effort(unsigned op);
 
 /* Is it a function that only named_value.h computes? */
-static inline bool nh_op_is_named(unsigned op) { return op >= NH_OP_FUNCTION && nh_is_named_function((nh_function)(op - NH_OP_FUNCTION)); }
+static inline bool nh_op_is_named(unsigned op)
+{
+    return op >= NH_OP_FUNCTION && nh_is_named_function((nh_function)(op - NH_OP_FUNCTION));
+}
 
 #endif

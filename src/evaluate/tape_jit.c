@@ -1,12 +1,13 @@
-/* tape_jit: when is a tape worth compiling?  Counted, not timed: the same evaluation of every run starts the compiler.  From when the code is used depends on
- * when the compiler is ready; it computes the same bits. */
+/* tape_jit: when is a tape worth compiling?  Counted, not timed: the same evaluation of every run starts the compiler.
+ * From when the code is used depends on when the compiler is ready; it computes the same bits. */
 
 #include "base/memory.h"
 #include "evaluate/machine.h"
 #include "evaluate/tape_internal.h"
 
 enum { first_look = 500 };
-static const double price = 5e7, price_each = 2e5; /* units that compiling costs: at all, and per instruction (docs/performance.md) */
+/* units that compiling costs: at all, and per instruction (docs/performance.md) */
+static const double price = 5e7, price_each = 2e5;
 static const double between_looks = 2e6;           /* units, while the compiler runs */
 
 double nh_op_effort(unsigned op)
@@ -33,7 +34,9 @@ void nh_tape_jit(nh_tape_work *work, double patience)
 static void start(const nh_tape *tape, nh_tape_work *work)
 {
     work->machine = nh_machine_of(tape);
-    if (!work->machine) work->words = "not compiled: it is too long, has functions that C does not know, or there is too much machine code already";
+    if (!work->machine)
+        work->words = "not compiled: it is too long, has functions that C does not know, or there is too much machine "
+                      "code already";
 }
 
 void nh_tape_look(const nh_tape *tape, nh_tape_work *work)
@@ -59,4 +62,7 @@ bool nh_tape_compile(const nh_tape *tape, nh_tape_work *work)
     return work->code != NULL;
 }
 
-const char *nh_tape_words(const nh_tape_work *work) { return work->machine ? nh_machine_words(work->machine) : work->words; }
+const char *nh_tape_words(const nh_tape_work *work)
+{
+    return work->machine ? nh_machine_words(work->machine) : work->words;
+}

@@ -86,7 +86,8 @@ static nh_ex root_of(const builder *b, nh_ex D)
 
 /* ---- the factors of a denominator ---- */
 
-/* A factor's coefficients of 1, u, v, u^2 in two kernels (v = u's number: in one); false where it has other terms, or they depend on x. */
+/* A factor's coefficients of 1, u, v, u^2 in two kernels (v = u's number: in one); false where it has other terms, or
+   they depend on x. */
 static bool coefficients(const builder *b, const nh_factor *f, size_t u, size_t v, nh_ex out[4])
 {
     nh_dag *d = b->d;
@@ -111,10 +112,12 @@ static bool coefficients(const builder *b, const nh_factor *f, size_t u, size_t 
 static void put_quadratic(builder *b, nh_ex u, const nh_ex c[4])
 {
     nh_dag *d = b->d;
-    nh_ex four = nh_int(d, 4), D = nh_simplify_short(d, nh_sub(d, nh_powi(d, c[1], 2), nh_product(d, 3, (nh_ex[]){four, c[3], c[0]})), 0);
+    nh_ex four = nh_int(d, 4),
+          D = nh_simplify_short(d, nh_sub(d, nh_powi(d, c[1], 2), nh_product(d, 3, (nh_ex[]){four, c[3], c[0]})), 0);
     int sign = sign_of(b, D);
     if (nh_is_zero(d, D) || sign == 0) return;
-    nh_ex h = root_of(b, sign > 0 ? D : nh_neg(d, D)), f = nh_div(d, nh_add(d, nh_product(d, 3, (nh_ex[]){nh_int(d, 2), c[3], u}), c[1]), h);
+    nh_ex h = root_of(b, sign > 0 ? D : nh_neg(d, D)),
+          f = nh_div(d, nh_add(d, nh_product(d, 3, (nh_ex[]){nh_int(d, 2), c[3], u}), c[1]), h);
     if (sign > 0) put_area(b, f);
     else put(b, nh_call(d, NH_ATAN, f));
 }
@@ -128,7 +131,8 @@ static void put_turning(builder *b, size_t cosine, size_t sine, const nh_ex k[4]
     nh_dag *d = b->d;
     nh_ex C = nh_kernel_power(&b->form.kernels, cosine, 1), s = nh_kernel_power(&b->form.kernels, sine, 1);
     nh_ex X = nh_add(d, nh_mul(d, k[1], C), nh_mul(d, k[2], s)), w = nh_sub(d, nh_mul(d, k[2], C), nh_mul(d, k[1], s));
-    nh_ex S = nh_add(d, nh_powi(d, k[1], 2), nh_powi(d, k[2], 2)), D = nh_simplify_short(d, nh_sub(d, S, nh_powi(d, k[0], 2)), 0);
+    nh_ex S = nh_add(d, nh_powi(d, k[1], 2), nh_powi(d, k[2], 2)),
+          D = nh_simplify_short(d, nh_sub(d, S, nh_powi(d, k[0], 2)), 0);
     int sign = sign_of(b, D), side = sign_of(b, k[0]);
     if (nh_is_zero(d, D)) return;
     if (sign > 0) put_area(b, nh_div(d, nh_mul(d, root_of(b, D), w), nh_add(d, S, nh_mul(d, k[0], X))));
@@ -146,20 +150,23 @@ static void put_functions_of(builder *b, const divisor *p)
         if (u->index == absent) continue;
         if (coefficients(b, p->terms, u->index, u->index, c) && !nh_is_zero(b->d, c[3])) put_quadratic(b, u->e, c);
         size_t partner = b->form.kernels.item[u->index].partner;
-        if (u->kind == NH_KERNEL_COS && coefficients(b, p->terms, u->index, partner, c) && nh_is_zero(b->d, c[3])) put_turning(b, u->index, partner, c);
+        if (u->kind == NH_KERNEL_COS && coefficients(b, p->terms, u->index, partner, c) && nh_is_zero(b->d, c[3]))
+            put_turning(b, u->index, partner, c);
     }
     for (size_t i = 0; i < b->letters && !p->terms; i++) /* a cosine or a sine alone */
         if (b->letter[i].kind == NH_KERNEL_COS) {
             size_t sine = b->form.kernels.item[b->letter[i].index].partner;
             nh_ex zero = nh_int(b->d, 0), one = nh_int(b->d, 1);
             if (p->e == b->letter[i].e) put_turning(b, b->letter[i].index, sine, (nh_ex[4]){zero, one, zero, zero});
-            if (p->e == nh_kernel_power(&b->form.kernels, sine, 1)) put_turning(b, b->letter[i].index, sine, (nh_ex[4]){zero, zero, one, zero});
+            if (p->e == nh_kernel_power(&b->form.kernels, sine, 1))
+                put_turning(b, b->letter[i].index, sine, (nh_ex[4]){zero, zero, one, zero});
         }
 }
 
 /* ---- roots of quadratic polynomials ---- */
 
-/* sqrt(Q) with a polynomial Q in x, or in y = exp(lambda x), y = cos(u) or y = sin(u): then candidates are functions of y. */
+/* sqrt(Q) with a polynomial Q in x, or in y = exp(lambda x), y = cos(u) or y = sin(u): then candidates are functions of
+   y. */
 typedef struct {
     nh_ex x, Q, root, back; /* the variable; back: what it stands for */
     size_t count;           /* 0: it is x */
@@ -178,11 +185,16 @@ static bool quadratic(const builder *b, nh_ex x, nh_ex Q, nh_ex out[3])
     return true;
 }
 
-static nh_ex back(const builder *b, const radical *r, nh_ex e) { return r->count ? nh_substitute(b->d, e, 1, &r->x, &r->back) : e; }
+static nh_ex back(const builder *b, const radical *r, nh_ex e)
+{
+    return r->count ? nh_substitute(b->d, e, 1, &r->x, &r->back) : e;
+}
 
 static nh_ex in_variable(const builder *b, const radical *r, nh_ex e)
 {
-    return r->count ? nh_simplify_short(b->d, nh_canonical(b->d, nh_substitute(b->d, e, r->count, r->from, r->to), 0), 0) : e;
+    return r->count
+               ? nh_simplify_short(b->d, nh_canonical(b->d, nh_substitute(b->d, e, r->count, r->from, r->to), 0), 0)
+               : e;
 }
 
 /* int dx/sqrt(Q): with a > 0 the logarithm of 2 sqrt(a Q) + Q', with a < 0 the arctangent of Q'/(2 sqrt(-a Q)). */
@@ -192,14 +204,18 @@ static void put_first_kind(builder *b, const radical *r, const nh_ex k[3])
     nh_ex two = nh_int(d, 2), slope = back(b, r, nh_add(d, k[1], nh_product(d, 3, (nh_ex[]){two, k[2], r->x})));
     int sign = sign_of(b, k[2]);
     if (sign > 0) put_logarithm(b, nh_add(d, nh_product(d, 3, (nh_ex[]){two, root_of(b, k[2]), r->root}), slope));
-    if (sign < 0) put(b, nh_call(d, NH_ATAN, nh_div(d, slope, nh_product(d, 3, (nh_ex[]){two, root_of(b, nh_neg(d, k[2])), r->root}))));
+    if (sign < 0)
+        put(b, nh_call(d, NH_ATAN,
+                       nh_div(d, slope, nh_product(d, 3, (nh_ex[]){two, root_of(b, nh_neg(d, k[2])), r->root}))));
 }
 
-/* int dx/((x - p) sqrt(Q)): with T = 2 Q(p) + Q'(p) (x - p) the area function of T/(2 sqrt(Q(p) Q)), or the arctangent for Q(p) < 0. */
+/* int dx/((x - p) sqrt(Q)): with T = 2 Q(p) + Q'(p) (x - p) the area function of T/(2 sqrt(Q(p) Q)), or the arctangent
+   for Q(p) < 0. */
 static void put_third_kind(builder *b, const radical *r, nh_ex p)
 {
     nh_dag *d = b->d;
-    nh_ex at = nh_simplify_short(d, nh_substitute(d, r->Q, 1, &r->x, &p), 0), slope = nh_diff(d, r->Q, r->x), two = nh_int(d, 2);
+    nh_ex at = nh_simplify_short(d, nh_substitute(d, r->Q, 1, &r->x, &p), 0), slope = nh_diff(d, r->Q, r->x),
+          two = nh_int(d, 2);
     slope = nh_simplify_short(d, nh_substitute(d, slope, 1, &r->x, &p), 0);
     int sign = sign_of(b, at);
     if (nh_is_zero(d, at) || sign == 0) return;
@@ -217,7 +233,9 @@ static void put_poles(builder *b, const radical *r, nh_ex p)
     if (!nh_depends(d, slope, r->x)) {
         put_third_kind(b, r, nh_neg(d, nh_div(d, nh_substitute(d, p, 1, &r->x, &zero), slope)));
     } else if (quadratic(b, r->x, p, k)) {
-        nh_ex D = nh_simplify_short(d, nh_sub(d, nh_powi(d, k[1], 2), nh_product(d, 3, (nh_ex[]){nh_int(d, 4), k[2], k[0]})), 0), two = nh_mul(d, nh_int(d, 2), k[2]);
+        nh_ex D = nh_simplify_short(
+                  d, nh_sub(d, nh_powi(d, k[1], 2), nh_product(d, 3, (nh_ex[]){nh_int(d, 4), k[2], k[0]})), 0),
+              two = nh_mul(d, nh_int(d, 2), k[2]);
         if (sign_of(b, D) <= 0) return;
         put_third_kind(b, r, nh_div(d, nh_sub(d, root_of(b, D), k[1]), two));
         put_third_kind(b, r, nh_neg(d, nh_div(d, nh_add(d, root_of(b, D), k[1]), two)));
@@ -243,10 +261,17 @@ static void put_integrals(builder *b, radical r)
 static void put_root_of_exponentials(builder *b, nh_ex Q, nh_ex root, nh_ex exponential)
 {
     nh_dag *d = b->d;
-    nh_ex y = nh_symbol_fresh(d, "y"), lambda = nh_simplify_short(d, nh_diff(d, nh_child(d, exponential, 0), b->in->x), 0);
+    nh_ex y = nh_symbol_fresh(d, "y"),
+          lambda = nh_simplify_short(d, nh_diff(d, nh_child(d, exponential, 0), b->in->x), 0);
     for (int sign = 1; sign >= -1 && !nh_depends(d, lambda, b->in->x); sign -= 2) {
         nh_ex turned = nh_mul(d, nh_int(d, sign), lambda);
-        put_integrals(b, (radical){y, Q, root, nh_call(d, NH_EXP, nh_mul(d, turned, b->in->x)), 1, {b->in->x}, {nh_div(d, nh_call(d, NH_LOG, y), turned)}});
+        put_integrals(b, (radical){y,
+                                   Q,
+                                   root,
+                                   nh_call(d, NH_EXP, nh_mul(d, turned, b->in->x)),
+                                   1,
+                                   {b->in->x},
+                                   {nh_div(d, nh_call(d, NH_LOG, y), turned)}});
     }
 }
 
@@ -265,7 +290,9 @@ static void put_root(builder *b, nh_ex Q, nh_ex root)
     for (size_t i = 0; i < b->letters; i++) {
         const letter *l = &b->letter[i];
         if (l->kind == NH_KERNEL_EXP) put_root_of_exponentials(b, Q, root, l->e);
-        if (l->kind == NH_KERNEL_COS) put_root_of_waves(b, Q, root, l->e, nh_kernel_power(&b->form.kernels, b->form.kernels.item[l->index].partner, 1));
+        if (l->kind == NH_KERNEL_COS)
+            put_root_of_waves(b, Q, root, l->e,
+                              nh_kernel_power(&b->form.kernels, b->form.kernels.item[l->index].partner, 1));
     }
 }
 
@@ -302,7 +329,8 @@ static nh_ex factor_expression(const builder *b, const nh_factor *f)
         term[i] = nh_int(d, 1);
         for (size_t g = 0; g < b->form.kernels.count; g++)
             if (f->exponent[i * b->form.kernels.count + g])
-                term[i] = nh_mul(d, term[i], nh_kernel_power(&b->form.kernels, g, f->exponent[i * b->form.kernels.count + g]));
+                term[i] = nh_mul(d, term[i],
+                                 nh_kernel_power(&b->form.kernels, g, f->exponent[i * b->form.kernels.count + g]));
     }
     nh_ex sum = nh_linear(d, f->terms, f->coefficient, term);
     nh_free(term);
@@ -347,21 +375,26 @@ static void add_letter(builder *b, size_t g)
     else if (k->kind == NH_KERNEL_ROOT) l.low = 1 - (int64_t)k->unit.q, l.high = (int64_t)k->unit.q - 1;
     else if (k->kind == NH_KERNEL_SIN) l.high = 1;
     else if (k->kind == NH_KERNEL_COS) l.high += degree_of(b, k->partner); /* sin^2 = 1 - cos^2 */
-    if (own < 0 && (k->kind == NH_KERNEL_PLAIN || k->kind == NH_KERNEL_SIN || k->kind == NH_KERNEL_COS)) add_divisor(b, e, -own - 1, NULL);
+    if (own < 0 && (k->kind == NH_KERNEL_PLAIN || k->kind == NH_KERNEL_SIN || k->kind == NH_KERNEL_COS))
+        add_divisor(b, e, -own - 1, NULL);
     b->letter[b->letters++] = l;
 }
 
 /* The kernels of f that depend on x, x itself among them, and the factors of its denominator. */
 static bool read(builder *b, nh_arena *arena, nh_forms *forms, nh_ex f)
 {
-    if (nh_form_make(forms, f, true, &b->form) != NH_FIELD_FINE || !nh_pieces_make(b->form.field, arena, b->form.value, true, &b->pieces)) return false;
+    if (nh_form_make(forms, f, true, &b->form) != NH_FIELD_FINE ||
+        !nh_pieces_make(b->form.field, arena, b->form.value, true, &b->pieces))
+        return false;
     bool has_x = false, rooted = false;
     for (size_t g = 0; g < b->form.kernels.count; g++) {
         has_x |= b->form.kernels.item[g].kind == NH_KERNEL_PLAIN && b->form.kernels.item[g].atom == b->in->x;
-        rooted |= b->form.kernels.item[g].kind == NH_KERNEL_ROOT && nh_depends(b->d, b->form.kernels.item[g].atom, b->in->x);
+        rooted |=
+            b->form.kernels.item[g].kind == NH_KERNEL_ROOT && nh_depends(b->d, b->form.kernels.item[g].atom, b->in->x);
         add_letter(b, g);
     }
-    if (!has_x && b->letters < most_kernels) b->letter[b->letters++] = (letter){.index = absent, .e = b->in->x, .kind = NH_KERNEL_PLAIN, .high = 1};
+    if (!has_x && b->letters < most_kernels)
+        b->letter[b->letters++] = (letter){.index = absent, .e = b->in->x, .kind = NH_KERNEL_PLAIN, .high = 1};
     for (size_t j = 0; j < b->pieces.factors; j++) {
         const nh_factor *p = &b->pieces.factor[j];
         if (p->power < 0) add_divisor(b, factor_expression(b, p), -p->power - !rooted, p);
@@ -400,7 +433,10 @@ static void candidates(builder *b)
     if (!nh_is_number(b->d, below, 1)) put_monomials(b, 0, below, 0);
 }
 
-static bool is_logarithm(const builder *b, nh_ex g) { return nh_kind_of(b->d, g) == NH_FUNCTION && nh_function_of(b->d, g) == NH_LOG; }
+static bool is_logarithm(const builder *b, nh_ex g)
+{
+    return nh_kind_of(b->d, g) == NH_FUNCTION && nh_function_of(b->d, g) == NH_LOG;
+}
 
 /* k (log p - log q) = 2 k atanh((p - q)/(p + q)), where one of sum and difference is constant: it is shorter. */
 static void join(const builder *b, size_t i, size_t j, nh_ex *c, nh_ex *F)
@@ -412,7 +448,8 @@ static void join(const builder *b, size_t i, size_t j, nh_ex *c, nh_ex *F)
     if (sign_of(b, p) <= 0 || sign_of(b, q) <= 0) return;
     nh_ex sum = nh_simplify_short(d, nh_add(d, p, q), 0), difference = nh_simplify_short(d, nh_sub(d, p, q), 0);
     if (nh_depends(d, sum, b->in->x) && nh_depends(d, difference, b->in->x)) return;
-    *F = nh_add(d, *F, nh_product(d, 3, (nh_ex[]){nh_int(d, 2), c[i], nh_call(d, NH_ATANH, nh_div(d, difference, sum))}));
+    *F = nh_add(d, *F,
+                nh_product(d, 3, (nh_ex[]){nh_int(d, 2), c[i], nh_call(d, NH_ATANH, nh_div(d, difference, sum))}));
     c[i] = c[j] = nh_int(d, 0);
 }
 

@@ -2,15 +2,17 @@
  *
  *     F with dF/dx = f,   F = sum_j c_j g_j,   c_j in the field K of the constants
  *
- * f is a quotient of polynomials in kernels (kernel.h).  By Liouville's theorem an elementary F is of the same kind plus
- * logarithms of constants times new functions, whose arguments the denominator shows; the g_j are the candidates of the
- * parallel Risch algorithm [Bronstein2007], with arctangents in place of complex logarithms:
+ * f is a quotient of polynomials in kernels (kernel.h).  By Liouville's theorem an elementary F is of the same kind
+ * plus logarithms of constants times new functions, whose arguments the denominator shows; the g_j are the candidates
+ * of the parallel Risch algorithm [Bronstein2007], with arctangents in place of complex logarithms:
  *
  *     monomials of the kernels over the denominator, each factor of which has lost one power
  *     log p              for each factor p of the denominator
- *     atan, atanh        for a factor that is quadratic in a kernel, or linear in a sine and its cosine; for roots of quadratic polynomials
+ *     atan, atanh        for a factor that is quadratic in a kernel, or linear in a sine and its cosine; for roots of
+ *                        quadratic polynomials
  *
- * The c_j come from an exact linear system (relation.h), which also proves dF/dx = f.  That no F is found proves nothing. */
+ * The c_j come from an exact linear system (relation.h), which also proves dF/dx = f.  That no F is found proves
+ * nothing. */
 #ifndef NH_ANTIDERIVATIVE_H
 #define NH_ANTIDERIVATIVE_H
 
@@ -22,8 +24,8 @@ typedef struct {
     size_t constants;
     const nh_ex *constant;   /* symbols: parameters, and constants of earlier integrations */
     size_t max_terms;        /* of polynomials; 0: the default of relation.h */
-    /* The sign of a function of x and the constants wherever F is wanted; 0: it changes, or is not known.  It chooses among the
-     * forms that a real logarithm has. */
+    /* The sign of a function of x and the constants wherever F is wanted; 0: it changes, or is not known.  It chooses
+     * among the forms that a real logarithm has. */
     int (*sign)(void *context, nh_ex e);
     void *context;
 } nh_integration;

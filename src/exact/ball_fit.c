@@ -25,7 +25,10 @@ static double products(const nh_ball_fit *f) { return nh_ball_products(f->bits);
 static nh_ball_fit *create(nh_ball *ball, size_t n, const bool *leading)
 {
     nh_ball_fit *f = nh_alloc(sizeof *f);
-    *f = (nh_ball_fit){.ball = ball, .n = n, .bits = nh_ball_bits(ball), .column = nh_alloc_array(n + 1, sizeof *f->column),
+    *f = (nh_ball_fit){.ball = ball,
+                       .n = n,
+                       .bits = nh_ball_bits(ball),
+                       .column = nh_alloc_array(n + 1, sizeof *f->column),
                        .row = _arb_vec_init((slong)n)};
     for (size_t j = 0; j < n; j++)
         if (leading[j]) f->column[f->leading++] = j;
@@ -62,7 +65,8 @@ static bool evaluate(nh_ball_fit *f)
     return true;
 }
 
-/* The row relative to its largest entry.  Only mid-points count for the fit: what it is worth is seen from residuals, which are rigorous. */
+/* The row relative to its largest entry.  Only mid-points count for the fit: what it is worth is seen from residuals,
+   which are rigorous. */
 static void scale_row(nh_ball_fit *f)
 {
     arb_t largest, size;
@@ -164,7 +168,8 @@ static bool find_pivot(const arb_mat_t G, const bool *used, double bound_log10, 
     return best > bound_log10;
 }
 
-/* Gauss-Jordan with complete pivoting.  used[0..d): rows, used[d..2d): columns that have a pivot; at[column]: its row.  At most `most` pivots. */
+/* Gauss-Jordan with complete pivoting.  used[0..d): rows, used[d..2d): columns that have a pivot; at[column]: its row.
+   At most `most` pivots. */
 static size_t eliminate(arb_mat_t G, bool *used, size_t *at, double bound_log10, size_t most, long bits)
 {
     size_t d = (size_t)arb_mat_nrows(G), rank = 0, row = 0, column = 0;
@@ -186,8 +191,10 @@ static size_t eliminate(arb_mat_t G, bool *used, size_t *at, double bound_log10,
     return rank;
 }
 
-/* Solution k: leading value 1 for the free column, -G_row,free / G_row,column (in their scales) for those with a pivot; then the following ones. */
-static void write_solution(nh_ball_fit *f, const arb_mat_t G, const bool *used, const size_t *at, size_t open, const arb_mat_t X, arb_srcptr scale)
+/* Solution k: leading value 1 for the free column, -G_row,free / G_row,column (in their scales) for those with a pivot;
+   then the following ones. */
+static void write_solution(nh_ball_fit *f, const arb_mat_t G, const bool *used, const size_t *at, size_t open,
+                           const arb_mat_t X, arb_srcptr scale)
 {
     size_t d = f->leading;
     slong k = (slong)f->solutions++;
@@ -202,7 +209,8 @@ static void write_solution(nh_ball_fit *f, const arb_mat_t G, const bool *used, 
         arb_div(c, c, scale + j, f->bits);
     }
     for (size_t i = d; i < f->n; i++)
-        for (size_t j = 0; j < d; j++) arb_addmul(arb_mat_entry(f->c, i, k), arb_mat_entry(X, i - d, j), arb_mat_entry(f->c, j, k), f->bits);
+        for (size_t j = 0; j < d; j++)
+            arb_addmul(arb_mat_entry(f->c, i, k), arb_mat_entry(X, i - d, j), arb_mat_entry(f->c, j, k), f->bits);
 }
 
 size_t nh_ball_fit_solve(nh_ball_fit *f, double digits, bool nearest)

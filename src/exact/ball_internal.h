@@ -13,7 +13,8 @@ void nh_ball_set_arb(nh_ball *ball, nh_ex symbol, const arb_t value);
 /* A number of the graph, to the ball's bits. */
 void nh_ball_set_number(const nh_ball *ball, arb_t out, nh_num c);
 
-/* Products of words in a product of two numbers of so many bits; what else is done with them counts as if they were longer. */
+/* Products of words in a product of two numbers of so many bits; what else is done with them counts as if they were
+   longer. */
 double nh_ball_products(long bits);
 
 /* log10 of rigorous bounds of |v|. */

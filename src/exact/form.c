@@ -27,7 +27,10 @@ void nh_forms_clear(nh_forms *forms)
 /* ---- canonical arguments ---- */
 
 /* A symbol that satisfies nothing. */
-static bool free_symbol(const nh_dag *dag, nh_ex e) { return nh_kind_of(dag, e) == NH_SYMBOL && !nh_dag_power_rule(dag, e); }
+static bool free_symbol(const nh_dag *dag, nh_ex e)
+{
+    return nh_kind_of(dag, e) == NH_SYMBOL && !nh_dag_power_rule(dag, e);
+}
 
 static bool plain_product(const nh_dag *dag, nh_ex e)
 {
@@ -44,7 +47,8 @@ static bool is_plain(const nh_dag *dag, nh_ex e)
     nh_kind kind = nh_kind_of(dag, e);
     if (kind == NH_NUMBER || kind == NH_SYMBOL) return kind == NH_NUMBER || free_symbol(dag, e);
     if (kind == NH_PRODUCT) {
-        if (nh_arity(dag, e) == 1 && nh_is_number(dag, nh_exponent_of(dag, e, 0), 1)) return is_plain(dag, nh_child(dag, e, 0));
+        if (nh_arity(dag, e) == 1 && nh_is_number(dag, nh_exponent_of(dag, e, 0), 1))
+            return is_plain(dag, nh_child(dag, e, 0));
         return plain_product(dag, e);
     }
     if (kind != NH_SUM) return false;
@@ -215,7 +219,8 @@ static bool rewrite_turn(nh_forms *s, nh_function f, nh_ex a, nh_ex *out)
     nh_ex rest, sine, cosine;
     if ((f != NH_SIN && f != NH_COS) || !nh_split_turn(dag, a, &rest, &sine, &cosine)) return false;
     nh_ex p = nh_call(dag, NH_SIN, rest), q = nh_call(dag, NH_COS, rest);
-    *out = f == NH_SIN ? nh_add(dag, nh_mul(dag, p, cosine), nh_mul(dag, q, sine)) : nh_sub(dag, nh_mul(dag, q, cosine), nh_mul(dag, p, sine));
+    *out = f == NH_SIN ? nh_add(dag, nh_mul(dag, p, cosine), nh_mul(dag, q, sine))
+                       : nh_sub(dag, nh_mul(dag, q, cosine), nh_mul(dag, p, sine));
     return true;
 }
 
@@ -265,7 +270,8 @@ static nh_ex rewrite_product(nh_forms *s, nh_ex e)
     bool changed = false;
     nh_ex *factor = nh_alloc_array(n ? n : 1, sizeof *factor);
     for (size_t i = 0; i < n; i++) {
-        nh_ex base = nh_child(s->dag, e, i), exponent = nh_exponent_of(s->dag, e, i), as_it_is = nh_pow(s->dag, base, exponent);
+        nh_ex base = nh_child(s->dag, e, i), exponent = nh_exponent_of(s->dag, e, i),
+              as_it_is = nh_pow(s->dag, base, exponent);
         factor[i] = rewrite_power(s, base, exponent);
         changed |= factor[i] != as_it_is;
     }
@@ -284,7 +290,9 @@ static nh_ex rewrite(nh_forms *s, nh_ex e)
     if (kind == NH_NUMBER || kind == NH_SYMBOL || s->depth >= deepest) return e;
     if (nh_index_get(&s->rewritten, e, &known)) return known;
     s->depth++;
-    nh_ex result = kind == NH_FUNCTION ? rewrite_function(s, e) : kind == NH_SUM ? rewrite_sum(s, e) : rewrite_product(s, e);
+    nh_ex result = kind == NH_FUNCTION ? rewrite_function(s, e)
+                   : kind == NH_SUM    ? rewrite_sum(s, e)
+                                       : rewrite_product(s, e);
     s->depth--;
     if (!nh_index_get(&s->rewritten, e, &known)) nh_index_put(&s->rewritten, e, result);
     return result;
@@ -302,19 +310,24 @@ enum { most_roots = 6, longest_product = 400 }; /* terms */
 
 static bool is_product(nh_form *f, const nh_quotient *whole, const nh_quotient *a, const nh_quotient *b)
 {
-    if (nh_quotient_terms(a) * nh_quotient_terms(b) > longest_product || nh_quotient_terms(whole) > longest_product) return false;
+    if (nh_quotient_terms(a) * nh_quotient_terms(b) > longest_product || nh_quotient_terms(whole) > longest_product)
+        return false;
     return nh_quotient_equal(f->field, whole, nh_quotient_mul(f->field, a, b));
 }
 
-/* sqrt(a b) = sqrt(a) sqrt(b) where all three stand in one expression, so that a and b are not negative wherever it means something. */
-static const nh_quotient *from_other_roots(nh_form *f, const square_root *root, size_t roots, const nh_quotient *radicand)
+/* sqrt(a b) = sqrt(a) sqrt(b) where all three stand in one expression, so that a and b are not negative wherever it
+   means something. */
+static const nh_quotient *from_other_roots(nh_form *f, const square_root *root, size_t roots,
+                                           const nh_quotient *radicand)
 {
     for (size_t i = 0; i < roots; i++)
         for (size_t j = 0; j < i; j++) {
             const nh_quotient *a = root[i].radicand, *b = root[j].radicand;
-            bool product = is_product(f, radicand, a, b), over_b = !product && is_product(f, a, radicand, b), over_a = !product && !over_b && is_product(f, b, radicand, a);
+            bool product = is_product(f, radicand, a, b), over_b = !product && is_product(f, a, radicand, b),
+                 over_a = !product && !over_b && is_product(f, b, radicand, a);
             if (!product && !over_b && !over_a) continue;
-            return nh_quotient_mul(f->field, nh_quotient_power_of(f->field, root[i].generator, over_a ? -1 : 1), nh_quotient_power_of(f->field, root[j].generator, over_b ? -1 : 1));
+            return nh_quotient_mul(f->field, nh_quotient_power_of(f->field, root[i].generator, over_a ? -1 : 1),
+                                   nh_quotient_power_of(f->field, root[j].generator, over_b ? -1 : 1));
         }
     return NULL;
 }
@@ -329,7 +342,8 @@ static void relate_root(nh_form *f, size_t generator, square_root *root, size_t 
     if (k->unit.q == 2 && !others && *roots < most_roots) root[(*roots)++] = (square_root){generator, radicand};
 }
 
-/* Radicands come before their roots, and what a symbol satisfies before it, so that every relation is known before it is needed. */
+/* Radicands come before their roots, and what a symbol satisfies before it, so that every relation is known before it
+   is needed. */
 static void relate(nh_form *f)
 {
     square_root root[most_roots];
@@ -338,11 +352,14 @@ static void relate(nh_form *f)
         size_t i = f->kernels.order[n];
         const nh_kernel *k = &f->kernels.item[i];
         const nh_power_rule *rule = k->kind == NH_KERNEL_PLAIN ? nh_dag_power_rule(f->kernels.dag, k->atom) : NULL;
-        if (rule) nh_quotient_field_relate(f->field, i, rule->order, nh_form_eval(f, rule->value)), nh_quotient_field_repeat(f->field);
+        if (rule)
+            nh_quotient_field_relate(f->field, i, rule->order, nh_form_eval(f, rule->value)),
+                nh_quotient_field_repeat(f->field);
         if (k->kind == NH_KERNEL_SIN || k->kind == NH_KERNEL_SINH)
             nh_quotient_field_relate_pair(f->field, i, k->partner, k->kind == NH_KERNEL_SINH);
         if (k->kind == NH_KERNEL_ROOT) relate_root(f, i, root, &roots);
-        if (k->kind == NH_KERNEL_ABS) nh_quotient_field_relate(f->field, i, 2, nh_quotient_pow(f->field, nh_form_eval(f, k->atom), 2));
+        if (k->kind == NH_KERNEL_ABS)
+            nh_quotient_field_relate(f->field, i, 2, nh_quotient_pow(f->field, nh_form_eval(f, k->atom), 2));
     }
 }
 

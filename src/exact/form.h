@@ -1,8 +1,8 @@
 /* form: expressions as quotients of polynomials in kernels.
  *
  * First everything below a function or a root is made canonical (the same question, one level down), so that equal
- * arguments are the same node; then the kernels are collected, related to each other, and the expression is evaluated in
- * their field. */
+ * arguments are the same node; then the kernels are collected, related to each other, and the expression is evaluated
+ * in their field. */
 #ifndef NH_FORM_H
 #define NH_FORM_H
 
@@ -30,12 +30,13 @@ typedef struct {
 void nh_forms_init(nh_forms *forms, nh_dag *dag, bool literal, size_t max_terms);
 void nh_forms_clear(nh_forms *forms);
 
-/* The form of e; inexact numbers are kernels of their own when `opaque`.  The state says whether there is a value; clear
- * the form in any case. */
+/* The form of e; inexact numbers are kernels of their own when `opaque`.  The state says whether there is a value;
+ * clear the form in any case. */
 nh_quotient_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form);
 void nh_form_clear(nh_form *form);
 
-/* e with canonical arguments, radicands and exponents: the first step, for those who put many expressions into one field. */
+/* e with canonical arguments, radicands and exponents: the first step, for those who put many expressions into one
+   field. */
 nh_ex nh_form_rewrite(nh_forms *forms, nh_ex e);
 
 /* The value of e, whose kernels have been collected and related (form_eval.c). */

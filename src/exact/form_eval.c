@@ -180,7 +180,8 @@ static quotient eval_function(nh_form *f, nh_ex e)
         return nh_quotient_mul(f->field, r.sine, nh_quotient_inv(f->field, r.cosine));
     case NH_EXP: return eval_growth(f, NH_KERNEL_EXP, 0, a);
     case NH_ABS:
-        return nh_quotient_power_of(f->field, nh_kernel_find(&f->kernels, NH_KERNEL_ABS, 0, a, nh_num_int(1), &multiple), 1);
+        return nh_quotient_power_of(f->field,
+                                    nh_kernel_find(&f->kernels, NH_KERNEL_ABS, 0, a, nh_num_int(1), &multiple), 1);
     default: return nh_quotient_power_of(f->field, nh_kernel_plain(&f->kernels, e), 1);
     }
 }

@@ -62,7 +62,8 @@ static bool unrelated(const problem *x, nh_jet_eval *v)
         size_t count;
         nh_jet_eval_atoms(v, real, &count, NULL);
         nh_residue *rows = nh_alloc_array(count * x->ring->size + 1, sizeof *rows);
-        good = nh_jet_eval_atoms(v, real, &count, rows) && nh_residue_matrix_rank(x->ring->field, count, x->ring->size, rows) == count;
+        good = nh_jet_eval_atoms(v, real, &count, rows) &&
+               nh_residue_matrix_rank(x->ring->field, count, x->ring->size, rows) == count;
         nh_free(rows);
     }
     return good;
@@ -94,7 +95,8 @@ bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables,
     for (size_t i = 0; i < n; i++) own[i] = nh_form_rewrite(&forms, e[i]);
     nh_forms_clear(&forms);
     bool found = variables && list_constants(&x, dag) && nh_jet_point_register(x.point, n, own);
-    nh_jet_ring *ring = nh_jet_ring_create(nh_jet_point_prime(x.point, 0), variables, one, order); /* a prime that has the roots of numbers */
+    /* a prime that has the roots of numbers */
+    nh_jet_ring *ring = nh_jet_ring_create(nh_jet_point_prime(x.point, 0), variables, one, order);
     x.ring = ring;
     found = found && solve(&x);
     nh_jet_ring_free(ring);

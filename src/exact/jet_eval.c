@@ -70,7 +70,8 @@ static nh_residue number(nh_jet_eval *v, nh_num a)
 static void sum(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     nh_jet_constant(v->ring, number(v, nh_constant_of(v->dag, e)), out);
-    for (size_t i = 0; i < nh_arity(v->dag, e); i++) nh_jet_add_multiple(v->ring, out, number(v, nh_coefficient_of(v->dag, e, i)), v->value[nh_child(v->dag, e, i)]);
+    for (size_t i = 0; i < nh_arity(v->dag, e); i++)
+        nh_jet_add_multiple(v->ring, out, number(v, nh_coefficient_of(v->dag, e, i)), v->value[nh_child(v->dag, e, i)]);
 }
 
 static void whole_power(nh_jet_eval *v, const nh_residue *base, int64_t n, nh_residue *out)
@@ -158,7 +159,8 @@ static void exponential(nh_jet_eval *v, nh_ex e, nh_residue *out)
     const nh_jet_ring *r = v->ring;
     nh_ex argument = nh_child(v->dag, e, 0);
     nh_function f = nh_function_of(v->dag, e);
-    nh_residue *up = nh_alloc_array(4 * r->size, sizeof *up), *down = up + r->size, *sine = down + r->size, *cosine = sine + r->size, at;
+    nh_residue *up = nh_alloc_array(4 * r->size, sizeof *up), *down = up + r->size, *sine = down + r->size,
+               *cosine = sine + r->size, at;
     nh_jet_point_exponential(v->point, argument, &at);
     nh_jet_exponential(r, v->value[argument], at, up);
     if (f == NH_EXP) {
@@ -176,8 +178,8 @@ static void exponential(nh_jet_eval *v, nh_ex e, nh_residue *out)
     nh_free(up);
 }
 
-/* f'(u) of the inverse functions and the logarithm: (+-1) (c + s u^2)^(-1/2) or 1/(c + s u^2), or 1/u.  The root gets a value of its own: it is no
- * node of the graph. */
+/* f'(u) of the inverse functions and the logarithm: (+-1) (c + s u^2)^(-1/2) or 1/(c + s u^2), or 1/u.  The root gets a
+ * value of its own: it is no node of the graph. */
 static bool slope(nh_jet_eval *v, nh_function f, const nh_residue *u, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
@@ -195,7 +197,8 @@ static bool slope(nh_jet_eval *v, nh_function f, const nh_residue *u, nh_residue
     if (rational) good = inner[0] != 0;
     else good = inner[0] && nh_residue_root(p, inner[0], 2, &root);
     if (good && rational) nh_jet_power(r, inner, minus, nh_residue_inverse(p, inner[0]), out);
-    if (good && !rational) nh_jet_power(r, inner, nh_residue_negative(p, nh_residue_inverse(p, 2)), nh_residue_inverse(p, root), out);
+    if (good && !rational)
+        nh_jet_power(r, inner, nh_residue_negative(p, nh_residue_inverse(p, 2)), nh_residue_inverse(p, root), out);
     if (good && f == NH_ACOS) nh_jet_scale(r, out, minus);
     nh_free(inner);
     return good;
@@ -205,7 +208,8 @@ static bool slope(nh_jet_eval *v, nh_function f, const nh_residue *u, nh_residue
 static bool angle(nh_jet_eval *v, const nh_residue *y, const nh_residue *x, nh_residue at, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
-    nh_residue *work = nh_alloc_array(4 * r->size, sizeof *work), *top = work + r->size, *bottom = top + r->size, *rate = bottom + r->size;
+    nh_residue *work = nh_alloc_array(4 * r->size, sizeof *work), *top = work + r->size, *bottom = top + r->size,
+               *rate = bottom + r->size;
     nh_jet_euler(r, y, work);
     nh_jet_add_product(r, top, x, work);
     nh_jet_euler(r, x, work);
@@ -264,7 +268,10 @@ static void solution(nh_jet_eval *v, nh_ex e, nh_residue *out)
     nh_free(f);
 }
 
-static bool is_solution(const nh_jet_eval *v, nh_ex e) { return nh_kind_of(v->dag, e) == NH_FUNCTION && nh_is_named_function(nh_function_of(v->dag, e)); }
+static bool is_solution(const nh_jet_eval *v, nh_ex e)
+{
+    return nh_kind_of(v->dag, e) == NH_FUNCTION && nh_is_named_function(nh_function_of(v->dag, e));
+}
 
 static void compute(nh_jet_eval *v, nh_ex e)
 {
@@ -327,14 +334,16 @@ static void compute_all(nh_jet_eval *v, nh_ex e)
 bool nh_jet_eval_all(nh_jet_eval *v, size_t n, const nh_ex *e, nh_residue *out)
 {
     for (size_t k = 0; k < n && !v->unlucky; k++) compute_all(v, e[k]);
-    for (size_t k = 0; k < n && !v->unlucky; k++) memcpy(out + k * v->ring->size, v->value[e[k]], v->ring->size * sizeof *out);
+    for (size_t k = 0; k < n && !v->unlucky; k++)
+        memcpy(out + k * v->ring->size, v->value[e[k]], v->ring->size * sizeof *out);
     return !v->unlucky;
 }
 
 /* Does a kernel belong to the family of exp and log, or to that of sin, cos and their inverses? */
 static bool belongs(const nh_jet_eval *v, const nh_jet_kernel *k, bool real)
 {
-    if (k->kind == NH_JET_CIRCLE || k->kind == NH_JET_EXPONENTIAL) return (k->kind == NH_JET_EXPONENTIAL) == real && nh_kind_of(v->dag, k->key) != NH_NUMBER;
+    if (k->kind == NH_JET_CIRCLE || k->kind == NH_JET_EXPONENTIAL)
+        return (k->kind == NH_JET_EXPONENTIAL) == real && nh_kind_of(v->dag, k->key) != NH_NUMBER;
     if (k->kind != NH_JET_FREE) return false;
     nh_function f = nh_function_of(v->dag, k->key);
     if (f == NH_ABS || f == NH_SIGN || f == NH_PI) return false;

@@ -16,11 +16,13 @@ void nh_jet_eval_free(nh_jet_eval *eval);
 /* The series is copied.  `varies`: what depends on this symbol is computed anew after it is set again. */
 void nh_jet_eval_set(nh_jet_eval *eval, nh_ex symbol, const nh_residue *series, bool varies);
 
-/* out: n series one after another.  False where the point is no regular one (a pole, a root that does not exist): take another. */
+/* out: n series one after another.  False where the point is no regular one (a pole, a root that does not exist): take
+   another. */
 bool nh_jet_eval_all(nh_jet_eval *eval, size_t n, const nh_ex *e, nh_residue *out);
 
-/* The atoms of exp with the logarithms and inverse hyperbolic functions (`real`), or those of sin and cos with the inverse trigonometric ones, as
- * series without constant terms, one after another into `out` (NULL: only their number).  False as above. */
+/* The atoms of exp with the logarithms and inverse hyperbolic functions (`real`), or those of sin and cos with the
+ * inverse trigonometric ones, as series without constant terms, one after another into `out` (NULL: only their number).
+ * False as above. */
 bool nh_jet_eval_atoms(nh_jet_eval *eval, bool real, size_t *count, nh_residue *out);
 
 #endif

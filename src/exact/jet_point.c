@@ -69,7 +69,8 @@ static bool note_parts(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex argument)
     for (size_t i = 0; i < parts.count && !x->obstacle; i++) {
         const nh_part *p = &parts.item[i];
         bool pi = nh_kind_of(x->dag, p->atom) == NH_FUNCTION && nh_function_of(x->dag, p->atom) == NH_PI;
-        if (!nh_num_short(p->coefficient) || (pi && kind == NH_JET_CIRCLE)) x->obstacle = "an angle or exponent that is no rational multiple of its parts";
+        if (!nh_num_short(p->coefficient) || (pi && kind == NH_JET_CIRCLE))
+            x->obstacle = "an angle or exponent that is no rational multiple of its parts";
         else note(x, kind, p->atom, (uint64_t)p->coefficient.q);
     }
     nh_free(parts.item);
@@ -105,15 +106,29 @@ static bool note_function(nh_jet_point *x, nh_ex e)
 {
     switch (nh_function_of(x->dag, e)) {
     case NH_SIN: case NH_COS: case NH_TAN: return note_parts(x, NH_JET_CIRCLE, nh_child(x->dag, e, 0));
-    case NH_EXP: case NH_SINH: case NH_COSH: case NH_TANH: return note_parts(x, NH_JET_EXPONENTIAL, nh_child(x->dag, e, 0));
+    case NH_EXP:
+    case NH_SINH:
+    case NH_COSH:
+    case NH_TANH: return note_parts(x, NH_JET_EXPONENTIAL, nh_child(x->dag, e, 0));
     case NH_ABS: case NH_SIGN:
         if (find(x, NH_JET_FREE, e)) return true;
         if (x->pieces++) x->obstacle = "several functions that are defined piece by piece";
         return note(x, NH_JET_FREE, e, 1);
-    case NH_ASIN: case NH_ACOS: case NH_ASINH: case NH_ACOSH: case NH_ATAN: case NH_ATANH: case NH_LOG: case NH_ATAN2: case NH_PI: return note(x, NH_JET_FREE, e, 1);
+    case NH_ASIN:
+    case NH_ACOS:
+    case NH_ASINH:
+    case NH_ACOSH:
+    case NH_ATAN:
+    case NH_ATANH:
+    case NH_LOG:
+    case NH_ATAN2:
+    case NH_PI: return note(x, NH_JET_FREE, e, 1);
     default:
-        if (x->solutions && nh_is_named_function(nh_function_of(x->dag, e)) && nh_function_of(x->dag, e) < NH_ELLIPTIC_K) return note_solution(x, e);
-        x->obstacle = "a function whose power series modulo a prime are not built in (Bessel, Legendre, ... in the equations of motion)";
+        if (x->solutions && nh_is_named_function(nh_function_of(x->dag, e)) &&
+            nh_function_of(x->dag, e) < NH_ELLIPTIC_K)
+            return note_solution(x, e);
+        x->obstacle = "a function whose power series modulo a prime are not built in (Bessel, Legendre, ... in the "
+                      "equations of motion)";
         return false;
     }
 }
@@ -123,7 +138,8 @@ static bool note_product(nh_jet_point *x, nh_ex e)
     for (size_t i = 0; i < nh_arity(x->dag, e) && !x->obstacle; i++) {
         nh_ex exponent = nh_exponent_of(x->dag, e, i);
         nh_exponent_kind kind = nh_exponent_kind_of(x->dag, exponent);
-        if (kind == NH_EXPONENT_ROOT) note(x, NH_JET_ROOT, nh_child(x->dag, e, i), (uint64_t)nh_number_of(x->dag, exponent).q);
+        if (kind == NH_EXPONENT_ROOT)
+            note(x, NH_JET_ROOT, nh_child(x->dag, e, i), (uint64_t)nh_number_of(x->dag, exponent).q);
         else if (kind != NH_EXPONENT_WHOLE) x->obstacle = "powers with exponents that are no simple fractions";
     }
     return !x->obstacle;
@@ -139,7 +155,8 @@ bool nh_jet_point_register(nh_jet_point *x, size_t n, const nh_ex *e)
         nh_kind kind = nh_kind_of(x->dag, (nh_ex)i);
         if (kind == NH_FUNCTION) note_function(x, (nh_ex)i);
         else if (kind == NH_PRODUCT) note_product(x, (nh_ex)i);
-        else if (kind == NH_NUMBER && !nh_num_exact(nh_number_of(x->dag, (nh_ex)i))) x->obstacle = "numbers that are not exact";
+        else if (kind == NH_NUMBER && !nh_num_exact(nh_number_of(x->dag, (nh_ex)i)))
+            x->obstacle = "numbers that are not exact";
     }
     nh_free(wanted);
     return !x->obstacle;
@@ -156,7 +173,8 @@ static bool has_roots(const nh_jet_point *x, nh_prime field)
         nh_residue value, root;
         const nh_jet_kernel *k = &x->kernel[i];
         if (k->kind != NH_JET_ROOT || nh_kind_of(x->dag, k->key) != NH_NUMBER) continue;
-        good = nh_jet_point_number(&there, nh_number_of(x->dag, k->key), &value) && nh_residue_root(field, value, k->order, &root);
+        good = nh_jet_point_number(&there, nh_number_of(x->dag, k->key), &value) &&
+               nh_residue_root(field, value, k->order, &root);
     }
     return good;
 }
@@ -181,14 +199,17 @@ bool nh_jet_point_number(const nh_jet_point *x, nh_num a, nh_residue *out)
 {
     if (nh_num_short(a)) {
         nh_residue bottom = nh_residue_of(x->field, a.q);
-        if (bottom) *out = nh_residue_mul(x->field, nh_residue_of(x->field, a.p), a.q == 1 ? 1 : nh_residue_inverse(x->field, bottom));
+        if (bottom)
+            *out = nh_residue_mul(x->field, nh_residue_of(x->field, a.p),
+                                  a.q == 1 ? 1 : nh_residue_inverse(x->field, bottom));
         return bottom != 0;
     }
     if (!nh_num_exact(a)) return false;
     mpq_t q;
     mpq_init(q);
     nh_num_get_mpq(q, a);
-    nh_residue top = (nh_residue)mpz_fdiv_ui(mpq_numref(q), x->field.p), bottom = (nh_residue)mpz_fdiv_ui(mpq_denref(q), x->field.p);
+    nh_residue top = (nh_residue)mpz_fdiv_ui(mpq_numref(q), x->field.p),
+               bottom = (nh_residue)mpz_fdiv_ui(mpq_denref(q), x->field.p);
     mpq_clear(q);
     if (bottom) *out = nh_residue_mul(x->field, top, nh_residue_inverse(x->field, bottom));
     return bottom != 0;
@@ -217,7 +238,8 @@ bool nh_jet_point_root(nh_jet_point *x, nh_ex radicand, nh_residue value, nh_num
 static bool choose_angle(nh_jet_point *x, nh_jet_kernel *k)
 {
     nh_prime f = x->field;
-    nh_residue u = nh_residue_random(f, &x->random), square = nh_residue_mul(f, u, u), bottom = nh_residue_add(f, 1, square);
+    nh_residue u = nh_residue_random(f, &x->random), square = nh_residue_mul(f, u, u),
+               bottom = nh_residue_add(f, 1, square);
     if (!bottom) return false;
     nh_residue inverse = nh_residue_inverse(f, bottom);
     k->value = nh_residue_mul(f, nh_residue_sub(f, 1, square), inverse);
@@ -267,7 +289,8 @@ bool nh_jet_point_exponential(nh_jet_point *x, nh_ex argument, nh_residue *out)
         nh_jet_kernel *k = find(x, NH_JET_EXPONENTIAL, parts.item[i].atom);
         nh_num c = parts.item[i].coefficient;
         if (!k->chosen) k->value = nh_residue_random(x->field, &x->random), k->chosen = true;
-        *out = nh_residue_mul(x->field, *out, signed_power(x->field, k->value, c.p * (int64_t)(k->order / (uint64_t)c.q)));
+        *out =
+            nh_residue_mul(x->field, *out, signed_power(x->field, k->value, c.p * (int64_t)(k->order / (uint64_t)c.q)));
     }
     nh_free(parts.item);
     return true;
@@ -283,6 +306,8 @@ nh_residue nh_jet_point_free_value(nh_jet_point *x, nh_ex primitive)
 const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *x, nh_ex f)
 {
     nh_jet_kernel *k = find(x, NH_JET_SOLUTION, base_of(x->dag, f));
-    if (!k->chosen) k->value = nh_residue_random(x->field, &x->random), k->sine = nh_residue_random(x->field, &x->random), k->chosen = true;
+    if (!k->chosen)
+        k->value = nh_residue_random(x->field, &x->random), k->sine = nh_residue_random(x->field, &x->random),
+        k->chosen = true;
     return k;
 }

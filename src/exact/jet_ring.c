@@ -1,4 +1,5 @@
-/* Truncated power series modulo a prime: products by lists of pairs grouped by their sum, everything else by recurrences of the Euler field. */
+/* Truncated power series modulo a prime: products by lists of pairs grouped by their sum, everything else by
+   recurrences of the Euler field. */
 #include "exact/jet_ring.h"
 
 #include <stdlib.h>
@@ -7,7 +8,8 @@
 /* ---- exponents ---- */
 
 /* Exponents of one weighted degree, in lexicographic order. */
-static size_t list(size_t variables, const size_t *weight, size_t left, uint8_t *current, size_t k, uint8_t *out, size_t most)
+static size_t list(size_t variables, const size_t *weight, size_t left, uint8_t *current, size_t k, uint8_t *out,
+                   size_t most)
 {
     if (k + 1 == variables) {
         if (left % weight[k]) return 0;
@@ -18,7 +20,8 @@ static size_t list(size_t variables, const size_t *weight, size_t left, uint8_t 
     size_t count = 0;
     for (size_t e = 0; e * weight[k] <= left && count <= most; e++) {
         current[k] = (uint8_t)e;
-        count += list(variables, weight, left - e * weight[k], current, k + 1, out ? out + count * variables : NULL, most);
+        count +=
+            list(variables, weight, left - e * weight[k], current, k + 1, out ? out + count * variables : NULL, most);
     }
     return count;
 }
@@ -29,7 +32,8 @@ size_t nh_jet_ring_size(size_t variables, const size_t *weight, size_t order, si
     if (variables == 0) return 1;
     uint8_t *current = nh_alloc(variables);
     size_t size = 0;
-    for (size_t degree = 0; degree <= order && size <= most; degree++) size += list(variables, weight, degree, current, 0, NULL, most);
+    for (size_t degree = 0; degree <= order && size <= most; degree++)
+        size += list(variables, weight, degree, current, 0, NULL, most);
     nh_free(current);
     return size <= most ? size : SIZE_MAX;
 }
@@ -58,7 +62,9 @@ static void list_exponents(nh_jet_ring *r)
     size_t at = 0;
     for (size_t degree = 0; degree <= r->order; degree++) {
         r->first[degree] = at;
-        size_t more = r->variables ? list(r->variables, r->weight, degree, current, 0, r->exponent + at * r->variables, SIZE_MAX - 1) : degree == 0;
+        size_t more = r->variables ? list(r->variables, r->weight, degree, current, 0, r->exponent + at * r->variables,
+                                          SIZE_MAX - 1)
+                                   : degree == 0;
         for (size_t i = 0; i < more; i++) r->degree[at + i] = degree;
         at += more;
     }
@@ -107,7 +113,8 @@ static size_t count_pairs(const nh_jet_ring *r)
 }
 
 /* Of one sum, as an odometer; the code of the right one is the difference of codes. */
-static size_t list_pairs_of(nh_jet_ring *r, const codes *c, const uint8_t *sum, uint8_t *left, uint8_t *right, size_t count)
+static size_t list_pairs_of(nh_jet_ring *r, const codes *c, const uint8_t *sum, uint8_t *left, uint8_t *right,
+                            size_t count)
 {
     size_t m = r->variables, all = c->index ? code_of(r, c, sum) : 0, own = 0;
     memset(left, 0, m + 1);
@@ -157,7 +164,8 @@ static void list_steps(nh_jet_ring *r)
         for (size_t e = 0; e < r->size; e++) {
             memcpy(next, r->exponent + e * m, m);
             next[k]++;
-            r->up[k * r->size + e] = r->degree[e] + r->weight[k] <= r->order ? (uint32_t)nh_jet_ring_find(r, next) : UINT32_MAX;
+            r->up[k * r->size + e] =
+                r->degree[e] + r->weight[k] <= r->order ? (uint32_t)nh_jet_ring_find(r, next) : UINT32_MAX;
         }
     nh_free(next);
 }
@@ -223,7 +231,8 @@ void nh_jet_mul(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b, 
     }
     for (size_t e = 0; e < r->size; e++) {
         uint64_t sum = 0;
-        for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++) sum = nh_residue_gather(r->field, sum, a[r->left[i]], b[r->right[i]]);
+        for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++)
+            sum = nh_residue_gather(r->field, sum, a[r->left[i]], b[r->right[i]]);
         out[e] = (nh_residue)(sum % r->field.p);
     }
 }
@@ -237,8 +246,14 @@ static void add_product(const nh_jet_ring *r, nh_residue *sum, const nh_residue 
     nh_free(product);
 }
 
-void nh_jet_add_product(const nh_jet_ring *r, nh_residue *sum, const nh_residue *a, const nh_residue *b) { add_product(r, sum, a, b, false); }
-void nh_jet_sub_product(const nh_jet_ring *r, nh_residue *sum, const nh_residue *a, const nh_residue *b) { add_product(r, sum, a, b, true); }
+void nh_jet_add_product(const nh_jet_ring *r, nh_residue *sum, const nh_residue *a, const nh_residue *b)
+{
+    add_product(r, sum, a, b, false);
+}
+void nh_jet_sub_product(const nh_jet_ring *r, nh_residue *sum, const nh_residue *a, const nh_residue *b)
+{
+    add_product(r, sum, a, b, true);
+}
 
 void nh_jet_derivative(const nh_jet_ring *r, const nh_residue *a, size_t k, nh_residue *out)
 {
@@ -255,7 +270,8 @@ void nh_jet_euler(const nh_jet_ring *r, const nh_residue *a, nh_residue *out)
 
 void nh_jet_euler_inverse(const nh_jet_ring *r, const nh_residue *a, nh_residue at, nh_residue *out)
 {
-    for (size_t e = 0; e < r->size; e++) out[e] = r->degree[e] ? nh_residue_mul(r->field, a[e], r->inverse[r->degree[e]]) : at;
+    for (size_t e = 0; e < r->size; e++)
+        out[e] = r->degree[e] ? nh_residue_mul(r->field, a[e], r->inverse[r->degree[e]]) : at;
 }
 
 /* ---- functions: coefficient by coefficient, by increasing |e| ---- */
@@ -265,15 +281,19 @@ void nh_jet_power(const nh_jet_ring *r, const nh_residue *a, nh_residue s, nh_re
     nh_prime f = r->field;
     nh_jet_constant(r, at, out);
     if (nh_jet_is_constant(r, a)) return;
-    nh_residue *factor = nh_alloc_array((r->order + 1) * (r->order + 1), sizeof *factor), lead = nh_residue_inverse(f, a[0]);
-    for (size_t g = 0; g <= r->order; g++) /* a E(y) = s E(a) y:  a_0 |e| y_e = sum over g != 0 of (s |g| - |e - g|) a_g y_(e-g) */
+    nh_residue *factor = nh_alloc_array((r->order + 1) * (r->order + 1), sizeof *factor),
+               lead = nh_residue_inverse(f, a[0]);
+    /* a E(y) = s E(a) y:  a_0 |e| y_e = sum over g != 0 of (s |g| - |e - g|) a_g y_(e-g) */
+    for (size_t g = 0; g <= r->order; g++)
         for (size_t h = 0; h <= r->order; h++)
             factor[g * (r->order + 1) + h] = nh_residue_sub(f, nh_residue_mul(f, s, (nh_residue)g), (nh_residue)h);
     for (size_t e = 1; e < r->size; e++) {
         uint64_t sum = 0;
         for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++) {
             size_t g = r->left[i], h = r->right[i];
-            if (g && a[g] && out[h]) sum = nh_residue_gather(f, sum, nh_residue_mul(f, a[g], factor[r->degree[g] * (r->order + 1) + r->degree[h]]), out[h]);
+            if (g && a[g] && out[h])
+                sum = nh_residue_gather(
+                    f, sum, nh_residue_mul(f, a[g], factor[r->degree[g] * (r->order + 1) + r->degree[h]]), out[h]);
         }
         out[e] = nh_residue_mul(f, (nh_residue)(sum % f.p), nh_residue_mul(f, lead, r->inverse[r->degree[e]]));
     }
@@ -284,7 +304,8 @@ void nh_jet_power(const nh_jet_ring *r, const nh_residue *a, nh_residue s, nh_re
 static nh_residue step(const nh_jet_ring *r, const nh_residue *euler, const nh_residue *x, size_t e)
 {
     uint64_t sum = 0;
-    for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++) sum = nh_residue_gather(r->field, sum, euler[r->left[i]], x[r->right[i]]);
+    for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++)
+        sum = nh_residue_gather(r->field, sum, euler[r->left[i]], x[r->right[i]]);
     return nh_residue_mul(r->field, (nh_residue)(sum % r->field.p), r->inverse[r->degree[e]]);
 }
 
@@ -297,7 +318,8 @@ void nh_jet_exponential(const nh_jet_ring *r, const nh_residue *u, nh_residue at
     nh_free(euler);
 }
 
-void nh_jet_circle(const nh_jet_ring *r, const nh_residue *u, nh_residue sine, nh_residue cosine, nh_residue *sin, nh_residue *cos)
+void nh_jet_circle(const nh_jet_ring *r, const nh_residue *u, nh_residue sine, nh_residue cosine, nh_residue *sin,
+                   nh_residue *cos)
 {
     nh_residue *euler = nh_alloc_array(r->size, sizeof *euler);
     nh_jet_euler(r, u, euler);
@@ -332,7 +354,8 @@ static void swap_rows(size_t length, nh_residue *a, nh_residue *b)
 }
 
 /* row := row - factor * other, from its entry `from` on */
-static void subtract_row(const nh_jet_ring *r, size_t from, size_t length, nh_residue *row, const nh_residue *factor, const nh_residue *other)
+static void subtract_row(const nh_jet_ring *r, size_t from, size_t length, nh_residue *row, const nh_residue *factor,
+                         const nh_residue *other)
 {
     for (size_t k = from; k < length; k++) nh_jet_sub_product(r, row + k * r->size, factor, other + k * r->size);
 }
@@ -347,7 +370,8 @@ bool nh_jet_solve(const nh_jet_ring *r, size_t n, nh_residue *M, size_t count, n
         while (p < n && !M[(p * n + c) * e]) p++;
         regular = p < n;
         if (!regular) break;
-        if (p != c) swap_rows(n * e, M + p * n * e, M + c * n * e), swap_rows(count * e, b + p * count * e, b + c * count * e);
+        if (p != c)
+            swap_rows(n * e, M + p * n * e, M + c * n * e), swap_rows(count * e, b + p * count * e, b + c * count * e);
         const nh_residue *pivot = M + (c * n + c) * e;
         nh_jet_power(r, pivot, (nh_residue)(r->field.p - 1), nh_residue_inverse(r->field, pivot[0]), inverse);
         for (size_t k = c; k < n + count; k++) {

@@ -2,10 +2,10 @@
  *
  *     sum over e with |e| = sum_k weight_k e_k <= order of  c_e z^e
  *
- * A series is an array of `size` residues, its coefficients in the order of the exponents: by |e|, so that a prefix is the series of a lower
- * order.  Every operation that is not a product follows from the Euler field E = sum_k weight_k z_k d/dz_k, (E y)_e = |e| y_e, coefficient by
- * coefficient: for y = a^s, a E(y) = s E(a) y; for y = exp(u), E(y) = E(u) y; for an integral, E(y) = E(u) f'(u).  The prime has to be
- * larger than the order. */
+ * A series is an array of `size` residues, its coefficients in the order of the exponents: by |e|, so that a prefix is
+ * the series of a lower order.  Every operation that is not a product follows from the Euler field E = sum_k weight_k
+ * z_k d/dz_k, (E y)_e = |e| y_e, coefficient by coefficient: for y = a^s, a E(y) = s E(a) y; for y = exp(u), E(y) =
+ * E(u) y; for an integral, E(y) = E(u) f'(u).  The prime has to be larger than the order. */
 #ifndef NH_JET_RING_H
 #define NH_JET_RING_H
 
@@ -43,11 +43,15 @@ void nh_jet_constant(const nh_jet_ring *ring, nh_residue c, nh_residue *out);
 void nh_jet_add_multiple(const nh_jet_ring *ring, nh_residue *sum, nh_residue c, const nh_residue *a); /* sum += c a */
 void nh_jet_scale(const nh_jet_ring *ring, nh_residue *a, nh_residue c);                                /* a *= c */
 void nh_jet_mul(const nh_jet_ring *ring, const nh_residue *a, const nh_residue *b, nh_residue *out);
-void nh_jet_add_product(const nh_jet_ring *ring, nh_residue *sum, const nh_residue *a, const nh_residue *b); /* sum += a b */
-void nh_jet_sub_product(const nh_jet_ring *ring, nh_residue *sum, const nh_residue *a, const nh_residue *b); /* sum -= a b */
-void nh_jet_derivative(const nh_jet_ring *ring, const nh_residue *a, size_t k, nh_residue *out); /* right up to order - weight_k */
+/* sum += a b */
+void nh_jet_add_product(const nh_jet_ring *ring, nh_residue *sum, const nh_residue *a, const nh_residue *b);
+/* sum -= a b */
+void nh_jet_sub_product(const nh_jet_ring *ring, nh_residue *sum, const nh_residue *a, const nh_residue *b);
+/* right up to order - weight_k */
+void nh_jet_derivative(const nh_jet_ring *ring, const nh_residue *a, size_t k, nh_residue *out);
 
-/* Solve M x = b in place, M n x n and b n x count series, row by row: Gauss and Jordan.  M is destroyed.  False where it is singular at the point. */
+/* Solve M x = b in place, M n x n and b n x count series, row by row: Gauss and Jordan.  M is destroyed.  False where
+   it is singular at the point. */
 bool nh_jet_solve(const nh_jet_ring *ring, size_t n, nh_residue *M, size_t count, nh_residue *b);
 
 /* a^s with the constant term `at`; a must have one that is not 0.  s = -1: the reciprocal. */
@@ -55,9 +59,11 @@ void nh_jet_power(const nh_jet_ring *ring, const nh_residue *a, nh_residue s, nh
 /* exp(u - u(0)) times `at`. */
 void nh_jet_exponential(const nh_jet_ring *ring, const nh_residue *u, nh_residue at, nh_residue *out);
 /* sin(u) and cos(u) with these constant terms. */
-void nh_jet_circle(const nh_jet_ring *ring, const nh_residue *u, nh_residue sine, nh_residue cosine, nh_residue *sin, nh_residue *cos);
+void nh_jet_circle(const nh_jet_ring *ring, const nh_residue *u, nh_residue sine, nh_residue cosine, nh_residue *sin,
+                   nh_residue *cos);
 /* y with E(y) = slope E(u) and this constant term: y = f(u) where slope = f'(u). */
-void nh_jet_integral(const nh_jet_ring *ring, const nh_residue *u, const nh_residue *slope, nh_residue at, nh_residue *out);
+void nh_jet_integral(const nh_jet_ring *ring, const nh_residue *u, const nh_residue *slope, nh_residue at,
+                     nh_residue *out);
 /* The Euler field: (E a)_e = |e| a_e. */
 void nh_jet_euler(const nh_jet_ring *ring, const nh_residue *a, nh_residue *out);
 /* Its inverse, with this constant term. */

@@ -364,7 +364,8 @@ size_t nh_kernel_plain(const nh_kernels *kernels, nh_ex e)
     return i;
 }
 
-size_t nh_kernel_find(const nh_kernels *kernels, nh_kernel_kind family, nh_ex base, nh_ex atom, nh_num c, int64_t *multiple)
+size_t nh_kernel_find(const nh_kernels *kernels, nh_kernel_kind family, nh_ex base, nh_ex atom, nh_num c,
+                      int64_t *multiple)
 {
     nh_kernel_use like = {.family = family, .base = base, .atom = atom, .coefficient = c};
     if (family == NH_KERNEL_ROOT) like.coefficient = nh_num_ratio(1, c.q);
@@ -382,8 +383,11 @@ nh_ex nh_kernel_argument(const nh_kernels *kernels, size_t kernel)
 
 nh_ex nh_kernel_power(const nh_kernels *kernels, size_t kernel, int64_t power)
 {
-    static const nh_function function[] = {[NH_KERNEL_SIN] = NH_SIN, [NH_KERNEL_COS] = NH_COS, [NH_KERNEL_SINH] = NH_SINH,
-                                           [NH_KERNEL_COSH] = NH_COSH, [NH_KERNEL_ABS] = NH_ABS};
+    static const nh_function function[] = {[NH_KERNEL_SIN] = NH_SIN,
+                                           [NH_KERNEL_COS] = NH_COS,
+                                           [NH_KERNEL_SINH] = NH_SINH,
+                                           [NH_KERNEL_COSH] = NH_COSH,
+                                           [NH_KERNEL_ABS] = NH_ABS};
     const nh_kernel *k = &kernels->item[kernel];
     nh_dag *dag = kernels->dag;
     nh_ex whole = nh_int(dag, power), base = k->shown ? k->shown : k->atom;

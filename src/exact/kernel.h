@@ -71,7 +71,8 @@ void nh_kernels_settle(nh_kernels *kernels);           /* choose the units, numb
 /* The kernel of a symbol, an opaque function or number. */
 size_t nh_kernel_plain(const nh_kernels *kernels, nh_ex e);
 /* The kernel of family(c*atom), c > 0, with c = *multiple * unit. */
-size_t nh_kernel_find(const nh_kernels *kernels, nh_kernel_kind family, nh_ex base, nh_ex atom, nh_num c, int64_t *multiple);
+size_t nh_kernel_find(const nh_kernels *kernels, nh_kernel_kind family, nh_ex base, nh_ex atom, nh_num c,
+                      int64_t *multiple);
 /* What (kernel)^power looks like. */
 nh_ex nh_kernel_power(const nh_kernels *kernels, size_t kernel, int64_t power);
 /* unit * atom, as shown */

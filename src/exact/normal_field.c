@@ -10,9 +10,11 @@
 /* Products are refused when they need more than this many term products per admitted term; a whole computation may
  * do `patience` times that. */
 enum { slack = 50, patience = 20, highest_degree = 1 << 30 };
-/* Behind a budget or a deadline so much of a computation is still done: what was found by then is to be shown in short form. */
+/* Behind a budget or a deadline so much of a computation is still done: what was found by then is to be shown in short
+   form. */
 static const double hurried = 0.02;
-/* A gcd is tried below this many pairs of terms and below this degree: a fraction that is not cancelled is still right. */
+/* A gcd is tried below this many pairs of terms and below this degree: a fraction that is not cancelled is still
+   right. */
 static const double gcd_pairs = 2e4;
 static const slong gcd_degree = 60;
 
@@ -71,7 +73,9 @@ static double words(const fmpz_mpoly_t a) { return 1 + fabs((double)fmpz_mpoly_m
 bool nh_quotient_field_spend(nh_quotient_field *f, double work)
 {
     f->work += work;
-    if (f->work > f->max_work || (f->work > hurried * f->max_work && (nh_budget_spent() || nh_late())) || nh_interrupted()) nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
+    if (f->work > f->max_work || (f->work > hurried * f->max_work && (nh_budget_spent() || nh_late())) ||
+        nh_interrupted())
+        nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
     if (f->state == NH_FIELD_FINE) nh_work_add(NH_WORK_TERM, work); /* what is refused is not done */
     return f->state == NH_FIELD_FINE;
 }
@@ -105,7 +109,8 @@ bool nh_quotient_field_cheap_gcd(const nh_quotient_field *f, const fmpz_mpoly_t 
     if (a->length == 1 || b->length == 1) return true;
     if ((double)a->length * (double)b->length > gcd_pairs) return false;
     for (slong g = 0; g < f->generators; g++)
-        if (fmpz_mpoly_degree_si(a, g, f->ctx) > gcd_degree || fmpz_mpoly_degree_si(b, g, f->ctx) > gcd_degree) return false;
+        if (fmpz_mpoly_degree_si(a, g, f->ctx) > gcd_degree || fmpz_mpoly_degree_si(b, g, f->ctx) > gcd_degree)
+            return false;
     return true;
 }
 
@@ -129,8 +134,8 @@ static void split_by_power(nh_quotient_field *f, const nh_relation *r, const fmp
     fmpz_clear(c);
 }
 
-/* p with g^order replaced by num/den, times den^J to stay a polynomial; returns J.  Where the value has lower powers of g every step of Horner's rule is reduced again:
- * its degree falls each time. */
+/* p with g^order replaced by num/den, times den^J to stay a polynomial; returns J.  Where the value has lower powers of
+ * g every step of Horner's rule is reduced again: its degree falls each time. */
 static ulong reduce(nh_quotient_field *f, const nh_relation *r, fmpz_mpoly_t p)
 {
     slong degree = fmpz_mpoly_degree_si(p, r->generator, f->ctx);
@@ -194,7 +199,8 @@ void nh_quotient_cancel(nh_quotient_field *f, nh_quotient *q)
     if (nh_quotient_field_cheap_gcd(f, q->num, q->den)) {
         fmpz_mpoly_t g;
         fmpz_mpoly_init(g, f->ctx);
-        if (nh_quotient_field_spend(f, (double)(q->num->length + q->den->length)) && fmpz_mpoly_gcd(g, q->num, q->den, f->ctx) && !is_one(f, g)) {
+        if (nh_quotient_field_spend(f, (double)(q->num->length + q->den->length)) &&
+            fmpz_mpoly_gcd(g, q->num, q->den, f->ctx) && !is_one(f, g)) {
             fmpz_mpoly_divexact(q->num, q->num, g, f->ctx);
             fmpz_mpoly_divexact(q->den, q->den, g, f->ctx);
         }

@@ -136,7 +136,10 @@ const nh_quotient *nh_quotient_again(nh_quotient_field *field, const nh_quotient
     return nh_quotient_normalise(field, q);
 }
 
-bool nh_quotient_is_zero(const nh_quotient_field *field, const nh_quotient *a) { return fmpz_mpoly_is_zero(a->num, field->ctx); }
+bool nh_quotient_is_zero(const nh_quotient_field *field, const nh_quotient *a)
+{
+    return fmpz_mpoly_is_zero(a->num, field->ctx);
+}
 
 bool nh_quotient_equal(const nh_quotient_field *field, const nh_quotient *a, const nh_quotient *b)
 {
@@ -156,7 +159,9 @@ const nh_quotient *nh_quotient_rationalise(nh_quotient_field *field, const nh_qu
 {
     for (size_t i = field->relations; i-- > 0 && field->state == NH_FIELD_FINE;) {
         slong g = field->relation[i].generator;
-        if (field->relation[i].order != 2 || field->relation[i].mixed || fmpz_mpoly_degree_si(a->den, g, field->ctx) != 1) continue;
+        if (field->relation[i].order != 2 || field->relation[i].mixed ||
+            fmpz_mpoly_degree_si(a->den, g, field->ctx) != 1)
+            continue;
         if ((double)(a->num->length + a->den->length) * (double)a->den->length > conjugate_pairs) return a;
         nh_quotient *q = nh_quotient_fresh(field);
         fmpz_mpoly_t conjugate;
@@ -174,7 +179,8 @@ const nh_quotient *nh_quotient_rationalise(nh_quotient_field *field, const nh_qu
     return a;
 }
 
-void nh_quotient_divide(nh_quotient_field *field, const nh_quotient *a, const nh_quotient **whole, const nh_quotient **rest)
+void nh_quotient_divide(nh_quotient_field *field, const nh_quotient *a, const nh_quotient **whole,
+                        const nh_quotient **rest)
 {
     nh_quotient *w = nh_quotient_fresh(field), *r = nh_quotient_fresh(field);
     fmpz_t scale; /* scale num = Q den + R */

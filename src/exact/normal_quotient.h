@@ -20,7 +20,8 @@ void nh_quotient_field_free(nh_quotient_field *field);
 nh_quotient_field_state nh_quotient_field_state_of(const nh_quotient_field *field);
 void nh_quotient_field_break(nh_quotient_field *field, nh_quotient_field_state why);
 
-/* From now on generator^order = value, a quotient in generators without relation or with an earlier one, and in lower powers of the generator. */
+/* From now on generator^order = value, a quotient in generators without relation or with an earlier one, and in lower
+   powers of the generator. */
 void nh_quotient_field_relate(nh_quotient_field *field, size_t generator, unsigned order, const nh_quotient *value);
 /* The value of a relation may need later relations: they are all applied twice. */
 void nh_quotient_field_repeat(nh_quotient_field *field);
@@ -36,11 +37,13 @@ const nh_quotient *nh_quotient_mul(nh_quotient_field *field, const nh_quotient *
 const nh_quotient *nh_quotient_inv(nh_quotient_field *field, const nh_quotient *a);
 const nh_quotient *nh_quotient_pow(nh_quotient_field *field, const nh_quotient *a, int64_t n);
 const nh_quotient *nh_quotient_scale(nh_quotient_field *field, const nh_quotient *a, nh_num c);
-const nh_quotient *nh_quotient_again(nh_quotient_field *field, const nh_quotient *a); /* reduced by the present relations */
+/* reduced by the present relations */
+const nh_quotient *nh_quotient_again(nh_quotient_field *field, const nh_quotient *a);
 /* The same with a denominator free of sines and square roots, unless that is long. */
 const nh_quotient *nh_quotient_rationalise(nh_quotient_field *field, const nh_quotient *a);
 /* a = whole + rest, whole without denominator (but a number), rest = remainder/denominator. */
-void nh_quotient_divide(nh_quotient_field *field, const nh_quotient *a, const nh_quotient **whole, const nh_quotient **rest);
+void nh_quotient_divide(nh_quotient_field *field, const nh_quotient *a, const nh_quotient **whole,
+                        const nh_quotient **rest);
 bool nh_quotient_is_zero(const nh_quotient_field *field, const nh_quotient *a);
 bool nh_quotient_equal(const nh_quotient_field *field, const nh_quotient *a, const nh_quotient *b);
 bool nh_quotient_has(const nh_quotient_field *field, const nh_quotient *a, size_t generator);

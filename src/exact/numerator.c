@@ -46,7 +46,8 @@ nh_ex nh_canonical_sum(nh_dag *dag, nh_ex e)
     nh_ex result = e;
     nh_arena *arena = nh_arena_create();
     nh_forms_init(&forms, dag, false, most_terms);
-    if (nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE && nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
+    if (nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE &&
+        nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
         nh_ex sum = nh_print_quotient_terms(&form.kernels, &pieces);
         if (nh_is_short(dag, sum)) result = sum;
     }
@@ -64,7 +65,8 @@ int nh_canonical_sign(nh_dag *dag, nh_ex e)
     int sign = 1;
     nh_arena *arena = nh_arena_create();
     nh_forms_init(&forms, dag, false, most_terms);
-    if (nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE && nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
+    if (nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE &&
+        nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
         if (nh_num_value(pieces.constant) < 0) sign = -1;
         for (size_t j = 0; j < pieces.factors; j++)
             if (pieces.factor[j].power % 2 && nh_num_value(pieces.factor[j].coefficient[0]) < 0) sign = -sign;

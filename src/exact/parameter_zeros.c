@@ -35,7 +35,8 @@ static void add_way(work *w, size_t count, const nh_ex *polynomial)
     nh_parameter_zeros *v = w->out;
     nh_parameter_zeros_way *way = nh_arena_alloc(w->arena, (v->ways + 1) * sizeof *way);
     if (v->ways) memcpy(way, v->way, v->ways * sizeof *way);
-    way[v->ways] = (nh_parameter_zeros_way){.count = count, .polynomial = nh_arena_alloc(w->arena, (count + 1) * sizeof(nh_ex))};
+    way[v->ways] =
+        (nh_parameter_zeros_way){.count = count, .polynomial = nh_arena_alloc(w->arena, (count + 1) * sizeof(nh_ex))};
     if (count) memcpy(way[v->ways++].polynomial, polynomial, count * sizeof *polynomial);
     v->way = way;
 }
@@ -43,7 +44,8 @@ static void add_way(work *w, size_t count, const nh_ex *polynomial)
 static bool same_variables(const work *w, const nh_pieces *p, const nh_factor *f, size_t a, size_t b)
 {
     for (size_t g = 0; g < p->generators; g++)
-        if (!w->question.constant[g] && f->exponent[a * p->generators + g] != f->exponent[b * p->generators + g]) return false;
+        if (!w->question.constant[g] && f->exponent[a * p->generators + g] != f->exponent[b * p->generators + g])
+            return false;
     return true;
 }
 
@@ -58,10 +60,12 @@ static nh_ex coefficient(work *w, const nh_pieces *p, const nh_factor *f, size_t
     for (size_t i = first; i < f->terms; i++) {
         if (!same_variables(w, p, f, first, i)) continue;
         part.coefficient[part.terms] = f->coefficient[i];
-        for (size_t g = 0; g < n; g++) part.exponent[part.terms * n + g] = w->question.constant[g] ? f->exponent[i * n + g] : 0;
+        for (size_t g = 0; g < n; g++)
+            part.exponent[part.terms * n + g] = w->question.constant[g] ? f->exponent[i * n + g] : 0;
         part.terms++;
     }
-    nh_pieces all = {.generators = n, .factors = 1, .constant = (nh_num){.p = 1, .q = 1}, .exponent = none, .factor = &part};
+    nh_pieces all = {
+        .generators = n, .factors = 1, .constant = (nh_num){.p = 1, .q = 1}, .exponent = none, .factor = &part};
     return product_of(w, &all);
 }
 
@@ -76,7 +80,8 @@ static bool add_factor(work *w, const nh_pieces *p, const nh_factor *f)
         if (seen) continue;
         nh_ex e = nh_parameter_zeros_polynomial(w->question.dag, coefficient(w, p, f, i));
         if (nh_kind_of(w->question.dag, e) == NH_NUMBER) return true;
-        for (size_t j = 0; j < count && !seen; j++) seen = polynomial[j] == e || polynomial[j] == nh_neg(w->question.dag, e);
+        for (size_t j = 0; j < count && !seen; j++)
+            seen = polynomial[j] == e || polynomial[j] == nh_neg(w->question.dag, e);
         if (seen) continue;
         if (count == most_polynomials) return false;
         polynomial[count++] = e;
@@ -113,7 +118,8 @@ static bool find(work *w, nh_ex e)
     return good;
 }
 
-bool nh_parameter_zeros_find(nh_arena *arena, nh_dag *dag, nh_ex e, size_t parameters, const nh_ex *parameter, nh_parameter_zeros *out)
+bool nh_parameter_zeros_find(nh_arena *arena, nh_dag *dag, nh_ex e, size_t parameters, const nh_ex *parameter,
+                             nh_parameter_zeros *out)
 {
     enum { most_terms = 4000 };
     work w = {.arena = arena, .out = out};
@@ -133,7 +139,8 @@ static bool of_one_sign(nh_dag *dag, nh_ex e)
     nh_pieces pieces;
     nh_arena *arena = nh_arena_create();
     nh_forms_init(&forms, dag, false, most_terms);
-    bool good = nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE && nh_pieces_make(form.field, arena, form.value, false, &pieces);
+    bool good = nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE &&
+                nh_pieces_make(form.field, arena, form.value, false, &pieces);
     for (size_t g = 0; g < form.kernels.count && good; g++)
         good = form.kernels.item[g].kind == NH_KERNEL_PLAIN;
     for (size_t j = 0; good && j < pieces.factors; j++)
@@ -149,7 +156,8 @@ bool nh_parameter_zeros_may_be_positive(nh_dag *dag, const nh_parameter_zeros *z
 {
     for (size_t i = 0; i < zeros->ways; i++) {
         bool never = false;
-        for (size_t k = 0; k < zeros->way[i].count && !never; k++) never = of_one_sign(dag, zeros->way[i].polynomial[k]);
+        for (size_t k = 0; k < zeros->way[i].count && !never; k++)
+            never = of_one_sign(dag, zeros->way[i].polynomial[k]);
         if (!never) return true;
     }
     return false;

@@ -2,8 +2,8 @@
  *
  *     e = prod_f f^power / denominator,    f = sum_m a_fm m
  *
- * with monomials m in the kernels that are not constant (modulo what these satisfy, such as sin^2 + cos^2 = 1) and polynomials a_fm in the constant ones: e vanishes iff
- * for some factor f all a_fm do. */
+ * with monomials m in the kernels that are not constant (modulo what these satisfy, such as sin^2 + cos^2 = 1) and
+ * polynomials a_fm in the constant ones: e vanishes iff for some factor f all a_fm do. */
 #ifndef NH_PARAMETER_ZEROS_H
 #define NH_PARAMETER_ZEROS_H
 
@@ -21,8 +21,10 @@ typedef struct {
     nh_parameter_zeros_way *way;
 } nh_parameter_zeros;
 
-/* `parameter`: the symbols that count as constants.  False where the expression is too large, or an inexact constant occurs. */
-bool nh_parameter_zeros_find(nh_arena *arena, nh_dag *dag, nh_ex e, size_t parameters, const nh_ex *parameter, nh_parameter_zeros *out);
+/* `parameter`: the symbols that count as constants.  False where the expression is too large, or an inexact constant
+   occurs. */
+bool nh_parameter_zeros_find(nh_arena *arena, nh_dag *dag, nh_ex e, size_t parameters, const nh_ex *parameter,
+                             nh_parameter_zeros *out);
 
 /* A polynomial without a numerical factor and sign, simplified. */
 nh_ex nh_parameter_zeros_polynomial(nh_dag *dag, nh_ex e);

@@ -5,8 +5,8 @@
 #include "exact/kernel.h"
 #include "exact/normal_quotient.h"
 
-/* constant * monomial * prod factor^power; sin/cos in the monomial becomes tan, which is always shorter.  With `collect`
- * the factors are written as x*(a + b) + c instead of a*x + b*x + c; that needs the kernels' lengths. */
+/* constant * monomial * prod factor^power; sin/cos in the monomial becomes tan, which is always shorter.  With
+ * `collect` the factors are written as x*(a + b) + c instead of a*x + b*x + c; that needs the kernels' lengths. */
 nh_ex nh_print_quotient_product(const nh_kernels *kernels, const nh_pieces *pieces, bool collect);
 
 /* The numerator's terms, each over the denominator: for pieces that are not factored. */

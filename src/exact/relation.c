@@ -50,7 +50,8 @@ static size_t add_root(question *q, nh_ex radicand, const nh_quotient *value, nh
     return kernel;
 }
 
-/* value^(1/order) for a constant value: a power of a kernel there is, or a new one; NULL when it cannot be written down. */
+/* value^(1/order) for a constant value: a power of a kernel there is, or a new one; NULL when it cannot be written
+   down. */
 static const nh_quotient *root_of(question *q, const nh_quotient *value, nh_num unit)
 {
     nh_kernels *k = &q->form.kernels;
@@ -78,9 +79,10 @@ static const nh_quotient *constant_root(question *q, const nh_quotient *a, const
     return root && upside_down ? nh_quotient_inv(field, root) : root;
 }
 
-/* r = A^(1/n), and there is s = B^(1/n) with a constant A/B: then r = (A/B)^(1/n) s.  The roots being positive where they
- * are real, this needs no assumption on the sign of anything. */
-static bool relate_to_earlier(question *q, size_t root, const nh_quotient *radicand, const size_t *earlier, size_t count)
+/* r = A^(1/n), and there is s = B^(1/n) with a constant A/B: then r = (A/B)^(1/n) s.  The roots being positive where
+ * they are real, this needs no assumption on the sign of anything. */
+static bool relate_to_earlier(question *q, size_t root, const nh_quotient *radicand, const size_t *earlier,
+                              size_t count)
 {
     nh_form *f = &q->form;
     nh_num unit = f->kernels.item[root].unit;
@@ -89,7 +91,8 @@ static bool relate_to_earlier(question *q, size_t root, const nh_quotient *radic
         if (other.unit.q != unit.q) continue;
         const nh_quotient *factor = constant_root(q, radicand, nh_form_eval(f, other.atom), unit);
         if (!factor) continue;
-        nh_quotient_field_relate(f->field, root, 1, nh_quotient_mul(f->field, factor, nh_quotient_power_of(f->field, earlier[i], 1)));
+        nh_quotient_field_relate(f->field, root, 1,
+                                 nh_quotient_mul(f->field, factor, nh_quotient_power_of(f->field, earlier[i], 1)));
         return true;
     }
     return false;
@@ -101,7 +104,8 @@ static bool relate_kernel(question *q, size_t kernel, const size_t *earlier, siz
     nh_form *f = &q->form;
     nh_kernel k = f->kernels.item[kernel]; /* a copy: roots may be added */
     if (k.kind == NH_KERNEL_SIN) nh_quotient_field_relate_pair(f->field, kernel, k.partner, false);
-    if (k.kind == NH_KERNEL_ABS) nh_quotient_field_relate(f->field, kernel, 2, nh_quotient_pow(f->field, nh_form_eval(f, k.atom), 2));
+    if (k.kind == NH_KERNEL_ABS)
+        nh_quotient_field_relate(f->field, kernel, 2, nh_quotient_pow(f->field, nh_form_eval(f, k.atom), 2));
     if (k.kind != NH_KERNEL_ROOT) return false;
     const nh_quotient *radicand = nh_form_eval(f, k.atom);
     if (!q->constant[kernel] && relate_to_earlier(q, kernel, radicand, earlier, count)) return false;
@@ -109,7 +113,8 @@ static bool relate_kernel(question *q, size_t kernel, const size_t *earlier, siz
     return !q->constant[kernel];
 }
 
-/* Which kernels are coefficients; spare ones, for which there is room, will be.  Returns the number of roots of variables. */
+/* Which kernels are coefficients; spare ones, for which there is room, will be.  Returns the number of roots of
+   variables. */
 static size_t sort_out(question *q)
 {
     const nh_kernels *k = &q->form.kernels;
@@ -139,7 +144,8 @@ static bool collect_kernels(question *q)
     for (int pass = 0; pass < 2; pass++) /* constants first: the others may turn out to be multiples of their roots */
         for (size_t i = 0; i < count; i++) {
             size_t kernel = k->order[i];
-            if (q->constant[kernel] == (pass == 0) && relate_kernel(q, kernel, earlier, roots)) earlier[roots++] = kernel;
+            if (q->constant[kernel] == (pass == 0) && relate_kernel(q, kernel, earlier, roots))
+                earlier[roots++] = kernel;
         }
     nh_free(earlier);
     return nh_quotient_field_state_of(q->form.field) == NH_FIELD_FINE;
@@ -161,7 +167,8 @@ static bool emit(question *q, const nh_quotient *value, nh_ex *out)
     nh_pieces factored, whole;
     nh_arena *arena = nh_arena_create();
     const nh_kernels *k = &q->form.kernels;
-    bool fits = nh_pieces_make(q->form.field, arena, value, false, &whole) && nh_pieces_make(q->form.field, arena, value, true, &factored);
+    bool fits = nh_pieces_make(q->form.field, arena, value, false, &whole) &&
+                nh_pieces_make(q->form.field, arena, value, true, &factored);
     if (fits) {
         candidate[0] = nh_print_quotient_product(k, &factored, false);
         candidate[1] = nh_print_quotient_product(k, &whole, true);
@@ -212,7 +219,8 @@ static nh_relation_verdict ask(question *q, const nh_ex *e, nh_ex *coefficient)
     return verdict;
 }
 
-void nh_relation_question_init(question *q, nh_dag *dag, size_t n, size_t parameters, const nh_ex *parameter, size_t max_terms)
+void nh_relation_question_init(question *q, nh_dag *dag, size_t n, size_t parameters, const nh_ex *parameter,
+                               size_t max_terms)
 {
     *q = (question){.dag = dag, .n = n, .parameters = parameters, .parameter = parameter};
     nh_forms_init(&q->forms, dag, false, max_terms ? max_terms : default_terms);
@@ -221,7 +229,10 @@ void nh_relation_question_init(question *q, nh_dag *dag, size_t n, size_t parame
     q->c = nh_alloc_array(n, sizeof *q->c);
 }
 
-bool nh_relation_question_read(question *q, const nh_ex *e) { return rewrite_all(q, e) && collect_kernels(q) && evaluate_all(q); }
+bool nh_relation_question_read(question *q, const nh_ex *e)
+{
+    return rewrite_all(q, e) && collect_kernels(q) && evaluate_all(q);
+}
 
 nh_relation_system nh_relation_question_system(const question *q)
 {
@@ -244,8 +255,8 @@ void nh_relation_question_clear(question *q)
     nh_free(q->c);
 }
 
-nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter, size_t max_terms,
-                                     nh_ex *coefficient)
+nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
+                                     size_t max_terms, nh_ex *coefficient)
 {
     if (n == 0) return NH_RELATION_NONE;
     question q;
@@ -256,7 +267,8 @@ nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size
 }
 
 /* What the last expression needs, modulo a prime. */
-static bool find_support(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter, size_t max_terms, bool *support)
+static bool find_support(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
+                         size_t max_terms, bool *support)
 {
     question q;
     nh_relation_question_init(&q, dag, n, parameters, parameter, max_terms);
@@ -272,14 +284,17 @@ static bool find_support(nh_dag *dag, size_t n, const nh_ex *e, size_t parameter
     return found;
 }
 
-bool nh_relation_express(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter, size_t max_terms, nh_ex *coefficient)
+bool nh_relation_express(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
+                         size_t max_terms, nh_ex *coefficient)
 {
-    bool *support = nh_alloc_array(n + 1, sizeof *support), found = n && find_support(dag, n, e, parameters, parameter, max_terms, support);
+    bool *support = nh_alloc_array(n + 1, sizeof *support),
+         found = n && find_support(dag, n, e, parameters, parameter, max_terms, support);
     nh_ex *used = nh_alloc_array(n + 1, sizeof *used), *c = nh_alloc_array(n + 1, sizeof *c);
     size_t count = 0;
     for (size_t j = 0; j < n && found; j++)
         if (support[j]) used[count++] = e[j];
-    found = found && nh_relation_find(dag, count, used, parameters, parameter, max_terms, c) == NH_RELATION_UNIQUE && !nh_is_zero(dag, c[count - 1]);
+    found = found && nh_relation_find(dag, count, used, parameters, parameter, max_terms, c) == NH_RELATION_UNIQUE &&
+            !nh_is_zero(dag, c[count - 1]);
     for (size_t j = 0, k = 0; j + 1 < n && found; j++) {
         coefficient[j] = nh_int(dag, 0);
         if (support[j]) coefficient[j] = nh_simplify_short(dag, nh_neg(dag, nh_div(dag, c[k++], c[count - 1])), 0);

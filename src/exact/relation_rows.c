@@ -246,11 +246,13 @@ static size_t count_columns(size_t n, const bool *support)
     return count;
 }
 
-/* The rows from the sparsest on, until there are as many as columns; which ones, and per column whether it has a pivot. */
+/* The rows from the sparsest on, until there are as many as columns; which ones, and per column whether it has a
+   pivot. */
 static echelon reduce(nh_relation_rows *rows, const bool *support, size_t *chosen, bool *pivots)
 {
     size_t n = rows->system->n, wanted = count_columns(n, support);
-    echelon e = {.n = n, .row = nh_alloc_array((n + 1) * n, sizeof *e.row), .pivot = nh_alloc_array(n + 1, sizeof *e.pivot)};
+    echelon e = {
+        .n = n, .row = nh_alloc_array((n + 1) * n, sizeof *e.row), .pivot = nh_alloc_array(n + 1, sizeof *e.pivot)};
     nmod_init(&e.mod, rows->prime);
     weigh(rows, support);
     qsort(rows->row, rows->rows, sizeof *rows->row, by_weight);

@@ -39,14 +39,16 @@ typedef struct nh_relation_rows {
 void nh_relation_rows_init(nh_relation_rows *rows, const nh_relation_system *system);
 void nh_relation_rows_clear(nh_relation_rows *rows);
 
-/* Random values for the constants, modulo a prime after rows->prime, such that their relations hold.  False: none found. */
+/* Random values for the constants, modulo a prime after rows->prime, such that their relations hold.  False: none
+   found. */
 bool nh_relation_rows_choose_point(nh_relation_rows *rows);
 
 /* The rank of the columns in `support` at the point; `chosen` gets that many independent rows, the sparsest.  With rank
  * one less than the columns, `support` is narrowed to what the null vector needs. */
 size_t nh_relation_rows_rank(nh_relation_rows *rows, bool *support, size_t *chosen);
 
-/* Is the last column a combination of those before it?  Then `support` holds it and those that it needs, the first ones possible. */
+/* Is the last column a combination of those before it?  Then `support` holds it and those that it needs, the first ones
+   possible. */
 bool nh_relation_rows_last(nh_relation_rows *rows, bool *support);
 
 /* The coefficient of an unknown in an equation, NULL when there is none. */

@@ -18,7 +18,10 @@ static nh_quotient *polynomial(nh_quotient_field *f, const fmpz_mpoly_t p)
     return q;
 }
 
-bool nh_relation_is_polynomial(const nh_quotient_field *field, const nh_quotient *q) { return fmpz_mpoly_is_fmpz(q->den, field->ctx); }
+bool nh_relation_is_polynomial(const nh_quotient_field *field, const nh_quotient *q)
+{
+    return fmpz_mpoly_is_fmpz(q->den, field->ctx);
+}
 
 static bool fine(const nh_quotient_field *f) { return nh_quotient_field_state_of(f) == NH_FIELD_FINE; }
 
@@ -171,7 +174,8 @@ static bool make_sparse_primitive(nh_quotient_field *f, size_t n, const nh_quoti
 }
 
 /* a b + c d, where NULL is zero */
-static const nh_quotient *combine(nh_quotient_field *f, const nh_quotient *a, const nh_quotient *b, const nh_quotient *c, const nh_quotient *d)
+static const nh_quotient *combine(nh_quotient_field *f, const nh_quotient *a, const nh_quotient *b,
+                                  const nh_quotient *c, const nh_quotient *d)
 {
     const nh_quotient *sum = a && b ? nh_quotient_mul(f, a, b) : NULL;
     if (c && d) {
@@ -182,7 +186,8 @@ static const nh_quotient *combine(nh_quotient_field *f, const nh_quotient *a, co
 }
 
 /* u = b/g, v = -a/g with g = gcd(a, b): a u + b v = 0 */
-static void balance(nh_quotient_field *f, const nh_quotient *a, const nh_quotient *b, const nh_quotient **u, const nh_quotient **v)
+static void balance(nh_quotient_field *f, const nh_quotient *a, const nh_quotient *b, const nh_quotient **u,
+                    const nh_quotient **v)
 {
     nh_quotient *left = polynomial(f, b->num), *right = polynomial(f, a->num);
     fmpz_mpoly_t g;
@@ -196,8 +201,8 @@ static void balance(nh_quotient_field *f, const nh_quotient *a, const nh_quotien
     *v = right;
 }
 
-/* The pivot's column disappears from the later rows, by cross multiplication; what a row gathers as common factor goes at
- * once, so that its entries never get longer than minors of the matrix. */
+/* The pivot's column disappears from the later rows, by cross multiplication; what a row gathers as common factor goes
+ * at once, so that its entries never get longer than minors of the matrix. */
 static bool eliminate_next(matrix *m)
 {
     nh_quotient_field *f = m->field;
@@ -278,7 +283,8 @@ static bool polish(nh_quotient_field *f, size_t n, const nh_quotient **c)
 /* ---- the whole ---- */
 
 /* The vector of the support, compact. */
-static bool solve_support(nh_relation_rows *rows, const size_t *column, size_t n, const size_t *chosen, const nh_quotient **c)
+static bool solve_support(nh_relation_rows *rows, const size_t *column, size_t n, const size_t *chosen,
+                          const nh_quotient **c)
 {
     matrix m = {.field = rows->system->field, .n = n, .rows = n - 1};
     m.entry = nh_alloc_array(n * n, sizeof *m.entry);
@@ -321,7 +327,8 @@ static bool solve_unique(nh_relation_rows *rows, bool *support, size_t *chosen, 
     const nh_quotient **compact = nh_alloc_array(s->n, sizeof *compact);
     for (size_t j = 0; j < s->n; j++)
         if (support[j]) column[n++] = j;
-    bool good = nh_relation_rows_rank(rows, support, chosen) == n - 1 && solve_support(rows, column, n, chosen, compact);
+    bool good =
+        nh_relation_rows_rank(rows, support, chosen) == n - 1 && solve_support(rows, column, n, chosen, compact);
     for (size_t j = 0; j < s->n; j++) c[j] = NULL;
     for (size_t j = 0; j < n && good; j++) c[column[j]] = compact[j];
     nh_free(column);

@@ -10,7 +10,8 @@
 #include "exact/relation_rows.h"
 
 typedef enum {
-    NH_RELATION_UNIQUE,    /* up to a factor; coefficient[] holds it: polynomials of the parameters without common factor */
+    /* up to a factor; coefficient[] holds it: polynomials of the parameters without common factor */
+    NH_RELATION_UNIQUE,
     NH_RELATION_NONE,
     NH_RELATION_SEVERAL,   /* a space of dimension two or more */
     NH_RELATION_TOO_LARGE  /* beyond max_terms, or an inexact constant occurs */
@@ -19,7 +20,8 @@ typedef enum {
 /* The verdict; when unique, c[j] gets quotients without denominators and without common factor. */
 nh_relation_verdict nh_relation_solve(const nh_relation_system *system, const nh_quotient **c);
 
-/* The vector that n - 1 independent rows leave, like c of the verdict; false where it is too large or one of its entries is zero. */
+/* The vector that n - 1 independent rows leave, like c of the verdict; false where it is too large or one of its
+   entries is zero. */
 struct nh_relation_rows;
 bool nh_relation_solve_rows(struct nh_relation_rows *rows, const size_t *chosen, const nh_quotient **c);
 

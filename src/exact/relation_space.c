@@ -45,7 +45,8 @@ static size_t constants_of(const problem *x, nh_ex **out)
 }
 
 /* All entries as series along a random curve. */
-static bool evaluate(problem *x, const nh_jet_ring *ring, uint64_t seed, size_t constants, const nh_ex *constant, nh_residue *out)
+static bool evaluate(problem *x, const nh_jet_ring *ring, uint64_t seed, size_t constants, const nh_ex *constant,
+                     nh_residue *out)
 {
     uint64_t random = seed + 4711;
     nh_jet_point_choose(x->point, x->field, seed);
@@ -71,7 +72,8 @@ static void fill(problem *x, const nh_jet_ring *ring, const nh_residue *value)
     size_t rows = x->q->rows, columns = x->q->columns;
     for (size_t j = 0; j < columns; j++)
         for (size_t i = 0; i < rows; i++)
-            for (size_t e = 0; e < ring->size; e++) x->matrix[(i * ring->size + e) * columns + j] = value[(j * rows + i) * ring->size + e];
+            for (size_t e = 0; e < ring->size; e++)
+                x->matrix[(i * ring->size + e) * columns + j] = value[(j * rows + i) * ring->size + e];
 }
 
 static bool find_rank(problem *x)
@@ -84,7 +86,8 @@ static bool find_rank(problem *x)
     size_t constants = constants_of(x, &constant), total = rows * ring->size;
     nh_residue *value = nh_alloc_array(columns * total + 1, sizeof *value);
     bool good = false;
-    for (uint64_t seed = 1; seed <= most_points && !good; seed++) good = evaluate(x, ring, seed, constants, constant, value);
+    for (uint64_t seed = 1; seed <= most_points && !good; seed++)
+        good = evaluate(x, ring, seed, constants, constant, value);
     if (good) {
         x->matrix = nh_alloc_array(columns * total + 1, sizeof *x->matrix);
         x->pivot = nh_alloc_array(columns + total + 1, sizeof *x->pivot);
@@ -142,9 +145,12 @@ static bool by_parameters(const problem *x, size_t n, const size_t *column, nh_e
     for (size_t i = 0; i < rows; i++) mark[i] = nh_symbol_fresh(x->d, "a row");
     for (size_t k = 0; k < n; k++) {
         whole[k] = nh_int(x->d, 0);
-        for (size_t i = 0; i < rows; i++) whole[k] = nh_add(x->d, whole[k], nh_mul(x->d, mark[i], x->q->entry[column[k] * rows + i]));
+        for (size_t i = 0; i < rows; i++)
+            whole[k] = nh_add(x->d, whole[k], nh_mul(x->d, mark[i], x->q->entry[column[k] * rows + i]));
     }
-    bool good = nh_relation_find(x->d, n, whole, x->q->parameters, x->q->parameter, x->q->max_terms, found) == NH_RELATION_UNIQUE && !nh_is_zero(x->d, found[n - 1]);
+    bool good = nh_relation_find(x->d, n, whole, x->q->parameters, x->q->parameter, x->q->max_terms, found) ==
+                    NH_RELATION_UNIQUE &&
+                !nh_is_zero(x->d, found[n - 1]);
     for (size_t k = 0; k < n && good; k++) c[column[k]] = nh_simplify(x->d, nh_div(x->d, found[k], found[n - 1]));
     nh_free(mark);
     nh_free(whole);
@@ -191,7 +197,8 @@ nh_relation_space *nh_relation_space_of(nh_arena *arena, const nh_relation_colum
 {
     nh_relation_space *out = nh_arena_alloc(arena, sizeof *out);
     size_t total = q->columns * q->rows;
-    problem x = {.q = q, .d = q->dag, .point = nh_jet_point_create(q->dag), .entry = nh_alloc_array(total + 1, sizeof(nh_ex))};
+    problem x = {
+        .q = q, .d = q->dag, .point = nh_jet_point_create(q->dag), .entry = nh_alloc_array(total + 1, sizeof(nh_ex))};
     *out = (nh_relation_space){0};
     nh_forms forms;
     nh_forms_init(&forms, q->dag, false, canonical_length);

@@ -2,10 +2,11 @@
  *
  *     sum_j c_j e_ij = 0    identically, for every row i,   c_j in Q(parameters)
  *
- * Along a curve whose power series are random modulo a prime, the constants being random residues, the columns become columns of residues, whose rank is a
- * lower bound: so `bound`, what is missing to the number of columns, is an upper one for the dimension of the relations.  Each vector of the reduced echelon
- * form says which columns a relation consists of; its coefficients are found exactly, and the relation is then an identity of normal forms.  Where `proved`
- * is equal to `bound` there are no other relations. */
+ * Along a curve whose power series are random modulo a prime, the constants being random residues, the columns become
+ * columns of residues, whose rank is a lower bound: so `bound`, what is missing to the number of columns, is an upper
+ * one for the dimension of the relations.  Each vector of the reduced echelon form says which columns a relation
+ * consists of; its coefficients are found exactly, and the relation is then an identity of normal forms.  Where
+ * `proved` is equal to `bound` there are no other relations. */
 #ifndef NH_RELATION_SPACE_H
 #define NH_RELATION_SPACE_H
 

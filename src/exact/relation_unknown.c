@@ -148,7 +148,8 @@ static bool root_product(problem *p, const nh_zero_root *root, nh_ex *out)
 {
     nh_dag *d = p->numbers->dag;
     nh_ex e, product = nh_int(d, 1), under_one = product;
-    bool joint = !nh_quotient_is_zero(p->system.field, root->rational); /* sums under one root, or each under its own; symbols always, as in monomials */
+    /* sums under one root, or each under its own; symbols always, as in monomials */
+    bool joint = !nh_quotient_is_zero(p->system.field, root->rational);
     for (size_t i = 0; i < root->roots; i++) {
         if (!nh_relation_question_emit(&p->question, root->root[i], &e)) return false;
         if (joint && nh_kind_of(d, e) != NH_SYMBOL) under_one = nh_mul(d, under_one, e);

@@ -1,10 +1,10 @@
 /* residue: whole numbers modulo a prime of 31 bits.
  *
- * Products of two residues fit into 62 bits, so sums of products are reduced by one conditional subtraction (nh_residue_gather), and by a
- * division only at the end.
+ * Products of two residues fit into 62 bits, so sums of products are reduced by one conditional subtraction
+ * (nh_residue_gather), and by a division only at the end.
  *
- * The primes are 11 modulo 12, and neither 1 modulo 5 nor modulo 7: roots of order 3, 5 and 7 exist and are unique, square roots exist for
- * half of the residues. */
+ * The primes are 11 modulo 12, and neither 1 modulo 5 nor modulo 7: roots of order 3, 5 and 7 exist and are unique,
+ * square roots exist for half of the residues. */
 #ifndef NH_RESIDUE_H
 #define NH_RESIDUE_H
 
@@ -25,8 +25,8 @@ nh_prime nh_prime_at(size_t index);
 /* The one below it. */
 nh_prime nh_prime_next(nh_prime f);
 
-/* The `index`-th prime that is 1 modulo 12: there -1 and -3 have square roots, which they have modulo none of the others. For equations without
- * roots: nh_residue_root needs the others. */
+/* The `index`-th prime that is 1 modulo 12: there -1 and -3 have square roots, which they have modulo none of the
+ * others. For equations without roots: nh_residue_root needs the others. */
 nh_prime nh_prime_with_units(size_t index);
 
 static inline nh_residue nh_residue_add(nh_prime f, nh_residue a, nh_residue b)
@@ -37,9 +37,13 @@ static inline nh_residue nh_residue_add(nh_prime f, nh_residue a, nh_residue b)
 
 static inline nh_residue nh_residue_negative(nh_prime f, nh_residue a) { return a ? (nh_residue)(f.p - a) : 0; }
 
-static inline nh_residue nh_residue_sub(nh_prime f, nh_residue a, nh_residue b) { return nh_residue_add(f, a, nh_residue_negative(f, b)); }
+static inline nh_residue nh_residue_sub(nh_prime f, nh_residue a, nh_residue b)
+{
+    return nh_residue_add(f, a, nh_residue_negative(f, b));
+}
 
-/* Of x below 2^62: floor(floor(x / 2^30) floor(2^62 / p) / 2^32) is at most 2 below the quotient (Barrett's reduction), as p is above 2^30. */
+/* Of x below 2^62: floor(floor(x / 2^30) floor(2^62 / p) / 2^32) is at most 2 below the quotient (Barrett's reduction),
+   as p is above 2^30. */
 static inline nh_residue nh_residue_reduce(nh_prime f, uint64_t x)
 {
     uint64_t quotient = (x >> 30) * (uint32_t)f.inverse >> 32, r = x - quotient * (uint32_t)f.p;
@@ -47,7 +51,10 @@ static inline nh_residue nh_residue_reduce(nh_prime f, uint64_t x)
     return (nh_residue)(r >= f.p ? r - f.p : r);
 }
 
-static inline nh_residue nh_residue_mul(nh_prime f, nh_residue a, nh_residue b) { return nh_residue_reduce(f, (uint64_t)a * b); }
+static inline nh_residue nh_residue_mul(nh_prime f, nh_residue a, nh_residue b)
+{
+    return nh_residue_reduce(f, (uint64_t)a * b);
+}
 
 /* sum + a b, for a sum below the bound; reduce it by `% p` in the end. */
 static inline uint64_t nh_residue_gather(nh_prime f, uint64_t sum, nh_residue a, nh_residue b)
@@ -65,8 +72,8 @@ nh_residue nh_residue_inverse(nh_prime f, nh_residue a); /* of a residue that is
 /* False: the prime divides the bottom. */
 bool nh_residue_ratio(nh_prime f, int64_t top, int64_t bottom, nh_residue *out);
 
-/* The root of this order, for whole orders whose odd part is prime to p - 1: of a square root the one that is a square itself.  False when
- * there is none, or a is 0. */
+/* The root of this order, for whole orders whose odd part is prime to p - 1: of a square root the one that is a square
+ * itself.  False when there is none, or a is 0. */
 bool nh_residue_root(nh_prime f, nh_residue a, uint64_t order, nh_residue *root);
 
 /* Random residues that follow from the state alone (SplitMix64); never 0. */

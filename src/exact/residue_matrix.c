@@ -17,26 +17,32 @@ enum { panel_width = 32, block = 512 };
 /* ---- sums of rows ---- */
 
 /* low + 2^32 high += two sums of four products, each below 2^62. */
-NH_CLONES static void add_eight(size_t n, uint64_t *restrict low, uint64_t *restrict high, const nh_residue *restrict f, const nh_residue *const *row)
+NH_CLONES static void add_eight(size_t n, uint64_t *restrict low, uint64_t *restrict high, const nh_residue *restrict f,
+                                const nh_residue *const *row)
 {
-    const nh_residue *restrict a = row[0], *restrict b = row[1], *restrict c = row[2], *restrict d = row[3], *restrict e = row[4], *restrict g = row[5], *restrict h = row[6], *restrict k = row[7];
+    const nh_residue *restrict a = row[0], *restrict b = row[1], *restrict c = row[2], *restrict d = row[3],
+                               *restrict e = row[4], *restrict g = row[5], *restrict h = row[6], *restrict k = row[7];
     uint64_t fa = f[0], fb = f[1], fc = f[2], fd = f[3], fe = f[4], fg = f[5], fh = f[6], fk = f[7];
     for (size_t j = 0; j < n; j++) {
-        uint64_t first = fa * a[j] + fb * b[j] + fc * c[j] + fd * d[j], second = fe * e[j] + fg * g[j] + fh * h[j] + fk * k[j];
+        uint64_t first = fa * a[j] + fb * b[j] + fc * c[j] + fd * d[j],
+                 second = fe * e[j] + fg * g[j] + fh * h[j] + fk * k[j];
         low[j] += (first & UINT32_MAX) + (second & UINT32_MAX);
         high[j] += (first >> 32) + (second >> 32);
     }
 }
 
 /* (low + 2^32 high) mod p, both below 2^61 */
-NH_CLONES static void fold(nh_prime field, size_t n, const uint64_t *restrict low, const uint64_t *restrict high, nh_residue *restrict y)
+NH_CLONES static void fold(nh_prime field, size_t n, const uint64_t *restrict low, const uint64_t *restrict high,
+                           nh_residue *restrict y)
 {
     uint64_t carry = ((uint64_t)1 << 32) % field.p;
-    for (size_t j = 0; j < n; j++) y[j] = nh_residue_reduce(field, nh_residue_reduce(field, low[j]) + nh_residue_reduce(field, high[j]) * carry);
+    for (size_t j = 0; j < n; j++)
+        y[j] = nh_residue_reduce(field, nh_residue_reduce(field, low[j]) + nh_residue_reduce(field, high[j]) * carry);
 }
 
 /* Columns from `from` on, at most a block of them. */
-static void gather_block(nh_prime field, size_t from, size_t n, nh_residue *y, size_t count, const nh_residue *factor, const nh_residue *const *row)
+static void gather_block(nh_prime field, size_t from, size_t n, nh_residue *y, size_t count, const nh_residue *factor,
+                         const nh_residue *const *row)
 {
     enum { together = 8 };
     static const nh_residue zero[block] = {0};
@@ -56,17 +62,20 @@ static void gather_block(nh_prime field, size_t from, size_t n, nh_residue *y, s
     fold(field, n, low, high, y + from);
 }
 
-void nh_residue_matrix_gather(nh_prime field, size_t n, nh_residue *y, size_t count, const nh_residue *factor, const nh_residue *const *row)
+void nh_residue_matrix_gather(nh_prime field, size_t n, nh_residue *y, size_t count, const nh_residue *factor,
+                              const nh_residue *const *row)
 {
     enum { few = 4 };
     if (count <= few) {
         for (size_t t = 0; t < count; t++) nh_residue_add_multiple(field, n, y, row[t], factor[t]);
         return;
     }
-    for (size_t from = 0; from < n; from += block) gather_block(field, from, n - from < block ? n - from : block, y, count, factor, row);
+    for (size_t from = 0; from < n; from += block)
+        gather_block(field, from, n - from < block ? n - from : block, y, count, factor, row);
 }
 
-void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, const nh_residue *a, const nh_residue *b, nh_residue *out)
+void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, const nh_residue *a, const nh_residue *b,
+                                nh_residue *out)
 {
     const nh_residue **row = nh_alloc_array(k + 1, sizeof *row);
     for (size_t t = 0; t < k; t++) row[t] = b + t * n;
@@ -95,11 +104,13 @@ static void swap_rows(nh_residue *a, size_t n, size_t i, size_t k)
     }
 }
 
-/* Rows of the panel that are linearly independent, and their pivots: the rows are brought to the head of the rest of the matrix. */
+/* Rows of the panel that are linearly independent, and their pivots: the rows are brought to the head of the rest of
+   the matrix. */
 static void find_pivots(elimination *x)
 {
     size_t rest = x->rows - x->rank, w = x->width;
-    for (size_t i = 0; i < rest; i++) memcpy(x->panel + i * w, x->a + (x->rank + i) * x->columns + x->first, w * sizeof *x->panel);
+    for (size_t i = 0; i < rest; i++)
+        memcpy(x->panel + i * w, x->a + (x->rank + i) * x->columns + x->first, w * sizeof *x->panel);
     x->found = 0;
     for (size_t c = 0; c < w && x->found < rest; c++) {
         size_t i = x->found;
@@ -111,7 +122,8 @@ static void find_pivots(elimination *x)
         nh_residue inverse = nh_residue_negative(x->field, nh_residue_inverse(x->field, head[c]));
         for (i = x->found + 1; i < rest; i++) {
             nh_residue *own = x->panel + i * w;
-            if (own[c]) nh_residue_add_multiple(x->field, w - c, own + c, head + c, nh_residue_mul(x->field, own[c], inverse));
+            if (own[c])
+                nh_residue_add_multiple(x->field, w - c, own + c, head + c, nh_residue_mul(x->field, own[c], inverse));
         }
         x->pivot[x->rank + x->found++] = x->first + c;
     }
@@ -134,7 +146,8 @@ static void invert_pivots(elimination *x)
         nh_residue inverse = nh_residue_inverse(x->field, b[c * w + c]);
         for (size_t j = 0; j < w; j++) b[c * w + j] = nh_residue_mul(x->field, b[c * w + j], inverse);
         for (i = 0; i < k; i++)
-            if (i != c) nh_residue_add_multiple(x->field, w, b + i * w, b + c * w, nh_residue_negative(x->field, b[i * w + c]));
+            if (i != c)
+                nh_residue_add_multiple(x->field, w, b + i * w, b + c * w, nh_residue_negative(x->field, b[i * w + c]));
     }
 }
 
@@ -146,18 +159,22 @@ static void apply_pivots(elimination *x, bool above)
     nh_residue factor[panel_width];
     memset(x->part, 0, k * n * sizeof *x->part);
     for (size_t t = 0; t < k; t++) row[t] = x->a + (x->rank + t) * x->columns + x->first;
-    for (size_t i = 0; i < k; i++) nh_residue_matrix_gather(x->field, n, x->part + i * n, k, x->pivots + i * 2 * k + k, row);
-    for (size_t i = 0; i < k; i++) memcpy(x->a + (x->rank + i) * x->columns + x->first, x->part + i * n, n * sizeof *x->part);
+    for (size_t i = 0; i < k; i++)
+        nh_residue_matrix_gather(x->field, n, x->part + i * n, k, x->pivots + i * 2 * k + k, row);
+    for (size_t i = 0; i < k; i++)
+        memcpy(x->a + (x->rank + i) * x->columns + x->first, x->part + i * n, n * sizeof *x->part);
     for (size_t i = above ? 0 : x->rank + k; i < x->rows; i++) {
         nh_residue *own = x->a + i * x->columns;
         bool any = false;
         if (i >= x->rank && i < x->rank + k) continue;
-        for (size_t t = 0; t < k; t++) any |= (factor[t] = nh_residue_negative(x->field, own[x->pivot[x->rank + t]])) != 0;
+        for (size_t t = 0; t < k; t++)
+            any |= (factor[t] = nh_residue_negative(x->field, own[x->pivot[x->rank + t]])) != 0;
         if (any) nh_residue_matrix_gather(x->field, n, own + x->first, k, factor, row);
     }
 }
 
-static size_t eliminate(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a, size_t *pivot, bool reduced)
+static size_t eliminate(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a, size_t *pivot,
+                        bool reduced)
 {
     elimination x = {.field = field, .rows = rows, .columns = columns, .a = a, .pivot = pivot};
     x.panel = nh_alloc_array(rows * panel_width + 1, sizeof *x.panel);
@@ -177,7 +194,8 @@ static size_t eliminate(nh_prime field, size_t rows, size_t columns, size_t with
     return x.rank;
 }
 
-size_t nh_residue_matrix_echelon(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a, size_t *pivot)
+size_t nh_residue_matrix_echelon(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a,
+                                 size_t *pivot)
 {
     return eliminate(field, rows, columns, within, a, pivot, true);
 }

@@ -1,21 +1,25 @@
 /* residue_matrix: dense linear algebra modulo a prime of 31 bits.
  *
- * Four products of residues fit into 64 bits: sums of them are added up in two halves of 32 bits, in loops that the compiler vectorises, and divided once.  Matrices lie row
- * by row. */
+ * Four products of residues fit into 64 bits: sums of them are added up in two halves of 32 bits, in loops that the
+ * compiler vectorises, and divided once.  Matrices lie row by row. */
 #ifndef NH_RESIDUE_MATRIX_H
 #define NH_RESIDUE_MATRIX_H
 
 #include "exact/residue.h"
 
 /* y += sum over t < count of factor_t row_t, componentwise, of n residues each. */
-void nh_residue_matrix_gather(nh_prime field, size_t n, nh_residue *y, size_t count, const nh_residue *factor, const nh_residue *const *row);
+void nh_residue_matrix_gather(nh_prime field, size_t n, nh_residue *y, size_t count, const nh_residue *factor,
+                              const nh_residue *const *row);
 
 /* out = a b  (m x k times k x n); `out` is neither of them. */
-void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, const nh_residue *a, const nh_residue *b, nh_residue *out);
+void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, const nh_residue *a, const nh_residue *b,
+                                nh_residue *out);
 
-/* The reduced echelon form in place of the first columns, `within` of them, by operations on whole rows: rows with a pivot first; pivot[i] is the column of the leading 1 of
- * row i.  Returns how many there are; `pivot` has room for the least of both sizes. */
-size_t nh_residue_matrix_echelon(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a, size_t *pivot);
+/* The reduced echelon form in place of the first columns, `within` of them, by operations on whole rows: rows with a
+ * pivot first; pivot[i] is the column of the leading 1 of row i.  Returns how many there are; `pivot` has room for the
+ * least of both sizes. */
+size_t nh_residue_matrix_echelon(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a,
+                                 size_t *pivot);
 
 /* The matrix is destroyed. */
 size_t nh_residue_matrix_rank(nh_prime field, size_t rows, size_t columns, nh_residue *a);

@@ -223,13 +223,15 @@ static bool polynomial(context *shared, nh_ex e)
     return result;
 }
 
-/* A sum's polynomial terms by themselves: with k/sqrt(..) beside them the common denominator makes everything longer. */
+/* A sum's polynomial terms by themselves: with k/sqrt(..) beside them the common denominator makes everything
+   longer. */
 static nh_ex apart(contest *c, nh_ex e)
 {
     nh_ex plain = nh_int(c->dag, 0), rest = nh_int(c->dag, 0);
     if (nh_kind_of(c->dag, e) != NH_SUM) return e;
     for (size_t i = 0; i < nh_arity(c->dag, e); i++) {
-        nh_ex term = nh_child(c->dag, e, i), scaled = nh_mul(c->dag, nh_number(c->dag, nh_coefficient_of(c->dag, e, i)), term);
+        nh_ex term = nh_child(c->dag, e, i),
+              scaled = nh_mul(c->dag, nh_number(c->dag, nh_coefficient_of(c->dag, e, i)), term);
         nh_ex *to = polynomial(c->shared, term) ? &plain : &rest;
         *to = nh_add(c->dag, *to, scaled);
     }
@@ -256,8 +258,8 @@ static nh_ex simplify(context *shared, nh_ex e)
 
 /* ---- the user's own arguments ---- */
 
-/* log((R + v)/(R - v)) comes back with a canonical argument, which may be longer than what was written: then the source's call is put
- * back.  Both stand for the same value: one is the rewriting of the other. */
+/* log((R + v)/(R - v)) comes back with a canonical argument, which may be longer than what was written: then the
+ * source's call is put back.  Both stand for the same value: one is the rewriting of the other. */
 static nh_ex restore_calls(context *shared, nh_ex source, nh_ex result)
 {
     enum { most_calls = 64 };
@@ -282,7 +284,8 @@ static nh_ex canonical_base(context *shared, nh_ex base, nh_ex exponent)
 {
     nh_dag *dag = shared->dag;
     nh_ex power = nh_form_rewrite(&shared->literal, nh_pow(dag, base, exponent));
-    bool plain = nh_kind_of(dag, power) == NH_PRODUCT && nh_arity(dag, power) == 1 && nh_num_is(nh_constant_of(dag, power), 1);
+    bool plain =
+        nh_kind_of(dag, power) == NH_PRODUCT && nh_arity(dag, power) == 1 && nh_num_is(nh_constant_of(dag, power), 1);
     return plain && nh_exponent_of(dag, power, 0) == exponent ? nh_child(dag, power, 0) : 0;
 }
 
@@ -333,4 +336,7 @@ size_t nh_simplify_longest(size_t n)
     return n > many ? short_enough : 0;
 }
 
-nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most) { return nh_complexity_within(dag, e, most ? most : longest) ? nh_simplify(dag, e) : e; }
+nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most)
+{
+    return nh_complexity_within(dag, e, most ? most : longest) ? nh_simplify(dag, e) : e;
+}

@@ -27,9 +27,11 @@ static void swap_rows(nh_lu *lu, size_t i, size_t j)
     lu->row[j] = t;
 }
 
-/* The best pivot for row r in column k; the row in its own place wins unless another is clearly safer. Of many equations it is taken at
- * once where elimination has left a good part of `before`, what stood there: so in mass matrices, and a look at all is long. */
-static double choose_pivot(nh_lu *lu, size_t r, size_t k, nh_ex before, nh_pivot_score *score, void *context, size_t *best)
+/* The best pivot for row r in column k; the row in its own place wins unless another is clearly safer. Of many
+ * equations it is taken at once where elimination has left a good part of `before`, what stood there: so in mass
+ * matrices, and a look at all is long. */
+static double choose_pivot(nh_lu *lu, size_t r, size_t k, nh_ex before, nh_pivot_score *score, void *context,
+                           size_t *best)
 {
     static const double good_part = 1e-2;
     double value = 0;
@@ -70,7 +72,11 @@ static void eliminate(nh_lu *lu, size_t r, size_t k)
 nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score, void *context, size_t *rank)
 {
     nh_lu *lu = nh_alloc(sizeof *lu);
-    *lu = (nh_lu){.dag = dag, .n = n, .longest = nh_simplify_longest(n), .a = nh_alloc_array(n * n + 1, sizeof *lu->a), .row = nh_alloc_array(n + 1, sizeof *lu->row)};
+    *lu = (nh_lu){.dag = dag,
+                  .n = n,
+                  .longest = nh_simplify_longest(n),
+                  .a = nh_alloc_array(n * n + 1, sizeof *lu->a),
+                  .row = nh_alloc_array(n + 1, sizeof *lu->row)};
     if (n) memcpy(lu->a, a, n * n * sizeof *a);
     for (size_t i = 0; i < n; i++) lu->row[i] = i;
     size_t r = 0; /* = k until a column has no pivot; from then on only the rank is of interest */

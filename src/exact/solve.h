@@ -12,8 +12,8 @@ typedef double nh_pivot_score(void *context, nh_ex e);
 
 typedef struct nh_lu nh_lu;
 
-/* Factor the n x n matrix a (row-major: a[i*n + j]).  NULL when some column has no usable pivot; *rank (may be NULL) is the
- * number of columns that have one. */
+/* Factor the n x n matrix a (row-major: a[i*n + j]).  NULL when some column has no usable pivot; *rank (may be NULL) is
+ * the number of columns that have one. */
 nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score, void *context, size_t *rank);
 void nh_lu_free(nh_lu *lu);
 

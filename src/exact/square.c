@@ -64,7 +64,8 @@ nh_ex nh_square_roots(nh_dag *d, nh_ex e, size_t most_length, int (*sign)(void *
     for (size_t i = 0; i < n && i < most; i++)
         for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
             nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
-            bool half = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 2 && nh_kind_of(d, base) != NH_NUMBER && nh_kind_of(d, base) != NH_SYMBOL;
+            bool half = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 2 &&
+                        nh_kind_of(d, base) != NH_NUMBER && nh_kind_of(d, base) != NH_SYMBOL;
             if (half && split_root(&c, base, &root)) e = nh_substitute_root(d, e, base, root);
         }
     return e;

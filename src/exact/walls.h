@@ -21,14 +21,16 @@ typedef struct {
     size_t count;
     nh_ex e[NH_MOST_WALLS];     /* expressions that are zero on a wall; each once */
     bool edge[NH_MOST_WALLS];   /* the base of a root, and no square: where it changes its sign the root ends */
-    bool cut[NH_MOST_WALLS];    /* of atan2, atan, asin or acos alone: on the other side another branch continues the function */
+    /* of atan2, atan, asin or acos alone: on the other side another branch continues the function */
+    bool cut[NH_MOST_WALLS];
     bool cutting;               /* what is being added */
 } nh_walls;
 
 /* Add the walls of e; more than fit are left out. */
 void nh_walls_add(nh_walls *walls, nh_dag *dag, nh_ex e);
 
-/* The walls of n expressions that something can pass when the `in` change: no ends of roots, no constants.  Into wall (room for NH_MOST_WALLS); how many. */
+/* The walls of n expressions that something can pass when the `in` change: no ends of roots, no constants.  Into wall
+   (room for NH_MOST_WALLS); how many. */
 size_t nh_walls_between(nh_dag *dag, size_t n, const nh_ex *e, size_t inputs, const nh_ex *in, nh_ex *wall);
 
 #endif

@@ -40,7 +40,8 @@ void nh_bordered_expressions(const nh_model *o, nh_ex *K, nh_ex *h, nh_ex *F, nh
     for (size_t s = 0; s < m; s++) q[s] = y->coordinate[s].q, v[s] = y->coordinate[s].v;
     nh_ex rest = y->lagrangian; /* what is not known of bodies and joints */
     const nh_chain *chain = nh_model_chain(o, &rest);
-    if (chain) nh_chain_bias(chain, &(nh_chain_scope){.dag = d, .arena = o->arena, .t = y->t, .m = m, .q = q, .v = v}, h);
+    if (chain)
+        nh_chain_bias(chain, &(nh_chain_scope){.dag = d, .arena = o->arena, .t = y->t, .m = m, .q = q, .v = v}, h);
     for (size_t s = 0; s < m; s++) {
         nh_ex p = nh_diff(d, rest, v[s]), own = chain ? h[s] : nh_int(d, 0);
         h[s] = nh_sub(d, nh_diff(d, p, y->t), nh_add(d, nh_diff(d, rest, q[s]), y->force[s]));
@@ -70,7 +71,10 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     }
     nh_bordered_expressions(o, out, out + m * m, out + m * m + m, out + m * m + m + k * m, out + m * m + m + k * m + k);
     nh_bordered *b = nh_alloc(sizeof *b);
-    *b = (nh_bordered){.m = m, .k = k, .in = nh_alloc_array(1 + 2 * m, sizeof *b->in), .out = nh_alloc_array(total + 1, sizeof *b->out)};
+    *b = (nh_bordered){.m = m,
+                       .k = k,
+                       .in = nh_alloc_array(1 + 2 * m, sizeof *b->in),
+                       .out = nh_alloc_array(total + 1, sizeof *b->out)};
     b->terms = nh_alloc_array(total + 1, sizeof *b->terms);
     b->saddle = nh_alloc_array(nh_saddle_work(m, k), sizeof *b->saddle);
     b->right = nh_alloc_array(m + k, sizeof *b->right);
@@ -80,7 +84,9 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     b->work = nh_tape_work_create(b->tape);
     nh_ex wall[NH_MOST_WALLS];
     b->walls = nh_walls_between(d, total, out, 1 + 2 * m, in, wall);
-    if (b->walls) b->wall = nh_tape_create(d, 1 + 2 * m, in, b->walls, wall, y->parameters, o->parameter, o->parameter_value), b->wall_work = nh_tape_work_create(b->wall);
+    if (b->walls)
+        b->wall = nh_tape_create(d, 1 + 2 * m, in, b->walls, wall, y->parameters, o->parameter, o->parameter_value),
+        b->wall_work = nh_tape_work_create(b->wall);
     nh_free(in);
     nh_free(out);
     return b;
@@ -105,7 +111,8 @@ void nh_bordered_free(nh_bordered *b)
     nh_free(b);
 }
 
-/* Every constraint divided by |df/dv|, in units of the velocities: the multiplier has the size of the reaction in all units of length. */
+/* Every constraint divided by |df/dv|, in units of the velocities: the multiplier has the size of the reaction in all
+   units of length. */
 static void normalise(size_t m, size_t k, const double *unit, double *F)
 {
     double *g = F + k * m, *f = g + k;
@@ -132,7 +139,8 @@ void nh_bordered_wall(nh_bordered *b, double t, const double *state, double *val
     nh_tape_eval(b->wall, b->wall_work, b->in, value);
 }
 
-bool nh_bordered_terms(nh_bordered *b, double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f)
+bool nh_bordered_terms(nh_bordered *b, double t, const double *q, const double *v, double *K, double *h, double *F,
+                       double *g, double *f)
 {
     size_t m = b->m, k = b->k;
     b->in[0] = t;
@@ -153,20 +161,23 @@ bool nh_bordered_accelerations(nh_bordered *b, double t, const double *q, const 
 {
     size_t m = b->m, k = b->k;
     double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
-    return nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f) && nh_saddle_solve(m, k, b->terms, F, h, g, acceleration, NULL, NULL, b->saddle);
+    return nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f) &&
+           nh_saddle_solve(m, k, b->terms, F, h, g, acceleration, NULL, NULL, b->saddle);
 }
 
 void nh_bordered_accelerations_batch(nh_bordered *b, size_t count, const double *const *in, size_t stride, double *to)
 {
     size_t m = b->m, k = b->k, total = m * m + m + k * m + 2 * k;
-    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *column = nh_alloc_array(total * NH_BATCH, sizeof *column);
+    double *h = b->terms + m * m, *F = h + m, *g = F + k * m,
+           *column = nh_alloc_array(total * NH_BATCH, sizeof *column);
     double **out = nh_alloc_array(total, sizeof *out);
     for (size_t i = 0; i < total; i++) out[i] = column + i * NH_BATCH;
     nh_tape_eval_batch(b->tape, b->work, count, in, out);
     for (size_t j = 0; j < count; j++) {
         for (size_t i = 0; i < total; i++) b->terms[i] = out[i][j];
         normalise(m, k, b->unit, F);
-        bool good = nh_all_finite(total, b->terms) && nh_saddle_solve(m, k, b->terms, F, h, g, b->right, NULL, NULL, b->saddle);
+        bool good =
+            nh_all_finite(total, b->terms) && nh_saddle_solve(m, k, b->terms, F, h, g, b->right, NULL, NULL, b->saddle);
         for (size_t s = 0; s < m; s++) to[s * stride + j] = good ? b->right[s] : NAN;
     }
     nh_free(out);
@@ -188,7 +199,8 @@ bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *
 bool nh_bordered_project(nh_bordered *b, double t, const double *q, const bool *fixed, double *v)
 {
     enum { most_steps = 60 };
-    static const double converged = 1e-12, satisfied = 1e-9; /* the last step, and what is left, beside the velocities */
+    /* the last step, and what is left, beside the velocities */
+    static const double converged = 1e-12, satisfied = 1e-9;
     size_t m = b->m, k = b->k;
     double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
     for (int step = 0; step < most_steps && k; step++) {
@@ -198,7 +210,8 @@ bool nh_bordered_project(nh_bordered *b, double t, const double *q, const bool *
         for (size_t a = 0; a < k; a++) b->right[a] = -f[a];
         for (size_t s = 0; s < m; s++)
             for (size_t a = 0; a < k; a++) F[a + s * k] *= fixed && fixed[s] ? 0 : b->unit[s];
-        if (nh_least_squares(k, m, F, 1, b->right, m + k, 1e-12) < 0) return false; /* the shortest of the solutions; 0 where fixed */
+        /* the shortest of the solutions; 0 where fixed */
+        if (nh_least_squares(k, m, F, 1, b->right, m + k, 1e-12) < 0) return false;
         for (size_t s = 0; s < m; s++) {
             v[s] += b->right[s] * b->unit[s];
             size = fmax(size, fabs(b->right[s]));

@@ -3,9 +3,10 @@
  *     [ K  F^T ] [ v' ]     [ h ]        K = d2L/dv dv,  F = df/dv
  *     [ F   0  ] [ mu ] = - [ g ]        h: d/dt-part of p_s without v' minus dL/dq - Q;  g: d/dt-part of f without v'
  *
- * They are regular wherever the constraints are independent, whatever the charts of independent velocities do: the chart that takes over
- * where the pivot of another vanishes.  The constraints are taken without poles and normalised to |df/dv| = 1 (velocities in nh_chart_unit): the multipliers are not
- * those of the model, but the force mu_a df^a/dv^s is the same.
+ * They are regular wherever the constraints are independent, whatever the charts of independent velocities do: the
+ * chart that takes over where the pivot of another vanishes.  The constraints are taken without poles and normalised to
+ * |df/dv| = 1 (velocities in nh_chart_unit): the multipliers are not those of the model, but the force mu_a df^a/dv^s
+ * is the same.
  *
  * Reference: [Chetaev equations: CechMusilova2014, eq. 10]. */
 #ifndef NH_BORDERED_H
@@ -27,22 +28,27 @@ size_t nh_bordered_walls(const nh_bordered *bordered);
 void nh_bordered_wall(nh_bordered *bordered, double t, const double *state, double *value);
 
 /* At (t, q, v): K (m x m, column-major), h (m), F (k x m, column-major), g (k), f (k).  False when not finite. */
-bool nh_bordered_terms(nh_bordered *bordered, double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f);
+bool nh_bordered_terms(nh_bordered *bordered, double t, const double *q, const double *v, double *K, double *h,
+                       double *F, double *g, double *f);
 
 /* v' (m values).  False when not finite or the bordered matrix is singular. */
 bool nh_bordered_accelerations(nh_bordered *bordered, double t, const double *q, const double *v, double *acceleration);
 
-/* The same at count <= NH_BATCH states: in[j] is input j of t, q, v at each of them (1 + 2m); v' of coordinate s at state j is to[s*stride + j], NAN where there is none. */
-void nh_bordered_accelerations_batch(nh_bordered *bordered, size_t count, const double *const *in, size_t stride, double *to);
+/* The same at count <= NH_BATCH states: in[j] is input j of t, q, v at each of them (1 + 2m); v' of coordinate s at
+   state j is to[s*stride + j], NAN where there is none. */
+void nh_bordered_accelerations_batch(nh_bordered *bordered, size_t count, const double *const *in, size_t stride,
+                                     double *to);
 
 /* force[s] = mu_a df^a/dv^s at (t, q, v), m values.  False when not finite. */
-bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const double *v, const double *mu, double *force);
+bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const double *v, const double *mu,
+                       double *force);
 
-/* The velocities on the constraints that are nearest to v, in the units of their coordinates, by Gauss-Newton; v is overwritten, but where it is `fixed`
- * (m entries; NULL: nowhere).  False when that does not converge. */
+/* The velocities on the constraints that are nearest to v, in the units of their coordinates, by Gauss-Newton; v is
+ * overwritten, but where it is `fixed` (m entries; NULL: nowhere).  False when that does not converge. */
 bool nh_bordered_project(nh_bordered *bordered, double t, const double *q, const bool *fixed, double *v);
 
-/* The entries as expressions of t, q, q': K (m x m, column-major), h (m), F (k x m, column-major), g (k), f (k); constraints without poles, not normalised. */
+/* The entries as expressions of t, q, q': K (m x m, column-major), h (m), F (k x m, column-major), g (k), f (k);
+   constraints without poles, not normalised. */
 void nh_bordered_expressions(const nh_model *model, nh_ex *K, nh_ex *h, nh_ex *F, nh_ex *g, nh_ex *f);
 
 /* f^a = lhs - rhs in coordinate velocities, without its poles: y' = x' tan phi as y' cos phi = x' sin phi. */

@@ -49,7 +49,8 @@ static void expanded(writer *w, const nh_determining *all, nh_determining_operat
     }
     add(w, inner, NH_DETERMINING_PLAIN, NH_DETERMINING_Z0, 0);
     for (size_t i = 0; i < n; i++) add(w, slope(o, op, l, i), NH_DETERMINING_PLAIN, Z, i);
-    for (size_t i = 0; i < n && op == NH_DETERMINING_X; i++) add(w, o->M[i * n + l], NH_DETERMINING_PLAIN, NH_DETERMINING_W, i);
+    for (size_t i = 0; i < n && op == NH_DETERMINING_X; i++)
+        add(w, o->M[i * n + l], NH_DETERMINING_PLAIN, NH_DETERMINING_W, i);
     add(w, outer, op, NH_DETERMINING_Z0, 0);
     for (size_t i = 0; i < n; i++) add(w, o->pbar[i], op, Z, i);
 }
@@ -63,17 +64,22 @@ static void by_current(writer *w, nh_determining_operator op)
     add(w, nh_int(d, 1), op, NH_DETERMINING_PHI, 0);
     if (op == NH_DETERMINING_X) add(w, nh_neg(d, o->A[l]), NH_DETERMINING_PLAIN, NH_DETERMINING_Z0, 0);
     for (size_t i = 0; i < n; i++) {
-        nh_ex e = op == NH_DETERMINING_X0 ? o->A[i] : op == NH_DETERMINING_X ? nh_model_G(o)[i * n + l] : nh_neg(d, o->M[i * n + l]);
+        nh_ex e = op == NH_DETERMINING_X0  ? o->A[i]
+                  : op == NH_DETERMINING_X ? nh_model_G(o)[i * n + l]
+                                           : nh_neg(d, o->M[i * n + l]);
         add(w, e, NH_DETERMINING_PLAIN, NH_DETERMINING_ZETA, i);
     }
-    for (size_t i = 0; i < n && op == NH_DETERMINING_X; i++) add(w, o->M[i * n + l], NH_DETERMINING_PLAIN, NH_DETERMINING_W, i);
+    for (size_t i = 0; i < n && op == NH_DETERMINING_X; i++)
+        add(w, o->M[i * n + l], NH_DETERMINING_PLAIN, NH_DETERMINING_W, i);
 }
 
 nh_determining *nh_determining_of(nh_arena *arena, const nh_model *o)
 {
     static const nh_determining_operator op[] = {NH_DETERMINING_X0, NH_DETERMINING_X, NH_DETERMINING_Y};
     nh_determining *all = nh_arena_alloc(arena, sizeof *all);
-    *all = (nh_determining){.model = o, .by_Z = !o->chart->quasi, .equation = nh_arena_alloc(arena, (2 + 4 * o->n) * sizeof *all->equation)};
+    *all = (nh_determining){.model = o,
+                            .by_Z = !o->chart->quasi,
+                            .equation = nh_arena_alloc(arena, (2 + 4 * o->n) * sizeof *all->equation)};
     for (int number = 14; number <= 19; number++) {
         size_t kind = (size_t)(number - 14) % 3, lines = kind ? o->n : 1;
         for (size_t l = 0; l < lines; l++) {
@@ -87,7 +93,8 @@ nh_determining *nh_determining_of(nh_arena *arena, const nh_model *o)
     return all;
 }
 
-nh_ex nh_determining_value(const nh_determining *all, size_t equation, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W)
+nh_ex nh_determining_value(const nh_determining *all, size_t equation, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
+                           const nh_ex *W)
 {
     const nh_model *o = all->model;
     nh_dag *d = o->dag;
@@ -95,7 +102,10 @@ nh_ex nh_determining_value(const nh_determining *all, size_t equation, nh_ex phi
     nh_ex sum = nh_int(d, 0);
     for (size_t i = 0; i < e->terms; i++) {
         const nh_determining_term *t = &e->term[i];
-        nh_ex of = t->of == NH_DETERMINING_PHI ? phi : t->of == NH_DETERMINING_Z0 ? Z0 : t->of == NH_DETERMINING_W ? W[t->index] : zeta[t->index];
+        nh_ex of = t->of == NH_DETERMINING_PHI  ? phi
+                   : t->of == NH_DETERMINING_Z0 ? Z0
+                   : t->of == NH_DETERMINING_W  ? W[t->index]
+                                                : zeta[t->index];
         if (t->of == NH_DETERMINING_Z) of = nh_add(d, of, nh_mul(d, o->chart->w[t->index], Z0));
         sum = nh_add(d, sum, nh_mul(d, t->coefficient, along(o, t->along, t->direction, of)));
     }

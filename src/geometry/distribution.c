@@ -121,7 +121,8 @@ static nh_growth growth_of_states(const nh_model *o, size_t shift)
     size_t n = o->n, N = 1 + o->m + n;
     nh_ex *field = nh_alloc_array((2 * n + 1) * N, sizeof *field);
     for (size_t i = 0; i < 2 * n + 1; i++)
-        for (size_t j = 0; j < N; j++) field[i * N + j] = nh_int(o->dag, (i == 0 && j == 0) || (i > n && j == o->m + i - n));
+        for (size_t j = 0; j < N; j++)
+            field[i * N + j] = nh_int(o->dag, (i == 0 && j == 0) || (i > n && j == o->m + i - n));
     for (size_t i = 0; i <= n; i++)
         for (size_t s = 0; s < o->m; s++) field[i * N + 1 + s] = i ? o->R[s * n + i - 1] : o->rho[s];
     nh_growth g = nh_growth_of(o, 2 * n + 1, N, o->chart->symbol, field, shift);
@@ -143,14 +144,16 @@ nh_distribution_fields nh_distribution_fields_of(const nh_model *o)
     return is_homogeneous(o) && !is_rheonomic(o) && !timed(o) ? displacements(o) : events(o);
 }
 
-/* The smallest space that tells it.  Where the chart bends although the constraints do not, the canonical distribution contains the n directions
- * Y_i, and d/dt when neither velocity at rest nor t has a part in it; they add to every rank alike. */
+/* The smallest space that tells it.  Where the chart bends although the constraints do not, the canonical distribution
+ * contains the n directions Y_i, and d/dt when neither velocity at rest nor t has a part in it; they add to every rank
+ * alike. */
 static nh_growth growth(const nh_model *o, const nh_distribution *out)
 {
     bool at_rest = out->type == NH_LINEAR && !out->rheonomic;
     nh_growth g;
     if (out->type == NH_NONLINEAR) g = growth_of_states(o, 0), g.space = NH_ON_STATES;
-    else if (bent(o) || (at_rest && timed(o))) g = growth_of_states(o, o->n + at_rest), g.space = at_rest ? NH_ON_POSITIONS : NH_ON_EVENTS;
+    else if (bent(o) || (at_rest && timed(o)))
+        g = growth_of_states(o, o->n + at_rest), g.space = at_rest ? NH_ON_POSITIONS : NH_ON_EVENTS;
     else g = at_rest ? growth_of(o, displacements(o), NH_ON_POSITIONS) : growth_of(o, events(o), NH_ON_EVENTS);
     return g;
 }

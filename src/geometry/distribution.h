@@ -3,12 +3,17 @@
  *     affine         nu^a_s d2rho^s/dw^i dw^j = 0: the velocities allowed at a place form an affine space
  *     homogeneous    nu^a_s rho^s = 0: with a velocity all its multiples are allowed
  *     linear         both
- *     rheonomic      df^a/dt is not zero on the submanifold; for a constraint between positions, its own rate at rest is not
- *     holonomic      affine and integrable: as many functions of (t, q) stay constant as there are constraints.  Semiholonomic constraints,
- *                    eps'_l(g^a) = 0, are defined for linear and affine ones only and are the same [CechMusilova2014, sec. 3.2]
- *     growth         of the distribution of virtual displacements (linear, no t), of d/dt + rho^s d/dq^s and R^s_i d/dq^s on (t, q) (affine or t),
+ *     rheonomic      df^a/dt is not zero on the submanifold; for a constraint between positions, its own rate at rest
+ *                    is not
+ *     holonomic      affine and integrable: as many functions of (t, q) stay constant as there are constraints.
+ *                    Semiholonomic constraints,
+ *                    eps'_l(g^a) = 0, are defined for linear and affine ones only and are the same [CechMusilova2014,
+ *                    sec. 3.2]
+ *     growth         of the distribution of virtual displacements (linear, no t), of d/dt + rho^s d/dq^s and R^s_i
+ *                    d/dq^s on (t, q) (affine or t),
  *                    of the canonical distribution on (t, q, w) (nonlinear)
- *     hidden         functions of (t, q) that the constraints hold constant, besides those of the constraints between positions
+ *     hidden         functions of (t, q) that the constraints hold constant, besides those of the constraints between
+ *                    positions
  *
  * [docs/method.md, sec. 2] */
 #ifndef NH_DISTRIBUTION_H
@@ -28,7 +33,8 @@ typedef struct {
 } nh_distribution;
 
 /* Fields that span the distribution of virtual displacements, or of those in space and time, of constraints that are at
- * most affine: `count` of them with components field[i * dimension + j] along symbol[j], on the heap. None otherwise. */
+ * most affine: `count` of them with components field[i * dimension + j] along symbol[j], on the heap. None
+ * otherwise. */
 typedef struct {
     size_t count, dimension;
     const nh_ex *symbol;

@@ -72,7 +72,8 @@ static void clear_component(space *x, nh_ex *field, const nh_ex *e, size_t p)
     nh_ex factor = field[p];
     if (nh_is_zero(d, factor)) return;
     for (size_t s = 0; s < x->N; s++)
-        if (!nh_is_zero(d, e[s])) field[s] = s == p ? nh_int(d, 0) : tidy(x, nh_sub(d, field[s], nh_mul(d, factor, e[s])));
+        if (!nh_is_zero(d, e[s]))
+            field[s] = s == p ? nh_int(d, 0) : tidy(x, nh_sub(d, field[s], nh_mul(d, factor, e[s])));
 }
 
 /* The simplest entry that does not vanish; N when there is none. */
@@ -131,7 +132,8 @@ static void next_stage(const space *x, brackets *b, size_t generators)
     nh_free(out);
 }
 
-/* Rank of the first `count` columns; what is rounding beside the largest column counts as zero, the others by their directions. */
+/* Rank of the first `count` columns; what is rounding beside the largest column counts as zero, the others by their
+   directions. */
 static size_t rank_of(size_t N, size_t count, const double *value, double *work)
 {
     double largest = 0, *s = work + N * count;
@@ -234,7 +236,8 @@ static void keep_there(nh_growth *g, const brackets *b, const size_t *rank, nh_e
         g->rank_there[g->length_there++] = rank[j];
         if (rank[j] == g->rank[g->length - 1]) break;
     }
-    while (g->length_there > 1 && g->rank_there[g->length_there - 1] == g->rank_there[g->length_there - 2] && g->rank_there[g->length_there - 1] != g->rank[g->length - 1])
+    while (g->length_there > 1 && g->rank_there[g->length_there - 1] == g->rank_there[g->length_there - 2] &&
+           g->rank_there[g->length_there - 1] != g->rank[g->length - 1])
         g->length_there--;
 }
 
@@ -261,11 +264,15 @@ static void look_for_drops(const space *x, size_t generators, const nh_ex *field
     b.first[++b.stages] = b.count;
     while (b.stages < g->length + stages_beyond && b.count < most_fields) next_stage(x, &b, generators);
     nh_tape *tape = nh_model_tape(o, b.count * x->N, b.field);
-    while (probe < o->chart->probes && (!ranks_at(x, &b, tape, o->chart->probe + probe * o->width, rank) || differs(g, &b, rank))) probe++;
+    while (probe < o->chart->probes &&
+           (!ranks_at(x, &b, tape, o->chart->probe + probe * o->width, rank) || differs(g, &b, rank)))
+        probe++;
     double *z = nh_alloc_array(o->width + 1, sizeof *z);
-    for (size_t s = 0; s <= o->m && !g->drops && probe < o->chart->probes; s++) { /* else rounding: nothing can be said */
+    /* else rounding: nothing can be said */
+    for (size_t s = 0; s <= o->m && !g->drops && probe < o->chart->probes; s++) {
         if (!special_point(o, probe, s, z) || !ranks_at(x, &b, tape, z, rank)) continue;
-        if (rank[0] == g->rank[0] && differs(g, &b, rank)) keep_there(g, &b, rank, s < o->m ? o->system->coordinate[s].q : 0);
+        if (rank[0] == g->rank[0] && differs(g, &b, rank))
+            keep_there(g, &b, rank, s < o->m ? o->system->coordinate[s].q : 0);
     }
     nh_free(z);
     nh_tape_free(tape);
@@ -287,7 +294,8 @@ static void grow_to(space *x, frame *f, size_t count)
     nh_free(field);
 }
 
-/* Brackets fill `count` directions, and those are involutive: their brackets, whose components along the pivots vanish, vanish. */
+/* Brackets fill `count` directions, and those are involutive: their brackets, whose components along the pivots vanish,
+   vanish. */
 static bool prove_involutive(space *x, size_t generators, const nh_ex *generator, size_t count)
 {
     size_t N = x->N;
@@ -317,7 +325,13 @@ static void shift_down(size_t length, size_t *rank, size_t shift)
 
 nh_growth nh_growth_of(const nh_model *o, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field, size_t shift)
 {
-    space x = {.o = o, .d = o->dag, .N = N, .symbol = symbol, .proved = true, .end = nh_dag_size(o->dag) + most_nodes, .unit = nh_alloc_array(N + 1, sizeof(double))};
+    space x = {.o = o,
+               .d = o->dag,
+               .N = N,
+               .symbol = symbol,
+               .proved = true,
+               .end = nh_dag_size(o->dag) + most_nodes,
+               .unit = nh_alloc_array(N + 1, sizeof(double))};
     for (size_t s = 0; s < N; s++) x.unit[s] = nh_chart_symbol_unit(o->system, symbol[s]);
     nh_growth g = {.dimension = N - shift};
     generic_ranks(&x, count, field, &g);

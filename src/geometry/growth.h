@@ -2,13 +2,14 @@
  *
  *     D^1 = D,   D^(j+1) = D^j + [D, D^j],   r_j = rank D^j            [BellaicheRisler1996, ch. 1]
  *
- * The ranks at generic points are the growth vector.  Where they stop growing D^j is involutive; it is the smallest involutive distribution
- * that contains D, and the functions that D leaves constant number N - r_j (Frobenius).
+ * The ranks at generic points are the growth vector.  Where they stop growing D^j is involutive; it is the smallest
+ * involutive distribution that contains D, and the functions that D leaves constant number N - r_j (Frobenius).
  *
- * A rank at a point, where the smallest singular value that counts is far above rounding, is a lower bound; the largest over the model's probes is taken
- * for the generic one.  Where the last rank r is below N, that nothing was missed is proved by exact elimination: r of the brackets span an involutive
- * distribution that contains D, every entry that must vanish being zero by normal form.  Where a normal form is too large the values at the
- * probes decide, and `proved` is false. */
+ * A rank at a point, where the smallest singular value that counts is far above rounding, is a lower bound; the largest
+ * over the model's probes is taken for the generic one.  Where the last rank r is below N, that nothing was missed is
+ * proved by exact elimination: r of the brackets span an involutive distribution that contains D, every entry that must
+ * vanish being zero by normal form.  Where a normal form is too large the values at the probes decide, and `proved` is
+ * false. */
 #ifndef NH_GROWTH_H
 #define NH_GROWTH_H
 
@@ -25,14 +26,17 @@ typedef struct {
     size_t length, rank[NH_MOST_GROWTH];      /* generic ranks, strictly increasing */
     bool proved;
     bool cut;                                 /* formulas became too large on the way: the ranks may grow further */
-    bool drops;                               /* at some place of the sampling domain that was looked at the ranks grow differently */
+    /* at some place of the sampling domain that was looked at the ranks grow differently */
+    bool drops;
     nh_ex where;                              /* the coordinate that vanishes there; 0: all of them do */
     size_t length_there, rank_there[NH_MOST_GROWTH];
 } nh_growth;
 
-/* Of `count` fields with components field[i*N + j] along symbol[j].  `shift` is subtracted from all ranks and N (directions that the user does not
- * count).  Other places than generic ones: each coordinate, and all, at zero, where the domain contains it. */
-nh_growth nh_growth_of(const nh_model *model, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field, size_t shift);
+/* Of `count` fields with components field[i*N + j] along symbol[j].  `shift` is subtracted from all ranks and N
+ * (directions that the user does not count).  Other places than generic ones: each coordinate, and all, at zero, where
+ * the domain contains it. */
+nh_growth nh_growth_of(const nh_model *model, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field,
+                       size_t shift);
 
 /* [a, b] of two fields on these symbols. */
 void nh_growth_bracket(nh_dag *dag, size_t N, const nh_ex *symbol, const nh_ex *a, const nh_ex *b, nh_ex *out);

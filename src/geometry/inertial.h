@@ -1,12 +1,14 @@
 /* inertial: the force of the constraints, read as inertial forces.
  *
- * By Chetaev's equations mu_a df^a/dv^s = A_s + B_sr v'^r (submanifold.h).  Along a length s each part has a name [CechMusilova2014, eq. 46]:
+ * By Chetaev's equations mu_a df^a/dv^s = A_s + B_sr v'^r (submanifold.h).  Along a length s each part has a name
+ * [CechMusilova2014, eq. 46]:
  *
  *     Euler force          B_sr v'^r            r an angle
  *     translational force  B_sr v'^r            r a length
  *     centrifugal force    A_s, quadratic in the rates of angles
  *     Coriolis force       A_s, a rate of an angle times one of a length
- *     further terms        A_s, quadratic in the rates of lengths, or linear in velocities (they vanish in Cartesian coordinates at rest)
+ *     further terms        A_s, quadratic in the rates of lengths, or linear in velocities (they vanish in Cartesian
+ *                          coordinates at rest)
  *     applied force        A_s, the rest
  *
  * It splits where every coordinate is an angle or a length and A_s - Q_s is at most quadratic in the velocities. */
@@ -15,7 +17,13 @@
 
 #include "geometry/submanifold.h"
 
-typedef enum { NH_INERTIAL_CENTRIFUGAL, NH_INERTIAL_CORIOLIS, NH_INERTIAL_FURTHER, NH_INERTIAL_APPLIED, NH_INERTIAL_PARTS } nh_inertial_part;
+typedef enum {
+    NH_INERTIAL_CENTRIFUGAL,
+    NH_INERTIAL_CORIOLIS,
+    NH_INERTIAL_FURTHER,
+    NH_INERTIAL_APPLIED,
+    NH_INERTIAL_PARTS
+} nh_inertial_part;
 
 typedef struct {
     const nh_submanifold *of;

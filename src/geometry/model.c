@@ -14,7 +14,10 @@ static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, 
 enum { large_length = 3000 }; /* nh_complexity of a Lagrangian */
 
 /* Behind a budget longer formulas are better than none; of an ended run nothing is kept: see nh_model_create. */
-static nh_ex simple(const nh_model *o, nh_ex e) { return nh_budget_spent() || nh_interrupted() ? e : nh_simplify_short(o->dag, e, nh_simplify_longest(o->n)); }
+static nh_ex simple(const nh_model *o, nh_ex e)
+{
+    return nh_budget_spent() || nh_interrupted() ? e : nh_simplify_short(o->dag, e, nh_simplify_longest(o->n));
+}
 
 /* ---- derivatives along fields ---- */
 
@@ -56,7 +59,8 @@ nh_ex nh_model_along(const nh_model *o, const nh_field *f, nh_ex e)
     nh_dag *d = o->dag;
     nh_ex result = nh_mul(d, f->time, nh_diff(d, e, o->system->t));
     for (size_t s = 0; s < o->m; s++)
-        if (!nh_is_zero(d, f->space[s])) result = nh_add(d, result, nh_mul(d, f->space[s], nh_diff(d, e, o->system->coordinate[s].q)));
+        if (!nh_is_zero(d, f->space[s]))
+            result = nh_add(d, result, nh_mul(d, f->space[s], nh_diff(d, e, o->system->coordinate[s].q)));
     for (size_t i = 0; i < o->n; i++)
         if (!nh_is_zero(d, f->velocity[i])) result = nh_add(d, result, nh_mul(d, f->velocity[i], nh_model_Y(o, i, e)));
     return result;
@@ -65,7 +69,8 @@ nh_ex nh_model_along(const nh_model *o, const nh_field *f, nh_ex e)
 nh_ex nh_model_omega(const nh_model *o, const nh_field *a, const nh_field *b)
 {
     nh_dag *d = o->dag;
-    nh_ex result = nh_sub(d, nh_mul(d, nh_model_along(o, b, o->E), a->time), nh_mul(d, nh_model_along(o, a, o->E), b->time));
+    nh_ex result =
+        nh_sub(d, nh_mul(d, nh_model_along(o, b, o->E), a->time), nh_mul(d, nh_model_along(o, a, o->E), b->time));
     for (size_t s = 0; s < o->m; s++) {
         result = nh_add(d, result, nh_mul(d, nh_model_along(o, a, o->p[s]), b->space[s]));
         result = nh_sub(d, result, nh_mul(d, nh_model_along(o, b, o->p[s]), a->space[s]));
@@ -77,7 +82,8 @@ nh_ex nh_model_compose(const nh_model *o, nh_ex e) { return nh_chart_compose(o->
 
 nh_tape *nh_model_tape(const nh_model *o, size_t count, const nh_ex *out)
 {
-    return nh_tape_create(o->dag, o->width, o->chart->symbol, count, out, o->system->parameters, o->parameter, o->parameter_value);
+    return nh_tape_create(o->dag, o->width, o->chart->symbol, count, out, o->system->parameters, o->parameter,
+                          o->parameter_value);
 }
 
 double nh_model_number(const nh_model *o, nh_ex e)
@@ -93,7 +99,8 @@ double nh_model_number(const nh_model *o, nh_ex e)
 
 /* ---- construction ---- */
 
-/* A large Lagrangian, such as that of a chain of bodies, is differentiated with respect to everything at once, and along X_0 in one go (tau). */
+/* A large Lagrangian, such as that of a chain of bodies, is differentiated with respect to everything at once, and
+   along X_0 in one go (tau). */
 typedef struct {
     bool large;
     nh_ex *dq, *dv; /* m: dL/dq^s, dL/dv^s */
@@ -101,7 +108,10 @@ typedef struct {
     nh_ex tau;
 } slopes;
 
-static bool is_large(const nh_model *o) { return !o->chart->implicit && !nh_complexity_within(o->dag, o->system->lagrangian, large_length); }
+static bool is_large(const nh_model *o)
+{
+    return !o->chart->implicit && !nh_complexity_within(o->dag, o->system->lagrangian, large_length);
+}
 
 const nh_chain *nh_model_chain(const nh_model *o, nh_ex *rest)
 {
@@ -121,7 +131,8 @@ static slopes slopes_of(const nh_model *o)
     s.dv = s.dq + o->m;
     for (size_t i = 0; i < o->m; i++) symbol[i] = y->coordinate[i].q, symbol[o->m + i] = y->coordinate[i].v;
     if (s.large) nh_gradient(d, y->lagrangian, 2 * o->m, symbol, s.dq);
-    for (size_t i = 0; i < o->m && !s.large; i++) s.dq[i] = nh_diff(d, y->lagrangian, symbol[i]), s.dv[i] = nh_diff(d, y->lagrangian, symbol[o->m + i]);
+    for (size_t i = 0; i < o->m && !s.large; i++)
+        s.dq[i] = nh_diff(d, y->lagrangian, symbol[i]), s.dv[i] = nh_diff(d, y->lagrangian, symbol[o->m + i]);
     if (!s.large) return s;
     s.tau = nh_symbol_fresh(d, "tau");
     nh_diff_rule(d, y->t, s.tau, nh_int(d, 1));
@@ -129,7 +140,8 @@ static slopes slopes_of(const nh_model *o)
     return s;
 }
 
-/* dL/dq^s - X_0(p_s) of a chain of bodies, by recursion: -(c_s + K_sr X_0(rho^r)), and the same of what the file adds to its Lagrangian. */
+/* dL/dq^s - X_0(p_s) of a chain of bodies, by recursion: -(c_s + K_sr X_0(rho^r)), and the same of what the file adds
+   to its Lagrangian. */
 static void inertial_forces(nh_model *o, slopes *slope)
 {
     nh_dag *d = o->dag;
@@ -283,7 +295,8 @@ static nh_ex unbalanced(const nh_model *o, const slopes *slope, size_t s)
     return c;
 }
 
-/* c_s = mu_a df^a/dv^s: solved in the rows of the most independent velocities (all of them for coordinate charts: the dependent ones). */
+/* c_s = mu_a df^a/dv^s: solved in the rows of the most independent velocities (all of them for coordinate charts: the
+   dependent ones). */
 static bool multipliers(nh_model *o, const slopes *slope, nh_error *error)
 {
     nh_dag *d = o->dag;
@@ -297,7 +310,8 @@ static bool multipliers(nh_model *o, const slopes *slope, nh_error *error)
         if (m <= 12) c[s] = simple(o, c[s]);
         o->reaction[s] = nh_neg(d, c[s]);
         for (size_t a = 0; a < k; a++)
-            o->nu[a * m + s] = simple(o, nh_model_compose(o, nh_diff(d, nh_chart_constraint(o->chart, a), y->coordinate[s].v)));
+            o->nu[a * m + s] =
+                simple(o, nh_model_compose(o, nh_diff(d, nh_chart_constraint(o->chart, a), y->coordinate[s].v)));
     }
     /* normal equations (nu nu^T) mu = nu c: regular wherever the constraints are independent, in every chart */
     nh_ex *N = take(o, k * k), *b = take(o, k);
@@ -311,7 +325,8 @@ static bool multipliers(nh_model *o, const slopes *slope, nh_error *error)
         }
     }
     nh_lu *lu = nh_lu_create(d, k, N, nh_chart_pivot_score, o->chart, NULL);
-    if (!lu) return nh_fail(error, NH_NUMERIC, "", "the constraints of %s become dependent on the sampling domain", y->name);
+    if (!lu)
+        return nh_fail(error, NH_NUMERIC, "", "the constraints of %s become dependent on the sampling domain", y->name);
     nh_lu_solve(lu, b, o->mu);
     for (size_t a = 0; a < k; a++) o->mu[a] = simple(o, o->mu[a]);
     nh_lu_free(lu);
@@ -323,8 +338,15 @@ nh_model *nh_model_bare(nh_system *system, nh_chart *chart)
     if (!chart) return NULL;
     nh_arena *arena = nh_arena_create();
     nh_model *o = nh_arena_alloc(arena, sizeof *o);
-    *o = (nh_model){.system = system, .chart = chart, .dag = system->dag, .arena = arena, .m = system->coordinates, .n = chart->n,
-                    .k = system->constraints, .rho = chart->rho, .width = chart->width};
+    *o = (nh_model){.system = system,
+                    .chart = chart,
+                    .dag = system->dag,
+                    .arena = arena,
+                    .m = system->coordinates,
+                    .n = chart->n,
+                    .k = system->constraints,
+                    .rho = chart->rho,
+                    .width = chart->width};
     nh_system_bindings(system, &o->parameter, &o->parameter_value);
     return o;
 }

@@ -46,7 +46,8 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error);
 nh_model *nh_model_bare(nh_system *system, nh_chart *chart);
 void nh_model_free(nh_model *model);
 
-/* G, made when it is first wanted where the Lagrangian is long: its n m derivatives of momenta are then most of the model, and no motion needs them. */
+/* G, made when it is first wanted where the Lagrangian is long: its n m derivatives of momenta are then most of the
+   model, and no motion needs them. */
 const nh_ex *nh_model_G(const nh_model *model);
 
 /* The bodies and joints of a long Lagrangian, whose equations are known by recursion, and the rest of it; else NULL. */
@@ -73,7 +74,8 @@ nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);
 /* The value of an expression of the parameters. */
 double nh_model_number(const nh_model *model, nh_ex e);
 
-/* The energy of the system as an expression of the chart, and an expression of coordinate velocities brought to the chart. */
+/* The energy of the system as an expression of the chart, and an expression of coordinate velocities brought to the
+   chart. */
 nh_ex nh_model_compose(const nh_model *model, nh_ex e);
 
 /* ---- has every independent velocity inertia? (model_regular.c) ---- */

@@ -1,10 +1,12 @@
 /* model_regular: has every independent velocity inertia?
  *
- * The equations of motion determine the accelerations only where the mass matrix on the constraint submanifold is regular:
+ * The equations of motion determine the accelerations only where the mass matrix on the constraint submanifold is
+ * regular:
  *
  *     M = R^T K R,   K_rs = d^2 L / dv^r dv^s,   R = d rho / dw          [docs/method.md, sec. 2]
  *
- * It is evaluated at the probes of the chart, so that a singular Lagrangian is refused before anything is simplified. */
+ * It is evaluated at the probes of the chart, so that a singular Lagrangian is refused before anything is
+ * simplified. */
 #include "geometry/model.h"
 
 #include <math.h>
@@ -65,7 +67,9 @@ static void multiply(const nh_model *o, const double *value, double *M)
 static masses masses_of(const nh_model *o)
 {
     size_t n = o->n, total = o->M ? n * n : o->m * (o->m + n);
-    masses a = {.n = n, .M = nh_alloc_array(o->chart->probes * n * n + 1, sizeof *a.M), .at = nh_alloc_array(o->chart->probes + 1, sizeof *a.at)};
+    masses a = {.n = n,
+                .M = nh_alloc_array(o->chart->probes * n * n + 1, sizeof *a.M),
+                .at = nh_alloc_array(o->chart->probes + 1, sizeof *a.at)};
     nh_tape *tape = o->M ? nh_model_tape(o, total, o->M) : factors(o);
     nh_tape_work *work = nh_tape_work_create(tape);
     double *value = nh_alloc_array(total + 1, sizeof *value);
@@ -91,7 +95,8 @@ static int earlier(const void *a, const void *b, void *context)
     return i == n ? 0 : x[i] == 0 ? 1 : -1;
 }
 
-/* Vectors (rows of `null`, count x n) of the same span that are as short as can be: each has a component 1 where the others have 0, its largest. */
+/* Vectors (rows of `null`, count x n) of the same span that are as short as can be: each has a component 1 where the
+   others have 0, its largest. */
 static void shorten(size_t count, size_t n, double *null)
 {
     static const double tie = 1 + 1e-9, nothing = 1e-9;
@@ -113,7 +118,8 @@ static void shorten(size_t count, size_t n, double *null)
     qsort_r(null, count, n * sizeof *null, earlier, &n);
 }
 
-/* The rank of M at one probe, and the directions that have no inertia there (n - rank rows of n; the one with the least where the rank is n). */
+/* The rank of M at one probe, and the directions that have no inertia there (n - rank rows of n; the one with the least
+   where the rank is n). */
 static size_t rank_at(const masses *a, size_t probe, double *null)
 {
     static const double least = 1e-11; /* part of the largest singular value */
@@ -159,7 +165,8 @@ static void print_directions(const nh_model *o, size_t count, const double *null
         print_direction(o, null + k * o->n, out);
     }
     if (count > most) nh_text_addf(out, " and %zu more", count - most);
-    for (size_t s = 0; s < o->m && place; s++) nh_text_addf(out, "%s%s = %.3g", s ? ", " : " (at ", o->system->coordinate[s].name, place[1 + s]);
+    for (size_t s = 0; s < o->m && place; s++)
+        nh_text_addf(out, "%s%s = %.3g", s ? ", " : " (at ", o->system->coordinate[s].name, place[1 + s]);
     if (place) nh_text_addf(out, ")");
 }
 
@@ -191,8 +198,10 @@ bool nh_model_singular(const nh_model *o, nh_error *error)
     masses a = masses_of(o);
     if (a.count == 0) {
         masses_clear(&a);
-        nh_deck_fail(o->system->deck, where, 0, error, "the mass matrix of the Lagrangian is not finite at any point of the sampling domain");
-        return nh_error_hint(error, "is a denominator 0, or a radicand negative?  Or does `domain:` lie outside the region where the Lagrangian is defined?");
+        nh_deck_fail(o->system->deck, where, 0, error,
+                     "the mass matrix of the Lagrangian is not finite at any point of the sampling domain");
+        return nh_error_hint(error, "is a denominator 0, or a radicand negative?  Or does `domain:` lie outside the "
+                                    "region where the Lagrangian is defined?");
     }
     double *null = nh_alloc_array(o->n * o->n + 1, sizeof *null);
     size_t rank;
@@ -201,15 +210,21 @@ bool nh_model_singular(const nh_model *o, nh_error *error)
     nh_text which;
     nh_text_init(&which);
     print_directions(o, rank < o->n ? o->n - rank : 1, null, everywhere ? NULL : a.at[best], &which);
-    nh_deck_fail(o->system->deck, where, 0, error,
-                 rank < o->n ? "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu; %.500s"
-                             : "the mass matrix of the Lagrangian has rank %zu of %zu but is singular in places of the sampling domain; %.500s",
-                 rank, o->n, nh_text_string(&which));
+    nh_deck_fail(
+        o->system->deck, where, 0, error,
+        rank < o->n
+            ? "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu; %.500s"
+            : "the mass matrix of the Lagrangian has rank %zu of %zu but is singular in places of the sampling domain; "
+              "%.500s",
+        rank, o->n, nh_text_string(&which));
     nh_text_clear(&which);
     nh_free(null);
     masses_clear(&a);
-    return nh_error_hint(error, rank < o->n ? "every independent velocity needs inertia; a coordinate without any should be eliminated by a constraint"
-                                            : "keep `domain:` away from there");
+    return nh_error_hint(
+        error,
+        rank < o->n
+            ? "every independent velocity needs inertia; a coordinate without any should be eliminated by a constraint"
+            : "keep `domain:` away from there");
 }
 
 /* In units in which its diagonal is one the mass matrix has a singular value of the size of rounding at every probe. */

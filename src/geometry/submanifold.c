@@ -49,7 +49,8 @@ static void plain_forms(nh_arena *arena, nh_submanifold *s)
         s->form[a * (1 + m)] = tidy(o, time);
         for (size_t b = 0; b < k; b++) {
             N[a * k + b] = nh_int(d, 0);
-            for (size_t r = 0; r < m; r++) N[a * k + b] = nh_add(d, N[a * k + b], nh_mul(d, o->nu[a * m + r], o->nu[b * m + r]));
+            for (size_t r = 0; r < m; r++)
+                N[a * k + b] = nh_add(d, N[a * k + b], nh_mul(d, o->nu[a * m + r], o->nu[b * m + r]));
         }
     }
     nh_lu *lu = nh_lu_create(d, k, N, nh_chart_pivot_score, o->chart, NULL);
@@ -111,7 +112,8 @@ static void unconstrained(nh_arena *arena, nh_submanifold *s)
             s->free_B[i * m + r] = tidy(o, nh_neg(d, nh_diff(d, p[i], y->coordinate[r].v)));
         }
         s->free_A[i] = tidy(o, nh_sub(d, nh_add(d, nh_diff(d, y->lagrangian, y->coordinate[i].q), y->force[i]), rate));
-        for (size_t a = 0; a < o->k; a++) s->f_v[a * m + i] = tidy(o, nh_diff(d, nh_chart_constraint(o->chart, a), y->coordinate[i].v));
+        for (size_t a = 0; a < o->k; a++)
+            s->f_v[a * m + i] = tidy(o, nh_diff(d, nh_chart_constraint(o->chart, a), y->coordinate[i].v));
     }
 }
 
@@ -119,9 +121,19 @@ nh_submanifold *nh_submanifold_of(nh_arena *arena, const nh_model *o, const size
 {
     size_t m = o->m, n = o->n, k = o->k;
     nh_submanifold *s = nh_arena_alloc(arena, sizeof *s);
-    *s = (nh_submanifold){.model = o, .normal = k && !o->chart->quasi, .form = take(arena, k * (1 + m)), .across = take(arena, k * m), .slope = take(arena, k * n),
-                          .turn = take(arena, k * n), .bend = take(arena, k * n * n), .force = take(arena, n), .inertia = take(arena, n * n),
-                          .inverse = take(arena, n * n), .free_A = take(arena, m), .free_B = take(arena, m * m), .f_v = take(arena, k * m)};
+    *s = (nh_submanifold){.model = o,
+                          .normal = k && !o->chart->quasi,
+                          .form = take(arena, k * (1 + m)),
+                          .across = take(arena, k * m),
+                          .slope = take(arena, k * n),
+                          .turn = take(arena, k * n),
+                          .bend = take(arena, k * n * n),
+                          .force = take(arena, n),
+                          .inertia = take(arena, n * n),
+                          .inverse = take(arena, n * n),
+                          .free_A = take(arena, m),
+                          .free_B = take(arena, m * m),
+                          .f_v = take(arena, k * m)};
     const size_t *chosen = dependent ? dependent : s->normal ? o->chart->dependent : NULL;
     if (k && chosen) normal_forms(arena, s, chosen);
     else if (k) plain_forms(arena, s);

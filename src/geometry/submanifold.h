@@ -32,7 +32,8 @@ typedef struct {
     nh_ex *f_v;          /* k x m: df^a/dv^s of the constraints as they were written, in all velocities */
 } nh_submanifold;
 
-/* In the arena; `dependent`: the k coordinates whose velocities the forms are normalised by, NULL: those of the chart, or none. */
+/* In the arena; `dependent`: the k coordinates whose velocities the forms are normalised by, NULL: those of the chart,
+   or none. */
 nh_submanifold *nh_submanifold_of(nh_arena *arena, const nh_model *model, const size_t *dependent);
 
 #endif

@@ -39,7 +39,8 @@ static void gather_terms(nh_dag *dag, nh_term_list *b, nh_ex e, nh_num scale)
     } else if (kind == NH_SUM) {
         b->c = nh_num_add(b->c, nh_num_mul(scale, nh_constant_of(dag, e)));
         for (size_t i = 0; i < nh_arity(dag, e); i++)
-            nh_term_list_push(b, (nh_term_list_item){.e = nh_child(dag, e, i), .c = nh_num_mul(scale, nh_coefficient_of(dag, e, i))});
+            nh_term_list_push(
+                b, (nh_term_list_item){.e = nh_child(dag, e, i), .c = nh_num_mul(scale, nh_coefficient_of(dag, e, i))});
     } else if (kind == NH_PRODUCT) {
         nh_num c = nh_num_mul(scale, nh_constant_of(dag, e));
         nh_ex rest = nh_product_without_number(dag, e);

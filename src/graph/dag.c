@@ -84,7 +84,8 @@ nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const
             && (count == 0 || !memcmp(dag->arg + n->first, arg, count * sizeof *arg)))
             return i - 1;
     }
-    if (dag->node_count >= UINT32_MAX - 1 || dag->arg_count + count > UINT32_MAX) nh_alloc(SIZE_MAX); /* the graph is full */
+    /* the graph is full */
+    if (dag->node_count >= UINT32_MAX - 1 || dag->arg_count + count > UINT32_MAX) nh_alloc(SIZE_MAX);
     if (dag->node_count >= dag->bucket_count) rehash(dag);
     nh_grow(&dag->node, &dag->node_capacity, dag->node_count + 1, sizeof *dag->node);
     nh_grow(&dag->arg, &dag->arg_capacity, dag->arg_count + count, sizeof *dag->arg);
@@ -291,11 +292,20 @@ static size_t of_kind(const nh_dag *dag, nh_ex e, nh_kind kind, nh_ex *out, size
     return found;
 }
 
-size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { return of_kind(dag, e, NH_SYMBOL, out, max); }
+size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
+{
+    return of_kind(dag, e, NH_SYMBOL, out, max);
+}
 
-size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { return of_kind(dag, e, NH_FUNCTION, out, max); }
+size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
+{
+    return of_kind(dag, e, NH_FUNCTION, out, max);
+}
 
-size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { return of_kind(dag, e, NH_PRODUCT, out, max); }
+size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
+{
+    return of_kind(dag, e, NH_PRODUCT, out, max);
+}
 
 size_t nh_node_count(const nh_dag *dag, nh_ex e)
 {

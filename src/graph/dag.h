@@ -24,9 +24,9 @@ typedef struct nh_dag nh_dag;
 
 typedef enum { NH_NUMBER, NH_SYMBOL, NH_SUM, NH_PRODUCT, NH_FUNCTION } nh_kind;
 
-/* Elementary functions of one argument, which have the names of the C library: identifier, name, parity (-1 odd, 1 even,
- * 0 neither), values at 0 and at 1 where these are whole numbers (-1: no such rule).  Values of a point and of a batch,
- * their declarations in machine code, and what messages list are made of these rows. */
+/* Elementary functions of one argument, which have the names of the C library: identifier, name, parity (-1 odd, 1
+ * even, 0 neither), values at 0 and at 1 where these are whole numbers (-1: no such rule).  Values of a point and of a
+ * batch, their declarations in machine code, and what messages list are made of these rows. */
 #define NH_ELEMENTARY_TABLE(X)   \
     X(SIN, sin, -1, 0, -1)       \
     X(COS, cos, 1, 1, -1)        \
@@ -48,21 +48,48 @@ typedef enum { NH_NUMBER, NH_SYMBOL, NH_SUM, NH_PRODUCT, NH_FUNCTION } nh_kind;
 
 #define X(id, name, parity, at_zero, at_one) NH_##id,
 typedef enum {
-    NH_ELEMENTARY_TABLE(X)
-    NH_ABS, NH_SIGN, NH_ATAN2, NH_PI,
-    /* Named functions (named_function.h): solutions of a linear equation of second order, each followed by its derivative; */
-    NH_LEGENDRE_P, NH_LEGENDRE_P_PRIME, NH_LEGENDRE_Q, NH_LEGENDRE_Q_PRIME, NH_HYP2F1, NH_HYP2F1_PRIME, NH_GAUSS_F, NH_GAUSS_F_PRIME,
-    NH_HYP1F1, NH_HYP1F1_PRIME, NH_HYPERU, NH_HYPERU_PRIME, NH_BESSEL_J, NH_BESSEL_J_PRIME, NH_BESSEL_Y, NH_BESSEL_Y_PRIME,
-    NH_BESSEL_I, NH_BESSEL_I_PRIME, NH_BESSEL_K, NH_BESSEL_K_PRIME, NH_AIRY_AI, NH_AIRY_AI_PRIME, NH_AIRY_BI, NH_AIRY_BI_PRIME,
-    NH_ELLIPTIC_K, NH_ELLIPTIC_E, NH_ELLIPTIC_F, NH_ELLIPTIC_EINC, /* elliptic integrals */
+    NH_ELEMENTARY_TABLE(X) NH_ABS,
+    NH_SIGN,
+    NH_ATAN2,
+    NH_PI,
+    /* Named functions (named_function.h): solutions of a linear equation of second order, each followed by its
+       derivative; */
+    NH_LEGENDRE_P,
+    NH_LEGENDRE_P_PRIME,
+    NH_LEGENDRE_Q,
+    NH_LEGENDRE_Q_PRIME,
+    NH_HYP2F1,
+    NH_HYP2F1_PRIME,
+    NH_GAUSS_F,
+    NH_GAUSS_F_PRIME,
+    NH_HYP1F1,
+    NH_HYP1F1_PRIME,
+    NH_HYPERU,
+    NH_HYPERU_PRIME,
+    NH_BESSEL_J,
+    NH_BESSEL_J_PRIME,
+    NH_BESSEL_Y,
+    NH_BESSEL_Y_PRIME,
+    NH_BESSEL_I,
+    NH_BESSEL_I_PRIME,
+    NH_BESSEL_K,
+    NH_BESSEL_K_PRIME,
+    NH_AIRY_AI,
+    NH_AIRY_AI_PRIME,
+    NH_AIRY_BI,
+    NH_AIRY_BI_PRIME,
+    NH_ELLIPTIC_K,
+    NH_ELLIPTIC_E,
+    NH_ELLIPTIC_F,
+    NH_ELLIPTIC_EINC, /* elliptic integrals */
     NH_FUNCTION_COUNT
 } nh_function;
 #undef X
 
 enum { NH_MOST_ARGUMENTS = 4 }; /* of a function */
 
-/* An exact rational p/q with q > 0 in lowest terms; or (q == NH_LONG) one too long for 64 bits, which expr/num_long keeps under the
- * index p, with d the nearest double; or (q == 0) the double d. */
+/* An exact rational p/q with q > 0 in lowest terms; or (q == NH_LONG) one too long for 64 bits, which expr/num_long
+ * keeps under the index p, with d the nearest double; or (q == 0) the double d. */
 typedef struct {
     int64_t p, q;
     double d;
@@ -129,11 +156,13 @@ nh_num nh_coefficient_of(const nh_dag *dag, nh_ex e, size_t i); /* of the i-th t
 nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i);     /* of the i-th factor of a product */
 const char *nh_function_name(nh_function f);
 size_t nh_function_arity(nh_function f);
-const char *nh_function_elsewhere(const char *name); /* what is written here for a name that other languages have; or NULL */
+/* what is written here for a name that other languages have; or NULL */
+const char *nh_function_elsewhere(const char *name);
 bool nh_is_named_function(nh_function f);
 /* What the arguments of a named function are called, each by one letter: "n, x"; NULL for the others. */
 const char *nh_function_arguments(nh_function f);
-/* How many of its first arguments must be constant: nobody knows a closed form of the derivatives with respect to orders. */
+/* How many of its first arguments must be constant: nobody knows a closed form of the derivatives with respect to
+   orders. */
 size_t nh_function_constants(nh_function f);
 bool nh_is_zero(const nh_dag *dag, nh_ex e);
 bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value);
@@ -151,7 +180,8 @@ size_t nh_node_count(const nh_dag *dag, nh_ex e);
 /* e with from[i] replaced by to[i], all at once. */
 nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t n, const nh_ex *from, const nh_ex *to);
 
-/* e with every half power of `base` written in `root`: base^(p/2) becomes root^p.  For base = root^2, and root of one sign. */
+/* e with every half power of `base` written in `root`: base^(p/2) becomes root^p.  For base = root^2, and root of one
+   sign. */
 nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root);
 
 #endif

@@ -73,7 +73,8 @@ static nh_ex outer(nh_dag *d, nh_function f, nh_ex e, nh_ex a)
     case NH_COSH: return nh_call(d, NH_SINH, a);
     case NH_TANH: return one_plus(d, -1, square(d, e));
     case NH_ASINH: return inverse_sqrt(d, one_plus(d, 1, square(d, a)));
-    case NH_ACOSH: return nh_mul(d, inverse_sqrt(d, nh_add(d, a, nh_int(d, -1))), inverse_sqrt(d, nh_add(d, a, nh_int(d, 1))));
+    case NH_ACOSH:
+        return nh_mul(d, inverse_sqrt(d, nh_add(d, a, nh_int(d, -1))), inverse_sqrt(d, nh_add(d, a, nh_int(d, 1))));
     case NH_ATANH: return inverse(d, one_plus(d, -1, square(d, a)));
     case NH_EXP: return e;
     case NH_LOG: return inverse(d, a);

@@ -6,7 +6,8 @@
 #include "graph/dag_internal.h"
 
 #define NAMED(f, name, arity, arguments) [NH_##f] = {name, arity, 0, -1, -1, NULL, arguments}
-#define PAIR(f, name, arity, arguments) NAMED(f, name, arity, arguments), NAMED(f##_PRIME, name "_prime", arity, arguments)
+#define PAIR(f, name, arity, arguments) \
+    NAMED(f, name, arity, arguments), NAMED(f##_PRIME, name "_prime", arity, arguments)
 
 #define X(id, name, parity, at_zero, at_one) [NH_##id] = {#name, 1, parity, at_zero, at_one, name},
 /* The members of NH_ELEMENTARY_TABLE. */
@@ -17,14 +18,25 @@ static const struct {
     double (*f)(double);
     const char *arguments; /* of a named function */
 } table[NH_FUNCTION_COUNT] = {
-    NH_ELEMENTARY_TABLE(X)
-    [NH_ABS] = {"abs", 1, 1, 0, 1, fabs},        [NH_SIGN] = {"sign", 1, -1, 0, 1, NULL},
-    [NH_ATAN2] = {"atan2", 2, 0, -1, -1, NULL},  [NH_PI] = {"pi", 0, 0, -1, -1, NULL},
-    PAIR(LEGENDRE_P, "legendre_p", 2, "n, x"), PAIR(LEGENDRE_Q, "legendre_q", 2, "n, x"), PAIR(HYP2F1, "hyp2f1", 4, "a, b, c, x"),
-    PAIR(GAUSS_F, "gauss_f", 4, "s, p, c, x"), PAIR(HYP1F1, "hyp1f1", 3, "a, b, x"), PAIR(HYPERU, "hyperu", 3, "a, b, x"),
-    PAIR(BESSEL_J, "bessel_j", 2, "n, x"), PAIR(BESSEL_Y, "bessel_y", 2, "n, x"), PAIR(BESSEL_I, "bessel_i", 2, "n, x"),
-    PAIR(BESSEL_K, "bessel_k", 2, "n, x"), PAIR(AIRY_AI, "airy_ai", 1, "x"), PAIR(AIRY_BI, "airy_bi", 1, "x"),
-    NAMED(ELLIPTIC_K, "elliptic_k", 1, "m"), NAMED(ELLIPTIC_E, "elliptic_e", 1, "m"), NAMED(ELLIPTIC_F, "elliptic_f", 2, "u, m"),
+    NH_ELEMENTARY_TABLE(X)[NH_ABS] = {"abs", 1, 1, 0, 1, fabs},
+    [NH_SIGN] = {"sign", 1, -1, 0, 1, NULL},
+    [NH_ATAN2] = {"atan2", 2, 0, -1, -1, NULL},
+    [NH_PI] = {"pi", 0, 0, -1, -1, NULL},
+    PAIR(LEGENDRE_P, "legendre_p", 2, "n, x"),
+    PAIR(LEGENDRE_Q, "legendre_q", 2, "n, x"),
+    PAIR(HYP2F1, "hyp2f1", 4, "a, b, c, x"),
+    PAIR(GAUSS_F, "gauss_f", 4, "s, p, c, x"),
+    PAIR(HYP1F1, "hyp1f1", 3, "a, b, x"),
+    PAIR(HYPERU, "hyperu", 3, "a, b, x"),
+    PAIR(BESSEL_J, "bessel_j", 2, "n, x"),
+    PAIR(BESSEL_Y, "bessel_y", 2, "n, x"),
+    PAIR(BESSEL_I, "bessel_i", 2, "n, x"),
+    PAIR(BESSEL_K, "bessel_k", 2, "n, x"),
+    PAIR(AIRY_AI, "airy_ai", 1, "x"),
+    PAIR(AIRY_BI, "airy_bi", 1, "x"),
+    NAMED(ELLIPTIC_K, "elliptic_k", 1, "m"),
+    NAMED(ELLIPTIC_E, "elliptic_e", 1, "m"),
+    NAMED(ELLIPTIC_F, "elliptic_f", 2, "u, m"),
     NAMED(ELLIPTIC_EINC, "elliptic_einc", 2, "u, m"),
 };
 #undef X
@@ -90,7 +102,9 @@ static bool sine_of_twelfths(nh_dag *dag, int64_t k, nh_ex *out)
     if (at == 1 || at == 5) return false;
     if (at == 0 || at == 6) *out = nh_number(dag, at ? sign : nh_num_int(0));
     else if (at == 2) *out = nh_number(dag, nh_num_mul(sign, nh_num_inv(nh_num_int(2))));
-    else *out = nh_mul(dag, nh_number(dag, nh_num_mul(sign, nh_num_inv(nh_num_int(2)))), nh_sqrt(dag, nh_int(dag, at == 3 ? 2 : 3)));
+    else
+        *out = nh_mul(dag, nh_number(dag, nh_num_mul(sign, nh_num_inv(nh_num_int(2)))),
+                      nh_sqrt(dag, nh_int(dag, at == 3 ? 2 : 3)));
     return true;
 }
 
@@ -98,12 +112,16 @@ static bool sine_of_twelfths(nh_dag *dag, int64_t k, nh_ex *out)
 static nh_ex without_factor(const nh_dag *dag, nh_ex e, nh_num *c)
 {
     *c = nh_num_int(1);
-    if (nh_kind_of(dag, e) != NH_PRODUCT || nh_arity(dag, e) != 1 || !nh_is_number(dag, nh_exponent_of(dag, e, 0), 1)) return e;
+    if (nh_kind_of(dag, e) != NH_PRODUCT || nh_arity(dag, e) != 1 || !nh_is_number(dag, nh_exponent_of(dag, e, 0), 1))
+        return e;
     *c = nh_constant_of(dag, e);
     return nh_child(dag, e, 0);
 }
 
-static bool is_pi(const nh_dag *dag, nh_ex e) { return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == NH_PI; }
+static bool is_pi(const nh_dag *dag, nh_ex e)
+{
+    return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == NH_PI;
+}
 
 /* sin(c pi), cos(c pi) where these are known: wheels at angles of 2 pi/3. */
 static bool known_turn(nh_dag *dag, nh_num c, nh_ex *sine, nh_ex *cosine)
@@ -162,7 +180,9 @@ nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a)
         e = nh_call(dag, f, nh_neg(dag, a));
         return table[f].parity < 0 ? nh_neg(dag, e) : e;
     }
-    if ((f == NH_SIN || f == NH_COS) && is_pi(dag, without_factor(dag, a, &turn)) && known_turn(dag, turn, &sine, &cosine)) return f == NH_SIN ? sine : cosine;
+    if ((f == NH_SIN || f == NH_COS) && is_pi(dag, without_factor(dag, a, &turn)) &&
+        known_turn(dag, turn, &sine, &cosine))
+        return f == NH_SIN ? sine : cosine;
     if (f == NH_EXP && is_call(dag, a, NH_LOG)) return nh_child(dag, a, 0);
     if (f == NH_LOG && is_call(dag, a, NH_EXP)) return nh_child(dag, a, 0);
     return nh_dag_intern(dag, NH_FUNCTION, f, 1, &a);
@@ -176,7 +196,8 @@ nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b)
 
 nh_ex nh_call_any(nh_dag *dag, nh_function f, const nh_ex *argument)
 {
-    return table[f].arity == 1 ? nh_call(dag, f, argument[0]) : nh_dag_intern(dag, NH_FUNCTION, f, (size_t)table[f].arity, argument);
+    return table[f].arity == 1 ? nh_call(dag, f, argument[0])
+                               : nh_dag_intern(dag, NH_FUNCTION, f, (size_t)table[f].arity, argument);
 }
 
 nh_ex nh_pi(nh_dag *dag) { return nh_dag_intern(dag, NH_FUNCTION, NH_PI, 0, NULL); }

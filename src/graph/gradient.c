@@ -1,5 +1,6 @@
-/* gradient: reverse accumulation.  The adjoint of a node is d e/d node; a node hands its adjoint, times the derivative of the node with respect to the
- * child, to each child.  Children have smaller indices than their parents, so one walk downwards sees every adjoint complete. */
+/* gradient: reverse accumulation.  The adjoint of a node is d e/d node; a node hands its adjoint, times the derivative
+ * of the node with respect to the child, to each child.  Children have smaller indices than their parents, so one walk
+ * downwards sees every adjoint complete. */
 #include "graph/dag_internal.h"
 #include "graph/diff.h"
 
@@ -69,7 +70,8 @@ static void spread(sweep *s, nh_ex node)
     if (kind == NH_PRODUCT) spread_product(s, node, a);
     else if (kind == NH_FUNCTION) spread_function(s, node, a);
     else if (kind == NH_SUM)
-        for (size_t i = 0; i < nh_arity(d, node); i++) give(s, nh_child(d, node, i), nh_mul(d, a, nh_number(d, nh_coefficient_of(d, node, i))));
+        for (size_t i = 0; i < nh_arity(d, node); i++)
+            give(s, nh_child(d, node, i), nh_mul(d, a, nh_number(d, nh_coefficient_of(d, node, i))));
 }
 
 /* Which nodes at or below e contain one of the symbols; by index, children first. */
@@ -89,12 +91,15 @@ static void mark(const sweep *s, nh_ex e, size_t n, const nh_ex *symbol)
 
 void nh_gradient(nh_dag *dag, nh_ex e, size_t n, const nh_ex *symbol, nh_ex *out)
 {
-    sweep s = {.dag = dag, .needed = nh_alloc_array((size_t)e + 1, sizeof(bool)), .first = nh_alloc_array((size_t)e + 1, sizeof(size_t))};
+    sweep s = {.dag = dag,
+               .needed = nh_alloc_array((size_t)e + 1, sizeof(bool)),
+               .first = nh_alloc_array((size_t)e + 1, sizeof(size_t))};
     mark(&s, e, n, symbol);
     give(&s, e, nh_int(dag, 1));
     for (size_t x = (size_t)e + 1; x-- > 0;)
         if (s.first[x]) spread(&s, (nh_ex)x);
-    for (size_t i = 0; i < n; i++) out[i] = symbol[i] <= e && s.first[symbol[i]] ? adjoint(&s, symbol[i]) : nh_int(dag, 0);
+    for (size_t i = 0; i < n; i++)
+        out[i] = symbol[i] <= e && s.first[symbol[i]] ? adjoint(&s, symbol[i]) : nh_int(dag, 0);
     nh_free(s.needed);
     nh_free(s.first);
     nh_free(s.list);

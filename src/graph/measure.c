@@ -93,7 +93,8 @@ size_t nh_complexity(const nh_dag *dag, nh_ex e)
     return length;
 }
 
-/* What is left of `room` behind the symbols and numbers of e, as they stand on paper; 0 where there is no room for all. */
+/* What is left of `room` behind the symbols and numbers of e, as they stand on paper; 0 where there is no room for
+   all. */
 static size_t room_behind(const nh_dag *dag, nh_ex e, size_t room)
 {
     nh_kind kind = nh_kind_of(dag, e);
@@ -134,13 +135,15 @@ static piece *pieces_of(const nh_dag *dag, nh_ex e)
     piece *list = nh_alloc_array(n + 1, sizeof *list);
     for (size_t i = 0; i < n; i++) {
         nh_ex own = nh_child(dag, e, i);
-        list[i] = (piece){dag, own, kind == NH_PRODUCT ? nh_exponent_of(dag, e, i) : own, kind == NH_SUM ? nh_num_value(nh_coefficient_of(dag, e, i)) : 1};
+        list[i] = (piece){dag, own, kind == NH_PRODUCT ? nh_exponent_of(dag, e, i) : own,
+                          kind == NH_SUM ? nh_num_value(nh_coefficient_of(dag, e, i)) : 1};
     }
     if (kind != NH_FUNCTION) qsort(list, n, sizeof *list, by_structure);
     return list;
 }
 
-/* Term by term, each at its place in the order; coefficients decide between sums of the same terms, the larger first. */
+/* Term by term, each at its place in the order; coefficients decide between sums of the same terms, the larger
+   first. */
 static int by_pieces(const nh_dag *dag, nh_ex a, nh_ex b)
 {
     size_t n = nh_arity(dag, a);
@@ -161,7 +164,8 @@ static int structure(const nh_dag *dag, nh_ex a, nh_ex b)
     if (kind != nh_kind_of(dag, b)) return kind < nh_kind_of(dag, b) ? -1 : 1;
     if (kind == NH_SYMBOL) return a < b ? -1 : 1;
     if (kind == NH_NUMBER) return sign_of(nh_num_value(nh_number_of(dag, a)) - nh_num_value(nh_number_of(dag, b)));
-    if (kind == NH_FUNCTION && nh_function_of(dag, a) != nh_function_of(dag, b)) return nh_function_of(dag, a) < nh_function_of(dag, b) ? -1 : 1;
+    if (kind == NH_FUNCTION && nh_function_of(dag, a) != nh_function_of(dag, b))
+        return nh_function_of(dag, a) < nh_function_of(dag, b) ? -1 : 1;
     if (nh_arity(dag, a) != nh_arity(dag, b)) return nh_arity(dag, a) < nh_arity(dag, b) ? -1 : 1;
     return by_pieces(dag, a, b);
 }
@@ -199,9 +203,12 @@ static size_t nesting(const nh_dag *dag, nh_ex e, nh_index *known)
     if (nh_index_get(known, e, &found)) return found;
     for (size_t i = 0; i < n; i++) {
         nh_ex child = nh_child(dag, e, i), exponent = kind == NH_PRODUCT ? nh_exponent_of(dag, e, i) : 0;
-        size_t here = nesting(dag, child, known) + (kind == NH_FUNCTION || (kind == NH_PRODUCT && nh_kind_of(dag, child) == NH_SUM));
+        size_t here = nesting(dag, child, known) +
+                      (kind == NH_FUNCTION || (kind == NH_PRODUCT && nh_kind_of(dag, child) == NH_SUM));
         if (here > most) most = here;
-        if (kind == NH_PRODUCT && (here = nesting(dag, exponent, known) + (nh_kind_of(dag, exponent) != NH_NUMBER)) > most) most = here;
+        if (kind == NH_PRODUCT &&
+            (here = nesting(dag, exponent, known) + (nh_kind_of(dag, exponent) != NH_NUMBER)) > most)
+            most = here;
     }
     nh_index_put(known, e, (uint32_t)most);
     return most;

@@ -127,7 +127,8 @@ nh_num nh_num_add(nh_num a, nh_num b)
 {
     if (!a.q || !b.q) return nh_num_real(nh_num_value(a) + nh_num_value(b));
     wide p;
-    if (a.q < 0 || b.q < 0 || __builtin_add_overflow((wide)a.p * b.q, (wide)b.p * a.q, &p)) return at_length(mpq_add, a, b);
+    if (a.q < 0 || b.q < 0 || __builtin_add_overflow((wide)a.p * b.q, (wide)b.p * a.q, &p))
+        return at_length(mpq_add, a, b);
     return reduced(p, (wide)a.q * b.q);
 }
 

@@ -30,7 +30,8 @@ static void clear_table(void)
 
 static size_t hash_mpz(size_t h, const mpz_t z)
 {
-    for (size_t i = 0; i < mpz_size(z); i++) h = (h ^ mpz_getlimbn(z, (mp_size_t)i)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
+    for (size_t i = 0; i < mpz_size(z); i++)
+        h = (h ^ mpz_getlimbn(z, (mp_size_t)i)) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
     return h;
 }
 
@@ -95,7 +96,8 @@ static bool fits(const mpz_t z) { return mpz_fits_slong_p(z) && mpz_get_si(z) !=
 
 nh_num nh_num_of_mpq(const mpq_t v)
 {
-    if (fits(mpq_numref(v)) && fits(mpq_denref(v))) return (nh_num){mpz_get_si(mpq_numref(v)), mpz_get_si(mpq_denref(v)), 0};
+    if (fits(mpq_numref(v)) && fits(mpq_denref(v)))
+        return (nh_num){mpz_get_si(mpq_numref(v)), mpz_get_si(mpq_denref(v)), 0};
     double d = nearest(v);
     bool moderate = mpz_sizeinbase(mpq_numref(v), 2) <= most_bits && mpz_sizeinbase(mpq_denref(v), 2) <= most_bits;
     size_t index = moderate ? keep(v) : 0; /* beyond the range of doubles, too: d is 0 or infinite then */
@@ -147,7 +149,8 @@ static void write_far(const mpq_t v, char *buffer, size_t size)
     mpf_clear(f);
     bool minus = text[0] == '-';
     const char *first = text + minus;
-    snprintf(buffer, size, "%s%c%s%se%ld", minus ? "-" : "", first[0], first[1] ? "." : "", first + 1, (long)exponent - 1);
+    snprintf(buffer, size, "%s%c%s%se%ld", minus ? "-" : "", first[0], first[1] ? "." : "", first + 1,
+             (long)exponent - 1);
 }
 
 void nh_num_write(nh_num x, nh_text *out)
@@ -156,8 +159,9 @@ void nh_num_write(nh_num x, nh_text *out)
     mpq_t v;
     mpq_init(v);
     if (nh_num_exact(x)) nh_num_get_mpq(v, x);
-    bool whole = x.q == 1 || (x.q == NH_LONG && mpz_cmp_ui(mpq_denref(v), 1) == 0 && mpz_sizeinbase(mpq_numref(v), 10) < sizeof buffer - 2
-                              && !nh_num_equal(nh_num_decimal(x.d), x));
+    bool whole =
+        x.q == 1 || (x.q == NH_LONG && mpz_cmp_ui(mpq_denref(v), 1) == 0 &&
+                     mpz_sizeinbase(mpq_numref(v), 10) < sizeof buffer - 2 && !nh_num_equal(nh_num_decimal(x.d), x));
     bool far = x.q == NH_LONG && (fabs(x.d) < DBL_MIN || !isfinite(x.d));
     if (far) write_far(v, buffer, sizeof buffer);
     else if (whole) mpz_get_str(buffer, 10, mpq_numref(v));

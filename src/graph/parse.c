@@ -11,7 +11,13 @@
 #include "graph/measure.h"
 #include "graph/num_long.h"
 
-enum { max_depth = 200, max_name = 63, max_power = 18 /* of ten, that is exact */, max_typed_power = 310, max_digits = 80 };
+enum {
+    max_depth = 200,
+    max_name = 63,
+    max_power = 18 /* of ten, that is exact */,
+    max_typed_power = 310,
+    max_digits = 80
+};
 static const int64_t typed_digits = 1000000000000000;
 
 static const char DIGITS[] = "0123456789",
@@ -90,8 +96,9 @@ static bool unary(parser *p, nh_ex *out);
 static const char *plain_sign(const char *at)
 {
     static const char *const signs[][2] = {
-        {"\u2019", "'"}, {"\u2018", "'"}, {"\u2032", "'"}, {"\u00b4", "'"}, {"\u00b7", "*"}, {"\u22c5", "*"}, {"\u00d7", "*"}, {"\u2212", "-"}, {"\u2013", "-"},
-        {"\u00f7", "/"}, {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00bd", "1/2"}, {"\u221a", "sqrt(...)"}, {"\u00b0", "*pi/180"}};
+        {"\u2019", "'"},  {"\u2018", "'"},  {"\u2032", "'"},   {"\u00b4", "'"},         {"\u00b7", "*"},
+        {"\u22c5", "*"},  {"\u00d7", "*"},  {"\u2212", "-"},   {"\u2013", "-"},         {"\u00f7", "/"},
+        {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00bd", "1/2"}, {"\u221a", "sqrt(...)"}, {"\u00b0", "*pi/180"}};
     for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
         if (!strncmp(at, signs[i][0], strlen(signs[i][0]))) return signs[i][1];
     return NULL;
@@ -108,13 +115,16 @@ static bool unexpected(parser *p, const char *wanted)
         if (plain) return hint(p, "write `%s`", plain);
         return hint(p, "names consist of the letters a-z, A-Z, digits and _ (write phi, not a Greek letter)");
     }
-    if (iscntrl((unsigned char)c)) return fail(p, p->at, "a control character cannot stand here; %s was expected", wanted);
+    if (iscntrl((unsigned char)c))
+        return fail(p, p->at, "a control character cannot stand here; %s was expected", wanted);
     fail(p, p->at, "`%c` cannot stand here; %s was expected", c, wanted);
     if (c == '\\') return hint(p, "formulas are no LaTeX: write x', sqrt(x), cos(phi), a/b");
     if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*') return hint(p, "powers are written with ^: x^2");
-    if ((c == '<' || c == '>') && p->equation) return hint(p, "only equations can be written: where a motion is looked at, `domain:` says");
+    if ((c == '<' || c == '>') && p->equation)
+        return hint(p, "only equations can be written: where a motion is looked at, `domain:` says");
     if (c == '=' && p->equation) return hint(p, "an equation has one `=` between two expressions");
-    if (c == '=') return hint(p, "an equation is expected only under constraints, forces, definitions and the map of velocities");
+    if (c == '=')
+        return hint(p, "an equation is expected only under constraints, forces, definitions and the map of velocities");
     return false;
 }
 
@@ -129,11 +139,14 @@ static bool no_operator(parser *p, const char *closing)
 
 static bool vanishes(nh_num x) { return !nh_num_is(x, 0) && nh_num_value(x) == 0; }
 
-/* Is every coefficient a double that is neither infinite nor 0?  Products and sums of large and small numbers need not be. */
+/* Is every coefficient a double that is neither infinite nor 0?  Products and sums of large and small numbers need not
+   be. */
 static bool stays_finite(parser *p, nh_ex e, size_t at)
 {
     nh_kind kind = nh_kind_of(p->dag, e);
-    nh_num first = kind == NH_NUMBER ? nh_number_of(p->dag, e) : kind == NH_SUM || kind == NH_PRODUCT ? nh_constant_of(p->dag, e) : nh_num_int(1);
+    nh_num first = kind == NH_NUMBER                      ? nh_number_of(p->dag, e)
+                   : kind == NH_SUM || kind == NH_PRODUCT ? nh_constant_of(p->dag, e)
+                                                          : nh_num_int(1);
     double size = nh_num_value(first);
     bool lost = vanishes(first);
     for (size_t i = 0; kind == NH_SUM && i < nh_arity(p->dag, e); i++) {
@@ -183,7 +196,8 @@ static bool number(parser *p, nh_ex *out)
     if (value == 0 && digits) return fail(p, p->at, "this number is too small: it would become 0");
     p->at = (size_t)(s - p->text);
     bool moderate = exponent > -1000 && exponent < 1000; /* so that the sum below cannot overflow */
-    bool typed = llabs(digits) < typed_digits && labs(exponent + scale) <= max_typed_power; /* 16 digits or more are what some double was rounded to */
+    /* 16 digits or more are what some double was rounded to */
+    bool typed = llabs(digits) < typed_digits && labs(exponent + scale) <= max_typed_power;
     size_t length = (size_t)(s - start);
     if (!exact && strspn(start, DIGITS) == length && length <= max_digits) {
         *out = nh_number(p->dag, nh_num_of_digits(start, length));
@@ -196,7 +210,8 @@ static bool number(parser *p, nh_ex *out)
     if (*s == '.') return fail(p, p->at, "a second decimal point in a number");
     if (!is_letter(*s) && *s != '(') return true;
     fail(p, p->at, "there is no implicit multiplication");
-    if (!strncmp(s, "deg", 3)) return hint(p, "angles are in radians: write %.*s*pi/180", (int)(s - start > 20 ? 20 : s - start), start);
+    if (!strncmp(s, "deg", 3))
+        return hint(p, "angles are in radians: write %.*s*pi/180", (int)(s - start > 20 ? 20 : s - start), start);
     return hint(p, "write `%.*s*%.*s`", (int)(s - start > 20 ? 20 : s - start), start,
                 *s == '(' ? 1 : (int)strspn(s, WORD), s);
 }
@@ -214,7 +229,8 @@ static bool wrong_number(parser *p, const char *name, const char *amount)
 {
     nh_function f;
     fail(p, p->at, "`%s` takes %s", name, amount);
-    return find_function(name, &f) && nh_is_named_function(f) && hint(p, "write %s(%s)", name, nh_function_arguments(f));
+    return find_function(name, &f) && nh_is_named_function(f) &&
+           hint(p, "write %s(%s)", name, nh_function_arguments(f));
 }
 
 /* The arguments of `name`, after it. */
@@ -262,7 +278,8 @@ static bool square_root(parser *p, size_t at, nh_ex *out)
 static bool unresolved(parser *p, const char *word, size_t at)
 {
     nh_parse_fault *fault = p->fault;
-    bool unknown = !fault->what[0] || !strncmp(fault->what, "unknown name", strlen("unknown name")), called = peek(p) == '(';
+    bool unknown = !fault->what[0] || !strncmp(fault->what, "unknown name", strlen("unknown name")),
+         called = peek(p) == '(';
     fault->offset = at;
     if (unknown) snprintf(fault->what, sizeof fault->what, "unknown %s `%s`", called ? "function" : "name", word);
     const char *instead = unknown && called ? nh_function_elsewhere(word) : NULL;
@@ -301,7 +318,8 @@ static bool name(parser *p, nh_ex *out)
         strcat(word, "'");
         p->at++;
         if (p->text[p->at] == '\'')
-            return fail(p, start, "second derivatives cannot be used: a system is written with coordinates and velocities");
+            return fail(p, start,
+                        "second derivatives cannot be used: a system is written with coordinates and velocities");
     }
     return resolved(p, word, start, out);
 }
@@ -424,7 +442,8 @@ static bool expression(parser *p, nh_ex *out)
 static bool finish(parser *p, nh_ex e)
 {
     if (peek(p)) return no_operator(p, "an operator or the end of the expression");
-    return nh_nesting(p->dag, e) <= max_depth || fail(p, 0, "with its definitions it is nested deeper than %d levels", max_depth);
+    return nh_nesting(p->dag, e) <= max_depth ||
+           fail(p, 0, "with its definitions it is nested deeper than %d levels", max_depth);
 }
 
 bool nh_parse(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *out, nh_parse_fault *fault)

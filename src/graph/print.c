@@ -303,7 +303,8 @@ static void put_real(printer *p, nh_num x, int context)
 {
     nh_num top, bottom;
     nh_num_split(x, &top, &bottom);
-    bool wrap = context > in_sum && (nh_num_value(x) < 0 || !nh_num_is(bottom, 1) || (context == in_power && !nh_num_short(x)));
+    bool wrap =
+        context > in_sum && (nh_num_value(x) < 0 || !nh_num_is(bottom, 1) || (context == in_power && !nh_num_short(x)));
     open_if(p, wrap);
     put_number(p, x);
     close_if(p, wrap);
@@ -366,4 +367,7 @@ char *nh_print_string(nh_dag *dag, nh_ex e)
     return copy;
 }
 
-char *nh_print_short(nh_dag *dag, nh_ex e, double most) { return (double)nh_complexity(dag, e) > most ? NULL : nh_print_string(dag, e); }
+char *nh_print_short(nh_dag *dag, nh_ex e, double most)
+{
+    return (double)nh_complexity(dag, e) > most ? NULL : nh_print_string(dag, e);
+}

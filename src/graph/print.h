@@ -12,7 +12,8 @@ void nh_print(nh_dag *dag, nh_ex e, nh_text *out);
 /* The same as a heap string (nh_free). */
 char *nh_print_string(nh_dag *dag, nh_ex e);
 
-/* The same, or NULL when e is longer than `most` by nh_complexity: a shared graph can be exponentially long on paper. */
+/* The same, or NULL when e is longer than `most` by nh_complexity: a shared graph can be exponentially long on
+   paper. */
 char *nh_print_short(nh_dag *dag, nh_ex e, double most);
 
 #endif

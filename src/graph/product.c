@@ -98,7 +98,8 @@ static void push_roots(nh_dag *dag, nh_term_list *b, int64_t n, nh_num x)
         nh_num y = nh_num_mul(x, nh_num_int(times)), whole = nh_num_short(y) ? nh_num_int(floor_of(y)) : nh_num_int(0);
         b->c = nh_num_mul(b->c, nh_num_pow(nh_num_int(prime), whole.p));
         nh_num part = nh_num_add(y, nh_num_int(-whole.p));
-        if (!nh_num_is(part, 0)) nh_term_list_push(b, (nh_term_list_item){.e = nh_int(dag, prime), .x = nh_number(dag, part)});
+        if (!nh_num_is(part, 0))
+            nh_term_list_push(b, (nh_term_list_item){.e = nh_int(dag, prime), .x = nh_number(dag, part)});
     }
 }
 
@@ -256,7 +257,8 @@ static void push_power(nh_dag *dag, nh_term_list *b, nh_ex base, nh_ex n)
     if (is_integer(dag, n)) {
         b->c = nh_num_pow(c, nh_number_of(dag, n).p);
         for (size_t i = 0; i < nh_arity(dag, base); i++)
-            nh_term_list_push(b, (nh_term_list_item){.e = nh_child(dag, base, i), .x = nh_mul(dag, nh_exponent_of(dag, base, i), n)});
+            nh_term_list_push(
+                b, (nh_term_list_item){.e = nh_child(dag, base, i), .x = nh_mul(dag, nh_exponent_of(dag, base, i), n)});
         return;
     }
     bool minus = nh_num_value(c) < 0;
@@ -270,7 +272,8 @@ nh_ex nh_pow(nh_dag *dag, nh_ex base, nh_ex exponent)
     if (nh_is_zero(dag, exponent) || nh_is_number(dag, base, 1)) return nh_int(dag, 1);
     if (nh_is_number(dag, exponent, 1)) return base;
     bool numeric = nh_kind_of(dag, exponent) == NH_NUMBER;
-    if (nh_is_zero(dag, base) && numeric) return nh_num_value(nh_number_of(dag, exponent)) > 0 ? base : nh_real(dag, NAN);
+    if (nh_is_zero(dag, base) && numeric)
+        return nh_num_value(nh_number_of(dag, exponent)) > 0 ? base : nh_real(dag, NAN);
     nh_term_list b = {.c = nh_num_int(1)};
     if (nh_kind_of(dag, base) == NH_PRODUCT) push_power(dag, &b, base, exponent);
     else nh_term_list_push(&b, (nh_term_list_item){.e = base, .x = exponent});

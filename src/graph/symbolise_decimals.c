@@ -4,8 +4,8 @@
 
 #include "base/memory.h"
 
-/* The symbol of |value|, with its sign; `exact` is the same number.  The exponent 1/2 of a root and a rate 1/2 have nothing
- * to do with each other. */
+/* The symbol of |value|, with its sign; `exact` is the same number.  The exponent 1/2 of a root and a rate 1/2 have
+ * nothing to do with each other. */
 static nh_ex symbol_of(nh_dag *d, double value, nh_ex exact, bool exponent, nh_lifted *table)
 {
     double size = fabs(value);
@@ -42,7 +42,8 @@ static nh_ex lift(nh_dag *d, nh_ex e, nh_lifted *table, nh_ex *image, bool *done
     for (size_t i = 0; i < n; i++) {
         nh_ex x = lift(d, nh_child(d, e, i), table, image, done);
         if (kind == NH_SUM) out = nh_add(d, out, nh_mul(d, number(d, nh_coefficient_of(d, e, i), table), x));
-        else if (kind == NH_PRODUCT) out = nh_mul(d, out, nh_pow(d, x, lift(d, nh_exponent_of(d, e, i), table, image, done)));
+        else if (kind == NH_PRODUCT)
+            out = nh_mul(d, out, nh_pow(d, x, lift(d, nh_exponent_of(d, e, i), table, image, done)));
         else child[i] = x;
     }
     if (kind == NH_FUNCTION) out = nh_call_any(d, nh_function_of(d, e), child);
@@ -137,7 +138,8 @@ static nh_ex lift_power(const inside *s, nh_ex base, nh_ex exponent)
 {
     nh_dag *d = s->dag;
     bool plain = nh_kind_of(d, exponent) == NH_NUMBER;
-    nh_ex lifted = plain ? factor(s, nh_num_value(nh_number_of(d, exponent)), exponent, true) : lift_inside(s, exponent);
+    nh_ex lifted =
+        plain ? factor(s, nh_num_value(nh_number_of(d, exponent)), exponent, true) : lift_inside(s, exponent);
     return nh_pow(d, lift_inside(s, base), lifted);
 }
 
@@ -156,12 +158,15 @@ static nh_ex lift_inside(const inside *s, nh_ex e)
     nh_ex out = nh_number(d, nh_constant_of(d, e));
     for (size_t i = 0; i < n; i++) {
         if (kind == NH_PRODUCT) out = nh_mul(d, out, lift_power(s, nh_child(d, e, i), nh_exponent_of(d, e, i)));
-        else out = nh_add(d, out, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), lift_inside(s, nh_child(d, e, i))));
+        else
+            out =
+                nh_add(d, out, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), lift_inside(s, nh_child(d, e, i))));
     }
     return out;
 }
 
-nh_ex nh_symbolise_decimals_inside(nh_dag *d, nh_ex e, nh_symbolise_decimals_kind kind, size_t constants, const nh_ex *constant, nh_lifted *table)
+nh_ex nh_symbolise_decimals_inside(nh_dag *d, nh_ex e, nh_symbolise_decimals_kind kind, size_t constants,
+                                   const nh_ex *constant, nh_lifted *table)
 {
     inside s = {.dag = d, .kind = kind, .constants = constants, .constant = constant, .table = table};
     return lift_inside(&s, e);

@@ -25,9 +25,9 @@ typedef enum {
     NH_SYMBOLISE_DECIMALS_ALL        /* all factors in arguments, 1 too: cos(t) as cos(x t) */
 } nh_symbolise_decimals_kind;
 
-/* e with symbols for the numbers that are factors in arguments of exp, sin and the like (rationals and their roots), and
- * for exponents; what depends on the `constant` symbols alone stays. */
-nh_ex nh_symbolise_decimals_inside(nh_dag *dag, nh_ex e, nh_symbolise_decimals_kind kind, size_t constants, const nh_ex *constant,
-                     nh_lifted *table);
+/* e with symbols for the numbers that are factors in arguments of exp, sin and the like (rationals and their roots),
+ * and for exponents; what depends on the `constant` symbols alone stays. */
+nh_ex nh_symbolise_decimals_inside(nh_dag *dag, nh_ex e, nh_symbolise_decimals_kind kind, size_t constants,
+                                   const nh_ex *constant, nh_lifted *table);
 
 #endif

@@ -16,7 +16,8 @@ size_t nh_terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
     size_t n = nh_kind_of(d, sum) == NH_SUM ? nh_arity(d, sum) : 0;
     nh_ex *e = nh_alloc_array(1 + n, sizeof *e);
     e[0] = phi;
-    for (size_t j = 0; j < n; j++) e[1 + j] = nh_mul(d, factor, nh_mul(d, nh_number(d, nh_coefficient_of(d, sum, j)), nh_child(d, sum, j)));
+    for (size_t j = 0; j < n; j++)
+        e[1 + j] = nh_mul(d, factor, nh_mul(d, nh_number(d, nh_coefficient_of(d, sum, j)), nh_child(d, sum, j)));
     *out = e;
     return 1 + n;
 }
@@ -26,7 +27,8 @@ nh_ex nh_terms_moduli(nh_dag *d, nh_ex e)
     if (nh_kind_of(d, e) != NH_SUM) return nh_call(d, NH_ABS, e);
     nh_ex sum = nh_int(d, 0);
     for (size_t i = 0; i < nh_arity(d, e); i++)
-        sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i))));
+        sum =
+            nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i))));
     return sum;
 }
 
@@ -48,8 +50,10 @@ static nh_ex uncancelled_product(nh_dag *d, nh_ex e, nh_index *known)
     nh_ex product = nh_call(d, NH_ABS, nh_number(d, nh_constant_of(d, e)));
     for (size_t i = 0; i < nh_arity(d, e); i++) {
         nh_ex base = nh_child(d, e, i), x = nh_exponent_of(d, e, i);
-        bool whole = nh_kind_of(d, x) == NH_NUMBER && nh_num_short(nh_number_of(d, x)) && nh_number_of(d, x).q == 1 && nh_number_of(d, x).p > 0;
-        product = nh_mul(d, product, whole ? nh_pow(d, uncancelled(d, base, known), x) : nh_call(d, NH_ABS, nh_pow(d, base, x)));
+        bool whole = nh_kind_of(d, x) == NH_NUMBER && nh_num_short(nh_number_of(d, x)) && nh_number_of(d, x).q == 1 &&
+                     nh_number_of(d, x).p > 0;
+        product = nh_mul(d, product,
+                         whole ? nh_pow(d, uncancelled(d, base, known), x) : nh_call(d, NH_ABS, nh_pow(d, base, x)));
     }
     return product;
 }

@@ -43,13 +43,15 @@ static bool is_new(frame_list *l, const nh_residue *value)
         size_t p = 0;
         while (!nmod_mat_entry(l->rows, i, p)) p++;
         nh_residue factor = nh_residue_negative(f, v[p]);
-        for (size_t j = 0; j < l->all && factor; j++) v[j] = nh_residue_add(f, v[j], nh_residue_mul(f, factor, (nh_residue)nmod_mat_entry(l->rows, i, j)));
+        for (size_t j = 0; j < l->all && factor; j++)
+            v[j] = nh_residue_add(f, v[j], nh_residue_mul(f, factor, (nh_residue)nmod_mat_entry(l->rows, i, j)));
     }
     size_t p = 0;
     while (p < l->all && !v[p]) p++;
     bool fresh = p < l->all;
     nh_residue inverse = fresh ? nh_residue_inverse(f, v[p]) : 0;
-    for (size_t j = 0; j < l->all && fresh; j++) nmod_mat_entry(l->rows, l->count, j) = nh_residue_mul(f, v[j], inverse);
+    for (size_t j = 0; j < l->all && fresh; j++)
+        nmod_mat_entry(l->rows, l->count, j) = nh_residue_mul(f, v[j], inverse);
     nh_free(v);
     return fresh;
 }
@@ -67,8 +69,9 @@ static bool add_direction(frame_list *l, const nh_residue *X, size_t weight)
     return fresh;
 }
 
-/* The fields, their brackets with each other, with what is new among these, .. until nothing is.  At a generic point what depends on the others there
- * does so around it, and its brackets give nothing that theirs do not.  False: the series are too short to see the end. */
+/* The fields, their brackets with each other, with what is new among these, .. until nothing is.  At a generic point
+ * what depends on the others there does so around it, and its brackets give nothing that theirs do not.  False: the
+ * series are too short to see the end. */
 static bool grow(frame_list *l, size_t fields, const nh_residue *X)
 {
     size_t block = l->all * l->r->size, from = 0;
@@ -120,7 +123,8 @@ static void linear_coordinates(const nh_adapted_frame *x, const nh_jet_ring *r, 
 {
     for (size_t k = 0; k < x->all; k++) {
         nh_jet_constant(r, x->equations->at[k], out + k * r->size);
-        for (size_t j = 0; j < x->all; j++) nh_jet_add_multiple(r, out + k * r->size, x->to[k * x->all + j], y + j * r->size);
+        for (size_t j = 0; j < x->all; j++)
+            nh_jet_add_multiple(r, out + k * r->size, x->to[k * x->all + j], y + j * r->size);
     }
 }
 
@@ -135,7 +139,8 @@ static void along_frame(const nh_adapted_frame *x, const nh_jet_ring *r, const n
 {
     memset(out, 0, x->all * r->size * sizeof *out);
     for (size_t i = 0; i < x->all; i++)
-        for (size_t k = 0; k < x->all; k++) nh_jet_add_multiple(r, out + i * r->size, x->from[i * x->all + k], X + k * r->size);
+        for (size_t k = 0; k < x->all; k++)
+            nh_jet_add_multiple(r, out + i * r->size, x->from[i * x->all + k], X + k * r->size);
 }
 
 static void set_matrices(nh_adapted_frame *x, const frame_list *l)
@@ -168,7 +173,8 @@ static void along_field(const nh_jet_ring *r, size_t all, const nh_residue *Y, n
 }
 
 /* (Y^alpha f)(0), Y_1 outermost */
-static nh_residue iterated(const nh_jet_ring *r, size_t all, size_t kept, const nh_residue *Y, const uint8_t *alpha, const nh_residue *f)
+static nh_residue iterated(const nh_jet_ring *r, size_t all, size_t kept, const nh_residue *Y, const uint8_t *alpha,
+                           const nh_residue *f)
 {
     nh_residue *g = nh_alloc_array(r->size, sizeof *g);
     memcpy(g, f, r->size * sizeof *g);
@@ -191,8 +197,10 @@ static void monomial(const nh_jet_ring *r, size_t kept, const uint8_t *alpha, co
     nh_free(work);
 }
 
-/* h_j,alpha = - (Y^alpha (y_j + corrections of lower degree))(0)/alpha!  for |alpha| = degree and weight(alpha) < w_j */
-static void correct_degree(nh_adapted_frame *x, const nh_jet_ring *r, const nh_residue *y, const nh_residue *Y, size_t j, size_t degree, nh_residue *f)
+/* h_j,alpha = - (Y^alpha (y_j + corrections of lower degree))(0)/alpha!  for |alpha| = degree and weight(alpha) <
+   w_j */
+static void correct_degree(nh_adapted_frame *x, const nh_jet_ring *r, const nh_residue *y, const nh_residue *Y,
+                           size_t j, size_t degree, nh_residue *f)
 {
     nh_prime p = r->field;
     uint8_t *alpha = nh_alloc(x->kept + 1);
@@ -202,7 +210,8 @@ static void correct_degree(nh_adapted_frame *x, const nh_jet_ring *r, const nh_r
         for (size_t i = 0; i < x->kept; i++) total += alpha[i], weight += alpha[i] * x->weight[i];
         nh_residue value = total == degree && weight < x->weight[j] ? iterated(r, x->all, x->kept, Y, alpha, f) : 0;
         for (size_t i = 0; i < x->kept && value; i++)
-            for (size_t k = 2; k <= alpha[i]; k++) value = nh_residue_mul(p, value, nh_residue_inverse(p, (nh_residue)k));
+            for (size_t k = 2; k <= alpha[i]; k++)
+                value = nh_residue_mul(p, value, nh_residue_inverse(p, (nh_residue)k));
         if (value) {
             uint8_t *own = nh_arena_alloc(x->arena, x->kept);
             memcpy(own, alpha, x->kept);
@@ -226,7 +235,8 @@ static void correct_degree(nh_adapted_frame *x, const nh_jet_ring *r, const nh_r
 static bool correct(nh_adapted_frame *x, const nh_jet_ring *r)
 {
     size_t block = x->all * r->size, fields = x->equations->fields;
-    nh_residue *y = nh_alloc_array(2 * block + r->size + 1, sizeof *y), *q = y + block, *f = q + block, *X = nh_alloc_array(2 * fields * block + 1, sizeof *X), *Z = X + fields * block;
+    nh_residue *y = nh_alloc_array(2 * block + r->size + 1, sizeof *y), *q = y + block, *f = q + block,
+               *X = nh_alloc_array(2 * fields * block + 1, sizeof *X), *Z = X + fields * block;
     for (size_t k = 0; k < x->all; k++) variable(r, k, y + k * r->size);
     linear_coordinates(x, r, y, q);
     bool good = nh_jet_equations_fields(x->equations, r, q, X);
@@ -247,14 +257,17 @@ static bool correct(nh_adapted_frame *x, const nh_jet_ring *r)
 
 /* ---- creation ---- */
 
-/* Directions, weights and corrections by series up to this order: brackets of weight w are exact at the point up to order + 1, and h_j,alpha, which takes
- * at most w_j - 2 derivatives of what enters it, is when w_j is.  `settled`: there are no more directions, or none can be seen.  False: another point. */
+/* Directions, weights and corrections by series up to this order: brackets of weight w are exact at the point up to
+ * order + 1, and h_j,alpha, which takes at most w_j - 2 derivatives of what enters it, is when w_j is.  `settled`:
+ * there are no more directions, or none can be seen.  False: another point. */
 static bool grow_to(nh_adapted_frame *x, size_t order, bool *settled)
 {
     nh_jet_equations *o = x->equations;
     size_t all = x->all, fields = o->fields;
     nh_jet_ring *r = plain_ring(o->point->field, all, order);
-    nh_residue *q = nh_alloc_array(all * r->size + 1, sizeof *q), *X = nh_alloc_array(fields * all * r->size + 1, sizeof *X), *unit = nh_alloc_array(all * r->size + 1, sizeof *unit);
+    nh_residue *q = nh_alloc_array(all * r->size + 1, sizeof *q),
+               *X = nh_alloc_array(fields * all * r->size + 1, sizeof *X),
+               *unit = nh_alloc_array(all * r->size + 1, sizeof *unit);
     for (size_t k = 0; k < all; k++) {
         variable(r, k, q + k * r->size);
         q[k * r->size] = o->at[k];
@@ -323,7 +336,8 @@ static void frame_coordinates(const nh_adapted_frame *x, const nh_jet_ring *r, n
 }
 
 /* A field along y becomes one along z: Z^j = Y^j + sum d h_j/dy_i Y^i. */
-static void along_corrected(const nh_adapted_frame *x, const nh_jet_ring *r, const nh_residue *y, const nh_residue *Y, nh_residue *Z)
+static void along_corrected(const nh_adapted_frame *x, const nh_jet_ring *r, const nh_residue *y, const nh_residue *Y,
+                            nh_residue *Z)
 {
     nh_residue *power = nh_alloc_array(2 * r->size, sizeof *power), *product = power + r->size;
     uint8_t *less = nh_alloc(x->kept + 1);
@@ -336,7 +350,8 @@ static void along_corrected(const nh_adapted_frame *x, const nh_jet_ring *r, con
             less[k]--;
             monomial(r, x->kept, less, y, power);
             nh_jet_mul(r, power, Y + k * r->size, product);
-            nh_jet_add_multiple(r, Z + h->index * r->size, nh_residue_mul(r->field, h->coefficient, h->exponent[k]), product);
+            nh_jet_add_multiple(r, Z + h->index * r->size, nh_residue_mul(r->field, h->coefficient, h->exponent[k]),
+                                product);
         }
     }
     nh_free(less);
@@ -345,12 +360,15 @@ static void along_corrected(const nh_adapted_frame *x, const nh_jet_ring *r, con
 
 /* ---- leaves ---- */
 
-/* The parts of lowest order of the fields, as equations of weight k for a function of weight k + 1:  X^_i phi = defect_i, with the columns `across`
- * right-hand sides.  Its solution is unique: the fields and their brackets span everything. */
-static bool solve_leading(const nh_adapted_frame *x, const nh_jet_ring *r, const nh_residue *Z, const nh_residue *defect, size_t k, nh_residue *phi)
+/* The parts of lowest order of the fields, as equations of weight k for a function of weight k + 1:  X^_i phi =
+ * defect_i, with the columns `across` right-hand sides.  Its solution is unique: the fields and their brackets span
+ * everything. */
+static bool solve_leading(const nh_adapted_frame *x, const nh_jet_ring *r, const nh_residue *Z,
+                          const nh_residue *defect, size_t k, nh_residue *phi)
 {
     size_t across = x->all - x->kept, fields = x->equations->fields, e = r->size;
-    size_t from = r->first[k], rows = r->first[k + 1] - from, first = r->first[k + 1], columns = r->first[k + 2] - first;
+    size_t from = r->first[k], rows = r->first[k + 1] - from, first = r->first[k + 1],
+           columns = r->first[k + 2] - first;
     nmod_mat_t M;
     nmod_mat_init(M, (slong)(fields * rows), (slong)(columns + across), r->field.p);
     for (size_t i = 0; i < fields; i++)
@@ -374,13 +392,17 @@ static bool solve_leading(const nh_adapted_frame *x, const nh_jet_ring *r, const
     return good;
 }
 
-/* On a leaf the coordinates across are functions of those along it, y_l = phi_l(z), and the fields are tangent to it: X_i(phi_l) = X_i^l.  Weight by
- * weight: the terms of weight k + 1 of phi from the equations of weight k. */
-static bool bend(const nh_adapted_frame *x, const nh_jet_ring *r, nh_residue *y, const nh_residue *q, size_t k, bool *flat)
+/* On a leaf the coordinates across are functions of those along it, y_l = phi_l(z), and the fields are tangent to it:
+ * X_i(phi_l) = X_i^l.  Weight by weight: the terms of weight k + 1 of phi from the equations of weight k. */
+static bool bend(const nh_adapted_frame *x, const nh_jet_ring *r, nh_residue *y, const nh_residue *q, size_t k,
+                 bool *flat)
 {
-    size_t across = x->all - x->kept, fields = x->equations->fields, e = r->size, block = x->all * e, along = x->kept * e;
-    nh_residue *phi = y + along, *X = nh_alloc_array(fields * block + 1, sizeof *X), *Y = nh_alloc_array(block + 1, sizeof *Y), *Z = nh_alloc_array(fields * along + 1, sizeof *Z);
-    nh_residue *defect = nh_alloc_array(fields * across * e + 1, sizeof *defect), *slope = nh_alloc_array(e, sizeof *slope);
+    size_t across = x->all - x->kept, fields = x->equations->fields, e = r->size, block = x->all * e,
+           along = x->kept * e;
+    nh_residue *phi = y + along, *X = nh_alloc_array(fields * block + 1, sizeof *X),
+               *Y = nh_alloc_array(block + 1, sizeof *Y), *Z = nh_alloc_array(fields * along + 1, sizeof *Z);
+    nh_residue *defect = nh_alloc_array(fields * across * e + 1, sizeof *defect),
+               *slope = nh_alloc_array(e, sizeof *slope);
     bool good = nh_jet_equations_fields(x->equations, r, q, X);
     *flat = true;
     for (size_t i = 0; i < fields && good; i++) {
@@ -393,7 +415,8 @@ static bool bend(const nh_adapted_frame *x, const nh_jet_ring *r, nh_residue *y,
                 nh_jet_derivative(r, phi + l * e, j, slope);
                 nh_jet_sub_product(r, d, Z + i * along + j * e, slope);
             }
-            for (size_t c = 0; c < r->first[r->order]; c++) *flat = *flat && d[c] == 0; /* the highest weight needs one more of phi */
+            /* the highest weight needs one more of phi */
+            for (size_t c = 0; c < r->first[r->order]; c++) *flat = *flat && d[c] == 0;
         }
     }
     good = good && (*flat || solve_leading(x, r, Z, defect, k, phi));
@@ -408,7 +431,8 @@ static bool bend(const nh_adapted_frame *x, const nh_jet_ring *r, nh_residue *y,
 bool nh_adapted_frame_series(const nh_adapted_frame *x, const nh_jet_ring *r, nh_residue *coordinate, nh_residue *field)
 {
     size_t block = x->all * r->size, fields = x->equations->fields;
-    nh_residue *y = nh_alloc_array(2 * block + 1, sizeof *y), *Y = y + block, *X = nh_alloc_array(fields * block + 1, sizeof *X);
+    nh_residue *y = nh_alloc_array(2 * block + 1, sizeof *y), *Y = y + block,
+               *X = nh_alloc_array(fields * block + 1, sizeof *X);
     bool good = true, flat = x->kept == x->all;
     frame_coordinates(x, r, y);
     linear_coordinates(x, r, y, coordinate);

@@ -1,8 +1,8 @@
 /* adapted_frame: coordinates in which the fields of motion have weights.
  *
- * X_0, X_1, .., X_n have weight 1, their brackets 2, brackets with these 3, and so on, until they span everything at the point, or the tangent
- * space of a leaf where the constraints are integrable.  Coordinates linear in such a frame have its weights; those of weight 3 and more are
- * corrected [BellaicheRisler1996],
+ * X_0, X_1, .., X_n have weight 1, their brackets 2, brackets with these 3, and so on, until they span everything at
+ * the point, or the tangent space of a leaf where the constraints are integrable.  Coordinates linear in such a frame
+ * have its weights; those of weight 3 and more are corrected [BellaicheRisler1996],
  *
  *     z_j = y_j + sum over |alpha| < w_j of h_j,alpha y^alpha,
  *
@@ -33,7 +33,9 @@ typedef struct {
 nh_adapted_frame *nh_adapted_frame_create(nh_jet_equations *equations);
 void nh_adapted_frame_free(nh_adapted_frame *frame);
 
-/* In a ring with the frame's weights: the coordinates q as series in z (`all` of them), and the fields along z (fields x kept). */
-bool nh_adapted_frame_series(const nh_adapted_frame *frame, const nh_jet_ring *ring, nh_residue *coordinate, nh_residue *field);
+/* In a ring with the frame's weights: the coordinates q as series in z (`all` of them), and the fields along z (fields
+   x kept). */
+bool nh_adapted_frame_series(const nh_adapted_frame *frame, const nh_jet_ring *ring, nh_residue *coordinate,
+                             nh_residue *field);
 
 #endif

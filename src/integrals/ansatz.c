@@ -38,7 +38,8 @@ static bool part_alloc(builder *b, part *p, size_t columns, size_t terms)
 {
     if (columns > b->most || terms > b->most) b->too_large = true;
     if (b->too_large) return false;
-    *p = (part){columns, terms, take(b, columns, sizeof *p->column), take(b, terms, sizeof *p->term), take(b, columns * terms, sizeof *p->map)};
+    *p = (part){columns, terms, take(b, columns, sizeof *p->column), take(b, terms, sizeof *p->term),
+                take(b, columns * terms, sizeof *p->map)};
     return true;
 }
 
@@ -109,7 +110,8 @@ static size_t next_exponents(size_t n, size_t degree, size_t *x)
 static bool build_polynomial(builder *b, const nh_family *f, part *p)
 {
     nh_dag *d = b->a->dag;
-    size_t n = f->in_count, degree = f->degree, count = 0, *x = take(b, n, sizeof *x), *list = take(b, degree, sizeof *list);
+    size_t n = f->in_count, degree = f->degree, count = 0, *x = take(b, n, sizeof *x),
+           *list = take(b, degree, sizeof *list);
     do count++; while (count <= b->most && next_exponents(n, degree, x));
     if (!part_alloc(b, p, count, count)) return false;
     size_t *exponents = take(b, count * n, sizeof *exponents), row = degree + 1;
@@ -131,7 +133,8 @@ static bool build_polynomial(builder *b, const nh_family *f, part *p)
     for (size_t j = 0; j < count; j++) /* product of the one-dimensional maps; T_k has powers <= k only */
         for (size_t r = 0; r < count; r++) {
             double c = 1;
-            for (size_t i = 0; i < n && c != 0; i++) c *= power[i * row * row + exponents[r * n + i] + exponents[j * n + i] * row];
+            for (size_t i = 0; i < n && c != 0; i++)
+                c *= power[i * row * row + exponents[r * n + i] + exponents[j * n + i] * row];
             p->map[r + j * count] = c;
         }
     return true;
@@ -166,8 +169,9 @@ static bool build_fourier(builder *b, const nh_family *f, part *p)
     return build_terms(b, n, term, p);
 }
 
-/* The columns T_k in their stable recurrence, the terms as powers while these are readable, beyond that by halving, which is short on
- * paper and holds outside of [-1, 1] too (as cos(k acos s) does not):  T_2j = 2 T_j^2 - 1,  T_2j+1 = 2 T_j T_j+1 - s. */
+/* The columns T_k in their stable recurrence, the terms as powers while these are readable, beyond that by halving,
+ * which is short on paper and holds outside of [-1, 1] too (as cos(k acos s) does not):  T_2j = 2 T_j^2 - 1,  T_2j+1 =
+ * 2 T_j T_j+1 - s. */
 static bool build_chebyshev(builder *b, const nh_family *f, part *p)
 {
     enum { readable = 8 };
@@ -204,7 +208,8 @@ static bool multiply_parts(builder *b, const part *x, const part *y, part *p)
         for (size_t cj = 0; cj < y->columns; cj++)
             for (size_t ti = 0; ti < x->terms; ti++)
                 for (size_t tj = 0; tj < y->terms; tj++)
-                    p->map[ti * y->terms + tj + (ci * y->columns + cj) * p->terms] = x->map[ti + ci * x->terms] * y->map[tj + cj * y->terms];
+                    p->map[ti * y->terms + tj + (ci * y->columns + cj) * p->terms] =
+                        x->map[ti + ci * x->terms] * y->map[tj + cj * y->terms];
     return true;
 }
 
@@ -329,8 +334,8 @@ double nh_ansatz_size(size_t families, const nh_family *family)
     return sum;
 }
 
-nh_ansatz *nh_ansatz_create(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, size_t most,
-                            nh_error *error)
+nh_ansatz *nh_ansatz_create(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
+                            size_t most, nh_error *error)
 {
     nh_ansatz *a = nh_alloc(sizeof *a);
     a->arena = nh_arena_create();

@@ -1,10 +1,12 @@
 /* ansatz: families of functions on the constraint submanifold, in two bases of the same span.
  *
- *     working columns   products of factors (Chebyshev polynomials over the sampled range, full-circle Fourier), well conditioned
+ *     working columns   products of factors (Chebyshev polynomials over the sampled range, full-circle Fourier), well
+ *                       conditioned
  *     terms             monomials, sin(k phi), ... : what is printed
  *
- * coefficient of terms = to_term * coefficient of columns.  A column is a product of factors, so that its value and its derivative
- * along Gamma come from the factors' by Leibniz' rule, three operations a point; only factors are differentiated.
+ * coefficient of terms = to_term * coefficient of columns.  A column is a product of factors, so that its value and its
+ * derivative along Gamma come from the factors' by Leibniz' rule, three operations a point; only factors are
+ * differentiated.
  *
  * Families: those of the table, explicit terms, products.   [docs/formats.md] */
 #ifndef NH_ANSATZ_H
@@ -12,8 +14,8 @@
 
 #include "integrals/points.h"
 
-/* The families with a name: kind; name; keys in analysis files; is it in one variable?; how many columns a family f has.
- * For each ansatz.c has a function build_NAME. */
+/* The families with a name: kind; name; keys in analysis files; is it in one variable?; how many columns a family f
+ * has. For each ansatz.c has a function build_NAME. */
 #define NH_FAMILY_TABLE(X)                                                                                       \
     X(NH_POLYNOMIAL, polynomial, "basis, in, degree", false, monomials(f->in_count, f->degree))                  \
     X(NH_FOURIER, fourier, "basis, in, harmonics, frequency, constant", false, 2 * f->in_count * f->degree + f->constant) \
@@ -52,11 +54,13 @@ typedef struct {
     double *to_term; /* terms x columns, column-major */
 } nh_ansatz;
 
-/* `points` give the ranges over which Chebyshev polynomials are scaled.  NULL when the ansatz is larger than `most` columns. */
-nh_ansatz *nh_ansatz_create(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, size_t most,
-                            nh_error *error);
+/* `points` give the ranges over which Chebyshev polynomials are scaled.  NULL when the ansatz is larger than `most`
+   columns. */
+nh_ansatz *nh_ansatz_create(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
+                            size_t most, nh_error *error);
 void nh_ansatz_free(nh_ansatz *ansatz);
-/* How many columns the families have, those that they share counted several times: not fewer than the ansatz would have. */
+/* How many columns the families have, those that they share counted several times: not fewer than the ansatz would
+   have. */
 double nh_ansatz_size(size_t families, const nh_family *family);
 
 /* A column as an expression. */

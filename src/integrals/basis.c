@@ -22,8 +22,9 @@ static size_t equilibrate(nh_basis *basis, size_t rows, size_t columns, const do
     return count;
 }
 
-/* Column `kept` of R has come: with it the distance of each column from the span of all others, 1 / |row i of R^-1|, falls.  (A slowly
- * growing dependence, cos x = T_0 + T_2 + ..., leaves no small pivot.)  square[i]: |row i of R^-1|^2; returns the column with the largest. */
+/* Column `kept` of R has come: with it the distance of each column from the span of all others, 1 / |row i of R^-1|,
+ * falls.  (A slowly growing dependence, cos x = T_0 + T_2 + ..., leaves no small pivot.)  square[i]: |row i of R^-1|^2;
+ * returns the column with the largest. */
 static size_t watch_rows(size_t kept, const double *r, size_t ld, double *square, double *y)
 {
     size_t worst = kept;
@@ -38,13 +39,15 @@ static size_t watch_rows(size_t kept, const double *r, size_t ld, double *square
     return worst;
 }
 
-/* Gram-Schmidt, twice for round-off, in the given order: a column that depends on those before it is dropped, so that the caller's
- * order (simplest first) decides which of dependent columns stay.  q: rows x available, unit columns; overwritten by the orthonormal ones
- * that are kept.  r gets the triangle with leading dimension `available`.  Returns a column that must go first because, much more than any
- * later one, it depends on the others; `available` when there is none. */
+/* Gram-Schmidt, twice for round-off, in the given order: a column that depends on those before it is dropped, so that
+ * the caller's order (simplest first) decides which of dependent columns stay.  q: rows x available, unit columns;
+ * overwritten by the orthonormal ones that are kept.  r gets the triangle with leading dimension `available`.  Returns
+ * a column that must go first because, much more than any later one, it depends on the others; `available` when there
+ * is none. */
 static size_t keep_independent(nh_basis *basis, size_t rows, size_t available, double *q, double *r, double rank)
 {
-    double *h = nh_alloc_array(2 * available, sizeof *h), *square = h + available, *shadow = nh_alloc_array(rows + available, sizeof *shadow);
+    double *h = nh_alloc_array(2 * available, sizeof *h), *square = h + available,
+           *shadow = nh_alloc_array(rows + available, sizeof *shadow);
     size_t kept = 0, *from = nh_alloc_array(available, sizeof *from), intruder = available;
     basis->smallest_kept = 1;
     for (size_t j = 0; j < available && intruder == available; j++) {
@@ -79,8 +82,8 @@ static size_t keep_independent(nh_basis *basis, size_t rows, size_t available, d
     return intruder;
 }
 
-/* b is a triangle, and every column keeps a good part of itself apart from all others (1/|row i of R^-1|): then it is the answer, and
- * Gram-Schmidt, which is slower than the whole QR at a thousand columns, has nothing to add. */
+/* b is a triangle, and every column keeps a good part of itself apart from all others (1/|row i of R^-1|): then it is
+ * the answer, and Gram-Schmidt, which is slower than the whole QR at a thousand columns, has nothing to add. */
 static bool already_independent(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, double rank)
 {
     size_t n = basis->count;
@@ -130,7 +133,8 @@ static bool choose_columns(nh_basis *basis, size_t rows, size_t available, const
     }
     bool good = intruder == available && available > 0;
     basis->r = nh_alloc_array(basis->count * basis->count + 1, sizeof(double));
-    for (size_t j = 0; j < basis->count && good; j++) memcpy(basis->r + j * basis->count, r + j * available, (j + 1) * sizeof *r);
+    for (size_t j = 0; j < basis->count && good; j++)
+        memcpy(basis->r + j * basis->count, r + j * available, (j + 1) * sizeof *r);
     nh_free(candidate);
     nh_free(q);
     nh_free(r);
@@ -150,7 +154,8 @@ bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b
     if (already_independent(basis, rows, columns, b, ld, options->rank)) return true;
     if (choose_columns(basis, rows, available, b, ld, options->rank)) return true;
     nh_basis_clear(basis);
-    return nh_fail(error, NH_NUMERIC, "", "the columns of the ansatz are too large to be compared (overflow in the QR)");
+    return nh_fail(error, NH_NUMERIC, "",
+                   "the columns of the ansatz are too large to be compared (overflow in the QR)");
 }
 
 void nh_basis_clear(nh_basis *basis)

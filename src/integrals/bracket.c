@@ -22,12 +22,14 @@ static void forms(nh_arena *arena, const nh_submanifold *s, const nh_symmetry *z
         V.space = s->across + a * o->m;
         b->F[a] = tidy(o, nh_add(o->dag, nh_model_along(o, &V, z->phi), nh_model_omega(o, &z->field, &V)));
         b->form[a] = z->bracket_in_distribution ? nh_int(o->dag, 0) : nh_mul(o->dag, form[0], b->field.time);
-        for (size_t r = 0; r < o->m && !z->bracket_in_distribution; r++) b->form[a] = nh_add(o->dag, b->form[a], nh_mul(o->dag, form[1 + r], b->field.space[r]));
+        for (size_t r = 0; r < o->m && !z->bracket_in_distribution; r++)
+            b->form[a] = nh_add(o->dag, b->form[a], nh_mul(o->dag, form[1 + r], b->field.space[r]));
         b->form[a] = tidy(o, b->form[a]);
     }
 }
 
-/* [Gamma, Z], or for Z = Z^0 Gamma + Z' where that is shorter [Gamma, Z'] + Gamma(Z^0) Gamma: Z' has no component along t. */
+/* [Gamma, Z], or for Z = Z^0 Gamma + Z' where that is shorter [Gamma, Z'] + Gamma(Z^0) Gamma: Z' has no component along
+   t. */
 static void components(const nh_model *o, const nh_symmetry *z, nh_bracket *b)
 {
     nh_dag *d = o->dag;
@@ -35,9 +37,13 @@ static void components(const nh_model *o, const nh_symmetry *z, nh_bracket *b)
     b->motion = z->along_motion ? tidy(o, nh_model_gamma(o, z->Z0)) : nh_int(d, 0);
     b->field.time = z->along_motion ? nh_int(d, 0) : tidy(o, z->bracket.time);
     for (size_t r = 0; r < o->m; r++)
-        b->field.space[r] = tidy(o, z->along_motion ? nh_sub(d, nh_model_gamma(o, z->relative.space[r]), nh_model_along(o, &z->relative, o->rho[r])) : z->bracket.space[r]);
+        b->field.space[r] = tidy(o, z->along_motion ? nh_sub(d, nh_model_gamma(o, z->relative.space[r]),
+                                                             nh_model_along(o, &z->relative, o->rho[r]))
+                                                    : z->bracket.space[r]);
     for (size_t i = 0; i < o->n; i++)
-        b->field.velocity[i] = tidy(o, z->along_motion ? nh_sub(d, nh_model_gamma(o, z->relative.velocity[i]), nh_model_along(o, &z->relative, o->a[i])) : z->bracket.velocity[i]);
+        b->field.velocity[i] = tidy(o, z->along_motion ? nh_sub(d, nh_model_gamma(o, z->relative.velocity[i]),
+                                                                nh_model_along(o, &z->relative, o->a[i]))
+                                                       : z->bracket.velocity[i]);
     for (size_t r = 0; r < o->m; r++) b->rate[r] = tidy(o, nh_model_along(o, &b->field, o->rho[r]));
 }
 
@@ -60,11 +66,14 @@ static void coefficients(nh_arena *arena, const nh_model *o, const nh_symmetry *
     relative(o, &out->field, r);
     relative(o, &z->field, Z);
     for (size_t j = 1; j < width && z->kase == 2; j++)
-        if (!nh_is_zero(d, Z[j]) && (!best || nh_complexity(d, Z[j]) + nh_complexity(d, r[j]) < nh_complexity(d, Z[best]) + nh_complexity(d, r[best]))) best = j;
+        if (!nh_is_zero(d, Z[j]) && (!best || nh_complexity(d, Z[j]) + nh_complexity(d, r[j]) <
+                                                  nh_complexity(d, Z[best]) + nh_complexity(d, r[best])))
+            best = j;
     out->b = best ? tidy(o, nh_div(d, r[best], Z[best])) : nh_int(d, 0);
     out->a = tidy(o, nh_sub(d, nh_add(d, out->motion, out->field.time), nh_mul(d, out->b, z->Z0)));
     out->decided = true;
-    for (size_t j = 1; j < width && out->decided; j++) out->decided = nh_normal_is_zero(d, nh_sub(d, r[j], nh_mul(d, out->b, Z[j])), 0) == NH_ZERO;
+    for (size_t j = 1; j < width && out->decided; j++)
+        out->decided = nh_normal_is_zero(d, nh_sub(d, r[j], nh_mul(d, out->b, Z[j])), 0) == NH_ZERO;
 }
 
 nh_bracket *nh_bracket_of(nh_arena *arena, const nh_submanifold *s, const nh_symmetry *z)

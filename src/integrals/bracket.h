@@ -1,7 +1,9 @@
 /* bracket: what [Gamma, Z] of a constraint symmetry is made of.
  *
- *     L_Z alpha = F_a phi^a,   F_a = V_a(Phi) + Omega(Z, V_a),   phi^b(V_a) = delta^b_a          [CechMusilova2014, eq. 12]
- *     [Gamma, Z] = a Gamma (case 1),   [Gamma, Z] = a Gamma + b Z (case 2)                        [CechMusilova2014, sec. 3.3] */
+ *     L_Z alpha = F_a phi^a,   F_a = V_a(Phi) + Omega(Z, V_a),   phi^b(V_a) = delta^b_a          [CechMusilova2014, eq.
+ *     12]
+ *     [Gamma, Z] = a Gamma (case 1),   [Gamma, Z] = a Gamma + b Z (case 2)                        [CechMusilova2014,
+ *     sec. 3.3] */
 #ifndef NH_BRACKET_H
 #define NH_BRACKET_H
 

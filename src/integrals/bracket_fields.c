@@ -13,13 +13,16 @@ typedef struct {
 static nh_ex product(nh_dag *d, nh_ex a, nh_ex b) { return nh_mul(d, a, b); }
 
 /* out (rows x columns) = a (rows x inner) b (inner x columns), b transposed where it is said. */
-static void multiply(nh_dag *d, size_t rows, size_t inner, size_t columns, const nh_ex *a, const nh_ex *b, bool transposed, nh_ex *out)
+static void multiply(nh_dag *d, size_t rows, size_t inner, size_t columns, const nh_ex *a, const nh_ex *b,
+                     bool transposed, nh_ex *out)
 {
     for (size_t i = 0; i < rows; i++)
         for (size_t j = 0; j < columns; j++) {
             out[i * columns + j] = nh_int(d, 0);
             for (size_t l = 0; l < inner; l++)
-                out[i * columns + j] = nh_add(d, out[i * columns + j], product(d, a[i * inner + l], transposed ? b[j * inner + l] : b[l * columns + j]));
+                out[i * columns + j] =
+                    nh_add(d, out[i * columns + j],
+                           product(d, a[i * inner + l], transposed ? b[j * inner + l] : b[l * columns + j]));
         }
 }
 
@@ -44,7 +47,9 @@ static void add_gamma_Y(const maker *x, nh_ex *field, nh_ex c, size_t k)
 static void add_gamma_X(const maker *x, nh_ex *field, nh_ex c, size_t j)
 {
     const nh_model *o = x->o;
-    for (size_t s = 0; s < x->m; s++) add(x, &field[1 + s], product(x->d, c, nh_sub(x->d, nh_model_gamma(o, o->R[s * x->n + j]), nh_model_X(o, j, o->rho[s]))));
+    for (size_t s = 0; s < x->m; s++)
+        add(x, &field[1 + s],
+            product(x->d, c, nh_sub(x->d, nh_model_gamma(o, o->R[s * x->n + j]), nh_model_X(o, j, o->rho[s]))));
     for (size_t i = 0; i < x->n; i++) add_Y(x, field, nh_neg(x->d, product(x->d, c, nh_model_X(o, j, o->a[i]))), i);
 }
 
@@ -68,7 +73,10 @@ static void along_position(const maker *x, size_t s, nh_ex *field)
         nh_ex e = nh_sub(x->d, nh_model_gamma(o, x->P[s * n + k]), along_zeta(x, k, o->rho[s]));
         for (size_t j = 0; j < n; j++) {
             e = nh_sub(x->d, e, product(x->d, x->P[s * n + j], nh_model_Y(o, j, o->a[k])));
-            for (size_t l = 0; l < n; l++) e = nh_add(x->d, e, product(x->d, x->P[s * n + j], product(x->d, nh_model_G(o)[l * n + j], x->inverse[l * n + k])));
+            for (size_t l = 0; l < n; l++)
+                e = nh_add(
+                    x->d, e,
+                    product(x->d, x->P[s * n + j], product(x->d, nh_model_G(o)[l * n + j], x->inverse[l * n + k])));
         }
         add_Y(x, field, e, k);
     }
@@ -120,7 +128,14 @@ nh_bracket_fields *nh_bracket_fields_of(nh_arena *arena, const nh_submanifold *s
     out->U = out->gamma + width;
     out->V = out->U + o->k * width;
     zero(d, (1 + o->k + m + n) * width, out->gamma);
-    maker x = {o, d, m, n, width, nh_alloc_array(n * n + 1, sizeof(nh_ex)), nh_alloc_array(m * n + 1, sizeof(nh_ex)), nh_alloc_array(n * n + 1, sizeof(nh_ex))};
+    maker x = {o,
+               d,
+               m,
+               n,
+               width,
+               nh_alloc_array(n * n + 1, sizeof(nh_ex)),
+               nh_alloc_array(m * n + 1, sizeof(nh_ex)),
+               nh_alloc_array(n * n + 1, sizeof(nh_ex))};
     nh_ex *half = nh_alloc_array(n * n + 1, sizeof *half);
     invert(&x);
     multiply(d, m, n, n, o->R, x.inverse, false, x.P);
@@ -133,7 +148,9 @@ nh_bracket_fields *nh_bracket_fields_of(nh_arena *arena, const nh_submanifold *s
     for (size_t i = 0; i < n; i++) along_velocity(&x, i, out->V + (m + i) * width);
     for (size_t a = 0; a < o->k; a++)
         for (size_t s = 0; s < m; s++)
-            for (size_t c = 0; c < width; c++) add(&x, &out->U[a * width + c], product(d, submanifold->form[a * (1 + m) + 1 + s], out->V[s * width + c]));
+            for (size_t c = 0; c < width; c++)
+                add(&x, &out->U[a * width + c],
+                    product(d, submanifold->form[a * (1 + m) + 1 + s], out->V[s * width + c]));
     nh_free(half);
     nh_free(x.H);
     nh_free(x.P);

@@ -1,15 +1,18 @@
 /* bracket_fields: what [Gamma, Z(Phi)] of a current is made of, as fields that are applied to the current.
  *
- * With Gamma(Phi) = 0 the components of [Gamma, Z'], Z' = Z - Z^0 Gamma, are derivatives of first order of Phi.  From zeta = M^-1 Y(Phi),
- * W' = -M^-1 (G^T zeta + X(Phi)), P = R M^-1, H = M^-1 G^T M^-1 (symmetry.h):
+ * With Gamma(Phi) = 0 the components of [Gamma, Z'], Z' = Z - Z^0 Gamma, are derivatives of first order of Phi.  From
+ * zeta = M^-1 Y(Phi), W' = -M^-1 (G^T zeta + X(Phi)), P = R M^-1, H = M^-1 G^T M^-1 (symmetry.h):
  *
  *     [Gamma, Z']^s = V^s(Phi),   V^s = (Gamma(P_sk) - P_sj Y_j(a^k) + P_sj G_lj (M^-1)_lk - P_rk d rho^s/dq^r) Y_k
- *     [Gamma, Z']^i = V^i(Phi),   V^i = -Gamma(H_ik) Y_k - H_ik [Gamma, Y_k] - Gamma((M^-1)_ij) X_j - (M^-1)_ij [Gamma, X_j]
+ *     [Gamma, Z']^i = V^i(Phi),   V^i = -Gamma(H_ik) Y_k - H_ik [Gamma, Y_k] - Gamma((M^-1)_ij) X_j - (M^-1)_ij [Gamma,
+ *     X_j]
  *                                       - P_sk da^i/dq^s Y_k + Y_l(a^i) (H_lk Y_k + (M^-1)_lj X_j)
- *     i_[Gamma,Z] phi^a = U_a(Phi),   U_a = phi^a_s V^s                         [CechMusilova2014, eq. 22; docs/method.md, sec. 5]
+ *     i_[Gamma,Z] phi^a = U_a(Phi),   U_a = phi^a_s V^s                         [CechMusilova2014, eq. 22;
+ *     docs/method.md, sec. 5]
  *
- * So the currents with [Gamma, Z] in the canonical distribution are the functions that Gamma and all U_a annihilate, those of case 1 are the functions that
- * Gamma and all V annihilate: as many independent ones as the smallest involutive distribution with these fields leaves (closure.h). */
+ * So the currents with [Gamma, Z] in the canonical distribution are the functions that Gamma and all U_a annihilate,
+ * those of case 1 are the functions that Gamma and all V annihilate: as many independent ones as the smallest
+ * involutive distribution with these fields leaves (closure.h). */
 #ifndef NH_BRACKET_FIELDS_H
 #define NH_BRACKET_FIELDS_H
 

@@ -28,8 +28,8 @@ static bool pencil_of(search *s, const nh_parametric_series *x, size_t degree, n
 }
 
 /* chi and Q at the point of these series, which are freed. */
-static bool roots_of(search *s, size_t degree, nh_parametric_series *x, nh_residue_polynomial *chi, nh_residue_polynomial *Q,
-                     nh_classify_row *out)
+static bool roots_of(search *s, size_t degree, nh_parametric_series *x, nh_residue_polynomial *chi,
+                     nh_residue_polynomial *Q, nh_classify_row *out)
 {
     if (!x) return false;
     nh_sparse_pencil pencil = {0};
@@ -58,7 +58,8 @@ bool nh_classify_roots(search *s, size_t degree, size_t prime, nh_classify_row *
     size_t nullity = 0;
     bool good = true;
     for (int k = 0; k < 2 && good; k++) {
-        nh_parametric_series *x = nh_classify_series(s, nh_classify_prime(s, prime), 101 + 10 * (uint64_t)k, row->number.order);
+        nh_parametric_series *x =
+            nh_classify_series(s, nh_classify_prime(s, prime), 101 + 10 * (uint64_t)k, row->number.order);
         good = roots_of(s, degree, x, &chi[k], &Q[k], row);
         if (row->nullity > nullity) nullity = row->nullity;
     }
@@ -84,8 +85,8 @@ static void clear(residues *r)
     r->count = 0;
 }
 
-/* A prime at which the degree or the nullity is another is unlucky: the first one, when the second disagrees, otherwise the new
- * one. */
+/* A prime at which the degree or the nullity is another is unlucky: the first one, when the second disagrees, otherwise
+ * the new one. */
 static void add(residues *r, nh_prime prime, nh_residue_polynomial p, size_t nullity)
 {
     bool other = r->count && (r->residue[0].degree != p.degree || r->nullity != nullity);
@@ -178,7 +179,8 @@ static void choose_angle(nh_jet_point *point, nh_ex coordinate, int64_t q0)
     }
 }
 
-/* Whole coordinates at which the nullity modulo a prime is that of the random points, and how long special values can be. */
+/* Whole coordinates at which the nullity modulo a prime is that of the random points, and how long special values can
+   be. */
 static bool bound_at(search *s, size_t degree, const nh_classify_row *row, int64_t *q0, nh_special_bound *out)
 {
     nh_jet_equations *x = s->family.counter.equations;
@@ -192,10 +194,12 @@ static bool bound_at(search *s, size_t degree, const nh_classify_row *row, int64
         }
         nh_residue_polynomial chi = {0}, Q = {0};
         nh_classify_row here = {0};
-        nh_parametric_series *series = regular ? nh_parametric_series_create(&s->family, row->number.order, &regular) : NULL;
+        nh_parametric_series *series =
+            regular ? nh_parametric_series_create(&s->family, row->number.order, &regular) : NULL;
         nh_parity parity = series ? parity_of(series, degree) : NH_ALL_DEGREES;
         found = roots_of(s, degree, series, &chi, &Q, &here) && here.nullity == row->nullity;
-        if (found && !nh_special_bound_find(&s->family, degree, parity, row->number.order, q0, here.unknowns - here.nullity, out)) {
+        if (found && !nh_special_bound_find(&s->family, degree, parity, row->number.order, q0,
+                                            here.unknowns - here.nullity, out)) {
             found = false;
             trial = coordinates_tried;
         }
@@ -212,8 +216,9 @@ static bool is_number(const search *s, size_t degree, const nh_classify_row *row
     return row->nullity + other == row->number.bound;
 }
 
-/* A special value that is no root of F, the product of the values, has a primitive polynomial g that divides a minor: its leading coefficient and
- * Mahler's measure are below 2^bits. Every prime divides lc(g) Res(g, F), which is below 2^(bits (1 + deg F)) |F|_1^deg g. */
+/* A special value that is no root of F, the product of the values, has a primitive polynomial g that divides a minor:
+ * its leading coefficient and Mahler's measure are below 2^bits. Every prime divides lc(g) Res(g, F), which is below
+ * 2^(bits (1 + deg F)) |F|_1^deg g. */
 static void exclude_all(search *s, size_t degree, const residues *excluded, const residues *degenerate,
                         const nh_special_factors *values, const nh_special_factors *nothing, nh_classify_row *row)
 {
@@ -234,8 +239,9 @@ static void exclude_all(search *s, size_t degree, const residues *excluded, cons
         nh_classify_row here = *row;
         s->products = s->q->products;
         if (!nh_classify_roots(s, degree, prime, &here, &found)) break;
-        if (here.nullity == row->nullity && nh_special_agrees(values, nh_classify_prime(s, prime), &found.excluded)
-            && nh_special_agrees(nothing, nh_classify_prime(s, prime), &found.degenerate)) have += log2((double)nh_classify_prime(s, prime).p);
+        if (here.nullity == row->nullity && nh_special_agrees(values, nh_classify_prime(s, prime), &found.excluded) &&
+            nh_special_agrees(nothing, nh_classify_prime(s, prime), &found.degenerate))
+            have += log2((double)nh_classify_prime(s, prime).p);
         nh_special_roots_clear(&found);
     }
     s->products = left;

@@ -35,7 +35,8 @@ nh_prime nh_classify_prime(const nh_classify_search *search, size_t index);
 nh_parametric_series *nh_classify_series(nh_classify_search *search, nh_prime field, uint64_t seed, size_t order);
 
 /* Where the equations of this degree lose rank, modulo one prime, at two points, by series of the row's order. */
-bool nh_classify_roots(nh_classify_search *search, size_t degree, size_t prime, nh_classify_row *row, nh_special_roots *out);
+bool nh_classify_roots(nh_classify_search *search, size_t degree, size_t prime, nh_classify_row *row,
+                       nh_special_roots *out);
 
 /* Orders grow until the number is the least that it can be, or does not change. `known`: for almost all values, of
  * which products are independent; or NULL.  False: beyond the limits. */

@@ -1,4 +1,5 @@
-/* What occurs in the Lagrangian, the equations of motion and the determinant of the inertia: bases of powers with their exponents, angles, exponents. */
+/* What occurs in the Lagrangian, the equations of motion and the determinant of the inertia: bases of powers with their
+   exponents, angles, exponents. */
 #include "integrals/closed_letters.h"
 
 #include <math.h>
@@ -138,7 +139,8 @@ static void take_expression(const nh_jet_equations *x, nh_letters *l, nh_ex e, d
     for (size_t i = 0; i < n && i < most_found; i++)
         for (size_t k = 0; k < nh_arity(d, found[i]); k++) {
             nh_ex exponent = nh_exponent_of(d, found[i], k);
-            if (nh_kind_of(d, exponent) == NH_NUMBER) take_power(x, l, nh_child(d, found[i], k), nh_number_of(d, exponent), less);
+            if (nh_kind_of(d, exponent) == NH_NUMBER)
+                take_power(x, l, nh_child(d, found[i], k), nh_number_of(d, exponent), less);
         }
     nh_free(found);
 }
@@ -163,7 +165,8 @@ static nh_ex minor_of(const nh_model *o, size_t row, uint32_t used)
     return sum;
 }
 
-/* The factors of an expression with half powers; sums without what their terms have in common, unless `plain`: the quotient may be written with it again. */
+/* The factors of an expression with half powers; sums without what their terms have in common, unless `plain`: the
+   quotient may be written with it again. */
 static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool plain)
 {
     nh_dag *d = x->dag;
@@ -220,7 +223,8 @@ static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_
     return inside && !plain;
 }
 
-/* The highest powers of coordinates in the potential: so far, at most twice, a power costs no more than a coordinate. */
+/* The highest powers of coordinates in the potential: so far, at most twice, a power costs no more than a
+   coordinate. */
 static void take_potential(const nh_jet_equations *x, nh_letters *l)
 {
     static const double most = 2;
@@ -235,7 +239,8 @@ static void take_potential(const nh_jet_equations *x, nh_letters *l)
         for (size_t k = 0; k < nh_arity(d, term[i]); k++) {
             nh_ex base = nh_child(d, term[i], k), exponent = nh_exponent_of(d, term[i], k);
             for (size_t j = 0; j < l->count && nh_kind_of(d, exponent) == NH_NUMBER; j++)
-                if (l->item[j].base == base && l->item[j].kind == NH_LETTER_POWER) l->item[j].up = fmax(l->item[j].up, fmin(most, nh_num_value(nh_number_of(d, exponent))));
+                if (l->item[j].base == base && l->item[j].kind == NH_LETTER_POWER)
+                    l->item[j].up = fmax(l->item[j].up, fmin(most, nh_num_value(nh_number_of(d, exponent))));
         }
     }
     nh_free(term);
@@ -258,7 +263,8 @@ nh_letters nh_letters_of(nh_jet_equations *x, bool secular)
     for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1); /* forces are derivatives */
     take_determinant(x, &l);
     take_potential(x, &l);
-    for (size_t i = coordinates; i < l.count; i++) l.item[i].linear = l.item[i].kind == NH_LETTER_POWER && is_linear(x, &l, coordinates, l.item[i].base);
+    for (size_t i = coordinates; i < l.count; i++)
+        l.item[i].linear = l.item[i].kind == NH_LETTER_POWER && is_linear(x, &l, coordinates, l.item[i].base);
     nh_free(e);
     return l;
 }

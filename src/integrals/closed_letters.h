@@ -10,7 +10,8 @@ typedef struct {
     nh_letter_kind kind;
     nh_ex base;           /* what is taken to a power; the argument of sin, cos, exp */
     int64_t root;         /* exponents are multiples of 1/root */
-    double up, down;      /* how far the system goes up and down: an exponent costs its part of that, or more; 0: not at all */
+    /* how far the system goes up and down: an exponent costs its part of that, or more; 0: not at all */
+    double up, down;
     double down_sine;     /* of the sine: `down` is of the cosine */
     bool linear;          /* the whole powers are polynomials in the coordinates, which are letters as well */
 } nh_letter;
@@ -20,7 +21,8 @@ typedef struct {
     nh_letter *item;
 } nh_letters;
 
-/* With `secular` ones also coordinates that are seen only inside of functions: what has them is many-valued on an angle.  The caller frees letters->item. */
+/* With `secular` ones also coordinates that are seen only inside of functions: what has them is many-valued on an
+   angle.  The caller frees letters->item. */
 nh_letters nh_letters_of(nh_jet_equations *equations, bool secular);
 
 #endif

@@ -38,13 +38,15 @@ static void put_power(nh_known_motions_words *w, nh_known_motions_letter *l, nh_
     l->power[at] = p;
 }
 
-/* Exponents k/root; downwards an exponent costs its part of the lowest that the system has.  Whole powers of what is linear are sums of other words. */
+/* Exponents k/root; downwards an exponent costs its part of the lowest that the system has.  Whole powers of what is
+   linear are sums of other words. */
 static void put_powers(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
     double root = (double)a->root, down = a->down, up = a->up;
     for (int64_t k = 1; (double)k / root <= w->most * up; k++)
-        if (!a->linear || k % a->root) put_power(w, l, nh_pow(d, a->base, nh_ratio(d, k, a->root)), (double)k / root / up);
+        if (!a->linear || k % a->root)
+            put_power(w, l, nh_pow(d, a->base, nh_ratio(d, k, a->root)), (double)k / root / up);
     for (int64_t k = 1; a->down > 0 && (double)k / root <= w->most * down; k++)
         put_power(w, l, nh_pow(d, a->base, nh_ratio(d, -k, a->root)), (double)k / root / down);
 }
@@ -58,7 +60,8 @@ static void put_exponentials(nh_known_motions_words *w, nh_known_motions_letter 
     }
 }
 
-/* cos^i sin^j without those that sin^2 + cos^2 = 1 makes of others: of the products of negative powers, 1/(cos sin) alone. */
+/* cos^i sin^j without those that sin^2 + cos^2 = 1 makes of others: of the products of negative powers, 1/(cos sin)
+   alone. */
 static void put_circle(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
@@ -68,7 +71,8 @@ static void put_circle(nh_known_motions_words *w, nh_known_motions_letter *l, co
     for (int i = a->down > 0 ? -most_c : 0; i <= (int)w->most; i++)
         for (int j = a->down_sine > 0 ? -most_s : 0; j <= 1; j++) {
             if ((i == 0 && j == 0) || (j < 0 && i > 1) || (j < 0 && i < 0 && (i < -1 || j < -1))) continue;
-            put_power(w, l, nh_mul(d, nh_powi(d, c, i), nh_powi(d, s, j)), (i < 0 ? -i * cost_c : i) + (j < 0 ? -j * cost_s : j));
+            put_power(w, l, nh_mul(d, nh_powi(d, c, i), nh_powi(d, s, j)),
+                      (i < 0 ? -i * cost_c : i) + (j < 0 ? -j * cost_s : j));
         }
 }
 
@@ -150,7 +154,8 @@ static void sort(nh_known_motions_words *w)
     w->price = price;
 }
 
-nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, double price, size_t most_words, bool secular)
+nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, double price, size_t most_words,
+                                                      bool secular)
 {
     nh_known_motions_words *w = nh_alloc(sizeof *w);
     *w = (nh_known_motions_words){.equations = x, .most = price};
@@ -190,7 +195,8 @@ nh_ex nh_known_motions_word(const nh_known_motions_words *w, size_t word)
 {
     nh_dag *d = w->equations->dag;
     nh_ex e = nh_int(d, 1);
-    for (size_t i = 0; i < w->letters; i++) e = nh_mul(d, e, w->letter[i].power[w->choice[word * w->letters + i]].shown);
+    for (size_t i = 0; i < w->letters; i++)
+        e = nh_mul(d, e, w->letter[i].power[w->choice[word * w->letters + i]].shown);
     return e;
 }
 
@@ -259,14 +265,17 @@ static bool powers(const nh_known_motions_words *w, nh_jet_eval *v, const nh_jet
     for (size_t i = 0; i < w->letters && good; i++) {
         const nh_known_motions_letter *l = &w->letter[i];
         series[i] = nh_alloc_array(l->powers * ring->size, sizeof **series);
-        for (size_t k = 0; k < l->powers && good; k++) good = nh_jet_eval_all(v, 1, &l->power[k].value, series[i] + k * ring->size);
+        for (size_t k = 0; k < l->powers && good; k++)
+            good = nh_jet_eval_all(v, 1, &l->power[k].value, series[i] + k * ring->size);
     }
     return good;
 }
 
-bool nh_known_motions_words_evaluate(const nh_known_motions_words *w, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out, double *work)
+bool nh_known_motions_words_evaluate(const nh_known_motions_words *w, const nh_jet_ring *ring,
+                                     const nh_residue *coordinate, nh_residue *out, double *work)
 {
-    nh_residue **series = nh_alloc_array(w->letters + 1, sizeof *series), *both = nh_alloc_array(ring->size, sizeof *both);
+    nh_residue **series = nh_alloc_array(w->letters + 1, sizeof *series),
+               *both = nh_alloc_array(ring->size, sizeof *both);
     nh_jet_eval *v = nh_jet_equations_eval(w->equations, ring, coordinate);
     bool good = powers(w, v, ring, series);
     for (size_t k = 0; k < w->words && good; k++) {

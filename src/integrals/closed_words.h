@@ -1,4 +1,5 @@
-/* closed_words: functions of the coordinates in closed form that the coefficients of a system's integrals may be made of.
+/* closed_words: functions of the coordinates in closed form that the coefficients of a system's integrals may be made
+ * of.
  *
  * The letters are taken from the equations of motion, the Lagrangian and the determinant of the inertia:
  *
@@ -9,8 +10,9 @@
  *     exp u                whole powers, of both signs where it has them
  *     log u, asin u, ..    whole powers
  *
- * A word is a product of powers, one of each letter at most; its price is the sum of the prices of the powers: the degree, where the most negative exponent that
- * the system has costs as much as a coordinate.  Words come cheapest first. */
+ * A word is a product of powers, one of each letter at most; its price is the sum of the prices of the powers: the
+ * degree, where the most negative exponent that the system has costs as much as a coordinate.  Words come cheapest
+ * first. */
 #ifndef NH_CLOSED_WORDS_H
 #define NH_CLOSED_WORDS_H
 
@@ -37,8 +39,10 @@ typedef struct {
     double *price;        /* per word */
 } nh_known_motions_words;
 
-/* Words up to a price, with `secular` letters (closed_letters.h).  All letters are registered for evaluation: choose a point afterwards.  NULL: there would be more words than `most_words`. */
-nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words, bool secular);
+/* Words up to a price, with `secular` letters (closed_letters.h).  All letters are registered for evaluation: choose a
+   point afterwards.  NULL: there would be more words than `most_words`. */
+nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words,
+                                                      bool secular);
 void nh_known_motions_words_free(nh_known_motions_words *words);
 
 /* Leave out words that are linear combinations of cheaper ones (partial fractions, sines and cosines in denominators),
@@ -51,6 +55,7 @@ uint32_t nh_known_motions_word_coordinates(const nh_known_motions_words *words, 
 nh_ex nh_known_motions_word(const nh_known_motions_words *words, size_t word);
 
 /* Series of all words, one after another.  False: another point is needed.  `work` counts products of residues. */
-bool nh_known_motions_words_evaluate(const nh_known_motions_words *words, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out, double *work);
+bool nh_known_motions_words_evaluate(const nh_known_motions_words *words, const nh_jet_ring *ring,
+                                     const nh_residue *coordinate, nh_residue *out, double *work);
 
 #endif

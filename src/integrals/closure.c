@@ -19,7 +19,8 @@ typedef struct {
     nh_jet_point *point;
     nh_jet_ring *ring;
     nh_residue *value;         /* of e */
-    size_t kept, *order;       /* fields that are independent at the point, and up to which order their series are right */
+    /* fields that are independent at the point, and up to which order their series are right */
+    size_t kept, *order;
     nh_residue *frame;         /* N x N series */
 } space;
 
@@ -44,7 +45,8 @@ static bool evaluate(space *x, uint64_t seed)
     return good;
 }
 
-/* Are the atoms of exp, and those of sin and cos, linearly independent?  Then kernels satisfy nothing else than what the point keeps [jet_point.h]. */
+/* Are the atoms of exp, and those of sin and cos, linearly independent?  Then kernels satisfy nothing else than what
+   the point keeps [jet_point.h]. */
 static bool unrelated(space *x)
 {
     nh_jet_eval *v = nh_jet_eval_create(x->point, x->ring);
@@ -60,7 +62,8 @@ static bool unrelated(space *x)
         size_t count;
         nh_jet_eval_atoms(v, real, &count, NULL);
         nh_residue *rows = nh_alloc_array(count * x->ring->size + 1, sizeof *rows);
-        good = nh_jet_eval_atoms(v, real, &count, rows) && nh_residue_matrix_rank(x->field, count, x->ring->size, rows) == count;
+        good = nh_jet_eval_atoms(v, real, &count, rows) &&
+               nh_residue_matrix_rank(x->field, count, x->ring->size, rows) == count;
         nh_free(rows);
     }
     nh_free(series);
@@ -105,11 +108,13 @@ static void bracket(const space *x, const nh_residue *a, const nh_residue *b, nh
     nh_free(slope);
 }
 
-/* Brackets of the generators with every field that is kept, until nothing is new; those that need orders that are not there are left out. */
+/* Brackets of the generators with every field that is kept, until nothing is new; those that need orders that are not
+   there are left out. */
 static void close_up(space *x, size_t enough)
 {
     nh_residue *out = nh_alloc_array(x->N * x->ring->size, sizeof *out);
-    for (size_t i = 0; i < x->count && x->kept < enough; i++) keep(x, x->value + i * x->N * x->ring->size, x->ring->order);
+    for (size_t i = 0; i < x->count && x->kept < enough; i++)
+        keep(x, x->value + i * x->N * x->ring->size, x->ring->order);
     size_t generators = x->kept;
     for (size_t j = 0; j < x->kept; j++)
         for (size_t i = 0; i < generators && x->kept < enough && !nh_late(); i++) {
@@ -126,7 +131,8 @@ static size_t gradients(const space *x)
     size_t size = x->ring->size;
     nh_residue *rows = nh_alloc_array(x->functions * x->N + 1, sizeof *rows);
     for (size_t i = 0; i < x->functions; i++)
-        for (size_t k = 0; k < x->N; k++) rows[i * x->N + k] = x->value[(x->count * x->N + i) * size + x->ring->up[k * size]];
+        for (size_t k = 0; k < x->N; k++)
+            rows[i * x->N + k] = x->value[(x->count * x->N + i) * size + x->ring->up[k * size]];
     size_t rank = nh_residue_matrix_rank(x->field, x->functions, x->N, rows);
     nh_free(rows);
     return rank;
@@ -139,10 +145,12 @@ static bool take(space *x, const nh_ex *field, const nh_ex *function, nh_closure
     size_t n = x->count * x->N, nodes = 0;
     nh_forms forms;
     x->e = nh_alloc_array(n + x->functions + 1, sizeof *x->e);
-    for (size_t i = 0; i < n + x->functions && nodes < most_nodes; i++) nodes += nh_node_count(x->d, i < n ? field[i] : function[i - n]);
+    for (size_t i = 0; i < n + x->functions && nodes < most_nodes; i++)
+        nodes += nh_node_count(x->d, i < n ? field[i] : function[i - n]);
     if (nodes >= most_nodes) return out->obstacle = "formulas that are too long", false;
     nh_forms_init(&forms, x->d, false, canonical_length);
-    for (size_t i = 0; i < n + x->functions; i++) x->e[i] = nh_form_rewrite(&forms, nh_exact_values(x->o, i < n ? field[i] : function[i - n]));
+    for (size_t i = 0; i < n + x->functions; i++)
+        x->e[i] = nh_form_rewrite(&forms, nh_exact_values(x->o, i < n ? field[i] : function[i - n]));
     nh_forms_clear(&forms);
     if (x->o->chart->implicit) out->obstacle = "velocities that are given implicitly";
     else if (!nh_jet_point_register(x->point, n + x->functions, x->e)) out->obstacle = x->point->obstacle;
@@ -178,7 +186,12 @@ static void solve(space *x, nh_closure *out)
 
 nh_closure nh_closure_of(const nh_model *o, size_t count, const nh_ex *field, size_t functions, const nh_ex *function)
 {
-    space x = {.o = o, .d = o->dag, .N = 1 + o->m + o->n, .count = count, .functions = functions, .point = nh_jet_point_create(o->dag)};
+    space x = {.o = o,
+               .d = o->dag,
+               .N = 1 + o->m + o->n,
+               .count = count,
+               .functions = functions,
+               .point = nh_jet_point_create(o->dag)};
     nh_closure out = {.dimension = x.N};
     if (take(&x, field, function, &out)) solve(&x, &out);
     nh_jet_ring_free(x.ring);

@@ -126,7 +126,8 @@ static void shorten(size_t n, const double *value, double *out)
         int place = value[i] == 0 ? 0 : (int)floor(log10(fabs(value[i]))) - 1;
         double digits = round(value[i] * pow(10, -place)), unit = pow(10, abs(place));
         for (size_t j = 0; j <= i; j++) {
-            out[i] = place < 0 ? digits / unit : digits * unit; /* a quotient of whole numbers is the double nearest to the decimal */
+            /* a quotient of whole numbers is the double nearest to the decimal */
+            out[i] = place < 0 ? digits / unit : digits * unit;
             if (j == i || out[j] != out[i] || value[j] == value[i]) continue;
             digits++;
             j = SIZE_MAX; /* from the first again */
@@ -134,8 +135,8 @@ static void shorten(size_t n, const double *value, double *out)
     }
 }
 
-nh_fixed nh_companion_relation_nearby(const nh_model *o, size_t n, const nh_ex *term, const nh_ex *rate, const double *like, const nh_options *options,
-                                      nh_ex *coefficient)
+nh_fixed nh_companion_relation_nearby(const nh_model *o, size_t n, const nh_ex *term, const nh_ex *rate,
+                                      const double *like, const nh_options *options, nh_ex *coefficient)
 {
     size_t all = o->system->parameters;
     double *value = nh_alloc_array(all + 1, sizeof *value);

@@ -15,9 +15,9 @@
 nh_fixed nh_companion_relation(const nh_model *model, size_t n, const nh_ex *term, const nh_options *options,
                                nh_ex *coefficient);
 
-/* The same where numbers of many digits make even the relation at the given values too long: at values near them of two digits.  It must hold for all values,
- * and be `like` at the given ones. */
-nh_fixed nh_companion_relation_nearby(const nh_model *model, size_t n, const nh_ex *term, const nh_ex *rate, const double *like, const nh_options *options,
-                                      nh_ex *coefficient);
+/* The same where numbers of many digits make even the relation at the given values too long: at values near them of two
+ * digits.  It must hold for all values, and be `like` at the given ones. */
+nh_fixed nh_companion_relation_nearby(const nh_model *model, size_t n, const nh_ex *term, const nh_ex *rate,
+                                      const double *like, const nh_options *options, nh_ex *coefficient);
 
 #endif

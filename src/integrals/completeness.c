@@ -7,7 +7,8 @@ static void read_rows(nh_completeness *c, bool all)
     c->degree = c->missing_at = c->missing = c->incomplete_at = 0;
     c->linear = c->count.rows > 0;
     c->all = all;
-    while (c->degree < c->count.rows && (all || c->count.row[c->degree].complete || c->count.row[c->degree].functions)) c->linear &= c->count.row[c->degree++].complete;
+    while (c->degree < c->count.rows && (all || c->count.row[c->degree].complete || c->count.row[c->degree].functions))
+        c->linear &= c->count.row[c->degree++].complete;
     for (size_t d = c->count.rows; d-- > 0;)
         if (!c->count.row[d].complete) c->incomplete_at = d + 1;
     if (c->degree == c->count.rows) return;
@@ -21,7 +22,14 @@ static void read_rows(nh_completeness *c, bool all)
 static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
 {
     if (!model->system->parameters || !q->general || !c->degree) return false;
-    nh_count_question question = {.time = c->count.time, .generic = true, .degree = c->degree, .work = q->work, .memory = q->memory, .known = q->known, .independent = q->independent, .current = q->current};
+    nh_count_question question = {.time = c->count.time,
+                                  .generic = true,
+                                  .degree = c->degree,
+                                  .work = q->work,
+                                  .memory = q->memory,
+                                  .known = q->known,
+                                  .independent = q->independent,
+                                  .current = q->current};
     nh_completeness generic = {.count = nh_count_integrals(model, &question)};
     read_rows(&generic, q->all);
     return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
@@ -34,14 +42,22 @@ size_t nh_completeness_degree(const nh_model *model, bool time)
     return coordinates <= two ? highest : coordinates <= few ? high : low;
 }
 
-void nh_completeness_of(const nh_model *model, const nh_completeness_question *q, nh_completeness out[NH_COMPLETENESS_KINDS])
+void nh_completeness_of(const nh_model *model, const nh_completeness_question *q,
+                        nh_completeness out[NH_COMPLETENESS_KINDS])
 {
     for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) {
         nh_completeness *c = &out[kind];
-        if (q->again && kind != (out[NH_COMPLETE_IN_COORDINATES].counted ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME)) continue;
+        if (q->again &&
+            kind != (out[NH_COMPLETE_IN_COORDINATES].counted ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME))
+            continue;
         size_t chosen = nh_completeness_degree(model, kind == NH_COMPLETE_IN_TIME);
-        nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME, .degree = q->degree ? q->degree : chosen, .work = q->work,
-                                      .memory = q->memory, .known = q->known, .independent = q->independent, .current = q->current};
+        nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME,
+                                      .degree = q->degree ? q->degree : chosen,
+                                      .work = q->work,
+                                      .memory = q->memory,
+                                      .known = q->known,
+                                      .independent = q->independent,
+                                      .current = q->current};
         *c = (nh_completeness){.counted = true, .count = nh_count_integrals(model, &question)};
         if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) {
             *c = (nh_completeness){0};
@@ -58,22 +74,37 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
 {
     const char *most = c->degree > 1 ? "at most " : "";
     if (c->degree && c->count.row[c->degree - 1].bound == 1)
-        nh_text_addf(out, "Complete to degree %zu: no function polynomial in the velocities of degree %s%zu, with any functions of %s as coefficients, is conserved", c->degree, most, c->degree, coefficients);
+        nh_text_addf(out,
+                     "Complete to degree %zu: no function polynomial in the velocities of degree %s%zu, with any "
+                     "functions of %s as coefficients, is conserved",
+                     c->degree, most, c->degree, coefficients);
     else if (c->degree)
-        nh_text_addf(out, "Complete to degree %zu: every integral polynomial in the velocities of degree %s%zu, with any functions of %s%s as coefficients, is a %s those found", c->degree, most, c->degree,
-                     coefficients, c->count.leaf ? " (and of what the constraints keep constant)" : "", c->linear ? "polynomial in" : "function of");
+        nh_text_addf(out,
+                     "Complete to degree %zu: every integral polynomial in the velocities of degree %s%zu, with any "
+                     "functions of %s%s as coefficients, is a %s those found",
+                     c->degree, most, c->degree, coefficients,
+                     c->count.leaf ? " (and of what the constraints keep constant)" : "",
+                     c->linear ? "polynomial in" : "function of");
     if (c->degree && c->all && !c->linear) nh_text_add(out, ": there cannot be more independent ones.");
-    else if (c->degree) nh_text_addf(out, " (%s %s).", c->linear ? "proved for" : "the number of all is proved, the rank of their differentials taken modulo a prime, for", c->generic ? "generic parameters, and these" : "these parameters");
+    else if (c->degree)
+        nh_text_addf(out, " (%s %s).",
+                     c->linear
+                         ? "proved for"
+                         : "the number of all is proved, the rank of their differentials taken modulo a prime, for",
+                     c->generic ? "generic parameters, and these" : "these parameters");
     if (!c->missing_at) return;
     const nh_count_row *row = &c->count.row[c->missing_at - 1];
     if (c->degree && !c->settled) {
-        nh_text_addf(out, " Degree %zu is not settled: series up to order %zu, as far as the work for a count goes, still allow %zu more independent integral%s.", c->missing_at, row->order, c->missing,
-                     plural(c->missing));
+        nh_text_addf(out,
+                     " Degree %zu is not settled: series up to order %zu, as far as the work for a count goes, still "
+                     "allow %zu more independent integral%s.",
+                     c->missing_at, row->order, c->missing, plural(c->missing));
         return;
     }
     nh_text_addf(out, "%s degree %zu", c->degree ? " At" : "Not complete: at", c->missing_at);
     if (!c->degree) nh_text_addf(out, ", with any functions of %s as coefficients,", coefficients);
-    nh_text_addf(out, " there may be at most %zu more independent integral%s (order %zu%s).", c->missing, plural(c->missing), row->order, row->settled ? "" : ", not settled");
+    nh_text_addf(out, " there may be at most %zu more independent integral%s (order %zu%s).", c->missing,
+                 plural(c->missing), row->order, row->settled ? "" : ", not settled");
 }
 
 void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_t uncertain, nh_text *out)
@@ -85,9 +116,13 @@ void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_
         return;
     }
     coordinates_words(first, first == time ? "time and the coordinates" : "the coordinates", out);
-    if (first->missing_at && uncertain) nh_text_addf(out, " The %zu current%s that %s certified, not proved, may be among them.", uncertain, plural(uncertain), uncertain == 1 ? "is" : "are");
+    if (first->missing_at && uncertain)
+        nh_text_addf(out, " The %zu current%s that %s certified, not proved, may be among them.", uncertain,
+                     plural(uncertain), uncertain == 1 ? "is" : "are");
     if (first == time || !time->counted || time->count.obstacle) return;
-    if (time->degree) nh_text_addf(out, " With time in the coefficients: complete to degree %zu%s", time->degree, time->missing_at ? "" : ".");
+    if (time->degree)
+        nh_text_addf(out, " With time in the coefficients: complete to degree %zu%s", time->degree,
+                     time->missing_at ? "" : ".");
     if (!time->missing_at) return;
     nh_text_add(out, time->degree ? ";" : " With time in the coefficients:");
     if (time->settled) nh_text_addf(out, " at degree %zu at most %zu more.", time->missing_at, time->missing);

@@ -1,7 +1,8 @@
 /* completeness: are the currents that were found all that there are, among those polynomial in the velocities?
  *
- * Two kinds are counted: with functions of the coordinates as coefficients, and with functions of time and the coordinates; of a system that depends on time
- * only the latter.  Products of the currents that are proved are compared with the bound, degree by degree (integrals/count.h). */
+ * Two kinds are counted: with functions of the coordinates as coefficients, and with functions of time and the
+ * coordinates; of a system that depends on time only the latter.  Products of the currents that are proved are compared
+ * with the bound, degree by degree (integrals/count.h). */
 #ifndef NH_COMPLETENESS_H
 #define NH_COMPLETENESS_H
 
@@ -14,13 +15,17 @@ typedef struct {
     bool counted;           /* this kind was looked at */
     nh_count count;         /* for the parameters' values */
     size_t degree;          /* complete up to this degree; 0: not even to the first */
-    bool linear;            /* up to there all are polynomials in the known ones, which is proved; otherwise functions of them, tested at a point */
+    /* up to there all are polynomials in the known ones, which is proved; otherwise functions of them, tested at a
+       point */
+    bool linear;
     bool all;               /* functions of them in any case: there can be no more functionally independent ones */
     bool generic;           /* and so for algebraically independent parameters */
     size_t missing_at;      /* the least degree at which the bound is not reached, or 0 */
     size_t missing;         /* how many functionally independent ones are missing there at most */
-    size_t incomplete_at;   /* the least degree at which the known ones, their products included, are fewer than the bound, or 0 */
-    bool settled;           /* that number did not change over the last orders: with more work it would hardly be lower */
+    /* the least degree at which the known ones, their products included, are fewer than the bound, or 0 */
+    size_t incomplete_at;
+    /* that number did not change over the last orders: with more work it would hardly be lower */
+    bool settled;
 } nh_completeness;
 
 /* The known currents hold for the parameters' values, those of `general` for all. */
@@ -39,9 +44,11 @@ typedef struct {
 /* The degree up to which a kind is counted unless the user chooses another. */
 size_t nh_completeness_degree(const nh_model *model, bool time);
 
-void nh_completeness_of(const nh_model *model, const nh_completeness_question *question, nh_completeness out[NH_COMPLETENESS_KINDS]);
+void nh_completeness_of(const nh_model *model, const nh_completeness_question *question,
+                        nh_completeness out[NH_COMPLETENESS_KINDS]);
 
-/* What is proved, in sentences; nothing when nothing was counted.  `uncertain`: how many currents are certified numerically and not proved. */
+/* What is proved, in sentences; nothing when nothing was counted.  `uncertain`: how many currents are certified
+   numerically and not proved. */
 void nh_completeness_words(const nh_completeness completeness[NH_COMPLETENESS_KINDS], size_t uncertain, nh_text *out);
 
 #endif

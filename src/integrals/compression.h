@@ -1,8 +1,8 @@
 /* compression: where a matrix with two parameters loses rank, as common zeros of determinants.
  *
- * For a matrix A(lambda, mu) of generic rank R and random constant L (R x rows) and C (columns x R), det(L A C) vanishes
- * wherever the rank of A is below R; elsewhere two of them have no zero in common, but for points that random choices
- * make, which are others the next time. */
+ * For a matrix A(lambda, mu) of generic rank R and random constant L (R x rows) and C (columns x R), det(L A C)
+ * vanishes wherever the rank of A is below R; elsewhere two of them have no zero in common, but for points that random
+ * choices make, which are others the next time. */
 #ifndef NH_COMPRESSION_H
 #define NH_COMPRESSION_H
 

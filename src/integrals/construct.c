@@ -34,11 +34,14 @@ static size_t recognised(nh_construct_attempt *a, size_t part, nh_residue *out)
     const nh_graded_count *g = a->solution[part];
     size_t N = g->total[g->order], tests = N + spare_few, opens = a->lines.count - a->kept;
     uint64_t random = 8128;
-    nh_residue *sum = nh_alloc_array(N * tests + 1, sizeof *sum), *product = nh_alloc_array(N * tests + 1, sizeof *product);
-    nh_residue *mix = nh_alloc_array(opens * tests + 1, sizeof *mix), *left = nh_alloc_array(N * opens + 1, sizeof *left);
+    nh_residue *sum = nh_alloc_array(N * tests + 1, sizeof *sum),
+               *product = nh_alloc_array(N * tests + 1, sizeof *product);
+    nh_residue *mix = nh_alloc_array(opens * tests + 1, sizeof *mix),
+               *left = nh_alloc_array(N * opens + 1, sizeof *left);
     for (size_t alpha = 0; alpha < g->alphas; alpha++) {
         for (size_t s = 0; s < N; s++)
-            for (size_t j = 0; j < opens; j++) left[s * opens + j] = a->value[(a->kept + j) * a->width + a->first[part] + alpha * N + s];
+            for (size_t j = 0; j < opens; j++)
+                left[s * opens + j] = a->value[(a->kept + j) * a->width + a->first[part] + alpha * N + s];
         for (size_t i = 0; i < opens * tests; i++) mix[i] = nh_residue_random(a->field, &random);
         nh_residue_matrix_multiply(a->field, N, opens, tests, left, mix, product);
         nh_residue_add_multiple(a->field, N * tests, sum, product, 1);
@@ -53,11 +56,12 @@ static size_t recognised(nh_construct_attempt *a, size_t part, nh_residue *out)
 
 /* ---- simple representatives ---- */
 
-/* Terms (alpha, word), the most complex first: of the highest degree in the velocities; then with the dearest word, or monomial by monomial; monomials from
- * either end. */
+/* Terms (alpha, word), the most complex first: of the highest degree in the velocities; then with the dearest word, or
+ * monomial by monomial; monomials from either end. */
 static size_t *order_terms(const nh_construct_attempt *a, const nh_graded_count *g, size_t n, size_t way)
 {
-    size_t terms = g->alphas * a->kept, *order = nh_alloc_array(terms + 1, sizeof *order), count = 0, highest = 0, *degree = nh_alloc_array(g->alphas + 1, sizeof *degree);
+    size_t terms = g->alphas * a->kept, *order = nh_alloc_array(terms + 1, sizeof *order), count = 0, highest = 0,
+           *degree = nh_alloc_array(g->alphas + 1, sizeof *degree);
     for (size_t i = 0; i < g->alphas; i++) {
         for (size_t l = 0; l < n; l++) degree[i] += g->alpha[i * n + l];
         if (degree[i] > highest) highest = degree[i];
@@ -72,13 +76,17 @@ static size_t *order_terms(const nh_construct_attempt *a, const nh_graded_count 
     return order;
 }
 
-/* The reduced echelon form of the recognised combinations: their terms in this order, then the combination itself; `coefficient`: of the words, for each alpha rows x kept. */
-static nh_residue *simplest(const nh_construct_attempt *a, const nh_graded_count *g, size_t rows, const nh_residue *combination, const nh_residue *coefficient, const size_t *order)
+/* The reduced echelon form of the recognised combinations: their terms in this order, then the combination itself;
+   `coefficient`: of the words, for each alpha rows x kept. */
+static nh_residue *simplest(const nh_construct_attempt *a, const nh_graded_count *g, size_t rows,
+                            const nh_residue *combination, const nh_residue *coefficient, const size_t *order)
 {
-    size_t N = g->total[g->order], terms = g->alphas * a->kept, width = terms + N, *pivot = nh_alloc_array(rows + 1, sizeof *pivot);
+    size_t N = g->total[g->order], terms = g->alphas * a->kept, width = terms + N,
+           *pivot = nh_alloc_array(rows + 1, sizeof *pivot);
     nh_residue *out = nh_alloc_array(rows * width + 1, sizeof *out);
     for (size_t i = 0; i < rows; i++) {
-        for (size_t j = 0; j < terms; j++) out[i * width + j] = coefficient[(order[j] / a->kept * rows + i) * a->kept + order[j] % a->kept];
+        for (size_t j = 0; j < terms; j++)
+            out[i * width + j] = coefficient[(order[j] / a->kept * rows + i) * a->kept + order[j] % a->kept];
         memcpy(out + i * width + terms, combination + i * N, N * sizeof *out);
     }
     nh_residue_matrix_echelon(a->field, rows, width, width, out, pivot);
@@ -91,7 +99,8 @@ static nh_residue *in_words(const nh_construct_attempt *a, size_t part, size_t r
 {
     const nh_graded_count *g = a->solution[part];
     size_t N = g->total[g->order], n = a->kept;
-    nh_residue *out = nh_alloc_array(g->alphas * rows * n + 1, sizeof *out), *own = nh_alloc_array(N * n + 1, sizeof *own);
+    nh_residue *out = nh_alloc_array(g->alphas * rows * n + 1, sizeof *out),
+               *own = nh_alloc_array(N * n + 1, sizeof *own);
     for (size_t alpha = 0; alpha < g->alphas; alpha++) {
         for (size_t s = 0; s < N; s++)
             for (size_t k = 0; k < n; k++) own[s * n + k] = a->value[k * a->width + a->first[part] + alpha * N + s];
@@ -109,7 +118,8 @@ typedef struct {
     size_t width, *order, *fresh, count, length; /* of the terms; which rows; how many; their terms together */
 } representatives;
 
-static void add_constructed(nh_construction *out, const nh_construct_attempt *a, const nh_graded_count *g, const representatives *r, size_t i)
+static void add_constructed(nh_construction *out, const nh_construct_attempt *a, const nh_graded_count *g,
+                            const representatives *r, size_t i)
 {
     const nh_jet_equations *x = a->counter->equations;
     nh_constructed *c = &out->item[out->count++];
@@ -123,7 +133,8 @@ static void add_constructed(nh_construction *out, const nh_construct_attempt *a,
     }
 }
 
-/* What is known, as vectors: differentials at one point, or values of products under random functionals; and the same of the solutions. */
+/* What is known, as vectors: differentials at one point, or values of products under random functionals; and the same
+   of the solutions. */
 typedef struct {
     nh_count_space known;
     const nh_residue *solution; /* of the parity at hand: N x known.width */
@@ -135,7 +146,8 @@ static bool known_differentials(news *x, nh_construct_attempt *a)
     nh_count_differentials(a->counter, &all, &known);
     bool good = nh_count_known_differ(a->counter, a->series->ring, a->series->coordinate, &known);
     x->known.width = known.kept + known.n;
-    for (size_t i = 0; i < known.rows && good; i++) nh_count_space_add(&x->known, a->field, known.row + i * x->known.width);
+    for (size_t i = 0; i < known.rows && good; i++)
+        nh_count_space_add(&x->known, a->field, known.row + i * x->known.width);
     nh_count_differentials_clear(&all, &known);
     return good;
 }
@@ -156,10 +168,12 @@ static nh_count_series *short_series(nh_construct_attempt *a, size_t degree)
 {
     bool regular;
     size_t order = (degree + beyond_degree / 2) * a->counter->frame->step;
-    return nh_count_series_create(a->counter, order < a->series->ring->order ? order : a->series->ring->order, INFINITY, &regular);
+    return nh_count_series_create(a->counter, order < a->series->ring->order ? order : a->series->ring->order, INFINITY,
+                                  &regular);
 }
 
-static bool known_products(news *x, nh_construct_attempt *a, const nh_count_series *s, size_t degree, nh_count_functionals *f)
+static bool known_products(news *x, nh_construct_attempt *a, const nh_count_series *s, size_t degree,
+                           nh_count_functionals *f)
 {
     nh_count_monomials p = nh_count_monomials_list(a->counter, degree);
     *f = nh_count_functionals_create(s->ring, a->counter->equations->n, p.count + spare, 271828 + degree);
@@ -176,13 +190,15 @@ static bool known_products(news *x, nh_construct_attempt *a, const nh_count_seri
 static bool is_new(const nh_construct_attempt *a, news *x, const nh_residue *combination, size_t N)
 {
     nh_residue *sum = nh_alloc_array(x->known.width + 1, sizeof *sum);
-    for (size_t s = 0; s < N; s++) nh_residue_add_multiple(a->field, x->known.width, sum, x->solution + s * x->known.width, combination[s]);
+    for (size_t s = 0; s < N; s++)
+        nh_residue_add_multiple(a->field, x->known.width, sum, x->solution + s * x->known.width, combination[s]);
     bool grows = nh_count_space_add(&x->known, a->field, sum);
     nh_free(sum);
     return grows;
 }
 
-static representatives represent(const nh_construct_attempt *a, const nh_graded_count *g, size_t rows, const nh_residue *combination, const nh_residue *coefficient, size_t way, news *x)
+static representatives represent(const nh_construct_attempt *a, const nh_graded_count *g, size_t rows,
+                                 const nh_residue *combination, const nh_residue *coefficient, size_t way, news *x)
 {
     size_t N = g->total[g->order], terms = g->alphas * a->kept;
     representatives r = {.order = order_terms(a, g, a->counter->equations->n, way), .width = terms + N};
@@ -226,7 +242,8 @@ static void recognise(nh_construction *out, nh_construct_attempt *a, size_t part
         representatives best = represent(a, g, found, combination, coefficient, 0, x);
         for (size_t way = 1; way < ways; way++) {
             x->known.rows = before;
-            representatives r = represent(a, g, found, combination, coefficient, way, x), worse = r.length < best.length ? best : r;
+            representatives r = represent(a, g, found, combination, coefficient, way, x),
+                            worse = r.length < best.length ? best : r;
             if (r.length < best.length) best = r;
             representatives_clear(&worse);
         }
@@ -248,7 +265,10 @@ static outcome solve(nh_construction *out, nh_construct_attempt *a, size_t degre
     nh_counter *c = a->counter;
     a->parts = a->series->split ? 2 : 1;
     for (size_t part = 0; part < a->parts; part++) {
-        nh_graded_problem p = nh_count_problem(c, a->series, degree, a->parts == 1 ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES);
+        nh_graded_problem p = nh_count_problem(c, a->series, degree,
+                                               a->parts == 1 ? NH_ALL_DEGREES
+                                               : part        ? NH_ODD_DEGREES
+                                                             : NH_EVEN_DEGREES);
         p.keep = true;
         nh_graded_count *g = a->solution[part] = nh_graded_solve(&p);
         c->work += g->work;
@@ -259,7 +279,8 @@ static outcome solve(nh_construction *out, nh_construct_attempt *a, size_t degre
 }
 
 /* The solutions as vectors, by their coefficients of w^alpha; afterwards these are in the frame's velocities. */
-static bool solution_news(nh_construct_attempt *a, news *x, const nh_count_series *s, const nh_count_functionals *f, nh_residue **solution)
+static bool solution_news(nh_construct_attempt *a, news *x, const nh_count_series *s, const nh_count_functionals *f,
+                          nh_residue **solution)
 {
     bool good = true;
     for (size_t part = 0; part < a->parts && good; part++) {
@@ -271,7 +292,8 @@ static bool solution_news(nh_construct_attempt *a, news *x, const nh_count_serie
         } else if (N) {
             solution[part] = solution_differentials(x, a, g);
         }
-        good = nh_velocity_frame_apply(a->frame, a->counter->equations, a->series->ring, a->series->coordinate, g, &a->counter->work);
+        good = nh_velocity_frame_apply(a->frame, a->counter->equations, a->series->ring, a->series->coordinate, g,
+                                       &a->counter->work);
     }
     return good;
 }
@@ -284,7 +306,8 @@ static outcome recognise_all(nh_construction *out, nh_construct_attempt *a, cons
     nh_count_functionals f = {0};
     news x = {0};
     nh_residue *solution[2] = {NULL, NULL};
-    bool good = s ? known_products(&x, a, s, question->degree, &f) : !question->further && known_differentials(&x, a), scarce = true;
+    bool good = s ? known_products(&x, a, s, question->degree, &f) : !question->further && known_differentials(&x, a),
+         scarce = true;
     good = good && solution_news(a, &x, s, &f, solution) && nh_construct_values(a);
     if (good) {
         nh_construct_words_choose(a);
@@ -330,11 +353,20 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
 {
     nh_arena *arena = nh_arena_create();
     nh_construction *out = nh_arena_alloc(arena, sizeof *out);
-    nh_count_question q = {.time = question->time, .shape = question->shape, .degree = question->degree, .work = question->work, .known = question->known, .independent = question->independent, .current = question->current};
+    nh_count_question q = {.time = question->time,
+                           .shape = question->shape,
+                           .degree = question->degree,
+                           .work = question->work,
+                           .known = question->known,
+                           .independent = question->independent,
+                           .current = question->current};
     nh_counter c;
     *out = (nh_construction){.arena = arena};
     nh_counter_open(&c, model, &q);
-    nh_known_motions_words *words = c.equations->obstacle ? NULL : nh_known_motions_words_create(c.equations, question->price, question->most_words, question->secular);
+    nh_known_motions_words *words =
+        c.equations->obstacle
+            ? NULL
+            : nh_known_motions_words_create(c.equations, question->price, question->most_words, question->secular);
     if (words && !c.equations->obstacle) c.work += nh_known_motions_words_reduce(words);
     nh_velocity_frame frame = nh_velocity_frame_of(c.equations);
     outcome o = words ? UNLUCKY : TOO_MUCH;

@@ -1,12 +1,13 @@
 /* construct: closed forms of integrals that the count predicts.
  *
- * The power series of the solutions of Gamma(Phi) = 0 (graded_solver.h) are continued to an order at which they have more coefficients than there are words
- * (closed_words.h).  Which combinations of the solutions have coefficients c_alpha in the span of the words?  The remainder of every c_alpha modulo one echelon
- * form of the words is linear in the combination: its null space is what is recognised.  In the reduced echelon form with the most complex terms first each row
- * is a simple representative; rows whose differentials do not depend on those of the known integrals are new.
+ * The power series of the solutions of Gamma(Phi) = 0 (graded_solver.h) are continued to an order at which they have
+ * more coefficients than there are words (closed_words.h).  Which combinations of the solutions have coefficients
+ * c_alpha in the span of the words?  The remainder of every c_alpha modulo one echelon form of the words is linear in
+ * the combination: its null space is what is recognised.  In the reduced echelon form with the most complex terms first
+ * each row is a simple representative; rows whose differentials do not depend on those of the known integrals are new.
  *
- * All this holds modulo one prime and at one point.  It says of which terms an integral consists, and is no proof: whoever asks has to solve for
- * the coefficients of these terms and to prove what comes out. */
+ * All this holds modulo one prime and at one point.  It says of which terms an integral consists, and is no proof:
+ * whoever asks has to solve for the coefficients of these terms and to prove what comes out. */
 #ifndef NH_CONSTRUCT_H
 #define NH_CONSTRUCT_H
 

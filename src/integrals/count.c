@@ -1,4 +1,5 @@
-/* The count: points modulo primes, weights, series of growing order until the number of integrals is met or does not change. */
+/* The count: points modulo primes, weights, series of growing order until the number of integrals is met or does not
+   change. */
 #include "integrals/count_internal.h"
 
 #include <string.h>
@@ -22,7 +23,8 @@ static bool has_parity(const nh_jet_equations *x, const nh_jet_ring *ring, const
     return true;
 }
 
-/* The ring of an order, and in it the coordinates, the fields and the rates.  What alone takes more than `most` work is not begun: 40 coordinates would take gigabytes. */
+/* The ring of an order, and in it the coordinates, the fields and the rates.  What alone takes more than `most` work is
+   not begun: 40 coordinates would take gigabytes. */
 nh_count_series *nh_count_series_create(nh_counter *c, size_t order, double most, bool *regular)
 {
     nh_jet_equations *x = c->equations;
@@ -40,7 +42,8 @@ nh_count_series *nh_count_series_create(nh_counter *c, size_t order, double most
     s->coordinate = nh_alloc_array(f->all * size + 1, sizeof *s->coordinate);
     s->field = nh_alloc_array(x->fields * f->kept * size + 1, sizeof *s->field);
     s->rate = nh_alloc_array(x->n * nh_jet_equations_monomials(x->n) * size + 1, sizeof *s->rate);
-    *regular = nh_adapted_frame_series(f, s->ring, s->coordinate, s->field) && nh_jet_equations_accelerations(x, s->ring, s->coordinate, s->rate);
+    *regular = nh_adapted_frame_series(f, s->ring, s->coordinate, s->field) &&
+               nh_jet_equations_accelerations(x, s->ring, s->coordinate, s->rate);
     s->split = *regular && has_parity(x, s->ring, s->rate);
     if (*regular) return s;
     nh_count_series_free(s);
@@ -59,19 +62,31 @@ void nh_count_series_free(nh_count_series *s)
 
 nh_graded_problem nh_count_problem(const nh_counter *c, const nh_count_series *s, size_t degree, nh_parity parity)
 {
-    return (nh_graded_problem){.ring = s->ring, .n = c->equations->n, .fields = c->equations->fields, .field = s->field, .rate = s->rate, .degree = degree, .parity = parity,
-                               .most_parameters = most_parameters, .most_work = c->q->work - c->work};
+    return (nh_graded_problem){.ring = s->ring,
+                               .n = c->equations->n,
+                               .fields = c->equations->fields,
+                               .field = s->field,
+                               .rate = s->rate,
+                               .degree = degree,
+                               .parity = parity,
+                               .most_parameters = most_parameters,
+                               .most_work = c->q->work - c->work};
 }
 
-/* N for each order, the sum over both parities where they separate; injective_at: the larger.  False: beyond the limits. */
-static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, size_t *total, size_t *injective_at, nh_differentials *d)
+/* N for each order, the sum over both parities where they separate; injective_at: the larger.  False: beyond the
+   limits. */
+static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, size_t *total, size_t *injective_at,
+                   nh_differentials *d)
 {
     size_t order = s->ring->order;
     bool good = true;
     memset(total, 0, (order + 1) * sizeof *total);
     *injective_at = 0;
     for (int part = 0; part < (s->split ? 2 : 1) && good; part++) {
-        nh_graded_problem p = nh_count_problem(c, s, degree, !s->split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES);
+        nh_graded_problem p = nh_count_problem(c, s, degree,
+                                               !s->split ? NH_ALL_DEGREES
+                                               : part    ? NH_ODD_DEGREES
+                                                         : NH_EVEN_DEGREES);
         size_t from;
         good = nh_count_solve(c, &p, total, &from, d);
         if (*injective_at < from) *injective_at = from;
@@ -98,8 +113,8 @@ void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known
 
 typedef enum { COUNTED, UNLUCKY, TOO_MUCH } outcome;
 
-/* Residues stand for any solutions of the equations of named functions.  Where they show more independent functions than there are, the functions meant are
- * related in ways that other solutions are not. */
+/* Residues stand for any solutions of the equations of named functions.  Where they show more independent functions
+ * than there are, the functions meant are related in ways that other solutions are not. */
 static bool shows_too_many(const nh_counter *c, const nh_count_row *row)
 {
     bool named = false;
@@ -129,13 +144,17 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row
     nh_differentials all, known;
     nh_count_differentials(c, &all, &known);
     outcome result = totals(c, s, degree, total, &from, &all) ? COUNTED : TOO_MUCH;
-    bool products = c->q->alone || result != COUNTED || nh_count_products(c, s->ring, s->coordinate, degree, total[order], out);
-    if (result == COUNTED && !(products && nh_count_known_differ(c, s->ring, s->coordinate, &known) && nh_count_known_differ(c, s->ring, s->coordinate, &all))) result = UNLUCKY;
+    bool products =
+        c->q->alone || result != COUNTED || nh_count_products(c, s->ring, s->coordinate, degree, total[order], out);
+    if (result == COUNTED && !(products && nh_count_known_differ(c, s->ring, s->coordinate, &known) &&
+                               nh_count_known_differ(c, s->ring, s->coordinate, &all)))
+        result = UNLUCKY;
     out->rank = nh_count_rank(&all, s->ring->field);
     out->known_rank = nh_count_rank(&known, s->ring->field);
     out->degree = degree;
     out->order = order;
-    if (result == COUNTED && shows_too_many(c, out)) c->unnamed = true, result = UNLUCKY; /* another point, without them */
+    /* another point, without them */
+    if (result == COUNTED && shows_too_many(c, out)) c->unnamed = true, result = UNLUCKY;
     read_totals(c, total, from, out);
     nh_count_differentials_clear(&all, &known);
     nh_free(total);
@@ -156,7 +175,9 @@ static outcome count_degree(nh_counter *c, size_t degree, nh_count_row *out)
         if (o == TOO_MUCH) break;
         *out = row;
         any = row.bounded;
-        if (row.complete || row.settled || (row.functions && c->q->alone) || (row.functions && c->work > least_share * c->q->work)) break;
+        if (row.complete || row.settled || (row.functions && c->q->alone) ||
+            (row.functions && c->work > least_share * c->q->work))
+            break;
     }
     return any ? COUNTED : TOO_MUCH;
 }
@@ -188,7 +209,9 @@ static void degrees(nh_counter *c, nh_count *out)
             if (attempt < NH_COUNT_POINTS) continue;
         }
         if (o != COUNTED) {
-            out->end = c->equations->obstacle ? c->equations->obstacle : o == UNLUCKY ? "no regular point was found modulo a prime" : "work";
+            out->end = c->equations->obstacle ? c->equations->obstacle
+                       : o == UNLUCKY         ? "no regular point was found modulo a prime"
+                                              : "work";
             break;
         }
         out->rows++;
@@ -235,7 +258,9 @@ static void register_known(nh_counter *c)
         bool named = has_named(x->dag, e), good = is_current(x, e) && (!named || c->q->independent);
         if (named && good) c->rate[c->known] = nh_model_gamma(x->model, e);
         x->point->solutions = true;
-        good = good && nh_jet_equations_take(x, false, &e) && (!named || nh_jet_equations_take(x, false, &c->rate[c->known])) && (x->point->kernels == kernels || !nh_jet_equations_related(x, nh_jet_point_prime(x->point, 0)));
+        good = good && nh_jet_equations_take(x, false, &e) &&
+               (!named || nh_jet_equations_take(x, false, &c->rate[c->known])) &&
+               (x->point->kernels == kernels || !nh_jet_equations_related(x, nh_jet_point_prime(x->point, 0)));
         nh_ex *slope = c->slope + c->known * x->n;
         for (size_t i = 0; i < x->n && good; i++) {
             slope[i] = nh_diff(x->dag, e, x->w[i]);
@@ -261,7 +286,8 @@ void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_questi
     c->named = nh_alloc_array(question->known + 1, sizeof *c->named);
     c->rate = nh_alloc_array(question->known + 1, sizeof *c->rate);
     c->slope = nh_alloc_array(question->known * model->n + 1, sizeof *c->slope);
-    if (!c->equations->obstacle && nh_jet_equations_related(c->equations, nh_jet_point_prime(c->equations->point, 0))) c->equations->obstacle = "functions that may be related to each other";
+    if (!c->equations->obstacle && nh_jet_equations_related(c->equations, nh_jet_point_prime(c->equations->point, 0)))
+        c->equations->obstacle = "functions that may be related to each other";
     if (!c->equations->obstacle) register_known(c);
 }
 

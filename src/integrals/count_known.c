@@ -8,7 +8,8 @@ enum { most_failures = 80 };
 
 /* ---- known integrals ---- */
 
-/* Is a current with named functions one for every solution of their equations?  Relations between two functions may be in the formula that was proved. */
+/* Is a current with named functions one for every solution of their equations?  Relations between two functions may be
+   in the formula that was proved. */
 static bool is_kept(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t k, bool *good)
 {
     nh_jet_equations *x = c->equations;
@@ -30,7 +31,8 @@ static bool line_degree(nh_counter *c, const nh_jet_ring *ring, const nh_residue
 {
     enum { values = NH_COUNT_HIGHEST_DEGREE + 4 };
     nh_jet_equations *x = c->equations;
-    nh_residue y[values], *w = nh_alloc_array(2 * x->n + 1, sizeof *w), *series = nh_alloc_array(ring->size, sizeof *series);
+    nh_residue y[values], *w = nh_alloc_array(2 * x->n + 1, sizeof *w),
+                          *series = nh_alloc_array(ring->size, sizeof *series);
     uint64_t random = 4711;
     bool good = true;
     nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
@@ -64,8 +66,8 @@ static void move_known(nh_counter *c, size_t to, size_t from)
     memmove(c->slope + to * n, c->slope + from * n, n * sizeof *c->slope);
 }
 
-/* The degrees of those of the kind that is counted, 0 for others: they count for functional dependence only.  A current that cannot be evaluated makes
- * the point a bad one, and one that never can is left out. */
+/* The degrees of those of the kind that is counted, 0 for others: they count for functional dependence only.  A current
+ * that cannot be evaluated makes the point a bad one, and one that never can is left out. */
 bool nh_count_take_known(nh_counter *c)
 {
     nh_jet_equations *x = c->equations;
@@ -82,7 +84,8 @@ bool nh_count_take_known(nh_counter *c)
         good |= hopeless;
         if (hopeless) continue;
         bool timely = !x->time && nh_depends(x->dag, c->current[k], x->model->system->t);
-        if (good && (timely || degree > NH_COUNT_HIGHEST_DEGREE)) degree = 0; /* no product of it is of the kind that is counted */
+        /* no product of it is of the kind that is counted */
+        if (good && (timely || degree > NH_COUNT_HIGHEST_DEGREE)) degree = 0;
         move_known(c, kept, k);
         c->degree[kept++] = degree;
         if (!good) { /* the rest as it is */
@@ -120,7 +123,8 @@ size_t nh_count_rank(const nh_differentials *d, nh_prime f)
 static nh_residue velocity_power(const nh_differentials *d, nh_prime f, const uint8_t *alpha, size_t l)
 {
     nh_residue r = 1;
-    for (size_t i = 0; i < d->n; i++) r = nh_residue_mul(f, r, nh_residue_power(f, d->w[i], (uint64_t)(alpha[i] - (i == l))));
+    for (size_t i = 0; i < d->n; i++)
+        r = nh_residue_mul(f, r, nh_residue_power(f, d->w[i], (uint64_t)(alpha[i] - (i == l))));
     return r;
 }
 
@@ -138,7 +142,8 @@ void nh_count_solutions_differ(const nh_graded_count *g, nh_prime f, nh_differen
             if (k >= d->kept && !alpha[l]) continue;
             nh_residue factor = k < d->kept ? power : nh_residue_mul(f, alpha[l], velocity_power(d, f, alpha, l));
             const nh_residue *c = jet + (k < d->kept ? 1 + k : 0) * N;
-            for (size_t j = 0; j < N; j++) out[j * width + k] = nh_residue_add(f, out[j * width + k], nh_residue_mul(f, factor, c[j]));
+            for (size_t j = 0; j < N; j++)
+                out[j * width + k] = nh_residue_add(f, out[j * width + k], nh_residue_mul(f, factor, c[j]));
         }
     }
 }

@@ -13,11 +13,13 @@ static void powers(const nh_jet_ring *ring, const nh_residue *v, nh_residue *tab
     size_t m = ring->variables, orders = ring->order + 1;
     for (size_t k = 0; k < m; k++) {
         table[k * orders] = 1;
-        for (size_t i = 1; i < orders; i++) table[k * orders + i] = nh_residue_mul(ring->field, table[k * orders + i - 1], v[k]);
+        for (size_t i = 1; i < orders; i++)
+            table[k * orders + i] = nh_residue_mul(ring->field, table[k * orders + i - 1], v[k]);
     }
     for (size_t e = 0; e < ring->size; e++) {
         out[e] = 1;
-        for (size_t k = 0; k < m; k++) out[e] = nh_residue_mul(ring->field, out[e], table[k * orders + ring->exponent[e * m + k]]);
+        for (size_t k = 0; k < m; k++)
+            out[e] = nh_residue_mul(ring->field, out[e], table[k * orders + ring->exponent[e * m + k]]);
     }
 }
 
@@ -49,7 +51,8 @@ void nh_count_lines_clear(nh_count_lines *l)
     nh_free(l->weight);
 }
 
-void nh_count_along(const nh_jet_ring *ring, const nh_jet_ring *line, const nh_residue *curve, size_t count, const nh_residue *series, nh_residue *out)
+void nh_count_along(const nh_jet_ring *ring, const nh_jet_ring *line, const nh_residue *curve, size_t count,
+                    const nh_residue *series, nh_residue *out)
 {
     memset(out, 0, count * line->size * sizeof *out);
     for (size_t k = 0; k < count; k++)
@@ -59,17 +62,20 @@ void nh_count_along(const nh_jet_ring *ring, const nh_jet_ring *line, const nh_r
         }
 }
 
-void nh_count_line_values(const nh_count_lines *l, size_t j, nh_prime field, const nh_residue *series, nh_residue *out, size_t stride)
+void nh_count_line_values(const nh_count_lines *l, size_t j, nh_prime field, const nh_residue *series, nh_residue *out,
+                          size_t stride)
 {
     for (size_t i = j * each; i < (j + 1) * each; i++) {
         uint64_t sum = 0;
-        for (size_t k = 0; k <= l->order; k++) sum = nh_residue_gather(field, sum, l->weight[i * (l->order + 1) + k], series[k]);
+        for (size_t k = 0; k <= l->order; k++)
+            sum = nh_residue_gather(field, sum, l->weight[i * (l->order + 1) + k], series[k]);
         out[i * stride] = nh_residue_reduce(field, sum);
     }
 }
 
 /* By degree along each curve first. */
-void nh_count_lines_values(const nh_count_lines *l, const nh_jet_ring *ring, size_t N, const nh_residue *series, nh_residue *out, size_t stride)
+void nh_count_lines_values(const nh_count_lines *l, const nh_jet_ring *ring, size_t N, const nh_residue *series,
+                           nh_residue *out, size_t stride)
 {
     size_t orders = l->order + 1;
     const nh_residue **row = nh_alloc_array(ring->size + 1, sizeof *row);
@@ -78,7 +84,8 @@ void nh_count_lines_values(const nh_count_lines *l, const nh_jet_ring *ring, siz
     for (size_t j = 0; j < l->lines; j++) {
         memset(sum, 0, orders * N * sizeof *sum);
         for (size_t k = 0; k < orders; k++)
-            nh_residue_matrix_gather(ring->field, N, sum + k * N, ring->first[k + 1] - ring->first[k], l->curve + j * l->size + ring->first[k], row + ring->first[k]);
+            nh_residue_matrix_gather(ring->field, N, sum + k * N, ring->first[k + 1] - ring->first[k],
+                                     l->curve + j * l->size + ring->first[k], row + ring->first[k]);
         for (size_t s = 0; s < N; s++) {
             for (size_t k = 0; k < orders; k++) own[k] = sum[k * N + s];
             nh_count_line_values(l, j, ring->field, own, out + s, stride);

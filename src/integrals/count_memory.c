@@ -52,7 +52,8 @@ static uint64_t mix_residues(uint64_t key, size_t count, const nh_residue *x)
 static uint64_t key_of(const nh_graded_problem *p, const nh_differentials *d)
 {
     const nh_jet_ring *r = p->ring;
-    const uint64_t number[] = {r->field.p, p->n, p->fields, p->degree, p->parity, r->variables, r->order, p->most_parameters};
+    const uint64_t number[] = {r->field.p, p->n,         p->fields, p->degree,
+                               p->parity,  r->variables, r->order,  p->most_parameters};
     uint64_t key = 1;
     for (size_t i = 0; i < sizeof number / sizeof *number; i++) key = mix(key, number[i]);
     for (size_t k = 0; k < r->variables; k++) key = mix(key, r->weight[k]);
@@ -68,11 +69,16 @@ static const answer *recall(const nh_count_memory *m, uint64_t key)
     return NULL;
 }
 
-static void remember(nh_count_memory *m, uint64_t key, const nh_graded_count *g, const nh_differentials *d, size_t before)
+static void remember(nh_count_memory *m, uint64_t key, const nh_graded_count *g, const nh_differentials *d,
+                     size_t before)
 {
     size_t width = d->kept + d->n;
     if (!m) return;
-    answer a = {.key = key, .injective = g->injective, .injective_at = g->injective_at, .rows = d->rows - before, .work = g->work};
+    answer a = {.key = key,
+                .injective = g->injective,
+                .injective_at = g->injective_at,
+                .rows = d->rows - before,
+                .work = g->work};
     a.total = nh_arena_alloc(m->arena, (g->order + 1) * sizeof *a.total);
     memcpy(a.total, g->total, (g->order + 1) * sizeof *a.total);
     a.row = nh_arena_alloc(m->arena, a.rows * width * sizeof *a.row + 1);

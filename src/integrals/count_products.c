@@ -1,4 +1,5 @@
-/* Products of known integrals as vectors modulo the prime: values of random linear functionals, the same ones for products and for solutions of the count. */
+/* Products of known integrals as vectors modulo the prime: values of random linear functionals, the same ones for
+   products and for solutions of the count. */
 #include <string.h>
 
 #include "base/progress.h"
@@ -60,10 +61,12 @@ void nh_count_monomials_clear(nh_count_monomials *p)
 }
 
 /* All products at one choice of velocities, each from one that came before by a factor. */
-static void multiply_products(const nh_jet_ring *ring, const nh_count_monomials *p, const nh_residue *phi, nh_residue *out)
+static void multiply_products(const nh_jet_ring *ring, const nh_count_monomials *p, const nh_residue *phi,
+                              nh_residue *out)
 {
     nh_jet_constant(ring, 1, out);
-    for (size_t i = 1; i < p->count; i++) nh_jet_mul(ring, out + p->before[i] * ring->size, phi + p->factor[i] * ring->size, out + i * ring->size);
+    for (size_t i = 1; i < p->count; i++)
+        nh_jet_mul(ring, out + p->before[i] * ring->size, phi + p->factor[i] * ring->size, out + i * ring->size);
 }
 
 /* ---- functionals ---- */
@@ -95,12 +98,15 @@ void nh_count_functionals_clear(nh_count_functionals *f)
     nh_free(f->w);
 }
 
-bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, const nh_count_monomials *p, const nh_count_functionals *f, nh_residue *out)
+bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate,
+                             const nh_count_monomials *p, const nh_count_functionals *f, nh_residue *out)
 {
     nh_jet_equations *x = c->equations;
     size_t one = 1, all = x->coordinates;
     nh_jet_ring *line = nh_jet_ring_create(ring->field, 1, &one, ring->order);
-    nh_residue *phi = nh_alloc_array(c->known * line->size + 1, sizeof *phi), *product = nh_alloc_array(p->count * line->size, sizeof *product), *q = nh_alloc_array(all * line->size + 1, sizeof *q);
+    nh_residue *phi = nh_alloc_array(c->known * line->size + 1, sizeof *phi),
+               *product = nh_alloc_array(p->count * line->size, sizeof *product),
+               *q = nh_alloc_array(all * line->size + 1, sizeof *q);
     bool good = true;
     for (size_t j = 0; j < f->count && good && !nh_late(); j++) {
         nh_count_along(ring, line, f->curve + j * f->size, all, coordinate, q);
@@ -110,7 +116,10 @@ bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_re
         if (good) multiply_products(line, p, phi, product);
         for (size_t i = 0; i < p->count && good; i++) {
             nh_residue sum = 0;
-            for (size_t e = 0; e < line->size; e++) sum = nh_residue_add(ring->field, sum, nh_residue_mul(ring->field, f->weight[j * line->size + e], product[i * line->size + e]));
+            for (size_t e = 0; e < line->size; e++)
+                sum = nh_residue_add(
+                    ring->field, sum,
+                    nh_residue_mul(ring->field, f->weight[j * line->size + e], product[i * line->size + e]));
             out[i * f->count + j] = sum;
         }
         c->work += (double)p->count * (double)line->pairs[line->size] + (double)all * (double)ring->size;
@@ -124,7 +133,8 @@ bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_re
 }
 
 /* sum over alpha of c_alpha w^alpha, of which the first coefficients count. */
-void nh_count_solution_values(const nh_graded_count *g, const nh_jet_ring *ring, const nh_count_functionals *f, nh_residue *out)
+void nh_count_solution_values(const nh_graded_count *g, const nh_jet_ring *ring, const nh_count_functionals *f,
+                              nh_residue *out)
 {
     size_t N = g->total[g->order];
     memset(out, 0, N * f->count * sizeof *out);
@@ -132,9 +142,13 @@ void nh_count_solution_values(const nh_graded_count *g, const nh_jet_ring *ring,
         for (size_t a = 0; a < g->alphas; a++) {
             nh_residue power = power_of(ring->field, f->w + j * f->n, g->alpha + a * f->n, f->n);
             for (size_t e = 0; e < f->size; e++) {
-                nh_residue factor = nh_residue_mul(ring->field, power, nh_residue_mul(ring->field, f->curve[j * f->size + e], f->weight[j * (f->order + 1) + ring->degree[e]]));
+                nh_residue factor = nh_residue_mul(ring->field, power,
+                                                   nh_residue_mul(ring->field, f->curve[j * f->size + e],
+                                                                  f->weight[j * (f->order + 1) + ring->degree[e]]));
                 const nh_residue *c = g->series + (a * ring->size + e) * N;
-                for (size_t s = 0; s < N; s++) out[s * f->count + j] = nh_residue_add(ring->field, out[s * f->count + j], nh_residue_mul(ring->field, factor, c[s]));
+                for (size_t s = 0; s < N; s++)
+                    out[s * f->count + j] =
+                        nh_residue_add(ring->field, out[s * f->count + j], nh_residue_mul(ring->field, factor, c[s]));
             }
         }
 }
@@ -150,7 +164,8 @@ static bool has_own_degree(const nh_counter *c, const uint8_t *exponent, size_t 
 }
 
 /* The rank of the first rows: of products of lower degree alone, or of all. */
-static size_t rank_of(const nh_counter *c, nh_prime field, const nh_count_monomials *p, size_t columns, const nh_residue *value, size_t degree, bool lower)
+static size_t rank_of(const nh_counter *c, nh_prime field, const nh_count_monomials *p, size_t columns,
+                      const nh_residue *value, size_t degree, bool lower)
 {
     nh_residue *rows = nh_alloc_array(p->count * columns, sizeof *rows);
     size_t kept = 0;
@@ -163,8 +178,10 @@ static size_t rank_of(const nh_counter *c, nh_prime field, const nh_count_monomi
     return rank;
 }
 
-/* The rank of the products modulo the prime: they are solutions to this order, of which there are `bound` independent ones. */
-bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree, size_t bound, nh_count_row *out)
+/* The rank of the products modulo the prime: they are solutions to this order, of which there are `bound` independent
+   ones. */
+bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree,
+                       size_t bound, nh_count_row *out)
 {
     nh_count_monomials p = nh_count_monomials_list(c, degree);
     out->known = out->lower = 1;
@@ -172,7 +189,8 @@ bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue 
         nh_count_monomials_clear(&p);
         return true;
     }
-    nh_count_functionals f = nh_count_functionals_create(ring, c->equations->n, (p.count < bound ? p.count : bound) + spare_columns, 1234567 + degree);
+    nh_count_functionals f = nh_count_functionals_create(
+        ring, c->equations->n, (p.count < bound ? p.count : bound) + spare_columns, 1234567 + degree);
     nh_residue *value = nh_alloc_array(p.count * f.count, sizeof *value);
     bool good = nh_count_product_values(c, ring, coordinate, &p, &f, value);
     out->known = rank_of(c, ring->field, &p, f.count, value, degree, false);

@@ -1,4 +1,5 @@
-/* Polynomial relations among integrals, modulo the prime: a product that is a combination of those before it is the leading one of a relation. */
+/* Polynomial relations among integrals, modulo the prime: a product that is a combination of those before it is the
+   leading one of a relation. */
 #include <stdlib.h>
 #include <math.h>
 #include <string.h>
@@ -45,20 +46,24 @@ static bool follows(const nh_counter *c, const uint8_t *exponent, size_t relatio
     return divides;
 }
 
-/* The row of the echelon that has no values left says which products it combines: in terms of the question's integrals, the leading one last. */
-static nh_count_relation read_relation(const nh_counter *c, const nh_residue *combination, size_t count, const monomial *m, const size_t *standard, nh_arena *arena)
+/* The row of the echelon that has no values left says which products it combines: in terms of the question's integrals,
+   the leading one last. */
+static nh_count_relation read_relation(const nh_counter *c, const nh_residue *combination, size_t count,
+                                       const monomial *m, const size_t *standard, nh_arena *arena)
 {
     nh_count_relation r = {.exponent = nh_arena_alloc(arena, count * c->q->known)};
     for (size_t i = 0; i < count; i++) {
         if (!combination[i]) continue;
-        for (size_t k = 0; k < c->known; k++) r.exponent[r.terms * c->q->known + c->index[k]] = m[standard[i]].exponent[k];
+        for (size_t k = 0; k < c->known; k++)
+            r.exponent[r.terms * c->q->known + c->index[k]] = m[standard[i]].exponent[k];
         r.terms++;
     }
     return r;
 }
 
 /* Rows: values, then which products they are of. */
-static size_t eliminate(const nh_counter *c, nh_prime field, const nh_count_monomials *p, const monomial *m, size_t values, const nh_residue *value, nh_arena *arena, size_t most, nh_count_relation *out)
+static size_t eliminate(const nh_counter *c, nh_prime field, const nh_count_monomials *p, const monomial *m,
+                        size_t values, const nh_residue *value, nh_arena *arena, size_t most, nh_count_relation *out)
 {
     size_t relations = 0, standards = 0, *standard = nh_alloc_array(p->count + 1, sizeof *standard);
     nh_count_space space = {.width = values + p->count + 1};
@@ -66,7 +71,8 @@ static size_t eliminate(const nh_counter *c, nh_prime field, const nh_count_mono
     for (size_t i = 0; i < p->count && relations < most; i++) {
         if (follows(c, m[i].exponent, relations, out)) continue;
         memset(row, 0, space.width * sizeof *row);
-        memcpy(row, value + (size_t)(m[i].exponent - p->exponent) / (c->known ? c->known : 1) * values, values * sizeof *row);
+        memcpy(row, value + (size_t)(m[i].exponent - p->exponent) / (c->known ? c->known : 1) * values,
+               values * sizeof *row);
         row[values + standards] = 1;
         standard[standards++] = i;
         nh_count_space_add(&space, field, row);
@@ -84,11 +90,14 @@ static size_t eliminate(const nh_counter *c, nh_prime field, const nh_count_mono
     return relations;
 }
 
-static bool at_point(nh_counter *c, size_t degree, nh_arena *arena, size_t most, size_t *relations, nh_count_relation *out)
+static bool at_point(nh_counter *c, size_t degree, nh_arena *arena, size_t most, size_t *relations,
+                     nh_count_relation *out)
 {
     bool regular;
     nh_count_monomials p = nh_count_monomials_list(c, degree);
-    nh_count_series *s = p.count && p.count <= most_monomials ? nh_count_series_create(c, (degree + beyond) * c->frame->step, INFINITY, &regular) : NULL;
+    nh_count_series *s = p.count && p.count <= most_monomials
+                             ? nh_count_series_create(c, (degree + beyond) * c->frame->step, INFINITY, &regular)
+                             : NULL;
     bool good = p.count > most_monomials || !p.count || s || !regular;
     if (s) {
         nh_count_functionals f = nh_count_functionals_create(s->ring, c->equations->n, p.count + spare, 314159);
@@ -105,7 +114,8 @@ static bool at_point(nh_counter *c, size_t degree, nh_arena *arena, size_t most,
     return good;
 }
 
-size_t nh_count_relations(const nh_model *model, size_t known, const nh_ex *current, size_t degree, nh_arena *arena, size_t most, nh_count_relation *out)
+size_t nh_count_relations(const nh_model *model, size_t known, const nh_ex *current, size_t degree, nh_arena *arena,
+                          size_t most, nh_count_relation *out)
 {
     nh_count_question q = {.degree = degree, .known = known, .current = current};
     nh_counter c;

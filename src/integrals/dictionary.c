@@ -15,7 +15,8 @@ typedef struct {
     size_t seen_count, all_waves;
     nh_ex *seen;        /* nodes already looked at */
     nh_ex *all_wave;    /* every coordinate inside a sine or cosine */
-    bool integrate;     /* in forces and constraints: of 1/(b + c q) the integral is wanted, too; in the Lagrangian that of 1/(b + c t) */
+    /* in forces and constraints: of 1/(b + c q) the integral is wanted, too; in the Lagrangian that of 1/(b + c t) */
+    bool integrate;
 } harvester;
 
 static bool is_in(size_t n, const nh_ex *list, nh_ex e)
@@ -59,7 +60,8 @@ static bool has_position(const nh_model *o, nh_ex e)
 static bool is_form(const nh_model *o, nh_ex e)
 {
     nh_dag *d = o->dag;
-    nh_ex *v = nh_alloc_array(2 * o->m + o->n + 1, sizeof *v), *zero = nh_alloc_array(2 * o->m + o->n + 1, sizeof *zero);
+    nh_ex *v = nh_alloc_array(2 * o->m + o->n + 1, sizeof *v),
+          *zero = nh_alloc_array(2 * o->m + o->n + 1, sizeof *zero);
     size_t n = 0;
     bool form = true;
     for (size_t s = 0; s < o->m; s++) v[n++] = o->system->coordinate[s].v;
@@ -131,7 +133,8 @@ static void add_logarithm(harvester *h, nh_ex base, bool of_time_alone)
     nh_model *o = h->o;
     nh_dag *d = o->dag;
     for (size_t s = of_time_alone ? o->m : 0; s <= o->m; s++) {
-        nh_ex q = s < o->m ? o->system->coordinate[s].q : o->system->t, zero = nh_int(d, 0), slope = nh_diff(d, base, q), c = nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, q));
+        nh_ex q = s < o->m ? o->system->coordinate[s].q : o->system->t, zero = nh_int(d, 0),
+              slope = nh_diff(d, base, q), c = nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, q));
         nh_ex b = nh_substitute(d, base, 1, &q, &zero), by = 0;
         if (nh_is_zero(d, slope) || has_position(o, b) || has_position(o, c)) continue;
         if (nh_is_zero(d, c)) {
@@ -172,17 +175,21 @@ static nh_ex inside_of_absolute(const nh_model *o, nh_ex e)
     if (nh_kind_of(d, e) == NH_FUNCTION) return nh_function_of(d, e) == NH_ABS ? nh_child(d, e, 0) : 0;
     if (nh_kind_of(d, e) != NH_PRODUCT || nh_arity(d, e) != 1 || !nh_num_is(nh_constant_of(d, e), 1)) return 0;
     nh_ex x = nh_exponent_of(d, e, 0), square = nh_simplify_short(d, nh_child(d, e, 0), 0);
-    if (nh_kind_of(d, x) != NH_NUMBER || !nh_num_equal(nh_number_of(d, x), nh_num_ratio(1, 2)) || nh_kind_of(d, square) != NH_PRODUCT) return 0;
+    if (nh_kind_of(d, x) != NH_NUMBER || !nh_num_equal(nh_number_of(d, x), nh_num_ratio(1, 2)) ||
+        nh_kind_of(d, square) != NH_PRODUCT)
+        return 0;
     nh_ex u = nh_int(d, 1);
     for (size_t i = 0; i < nh_arity(d, square); i++) {
         nh_ex power = nh_exponent_of(d, square, i);
-        if (nh_kind_of(d, power) != NH_NUMBER || nh_number_of(d, power).q != 1 || nh_number_of(d, power).p % 2) return 0;
+        if (nh_kind_of(d, power) != NH_NUMBER || nh_number_of(d, power).q != 1 || nh_number_of(d, power).p % 2)
+            return 0;
         u = nh_mul(d, u, nh_powi(d, nh_child(d, square, i), nh_number_of(d, power).p / 2));
     }
     return u;
 }
 
-/* With |u| go its integrals u |u|/2 and |u|^3/6, and with sign(u) those and |u|: what forces that change their direction leave in momenta and centres of mass. */
+/* With |u| go its integrals u |u|/2 and |u|^3/6, and with sign(u) those and |u|: what forces that change their
+   direction leave in momenta and centres of mass. */
 static void add_absolutes(harvester *h, nh_ex e)
 {
     nh_dag *d = h->o->dag;
@@ -199,7 +206,8 @@ static void walk(harvester *h, nh_ex e)
 {
     nh_dag *d = h->o->dag;
     nh_kind kind = nh_kind_of(d, e);
-    if (kind == NH_NUMBER || kind == NH_SYMBOL || is_in(h->seen_count, h->seen, e) || h->seen_count == h->most_seen) return;
+    if (kind == NH_NUMBER || kind == NH_SYMBOL || is_in(h->seen_count, h->seen, e) || h->seen_count == h->most_seen)
+        return;
     h->seen[h->seen_count++] = e;
     bool moving = has_velocity(h->o, e), placed = has_position(h->o, e);
     if (kind == NH_SUM && moving && is_form(h->o, e)) add(h, &h->out->forms, h->out->form, e);
@@ -227,7 +235,9 @@ static bool is_square(const nh_model *o, nh_ex product)
     nh_dag *d = o->dag;
     for (size_t i = 0; i < nh_arity(d, product); i++) {
         nh_ex x = nh_exponent_of(d, product, i);
-        if (has_position(o, nh_child(d, product, i)) && (nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || nh_number_of(d, x).p % 2)) return false;
+        if (has_position(o, nh_child(d, product, i)) &&
+            (nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || nh_number_of(d, x).p % 2))
+            return false;
     }
     return true;
 }
@@ -315,12 +325,14 @@ static void frame(harvester *h)
         add(h, &h->out->frames, h->out->frame, nh_mul(d, even_root(o, pivot), form));
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j < n; j++)
-                if (!done[i] && !done[j]) M[i * n + j] = nh_simplify_short(d, nh_sub(d, M[i * n + j], nh_div(d, nh_mul(d, M[i * n + p], M[p * n + j]), pivot)), 0);
+                if (!done[i] && !done[j])
+                    M[i * n + j] = nh_simplify_short(
+                        d, nh_sub(d, M[i * n + j], nh_div(d, nh_mul(d, M[i * n + p], M[p * n + j]), pivot)), 0);
     }
 }
 
-/* The root of the whole and of its factors; those of the numerator too: which velocities are independent, hence whether 1 + y^2 or
- * 1 + 1/y^2 is the mass, must not matter. */
+/* The root of the whole and of its factors; those of the numerator too: which velocities are independent, hence whether
+ * 1 + y^2 or 1 + 1/y^2 is the mass, must not matter. */
 static void add_roots_of(harvester *h, nh_ex e)
 {
     nh_dag *d = h->o->dag;
@@ -328,11 +340,13 @@ static void add_roots_of(harvester *h, nh_ex e)
     nh_ex each[2] = {e, numerator};
     for (size_t k = 0; k < (numerator == e ? 1 : 2); k++) {
         add_root(h, each[k]);
-        for (size_t j = 0; nh_kind_of(d, each[k]) == NH_PRODUCT && j < nh_arity(d, each[k]); j++) add_root(h, nh_child(d, each[k], j));
+        for (size_t j = 0; nh_kind_of(d, each[k]) == NH_PRODUCT && j < nh_arity(d, each[k]); j++)
+            add_root(h, nh_child(d, each[k], j));
     }
 }
 
-/* Roots of the mass matrix' diagonal and of its determinant: densities of invariant measures, and currents with them. */
+/* Roots of the mass matrix' diagonal and of its determinant: densities of invariant measures, and currents with
+   them. */
 static void add_roots(harvester *h)
 {
     nh_model *o = h->o;
@@ -366,9 +380,11 @@ static void potential_terms(harvester *h, nh_ex e, int depth)
     }
     for (size_t i = 0; nh_kind_of(d, e) == NH_PRODUCT && depth && i < nh_arity(d, e); i++) {
         nh_ex sum = nh_child(d, e, i);
-        if (nh_kind_of(d, sum) != NH_SUM || !nh_is_number(d, nh_exponent_of(d, e, i), 1) || !has_position(h->o, sum)) continue;
+        if (nh_kind_of(d, sum) != NH_SUM || !nh_is_number(d, nh_exponent_of(d, e, i), 1) || !has_position(h->o, sum))
+            continue;
         nh_ex factor = nh_div(d, e, sum);
-        for (size_t j = 0; j < nh_arity(d, sum); j++) potential_terms(h, nh_mul(d, factor, nh_child(d, sum, j)), depth - 1);
+        for (size_t j = 0; j < nh_arity(d, sum); j++)
+            potential_terms(h, nh_mul(d, factor, nh_child(d, sum, j)), depth - 1);
         if (!nh_num_is(nh_constant_of(d, sum), 0)) potential_terms(h, factor, depth - 1);
         return;
     }
@@ -411,7 +427,8 @@ static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)
 static void shapes(harvester *h)
 {
     nh_model *o = h->o;
-    h->out->waves = 0; /* only angles that the equations of motion contain: harmonics of cyclic ones come out of the pencil */
+    /* only angles that the equations of motion contain: harmonics of cyclic ones come out of the pencil */
+    h->out->waves = 0;
     for (size_t s = 0; s < o->m; s++) {
         nh_ex q = o->system->coordinate[s].q;
         bool plain = false, any = false;
@@ -428,13 +445,25 @@ static void shapes(harvester *h)
 
 static size_t larger(size_t a, size_t b) { return a > b ? a : b; }
 
-static nh_ex *take(const harvester *h) { return nh_arena_alloc(h->o->arena, (h->most + h->o->m + h->o->n + 1) * sizeof(nh_ex)); }
+static nh_ex *take(const harvester *h)
+{
+    return nh_arena_alloc(h->o->arena, (h->most + h->o->m + h->o->n + 1) * sizeof(nh_ex));
+}
 
 nh_dictionary nh_dictionary_of(nh_model *o)
 {
-    harvester h = {.o = o, .most = larger(least_entries, entries_each * o->m), .most_seen = larger(least_seen, seen_each * o->m)};
-    nh_dictionary out = {.velocity = take(&h), .form = take(&h), .atom = take(&h), .potential = take(&h), .momentum = take(&h),
-                         .position = take(&h), .wave = take(&h), .frame = take(&h), .length = take(&h), .shape = take(&h)};
+    harvester h = {
+        .o = o, .most = larger(least_entries, entries_each * o->m), .most_seen = larger(least_seen, seen_each * o->m)};
+    nh_dictionary out = {.velocity = take(&h),
+                         .form = take(&h),
+                         .atom = take(&h),
+                         .potential = take(&h),
+                         .momentum = take(&h),
+                         .position = take(&h),
+                         .wave = take(&h),
+                         .frame = take(&h),
+                         .length = take(&h),
+                         .shape = take(&h)};
     h.out = &out;
     h.seen = nh_alloc_array(h.most_seen, sizeof *h.seen);
     h.all_wave = nh_alloc_array(o->m + 1, sizeof *h.all_wave);
@@ -445,11 +474,13 @@ nh_dictionary nh_dictionary_of(nh_model *o)
     for (size_t a = 0; a < o->k; a++) walk(&h, nh_chart_constraint(o->chart, a));
     h.integrate = false;
     walk(&h, o->system->lagrangian);
-    for (size_t i = 0; i < o->n; i++) add_logarithm(&h, o->M[i * o->n + i], true); /* velocities of masses that change: the integral of 1/M */
+    /* velocities of masses that change: the integral of 1/M */
+    for (size_t i = 0; i < o->n; i++) add_logarithm(&h, o->M[i * o->n + i], true);
     for (size_t s = 0; s < o->m; s++) walk(&h, o->rho[s]);
     for (size_t s = 0; s < o->m; s++)
         if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);
-    for (size_t s = 0; s < o->m; s++) add_momentum(&h, nh_diff(o->dag, o->system->lagrangian, o->system->coordinate[s].v));
+    for (size_t s = 0; s < o->m; s++)
+        add_momentum(&h, nh_diff(o->dag, o->system->lagrangian, o->system->coordinate[s].v));
     potentials(&h);
     frame(&h);
     add_roots(&h);

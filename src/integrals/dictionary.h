@@ -1,13 +1,16 @@
 /* dictionary: what a system itself is made of.
  *
- * Harvested from the expressions of L, of the forces, of the constraints and of the embedding, parameters left symbolic:
+ * Harvested from the expressions of L, of the forces, of the constraints and of the embedding, parameters left
+ * symbolic:
  *
  *     velocities   the chart's and the dependent ones
  *     forms        sums that are linear and homogeneous in the velocities (angular velocities, rolling forms, momenta)
- *     atoms        non-polynomial functions of position and their inverses (1/r, exp(a - b), sqrt(1 + y^2), sin 2phi); integrals of 1/(b + c q) and
+ *     atoms        non-polynomial functions of position and their inverses (1/r, exp(a - b), sqrt(1 + y^2), sin 2phi);
+ *                  integrals of 1/(b + c q) and
  *                  1/(b + c q^2) in forces and constraints
  *     potential    the additive terms of L without velocities, and for angles their first derivatives
- *     frame        M = L D L^T: the forms (L^T w)_i, with the root of D_i's position factor where it is rational (p, q, r of a top)
+ *     frame        M = L D L^T: the forms (L^T w)_i, with the root of D_i's position factor where it is rational (p, q,
+ *                  r of a top)
  *     energy       as one column, whatever it looks like
  *
  * [docs/method.md, sec. 4] */
@@ -22,11 +25,14 @@ typedef struct {
     size_t positions;
     nh_ex *position;    /* the coordinates */
     size_t frames;
-    nh_ex *frame;       /* forms in which the kinetic energy is a sum of squares, each with a factor of position; none when they are velocities */
+    /* forms in which the kinetic energy is a sum of squares, each with a factor of position; none when they are
+       velocities */
+    nh_ex *frame;
     size_t waves;
     nh_ex *wave;        /* angles that occur in sines and cosines of the system, or are declared so */
     size_t lengths;
-    nh_ex *length;      /* coordinates on which the equations of motion depend otherwise than through sines and cosines */
+    /* coordinates on which the equations of motion depend otherwise than through sines and cosines */
+    nh_ex *length;
     size_t shapes;
     nh_ex *shape;       /* coordinates on which the equations of motion depend at all */
 } nh_dictionary;

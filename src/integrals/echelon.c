@@ -13,8 +13,8 @@ nh_nullspace_options nh_nullspace_options_from(const nh_options *o)
 }
 
 /* The null space of explicit terms alone. NULL on failure. */
-static nh_nullspace *echelon_of_terms(const nh_model *model, const nh_points *points, size_t n, const nh_ex *term, const nh_options *options,
-                               nh_error *error)
+static nh_nullspace *echelon_of_terms(const nh_model *model, const nh_points *points, size_t n, const nh_ex *term,
+                                      const nh_options *options, nh_error *error)
 {
     nh_family family = {.kind = NH_TERMS, .terms = n, .term = term};
     nh_ansatz *a = nh_ansatz_create(model, points, 1, &family, n, error);
@@ -128,7 +128,8 @@ static void reduce(table *t, double small)
         size_t term = t->order[i];
         normalise(t, done);
         size_t k = best_vector(t, term, done, &largest);
-        if (largest < small) continue; /* no pivot, but it stays: the last coefficients of a Chebyshev series are small */
+        /* no pivot, but it stays: the last coefficients of a Chebyshev series are small */
+        if (largest < small) continue;
         swap_vectors(t, done, k);
         clear_row(t, term, done);
         t->pivot[done++] = term;
@@ -136,7 +137,8 @@ static void reduce(table *t, double small)
     t->dimension = done;
 }
 
-static table make_table(const nh_model *model, const nh_points *points, const nh_ansatz *a, const nh_nullspace *n, size_t count, double small)
+static table make_table(const nh_model *model, const nh_points *points, const nh_ansatz *a, const nh_nullspace *n,
+                        size_t count, double small)
 {
     table t = {.terms = a->terms, .dimension = count};
     t.v = nh_alloc_array(t.terms * t.dimension + 1, sizeof *t.v);
@@ -148,7 +150,8 @@ static table make_table(const nh_model *model, const nh_points *points, const nh
     for (size_t k = 0; k < t.dimension; k++)
         for (size_t c = 0; c < a->columns; c++) {
             double x = n->vector[c + k * n->columns];
-            for (size_t j = 0; j < t.terms && x != 0; j++) t.v[j + k * t.terms] += a->to_term[j + c * t.terms] * x * t.size[j];
+            for (size_t j = 0; j < t.terms && x != 0; j++)
+                t.v[j + k * t.terms] += a->to_term[j + c * t.terms] * x * t.size[j];
         }
     reduce(&t, small);
     return t;
@@ -164,7 +167,10 @@ static void table_clear(table *t)
 
 /* ---- supports ---- */
 
-static void *take(nh_candidates *list, size_t count, size_t size) { return nh_arena_alloc(list->arena, (count + 1) * size); }
+static void *take(nh_candidates *list, size_t count, size_t size)
+{
+    return nh_arena_alloc(list->arena, (count + 1) * size);
+}
 
 /* The terms above a cut, scaled so that the pivot has coefficient 1. */
 static void select_support(nh_candidate *c, double cut)
@@ -184,7 +190,8 @@ static void select_support(nh_candidate *c, double cut)
     for (size_t j = 0; j < c->count; j++) c->coefficient[j] /= unit;
 }
 
-static nh_candidate candidate_of(nh_candidates *list, const nh_ansatz *a, const table *t, size_t k, double cut, double accepted)
+static nh_candidate candidate_of(nh_candidates *list, const nh_ansatz *a, const table *t, size_t k, double cut,
+                                 double accepted)
 {
     const double *v = t->v + k * t->terms;
     nh_candidate c = {.accepted = accepted};
@@ -236,8 +243,8 @@ static size_t candidate_complexity(const nh_dag *dag, const nh_candidate *c)
     return sum;
 }
 
-nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz, const nh_nullspace *nullspace,
-                          size_t count, const nh_options *options)
+nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz,
+                          const nh_nullspace *nullspace, size_t count, const nh_options *options)
 {
     table t = make_table(model, points, ansatz, nullspace, count, options->support);
     nh_candidates *list = nh_alloc(sizeof *list);
@@ -247,7 +254,8 @@ nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const 
     for (size_t k = 0; k < t.dimension; k++) {
         nh_candidate c = candidate_of(list, ansatz, &t, k, options->support, accepted);
         size_t at = list->count++, own = candidate_complexity(model->dag, &c);
-        for (; at > 0 && candidate_complexity(model->dag, &list->candidate[at - 1]) > own; at--) list->candidate[at] = list->candidate[at - 1];
+        for (; at > 0 && candidate_complexity(model->dag, &list->candidate[at - 1]) > own; at--)
+            list->candidate[at] = list->candidate[at - 1];
         list->candidate[at] = c;
     }
     table_clear(&t);

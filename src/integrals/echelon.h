@@ -1,8 +1,8 @@
 /* echelon: a null space in its simplest representatives.
  *
- * The terms are ordered by complexity; the reduced echelon form with the most complex pivots first gives each vector the simplest
- * tail.  Entries are compared in the size of c_j b_j, not of c_j.  Small entries are then tried as zeros: the coefficients are
- * fitted again on the support alone, which also makes them exact to rounding. */
+ * The terms are ordered by complexity; the reduced echelon form with the most complex pivots first gives each vector
+ * the simplest tail.  Entries are compared in the size of c_j b_j, not of c_j.  Small entries are then tried as zeros:
+ * the coefficients are fitted again on the support alone, which also makes them exact to rounding. */
 #ifndef NH_ECHELON_H
 #define NH_ECHELON_H
 
@@ -31,10 +31,11 @@ typedef struct {
 nh_nullspace_options nh_nullspace_options_from(const nh_options *options);
 
 /* Echelon form of the first `count` vectors (nullspace->dimension, or ->likely): coefficients to about seven digits. */
-nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz, const nh_nullspace *nullspace,
-                          size_t count, const nh_options *options);
+nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz,
+                          const nh_nullspace *nullspace, size_t count, const nh_options *options);
 /* The smallest support of a candidate that satisfies the equations as well as the null space did, fitted again. */
-void nh_echelon_refine(const nh_model *model, const nh_points *points, nh_candidate *candidate, const nh_options *options);
+void nh_echelon_refine(const nh_model *model, const nh_points *points, nh_candidate *candidate,
+                       const nh_options *options);
 
 void nh_candidates_free(nh_candidates *candidates);
 

@@ -15,7 +15,8 @@ nh_ex nh_exact_values(const nh_model *o, nh_ex e)
     return e;
 }
 
-/* The implicit velocities to the ball's precision: chord iteration u := u - J^-1 f(u) with J^-1 from doubles gains about 15 digits a step. */
+/* The implicit velocities to the ball's precision: chord iteration u := u - J^-1 f(u) with J^-1 from doubles gains
+   about 15 digits a step. */
 static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
 {
     nh_dag *d = o->dag;
@@ -30,7 +31,8 @@ static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
     for (size_t i = 0; i < k && regular; i++) {
         fresh[i] = nh_symbol_fresh(d, "u");
         next[i] = c->u[i];
-        for (size_t j = 0; j < k; j++) { /* a symbol, not a number: a double would be multiplied into f's exact coefficients */
+        /* a symbol, not a number: a double would be multiplied into f's exact coefficients */
+        for (size_t j = 0; j < k; j++) {
             nh_ex entry = nh_symbol_fresh(d, "J");
             nh_ball_set_double(ball, entry, inverse[i + j * k]);
             next[i] = nh_sub(d, next[i], nh_mul(d, entry, nh_exact_values(o, c->residual[j])));
@@ -47,8 +49,9 @@ static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
     nh_free(out);
 }
 
-/* A short rational near x, p/q with steps of less than a thousandth of the interval, so that points differ however small it is; where that does
- * not fit into 64 bits, the double itself, which is also a rational.  Returns the value. */
+/* A short rational near x, p/q with steps of less than a thousandth of the interval, so that points differ however
+ * small it is; where that does not fit into 64 bits, the double itself, which is also a rational.  Returns the
+ * value. */
 static double set_near(nh_ball *ball, nh_ex symbol, double x, double span)
 {
     enum { grid = 997 };
@@ -68,7 +71,8 @@ static double set_near(nh_ball *ball, nh_ex symbol, double x, double span)
 static bool complete(const nh_model *o, nh_ball *ball, double *z)
 {
     bool usable = nh_chart_complete(o->chart, z);
-    for (size_t j = o->width - o->chart->implicit; j < o->width; j++) nh_ball_set_double(ball, o->chart->symbol[j], z[j]);
+    for (size_t j = o->width - o->chart->implicit; j < o->width; j++)
+        nh_ball_set_double(ball, o->chart->symbol[j], z[j]);
     if (usable && o->chart->implicit) refine_implicit(o, ball, z);
     return usable;
 }

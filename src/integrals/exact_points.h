@@ -8,11 +8,12 @@
 /* e with the parameters at their given values, decimals being the ratios that they are written as. */
 nh_ex nh_exact_values(const nh_model *model, nh_ex e);
 
-/* Set the ball's symbols (t, q, w, u) to a random point with short rational coordinates; implicit velocities are solved for with the ball's
- * precision.  False when the constraints have no solution there.  `state` is that of nh_random. */
+/* Set the ball's symbols (t, q, w, u) to a random point with short rational coordinates; implicit velocities are solved
+ * for with the ball's precision.  False when the constraints have no solution there.  `state` is that of nh_random. */
 bool nh_exact_point(const nh_model *model, nh_ball *ball, uint64_t *state);
 
-/* The same at the point (t, q, w) that begins z; its implicit velocities, which start Newton's iteration, also get their values in z. */
+/* The same at the point (t, q, w) that begins z; its implicit velocities, which start Newton's iteration, also get
+   their values in z. */
 bool nh_exact_at(const nh_model *model, nh_ball *ball, double *z);
 
 /* Set the ball's parameters to their given values, for expressions that keep them as symbols. */

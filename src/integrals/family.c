@@ -16,14 +16,16 @@ bool nh_family_contains(const nh_model *model, const nh_family *f, nh_ex unknown
     return false;
 }
 
-static const nh_ex *substitute_all(nh_arena *arena, nh_dag *dag, size_t count, const nh_ex *e, size_t n, const nh_ex *from, const nh_ex *to)
+static const nh_ex *substitute_all(nh_arena *arena, nh_dag *dag, size_t count, const nh_ex *e, size_t n,
+                                   const nh_ex *from, const nh_ex *to)
 {
     nh_ex *out = nh_arena_alloc(arena, (count + 1) * sizeof *out);
     for (size_t i = 0; i < count; i++) out[i] = nh_substitute(dag, e[i], n, from, to);
     return out;
 }
 
-nh_family nh_family_substitute(nh_arena *arena, nh_dag *dag, const nh_family *f, size_t n, const nh_ex *from, const nh_ex *to)
+nh_family nh_family_substitute(nh_arena *arena, nh_dag *dag, const nh_family *f, size_t n, const nh_ex *from,
+                               const nh_ex *to)
 {
     nh_family g = *f;
     g.in = substitute_all(arena, dag, f->in_count, f->in, n, from, to);

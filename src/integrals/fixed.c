@@ -44,7 +44,9 @@ const char *nh_fixed_text(const nh_model *o, const bool *fixed)
     nh_text text;
     nh_text_init(&text);
     for (size_t i = 0; i < o->system->parameters; i++)
-        if (fixed[i]) nh_text_addf(&text, "%s%s = %.15g", nh_text_string(&text)[0] ? ", " : "", o->system->parameter[i].name, o->parameter_value[i]);
+        if (fixed[i])
+            nh_text_addf(&text, "%s%s = %.15g", nh_text_string(&text)[0] ? ", " : "", o->system->parameter[i].name,
+                         o->parameter_value[i]);
     const char *out = nh_arena_strdup(o->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
@@ -63,7 +65,9 @@ bool nh_fixed_is_like(const nh_model *o, size_t n, const nh_ex *exact, const dou
             largest = fabs(like[j]);
             factor = value[j] / like[j];
         }
-    for (size_t j = 0; j < n; j++) worst = isfinite(value[j]) ? fmax(worst, fabs(value[j] - factor * like[j])) : INFINITY; /* 0/0 for special values */
+    /* 0/0 for special values */
+    for (size_t j = 0; j < n; j++)
+        worst = isfinite(value[j]) ? fmax(worst, fabs(value[j] - factor * like[j])) : INFINITY;
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(value);
@@ -88,7 +92,8 @@ static nh_relation_verdict relation(const problem *p, const bool *fixed, nh_ex *
         if (!fixed || !fixed[i]) p->free[count++] = o->parameter[i];
     for (size_t j = 0; j < p->n; j++) p->valued[j] = fixed ? nh_fixed_values(o, fixed, p->e[j]) : p->e[j];
     nh_relation_verdict verdict = nh_relation_find(o->dag, p->n, p->valued, count, p->free, p->limit, out);
-    if (verdict == NH_RELATION_UNIQUE && p->like && !nh_fixed_is_like(o, p->n, out, p->like)) verdict = NH_RELATION_NONE;
+    if (verdict == NH_RELATION_UNIQUE && p->like && !nh_fixed_is_like(o, p->n, out, p->like))
+        verdict = NH_RELATION_NONE;
     return verdict;
 }
 
@@ -150,7 +155,8 @@ static bool is_related(const bool *fixed, void *context)
     return true;
 }
 
-nh_fixed nh_fixed_relation(const nh_model *o, size_t n, const nh_ex *e, const double *like, const nh_options *options, nh_ex *coefficient)
+nh_fixed nh_fixed_relation(const nh_model *o, size_t n, const nh_ex *e, const double *like, const nh_options *options,
+                           nh_ex *coefficient)
 {
     size_t all = o->system->parameters;
     nh_ex *work = nh_alloc_array(2 * n + all + 1, sizeof *work);

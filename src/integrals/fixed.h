@@ -2,9 +2,9 @@
  *
  *     sum_j c_j e_j = 0,    c_j in Q(parameters)
  *
- * First every parameter is a symbol.  Where there is no such relation some of them must have their values: beginning with all of them fixed, one after the
- * other is set free as long as the relation remains.  Those that the user set, and short values (1 before 0.6173), are set free last, because it
- * is at these that something special happens. */
+ * First every parameter is a symbol.  Where there is no such relation some of them must have their values: beginning
+ * with all of them fixed, one after the other is set free as long as the relation remains.  Those that the user set,
+ * and short values (1 before 0.6173), are set free last, because it is at these that something special happens. */
 #ifndef NH_FIXED_H
 #define NH_FIXED_H
 
@@ -18,15 +18,20 @@ typedef struct {
     bool too_large;      /* what holds for other values than the given ones could not be decided */
 } nh_fixed;
 
-/* The coefficients of the only relation among e (n of them); `like`: it must be this vector at the parameters' values, up to a factor (NULL: any). */
-nh_fixed nh_fixed_relation(const nh_model *model, size_t n, const nh_ex *e, const double *like, const nh_options *options, nh_ex *coefficient);
+/* The coefficients of the only relation among e (n of them); `like`: it must be this vector at the parameters' values,
+   up to a factor (NULL: any). */
+nh_fixed nh_fixed_relation(const nh_model *model, size_t n, const nh_ex *e, const double *like,
+                           const nh_options *options, nh_ex *coefficient);
 
-/* Are the exact coefficients these numbers at the parameters' values, up to a factor?  (A relation may exist that is not the one that was fitted.) */
+/* Are the exact coefficients these numbers at the parameters' values, up to a factor?  (A relation may exist that is
+   not the one that was fitted.) */
 bool nh_fixed_is_like(const nh_model *model, size_t n, const nh_ex *exact, const double *like);
 
-/* Which parameters must have their values for something to hold that holds with all of them fixed: `occurring` are expressions with those that matter. */
+/* Which parameters must have their values for something to hold that holds with all of them fixed: `occurring` are
+   expressions with those that matter. */
 typedef bool nh_fixed_test(const bool *fixed, void *context);
-const bool *nh_fixed_least(const nh_model *model, size_t n, const nh_ex *occurring, nh_fixed_test *holds, void *context);
+const bool *nh_fixed_least(const nh_model *model, size_t n, const nh_ex *occurring, nh_fixed_test *holds,
+                           void *context);
 
 /* What must be fixed for two statements: NULL as well as an empty list means nothing. */
 const bool *nh_fixed_both(const nh_model *model, const bool *a, const bool *b);

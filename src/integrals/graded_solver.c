@@ -1,5 +1,5 @@
-/* The linear system Gamma(Phi) = 0 weight by weight, with sparse elimination of the symbol, component by component, and a dense echelon form for the
- * conditions on the parameters. */
+/* The linear system Gamma(Phi) = 0 weight by weight, with sparse elimination of the symbol, component by component, and
+ * a dense echelon form for the conditions on the parameters. */
 #include "integrals/graded_solver_internal.h"
 
 #include <math.h>
@@ -117,9 +117,11 @@ static void more_room(nh_graded_system *s)
         s->over = true;
         return;
     }
-    nh_residue *wider = nh_alloc_array(rows * stride, sizeof *wider), *conditions = nh_alloc_array(s->conditions * stride + 1, sizeof *conditions);
+    nh_residue *wider = nh_alloc_array(rows * stride, sizeof *wider),
+               *conditions = nh_alloc_array(s->conditions * stride + 1, sizeof *conditions);
     for (size_t i = 0; old && i < rows; i++) memcpy(wider + i * stride, s->row + i * old, s->N * sizeof *wider);
-    for (size_t i = 0; old && i < s->conditions; i++) memcpy(conditions + i * stride, s->condition + i * old, s->reached * sizeof *conditions);
+    for (size_t i = 0; old && i < s->conditions; i++)
+        memcpy(conditions + i * stride, s->condition + i * old, s->reached * sizeof *conditions);
     nh_free(s->row);
     nh_free(s->condition);
     s->row = wider;
@@ -208,7 +210,8 @@ static void equations(nh_graded_system *s)
 
 static bool is_last(const nh_graded_system *s) { return s->k + 1 >= s->r->order; }
 
-/* The new conditions, as few random combinations as can have their rank (fewer conditions can only leave more parameters), into out; how many. */
+/* The new conditions, as few random combinations as can have their rank (fewer conditions can only leave more
+   parameters), into out; how many. */
 static size_t compress(nh_graded_system *s, nh_residue *out)
 {
     size_t columns = s->before, wanted = columns - s->conditions + spare_rows;
@@ -231,7 +234,8 @@ static size_t compress(nh_graded_system *s, nh_residue *out)
     return wanted;
 }
 
-/* The coefficients that are looked at later: all up to this weight, or at the end those of the first jets, unless all are kept. */
+/* The coefficients that are looked at later: all up to this weight, or at the end those of the first jets, unless all
+   are kept. */
 static size_t coefficients_left(const nh_graded_system *s, uint32_t *out)
 {
     size_t last = s->r->first[s->k + 2], m = s->r->variables, count = 0;
@@ -248,11 +252,12 @@ static size_t coefficients_left(const nh_graded_system *s, uint32_t *out)
     return jets ? count : last;
 }
 
-/* The parameters that are no pivots take over: each coefficient keeps its entries there, and what its entries at the pivots bring.  Echelon: of the parameters, the latest
- * first. */
+/* The parameters that are no pivots take over: each coefficient keeps its entries there, and what its entries at the
+ * pivots bring.  Echelon: of the parameters, the latest first. */
 static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t rank, const size_t *pivots)
 {
-    size_t columns = s->reached, kept = 0, among = 0, left = coefficients_left(s, NULL), *from = nh_alloc_array(s->N + 1, sizeof *from);
+    size_t columns = s->reached, kept = 0, among = 0, left = coefficients_left(s, NULL),
+           *from = nh_alloc_array(s->N + 1, sizeof *from);
     uint32_t *exponent = nh_alloc_array(left + 1, sizeof *exponent);
     bool *gone = nh_alloc_array(s->N + 1, sizeof *gone);
     coefficients_left(s, exponent);
@@ -261,7 +266,8 @@ static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t ra
         if (!gone[j]) from[kept++] = j;
         if (j + 1 == columns) among = kept;
     }
-    nh_residue *condition = nh_alloc_array(rank * among + 1, sizeof *condition), *factor = nh_alloc_array(rank + 1, sizeof *factor);
+    nh_residue *condition = nh_alloc_array(rank * among + 1, sizeof *condition),
+               *factor = nh_alloc_array(rank + 1, sizeof *factor);
     const nh_residue **row = nh_alloc_array(rank + 1, sizeof *row);
     for (size_t q = 0; q < rank; q++) {
         row[q] = condition + q * among;
@@ -288,12 +294,14 @@ static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t ra
 /* Is there work left for it? */
 static bool may_substitute(nh_graded_system *s, size_t rank)
 {
-    double work = (double)s->alphas * (double)coefficients_left(s, NULL) * (double)rank * (double)(s->reached - rank + 1);
+    double work =
+        (double)s->alphas * (double)coefficients_left(s, NULL) * (double)rank * (double)(s->reached - rank + 1);
     s->over |= s->work + work > s->p->most_work;
     return !s->over;
 }
 
-/* All conditions in echelon form; before the end they are substituted where few parameters survive, and always in a long series, which has few of them. */
+/* All conditions in echelon form; before the end they are substituted where few parameters survive, and always in a
+   long series, which has few of them. */
 static void use_conditions(nh_graded_system *s)
 {
     size_t columns = s->before;
@@ -304,7 +312,8 @@ static void use_conditions(nh_graded_system *s)
     nh_residue *all = nh_alloc_array((s->conditions + s->fresh_count + 1) * columns, sizeof *all);
     for (size_t q = 0; q < s->conditions; q++)
         for (size_t j = 0; j < s->reached; j++) all[q * columns + columns - 1 - j] = s->condition[q * s->stride + j];
-    size_t count = s->conditions + compress(s, all + s->conditions * columns), *pivot = nh_alloc_array(columns + 1, sizeof *pivot);
+    size_t count = s->conditions + compress(s, all + s->conditions * columns),
+           *pivot = nh_alloc_array(columns + 1, sizeof *pivot);
     size_t rank = nh_residue_matrix_echelon(s->f, count, columns, columns, all, pivot);
     s->work += (double)count * (double)columns * (double)rank;
     s->reached = columns;
@@ -361,7 +370,8 @@ static void keep_series(nh_graded_system *s, nh_graded_count *out)
 {
     size_t rows = s->alphas * s->r->size;
     out->series = nh_arena_alloc(s->arena, rows * s->N * sizeof *out->series + 1);
-    for (size_t i = 0; i < rows; i++) memcpy(out->series + i * s->N, s->row + i * s->stride, s->N * sizeof *out->series);
+    for (size_t i = 0; i < rows; i++)
+        memcpy(out->series + i * s->N, s->row + i * s->stride, s->N * sizeof *out->series);
 }
 
 /* What is left of the conditions is used, and the first jets of the solutions are kept, or all of them. */
@@ -373,7 +383,8 @@ static void finish(nh_graded_system *s, nh_graded_count *out)
         size_t *pivot = nh_alloc_array(s->conditions, sizeof *pivot);
         nh_residue *all = nh_alloc_array(s->conditions * s->reached, sizeof *all);
         for (size_t q = 0; q < s->conditions; q++) {
-            for (size_t j = 0; j < s->reached; j++) all[q * s->reached + s->reached - 1 - j] = s->condition[q * s->stride + j];
+            for (size_t j = 0; j < s->reached; j++)
+                all[q * s->reached + s->reached - 1 - j] = s->condition[q * s->stride + j];
             while (!all[q * s->reached + pivot[q]]) pivot[q]++;
         }
         substitute(s, all, s->conditions, pivot);
@@ -388,7 +399,8 @@ static void finish(nh_graded_system *s, nh_graded_count *out)
     for (size_t a = 0; a < s->alphas; a++)
         for (size_t k = 0; k <= m; k++) {
             size_t e = k ? s->r->up[(k - 1) * s->r->size] : 0;
-            if (e < s->r->size) memcpy(out->jet + (a * (1 + m) + k) * s->N, nh_graded_row(s, a, e), s->N * sizeof *out->jet);
+            if (e < s->r->size)
+                memcpy(out->jet + (a * (1 + m) + k) * s->N, nh_graded_row(s, a, e), s->N * sizeof *out->jet);
         }
     if (s->p->keep) keep_series(s, out);
 }

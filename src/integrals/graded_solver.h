@@ -2,12 +2,12 @@
  *
  *     Phi = sum over |alpha| <= d of c_alpha(z) w^alpha,      Gamma(Phi) = 0
  *
- * is a linear system of first order for the c_alpha, solved weight by weight: the coefficients of weight k + 1 enter the equations of weight k
- * through the symbol, which has constant coefficients; what it leaves free becomes a parameter, what it cannot meet a condition on the
- * parameters of before.
+ * is a linear system of first order for the c_alpha, solved weight by weight: the coefficients of weight k + 1 enter
+ * the equations of weight k through the symbol, which has constant coefficients; what it leaves free becomes a
+ * parameter, what it cannot meet a condition on the parameters of before.
  *
- * N(r), the parameters that are free after the equations of weights 0 .. r - 1, bounds the number of integrals of degree d from above, once the
- * symbol is injective at some weight below r + 1 (docs/method.md, sec. 10). */
+ * N(r), the parameters that are free after the equations of weights 0 .. r - 1, bounds the number of integrals of
+ * degree d from above, once the symbol is injective at some weight below r + 1 (docs/method.md, sec. 10). */
 #ifndef NH_GRADED_SOLVER_H
 #define NH_GRADED_SOLVER_H
 
@@ -35,7 +35,8 @@ typedef struct {
     size_t unknowns, most;      /* coefficients; the largest number of parameters */
     size_t alphas;              /* monomials in the velocities */
     const uint8_t *alpha;       /* alphas x n: their exponents */
-    nh_residue *jet;            /* alphas x (1 + variables) x N(order): c_alpha(0) and its derivatives along the coordinates, of every solution */
+    /* alphas x (1 + variables) x N(order): c_alpha(0) and its derivatives along the coordinates, of every solution */
+    nh_residue *jet;
     nh_residue *series;         /* alphas x size x N(order), when they are kept: c_alpha */
     double work;
     nh_arena *arena;

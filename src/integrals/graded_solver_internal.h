@@ -25,7 +25,8 @@ typedef struct {
     double work;
     bool over;              /* a limit was met */
     /* of the weight k that is being solved: */
-    size_t k, unknowns_of, first, equations;  /* exponents of weight k + 1: their number and the first; equations of weight k */
+    /* exponents of weight k + 1: their number and the first; equations of weight k */
+    size_t k, unknowns_of, first, equations;
     nh_residue *known;      /* equations x N */
     nh_graded_entry *symbol;          /* by equation */
     size_t *start;          /* equations + 1: entries of each */
@@ -43,7 +44,8 @@ static inline nh_residue *nh_graded_row(const nh_graded_system *s, size_t alpha,
 /* This coefficient is free. */
 void nh_graded_parameter(nh_graded_system *system, size_t alpha, size_t exponent);
 
-/* The equations of weight k, for the unknowns of weight k + 1: what cannot be met becomes a condition on the parameters of before. */
+/* The equations of weight k, for the unknowns of weight k + 1: what cannot be met becomes a condition on the parameters
+   of before. */
 void nh_graded_solve_symbol(nh_graded_system *system);
 
 #endif

@@ -1,4 +1,5 @@
-/* The symbol of one weight: its components, each by sparse elimination with the shortest row and its rarest column first. */
+/* The symbol of one weight: its components, each by sparse elimination with the shortest row and its rarest column
+   first. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,7 +36,8 @@ typedef struct {
 /* to := to + factor * from, both sorted by column */
 static void combine(nh_graded_system *s, component *c, size_t to, size_t from, nh_residue factor)
 {
-    cell *a = c->cells[to], *b = c->cells[from], *out = nh_alloc_array(c->length[to] + c->length[from] + 1, sizeof *out);
+    cell *a = c->cells[to], *b = c->cells[from],
+         *out = nh_alloc_array(c->length[to] + c->length[from] + 1, sizeof *out);
     size_t x = 0, y = 0, n = 0, na = c->length[to], nb = c->length[from];
     while (x < na || y < nb) {
         if (y == nb || (x < na && a[x].column < b[y].column)) {
@@ -53,7 +55,8 @@ static void combine(nh_graded_system *s, component *c, size_t to, size_t from, n
     nh_free(a);
     c->cells[to] = out;
     c->length[to] = n;
-    nh_residue_add_multiple(s->f, s->before, s->known + c->equation[to] * s->before, s->known + c->equation[from] * s->before, factor);
+    nh_residue_add_multiple(s->f, s->before, s->known + c->equation[to] * s->before,
+                            s->known + c->equation[from] * s->before, factor);
     s->work += (double)(s->before + 8 * n); /* an entry costs more than a product: its row is made anew */
 }
 
@@ -75,7 +78,8 @@ static void take_pivot(nh_graded_system *s, component *c, size_t i)
     for (size_t z = 1; z < c->length[i]; z++)
         if (c->count[c->cells[i][z].column] < c->count[c->cells[i][at].column]) at = z;
     size_t column = c->cells[i][at].column;
-    nh_residue inverse = nh_residue_inverse(s->f, c->cells[i][at].value), *known = s->known + c->equation[i] * s->before;
+    nh_residue inverse = nh_residue_inverse(s->f, c->cells[i][at].value),
+               *known = s->known + c->equation[i] * s->before;
     for (size_t z = 0; z < c->length[i]; z++) {
         c->cells[i][z].value = nh_residue_mul(s->f, c->cells[i][z].value, inverse);
         c->count[c->cells[i][z].column]--;
@@ -106,7 +110,8 @@ static void eliminate(nh_graded_system *s, component *c)
 static void back_substitute(nh_graded_system *s, component *c)
 {
     for (size_t j = 0; j < c->columns && !s->over; j++)
-        if (!c->pivoted[j]) nh_graded_parameter(s, c->unknown[j] / s->unknowns_of, s->first + c->unknown[j] % s->unknowns_of);
+        if (!c->pivoted[j])
+            nh_graded_parameter(s, c->unknown[j] / s->unknowns_of, s->first + c->unknown[j] % s->unknowns_of);
     for (size_t t = c->rank; t-- > 0 && !s->over;) {
         size_t i = c->pivot_row[t], u = c->unknown[c->pivot_column[t]];
         nh_residue *out = nh_graded_row(s, u / s->unknowns_of, s->first + u % s->unknowns_of);
@@ -114,7 +119,10 @@ static void back_substitute(nh_graded_system *s, component *c)
         for (size_t j = 0; j < s->before; j++) out[j] = nh_residue_negative(s->f, known[j]);
         for (size_t z = 0; z < c->length[i]; z++) {
             size_t other = c->unknown[c->cells[i][z].column];
-            if (other != u) nh_residue_add_multiple(s->f, s->N, out, nh_graded_row(s, other / s->unknowns_of, s->first + other % s->unknowns_of), nh_residue_negative(s->f, c->cells[i][z].value));
+            if (other != u)
+                nh_residue_add_multiple(s->f, s->N, out,
+                                        nh_graded_row(s, other / s->unknowns_of, s->first + other % s->unknowns_of),
+                                        nh_residue_negative(s->f, c->cells[i][z].value));
             s->work += (double)s->N;
         }
     }
@@ -189,13 +197,16 @@ static void group(size_t count, const size_t *key, size_t keys, size_t *start, s
 void nh_graded_solve_symbol(nh_graded_system *s)
 {
     size_t unknowns = s->alphas * s->unknowns_of, components = 0, connected = 0;
-    size_t *parent = nh_alloc_array(unknowns + 1, sizeof *parent), *number = nh_alloc_array(unknowns + 1, sizeof *number), *place = nh_alloc_array(unknowns + 1, sizeof *place);
-    size_t *list = nh_alloc_array(s->equations + 1, sizeof *list), *of = nh_alloc_array(s->equations + 1, sizeof *of), *order = nh_alloc_array(s->equations + 1, sizeof *order);
+    size_t *parent = nh_alloc_array(unknowns + 1, sizeof *parent),
+           *number = nh_alloc_array(unknowns + 1, sizeof *number), *place = nh_alloc_array(unknowns + 1, sizeof *place);
+    size_t *list = nh_alloc_array(s->equations + 1, sizeof *list), *of = nh_alloc_array(s->equations + 1, sizeof *of),
+           *order = nh_alloc_array(s->equations + 1, sizeof *order);
     s->fresh = nh_alloc_array(s->equations * s->before + 1, sizeof *s->fresh);
     s->fresh_count = 0;
     for (size_t i = 0; i < unknowns; i++) parent[i] = i;
     for (size_t q = 0; q < s->equations; q++)
-        for (size_t z = s->start[q] + 1; z < s->start[q + 1]; z++) parent[root_of(parent, s->symbol[z].unknown)] = root_of(parent, s->symbol[z - 1].unknown);
+        for (size_t z = s->start[q] + 1; z < s->start[q + 1]; z++)
+            parent[root_of(parent, s->symbol[z].unknown)] = root_of(parent, s->symbol[z - 1].unknown);
     for (size_t i = 0; i < unknowns; i++)
         if (root_of(parent, i) == i) number[i] = components++;
     for (size_t i = 0; i < unknowns; i++) number[i] = number[root_of(parent, i)]; /* roots keep theirs */
@@ -207,12 +218,17 @@ void nh_graded_solve_symbol(nh_graded_system *s)
             of[connected++] = number[s->symbol[s->start[q]].unknown];
         }
     }
-    size_t *rows = nh_alloc_array(components + 3, sizeof *rows), *columns = nh_alloc_array(components + 3, sizeof *columns), *member = nh_alloc_array(unknowns + 1, sizeof *member);
+    size_t *rows = nh_alloc_array(components + 3, sizeof *rows),
+           *columns = nh_alloc_array(components + 3, sizeof *columns),
+           *member = nh_alloc_array(unknowns + 1, sizeof *member);
     group(connected, of, components, rows, order);
     group(unknowns, number, components, columns, member);
     for (size_t i = 0; i < connected; i++) order[i] = list[order[i]];
     for (size_t k = 0; k < components && !s->over && !nh_late(); k++) {
-        component c = {.rows = rows[k + 1] - rows[k], .columns = columns[k + 1] - columns[k], .equation = order + rows[k], .unknown = member + columns[k]};
+        component c = {.rows = rows[k + 1] - rows[k],
+                       .columns = columns[k + 1] - columns[k],
+                       .equation = order + rows[k],
+                       .unknown = member + columns[k]};
         for (size_t j = 0; j < c.columns; j++) place[c.unknown[j]] = j;
         solve_component(s, &c, place);
     }

@@ -1,5 +1,5 @@
-/* gradient_rank: does a current's gradient lie in the span of others' gradients?  Decided in ball arithmetic at random exact
- * points of the constraint submanifold.
+/* gradient_rank: does a current's gradient lie in the span of others' gradients?  Decided in ball arithmetic at random
+ * exact points of the constraint submanifold.
  *
  * Where what is left of it excludes zero at one point, it is independent, and that is a proof for the given
  * parameters: no relation between functions is assumed.  Where it contains zero at every point, within many digits,

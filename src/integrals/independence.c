@@ -23,7 +23,8 @@ static double median(size_t n, double *x)
     return x[n / 2];
 }
 
-/* The size of what e is summed from, to first order in the rounding of its parts: a sum of sizes, and b^x with size(b) |b|^(x-1). */
+/* The size of what e is summed from, to first order in the rounding of its parts: a sum of sizes, and b^x with size(b)
+   |b|^(x-1). */
 static nh_ex size_of(nh_dag *d, nh_ex e, int depth)
 {
     nh_kind kind = nh_kind_of(d, e);
@@ -31,14 +32,19 @@ static nh_ex size_of(nh_dag *d, nh_ex e, int depth)
     nh_ex size = nh_call(d, NH_ABS, nh_number(d, nh_constant_of(d, e)));
     for (size_t i = 0; i < nh_arity(d, e); i++) {
         nh_ex child = nh_child(d, e, i), own = size_of(d, child, depth - 1);
-        if (kind == NH_SUM) size = nh_add(d, size, nh_mul(d, nh_call(d, NH_ABS, nh_number(d, nh_coefficient_of(d, e, i))), own));
-        else size = nh_product(d, 3, (nh_ex[]){size, own, nh_call(d, NH_ABS, nh_pow(d, child, nh_sub(d, nh_exponent_of(d, e, i), nh_int(d, 1))))});
+        if (kind == NH_SUM)
+            size = nh_add(d, size, nh_mul(d, nh_call(d, NH_ABS, nh_number(d, nh_coefficient_of(d, e, i))), own));
+        else
+            size = nh_product(
+                d, 3,
+                (nh_ex[]){size, own,
+                          nh_call(d, NH_ABS, nh_pow(d, child, nh_sub(d, nh_exponent_of(d, e, i), nh_int(d, 1))))});
     }
     return size;
 }
 
-/* Gradients d phi / d z_j over (t, q, w), times the half width of the sampling box in z_j, so that units do not matter; implicit velocities are followed by the rules of diff.h.
- * After them the sizes of what each phi is summed from. */
+/* Gradients d phi / d z_j over (t, q, w), times the half width of the sampling box in z_j, so that units do not matter;
+ * implicit velocities are followed by the rules of diff.h. After them the sizes of what each phi is summed from. */
 static double *gradients(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, size_t width)
 {
     nh_ex *e = nh_alloc_array(n * (width + 1) + 1, sizeof *e);
@@ -60,7 +66,8 @@ typedef struct {
     double *basis; /* per point: accepted orthonormal gradients */
 } frame;
 
-/* Remove the accepted directions (twice, for round-off); returns what is left of |g|, -1 when g is not finite or not above `noise`. */
+/* Remove the accepted directions (twice, for round-off); returns what is left of |g|, -1 when g is not finite or not
+   above `noise`. */
 static double remaining(const frame *f, size_t point, double *g, double noise)
 {
     double before = 0, after = 0;
@@ -102,8 +109,8 @@ static nh_independence decide(const nh_model *o, size_t k, const nh_ex *phi, con
     return rank.answer == NH_RANK_GROWS ? NH_INDEPENDENT : rank.answer == NH_RANK_STAYS ? NH_DEPENDENT : NH_DOUBTFUL;
 }
 
-void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, double sure, double doubt,
-                          nh_independence *out, double *fraction)
+void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, double sure,
+                          double doubt, nh_independence *out, double *fraction)
 {
     size_t width = 1 + o->m + o->n, count = points->count;
     double *g = gradients(o, points, n, phi, width);
@@ -113,7 +120,8 @@ void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, 
         size_t usable = 0, still = 0;
         for (size_t p = 0; p < count; p++) {
             for (size_t j = 0; j < width; j++) rest[p * width + j] = g[(k * width + j) * count + p];
-            double noise = DBL_EPSILON / doubt * g[(n * width + k) * count + p], r = remaining(&f, p, rest + p * width, noise);
+            double noise = DBL_EPSILON / doubt * g[(n * width + k) * count + p],
+                   r = remaining(&f, p, rest + p * width, noise);
             if (r >= 0) left[usable++] = r;
             else still += isfinite(noise);
         }

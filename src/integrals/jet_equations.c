@@ -1,4 +1,5 @@
-/* The equations of motion as power series: values at a few velocities give the coefficients of the polynomials in the velocities. */
+/* The equations of motion as power series: values at a few velocities give the coefficients of the polynomials in the
+   velocities. */
 #include "integrals/jet_equations.h"
 
 #include <flint/nmod_mat.h>
@@ -24,11 +25,13 @@ static bool has_velocities_inside(const nh_jet_equations *x, size_t first_kernel
     nh_ex *product = nh_alloc_array(most, sizeof *product);
     for (size_t i = 0; i < x->n && !found; i++) {
         if (!nh_depends(x->dag, e, x->w[i])) continue;
-        for (size_t k = first_kernel; k < x->point->kernels && !found; k++) found = nh_depends(x->dag, x->point->kernel[k].key, x->w[i]);
+        for (size_t k = first_kernel; k < x->point->kernels && !found; k++)
+            found = nh_depends(x->dag, x->point->kernel[k].key, x->w[i]);
         size_t n = nh_products_in(x->dag, e, product, most);
         for (size_t k = 0; k < n && !found; k++)
             for (size_t f = 0; f < nh_arity(x->dag, product[k]) && !found; f++)
-                found = nh_num_value(nh_number_of(x->dag, nh_exponent_of(x->dag, product[k], f))) < 0 && nh_depends(x->dag, nh_child(x->dag, product[k], f), x->w[i]);
+                found = nh_num_value(nh_number_of(x->dag, nh_exponent_of(x->dag, product[k], f))) < 0 &&
+                        nh_depends(x->dag, nh_child(x->dag, product[k], f), x->w[i]);
     }
     nh_free(product);
     return found;
@@ -39,7 +42,8 @@ bool nh_jet_equations_take(nh_jet_equations *x, bool polynomial, nh_ex *e)
     size_t kernels = x->point->kernels;
     *e = canonical(x, *e);
     if (!nh_jet_point_register(x->point, 1, e)) x->obstacle = x->point->obstacle;
-    else if (polynomial && has_velocities_inside(x, kernels, *e)) x->obstacle = "functions that are not polynomial in the velocities";
+    else if (polynomial && has_velocities_inside(x, kernels, *e))
+        x->obstacle = "functions that are not polynomial in the velocities";
     return !x->obstacle;
 }
 
@@ -69,7 +73,8 @@ static bool affine(nh_jet_equations *x)
     nh_ex *zero = nh_alloc_array(x->n + 1, sizeof *zero);
     bool found = false;
     for (size_t i = 0; i < x->n; i++) zero[i] = nh_int(x->dag, 0);
-    for (size_t s = 0; s < x->m && !found; s++) found = !nh_is_zero(x->dag, nh_substitute(x->dag, x->rho[s], x->n, x->w, zero));
+    for (size_t s = 0; s < x->m && !found; s++)
+        found = !nh_is_zero(x->dag, nh_substitute(x->dag, x->rho[s], x->n, x->w, zero));
     nh_free(zero);
     return found;
 }
@@ -85,14 +90,16 @@ static double nodes(const nh_jet_equations *x, size_t n, const nh_ex *e)
 static double products(const nh_jet_equations *x)
 {
     double n = (double)x->n, monomials = (double)nh_jet_equations_monomials(x->n);
-    return (n + 2) * nodes(x, x->m, x->rho) + (monomials + n + 1) * nodes(x, x->n, x->A) + 2 * nodes(x, x->n * x->n, x->M) + n * n * (n + monomials);
+    return (n + 2) * nodes(x, x->m, x->rho) + (monomials + n + 1) * nodes(x, x->n, x->A) +
+           2 * nodes(x, x->n * x->n, x->M) + n * n * (n + monomials);
 }
 
 nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool generic)
 {
     nh_arena *arena = nh_arena_create();
     nh_jet_equations *x = nh_arena_alloc(arena, sizeof *x);
-    *x = (nh_jet_equations){.model = o, .dag = o->dag, .arena = arena, .generic = generic, .n = o->n, .m = o->m, .w = o->chart->w};
+    *x = (nh_jet_equations){
+        .model = o, .dag = o->dag, .arena = arena, .generic = generic, .n = o->n, .m = o->m, .w = o->chart->w};
     x->point = nh_jet_point_create(o->dag);
     if (o->chart->implicit) x->obstacle = "velocities that are given implicitly";
     x->rho = take(x, o->m, o->rho);
@@ -116,7 +123,8 @@ static bool occurs(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_ex sy
 
 bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
 {
-    nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate), *rho = nh_arena_alloc(x->arena, (x->m + 1) * sizeof *rho);
+    nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate),
+          *rho = nh_arena_alloc(x->arena, (x->m + 1) * sizeof *rho);
     size_t kept = 0;
     if (x->time) coordinate[0] = x->coordinate[0];
     for (size_t s = 0; s < x->m; s++) {
@@ -152,7 +160,8 @@ void nh_jet_equations_choose(nh_jet_equations *x, nh_prime field, uint64_t seed)
 {
     uint64_t random = seed + 12345;
     nh_jet_point_choose(x->point, field, seed);
-    for (size_t k = 0; k <= x->coordinates + x->model->system->parameters; k++) x->at[k] = nh_residue_random(field, &random);
+    for (size_t k = 0; k <= x->coordinates + x->model->system->parameters; k++)
+        x->at[k] = nh_residue_random(field, &random);
 }
 
 /* ---- values ---- */
@@ -168,9 +177,12 @@ static void set_constant(nh_jet_eval *v, const nh_jet_ring *ring, nh_ex symbol, 
 nh_jet_eval *nh_jet_equations_eval(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate)
 {
     nh_jet_eval *v = nh_jet_eval_create(x->point, ring);
-    for (size_t k = 0; k < x->coordinates; k++) nh_jet_eval_set(v, x->coordinate[k], coordinate + k * ring->size, false);
-    for (size_t k = 0; k < x->model->system->parameters; k++) set_constant(v, ring, x->model->parameter[k], x->at[x->coordinates + k], false);
-    if (!x->time) set_constant(v, ring, x->model->system->t, x->at[x->coordinates + x->model->system->parameters], false);
+    for (size_t k = 0; k < x->coordinates; k++)
+        nh_jet_eval_set(v, x->coordinate[k], coordinate + k * ring->size, false);
+    for (size_t k = 0; k < x->model->system->parameters; k++)
+        set_constant(v, ring, x->model->parameter[k], x->at[x->coordinates + k], false);
+    if (!x->time)
+        set_constant(v, ring, x->model->system->t, x->at[x->coordinates + x->model->system->parameters], false);
     for (size_t i = 0; i < x->n; i++) set_constant(v, ring, x->w[i], 0, true);
     return v;
 }
@@ -181,7 +193,8 @@ void nh_jet_equations_velocities(nh_jet_equations *x, nh_jet_eval *v, const nh_j
 }
 
 /* w = a e_i + b e_j */
-static void two_velocities(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, size_t i, nh_residue a, size_t j, nh_residue b)
+static void two_velocities(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, size_t i, nh_residue a,
+                           size_t j, nh_residue b)
 {
     nh_residue *w = nh_alloc_array(x->n + 1, sizeof *w);
     w[i] = a;
@@ -216,18 +229,21 @@ static bool linear_parts(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring 
     return good;
 }
 
-bool nh_jet_equations_fields(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out)
+bool nh_jet_equations_fields(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate,
+                             nh_residue *out)
 {
     size_t block = x->m * ring->size, field = x->coordinates * ring->size;
     nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
-    nh_residue *part = nh_alloc_array((x->n + 3) * block, sizeof *part), *expected = part + (x->n + 1) * block, *value = expected + block;
+    nh_residue *part = nh_alloc_array((x->n + 3) * block, sizeof *part), *expected = part + (x->n + 1) * block,
+               *value = expected + block;
     nh_residue *w = nh_alloc_array(x->n + 1, sizeof *w);
     bool good = linear_parts(x, v, ring, part);
     random_velocities(x, ring, w);
     nh_jet_equations_velocities(x, v, ring, w);
     if (good && nh_jet_eval_all(v, x->m, x->rho, value)) {
         memcpy(expected, part, block * sizeof *expected);
-        for (size_t i = 0; i < x->n; i++) nh_residue_add_multiple(ring->field, block, expected, part + (1 + i) * block, w[i]);
+        for (size_t i = 0; i < x->n; i++)
+            nh_residue_add_multiple(ring->field, block, expected, part + (1 + i) * block, w[i]);
         if (!same(ring, x->m, expected, value)) x->obstacle = "constraints that are not linear in the velocities";
     }
     for (size_t i = 0; i < x->fields; i++) {
@@ -283,18 +299,23 @@ static bool polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *r
 }
 
 /* At random velocities A and M have to be what the polynomials say. */
-static bool is_polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, const nh_residue *part, const nh_residue *M)
+static bool is_polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, const nh_residue *part,
+                          const nh_residue *M)
 {
     size_t n = x->n, block = n * ring->size;
-    nh_residue *w = nh_alloc_array(n + 1, sizeof *w), *expected = nh_alloc_array((1 + n) * block + 1, sizeof *expected), *value = nh_alloc_array(n * block + 1, sizeof *value);
+    nh_residue *w = nh_alloc_array(n + 1, sizeof *w), *expected = nh_alloc_array((1 + n) * block + 1, sizeof *expected),
+               *value = nh_alloc_array(n * block + 1, sizeof *value);
     random_velocities(x, ring, w);
     nh_jet_equations_velocities(x, v, ring, w);
     memcpy(expected, part, block * sizeof *expected);
     for (size_t i = 0; i < n; i++) nh_residue_add_multiple(ring->field, block, expected, part + (1 + i) * block, w[i]);
     for (size_t i = 0; i < n; i++)
-        for (size_t j = i; j < n; j++) nh_residue_add_multiple(ring->field, block, expected, part + quadratic(n, i, j) * block, nh_residue_mul(ring->field, w[i], w[j]));
+        for (size_t j = i; j < n; j++)
+            nh_residue_add_multiple(ring->field, block, expected, part + quadratic(n, i, j) * block,
+                                    nh_residue_mul(ring->field, w[i], w[j]));
     bool good = nh_jet_eval_all(v, n, x->A, value);
-    if (good && !same(ring, n, expected, value)) x->obstacle = "forces or inertia that are not polynomial in the velocities of degree two";
+    if (good && !same(ring, n, expected, value))
+        x->obstacle = "forces or inertia that are not polynomial in the velocities of degree two";
     good = good && nh_jet_eval_all(v, n * n, x->M, value);
     if (good && !same(ring, n * n, M, value)) x->obstacle = "a kinetic energy that is not quadratic in the velocities";
     nh_free(value);
@@ -303,14 +324,17 @@ static bool is_polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring
     return good && !x->obstacle;
 }
 
-bool nh_jet_equations_accelerations(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out)
+bool nh_jet_equations_accelerations(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate,
+                                    nh_residue *out)
 {
     size_t n = x->n, count = nh_jet_equations_monomials(n), e = ring->size;
     nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
     nh_residue *part = nh_alloc_array(count * n * e + 1, sizeof *part), *M = nh_alloc_array(n * n * e + 1, sizeof *M);
-    bool good = nh_jet_eval_all(v, n * n, x->M, M) && polynomial(x, v, ring, part) && is_polynomial(x, v, ring, part, M);
+    bool good =
+        nh_jet_eval_all(v, n * n, x->M, M) && polynomial(x, v, ring, part) && is_polynomial(x, v, ring, part, M);
     for (size_t l = 0; l < n && good; l++)
-        for (size_t mu = 0; mu < count; mu++) memcpy(out + (l * count + mu) * e, part + (mu * n + l) * e, e * sizeof *out);
+        for (size_t mu = 0; mu < count; mu++)
+            memcpy(out + (l * count + mu) * e, part + (mu * n + l) * e, e * sizeof *out);
     good = good && nh_jet_solve(ring, n, M, count, out);
     nh_free(M);
     nh_free(part);
@@ -320,7 +344,8 @@ bool nh_jet_equations_accelerations(nh_jet_equations *x, const nh_jet_ring *ring
 
 /* ---- relations between kernels ---- */
 
-/* Series of low order in time and the coordinates, at one point, for all atoms of a kind, into columns from `first` on.  False: another point. */
+/* Series of low order in time and the coordinates, at one point, for all atoms of a kind, into columns from `first` on.
+   False: another point. */
 static bool atoms_at(nh_jet_equations *x, const nh_jet_ring *ring, bool real, nmod_mat_t rows, size_t first)
 {
     nh_residue *q = nh_alloc_array(ring->variables * ring->size + 1, sizeof *q);

@@ -43,7 +43,8 @@ static bool lift(problem *p, nh_symbolise_decimals_kind kind, size_t only, nh_li
     nh_ex value[NH_MOST_LIFTED];
     *numbers = (nh_lifted){0};
     for (size_t j = 0; j < p->n; j++)
-        p->lifted[j] = nh_symbolise_decimals_inside(d, p->term[j], kind, p->o->system->parameters, p->o->parameter, numbers);
+        p->lifted[j] =
+            nh_symbolise_decimals_inside(d, p->term[j], kind, p->o->system->parameters, p->o->parameter, numbers);
     if (numbers->overflow || only >= numbers->count) return !numbers->overflow && numbers->count > 0;
     for (size_t i = 0; i < numbers->count; i++)
         value[i] = i == only ? numbers->symbol[i] : numbers->exact[i];
@@ -71,7 +72,8 @@ static nh_fixed try_kind(problem *p, nh_symbolise_decimals_kind kind)
 nh_fixed nh_letters_relation(const nh_model *o, size_t n, nh_ex *term, const double *coefficient,
                              const nh_options *options, nh_ex *out, nh_letters *letters)
 {
-    static const nh_symbolise_decimals_kind kind[kinds] = {NH_SYMBOLISE_DECIMALS_ROUGH, NH_SYMBOLISE_DECIMALS_FRACTIONS, NH_SYMBOLISE_DECIMALS_ALL};
+    static const nh_symbolise_decimals_kind kind[kinds] = {NH_SYMBOLISE_DECIMALS_ROUGH, NH_SYMBOLISE_DECIMALS_FRACTIONS,
+                                                           NH_SYMBOLISE_DECIMALS_ALL};
     nh_ex *work = nh_alloc_array(4 * n + 1, sizeof *work);
     problem p = {o, options, n, term, coefficient, work, work + n, work + 2 * n, work + 3 * n, letters};
     nh_fixed found = {0};

@@ -318,7 +318,8 @@ static void find_root(seeker *x, block *b)
     nh_ex P = simple(x, nh_mul(d, b->p, nh_ratio(d, 1, three)));
     nh_ex twice = nh_mul(d, nh_int(d, 2), nh_powi(d, P, 2));
     nh_ex Q = simple(x, nh_mul(d, nh_ratio(d, 1, 4), nh_add(d, nh_sub(d, b->q, nh_diff(d, P, x->s)), twice)));
-    nh_ex r = nh_sub(d, nh_mul(d, nh_int(d, 2), nh_diff(d, Q, x->s)), nh_product(d, three, (nh_ex[]){nh_int(d, 4), P, Q}));
+    nh_ex r =
+        nh_sub(d, nh_mul(d, nh_int(d, 2), nh_diff(d, Q, x->s)), nh_product(d, three, (nh_ex[]){nh_int(d, 4), P, Q}));
     b->root = (nh_named_equation){x->s, P, Q, x->s};
     b->square = x->good && nh_normal_is_zero(d, nh_sub(d, r, b->r), 0) == NH_ZERO;
 }
@@ -362,7 +363,8 @@ static bool match(seeker *x, const block *b)
 
 static size_t length_of(const seeker *x, const block *b)
 {
-    return nh_complexity(x->d, b->p) + nh_complexity(x->d, b->q) + nh_complexity(x->d, b->r) + nh_complexity(x->d, b->lead);
+    return nh_complexity(x->d, b->p) + nh_complexity(x->d, b->q) + nh_complexity(x->d, b->r) +
+           nh_complexity(x->d, b->lead);
 }
 
 /* " = (p)*f'' + .." */

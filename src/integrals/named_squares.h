@@ -1,7 +1,8 @@
-/* named_squares: currents sum_i f_i(s) b_i whose coefficients follow from one that satisfies an equation of third order.
+/* named_squares: currents sum_i f_i(s) b_i whose coefficients follow from one that satisfies an equation of third
+ * order.
  *
- * Gamma(Phi) = sum_i ( f_i' Gamma(s) b_i + f_i Gamma(b_i) ), sorted by products of states, is a linear system for the f_i
- * with coefficients in s. Differentiated and eliminated it becomes g' = A g for a few of them. Where three belong
+ * Gamma(Phi) = sum_i ( f_i' Gamma(s) b_i + f_i Gamma(b_i) ), sorted by products of states, is a linear system for the
+ * f_i with coefficients in s. Differentiated and eliminated it becomes g' = A g for a few of them. Where three belong
  * together, one satisfies y''' = p y'' + q y' + r y. It is a symmetric square, y = u v with u and v solutions of
  * u'' = P u' + Q u, where
  *

@@ -57,7 +57,8 @@ void nh_equations_free(nh_equations *equations)
     nh_free(equations);
 }
 
-/* Note the first column that is not finite, or leave out every such one; false when there is an error, now or before. */
+/* Note the first column that is not finite, or leave out every such one; false when there is an error, now or
+   before. */
 static bool check_finite(nh_equations *equations, const char *what, size_t rows, double *block, size_t ld)
 {
     for (size_t j = 0; j < equations->columns && !equations->bad; j++) {
@@ -105,14 +106,16 @@ void nh_equations_add_values(nh_equations *equations, size_t rows, double *b, si
  *     [    0          R_B     ]    with R_B^T R_B = (B - mean)^T (B - mean),
  *
  * so that |R_B e_j| is the variation of column j and the norm of the whole column its size. */
-static bool independent_values(nh_basis *basis, nh_equations *equations, const nh_nullspace_options *options, nh_error *error)
+static bool independent_values(nh_basis *basis, nh_equations *equations, const nh_nullspace_options *options,
+                               nh_error *error)
 {
     size_t n = equations->columns;
     double *r = nh_alloc_array((n + 1) * (n + 1), sizeof *r);
     double *size = nh_alloc_array(n, sizeof *size);
     nh_qr_triangle(equations->values, r);
     for (size_t j = 0; j < n; j++) {
-        if (equations->left_out && equations->left_out[j]) memset(r + (j + 1) * (n + 1), 0, (n + 1) * sizeof *r); /* as a column of zeros: dropped */
+        /* as a column of zeros: dropped */
+        if (equations->left_out && equations->left_out[j]) memset(r + (j + 1) * (n + 1), 0, (n + 1) * sizeof *r);
         size[j] = nh_norm(n + 1, r + (j + 1) * (n + 1));
     }
     bool ok = nh_basis_init(basis, n, n, r + (n + 1) + 1, n + 1, size, options, error);
@@ -133,8 +136,8 @@ static bool check_input(const nh_equations *equations, nh_error *error)
                        equations->bad_column, equations->bad);
     if (n > 0 && (of_a < n || of_b < n + 1)) {
         nh_fail(error, NH_NUMERIC, "",
-                "%zu equations and %zu values cannot decide about %zu columns; at least %zu and %zu are needed", of_a, of_b, n,
-                n, n + 1);
+                "%zu equations and %zu values cannot decide about %zu columns; at least %zu and %zu are needed", of_a,
+                of_b, n, n, n + 1);
         return nh_error_hint(error, "take more sample points (2.5 per column are usual)");
     }
     return true;
@@ -227,8 +230,8 @@ static void describe_basis(nh_nullspace *result, const nh_basis *basis, const nh
     result->rank_in_doubt = basis->smallest_kept < options->gap * basis->largest_dropped;
 }
 
-static bool solve(nh_nullspace *result, nh_equations *equations, const nh_basis *basis, const nh_nullspace_options *options,
-                  nh_error *error)
+static bool solve(nh_nullspace *result, nh_equations *equations, const nh_basis *basis,
+                  const nh_nullspace_options *options, nh_error *error)
 {
     size_t k = basis->count;
     double *v = nh_alloc_array(k * k, sizeof *v);
@@ -269,7 +272,9 @@ static void every_column(nh_basis *basis, nh_equations *equations, const nh_null
 {
     size_t n = equations->columns;
     double *r = nh_alloc_array((n + 1) * (n + 1), sizeof *r);
-    *basis = (nh_basis){.column = nh_alloc_array(n + 1, sizeof *basis->column), .scale = nh_alloc_array(n + 1, sizeof *basis->scale), .smallest_kept = 1};
+    *basis = (nh_basis){.column = nh_alloc_array(n + 1, sizeof *basis->column),
+                        .scale = nh_alloc_array(n + 1, sizeof *basis->scale),
+                        .smallest_kept = 1};
     nh_qr_triangle(equations->values, r);
     for (size_t j = 0; j < n; j++) {
         double length = nh_norm(n, r + (j + 1) * (n + 1) + 1), size = nh_norm(n + 1, r + (j + 1) * (n + 1));

@@ -3,10 +3,10 @@
  *     minimise |A c| / |B c|,   A: rows of (N0), (NY) or Gamma(Phi);   B: samples of Phi - mean(Phi)
  *
  * A plain SVD of A would call every near-dependence of the basis a symmetry; the quotient asks how little Gamma(Phi) is
- * compared with how much Phi varies.  Both matrices are streamed: only their triangles are kept.  Columns of B that depend
- * on the others over the samples are dropped by a rank-revealing QR (after equilibration); the generalized singular values
- * are those of A R^-1 with B P = Q R.  The rank is read at the widest gap above rounding; a shallow gap is NH_UNDECIDED,
- * never a quiet "none".
+ * compared with how much Phi varies.  Both matrices are streamed: only their triangles are kept.  Columns of B that
+ * depend on the others over the samples are dropped by a rank-revealing QR (after equilibration); the generalized
+ * singular values are those of A R^-1 with B P = Q R.  The rank is read at the widest gap above rounding; a shallow gap
+ * is NH_UNDECIDED, never a quiet "none".
  *
  *     paper                    here
  *     generalized sigma_j      spectrum[j], ascending
@@ -23,13 +23,14 @@
 
 typedef enum { NH_FOUND, NH_NONE, NH_UNDECIDED } nh_verdict;
 
-/* Collects rows.  With more than one thread what they are condensed to is computed beside the caller, of A and B at once; the result does not depend on it. */
+/* Collects rows.  With more than one thread what they are condensed to is computed beside the caller, of A and B at
+   once; the result does not depend on it. */
 typedef struct nh_equations nh_equations;
 nh_equations *nh_equations_create(size_t columns, size_t threads);
 void nh_equations_free(nh_equations *equations);
 void nh_equations_reset(nh_equations *equations); /* forget all rows */
-/* From now on a column that is not finite at some point is dropped, as dependent ones are, instead of an error: for an ansatz that the program
- * made itself (the root of a function of both signs). */
+/* From now on a column that is not finite at some point is dropped, as dependent ones are, instead of an error: for an
+ * ansatz that the program made itself (the root of a function of both signs). */
 void nh_equations_leave_out(nh_equations *equations);
 /* Rows of A: residuals of the equations per column (column-major, overwritten). */
 void nh_equations_add(nh_equations *equations, size_t rows, double *a, size_t ld);
@@ -43,19 +44,21 @@ typedef struct {
     size_t rank;           /* independent, non-constant columns kept; length of the spectrum */
     double *spectrum;      /* generalized singular values, ascending, `rank` of them */
     size_t dimension;      /* of the null space */
-    size_t likely;         /* >= dimension: values before the widest gap; near-dependent columns lift true null values above
+    size_t likely; /* >= dimension: values before the widest gap; near-dependent columns lift true null values above
                               rounding, so that these are worth a certificate, and nothing without one */
-    double gap;            /* spectrum[dimension] / max(spectrum[dimension-1], eps); INFINITY when nothing is above or below */
+    /* spectrum[dimension] / max(spectrum[dimension-1], eps); INFINITY when nothing is above or below */
+    double gap;
     double *vector;        /* columns x likely, in the columns' own units, |B c| = 1; dropped columns have 0 */
     bool *dropped;         /* per column */
-    double smallest_kept, largest_dropped; /* pivots of B relative to the first; closer than 1e3: the rank is in doubt */
+    /* pivots of B relative to the first; closer than 1e3: the rank is in doubt */
+    double smallest_kept, largest_dropped;
     bool rank_in_doubt;
     double next_left_scale; /* largest generalized singular value */
 } nh_nullspace;
 
 nh_nullspace *nh_nullspace_solve(nh_equations *equations, const nh_nullspace_options *options, nh_error *error);
-/* The same without the quotient: a plain SVD of A with columns of norm one, which takes a combination that vanishes, or nearly, for a current.  To be
- * compared with. */
+/* The same without the quotient: a plain SVD of A with columns of norm one, which takes a combination that vanishes, or
+ * nearly, for a current.  To be compared with. */
 nh_nullspace *nh_nullspace_plain(nh_equations *equations, const nh_nullspace_options *options, nh_error *error);
 void nh_nullspace_free(nh_nullspace *nullspace);
 

@@ -115,7 +115,8 @@ static bool is_kept(const nh_parametric *f, size_t k)
  * fewer velocities than coordinates left. */
 static bool plain(const nh_parametric *f)
 {
-    return f->linear || f->counter.equations->n == f->counter.equations->m || (f->shape && f->kept <= f->counter.equations->n);
+    return f->linear || f->counter.equations->n == f->counter.equations->m ||
+           (f->shape && f->kept <= f->counter.equations->n);
 }
 
 static void look(nh_parametric *f)

@@ -69,8 +69,8 @@ typedef struct {
 nh_parametric_series *nh_parametric_series_create(nh_parametric *family, size_t order, bool *regular);
 void nh_parametric_series_free(nh_parametric_series *series);
 
-/* The equations at one value of the only parameter; `infinite`: the coefficient of the highest power. `values` has room for `length`
- * residues. */
+/* The equations at one value of the only parameter; `infinite`: the coefficient of the highest power. `values` has room
+ * for `length` residues. */
 void nh_parametric_at(const nh_parametric_series *series, nh_residue lambda, bool infinite, nh_residue *values);
 /* Their linear system. */
 nh_graded_problem nh_parametric_problem(const nh_parametric *family, const nh_parametric_series *series,
@@ -84,9 +84,9 @@ typedef struct {
     int scale[16];
 } nh_parametric_variable;
 
-/* The linear system for every value, `variable` for each of the parameters: the equations up to the weight order - 1 for the series up to the weight `order`,
- * in a variable in which its degree is low and much of it is constant. False: more than `most` unknowns, companions
- * included. The entries are on the heap. */
+/* The linear system for every value, `variable` for each of the parameters: the equations up to the weight order - 1
+ * for the series up to the weight `order`, in a variable in which its degree is low and much of it is constant. False:
+ * more than `most` unknowns, companions included. The entries are on the heap. */
 bool nh_parametric_pencil(const nh_parametric *family, const nh_parametric_series *series, size_t degree,
                           nh_parity parity, size_t most, nh_sparse_pencil *out, nh_parametric_variable *variable);
 /* A polynomial in that variable as one in the parameter, with the origin as a root where the variable says nothing

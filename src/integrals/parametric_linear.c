@@ -46,9 +46,11 @@ void nh_parametric_linear_open(nh_parametric *f)
         good = nh_jet_point_register(x->point, 1, &f->entry[i]);
     }
     if (!good) f->obstacle = x->point->obstacle;
-    else if (!any_depends(f, count, f->entry)) f->obstacle = "the equations of this question do not depend on the parameter";
+    else if (!any_depends(f, count, f->entry))
+        f->obstacle = "the equations of this question do not depend on the parameter";
     for (size_t i = 0; i < x->point->kernels && !f->obstacle; i++)
-        if (any_depends(f, 1, &x->point->kernel[i].key)) f->obstacle = "the parameter occurs inside of a function or a root";
+        if (any_depends(f, 1, &x->point->kernel[i].key))
+            f->obstacle = "the parameter occurs inside of a function or a root";
     if (f->obstacle) return;
     nh_parametric_denominators(f, count, f->entry, f->of_rest);
     nh_parametric_denominators(f, l->n * l->n, f->entry + count, f->of_mass);

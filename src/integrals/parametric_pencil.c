@@ -1,5 +1,5 @@
-/* The linear system Q Gamma(Phi) = 0 as a whole, with one parameter or two: rows are w^beta z^e, columns the coefficients of
- * z^u in c_alpha. */
+/* The linear system Q Gamma(Phi) = 0 as a whole, with one parameter or two: rows are w^beta z^e, columns the
+ * coefficients of z^u in c_alpha. */
 #include <flint/nmod_poly.h>
 #include <string.h>
 

@@ -49,15 +49,17 @@ static bool check_column(const char *what, size_t j, size_t rows, const double *
     double sum = 0;
     for (size_t i = 0; i < rows; i++)
         sum += x[i] - x[i]; /* 0, or NaN for a NaN or an infinity */
-    return sum == 0 || nh_fail(error, NH_NUMERIC, "", "column %zu of the pencil is not finite in %s at some sample point", j, what);
+    return sum == 0 ||
+           nh_fail(error, NH_NUMERIC, "", "column %zu of the pencil is not finite in %s at some sample point", j, what);
 }
 
 /* With fewer than two rows per column, rest would have a null space whatever the columns are. */
 static bool check_input(const work *w, nh_error *error)
 {
     if (w->rows < 2 * w->columns) {
-        nh_fail(error, NH_NUMERIC, "", "%zu equations do not determine the frequencies of %zu columns; at least %zu are needed",
-                w->rows, w->columns, 2 * w->columns);
+        nh_fail(error, NH_NUMERIC, "",
+                "%zu equations do not determine the frequencies of %zu columns; at least %zu are needed", w->rows,
+                w->columns, 2 * w->columns);
         return nh_error_hint(error, "take more sample points (2.5 per column are usual)");
     }
     for (size_t j = 0; j < w->columns; j++)
@@ -112,8 +114,8 @@ static bool spectral_norm(size_t rows, size_t columns, const double *m, double *
     return ok;
 }
 
-/* K and rest, and from |A R^-1| what counts as zero.  The upper end of the undecided band is taken: errors of K grow along the
- * way to V, and a frequency found here is only proposed, an ordinary null space decides about it. */
+/* K and rest, and from |A R^-1| what counts as zero.  The upper end of the undecided band is taken: errors of K grow
+ * along the way to V, and a frequency found here is only proposed, an ordinary null space decides about it. */
 static bool reduce(work *w, const nh_nullspace_options *options, nh_error *error)
 {
     double *t = new_matrix(2 * w->columns, 2 * w->columns), *s = NULL, *quotient = NULL;
@@ -125,7 +127,8 @@ static bool reduce(work *w, const nh_nullspace_options *options, nh_error *error
         triangle_of_basis(w, t, s);
         quotient = s + 2 * n * n; /* [R12; R22] */
         for (size_t j = 0; j < n; j++)
-            memcpy(w->basis.r + j * n, s + j * 2 * n, n * sizeof *s); /* the same triangle, with the signs that Q has here */
+            /* the same triangle, with the signs that Q has here */
+            memcpy(w->basis.r + j * n, s + j * 2 * n, n * sizeof *s);
         nh_solve_triangle_right(2 * n, n, w->basis.r, n, quotient);
         double norm;
         ok = spectral_norm(2 * n, n, quotient, &norm) || failed(error);
@@ -220,9 +223,9 @@ static bool invariant_subspace(work *w)
     return ok;
 }
 
-/* Eigenvalue 0 with all its Jordan blocks (integrals, and polynomials in t or q that an ordinary stage finds) is taken out by
- * rank decisions, V := V range(H) until the rank is full: a block of size m would split into eigenvalues of size eps^(1/m),
- * which no threshold tells from a frequency. */
+/* Eigenvalue 0 with all its Jordan blocks (integrals, and polynomials in t or q that an ordinary stage finds) is taken
+ * out by rank decisions, V := V range(H) until the rank is full: a block of size m would split into eigenvalues of size
+ * eps^(1/m), which no threshold tells from a frequency. */
 static bool remove_zero(work *w)
 {
     bool ok = true;
@@ -358,8 +361,8 @@ static nh_pencil *solve(work *w, const nh_nullspace_options *options, double spl
     return NULL;
 }
 
-nh_pencil *nh_pencil_solve(size_t rows, size_t columns, double *a, double *b, const nh_nullspace_options *options, double split,
-                           nh_error *error)
+nh_pencil *nh_pencil_solve(size_t rows, size_t columns, double *a, double *b, const nh_nullspace_options *options,
+                           double split, nh_error *error)
 {
     work w = {.rows = rows, .columns = columns, .a = a, .b = b};
     nh_pencil *pencil = solve(&w, options, split, error);

@@ -329,8 +329,13 @@ static void run(search *s)
         good = good && (found || (swept && s->s.q->lines && sweep(s, degree, &row))) && !nh_late();
         if (o->rows) row.height = fmin(row.height, o->row[o->rows - 1].height);
         if (!good) {
-            if (!o->end) o->end = s->s.family.obstacle ? s->s.family.obstacle : nh_late() ? "time" : !row.number.bounded ? "work"
-                : row.size > s->s.q->plane ? "plane" : s->s.products < 0 ? "staircase" : "unknowns";
+            if (!o->end)
+                o->end = s->s.family.obstacle       ? s->s.family.obstacle
+                         : nh_late()                ? "time"
+                         : !row.number.bounded      ? "work"
+                         : row.size > s->s.q->plane ? "plane"
+                         : s->s.products < 0        ? "staircase"
+                                                    : "unknowns";
             break;
         }
         o->row[o->rows++] = row;

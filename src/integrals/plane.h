@@ -38,7 +38,8 @@ typedef struct {
     size_t primes;
     uint64_t prime[NH_CLASSIFY_MOST_PRIMES];
     double height;           /* of pairs of rationals; 0: not lifted, here or at a lower degree */
-    size_t swept;            /* so many lines were looked at in place of determinants (plane_sweep.h); 0: determinants */
+    /* so many lines were looked at in place of determinants (plane_sweep.h); 0: determinants */
+    size_t swept;
 } nh_plane_row;
 
 /* A point that has more integrals than almost all, and than almost all of a curve that it lies on. */

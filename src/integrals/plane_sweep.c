@@ -23,7 +23,8 @@ static void known_at(const nh_plane_known *o, nh_residue mu, nh_prime f, nmod_po
         for (size_t i = 0; i <= c->degree[0]; i++) {
             nh_residue sum = 0;
             for (size_t j = c->degree[1] + 1; j-- > 0;)
-                sum = nh_residue_add(f, nh_residue_mul(f, sum, mu), nh_residue_of(f, c->coefficient[j * (c->degree[0] + 1) + i]));
+                sum = nh_residue_add(f, nh_residue_mul(f, sum, mu),
+                                     nh_residue_of(f, c->coefficient[j * (c->degree[0] + 1) + i]));
             nmod_poly_set_coeff_ui(p, (slong)i, sum);
         }
         if (!nmod_poly_is_zero(p)) nmod_poly_mul(out, out, p);
@@ -97,7 +98,8 @@ static bool is_known_line(const nh_plane_known *o, int64_t top, int64_t bottom)
     }
     for (size_t k = 0; k < o->curves; k++) {
         const nh_special_curve *c = &o->curve[k];
-        if (c->degree[0] == 0 && c->degree[1] == 1 && c->coefficient[1] * top + c->coefficient[0] * bottom == 0) return true;
+        if (c->degree[0] == 0 && c->degree[1] == 1 && c->coefficient[1] * top + c->coefficient[0] * bottom == 0)
+            return true;
     }
     return false;
 }
@@ -120,8 +122,8 @@ static void take_height(nh_plane_sweep *out, double p, const nh_plane_known *o, 
     if (height < out->height) out->height = height;
 }
 
-static bool examine(search *s, nh_classify_question *q, const nh_plane_known *o, size_t degree, const nh_classify_number *number,
-                    int64_t top, int64_t bottom, nh_plane_sweep *out)
+static bool examine(search *s, nh_classify_question *q, const nh_plane_known *o, size_t degree,
+                    const nh_classify_number *number, int64_t top, int64_t bottom, nh_plane_sweep *out)
 {
     if (is_known_line(o, top, bottom)) return true;
     q->top = top;
@@ -137,7 +139,8 @@ static bool examine(search *s, nh_classify_question *q, const nh_plane_known *o,
 /* ---- all of them ---- */
 
 /* At a mu that is no number of importance. */
-static bool curves_are_known(search *s, nh_classify_question *q, const nh_plane_known *o, size_t degree, const nh_classify_number *number)
+static bool curves_are_known(search *s, nh_classify_question *q, const nh_plane_known *o, size_t degree,
+                             const nh_classify_number *number)
 {
     static const int64_t top = 7368787, bottom = 2750159; /* primes */
     q->top = top;
@@ -145,8 +148,8 @@ static bool curves_are_known(search *s, nh_classify_question *q, const nh_plane_
     return look(s, o, degree, number) == NOTHING;
 }
 
-bool nh_plane_sweep_lines(search *s, const nh_plane_known *o, size_t degree, const nh_classify_number *number, size_t height,
-                          nh_plane_sweep *out)
+bool nh_plane_sweep_lines(search *s, const nh_plane_known *o, size_t degree, const nh_classify_number *number,
+                          size_t height, nh_plane_sweep *out)
 {
     const nh_classify_question *own = s->q;
     nh_classify_question q = *own;

@@ -14,7 +14,9 @@ static nh_points *empty(size_t count, size_t width)
 {
     nh_points *p = nh_alloc(sizeof *p);
     size_t padded = (count + NH_BATCH - 1) / NH_BATCH * NH_BATCH;
-    *p = (nh_points){.width = width, .column = nh_alloc_array(width, sizeof *p->column), .weight = nh_alloc_array(padded + 1, sizeof *p->weight)};
+    *p = (nh_points){.width = width,
+                     .column = nh_alloc_array(width, sizeof *p->column),
+                     .weight = nh_alloc_array(padded + 1, sizeof *p->weight)};
     for (size_t j = 0; j < width; j++) p->column[j] = nh_alloc_array(padded + 1, sizeof **p->column);
     return p;
 }
@@ -29,7 +31,10 @@ void nh_points_free(nh_points *points)
     nh_free(points);
 }
 
-size_t nh_points_equations(const nh_points *points) { return points->count + (points->beyond ? points->beyond->count : 0); }
+size_t nh_points_equations(const nh_points *points)
+{
+    return points->count + (points->beyond ? points->beyond->count : 0);
+}
 
 /* Run a tape (inputs: the model's symbols) over all points: out[k][p].  `out` rows must hold points->count values. */
 static void run(const nh_points *points, const nh_tape *tape, double *const *out)
@@ -73,8 +78,9 @@ static double given_speed(const nh_model *o, nh_ex symbol)
     return isfinite(reach) ? reach : 0;
 }
 
-/* What velocities are measured in: speed[s] for v^s, then for w_i; the returned rate for what they change by per unit of time.  Where the author says nothing of a velocity, it is
- * that in which the coordinate crosses its interval as fast as the fastest one does its own. */
+/* What velocities are measured in: speed[s] for v^s, then for w_i; the returned rate for what they change by per unit
+ * of time.  Where the author says nothing of a velocity, it is that in which the coordinate crosses its interval as
+ * fast as the fastest one does its own. */
 static double speeds_of(const nh_model *o, double *speed)
 {
     const nh_chart *c = o->chart;
@@ -116,8 +122,11 @@ static guard guard_create(const nh_model *o, double pivot)
     for (size_t i = 0; i < n; i++)
         for (size_t s = 0; s < m; s++) e[m + s + i * m] = o->R[s * n + i];
     memcpy(e + m + m * n, o->a, n * sizeof *e);
-    guard g = {.o = o, .tape = nh_model_tape(o, total + 1, e), .out = nh_alloc_array(total + 1, sizeof(double)),
-               .dense = nh_alloc_array(2 * m * n + 2 * (m + n) + 1, sizeof(double)), .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
+    guard g = {.o = o,
+               .tape = nh_model_tape(o, total + 1, e),
+               .out = nh_alloc_array(total + 1, sizeof(double)),
+               .dense = nh_alloc_array(2 * m * n + 2 * (m + n) + 1, sizeof(double)),
+               .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
     g.work = nh_tape_work_create(g.tape);
     g.slope = g.dense + m * n + m + n;
     nh_chart_slopes(o->chart, g.slope);
@@ -200,14 +209,17 @@ static void stretched_box(const nh_model *o, bool natural, double stretch, doubl
 
 /* ---- beyond the chart ---- */
 
-/* A point (t, q, v) near a zero of the chart's pivot: v is moved onto the constraints, v' solved from the multiplier form.  A function of
- * the chart may have poles of the pivot there, whose rates cancel to pivot^2 times what doubles hold: the weight allows for it. */
-static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t, const double *q, double *v, double steepness, const guard *g)
+/* A point (t, q, v) near a zero of the chart's pivot: v is moved onto the constraints, v' solved from the multiplier
+ * form.  A function of the chart may have poles of the pivot there, whose rates cancel to pivot^2 times what doubles
+ * hold: the weight allows for it. */
+static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t, const double *q, double *v,
+                       double steepness, const guard *g)
 {
     static const double too_steep = 1e6;
     size_t m = o->m, n = o->n, width = o->width, at = p->beyond->count;
     double fast = 0, *rate = nh_alloc_array(m, sizeof *rate);
-    bool good = steepness > g->steepest && steepness < too_steep && nh_bordered_project(b, t, q, NULL, v) && nh_bordered_accelerations(b, t, q, v, rate);
+    bool good = steepness > g->steepest && steepness < too_steep && nh_bordered_project(b, t, q, NULL, v) &&
+                nh_bordered_accelerations(b, t, q, v, rate);
     for (size_t s = 0; s < m && good; s++) fast = fmax(fast, fmax(fabs(v[s]), fabs(rate[s]) / g->rate) / g->speed[s]);
     if (good && fast < too_fast) {
         double **to = p->beyond->column;
@@ -276,7 +288,11 @@ static nh_points *create(const nh_model *o, size_t count, double stretch, uint64
 {
     nh_points *p = empty(count, o->width);
     size_t room = 1 + 2 * o->m + o->width;
-    sampling s = {.o = o, .natural = is_natural(o), .guard = guard_create(o, nh_chart_least_pivot), .cover = cover && is_natural(o) && !o->chart->branch, .count = count};
+    sampling s = {.o = o,
+                  .natural = is_natural(o),
+                  .guard = guard_create(o, nh_chart_least_pivot),
+                  .cover = cover && is_natural(o) && !o->chart->branch,
+                  .count = count};
     s.low = nh_alloc_array(4 * room, sizeof *s.low);
     s.high = s.low + room;
     s.z = s.high + room;
@@ -294,7 +310,9 @@ static nh_points *create(const nh_model *o, size_t count, double stretch, uint64
         p->beyond = NULL;
     }
     if (p->count == count) return p;
-    nh_fail(error, NH_NUMERIC, "", "only %zu of %zu sample points were usable (%zu not finite, %zu without a solution of the constraints, %zu near a singularity)",
+    nh_fail(error, NH_NUMERIC, "",
+            "only %zu of %zu sample points were usable (%zu not finite, %zu without a solution of the constraints, %zu "
+            "near a singularity)",
             p->count, p->tried, p->not_finite, p->not_solved, p->degenerate);
     nh_error_hint(error, "give a `domain:` on which the Lagrangian and the constraints are defined");
     nh_points_free(p);
@@ -306,4 +324,7 @@ nh_points *nh_points_create(const nh_model *model, size_t count, double stretch,
     return create(model, count, stretch, seed, false, error);
 }
 
-nh_points *nh_points_cover(const nh_model *model, size_t count, uint64_t seed, nh_error *error) { return create(model, count, 1, seed, true, error); }
+nh_points *nh_points_cover(const nh_model *model, size_t count, uint64_t seed, nh_error *error)
+{
+    return create(model, count, 1, seed, true, error);
+}

@@ -1,7 +1,8 @@
 /* points: samples of the constraint submanifold, in blocks that tapes can run over.
  *
- * Points where the equations of motion or a guard expression degenerate are rejected and counted.  Where only the chart does, because a
- * pivot of its elimination is near zero, the multiplier form takes over (geometry/bordered.h): there q' and w' are values, not formulas. */
+ * Points where the equations of motion or a guard expression degenerate are rejected and counted.  Where only the chart
+ * does, because a pivot of its elimination is near zero, the multiplier form takes over (geometry/bordered.h): there q'
+ * and w' are values, not formulas. */
 #ifndef NH_POINTS_H
 #define NH_POINTS_H
 
@@ -11,12 +12,15 @@ typedef struct nh_points nh_points;
 struct nh_points {
     size_t count, width;      /* width = model->width */
     double **column;          /* column[j][p]: coordinate j of (t, q, w, u) at point p; rows padded to whole batches */
-    double *weight;           /* per point: 1 / (1 + max|a| + max|v|), without units, so that equations are relative to the local speed */
+    /* per point: 1 / (1 + max|a| + max|v|), without units, so that equations are relative to the local speed */
+    double *weight;
     size_t tried, not_finite, not_solved, degenerate; /* rejections by reason */
-    nh_points *beyond;        /* points near where the chart breaks down; width + m + n columns: (t, q, w), q', w'; NULL: none */
+    /* points near where the chart breaks down; width + m + n columns: (t, q, w), q', w'; NULL: none */
+    nh_points *beyond;
 };
 
-/* `stretch` widens the velocities' box (held-out points use 1.7).  NULL with a message when too few points are usable. */
+/* `stretch` widens the velocities' box (held-out points use 1.7).  NULL with a message when too few points are
+   usable. */
 nh_points *nh_points_create(const nh_model *model, size_t count, double stretch, uint64_t seed, nh_error *error);
 /* The same with the points beyond the chart, as many as the sampling meets on the way. */
 nh_points *nh_points_cover(const nh_model *model, size_t count, uint64_t seed, nh_error *error);

@@ -11,7 +11,8 @@
 
 enum { wanted_points = 4, most_tries = 40, double_digits = 8, patience = 5 }; /* longer proofs of what is certified */
 
-/* The digits to which the terms cancel against each other; where each cancels in itself already, relative to all that cancels in them. */
+/* The digits to which the terms cancel against each other; where each cancels in itself already, relative to all that
+   cancels in them. */
 static bool cancels(nh_ball *ball, size_t n, const nh_ex *term, nh_ex sum, nh_ex size, double *log10_ratio)
 {
     double bound, scale;
@@ -55,7 +56,10 @@ static nh_ex without_signs(nh_dag *d, nh_ex e)
     return signs ? nh_substitute(d, e, signs, call, by) : e;
 }
 
-static nh_ex with_symbols(const nh_model *o, const bool *fixed, nh_ex e) { return fixed ? nh_fixed_values(o, fixed, e) : e; }
+static nh_ex with_symbols(const nh_model *o, const bool *fixed, nh_ex e)
+{
+    return fixed ? nh_fixed_values(o, fixed, e) : e;
+}
 
 static nh_proof holding(nh_proof proof, const bool *fixed)
 {
@@ -82,16 +86,19 @@ static bool prove_sum(const nh_model *o, nh_ex sum, nh_claim claim, size_t limit
 {
     nh_dag *d = o->dag;
     nh_zero_verdict symbols = NH_TOO_LARGE, values = NH_ZERO;
-    if (!proof->proved && claim.free && !claim.rounded) symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
+    if (!proof->proved && claim.free && !claim.rounded)
+        symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
     if (symbols == NH_ZERO) *proof = holding(*proof, claim.fixed);
     if (!proof->proved && !claim.rounded) values = nh_normal_is_zero(d, nh_exact_values(o, sum), limit);
     proof->proved = proof->proved || (!claim.rounded && values == NH_ZERO);
-    if (proof->proved && symbols == NH_NONZERO) proof->fixed = nh_fixed_least(o, 1, &sum, vanishes, &(zero_problem){o, sum, limit});
+    if (proof->proved && symbols == NH_NONZERO)
+        proof->fixed = nh_fixed_least(o, 1, &sum, vanishes, &(zero_problem){o, sum, limit});
     return !claim.rounded && ((claim.free && symbols == NH_TOO_LARGE) || values == NH_TOO_LARGE);
 }
 
 /* `proof`: what is known already. */
-static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_proof proof, nh_claim claim, const nh_options *options)
+static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_proof proof, nh_claim claim,
+                           const nh_options *options)
 {
     nh_dag *d = o->dag;
     nh_ex sum = nh_int(d, 0), *valued = nh_alloc_array(n + 1, sizeof *valued);
@@ -105,8 +112,10 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
         exact = exact && nh_is_exact(d, valued[i]);
     }
     cancel(o, n, valued, options, &proof);
-    if (longer && !proof.proved && proof.points > 0 && proof.digits >= options->digits) prove_sum(o, sum, claim, patience * limit, &proof);
-    double doubt = options->digits / 2; /* numbers too long for exact rationals were rounded to doubles when the rate was formed */
+    if (longer && !proof.proved && proof.points > 0 && proof.digits >= options->digits)
+        prove_sum(o, sum, claim, patience * limit, &proof);
+    /* numbers too long for exact rationals were rounded to doubles when the rate was formed */
+    double doubt = options->digits / 2;
     proof.rounded = !exact;
     if (!exact && doubt > double_digits) doubt = double_digits;
     proof.refuted = !proof.proved && proof.points > 0 && proof.digits < doubt;
@@ -116,8 +125,11 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
 
 nh_proof nh_proof_both(const nh_model *o, nh_proof a, nh_proof b)
 {
-    nh_proof out = {.proved = a.proved && b.proved, .all_parameters = a.all_parameters && b.all_parameters, .digits = fmin(a.digits, b.digits)};
-    const bool *of_a = a.all_parameters || a.fixed ? a.fixed : nh_fixed_every(o), *of_b = b.all_parameters || b.fixed ? b.fixed : nh_fixed_every(o);
+    nh_proof out = {.proved = a.proved && b.proved,
+                    .all_parameters = a.all_parameters && b.all_parameters,
+                    .digits = fmin(a.digits, b.digits)};
+    const bool *of_a = a.all_parameters || a.fixed ? a.fixed : nh_fixed_every(o),
+               *of_b = b.all_parameters || b.fixed ? b.fixed : nh_fixed_every(o);
     if (out.proved && !out.all_parameters) out.fixed = nh_fixed_both(o, of_a, of_b);
     out.points = a.points < b.points ? a.points : b.points;
     out.rounded = a.rounded || b.rounded;
@@ -130,16 +142,19 @@ nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool para
     return prove_zero(o, n, term, (nh_proof){0}, (nh_claim){.free = parameters_free}, options);
 }
 
-/* Are X_0(Phi) + A_i zeta^i and Y_j(Phi) - M_ij zeta^i zero?  Then so is Gamma(Phi) = X_0(Phi) + a^j Y_j(Phi), by M a = A and without M^-1, which is what makes
- * Gamma(Phi) long [docs/method.md, (6), (11)]. */
+/* Are X_0(Phi) + A_i zeta^i and Y_j(Phi) - M_ij zeta^i zero?  Then so is Gamma(Phi) = X_0(Phi) + a^j Y_j(Phi), by M a =
+ * A and without M^-1, which is what makes Gamma(Phi) long [docs/method.md, (6), (11)]. */
 static bool equations_hold(const nh_model *o, nh_ex phi, const nh_ex *zeta, nh_claim claim, const nh_options *options)
 {
     nh_dag *d = o->dag;
     bool holds = true;
     for (size_t j = 0; j <= o->n && holds; j++) {
         nh_ex e = j < o->n ? nh_model_Y(o, j, phi) : nh_model_X0(o, phi);
-        for (size_t i = 0; i < o->n; i++) e = j < o->n ? nh_sub(d, e, nh_mul(d, o->M[i * o->n + j], zeta[i])) : nh_add(d, e, nh_mul(d, o->A[i], zeta[i]));
-        holds = nh_normal_is_zero(d, claim.free ? with_symbols(o, claim.fixed, e) : nh_exact_values(o, e), (size_t)options->proof_terms) == NH_ZERO;
+        for (size_t i = 0; i < o->n; i++)
+            e = j < o->n ? nh_sub(d, e, nh_mul(d, o->M[i * o->n + j], zeta[i]))
+                         : nh_add(d, e, nh_mul(d, o->A[i], zeta[i]));
+        holds = nh_normal_is_zero(d, claim.free ? with_symbols(o, claim.fixed, e) : nh_exact_values(o, e),
+                                  (size_t)options->proof_terms) == NH_ZERO;
     }
     return holds;
 }
@@ -188,7 +203,8 @@ nh_proof nh_prove_claim(const nh_model *o, nh_ex phi, nh_claim claim, const nh_o
     claim.rounded = !nh_is_exact(o->dag, nh_exact_values(o, phi));
     if (claim.rounded) claim.related = false;
     if (claim.related) proof = holding(proof, claim.fixed);
-    else if (!claim.rounded && length > lengthy && proved_by_symmetry(o, phi, claim, options)) proof = claim.free ? holding(proof, claim.fixed) : (nh_proof){.proved = true};
+    else if (!claim.rounded && length > lengthy && proved_by_symmetry(o, phi, claim, options))
+        proof = claim.free ? holding(proof, claim.fixed) : (nh_proof){.proved = true};
     proof = prove_zero(o, n, term, proof, claim, options);
     nh_free(term);
     return proof;

@@ -2,8 +2,8 @@
  *
  * 1. The normal form of Gamma(Phi) with every parameter an indeterminate: zero is a proof for all parameter values.
  * 2. The same with the parameters at their given exact values: a proof for these.
- * 3. Ball arithmetic at random rational points, 256 bits and more: the number of digits to which the terms of Gamma(Phi) cancel.
- *    A formal near-integral cancels to 13 digits, a true one to as many as were computed. */
+ * 3. Ball arithmetic at random rational points, 256 bits and more: the number of digits to which the terms of
+ *    Gamma(Phi) cancel. A formal near-integral cancels to 13 digits, a true one to as many as were computed. */
 #ifndef NH_PROVE_H
 #define NH_PROVE_H
 
@@ -13,10 +13,13 @@
 typedef struct {
     bool proved;          /* exactly zero, at least for the given parameters */
     bool all_parameters;  /* for all parameter values */
-    const bool *fixed;    /* else, where it is proved for all values of some: the others, which must have theirs; NULL: for the given values only */
+    /* else, where it is proved for all values of some: the others, which must have theirs; NULL: for the given values
+       only */
+    const bool *fixed;
     double digits;        /* of cancellation, least over the points; 0 when it could not be evaluated */
     size_t points;        /* that could be evaluated */
-    bool rounded;         /* numbers in it were too long for exact rationals: more than a double's digits cannot be asked for */
+    /* numbers in it were too long for exact rationals: more than a double's digits cannot be asked for */
+    bool rounded;
     bool refuted;         /* a ball excludes zero: Phi with these coefficients is not conserved */
 } nh_proof;
 
@@ -25,10 +28,13 @@ void nh_rate_terms(const nh_model *model, nh_ex phi, nh_ex *term);
 
 /* What is known of a current. */
 typedef struct {
-    bool free;         /* its coefficients hold for all parameter values, so that step 1 makes sense; but for those fixed: */
+    /* its coefficients hold for all parameter values, so that step 1 makes sense; but for those fixed: */
+    bool free;
     const bool *fixed; /* per parameter: it must have its value; NULL: none must */
     bool related;      /* an exact relation of its terms' rates is the proof */
-    bool rounded;         /* set by the proof: Phi holds numbers that are no rationals, whose sums may come out whole; nothing is proved of it */
+    /* set by the proof: Phi holds numbers that are no rationals, whose sums may come out whole; nothing is proved of
+       it */
+    bool rounded;
 } nh_claim;
 nh_proof nh_prove_claim(const nh_model *model, nh_ex phi, nh_claim claim, const nh_options *options);
 
@@ -36,7 +42,8 @@ nh_proof nh_prove_claim(const nh_model *model, nh_ex phi, nh_claim claim, const 
 nh_proof nh_prove_current(const nh_model *model, nh_ex phi, bool parameters_free, const nh_options *options);
 
 /* The same for any expression that should vanish on the submanifold. */
-nh_proof nh_prove_zero(const nh_model *model, size_t terms, const nh_ex *term, bool parameters_free, const nh_options *options);
+nh_proof nh_prove_zero(const nh_model *model, size_t terms, const nh_ex *term, bool parameters_free,
+                       const nh_options *options);
 
 /* Of two statements together. */
 nh_proof nh_proof_both(const nh_model *model, nh_proof a, nh_proof b);

@@ -17,7 +17,8 @@ static int certain_sign(const nh_model *o, nh_ex e)
     const nh_dag *d = o->dag;
     nh_kind kind = nh_kind_of(d, e);
     if (kind == NH_SYMBOL) return sign_of_symbol(o, e);
-    if (kind == NH_FUNCTION) return nh_function_of(d, e) == NH_EXP || nh_function_of(d, e) == NH_COSH || nh_function_of(d, e) == NH_PI;
+    if (kind == NH_FUNCTION)
+        return nh_function_of(d, e) == NH_EXP || nh_function_of(d, e) == NH_COSH || nh_function_of(d, e) == NH_PI;
     double constant = nh_num_value(kind == NH_NUMBER ? nh_number_of(d, e) : nh_constant_of(d, e));
     int sign = (constant > 0) - (constant < 0);
     if (kind == NH_NUMBER) return sign;
@@ -53,16 +54,20 @@ size_t nh_real_where(const nh_model *o, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE])
     for (size_t i = 0; i < n && i < most; i++)
         for (size_t k = 0; k < nh_arity(d, node[i]); k++) {
             nh_ex base = nh_child(d, node[i], k), x = nh_exponent_of(d, node[i], k);
-            bool even_root = nh_exponent_kind_of(d, x) == NH_EXPONENT_ROOT && nh_number_of(d, x).q % 2 == 0, known = false;
+            bool even_root = nh_exponent_kind_of(d, x) == NH_EXPONENT_ROOT && nh_number_of(d, x).q % 2 == 0,
+                 known = false;
             for (size_t j = 0; j < count; j++) known |= out[j] == base;
-            if (even_root && !known && count < NH_MOST_REAL_WHERE && is_parametric(o, base) && certain_sign(o, base) == 0) out[count++] = base;
+            if (even_root && !known && count < NH_MOST_REAL_WHERE && is_parametric(o, base) &&
+                certain_sign(o, base) == 0)
+                out[count++] = base;
         }
     n = nh_functions_in(d, e, node, most);
     for (size_t i = 0; i < n && i < most; i++) {
         nh_ex argument = nh_function_of(d, node[i]) == NH_LOG ? nh_child(d, node[i], 0) : 0;
         bool known = argument == 0;
         for (size_t j = 0; j < count; j++) known |= out[j] == argument;
-        if (!known && count < NH_MOST_REAL_WHERE && is_parametric(o, argument) && certain_sign(o, argument) == 0) out[count++] = argument;
+        if (!known && count < NH_MOST_REAL_WHERE && is_parametric(o, argument) && certain_sign(o, argument) == 0)
+            out[count++] = argument;
     }
     return count;
 }

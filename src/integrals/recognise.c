@@ -46,8 +46,8 @@ bool nh_recognise_number(nh_dag *dag, double value, double tolerance, nh_ex *out
     return true;
 }
 
-bool nh_recognise_monomial(nh_dag *dag, size_t sets, size_t n, const nh_ex *symbol, const double *p, const double *c, double tolerance,
-                           nh_ex *out)
+bool nh_recognise_monomial(nh_dag *dag, size_t sets, size_t n, const nh_ex *symbol, const double *p, const double *c,
+                           double tolerance, nh_ex *out)
 {
     if (sets < n + 2) return false;
     double *a = nh_alloc_array(sets * (n + 1), sizeof *a), *b = nh_alloc_array(sets, sizeof *b);

@@ -9,10 +9,14 @@
 
 enum { spare_rows = 8, heldout_points = 4, most_tries = 4 };
 
-static const double believed = 0.75; /* of the digits to which a rate cancels: a smaller coefficient is what rounding made of zero */
+/* of the digits to which a rate cancels: a smaller coefficient is what rounding made of zero */
+static const double believed = 0.75;
 
 /* The normal equations halve the digits: twice the bits. */
-static nh_ball *ball_for(const nh_model *o, const nh_options *options) { return nh_ball_create(o->dag, 2 * (long)options->bits); }
+static nh_ball *ball_for(const nh_model *o, const nh_options *options)
+{
+    return nh_ball_create(o->dag, 2 * (long)options->bits);
+}
 
 static bool feed(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t rows, uint64_t *state)
 {
@@ -23,7 +27,8 @@ static bool feed(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t rows
 }
 
 /* digits[k] of every vector; false when there were no points for it. */
-static bool check(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, uint64_t *state, const nh_options *options, nh_refined *out)
+static bool check(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, uint64_t *state, const nh_options *options,
+                  nh_refined *out)
 {
     size_t seen = 0;
     for (size_t k = 0; k < out->count; k++) out->digits[k] = options->bits * log10(2);
@@ -39,7 +44,8 @@ static bool check(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, uint64_t *
     return seen == heldout_points;
 }
 
-/* The terms' rates; false when one contains rounded numbers: they bound the digits from the start, and nothing would be decided. */
+/* The terms' rates; false when one contains rounded numbers: they bound the digits from the start, and nothing would be
+   decided. */
 static bool rates(const nh_model *o, size_t n, const nh_ex *term, nh_ex *rate)
 {
     bool exact = true;

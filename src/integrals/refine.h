@@ -2,8 +2,8 @@
  *
  *     Gamma(sum_j c_j b_j) = 0   by least squares at exact points in ball arithmetic   [ball_fit.h]
  *
- * A true current cancels at points that the fit has not seen to as many digits as there are; a combination that is only nearly conserved
- * cancels to the 13 that made it look true in doubles. */
+ * A true current cancels at points that the fit has not seen to as many digits as there are; a combination that is only
+ * nearly conserved cancels to the 13 that made it look true in doubles. */
 #ifndef NH_REFINE_H
 #define NH_REFINE_H
 
@@ -12,12 +12,14 @@
 
 typedef struct {
     size_t count;        /* true currents, or 1 and the one that is nearest to it; 0: nothing could be decided */
-    double *coefficient; /* n x count, rounded; each has one leading coefficient that is not zero where the others' are */
+    /* n x count, rounded; each has one leading coefficient that is not zero where the others' are */
+    double *coefficient;
     double *digits;      /* per vector: to which its rate cancels at held-out points */
 } nh_refined;
 
 /* leading[j]: the terms whose coefficients fix a vector (the pivots of an echelon form). */
-nh_refined nh_refine(const nh_model *model, size_t n, const nh_ex *term, const bool *leading, const nh_options *options);
+nh_refined nh_refine(const nh_model *model, size_t n, const nh_ex *term, const bool *leading,
+                     const nh_options *options);
 void nh_refined_clear(nh_refined *refined);
 
 #endif

@@ -81,7 +81,8 @@ static void decode(const trial *t, uint32_t bits, nh_reflection *r)
         if (c->quasi) r->sign[1 + m + i] = bits >> bit++ & 1 ? -1 : 1;
         else r->sign[1 + m + i] = (signed char)(r->sign[0] * r->sign[1 + c->free[i]]);
     }
-    for (size_t i = 0; i < c->implicit; i++) r->sign[1 + m + n + i] = (signed char)(r->sign[0] * r->sign[1 + c->dependent[i]]);
+    for (size_t i = 0; i < c->implicit; i++)
+        r->sign[1 + m + n + i] = (signed char)(r->sign[0] * r->sign[1 + c->dependent[i]]);
     for (size_t i = 0; i < t->angles; i++)
         if (bits >> bit++ & 1) r->shift[1 + t->angle[i]] = acos(-1);
 }
@@ -105,7 +106,8 @@ static bool holds_at(trial *t, const nh_reflection *r, size_t p)
     for (size_t k = 0; k < t->outputs; k++) {
         bool velocity = k < o->m, residual = k >= o->m + o->n;
         int sign = residual ? 0 : velocity ? r->sign[0] * r->sign[1 + k] : r->sign[0] * r->sign[1 + k];
-        if (!isfinite(t->there[k]) || !close_to(t->there[k], sign * here[k], velocity || residual ? speed : strength)) return false;
+        if (!isfinite(t->there[k]) || !close_to(t->there[k], sign * here[k], velocity || residual ? speed : strength))
+            return false;
     }
     return true;
 }
@@ -127,7 +129,8 @@ static nh_reflection empty(nh_arena *arena, size_t width)
     return r;
 }
 
-/* Reduce by what is known, keep what is left: Gaussian elimination over GF(2), each row with a leading bit of its own. */
+/* Reduce by what is known, keep what is left: Gaussian elimination over GF(2), each row with a leading bit of its
+   own. */
 static void enter(uint32_t bits, uint32_t *basis, size_t *count)
 {
     for (size_t i = 0; i < *count; i++)

@@ -2,8 +2,9 @@
  *
  *     S: t -> e_0 t,  q^s -> e_s q^s (+ pi for an angle),  w^i -> f_i w^i,       e, f = +1 or -1
  *
- * is a symmetry when rho^s(Sz) = e_0 e_s rho^s(z) and a^i(Sz) = e_0 f_i a^i(z): then Gamma is carried to e_0 Gamma, so that Phi o S is a
- * current when Phi is, and the odd and the even part of every current are currents.  Found by trying at random points: nothing is symbolic. */
+ * is a symmetry when rho^s(Sz) = e_0 e_s rho^s(z) and a^i(Sz) = e_0 f_i a^i(z): then Gamma is carried to e_0 Gamma, so
+ * that Phi o S is a current when Phi is, and the odd and the even part of every current are currents.  Found by trying
+ * at random points: nothing is symbolic. */
 #ifndef NH_REFLECTION_H
 #define NH_REFLECTION_H
 
@@ -26,6 +27,7 @@ void nh_reflections_free(nh_reflections *reflections);
 
 void nh_reflect(const nh_reflection *reflection, size_t width, const double *z, double *out);
 /* first after second */
-nh_reflection nh_reflections_product(const nh_reflections *reflections, const nh_reflection *first, const nh_reflection *second);
+nh_reflection nh_reflections_product(const nh_reflections *reflections, const nh_reflection *first,
+                                     const nh_reflection *second);
 
 #endif

@@ -47,7 +47,9 @@ static bool passage_at(const nh_model *o, nh_ball *ball, const nh_crossing *c, s
 {
     sides below, above;
     *out = (passage){0};
-    if (!side_at(o, ball, c->wall, c->point[0][depth], &below) || !side_at(o, ball, c->wall, c->point[1][depth], &above)) return false;
+    if (!side_at(o, ball, c->wall, c->point[0][depth], &below) ||
+        !side_at(o, ball, c->wall, c->point[1][depth], &above))
+        return false;
     for (size_t s = 0; s < o->m; s++) {
         out->rho[s] = above.rho[s] - below.rho[s];
         out->speed = fmax(out->speed, fabs(above.rho[s]));
@@ -91,7 +93,8 @@ static void find_impulses(const nh_model *o, const nh_options *options, nh_terra
         bool known = !may_kick(o, &t->walls, c->wall);
         for (size_t i = 0; i < t->impulses; i++) known |= t->impulse[i] == c->wall;
         if (known || !passage_at(o, ball, c, 1, &far) || !passage_at(o, ball, c, 2, &near)) continue;
-        if (stays(o->n, far.impulse, near.impulse, near.size) || stays(o->m, far.rho, near.rho, near.speed)) t->impulse[t->impulses++] = c->wall;
+        if (stays(o->n, far.impulse, near.impulse, near.size) || stays(o->m, far.rho, near.rho, near.speed))
+            t->impulse[t->impulses++] = c->wall;
     }
     nh_ball_free(ball);
 }
@@ -160,7 +163,8 @@ static int holds(judge *j, double *z)
     if (!nh_exact_at(j->o, j->ball, z)) return -1;
     if (nh_ball_relative_sum(j->ball, j->terms, j->term, &ratio)) return -ratio >= j->digits;
     if (!nh_ball_value(j->ball, j->phi, &size, &radius)) return -1;
-    double least = fabs(size) * pow(10, -j->digits); /* terms that are 0 up to rounding, as those of y' (x - |x|), are small beside Phi */
+    /* terms that are 0 up to rounding, as those of y' (x - |x|), are small beside Phi */
+    double least = fabs(size) * pow(10, -j->digits);
     for (size_t i = 0; i < j->terms && zero; i++) {
         if (!nh_ball_value(j->ball, j->term[i], &mid, &radius)) return -1;
         zero = fabs(mid) + radius <= least;
@@ -172,16 +176,19 @@ static int holds(judge *j, double *z)
 
 /* What was seen at the crossings of one wall. */
 typedef struct {
-    bool below, above, jump; /* it failed below while it held above; the other way; it failed on neither side, and jumped */
+    /* it failed below while it held above; the other way; it failed on neither side, and jumped */
+    bool below, above, jump;
 } seen;
 
 static void look(judge *j, const nh_crossing *c, seen *s)
 {
     int below = j->digits > 0 ? holds(j, c->point[0][0]) : 1, above = j->digits > 0 ? holds(j, c->point[1][0]) : 1;
-    if (below == 0 && above == 0 && j->failing < NH_MOST_WALLS && !(j->failing && j->fails[j->failing - 1] == c->wall)) j->fails[j->failing++] = c->wall;
+    if (below == 0 && above == 0 && j->failing < NH_MOST_WALLS && !(j->failing && j->fails[j->failing - 1] == c->wall))
+        j->fails[j->failing++] = c->wall;
     s->below |= below == 0 && above == 1;
     s->above |= above == 0 && below == 1;
-    s->jump |= below != 0 && above != 0 && (below == 1 || above == 1) && jumps(j, c); /* where Phi is zero to the last digit its rate tells nothing */
+    /* where Phi is zero to the last digit its rate tells nothing */
+    s->jump |= below != 0 && above != 0 && (below == 1 || above == 1) && jumps(j, c);
 }
 
 static void note(nh_region *r, nh_ex wall, const seen *s, bool touches)
@@ -223,11 +230,14 @@ nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, 
     j.term = nh_alloc_array(j.terms, sizeof *j.term);
     nh_rate_terms(o, phi, j.term);
     nh_exact_parameters(o, j.ball);
-    for (size_t i = 0; i < terrain->impulses; i++) out.wall[out.count] = terrain->impulse[i], out.kind[out.count++] = NH_REGION_IMPULSE;
+    for (size_t i = 0; i < terrain->impulses; i++)
+        out.wall[out.count] = terrain->impulse[i], out.kind[out.count++] = NH_REGION_IMPULSE;
     look_at_all(&j, &terrain->crossings, &out);
     look_at_all(&j, &own, &out);
-    /* Far from the sampling box it fails on both sides of a wall, and nothing else was seen to end it: another sheet of that wall does. */
-    for (size_t i = 0; i < j.failing && !out.count; i++) out.wall[out.count] = j.fails[i], out.kind[out.count++] = NH_REGION_PARTS;
+    /* Far from the sampling box it fails on both sides of a wall, and nothing else was seen to end it: another sheet of
+       that wall does. */
+    for (size_t i = 0; i < j.failing && !out.count; i++)
+        out.wall[out.count] = j.fails[i], out.kind[out.count++] = NH_REGION_PARTS;
     nh_free(j.term);
     nh_ball_free(j.ball);
     return out;
@@ -272,9 +282,12 @@ const char *nh_region_text(nh_dag *d, const nh_region *r, nh_arena *arena)
     }
     for (size_t i = 0; i < r->count; i++) {
         if (r->kind[i] == NH_REGION_ABOVE || r->kind[i] == NH_REGION_BELOW) continue;
-        nh_text_addf(&text, "%s%s", between, r->kind[i] == NH_REGION_PARTS ? "in some parts that end at " : "on each side of ");
+        nh_text_addf(&text, "%s%s", between,
+                     r->kind[i] == NH_REGION_PARTS ? "in some parts that end at " : "on each side of ");
         condition(d, r->wall[i], 0, &text);
-        nh_text_add(&text, r->kind[i] == NH_REGION_APART ? ", where it jumps" : r->kind[i] == NH_REGION_IMPULSE ? ", where the motion has an impulse" : "");
+        nh_text_add(&text, r->kind[i] == NH_REGION_APART     ? ", where it jumps"
+                           : r->kind[i] == NH_REGION_IMPULSE ? ", where the motion has an impulse"
+                                                             : "");
         between = ", ";
     }
     const char *out = nh_arena_strdup(arena, nh_text_string(&text));

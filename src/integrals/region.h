@@ -6,14 +6,14 @@
  * to the wall on both sides (a difference that does not fall is a jump; what grows without bound is a pole, which no
  * motion with a finite Phi reaches), and Gamma(Phi) there.
  *
- * Where L itself jumps at a wall g(t, q) = 0 the equations of motion contain an impulse.  With velocities that go through unchanged,
- * d/dt p_s - dL/dq^s holds delta(g) times, up to a factor,
+ * Where L itself jumps at a wall g(t, q) = 0 the equations of motion contain an impulse.  With velocities that go
+ * through unchanged, d/dt p_s - dL/dq^s holds delta(g) times, up to a factor,
  *
  *     I_s = [p_s] dg/dt - [L] dg/dq^s,    [.]: the value above the wall minus that below.
  *
- * Only where I_s R^s_i = 0, and the constraints give the same velocities on both sides, [rho^s] = 0, does Gamma describe the passage.
- * At other walls no current of the sides is one of the whole motion.  The cut of an angle atan2(y, x), and the like, is none of
- * them: L goes on with the angle's next branch. */
+ * Only where I_s R^s_i = 0, and the constraints give the same velocities on both sides, [rho^s] = 0, does Gamma
+ * describe the passage. At other walls no current of the sides is one of the whole motion.  The cut of an angle
+ * atan2(y, x), and the like, is none of them: L goes on with the angle's next branch. */
 #ifndef NH_REGION_H
 #define NH_REGION_H
 
@@ -44,7 +44,8 @@ nh_terrain nh_terrain_of(const nh_model *model, const nh_options *options, nh_ar
 nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits,
     const nh_options *options, nh_arena *arena);
 
-/* "for x > 0", "on each side of x - y = 0, where it jumps", "on each side of x = 0, where the motion has an impulse"; NULL for everywhere. */
+/* "for x > 0", "on each side of x - y = 0, where it jumps", "on each side of x = 0, where the motion has an impulse";
+   NULL for everywhere. */
 const char *nh_region_text(nh_dag *dag, const nh_region *region, nh_arena *arena);
 
 #endif

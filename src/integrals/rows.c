@@ -8,8 +8,8 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 
-/* The derivative of log(R - s), with a difference that cancels, is often a quotient in which nothing cancels: worth the simplification,
- * which otherwise would cost more than the whole search. */
+/* The derivative of log(R - s), with a difference that cancels, is often a quotient in which nothing cancels: worth the
+ * simplification, which otherwise would cost more than the whole search. */
 static nh_ex without_logarithms(nh_dag *d, nh_ex of, nh_ex derivative)
 {
     enum { most = 64 };
@@ -17,7 +17,8 @@ static nh_ex without_logarithms(nh_dag *d, nh_ex of, nh_ex derivative)
     size_t n = nh_functions_in(d, of, call, most);
     for (size_t i = 0; i < n && i < most; i++) {
         nh_function f = nh_function_of(d, call[i]);
-        if (f == NH_LOG || f == NH_ATANH || f == NH_ACOSH || f == NH_ASIN || f == NH_ACOS) return nh_simplify(d, derivative);
+        if (f == NH_LOG || f == NH_ATANH || f == NH_ACOSH || f == NH_ASIN || f == NH_ACOS)
+            return nh_simplify(d, derivative);
     }
     return derivative;
 }
@@ -49,7 +50,8 @@ static nh_tape *factor_tape(const nh_model *o, const nh_ansatz *a, nh_ex kappa, 
     out[2 * n] = kappa;
     memcpy(in, o->chart->symbol, o->width * sizeof *in);
     if (unknowns) memcpy(in + o->width, unknown, unknowns * sizeof *in);
-    nh_tape *tape = nh_tape_create(o->dag, o->width + unknowns, in, 2 * n + 1, out, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape *tape = nh_tape_create(o->dag, o->width + unknowns, in, 2 * n + 1, out, o->system->parameters, o->parameter,
+                                   o->parameter_value);
     nh_free(in);
     nh_free(out);
     return tape;
@@ -65,12 +67,14 @@ static nh_tape *beyond_tape(const nh_model *o, const nh_ansatz *a, size_t unknow
     for (size_t i = 0; i < moving; i++) in[o->width + i] = nh_symbol_fresh(d, "rate");
     if (unknowns) memcpy(in + width, unknown, unknowns * sizeof *in);
     for (size_t i = 0; i < n; i++) {
-        nh_ex rate = nh_add(d, nh_diff(d, a->factor[i], in[0]), nh_diff_along(d, a->factor[i], moving, in + 1, in + o->width));
+        nh_ex rate =
+            nh_add(d, nh_diff(d, a->factor[i], in[0]), nh_diff_along(d, a->factor[i], moving, in + 1, in + o->width));
         out[i] = a->factor[i];
         out[n + i] = without_logarithms(d, a->factor[i], rate);
     }
     out[2 * n] = nh_int(d, 0);
-    nh_tape *tape = nh_tape_create(d, width + unknowns, in, 2 * n + 1, out, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape *tape = nh_tape_create(d, width + unknowns, in, 2 * n + 1, out, o->system->parameters, o->parameter,
+                                   o->parameter_value);
     nh_free(in);
     nh_free(out);
     return tape;
@@ -179,7 +183,8 @@ void nh_rows_current(nh_rows *r, const nh_points *points, const double *theta, n
         nh_equations_add(equations, run_beyond(r, beyond, start), r->rate, NH_BATCH);
 }
 
-/* w Gamma(b_j) and w kappa b_j, or b_j alone, of every column at every point of the chart, into arrays of leading dimension ld. */
+/* w Gamma(b_j) and w kappa b_j, or b_j alone, of every column at every point of the chart, into arrays of leading
+   dimension ld. */
 static void whole(nh_rows *r, bool weigh, const nh_points *points, size_t ld, double *A, double *B)
 {
     const nh_ansatz *a = r->ansatz;
@@ -210,7 +215,8 @@ void nh_rows_all(const nh_model *o, const nh_ansatz *a, const nh_points *points,
     whole(r, false, points, ld, A, B);
     for (size_t start = 0; beyond && start < beyond->count; start += NH_BATCH) {
         size_t count = run_beyond(r, beyond, start);
-        for (size_t j = 0; j < a->columns; j++) memcpy(A + j * ld + points->count + start, r->rate + j * NH_BATCH, count * sizeof *A);
+        for (size_t j = 0; j < a->columns; j++)
+            memcpy(A + j * ld + points->count + start, r->rate + j * NH_BATCH, count * sizeof *A);
     }
     nh_rows_free(r);
 }
@@ -260,9 +266,10 @@ nh_ex nh_rows_field_current(const nh_model *o, const nh_field_column *c)
     return c->slot == 0 ? c->function : nh_mul(o->dag, o->pbar[c->slot - 1], c->function);
 }
 
-/* How much the field varies: its own part of Phi, slot by slot.  (Phi alone would not do: z0 = g and zeta = g/pbar have the same Phi
- * and are different fields.)  Centred per slot, so that Phi = const stays trivial. */
-static void field_values(size_t n, const nh_field_column *column, size_t slot, size_t per, size_t count, const double *value, double *block)
+/* How much the field varies: its own part of Phi, slot by slot.  (Phi alone would not do: z0 = g and zeta = g/pbar have
+ * the same Phi and are different fields.)  Centred per slot, so that Phi = const stays trivial. */
+static void field_values(size_t n, const nh_field_column *column, size_t slot, size_t per, size_t count,
+                         const double *value, double *block)
 {
     memset(block, 0, n * count * sizeof *block);
     for (size_t c = 0; c < n; c++) {
@@ -274,7 +281,8 @@ static void field_values(size_t n, const nh_field_column *column, size_t slot, s
     }
 }
 
-void nh_rows_symmetry(const nh_model *o, size_t n, const nh_field_column *column, const nh_points *points, nh_equations *equations)
+void nh_rows_symmetry(const nh_model *o, size_t n, const nh_field_column *column, const nh_points *points,
+                      nh_equations *equations)
 {
     nh_dag *d = o->dag;
     size_t per = o->n + 2; /* Phi, (N0), (NY)_1..n */

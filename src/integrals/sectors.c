@@ -22,7 +22,10 @@ typedef struct {
 
 static mirror mirror_create(const nh_model *o, const nh_ansatz *a, const nh_points *points)
 {
-    mirror m = {.o = o, .a = a, .tape = nh_model_tape(o, a->factors, a->factor), .points = points->count < parity_points ? points->count : parity_points};
+    mirror m = {.o = o,
+                .a = a,
+                .tape = nh_model_tape(o, a->factors, a->factor),
+                .points = points->count < parity_points ? points->count : parity_points};
     m.work = nh_tape_work_create(m.tape);
     m.z = nh_alloc_array(m.points * o->width + 1, sizeof *m.z);
     m.here = nh_alloc_array(m.points * a->factors + 1, sizeof *m.here);
@@ -187,7 +190,8 @@ static void place_vectors(const nh_sectors *s, nh_nullspace *const *part, bool c
     for (size_t i = 0; i < s->count; i++) {
         const nh_nullspace *p = part[i];
         for (size_t k = certain ? 0 : p->dimension; k < (certain ? p->dimension : p->likely); k++)
-            memcpy(whole->vector + (*at)++ * whole->columns + s->first[i], p->vector + k * p->columns, p->columns * sizeof *p->vector);
+            memcpy(whole->vector + (*at)++ * whole->columns + s->first[i], p->vector + k * p->columns,
+                   p->columns * sizeof *p->vector);
     }
 }
 
@@ -196,11 +200,13 @@ static void merge_spectra(const nh_sectors *s, nh_nullspace *const *part, nh_nul
 {
     size_t null = 0, rest = whole->dimension;
     for (size_t i = 0; i < s->count; i++)
-        for (size_t j = 0; j < part[i]->rank; j++) whole->spectrum[j < part[i]->dimension ? null++ : rest++] = part[i]->spectrum[j];
+        for (size_t j = 0; j < part[i]->rank; j++)
+            whole->spectrum[j < part[i]->dimension ? null++ : rest++] = part[i]->spectrum[j];
     qsort(whole->spectrum, whole->dimension, sizeof(double), ascending);
     qsort(whole->spectrum + whole->dimension, whole->rank - whole->dimension, sizeof(double), ascending);
     bool both = whole->dimension > 0 && whole->dimension < whole->rank;
-    whole->gap = both ? whole->spectrum[whole->dimension] / fmax(whole->spectrum[whole->dimension - 1], DBL_EPSILON) : INFINITY;
+    whole->gap =
+        both ? whole->spectrum[whole->dimension] / fmax(whole->spectrum[whole->dimension - 1], DBL_EPSILON) : INFINITY;
 }
 
 static nh_nullspace *merge(const nh_sectors *s, nh_nullspace *const *part)
@@ -223,7 +229,8 @@ static nh_nullspace *merge(const nh_sectors *s, nh_nullspace *const *part)
     whole->spectrum = nh_alloc_array(whole->rank + 1, sizeof *whole->spectrum);
     whole->vector = nh_alloc_array(whole->columns * whole->likely + 1, sizeof *whole->vector);
     whole->dropped = nh_alloc_array(whole->columns + 1, sizeof *whole->dropped);
-    for (size_t i = 0; i < s->count; i++) memcpy(whole->dropped + s->first[i], part[i]->dropped, part[i]->columns * sizeof *whole->dropped);
+    for (size_t i = 0; i < s->count; i++)
+        memcpy(whole->dropped + s->first[i], part[i]->dropped, part[i]->columns * sizeof *whole->dropped);
     size_t at = 0;
     place_vectors(s, part, true, whole, &at);
     place_vectors(s, part, false, whole, &at);
@@ -231,11 +238,16 @@ static nh_nullspace *merge(const nh_sectors *s, nh_nullspace *const *part)
     return whole;
 }
 
-nh_nullspace *nh_sectors_solve(const nh_model *o, const nh_ansatz *a, const nh_sectors *sectors, const nh_points *points,
-                               const nh_nullspace_options *options, size_t threads, nh_error *error)
+nh_nullspace *nh_sectors_solve(const nh_model *o, const nh_ansatz *a, const nh_sectors *sectors,
+                               const nh_points *points, const nh_nullspace_options *options, size_t threads,
+                               nh_error *error)
 {
     size_t n = a->columns, count = sectors->count;
-    task t = {.sectors = sectors, .options = options, .equations = nh_points_equations(points), .points = points->count, .threads = count < threads ? threads / count : 1};
+    task t = {.sectors = sectors,
+              .options = options,
+              .equations = nh_points_equations(points),
+              .points = points->count,
+              .threads = count < threads ? threads / count : 1};
     t.a = nh_alloc_array(n * (t.equations + t.points) + 1, sizeof *t.a);
     t.b = t.a + n * t.equations;
     t.part = nh_alloc_array(count + 1, sizeof *t.part);

@@ -30,7 +30,9 @@ static void columns(const problem *p, nh_ex *e)
     for (size_t i = 0; i < p->theta.count; i++) {
         e[p->n + i] = nh_int(d, 0);
         for (size_t j = 0; j < p->n; j++)
-            e[p->n + i] = nh_add(d, e[p->n + i], nh_mul(d, nh_number(d, nh_num_decimal(p->c[j])), nh_diff(d, p->rate[j], p->theta.symbol[i])));
+            e[p->n + i] =
+                nh_add(d, e[p->n + i],
+                       nh_mul(d, nh_number(d, nh_num_decimal(p->c[j])), nh_diff(d, p->rate[j], p->theta.symbol[i])));
     }
 }
 
@@ -38,7 +40,8 @@ static bool feed(const problem *p, nh_ball *ball, nh_ball_fit *fit, size_t rows)
 {
     uint64_t state = (uint64_t)p->options->seed + 717;
     size_t added = 0;
-    for (size_t i = 0; i < p->theta.count; i++) nh_ball_set_expression(ball, p->theta.symbol[i], nh_number(p->o->dag, p->value[i]));
+    for (size_t i = 0; i < p->theta.count; i++)
+        nh_ball_set_expression(ball, p->theta.symbol[i], nh_number(p->o->dag, p->value[i]));
     for (size_t tries = 0; tries < most_tries * rows + 40 && added < rows; tries++)
         if (nh_exact_point(p->o, ball, &state) && nh_ball_fit_add(fit)) added++;
     return added == rows;
@@ -97,7 +100,8 @@ static bool solve(problem *p)
     return false;
 }
 
-bool nh_sharpen(const nh_model *o, size_t n, nh_ex *term, const double *coefficient, size_t pivot, const nh_options *options)
+bool nh_sharpen(const nh_model *o, size_t n, nh_ex *term, const double *coefficient, size_t pivot,
+                const nh_options *options)
 {
     nh_dag *d = o->dag;
     problem p = {.o = o, .options = options, .n = n, .pivot = pivot};

@@ -11,8 +11,8 @@
  * special inside of a surface, a wall or a plane is a question of two parameters.
  *
  * What is proved: in a plane that was looked at, a point that is special has, modulo each of the primes, residues on
- * one of the surfaces or walls, or no residues. A pair of rationals up to a `height` lies on one of them then. Nothing is
- * said about other nu. */
+ * one of the surfaces or walls, or no residues. A pair of rationals up to a `height` lies on one of them then. Nothing
+ * is said about other nu. */
 #ifndef NH_SPACE_H
 #define NH_SPACE_H
 

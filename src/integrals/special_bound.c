@@ -164,7 +164,8 @@ static double denominator(int64_t q0)
 }
 
 /* What one term adds to the row of w^beta and the derivative e. */
-static double entry(const bound *b, const term *t, size_t degree, const size_t *beta, const size_t *e, const int64_t *q0)
+static double entry(const bound *b, const term *t, size_t degree, const size_t *beta, const size_t *e,
+                    const int64_t *q0)
 {
     const nh_jet_equations *x = b->x;
     double size = t->size;
@@ -216,8 +217,8 @@ static double largest(const bound *b, size_t degree, nh_parity parity, size_t or
 
 int64_t nh_special_bound_tangent(int64_t coordinate) { return coordinate + 1; }
 
-bool nh_special_bound_find(const nh_parametric *family, size_t degree, nh_parity parity, size_t order, const int64_t *q0,
-                           size_t rank, nh_special_bound *out)
+bool nh_special_bound_find(const nh_parametric *family, size_t degree, nh_parity parity, size_t order,
+                           const int64_t *q0, size_t rank, nh_special_bound *out)
 {
     bound b = {.family = family, .x = family->counter.equations, .dag = family->counter.equations->dag, .whole = 1};
     int64_t power = 0;

@@ -29,8 +29,8 @@ void nh_special_curves_clear(nh_special_curves *curves);
 bool nh_special_curve_point(const nh_special_curve *curve, nh_prime field, uint64_t seed, nh_residue *lambda,
                             nh_residue *mu);
 
-/* The other coordinate of its real points where lambda (0) or mu (1) has this value, ascending; how many they are. `out`
- * has room for the degree in that coordinate. */
+/* The other coordinate of its real points where lambda (0) or mu (1) has this value, ascending; how many they are.
+ * `out` has room for the degree in that coordinate. */
 size_t nh_special_curve_reals(const nh_special_curve *curve, int fixed, double value, double *out);
 
 /* Do all points with these lambda and the rational number mu lie on the curve? */

@@ -22,8 +22,8 @@ typedef struct {
     nh_residue *coefficient;
 } nh_residue_polynomial;
 
-/* chi, monic, and the columns less the rank for almost all values. `products` of residues may be taken and becomes what is left of them,
- * negative when it was too little. False then, and behind the deadline (base/progress.h). */
+/* chi, monic, and the columns less the rank for almost all values. `products` of residues may be taken and becomes what
+ * is left of them, negative when it was too little. False then, and behind the deadline (base/progress.h). */
 bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, double *products, nh_residue_polynomial *chi,
                   size_t *nullity);
 

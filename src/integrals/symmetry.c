@@ -8,7 +8,8 @@
 
 enum { large_length = 3000, many_coordinates = 12 }; /* nh_complexity */
 
-/* A long formula with rounded coefficients, a series, has no simpler form; a very long one none that could be found in reasonable time. */
+/* A long formula with rounded coefficients, a series, has no simpler form; a very long one none that could be found in
+   reasonable time. */
 static nh_ex tidy(nh_dag *d, nh_ex e)
 {
     enum { lengthy = 200 };
@@ -43,7 +44,8 @@ static void equations_of(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *ze
     }
 }
 
-/* c or c*w_i with a simple number c, when z is that at most probes of the chart (near its singularities doubles lose their digits); else z. */
+/* c or c*w_i with a simple number c, when z is that at most probes of the chart (near its singularities doubles lose
+   their digits); else z. */
 static nh_ex recognised(const nh_model *o, nh_ex z, size_t i)
 {
     enum { tried = 5 };
@@ -54,7 +56,8 @@ static nh_ex recognised(const nh_model *o, nh_ex z, size_t i)
     nh_ex found = z;
     for (size_t p = 0; p < c->probes; p++) nh_tape_eval(tape, work, c->probe + p * c->width, &value[p]);
     for (size_t first = 0; first < c->probes && first < tried && found == z; first++) {
-        double number = round(12 * value[first]) / 12, factor = round(12 * value[first] / c->probe[first * c->width + 1 + o->m + i]) / 12;
+        double number = round(12 * value[first]) / 12,
+               factor = round(12 * value[first] / c->probe[first * c->width + 1 + o->m + i]) / 12;
         size_t constant = 0, linear = 0;
         for (size_t p = 0; p < c->probes; p++) {
             double w = c->probe[p * c->width + 1 + o->m + i];
@@ -62,7 +65,8 @@ static nh_ex recognised(const nh_model *o, nh_ex z, size_t i)
             linear += fabs(value[p] - factor * w) <= 1e-9 * (1 + fabs(value[p]));
         }
         if (2 * constant > c->probes) found = nh_ratio(o->dag, (int64_t)round(12 * number), 12);
-        else if (2 * linear > c->probes) found = nh_mul(o->dag, nh_ratio(o->dag, (int64_t)round(12 * factor), 12), c->w[i]);
+        else if (2 * linear > c->probes)
+            found = nh_mul(o->dag, nh_ratio(o->dag, (int64_t)round(12 * factor), 12), c->w[i]);
     }
     nh_free(value);
     nh_tape_work_free(work);
@@ -70,8 +74,8 @@ static nh_ex recognised(const nh_model *o, nh_ex z, size_t i)
     return found;
 }
 
-/* x = M^-1 b (n).  Where that is long, and perhaps too long to be simplified: the fields of energies and momenta have simple components.  What is
- * recognised is proved, M x = b. */
+/* x = M^-1 b (n).  Where that is long, and perhaps too long to be simplified: the fields of energies and momenta have
+ * simple components.  What is recognised is proved, M x = b. */
 static void solve(const nh_model *o, const nh_ex *b, nh_ex *x)
 {
     enum { lengthy = 80 };
@@ -107,9 +111,12 @@ nh_ex nh_symmetry_components(const nh_model *o, nh_ex phi, nh_ex *zeta)
     return tidy(d, nh_div(d, rest, o->Lbar));
 }
 
-/* Of many coordinates every component of Z has the long Z^0 = (Phi - pbar zeta)/Lbar as a factor of Gamma's: without it they are short, and with it not
- * worth the work. */
-static bool is_of_many(const nh_model *o, const nh_symmetry *z) { return o->m > many_coordinates && nh_kind_of(o->dag, z->Z0) != NH_NUMBER; }
+/* Of many coordinates every component of Z has the long Z^0 = (Phi - pbar zeta)/Lbar as a factor of Gamma's: without it
+ * they are short, and with it not worth the work. */
+static bool is_of_many(const nh_model *o, const nh_symmetry *z)
+{
+    return o->m > many_coordinates && nh_kind_of(o->dag, z->Z0) != NH_NUMBER;
+}
 
 /* Z - Z^0 Gamma: R zeta and, by (NX) with M a = A, M (W - Z^0 a) = -G^T zeta - X(Phi). */
 static void without_motion(nh_model *o, nh_symmetry *z)
@@ -138,7 +145,8 @@ static void solve_directly(nh_model *o, nh_symmetry *z)
     for (size_t j = 0; j < n; j++) {
         nh_ex b = nh_sub(d, nh_mul(d, o->A[j], z->Z0), nh_model_X(o, j, z->phi));
         for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, nh_model_G(o)[i * n + j], z->zeta[i]));
-        z->W[j] = nh_normal_is_zero(d, b, 0) == NH_ZERO ? nh_int(d, 0) : b; /* zero for an energy; told before M^-1 lengthens it */
+        /* zero for an energy; told before M^-1 lengthens it */
+        z->W[j] = nh_normal_is_zero(d, b, 0) == NH_ZERO ? nh_int(d, 0) : b;
     }
     solve(o, z->W, z->W);
     for (size_t i = 0; i < n; i++) z->W[i] = tidy(d, z->W[i]);
@@ -159,7 +167,8 @@ static void solve_components(nh_model *o, nh_symmetry *z)
     if (many) {
         without_motion(o, z);
         for (size_t i = 0; i < o->n; i++) z->W[i] = nh_add(d, z->relative.velocity[i], nh_mul(d, z->Z0, o->a[i]));
-        for (size_t s = 0; s < o->m; s++) z->field.space[s] = nh_add(d, z->relative.space[s], nh_mul(d, z->Z0, o->rho[s]));
+        for (size_t s = 0; s < o->m; s++)
+            z->field.space[s] = nh_add(d, z->relative.space[s], nh_mul(d, z->Z0, o->rho[s]));
     } else {
         solve_directly(o, z);
     }
@@ -178,8 +187,9 @@ static size_t total_complexity(const nh_model *o, const nh_field *f, const nh_ex
     return sum;
 }
 
-/* Z^0 = (Phi - pbar zeta)/Lbar is a long quotient as soon as Phi is no energy, and every component has it as a factor of Gamma's: what is left
- * when Z^0 Gamma is taken away is often the field that one knows, t d/dy + d/dy' of a boost. */
+/* Z^0 = (Phi - pbar zeta)/Lbar is a long quotient as soon as Phi is no energy, and every component has it as a factor
+ * of Gamma's: what is left when Z^0 Gamma is taken away is often the field that one knows, t d/dy + d/dy' of a
+ * boost. */
 static void take_motion_away(nh_model *o, nh_symmetry *z)
 {
     enum { short_enough = 120 };
@@ -208,15 +218,18 @@ static void bracket_halves(const nh_model *o, const nh_field *Z, nh_ex *first, n
     }
 }
 
-/* From the halves for Z - c Gamma, with rate = Gamma(c): [Gamma, Z] = [Gamma, Z - c Gamma] + rate Gamma.  The components are left as they come: they are
- * evaluated, not printed.  With nu R = 0 the form needs no derivative of Z:
+/* From the halves for Z - c Gamma, with rate = Gamma(c): [Gamma, Z] = [Gamma, Z - c Gamma] + rate Gamma.  The
+ * components are left as they come: they are evaluated, not printed.  With nu R = 0 the form needs no derivative of Z:
  *     i_[Gamma,Z] phi^a = nu^a_s (Gamma(R^s_i) - X_i(rho^s)) zeta^i. */
 static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex *second, nh_ex rate)
 {
     nh_dag *d = o->dag;
     z->bracket = (nh_field){nh_add(d, first[0], rate), take(o, o->m), take(o, o->n)};
-    for (size_t s = 0; s < o->m; s++) z->bracket.space[s] = nh_add(d, nh_sub(d, first[1 + s], second[1 + s]), nh_mul(d, rate, o->rho[s]));
-    for (size_t i = 0; i < o->n; i++) z->bracket.velocity[i] = nh_add(d, nh_sub(d, first[1 + o->m + i], second[1 + o->m + i]), nh_mul(d, rate, o->a[i]));
+    for (size_t s = 0; s < o->m; s++)
+        z->bracket.space[s] = nh_add(d, nh_sub(d, first[1 + s], second[1 + s]), nh_mul(d, rate, o->rho[s]));
+    for (size_t i = 0; i < o->n; i++)
+        z->bracket.velocity[i] =
+            nh_add(d, nh_sub(d, first[1 + o->m + i], second[1 + o->m + i]), nh_mul(d, rate, o->a[i]));
     for (size_t a = 0; a < o->k; a++) {
         nh_ex e = nh_int(d, 0);
         for (size_t s = 0; s < o->m; s++)
@@ -250,7 +263,8 @@ static void measure(const nh_model *o, local *l)
     }
 }
 
-/* r = b - b^0 Gamma against z' = Z - Z^0 Gamma: 1 when r vanishes, 2 when parallel, 3 otherwise, 0 when not finite.  Neither has a component along t. */
+/* r = b - b^0 Gamma against z' = Z - Z^0 Gamma: 1 when r vanishes, 2 when parallel, 3 otherwise, 0 when not finite.
+   Neither has a component along t. */
 static int case_at(const local *l, double same)
 {
     double r2 = 0, z2 = 0, rz = 0, scale = 0, zscale = 0;
@@ -259,7 +273,8 @@ static int case_at(const local *l, double same)
         r2 += r * r;
         z2 += z * z;
         rz += r * z;
-        scale = fmax(scale, fmax(l->scale[j] + fabs(l->b[0] * l->gamma[j]), l->pace * fabs(l->z[j])) / l->unit[j]); /* a bracket of order |Z| is not small */
+        /* a bracket of order |Z| is not small */
+        scale = fmax(scale, fmax(l->scale[j] + fabs(l->b[0] * l->gamma[j]), l->pace * fabs(l->z[j])) / l->unit[j]);
         zscale = fmax(zscale, (fabs(l->z[j]) + fabs(l->z[0] * l->gamma[j])) / l->unit[j]);
     }
     if (!isfinite(r2 + z2 + rz + scale)) return 0;
@@ -275,14 +290,16 @@ static bool is_inside(const nh_model *o, const local *l, double same)
     bool inside = true;
     for (size_t a = 0; a < l->forms; a++) {
         double scale = 0;
-        for (size_t s = 0; s < o->m; s++) scale = fmax(scale, fabs(l->nu[a * o->m + s]) * fmax(l->scale[1 + s], l->pace * fabs(l->z[1 + s])));
+        for (size_t s = 0; s < o->m; s++)
+            scale = fmax(scale, fabs(l->nu[a * o->m + s]) * fmax(l->scale[1 + s], l->pace * fabs(l->z[1 + s])));
         inside &= fabs(l->form[a]) <= same * 10 * scale;
     }
     return inside;
 }
 
 /* By Z, or by Z - Z^0 Gamma: the case is the same. */
-static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const nh_field *Z, const nh_ex *first, const nh_ex *second, double same)
+static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const nh_field *Z, const nh_ex *first,
+                   const nh_ex *second, double same)
 {
     size_t width = 1 + o->m + o->n, total = 4 * width + o->k + o->k * o->m, count = points->count;
     nh_ex *e = nh_alloc_array(total, sizeof *e);
@@ -296,11 +313,21 @@ static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const n
     memcpy(e + 3 * width, second, width * sizeof *e);
     memcpy(e + 4 * width, z->bracket_form, o->k * sizeof *e);
     memcpy(e + 4 * width + o->k, o->nu, o->k * o->m * sizeof *e);
-    double *value = nh_alloc_array(total * count, sizeof *value), *at = nh_alloc_array(total + 3 * width, sizeof *at), *unit = at + total + 2 * width;
+    double *value = nh_alloc_array(total * count, sizeof *value), *at = nh_alloc_array(total + 3 * width, sizeof *at),
+           *unit = at + total + 2 * width;
     nh_points_evaluate(points, o, total, e, value);
     for (size_t j = 0; j < width; j++) unit[j] = nh_chart_symbol_unit(o->system, o->chart->symbol[j]);
-    local l = {.width = width, .forms = o->k, .gamma = at, .z = at + width, .first = at + 2 * width, .second = at + 3 * width, .form = at + 4 * width, .nu = at + 4 * width + o->k,
-               .b = at + total, .scale = at + total + width, .unit = unit};
+    local l = {.width = width,
+               .forms = o->k,
+               .gamma = at,
+               .z = at + width,
+               .first = at + 2 * width,
+               .second = at + 3 * width,
+               .form = at + 4 * width,
+               .nu = at + 4 * width + o->k,
+               .b = at + total,
+               .scale = at + total + width,
+               .unit = unit};
     int worst = 1;
     bool inside = true, decided = false;
     for (size_t p = 0; p < count; p++) {
@@ -313,15 +340,17 @@ static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const n
         inside &= is_inside(o, &l, same);
     }
     z->kase = decided ? worst : 0;
-    z->bracket_in_distribution = inside || z->kase == 1 || z->kase == 2; /* Gamma and Z lie in it; the form of a long formula is the less certain of both */
+    /* Gamma and Z lie in it; the form of a long formula is the less certain of both */
+    z->bracket_in_distribution = inside || z->kase == 1 || z->kase == 2;
     nh_free(at);
     nh_free(value);
     nh_free(e);
 }
 
-/* The largest residual of the constraint Noether equations, relative to the largest of their terms.  Of an integral of the
- * constraints all terms may vanish: rounding has no size there to be compared with, and the normal form decides. */
-double nh_symmetry_residual(const nh_model *o, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W)
+/* The largest residual of the constraint Noether equations, relative to the largest of their terms.  Of an integral of
+ * the constraints all terms may vanish: rounding has no size there to be compared with, and the normal form decides. */
+double nh_symmetry_residual(const nh_model *o, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
+                            const nh_ex *W)
 {
     static const double suspicious = 1e-9;
     size_t n = 1 + 2 * o->n, count = points->count;
@@ -349,7 +378,8 @@ double nh_symmetry_residual(const nh_model *o, const nh_points *points, nh_ex ph
     return worst;
 }
 
-/* dc/dw = e, exactly; or, where rounded coefficients leave nothing exact, beside c at the points, with w in its unit. */
+/* dc/dw = e, exactly; or, where rounded coefficients leave nothing exact, beside c at the points, with w in its
+   unit. */
 static bool vanishes(const nh_model *o, const nh_points *points, nh_ex e, nh_ex c, double unit, double same)
 {
     if (nh_is_exact(o->dag, e)) return nh_normal_is_zero(o->dag, e, 0) == NH_ZERO;
@@ -378,9 +408,14 @@ static bool is_projectable(const nh_model *o, const nh_points *points, const nh_
 
 bool nh_symmetry_of(nh_model *o, const nh_points *points, nh_ex phi, double same, nh_symmetry *z, nh_error *error)
 {
-    *z = (nh_symmetry){.phi = phi, .zeta = take(o, o->n), .W = take(o, o->n), .coordinate_rate = take(o, o->m), .bracket_form = take(o, o->k)};
+    *z = (nh_symmetry){.phi = phi,
+                       .zeta = take(o, o->n),
+                       .W = take(o, o->n),
+                       .coordinate_rate = take(o, o->m),
+                       .bracket_form = take(o, o->k)};
     if (nh_normal_is_zero(o->dag, o->Lbar, 0) == NH_ZERO)
-        return nh_fail(error, NH_NUMERIC, "", "the constrained Lagrangian vanishes identically, so currents have no symmetry of Noether type");
+        return nh_fail(error, NH_NUMERIC, "",
+                       "the constrained Lagrangian vanishes identically, so currents have no symmetry of Noether type");
     solve_components(o, z);
     take_motion_away(o, z);
     nh_ex *first = take(o, 1 + o->m + o->n), *second = take(o, 1 + o->m + o->n);

@@ -29,9 +29,10 @@ typedef struct {
     double noether_residual;  /* largest relative residual of (N0), (NX), (NY) over the points */
 } nh_symmetry;
 
-/* Expressions belong to the model's graph, arrays to its arena.  Fails where Lbar vanishes identically. `same`: relative size below
- * which two fields are equal at a point. */
-bool nh_symmetry_of(nh_model *model, const nh_points *points, nh_ex phi, double same, nh_symmetry *out, nh_error *error);
+/* Expressions belong to the model's graph, arrays to its arena.  Fails where Lbar vanishes identically. `same`:
+ * relative size below which two fields are equal at a point. */
+bool nh_symmetry_of(nh_model *model, const nh_points *points, nh_ex phi, double same, nh_symmetry *out,
+                    nh_error *error);
 
 /* Only Z^0 (returned) and zeta (n) of a current. */
 nh_ex nh_symmetry_components(const nh_model *model, nh_ex phi, nh_ex *zeta);
@@ -40,6 +41,7 @@ nh_ex nh_symmetry_components(const nh_model *model, nh_ex phi, nh_ex *zeta);
 nh_ex nh_symmetry_current(const nh_model *model, nh_ex Z0, const nh_ex *zeta);
 
 /* The largest residual of the equations below over the points, relative to the largest of their terms. */
-double nh_symmetry_residual(const nh_model *model, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W);
+double nh_symmetry_residual(const nh_model *model, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
+                            const nh_ex *W);
 
 #endif

@@ -16,7 +16,8 @@ enum { most_basins = 12, most_polished = 8, generic_probes = 3, search_rows = 40
 /* ---- the pencil ---- */
 
 /* Split a family into its one Fourier part with the unknown as frequency, and the rest. */
-static bool split_family(const nh_model *o, const nh_family *f, nh_ex unknown, const nh_family **wave, nh_family *rest, nh_family *rest_parts)
+static bool split_family(const nh_model *o, const nh_family *f, nh_ex unknown, const nh_family **wave, nh_family *rest,
+                         nh_family *rest_parts)
 {
     static const nh_family one = {.kind = NH_TERMS};
     *wave = NULL;
@@ -47,8 +48,8 @@ static size_t add_value(double *value, size_t count, size_t most, double x)
 }
 
 /* Eigenvalues i mu of Gamma f = lambda Gamma(q) f belong to exp(-i mu q) f: nu = |mu| / harmonic. */
-static size_t pencil_of(const nh_model *o, const nh_points *points, const nh_family *wave, const nh_family *rest, const nh_unknown *u,
-                        const nh_options *options, size_t count, size_t most, double *value)
+static size_t pencil_of(const nh_model *o, const nh_points *points, const nh_family *wave, const nh_family *rest,
+                        const nh_unknown *u, const nh_options *options, size_t count, size_t most, double *value)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -57,7 +58,8 @@ static size_t pencil_of(const nh_model *o, const nh_points *points, const nh_fam
     if (family.kind == NH_TERMS || family.parts == 0) family = (nh_family){.kind = NH_TERMS, .terms = 1, .term = &one};
     nh_ansatz *a = nh_ansatz_create(o, points, 1, &family, (size_t)options->columns, &ignored);
     if (!a) return count;
-    double *A = nh_alloc_array(points->count * a->columns + 1, sizeof *A), *B = nh_alloc_array(points->count * a->columns + 1, sizeof *B);
+    double *A = nh_alloc_array(points->count * a->columns + 1, sizeof *A),
+           *B = nh_alloc_array(points->count * a->columns + 1, sizeof *B);
     nh_nullspace_options limits = nh_nullspace_options_from(options);
     for (size_t i = 0; i < wave->in_count; i++) {
         nh_rows_pencil(o, a, nh_model_gamma(o, wave->in[i]), points, A, B);
@@ -77,8 +79,8 @@ static size_t pencil_of(const nh_model *o, const nh_points *points, const nh_fam
     return count;
 }
 
-size_t nh_unknowns_pencil(const nh_model *o, const nh_points *points, size_t families, const nh_family *family, const nh_unknown *u,
-                          const nh_options *options, size_t most, double *value, bool *applied)
+size_t nh_unknowns_pencil(const nh_model *o, const nh_points *points, size_t families, const nh_family *family,
+                          const nh_unknown *u, const nh_options *options, size_t most, double *value, bool *applied)
 {
     size_t count = 0;
     *applied = false;
@@ -154,7 +156,8 @@ static void generic_dimension(objective *o, uint64_t seed)
     o->generic = SIZE_MAX;
     for (int k = 0; k < generic_probes; k++) {
         size_t dimension;
-        for (size_t i = 0; i < o->n; i++) theta[i] = o->unknown[i].low + (o->unknown[i].high - o->unknown[i].low) * nh_random(&state);
+        for (size_t i = 0; i < o->n; i++)
+            theta[i] = o->unknown[i].low + (o->unknown[i].high - o->unknown[i].low) * nh_random(&state);
         sigma_at(o, theta, 0, &dimension);
         if (dimension < o->generic) o->generic = dimension;
     }
@@ -196,8 +199,8 @@ static void search(objective *o, const nh_options *options)
     nh_free(theta);
 }
 
-/* One basin to round-off, or until it turns out to be none: near a hit sigma falls in proportion to the distance.  NLopt's return
- * codes are not trusted: the point is evaluated again. */
+/* One basin to round-off, or until it turns out to be none: near a hit sigma falls in proportion to the distance.
+ * NLopt's return codes are not trusted: the point is evaluated again. */
 static double polish(objective *o, double *theta, double width)
 {
     static const double progress = 0.1;
@@ -266,7 +269,8 @@ static void add_hit(nh_hits *h, const objective *o, const double *theta, double 
     for (size_t i = 0; i < h->count; i++) {
         if (distance(o, h->hit[i].value, theta) > 1e-6) continue;
         double d = 0;
-        for (size_t j = 0; j < o->n; j++) d = fmax(d, fabs(h->hit[i].value[j] - theta[j]) / fmax(fabs(theta[j]), 1e-300));
+        for (size_t j = 0; j < o->n; j++)
+            d = fmax(d, fabs(h->hit[i].value[j] - theta[j]) / fmax(fabs(theta[j]), 1e-300));
         h->hit[i].difference = fmax(h->hit[i].difference, d);
         h->hit[i].by_pencil |= pencil;
         h->hit[i].by_search |= !pencil;
@@ -281,7 +285,8 @@ static void add_hit(nh_hits *h, const objective *o, const double *theta, double 
     memcpy(value, theta, o->n * sizeof *value);
     size_t at = h->count++;
     for (; at > 0 && h->hit[at - 1].value[0] > theta[0]; at--) h->hit[at] = h->hit[at - 1];
-    h->hit[at] = (nh_hit){.value = value, .quotient = quotient, .dimension = dimension, .by_pencil = pencil, .by_search = !pencil};
+    h->hit[at] = (nh_hit){
+        .value = value, .quotient = quotient, .dimension = dimension, .by_pencil = pencil, .by_search = !pencil};
 }
 
 static void consider(nh_hits *h, objective *o, const double *theta, bool pencil)
@@ -293,7 +298,8 @@ static void consider(nh_hits *h, objective *o, const double *theta, bool pencil)
 }
 
 /* Only the families with an unknown enter the search: the others are null or not for every theta. */
-static bool open_objective(objective *o, const nh_model *model, size_t families, const nh_family *family, const nh_options *options, nh_error *error)
+static bool open_objective(objective *o, const nh_model *model, size_t families, const nh_family *family,
+                           const nh_options *options, nh_error *error)
 {
     nh_family *with = nh_alloc_array(families + 1, sizeof *with);
     nh_ex *symbol = nh_alloc_array(o->n + 1, sizeof *symbol);
@@ -322,8 +328,9 @@ static void close_objective(objective *o)
     nh_free(o->seen);
 }
 
-bool nh_unknowns_scan(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, const nh_unknown *unknown, const nh_options *options,
-                      size_t index, size_t count, const double *theta, double *sigma, nh_error *error)
+bool nh_unknowns_scan(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
+                      const nh_unknown *unknown, const nh_options *options, size_t index, size_t count,
+                      const double *theta, double *sigma, nh_error *error)
 {
     objective o = {.n = 1, .unknown = unknown, .points = points, .limits = nh_nullspace_options_from(options)};
     bool good = open_objective(&o, model, families, family, options, error);
@@ -332,23 +339,28 @@ bool nh_unknowns_scan(const nh_model *model, const nh_points *points, size_t fam
     return good;
 }
 
-nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, size_t unknowns,
-                          const nh_unknown *unknown, const nh_options *options, nh_error *error)
+nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
+                          size_t unknowns, const nh_unknown *unknown, const nh_options *options, nh_error *error)
 {
     objective o = {.n = unknowns, .unknown = unknown, .points = points, .limits = nh_nullspace_options_from(options)};
     if (!open_objective(&o, model, families, family, options, error)) return NULL;
     nh_arena *arena = nh_arena_create();
     nh_hits *h = nh_arena_alloc(arena, sizeof *h);
-    *h = (nh_hits){.arena = arena, .unknowns = unknowns, .hit = nh_arena_alloc(arena, (most_basins + 1) * sizeof *h->hit), .best = INFINITY};
+    *h = (nh_hits){.arena = arena,
+                   .unknowns = unknowns,
+                   .hit = nh_arena_alloc(arena, (most_basins + 1) * sizeof *h->hit),
+                   .best = INFINITY};
     nh_points few = *points; /* a search looks thousands of times: three rows per column are enough to see a minimum */
-    if (few.count > search_rows && few.count > 3 * o.ansatz->columns) few.count = 3 * o.ansatz->columns > search_rows ? 3 * o.ansatz->columns : search_rows;
+    if (few.count > search_rows && few.count > 3 * o.ansatz->columns)
+        few.count = 3 * o.ansatz->columns > search_rows ? 3 * o.ansatz->columns : search_rows;
     few.beyond = NULL;
     o.points = &few;
     generic_dimension(&o, (uint64_t)options->seed);
     h->generic = o.generic;
     double *theta = nh_alloc_array(most_basins * unknowns, sizeof *theta);
     if (unknowns == 1) {
-        size_t n = nh_unknowns_pencil(model, points, families, family, unknown, options, most_basins, theta, &h->pencil_applied);
+        size_t n = nh_unknowns_pencil(model, points, families, family, unknown, options, most_basins, theta,
+                                      &h->pencil_applied);
         for (size_t i = 0; i < n; i++) consider(h, &o, theta + i, true);
     }
     search(&o, options);

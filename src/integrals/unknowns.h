@@ -33,23 +33,26 @@ typedef struct {
 } nh_hits;
 
 /* NULL on failure. */
-nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, size_t unknowns,
-                          const nh_unknown *unknown, const nh_options *options, nh_error *error);
+nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
+                          size_t unknowns, const nh_unknown *unknown, const nh_options *options, nh_error *error);
 void nh_hits_free(nh_hits *hits);
 
 /* Only the pencil, for one unknown: candidates in [low, high], ascending; returns their number (at most `most`). */
 size_t nh_unknowns_pencil(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
-                          const nh_unknown *unknown, const nh_options *options, size_t most, double *value, bool *applied);
+                          const nh_unknown *unknown, const nh_options *options, size_t most, double *value,
+                          bool *applied);
 
-/* The objective of the search over one unknown: sigma[i] is the generalized singular value number `index` (hits->generic: the first that is not null for
- * every value) at theta[i], infinite where the problem has no answer. */
-bool nh_unknowns_scan(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, const nh_unknown *unknown, const nh_options *options,
-                      size_t index, size_t count, const double *theta, double *sigma, nh_error *error);
+/* The objective of the search over one unknown: sigma[i] is the generalized singular value number `index`
+ * (hits->generic: the first that is not null for every value) at theta[i], infinite where the problem has no answer. */
+bool nh_unknowns_scan(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
+                      const nh_unknown *unknown, const nh_options *options, size_t index, size_t count,
+                      const double *theta, double *sigma, nh_error *error);
 
 /* Does a family contain the unknown? */
 bool nh_family_contains(const nh_model *model, const nh_family *family, nh_ex unknown);
 
 /* A copy of a family with the unknowns replaced by expressions, in the arena. */
-nh_family nh_family_substitute(nh_arena *arena, nh_dag *dag, const nh_family *family, size_t n, const nh_ex *from, const nh_ex *to);
+nh_family nh_family_substitute(nh_arena *arena, nh_dag *dag, const nh_family *family, size_t n, const nh_ex *from,
+                               const nh_ex *to);
 
 #endif

@@ -14,7 +14,8 @@ static nh_ex factored(nh_dag *d, nh_ex e)
     nh_ex out = e;
     for (size_t k = 0; nh_kind_of(d, e) == NH_PRODUCT && k < nh_arity(d, e); k++) {
         nh_ex base = nh_child(d, e, k), x = nh_exponent_of(d, e, k);
-        if (nh_kind_of(d, base) == NH_SUM) out = nh_mul(d, nh_div(d, out, nh_pow(d, base, x)), nh_pow(d, factored(d, base), x));
+        if (nh_kind_of(d, base) == NH_SUM)
+            out = nh_mul(d, nh_div(d, out, nh_pow(d, base, x)), nh_pow(d, factored(d, base), x));
     }
     if (nh_kind_of(d, e) != NH_SUM) return out;
     nh_ex common = nh_terms_common(d, e);
@@ -33,7 +34,8 @@ static nh_ex root_of(nh_jet_equations *x, nh_ex e)
         nh_num power = nh_number_of(d, exponent);
         bool position = false;
         for (size_t j = 0; j < x->coordinates; j++) position |= nh_depends(d, base, x->coordinate[j]);
-        if (position && nh_num_short(power) && power.q == 1 && power.p % 2 == 0) root = nh_mul(d, root, nh_powi(d, base, power.p / 2));
+        if (position && nh_num_short(power) && power.q == 1 && power.p % 2 == 0)
+            root = nh_mul(d, root, nh_powi(d, base, power.p / 2));
     }
     return root;
 }
@@ -65,30 +67,37 @@ void nh_velocity_frame_clear(nh_velocity_frame *f)
 nh_ex nh_velocity_frame_monomial(const nh_velocity_frame *f, const nh_jet_equations *x, const uint8_t *alpha)
 {
     nh_ex e = nh_int(x->dag, 1);
-    for (size_t i = 0; i < f->n; i++) e = nh_mul(x->dag, e, nh_powi(x->dag, nh_mul(x->dag, f->shown[i], x->w[i]), alpha[i]));
+    for (size_t i = 0; i < f->n; i++)
+        e = nh_mul(x->dag, e, nh_powi(x->dag, nh_mul(x->dag, f->shown[i], x->w[i]), alpha[i]));
     return e;
 }
 
 /* 1/f_i */
-static bool reciprocals(const nh_velocity_frame *f, nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out)
+static bool reciprocals(const nh_velocity_frame *f, nh_jet_equations *x, const nh_jet_ring *ring,
+                        const nh_residue *coordinate, nh_residue *out)
 {
     nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
     nh_residue *series = nh_alloc_array(ring->size, sizeof *series);
     bool good = true;
     for (size_t i = 0; i < f->n && good; i++) {
         good = nh_jet_eval_all(v, 1, &f->value[i], series) && series[0];
-        if (good) nh_jet_power(ring, series, nh_residue_sub(ring->field, 0, 1), nh_residue_inverse(ring->field, series[0]), out + i * ring->size);
+        if (good)
+            nh_jet_power(ring, series, nh_residue_sub(ring->field, 0, 1), nh_residue_inverse(ring->field, series[0]),
+                         out + i * ring->size);
     }
     nh_free(series);
     nh_jet_eval_free(v);
     return good;
 }
 
-bool nh_velocity_frame_apply(const nh_velocity_frame *f, nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate, nh_graded_count *g, double *work)
+bool nh_velocity_frame_apply(const nh_velocity_frame *f, nh_jet_equations *x, const nh_jet_ring *ring,
+                             const nh_residue *coordinate, nh_graded_count *g, double *work)
 {
     size_t N = g->total[g->order], size = ring->size;
     if (f->trivial || !N) return true;
-    nh_residue *inverse = nh_alloc_array(f->n * size + 1, sizeof *inverse), *factor = nh_alloc_array(size, sizeof *factor), *a = nh_alloc_array(size, sizeof *a), *b = nh_alloc_array(size, sizeof *b);
+    nh_residue *inverse = nh_alloc_array(f->n * size + 1, sizeof *inverse),
+               *factor = nh_alloc_array(size, sizeof *factor), *a = nh_alloc_array(size, sizeof *a),
+               *b = nh_alloc_array(size, sizeof *b);
     bool good = reciprocals(f, x, ring, coordinate, inverse);
     for (size_t alpha = 0; alpha < g->alphas && good; alpha++) {
         nh_jet_constant(ring, 1, factor);

@@ -22,9 +22,17 @@
 
 nh_analysis *nh_analyze(nh_problem *p, nh_error *error)
 {
-    nh_analyze_request request = {.system_path = p->system_path, .analysis_path = p->analysis_path, .settings = p->settings, .setting = p->setting, .chart = p->chart,
-                                  .options = p->options, .accuracy = p->question.accuracy, .seed_given = p->seed_given, .samples_given = p->samples_given,
-                                  .tolerance_given = p->tolerance_given, .until_given = p->question.until > 0};
+    nh_analyze_request request = {.system_path = p->system_path,
+                                  .analysis_path = p->analysis_path,
+                                  .settings = p->settings,
+                                  .setting = p->setting,
+                                  .chart = p->chart,
+                                  .options = p->options,
+                                  .accuracy = p->question.accuracy,
+                                  .seed_given = p->seed_given,
+                                  .samples_given = p->samples_given,
+                                  .tolerance_given = p->tolerance_given,
+                                  .until_given = p->question.until > 0};
     nh_error_clear(error);
     nh_problem_enter(p);
     nh_analysis *a = nh_analysis_create(&request, error);
@@ -34,9 +42,20 @@ nh_analysis *nh_analyze(nh_problem *p, nh_error *error)
 
 static nh_simulate_request motion_of(const nh_problem *p)
 {
-    return (nh_simulate_request){.system_path = p->system_path, .analysis_path = p->analysis_path, .settings = p->settings, .setting = p->setting, .chart = p->chart,
-                                 .initial = p->question.initial, .from = "initial", .watch = p->question.watch, .step = p->question.step, .accuracy = p->question.accuracy,
-                                 .method = p->method, .tolerance_given = p->tolerance_given, .until_given = p->question.until > 0, .options = p->options};
+    return (nh_simulate_request){.system_path = p->system_path,
+                                 .analysis_path = p->analysis_path,
+                                 .settings = p->settings,
+                                 .setting = p->setting,
+                                 .chart = p->chart,
+                                 .initial = p->question.initial,
+                                 .from = "initial",
+                                 .watch = p->question.watch,
+                                 .step = p->question.step,
+                                 .accuracy = p->question.accuracy,
+                                 .method = p->method,
+                                 .tolerance_given = p->tolerance_given,
+                                 .until_given = p->question.until > 0,
+                                 .options = p->options};
 }
 
 nh_simulation *nh_simulate(nh_problem *p, nh_error *error) { return nh_simulate_zeros(p, NULL, NULL, error); }
@@ -55,8 +74,13 @@ nh_simulation *nh_simulate_zeros(nh_problem *p, const char *events, const char *
 
 nh_reduction *nh_reduce(nh_problem *p, nh_error *error)
 {
-    nh_reduce_request request = {.system_path = p->system_path, .settings = p->settings, .setting = p->setting, .chart = p->chart, .initial = p->question.initial,
-                                 .accuracy = p->question.accuracy, .options = p->options};
+    nh_reduce_request request = {.system_path = p->system_path,
+                                 .settings = p->settings,
+                                 .setting = p->setting,
+                                 .chart = p->chart,
+                                 .initial = p->question.initial,
+                                 .accuracy = p->question.accuracy,
+                                 .options = p->options};
     nh_error_clear(error);
     nh_problem_enter(p);
     nh_reduction *r = nh_reduction_create(&request, error);
@@ -69,15 +93,22 @@ static nh_verification *verify(nh_problem *p, const char *current, const char *f
     nh_error_clear(error);
     nh_problem_enter(p);
     nh_system *system = nh_system_read(p->system_path, p->settings, p->setting, error); /* the verification's own */
-    nh_verification *v = !system ? NULL : current ? nh_verification_of_current(system, p->chart, current, &p->options, error)
-                                                  : nh_verification_of_field(system, p->chart, field, &p->options, error);
+    nh_verification *v = !system   ? NULL
+                         : current ? nh_verification_of_current(system, p->chart, current, &p->options, error)
+                                   : nh_verification_of_field(system, p->chart, field, &p->options, error);
     nh_problem_leave(p);
     return v;
 }
 
-nh_verification *nh_verify_current(nh_problem *p, const char *current, nh_error *error) { return verify(p, current, NULL, error); }
+nh_verification *nh_verify_current(nh_problem *p, const char *current, nh_error *error)
+{
+    return verify(p, current, NULL, error);
+}
 
-nh_verification *nh_verify_field(nh_problem *p, const char *field, nh_error *error) { return verify(p, NULL, field, error); }
+nh_verification *nh_verify_field(nh_problem *p, const char *field, nh_error *error)
+{
+    return verify(p, NULL, field, error);
+}
 
 bool nh_verification_holds(const nh_verification *v) { return v->conserved; }
 

@@ -1,4 +1,5 @@
-/* library_problem: contexts and problems of the public interface.  A problem is a question whose names and numbers have been read. */
+/* library_problem: contexts and problems of the public interface.  A problem is a question whose names and numbers have
+   been read. */
 #include <math.h>
 #include <string.h>
 
@@ -59,14 +60,17 @@ static nh_question copy_of(nh_arena *arena, const nh_question *q)
     return c;
 }
 
-/* The next "name = value" of a list with commas or semicolons between; false at its end, or with a message where there is none. */
-static bool next_pair(nh_arena *arena, const char **at, const char *what, const char **name, const char **value, nh_error *error)
+/* The next "name = value" of a list with commas or semicolons between; false at its end, or with a message where there
+   is none. */
+static bool next_pair(nh_arena *arena, const char **at, const char *what, const char **name, const char **value,
+                      nh_error *error)
 {
     static const char blank[] = " \t\n";
     *at += strspn(*at, " \t\n,;");
     if (!**at) return false;
     size_t length = strcspn(*at, ",;"), equal = strcspn(*at, "=");
-    if (equal == 0 || equal >= length) return nh_fail(error, NH_USAGE, "", "%s: expected name=value, found `%.*s`", what, (int)length, *at);
+    if (equal == 0 || equal >= length)
+        return nh_fail(error, NH_USAGE, "", "%s: expected name=value, found `%.*s`", what, (int)length, *at);
     size_t end = equal, begin = equal + 1, last = length;
     while (end && strchr(blank, (*at)[end - 1])) end--;
     while (begin < last && strchr(blank, (*at)[begin])) begin++;
@@ -83,7 +87,8 @@ static bool read_parameters(nh_problem *p, nh_error *error)
     p->setting = nh_arena_alloc(p->arena, (at ? strlen(at) : 1) * sizeof *p->setting);
     while (at && next_pair(p->arena, &at, "set", &name, &value, error)) {
         double x;
-        if (!nh_text_to_number(value, &x)) return nh_fail(error, NH_USAGE, "", "set: `%s` needs a number, found `%s`", name, value);
+        if (!nh_text_to_number(value, &x))
+            return nh_fail(error, NH_USAGE, "", "set: `%s` needs a number, found `%s`", name, value);
         p->setting[p->settings++] = (nh_setting){.name = name, .value = x};
     }
     return error->code == NH_OK;
@@ -116,7 +121,8 @@ static bool read_velocities(nh_problem *p, nh_error *error)
     return nh_error_hint(error, "velocities takes auto, quasi or coordinates");
 }
 
-/* The name of a text or the path of a file, of a system or an analysis; the text is from then on what that name stands for. */
+/* The name of a text or the path of a file, of a system or an analysis; the text is from then on what that name stands
+   for. */
 static const char *source(nh_problem *p, const char *kind, const char *name, const char *text, nh_error *error)
 {
     if (!text) return name ? nh_places_find(p->arena, kind, name, error) : NULL;
@@ -132,12 +138,15 @@ static bool open_problem(nh_problem *p, nh_error *error)
         nh_fail(error, NH_USAGE, "", "the question names no system");
         return nh_error_hint(error, "give a name, a path, or the text of a system file");
     }
-    if (!read_parameters(p, error) || !read_velocities(p, error) || (q->method && !nh_method_given(q->method, &p->method, error))) return false;
+    if (!read_parameters(p, error) || !read_velocities(p, error) ||
+        (q->method && !nh_method_given(q->method, &p->method, error)))
+        return false;
     p->system_path = source(p, "systems", q->system, q->system_text, error);
     if (!p->system_path) return false;
     bool named = !q->system_text && !nh_places_is_path(q->system);
     if (q->no_analysis) p->analysis_path = NULL;
-    else if (q->analysis || q->analysis_text) p->analysis_path = source(p, "analyses", q->analysis, q->analysis_text, error);
+    else if (q->analysis || q->analysis_text)
+        p->analysis_path = source(p, "analyses", q->analysis, q->analysis_text, error);
     else if (named) p->analysis_path = nh_places_look(p->arena, "analyses", q->system);
     if (error->code != NH_OK) return false;
     p->system = nh_system_read(p->system_path, p->settings, p->setting, error);
@@ -174,7 +183,10 @@ const char *nh_problem_name(const nh_problem *p) { return p->system->name; }
 
 size_t nh_problem_coordinates(const nh_problem *p) { return p->system->coordinates; }
 
-const char *nh_problem_coordinate(const nh_problem *p, size_t i) { return i < p->system->coordinates ? p->system->coordinate[i].name : NULL; }
+const char *nh_problem_coordinate(const nh_problem *p, size_t i)
+{
+    return i < p->system->coordinates ? p->system->coordinate[i].name : NULL;
+}
 
 size_t nh_problem_parameters(const nh_problem *p) { return p->system->parameters; }
 

@@ -13,7 +13,10 @@
 
 /* ---- an analysis ---- */
 
-const char *nh_analysis_verdict(const nh_analysis *a) { return a->verdict == NH_FOUND ? "FOUND" : a->verdict == NH_NONE ? "NONE" : "UNDECIDED"; }
+const char *nh_analysis_verdict(const nh_analysis *a)
+{
+    return a->verdict == NH_FOUND ? "FOUND" : a->verdict == NH_NONE ? "NONE" : "UNDECIDED";
+}
 
 const char *nh_analysis_search(const nh_analysis *a) { return nh_search_word(a->search); }
 
@@ -28,8 +31,12 @@ nh_current_facts nh_current_describe(const nh_analysis *a, size_t index)
     if (index >= a->count) return (nh_current_facts){.name = "", .meaning = "", .digits = NAN, .drift = NAN};
     const nh_current *c = &a->found[index];
     bool followed = a->validation != NULL;
-    return (nh_current_facts){.name = c->name, .meaning = c->meaning, .proved = c->proof.proved, .for_all = c->proof.all_parameters,
-                              .independent = c->independence == NH_INDEPENDENT, .digits = c->proof.digits,
+    return (nh_current_facts){.name = c->name,
+                              .meaning = c->meaning,
+                              .proved = c->proof.proved,
+                              .for_all = c->proof.all_parameters,
+                              .independent = c->independence == NH_INDEPENDENT,
+                              .digits = c->proof.digits,
                               .drift = followed ? c->drift.drift[NH_DRIFT_RUNS - 1] : NAN};
 }
 
@@ -69,7 +76,8 @@ static nh_tape *tape_of(const nh_analysis *a, size_t index)
         in[1 + i] = s->coordinate[i].q;
         in[1 + m + i] = s->coordinate[i].v;
     }
-    nh_tape *tape = nh_tape_create(a->model->dag, 2 * m + 1, in, 1, &form, s->parameters, a->model->parameter, a->model->parameter_value);
+    nh_tape *tape = nh_tape_create(a->model->dag, 2 * m + 1, in, 1, &form, s->parameters, a->model->parameter,
+                                   a->model->parameter_value);
     nh_free(in);
     return tape;
 }
@@ -91,7 +99,8 @@ double nh_current_value(const nh_analysis *a, size_t index, double t, const doub
     return isfinite(out) ? out : NAN;
 }
 
-bool nh_current_values(const nh_analysis *a, size_t index, size_t count, const double *t, const double *q, const double *v, double *out)
+bool nh_current_values(const nh_analysis *a, size_t index, size_t count, const double *t, const double *q,
+                       const double *v, double *out)
 {
     nh_tape *tape = tape_of(a, index);
     if (!tape) return false;
@@ -147,7 +156,14 @@ char *nh_simulation_svg(const nh_simulation *s, size_t x, size_t y)
     nh_simulation_read(s, y, value + rows);
     const char *across = nh_simulation_column(s, x), *up = nh_simulation_column(s, y);
     nh_curve curve = {.name = up, .count = rows, .x = value, .y = value + rows, .x_stride = 1, .y_stride = 1};
-    nh_plot  plot = {.id = "plot", .title = up, .x_label = across, .y_label = up, .equal = x > 0, .timed = x == 0, .curves = 1, .curve = &curve};
+    nh_plot plot = {.id = "plot",
+                    .title = up,
+                    .x_label = across,
+                    .y_label = up,
+                    .equal = x > 0,
+                    .timed = x == 0,
+                    .curves = 1,
+                    .curve = &curve};
     nh_text  text, words;
     nh_text_init(&text);
     nh_text_init(&words);

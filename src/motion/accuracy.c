@@ -7,15 +7,19 @@
 #include "base/progress.h"
 
 enum { most_confirmations = 5 };
-static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const implicit_pair[2] = {"CVODE BDF", "ARKODE ESDIRK"};
+static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const implicit_pair[2] = {
+                                                                                  "CVODE BDF", "ARKODE ESDIRK"};
 static const double loosest = nh_accuracy_loosest, tightest = nh_accuracy_tightest, step = nh_accuracy_step;
 static const double least_exponent = 0.2, most_exponent = 0.9; /* with which differences fall */
 /* In units of base/effort.h. */
-static const double quick = 1e8, faster = 20;  /* a first run that needs more than this is compared with CVODE BDF, which must need so many times less */
+/* a first run that needs more than this is compared with CVODE BDF, which must need so many times less */
+static const double quick = 1e8, faster = 20;
 static const double patience = 10;        /* times what was measured: the first run may need so much, or `quick` */
-static const double worthwhile = 5e7;     /* other ways are measured for a motion that needs so much by the winner of the race, */
+/* other ways are measured for a motion that needs so much by the winner of the race, */
+static const double worthwhile = 5e7;
 static const double survey_share = 0.25;  /* with such a part of it; */
-static const double shortest = 5e5, most_times = 16; /* where there are more motions like it: what one needs at least, and how many of them count */
+/* where there are more motions like it: what one needs at least, and how many of them count */
+static const double shortest = 5e5, most_times = 16;
 static const double more_steps = 0.8;     /* (n1/n2)^order at most, from one number of fixed steps to the next */
 
 typedef struct {
@@ -23,7 +27,8 @@ typedef struct {
     const nh_integration_plans *ways;
     double eps;
     nh_accuracy *out;
-    const nh_integration_plan *way;     /* the one that was given, or measured and chosen; NULL: none was, or it did not do here */
+    /* the one that was given, or measured and chosen; NULL: none was, or it did not do here */
+    const nh_integration_plan *way;
     nh_pilot_runs survey;
     nh_trajectory_request own; /* with the model that a survey had derived */
     double first;          /* units of the whole motion by the winner of the race */
@@ -48,9 +53,13 @@ static double spacing_of(const nh_trajectory_request *q)
 static bool fixed(const search *s) { return s->way && s->way->method->order; }
 
 /* Of a method with fixed steps, which end at the outputs: how many there are from one to the next. */
-static double steps_at(const search *s, double tolerance) { return fmax(1, ceil(spacing_of(s->request) / nh_integration_plan_setting(s->way, tolerance) * (1 - 1e-9))); }
+static double steps_at(const search *s, double tolerance)
+{
+    return fmax(1, ceil(spacing_of(s->request) / nh_integration_plan_setting(s->way, tolerance) * (1 - 1e-9)));
+}
 
-/* By how much the errors of a run fall: the ratio of the tolerances, or that of the steps to the order of the method. */
+/* By how much the errors of a run fall: the ratio of the tolerances, or that of the steps to the order of the
+   method. */
 static double ratio_of(const search *s, double coarse, double fine)
 {
     return fixed(s) ? pow(steps_at(s, coarse) / steps_at(s, fine), s->way->method->order) : fine / coarse;
@@ -77,7 +86,8 @@ static nh_state disturbed(const nh_trajectory_request *q, double *q_and_v)
     return out;
 }
 
-static nh_trajectory *run(search *s, const nh_method *method, double tolerance, bool disturb, double max_effort, nh_error *error)
+static nh_trajectory *run(search *s, const nh_method *method, double tolerance, bool disturb, double max_effort,
+                          nh_error *error)
 {
     nh_trajectory_request q = *s->request;
     nh_options options = *q.options;
@@ -101,7 +111,8 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
         s->out->effort += t->motion->effort;
         s->out->seconds += t->motion->seconds;
     }
-    if (t && t->motion->complete && !s->measured_terms) nh_accuracy_terms(s->request, t, s->floor), s->measured_terms = true;
+    if (t && t->motion->complete && !s->measured_terms)
+        nh_accuracy_terms(s->request, t, s->floor), s->measured_terms = true;
     return t;
 }
 
@@ -136,7 +147,8 @@ static nh_trajectory *farther(nh_trajectory *a, nh_trajectory *b)
     return first ? a : b;
 }
 
-/* The method that confirms one when no second was measured: of the same kind, because what is stiff for one is so for all explicit ones. */
+/* The method that confirms one when no second was measured: of the same kind, because what is stiff for one is so for
+   all explicit ones. */
 static const nh_method *other_of(const nh_method *method)
 {
     bool implicit = method->family == NH_METHOD_CVODE || method == nh_method_find(implicit_pair[1]);
@@ -168,7 +180,11 @@ static nh_trajectory *take_way(search *s, const nh_integration_plan_choice *choi
     return NULL;
 }
 
-static nh_integration_plan_limits limits_of(const search *s) { return (nh_integration_plan_limits){.scene = s->request->smallest, .other = s->request->other != NULL, .spacing = spacing_of(s->request)}; }
+static nh_integration_plan_limits limits_of(const search *s)
+{
+    return (nh_integration_plan_limits){
+        .scene = s->request->smallest, .other = s->request->other != NULL, .spacing = spacing_of(s->request)};
+}
 
 /* What was given; NULL when nothing was, or it does not reach the end with about the work that it needed then. */
 static nh_trajectory *take_given(search *s, double *tolerance)
@@ -190,7 +206,8 @@ static nh_trajectory *race(search *s, double tolerance)
     s->stopped = t && !complete(t) && t->motion->effort > quick;
     if (complete(t) || (t && nh_interrupted())) return t;
     take(s, implicit_pair);
-    nh_trajectory *other = run(s, s->method[0], tolerance, true, between(whole(s->request, t) / faster, 1e6, 1e15), &ignored);
+    nh_trajectory *other =
+        run(s, s->method[0], tolerance, true, between(whole(s->request, t) / faster, 1e6, 1e15), &ignored);
     s->doubtful = complete(other); /* implicit methods can damp what grows: always confirmed */
     if (s->doubtful || nh_interrupted()) return farther(other, t);
     nh_trajectory_free(other);
@@ -198,14 +215,18 @@ static nh_trajectory *race(search *s, double tolerance)
     return t;
 }
 
-/* A state on the way, at which a piece is like the whole: the middle of what there is, or as far as it came.  q_and_v: 2m values. */
+/* A state on the way, at which a piece is like the whole: the middle of what there is, or as far as it came.  q_and_v:
+   2m values. */
 static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double *q_and_v)
 {
     const nh_model *o = s->request->model;
     nh_motion *m = t->motion;
     size_t middle = m->count / 2;
     nh_state at = *s->request->initial;
-    nh_motion one = {.count = 1, .size = m->size, .time = m->complete ? m->time + middle : &m->end_time, .state = m->complete ? m->state + middle * m->size : m->end_state};
+    nh_motion one = {.count = 1,
+                     .size = m->size,
+                     .time = m->complete ? m->time + middle : &m->end_time,
+                     .state = m->complete ? m->state + middle * m->size : m->end_state};
     if (t->scene) return at;
     nh_dynamics *d = nh_dynamics_create(o);
     bool good = nh_states_in_coordinates(d, &one, q_and_v);
@@ -214,16 +235,25 @@ static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double
     return good ? (nh_state){.t = one.time[0], .q = q_and_v, .v = q_and_v + o->m} : at;
 }
 
-/* Other ways on a piece of the motion, whose first run by the winner of the race is t; the first run of one that saves work, or NULL. */
+/* Other ways on a piece of the motion, whose first run by the winner of the race is t; the first run of one that saves
+   work, or NULL. */
 static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *tolerance)
 {
     if (!s->ways->survey || !t || !(complete(t) || s->stopped)) return NULL;
     s->first = whole(s->request, t);
-    if (s->first * (1 + s->ways->more) < worthwhile || s->first < shortest) return s->out->choice = NH_CHOICE_SHORT, NULL;
+    if (s->first * (1 + s->ways->more) < worthwhile || s->first < shortest)
+        return s->out->choice = NH_CHOICE_SHORT, NULL;
     double *work = nh_alloc_array(2 * s->request->model->m + 1, sizeof *work);
     nh_state at = state_on_the_way(s, t, work);
-    nh_pilot_runs_terms terms = {.eps = s->eps, .best = s->method[0], .effort = s->first, .budget = survey_share * s->first * between(s->ways->more, 1, most_times), .plain = s->ways->plain, .floor = s->floor};
-    const nh_model *other = s->ways->derive && !s->ways->plain && !s->request->smallest ? s->ways->derive(s->ways->context, terms.budget) : NULL;
+    nh_pilot_runs_terms terms = {.eps = s->eps,
+                                 .best = s->method[0],
+                                 .effort = s->first,
+                                 .budget = survey_share * s->first * between(s->ways->more, 1, most_times),
+                                 .plain = s->ways->plain,
+                                 .floor = s->floor};
+    const nh_model *other = s->ways->derive && !s->ways->plain && !s->request->smallest
+                                ? s->ways->derive(s->ways->context, terms.budget)
+                                : NULL;
     if (other) s->own.other = other;
     nh_pilot_runs_make(s->request, &at, &terms, &s->survey);
     nh_free(work);
@@ -232,10 +262,12 @@ static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *t
     s->out->effort += s->survey.effort;
     s->out->seconds += s->survey.seconds;
     nh_integration_plan_limits limits = limits_of(s);
-    nh_integration_plan_choice choice = nh_pilot_runs_choose(&s->survey, s->method[0], s->eps, &limits, complete(t) && !(s->ways->more > 0));
+    nh_integration_plan_choice choice =
+        nh_pilot_runs_choose(&s->survey, s->method[0], s->eps, &limits, complete(t) && !(s->ways->more > 0));
     if (!choice.way || nh_interrupted()) return NULL;
     const nh_method *winner[2] = {s->method[0], s->method[1]};
-    nh_trajectory *found = take_way(s, &choice, fmax(quick, fmin(2 * s->first, patience * choice.way->effort * span_of(s->request))), tolerance);
+    nh_trajectory *found = take_way(
+        s, &choice, fmax(quick, fmin(2 * s->first, patience * choice.way->effort * span_of(s->request))), tolerance);
     if (!found) s->way = NULL, s->method[0] = winner[0], s->method[1] = winner[1];
     return found;
 }
@@ -274,7 +306,8 @@ static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
 /* Tighten until the estimate is below eps/2; the last trajectory. */
 static nh_trajectory *tighten(search *s, nh_error *error)
 {
-    double eps = s->eps, coarse = between(nh_accuracy_first * eps, 10 * tightest, loosest), last_difference = 0, last_ratio = 0, exponent = nh_accuracy_exponent;
+    double eps = s->eps, coarse = between(nh_accuracy_first * eps, 10 * tightest, loosest), last_difference = 0,
+           last_ratio = 0, exponent = nh_accuracy_exponent;
     nh_trajectory *a = take_given(s, &coarse);
     if (!a) a = choose(s, &coarse, error);
     double fine = tighter(s, coarse, step);
@@ -289,7 +322,8 @@ static nh_trajectory *tighten(search *s, nh_error *error)
             break;
         }
         double d = difference(s, a, b), ratio = ratio_of(s, coarse, fine);
-        if (last_difference > 0 && d > 0) exponent = between(log(last_difference / d) / log(1 / last_ratio), least_exponent, most_exponent);
+        if (last_difference > 0 && d > 0)
+            exponent = between(log(last_difference / d) / log(1 / last_ratio), least_exponent, most_exponent);
         if (b) {
             nh_trajectory_free(a);
             a = b;
@@ -298,12 +332,15 @@ static nh_trajectory *tighten(search *s, nh_error *error)
         }
         s->out->estimate = d * pow(ratio, exponent);
         s->doubtful |= d > nh_accuracy_amplified * coarse;
-        if (!isfinite(d) || (s->out->estimate < eps / 2 && d < (i == 1 ? nh_accuracy_alike : nh_accuracy_far) * eps) || fine <= tightest) break;
+        if (!isfinite(d) || (s->out->estimate < eps / 2 && d < (i == 1 ? nh_accuracy_alike : nh_accuracy_far) * eps) ||
+            fine <= tightest)
+            break;
         last_difference = d;
         last_ratio = ratio;
         coarse = fine;
         fine = tighter(s, coarse, between(pow(eps / (4 * s->out->estimate), 1.25), 1e-5, step));
-        bool longer = s->out->choice == NH_CHOICE_SHORT && complete(a) && a->motion->effort > worthwhile; /* than at the first tolerance */
+        /* than at the first tolerance */
+        bool longer = s->out->choice == NH_CHOICE_SHORT && complete(a) && a->motion->effort > worthwhile;
         nh_trajectory *other = longer ? take_surveyed(s, a, &coarse) : NULL;
         if (!other) continue;
         nh_trajectory_free(a);
@@ -324,20 +361,27 @@ static void confirm(search *s, const nh_trajectory *t)
     double tolerance = s->out->tolerance;
     s->out->second = s->method[1]->name;
     for (int i = 0; i < most_confirmations && (i == 0 || tolerance > tightest) && !(s->out->difference < s->eps); i++) {
-        tolerance = i == 0 ? fmax(tolerance / 3, s->eps / 100) : fmax(tolerance / 30, tightest); /* one that agrees is tight enough, whatever the first needed */
+        /* one that agrees is tight enough, whatever the first needed */
+        tolerance = i == 0 ? fmax(tolerance / 3, s->eps / 100) : fmax(tolerance / 30, tightest);
         nh_trajectory *other = run(s, s->method[1], tolerance, true, 0, &ignored);
         s->out->difference = fmin(s->out->difference, difference(s, t, other));
         nh_trajectory_free(other);
     }
 }
 
-static const char *where(const nh_integration_plan *w) { return w->velocities == NH_OWN_VELOCITIES ? "" : w->velocities == NH_ALL_COORDINATES ? " in all coordinates" : " in other velocities"; }
+static const char *where(const nh_integration_plan *w)
+{
+    return w->velocities == NH_OWN_VELOCITIES    ? ""
+           : w->velocities == NH_ALL_COORDINATES ? " in all coordinates"
+                                                 : " in other velocities";
+}
 
 /* "GSL rk8pd at tolerance 1.0e-09", "relaxation, order 8 with steps of 0.01" */
 static void put_setting(const search *s, const nh_trajectory *t, char *out, size_t size)
 {
     const nh_accuracy *a = s->out;
-    if (isnan(a->step)) snprintf(out, size, "%s%s at tolerance %.1e", t->method, a->measured ? where(s->way) : "", a->tolerance);
+    if (isnan(a->step))
+        snprintf(out, size, "%s%s at tolerance %.1e", t->method, a->measured ? where(s->way) : "", a->tolerance);
     else snprintf(out, size, "%s with steps of %.2g", t->method, a->step);
 }
 
@@ -348,14 +392,31 @@ static void explain_choice(const search *s)
     char *end = a->why + strlen(a->why);
     size_t left = sizeof a->why - strlen(a->why);
     double part = 100 * s->survey.part;
-    if (a->choice == NH_CHOICE_SHORT) snprintf(end, left, "; the motion needs %.2g million counted operations: measuring other methods would need more", s->first / 1e6);
+    if (a->choice == NH_CHOICE_SHORT)
+        snprintf(end, left,
+                 "; the motion needs %.2g million counted operations: measuring other methods would need more",
+                 s->first / 1e6);
     if (a->choice != NH_CHOICE_SURVEY) return;
-    if (!a->measured) snprintf(end, left, "; %zu methods were measured on %.2g %% of the motion: none would save work", s->survey.tried, part);
-    else if (a->other) snprintf(end, left, "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); the next, %s, needs %.2g times as much counted work", s->eps, s->survey.tried, part, a->other->name, a->next);
-    else snprintf(end, left, "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); every other needs at least twice as much counted work", s->eps, s->survey.tried, part);
+    if (!a->measured)
+        snprintf(end, left, "; %zu methods were measured on %.2g %% of the motion: none would save work",
+                 s->survey.tried, part);
+    else if (a->other)
+        snprintf(end, left,
+                 "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); "
+                 "the next, %s, needs %.2g times as much counted work",
+                 s->eps, s->survey.tried, part, a->other->name, a->next);
+    else
+        snprintf(end, left,
+                 "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); "
+                 "every other needs at least twice as much counted work",
+                 s->eps, s->survey.tried, part);
 }
 
-static const char *words_of_size(const search *s, const nh_trajectory *t) { return nh_accuracy_cancels(s->request, t, s->out->quantity, &s->out->size) ? ", a sum of larger terms that cancel" : ""; }
+static const char *words_of_size(const search *s, const nh_trajectory *t)
+{
+    return nh_accuracy_cancels(s->request, t, s->out->quantity, &s->out->size) ? ", a sum of larger terms that cancel"
+                                                                               : "";
+}
 
 static void explain(search *s, const nh_trajectory *t)
 {
@@ -364,33 +425,49 @@ static void explain(search *s, const nh_trajectory *t)
     char what[96];
     put_setting(s, t, what, sizeof what);
     if (nh_interrupted() && !a->held)
-        snprintf(a->why, size, "interrupted before the accuracy %.1e was reached: the result is that of %s, with unknown error", s->eps, what);
+        snprintf(a->why, size,
+                 "interrupted before the accuracy %.1e was reached: the result is that of %s, with unknown error",
+                 s->eps, what);
     else if (!t->motion->complete)
-        snprintf(a->why, size, "the accuracy %.1e was not reached: the motion ended at t = %.6g", s->eps, t->motion->end_time);
+        snprintf(a->why, size, "the accuracy %.1e was not reached: the motion ended at t = %.6g", s->eps,
+                 t->motion->end_time);
     else if (!(a->estimate < s->eps / 2)) {
         const char *words = words_of_size(s, t);
-        snprintf(a->why, size, "the accuracy %.1e was not reached: %s has an estimated error of %.1e, in a quantity of size %.1e%s", s->eps, what, a->estimate, a->size, words);
+        snprintf(a->why, size,
+                 "the accuracy %.1e was not reached: %s has an estimated error of %.1e, in a quantity of size %.1e%s",
+                 s->eps, what, a->estimate, a->size, words);
     } else if (!s->doubtful)
         snprintf(a->why, size, "%s, estimated error %.1e", what, a->estimate);
     else if (a->held)
-        snprintf(a->why, size, "%s, estimated error %.1e, %s agrees to %.1e", what, a->estimate, a->second, a->difference);
+        snprintf(a->why, size, "%s, estimated error %.1e, %s agrees to %.1e", what, a->estimate, a->second,
+                 a->difference);
     else if (!isfinite(a->difference))
-        snprintf(a->why, size, "the accuracy %.1e was not confirmed: %s estimates an error of %.1e, but %s could not compute the motion", s->eps, t->method, a->estimate, a->second);
+        snprintf(
+            a->why, size,
+            "the accuracy %.1e was not confirmed: %s estimates an error of %.1e, but %s could not compute the motion",
+            s->eps, t->method, a->estimate, a->second);
     else
-        snprintf(a->why, size, "the accuracy %.1e was not confirmed: %s estimates an error of %.1e, but %s differs by %.1e", s->eps, t->method, a->estimate, a->second, a->difference);
+        snprintf(a->why, size,
+                 "the accuracy %.1e was not confirmed: %s estimates an error of %.1e, but %s differs by %.1e", s->eps,
+                 t->method, a->estimate, a->second, a->difference);
 }
 
 /* How the motion was computed, so that others like it can be. */
 static nh_integration_plan way_of(const search *s, const nh_trajectory *t)
 {
     const nh_accuracy *a = s->out;
-    nh_integration_plan w = {.method = s->method[0], .velocities = s->way ? s->way->velocities : NH_OWN_VELOCITIES, .tolerance = a->tolerance, .step = NAN, .error = a->estimate};
+    nh_integration_plan w = {.method = s->method[0],
+                             .velocities = s->way ? s->way->velocities : NH_OWN_VELOCITIES,
+                             .tolerance = a->tolerance,
+                             .step = NAN,
+                             .error = a->estimate};
     if (w.method->order) w.step = a->step, w.tolerance = NAN;
     w.effort = fmax(t->motion->effort, 1) / span_of(s->request);
     return w;
 }
 
-static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, const nh_integration_plans *ways, nh_accuracy *accuracy, nh_error *error)
+static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, const nh_integration_plans *ways,
+                              nh_accuracy *accuracy, nh_error *error)
 {
     static const nh_integration_plans none = {.count = 0};
     *accuracy = (nh_accuracy){.wanted = eps, .estimate = INFINITY, .difference = INFINITY, .step = NAN, .next = NAN};
@@ -414,8 +491,10 @@ static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, 
     return t;
 }
 
-/* What was given or measured tells of another motion, or of a piece of this one: where it does not do here, without it. */
-nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_integration_plans *ways, nh_accuracy *accuracy, nh_error *error)
+/* What was given or measured tells of another motion, or of a piece of this one: where it does not do here, without
+   it. */
+nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps,
+                                      const nh_integration_plans *ways, nh_accuracy *accuracy, nh_error *error)
 {
     nh_trajectory *t = attempt(request, eps, ways, accuracy, error);
     if (!t || accuracy->held || !accuracy->measured || nh_interrupted()) return t;
@@ -429,7 +508,8 @@ nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, doub
     plain.seconds += accuracy->seconds;
     if (other && plain.held) {
         size_t used = strlen(plain.why);
-        snprintf(plain.why + used, sizeof plain.why - used, "; the method chosen first, %s%s, did not reach the accuracy", t->method, where(&accuracy->way));
+        snprintf(plain.why + used, sizeof plain.why - used,
+                 "; the method chosen first, %s%s, did not reach the accuracy", t->method, where(&accuracy->way));
         *accuracy = plain;
         nh_trajectory_free(t);
         return other;

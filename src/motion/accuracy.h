@@ -1,27 +1,30 @@
 /* accuracy: a motion with an estimated error below the requested accuracy, or a statement that it was not reached.
  *
- * 1. The method is an explicit pair of order 8; where that needs much work and CVODE BDF much less, as on stiff motions, CVODE BDF.  Where the motion needs so much
- *    by it that a choice can pay, other methods are then measured on a piece of the motion (pilot_runs.h), with a part of that work, and the cheapest takes over if it saves
- *    work from there on.  Work is counted (base/effort.h), not timed: the same motion is computed in the same way everywhere.  A caller may also give the
- *    methods to choose from.
- * 2. It runs at ever tighter tolerances tau (a method with fixed steps: with ever more steps, tau being the error that is expected of them).  With d
- *    the difference of two successive runs and p the exponent with which differences fall (0.7 until two differences are known, then measured,
- *    within [0.2, 0.9]) the error of the tighter one is about d (tau2/tau1)^p. It is accepted when that is below eps/2 and d is below 30 eps, of the
- *    first two runs below eps/10 (they may err alike); otherwise the next tolerance follows from the estimate.  Every second run perturbs the
+ * 1. The method is an explicit pair of order 8; where that needs much work and CVODE BDF much less, as on stiff
+ *    motions, CVODE BDF.  Where the motion needs so much by it that a choice can pay, other methods are then measured
+ *    on a piece of the motion (pilot_runs.h), with a part of that work, and the cheapest takes over if it saves work
+ *    from there on.  Work is counted (base/effort.h), not timed: the same motion is computed in the same way
+ *    everywhere.  A caller may also give the methods to choose from.
+ * 2. It runs at ever tighter tolerances tau (a method with fixed steps: with ever more steps, tau being the error that
+ *    is expected of them).  With d the difference of two successive runs and p the exponent with which differences fall
+ *    (0.7 until two differences are known, then measured, within [0.2, 0.9]) the error of the tighter one is about d
+ *    (tau2/tau1)^p. It is accepted when that is below eps/2 and d is below 30 eps, of the first two runs below eps/10
+ *    (they may err alike); otherwise the next tolerance follows from the estimate.  Every second run perturbs the
  *    initial state by 1e-15, relative, so that the differences also show the growth of rounding errors.
- * 3. Where the method is implicit, or an error is a thousand times the tolerance, another method must agree to eps, at a tolerance tightened
- *    until it does: step halving alone can be deceived where a motion is unstable.
+ * 3. Where the method is implicit, or an error is a thousand times the tolerance, another method must agree to eps, at
+ *    a tolerance tightened until it does: step halving alone can be deceived where a motion is unstable.
  *
- * No run is extrapolated in time. Errors are those of the wanted expressions, each relative to its largest value along the motion, however small that is; those of currents and
- * energies, which are sums that may cancel, relative to the largest of their terms.  What is zero along the motion (vanishing.h) has no error. */
+ * No run is extrapolated in time. Errors are those of the wanted expressions, each relative to its largest value along
+ * the motion, however small that is; those of currents and energies, which are sums that may cancel, relative to the
+ * largest of their terms.  What is zero along the motion (vanishing.h) has no error. */
 #ifndef NH_ACCURACY_H
 #define NH_ACCURACY_H
 
 #include "motion/accuracy_measure.h"
 #include "motion/pilot_runs.h"
 
-/* Origin of the method: the race of two methods; the caller; what was measured for this motion; the race, because the motion is too short to measure
- * anything. */
+/* Origin of the method: the race of two methods; the caller; what was measured for this motion; the race, because the
+ * motion is too short to measure anything. */
 typedef enum { NH_CHOICE_RACE, NH_CHOICE_GIVEN, NH_CHOICE_SURVEY, NH_CHOICE_SHORT } nh_accuracy_choice;
 
 /* What may be chosen from. */
@@ -29,16 +32,20 @@ typedef struct {
     size_t count;                       /* ways that a motion like this one was computed by */
     const nh_integration_plan *way;
     bool survey;                        /* others may be measured where none of these does */
-    double more;                        /* motions like this one are to be computed as this one was: measuring pays so much more */
-    bool plain;                         /* only the model's own velocities and methods with error control, in a survey */
+    /* motions like this one are to be computed as this one was: measuring pays so much more */
+    double more;
+    /* only the model's own velocities and methods with error control, in a survey */
+    bool plain;
     void *context;
-    /* The model in other velocities, where deriving it costs no more than so many units of effort; else NULL.  May be NULL. */
+    /* The model in other velocities, where deriving it costs no more than so many units of effort; else NULL.  May be
+       NULL. */
     const nh_model *(*derive)(void *context, double effort);
 } nh_integration_plans;
 
 typedef struct {
     bool held;
-    double wanted, estimate, tolerance, step; /* of the motion that is returned: it has a tolerance or a fixed step; the other is NAN */
+    /* of the motion that is returned: it has a tolerance or a fixed step; the other is NAN */
+    double wanted, estimate, tolerance, step;
     nh_accuracy_choice choice;
     bool measured;                      /* the method is the cheapest of those that were measured */
     const nh_method *other;             /* then: the method of the next, NULL: there is none; */
@@ -51,12 +58,14 @@ typedef struct {
     long evaluations;                   /* of all runs, those of a survey included */
     double effort;                      /* units of base/effort.h of all runs, */
     double seconds;                     /* and their time, which decides nothing */
-    nh_integration_plan way;                         /* how the motion that is returned was computed, with what it cost and its estimated error */
+    /* how the motion that is returned was computed, with what it cost and its estimated error */
+    nh_integration_plan way;
     char why[512];                      /* the choice, or what failed, in words */
 } nh_accuracy;
 
-/* The trajectory of the tightest run, also when the accuracy was not reached (held == false).  request->n must not be 0.  `ways` NULL: the
- * race decides. */
-nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_integration_plans *ways, nh_accuracy *accuracy, nh_error *error);
+/* The trajectory of the tightest run, also when the accuracy was not reached (held == false).  request->n must not be
+ * 0.  `ways` NULL: the race decides. */
+nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps,
+                                      const nh_integration_plans *ways, nh_accuracy *accuracy, nh_error *error);
 
 #endif

@@ -14,7 +14,8 @@ void nh_accuracy_disturb(size_t n, const double *from, double *to)
     }
 }
 
-double nh_accuracy_difference(size_t count, size_t n, const double *a, const double *b, const double *floor, size_t *which)
+double nh_accuracy_difference(size_t count, size_t n, const double *a, const double *b, const double *floor,
+                              size_t *which)
 {
     double worst = 0;
     for (size_t k = 0; k < n; k++) {
@@ -68,7 +69,8 @@ void nh_accuracy_terms(const nh_trajectory_request *q, const nh_trajectory *t, d
     nh_dynamics_free(d);
 }
 
-/* The largest of the terms of one expression, along a motion of their own that need not be exact: the given one may have left out what they need. */
+/* The largest of the terms of one expression, along a motion of their own that need not be exact: the given one may
+   have left out what they need. */
 static double terms_alone(const nh_trajectory_request *request, nh_ex one)
 {
     static const double loose = 1e-6;

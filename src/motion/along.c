@@ -36,8 +36,8 @@ nh_along_values *nh_along_values_create(const nh_model *o, nh_to_point *place, v
 
 /* ---- in all coordinates ---- */
 
-/* An expression of the chart in (t, q, v), where it holds beyond the chart: implicit velocities and roots are velocities there.  `inverse`:
- * quasi-velocities in v. */
+/* An expression of the chart in (t, q, v), where it holds beyond the chart: implicit velocities and roots are
+ * velocities there.  `inverse`: quasi-velocities in v. */
 static nh_ex everywhere(const nh_model *o, const nh_ex *inverse, nh_ex e)
 {
     const nh_chart *c = o->chart;

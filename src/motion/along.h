@@ -25,10 +25,12 @@ bool nh_along_values_outputs(nh_along_values *values, const nh_motion *motion, d
 /* The same at the zeros that were watched for. */
 bool nh_along_values_events(nh_along_values *values, const nh_motion *motion, double *value);
 
-/* value[i * n + k]: expression k of the chart at output i of a motion in (q, w) or in (q, v).  False where implicit velocities cannot be found. */
+/* value[i * n + k]: expression k of the chart at output i of a motion in (q, w) or in (q, v).  False where implicit
+   velocities cannot be found. */
 bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value);
 
-/* (q, v) at the outputs of a motion in (q, w), into states (motion->count x 2m).  False where implicit velocities cannot be found. */
+/* (q, v) at the outputs of a motion in (q, w), into states (motion->count x 2m).  False where implicit velocities
+   cannot be found. */
 bool nh_states_in_coordinates(nh_dynamics *dynamics, const nh_motion *motion, double *states);
 
 /* The whole motion, with its zeros and its end, in (q, v) instead of (q, w). */

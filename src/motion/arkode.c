@@ -53,9 +53,11 @@
 #define jacobian_of_every ARKStepSetJacEvalFrequency
 #endif
 
-enum { most_fails = 100 };         /* of the error test, in one step: at the edge of its stability a pair shortens the step often, by little */
+/* of the error test, in one step: at the edge of its stability a pair shortens the step often, by little */
+enum { most_fails = 100 };
 static const double newton = 0.01; /* of the tolerance: how well the equations of a step are solved */
-static const double part_across = 1e-3, part_across_implicit = 0.1; /* of the tolerance: what a step across a kink may spoil; more than what solving leaves */
+/* of the tolerance: what a step across a kink may spoil; more than what solving leaves */
+static const double part_across = 1e-3, part_across_implicit = 0.1;
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -77,8 +79,8 @@ typedef struct {
     long evaluations;
 } pairs_work;
 
-/* Units of effort (base/effort.h): of a step, of a stage, and of a stage per number of the state; the same of implicit ones, with the linear equations, whose factors
- * are computed once per step. */
+/* Units of effort (base/effort.h): of a step, of a stage, and of a stage per number of the state; the same of implicit
+ * ones, with the linear equations, whose factors are computed once per step. */
 static const double step_units[] = {600, 3400}, stage_units[] = {100, 150}, stage_vectors[] = {10, 40}, flop = 1.4;
 
 static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
@@ -86,7 +88,8 @@ static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
     pairs_work *work = user;
     work->evaluations++;
     nh_effort_add(work->each);
-    if (!work->solver || work->problem->jacobian) nh_kinks_see(&work->kinks, t, NV_DATA_S(state)); /* not where derivatives are formed as differences across it */
+    /* not where derivatives are formed as differences across it */
+    if (!work->solver || work->problem->jacobian) nh_kinks_see(&work->kinks, t, NV_DATA_S(state));
     bool good = work->problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), work->problem->context);
     for (size_t i = 0; i < work->problem->size && good; i++) good = isfinite(NV_DATA_S(rate)[i]);
     return good ? 0 : 1; /* "recoverable": a smaller step is tried */
@@ -96,12 +99,14 @@ static int call_weight(N_Vector state, N_Vector weight, void *user)
 {
     const pairs_work *work = user;
     for (size_t i = 0; i < work->problem->size; i++)
-        NV_DATA_S(weight)[i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
+        NV_DATA_S(weight)
+        [i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
     return nh_all_finite(work->problem->size, NV_DATA_S(weight)) ? 0 : -1;
 }
 
 /* SUNDIALS' dense matrices are stored by columns without gaps, as motion.h requires. */
-static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector a, N_Vector b, N_Vector c)
+static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector a,
+                         N_Vector b, N_Vector c)
 {
     (void)rate, (void)a, (void)b, (void)c;
     pairs_work *work = user;
@@ -125,8 +130,12 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     if (work->solver) jacobians_of(work->arkode, &motion->jacobians);
     if (flag == ARK_TSTOP_RETURN) *time = target;
     work->before = before, work->now = *time;
-    nh_guard_verdict verdict = flag >= 0 ? nh_guards_judge(&work->guards, before, *time, NV_DATA_S(work->state), motion) : NH_GUARD_KEPT;
-    nh_kink_verdict kink = flag >= 0 && verdict == NH_GUARD_KEPT ? nh_kinks_judge(&work->kinks, work->problem, before, work->old, *time, NV_DATA_S(work->state), motion) : NH_KINK_NONE;
+    nh_guard_verdict verdict =
+        flag >= 0 ? nh_guards_judge(&work->guards, before, *time, NV_DATA_S(work->state), motion) : NH_GUARD_KEPT;
+    nh_kink_verdict kink =
+        flag >= 0 && verdict == NH_GUARD_KEPT
+            ? nh_kinks_judge(&work->kinks, work->problem, before, work->old, *time, NV_DATA_S(work->state), motion)
+            : NH_KINK_NONE;
     if (kink == NH_KINK_BACK) verdict = NH_GUARD_BACK;
     if (kink == NH_KINK_CROSSED) flag = reset(work->arkode, *time, work->state);
     if (verdict != NH_GUARD_KEPT) {
@@ -142,8 +151,8 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     return NH_STEP_FAILED;
 }
 
-/* Inside the last implicit step, where events are looked for: a motion of its own from the beginning of the step (ARKODE interpolates
- * long steps badly). */
+/* Inside the last implicit step, where events are looked for: a motion of its own from the beginning of the step
+ * (ARKODE interpolates long steps badly). */
 static bool state_inside(pairs_work *work, double time, double *state)
 {
     const double times[2] = {work->before, time};
@@ -182,22 +191,27 @@ static void pairs_stuck(nh_motion *motion, void *context)
     nh_motion_note(motion, "the steps vanish near t = %.10g: the solution is singular there", motion->end_time);
 }
 
-/* Newton's iteration with a dense matrix, made anew for every step: with an old one the steps after a short one, as those that end at the output times, passed
- * unsolved (tests/test_method.c, stiff motion: off by 0.2 at 1e-6).  Rates are deduced from the solution: evaluated there they would have its error times the
- * stiffness. */
+/* Newton's iteration with a dense matrix, made anew for every step: with an old one the steps after a short one, as
+ * those that end at the output times, passed unsolved (tests/test_method.c, stiff motion: off by 0.2 at 1e-6).  Rates
+ * are deduced from the solution: evaluated there they would have its error times the stiffness. */
 static bool set_up_implicit(pairs_work *work)
 {
     sunindextype size = (sunindextype)work->problem->size;
     work->matrix = SUNDenseMatrix(size, size, work->sundials.context);
     work->solver = work->matrix ? SUNLinSol_Dense(work->state, work->matrix, work->sundials.context) : NULL;
-    return work->solver && ARKStepSetTableNum(work->arkode, ARKODE_ESDIRK547L2SA2_7_4_5, ARKODE_ERK_NONE) == ARK_SUCCESS &&
-           deduce_rates(work->arkode, 1) == ARK_SUCCESS && newton_part(work->arkode, newton) == ARK_SUCCESS && set_up_every(work->arkode, 1) == ARK_SUCCESS &&
-           solve_by(work->arkode, work->solver, work->matrix) == ARK_SUCCESS && (!work->problem->jacobian || set_jacobian(work->arkode, call_jacobian) == ARK_SUCCESS) && jacobian_of_every(work->arkode, 1) == ARK_SUCCESS;
+    return work->solver &&
+           ARKStepSetTableNum(work->arkode, ARKODE_ESDIRK547L2SA2_7_4_5, ARKODE_ERK_NONE) == ARK_SUCCESS &&
+           deduce_rates(work->arkode, 1) == ARK_SUCCESS && newton_part(work->arkode, newton) == ARK_SUCCESS &&
+           set_up_every(work->arkode, 1) == ARK_SUCCESS &&
+           solve_by(work->arkode, work->solver, work->matrix) == ARK_SUCCESS &&
+           (!work->problem->jacobian || set_jacobian(work->arkode, call_jacobian) == ARK_SUCCESS) &&
+           jacobian_of_every(work->arkode, 1) == ARK_SUCCESS;
 }
 
 static bool set_up(pairs_work *work, nh_arkode_method method, const double *initial, const nh_flow_options *options)
 {
-    static const ARKODE_ERKTableID tables[] = {ARKODE_DORMAND_PRINCE_7_4_5, ARKODE_VERNER_8_5_6, ARKODE_FEHLBERG_13_7_8};
+    static const ARKODE_ERKTableID tables[] = {ARKODE_DORMAND_PRINCE_7_4_5, ARKODE_VERNER_8_5_6,
+                                               ARKODE_FEHLBERG_13_7_8};
     bool implicit = method == NH_ESDIRK_5;
     sunindextype size = (sunindextype)work->problem->size;
     if (!nh_sundials_open(&work->sundials)) return false;
@@ -206,14 +220,18 @@ static bool set_up(pairs_work *work, nh_arkode_method method, const double *init
     memcpy(NV_DATA_S(work->state), initial, work->problem->size * sizeof *initial);
     if (!nh_sizes_open(&work->sizes, work->problem, options, initial, work->count, work->times)) return false;
     work->evaluations += work->sizes.evaluations;
-    work->arkode = ARKStepCreate(implicit ? NULL : call_rate, implicit ? call_rate : NULL, work->times[0], work->state, work->sundials.context);
-    return work->arkode && nh_sundials_listen(ARKStep, work->arkode, &work->sundials) && set_user_data(work->arkode, work) == ARK_SUCCESS &&
-           (implicit ? set_up_implicit(work) : ARKStepSetTableNum(work->arkode, ARKODE_DIRK_NONE, tables[method]) == ARK_SUCCESS) &&
-           set_most_fails(work->arkode, most_fails) == ARK_SUCCESS && tolerances(work->arkode, call_weight) == ARK_SUCCESS;
+    work->arkode = ARKStepCreate(implicit ? NULL : call_rate, implicit ? call_rate : NULL, work->times[0], work->state,
+                                 work->sundials.context);
+    return work->arkode && nh_sundials_listen(ARKStep, work->arkode, &work->sundials) &&
+           set_user_data(work->arkode, work) == ARK_SUCCESS &&
+           (implicit ? set_up_implicit(work)
+                     : ARKStepSetTableNum(work->arkode, ARKODE_DIRK_NONE, tables[method]) == ARK_SUCCESS) &&
+           set_most_fails(work->arkode, most_fails) == ARK_SUCCESS &&
+           tolerances(work->arkode, call_weight) == ARK_SUCCESS;
 }
 
-nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
-                    const nh_flow_options *options, nh_error *error)
+nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, const double *initial, size_t count,
+                     const double *times, const nh_flow_options *options, nh_error *error)
 {
     nh_motion *motion = nh_motion_start(problem->size, problem->size, initial, count, times, options, error);
     if (!motion || motion->complete) return motion;
@@ -243,7 +261,8 @@ nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, co
         nh_kinks_coarser(&work.kinks, (implicit ? part_across_implicit : part_across) * work.rtol * work.sizes.tau);
         nh_motion_run(motion, count, times, options, &stepper);
     } else {
-        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.sundials.message[0] ? work.sundials.message : "out of memory");
+        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s",
+                work.sundials.message[0] ? work.sundials.message : "out of memory");
         nh_motion_free(motion);
         motion = NULL;
     }

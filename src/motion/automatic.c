@@ -1,7 +1,9 @@
 /* automatic: an explicit pair of order 8 whose motion is handed to CVODE BDF where that needs far less work.
  *
- * The pair runs first.  When its work exceeds a limit, BDF computes the same motion with a small part of the work that the pair would need to the end; if it gets
- * there, its motion is returned, otherwise the pair goes on from where it is.  Where the pair itself fails before, BDF may need as much work.  So a motion that is not stiff costs at most that part more. */
+ * The pair runs first.  When its work exceeds a limit, BDF computes the same motion with a small part of the work that
+ * the pair would need to the end; if it gets there, its motion is returned, otherwise the pair goes on from where it
+ * is.  Where the pair itself fails before, BDF may need as much work.  So a motion that is not stiff costs at most that
+ * part more. */
 #include "motion/automatic.h"
 
 #include <math.h>
@@ -9,7 +11,8 @@
 #include "base/clock.h"
 #include "base/effort.h"
 
-static const double least_effort = 1e6, least_done = 1e-6; /* that BDF may need where the pair fails; part of the time after which work is extrapolated */
+/* that BDF may need where the pair fails; part of the time after which work is extrapolated */
+static const double least_effort = 1e6, least_done = 1e-6;
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -28,10 +31,19 @@ static bool rate(double t, const double *z, double *out, void *context)
     return a->problem->rate(t, z, out, a->problem->context);
 }
 
-static bool guard(double t, const double *z, double *value, void *context) { return ((attempt *)context)->problem->guard(t, z, value, ((attempt *)context)->problem->context); }
-static bool wall(double t, const double *z, double *value, void *context) { return ((attempt *)context)->problem->wall(t, z, value, ((attempt *)context)->problem->context); }
+static bool guard(double t, const double *z, double *value, void *context)
+{
+    return ((attempt *)context)->problem->guard(t, z, value, ((attempt *)context)->problem->context);
+}
+static bool wall(double t, const double *z, double *value, void *context)
+{
+    return ((attempt *)context)->problem->wall(t, z, value, ((attempt *)context)->problem->context);
+}
 
-static bool cancelled(const attempt *a) { return a->options->cancelled && a->options->cancelled(a->options->cancel_context); }
+static bool cancelled(const attempt *a)
+{
+    return a->options->cancelled && a->options->cancelled(a->options->cancel_context);
+}
 
 /* BDF with so much work. */
 static void try_stiff(attempt *a, double effort)
@@ -41,7 +53,8 @@ static void try_stiff(attempt *a, double effort)
     nh_error_clear(&ignored);
     a->tried = true;
     options.effort = options.effort > 0 ? fmin(effort, options.effort) : effort;
-    nh_motion *motion = nh_method_flow(nh_method_find("CVODE BDF"), a->problem, a->initial, a->count, a->times, &options, &ignored);
+    nh_motion *motion =
+        nh_method_flow(nh_method_find("CVODE BDF"), a->problem, a->initial, a->count, a->times, &options, &ignored);
     if (motion && (motion->complete || motion->guard_hit >= 0)) a->stiff = motion;
     else nh_motion_free(motion);
 }
@@ -65,17 +78,29 @@ static bool give_up(void *context)
 /* A motion of the pair that ended by itself before its work reached the limit: short of steps, or of digits. */
 static bool may_be_stiff(const attempt *a, const nh_motion *motion)
 {
-    return motion && !a->tried && !motion->complete && motion->guard_hit < 0 && !cancelled(a) && !(a->options->effort > 0 && motion->effort > a->options->effort);
+    return motion && !a->tried && !motion->complete && motion->guard_hit < 0 && !cancelled(a) &&
+           !(a->options->effort > 0 && motion->effort > a->options->effort);
 }
 
-nh_motion *nh_automatic(const nh_flow_problem *problem, const double *initial, size_t count, const double *times, const nh_flow_options *options,
-                        const nh_method **used, nh_error *error)
+nh_motion *nh_automatic(const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
+                        const nh_flow_options *options, const nh_method **used, nh_error *error)
 {
     const nh_method *pair = nh_method_find("GSL rk8pd");
     double begin = nh_clock();
-    attempt a = {.problem = problem, .options = options, .initial = initial, .times = times, .count = count, .begin = nh_effort(), .now = count ? times[0] : 0};
-    nh_flow_problem watched = {.size = problem->size, .context = &a, .rate = rate, .guards = problem->guards, .guard = problem->guard ? guard : NULL,
-                               .walls = problem->walls, .wall = problem->wall ? wall : NULL};
+    attempt a = {.problem = problem,
+                 .options = options,
+                 .initial = initial,
+                 .times = times,
+                 .count = count,
+                 .begin = nh_effort(),
+                 .now = count ? times[0] : 0};
+    nh_flow_problem watched = {.size = problem->size,
+                               .context = &a,
+                               .rate = rate,
+                               .guards = problem->guards,
+                               .guard = problem->guard ? guard : NULL,
+                               .walls = problem->walls,
+                               .wall = problem->wall ? wall : NULL};
     nh_flow_options how = *options;
     how.guarded = true;
     how.cancelled = give_up;
@@ -91,8 +116,8 @@ nh_motion *nh_automatic(const nh_flow_problem *problem, const double *initial, s
     return a.stiff;
 }
 
-nh_motion *nh_automatic_or(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
-                           const nh_flow_options *options, const nh_method **used, nh_error *error)
+nh_motion *nh_automatic_or(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count,
+                           const double *times, const nh_flow_options *options, const nh_method **used, nh_error *error)
 {
     if (!method) return nh_automatic(problem, initial, count, times, options, used, error);
     if (used) *used = method;

@@ -9,9 +9,10 @@
  *     [  dr_2/dq     c K + dr_2/dv         F^T   ]
  *     [  dr_3/dq     c F + dr_3/dv          0    ]
  *
- * where K, F and F^T are exact and the derivatives of r_2, r_3 at constant v', mu are differences: they only speed up the
- * iteration, its limit does not depend on them.  v' and mu are functions of (q,v) as long as the matrix [K F^T; F 0] is
- * regular, so the index is 1 whether K is regular or not.  Of index 2, r_3 = f, the third row of the matrix is (df/dq, F, 0). */
+ * where K, F and F^T are exact and the derivatives of r_2, r_3 at constant v', mu are differences: they only speed up
+ * the iteration, its limit does not depend on them.  v' and mu are functions of (q,v) as long as the matrix [K F^T; F
+ * 0] is regular, so the index is 1 whether K is regular or not.  Of index 2, r_3 = f, the third row of the matrix is
+ * (df/dq, F, 0). */
 #include "motion/chetaev.h"
 
 #include <float.h>
@@ -29,17 +30,18 @@
 #include "motion/sundials.h"
 #include "motion/stepping.h"
 
-/* The multipliers take part in the error test, or they would be wrong between the steps wherever (q,v) allows long ones (by
- * 10 % at rtol 1e-9 in a test); but they follow the accelerations, which are one order less exact than (q,v), so their
- * tolerance is wider.  What Newton's iteration leaves behind enters v' and mu divided by the step: at IDA's share of 0.33
- * that noise, not the motion, ruled the steps.  The sleigh to T = 10, rtol 1e-10 and 1e-14, errors of phi and mu:
+/* The multipliers take part in the error test, or they would be wrong between the steps wherever (q,v) allows long ones
+ * (by 10 % at rtol 1e-9 in a test); but they follow the accelerations, which are one order less exact than (q,v), so
+ * their tolerance is wider.  What Newton's iteration leaves behind enters v' and mu divided by the step: at IDA's share
+ * of 0.33 that noise, not the motion, ruled the steps.  The sleigh to T = 10, rtol 1e-10 and 1e-14, errors of phi and
+ * mu:
  *     mu not tested, 0.33     1.3 ms, 7e-10, 1e-7       4.5 ms, 1e-12, 5e-11
  *     width 1, 0.33           3.3 ms, 5e-10, 2e-9      13 ms, 4e-14, 9e-13     (40 ms at 1e-12)
  *     width 10, 0.003         1.4 ms, 2e-9, 2e-8        5.1 ms, 3e-13, 7e-12 */
 static const double multiplier_width = 10;
 static const double iteration_share = 0.003;
-/* Of index 2 the multipliers are left out of the error test, and Newton's iteration needs no digits of theirs: their noise is the iteration's
- * divided by the step. */
+/* Of index 2 the multipliers are left out of the error test, and Newton's iteration needs no digits of theirs: their
+ * noise is the iteration's divided by the step. */
 static const double multiplier_width_2 = 1e10;
 
 typedef struct {
@@ -49,7 +51,9 @@ typedef struct {
     double *base, *shifted;    /* (r_2, r_3), m + k each */
     double *point;             /* (q, v), 2m */
     double *scale;             /* 2m + k */
-    double *row;               /* 2m + k: by which the equations are multiplied, so that numbers without units are eliminated: a pivot is the largest of them */
+    /* 2m + k: by which the equations are multiplied, so that numbers without units are eliminated: a pivot is the
+       largest of them */
+    double *row;
     double *saddle;
     nh_sundials sundials;
     void *ida;
@@ -100,14 +104,15 @@ static void balance(const ida_work *work, const double *a, const double *mu, dou
 
 static bool solve_bordered(const ida_work *work, double *a, double *mu, double *rcond)
 {
-    return nh_saddle_solve(work->m, work->k, work->K, work->F, work->h, work->g, a, mu, rcond, work->saddle) && *rcond > DBL_EPSILON;
+    return nh_saddle_solve(work->m, work->k, work->K, work->F, work->h, work->g, a, mu, rcond, work->saddle) &&
+           *rcond > DBL_EPSILON;
 }
 
 /* The nearest power of two, by which nothing is rounded; 1 where it is none. */
 static double power_of_two(double x) { return x > 0 && isfinite(x) ? exp2(round(log2(x))) : 1; }
 
-/* What size a multiplier has: the power |h_j| s_j of the forces that it balances is that of mu_a F_aj s_j, with s_j the size of v_j; so nothing depends on units.  Without
- * forces: of those that change the momenta within the whole time. */
+/* What size a multiplier has: the power |h_j| s_j of the forces that it balances is that of mu_a F_aj s_j, with s_j the
+ * size of v_j; so nothing depends on units.  Without forces: of those that change the momenta within the whole time. */
 static void scale_multipliers(ida_work *work, const double *a, double time)
 {
     size_t m = work->m, k = work->k;
@@ -121,7 +126,8 @@ static void scale_multipliers(ida_work *work, const double *a, double time)
         }
     }
     double power = force > 0 ? force : momentum / time;
-    for (size_t j = 0; j < m; j++) work->row[j] = power_of_two(1 / size[j]), work->row[m + j] = power_of_two(size[j] / power);
+    for (size_t j = 0; j < m; j++)
+        work->row[j] = power_of_two(1 / size[j]), work->row[m + j] = power_of_two(size[j] / power);
     for (size_t c = 0; c < k; c++) {
         double direction = 0;
         for (size_t j = 0; j < m; j++) direction = fmax(direction, fabs(work->F[c + j * k]) * size[j]);
@@ -131,20 +137,25 @@ static void scale_multipliers(ida_work *work, const double *a, double time)
 }
 
 /* The whole initial state: q, v given, v' and mu computed. */
-static bool make_consistent(ida_work *work, double t, const double *initial, double *state, double *rate, nh_error *error)
+static bool make_consistent(ida_work *work, double t, const double *initial, double *state, double *rate,
+                            nh_error *error)
 {
     size_t m = work->m;
     double rcond = 0;
     if (!terms_at(work, t, initial, initial + m)) {
-        nh_fail(error, NH_NUMERIC, "", "the equations of motion cannot be evaluated at the initial state (t = %.10g)", t);
+        nh_fail(error, NH_NUMERIC, "", "the equations of motion cannot be evaluated at the initial state (t = %.10g)",
+                t);
         return nh_error_hint(error, "check the initial values, or use coordinates that are regular there");
     }
     memcpy(state, initial, 2 * m * sizeof *state);
     memcpy(rate, initial + m, m * sizeof *rate);
     if (!solve_bordered(work, rate + m, state + 2 * m, &rcond)) {
-        nh_fail(error, NH_NUMERIC, "", "the accelerations and multipliers are not determined at the initial state: the mass matrix "
-                "bordered by the constraints has the reciprocal condition number %.2g", rcond);
-        return nh_error_hint(error, "check for dependent constraints, and for coordinates without inertia that no constraint fixes");
+        nh_fail(error, NH_NUMERIC, "",
+                "the accelerations and multipliers are not determined at the initial state: the mass matrix "
+                "bordered by the constraints has the reciprocal condition number %.2g",
+                rcond);
+        return nh_error_hint(
+            error, "check for dependent constraints, and for coordinates without inertia that no constraint fixes");
     }
     scale_multipliers(work, rate + m, fabs(work->stop - t));
     return true;
@@ -199,8 +210,8 @@ static double shift(ida_work *work, double t, const double *y, size_t j)
     return 0;
 }
 
-static int call_jacobian(sunrealtype t, sunrealtype c, N_Vector state, N_Vector rate, N_Vector residual, SUNMatrix matrix, void *user,
-                         N_Vector work1, N_Vector work2, N_Vector work3)
+static int call_jacobian(sunrealtype t, sunrealtype c, N_Vector state, N_Vector rate, N_Vector residual,
+                         SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2, N_Vector work3)
 {
     (void)residual, (void)work1, (void)work2, (void)work3;
     ida_work *work = user;
@@ -250,15 +261,20 @@ static void explain(int flag, ida_work *work, nh_motion *motion)
 {
     double t = motion->end_time;
     if (work->failed && flag != IDA_TOO_MUCH_ACC)
-        nh_motion_note(motion, "the equations of motion cannot be evaluated near t = %.10g: the motion leaves their domain or "
-                       "meets a singularity there; use other coordinates or stop earlier", work->failed_at);
+        nh_motion_note(motion,
+                       "the equations of motion cannot be evaluated near t = %.10g: the motion leaves their domain or "
+                       "meets a singularity there; use other coordinates or stop earlier",
+                       work->failed_at);
     else if (flag == IDA_TOO_MUCH_ACC)
         nh_motion_note(motion, "double precision cannot reach the tolerance %g near t = %.10g; use a larger tolerance",
                        work->rtol, t);
     else if (flag == IDA_ERR_FAIL || flag == IDA_CONV_FAIL || flag == IDA_LSETUP_FAIL || flag == IDA_LSOLVE_FAIL)
-        nh_motion_note(motion, "no step near t = %.10g reaches the tolerance %g; the mass matrix bordered by the constraints has the "
-                       "reciprocal condition number %.2g there: if it is small, constraints become dependent, else the "
-                       "solution is singular", t, work->rtol, bordered_rcond(work, t));
+        nh_motion_note(
+            motion,
+            "no step near t = %.10g reaches the tolerance %g; the mass matrix bordered by the constraints has the "
+            "reciprocal condition number %.2g there: if it is small, constraints become dependent, else the "
+            "solution is singular",
+            t, work->rtol, bordered_rcond(work, t));
     else
         nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->sundials.message);
 }
@@ -337,12 +353,12 @@ static bool set_up(ida_work *work, double start)
 {
     return nh_sundials_listen(IDA, work->ida, &work->sundials) &&
            IDAInit(work->ida, call_residual, start, work->state, work->rate) == IDA_SUCCESS &&
-           IDASetUserData(work->ida, work) == IDA_SUCCESS &&
-           IDAWFtolerances(work->ida, call_weights) == IDA_SUCCESS &&
+           IDASetUserData(work->ida, work) == IDA_SUCCESS && IDAWFtolerances(work->ida, call_weights) == IDA_SUCCESS &&
            IDASetLinearSolver(work->ida, work->solver, work->matrix) == IDA_SUCCESS &&
            IDASetJacFn(work->ida, call_jacobian) == IDA_SUCCESS &&
            IDASetNonlinConvCoef(work->ida, iteration_share) == IDA_SUCCESS &&
-           IDASetStopTime(work->ida, work->stop) == IDA_SUCCESS && (!work->problem->holds || leave_multipliers_out(work));
+           IDASetStopTime(work->ida, work->stop) == IDA_SUCCESS &&
+           (!work->problem->holds || leave_multipliers_out(work));
 }
 
 static void destroy_work(ida_work *work)
@@ -371,8 +387,8 @@ static void enter_start(nh_motion *motion, const ida_work *work)
     memcpy(motion->end_state, NV_DATA_S(work->state), size);
 }
 
-/* The largest |f^a| over the output points, beside the largest |F_aj| s_j there, with s_j the size of v_j: what the constraint is made of.  The terms are there, or the motion
- * would not have come so far. */
+/* The largest |f^a| over the output points, beside the largest |F_aj| s_j there, with s_j the size of v_j: what the
+ * constraint is made of.  The terms are there, or the motion would not have come so far. */
 static double violation(ida_work *work, const nh_motion *motion)
 {
     size_t m = work->m, k = work->k;
@@ -382,7 +398,8 @@ static double violation(ida_work *work, const nh_motion *motion)
         if (!terms_at(work, motion->time[i], y, y + m)) continue;
         for (size_t a = 0; a < k; a++) {
             off[a] = fmax(off[a], fabs(work->f[a]));
-            for (size_t j = 0; j < m; j++) size[a] = fmax(size[a], fabs(work->F[a + j * k]) * fmax(work->scale[m + j], fabs(y[m + j])));
+            for (size_t j = 0; j < m; j++)
+                size[a] = fmax(size[a], fabs(work->F[a + j * k]) * fmax(work->scale[m + j], fabs(y[m + j])));
         }
     }
     for (size_t a = 0; a < k; a++)
@@ -407,14 +424,15 @@ static bool integrate(ida_work *work, nh_motion *motion, const double *initial, 
     return true;
 }
 
-nh_chetaev_motion *nh_chetaev(const nh_chetaev_problem *problem, const double *initial, size_t count, const double *times,
-                              const nh_flow_options *options, nh_error *error)
+nh_chetaev_motion *nh_chetaev(const nh_chetaev_problem *problem, const double *initial, size_t count,
+                              const double *times, const nh_flow_options *options, nh_error *error)
 {
     size_t m = problem->coordinates, k = problem->constraints;
     nh_motion *motion = nh_motion_start(2 * m + k, 2 * m, initial, count, times, options, error);
     if (!motion)
         return NULL;
-    ida_work work = {.problem = problem, .m = m, .k = k, .stop = times[count - 1], .rtol = nh_motion_rtol(motion, options)};
+    ida_work work = {
+        .problem = problem, .m = m, .k = k, .stop = times[count - 1], .rtol = nh_motion_rtol(motion, options)};
     nh_chetaev_motion *result = NULL;
     if (integrate(&work, motion, initial, count, times, options, error)) {
         result = nh_alloc(sizeof *result);

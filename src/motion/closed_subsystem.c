@@ -52,7 +52,8 @@ static void sort_states(nh_closed_subsystem *s, const nh_dependency_graph *w)
     nh_free(left);
 }
 
-/* The kept rows with zero for what is dropped, which makes most of them short.  False where that is no regular value. */
+/* The kept rows with zero for what is dropped, which makes most of them short.  False where that is no regular
+   value. */
 static bool rows_at_zero(const nh_closed_subsystem *s, nh_ex *e)
 {
     const nh_model *o = s->model;
@@ -63,7 +64,8 @@ static bool rows_at_zero(const nh_closed_subsystem *s, nh_ex *e)
         e[i] = nh_substitute(o->dag, s->network.row[s->state[i]], count, symbol, zero);
         e[n + i] = s->network.row[s->state[i]];
     }
-    double *value = nh_alloc_array(4 * n + 1, sizeof *value), *off = value + 2 * n, *size = off + n, *point = nh_alloc_array(width + 1, sizeof *point);
+    double *value = nh_alloc_array(4 * n + 1, sizeof *value), *off = value + 2 * n, *size = off + n,
+           *point = nh_alloc_array(width + 1, sizeof *point);
     nh_tape *tape = nh_dependency_graph_tape(&s->network, 2 * n, e, 0, NULL, NULL);
     nh_tape_work *work = nh_tape_work_create(tape);
     bool good = !s->implicit && o->chart->probes > 0;
@@ -104,8 +106,9 @@ static nh_tape *frozen_tape(const nh_closed_subsystem *s, size_t n, const nh_ex 
     return tape;
 }
 
-/* Sums and products of whole powers of states and of functions that are analytic everywhere.  What follows from the equations of motion where a chart of velocities holds, and
- * is of this form, holds where it ends, too: both sides are continuous, and the former places are dense. */
+/* Sums and products of whole powers of states and of functions that are analytic everywhere.  What follows from the
+ * equations of motion where a chart of velocities holds, and is of this form, holds where it ends, too: both sides are
+ * continuous, and the former places are dense. */
 static bool is_smooth(const nh_model *o, nh_ex e)
 {
     size_t most = nh_node_count(o->dag, e) + 1;
@@ -113,13 +116,17 @@ static bool is_smooth(const nh_model *o, nh_ex e)
     bool good = true;
     for (size_t i = nh_functions_in(o->dag, e, node, most); i-- > 0 && good;) {
         nh_function f = nh_function_of(o->dag, node[i]);
-        good = f == NH_SIN || f == NH_COS || f == NH_EXP || f == NH_SINH || f == NH_COSH || f == NH_TANH || f == NH_ATAN || f == NH_ASINH || f == NH_PI;
+        good = f == NH_SIN || f == NH_COS || f == NH_EXP || f == NH_SINH || f == NH_COSH || f == NH_TANH ||
+               f == NH_ATAN || f == NH_ASINH || f == NH_PI;
     }
     for (size_t i = nh_products_in(o->dag, e, node, most); i-- > 0 && good;)
         for (size_t j = 0; j < nh_arity(o->dag, node[i]) && good; j++) {
             nh_ex base = nh_child(o->dag, node[i], j), power = nh_exponent_of(o->dag, node[i], j);
-            bool whole = nh_kind_of(o->dag, power) == NH_NUMBER && nh_number_of(o->dag, power).q == 1 && nh_number_of(o->dag, power).p > 0;
-            for (size_t k = 0; k < o->width && !whole && good; k++) good = !nh_depends(o->dag, base, o->chart->symbol[k]) && !nh_depends(o->dag, power, o->chart->symbol[k]);
+            bool whole = nh_kind_of(o->dag, power) == NH_NUMBER && nh_number_of(o->dag, power).q == 1 &&
+                         nh_number_of(o->dag, power).p > 0;
+            for (size_t k = 0; k < o->width && !whole && good; k++)
+                good =
+                    !nh_depends(o->dag, base, o->chart->symbol[k]) && !nh_depends(o->dag, power, o->chart->symbol[k]);
         }
     nh_free(node);
     return good;
@@ -156,7 +163,8 @@ static void make_tapes(nh_closed_subsystem *s)
     nh_free(e);
 }
 
-nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *o, size_t n, const nh_ex *watched, size_t currents, const nh_ex *current)
+nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *o, size_t n, const nh_ex *watched, size_t currents,
+                                                const nh_ex *current)
 {
     nh_arena *arena = nh_arena_create();
     nh_closed_subsystem *s = nh_arena_alloc(arena, sizeof *s);
@@ -201,7 +209,10 @@ nh_closed_subsystem_run *nh_closed_subsystem_run_create(const nh_closed_subsyste
 {
     size_t width = s->model->width;
     nh_closed_subsystem_run *run = nh_alloc(sizeof *run);
-    *run = (nh_closed_subsystem_run){.scene = s, .failed = -1, .point = nh_alloc_array(width + s->levels + 1, sizeof *run->point), .level = nh_alloc_array(3 * s->levels + 1, sizeof *run->level)};
+    *run = (nh_closed_subsystem_run){.scene = s,
+                                     .failed = -1,
+                                     .point = nh_alloc_array(width + s->levels + 1, sizeof *run->point),
+                                     .level = nh_alloc_array(3 * s->levels + 1, sizeof *run->level)};
     run->slope = run->level + 2 * s->levels;
     if (s->rate) run->rate = nh_tape_work_create(s->rate);
     if (s->jacobian) run->jacobian = nh_tape_work_create(s->jacobian);
@@ -229,7 +240,10 @@ void nh_closed_subsystem_run_jit(nh_closed_subsystem_run *run, double patience)
     if (run->jacobian) nh_tape_jit(run->jacobian, patience);
 }
 
-const char *nh_closed_subsystem_run_words(const nh_closed_subsystem_run *run) { return run->rate ? nh_tape_words(run->rate) : NULL; }
+const char *nh_closed_subsystem_run_words(const nh_closed_subsystem_run *run)
+{
+    return run->rate ? nh_tape_words(run->rate) : NULL;
+}
 
 long nh_closed_subsystem_run_failed(const nh_closed_subsystem_run *run) { return run->failed; }
 
@@ -296,7 +310,8 @@ static bool scene_guard(double t, const double *z, double *value, void *context)
     size_t guards = run->whole ? run->whole->guards : 0;
     bool good = place(run, t, z);
     if (good && s->levels) place_removed(run);
-    for (size_t k = 0; k < s->levels; k++) value[guards + k] = run->level[s->levels + k] / run->slope[k] - smallest_slope;
+    for (size_t k = 0; k < s->levels; k++)
+        value[guards + k] = run->level[s->levels + k] / run->slope[k] - smallest_slope;
     return good && (!guards || run->whole->guard(t, run->point + 1, value, run->whole->context));
 }
 
@@ -313,6 +328,12 @@ nh_flow_problem nh_closed_subsystem_problem(nh_closed_subsystem_run *run, const 
     run->whole = whole;
     if (run->scene->smooth) run->whole = NULL;
     size_t guards = (run->whole ? run->whole->guards : 0) + run->scene->levels;
-    return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = run->jacobian ? scene_jacobian : NULL, .guards = guards, .guard = guards ? scene_guard : NULL,
-                             .walls = run->scene->walls, .wall = scene_walls};
+    return (nh_flow_problem){.size = run->scene->kept,
+                             .context = run,
+                             .rate = scene_rate,
+                             .jacobian = run->jacobian ? scene_jacobian : NULL,
+                             .guards = guards,
+                             .guard = guards ? scene_guard : NULL,
+                             .walls = run->scene->walls,
+                             .wall = scene_walls};
 }

@@ -1,6 +1,7 @@
 /* closed_subsystem_idle: what has no influence on a scene: parameters, and bodies.
  *
- * The Lagrangian of a body b may be given a weight 1 + eps.  M and A are linear in the Lagrangian, so that M a = A gives
+ * The Lagrangian of a body b may be given a weight 1 + eps.  M and A are linear in the Lagrangian, so that M a = A
+ * gives
  *
  *     da/d eps = M^-1 (A_b - M_b a),     M_b, A_b: those of L_b = 1/2 <V, I V> + m g . x alone, without forces;
  *
@@ -38,7 +39,8 @@ static nh_ex lagrangian_of(const nh_model *o, const nh_chain *chain, size_t body
     nh_chain_frame(chain, d, (long)body, 0, &pose, &twist);
     nh_inertia inertia = nh_body_inertia(d, b);
     nh_wrench momentum = nh_inertia_momentum(d, &inertia, &twist);
-    return nh_add(d, nh_mul(d, nh_ratio(d, 1, 2), nh_pairing(d, &twist, &momentum)), nh_mul(d, b->mass, nh_dot(d, chain->gravity, b->position)));
+    return nh_add(d, nh_mul(d, nh_ratio(d, 1, 2), nh_pairing(d, &twist, &momentum)),
+                  nh_mul(d, b->mass, nh_dot(d, chain->gravity, b->position)));
 }
 
 /* A_b - M_b a (n), and dL_b/dw (n). */
@@ -51,7 +53,8 @@ static void influence_of(const nh_model *o, nh_ex L, nh_ex *influence, nh_ex *mo
     for (size_t i = 0; i < n; i++) {
         nh_ex sum = nh_int(d, 0);
         for (size_t k = 0; k < m; k++) {
-            nh_ex force = nh_sub(d, nh_model_compose(o, nh_diff(d, L, o->system->coordinate[k].q)), nh_model_X0(o, p[k]));
+            nh_ex force =
+                nh_sub(d, nh_model_compose(o, nh_diff(d, L, o->system->coordinate[k].q)), nh_model_X0(o, p[k]));
             for (size_t j = 0; j < n; j++) force = nh_sub(d, force, nh_mul(d, nh_model_Y(o, j, p[k]), o->a[j]));
             sum = nh_add(d, sum, nh_mul(d, o->R[k * n + i], force));
         }
@@ -73,7 +76,8 @@ static bool cancels(const nh_model *o, nh_ball *ball, size_t n, const nh_ex *fac
         nh_ex *of;
         size_t terms = nh_terms_of(d, e[i], &of);
         nh_grow(&term, &capacity, count + terms, sizeof *term);
-        for (size_t k = terms > 1; k < terms; k++) term[count++] = nh_exact_values(o, factor ? nh_mul(d, factor[i], of[k]) : of[k]);
+        for (size_t k = terms > 1; k < terms; k++)
+            term[count++] = nh_exact_values(o, factor ? nh_mul(d, factor[i], of[k]) : of[k]);
         nh_free(of);
     }
     for (size_t i = 0; i < count && good; i++) {
@@ -101,7 +105,8 @@ static bool vanishes_for_kept(const nh_closed_subsystem *s, nh_ball *ball, const
     return good;
 }
 
-/* With currents: are those states a closed system without them, too?  Then their rates do not depend on what is dropped. */
+/* With currents: are those states a closed system without them, too?  Then their rates do not depend on what is
+   dropped. */
 static bool closed_without_currents(const nh_closed_subsystem *s, nh_ball *ball)
 {
     const nh_model *o = s->model;
@@ -115,7 +120,8 @@ static bool closed_without_currents(const nh_closed_subsystem *s, nh_ball *ball)
     return good;
 }
 
-/* A body whose weight changes nothing at random points, and that moves with something dropped (else what is watched may be its energy). */
+/* A body whose weight changes nothing at random points, and that moves with something dropped (else what is watched may
+   be its energy). */
 static bool body_has_no_influence(const nh_closed_subsystem *s, size_t body)
 {
     const nh_model *o = s->model;
@@ -162,7 +168,8 @@ void nh_closed_subsystem_idle_words(const nh_closed_subsystem *s, nh_text *out)
     bool *idle = nh_alloc_array(n + 1, sizeof *idle);
     const char **name = nh_alloc_array(total + 1, sizeof *name);
     for (size_t i = 0; i < n; i++)
-        if ((idle[i] = nh_dependency_graph_ignores(&s->network, o->parameter[i]))) name[names++] = nh_name_of(o->dag, o->parameter[i]);
+        if ((idle[i] = nh_dependency_graph_ignores(&s->network, o->parameter[i])))
+            name[names++] = nh_name_of(o->dag, o->parameter[i]);
     if (names) {
         nh_text_add(out, names == 1 ? "the parameter " : "the parameters ");
         list_names(names, name, out);
@@ -173,7 +180,9 @@ void nh_closed_subsystem_idle_words(const nh_closed_subsystem *s, nh_text *out)
         if (body_is_idle(s, b, idle)) name[names++] = chain->body[b].name;
     if (names) {
         bool first = !nh_text_string(out)[0];
-        nh_text_add(out, names == 1 ? first ? "the body " : ", nor the body " : first ? "the bodies " : ", nor the bodies ");
+        nh_text_add(out, names == 1 ? first ? "the body " : ", nor the body "
+                         : first    ? "the bodies "
+                                    : ", nor the bodies ");
         list_names(names, name, out);
         if (first) nh_text_add(out, names == 1 ? " has no influence" : " have no influence");
     }

@@ -1,12 +1,19 @@
 /* closed_subsystem_words: what a scene keeps. */
 #include "motion/closed_subsystem.h"
 
-const char *nh_closed_subsystem_state_name(const nh_closed_subsystem *s, size_t i) { return nh_name_of(s->model->dag, s->model->chart->symbol[1 + i]); }
+const char *nh_closed_subsystem_state_name(const nh_closed_subsystem *s, size_t i)
+{
+    return nh_name_of(s->model->dag, s->model->chart->symbol[1 + i]);
+}
 
 static void list(const nh_closed_subsystem *s, size_t from, size_t to, nh_text *out)
 {
     for (size_t i = from; i < to; i++)
-        nh_text_addf(out, "%s%s", i == from ? "" : i + 1 == to ? " and " : ", ", nh_closed_subsystem_state_name(s, s->state[i]));
+        nh_text_addf(out, "%s%s",
+                     i == from     ? ""
+                     : i + 1 == to ? " and "
+                                   : ", ",
+                     nh_closed_subsystem_state_name(s, s->state[i]));
 }
 
 void nh_closed_subsystem_words(const nh_closed_subsystem *s, nh_text *out)

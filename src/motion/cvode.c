@@ -30,7 +30,8 @@ enum { most_fails = 40 }; /* of the error test in one step: at a jump it is shor
  *     T = 1000    1.1 ms, 820 rates, 2e-9       51 ms, 37577 rates, 9e-11
  * because the fixed-point iteration limits the steps once the motion has become steady. */
 
-/* Units of effort: of a step; of a right-hand side with its iteration, and the same per number of the state; of the factors of the linear equations. */
+/* Units of effort: of a step; of a right-hand side with its iteration, and the same per number of the state; of the
+   factors of the linear equations. */
 static const double cvode_step = 800, cvode_rate = 80, cvode_vectors = 90, cvode_flop = 0.3, cvode_factor = 100;
 
 typedef struct {
@@ -41,7 +42,8 @@ typedef struct {
     N_Vector state, inside; /* now; at a time in the last step, whose end the next one begins from */
     nh_sizes sizes;
     nh_kinks kinks;
-    nh_motion *across; /* a wall: what a one-step method made of the last step, behind which the next one starts anew; NULL: it goes on */
+    /* a wall: what a one-step method made of the last step, behind which the next one starts anew; NULL: it goes on */
+    nh_motion *across;
     double *old;       /* the state before a step */
     size_t count;
     const double *times;
@@ -71,14 +73,15 @@ static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
     const nh_flow_problem *problem = work->problem;
     work->evaluations++;
     nh_effort_add(work->each);
-    if (problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), problem->context) && nh_all_finite(problem->size, NV_DATA_S(rate)))
+    if (problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), problem->context) &&
+        nh_all_finite(problem->size, NV_DATA_S(rate)))
         return 0;
     return not_computed(work, "right-hand side", t);
 }
 
 /* SUNDIALS' dense matrices are stored by columns without gaps, as motion.h requires. */
-static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2,
-                         N_Vector work3)
+static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector work1,
+                         N_Vector work2, N_Vector work3)
 {
     (void)rate, (void)work1, (void)work2, (void)work3;
     cvode_work *work = user;
@@ -93,7 +96,8 @@ static int call_weight(N_Vector state, N_Vector weight, void *user)
 {
     const cvode_work *work = user;
     for (size_t i = 0; i < work->problem->size; i++)
-        NV_DATA_S(weight)[i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
+        NV_DATA_S(weight)
+        [i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
     return nh_all_finite(work->problem->size, NV_DATA_S(weight)) ? 0 : -1;
 }
 
@@ -111,17 +115,25 @@ static void explain(int flag, const cvode_work *work, nh_motion *motion)
 {
     double t = motion->end_time;
     if (work->failed && flag != CV_TOO_MUCH_ACC)
-        nh_motion_note(motion, "the %s cannot be evaluated near t = %.10g: the motion leaves its domain or meets a singularity "
-                       "there; use other coordinates or stop earlier", work->failed, work->failed_at);
+        nh_motion_note(motion,
+                       "the %s cannot be evaluated near t = %.10g: the motion leaves its domain or meets a singularity "
+                       "there; use other coordinates or stop earlier",
+                       work->failed, work->failed_at);
     else if (flag == CV_TOO_MUCH_ACC)
         nh_motion_note(motion, "double precision cannot reach the tolerance %g near t = %.10g; use a larger tolerance",
                        work->rtol, t);
     else if (flag == CV_ERR_FAILURE)
-        nh_motion_note(motion, "no step near t = %.10g is small enough for the tolerance %g: the solution jumps or is singular there; "
-                       "use other coordinates or a larger tolerance", t, work->rtol);
+        nh_motion_note(
+            motion,
+            "no step near t = %.10g is small enough for the tolerance %g: the solution jumps or is singular there; "
+            "use other coordinates or a larger tolerance",
+            t, work->rtol);
     else if (flag == CV_CONV_FAILURE || flag == CV_LSETUP_FAIL || flag == CV_LSOLVE_FAIL)
-        nh_motion_note(motion, "the equations of an implicit step cannot be solved near t = %.10g: the right-hand side changes too "
-                       "fast there or its Jacobian is wrong; try the other method", t);
+        nh_motion_note(
+            motion,
+            "the equations of an implicit step cannot be solved near t = %.10g: the right-hand side changes too "
+            "fast there or its Jacobian is wrong; try the other method",
+            t);
     else if (flag == CV_TOO_CLOSE)
         nh_motion_note(motion, "the times are too close together for double precision near t = %.10g", t);
     else
@@ -138,7 +150,8 @@ static nh_step end_at_guard(double t, nh_motion *motion, cvode_work *work)
     if (guard == work->problem->guards)
         return NH_STEP_ON;
     motion->guard_hit = (long)guard;
-    nh_motion_note(motion, "guard %zu %s through zero at t = %.10g", guard + 1, work->root[guard] > 0 ? "rises" : "falls", t);
+    nh_motion_note(motion, "guard %zu %s through zero at t = %.10g", guard + 1,
+                   work->root[guard] > 0 ? "rises" : "falls", t);
     return NH_STEP_LAST;
 }
 
@@ -171,7 +184,8 @@ static bool start_anew(cvode_work *work)
     nh_motion_free(work->across);
     work->across = NULL;
     work->set_ups = 0;
-    return CVodeReInit(work->cvode, t, work->state) == CV_SUCCESS && CVodeSetStopTime(work->cvode, work->stop) == CV_SUCCESS;
+    return CVodeReInit(work->cvode, t, work->state) == CV_SUCCESS &&
+           CVodeSetStopTime(work->cvode, work->stop) == CV_SUCCESS;
 }
 
 static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
@@ -199,7 +213,9 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
     if (work->across) {
         *time = work->across->end_time;
         motion->evaluations = work->evaluations += work->across->evaluations;
-        return work->across->complete && !work->kinks.held ? *time == work->stop ? NH_STEP_LAST : NH_STEP_ON : motion->guard_hit >= 0 ? NH_STEP_LAST : NH_STEP_FAILED;
+        return work->across->complete && !work->kinks.held ? *time == work->stop ? NH_STEP_LAST : NH_STEP_ON
+               : motion->guard_hit >= 0                    ? NH_STEP_LAST
+                                                           : NH_STEP_FAILED;
     }
     if (flag == CV_ROOT_RETURN)
         return end_at_guard(*time, motion, work);
@@ -287,10 +303,15 @@ nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_
     nh_kinks_begin(&work.kinks, problem, initial, count, times);
     good = good && create_objects(&work, options->method) && set_up(&work, times[0], initial);
     if (!good) {
-        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.sundials.message[0] ? work.sundials.message : "out of memory");
+        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s",
+                work.sundials.message[0] ? work.sundials.message : "out of memory");
         goto done;
     }
-    nh_stepper stepper = {.context = &work, .advance = cvode_advance, .state = cvode_state, .stuck = cvode_stuck, .step_effort = cvode_step};
+    nh_stepper stepper = {.context = &work,
+                          .advance = cvode_advance,
+                          .state = cvode_state,
+                          .stuck = cvode_stuck,
+                          .step_effort = cvode_step};
     nh_motion_run(motion, count, times, options, &stepper);
 done:
     destroy_objects(&work);

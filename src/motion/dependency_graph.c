@@ -9,16 +9,19 @@
 
 static const double seems_zero = 1e-11; /* relative size below which a derivative may be identically zero */
 static const double ball_digits = 40;   /* to which it must vanish when its normal form is too large */
-static const double steady = 0.02;      /* least ratio of |A| at the probes to its largest: a state is determined everywhere */
+/* least ratio of |A| at the probes to its largest: a state is determined everywhere */
+static const double steady = 0.02;
 enum { ball_bits = 256, ball_points = 4, most_terms = 4000, cost_of_state = 10 };
 
 static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 + j]; }
 
-nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *w, size_t n, const nh_ex *e, size_t fixed, const nh_ex *symbol, const double *value)
+nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *w, size_t n, const nh_ex *e, size_t fixed,
+                                  const nh_ex *symbol, const double *value)
 {
     const nh_model *o = w->model;
     size_t given = o->system->parameters;
-    nh_ex *in = nh_alloc_array(o->width + w->levels + 1, sizeof *in), *bound = nh_alloc_array(given + fixed + 1, sizeof *bound);
+    nh_ex *in = nh_alloc_array(o->width + w->levels + 1, sizeof *in),
+          *bound = nh_alloc_array(given + fixed + 1, sizeof *bound);
     double *at = nh_alloc_array(given + fixed + 1, sizeof *at);
     memcpy(in, o->chart->symbol, o->width * sizeof *in);
     for (size_t k = 0; k < w->levels; k++) in[o->width + k] = w->level[k].constant;
@@ -37,7 +40,8 @@ static double *at_probes(const nh_dependency_graph *w, size_t n, const nh_ex *e)
     const nh_model *o = w->model;
     size_t probes = o->chart->probes, width = o->width;
     nh_ex *phi = nh_alloc_array(w->levels + 1, sizeof *phi);
-    double *point = nh_alloc_array(width + w->levels + 1, sizeof *point), *out = nh_alloc_array(n * probes + 1, sizeof *out);
+    double *point = nh_alloc_array(width + w->levels + 1, sizeof *point),
+           *out = nh_alloc_array(n * probes + 1, sizeof *out);
     for (size_t k = 0; k < w->levels; k++) phi[k] = w->level[k].current;
     nh_tape *constants = nh_model_tape(o, w->levels, phi), *tape = nh_dependency_graph_tape(w, n, e, 0, NULL, NULL);
     nh_tape_work *a = nh_tape_work_create(constants), *b = nh_tape_work_create(tape);
@@ -67,9 +71,12 @@ static bool vanishes_in_balls(const nh_dependency_graph *w, nh_ex d)
     bool zero = points > 0;
     for (size_t p = 0; p < points && zero; p++) {
         double bound;
-        for (size_t i = 0; i < o->system->parameters; i++) nh_ball_set_expression(ball, o->parameter[i], nh_number(o->dag, nh_num_decimal(o->parameter_value[i])));
-        for (size_t i = 0; i < o->width; i++) nh_ball_set_double(ball, o->chart->symbol[i], o->chart->probe[p * o->width + i]);
-        for (size_t k = 0; k < w->levels; k++) nh_ball_set_double(ball, w->level[k].constant, 0.7385 + 0.31 * (double)(p + k));
+        for (size_t i = 0; i < o->system->parameters; i++)
+            nh_ball_set_expression(ball, o->parameter[i], nh_number(o->dag, nh_num_decimal(o->parameter_value[i])));
+        for (size_t i = 0; i < o->width; i++)
+            nh_ball_set_double(ball, o->chart->symbol[i], o->chart->probe[p * o->width + i]);
+        for (size_t k = 0; k < w->levels; k++)
+            nh_ball_set_double(ball, w->level[k].constant, 0.7385 + 0.31 * (double)(p + k));
         zero = nh_ball_log10_bound(ball, d, &bound) && bound < -ball_digits;
     }
     nh_ball_free(ball);
@@ -78,7 +85,8 @@ static bool vanishes_in_balls(const nh_dependency_graph *w, nh_ex d)
 
 static bool is_zero(const nh_dependency_graph *w, nh_ex d)
 {
-    return nh_is_zero(w->model->dag, d) || nh_normal_is_zero(w->model->dag, d, most_terms) == NH_ZERO || vanishes_in_balls(w, d);
+    return nh_is_zero(w->model->dag, d) || nh_normal_is_zero(w->model->dag, d, most_terms) == NH_ZERO ||
+           vanishes_in_balls(w, d);
 }
 
 /* ---- who feeds whom ---- */
@@ -90,7 +98,8 @@ static bool removed(const nh_dependency_graph *w, size_t j)
     return false;
 }
 
-/* The rows listed: their feeds, through the implicit velocities too (derivatives follow their rules).  All derivatives in one tape. */
+/* The rows listed: their feeds, through the implicit velocities too (derivatives follow their rules).  All derivatives
+   in one tape. */
 static void feed_rows(nh_dependency_graph *w, size_t rows, const size_t *row, bool proved)
 {
     const nh_model *o = w->model;
@@ -133,7 +142,8 @@ static void keep_implicit(nh_dependency_graph *w)
 {
     const nh_model *o = w->model;
     bool needed = false;
-    for (size_t i = 0; i < w->states + w->watches; i++) needed |= (i >= w->states || w->kept[i]) && reads_implicit(o, w->row[i]);
+    for (size_t i = 0; i < w->states + w->watches; i++)
+        needed |= (i >= w->states || w->kept[i]) && reads_implicit(o, w->row[i]);
     for (size_t a = 0; a < o->chart->implicit && needed; a++)
         for (size_t j = 0; j < w->states; j++) w->kept[j] |= nh_depends(o->dag, o->chart->residual[a], symbol_of(o, j));
     w->implicit = needed;
@@ -227,13 +237,16 @@ static bool remove_state(nh_dependency_graph *w, nh_ex current, size_t j)
         phi = nh_substitute(d, phi, 1, &v, &w->level[k].value);
     }
     nh_ex slope = nh_diff(d, phi, x);
-    if (nh_is_zero(d, slope) || nh_depends(d, slope, o->system->t) || !determines(w, slope, nh_diff(d, slope, x))) return false;
+    if (nh_is_zero(d, slope) || nh_depends(d, slope, o->system->t) || !determines(w, slope, nh_diff(d, slope, x)))
+        return false;
     slope = nh_substitute(d, slope, 1, &x, &zero);
     nh_level *l = &w->level[w->levels];
     *l = (nh_level){.current = current, .constant = nh_symbol_fresh(d, "c"), .state = j, .slope = slope};
     l->value = nh_div(d, nh_sub(d, l->constant, nh_substitute(d, phi, 1, &x, &zero)), slope);
     for (size_t i = 0; i < w->states + w->watches; i++) w->row[i] = nh_substitute(d, w->row[i], 1, &x, &l->value);
-    for (size_t k = 0; k < w->levels; k++) w->level[k].value = nh_substitute(d, w->level[k].value, 1, &x, &l->value), w->level[k].slope = nh_substitute(d, w->level[k].slope, 1, &x, &l->value);
+    for (size_t k = 0; k < w->levels; k++)
+        w->level[k].value = nh_substitute(d, w->level[k].value, 1, &x, &l->value),
+        w->level[k].slope = nh_substitute(d, w->level[k].slope, 1, &x, &l->value);
     w->row[j] = l->value;
     w->levels++;
     return true;
@@ -254,7 +267,8 @@ static bool improve(nh_dependency_graph *w, size_t n, const nh_ex *current)
             if (better) close_network(&trial, false);
             better = better && trial.count < w->count && (!best.row || trial.count <= best.count);
             if (better) estimate_cost(&trial);
-            better = better && trial.cost < w->cost && (!best.row || trial.count < best.count || trial.cost < best.cost);
+            better =
+                better && trial.cost < w->cost && (!best.row || trial.count < best.count || trial.cost < best.cost);
             if (better) nh_dependency_graph_clear(&best), best = trial;
             else nh_dependency_graph_clear(&trial);
         }
@@ -265,7 +279,8 @@ static bool improve(nh_dependency_graph *w, size_t n, const nh_ex *current)
     return true;
 }
 
-void nh_dependency_graph_init(nh_dependency_graph *w, const nh_model *o, size_t watches, const nh_ex *watched, size_t n, const nh_ex *current)
+void nh_dependency_graph_init(nh_dependency_graph *w, const nh_model *o, size_t watches, const nh_ex *watched, size_t n,
+                              const nh_ex *current)
 {
     nh_dependency_graph plain = {.model = o, .states = o->m + o->n, .watches = watches}, small;
     size_t total = plain.states + watches;
@@ -299,7 +314,8 @@ bool nh_dependency_graph_ignores(const nh_dependency_graph *w, nh_ex symbol)
         if (nh_is_zero(d, e[0])) continue;
         double *value = at_probes(w, 2, e);
         bool zero = probes > 0;
-        for (size_t p = 0; p < probes && zero; p++) zero = fabs(value[2 * p]) <= seems_zero * (1 + fabs(value[2 * p + 1]));
+        for (size_t p = 0; p < probes && zero; p++)
+            zero = fabs(value[2 * p]) <= seems_zero * (1 + fabs(value[2 * p + 1]));
         nh_free(value);
         if (!zero || !is_zero(w, e[0])) return false;
     }
@@ -312,7 +328,8 @@ bool nh_dependency_graph_conserved(const nh_model *o, nh_ex current)
     nh_ex e[2] = {nh_model_gamma(o, current), current};
     double *value = at_probes(&w, 2, e);
     bool good = o->chart->probes > 0;
-    for (size_t p = 0; p < o->chart->probes && good; p++) good = fabs(value[2 * p]) <= seems_zero * (1 + fabs(value[2 * p + 1]));
+    for (size_t p = 0; p < o->chart->probes && good; p++)
+        good = fabs(value[2 * p]) <= seems_zero * (1 + fabs(value[2 * p + 1]));
     nh_free(value);
     return good && is_zero(&w, e[0]);
 }
@@ -322,7 +339,8 @@ size_t nh_dependency_graph_cyclic(const nh_model *o, nh_ex *out)
     const nh_system *s = o->system;
     size_t n = 0;
     for (size_t i = 0; i < o->m; i++) {
-        bool cyclic = nh_is_zero(o->dag, s->force[i]) && nh_is_zero(o->dag, nh_diff(o->dag, s->lagrangian, s->coordinate[i].q));
+        bool cyclic =
+            nh_is_zero(o->dag, s->force[i]) && nh_is_zero(o->dag, nh_diff(o->dag, s->lagrangian, s->coordinate[i].q));
         for (size_t a = 0; a < o->k && cyclic; a++) cyclic = nh_is_zero(o->dag, o->nu[a * o->m + i]);
         if (cyclic) out[n++] = o->p[i];
     }

@@ -1,10 +1,12 @@
 /* dependency_graph: the dependence of a model's states on each other, and the states that a known current determines.
  *
- * State j feeds a function e of the chart when de/dz_j is not identically zero.  A derivative that vanishes at all probes of the chart counts as zero
- * when its normal form is zero, or when balls of 40 digits around its values at the probes contain zero (sums that cancel in M^-1 A).
+ * State j feeds a function e of the chart when de/dz_j is not identically zero.  A derivative that vanishes at all
+ * probes of the chart counts as zero when its normal form is zero, or when balls of 40 digits around its values at the
+ * probes contain zero (sums that cancel in M^-1 A).
  *
- * A current Phi = A(z) z_j + B(t, z) that is conserved determines the state z_j = (c - B)/A, c = Phi at the start, wherever A keeps its sign: this
- * state, a velocity for the most part, needs no equation.  States that feed others only through Phi may be dropped. */
+ * A current Phi = A(z) z_j + B(t, z) that is conserved determines the state z_j = (c - B)/A, c = Phi at the start,
+ * wherever A keeps its sign: this state, a velocity for the most part, needs no equation.  States that feed others only
+ * through Phi may be dropped. */
 #ifndef NH_DEPENDENCY_GRAPH_H
 #define NH_DEPENDENCY_GRAPH_H
 
@@ -28,9 +30,10 @@ typedef struct {
     size_t cost;    /* instructions of their equations, and ten for each state that an integrator carries along */
 } nh_dependency_graph;
 
-/* The closed system of what is watched.  n currents of the chart, conserved: each may remove one state if fewer states are left then, and it costs
- * less. */
-void nh_dependency_graph_init(nh_dependency_graph *network, const nh_model *model, size_t watches, const nh_ex *watched, size_t n, const nh_ex *current);
+/* The closed system of what is watched.  n currents of the chart, conserved: each may remove one state if fewer states
+ * are left then, and it costs less. */
+void nh_dependency_graph_init(nh_dependency_graph *network, const nh_model *model, size_t watches, const nh_ex *watched,
+                              size_t n, const nh_ex *current);
 void nh_dependency_graph_clear(nh_dependency_graph *network);
 
 /* Is nothing that is watched, no equation of a kept state and no current that is used a function of this symbol? */
@@ -39,11 +42,12 @@ bool nh_dependency_graph_ignores(const nh_dependency_graph *network, nh_ex symbo
 /* Does Gamma(Phi) vanish identically, by the same test? */
 bool nh_dependency_graph_conserved(const nh_model *model, nh_ex current);
 
-/* Momenta dL/dv^s of coordinates that do not occur in the Lagrangian, whose velocities occur in no constraint, and without force: expressions of the
- * chart into `out` (m entries); returns their number. */
+/* Momenta dL/dv^s of coordinates that do not occur in the Lagrangian, whose velocities occur in no constraint, and
+ * without force: expressions of the chart into `out` (m entries); returns their number. */
 size_t nh_dependency_graph_cyclic(const nh_model *model, nh_ex *out);
 
 /* Points (t, q, w, u, c): the inputs of tapes over rows. */
-nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *network, size_t n, const nh_ex *e, size_t fixed, const nh_ex *symbol, const double *value);
+nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *network, size_t n, const nh_ex *e, size_t fixed,
+                                  const nh_ex *symbol, const double *value);
 
 #endif

@@ -21,7 +21,8 @@ static size_t outputs_inside(const nh_drift_question *q, const nh_motion *motion
     return motion->count;
 }
 
-/* How far a current changes along a motion that is given in doubles, its formula evaluated with many digits; NAN: not known. */
+/* How far a current changes along a motion that is given in doubles, its formula evaluated with many digits; NAN: not
+   known. */
 static double change_by_balls(const nh_model *o, const nh_motion *motion, const bool *steep, size_t inside, nh_ex phi)
 {
     enum { bits = 256 };
@@ -34,7 +35,8 @@ static double change_by_balls(const nh_model *o, const nh_motion *motion, const 
         double value, radius;
         if (steep[i]) continue;
         nh_ball_set_double(ball, c->symbol[0], motion->time[i]);
-        for (size_t s = 0; s < motion->size; s++) nh_ball_set_double(ball, c->symbol[1 + s], motion->state[i * motion->size + s]);
+        for (size_t s = 0; s < motion->size; s++)
+            nh_ball_set_double(ball, c->symbol[1 + s], motion->state[i * motion->size + s]);
         bool good = nh_ball_value(ball, phi, &value, &radius);
         if (isnan(first)) first = value;
         worst = good ? fmax(worst, fabs(value - first) + radius) : NAN;
@@ -43,13 +45,16 @@ static double change_by_balls(const nh_model *o, const nh_motion *motion, const 
     return worst;
 }
 
-/* A change that is larger than the motion's error explains may be rounding within the formula, such as atanh of nearly 1. */
-static void look_closer(const nh_drift_question *q, const nh_motion *motion, const bool *steep, size_t inside, size_t k, size_t which, nh_drift *d)
+/* A change that is larger than the motion's error explains may be rounding within the formula, such as atanh of nearly
+   1. */
+static void look_closer(const nh_drift_question *q, const nh_motion *motion, const bool *steep, size_t inside, size_t k,
+                        size_t which, nh_drift *d)
 {
     static const double much = 10;
     double loose = d->drift[which];
     if (loose <= q->options->drift * q->tolerance[which]) return;
-    double closer = change_by_balls(nh_dynamics_model(q->dynamics), motion, steep, inside, q->current[k]) / fmax(d->scale, DBL_MIN);
+    double closer =
+        change_by_balls(nh_dynamics_model(q->dynamics), motion, steep, inside, q->current[k]) / fmax(d->scale, DBL_MIN);
     if (!(closer * much < loose)) return;
     d->drift[which] = closer;
     if (which + 1 == NH_DRIFT_RUNS) d->in_doubles = loose;

@@ -10,10 +10,14 @@ enum { NH_DRIFT_RUNS = 3 };
 typedef struct {
     double drift[NH_DRIFT_RUNS]; /* max |Phi - Phi(0)| / scale, loosest tolerance first */
     double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
-    double until;                /* time to which it was measured: before the end where the motion leaves the current's interval */
-    double in_doubles;           /* the drift of the tightest motion where its values in doubles lose digits, and `drift` is by balls; else 0 */
+    /* time to which it was measured: before the end where the motion leaves the current's interval */
+    double until;
+    /* the drift of the tightest motion where its values in doubles lose digits, and `drift` is by balls; else 0 */
+    double in_doubles;
     bool small, falls;           /* below options->drift tolerances; falls with the tolerance (or is at rounding) */
-    bool explained;              /* by the error of the motion itself: small, or it falls from the second tolerance to the third as that error does */
+    /* by the error of the motion itself: small, or it falls from the second tolerance to the third as that error
+       does */
+    bool explained;
 } nh_drift;
 
 /* Where a current makes sense: while `variable` lies between low and high. */

@@ -36,7 +36,8 @@ static void make_rates(nh_dynamics *d)
     nh_free(e);
 }
 
-/* A robot of 40 joints has rates of 1e5 instructions, whose Jacobian would have 1e7: differences of the rates are then the cheaper ones. */
+/* A robot of 40 joints has rates of 1e5 instructions, whose Jacobian would have 1e7: differences of the rates are then
+   the cheaper ones. */
 bool nh_dynamics_differences(size_t length, size_t size)
 {
     static const double most = 2e6;
@@ -66,7 +67,10 @@ static nh_tape *velocity_tape(const nh_model *o)
     return tape;
 }
 
-bool nh_dynamics_watched(const nh_model *o) { return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch; }
+bool nh_dynamics_watched(const nh_model *o)
+{
+    return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch;
+}
 
 /* A chart of coordinate velocities ends where its dependent velocities are no longer determined. */
 static void watch_pivot(nh_dynamics *d)
@@ -76,7 +80,8 @@ static void watch_pivot(nh_dynamics *d)
     nh_ex *e = nh_alloc_array(o->k * o->m, sizeof *e);
     for (size_t a = 0; a < o->k; a++) {
         nh_ex f = nh_constraint_without_poles(o, a);
-        for (size_t s = 0; s < o->m; s++) e[a * o->m + s] = nh_chart_compose(o->chart, nh_diff(o->dag, f, o->system->coordinate[s].v));
+        for (size_t s = 0; s < o->m; s++)
+            e[a * o->m + s] = nh_chart_compose(o->chart, nh_diff(o->dag, f, o->system->coordinate[s].v));
     }
     d->constraint = nh_model_tape(o, o->k * o->m, e);
     d->constraint_work = nh_tape_work_create(d->constraint);
@@ -143,7 +148,8 @@ bool nh_dynamics_point(nh_dynamics *d, double t, const double *z, double *point)
     memcpy(point + 1, z, d->size * sizeof *z);
     size_t implicit = d->model->chart->implicit;
     if (!implicit) return true;
-    if (point != d->point) memcpy(point + d->width - implicit, d->point + d->width - implicit, implicit * sizeof *point);
+    if (point != d->point)
+        memcpy(point + d->width - implicit, d->point + d->width - implicit, implicit * sizeof *point);
     if (!nh_chart_complete(d->model->chart, point)) return false;
     memcpy(d->point + d->width - implicit, point + d->width - implicit, implicit * sizeof *point);
     return true;
@@ -176,7 +182,8 @@ static bool pivot_of(double t, const double *z, double *value, void *context)
     for (size_t a = 0; a < k; a++) {
         double norm = 0;
         for (size_t s = 0; s < m; s++) norm = hypot(norm, d->slope[a * m + s]);
-        for (size_t b = 0; b < k; b++) part[a + b * k] = d->slope[a * m + d->model->chart->dependent[b]] / (norm > 0 ? norm : 1);
+        for (size_t b = 0; b < k; b++)
+            part[a + b * k] = d->slope[a * m + d->model->chart->dependent[b]] / (norm > 0 ? norm : 1);
     }
     *value = nh_determinant(k, part);
     return isfinite(*value);
@@ -192,14 +199,20 @@ static bool walls_of(double t, const double *z, double *value, void *context)
 
 nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
 {
-    return (nh_flow_problem){.size = d->size, .context = d, .rate = rate_of, .jacobian = d->jacobian ? jacobian_of : NULL, .guards = d->constraint ? 1 : 0, .guard = d->constraint ? pivot_of : NULL,
-                             .walls = d->walls, .wall = walls_of};
+    return (nh_flow_problem){.size = d->size,
+                             .context = d,
+                             .rate = rate_of,
+                             .jacobian = d->jacobian ? jacobian_of : NULL,
+                             .guards = d->constraint ? 1 : 0,
+                             .guard = d->constraint ? pivot_of : NULL,
+                             .walls = d->walls,
+                             .wall = walls_of};
 }
 
 /* ---- initial states ---- */
 
-/* One Gauss-Newton step of rho(w) = v for the given velocities; the largest |dw_i| beside |w_i| and the step's largest part, negative on failure: no unit matters but
- * for velocities of several kinds, of which the large ones decide. */
+/* One Gauss-Newton step of rho(w) = v for the given velocities; the largest |dw_i| beside |w_i| and the step's largest
+ * part, negative on failure: no unit matters but for velocities of several kinds, of which the large ones decide. */
 static double fit_step(nh_dynamics *d, const nh_state *state, double *w)
 {
     size_t m = d->m, n = d->n;
@@ -233,7 +246,8 @@ static double size_of_velocity(const nh_dynamics *d, const nh_state *state, cons
     return fmax(largest, fabs(d->out[s] - sum));
 }
 
-/* |v_s - rho_s| beside the sizes of the velocities of this kind (angles, or others); *off: the difference itself where that is largest. */
+/* |v_s - rho_s| beside the sizes of the velocities of this kind (angles, or others); *off: the difference itself where
+   that is largest. */
 static double mismatch(nh_dynamics *d, const nh_state *state, const double *w, double *off)
 {
     const nh_system *system = d->model->system;
@@ -269,13 +283,18 @@ bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, doub
         else size = fit_step(d, state, z + d->m);
     }
     if (size < 0 || !nh_dynamics_point(d, state->t, z, d->point)) {
-        nh_fail(error, NH_NUMERIC, "", "the initial state does not lie in the chart of %s: no velocities near the given ones satisfy the constraints", c->name);
-        return nh_error_hint(error, "give fewer velocities (the constraints determine the others), change the values, or choose another branch by `domain:`");
+        nh_fail(error, NH_NUMERIC, "",
+                "the initial state does not lie in the chart of %s: no velocities near the given ones satisfy the "
+                "constraints",
+                c->name);
+        return nh_error_hint(error, "give fewer velocities (the constraints determine the others), change the values, "
+                                    "or choose another branch by `domain:`");
     }
     double off = 0;
     if (mismatch(d, state, z + d->m, &off) <= on_constraint || project) return true;
     nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the residual is %.3g", off);
-    return nh_error_hint(error, "omit the dependent velocities, which the constraints determine; or use --project, which takes the nearest velocities that satisfy the constraints");
+    return nh_error_hint(error, "omit the dependent velocities, which the constraints determine; or use --project, "
+                                "which takes the nearest velocities that satisfy the constraints");
 }
 
 /* Expressions of (t, q, v) at a state. */
@@ -310,8 +329,8 @@ bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
     return root < 0;
 }
 
-/* Gaussian elimination with complete pivoting of F (k x m, by rows) among the columns that are allowed: which columns, and the smallest pivot
- * relative to the largest. */
+/* Gaussian elimination with complete pivoting of F (k x m, by rows) among the columns that are allowed: which columns,
+ * and the smallest pivot relative to the largest. */
 static double eliminate(size_t k, size_t m, const double *F, const bool *allowed, size_t *column)
 {
     double *a = nh_alloc_array(k * m + 1, sizeof *a), first = 0, last = 0;
@@ -322,7 +341,8 @@ static double eliminate(size_t k, size_t m, const double *F, const bool *allowed
         last = 0;
         for (size_t i = 0; i < k; i++)
             for (size_t j = 0; j < m; j++)
-                if (!done[i] && !used[j] && (!allowed || allowed[j]) && fabs(a[i * m + j]) > last) last = fabs(a[i * m + j]), row = i, at = j;
+                if (!done[i] && !used[j] && (!allowed || allowed[j]) && fabs(a[i * m + j]) > last)
+                    last = fabs(a[i * m + j]), row = i, at = j;
         if (!(last > 0)) break;
         if (step == 0) first = last;
         done[row] = used[at] = true;
@@ -356,7 +376,8 @@ bool nh_dynamics_other_dependents(const nh_model *o, const nh_state *state, size
         for (size_t s = 0; s < m; s++) size = fmax(size, fabs(F[a * m + s]));
         for (size_t s = 0; s < m && size > 0; s++) F[a * m + s] /= size;
     }
-    bool other = nh_all_finite(k * m, F) && eliminate(k, m, F, own, dependent) < singular && eliminate(k, m, F, NULL, dependent) > singular;
+    bool other = nh_all_finite(k * m, F) && eliminate(k, m, F, own, dependent) < singular &&
+                 eliminate(k, m, F, NULL, dependent) > singular;
     nh_free(own);
     nh_free(F);
     nh_free(e);
@@ -365,14 +386,18 @@ bool nh_dynamics_other_dependents(const nh_model *o, const nh_state *state, size
 
 /* ---- multiplier form ---- */
 
-static bool terms_of(double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f, void *context)
+static bool terms_of(double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f,
+                     void *context)
 {
     return nh_bordered_terms(context, t, q, v, K, h, F, g, f);
 }
 
 nh_chetaev_problem nh_bordered_problem(nh_bordered *b)
 {
-    return (nh_chetaev_problem){.coordinates = nh_bordered_coordinates(b), .constraints = nh_bordered_constraints(b), .context = b, .terms = terms_of};
+    return (nh_chetaev_problem){.coordinates = nh_bordered_coordinates(b),
+                                .constraints = nh_bordered_constraints(b),
+                                .context = b,
+                                .terms = terms_of};
 }
 
 static bool bordered_rate(double t, const double *z, double *rate, void *context)
@@ -382,9 +407,16 @@ static bool bordered_rate(double t, const double *z, double *rate, void *context
     return nh_bordered_accelerations(context, t, z, z + m, rate + m);
 }
 
-static bool bordered_walls(double t, const double *z, double *value, void *context) { return nh_bordered_wall(context, t, z, value), true; }
+static bool bordered_walls(double t, const double *z, double *value, void *context)
+{
+    return nh_bordered_wall(context, t, z, value), true;
+}
 
 nh_flow_problem nh_bordered_flow(nh_bordered *b)
 {
-    return (nh_flow_problem){.size = 2 * nh_bordered_coordinates(b), .context = b, .rate = bordered_rate, .walls = nh_bordered_walls(b), .wall = bordered_walls};
+    return (nh_flow_problem){.size = 2 * nh_bordered_coordinates(b),
+                             .context = b,
+                             .rate = bordered_rate,
+                             .walls = nh_bordered_walls(b),
+                             .wall = bordered_walls};
 }

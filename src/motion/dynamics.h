@@ -12,7 +12,8 @@ typedef struct {
     bool *given;   /* per velocity: it was named; the others follow from the constraints.  NULL: all were */
 } nh_state;
 
-/* Equations of motion on the constraint submanifold: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot of a chart of coordinate velocities is a guard. */
+/* Equations of motion on the constraint submanifold: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot
+   of a chart of coordinate velocities is a guard. */
 typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
@@ -29,11 +30,13 @@ size_t nh_dynamics_length(const nh_dynamics *dynamics);
 bool nh_dynamics_watched(const nh_model *model);
 const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);
 
-/* (q, w) of a state, w by Gauss-Newton on rho(t, q, w) = v over the velocities that are given (of least norm where these leave a choice);
- * refuses a velocity off the constraints, saying by how much, unless `project` is set.  z has m + n entries. */
+/* (q, w) of a state, w by Gauss-Newton on rho(t, q, w) = v over the velocities that are given (of least norm where
+ * these leave a choice); refuses a velocity off the constraints, saying by how much, unless `project` is set.  z has m
+ * + n entries. */
 bool nh_dynamics_start(nh_dynamics *dynamics, const nh_state *state, bool project, double *z, nh_error *error);
 
-/* Does the state lie on the other branch of a quadratic constraint than the chart?  Only velocities that are given say so. */
+/* Does the state lie on the other branch of a quadratic constraint than the chart?  Only velocities that are given say
+   so. */
 bool nh_dynamics_other_branch(const nh_model *model, const nh_state *state);
 
 /* Do the chart's dependent velocities not follow from the constraints there, but others do?  Which (k coordinates). */
@@ -42,8 +45,8 @@ bool nh_dynamics_other_dependents(const nh_model *model, const nh_state *state, 
 /* The point (t, q, w, u) that belongs to (t, z); width entries.  False when the implicit velocities cannot be found. */
 bool nh_dynamics_point(nh_dynamics *dynamics, double t, const double *z, double *point);
 
-/* The multiplier form (geometry/bordered.h) as a problem with multipliers, and solved for the accelerations: (q, v)' = (v, v'(t, q, v)),
- * regular wherever the constraints are independent, whatever the charts do. */
+/* The multiplier form (geometry/bordered.h) as a problem with multipliers, and solved for the accelerations: (q, v)' =
+ * (v, v'(t, q, v)), regular wherever the constraints are independent, whatever the charts do. */
 nh_chetaev_problem nh_bordered_problem(nh_bordered *bordered);
 nh_flow_problem nh_bordered_flow(nh_bordered *bordered);
 

@@ -16,9 +16,11 @@
 
 enum { lanes = NH_ENSEMBLE_BATCH, first_steps = 20 }; /* that say nothing of what the others need */
 static const double safety = 0.9, most_growth = 5, least_growth = 0.2;    /* of the step */
-static const double step_units = 500, sum_units = 0.3;                    /* of effort: of a step, and of a sum with one number of one member */
+/* of effort: of a step, and of a sum with one number of one member */
+static const double step_units = 500, sum_units = 0.3;
 static const double order = 8;
-static const double too_slow = 20;                                        /* a member that needs so much smaller steps than its batch goes alone */
+/* a member that needs so much smaller steps than its batch goes alone */
+static const double too_slow = 20;
 
 typedef struct {
     const nh_trajectory_request *request;
@@ -85,7 +87,8 @@ static void leave_out(batch *b, size_t lane)
 {
     b->alive[lane] = false;
     b->p->alone[b->first + lane] = true;
-    for (size_t i = 0; i < b->kept; i++) b->z[i * lanes + lane] = b->z[i * lanes]; /* any values that can be computed with */
+    /* any values that can be computed with */
+    for (size_t i = 0; i < b->kept; i++) b->z[i * lanes + lane] = b->z[i * lanes];
 }
 
 /* Members whose error is so far above the middle one that they would hold up the others. */
@@ -128,7 +131,8 @@ static void watch_pivots(batch *b)
         memcpy(b->whole, b->p->initial + (b->first + l) * s->states, s->states * sizeof *b->whole);
         for (size_t i = 0; i < b->kept; i++) b->whole[s->state[i]] = b->z[i * lanes + l];
         double now;
-        if (!problem.guard(b->t, b->whole, &now, problem.context) || now * b->pivot[l] < 0 || fabs(now) < 0.1) leave_out(b, l);
+        if (!problem.guard(b->t, b->whole, &now, problem.context) || now * b->pivot[l] < 0 || fabs(now) < 0.1)
+            leave_out(b, l);
         b->pivot[l] = now;
     }
 }
@@ -154,9 +158,11 @@ static bool late(const batch *b, long steps)
 {
     const plan *p = b->p;
     if (!(p->limit < INFINITY)) return false;
-    double spent = nh_effort() - p->begun, begin = p->request->times[0], part = (b->t - begin) / (p->request->times[p->request->count - 1] - begin);
+    double spent = nh_effort() - p->begun, begin = p->request->times[0],
+           part = (b->t - begin) / (p->request->times[p->request->count - 1] - begin);
     if (steps < first_steps) return spent > p->limit;
-    return spent > p->limit || (spent > p->limit / 4 && spent > 2 * part * p->limit) || (spent > p->limit / 16 && spent > 4 * part * p->limit);
+    return spent > p->limit || (spent > p->limit / 4 && spent > 2 * part * p->limit) ||
+           (spent > p->limit / 16 && spent > 4 * part * p->limit);
 }
 
 /* Up to `target`; false when no step is small enough. */
@@ -170,8 +176,12 @@ static bool go_to(batch *b, double target, long *steps)
         if (last) b->h = left;
         double worst = try_step(b);
         b->p->evaluations[b->first / lanes] += b->p->tableau.stages;
-        nh_effort_add(step_units + sum_units * (double)(b->p->tableau.stages * b->p->tableau.stages) / 2 * (double)(b->kept * lanes));
-        double growth = worst > 0 && isfinite(worst) ? fmin(most_growth, fmax(least_growth, safety * pow(worst, -1 / order))) : isfinite(worst) ? most_growth : least_growth;
+        nh_effort_add(step_units + sum_units * (double)(b->p->tableau.stages * b->p->tableau.stages) / 2 *
+                                       (double)(b->kept * lanes));
+        double growth = worst > 0 && isfinite(worst)
+                            ? fmin(most_growth, fmax(least_growth, safety * pow(worst, -1 / order)))
+                        : isfinite(worst) ? most_growth
+                                          : least_growth;
         if (worst <= 1) {
             b->t = last ? target : b->t + b->h;
             double *swap = b->z;
@@ -183,7 +193,8 @@ static bool go_to(batch *b, double target, long *steps)
         } else {
             if (leave_out_the_slow(b)) growth = 1;
             b->h *= growth;
-            if (fabs(b->h) < 16 * DBL_EPSILON * fabs(b->t) + DBL_MIN || (fabs(b->h) < 1e-12 * fabs(target - b->p->request->times[0]) && !isfinite(worst))) {
+            if (fabs(b->h) < 16 * DBL_EPSILON * fabs(b->t) + DBL_MIN ||
+                (fabs(b->h) < 1e-12 * fabs(target - b->p->request->times[0]) && !isfinite(worst))) {
                 if (!leave_out_the_undefined(b)) return false;
                 b->h = wanted;
             }
@@ -203,7 +214,8 @@ static void open_batch(batch *b, const plan *p, size_t index)
     b->rate = nh_tape_work_create(s->rate);
     b->values = nh_tape_work_create(p->values);
     b->z = nh_alloc_array(count * 5 + (size_t)p->tableau.stages * count, sizeof *b->z);
-    b->next = b->z + count, b->stage = b->next + count, b->error = b->stage + count, b->allowed = b->error + count, b->k = b->allowed + count;
+    b->next = b->z + count, b->stage = b->next + count, b->error = b->stage + count, b->allowed = b->error + count,
+    b->k = b->allowed + count;
     b->fixed = nh_alloc_array(b->width * lanes, sizeof *b->fixed);
     b->in = nh_alloc_array(b->width, sizeof *b->in);
     b->out = nh_alloc_array(s->kept, sizeof *b->out);
@@ -213,14 +225,18 @@ static void open_batch(batch *b, const plan *p, size_t index)
     b->alive = nh_alloc_array(lanes, sizeof *b->alive);
     for (size_t i = 0; i < b->width; i++) b->in[i] = b->fixed + i * lanes;
     for (size_t l = 0; l < lanes; l++) {
-        const double *from = p->initial + (b->first + (l < b->members ? l : 0)) * s->states; /* empty lanes repeat the first */
+        /* empty lanes repeat the first */
+        const double *from = p->initial + (b->first + (l < b->members ? l : 0)) * s->states;
         for (size_t i = 0; i < s->states; i++) b->fixed[(1 + i) * lanes + l] = from[i];
         for (size_t i = 0; i < s->kept; i++) b->z[i * lanes + l] = from[s->state[i]];
         b->alive[l] = l < b->members;
     }
 }
 
-static bool rates_of_all(double t, const double *z, double *rate, void *context) { return rates(context, t, z, rate), true; }
+static bool rates_of_all(double t, const double *z, double *rate, void *context)
+{
+    return rates(context, t, z, rate), true;
+}
 
 static void close_batch(batch *b, double *block)
 {
@@ -258,7 +274,8 @@ static void do_batch(size_t index, void *context)
     }
     b.h = span / 1000;
     nh_flow_problem all = {.size = b.kept * lanes, .context = &b, .rate = rates_of_all};
-    if (!nh_sizes_begin(&b.sizes, &all, fmax(p->request->options->absolute, DBL_MIN), b.z, b.t, b.t + span)) { /* a member is not defined, and will be left out */
+    /* a member is not defined, and will be left out */
+    if (!nh_sizes_begin(&b.sizes, &all, fmax(p->request->options->absolute, DBL_MIN), b.z, b.t, b.t + span)) {
         nh_sizes_clear(&b.sizes);
         nh_sizes_given(&b.sizes, &all, NULL);
     }
@@ -302,7 +319,10 @@ static void do_alone(size_t index, void *context)
     size_t each = e->count * e->n;
     double *z = nh_alloc_array(2 * o->m, sizeof *z), *v = z + o->m, *target = e->value + l->member * each;
     nh_dynamics *d = nh_dynamics_create(o);
-    nh_motion start = {.count = 1, .size = o->m + o->n, .time = (double *)p->request->times, .state = (double *)p->initial + l->member * (o->m + o->n)};
+    nh_motion start = {.count = 1,
+                       .size = o->m + o->n,
+                       .time = (double *)p->request->times,
+                       .state = (double *)p->initial + l->member * (o->m + o->n)};
     nh_trajectory_request q = *p->request;
     nh_state state = {.t = q.times[0], .q = z, .v = v};
     nh_error error;
@@ -310,7 +330,8 @@ static void do_alone(size_t index, void *context)
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
     q.method = NULL;
-    q.smallest = false; /* to find the smallest model again takes longer than the motion, and most members are here because a chart ends */
+    /* to find the smallest model again takes longer than the motion, and most members are here because a chart ends */
+    q.smallest = false;
     nh_trajectory *t = nh_along(d, &start, o->m, o->rho, v) ? nh_trajectory_create(&q, &error) : NULL;
     l->done = true;
     l->reached = t ? t->motion->count : 0;
@@ -343,7 +364,8 @@ static void go_alone(plan *p, bool all, size_t threads)
         const loner *l = &left.one[i];
         e->alone += l->done;
         e->evaluations += l->evaluations;
-        if (l->done && l->reached < e->count && !e->incomplete++) snprintf(e->note, sizeof e->note, "member %zu: %s", l->member, l->note);
+        if (l->done && l->reached < e->count && !e->incomplete++)
+            snprintf(e->note, sizeof e->note, "member %zu: %s", l->member, l->note);
     }
     nh_free(left.one);
 }
@@ -352,10 +374,12 @@ static void go_alone(plan *p, bool all, size_t threads)
 
 static bool open_plan(plan *p, const nh_trajectory_request *q, nh_ensemble *e, const double *initial)
 {
-    *p = (plan){.request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e), .limit = INFINITY};
+    *p = (plan){
+        .request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e), .limit = INFINITY};
     p->evaluations = nh_alloc_array((e->members + lanes - 1) / lanes, sizeof *p->evaluations);
     p->alone = nh_alloc_array(e->members, sizeof *p->alone);
-    return !e->scene->implicit && !e->scene->walls && e->scene->kept && /* members cross walls at different times */ nh_tableau_rk8pd(&p->tableau);
+    return !e->scene->implicit && !e->scene->walls && e->scene->kept &&
+           /* members cross walls at different times */ nh_tableau_rk8pd(&p->tableau);
 }
 
 static void close_plan(plan *p)
@@ -367,9 +391,13 @@ static void close_plan(plan *p)
 
 nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *q, size_t members, nh_error *error)
 {
-    if (members == 0 || q->count == 0) return nh_fail(error, NH_USAGE, "", "an ensemble needs at least one member and one output time"), NULL;
+    if (members == 0 || q->count == 0)
+        return nh_fail(error, NH_USAGE, "", "an ensemble needs at least one member and one output time"), NULL;
     nh_ensemble *e = nh_alloc(sizeof *e);
-    *e = (nh_ensemble){.members = members, .count = q->count, .n = q->n, .scene = nh_closed_subsystem_create(q->model, q->n, q->e, 0, NULL)};
+    *e = (nh_ensemble){.members = members,
+                       .count = q->count,
+                       .n = q->n,
+                       .scene = nh_closed_subsystem_create(q->model, q->n, q->e, 0, NULL)};
     e->time = nh_alloc_array(q->count, sizeof *e->time);
     memcpy(e->time, q->times, q->count * sizeof *e->time);
     e->value = nh_alloc_array(members * q->count, (q->n ? q->n : 1) * sizeof *e->value);
@@ -377,7 +405,8 @@ nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *q, size_t members, n
     return e;
 }
 
-nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, const double *initial, size_t threads, nh_error *error)
+nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, const double *initial, size_t threads,
+                                nh_error *error)
 {
     nh_ensemble *e = nh_ensemble_empty(q, members, error);
     plan p;
@@ -394,7 +423,8 @@ nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, 
     return e;
 }
 
-nh_ensemble *nh_ensemble_try(const nh_trajectory_request *q, size_t members, const double *initial, double effort, nh_trial *trial)
+nh_ensemble *nh_ensemble_try(const nh_trajectory_request *q, size_t members, const double *initial, double effort,
+                             nh_trial *trial)
 {
     nh_error ignored = {0};
     plan p;

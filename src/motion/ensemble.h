@@ -1,10 +1,12 @@
 /* ensemble: the same model from many initial states at once.
  *
- * Members are integrated in batches that take common steps, by an explicit Runge-Kutta pair of order 8 (Prince and Dormand) whose right-hand
- * side is evaluated for the whole batch at once; the member that needs the smallest step decides it.  The coefficients are read from GSL's
- * own stepper.  A member that cannot continue (a singularity, the end of a chart) or that slows its batch is computed alone afterwards, in all
- * coordinates if necessary.  Batches and members alone go to several threads; the results do not depend on how many.  Each result is that of a motion of its
- * own to the tolerance.                                                                                             [Galassi2009] */
+ * Members are integrated in batches that take common steps, by an explicit Runge-Kutta pair of order 8 (Prince and
+ * Dormand) whose right-hand side is evaluated for the whole batch at once; the member that needs the smallest step
+ * decides it.  The coefficients are read from GSL's own stepper.  A member that cannot continue (a singularity, the end
+ * of a chart) or that slows its batch is computed alone afterwards, in all coordinates if necessary.  Batches and
+ * members alone go to several threads; the results do not depend on how many.  Each result is that of a motion of its
+ * own to the tolerance.
+ * [Galassi2009] */
 #ifndef NH_ENSEMBLE_H
 #define NH_ENSEMBLE_H
 
@@ -15,7 +17,8 @@ enum { NH_ENSEMBLE_BATCH = 128 }; /* members of a batch */
 typedef struct {
     size_t members, count, n;
     double *time;            /* count */
-    double *value;           /* value[(member * count + i) * n + k]: expression k at output i; NAN where a member did not come so far */
+    /* value[(member * count + i) * n + k]: expression k at output i; NAN where a member did not come so far */
+    double *value;
     nh_closed_subsystem *scene;         /* what was integrated; owned */
     size_t alone, incomplete; /* members that were computed alone; that did not reach the end */
     long evaluations;        /* of the right-hand side, per member and stage */
@@ -23,8 +26,10 @@ typedef struct {
     char note[256];          /* why the first incomplete member ended */
 } nh_ensemble;
 
-/* `request`: as for one trajectory (method and smallest do not matter).  initial: members x (m + n) values (q, w) at times[0]. */
-nh_ensemble *nh_ensemble_create(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, nh_error *error);
+/* `request`: as for one trajectory (method and smallest do not matter).  initial: members x (m + n) values (q, w) at
+   times[0]. */
+nh_ensemble *nh_ensemble_create(const nh_trajectory_request *request, size_t members, const double *initial,
+                                size_t threads, nh_error *error);
 void nh_ensemble_free(nh_ensemble *ensemble);
 /* The same before anything is computed: all values are NAN. */
 nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *request, size_t members, nh_error *error);
@@ -32,14 +37,16 @@ nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *request, size_t memb
 /* What a batch costs. */
 typedef struct {
     size_t members, left; /* of the first batch; of these, such as would have to be computed alone */
-    double effort;        /* units of base/effort.h for `part` of the motion; INFINITY: there are no batches of such equations */
+    /* units of base/effort.h for `part` of the motion; INFINITY: there are no batches of such equations */
+    double effort;
     double part;
     long evaluations;
 } nh_trial;
 
-/* The first batch with at most so much effort: its members' motions, NAN where they are left over; NULL when it needed more,
- * or would by what it did until then, or cannot be computed. */
-nh_ensemble *nh_ensemble_try(const nh_trajectory_request *request, size_t members, const double *initial, double effort, nh_trial *trial);
+/* The first batch with at most so much effort: its members' motions, NAN where they are left over; NULL when it needed
+ * more, or would by what it did until then, or cannot be computed. */
+nh_ensemble *nh_ensemble_try(const nh_trajectory_request *request, size_t members, const double *initial, double effort,
+                             nh_trial *trial);
 
 /* members x (m + n) values: the first is z0, the others lie around it within spread * max(|z0_i|, 1) in every state. */
 void nh_ensemble_states(size_t size, const double *z0, size_t members, double spread, uint64_t seed, double *initial);

@@ -11,7 +11,8 @@
 #include "base/progress.h"
 #include "motion/vanishing.h"
 
-static const double most_left = 0.05; /* of the members: so many may be computed alone rather than all at a smaller tolerance */
+/* of the members: so many may be computed alone rather than all at a smaller tolerance */
+static const double most_left = 0.05;
 static const double most_step = 1e-5; /* from one tolerance to the next */
 
 static const double passes = 2.3;     /* runs that an ensemble needs, of the cost of the first */
@@ -75,7 +76,9 @@ static void compare(search *s, const nh_ensemble *a, const nh_ensemble *b, doubl
 {
     for (size_t j = 0; j < s->members; j++) {
         size_t at = j * b->count * b->n, which = 0;
-        s->off[j] = arrived(a, j) && arrived(b, j) ? nh_accuracy_difference(b->count, b->n, a->value + at, b->value + at, s->floor + j * b->n, &which) : INFINITY;
+        s->off[j] = arrived(a, j) && arrived(b, j) ? nh_accuracy_difference(b->count, b->n, a->value + at,
+                                                                            b->value + at, s->floor + j * b->n, &which)
+                                                   : INFINITY;
         s->estimate[j] = s->off[j] * pow(ratio, nh_accuracy_exponent);
     }
 }
@@ -105,9 +108,13 @@ static double usual_estimate(const search *s)
     return out;
 }
 
-static double first_tolerance(const search *s) { return fmin(fmax(nh_accuracy_first * s->eps, 10 * nh_accuracy_tightest), nh_accuracy_loosest); }
+static double first_tolerance(const search *s)
+{
+    return fmin(fmax(nh_accuracy_first * s->eps, 10 * nh_accuracy_tightest), nh_accuracy_loosest);
+}
 
-/* The tightest run, from the members' own starts; *coarse: the tolerance of the one that it was compared with.  `first`: the first run, where there was one. */
+/* The tightest run, from the members' own starts; *coarse: the tolerance of the one that it was compared with.
+   `first`: the first run, where there was one. */
 static nh_ensemble *tighten(search *s, nh_ensemble *first, double *coarse, nh_error *error)
 {
     double fine = first_tolerance(s);
@@ -116,7 +123,10 @@ static nh_ensemble *tighten(search *s, nh_ensemble *first, double *coarse, nh_er
     s->out->tolerance = fine;
     for (int i = 1; a && i < NH_ACCURACY_RUNS && !nh_interrupted(); i++) {
         *coarse = fine;
-        fine = fmax(nh_accuracy_tightest, fine * (i == 1 ? nh_accuracy_step : fmin(nh_accuracy_step, fmax(most_step, pow(s->eps / (4 * usual_estimate(s)), 1.25)))));
+        fine = fmax(
+            nh_accuracy_tightest,
+            fine * (i == 1 ? nh_accuracy_step
+                           : fmin(nh_accuracy_step, fmax(most_step, pow(s->eps / (4 * usual_estimate(s)), 1.25)))));
         nh_ensemble *b = run(s, fine, clean, error);
         if (!b) break;
         compare(s, a, b, fine / *coarse);
@@ -160,7 +170,8 @@ static void share_terms(search *s, const nh_trajectory_request *q, const nh_traj
 
 /* ---- members alone ---- */
 
-/* By the method and at the tolerance that it needs, into its place; how it was computed into *a.  What a batch found stays where this does not come to the end. */
+/* By the method and at the tolerance that it needs, into its place; how it was computed into *a.  What a batch found
+   stays where this does not come to the end. */
 static void compute_alone(search *s, size_t member, const nh_integration_plans *ways, nh_accuracy *a)
 {
     const nh_model *o = s->request->model;
@@ -169,19 +180,30 @@ static void compute_alone(search *s, size_t member, const nh_integration_plans *
     size_t each = e->count * e->n;
     double *z = nh_alloc_array(2 * o->m, sizeof *z), *target = e->value + member * each;
     nh_dynamics *d = nh_dynamics_create(o);
-    nh_motion start = {.count = 1, .size = s->size, .time = (double *)s->request->times, .state = (double *)s->initial + member * s->size};
+    nh_motion start = {.count = 1,
+                       .size = s->size,
+                       .time = (double *)s->request->times,
+                       .state = (double *)s->initial + member * s->size};
     nh_state state = {.t = s->request->times[0], .q = z, .v = z + o->m};
     nh_trajectory_request q = *s->request;
     nh_error error;
     nh_error_clear(&error);
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
-    nh_trajectory *t = nh_along(d, &start, o->m, o->rho, z + o->m) ? nh_trajectory_accurate(&q, s->eps, ways, a, &error) : NULL;
+    nh_trajectory *t =
+        nh_along(d, &start, o->m, o->rho, z + o->m) ? nh_trajectory_accurate(&q, s->eps, ways, a, &error) : NULL;
     if (member == 0) share_terms(s, &q, t);
     size_t reached = t ? t->motion->count : 0;
     bool before = arrived(e, member);
-    for (size_t i = 0; i < each && (reached == e->count || !before); i++) target[i] = i < reached * e->n ? t->value[i] : NAN;
-    *l = (loner){.done = true, .held = a->held, .reached = reached == e->count, .evaluations = a->evaluations, .effort = a->effort, .seconds = a->seconds, .estimate = a->estimate};
+    for (size_t i = 0; i < each && (reached == e->count || !before); i++)
+        target[i] = i < reached * e->n ? t->value[i] : NAN;
+    *l = (loner){.done = true,
+                 .held = a->held,
+                 .reached = reached == e->count,
+                 .evaluations = a->evaluations,
+                 .effort = a->effort,
+                 .seconds = a->seconds,
+                 .estimate = a->estimate};
     snprintf(l->why, sizeof l->why, "%.399s", t ? a->why : error.what);
     nh_trajectory_free(t);
     nh_dynamics_free(d);
@@ -241,7 +263,8 @@ static double cost_alone(search *s, const nh_integration_plans *ways)
     return n ? (nh_effort() - begin) / (double)n : a.effort;
 }
 
-/* Is it cheaper to compute all members alone?  *first: the first run of the ensemble in batches, where that was made to see it. */
+/* Is it cheaper to compute all members alone?  *first: the first run of the ensemble in batches, where that was made to
+   see it. */
 static bool cheaper_alone(search *s, double each, nh_ensemble **first)
 {
     nh_trajectory_request q = *s->request;
@@ -255,7 +278,8 @@ static bool cheaper_alone(search *s, double each, nh_ensemble **first)
     nh_ensemble *e = nh_ensemble_try(&q, s->members, start, all / passes, &trial);
     nh_free(start);
     s->out->evaluations += trial.evaluations;
-    double together = e ? passes * trial.effort + (double)trial.left * each : passes * trial.effort / fmax(trial.part, 1e-6);
+    double together =
+        e ? passes * trial.effort + (double)trial.left * each : passes * trial.effort / fmax(trial.part, 1e-6);
     s->out->ratio = all / together;
     bool whole = e && e->members == s->members && !trial.left;
     if (whole && together < all) {
@@ -274,18 +298,31 @@ static void explain(search *s)
     size_t size = sizeof a->why;
     char first[sizeof a->why], how[96] = "";
     snprintf(first, sizeof first, "%s", a->why);
-    if (a->all_alone && isnan(a->way.step)) snprintf(how, sizeof how, "each alone by %s at tolerance %.1e or below", a->way.method->name, a->tolerance);
-    else if (a->all_alone) snprintf(how, sizeof how, "each alone by %s with steps of %.2g or less", a->way.method->name, a->way.step);
+    if (a->all_alone && isnan(a->way.step))
+        snprintf(how, sizeof how, "each alone by %s at tolerance %.1e or below", a->way.method->name, a->tolerance);
+    else if (a->all_alone)
+        snprintf(how, sizeof how, "each alone by %s with steps of %.2g or less", a->way.method->name, a->way.step);
     else snprintf(how, sizeof how, "in batches at tolerance %.1e", a->tolerance);
-    if (nh_interrupted()) snprintf(a->why, size, "interrupted before the accuracy %.1e was reached by all members", a->wanted);
-    else if (a->unsure) snprintf(a->why, size, "the accuracy %.1e was not reached by %zu of %zu members; %.380s", a->wanted, a->unsure, s->members, first);
-    else if (a->alone && !a->all_alone) snprintf(a->why, size, "%s, estimated errors at most %.1e, %zu of %zu members alone", how, a->estimate, a->alone, s->members);
+    if (nh_interrupted())
+        snprintf(a->why, size, "interrupted before the accuracy %.1e was reached by all members", a->wanted);
+    else if (a->unsure)
+        snprintf(a->why, size, "the accuracy %.1e was not reached by %zu of %zu members; %.380s", a->wanted, a->unsure,
+                 s->members, first);
+    else if (a->alone && !a->all_alone)
+        snprintf(a->why, size, "%s, estimated errors at most %.1e, %zu of %zu members alone", how, a->estimate,
+                 a->alone, s->members);
     else snprintf(a->why, size, "%s, estimated errors at most %.1e", how, a->estimate);
     size_t used = strlen(a->why);
     if (nh_interrupted() || a->unsure || !(a->ratio > 0)) return;
-    if (a->all_alone && 1 / a->ratio > most_told) snprintf(a->why + used, size - used, "; in batches they would need more than %g times as much counted work", most_told);
-    else if (a->all_alone) snprintf(a->why + used, size - used, "; in batches they would need about %.2g times as much counted work", 1 / a->ratio);
-    else snprintf(a->why + used, size - used, "; each alone (%s) would need about %.2g times as much counted work", a->way.method->name, a->ratio);
+    if (a->all_alone && 1 / a->ratio > most_told)
+        snprintf(a->why + used, size - used, "; in batches they would need more than %g times as much counted work",
+                 most_told);
+    else if (a->all_alone)
+        snprintf(a->why + used, size - used, "; in batches they would need about %.2g times as much counted work",
+                 1 / a->ratio);
+    else
+        snprintf(a->why + used, size - used, "; each alone (%s) would need about %.2g times as much counted work",
+                 a->way.method->name, a->ratio);
 }
 
 /* By batches as far as they go; the others alone. */
@@ -310,17 +347,25 @@ static nh_ensemble *go_each(search *s)
     s->e->incomplete = s->members;
     for (size_t j = 0; j < s->members; j++) s->alone[j] = j;
     go_alone(s, s->members);
-    if (s->e->incomplete) snprintf(s->e->note, sizeof s->e->note, "%.200s", nh_interrupted() ? "interrupted" : s->out->why);
+    if (s->e->incomplete)
+        snprintf(s->e->note, sizeof s->e->note, "%.200s", nh_interrupted() ? "interrupted" : s->out->why);
     return s->e;
 }
 
-nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, const nh_integration_plans *ways,
+nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial,
+                                  size_t threads, double eps, const nh_integration_plans *ways,
                                   nh_ensemble_accuracy *accuracy, nh_error *error)
 {
     static const nh_integration_plans none = {.count = 0};
     if (!ways) ways = &none;
     *accuracy = (nh_ensemble_accuracy){.wanted = eps};
-    search s = {.own = *request, .members = members, .threads = threads, .size = request->model->m + request->model->n, .initial = initial, .eps = eps, .out = accuracy};
+    search s = {.own = *request,
+                .members = members,
+                .threads = threads,
+                .size = request->model->m + request->model->n,
+                .initial = initial,
+                .eps = eps,
+                .out = accuracy};
     s.request = &s.own;
     s.ways = (nh_integration_plans){.count = ways->count, .way = ways->way};
     s.e = nh_ensemble_empty(request, members, error);

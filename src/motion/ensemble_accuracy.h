@@ -1,10 +1,12 @@
 /* ensemble_accuracy: an ensemble with estimated errors below the requested accuracy, member by member.
  *
- * The first member determines the best method for one motion (accuracy.h), two more members its cost; the first batch may use as much work as its
- * members would need alone.  The cheaper of the two is used: on stiff motions, where another method is so much better than the batches' pair of order 8
- * that one by one is faster, and in small ensembles, each member alone by that way, at the tolerance that it needs.  Otherwise the whole ensemble
- * runs at ever tighter tolerances, as one motion does, until nearly every member is accepted; the members that are not, or whose errors are a thousand times the
- * tolerance, are computed alone.  Costs are times of computing; nothing depends on the number of threads. */
+ * The first member determines the best method for one motion (accuracy.h), two more members its cost; the first batch
+ * may use as much work as its members would need alone.  The cheaper of the two is used: on stiff motions, where
+ * another method is so much better than the batches' pair of order 8 that one by one is faster, and in small ensembles,
+ * each member alone by that way, at the tolerance that it needs.  Otherwise the whole ensemble runs at ever tighter
+ * tolerances, as one motion does, until nearly every member is accepted; the members that are not, or whose errors are
+ * a thousand times the tolerance, are computed alone.  Costs are times of computing; nothing depends on the number of
+ * threads. */
 #ifndef NH_ENSEMBLE_ACCURACY_H
 #define NH_ENSEMBLE_ACCURACY_H
 
@@ -13,7 +15,8 @@
 
 typedef struct {
     bool held;                  /* by all members */
-    double wanted, estimate, tolerance; /* the largest estimate of the members that were accepted, at the tolerance of the batches */
+    /* the largest estimate of the members that were accepted, at the tolerance of the batches */
+    double wanted, estimate, tolerance;
     bool all_alone;             /* then by `way`, and the tolerance is that of the first member */
     nh_integration_plan way;                 /* of the first member alone; its method is NULL where that did not do */
     nh_accuracy_choice choice;  /* where that comes from */
@@ -26,7 +29,8 @@ typedef struct {
 } nh_ensemble_accuracy;
 
 /* As nh_ensemble_create, and nh_trajectory_accurate for `ways`. */
-nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, const nh_integration_plans *ways,
+nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial,
+                                  size_t threads, double eps, const nh_integration_plans *ways,
                                   nh_ensemble_accuracy *accuracy, nh_error *error);
 
 #endif

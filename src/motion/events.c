@@ -192,7 +192,8 @@ static void settle_beginning(nh_event_search *c, nh_motion *motion)
     }
 }
 
-/* All that have changed their sign between near and far, in order, up to the first that stops the motion.  Their sides change. */
+/* All that have changed their sign between near and far, in order, up to the first that stops the motion.  Their sides
+   change. */
 static bool take_zeros(nh_event_search *c, double near, double far, nh_motion *motion)
 {
     nh_sign_changes *s = &c->change;

@@ -21,7 +21,8 @@ typedef struct {
     const nh_flow_options *options;
     gsl_odeiv2_system system;
     gsl_odeiv2_driver *driver;
-    gsl_odeiv2_step *between; /* the shorter step that reads a state inside the last one; NULL: steps end at the output times */
+    /* the shorter step that reads a state inside the last one; NULL: steps end at the output times */
+    gsl_odeiv2_step *between;
     const double *times;
     size_t count;
     double h, before, now;     /* next step; times before and after the last one */
@@ -36,8 +37,9 @@ typedef struct {
 
 /* ---- error control ----
  *
- * GSL's own, with D_i = rtol |z_i| and the sizes' part of it (sizes.h), which changes along the motion; GSL's takes scales that do not.  With r = max_i |e_i|/D_i and a
- * method of order q the next step is 0.9 h r^(-1/q) where r > 1.1, at least h/5, and 0.9 h r^(-1/(q+1)) where r < 1/2, at most 5 h. */
+ * GSL's own, with D_i = rtol |z_i| and the sizes' part of it (sizes.h), which changes along the motion; GSL's takes
+ * scales that do not.  With r = max_i |e_i|/D_i and a method of order q the next step is 0.9 h r^(-1/q) where r > 1.1,
+ * at least h/5, and 0.9 h r^(-1/(q+1)) where r < 1/2, at most 5 h. */
 
 typedef struct {
     const explicit_work *work;
@@ -52,9 +54,13 @@ static int control_init(void *state, double absolute, double relative, double of
     return GSL_SUCCESS;
 }
 
-static double allowed(const explicit_work *work, size_t i, double z) { return work->rtol * fabs(z) + nh_sizes_absolute(&work->sizes, work->rtol, i); }
+static double allowed(const explicit_work *work, size_t i, double z)
+{
+    return work->rtol * fabs(z) + nh_sizes_absolute(&work->sizes, work->rtol, i);
+}
 
-static int control_adjust(void *state, size_t n, unsigned int order, const double *z, const double *error, const double *rate, double *h)
+static int control_adjust(void *state, size_t n, unsigned int order, const double *z, const double *error,
+                          const double *rate, double *h)
 {
     static const double safety = 0.9, too_large = 1.1, small = 0.5, most = 5;
     (void)rate;
@@ -85,7 +91,8 @@ static int control_set_driver(void *state, const gsl_odeiv2_driver *driver)
     return GSL_SUCCESS;
 }
 
-static const gsl_odeiv2_control_type control_type = {"sizes", control_alloc, control_init, control_adjust, control_level, control_set_driver, control_free};
+static const gsl_odeiv2_control_type control_type = {"sizes",       control_alloc,      control_init, control_adjust,
+                                                     control_level, control_set_driver, control_free};
 
 /* A driver with this control in place of its own. */
 static gsl_odeiv2_driver *driver_of(explicit_work *work, const gsl_odeiv2_step_type *type)
@@ -142,10 +149,12 @@ static nh_step go_back(explicit_work *work, nh_guard_verdict verdict, double *ti
     return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
 }
 
-/* Was there a wall in the last step?  True: it is taken back.  Behind a wall the steps become as long again as they were before it. */
+/* Was there a wall in the last step?  True: it is taken back.  Behind a wall the steps become as long again as they
+   were before it. */
 static bool back_from_wall(explicit_work *work, nh_motion *motion, double *time)
 {
-    nh_kink_verdict verdict = nh_kinks_judge(&work->kinks, work->problem, work->before, work->old, work->now, work->state, motion);
+    nh_kink_verdict verdict =
+        nh_kinks_judge(&work->kinks, work->problem, work->before, work->old, work->now, work->state, motion);
     if (verdict == NH_KINK_BACK) {
         if (work->apace == 0) work->apace = work->now - work->before;
         go_back(work, NH_GUARD_BACK, time);
@@ -166,11 +175,13 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
     double wanted = work->h;
     work->before = *time;
     memcpy(work->old, work->state, size * sizeof *work->old);
-    int flag = gsl_odeiv2_evolve_apply(work->driver->e, work->driver->c, work->driver->s, &work->system, time, target, &work->h, work->state);
+    int flag = gsl_odeiv2_evolve_apply(work->driver->e, work->driver->c, work->driver->s, &work->system, time, target,
+                                       &work->h, work->state);
     motion->evaluations = work->evaluations;
     work->now = *time;
     bool last = *time == work->times[work->count - 1];
-    nh_guard_verdict verdict = flag == GSL_SUCCESS ? nh_guards_judge(&work->guards, work->before, *time, work->state, motion) : NH_GUARD_KEPT;
+    nh_guard_verdict verdict =
+        flag == GSL_SUCCESS ? nh_guards_judge(&work->guards, work->before, *time, work->state, motion) : NH_GUARD_KEPT;
     if (verdict != NH_GUARD_KEPT) return go_back(work, verdict, time);
     if (*time == target && fabs(work->h) < fabs(wanted)) work->h = wanted; /* it was cut to end there */
     if (flag == GSL_SUCCESS && back_from_wall(work, motion, time)) return NH_STEP_ON;
@@ -186,7 +197,8 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
         nh_sizes_follow(&work->sizes, *time, work->state);
         return last ? NH_STEP_LAST : NH_STEP_ON;
     }
-    nh_motion_note(motion, "no step is small enough near t = %.10g, or the right-hand side cannot be evaluated there", *time);
+    nh_motion_note(motion, "no step is small enough near t = %.10g, or the right-hand side cannot be evaluated there",
+                   *time);
     return NH_STEP_FAILED;
 }
 
@@ -206,7 +218,8 @@ static bool between_state(double time, double *state, void *context)
     size_t size = work->problem->size;
     memcpy(state, time == work->now ? work->state : work->old, size * sizeof *state);
     if (time == work->now || time == work->before) return true;
-    int flag = gsl_odeiv2_step_apply(work->between, work->before, time - work->before, state, work->work, NULL, NULL, &work->system);
+    int flag = gsl_odeiv2_step_apply(work->between, work->before, time - work->before, state, work->work, NULL, NULL,
+                                     &work->system);
     return flag == GSL_SUCCESS && changed_after(work, time, state);
 }
 
@@ -248,8 +261,8 @@ static bool set_up(explicit_work *work, nh_gsl_odeiv_method method)
     return work->driver != NULL;
 }
 
-nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
-                       const nh_flow_options *options, nh_error *error)
+nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *problem, const double *initial, size_t count,
+                        const double *times, const nh_flow_options *options, nh_error *error)
 {
     size_t size = problem->size;
     nh_motion *motion = nh_motion_start(size, size, initial, count, times, options, error);
@@ -277,7 +290,8 @@ nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *probl
         nh_motion_run(motion, count, times, options, &stepper);
         motion->evaluations = work.evaluations;
     } else {
-        nh_fail(error, NH_NUMERIC, "", "the right-hand side cannot be evaluated at the initial state (t = %.10g)", times[0]);
+        nh_fail(error, NH_NUMERIC, "", "the right-hand side cannot be evaluated at the initial state (t = %.10g)",
+                times[0]);
         nh_motion_free(motion);
         motion = NULL;
     }

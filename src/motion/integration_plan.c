@@ -6,7 +6,8 @@ static const double exponent = 0.9; /* with which errors fall with the tolerance
 
 bool nh_integration_plan_doubtful(const nh_method *method)
 {
-    bool one_step = (method->family == NH_METHOD_ARKODE && method->kind != NH_ESDIRK_5) || (method->family == NH_METHOD_GSL_ODEIV && method->kind != NH_MSADAMS);
+    bool one_step = (method->family == NH_METHOD_ARKODE && method->kind != NH_ESDIRK_5) ||
+                    (method->family == NH_METHOD_GSL_ODEIV && method->kind != NH_MSADAMS);
     return !one_step;
 }
 
@@ -20,12 +21,15 @@ static bool usable(const nh_integration_plan *w, const nh_integration_plan_limit
 }
 
 /* The cheapest other method with error control that reached eps in the model's own equations. */
-static const nh_integration_plan *second_of(size_t n, const nh_integration_plan *way, double eps, const nh_method *first)
+static const nh_integration_plan *second_of(size_t n, const nh_integration_plan *way, double eps,
+                                            const nh_method *first)
 {
     const nh_integration_plan *best = NULL;
     for (size_t i = 0; i < n; i++) {
         const nh_integration_plan *w = &way[i];
-        if (w->method != first && !w->method->order && w->velocities == NH_OWN_VELOCITIES && w->error < eps && (!best || w->effort < best->effort)) best = w;
+        if (w->method != first && !w->method->order && w->velocities == NH_OWN_VELOCITIES && w->error < eps &&
+            (!best || w->effort < best->effort))
+            best = w;
     }
     return best;
 }
@@ -33,11 +37,13 @@ static const nh_integration_plan *second_of(size_t n, const nh_integration_plan 
 /* Two runs, of which the tighter one is taken, and one more where another method confirms it. */
 double nh_integration_plan_cost(size_t n, const nh_integration_plan *way, double eps, const nh_integration_plan *w)
 {
-    const nh_integration_plan *second = nh_integration_plan_doubtful(w->method) ? second_of(n, way, eps, w->method) : NULL;
+    const nh_integration_plan *second =
+        nh_integration_plan_doubtful(w->method) ? second_of(n, way, eps, w->method) : NULL;
     return 2 * w->effort + (second ? second->effort : nh_integration_plan_doubtful(w->method) ? 2 * w->effort : 0);
 }
 
-nh_integration_plan_choice nh_integration_plan_cheapest(size_t n, const nh_integration_plan *way, double eps, const nh_integration_plan_limits *limits)
+nh_integration_plan_choice nh_integration_plan_cheapest(size_t n, const nh_integration_plan *way, double eps,
+                                                        const nh_integration_plan_limits *limits)
 {
     nh_integration_plan_choice out = {.next = NAN};
     double least = INFINITY, other = INFINITY;

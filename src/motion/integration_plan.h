@@ -24,8 +24,10 @@ typedef struct {
 
 typedef struct {
     const nh_integration_plan *way;       /* NULL: none was measured below eps */
-    const nh_method *second; /* that confirms it where it is doubtful: the cheapest other one with error control; NULL: none was measured */
-    const nh_integration_plan *other;     /* the cheapest by another method or in other equations; NULL: none was measured below eps */
+    /* that confirms it where it is doubtful: the cheapest other one with error control; NULL: none was measured */
+    const nh_method *second;
+    /* the cheapest by another method or in other equations; NULL: none was measured below eps */
+    const nh_integration_plan *other;
     double next;             /* how many times as much that one costs; NAN: there is none */
 } nh_integration_plan_choice;
 
@@ -33,7 +35,8 @@ typedef struct {
 double nh_integration_plan_cost(size_t n, const nh_integration_plan *way, double eps, const nh_integration_plan *of);
 
 /* The cheapest run whose error was below eps, counted with its confirmation. */
-nh_integration_plan_choice nh_integration_plan_cheapest(size_t n, const nh_integration_plan *way, double eps, const nh_integration_plan_limits *limits);
+nh_integration_plan_choice nh_integration_plan_cheapest(size_t n, const nh_integration_plan *way, double eps,
+                                                        const nh_integration_plan_limits *limits);
 
 /* The tolerance or step at which the error is expected to be `error`, from the run that was measured. */
 double nh_integration_plan_setting(const nh_integration_plan *way, double error);

@@ -8,7 +8,8 @@
 #include "motion/events.h"
 #include "motion/gsl_odeiv.h"
 
-static const double few = 64; /* in `least`: at least so far behind a wall, and as far as it was to it, a one-step method goes */
+/* in `least`: at least so far behind a wall, and as far as it was to it, a one-step method goes */
+static const double few = 64;
 
 /* Its beginning, the wanted times in it, its end. */
 static size_t times_of(const nh_kink_crossing *l, double end, double *times)
@@ -17,7 +18,8 @@ static size_t times_of(const nh_kink_crossing *l, double end, double *times)
     bool backward = end < l->before;
     times[n++] = l->before;
     for (size_t i = 0; i < l->count; i++)
-        if (backward ? l->times[i] < l->before && l->times[i] > end : l->times[i] > l->before && l->times[i] < end) times[n++] = l->times[i];
+        if (backward ? l->times[i] < l->before && l->times[i] > end : l->times[i] > l->before && l->times[i] < end)
+            times[n++] = l->times[i];
     times[n++] = end;
     return n;
 }
@@ -31,13 +33,15 @@ static nh_motion *by_one_step_method(const nh_kinks *k, const nh_flow_problem *p
     nh_flow_options options = {
         .rtol = l->rtol, .scale = scale, .watch = l->watch, .guarded = true, .cancelled = nh_interrupted_callback};
     size_t count = times_of(l, end, times);
-    nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, p, l->old, count, times, &options, &ignored); /* stages that are solved for would be too inexact to come near a wall */
+    /* stages that are solved for would be too inexact to come near a wall */
+    nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, p, l->old, count, times, &options, &ignored);
     nh_free(scale);
     nh_free(times);
     return motion;
 }
 
-nh_motion *nh_kink_crossing_make(nh_kinks *k, const nh_flow_problem *p, const nh_kink_crossing *l, nh_inside *state, void *context, nh_motion *motion)
+nh_motion *nh_kink_crossing_make(nh_kinks *k, const nh_flow_problem *p, const nh_kink_crossing *l, nh_inside *state,
+                                 void *context, nh_motion *motion)
 {
     if (!k->change.count || l->now == l->before) return NULL;
     double at = nh_kinks_first(k, l->before, l->now, state, context), last = l->times[l->count - 1];
@@ -60,6 +64,7 @@ nh_motion *nh_kink_crossing_make(nh_kinks *k, const nh_flow_problem *p, const nh
 bool nh_kink_crossing_state(const nh_motion *across, double time, double *state)
 {
     for (size_t i = 0; i < across->count; i++)
-        if (across->time[i] == time) return memcpy(state, across->state + i * across->size, across->size * sizeof *state), true;
+        if (across->time[i] == time)
+            return memcpy(state, across->state + i * across->size, across->size * sizeof *state), true;
     return false;
 }

@@ -1,4 +1,5 @@
-/* kink_crossing: how a multistep method crosses a kink (kinks.h): a one-step method computes the motion from before the step to behind the wall. */
+/* kink_crossing: how a multistep method crosses a kink (kinks.h): a one-step method computes the motion from before the
+   step to behind the wall. */
 #ifndef NH_KINK_CROSSING_H
 #define NH_KINK_CROSSING_H
 
@@ -15,8 +16,10 @@ typedef struct {
     const nh_event_watch *watch; /* of the motion */
 } nh_kink_crossing;
 
-/* Was there a wall in the step?  NULL: no.  Otherwise the motion from before the step to behind the wall by a one-step method, at the times that are wanted and at its end. */
-nh_motion *nh_kink_crossing_make(nh_kinks *kinks, const nh_flow_problem *problem, const nh_kink_crossing *leap, nh_inside *state, void *context, nh_motion *motion);
+/* Was there a wall in the step?  NULL: no.  Otherwise the motion from before the step to behind the wall by a one-step
+   method, at the times that are wanted and at its end. */
+nh_motion *nh_kink_crossing_make(nh_kinks *kinks, const nh_flow_problem *problem, const nh_kink_crossing *leap,
+                                 nh_inside *state, void *context, nh_motion *motion);
 
 /* The state of such a motion at one of its times. */
 bool nh_kink_crossing_state(const nh_motion *across, double time, double *state);

@@ -10,7 +10,8 @@
 enum { many = 20, most_halvings = 200 };
 static const double roundings = 16;       /* of the time, in `least` */
 static const double nearer = 1e-3;        /* of the way to a wall is left by a step towards it */
-static const double no_time = 1e-6;       /* of the whole motion: so many crossings in less would be more than there can be steps */
+/* of the whole motion: so many crossings in less would be more than there can be steps */
+static const double no_time = 1e-6;
 
 void nh_kinks_begin(nh_kinks *k, const nh_flow_problem *p, const double *z, size_t count, const double *times)
 {
@@ -63,7 +64,10 @@ void nh_kinks_go_over(nh_kinks *k, double t, nh_motion *motion)
     k->last = t;
     if (!held) return;
     k->held = true;
-    nh_motion_note(motion, "near t = %.10g the motion reaches a kink of its equations, and both sides lead back to it: the equations do not determine the continuation", t);
+    nh_motion_note(motion,
+                   "near t = %.10g the motion reaches a kink of its equations, and both sides lead back to it: the "
+                   "equations do not determine the continuation",
+                   t);
 }
 
 /* Does the step end exactly on a wall? */
@@ -99,7 +103,8 @@ static bool between(double t, double *z, void *context)
     size_t n = s->k->change.size;
     const double *z0 = s->k->ends, *z1 = z0 + n, *f0 = z1 + n, *f1 = f0 + n;
     double h = s->now - s->before, x = (t - s->before) / h, y = 1 - x;
-    for (size_t i = 0; i < n; i++) z[i] = y * y * (1 + 2 * x) * z0[i] + x * x * (1 + 2 * y) * z1[i] + h * x * y * (y * f0[i] - x * f1[i]);
+    for (size_t i = 0; i < n; i++)
+        z[i] = y * y * (1 + 2 * x) * z0[i] + x * x * (1 + 2 * y) * z1[i] + h * x * y * (y * f0[i] - x * f1[i]);
     return true;
 }
 
@@ -118,7 +123,8 @@ static double way_to_wall(const nh_kinks *k, double at, double way)
     return to <= k->least ? k->least : to - fmax(nearer * to, k->least / 4);
 }
 
-nh_kink_verdict nh_kinks_judge(nh_kinks *k, const nh_flow_problem *p, double before, const double *old, double now, const double *z, nh_motion *motion)
+nh_kink_verdict nh_kinks_judge(nh_kinks *k, const nh_flow_problem *p, double before, const double *old, double now,
+                               const double *z, nh_motion *motion)
 {
     if (!k->change.count || now == before) return NH_KINK_NONE;
     size_t n = k->change.size;

@@ -1,11 +1,13 @@
 /* kinks: steps that end where the equations of motion have a kink or a jump.
  *
- * Between two walls (exact/walls.h) the right-hand side is smooth, and the error control of an integrator is reliable.  Across a wall it is not: where
- * the force is constant on both sides steps become so long that they skip a whole excursion to the other side without a visible error.  So the functions
- * of the walls are sampled inside each step (sign_changes.h), and the first change of a sign is found.
+ * Between two walls (exact/walls.h) the right-hand side is smooth, and the error control of an integrator is reliable.
+ * Across a wall it is not: where the force is constant on both sides steps become so long that they skip a whole
+ * excursion to the other side without a visible error.  So the functions of the walls are sampled inside each step
+ * (sign_changes.h), and the first change of a sign is found.
  *
- * A step over a wall is taken back. A one-step method goes back to the beginning of the step and approaches the wall by steps of which no stage is behind it; only one as
- * short as the rounding of the time leads across.  A method with many steps behind it leaves that to a one-step method, and starts again behind the wall. */
+ * A step over a wall is taken back. A one-step method goes back to the beginning of the step and approaches the wall by
+ * steps of which no stage is behind it; only one as short as the rounding of the time leads across.  A method with many
+ * steps behind it leaves that to a one-step method, and starts again behind the wall. */
 #ifndef NH_KINKS_H
 #define NH_KINKS_H
 
@@ -17,15 +19,19 @@ typedef struct {
     double *ends;       /* of a one-step method: states and rates at both ends of the step */
     double longest;     /* for it: no step is to be longer now (INFINITY: it may) */
     double least;       /* steps as short as this one may lead across a wall */
-    double from, seen;  /* where its step begins, and the first time in it at which the rates were evaluated behind a wall (INFINITY: never) */
+    /* where its step begins, and the first time in it at which the rates were evaluated behind a wall (INFINITY:
+       never) */
+    double from, seen;
     double span, last;  /* of the whole motion; when the last of so many crossings was */
     bool held;          /* the motion cannot leave a wall */
     long crossed;
 } nh_kinks;
 
 /* For a motion from z at times[0] to times[count - 1]. */
-void nh_kinks_begin(nh_kinks *kinks, const nh_flow_problem *problem, const double *z, size_t count, const double *times);
-/* What happens in so short a time is below the error that is allowed, or that is made in solving for stages: it is time enough to lead across a wall. */
+void nh_kinks_begin(nh_kinks *kinks, const nh_flow_problem *problem, const double *z, size_t count,
+                    const double *times);
+/* What happens in so short a time is below the error that is allowed, or that is made in solving for stages: it is time
+   enough to lead across a wall. */
 void nh_kinks_coarser(nh_kinks *kinks, double time);
 void nh_kinks_clear(nh_kinks *kinks);
 
@@ -34,9 +40,11 @@ typedef enum { NH_KINK_NONE, NH_KINK_BACK, NH_KINK_CROSSED, NH_KINK_END } nh_kin
 /* A one-step method evaluates the rates at (t, z). */
 void nh_kinks_see(nh_kinks *kinks, double t, const double *z);
 
-/* A one-step method came from `old` at `before` to `z` at `now`.  BACK: take the step back, and make none that is longer than kinks->longest.  CROSSED: go on, and forget what
- * was before.  END: the motion cannot leave the wall, and ends (the note says so). */
-nh_kink_verdict nh_kinks_judge(nh_kinks *kinks, const nh_flow_problem *problem, double before, const double *old, double now, const double *z, nh_motion *motion);
+/* A one-step method came from `old` at `before` to `z` at `now`.  BACK: take the step back, and make none that is
+ * longer than kinks->longest.  CROSSED: go on, and forget what was before.  END: the motion cannot leave the wall, and
+ * ends (the note says so). */
+nh_kink_verdict nh_kinks_judge(nh_kinks *kinks, const nh_flow_problem *problem, double before, const double *old,
+                               double now, const double *z, nh_motion *motion);
 
 /* The first time in a step at which a wall is crossed (NAN: none); `state` gives the states inside of it. */
 double nh_kinks_first(nh_kinks *kinks, double before, double now, nh_inside *state, void *context);

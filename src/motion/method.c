@@ -11,18 +11,27 @@ static const nh_method methods[] = {
     {"msadams", "GSL msadams", "Adams's method, fixed-point iteration", NH_METHOD_GSL_ODEIV, NH_MSADAMS, false, 0},
     {"adams", "CVODE Adams", "Adams's method, Newton's iteration", NH_METHOD_CVODE, NH_ADAMS, false, 0},
     {"bdf", "CVODE BDF", "backward differentiation, for stiff equations", NH_METHOD_CVODE, NH_BDF, false, 0},
-    {"dormand-prince", "ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_ARKODE, NH_DORMAND_PRINCE_5, false, 0},
+    {"dormand-prince", "ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_ARKODE,
+     NH_DORMAND_PRINCE_5, false, 0},
     {"verner", "ARKODE Verner", "explicit Runge-Kutta pair of order 6", NH_METHOD_ARKODE, NH_VERNER_6, false, 0},
     {"fehlberg", "ARKODE Fehlberg", "explicit Runge-Kutta pair of order 8", NH_METHOD_ARKODE, NH_FEHLBERG_8, false, 0},
-    {"esdirk", "ARKODE ESDIRK", "diagonally implicit Runge-Kutta pair of order 5, for stiff equations", NH_METHOD_ARKODE, NH_ESDIRK_5, false, 0},
+    {"esdirk", "ARKODE ESDIRK", "diagonally implicit Runge-Kutta pair of order 5, for stiff equations",
+     NH_METHOD_ARKODE, NH_ESDIRK_5, false, 0},
     {"midpoint", "midpoint", "implicit midpoint rule, order 2", NH_METHOD_MIDPOINT, NH_MIDPOINT, false, 2},
-    {"midpoint-4", "midpoint, order 4", "five implicit midpoint steps composed", NH_METHOD_MIDPOINT, NH_MIDPOINT, true, 4},
-    {"dalembert", "Lagrange-d'Alembert", "discrete Lagrange-d'Alembert principle, order 2", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, false, 2},
-    {"dalembert-4", "Lagrange-d'Alembert, order 4", "five discrete Lagrange-d'Alembert steps composed", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, true, 4},
-    {"energy", "energy-preserving", "almost-Poisson pair with the mean gradient, order 2", NH_METHOD_MIDPOINT, NH_ENERGY, false, 2},
-    {"energy-4", "energy-preserving, order 4", "five energy-preserving steps composed", NH_METHOD_MIDPOINT, NH_ENERGY, true, 4},
-    {"relaxation-4", "relaxation, order 4", "Runge-Kutta steps along which the energy is kept", NH_METHOD_RELAXATION, NH_RELAXATION_4, false, 4},
-    {"relaxation-8", "relaxation, order 8", "Prince-Dormand steps along which the energy is kept", NH_METHOD_RELAXATION, NH_RELAXATION_8, false, 8},
+    {"midpoint-4", "midpoint, order 4", "five implicit midpoint steps composed", NH_METHOD_MIDPOINT, NH_MIDPOINT, true,
+     4},
+    {"dalembert", "Lagrange-d'Alembert", "discrete Lagrange-d'Alembert principle, order 2", NH_METHOD_MIDPOINT,
+     NH_LAGRANGE_DALEMBERT, false, 2},
+    {"dalembert-4", "Lagrange-d'Alembert, order 4", "five discrete Lagrange-d'Alembert steps composed",
+     NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, true, 4},
+    {"energy", "energy-preserving", "almost-Poisson pair with the mean gradient, order 2", NH_METHOD_MIDPOINT,
+     NH_ENERGY, false, 2},
+    {"energy-4", "energy-preserving, order 4", "five energy-preserving steps composed", NH_METHOD_MIDPOINT, NH_ENERGY,
+     true, 4},
+    {"relaxation-4", "relaxation, order 4", "Runge-Kutta steps along which the energy is kept", NH_METHOD_RELAXATION,
+     NH_RELAXATION_4, false, 4},
+    {"relaxation-8", "relaxation, order 8", "Prince-Dormand steps along which the energy is kept", NH_METHOD_RELAXATION,
+     NH_RELAXATION_8, false, 8},
 };
 
 size_t nh_method_count(void) { return sizeof methods / sizeof *methods; }
@@ -43,27 +52,32 @@ bool nh_method_given(const char *word, const nh_method **out, nh_error *error)
     for (size_t i = 0; i < nh_method_count(); i++) word_of[1 + i] = methods[i].word;
     const char *near = nh_text_nearest(word, word_of, nh_method_count() + 1);
     nh_fail(error, NH_USAGE, "", "there is no method `%s`", word);
-    return near ? nh_error_hint(error, "did you mean `%s`? `nhsym explain methods` lists them", near) : nh_error_hint(error, "`nhsym explain methods` lists them");
+    return near ? nh_error_hint(error, "did you mean `%s`? `nhsym explain methods` lists them", near)
+                : nh_error_hint(error, "`nhsym explain methods` lists them");
 }
 
-nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
-                          const nh_flow_options *options, nh_error *error)
+nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count,
+                          const double *times, const nh_flow_options *options, nh_error *error)
 {
     nh_flow_options own = *options;
     switch (method->family) {
-    case NH_METHOD_GSL_ODEIV: return nh_gsl_odeiv((nh_gsl_odeiv_method)method->kind, problem, initial, count, times, options, error);
-    case NH_METHOD_ARKODE: return nh_arkode((nh_arkode_method)method->kind, problem, initial, count, times, options, error);
+    case NH_METHOD_GSL_ODEIV:
+        return nh_gsl_odeiv((nh_gsl_odeiv_method)method->kind, problem, initial, count, times, options, error);
+    case NH_METHOD_ARKODE:
+        return nh_arkode((nh_arkode_method)method->kind, problem, initial, count, times, options, error);
     default:
         own.method = (nh_flow_method)method->kind;
         return nh_cvode(problem, initial, count, times, &own, error);
     }
 }
 
-nh_motion *nh_method_steps(const nh_method *method, nh_programs *programs, const double *initial, size_t count, const double *times,
-                           const nh_flow_options *options, nh_error *error)
+nh_motion *nh_method_steps(const nh_method *method, nh_programs *programs, const double *initial, size_t count,
+                           const double *times, const nh_flow_options *options, nh_error *error)
 {
-    if (method->family == NH_METHOD_RELAXATION) return nh_relaxation(programs, (nh_relaxation_rule)method->kind, initial, count, times, options, error);
-    return nh_midpoint(programs, (nh_midpoint_rule)method->kind, method->composed, initial, count, times, options, error);
+    if (method->family == NH_METHOD_RELAXATION)
+        return nh_relaxation(programs, (nh_relaxation_rule)method->kind, initial, count, times, options, error);
+    return nh_midpoint(programs, (nh_midpoint_rule)method->kind, method->composed, initial, count, times, options,
+                       error);
 }
 
 const char *nh_method_refused(const nh_method *method, nh_programs *programs)

@@ -7,7 +7,13 @@
 #include "motion/arkode.h"
 #include "motion/relaxation.h"
 
-typedef enum { NH_METHOD_CVODE, NH_METHOD_GSL_ODEIV, NH_METHOD_ARKODE, NH_METHOD_MIDPOINT, NH_METHOD_RELAXATION } nh_method_family;
+typedef enum {
+    NH_METHOD_CVODE,
+    NH_METHOD_GSL_ODEIV,
+    NH_METHOD_ARKODE,
+    NH_METHOD_MIDPOINT,
+    NH_METHOD_RELAXATION
+} nh_method_family;
 
 typedef struct {
     const char *word, *name, *about; /* word: on the command line */
@@ -21,17 +27,18 @@ size_t nh_method_count(void);
 const nh_method *nh_method_at(size_t index);
 /* The method of that name or word, or NULL. */
 const nh_method *nh_method_find(const char *name);
-/* The same for a word that a user gives: "auto" is NULL, the method that suits (automatic.h).  False with a suggestion. */
+/* The same for a word that a user gives: "auto" is NULL, the method that suits (automatic.h).  False with a
+   suggestion. */
 #define NH_METHOD_AUTOMATIC "auto"
 bool nh_method_given(const char *word, const nh_method **out, nh_error *error);
 
 /* A motion of z' = f(t, z) by a method with error control (order 0). */
-nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
-                          const nh_flow_options *options, nh_error *error);
+nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count,
+                          const double *times, const nh_flow_options *options, nh_error *error);
 
 /* A motion of a model by a method with a fixed step, and why it may not be used with the model (NULL: it may). */
-nh_motion *nh_method_steps(const nh_method *method, nh_programs *programs, const double *initial, size_t count, const double *times,
-                           const nh_flow_options *options, nh_error *error);
+nh_motion *nh_method_steps(const nh_method *method, nh_programs *programs, const double *initial, size_t count,
+                           const double *times, const nh_flow_options *options, nh_error *error);
 const char *nh_method_refused(const nh_method *method, nh_programs *programs);
 
 #endif

@@ -9,12 +9,16 @@
 #include "graph/diff.h"
 
 enum { most_iterations = 30, usual_iterations = 4, gauss_points = 5, most_substeps = 5 };
-static const double step_units = 100, step_vectors = 10; /* units of effort (base/effort.h) of a step, and per number of the state */
-static const double same_equations = 1e-9; /* relative difference of the pair from the equations of motion that is rounding */
+/* units of effort (base/effort.h) of a step, and per number of the state */
+static const double step_units = 100, step_vectors = 10;
+/* relative difference of the pair from the equations of motion that is rounding */
+static const double same_equations = 1e-9;
 
 /* Gauss-Legendre on [0, 1]. */
-static const double gauss_at[gauss_points] = {0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155, 0.953089922969332};
-static const double gauss_weight[gauss_points] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
+static const double gauss_at[gauss_points] = {0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155,
+                                              0.953089922969332};
+static const double gauss_weight[gauss_points] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
+                                                  0.23931433524968324, 0.11846344252809454};
 
 typedef struct {
     nh_programs *programs;
@@ -30,13 +34,21 @@ typedef struct {
     long before; /* evaluations of earlier runs */
 } midpoint_work;
 
-static const double *evaluate(midpoint_work *k, nh_program which, double t, const double *z) { return nh_programs_at(k->programs, which, t, z); }
+static const double *evaluate(midpoint_work *k, nh_program which, double t, const double *z)
+{
+    return nh_programs_at(k->programs, which, t, z);
+}
 
 static midpoint_work *work_create(nh_programs *programs, nh_midpoint_rule rule)
 {
     const nh_model *o = nh_programs_model(programs);
     midpoint_work *k = nh_alloc(sizeof *k);
-    *k = (midpoint_work){.programs = programs, .rule = rule, .m = o->m, .n = o->n, .size = o->m + o->n, .before = nh_programs_evaluations(programs)};
+    *k = (midpoint_work){.programs = programs,
+                         .rule = rule,
+                         .m = o->m,
+                         .n = o->n,
+                         .size = o->m + o->n,
+                         .before = nh_programs_evaluations(programs)};
     size_t size = k->size;
     k->z0 = nh_alloc_array(6 * size + 2 * size * size, sizeof *k->z0);
     k->z1 = k->z0 + size;
@@ -60,8 +72,8 @@ static void work_free(midpoint_work *k)
 
 /* ---- Newton's method ---- */
 
-/* Rounding of the equations A x = b moves x by epsilon |A^-1| |A| |x|, in units that the states' own units cancel from (Skeel 1979).
- * A state that is zero but for this has no digits to be found. */
+/* Rounding of the equations A x = b moves x by epsilon |A^-1| |A| |x|, in units that the states' own units cancel from
+ * (Skeel 1979). A state that is zero but for this has no digits to be found. */
 static void measure_noise(midpoint_work *k, size_t n, const double *matrix, const double *x, double *noise)
 {
     double *copy = k->inverse + n * n;
@@ -76,8 +88,8 @@ static void measure_noise(midpoint_work *k, size_t n, const double *matrix, cons
     }
 }
 
-/* x -= matrix^-1 residual for the last n states, the `iteration`th time; the largest change relative to the size that the state has had so far
- * (where that does not end soon: beside rounding), or infinity. */
+/* x -= matrix^-1 residual for the last n states, the `iteration`th time; the largest change relative to the size that
+ * the state has had so far (where that does not end soon: beside rounding), or infinity. */
 static double newton_step(midpoint_work *k, size_t n, int iteration, double *matrix, double *residual, double *x)
 {
     double worst = 0, *large = k->large + k->size - n, *noise = k->noise + k->size - n;
@@ -100,7 +112,10 @@ static void follow(midpoint_work *k)
 }
 
 /* At rounding, or small and no longer falling. */
-static bool converged(double change, double last) { return change < 2 * DBL_EPSILON || (change < 1e-12 && change > last / 2); }
+static bool converged(double change, double last)
+{
+    return change < 2 * DBL_EPSILON || (change < 1e-12 && change > last / 2);
+}
 
 /* ---- the rules ---- */
 
@@ -112,7 +127,8 @@ static bool solve_midpoint(midpoint_work *k)
         const double *f = evaluate(k, NH_PROGRAM_FLOW, k->t + k->h / 2, k->zm);
         for (size_t j = 0; j < size; j++) {
             k->residual[j] = 2 * (k->zm[j] - k->z0[j]) - k->h * f[j];
-            for (size_t r = 0; r < size; r++) k->matrix[r + j * size] = (r == j ? 2 : 0) - k->h * f[size + r + j * size];
+            for (size_t r = 0; r < size; r++)
+                k->matrix[r + j * size] = (r == j ? 2 : 0) - k->h * f[size + r + j * size];
         }
         double change = newton_step(k, size, i, k->matrix, k->residual, k->zm);
         if (converged(change, last)) {
@@ -132,7 +148,8 @@ static bool discrete_velocity(midpoint_work *k, const double *impulse)
     double last = INFINITY;
     memcpy(k->z1 + m, k->zm + m, n * sizeof *k->z1);
     for (int i = 0; i < most_iterations; i++) {
-        const double *e = evaluate(k, NH_PROGRAM_MOMENTUM, k->t + k->h, k->z1), *p = e + m, *R = e + 3 * m, *d = R + m * n;
+        const double *e = evaluate(k, NH_PROGRAM_MOMENTUM, k->t + k->h, k->z1), *p = e + m, *R = e + 3 * m,
+                     *d = R + m * n;
         for (size_t a = 0; a < n; a++) {
             k->residual[a] = 0;
             for (size_t s = 0; s < m; s++) k->residual[a] += R[s * n + a] * (p[s] - impulse[s]);
@@ -285,20 +302,24 @@ static const char *why_another_motion(const nh_model *o)
     for (size_t s = 0; s < o->m; s++) {
         time |= nh_depends(o->dag, o->rho[s], o->system->t);
         affine |= !nh_is_zero(o->dag, nh_substitute(o->dag, o->rho[s], o->n, o->chart->w, zero));
-        for (size_t i = 0; i < o->n * o->n; i++) nonlinear |= nh_depends(o->dag, o->R[s * o->n + i / o->n], o->chart->w[i % o->n]);
+        for (size_t i = 0; i < o->n * o->n; i++)
+            nonlinear |= nh_depends(o->dag, o->R[s * o->n + i / o->n], o->chart->w[i % o->n]);
     }
     nh_free(zero);
-    if (o->system->has_forces) return "it would converge to a different motion: it has no terms for forces without a potential";
+    if (o->system->has_forces)
+        return "it would converge to a different motion: it has no terms for forces without a potential";
     if (time) return "it would converge to a different motion: the constraints depend on time";
     if (nonlinear) return "it would converge to a different motion: the constraints are not linear in the velocities";
     if (affine) return "it would converge to a different motion: the constraints are affine";
     return nh_depends(o->dag, o->E, o->system->t) ? "it would converge to a different motion: time occurs in the energy"
-                                                  : "it would converge to a different motion: its equations differ from those of the system at random points";
+                                                  : "it would converge to a different motion: its equations differ "
+                                                    "from those of the system at random points";
 }
 
 const char *nh_midpoint_refused(nh_programs *programs, nh_midpoint_rule rule)
 {
-    if (nh_programs_model(programs)->chart->implicit) return "the constraints are solved by Newton's method inside the equations of motion";
+    if (nh_programs_model(programs)->chart->implicit)
+        return "the constraints are solved by Newton's method inside the equations of motion";
     return rule == NH_ENERGY && !pair_is_the_motion(programs) ? why_another_motion(nh_programs_model(programs)) : NULL;
 }
 
@@ -347,8 +368,8 @@ static void midpoint_stuck(nh_motion *motion, void *context)
     nh_motion_note(motion, "the step is too small for double precision near t = %.10g", motion->end_time);
 }
 
-nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool composed, const double *initial, size_t count, const double *times,
-                       const nh_flow_options *given, nh_error *error)
+nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool composed, const double *initial, size_t count,
+                       const double *times, const nh_flow_options *given, nh_error *error)
 {
     size_t size = nh_programs_model(programs)->m + nh_programs_model(programs)->n;
     nh_flow_options own = *given, *options = &own;

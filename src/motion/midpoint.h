@@ -4,16 +4,21 @@
  *
  * MIDPOINT          2 (zm - z0) = h f(tm, zm),  z1 = 2 zm - z0.  Order 2, symmetric; conserves quadratic currents.
  *
- * LAGRANGE_DALEMBERT  discrete Lagrange-d'Alembert principle with L_d = h L((q0 + q1)/2, (q1 - q0)/h) [CortesMartinez2001]:
- *                       2 (qm - q0) = h rho(qm, wm),     R(q0,w0)^T [ p(q0,w0) + h/2 c(qm,wm) - p(qm,wm) ] = 0,   c = dL/dq + Q
+ * LAGRANGE_DALEMBERT  discrete Lagrange-d'Alembert principle with L_d = h L((q0 + q1)/2, (q1 - q0)/h)
+ *                     [CortesMartinez2001]:
+ *                       2 (qm - q0) = h rho(qm, wm),     R(q0,w0)^T [ p(q0,w0) + h/2 c(qm,wm) - p(qm,wm) ] = 0,   c =
+ *                       dL/dq + Q
  *                     then q1 = 2 qm - q0 and w1 from    R(q1,w1)^T [ p(qm,wm) + h/2 c(qm,wm) - p(q1,w1) ] = 0.
  *
- * ENERGY            the almost-Poisson pair q' = R u, M w' = G u - R^T dE/dq, M u = dE/dw with R, M, G at the midpoint of z0, z1 and the
- *                     mean of grad E over the segment between them [McLachlanQuispelRobidoux1999]: conserves E exactly.  The pair equals
- *                     the equations of motion for homogeneous constraints without forces only; elsewhere it would converge to a wrong
- *                     motion, so that it is compared with them at the chart's probes, and refused.
+ * ENERGY            the almost-Poisson pair q' = R u, M w' = G u - R^T dE/dq, M u = dE/dw with R, M, G at the midpoint
+ *                   of z0, z1 and the
+ *                     mean of grad E over the segment between them [McLachlanQuispelRobidoux1999]: conserves E exactly.
+ *                     The pair equals the equations of motion for homogeneous constraints without forces only;
+ *                     elsewhere it would converge to a wrong motion, so that it is compared with them at the chart's
+ *                     probes, and refused.
  *
- * `composed` makes order 4 of any of them: five steps of s, s, 1-4s, s, s times h, s = 1/(4 - 4^(1/3))  [Suzuki1990]. */
+ * `composed` makes order 4 of any of them: five steps of s, s, 1-4s, s, s times h, s = 1/(4 - 4^(1/3)) 
+ * [Suzuki1990]. */
 #ifndef NH_MIDPOINT_H
 #define NH_MIDPOINT_H
 
@@ -26,7 +31,7 @@ typedef enum { NH_MIDPOINT, NH_LAGRANGE_DALEMBERT, NH_ENERGY } nh_midpoint_rule;
 const char *nh_midpoint_refused(nh_programs *programs, nh_midpoint_rule rule);
 
 /* options->step: the step, made a little smaller so that steps end at the output times.  Otherwise as nh_flow. */
-nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool composed, const double *initial, size_t count, const double *times,
-                       const nh_flow_options *options, nh_error *error);
+nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool composed, const double *initial, size_t count,
+                       const double *times, const nh_flow_options *options, nh_error *error);
 
 #endif

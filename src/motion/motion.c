@@ -24,8 +24,9 @@ static bool check_times(size_t count, const double *times, nh_error *error)
         if (backward ? times[i] > times[i - 1] : times[i] < times[i - 1]) {
             char digits[2][32];
             for (size_t k = 0; k < 2; k++) nh_text_number(times[i - k], digits[k], sizeof digits[k]);
-            return nh_fail(error, NH_INPUT, "", "the output times must all rise or all fall, but time %zu is %s after %s",
-                           i + 1, digits[0], digits[1]);
+            return nh_fail(error, NH_INPUT, "",
+                           "the output times must all rise or all fall, but time %zu is %s after %s", i + 1, digits[0],
+                           digits[1]);
         }
     return true;
 }
@@ -95,6 +96,7 @@ double nh_motion_rtol(nh_motion *motion, const nh_flow_options *options)
 {
     if (options->rtol >= smallest_rtol)
         return options->rtol;
-    nh_motion_note(motion, "the relative tolerance %g is below rounding error; %g was used", options->rtol, smallest_rtol);
+    nh_motion_note(motion, "the relative tolerance %g is below rounding error; %g was used", options->rtol,
+                   smallest_rtol);
     return smallest_rtol;
 }

@@ -1,8 +1,9 @@
 /* motion: motions of z' = f(t, z): problems, options, results, and the common part of all integrators.
  *
  * The right-hand side comes as a callback, so this module does not depend on mechanics.  Tolerances: relative rtol and
- * absolute atol_i, a part of the largest size that the state has had (sizes.h), or rtol * scale_i.  Roots of guard functions are events: a chart's pivot that changes
- * sign stops the integration there (integrators step over chart singularities without any failure flag). */
+ * absolute atol_i, a part of the largest size that the state has had (sizes.h), or rtol * scale_i.  Roots of guard
+ * functions are events: a chart's pivot that changes sign stops the integration there (integrators step over chart
+ * singularities without any failure flag). */
 #ifndef NH_MOTION_H
 #define NH_MOTION_H
 
@@ -42,14 +43,16 @@ typedef struct {
     /* Guard functions; a sign change ends the motion. May be NULL when guards is 0. */
     bool (*guard)(double t, const double *z, double *value, void *context);
     size_t walls;
-    /* Functions that change their sign where the rates have a kink or a jump: steps end there (kinks.h).  May be NULL when walls is 0. */
+    /* Functions that change their sign where the rates have a kink or a jump: steps end there (kinks.h).  May be NULL
+       when walls is 0. */
     bool (*wall)(double t, const double *z, double *value, void *context);
 } nh_flow_problem;
 
 typedef struct {
     nh_flow_method method;
     double rtol;
-    double absolute;         /* below this part of the largest size that a state has had its error is absolute: rtol * absolute * size */
+    /* below this part of the largest size that a state has had its error is absolute: rtol * absolute * size */
+    double absolute;
     const double *least;     /* size entries: the least size of each state; NULL: they come from the motion alone */
     const double *scale;     /* size entries: rtol * scale[i] instead; NULL and absolute == 0: all 1 */
     double max_steps;        /* in total; 0: the default of 1e7 */
@@ -57,11 +60,13 @@ typedef struct {
     bool (*cancelled)(void *context); /* polled; may be NULL */
     void *cancel_context;
     double step;             /* of methods with a fixed step */
-    /* Called after every step of a one-step method with the new state, which it may change (a projection); false: it could not. */
+    /* Called after every step of a one-step method with the new state, which it may change (a projection); false: it
+       could not. */
     bool (*after)(double t, double *z, void *context);
     void *after_context;
     const nh_event_watch *watch; /* NULL: nothing is watched */
-    bool guarded;            /* guards end the motions of one-step methods, too (safeguards.h); those of CVODE they always do */
+    /* guards end the motions of one-step methods, too (safeguards.h); those of CVODE they always do */
+    bool guarded;
 } nh_flow_options;
 
 typedef struct {
@@ -73,7 +78,8 @@ typedef struct {
     bool limited;     /* it ended early at the limit of steps or of counted operations */
     long guard_hit;   /* index of the guard that ended it, or -1 */
     double end_time;  /* where it ended */
-    double *end_state; /* size: the state there; at a guard it is past the last output, and the next chart starts from it */
+    /* size: the state there; at a guard it is past the last output, and the next chart starts from it */
+    double *end_state;
     long evaluations, steps, jacobians;
     double effort;    /* units of base/effort.h that it took */
     double seconds;   /* of wall-clock time, to be shown */
@@ -93,11 +99,13 @@ typedef enum { NH_STEP_ON, NH_STEP_LAST, NH_STEP_FAILED } nh_step;
 
 typedef struct {
     void *context;
-    /* One step onward; *time is where it led to.  LAST: the final time or a guard is reached.  A failure writes its note. */
+    /* One step onward; *time is where it led to.  LAST: the final time or a guard is reached.  A failure writes its
+       note. */
     nh_step (*advance)(double *time, nh_motion *motion, void *context);
     /* The state at a time inside the last step; false when there is none. */
     bool (*state)(double time, double *state, void *context);
-    /* NULL: `state` gives the states inside the last step, too.  Otherwise the rates, from which they are computed where they are wanted. */
+    /* NULL: `state` gives the states inside the last step, too.  Otherwise the rates, from which they are computed
+       where they are wanted. */
     bool (*rate)(double t, const double *z, double *rate, void *rate_context);
     void *rate_context;
     double step_effort;   /* units of one step, beside the right-hand sides and what is counted elsewhere */
@@ -107,8 +115,8 @@ typedef struct {
 
 enum { NH_STUCK_AFTER = 100, NH_ADVANCE_AFTER = 1000 };
 
-/* A motion that holds its initial state, of which `given` values are known; NULL when the times, these values or the options
- * (with `given` scales) make no sense. */
+/* A motion that holds its initial state, of which `given` values are known; NULL when the times, these values or the
+ * options (with `given` scales) make no sense. */
 nh_motion *nh_motion_start(size_t size, size_t given, const double *initial, size_t count, const double *times,
                            const nh_flow_options *options, nh_error *error);
 /* rtol, but not below what double precision allows (the note tells). */

@@ -9,15 +9,20 @@
 #include "motion/accuracy_measure.h"
 
 enum { least_outputs = 9, most_outputs = 1000, most_runs = 3 };
-static const double share = 1.0 / 16, most_part = 0.25; /* of the budget, that the best known way takes for the piece; of the motion */
+/* of the budget, that the best known way takes for the piece; of the motion */
+static const double share = 1.0 / 16, most_part = 0.25;
 static const double patience = 2, least_effort = 2e5;  /* times the best so far: what costs more has lost */
-static const double finer = 1e-2, finest_stiff = 1e-13; /* the reference: in parts of the error that is aimed at; CVODE's tolerance */
+/* the reference: in parts of the error that is aimed at; CVODE's tolerance */
+static const double finer = 1e-2, finest_stiff = 1e-13;
 static const double least_error = 3e-14;               /* that can be aimed at */
-static const double close = 30;                        /* an error so many times below the aim is as good as that: no further run */
+/* an error so many times below the aim is as good as that: no further run */
+static const double close = 30;
 static const double safety = 3;                        /* further runs aim below */
-static const double long_motion = 1e9;                 /* units: then the functions of methods with fixed steps are worth deriving */
+/* units: then the functions of methods with fixed steps are worth deriving */
+static const double long_motion = 1e9;
 
-static const double gain = 0.7;                        /* another way than the best so far is chosen when it costs at most such a part of it */
+/* another way than the best so far is chosen when it costs at most such a part of it */
+static const double gain = 0.7;
 
 typedef struct {
     const char *method;
@@ -25,10 +30,16 @@ typedef struct {
 } candidate;
 
 /* In the order in which they are tried: what a short budget leaves out is seldom the cheapest. */
-static const candidate candidates[] = {{"GSL rk8pd", NH_OWN_VELOCITIES},       {"CVODE BDF", NH_OWN_VELOCITIES},   {"ARKODE ESDIRK", NH_OWN_VELOCITIES}, {"CVODE Adams", NH_OWN_VELOCITIES},         {"GSL rk8pd", NH_OTHER_VELOCITIES},
-                                       {"GSL rkf45", NH_OWN_VELOCITIES},       {"ARKODE Verner", NH_OWN_VELOCITIES}, {"GSL rk8pd", NH_ALL_COORDINATES},        {"ARKODE Fehlberg", NH_OWN_VELOCITIES},
-                                       {"CVODE BDF", NH_OTHER_VELOCITIES},     {"CVODE Adams", NH_OTHER_VELOCITIES}, {"ARKODE Dormand-Prince", NH_OWN_VELOCITIES}, {"relaxation, order 8", NH_OWN_VELOCITIES},
-                                       {"CVODE BDF", NH_ALL_COORDINATES},      {"CVODE Adams", NH_ALL_COORDINATES}, {"GSL msadams", NH_OWN_VELOCITIES}, {"ARKODE ESDIRK", NH_OTHER_VELOCITIES}};
+static const candidate candidates[] = {
+    {"GSL rk8pd", NH_OWN_VELOCITIES},           {"CVODE BDF", NH_OWN_VELOCITIES},
+    {"ARKODE ESDIRK", NH_OWN_VELOCITIES},       {"CVODE Adams", NH_OWN_VELOCITIES},
+    {"GSL rk8pd", NH_OTHER_VELOCITIES},         {"GSL rkf45", NH_OWN_VELOCITIES},
+    {"ARKODE Verner", NH_OWN_VELOCITIES},       {"GSL rk8pd", NH_ALL_COORDINATES},
+    {"ARKODE Fehlberg", NH_OWN_VELOCITIES},     {"CVODE BDF", NH_OTHER_VELOCITIES},
+    {"CVODE Adams", NH_OTHER_VELOCITIES},       {"ARKODE Dormand-Prince", NH_OWN_VELOCITIES},
+    {"relaxation, order 8", NH_OWN_VELOCITIES}, {"CVODE BDF", NH_ALL_COORDINATES},
+    {"CVODE Adams", NH_ALL_COORDINATES},        {"GSL msadams", NH_OWN_VELOCITIES},
+    {"ARKODE ESDIRK", NH_OTHER_VELOCITIES}};
 
 typedef struct {
     const nh_trajectory_request *request;
@@ -57,7 +68,8 @@ static nh_trajectory *run(survey *s, const nh_method *method, nh_velocities velo
     s->piece.max_effort = fmax(fmin(effort, left(s)), 1);
     nh_trajectory *t = nh_trajectory_create(&s->piece, &ignored);
     if (t) s->out->evaluations += t->motion->evaluations;
-    bool other = t && velocities == NH_OTHER_VELOCITIES && !strcmp(t->formulation, NH_ON_SUBMANIFOLD); /* they could not be used */
+    /* they could not be used */
+    bool other = t && velocities == NH_OTHER_VELOCITIES && !strcmp(t->formulation, NH_ON_SUBMANIFOLD);
     if (t && t->motion->complete && !other && !nh_interrupted()) return t;
     nh_trajectory_free(t);
     return NULL;
@@ -98,14 +110,16 @@ static void try_way(survey *s, const nh_method *method, nh_velocities velocities
 static bool open_piece(survey *s, const nh_state *from, double **times)
 {
     const nh_trajectory_request *q = s->request;
-    double begin = q->times[0], end = q->times[q->count - 1], part = fmin(most_part, share * s->terms->budget / s->terms->effort);
+    double begin = q->times[0], end = q->times[q->count - 1],
+           part = fmin(most_part, share * s->terms->budget / s->terms->effort);
     s->whole = fabs(end - begin);
     s->length = fmin(part * s->whole, fabs(end - from->t));
     double wanted = s->length * (double)q->count / s->whole;
     size_t count = (size_t)fmax(least_outputs, fmin(most_outputs, wanted));
     if (!(s->length > 1e-12 * fmax(fabs(begin), fabs(end)))) return false;
     *times = nh_alloc_array(count, sizeof **times);
-    for (size_t i = 0; i < count; i++) (*times)[i] = from->t + copysign(s->length, end - begin) * (double)i / (double)(count - 1);
+    for (size_t i = 0; i < count; i++)
+        (*times)[i] = from->t + copysign(s->length, end - begin) * (double)i / (double)(count - 1);
     s->options = *q->options;
     s->piece = *q;
     s->piece.initial = from;
@@ -134,7 +148,8 @@ static void try_all(survey *s)
 {
     const nh_method *best = s->terms->best;
     double finest = best->family == NH_METHOD_CVODE ? finest_stiff : nh_accuracy_tightest;
-    s->reference = run(s, best, NH_OWN_VELOCITIES, fmax(finest, fmin(s->aim, nh_accuracy_loosest) * finer), s->terms->budget / 2);
+    s->reference =
+        run(s, best, NH_OWN_VELOCITIES, fmax(finest, fmin(s->aim, nh_accuracy_loosest) * finer), s->terms->budget / 2);
     if (!s->reference) return;
     s->steps = s->reference->motion->steps;
     s->best = INFINITY;
@@ -149,7 +164,8 @@ static void try_all(survey *s)
     nh_programs_free(s->programs);
 }
 
-void nh_pilot_runs_make(const nh_trajectory_request *request, const nh_state *from, const nh_pilot_runs_terms *terms, nh_pilot_runs *out)
+void nh_pilot_runs_make(const nh_trajectory_request *request, const nh_state *from, const nh_pilot_runs_terms *terms,
+                        nh_pilot_runs *out)
 {
     survey s = {.request = request, .terms = terms, .out = out, .begun = nh_effort()};
     double begun = nh_clock();
@@ -169,17 +185,21 @@ static const nh_integration_plan *way_of(const nh_pilot_runs *s, const nh_method
     const nh_integration_plan *best = NULL;
     for (size_t i = 0; i < s->count; i++) {
         const nh_integration_plan *w = &s->way[i];
-        if (w->method == method && w->velocities == NH_OWN_VELOCITIES && w->error < eps && (!best || w->effort < best->effort)) best = w;
+        if (w->method == method && w->velocities == NH_OWN_VELOCITIES && w->error < eps &&
+            (!best || w->effort < best->effort))
+            best = w;
     }
     return best;
 }
 
-nh_integration_plan_choice nh_pilot_runs_choose(const nh_pilot_runs *s, const nh_method *best, double eps, const nh_integration_plan_limits *limits, bool done)
+nh_integration_plan_choice nh_pilot_runs_choose(const nh_pilot_runs *s, const nh_method *best, double eps,
+                                                const nh_integration_plan_limits *limits, bool done)
 {
     const nh_integration_plan *own = way_of(s, best, eps);
     nh_integration_plan_choice choice = nh_integration_plan_cheapest(s->count, s->way, eps, limits);
     if (!choice.way || !own) return choice;
-    double cost = nh_integration_plan_cost(s->count, s->way, eps, choice.way), whole = nh_integration_plan_cost(s->count, s->way, eps, own);
+    double cost = nh_integration_plan_cost(s->count, s->way, eps, choice.way),
+           whole = nh_integration_plan_cost(s->count, s->way, eps, own);
     if (cost < gain * (whole - (done ? own->effort : 0))) return choice;
     if (choice.way->method != best) choice.next = fmax(1, cost / whole); /* so little is no difference */
     choice.way = done ? NULL : own;

@@ -1,9 +1,11 @@
 /* pilot_runs: a small benchmark on a piece of one motion, before the rest of it is computed.
  *
- * The caller gives the begin of the piece; its length is such that the best method so far needs a small part of the budget, in counted work (base/effort.h).  A run of that method at a
- * tolerance a hundred times tighter is the reference.  Every other method runs a few times, at the tolerance (or step) at which its error is expected to
- * be eps at the end of the whole motion, and no longer than a few times the best so far: slow methods are stopped early.  Errors are taken to grow in proportion to
- * time, as those of regular motions do; they only rank methods; accuracy.h checks the chosen one. */
+ * The caller gives the begin of the piece; its length is such that the best method so far needs a small part of the
+ * budget, in counted work (base/effort.h).  A run of that method at a tolerance a hundred times tighter is the
+ * reference.  Every other method runs a few times, at the tolerance (or step) at which its error is expected to be eps
+ * at the end of the whole motion, and no longer than a few times the best so far: slow methods are stopped early.
+ * Errors are taken to grow in proportion to time, as those of regular motions do; they only rank methods; accuracy.h
+ * checks the chosen one. */
 #ifndef NH_PILOT_RUNS_H
 #define NH_PILOT_RUNS_H
 
@@ -30,10 +32,12 @@ typedef struct {
 } nh_pilot_runs;
 
 /* `from`: a state of the motion between its ends, or the initial one. */
-void nh_pilot_runs_make(const nh_trajectory_request *request, const nh_state *from, const nh_pilot_runs_terms *terms, nh_pilot_runs *out);
+void nh_pilot_runs_make(const nh_trajectory_request *request, const nh_state *from, const nh_pilot_runs_terms *terms,
+                        nh_pilot_runs *out);
 
-/* The cheapest below eps, if it saves work beside the best that was known, which has done one of its runs when `done`: then NULL where nothing does, else that one
- * itself. */
-nh_integration_plan_choice nh_pilot_runs_choose(const nh_pilot_runs *survey, const nh_method *best, double eps, const nh_integration_plan_limits *limits, bool done);
+/* The cheapest below eps, if it saves work beside the best that was known, which has done one of its runs when `done`:
+ * then NULL where nothing does, else that one itself. */
+nh_integration_plan_choice nh_pilot_runs_choose(const nh_pilot_runs *survey, const nh_method *best, double eps,
+                                                const nh_integration_plan_limits *limits, bool done);
 
 #endif

@@ -60,7 +60,8 @@ static void momentum(const nh_model *o, nh_ex *e)
     memcpy(e + m, o->p, m * sizeof *e);
     for (size_t s = 0; s < m; s++) {
         const nh_coordinate *q = &o->system->coordinate[s];
-        e[2 * m + s] = nh_model_compose(o, nh_add(o->dag, nh_diff(o->dag, o->system->lagrangian, q->q), o->system->force[s]));
+        e[2 * m + s] =
+            nh_model_compose(o, nh_add(o->dag, nh_diff(o->dag, o->system->lagrangian, q->q), o->system->force[s]));
     }
     memcpy(e + 3 * m, o->R, m * n * sizeof *e);
     with_derivatives(o, 3 * m, e, e + 3 * m + m * n);

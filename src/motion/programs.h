@@ -1,5 +1,5 @@
-/* programs: the functions of a model that methods with a fixed step evaluate, each compiled at its first use and kept for every later
- * run.  Derivatives are exact, by z = (q, w), column-major.  For models without implicit velocities. */
+/* programs: the functions of a model that methods with a fixed step evaluate, each compiled at its first use and kept
+ * for every later run.  Derivatives are exact, by z = (q, w), column-major.  For models without implicit velocities. */
 #ifndef NH_PROGRAMS_H
 #define NH_PROGRAMS_H
 

@@ -32,7 +32,8 @@ static void measure_sizes(nh_projection *p, double t, double end, const double *
     nh_dynamics_free(d);
 }
 
-nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh_ex *current, double t, double end, const double *z0)
+nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh_ex *current, double t, double end,
+                                    const double *z0)
 {
     nh_projection *p = nh_alloc(sizeof *p);
     size_t size = o->m + o->n, total = currents * (1 + size), tall = currents > size ? currents : size;
@@ -40,7 +41,8 @@ nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh
     nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
     for (size_t k = 0; k < currents; k++) {
         e[k] = current[k];
-        for (size_t j = 0; j < size; j++) e[currents + k + j * currents] = nh_diff(o->dag, current[k], o->chart->symbol[1 + j]);
+        for (size_t j = 0; j < size; j++)
+            e[currents + k + j * currents] = nh_diff(o->dag, current[k], o->chart->symbol[1 + j]);
     }
     p->tape = nh_model_tape(o, total, e);
     p->work = nh_tape_work_create(p->tape);
@@ -59,7 +61,8 @@ nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh
     return p;
 }
 
-/* The first currents whose gradients (rows of J D at a point (t, q, w)) are independent, the others left out: Gram-Schmidt, twice. */
+/* The first currents whose gradients (rows of J D at a point (t, q, w)) are independent, the others left out:
+   Gram-Schmidt, twice. */
 static void independent_rows(nh_projection *p, const double *point, bool *left_out)
 {
     size_t r = p->currents, n = p->size, kept = 0;
@@ -82,10 +85,12 @@ static void independent_rows(nh_projection *p, const double *point, bool *left_o
     }
 }
 
-size_t nh_projection_choose(const nh_model *o, size_t currents, const nh_ex *current, double t, double end, const double *z0, const char **why)
+size_t nh_projection_choose(const nh_model *o, size_t currents, const nh_ex *current, double t, double end,
+                            const double *z0, const char **why)
 {
     nh_projection *p = nh_projection_create(o, currents, current, t, end, z0);
-    bool *anywhere = nh_alloc_array(2 * currents + 1, sizeof *anywhere), *out = anywhere + currents; /* independent at some probe; left out here */
+    /* independent at some probe; left out here */
+    bool *anywhere = nh_alloc_array(2 * currents + 1, sizeof *anywhere), *out = anywhere + currents;
     double *start = nh_alloc_array(o->width, sizeof *start);
     size_t chosen = 0;
     memcpy(start, p->point, (1 + p->size) * sizeof *start);
@@ -97,7 +102,11 @@ size_t nh_projection_choose(const nh_model *o, size_t currents, const nh_ex *cur
     memset(out, 0, currents * sizeof *out);
     independent_rows(p, start, out);
     for (size_t k = 0; k < currents; k++) {
-        why[k] = !out[k] ? NULL : anywhere[k] ? "at the initial state its gradient vanishes or depends on the gradients of the currents before it" : "it depends on the currents before it";
+        why[k] =
+            !out[k] ? NULL
+            : anywhere[k]
+                ? "at the initial state its gradient vanishes or depends on the gradients of the currents before it"
+                : "it depends on the currents before it";
         chosen += !why[k];
     }
     nh_free(start);
@@ -120,7 +129,8 @@ void nh_projection_free(nh_projection *p)
     nh_free(p);
 }
 
-/* One Gauss-Newton step; its size, or infinity.  Rows have norm 1, so that the rank does not depend on the currents' units. */
+/* One Gauss-Newton step; its size, or infinity.  Rows have norm 1, so that the rank does not depend on the currents'
+   units. */
 static double project_once(nh_projection *p, double *z)
 {
     size_t r = p->currents, n = p->size;

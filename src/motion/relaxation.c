@@ -10,10 +10,14 @@
 enum { most_iterations = 20, most_halvings = 3 };
 static const double conserved = 1e-9; /* relative rate of the energy at the probes that is rounding */
 static const double farthest = 0.1;   /* of the factor from 1 */
-static const double step_units = 100, stage_vectors = 0.7; /* units of effort: of a step, and of the sums for each pair of stages */
+/* units of effort: of a step, and of the sums for each pair of stages */
+static const double step_units = 100, stage_vectors = 0.7;
 static const double rounding = 64 * DBL_EPSILON; /* of the energy, relative to the terms that it is made of */
 
-static const nh_tableau classical = {.stages = 4, .a = {[1] = {0.5}, [2] = {0, 0.5}, [3] = {0, 0, 1}}, .b = {1. / 6, 1. / 3, 1. / 3, 1. / 6}, .c = {0, 0.5, 0.5, 1}};
+static const nh_tableau classical = {.stages = 4,
+                                     .a = {[1] = {0.5}, [2] = {0, 0.5}, [3] = {0, 0, 1}},
+                                     .b = {1. / 6, 1. / 3, 1. / 3, 1. / 6},
+                                     .c = {0, 0.5, 0.5, 1}};
 
 typedef struct {
     nh_programs *programs;
@@ -32,11 +36,15 @@ const char *nh_relaxation_refused(nh_programs *s)
     if (nh_depends(o->dag, o->E, o->system->t)) return "time occurs in the energy";
     size_t size = o->m + o->n;
     for (size_t p = 0; p < o->chart->probes; p++) {
-        const double *z = o->chart->probe + p * o->chart->width, *e = nh_programs_at(s, NH_PROGRAM_GRADIENT, z[0], z + 1), *f = nh_programs_at(s, NH_PROGRAM_RATE, z[0], z + 1);
-        double terms = 0, energy = fabs(e[size]); /* beside the terms of dE/dt, which are large near the end of a chart */
+        const double *z = o->chart->probe + p * o->chart->width,
+                     *e = nh_programs_at(s, NH_PROGRAM_GRADIENT, z[0], z + 1),
+                     *f = nh_programs_at(s, NH_PROGRAM_RATE, z[0], z + 1);
+        /* beside the terms of dE/dt, which are large near the end of a chart */
+        double terms = 0, energy = fabs(e[size]);
         for (size_t j = 0; j < size; j++) terms += fabs(e[j] * f[j]), energy += fabs(e[j] * z[1 + j]);
         terms += energy * nh_programs_pace(o, f);
-        if (!(fabs(e[size + 1]) <= conserved * terms)) return "the energy is not conserved: constant energy would give a wrong motion";
+        if (!(fabs(e[size + 1]) <= conserved * terms))
+            return "the energy is not conserved: constant energy would give a wrong motion";
     }
     return o->chart->probes ? NULL : "the energy could not be tested at any point";
 }
@@ -61,11 +69,12 @@ static bool direction(relaxation_work *k, double h)
     return true;
 }
 
-/* Newton's method for E(z + g h d) = E at the start; NAN where there is no such g near 1.  Where the motion is nearly steady E hardly depends on g:
- * a step that keeps the energy to rounding by itself is left as it is. */
+/* Newton's method for E(z + g h d) = E at the start; NAN where there is no such g near 1.  Where the motion is nearly
+ * steady E hardly depends on g: a step that keeps the energy to rounding by itself is left as it is. */
 static double factor(relaxation_work *k, double h)
 {
-    double g = 1, last = INFINITY, before = nh_programs_at(k->programs, NH_PROGRAM_GRADIENT, k->t, k->z)[k->size], small = 0, alone = INFINITY;
+    double g = 1, last = INFINITY, before = nh_programs_at(k->programs, NH_PROGRAM_GRADIENT, k->t, k->z)[k->size],
+           small = 0, alone = INFINITY;
     for (int i = 0; i < most_iterations; i++) {
         for (size_t j = 0; j < k->size; j++) k->z1[j] = k->z[j] + g * h * k->d[j];
         const double *e = nh_programs_at(k->programs, NH_PROGRAM_GRADIENT, k->t, k->z1);
@@ -103,10 +112,12 @@ static bool relaxed(relaxation_work *k, double *h)
 static nh_step relaxation_advance(double *time, nh_motion *motion, void *context)
 {
     relaxation_work *k = context;
-    double target = k->times[motion->count], left = target - *time, steps = fmax(1, ceil(fabs(left) / k->step * (1 - 1e-3)));
+    double target = k->times[motion->count], left = target - *time,
+           steps = fmax(1, ceil(fabs(left) / k->step * (1 - 1e-3)));
     double h = left / steps, passed = h, exact = 4 * DBL_EPSILON * fmax(fabs(target), fabs(left));
     bool last = steps < 2, good = relaxed(k, &passed);
-    for (int i = 0; last && good && i < most_iterations && fabs(passed - left) > exact && fabs(passed) > fabs(left) / 2; i++) {
+    for (int i = 0; last && good && i < most_iterations && fabs(passed - left) > exact && fabs(passed) > fabs(left) / 2;
+         i++) {
         h *= left / passed;
         passed = h;
         good = relaxed(k, &passed);
@@ -135,16 +146,22 @@ static void relaxation_stuck(nh_motion *motion, void *context)
     nh_motion_note(motion, "the step is too small for double precision near t = %.10g", motion->end_time);
 }
 
-nh_motion *nh_relaxation(nh_programs *programs, nh_relaxation_rule rule, const double *initial, size_t count, const double *times,
-                         const nh_flow_options *given, nh_error *error)
+nh_motion *nh_relaxation(nh_programs *programs, nh_relaxation_rule rule, const double *initial, size_t count,
+                         const double *times, const nh_flow_options *given, nh_error *error)
 {
     size_t size = nh_programs_model(programs)->m + nh_programs_model(programs)->n;
     nh_flow_options own = *given, *options = &own;
     own.rtol = 1; /* is not used */
     const char *refused = nh_relaxation_refused(programs);
-    relaxation_work k = {.programs = programs, .tableau = classical, .size = size, .count = count, .times = times, .before = nh_programs_evaluations(programs)};
+    relaxation_work k = {.programs = programs,
+                         .tableau = classical,
+                         .size = size,
+                         .count = count,
+                         .times = times,
+                         .before = nh_programs_evaluations(programs)};
     if (refused) return nh_fail(error, NH_NUMERIC, "", "this method cannot be used here: %s", refused), NULL;
-    if (rule == NH_RELAXATION_8 && !nh_tableau_rk8pd(&k.tableau)) return nh_fail(error, NH_NUMERIC, "", "out of memory"), NULL;
+    if (rule == NH_RELAXATION_8 && !nh_tableau_rk8pd(&k.tableau))
+        return nh_fail(error, NH_NUMERIC, "", "out of memory"), NULL;
     nh_motion *motion = nh_motion_start(size, size, initial, count, times, options, error);
     if (!motion || motion->complete) return motion;
     k.z = nh_alloc_array((3 + NH_MOST_STAGES) * size, sizeof *k.z);

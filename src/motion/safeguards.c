@@ -4,7 +4,8 @@
 
 #include "base/memory.h"
 
-void nh_guards_begin(nh_guards *g, const nh_flow_problem *problem, const nh_flow_options *options, const double *z, size_t count, const double *times)
+void nh_guards_begin(nh_guards *g, const nh_flow_problem *problem, const nh_flow_options *options, const double *z,
+                     size_t count, const double *times)
 {
     static const double part = 1e-7; /* of the whole motion */
     size_t n = problem->guards;
@@ -22,7 +23,8 @@ void nh_guards_clear(nh_guards *g)
     g->value = NULL;
 }
 
-/* The guard that has changed its sign, or cannot be computed; -1: none.  One that was zero at the start takes the first sign that it has. */
+/* The guard that has changed its sign, or cannot be computed; -1: none.  One that was zero at the start takes the first
+   sign that it has. */
 static long changed(nh_guards *g, double t, const double *z)
 {
     const nh_flow_problem *p = g->problem;
@@ -41,7 +43,8 @@ nh_guard_verdict nh_guards_judge(nh_guards *g, double before, double now, const 
     double way = fabs(now - before);
     long guard = changed(g, now, z);
     if (guard < 0) {
-        if (g->longest <= g->least) g->longest = INFINITY;             /* there is no change any more, or it is found again */
+        /* there is no change any more, or it is found again */
+        if (g->longest <= g->least) g->longest = INFINITY;
         else if (way > 0.999 * g->longest) g->longest /= 2;            /* this was the first half of the way to it */
         return NH_GUARD_KEPT;
     }

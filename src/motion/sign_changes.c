@@ -70,14 +70,16 @@ static bool is_resolved(const nh_sign_changes *c, size_t which)
     return true;
 }
 
-/* Where the parabola through three samples of one sign comes nearest to zero between them: in parts of the way from the first to the last; NAN: at their ends. */
+/* Where the parabola through three samples of one sign comes nearest to zero between them: in parts of the way from the
+   first to the last; NAN: at their ends. */
 static double nearest(double a, double b, double c)
 {
     double bend = a - 2 * b + c, at = 0.5 + (a - c) / (4 * bend);
     return a * b > 0 && b * c > 0 && fabs(b) <= fabs(a) && fabs(b) <= fabs(c) && at > 0 && at < 1 ? at : NAN;
 }
 
-/* The same between begin and begin + 2 width, with three values there: is there an excursion beyond zero around the middle?  A time in it; NAN: none. */
+/* The same between begin and begin + 2 width, with three values there: is there an excursion beyond zero around the
+   middle?  A time in it; NAN: none. */
 static double excursion(nh_sign_changes *c, size_t which, double begin, double width, double first, double middle,
                         double last)
 {
@@ -111,7 +113,8 @@ static double touched(nh_sign_changes *c, double begin, double width, size_t j)
     return NAN;
 }
 
-/* Do cubics foretell the values between samples, too?  Samples at equal distances take a fast oscillation for a slow one. */
+/* Do cubics foretell the values between samples, too?  Samples at equal distances take a fast oscillation for a slow
+   one. */
 static bool is_foretold(nh_sign_changes *c, double begin, double width)
 {
     static const double odd =

@@ -1,7 +1,8 @@
 /* sign_changes: the first change of sign of functions within a step of a motion.
  *
- * The functions are sampled along the states inside of the step, more densely until each sample is foretold by its neighbours, so that two changes of one
- * function within a step are found, too.  Kinks of the equations of motion (kinks.h) and events (events.h) are such changes. */
+ * The functions are sampled along the states inside of the step, more densely until each sample is foretold by its
+ * neighbours, so that two changes of one function within a step are found, too.  Kinks of the equations of motion
+ * (kinks.h) and events (events.h) are such changes. */
 #ifndef NH_SIGN_CHANGES_H
 #define NH_SIGN_CHANGES_H
 
@@ -35,7 +36,8 @@ bool nh_sign_changes_crossed(nh_sign_changes *changes, const double *value);
 /* The sides at a state. */
 void nh_sign_changes_take_sides(nh_sign_changes *changes, double t, const double *z);
 
-/* Between `before`, where the sides are, and `now`: two near times with the first change of a sign between them.  False: there is none. */
+/* Between `before`, where the sides are, and `now`: two near times with the first change of a sign between them.
+   False: there is none. */
 bool nh_sign_changes_first(nh_sign_changes *changes, double before, double now, double *near, double *far);
 
 #endif

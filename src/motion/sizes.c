@@ -12,7 +12,9 @@ enum { most_shorter = 60, most_levels = 8, between_measures = 32 };
 static const double shorter = 0.25;          /* from one tau to the next that is tried */
 static const double within = 0.25;           /* of the tau that is found: what follows from it */
 static const double disturbance = 4;         /* roundings of each state, whose effect on the rates is measured */
-static const double drowned = 1e-3, rest = 0.1; /* a state whose rounding in a step is such a part of its size has no digits; of others it may be such a part of the tolerance */
+/* a state whose rounding in a step is such a part of its size has no digits; of others it may be such a part of the
+   tolerance */
+static const double drowned = 1e-3, rest = 0.1;
 static const double nothing = 1e-6;          /* of the smallest size: that of a state which nothing moves so far */
 
 static bool rate_at(nh_sizes *s, double t, const double *z, double *rate)
@@ -60,7 +62,8 @@ static void allocate(nh_sizes *s, const nh_flow_problem *problem)
     s->work = s->rounding + problem->size;
 }
 
-/* States that are still zero: as large as the others can make them in that time; those that nothing moves, small beside all others. */
+/* States that are still zero: as large as the others can make them in that time; those that nothing moves, small beside
+   all others. */
 static void fill(nh_sizes *s, double t, const double *z)
 {
     double least = INFINITY;
@@ -75,7 +78,8 @@ static void fill(nh_sizes *s, double t, const double *z)
 }
 
 /* Sizes are no less than `least` (NULL: they come from the motion alone). */
-static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part, const double *least, const double *z, double begin, double end)
+static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part, const double *least, const double *z,
+                        double begin, double end)
 {
     size_t n = problem->size;
     allocate(s, problem);
@@ -91,7 +95,8 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     s->tau = s->step = fabs(tau);
     enlarge(s, tau, f);
     bool more = is_short;
-    for (int level = 0; level < most_levels && more; level++) { /* Picard's iteration: what moves, and what that moves */
+    /* Picard's iteration: what moves, and what that moves */
+    for (int level = 0; level < most_levels && more; level++) {
         for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * f[i];
         if (!rate_at(s, begin + tau, to, rate)) break;
         more = false;
@@ -138,7 +143,8 @@ double nh_sizes_absolute(const nh_sizes *s, double rtol, size_t i)
     return fmax(own, rounding);
 }
 
-bool nh_sizes_open(nh_sizes *s, const nh_flow_problem *problem, const nh_flow_options *options, const double *z, size_t count, const double *times)
+bool nh_sizes_open(nh_sizes *s, const nh_flow_problem *problem, const nh_flow_options *options, const double *z,
+                   size_t count, const double *times)
 {
     if (options->scale || !(options->absolute > 0)) return nh_sizes_given(s, problem, options->scale), true;
     return begin_sizes(s, problem, options->absolute, options->least, z, times[0], times[count - 1]);

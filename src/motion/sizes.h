@@ -1,13 +1,17 @@
-/* sizes: how large each state of a motion has been so far, for errors that are relative to it, in whatever units the states are measured.
+/* sizes: how large each state of a motion has been so far, for errors that are relative to it, in whatever units the
+ * states are measured.
  *
- * The error that a step may make in state i is rtol (|z_i| + part s_i), with s_i the largest |z_i| so far: beside the size that a state has had, an error where it
- * passes through zero says little; and a state that is 1e-12 now and grows to 1 later must be right to its digits now.  A motion may start from zeros.  So s_i begins as the
- * change of the state within tau, the time in which the right-hand side changes by about its own size:
+ * The error that a step may make in state i is rtol (|z_i| + part s_i), with s_i the largest |z_i| so far: beside the
+ * size that a state has had, an error where it passes through zero says little; and a state that is 1e-12 now and grows
+ * to 1 later must be right to its digits now.  A motion may start from zeros.  So s_i begins as the change of the state
+ * within tau, the time in which the right-hand side changes by about its own size:
  *
- *     s_i = max(|z_i|, tau |f_i(t, z)|, tau |f_i(t + tau, z + tau f)|, ..),    tau |f_i(t + tau, z + tau f) - f_i(t, z)| <= max(|z_i|, tau |f_i|) for all i.
+ *     s_i = max(|z_i|, tau |f_i(t, z)|, tau |f_i(t + tau, z + tau f)|, ..),    tau |f_i(t + tau, z + tau f) - f_i(t,
+ *     z)| <= max(|z_i|, tau |f_i|) for all i.
  *
- * Nothing in it depends on units.  A state that is zero but for rounding (v cos(pi/2)) has no digits to be kept: rounding of the right-hand side, measured as its
- * change when each state changes by a part 4 epsilon of s_j, is allowed in every step. */
+ * Nothing in it depends on units.  A state that is zero but for rounding (v cos(pi/2)) has no digits to be kept:
+ * rounding of the right-hand side, measured as its change when each state changes by a part 4 epsilon of s_j, is
+ * allowed in every step. */
 #ifndef NH_SIZES_H
 #define NH_SIZES_H
 
@@ -26,7 +30,8 @@ typedef struct {
 } nh_sizes;
 
 /* At the start of a motion.  False when the right-hand side cannot be evaluated there. */
-bool nh_sizes_begin(nh_sizes *sizes, const nh_flow_problem *problem, double part, const double *z, double begin, double end);
+bool nh_sizes_begin(nh_sizes *sizes, const nh_flow_problem *problem, double part, const double *z, double begin,
+                    double end);
 /* Sizes that are given instead (nh_flow_options.scale; NULL: all 1). */
 void nh_sizes_given(nh_sizes *sizes, const nh_flow_problem *problem, const double *scale);
 void nh_sizes_clear(nh_sizes *sizes);
@@ -38,6 +43,7 @@ void nh_sizes_follow(nh_sizes *sizes, double t, const double *z);
 double nh_sizes_absolute(const nh_sizes *sizes, double rtol, size_t i);
 
 /* One or the other, as the options say. */
-bool nh_sizes_open(nh_sizes *sizes, const nh_flow_problem *problem, const nh_flow_options *options, const double *z, size_t count, const double *times);
+bool nh_sizes_open(nh_sizes *sizes, const nh_flow_problem *problem, const nh_flow_options *options, const double *z,
+                   size_t count, const double *times);
 
 #endif

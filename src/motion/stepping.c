@@ -12,7 +12,8 @@
 #include "motion/events.h"
 
 static const double default_max_steps = 1e7;
-static const double least_advance = 1e-10; /* of the whole time, in NH_ADVANCE_AFTER steps: no motion gets to its end so; */
+/* of the whole time, in NH_ADVANCE_AFTER steps: no motion gets to its end so; */
+static const double least_advance = 1e-10;
 enum {
     most_slow = 200
 }; /* but through a zero of a velocity whose size is not yet known, after as many times as many steps */

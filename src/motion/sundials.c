@@ -15,7 +15,8 @@ static void keep(nh_sundials *s, int code, const char *message)
 
 #if NH_SUNDIALS_SINCE(7, 0)
 
-static void hear(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *user, SUNContext context)
+static void hear(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *user,
+                 SUNContext context)
 {
     (void)line, (void)function, (void)file, (void)context;
     keep(user, code, message);

@@ -1,4 +1,5 @@
-/* sundials: a context for an integrator of SUNDIALS that keeps its words instead of printing them, for versions 6 and 7 alike. */
+/* sundials: a context for an integrator of SUNDIALS that keeps its words instead of printing them, for versions 6 and 7
+   alike. */
 #ifndef NH_SUNDIALS_H
 #define NH_SUNDIALS_H
 
@@ -14,11 +15,13 @@ typedef struct nh_sundials {
     char message[200]; /* the last error, empty when there is none */
 } nh_sundials;
 
-/* s must stay where it is until it is closed, after all that was made in its context.  False when there is no memory. */
+/* s must stay where it is until it is closed, after all that was made in its context.  False when there is no
+   memory. */
 bool nh_sundials_open(nh_sundials *s);
 void nh_sundials_close(nh_sundials *s);
 
-/* Before version 7 every integrator has a handler of its own: nh_sundials_listen(CVode, memory, s) for CVodeSetErrHandlerFn, true when it is set. */
+/* Before version 7 every integrator has a handler of its own: nh_sundials_listen(CVode, memory, s) for
+   CVodeSetErrHandlerFn, true when it is set. */
 #if NH_SUNDIALS_SINCE(7, 0)
 #define nh_sundials_listen(package, memory, s) ((void)(memory), (void)(s), true)
 #else

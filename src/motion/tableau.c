@@ -1,5 +1,5 @@
-/* One step with h = 1 from z = 0, in which the j-th call of the right-hand side answers with the j-th unit vector: what the stepper asks
- * for and what it returns are rows of its tableau. */
+/* One step with h = 1 from z = 0, in which the j-th call of the right-hand side answers with the j-th unit vector: what
+ * the stepper asks for and what it returns are rows of its tableau. */
 #include "base/clones.h"
 #include "motion/tableau.h"
 
@@ -36,7 +36,8 @@ bool nh_tableau_rk8pd(nh_tableau *tableau)
 
 /* ---- steps of many motions at once ---- */
 
-NH_CLONES void nh_tableau_add(size_t count, int stages, const double *weight, double h, const double *k, size_t stride, const double *z, double *to)
+NH_CLONES void nh_tableau_add(size_t count, int stages, const double *weight, double h, const double *k, size_t stride,
+                              const double *z, double *to)
 {
     memcpy(to, z, count * sizeof *to);
     for (int j = 0; j < stages; j++) {
@@ -47,12 +48,14 @@ NH_CLONES void nh_tableau_add(size_t count, int stages, const double *weight, do
     }
 }
 
-NH_CLONES void nh_tableau_error(size_t kept, size_t lanes, double rtol, const double *atol, const double *error, const double *z, const double *next, double *lane)
+NH_CLONES void nh_tableau_error(size_t kept, size_t lanes, double rtol, const double *atol, const double *error,
+                                const double *z, const double *next, double *lane)
 {
     for (size_t l = 0; l < lanes; l++) lane[l] = 0;
     for (size_t i = 0; i < kept; i++)
         for (size_t l = 0; l < lanes; l++) {
-            double x = fabs(z[i * lanes + l]), y = fabs(next[i * lanes + l]), e = fabs(error[i * lanes + l]) / (atol[i * lanes + l] + rtol * (x > y ? x : y));
+            double x = fabs(z[i * lanes + l]), y = fabs(next[i * lanes + l]),
+                   e = fabs(error[i * lanes + l]) / (atol[i * lanes + l] + rtol * (x > y ? x : y));
             lane[l] = e > lane[l] || e != e ? e : lane[l];
         }
 }

@@ -13,16 +13,19 @@
 #include "graph/terms.h"
 #include "motion/sizes.h"
 
-static const double steepest = 10; /* |R| of a chart of coordinate velocities, without units, beyond which its formulas lose digits */
+/* |R| of a chart of coordinate velocities, without units, beyond which its formulas lose digits */
+static const double steepest = 10;
 
-/* The largest |z| along a motion, and what sizes.h says of states that are zero all along it.  Zeros of a chart that breaks down have no such size. */
+/* The largest |z| along a motion, and what sizes.h says of states that are zero all along it.  Zeros of a chart that
+   breaks down have no such size. */
 static void sizes_of_states(nh_dynamics *dynamics, const nh_motion *motion, double *large)
 {
     const nh_model *o = nh_dynamics_model(dynamics);
     size_t states = motion->size, count = motion->count;
     nh_flow_problem problem = nh_dynamics_problem(dynamics);
     nh_sizes sizes;
-    bool known = states == problem.size && nh_sizes_begin(&sizes, &problem, 1, motion->state, motion->time[0], motion->time[count - 1]);
+    bool known = states == problem.size &&
+                 nh_sizes_begin(&sizes, &problem, 1, motion->state, motion->time[0], motion->time[count - 1]);
     for (size_t j = 0; j < states; j++) large[j] = known ? sizes.size[j] : 0;
     if (states == problem.size) nh_sizes_clear(&sizes);
     for (size_t i = 0; i < count * states; i++) large[i % states] = fmax(large[i % states], fabs(motion->state[i]));
@@ -34,7 +37,8 @@ bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t 
 {
     static const double part = 1e-6; /* of a state's size: first order, and far above rounding */
     size_t states = motion->size, count = motion->count;
-    double *value = nh_alloc_array(2 * count * n + 1, sizeof *value), *moved = nh_alloc_array((count + 1) * states, sizeof *moved), *large = moved + count * states;
+    double *value = nh_alloc_array(2 * count * n + 1, sizeof *value),
+           *moved = nh_alloc_array((count + 1) * states, sizeof *moved), *large = moved + count * states;
     nh_motion beside = *motion;
     uint64_t random = 0x9e3779b97f4a7c15u;
     sizes_of_states(dynamics, motion, large);
@@ -47,7 +51,8 @@ bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t 
     bool good = nh_along(dynamics, motion, n, e, value), also = nh_along(dynamics, &beside, n, e, value + count * n);
     for (size_t i = 0; i < count * n && good; i++) {
         double change = also ? fabs(value[count * n + i] - value[i]) / part : 0;
-        if (isfinite(value[i])) size[i % n] = fmax(size[i % n], isfinite(change) ? fmax(fabs(value[i]), change) : fabs(value[i]));
+        if (isfinite(value[i]))
+            size[i % n] = fmax(size[i % n], isfinite(change) ? fmax(fabs(value[i]), change) : fabs(value[i]));
     }
     nh_free(moved);
     nh_free(value);
@@ -81,7 +86,8 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
     size_t n = o->m * o->n;
     double *R = nh_alloc_array(n * (motion->count + 1) + 1, sizeof *R), *factor = R + n * motion->count;
     nh_chart_slopes(o->chart, factor);
-    bool good = !o->chart->quasi && o->k && nh_along(dynamics, motion, n, o->R, R), *flag = steep(good ? motion->count : 0, n, R, factor, any);
+    bool good = !o->chart->quasi && o->k && nh_along(dynamics, motion, n, o->R, R),
+         *flag = steep(good ? motion->count : 0, n, R, factor, any);
     if (!good) flag = (nh_free(flag), nh_alloc_array(motion->count + 1, sizeof *flag));
     nh_free(R);
     return flag;
@@ -103,7 +109,8 @@ static bool scene_is_steep(const nh_closed_subsystem *s, nh_closed_subsystem_run
     nh_chart_slopes(o->chart, factor);
     for (size_t i = 0; i < o->m * o->n; i++) {
         bool known = true;
-        for (size_t j = s->kept; j < s->states; j++) known &= !nh_depends(o->dag, o->R[i], o->chart->symbol[1 + s->state[j]]);
+        for (size_t j = s->kept; j < s->states; j++)
+            known &= !nh_depends(o->dag, o->R[i], o->chart->symbol[1 + s->state[j]]);
         if (known) factor[n] = factor[i], e[n++] = o->R[i];
     }
     double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
@@ -123,7 +130,9 @@ static void say_machine(const char *words, char *machine)
     snprintf(machine, room, "%s", words ? words : "interpreted");
 }
 
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *given, char *machine, const nh_method **used, nh_error *error)
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count,
+                                const double *times, const nh_flow_options *given, char *machine,
+                                const nh_method **used, nh_error *error)
 {
     const nh_model *o = nh_dynamics_model(dynamics);
     size_t m = o->m;
@@ -162,14 +171,17 @@ typedef struct {
 
 static bool late(void *context) { return nh_interrupted() || nh_clock() > *(double *)context; }
 
-bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2], const nh_flow_options *options)
+bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2],
+                    const nh_flow_options *options)
 {
     static const double loose = 1e-7;
     nh_flow_problem problem = nh_dynamics_problem(dynamics);
     nh_flow_options how = *options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!method || method->family == NH_METHOD_CVODE || !problem.guards || !nh_may_leave_chart(nh_dynamics_model(dynamics))) return false;
+    if (!method || method->family == NH_METHOD_CVODE || !problem.guards ||
+        !nh_may_leave_chart(nh_dynamics_model(dynamics)))
+        return false;
     how.method = NH_ADAMS;
     how.rtol = fmax(how.rtol, loose);
     nh_motion *motion = nh_cvode(&problem, z0, 2, times, &how, &ignored);
@@ -238,7 +250,8 @@ static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
     return nh_meets_pivot(dynamics, j->method, z0, ends, &j->how);
 }
 
-/* The scene's states from the start of all.  *failed: the current (its number) that did not determine its state all the way, or -1. */
+/* The scene's states from the start of all.  *failed: the current (its number) that did not determine its state all the
+   way, or -1. */
 static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *failed, nh_error *error)
 {
     size_t events = j->q->events;
@@ -255,8 +268,10 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
     nh_closed_subsystem_run_jit(run, j->q->options->compile);
     bool starts = s->kept && nh_closed_subsystem_run_failed(run) < 0 && (s->smooth || !j->leave);
-    nh_motion *motion = starts ? nh_automatic_or(j->method, &problem, small, j->q->count, j->q->times, &j->how, &j->used, error) : NULL;
-    bool good = motion && !(nh_may_leave_chart(j->q->model) && ((!s->smooth && !motion->complete) || scene_is_steep(s, run, motion)));
+    nh_motion *motion =
+        starts ? nh_automatic_or(j->method, &problem, small, j->q->count, j->q->times, &j->how, &j->used, error) : NULL;
+    bool good = motion && !(nh_may_leave_chart(j->q->model) &&
+                            ((!s->smooth && !motion->complete) || scene_is_steep(s, run, motion)));
     if (good) good = take_values(j, nh_along_values_create(j->q->model, point_of_scene, run, j->q->n, j->q->e), motion);
     if (good && s->levels) good = motion->complete;
     *failed = -1;
@@ -290,7 +305,8 @@ static bool in_scene(job *j, nh_error *error)
     bool good = false;
     for (long failed = 0; failed >= 0 && !good;) {
         good = in_scene_of(j, n, current, &failed, error);
-        if (!good && failed >= 0) memmove(current + failed, current + failed + 1, (--n - (size_t)failed) * sizeof *current);
+        if (!good && failed >= 0)
+            memmove(current + failed, current + failed + 1, (--n - (size_t)failed) * sizeof *current);
     }
     nh_free(current);
     return good;
@@ -304,14 +320,16 @@ static nh_motion *in_own_velocities(job *j, nh_error *error)
     const nh_trajectory_request *q = j->q;
     nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
     if (q->events) watch(j, nh_along_values_of(j->dynamics, false, 2 * q->events, j->watched));
-    if (!fixed_steps(j)) return nh_automatic_or(j->method, &problem, j->z0, q->count, q->times, &j->how, &j->used, error);
+    if (!fixed_steps(j))
+        return nh_automatic_or(j->method, &problem, j->z0, q->count, q->times, &j->how, &j->used, error);
     nh_programs *own = q->programs ? NULL : nh_programs_create(q->model);
     nh_motion *motion = nh_method_steps(j->method, own ? own : q->programs, j->z0, q->count, q->times, &j->how, error);
     nh_programs_free(own);
     return motion;
 }
 
-/* By the equations of motion of the other model, unless its chart breaks down on the way; values as in all coordinates. */
+/* By the equations of motion of the other model, unless its chart breaks down on the way; values as in all
+   coordinates. */
 static bool in_other_velocities(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
@@ -321,14 +339,16 @@ static bool in_other_velocities(job *j, nh_error *error)
     nh_dynamics_jit(other, q->options->compile);
     bool starts = nh_dynamics_start(other, q->initial, q->project, z0, error) && !meets_pivot(j, other, z0);
     if (q->events) watch(j, nh_along_values_by_other(q->model, other, 2 * q->events, j->watched));
-    nh_motion *motion = starts ? nh_automatic_or(j->method, &problem, z0, q->count, q->times, &j->how, &j->used, error) : NULL;
+    nh_motion *motion =
+        starts ? nh_automatic_or(j->method, &problem, z0, q->count, q->times, &j->how, &j->used, error) : NULL;
     watch(j, NULL);
     bool steep = false;
     if (motion) nh_free(nh_steep_points(other, motion, &steep));
     bool good = motion && motion->complete && !steep && nh_motion_to_coordinates(other, motion);
     if (good) {
         j->out->motion = motion;
-        j->out->formulation = q->other->chart->quasi ? NH_ON_SUBMANIFOLD ", in quasi-velocities" : NH_ON_SUBMANIFOLD ", in coordinate velocities";
+        j->out->formulation = q->other->chart->quasi ? NH_ON_SUBMANIFOLD ", in quasi-velocities"
+                                                     : NH_ON_SUBMANIFOLD ", in coordinate velocities";
         say_machine(nh_dynamics_words(other), j->out->machine);
         take_values(j, nh_along_values_of(j->dynamics, true, q->n, q->e), motion);
     } else {
@@ -340,7 +360,10 @@ static bool in_other_velocities(job *j, nh_error *error)
 }
 
 /* Was it ended by the limit? */
-static bool spent_all(const nh_trajectory_request *q, const nh_motion *motion) { return !motion->complete && q->max_effort > 0 && motion->effort > q->max_effort; }
+static bool spent_all(const nh_trajectory_request *q, const nh_motion *motion)
+{
+    return !motion->complete && q->max_effort > 0 && motion->effort > q->max_effort;
+}
 
 static void in_all_states(job *j, nh_error *error)
 {
@@ -354,7 +377,8 @@ static void in_all_states(job *j, nh_error *error)
         nh_motion_free(motion);
         if (q->events) watch(j, nh_along_values_of(j->dynamics, true, 2 * q->events, j->watched));
         j->out->formulation = "all coordinates, accelerations from the bordered system";
-        motion = nh_motion_everywhere(j->dynamics, fixed_steps(j) ? NULL : j->method, j->z0, q->count, q->times, &j->how, j->out->machine, &j->used, error);
+        motion = nh_motion_everywhere(j->dynamics, fixed_steps(j) ? NULL : j->method, j->z0, q->count, q->times,
+                                      &j->how, j->out->machine, &j->used, error);
     }
     j->out->motion = motion;
     if (motion)
@@ -365,10 +389,21 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
 {
     size_t size = q->model->m + q->model->n;
     nh_trajectory *out = nh_alloc(sizeof *out);
-    *out = (nh_trajectory){.formulation = NH_ON_SUBMANIFOLD, .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
-    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = q->method, .used = q->method, .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
+    *out = (nh_trajectory){.formulation = NH_ON_SUBMANIFOLD,
+                           .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
+    job j = {.q = q,
+             .dynamics = nh_dynamics_create(q->model),
+             .out = out,
+             .z0 = nh_alloc_array(size + 1, sizeof *j.z0),
+             .method = q->method,
+             .used = q->method,
+             .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
     nh_dynamics_jit(j.dynamics, q->options->compile);
-    j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .absolute = fmax(q->options->absolute, DBL_MIN), .max_steps = q->options->steps, .effort = q->max_effort};
+    j.how = (nh_flow_options){.method = NH_ADAMS,
+                              .rtol = q->options->tolerance,
+                              .absolute = fmax(q->options->absolute, DBL_MIN),
+                              .max_steps = q->options->steps,
+                              .effort = q->max_effort};
     j.how.step = q->step;
     j.how.cancelled = late;
     j.how.cancel_context = &j.deadline;
@@ -376,10 +411,13 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     nh_error ignored;
     nh_error_clear(&ignored);
     if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error)) {
-        bool other = q->velocities == NH_OTHER_VELOCITIES && q->other && !fixed_steps(&j) && nh_may_leave_chart(q->model);
-        j.leave = (q->velocities == NH_ALL_COORDINATES && nh_may_leave_chart(q->model)) || meets_pivot(&j, j.dynamics, j.z0);
+        bool other =
+            q->velocities == NH_OTHER_VELOCITIES && q->other && !fixed_steps(&j) && nh_may_leave_chart(q->model);
+        j.leave =
+            (q->velocities == NH_ALL_COORDINATES && nh_may_leave_chart(q->model)) || meets_pivot(&j, j.dynamics, j.z0);
         bool scene = q->smallest && !fixed_steps(&j);
-        if (!(scene && in_scene(&j, &ignored)) && !(other && in_other_velocities(&j, &ignored))) in_all_states(&j, error);
+        if (!(scene && in_scene(&j, &ignored)) && !(other && in_other_velocities(&j, &ignored)))
+            in_all_states(&j, error);
     }
     close_watch(&j);
     nh_dynamics_free(j.dynamics);

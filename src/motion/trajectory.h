@@ -1,4 +1,5 @@
-/* trajectory: one motion of a model, in whichever formulation carries it to the end, with the values of expressions along it. */
+/* trajectory: one motion of a model, in whichever formulation carries it to the end, with the values of expressions
+   along it. */
 #ifndef NH_TRAJECTORY_H
 #define NH_TRAJECTORY_H
 
@@ -12,7 +13,8 @@
 
 /* The equations of a motion. */
 typedef enum {
-    NH_OWN_VELOCITIES,   /* those on the constraint submanifold, of the model; all coordinates where its chart breaks down on the way */
+    /* those on the constraint submanifold, of the model; all coordinates where its chart breaks down on the way */
+    NH_OWN_VELOCITIES,
     NH_OTHER_VELOCITIES, /* those of another model of the same system, in other velocities */
     NH_ALL_COORDINATES   /* the bordered system from the start */
 } nh_velocities;
@@ -32,13 +34,15 @@ typedef struct {
     const nh_options *options; /* tolerance, absolute, steps, compile */
     size_t n;
     const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
-    const bool *by_terms;     /* n, or NULL: their errors are relative to the largest of their terms, with an accuracy (accuracy.h) */
+    /* n, or NULL: their errors are relative to the largest of their terms, with an accuracy (accuracy.h) */
+    const bool *by_terms;
     size_t events;            /* motion.h: found */
     const nh_event *event;
     bool smallest;            /* integrate only what they need */
     size_t currents;          /* of the chart, known to be conserved: they may make states superfluous there */
     const nh_ex *current;
-    bool project;             /* velocities that violate the constraints are replaced by the nearest that satisfy them */
+    /* velocities that violate the constraints are replaced by the nearest that satisfy them */
+    bool project;
     const nh_method *method;  /* NULL: the one that suits (automatic.h) */
     double step;              /* of methods with a fixed step, which take the model's own equations, and all states */
     nh_programs *programs;    /* of the model, for them; NULL: made for this motion */
@@ -57,27 +61,32 @@ typedef struct {
     char machine[320];        /* how the equations were evaluated, in words */
 } nh_trajectory;
 
-/* In the chart, or in all coordinates where the chart breaks down on the way.  NULL with a message when nothing could be computed. */
+/* In the chart, or in all coordinates where the chart breaks down on the way.  NULL with a message when nothing could
+   be computed. */
 nh_trajectory *nh_trajectory_create(const nh_trajectory_request *request, nh_error *error);
 void nh_trajectory_free(nh_trajectory *trajectory);
 
 /* ---- parts, also for the validation ---- */
 
-/* How large each expression is along a motion: the largest |e|, and of the first-order change of e when each state changes by its own largest value, with any signs;
- * so what is zero but for rounding is as large as what it is made of. */
+/* How large each expression is along a motion: the largest |e|, and of the first-order change of e when each state
+ * changes by its own largest value, with any signs; so what is zero but for rounding is as large as what it is made
+ * of. */
 bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *size);
 
 /* Where does a chart of coordinate velocities lose digits?  One flag per output (nh_free); *any: anywhere. */
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);
 
-/* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: the one that suits (automatic.h),
- * *used where `used` is not NULL.  `machine`: 320 bytes for how the equations were evaluated, or NULL. */
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *options, char *machine,
+/* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: the one that
+ * suits (automatic.h), *used where `used` is not NULL.  `machine`: 320 bytes for how the equations were evaluated, or
+ * NULL. */
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count,
+                                const double *times, const nh_flow_options *options, char *machine,
                                 const nh_method **used, nh_error *error);
 
-/* Does the chart's pivot change sign on the way from z0 at times[0] to times[1]?  CVODE and the automatic choice (NULL) watch it, other methods step over it: call
- * this before another method runs. */
-bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2], const nh_flow_options *options);
+/* Does the chart's pivot change sign on the way from z0 at times[0] to times[1]?  CVODE and the automatic choice (NULL)
+ * watch it, other methods step over it: call this before another method runs. */
+bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2],
+                    const nh_flow_options *options);
 
 /* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */
 bool nh_may_leave_chart(const nh_model *model);

@@ -27,8 +27,8 @@ typedef struct {
     const nh_ex *current; /* of the chart */
 } run;
 
-/* Of the work for all motions of the check each has the same part: in units of base/effort.h, and for multistep methods also in steps, which evaluate the
- * equations about twice and make a new Jacobian once in a while. */
+/* Of the work for all motions of the check each has the same part: in units of base/effort.h, and for multistep methods
+ * also in steps, which evaluate the equations about twice and make a new Jacobian once in a while. */
 enum { all_motions = NH_DRIFT_RUNS + 2 };
 
 static double most_effort(const run *r) { return 1e6 * r->options->check_work / all_motions; }
@@ -42,8 +42,8 @@ static double most_steps(const run *r)
 
 /* ---- the multiplier form ---- */
 
-/* Of q and v (2 m), and of the reactions (m).  Within tau, the time in which the rates change by about their own size, a velocity makes a
- * coordinate at least tau |v| large, and a momentum needs a force |p|/tau to change. */
+/* Of q and v (2 m), and of the reactions (m).  Within tau, the time in which the rates change by about their own size,
+ * a velocity makes a coordinate at least tau |v| large, and a momentum needs a force |p|/tau to change. */
 typedef struct {
     double *state, *force;
 } sizes_of_all;
@@ -75,7 +75,8 @@ static sizes_of_all measure_sizes(run *r, const nh_motion *motion)
 
 static double beside(double difference, double size) { return difference != 0 ? fabs(difference) / size : 0; }
 
-static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, const nh_chetaev_motion *full, const sizes_of_all *sizes)
+static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, const nh_chetaev_motion *full,
+                    const sizes_of_all *sizes)
 {
     const nh_model *o = r->model;
     nh_validation *v = r->out;
@@ -83,17 +84,21 @@ static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, con
     if (reduced->count < count) count = reduced->count;
     nh_motion head = *reduced;
     head.count = count;
-    double *velocity = nh_alloc_array(count * m + 1, sizeof *velocity), *reaction = nh_alloc_array(count * m + 1, sizeof *reaction);
+    double *velocity = nh_alloc_array(count * m + 1, sizeof *velocity),
+           *reaction = nh_alloc_array(count * m + 1, sizeof *reaction);
     double *force = nh_alloc_array(m + 1, sizeof *force);
-    bool good = nh_along(r->dynamics, &head, m, o->rho, velocity) && nh_along(r->dynamics, &head, m, o->reaction, reaction);
+    bool good =
+        nh_along(r->dynamics, &head, m, o->rho, velocity) && nh_along(r->dynamics, &head, m, o->reaction, reaction);
     for (size_t i = 0; i < count && good; i++) {
         const double *z = reduced->state + i * reduced->size, *y = full->motion->state + i * full->motion->size;
         bool forced = nh_bordered_force(bordered, full->motion->time[i], y, y + m, y + 2 * m, force);
         for (size_t s = 0; s < m; s++) {
             double c = -reaction[i * m + s];
             v->state_difference = fmax(v->state_difference, beside(z[s] - y[s], sizes->state[s]));
-            v->state_difference = fmax(v->state_difference, beside(velocity[i * m + s] - y[m + s], sizes->state[m + s]));
-            if (forced && isfinite(c)) v->multiplier_difference = fmax(v->multiplier_difference, beside(c - force[s], sizes->force[s]));
+            v->state_difference =
+                fmax(v->state_difference, beside(velocity[i * m + s] - y[m + s], sizes->state[m + s]));
+            if (forced && isfinite(c))
+                v->multiplier_difference = fmax(v->multiplier_difference, beside(c - force[s], sizes->force[s]));
         }
     }
     nh_free(force);
@@ -114,8 +119,12 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     nh_motion first = *reduced;
     first.count = 1;
     bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
-    double enough = fmin(20000, 2000 + 20 * (double)reduced->steps); /* a second opinion: near a pole of the coordinates it may need millions */
-    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .scale = sizes->state, .max_steps = fmin(enough, most_steps(r)), .cancelled = nh_interrupted_callback};
+    /* a second opinion: near a pole of the coordinates it may need millions */
+    double enough = fmin(20000, 2000 + 20 * (double)reduced->steps);
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1],
+                               .scale = sizes->state,
+                               .max_steps = fmin(enough, most_steps(r)),
+                               .cancelled = nh_interrupted_callback};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
@@ -123,11 +132,15 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
         v->multiplier_evaluations = full->motion->evaluations;
         compare(r, b, reduced, full, sizes);
         if (!full->motion->complete && (double)full->motion->steps >= options.max_steps)
-            snprintf(v->note, sizeof v->note, "the multiplier form was compared only up to t = %.4g, which it reaches in %.0f steps", full->motion->end_time, options.max_steps);
+            snprintf(v->note, sizeof v->note,
+                     "the multiplier form was compared only up to t = %.4g, which it reaches in %.0f steps",
+                     full->motion->end_time, options.max_steps);
         else if (!full->motion->complete)
-            snprintf(v->note, sizeof v->note, "the multiplier form was compared only up to t = %.4g: %.180s", full->motion->end_time, full->motion->note);
+            snprintf(v->note, sizeof v->note, "the multiplier form was compared only up to t = %.4g: %.180s",
+                     full->motion->end_time, full->motion->note);
     } else {
-        snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s", full ? full->motion->note : ignored.what);
+        snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s",
+                 full ? full->motion->note : ignored.what);
     }
     nh_chetaev_motion_free(full);
     nh_free(y);
@@ -138,17 +151,25 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
 
 static nh_flow_options options_of(const run *r, size_t which)
 {
-    return (nh_flow_options){.method = NH_ADAMS, .rtol = r->out->tolerance[which], .absolute = fmax(r->options->absolute, DBL_MIN), .max_steps = r->options->steps, .effort = most_effort(r), .cancelled = nh_interrupted_callback};
+    return (nh_flow_options){.method = NH_ADAMS,
+                             .rtol = r->out->tolerance[which],
+                             .absolute = fmax(r->options->absolute, DBL_MIN),
+                             .max_steps = r->options->steps,
+                             .effort = most_effort(r),
+                             .cancelled = nh_interrupted_callback};
 }
 
-static nh_motion *motion_by(run *r, const nh_method *method, const nh_flow_options *options, const nh_method **used, nh_error *error)
+static nh_motion *motion_by(run *r, const nh_method *method, const nh_flow_options *options, const nh_method **used,
+                            nh_error *error)
 {
     nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
-    if (r->everywhere) return nh_motion_everywhere(r->dynamics, method, r->z0, r->outputs, r->times, options, NULL, used, error);
+    if (r->everywhere)
+        return nh_motion_everywhere(r->dynamics, method, r->z0, r->outputs, r->times, options, NULL, used, error);
     return nh_automatic_or(method, &problem, r->z0, r->outputs, r->times, options, used, error);
 }
 
-/* The motion once more by CVODE Adams, unless it was computed so: coordinates and coordinate velocities are compared as far as both go. */
+/* The motion once more by CVODE Adams, unless it was computed so: coordinates and coordinate velocities are compared as
+   far as both go. */
 static void multistep(run *r, const nh_motion *motion, const sizes_of_all *sizes)
 {
     const nh_method *adams = nh_method_find("CVODE Adams");
@@ -165,7 +186,8 @@ static void multistep(run *r, const nh_motion *motion, const sizes_of_all *sizes
     nh_motion head = *motion;
     head.count = count;
     if (other) other->count = count;
-    v->multistep = count > 1 && nh_states_in_coordinates(r->dynamics, &head, own) && nh_states_in_coordinates(r->dynamics, other, its);
+    v->multistep = count > 1 && nh_states_in_coordinates(r->dynamics, &head, own) &&
+                   nh_states_in_coordinates(r->dynamics, other, its);
     for (size_t i = 0; i < count * states && v->multistep; i++)
         v->multistep_difference = fmax(v->multistep_difference, beside(own[i] - its[i], sizes->state[i % states]));
     nh_free(own);
@@ -220,7 +242,16 @@ static void smallest_model(run *r, const nh_state *initial, const nh_motion *mot
     nh_error_clear(&ignored);
     nh_options options = *r->options;
     options.tolerance = v->tolerance[NH_DRIFT_RUNS - 1];
-    nh_trajectory_request q = {.model = r->model, .initial = initial, .count = v->count, .times = v->time, .options = &options, .n = n, .e = asked, .smallest = true, .currents = r->currents, .current = r->current};
+    nh_trajectory_request q = {.model = r->model,
+                               .initial = initial,
+                               .count = v->count,
+                               .times = v->time,
+                               .options = &options,
+                               .n = n,
+                               .e = asked,
+                               .smallest = true,
+                               .currents = r->currents,
+                               .current = r->current};
     nh_trajectory *t = nh_trajectory_create(&q, &ignored);
     if (t && t->scene && t->motion->complete) {
         nh_text words;
@@ -232,7 +263,8 @@ static void smallest_model(run *r, const nh_state *initial, const nh_motion *mot
         nh_trajectory_sizes(r->dynamics, motion, n, asked, size);
         for (size_t i = 0; i < v->count * n; i++) {
             double full = v->watch[i / n * r->watches + column[i % n]];
-            if (isfinite(full)) v->scene_difference = fmax(v->scene_difference, beside(t->value[i] - full, size[i % n]));
+            if (isfinite(full))
+                v->scene_difference = fmax(v->scene_difference, beside(t->value[i] - full, size[i % n]));
         }
         nh_free(size);
         nh_text_clear(&words);
@@ -269,7 +301,8 @@ static void keep(run *r, const nh_state *initial, const nh_motion *motion)
     v->steps = motion->steps;
     v->complete = motion->complete;
     v->end = motion->end_time;
-    if (!motion->complete) snprintf(v->note, sizeof v->note, "the test motion ends at t = %.4g: %.200s", motion->end_time, motion->note);
+    if (!motion->complete)
+        snprintf(v->note, sizeof v->note, "the test motion ends at t = %.4g: %.200s", motion->end_time, motion->note);
 }
 
 /* Second opinions on the tightest run. */
@@ -287,7 +320,9 @@ static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
         const nh_method *used = NULL;
         nh_flow_options options = options_of(r, i);
-        if (i == 0 && nh_meets_pivot(r->dynamics, r->method, r->z0, (double[]){r->times[0], r->times[r->outputs - 1]}, &options)) r->everywhere = true;
+        if (i == 0 &&
+            nh_meets_pivot(r->dynamics, r->method, r->z0, (double[]){r->times[0], r->times[r->outputs - 1]}, &options))
+            r->everywhere = true;
         nh_motion *motion = motion_by(r, r->method, &options, &used, error);
         if (!motion) return false;
         bool steep;
@@ -299,7 +334,9 @@ static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
         }
         if (r->everywhere) r->out->chart = "all coordinates (the chart breaks down on the way)";
         r->out->method = used->name;
-        nh_drift_measure(&(nh_drift_question){r->dynamics, r->options, r->out->begin, r->out->tolerance, q->currents, q->current, r->valid}, motion, i, r->out->current);
+        nh_drift_measure(&(nh_drift_question){r->dynamics, r->options, r->out->begin, r->out->tolerance, q->currents,
+                                              q->current, r->valid},
+                         motion, i, r->out->current);
         if (i == NH_DRIFT_RUNS - 1) {
             keep(r, q->initial, motion);
             compare_with_others(r, q, motion);
@@ -309,7 +346,8 @@ static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
     return true;
 }
 
-/* The method and the tolerance of the tightest run, by the accuracy that is wanted of the states and of what is watched.  False: no motion at all. */
+/* The method and the tolerance of the tightest run, by the accuracy that is wanted of the states and of what is
+   watched.  False: no motion at all. */
 static bool choose(run *r, const nh_validation_request *q, double *tolerance, nh_error *error)
 {
     const nh_model *o = q->model;
@@ -321,13 +359,23 @@ static bool choose(run *r, const nh_validation_request *q, double *tolerance, nh
         e[states + i] = q->watch[i].value;
         by_terms[states + i] = q->watch[i].by_terms;
     }
-    nh_trajectory_request request = {.model = o, .initial = q->initial, .count = q->outputs, .times = r->times, .options = q->options, .n = n, .e = e, .by_terms = by_terms, .max_seconds = q->options->max_seconds};
+    nh_trajectory_request request = {.model = o,
+                                     .initial = q->initial,
+                                     .count = q->outputs,
+                                     .times = r->times,
+                                     .options = q->options,
+                                     .n = n,
+                                     .e = e,
+                                     .by_terms = by_terms,
+                                     .max_seconds = q->options->max_seconds};
     nh_trajectory *t = nh_trajectory_accurate(&request, q->accuracy, q->ways, &r->out->accuracy, error);
     nh_free(by_terms);
     if (!t) return nh_free(e), false;
     nh_accuracy *a = &r->out->accuracy;
     size_t k = a->quantity, used = strlen(a->why);
-    if (!a->held) snprintf(a->why + used, sizeof a->why - used, "; `%s` is the least certain", k < states ? nh_name_of(o->dag, e[k]) : q->watch[k - states].name);
+    if (!a->held)
+        snprintf(a->why + used, sizeof a->why - used, "; `%s` is the least certain",
+                 k < states ? nh_name_of(o->dag, e[k]) : q->watch[k - states].name);
     nh_free(e);
     r->method = nh_method_find(t->method);
     r->out->checked = true;
@@ -343,14 +391,32 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     const nh_model *o = q->model;
     size_t size = o->m + o->n;
     double tolerance = q->options->tolerance;
-    *v = (nh_validation){.arena = arena, .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, o->chart->name),
-                         .begin = q->initial->t, .end = q->until, .currents = q->currents, .current = nh_arena_alloc(arena, (q->currents + 1) * sizeof *v->current), .crossing = NAN};
-    run r = {.model = o, .dynamics = nh_dynamics_create(o), .out = v, .options = q->options, .outputs = q->outputs, .watches = q->watches, .watch = q->watch, .valid = q->valid, .currents = q->currents, .current = q->current};
+    *v = (nh_validation){.arena = arena,
+                         .multiplier_method = "IDA, index 1",
+                         .chart = nh_arena_strdup(arena, o->chart->name),
+                         .begin = q->initial->t,
+                         .end = q->until,
+                         .currents = q->currents,
+                         .current = nh_arena_alloc(arena, (q->currents + 1) * sizeof *v->current),
+                         .crossing = NAN};
+    run r = {.model = o,
+             .dynamics = nh_dynamics_create(o),
+             .out = v,
+             .options = q->options,
+             .outputs = q->outputs,
+             .watches = q->watches,
+             .watch = q->watch,
+             .valid = q->valid,
+             .currents = q->currents,
+             .current = q->current};
     r.times = nh_alloc_array(q->outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
-    for (size_t i = 0; i < q->outputs; i++) r.times[i] = q->initial->t + (q->until - q->initial->t) * (double)i / (double)(q->outputs - 1);
-    bool good = nh_dynamics_start(r.dynamics, q->initial, false, r.z0, error) && (!(q->accuracy > 0) || choose(&r, q, &tolerance, error));
-    for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
+    for (size_t i = 0; i < q->outputs; i++)
+        r.times[i] = q->initial->t + (q->until - q->initial->t) * (double)i / (double)(q->outputs - 1);
+    bool good = nh_dynamics_start(r.dynamics, q->initial, false, r.z0, error) &&
+                (!(q->accuracy > 0) || choose(&r, q, &tolerance, error));
+    for (size_t i = 0; i < NH_DRIFT_RUNS; i++)
+        v->tolerance[i] = fmin(1e-3, tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
     good = good && all_runs(&r, q, error);
     if (good) nh_drift_judge(v->currents, v->tolerance, q->options, v->current);
     nh_dynamics_free(r.dynamics);

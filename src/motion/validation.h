@@ -1,8 +1,9 @@
 /* validation: are the currents constant along a motion, and is the motion accurate?
  *
- * The equations of motion are integrated at three tolerances: a true current's drift falls with the tolerance, a false one's does not.
- * The same motion in all coordinates with Chetaev multipliers gives a second opinion on the states, and its multipliers
- * are compared with the formula of the model.  CVODE Adams gives another one, in the same states.  [docs/method.md, sec. 6] */
+ * The equations of motion are integrated at three tolerances: a true current's drift falls with the tolerance, a false
+ * one's does not. The same motion in all coordinates with Chetaev multipliers gives a second opinion on the states, and
+ * its multipliers are compared with the formula of the model.  CVODE Adams gives another one, in the same states.
+ * [docs/method.md, sec. 6] */
 #ifndef NH_VALIDATION_H
 #define NH_VALIDATION_H
 
@@ -26,14 +27,16 @@ typedef struct {
     bool multiplier_form;      /* was it integrated? */
     double state_difference, multiplier_difference, violation; /* relative to sizes along the motion */
     long multiplier_evaluations;
-    bool multistep;            /* was the motion computed once more by CVODE Adams, which shares nothing with an explicit pair? */
+    /* was the motion computed once more by CVODE Adams, which shares nothing with an explicit pair? */
+    bool multistep;
     double multistep_difference; /* of its states, relative to sizes along the motion */
     double crossing;           /* first time at which another chart's pivot changes sign; NAN: never */
     const char *crossing_chart;
     size_t watches;
     const char **watch_name;
     double *watch;             /* count x watches, along the tightest run */
-    const char *scene;         /* the smallest model for what is watched, in words; NULL: nothing is watched, or it could not be integrated */
+    /* the smallest model for what is watched, in words; NULL: nothing is watched, or it could not be integrated */
+    const char *scene;
     double scene_difference;   /* of the watched values, relative to their sizes along the motion */
     long scene_evaluations;
 } nh_validation;
@@ -46,7 +49,9 @@ typedef struct {
 } nh_observable;
 
 typedef struct {
-    const nh_model *model, *other; /* other: a second chart whose pivot is watched (its independent velocities as functions of this chart's); or NULL */
+    /* other: a second chart whose pivot is watched (its independent velocities as functions of this chart's); or
+       NULL */
+    const nh_model *model, *other;
     size_t currents;
     const nh_ex *current;
     const nh_valid *valid;         /* `currents` intervals, or NULL */
@@ -56,9 +61,11 @@ typedef struct {
     double until;
     size_t outputs;
     const nh_options *options;
-    double accuracy;               /* of the states and of what is watched, along the tightest run: its method and tolerance are chosen for it (accuracy.h).
-                                      0: the method that suits (automatic.h), at the tolerance of the options */
-    const nh_integration_plans *ways;           /* with an accuracy: from what may be chosen; only plain ones, in their own velocities and with error control */
+    /* of the states and of what is watched, along the tightest run: its method and tolerance are chosen for it
+       (accuracy.h).  0: the method that suits (automatic.h), at the tolerance of the options */
+    double accuracy;
+    /* with an accuracy: from what may be chosen; only plain ones, in their own velocities and with error control */
+    const nh_integration_plans *ways;
 } nh_validation_request;
 
 nh_validation *nh_validate(const nh_validation_request *request, nh_error *error);

@@ -11,7 +11,9 @@
 enum { most_probes = 4, disturbed_times = 4 };
 static const double disturbance = 4;   /* roundings of each state */
 static const double above = 32;        /* times what these change: larger is not rounding */
-static const double more = 1e6, linear = 1e4; /* so many times as large, they change a value that is well conditioned at least so many times as much: tan(pi/2) they do not */
+/* so many times as large, they change a value that is well conditioned at least so many times as much: tan(pi/2) they
+   do not */
+static const double more = 1e6, linear = 1e4;
 static const double cancelled = 1e-12; /* of the terms of a sum: what is left of one that is zero */
 
 struct nh_vanishing {
@@ -93,7 +95,8 @@ static bool disturb(nh_vanishing *v, double t, double part, double *change)
             v->moved[i] = v->z[i] * (1 + (random >> 63 ? part : -part));
         }
         if (!values_at(v, t, v->moved, v->other)) return false;
-        for (size_t i = 0; i < v->rows; i++) change[i] = fmax(change[i], fabs(v->other[v->first[i]] - v->value[v->first[i]]));
+        for (size_t i = 0; i < v->rows; i++)
+            change[i] = fmax(change[i], fabs(v->other[v->first[i]] - v->value[v->first[i]]));
     }
     return true;
 }
@@ -111,10 +114,12 @@ static bool is_zero(const nh_vanishing *v, size_t row)
     double size = 0, value = fabs(v->value[v->first[row]]);
     if (value == 0 && v->rounding[row] == 0) return true;
     for (size_t i = v->first[row]; i < v->first[row + 1]; i++) size = fmax(size, fabs(v->value[i]));
-    return value <= above * v->rounding[row] && (v->coarse[row] >= linear * v->rounding[row] || v->rounding[row] <= cancelled * size);
+    return value <= above * v->rounding[row] &&
+           (v->coarse[row] >= linear * v->rounding[row] || v->rounding[row] <= cancelled * size);
 }
 
-/* At the probe number `index` with the fixed states at their initial values; false: there is nothing to be computed there. */
+/* At the probe number `index` with the fixed states at their initial values; false: there is nothing to be computed
+   there. */
 static bool go_to_probe(nh_vanishing *v, size_t index, const double *start)
 {
     const nh_chart *c = v->model->chart;
@@ -125,7 +130,8 @@ static bool go_to_probe(nh_vanishing *v, size_t index, const double *start)
 
 void nh_vanishing_test(nh_vanishing *v, const double *start, bool *zero)
 {
-    size_t probes = v->model->chart->probes < most_probes ? v->model->chart->probes : most_probes, n = v->rows - v->states;
+    size_t probes = v->model->chart->probes < most_probes ? v->model->chart->probes : most_probes,
+           n = v->rows - v->states;
     for (size_t i = 0; i < v->states; i++) v->fixed[i] = true;
     for (bool again = true; again;) {
         again = false;

@@ -1,8 +1,9 @@
 /* vanishing: quantities that vanish along a whole motion, for which no relative error exists.
  *
- * The largest set C of states is sought that stay what they are at the start whatever the others do: their rates vanish at states of the chart (its
- * probes) in which C has its initial values.  A quantity vanishes along the motion if it does so at all these states.  To vanish is to be no larger than rounding makes
- * it there: a quantity that is 1e-12 of the terms that it is made of is small, and not zero.  [the states with these values of C are an invariant set] */
+ * The largest set C of states is sought that stay what they are at the start whatever the others do: their rates vanish
+ * at states of the chart (its probes) in which C has its initial values.  A quantity vanishes along the motion if it
+ * does so at all these states.  To vanish is to be no larger than rounding makes it there: a quantity that is 1e-12 of
+ * the terms that it is made of is small, and not zero.  [the states with these values of C are an invariant set] */
 #ifndef NH_VANISHING_H
 #define NH_VANISHING_H
 

@@ -10,13 +10,14 @@
 
 /* ---- before the system ---- */
 
-static const char *const top_keys[] = {"name", "system", "set", "route", "ansatz", "unknowns", "samples", "seed", "validate", "scene",
-                                       "definitions", "velocities", "title", "doc", "figures"};
+static const char *const top_keys[] = {"name",        "system",     "set",   "route",    "ansatz",
+                                       "unknowns",    "samples",    "seed",  "validate", "scene",
+                                       "definitions", "velocities", "title", "doc",      "figures"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
-bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, size_t count, const char *const *names,
-                             size_t *out, nh_error *error)
+bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, size_t count,
+                             const char *const *names, size_t *out, nh_error *error)
 {
     char list[200] = "expected ";
     if (!node) return true;
@@ -32,7 +33,8 @@ bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, cons
 }
 
 /* The text under `key`, or the fallback. */
-static bool text_of(const nh_deck *deck, const nh_deck_node *map, const char *key, const char *fallback, const char **out, nh_error *error)
+static bool text_of(const nh_deck *deck, const nh_deck_node *map, const char *key, const char *fallback,
+                    const char **out, nh_error *error)
 {
     const nh_deck_node *node = nh_deck_get(map, key);
     *out = node ? node->text : fallback;
@@ -46,7 +48,8 @@ static bool read_settings(nh_analysis_file *a, const nh_deck_node *map, nh_error
     a->setting = nh_arena_alloc(a->arena, (map->count + 1) * sizeof *a->setting);
     for (size_t i = 0; i < map->count; i++) {
         a->setting[i] = (nh_setting){.name = map->key[i]->text, .deck = a->deck, .key = map->key[i]};
-        if (!nh_deck_number(a->deck, map->item[i], "the value of a parameter", &a->setting[i].value, error)) return false;
+        if (!nh_deck_number(a->deck, map->item[i], "the value of a parameter", &a->setting[i].value, error))
+            return false;
     }
     a->settings = map->count;
     return true;
@@ -54,19 +57,24 @@ static bool read_settings(nh_analysis_file *a, const nh_deck_node *map, nh_error
 
 static bool read_head(nh_analysis_file *a, nh_error *error)
 {
-    static const char *const routes[] = {"both", "symmetry", "current"}, *const velocities[] = {"auto", "quasi", "coordinates"};
+    static const char *const routes[] = {"both", "symmetry", "current"}, *const velocities[] = {"auto", "quasi",
+                                                                                                "coordinates"};
     const nh_deck_node *root = nh_deck_root(a->deck), *node;
     size_t index = 0;
     if (!nh_deck_is(a->deck, root, NH_DECK_MAP, "an analysis file (system: ..., ansatz: ...)", error)) return false;
     if (!nh_deck_rename(a->deck, root, "chart", "velocities", error)) return false; /* of earlier versions */
     if (!nh_deck_only(a->deck, root, top_keys, top_key_count, error)) return false;
     const char *remark; /* title and doc are for the reader of the file */
-    if (!text_of(a->deck, root, "name", "analysis", &a->name, error) || !text_of(a->deck, root, "system", NULL, &a->system, error)) return false;
-    if (!text_of(a->deck, root, "title", "", &remark, error) || !text_of(a->deck, root, "doc", "", &remark, error)) return false;
+    if (!text_of(a->deck, root, "name", "analysis", &a->name, error) ||
+        !text_of(a->deck, root, "system", NULL, &a->system, error))
+        return false;
+    if (!text_of(a->deck, root, "title", "", &remark, error) || !text_of(a->deck, root, "doc", "", &remark, error))
+        return false;
     if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "route"), "route", 3, routes, &index, error)) return false;
     a->route = (nh_route)index;
     index = 0;
-    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "velocities"), "velocities", 3, velocities, &index, error)) return false;
+    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "velocities"), "velocities", 3, velocities, &index, error))
+        return false;
     a->chart = (nh_chart_choice)index;
     long whole;
     if ((node = nh_deck_get(root, "samples"))) {
@@ -94,7 +102,10 @@ static nh_analysis_file *read_deck(nh_deck *deck, nh_error *error)
     return NULL;
 }
 
-nh_analysis_file *nh_analysis_file_read(const char *path, nh_error *error) { return read_deck(nh_deck_read(path, error), error); }
+nh_analysis_file *nh_analysis_file_read(const char *path, nh_error *error)
+{
+    return read_deck(nh_deck_read(path, error), error);
+}
 
 nh_analysis_file *nh_analysis_file_start(const char *name, const char *state, nh_code code, nh_error *error)
 {
@@ -130,7 +141,9 @@ bool nh_analysis_file_to_chart(const nh_model *o, nh_ex e, nh_ex *out, nh_error 
         if (good) e = nh_substitute(s->dag, e, s->quasi, s->quasi_velocity, w);
         nh_free(w);
         nh_chart_free(chart);
-        if (!good) return nh_fail(error, NH_NUMERIC, "", "quasi-velocities that depend nonlinearly on the velocities cannot be used in this chart");
+        if (!good)
+            return nh_fail(error, NH_NUMERIC, "",
+                           "quasi-velocities that depend nonlinearly on the velocities cannot be used in this chart");
     }
     *out = nh_model_compose(o, e);
     return true;
@@ -140,14 +153,18 @@ bool nh_analysis_file_to_chart(const nh_model *o, nh_ex e, nh_ex *out, nh_error 
 
 typedef nh_analysis_file_reader reader;
 
-void *nh_analysis_file_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->a->arena, (count + 1) * size); }
+void *nh_analysis_file_take(reader *r, size_t count, size_t size)
+{
+    return nh_arena_alloc(r->a->arena, (count + 1) * size);
+}
 
 /* nh_analysis_file_to_chart, complaining about the node. */
 static bool to_chart(reader *r, const nh_deck_node *node, nh_ex e, nh_ex *out)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
-    return nh_analysis_file_to_chart(r->model, e, out, &trouble) || nh_deck_fail(r->a->deck, node, 0, r->error, "%s", trouble.what);
+    return nh_analysis_file_to_chart(r->model, e, out, &trouble) ||
+           nh_deck_fail(r->a->deck, node, 0, r->error, "%s", trouble.what);
 }
 
 bool nh_analysis_file_parse(reader *r, const nh_deck_node *node, nh_ex *out)
@@ -174,7 +191,10 @@ static bool name_is_free(reader *r, const nh_deck_node *node, const char *name)
     }
     for (size_t i = 0; i < r->extras; i++)
         if (!strcmp(r->extra[i].name, name))
-            return nh_deck_fail(deck, node, 0, r->error, i < r->own ? "`%s` is defined already: E is the energy, Lbar the constrained Lagrangian" : "`%s` is declared twice", name);
+            return nh_deck_fail(deck, node, 0, r->error,
+                                i < r->own ? "`%s` is defined already: E is the energy, Lbar the constrained Lagrangian"
+                                           : "`%s` is declared twice",
+                                name);
     bool used = nh_symbol_find(r->model->dag, name, &taken);
     for (size_t i = 0; i < s->definitions; i++) used |= !strcmp(s->definition[i].name, name);
     return !used || nh_deck_fail(deck, node, 0, r->error, "`%s` is already a name of the system", name);
@@ -210,12 +230,16 @@ static bool read_assignment(reader *r, const nh_deck_node *node, bool visible, n
     size_t n = (size_t)(equal - node->text);
     while (n && node->text[n - 1] == ' ') n--;
     *out = (nh_named){.name = nh_arena_strndup(r->a->arena, node->text, n), .text = equal + 1 + strspn(equal + 1, " ")};
-    if (visible ? !name_is_free(r, node, out->name) : n == 0 && !nh_deck_fail(deck, node, 0, r->error, "there is no name before the `=`")) return false;
+    if (visible ? !name_is_free(r, node, out->name)
+                : n == 0 && !nh_deck_fail(deck, node, 0, r->error, "there is no name before the `=`"))
+        return false;
     nh_ex e;
-    return nh_system_right_side(r->model->system, deck, node, r->extras, r->extra, &e, r->error) && to_chart(r, node, e, &out->value);
+    return nh_system_right_side(r->model->system, deck, node, r->extras, r->extra, &e, r->error) &&
+           to_chart(r, node, e, &out->value);
 }
 
-static bool read_assignments(reader *r, const nh_deck_node *list, const char *what, bool visible, nh_named **out, size_t *count)
+static bool read_assignments(reader *r, const nh_deck_node *list, const char *what, bool visible, nh_named **out,
+                             size_t *count)
 {
     if (!list) return true;
     if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, what, r->error)) return false;
@@ -223,14 +247,18 @@ static bool read_assignments(reader *r, const nh_deck_node *list, const char *wh
     for (size_t i = 0; i < list->count; i++) {
         if (!read_assignment(r, list->item[i], visible, &(*out)[i])) return false;
         for (size_t j = 0; j < i; j++)
-            if (!strcmp((*out)[i].name, (*out)[j].name)) return nh_deck_fail(r->a->deck, list->item[i], 0, r->error, "`%s` is declared twice", (*out)[i].name);
+            if (!strcmp((*out)[i].name, (*out)[j].name))
+                return nh_deck_fail(r->a->deck, list->item[i], 0, r->error, "`%s` is declared twice", (*out)[i].name);
         if (visible) r->extra[r->extras++] = (*out)[i];
         *count = i + 1;
     }
     return true;
 }
 
-bool nh_analysis_file_watches(reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count) { return read_assignments(r, list, what, false, out, count); }
+bool nh_analysis_file_watches(reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count)
+{
+    return read_assignments(r, list, what, false, out, count);
+}
 
 /* ---- the motion ---- */
 
@@ -291,8 +319,10 @@ static bool unknown_state(reader *r, const nh_deck_node *key)
     nh_deck_fail(r->a->deck, key, 0, r->error, "`%s` is not a coordinate or velocity of %s", key->text, s->name);
     size_t stem = strlen(key->text) > 4 ? strlen(key->text) - 4 : 0;
     for (size_t i = 0; stem && i < s->coordinates; i++) /* the columns of a table are called so */
-        if (!strcmp(key->text + stem, "_dot") && strlen(s->coordinate[i].name) == stem && !strncmp(key->text, s->coordinate[i].name, stem))
-            return nh_error_hint(r->error, "the velocity of `%s` is written %s'", s->coordinate[i].name, s->coordinate[i].name);
+        if (!strcmp(key->text + stem, "_dot") && strlen(s->coordinate[i].name) == stem &&
+            !strncmp(key->text, s->coordinate[i].name, stem))
+            return nh_error_hint(r->error, "the velocity of `%s` is written %s'", s->coordinate[i].name,
+                                 s->coordinate[i].name);
     const char *near = nh_text_nearest(key->text, names, n);
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
 }
@@ -324,7 +354,9 @@ static bool read_initial(reader *r, const nh_deck_node *map)
             }
         if (!known) return unknown_state(r, map->key[i]);
     }
-    if (any_quasi && any_velocity) return nh_deck_fail(r->a->deck, map, 0, r->error, "give either coordinate velocities or quasi-velocities, not both");
+    if (any_quasi && any_velocity)
+        return nh_deck_fail(r->a->deck, map, 0, r->error,
+                            "give either coordinate velocities or quasi-velocities, not both");
     if (any_quasi) velocities_of(s, quasi, state);
     if (any_quasi) state->given = NULL;
     r->a->has_initial = true;
@@ -337,9 +369,11 @@ static bool read_validate(reader *r)
     const nh_deck_node *map = nh_deck_get(r->root, "validate"), *node;
     nh_analysis_file *a = r->a;
     size_t m = r->model->m;
-    a->initial = (nh_state){0, nh_analysis_file_take(r, m, sizeof(double)), nh_analysis_file_take(r, m, sizeof(double)), NULL};
+    a->initial =
+        (nh_state){0, nh_analysis_file_take(r, m, sizeof(double)), nh_analysis_file_take(r, m, sizeof(double)), NULL};
     if (!map) return true;
-    if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "validate", r->error) || !nh_deck_only(a->deck, map, keys, 3, r->error)) return false;
+    if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "validate", r->error) || !nh_deck_only(a->deck, map, keys, 3, r->error))
+        return false;
     if ((node = nh_deck_get(map, "time"))) {
         double range[2];
         if (!nh_deck_range(a->deck, node, "the time interval [begin, end]", range, r->error)) return false;
@@ -349,7 +383,8 @@ static bool read_validate(reader *r)
     }
     if ((node = nh_deck_get(map, "tolerance"))) {
         if (!nh_deck_number(a->deck, node, "tolerance", &a->tolerance, r->error)) return false;
-        if (!(a->tolerance >= 1e-14 && a->tolerance <= 1e-2)) return nh_deck_fail(a->deck, node, 0, r->error, "the tolerance must lie between 1e-14 and 1e-2");
+        if (!(a->tolerance >= 1e-14 && a->tolerance <= 1e-2))
+            return nh_deck_fail(a->deck, node, 0, r->error, "the tolerance must lie between 1e-14 and 1e-2");
         a->has_tolerance = true;
     }
     node = nh_deck_get(map, "initial");
@@ -357,7 +392,10 @@ static bool read_validate(reader *r)
     return nh_deck_is(a->deck, node, NH_DECK_MAP, "initial {x: 0, ...}", r->error) && read_initial(r, node);
 }
 
-static bool shape_expression(void *context, const nh_deck_node *node, nh_ex *out) { return nh_analysis_file_parse(context, node, out); }
+static bool shape_expression(void *context, const nh_deck_node *node, nh_ex *out)
+{
+    return nh_analysis_file_parse(context, node, out);
+}
 
 static bool read_drawing(reader *r, const nh_deck_node *list)
 {
@@ -367,7 +405,8 @@ static bool read_drawing(reader *r, const nh_deck_node *list)
     if (!nh_deck_is(a->deck, list, NH_DECK_LIST, "draw", r->error)) return false;
     a->shape = nh_analysis_file_take(r, list->count, sizeof *a->shape);
     for (size_t i = 0; i < list->count; i++)
-        if (!nh_shape_read(a->deck, list->item[i], r->model->dag, shape_expression, r, &a->shape[i], r->error)) return false;
+        if (!nh_shape_read(a->deck, list->item[i], r->model->dag, shape_expression, r, &a->shape[i], r->error))
+            return false;
     a->shapes = list->count;
     return true;
 }
@@ -377,19 +416,26 @@ static bool read_scene(reader *r)
     static const char *const keys[] = {"watch", "draw"};
     const nh_deck_node *map = nh_deck_get(r->root, "scene");
     if (!map) return true;
-    if (!nh_deck_is(r->a->deck, map, NH_DECK_MAP, "scene", r->error) || !nh_deck_only(r->a->deck, map, keys, 2, r->error)) return false;
-    return read_assignments(r, nh_deck_get(map, "watch"), "watch", false, &r->a->watch, &r->a->watches) && read_drawing(r, nh_deck_get(map, "draw"));
+    if (!nh_deck_is(r->a->deck, map, NH_DECK_MAP, "scene", r->error) ||
+        !nh_deck_only(r->a->deck, map, keys, 2, r->error))
+        return false;
+    return read_assignments(r, nh_deck_get(map, "watch"), "watch", false, &r->a->watch, &r->a->watches) &&
+           read_drawing(r, nh_deck_get(map, "draw"));
 }
 
 bool nh_analysis_file_resolve(nh_analysis_file *a, const nh_model *model, nh_error *error)
 {
-    const nh_deck_node *root = nh_deck_root(a->deck), *definitions = nh_deck_get(root, "definitions"), *unknowns = nh_deck_get(root, "unknowns");
+    const nh_deck_node *root = nh_deck_root(a->deck), *definitions = nh_deck_get(root, "definitions"),
+                       *unknowns = nh_deck_get(root, "unknowns");
     reader r = {.a = a, .model = model, .root = root, .error = error};
     nh_ex taken;
-    r.extra = nh_analysis_file_take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0), sizeof *r.extra);
+    r.extra = nh_analysis_file_take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0),
+                                    sizeof *r.extra);
     if (!nh_symbol_find(model->dag, "E", &taken)) r.extra[r.extras++] = (nh_named){.name = "E", .value = model->E};
-    if (!nh_symbol_find(model->dag, "Lbar", &taken)) r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
+    if (!nh_symbol_find(model->dag, "Lbar", &taken))
+        r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
     r.own = r.extras;
-    return read_unknowns(&r) && read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) && nh_analysis_file_read_ansatz(&r)
-           && read_validate(&r) && read_scene(&r) && nh_analysis_file_read_figures(&r);
+    return read_unknowns(&r) &&
+           read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) &&
+           nh_analysis_file_read_ansatz(&r) && read_validate(&r) && read_scene(&r) && nh_analysis_file_read_figures(&r);
 }

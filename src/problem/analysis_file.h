@@ -53,7 +53,8 @@ nh_analysis_file *nh_analysis_file_read(const char *path, nh_error *error);
 nh_analysis_file *nh_analysis_file_start(const char *name, const char *state, nh_code code, nh_error *error);
 void nh_analysis_file_free(nh_analysis_file *analysis);
 
-/* Read ansatz, unknowns, initial state and scene in the names of the model's system; expressions are brought to its chart. */
+/* Read ansatz, unknowns, initial state and scene in the names of the model's system; expressions are brought to its
+   chart. */
 bool nh_analysis_file_resolve(nh_analysis_file *analysis, const nh_model *model, nh_error *error);
 
 /* Any expression of the system (coordinate velocities, quasi-velocities) as a function of the model's chart. */

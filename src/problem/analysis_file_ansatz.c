@@ -97,17 +97,20 @@ static bool read_basis(nh_analysis_file_reader *r, const nh_deck_node *item, nh_
     if (constant && !nh_deck_is(deck, constant, NH_DECK_SCALAR, "constant", r->error)) return false;
     if (constant) f->constant = !strcmp(constant->text, "true");
     if (constant && !f->constant && strcmp(constant->text, "false"))
-        return nh_deck_fail(deck, constant, 0, r->error, "`constant` must be true or false, found `%s`", constant->text);
+        return nh_deck_fail(deck, constant, 0, r->error, "`constant` must be true or false, found `%s`",
+                            constant->text);
     if (frequency && !nh_analysis_file_parse(r, frequency, &f->frequency)) return false;
     bool degree = has_key(keys, "degree");
-    if (!read_in(r, item, f) || !read_size(r, item, degree ? "degree" : "harmonics", degree ? -1 : 1, &f->degree)) return false;
+    if (!read_in(r, item, f) || !read_size(r, item, degree ? "degree" : "harmonics", degree ? -1 : 1, &f->degree))
+        return false;
     if (!families[k].single || f->in_count == 1) return true;
     return nh_deck_fail(deck, item, 0, r->error, "%s is in one variable; use a product for several", kind);
 }
 
 static bool read_family(nh_analysis_file_reader *r, const nh_deck_node *item, int depth, nh_family *f)
 {
-    static const char *const keys[] = {"basis", "in", "degree", "harmonics", "frequency", "constant", "terms", "product"};
+    static const char *const keys[] = {"basis",     "in",       "degree", "harmonics",
+                                       "frequency", "constant", "terms",  "product"};
     const nh_deck *deck = r->a->deck;
     if (!nh_deck_is(deck, item, NH_DECK_MAP, "a family {basis: ..., in: ...}", r->error)) return false;
     if (!nh_deck_only(deck, item, keys, sizeof keys / sizeof *keys, r->error)) return false;

@@ -11,7 +11,8 @@ static bool read_path(reader *r, const nh_deck_node *list, nh_figure_request *f)
     static const char *const names[] = {"x", "y", "heading"};
     const nh_deck *deck = r->a->deck;
     if (!nh_deck_is(deck, list, NH_DECK_LIST, "a path [x, y] or [x, y, heading]", r->error)) return false;
-    if (list->count != 2 && list->count != 3) return nh_deck_fail(deck, list, 0, r->error, "a path is given by 2 or 3 expressions, found %zu", list->count);
+    if (list->count != 2 && list->count != 3)
+        return nh_deck_fail(deck, list, 0, r->error, "a path is given by 2 or 3 expressions, found %zu", list->count);
     f->quantity = nh_analysis_file_take(r, list->count, sizeof *f->quantity);
     for (size_t i = 0; i < list->count; i++) {
         if (!nh_analysis_file_parse(r, list->item[i], &f->quantity[i].value)) return false;
@@ -29,9 +30,11 @@ static bool read_scan(reader *r, const nh_deck_node *node, nh_figure_request *f)
         if (!strcmp(node->text, nh_name_of(r->model->dag, a->unknown[f->unknown].symbol))) break;
     if (f->unknown == a->unknowns) {
         nh_deck_fail(a->deck, node, 0, r->error, "`%s` is not an unknown of this analysis", node->text);
-        return nh_error_hint(r->error, "to declare it, write unknowns: {%s: [low, high]}, and use it in the ansatz", node->text);
+        return nh_error_hint(r->error, "to declare it, write unknowns: {%s: [low, high]}, and use it in the ansatz",
+                             node->text);
     }
-    return a->unknowns == 1 || nh_deck_fail(a->deck, node, 0, r->error, "a scan needs an analysis with one unknown, this one has %zu", a->unknowns);
+    return a->unknowns == 1 || nh_deck_fail(a->deck, node, 0, r->error,
+                                            "a scan needs an analysis with one unknown, this one has %zu", a->unknowns);
 }
 
 /* samples: [20, 40, 80] */
@@ -57,12 +60,16 @@ static bool read_vary(reader *r, const nh_deck_node *map, nh_figure_request *f)
     bool known = false;
     if (!map) return true;
     if (!nh_deck_is(deck, map, NH_DECK_MAP, "vary {parameter: [values]}", r->error)) return false;
-    if (map->count != 1) return nh_deck_fail(deck, map, 0, r->error, "one parameter can be varied in a figure, found %zu", map->count);
+    if (map->count != 1)
+        return nh_deck_fail(deck, map, 0, r->error, "one parameter can be varied in a figure, found %zu", map->count);
     f->vary = map->key[0]->text;
     for (size_t i = 0; i < s->parameters; i++) known |= !strcmp(f->vary, s->parameter[i].name);
     if (!known) {
         nh_deck_fail(deck, map->key[0], 0, r->error, "`%s` is not a parameter of %s", f->vary, s->name);
-        return s->parameters ? nh_error_hint(r->error, "vary: {%s: [1, 2]} repeats the motion for two values of a parameter", s->parameter[0].name) : false;
+        return s->parameters
+                   ? nh_error_hint(r->error, "vary: {%s: [1, 2]} repeats the motion for two values of a parameter",
+                                   s->parameter[0].name)
+                   : false;
     }
     const nh_deck_node *list = map->item[0];
     if (!nh_deck_is(deck, list, NH_DECK_LIST, "a list of values", r->error)) return false;
@@ -77,17 +84,26 @@ static bool read_figure(reader *r, const nh_deck_node *node, nh_figure_request *
 {
     static const char *const keys[] = {"title", "path", "plot", "scan", "samples", "vary", "time"};
     const nh_deck *deck = r->a->deck;
-    if (!nh_deck_is(deck, node, NH_DECK_MAP, "a figure {path: [x, y]}, {plot: [name = expression]}, {scan: unknown} or {samples: [numbers]}", r->error)) return false;
+    if (!nh_deck_is(deck, node, NH_DECK_MAP,
+                    "a figure {path: [x, y]}, {plot: [name = expression]}, {scan: unknown} or {samples: [numbers]}",
+                    r->error))
+        return false;
     if (!nh_deck_only(deck, node, keys, sizeof keys / sizeof *keys, r->error)) return false;
-    const nh_deck_node *title = nh_deck_get(node, "title"), *path = nh_deck_get(node, "path"), *plot = nh_deck_get(node, "plot"), *scan = nh_deck_get(node, "scan"), *samples = nh_deck_get(node, "samples"),
-                       *time = nh_deck_get(node, "time");
+    const nh_deck_node *title = nh_deck_get(node, "title"), *path = nh_deck_get(node, "path"),
+                       *plot = nh_deck_get(node, "plot"), *scan = nh_deck_get(node, "scan"),
+                       *samples = nh_deck_get(node, "samples"), *time = nh_deck_get(node, "time");
     if (!path + !plot + !scan + !samples != 3) {
         nh_deck_fail(deck, node, 0, r->error, "a figure has one of `path`, `plot`, `scan` and `samples`");
-        return nh_error_hint(r->error, "path: [x, y, heading], plot: [name = expression, ...], scan: nu or samples: [50, 100]");
+        return nh_error_hint(r->error,
+                             "path: [x, y, heading], plot: [name = expression, ...], scan: nu or samples: [50, 100]");
     }
     if (title && !nh_deck_is(deck, title, NH_DECK_SCALAR, "a title", r->error)) return false;
     f->kind = path ? NH_FIGURE_PATH : plot ? NH_FIGURE_PLOT : scan ? NH_FIGURE_SCAN : NH_FIGURE_SAMPLES;
-    f->title = title ? title->text : path ? "Path" : plot ? "Over time" : scan ? "Scan" : "Singular values, by the number of samples";
+    f->title = title  ? title->text
+               : path ? "Path"
+               : plot ? "Over time"
+               : scan ? "Scan"
+                      : "Singular values, by the number of samples";
     if (path && !read_path(r, path, f)) return false;
     if (plot && !nh_analysis_file_watches(r, plot, "plot", &f->quantity, &f->quantities)) return false;
     if (scan && !read_scan(r, scan, f)) return false;
@@ -98,7 +114,9 @@ static bool read_figure(reader *r, const nh_deck_node *node, nh_figure_request *
     f->begin = range[0];
     f->end = range[1];
     const nh_deck_node *vary = nh_deck_get(node, "vary");
-    if ((scan || samples) && (vary || time)) return nh_deck_fail(deck, vary ? vary : time, 0, r->error, "`scan` and `samples` do not use a motion: remove `vary` and `time`");
+    if ((scan || samples) && (vary || time))
+        return nh_deck_fail(deck, vary ? vary : time, 0, r->error,
+                            "`scan` and `samples` do not use a motion: remove `vary` and `time`");
     return read_vary(r, vary, f);
 }
 

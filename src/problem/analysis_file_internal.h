@@ -18,10 +18,11 @@ void *nh_analysis_file_take(nh_analysis_file_reader *r, size_t count, size_t siz
 /* An expression in the names of the analysis, brought to the model's chart. */
 bool nh_analysis_file_parse(nh_analysis_file_reader *r, const nh_deck_node *node, nh_ex *out);
 /* One of `count` names; an absent node leaves *out alone. */
-bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, size_t count, const char *const *names,
-                             size_t *out, nh_error *error);
+bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, size_t count,
+                             const char *const *names, size_t *out, nh_error *error);
 /* A list of "name = expression". */
-bool nh_analysis_file_watches(nh_analysis_file_reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count);
+bool nh_analysis_file_watches(nh_analysis_file_reader *r, const nh_deck_node *list, const char *what, nh_named **out,
+                              size_t *count);
 /* figures: what to draw of which motions. */
 bool nh_analysis_file_read_figures(nh_analysis_file_reader *r);
 /* ansatz: the list of families. */

@@ -58,7 +58,8 @@ static const char *choose_view(const drawing *w, int axis[2])
     const nh_chain *c = w->s->chain;
     bool any[3] = {false, false, false};
     for (size_t i = 0; i < c->bodies; i++)
-        for (int e = 0; e < 3; e++) any[e] = any[e] || moves(w, c->body[i].pose.p[e]) || moves(w, c->body[i].position[e]);
+        for (int e = 0; e < 3; e++)
+            any[e] = any[e] || moves(w, c->body[i].pose.p[e]) || moves(w, c->body[i].position[e]);
     int across = c->wheels || !any[2] ? 2 : !any[1] ? 1 : !any[0] ? 0 : nh_is_zero(w->s->dag, c->gravity[2]) ? 2 : 1;
     axis[0] = across == 0;
     axis[1] = across == 2 ? 1 : 2;
@@ -204,7 +205,9 @@ static bool several_points(drawing *w, size_t lengths, const nh_coordinate *cons
     if (lengths < 4 || lengths % 2) return false;
     for (size_t i = 0; i < lengths; i += 2)
         if (!pair(length[i]->name, length[i + 1]->name)) return false;
-    for (size_t i = 0; i < lengths; i += 2) point(w, length[i]->q, length[i + 1]->q)->name = nh_arena_printf(w->arena, "(%s, %s)", length[i]->name, length[i + 1]->name);
+    for (size_t i = 0; i < lengths; i += 2)
+        point(w, length[i]->q, length[i + 1]->q)->name =
+            nh_arena_printf(w->arena, "(%s, %s)", length[i]->name, length[i + 1]->name);
     return true;
 }
 
@@ -232,7 +235,8 @@ static const char *dials(drawing *w)
         nh_ex end[2] = {nh_add(d, at[0], nh_call(d, NH_SIN, q)), nh_neg(d, nh_call(d, NH_COS, q))};
         segment(w, at, end);
     }
-    return w->s->coordinates == 1 ? "the angle as a hand; 0 points down" : "each angle as the hand of a separate dial, in order; 0 points down";
+    return w->s->coordinates == 1 ? "the angle as a hand; 0 points down"
+                                  : "each angle as the hand of a separate dial, in order; 0 points down";
 }
 
 static const char *from_coordinates(drawing *w)
@@ -251,7 +255,8 @@ static const char *from_coordinates(drawing *w)
     p->value[0] = length[0]->q;
     p->value[1] = length[1]->q;
     if (angle) p->value[2] = angle->q;
-    return nh_arena_printf(w->arena, "%s and %s as a plane%s%s", length[0]->name, length[1]->name, angle ? ", with the heading " : "", angle ? angle->name : "");
+    return nh_arena_printf(w->arena, "%s and %s as a plane%s%s", length[0]->name, length[1]->name,
+                           angle ? ", with the heading " : "", angle ? angle->name : "");
 }
 
 const char *nh_drawing_choose(nh_arena *arena, const nh_system *s, size_t *count, const nh_shape **shape)

@@ -6,9 +6,11 @@
 
 /* Shapes in t, coordinates and parameters, in the arena:
  *
- *     bodies and joints    a rod from joint to joint, a point at every mass, wheels and blades; from above when there are wheels, else across
+ *     bodies and joints    a rod from joint to joint, a point at every mass, wheels and blades; from above when there
+ *                          are wheels, else across
  *                          the direction in which the least moves
- *     two lengths or more  points in the plane of the first two (of several pairs x1, y1, x2, y2: one point each), with the first angle as heading
+ *     two lengths or more  points in the plane of the first two (of several pairs x1, y1, x2, y2: one point each), with
+ *                          the first angle as heading
  *     one length           a point on a line that turns with the first angle, if there is one
  *     angles               each the hand of a dial; a pair of polar angles on a unit sphere is not guessed
  *

@@ -1,10 +1,12 @@
 /* input: a table of values over time as one expression.
  *
- * With the slopes s_i of the pieces from t_i to t_(i+1), and s = 0 before the first time and behind the last, the broken line through (t_i, u_i), i = 0..N, is
+ * With the slopes s_i of the pieces from t_i to t_(i+1), and s = 0 before the first time and behind the last, the
+ * broken line through (t_i, u_i), i = 0..N, is
  *
  *     u(t) = (u_0 + u_N)/2 + sum_i (s_i - s_(i-1))/2 |t - t_i|,
  *
- * and since the integrators end their steps at the zeros of what stands in an absolute value, no step goes over a corner. */
+ * and since the integrators end their steps at the zeros of what stands in an absolute value, no step goes over a
+ * corner. */
 #include "problem/input.h"
 
 #include <string.h>
@@ -14,11 +16,15 @@
 
 enum { most_corners = 1000 };
 
-static bool read_values(nh_arena *arena, const nh_table *t, size_t time, size_t column, double *x, double *u, nh_error *error)
+static bool read_values(nh_arena *arena, const nh_table *t, size_t time, size_t column, double *x, double *u,
+                        nh_error *error)
 {
     for (size_t i = 0; i < t->rows; i++) {
-        if (!nh_table_number(arena, t, i, time, &x[i], error) || !nh_table_number(arena, t, i, column, &u[i], error)) return false;
-        if (i && !(x[i] > x[i - 1])) return nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, t->line[i]), "the times of an input must rise, but %g comes after %g", x[i], x[i - 1]);
+        if (!nh_table_number(arena, t, i, time, &x[i], error) || !nh_table_number(arena, t, i, column, &u[i], error))
+            return false;
+        if (i && !(x[i] > x[i - 1]))
+            return nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, t->line[i]),
+                           "the times of an input must rise, but %g comes after %g", x[i], x[i - 1]);
     }
     return true;
 }
@@ -54,9 +60,13 @@ const char *nh_input_text(nh_arena *arena, const char *name, const char *text, n
         return NULL;
     }
     nh_table *t = nh_table_read(arena, nh_arena_strndup(arena, text, (size_t)(colon - text)), error);
-    size_t time = t ? nh_table_column(t, "t", error) : 0, column = t && time < t->columns ? nh_table_column(t, colon + 1, error) : 0;
+    size_t time = t ? nh_table_column(t, "t", error) : 0,
+           column = t && time < t->columns ? nh_table_column(t, colon + 1, error) : 0;
     if (!t || time == t->columns || column == t->columns) return NULL;
-    if (t->rows > most_corners) return nh_fail(error, NH_INPUT, t->path, "an input has at most %d values, and this table has %zu", most_corners, t->rows), NULL;
+    if (t->rows > most_corners)
+        return nh_fail(error, NH_INPUT, t->path, "an input has at most %d values, and this table has %zu", most_corners,
+                       t->rows),
+               NULL;
     double *x = nh_arena_alloc(arena, t->rows * sizeof *x), *u = nh_arena_alloc(arena, t->rows * sizeof *u);
     return read_values(arena, t, time, column, x, u, error) ? broken_line(arena, t->rows, x, u) : NULL;
 }

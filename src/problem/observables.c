@@ -4,7 +4,10 @@
 
 #include "problem/drawing.h"
 
-nh_observables nh_observables_create(nh_arena *arena, const nh_model *model) { return (nh_observables){.arena = arena, .model = model}; }
+nh_observables nh_observables_create(nh_arena *arena, const nh_model *model)
+{
+    return (nh_observables){.arena = arena, .model = model};
+}
 
 void nh_observables_add(nh_observables *t, const char *name, nh_track_kind kind, nh_ex value)
 {
@@ -23,13 +26,16 @@ void nh_observables_add_states(nh_observables *t)
     const nh_model *o = t->model;
     const nh_system *s = o->system;
     for (size_t i = 0; i < o->m; i++) nh_observables_add(t, s->coordinate[i].name, NH_TRACK_STATE, s->coordinate[i].q);
-    for (size_t i = 0; i < o->m; i++) nh_observables_add(t, nh_name_of(o->dag, s->coordinate[i].v), NH_TRACK_STATE, o->rho[i]);
-    for (size_t i = 0; i < o->n && o->chart->quasi; i++) nh_observables_add(t, nh_name_of(o->dag, o->chart->w[i]), NH_TRACK_STATE, o->chart->w[i]);
+    for (size_t i = 0; i < o->m; i++)
+        nh_observables_add(t, nh_name_of(o->dag, s->coordinate[i].v), NH_TRACK_STATE, o->rho[i]);
+    for (size_t i = 0; i < o->n && o->chart->quasi; i++)
+        nh_observables_add(t, nh_name_of(o->dag, o->chart->w[i]), NH_TRACK_STATE, o->chart->w[i]);
 }
 
 void nh_observables_add_watches(nh_observables *t, const nh_analysis_file *a)
 {
-    for (size_t i = 0; a && i < a->watches; i++) nh_observables_add(t, a->watch[i].name, NH_TRACK_WATCH, a->watch[i].value);
+    for (size_t i = 0; a && i < a->watches; i++)
+        nh_observables_add(t, a->watch[i].name, NH_TRACK_WATCH, a->watch[i].value);
 }
 
 void nh_observables_add_drawing(nh_observables *t, const nh_analysis_file *a)
@@ -48,5 +54,6 @@ void nh_observables_add_drawing(nh_observables *t, const nh_analysis_file *a)
     }
     for (size_t i = 0; i < t->shapes; i++)
         for (size_t j = 0; j < nh_shape_numbers(t->shape[i].kind); j++)
-            nh_observables_add(t, nh_arena_printf(t->arena, "%s%zu.%zu", nh_shape_name(t->shape[i].kind), i + 1, j + 1), NH_TRACK_SHAPE, t->shape[i].value[j]);
+            nh_observables_add(t, nh_arena_printf(t->arena, "%s%zu.%zu", nh_shape_name(t->shape[i].kind), i + 1, j + 1),
+                               NH_TRACK_SHAPE, t->shape[i].value[j]);
 }

@@ -1,10 +1,18 @@
-/* observables: quantities along a motion, for reports: states, energy, currents, multipliers, observables, and the picture. */
+/* observables: quantities along a motion, for reports: states, energy, currents, multipliers, observables, and the
+   picture. */
 #ifndef NH_OBSERVABLES_H
 #define NH_OBSERVABLES_H
 
 #include "problem/analysis_file.h"
 
-typedef enum { NH_TRACK_STATE, NH_TRACK_CURRENT, NH_TRACK_MULTIPLIER, NH_TRACK_ENERGY, NH_TRACK_WATCH, NH_TRACK_SHAPE } nh_track_kind;
+typedef enum {
+    NH_TRACK_STATE,
+    NH_TRACK_CURRENT,
+    NH_TRACK_MULTIPLIER,
+    NH_TRACK_ENERGY,
+    NH_TRACK_WATCH,
+    NH_TRACK_SHAPE
+} nh_track_kind;
 
 /* A quantity that is followed. */
 typedef struct {

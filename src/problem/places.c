@@ -19,7 +19,8 @@ static char *file_of_code(nh_arena *arena)
 {
     Dl_info info;
     void   *here = (void *)(uintptr_t)nh_places_look;
-    if (dladdr(here, &info) && info.dli_fname && info.dli_fname[0] == '/' && strstr(info.dli_fname, ".so")) return nh_arena_strdup(arena, info.dli_fname);
+    if (dladdr(here, &info) && info.dli_fname && info.dli_fname[0] == '/' && strstr(info.dli_fname, ".so"))
+        return nh_arena_strdup(arena, info.dli_fname);
     char path[4096];
     ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
     return n > 0 ? nh_arena_strndup(arena, path, (size_t)n) : NULL;
@@ -33,8 +34,10 @@ static bool is_of_kind(const char *file, const char *kind)
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_deck *deck = nh_deck_read(file, &ignored);
-    bool system = false, analysis = !strcmp(kind, "analyses"), readable = deck && nh_deck_root(deck)->kind == NH_DECK_MAP;
-    for (size_t i = 0; readable && i < sizeof of_systems / sizeof *of_systems; i++) system |= nh_deck_get(nh_deck_root(deck), of_systems[i]) != NULL;
+    bool system = false, analysis = !strcmp(kind, "analyses"),
+         readable = deck && nh_deck_root(deck)->kind == NH_DECK_MAP;
+    for (size_t i = 0; readable && i < sizeof of_systems / sizeof *of_systems; i++)
+        system |= nh_deck_get(nh_deck_root(deck), of_systems[i]) != NULL;
     nh_deck_free(deck);
     return !readable || system != analysis;
 }
@@ -44,7 +47,8 @@ typedef struct {
     bool mixed; /* systems and analyses */
 } place;
 
-/* Folders to search, in order: here, each entry of NHSYM_PATH (its systems/ or analyses/, and itself), the installed data. */
+/* Folders to search, in order: here, each entry of NHSYM_PATH (its systems/ or analyses/, and itself), the installed
+   data. */
 static size_t places(nh_arena *arena, const char *kind, place *out)
 {
     size_t n = 0;
@@ -64,7 +68,8 @@ static size_t places(nh_arena *arena, const char *kind, place *out)
         if (!(slash = strrchr(above, '/'))) break;
         size_t length = (size_t)(slash - above);
         out[n++].folder = nh_arena_printf(arena, "%.*s/share/nhsym/%s", (int)length, above, kind);
-        if (i == 0) out[n++].folder = nh_arena_printf(arena, "%.*s/%s", (int)length, above, kind); /* built, and not installed: beside the folder of the build */
+        /* built, and not installed: beside the folder of the build */
+        if (i == 0) out[n++].folder = nh_arena_printf(arena, "%.*s/%s", (int)length, above, kind);
     }
     out[n++].folder = nh_arena_printf(arena, "%s/%s", NH_DATADIR, kind);
     return n;
@@ -109,7 +114,8 @@ size_t nh_places_names(nh_arena *arena, const char *kind, const char ***names)
         for (struct dirent *entry; directory && (entry = readdir(directory));) {
             size_t length = strlen(entry->d_name);
             if (length < 6 || strcmp(entry->d_name + length - 5, ".yaml")) continue;
-            if (where[i].mixed && !is_of_kind(nh_arena_printf(arena, "%s/%s", where[i].folder, entry->d_name), kind)) continue;
+            if (where[i].mixed && !is_of_kind(nh_arena_printf(arena, "%s/%s", where[i].folder, entry->d_name), kind))
+                continue;
             nh_grow(&list, &capacity, count + 1, sizeof *list);
             list[count++] = nh_arena_strndup(arena, entry->d_name, length - 5);
         }
@@ -158,7 +164,8 @@ static const char *no_such_file(nh_arena *arena, const char *kind, const char *p
     const char *near = file_near(arena, path), *name = near ? NULL : shipped(arena, kind, path);
     if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else if (name) nh_error_hint(error, "the one that nhsym brings along is called by its name: `%s`", name);
-    else if (!strcmp(kind, "systems")) nh_error_hint(error, "`nhsym list` lists the available systems; `nhsym new skate` writes an example");
+    else if (!strcmp(kind, "systems"))
+        nh_error_hint(error, "`nhsym list` lists the available systems; `nhsym new skate` writes an example");
     return NULL;
 }
 
@@ -169,8 +176,10 @@ const char *nh_places_find(nh_arena *arena, const char *kind, const char *name, 
     if (nh_places_is_path(name)) return no_such_file(arena, kind, name, error);
     const char **names;
     size_t count = nh_places_names(arena, kind, &names);
-    nh_fail(error, NH_INPUT, "", "there is no %s `%s` in ./%s, in NHSYM_PATH or among the installed ones", strcmp(kind, "systems") ? "analysis" : "system", name, kind);
-    const char *near = nh_text_nearest(name, names, count), *file = nh_arena_printf(arena, "%s.yaml", name), *beside = strchr(name, '.') ? file_near(arena, name) : NULL;
+    nh_fail(error, NH_INPUT, "", "there is no %s `%s` in ./%s, in NHSYM_PATH or among the installed ones",
+            strcmp(kind, "systems") ? "analysis" : "system", name, kind);
+    const char *near = nh_text_nearest(name, names, count), *file = nh_arena_printf(arena, "%s.yaml", name),
+               *beside = strchr(name, '.') ? file_near(arena, name) : NULL;
     if (!access(file, F_OK)) nh_error_hint(error, "did you mean the file %s?  Write its whole name", file);
     else if (!access(name, F_OK)) nh_error_hint(error, "there is a file of this name here: write ./%s", name);
     else if (beside) nh_error_hint(error, "did you mean the file `%s`?", beside);

@@ -5,8 +5,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 
-/* The file of a system or analysis, in the arena: a path, or a name looked up in ./systems, NHSYM_PATH and the installed data.
- * `kind` is "systems" or "analyses".  NULL with a suggestion. */
+/* The file of a system or analysis, in the arena: a path, or a name looked up in ./systems, NHSYM_PATH and the
+ * installed data. `kind` is "systems" or "analyses".  NULL with a suggestion. */
 const char *nh_places_find(nh_arena *arena, const char *kind, const char *name, nh_error *error);
 /* The same without complaint. */
 const char *nh_places_look(nh_arena *arena, const char *kind, const char *name);

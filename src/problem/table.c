@@ -54,7 +54,9 @@ static bool read_line(nh_arena *arena, nh_table *t, const char *line, size_t num
         read_fields(arena, line, t->name);
         return true;
     }
-    if (fields != t->columns) return nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, number), "this line has %zu fields, but the line of names has %zu", fields, t->columns);
+    if (fields != t->columns)
+        return nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, number),
+                       "this line has %zu fields, but the line of names has %zu", fields, t->columns);
     t->line[t->rows] = number;
     read_fields(arena, line, t->cell + t->rows++ * t->columns);
     return true;
@@ -72,7 +74,8 @@ static bool read_lines(nh_arena *arena, nh_table *t, char *text, nh_error *error
         number++;
         line[strcspn(line, "\r")] = 0;
         if (!line[strspn(line, " \t")] || *line == '#') continue;
-        if (t->columns && (t->rows + 1) * t->columns > fields + lines) return nh_fail(error, NH_INPUT, t->path, "the lines have different numbers of fields");
+        if (t->columns && (t->rows + 1) * t->columns > fields + lines)
+            return nh_fail(error, NH_INPUT, t->path, "the lines have different numbers of fields");
         if (!read_line(arena, t, line, number, error)) return false;
     }
     return true;
@@ -86,12 +89,16 @@ nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error)
     if (!text) return NULL;
     nh_table *t = nh_arena_alloc(arena, sizeof *t);
     t->path = nh_arena_strdup(arena, path);
-    bool good = length <= most_bytes || nh_fail(error, NH_INPUT, path, "the table is longer than %d bytes", (int)most_bytes);
+    bool good =
+        length <= most_bytes || nh_fail(error, NH_INPUT, path, "the table is longer than %d bytes", (int)most_bytes);
     if (good && memchr(text, 0, length)) good = nh_fail(error, NH_INPUT, path, "the table contains a zero byte");
     char *lines = good ? nh_arena_strndup(arena, text, length) : NULL; /* what was read has no end mark */
     nh_free(text);
-    if (good) good = read_lines(arena, t, strncmp(lines, mark, sizeof mark - 1) ? lines : lines + sizeof mark - 1, error);
-    if (good && !t->rows) good = nh_fail(error, NH_INPUT, path, "the table has no rows: a line of names comes first, then one line per row");
+    if (good)
+        good = read_lines(arena, t, strncmp(lines, mark, sizeof mark - 1) ? lines : lines + sizeof mark - 1, error);
+    if (good && !t->rows)
+        good =
+            nh_fail(error, NH_INPUT, path, "the table has no rows: a line of names comes first, then one line per row");
     return good ? t : NULL;
 }
 
@@ -109,5 +116,6 @@ bool nh_table_number(nh_arena *arena, const nh_table *t, size_t row, size_t colu
 {
     const char *cell = t->cell[row * t->columns + column];
     if (nh_text_to_number(cell, out)) return true;
-    return nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, t->line[row]), "`%s` needs a number, found `%s`", t->name[column], cell);
+    return nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, t->line[row]),
+                   "`%s` needs a number, found `%s`", t->name[column], cell);
 }

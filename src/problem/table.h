@@ -13,7 +13,8 @@ typedef struct {
     size_t *line;        /* rows: in the file, from 1 */
 } nh_table;
 
-/* In the arena; fields may stand in double quotes, empty lines and those that begin with # are left out.  NULL with file and line. */
+/* In the arena; fields may stand in double quotes, empty lines and those that begin with # are left out.  NULL with
+   file and line. */
 nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error);
 /* The column of that name; `columns` with a suggestion when there is none. */
 size_t nh_table_column(const nh_table *table, const char *name, nh_error *error);

@@ -21,7 +21,8 @@ static double half_width(const nh_model *o, size_t s)
 static double length_of(const nh_model *o, size_t i) { return o->chart->quasi ? 1 : half_width(o, o->chart->free[i]); }
 
 /* The accelerations at probe p, its velocities multiplied by `part`. */
-static bool accelerations(const nh_model *o, nh_tape *tape, nh_tape_work *work, size_t p, double part, double *z, double *out)
+static bool accelerations(const nh_model *o, nh_tape *tape, nh_tape_work *work, size_t p, double part, double *z,
+                          double *out)
 {
     const nh_chart *c = o->chart;
     memcpy(z, c->probe + p * c->width, c->width * sizeof *z);
@@ -55,7 +56,8 @@ static double omega(const nh_model *o)
             for (size_t i = 0; i < n; i++) a[i * c->probes + rest] = fabs(out[i]);
             rest++;
         }
-        if (!accelerations(o, tape, work, p, -small, z, out) || !accelerations(o, tape, work, p, small, z, out + n)) continue;
+        if (!accelerations(o, tape, work, p, -small, z, out) || !accelerations(o, tape, work, p, small, z, out + n))
+            continue;
         for (size_t i = 0; i < n; i++) {
             change = fmax(change, fabs(out[n + i] - out[i]) / (2 * length_of(o, i)));
             speed = fmax(speed, fabs(z[1 + o->m + i]) / length_of(o, i));
@@ -88,7 +90,8 @@ double nh_time_scale_set(nh_system *s, const nh_model *o)
     if (s->intervals) memcpy(list, s->interval, s->intervals * sizeof *list);
     s->interval = list;
     add(s, s->t, 0, 1 / Omega);
-    for (size_t i = 0; i < o->m; i++) add(s, s->coordinate[i].v, -velocity * half_width(o, i) * Omega, velocity * half_width(o, i) * Omega);
+    for (size_t i = 0; i < o->m; i++)
+        add(s, s->coordinate[i].v, -velocity * half_width(o, i) * Omega, velocity * half_width(o, i) * Omega);
     for (size_t i = 0; i < s->quasi; i++) add(s, s->quasi_velocity[i], -velocity * Omega, velocity * Omega);
     return Omega;
 }

@@ -30,7 +30,8 @@ void nh_action_values(const nh_action *g, const double *q, double *E)
 static double *stacked(const nh_kinetic *k, size_t n, const nh_ex *component)
 {
     size_t m = k->m, places = places_of(k);
-    double *out = nh_alloc_array(places * m * n + 1, sizeof *out), *value = nh_alloc_array(places * m * n + 1, sizeof *value);
+    double *out = nh_alloc_array(places * m * n + 1, sizeof *out),
+           *value = nh_alloc_array(places * m * n + 1, sizeof *value);
     nh_kinetic_sample(k, m * n, component, places, value);
     for (size_t p = 0; p < places; p++)
         for (size_t j = 0; j < n; j++) memcpy(out + (j * places + p) * m, value + (p * n + j) * m, m * sizeof *out);
@@ -38,8 +39,8 @@ static double *stacked(const nh_kinetic *k, size_t n, const nh_ex *component)
     return out;
 }
 
-/* Fields (n of them, as stacked) in units of the coordinates' sizes, and divided by `size` each where that is not NULL; the
- * largest value of each into most. */
+/* Fields (n of them, as stacked) in units of the coordinates' sizes, and divided by `size` each where that is not NULL;
+ * the largest value of each into most. */
 static void in_units(const nh_kinetic *k, size_t n, const double *size, double *a, double *most)
 {
     size_t m = k->m, long_m = places_of(k) * m;
@@ -52,8 +53,8 @@ static void in_units(const nh_kinetic *k, size_t n, const double *size, double *
     nh_free(unit);
 }
 
-/* The generators E and their brackets B of size one: then the constants are numbers that do not depend on units, and one that is
- * zero can be told.  size[a] is what e_a was divided by, size[d + pair] what bracket `pair` was. */
+/* The generators E and their brackets B of size one: then the constants are numbers that do not depend on units, and
+ * one that is zero can be told.  size[a] is what e_a was divided by, size[d + pair] what bracket `pair` was. */
 static void normalise(const nh_kinetic *k, size_t d, double *E, double *B, double *size)
 {
     double *ones = size + d;
@@ -154,16 +155,19 @@ static void scaled(size_t m, const double *K, size_t n, double *a)
     unit_columns(m, n, a);
 }
 
-/* Rank of [E, D] at a place, and sigma_min / sigma_max of omega on V (unit columns) when there are as many generators as
- * constraints; both in units in which the metric has diagonal one. */
-static size_t with_distribution(size_t m, size_t f, size_t d, const double *K, const double *omega, const double *E, double small, double *transversality)
+/* Rank of [E, D] at a place, and sigma_min / sigma_max of omega on V (unit columns) when there are as many generators
+ * as constraints; both in units in which the metric has diagonal one. */
+static size_t with_distribution(size_t m, size_t f, size_t d, const double *K, const double *omega, const double *E,
+                                double small, double *transversality)
 {
-    double *forms = nh_alloc_array(f * m + 1, sizeof *forms), *both = nh_alloc_array(m * (m + d) + 1, sizeof *both), *on = nh_alloc_array(f * d + 1, sizeof *on);
+    double *forms = nh_alloc_array(f * m + 1, sizeof *forms), *both = nh_alloc_array(m * (m + d) + 1, sizeof *both),
+           *on = nh_alloc_array(f * d + 1, sizeof *on);
     memcpy(both, E, m * d * sizeof *both);
     scaled(m, K, d, both);
     for (size_t a = 0; a < f; a++) {
         double size = 0;
-        for (size_t s = 0; s < m; s++) size = hypot(size, forms[a + s * f] = omega[a * m + s] / unit_of(K[s * (m + 1)]));
+        for (size_t s = 0; s < m; s++)
+            size = hypot(size, forms[a + s * f] = omega[a * m + s] / unit_of(K[s * (m + 1)]));
         for (size_t s = 0; s < m; s++) forms[a + s * f] = size > 0 ? forms[a + s * f] / size : 0;
         for (size_t c = 0; c < d; c++) /* generators of length one: a column that D nearly contains stays small */
             for (size_t s = 0; s < m; s++) on[a + c * f] += forms[a + s * f] * both[s + c * m];
@@ -195,7 +199,8 @@ static void find_ranks(nh_action *g, const nh_options *options)
         double ratio, transversality = 0;
         memcpy(unit, E, m * d * sizeof *unit);
         scaled(m, K, d, unit);
-        size_t rank = rank_at(m, d, unit, options->group, &ratio), both = k->affine ? with_distribution(m, f, d, K, omega, E, options->group, &transversality) : rank;
+        size_t rank = rank_at(m, d, unit, options->group, &ratio),
+               both = k->affine ? with_distribution(m, f, d, K, omega, E, options->group, &transversality) : rank;
         if (rank > g->orbit) g->orbit = rank;
         if (both > joint) joint = both;
         g->free &= rank == d;
@@ -223,7 +228,8 @@ size_t nh_action_orbit_at(const nh_action *g, const double *q, const nh_options 
     return rank;
 }
 
-void nh_action_init(nh_action *g, const nh_kinetic *k, size_t d, const nh_generator *generator, const nh_options *options)
+void nh_action_init(nh_action *g, const nh_kinetic *k, size_t d, const nh_generator *generator,
+                    const nh_options *options)
 {
     *g = (nh_action){.kinetic = k, .d = d, .generator = nh_arena_alloc(k->arena, (d + 1) * sizeof *g->generator)};
     if (d) memcpy(g->generator, generator, d * sizeof *generator);
@@ -250,7 +256,8 @@ void nh_action_sub(nh_action *out, const nh_action *g, size_t r, const double *t
         for (size_t s = 0; s < k->m; s++) {
             component[s] = nh_int(dag, 0);
             for (size_t a = 0; a < g->d; a++)
-                component[s] = nh_add(dag, component[s], nh_mul(dag, nh_real(dag, t[a + j * g->d]), g->generator[a].component[s]));
+                component[s] =
+                    nh_add(dag, component[s], nh_mul(dag, nh_real(dag, t[a + j * g->d]), g->generator[a].component[s]));
         }
         nh_generator_init(&sub[j], k, NULL, component, options);
     }
@@ -265,7 +272,8 @@ size_t nh_action_horizontal(const nh_action *g, const nh_options *options, doubl
 {
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, f = k->f, d = g->d, places = places_of(k), rows = places * f;
-    double *a = nh_alloc_array(rows * d + 1, sizeof *a), *E = nh_alloc_array(m * d + f * m + 1, sizeof *E), *omega = E + m * d;
+    double *a = nh_alloc_array(rows * d + 1, sizeof *a), *E = nh_alloc_array(m * d + f * m + 1, sizeof *E),
+           *omega = E + m * d;
     for (size_t p = 0; p < places && f; p++) {
         nh_action_values(g, k->place + p * m, E);
         nh_kinetic_values(k, f * m, k->omega, k->place + p * m, omega);
@@ -285,7 +293,9 @@ bool nh_action_moving(const nh_action *g, double *c)
     static const double small = 1e-9;
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, f = k->f, d = g->d, places = places_of(k), rows = places * f, ld = rows > d ? rows : d;
-    double *a = nh_alloc_array(rows * d + 1, sizeof *a), *b = nh_alloc_array(ld + 1, sizeof *b), *E = nh_alloc_array(m * d + f * m + f + 1, sizeof *E), *omega = E + m * d, *value = omega + f * m, off = 0, size = 0;
+    double *a = nh_alloc_array(rows * d + 1, sizeof *a), *b = nh_alloc_array(ld + 1, sizeof *b),
+           *E = nh_alloc_array(m * d + f * m + f + 1, sizeof *E), *omega = E + m * d, *value = omega + f * m, off = 0,
+           size = 0;
     double *kept = nh_alloc_array(rows * (d + 1) + 1, sizeof *kept);
     for (size_t p = 0; p < places && f; p++) {
         nh_action_values(g, k->place + p * m, E);
@@ -330,13 +340,15 @@ nh_flows *nh_flows_create(const nh_action *g)
     nh_flows *f = nh_alloc(sizeof *f);
     nh_ex *e = nh_alloc_array(m * g->d + 1, sizeof *e);
     for (size_t a = 0; a < g->d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
-    *f = (nh_flows){.action = g, .tape = nh_kinetic_tape(g->kinetic, m * g->d, e), .E = nh_alloc_array(m * g->d + 1, sizeof *f->E)};
+    *f = (nh_flows){
+        .action = g, .tape = nh_kinetic_tape(g->kinetic, m * g->d, e), .E = nh_alloc_array(m * g->d + 1, sizeof *f->E)};
     f->work = nh_tape_work_create(f->tape);
     f->constant = nh_alloc_array(g->d + 1, sizeof *f->constant);
     for (size_t a = 0; a < g->d; a++) {
         f->constant[a] = true;
         for (size_t s = 0; s < m; s++)
-            for (size_t j = 0; j < m; j++) f->constant[a] &= !nh_depends(g->kinetic->dag, e[a * m + s], g->kinetic->q[j]);
+            for (size_t j = 0; j < m; j++)
+                f->constant[a] &= !nh_depends(g->kinetic->dag, e[a * m + s], g->kinetic->q[j]);
     }
     nh_free(e);
     return f;
@@ -380,7 +392,8 @@ bool nh_flows_move(nh_flows *f, const double *c, double t, double *q)
     return t == 0 || nh_runge_sized(m, field_rate, f, 0, t, tolerance, largest, q);
 }
 
-/* Back at the start: as far as the flow went away from it in the meantime, seen at times that are no parts of a period. */
+/* Back at the start: as far as the flow went away from it in the meantime, seen at times that are no parts of a
+   period. */
 static bool returns(nh_flows *f, const double *c, double time, const double *start)
 {
     static const double same = 1e-8, rounding = 1e-13, turn = 6.283185307179586, part[] = {0.17, 0.41, 0.77};
@@ -416,7 +429,10 @@ static double frequency(const nh_flows *f, const double *c, const double *q)
         for (size_t r = 0; r < m; r++) {
             e[s + r * m] = nh_int(k->dag, 0);
             for (size_t a = 0; a < f->action->d; a++)
-                if (c[a] != 0) e[s + r * m] = nh_add(k->dag, e[s + r * m], nh_mul(k->dag, nh_real(k->dag, c[a]), nh_diff(k->dag, f->action->generator[a].component[s], k->q[r])));
+                if (c[a] != 0)
+                    e[s + r * m] = nh_add(k->dag, e[s + r * m],
+                                          nh_mul(k->dag, nh_real(k->dag, c[a]),
+                                                 nh_diff(k->dag, f->action->generator[a].component[s], k->q[r])));
         }
     nh_kinetic_values(k, m * m, e, q, J);
     if (nh_eigen(m, J, re, im, NULL))
@@ -436,7 +452,8 @@ bool nh_flows_closed(nh_flows *f, const double *c)
     for (size_t p = 0; p < places && p < k->places && !closed; p++) {
         const double *q = k->place + p * k->m;
         double omega = frequency(f, c, q);
-        for (int i = 1; i <= 4 && !closed; i++) closed = (i <= 2 && returns(f, c, i * turn, q)) || (omega > 0 && returns(f, c, i * turn / omega, q));
+        for (int i = 1; i <= 4 && !closed; i++)
+            closed = (i <= 2 && returns(f, c, i * turn, q)) || (omega > 0 && returns(f, c, i * turn / omega, q));
     }
     return closed;
 }

@@ -3,7 +3,8 @@
  * With E = (e_a) (m x d) and D = ker omega, at generic points:
  *
  *     free                 rank E = d
- *     dimension assumption V + D = TQ: rank [E, D] = m                 [ChhabraEmami2014, eq. 2.7], [CendraDiaz2007, sec. 2]
+ *     dimension assumption V + D = TQ: rank [E, D] = m                 [ChhabraEmami2014, eq. 2.7], [CendraDiaz2007,
+ *     sec. 2]
  *     dim S, S = D cap V   d + (m - f) - rank [E, D]
  *     Chaplygin            S = 0 and V + D = TQ
  *
@@ -34,10 +35,12 @@ typedef struct {
 } nh_action;
 
 /* The generators are copied (the expressions live in the kinetic's graph). */
-void nh_action_init(nh_action *action, const nh_kinetic *kinetic, size_t d, const nh_generator *generator, const nh_options *options);
+void nh_action_init(nh_action *action, const nh_kinetic *kinetic, size_t d, const nh_generator *generator,
+                    const nh_options *options);
 void nh_action_clear(nh_action *action);
 
-/* Is it fit for reduction: invariant, independent, closed, free at the sample points?  The message names the field, the bracket or the point. */
+/* Is it fit for reduction: invariant, independent, closed, free at the sample points?  The message names the field, the
+   bracket or the point. */
 bool nh_action_check(const nh_action *action, const nh_options *options, nh_error *error);
 /* Has the orbit through a place the dimension that it has at generic points? */
 bool nh_action_check_at(const nh_action *action, const double *q, const nh_options *options, nh_error *error);
@@ -50,11 +53,12 @@ void nh_action_sub(nh_action *out, const nh_action *action, size_t r, const doub
 /* E at a place, m x d, column-major. */
 void nh_action_values(const nh_action *action, const double *q, double *E);
 
-/* Constant combinations of generators that lie in D everywhere (horizontal symmetries): basis columns c (d x count), echelon form. */
+/* Constant combinations of generators that lie in D everywhere (horizontal symmetries): basis columns c (d x count),
+   echelon form. */
 size_t nh_action_horizontal(const nh_action *action, const nh_options *options, double *c);
 
-/* Constants c (d) with omega(c^a e_a) + b = 0 everywhere: a symmetry that satisfies affine constraints itself, so that E - c^a e_a . p is conserved
- * [FassoSansonetto2016].  False when there are none. */
+/* Constants c (d) with omega(c^a e_a) + b = 0 everywhere: a symmetry that satisfies affine constraints itself, so that
+ * E - c^a e_a . p is conserved [FassoSansonetto2016].  False when there are none. */
 bool nh_action_moving(const nh_action *action, double *c);
 
 /* The flow of sum_a c[a] e_a for the time t, of a place q (overwritten). */
@@ -62,8 +66,8 @@ typedef struct nh_flows nh_flows;
 nh_flows *nh_flows_create(const nh_action *action);
 void nh_flows_free(nh_flows *flows);
 bool nh_flows_move(nh_flows *flows, const double *c, double t, double *q);
-/* Does the flow of sum_a c[a] e_a return, angles counted modulo 2 pi?  Tried are the times 2 pi and 4 pi, and the periods that the eigenvalues of its
- * Jacobian suggest. */
+/* Does the flow of sum_a c[a] e_a return, angles counted modulo 2 pi?  Tried are the times 2 pi and 4 pi, and the
+ * periods that the eigenvalues of its Jacobian suggest. */
 bool nh_flows_closed(nh_flows *flows, const double *c);
 
 #endif

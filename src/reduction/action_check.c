@@ -22,9 +22,16 @@ static bool not_invariant(const nh_action *g, size_t a, nh_error *error)
     nh_text t;
     nh_text_init(&t);
     const nh_generator *x = &g->generator[a];
-    const nh_condition *worst = !x->metric.holds ? &x->metric : !x->potential.holds ? &x->potential : !x->constraints.holds ? &x->constraints : &x->forces;
-    const char *what = worst == &x->metric ? "kinetic energy" : worst == &x->potential ? "potential" : worst == &x->constraints ? "constraint distribution" : "law of force";
-    nh_fail(error, NH_INPUT, "", "%s is not a symmetry: it does not leave the %s invariant (relative residual %.2g)", field_text(g->kinetic, x, &t), what, worst->residual);
+    const nh_condition *worst = !x->metric.holds        ? &x->metric
+                                : !x->potential.holds   ? &x->potential
+                                : !x->constraints.holds ? &x->constraints
+                                                        : &x->forces;
+    const char *what = worst == &x->metric        ? "kinetic energy"
+                       : worst == &x->potential   ? "potential"
+                       : worst == &x->constraints ? "constraint distribution"
+                                                  : "law of force";
+    nh_fail(error, NH_INPUT, "", "%s is not a symmetry: it does not leave the %s invariant (relative residual %.2g)",
+            field_text(g->kinetic, x, &t), what, worst->residual);
     nh_text_clear(&t);
     return nh_error_hint(error, "nhsym reduce without --group lists all symmetries");
 }
@@ -36,20 +43,25 @@ static bool not_closed(const nh_action *g, nh_error *error)
     nh_text_init(&a), nh_text_init(&b), nh_text_init(&c);
     nh_generator bracket = {.component = nh_arena_alloc(k->arena, k->m * sizeof(nh_ex))};
     nh_field_bracket(k, g->generator[g->worst[0]].component, g->generator[g->worst[1]].component, bracket.component);
-    nh_fail(error, NH_INPUT, "", "these fields do not span a Lie algebra: [%s, %s] = %s is not a linear combination of them (relative residual %.2g)",
-            field_text(k, &g->generator[g->worst[0]], &a), field_text(k, &g->generator[g->worst[1]], &b), field_text(k, &bracket, &c), g->closure);
+    nh_fail(error, NH_INPUT, "",
+            "these fields do not span a Lie algebra: [%s, %s] = %s is not a linear combination of them (relative "
+            "residual %.2g)",
+            field_text(k, &g->generator[g->worst[0]], &a), field_text(k, &g->generator[g->worst[1]], &b),
+            field_text(k, &bracket, &c), g->closure);
     nh_text_clear(&a), nh_text_clear(&b), nh_text_clear(&c);
     return nh_error_hint(error, "add the bracket to the list, or remove one of the two fields");
 }
 
-/* sum_a c[a] e_a = 0 everywhere: true with one such c, the last coefficient that is not zero made 1.  Components are compared in units of the coordinates' sizes, and
- * fields in units of their own: a field that is small beside another one is not zero. */
+/* sum_a c[a] e_a = 0 everywhere: true with one such c, the last coefficient that is not zero made 1.  Components are
+ * compared in units of the coordinates' sizes, and fields in units of their own: a field that is small beside another
+ * one is not zero. */
 static bool dependent(const nh_action *g, double small, double *c)
 {
     enum { most_places = 16 };
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, d = g->d, places = k->places < most_places ? k->places : most_places, rows = places * m;
-    double *all = nh_alloc_array(rows * d + m * d + d * d + m + d + 1, sizeof *all), *E = all + rows * d, *null = E + m * d, *unit = null + d * d, *size = unit + m;
+    double *all = nh_alloc_array(rows * d + m * d + d * d + m + d + 1, sizeof *all), *E = all + rows * d,
+           *null = E + m * d, *unit = null + d * d, *size = unit + m;
     nh_kinetic_sizes(k, places, unit);
     for (size_t p = 0; p < places; p++) {
         nh_action_values(g, k->place + p * m, E);
@@ -64,7 +76,8 @@ static bool dependent(const nh_action *g, double small, double *c)
     if (n) nh_column_echelon(d, n, small, null);
     for (size_t a = 0; a < d && n; a++)
         if (fabs(null[a]) > small) last = a;
-    for (size_t a = 0; a < d && n; a++) c[a] = fabs(null[a]) > small ? null[a] / size[a] / (null[last] / size[last]) : 0;
+    for (size_t a = 0; a < d && n; a++)
+        c[a] = fabs(null[a]) > small ? null[a] / size[a] / (null[last] / size[last]) : 0;
     nh_free(all);
     return n > 0;
 }
@@ -80,7 +93,9 @@ static bool not_independent(const nh_action *g, const double *c, nh_error *error
     for (size_t a = 0; a < last; a++)
         if (c[a] != 0) nh_text_addf(&sum, "%s%.4g times field %zu", nh_text_string(&sum)[0] ? " + " : "", -c[a], a + 1);
     if (terms == 1) nh_fail(error, NH_INPUT, "", "field %zu is zero everywhere: it generates nothing", last + 1);
-    else nh_fail(error, NH_INPUT, "", "these fields are not independent: field %zu, %s, is %s", last + 1, field_text(g->kinetic, &g->generator[last], &t), nh_text_string(&sum));
+    else
+        nh_fail(error, NH_INPUT, "", "these fields are not independent: field %zu, %s, is %s", last + 1,
+                field_text(g->kinetic, &g->generator[last], &t), nh_text_string(&sum));
     nh_text_clear(&t), nh_text_clear(&sum);
     return nh_error_hint(error, "remove field %zu", last + 1);
 }
@@ -90,9 +105,12 @@ static bool not_free(const nh_action *g, const double *q, size_t rank, nh_error 
     nh_text t;
     nh_text_init(&t);
     place_text(g->kinetic, q, &t);
-    nh_fail(error, NH_INPUT, "", "the action is not free: %zu field%s, but an orbit of dimension %zu at %s", g->d, g->d == 1 ? "" : "s", rank, nh_text_string(&t));
+    nh_fail(error, NH_INPUT, "", "the action is not free: %zu field%s, but an orbit of dimension %zu at %s", g->d,
+            g->d == 1 ? "" : "s", rank, nh_text_string(&t));
     nh_text_clear(&t);
-    return nh_error_hint(error, rank < g->orbit ? "choose an initial state that is not fixed by the fields, or reduce by a subgroup with independent generators there" : "reduce by a subgroup with independent generators everywhere");
+    return nh_error_hint(error, rank < g->orbit ? "choose an initial state that is not fixed by the fields, or reduce "
+                                                  "by a subgroup with independent generators there"
+                                                : "reduce by a subgroup with independent generators everywhere");
 }
 
 bool nh_action_check(const nh_action *g, const nh_options *options, nh_error *error)

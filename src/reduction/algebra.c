@@ -54,8 +54,9 @@ double nh_algebra_jacobi(const nh_algebra *g)
                 for (size_t k = 0; k < d; k++) { /* [[i,j],l] + [[j,l],i] + [[l,i],j] */
                     double sum = 0;
                     for (size_t n = 0; n < d; n++)
-                        sum += c[(i * d + j) * d + n] * c[(n * d + l) * d + k] + c[(j * d + l) * d + n] * c[(n * d + i) * d + k]
-                               + c[(l * d + i) * d + n] * c[(n * d + j) * d + k];
+                        sum += c[(i * d + j) * d + n] * c[(n * d + l) * d + k] +
+                               c[(j * d + l) * d + n] * c[(n * d + i) * d + k] +
+                               c[(l * d + i) * d + n] * c[(n * d + j) * d + k];
                     worst = fmax(worst, fabs(sum));
                 }
             }
@@ -85,7 +86,8 @@ size_t nh_algebra_centre(const nh_algebra *g, double small, double *out)
     return n;
 }
 
-size_t nh_algebra_brackets(const nh_algebra *g, size_t r, const double *u, size_t s, const double *w, double small, double *out)
+size_t nh_algebra_brackets(const nh_algebra *g, size_t r, const double *u, size_t s, const double *w, double small,
+                           double *out)
 {
     size_t d = g->d;
     double *all = nh_alloc_array(d * r * s + 1, sizeof *all);
@@ -110,7 +112,8 @@ void nh_algebra_killing(const nh_algebra *g, double *out)
 double nh_algebra_ideal(const nh_algebra *g, size_t r, const double *u)
 {
     size_t d = g->d;
-    double *all = nh_alloc_array(2 * d * d * r + d + 1, sizeof *all), *x = all + d * d * r, *unit = x + d * d * r, worst;
+    double *all = nh_alloc_array(2 * d * d * r + d + 1, sizeof *all), *x = all + d * d * r, *unit = x + d * d * r,
+           worst;
     for (size_t a = 0; a < d; a++) {
         for (size_t i = 0; i < d; i++) unit[i] = i == a;
         for (size_t b = 0; b < r; b++) nh_algebra_bracket(g, unit, u + b * d, all + (a * r + b) * d);

@@ -2,8 +2,8 @@
  *
  *     [e_a, e_b] = C_ab^k e_k,     C_ab^k = c[(a*d + b)*d + k]
  *
- * The constants may be given in any basis.  Subspaces are orthonormal columns, d x dimension.  `small`: the threshold for zero, relative to the
- * largest constant. */
+ * The constants may be given in any basis.  Subspaces are orthonormal columns, d x dimension.  `small`: the threshold
+ * for zero, relative to the largest constant. */
 #ifndef NH_ALGEBRA_H
 #define NH_ALGEBRA_H
 
@@ -32,19 +32,30 @@ void nh_algebra_coad(const nh_algebra *algebra, const double *x, const double *m
 
 /* The largest violation of antisymmetry and of Jacobi's identity. */
 double nh_algebra_jacobi(const nh_algebra *algebra);
-/* The same algebra in the basis f_j = sum_i t[i + j*d] e_i, or the subalgebra that r < d such vectors span; *off (may be NULL): by how much brackets
- * leave the span. */
+/* The same algebra in the basis f_j = sum_i t[i + j*d] e_i, or the subalgebra that r < d such vectors span; *off (may
+ * be NULL): by how much brackets leave the span. */
 nh_algebra nh_algebra_change(const nh_algebra *algebra, size_t r, const double *t, double *off);
 
 /* The centre, and the span of all brackets [u, w] of two subspaces; out is d x d; return the dimension. */
 size_t nh_algebra_centre(const nh_algebra *algebra, double small, double *out);
-size_t nh_algebra_brackets(const nh_algebra *algebra, size_t r, const double *u, size_t s, const double *w, double small, double *out);
+size_t nh_algebra_brackets(const nh_algebra *algebra, size_t r, const double *u, size_t s, const double *w,
+                           double small, double *out);
 /* k_ij = C_ia^b C_jb^a. */
 void nh_algebra_killing(const nh_algebra *algebra, double *out);
 /* By how much [e_a, x] leaves the span of r vectors (0: an ideal). */
 double nh_algebra_ideal(const nh_algebra *algebra, size_t r, const double *u);
 
-typedef enum { NH_R, NH_SO3, NH_SL2R, NH_SE2, NH_E11, NH_HEISENBERG, NH_AFF1, NH_SE3, NH_OTHER_ALGEBRA } nh_algebra_kind;
+typedef enum {
+    NH_R,
+    NH_SO3,
+    NH_SL2R,
+    NH_SE2,
+    NH_E11,
+    NH_HEISENBERG,
+    NH_AFF1,
+    NH_SE3,
+    NH_OTHER_ALGEBRA
+} nh_algebra_kind;
 
 typedef struct {
     nh_algebra_kind kind;
@@ -59,9 +70,10 @@ typedef struct {
     nh_algebra_piece *piece;
 } nh_algebra_report;
 
-/* `cluster`: eigenvalues of a random element of the centroid that are nearer than this part of the spectral radius belong together; an algebra of more than `most`
- * dimensions stays in one piece. */
-void nh_algebra_report_init(nh_algebra_report *report, const nh_algebra *algebra, double small, double cluster, size_t most, uint64_t seed);
+/* `cluster`: eigenvalues of a random element of the centroid that are nearer than this part of the spectral radius
+ * belong together; an algebra of more than `most` dimensions stays in one piece. */
+void nh_algebra_report_init(nh_algebra_report *report, const nh_algebra *algebra, double small, double cluster,
+                            size_t most, uint64_t seed);
 void nh_algebra_report_clear(nh_algebra_report *report);
 /* "SE(2) x SO(2)^3"; closed[i]: the one-dimensional piece i is a circle (NULL: none is). */
 void nh_algebra_name(const nh_algebra_report *report, const bool *closed, nh_text *out);

@@ -1,7 +1,8 @@
 /* algebra_name: the indecomposable ideals of an algebra, and what they are called.
  *
- * An algebra is a direct sum of ideals exactly when its centroid, the matrices T with T[x,y] = [Tx,y], has commuting projections.  The
- * generalised eigenspaces of a random element of it are therefore ideals, and of several draws the finest valid splitting is kept. */
+ * An algebra is a direct sum of ideals exactly when its centroid, the matrices T with T[x,y] = [Tx,y], has commuting
+ * projections.  The generalised eigenspaces of a random element of it are therefore ideals, and of several draws the
+ * finest valid splitting is kept. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +28,8 @@ static void identity(size_t d, double *out)
 static size_t series(const nh_algebra *g, bool derived, double small, size_t *dimension)
 {
     size_t d = g->d, n = d, length = 0;
-    double *all = nh_alloc_array(d * d + 1, sizeof *all), *u = nh_alloc_array(d * d + 1, sizeof *u), *next = nh_alloc_array(d * d + 1, sizeof *next);
+    double *all = nh_alloc_array(d * d + 1, sizeof *all), *u = nh_alloc_array(d * d + 1, sizeof *u),
+           *next = nh_alloc_array(d * d + 1, sizeof *next);
     identity(d, all);
     identity(d, u);
     for (;;) {
@@ -57,7 +59,8 @@ static size_t derived_algebra(const nh_algebra *g, double small, double *out)
 static size_t radical(const nh_algebra *g, double small, double *out)
 {
     size_t d = g->d;
-    double *k = nh_alloc_array(d * d + 1, sizeof *k), *d1 = nh_alloc_array(d * d + 1, sizeof *d1), *rows = nh_alloc_array(d * d + 1, sizeof *rows);
+    double *k = nh_alloc_array(d * d + 1, sizeof *k), *d1 = nh_alloc_array(d * d + 1, sizeof *d1),
+           *rows = nh_alloc_array(d * d + 1, sizeof *rows);
     nh_algebra_killing(g, k);
     size_t r = derived_algebra(g, small, d1);
     for (size_t a = 0; a < r; a++)
@@ -78,7 +81,8 @@ static void killing_signs(const nh_algebra *g, double small, size_t *positive, s
     size_t d = g->d;
     double *k = nh_alloc_array(d * d + 1, sizeof *k), *re = nh_alloc_array(2 * d + 1, sizeof *re), zero;
     nh_algebra_killing(g, k);
-    zero = small * sqrt(small) * nh_largest(d * d, k); /* squares of constants: the eigenvalues spread twice as far as these */
+    /* squares of constants: the eigenvalues spread twice as far as these */
+    zero = small * sqrt(small) * nh_largest(d * d, k);
     *positive = *negative = 0;
     if (nh_eigen(d, k, re, re + d, NULL))
         for (size_t i = 0; i < d; i++) {
@@ -130,7 +134,8 @@ nh_algebra_kind nh_algebra_kind_of(const nh_algebra *g, double small, uint64_t s
     else if (d == 6 && r == 6 && (span = radical(g, small, rad)) == 3) {
         killing_signs(g, small, &positive, &negative);
         double *out = nh_alloc_array(d * d, sizeof *out);
-        if (negative == 3 && positive == 0 && nh_algebra_brackets(g, span, rad, span, rad, small, out) == 0) kind = NH_SE3;
+        if (negative == 3 && positive == 0 && nh_algebra_brackets(g, span, rad, span, rad, small, out) == 0)
+            kind = NH_SE3;
         nh_free(out);
     }
     nh_free(d1);
@@ -139,8 +144,9 @@ nh_algebra_kind nh_algebra_kind_of(const nh_algebra *g, double small, uint64_t s
 
 /* ---- splitting ---- */
 
-/* T is in the centroid when it commutes with ad_y for every y: T[x,y] = -T ad_y x and [Tx,y] = -ad_y T x.  Then it commutes with ad_[y,z] too, so that a few random y
- * say almost everything: the rows of T ad_y - ad_y T = 0 in the w^2 entries of T (column-major) for `few` of them. */
+/* T is in the centroid when it commutes with ad_y for every y: T[x,y] = -T ad_y x and [Tx,y] = -ad_y T x.  Then it
+ * commutes with ad_[y,z] too, so that a few random y say almost everything: the rows of T ad_y - ad_y T = 0 in the w^2
+ * entries of T (column-major) for `few` of them. */
 enum { few = 3 };
 
 static void random_ad(const nh_algebra *g, uint64_t *seed, double *ad)
@@ -175,7 +181,8 @@ static size_t shrink(const nh_algebra *g, double small, size_t n, double *kernel
 {
     size_t w = g->d, length = w * w;
     double *ad = nh_alloc_array(3 * length + 1, sizeof *ad), *left = ad + length, *right = left + length;
-    double *rows = nh_alloc_array(length * n + 1, sizeof *rows), *mix = nh_alloc_array(n * n + 1, sizeof *mix), *out = nh_alloc_array(length * n + 1, sizeof *out);
+    double *rows = nh_alloc_array(length * n + 1, sizeof *rows), *mix = nh_alloc_array(n * n + 1, sizeof *mix),
+           *out = nh_alloc_array(length * n + 1, sizeof *out);
     random_ad(g, seed, ad);
     for (size_t j = 0; j < n; j++) {
         nh_multiply(w, w, w, kernel + j * length, ad, left);
@@ -278,7 +285,8 @@ static bool valid_splitting(const nh_algebra *g, const splitting *s, double smal
         total += s->dimension[i];
         good = nh_algebra_ideal(g, s->dimension[i], s->basis + at * w) <= sqrt(small) * scale;
         for (size_t j = i + 1, next = at + s->dimension[i]; j < s->count && good; next += s->dimension[j], j++)
-            good = nh_algebra_brackets(g, s->dimension[i], s->basis + at * w, s->dimension[j], s->basis + next * w, sqrt(small), out) == 0;
+            good = nh_algebra_brackets(g, s->dimension[i], s->basis + at * w, s->dimension[j], s->basis + next * w,
+                                       sqrt(small), out) == 0;
         at += s->dimension[i];
     }
     nh_free(sv);
@@ -290,19 +298,22 @@ static bool valid_splitting(const nh_algebra *g, const splitting *s, double smal
 static double off_ideals(const nh_algebra *g, const splitting *s)
 {
     double off = 0;
-    for (size_t i = 0, at = 0; i < s->count; at += s->dimension[i++]) off = fmax(off, nh_algebra_ideal(g, s->dimension[i], s->basis + at * g->d));
+    for (size_t i = 0, at = 0; i < s->count; at += s->dimension[i++])
+        off = fmax(off, nh_algebra_ideal(g, s->dimension[i], s->basis + at * g->d));
     return off;
 }
 
 /* Of equally fine ones the most accurate: a draw may have eigenvalues that lie close together. */
-static void finest_splitting(const nh_algebra *g, double small, double cluster, size_t most, uint64_t seed, splitting *best)
+static void finest_splitting(const nh_algebra *g, double small, double cluster, size_t most, uint64_t seed,
+                             splitting *best)
 {
     best->count = 1;
     best->dimension[0] = g->d;
     identity(g->d, best->basis);
     if (g->d > most) return;
     size_t w = g->d, unknowns = w * w;
-    double *kernel = nh_alloc_array(unknowns * unknowns + 1, sizeof *kernel), *t = nh_alloc_array(unknowns + 1, sizeof *t);
+    double *kernel = nh_alloc_array(unknowns * unknowns + 1, sizeof *kernel),
+           *t = nh_alloc_array(unknowns + 1, sizeof *t);
     size_t n = centroid(g, small, &seed, kernel);
     splitting s = {.basis = nh_alloc_array(w * w + 1, sizeof(double))};
     double least = INFINITY;
@@ -375,10 +386,12 @@ static void add_piece(nh_algebra_report *r, nh_algebra_kind kind, size_t n, cons
     memcpy(p->basis, basis, r->d * n * sizeof *basis);
 }
 
-void nh_algebra_report_init(nh_algebra_report *r, const nh_algebra *g, double small, double cluster, size_t most, uint64_t seed)
+void nh_algebra_report_init(nh_algebra_report *r, const nh_algebra *g, double small, double cluster, size_t most,
+                            uint64_t seed)
 {
     size_t d = g->d, w;
-    double *scratch = nh_alloc_array(5 * d * d + 1, sizeof *scratch), *flat = scratch, *rest = flat + d * d, *basis = rest + d * d, *lifted = basis + d * d;
+    double *scratch = nh_alloc_array(5 * d * d + 1, sizeof *scratch), *flat = scratch, *rest = flat + d * d,
+           *basis = rest + d * d, *lifted = basis + d * d;
     *r = (nh_algebra_report){.d = d, .piece = nh_alloc_array(d + 1, sizeof *r->piece)};
     r->centre = nh_algebra_centre(g, small, scratch);
     r->radical = radical(g, small, scratch);

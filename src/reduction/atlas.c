@@ -52,11 +52,16 @@ const nh_slice *nh_atlas_preferred(const nh_atlas *a) { return a->preferred; }
 
 const nh_action *nh_atlas_action(const nh_atlas *a) { return a->action; }
 
-void nh_atlas_add(nh_atlas *a, const nh_slice *slice, const nh_reduced *reduced, const size_t *independent, const nh_second *second)
+void nh_atlas_add(nh_atlas *a, const nh_slice *slice, const nh_reduced *reduced, const size_t *independent,
+                  const nh_second *second)
 {
     nh_grow(&a->chart, &a->capacity, a->count + 1, sizeof *a->chart);
     nh_reduced_chart *c = a->chart[a->count++] = nh_alloc(sizeof *c);
-    *c = (nh_reduced_chart){.slice = slice, .reduced = reduced, .independent = independent, .second = second, .flow = nh_reduced_flow_create(reduced)};
+    *c = (nh_reduced_chart){.slice = slice,
+                            .reduced = reduced,
+                            .independent = independent,
+                            .second = second,
+                            .flow = nh_reduced_flow_create(reduced)};
 }
 
 /* ---- states ---- */
@@ -65,7 +70,8 @@ bool nh_chart_leave(const nh_reduced_chart *c, const double *z, double *q, doubl
 {
     const nh_slice *s = c->slice;
     size_t m = s->m, d = s->d;
-    double *rate = nh_alloc_array(c->reduced->n + c->reduced->r + d + m * d + 1, sizeof *rate), *zeta = rate + c->reduced->n + c->reduced->r, *E = zeta + d;
+    double *rate = nh_alloc_array(c->reduced->n + c->reduced->r + d + m * d + 1, sizeof *rate),
+           *zeta = rate + c->reduced->n + c->reduced->r, *E = zeta + d;
     bool good = nh_reduced_flow_at(c->flow, z, rate, NULL, zeta, NULL);
     nh_slice_place(s, z, q);
     nh_action_values(s->action, q, E);
@@ -77,12 +83,14 @@ bool nh_chart_leave(const nh_reduced_chart *c, const double *z, double *q, doubl
     return good;
 }
 
-/* Velocities in the frame of both groups from one on the shape space of the first: its horizontal lift u = (x', -A x' - A_0). */
+/* Velocities in the frame of both groups from one on the shape space of the first: its horizontal lift u = (x', -A x' -
+   A_0). */
 static bool lift(const nh_chaplygin *first, const nh_slice *both, const double *q, const double *v, double *u)
 {
     const nh_slice *s = first->slice;
     size_t m = s->m, n = s->n, d = s->d;
-    double *place = nh_alloc_array(2 * m + d * n + m * d + d + 1, sizeof *place), *speed = place + m, *A = speed + m, *E = A + d * n, *A0 = E + m * d;
+    double *place = nh_alloc_array(2 * m + d * n + m * d + d + 1, sizeof *place), *speed = place + m, *A = speed + m,
+           *E = A + d * n, *A0 = E + m * d;
     nh_slice_place(s, q, place);
     nh_kinetic_values(s->kinetic, d * n, first->A, place, A);
     nh_kinetic_values(s->kinetic, d, first->A0, place, A0);
@@ -207,12 +215,14 @@ static bool build_second(nh_atlas *a, const double *q, const double *pivots, nh_
     return good;
 }
 
-/* The equations of both groups at once, of whose velocities those of the second are kept: at a place q of the shape space. */
+/* The equations of both groups at once, of whose velocities those of the second are kept: at a place q of the shape
+   space. */
 static bool build_both(nh_atlas *a, const double *q, const double *pivots, nh_error *error)
 {
     const nh_slice *first = a->second->first->slice;
     nh_arena *arena = first->kinetic->arena;
-    size_t m = first->m, n = first->n, d = a->action->d, *shape = nh_alloc_array(2 * m + 1, sizeof *shape), *along = shape + m, *own = nh_alloc_array(2 * m + 1, sizeof *own), *across = own + m;
+    size_t m = first->m, n = first->n, d = a->action->d, *shape = nh_alloc_array(2 * m + 1, sizeof *shape),
+           *along = shape + m, *own = nh_alloc_array(2 * m + 1, sizeof *own), *across = own + m;
     double *y = nh_alloc_array(m + 1, sizeof *y), *place = nh_arena_alloc(arena, m * sizeof *place);
     nh_slice *hat = nh_arena_alloc(arena, sizeof *hat), *both = nh_arena_alloc(arena, sizeof *both);
     nh_reduced *o = nh_arena_alloc(arena, sizeof *o);
@@ -314,17 +324,22 @@ const nh_reduced_chart *nh_atlas_at(nh_atlas *a, const double *q, const double *
     return NULL;
 }
 
-bool nh_atlas_start(const nh_atlas *a, const double *q, const double *v, double *z) { return a->count > 0 && enter(a, a->chart[0], q, v, z); }
+bool nh_atlas_start(const nh_atlas *a, const double *q, const double *v, double *z)
+{
+    return a->count > 0 && enter(a, a->chart[0], q, v, z);
+}
 
 /* ---- along the orbits ---- */
 
-/* To the place of the orbit, among a few, where the coordinates are most regular, unless they are much less so than here or the same along the orbit. */
+/* To the place of the orbit, among a few, where the coordinates are most regular, unless they are much less so than
+   here or the same along the orbit. */
 static void move_along_orbit(const nh_action *g, size_t attempt, double *q, double *v, double *moved)
 {
     static const double times[] = {0.7, -0.7, 1.4, -1.4}, better = 0.1, same = 1e-3;
     double stretch = 1 + 0.37 * (double)attempt;
     size_t m = g->kinetic->m;
-    double *z = nh_alloc_array(4 * m, sizeof *z), *best = z + 2 * m, here = coordinates_regularity(g->kinetic, q), most = better * here;
+    double *z = nh_alloc_array(4 * m, sizeof *z), *best = z + 2 * m, here = coordinates_regularity(g->kinetic, q),
+           most = better * here;
     memset(moved, 0, g->d * sizeof *moved);
     for (size_t i = 0; i < 4 * g->d; i++) {
         memcpy(z, q, m * sizeof *z);
@@ -344,7 +359,8 @@ static void move_along_orbit(const nh_action *g, size_t attempt, double *q, doub
     nh_free(z);
 }
 
-const nh_reduced_chart *nh_atlas_renew(nh_atlas *a, const nh_reduced_chart *failed, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error)
+const nh_reduced_chart *nh_atlas_renew(nh_atlas *a, const nh_reduced_chart *failed, size_t attempt, double *q,
+                                       double *v, double *moved, double *z, nh_error *error)
 {
     move_along_orbit(a->action, attempt, q, v, moved);
     a->avoid = attempt ? failed->slice->along : NULL;

@@ -1,7 +1,8 @@
 /* base_parameters: fewer parameters for the same expressions.
  *
- * A kinetic energy is linear in masses and moments of inertia: e_i = e_i0 + sum_j mu_j d e_i/d mu_j.  Where a column d e/d mu_j is a combination of others with coefficients
- * c_jB in the other parameters, mu_j may be 0 when every mu_B is sum_j c_jB mu_j more: what is left are the base parameters of robotics [GautierKhalil1990]. */
+ * A kinetic energy is linear in masses and moments of inertia: e_i = e_i0 + sum_j mu_j d e_i/d mu_j.  Where a column d
+ * e/d mu_j is a combination of others with coefficients c_jB in the other parameters, mu_j may be 0 when every mu_B is
+ * sum_j c_jB mu_j more: what is left are the base parameters of robotics [GautierKhalil1990]. */
 #ifndef NH_BASE_PARAMETERS_H
 #define NH_BASE_PARAMETERS_H
 
@@ -14,7 +15,7 @@ typedef struct {
 } nh_base_parameters;
 
 /* Rewrite n entries, functions of the variables.  False: no parameter can be spared. */
-bool nh_base_parameters_of(nh_arena *arena, nh_dag *dag, size_t n, nh_ex *entry, size_t variables, const nh_ex *variable, size_t parameters, const nh_ex *parameter,
-                           nh_base_parameters *out);
+bool nh_base_parameters_of(nh_arena *arena, nh_dag *dag, size_t n, nh_ex *entry, size_t variables,
+                           const nh_ex *variable, size_t parameters, const nh_ex *parameter, nh_base_parameters *out);
 
 #endif

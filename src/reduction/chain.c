@@ -114,8 +114,8 @@ static double size_at(size_t count, const size_t *at, const double *value)
     return size > rounding * terms ? size : 0;
 }
 
-/* Rows (n columns each) at random states, scaled to size one, stacked: `rows` x n expressions; the null space as columns of `null` in reduced
- * echelon form.  Returns its dimension. */
+/* Rows (n columns each) at random states, scaled to size one, stacked: `rows` x n expressions; the null space as
+ * columns of `null` in reduced echelon form.  Returns its dimension. */
 static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double *null)
 {
     const nh_system *s = w->system;
@@ -124,7 +124,8 @@ static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double 
     const nh_ex *symbols;
     const double *values;
     nh_ex *in = nh_alloc_array(width, sizeof *in);
-    double *point = nh_alloc_array(width + at[rows * n] + total * n + 2 * (total + n) + n * n, sizeof *point), *value = point + width, *a = value + at[rows * n];
+    double *point = nh_alloc_array(width + at[rows * n] + total * n + 2 * (total + n) + n * n, sizeof *point),
+           *value = point + width, *a = value + at[rows * n];
     double *singular = a + total * n, *vt = singular + total + n;
     in[0] = s->t;
     for (size_t i = 0; i < m; i++) in[1 + i] = s->coordinate[i].q, in[1 + m + i] = s->coordinate[i].v;
@@ -135,7 +136,8 @@ static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double 
         for (size_t i = 0; i < width; i++) point[i] = 2 * nh_random(&w->seed) - 1;
         nh_tape_eval(tape, scratch, point, value);
         double size = size_at(rows * n, at, value);
-        for (size_t i = 0; i < rows * n; i++) a[p * rows + i / n + total * (i % n)] = isfinite(size) && size > 0 ? value[at[i]] / size : 0;
+        for (size_t i = 0; i < rows * n; i++)
+            a[p * rows + i / n + total * (i % n)] = isfinite(size) && size > 0 ? value[at[i]] / size : 0;
     }
     size_t dimension = 0;
     if (nh_svd(total, n, a, singular, NULL, vt))
@@ -178,8 +180,8 @@ static void reduce(size_t rows, size_t n, double *a)
         if (fabs(a[i] - round(a[i])) < 1e-9) a[i] = round(a[i]);
 }
 
-/* A null vector's coefficients with the parameters as symbols: the relation among the columns in which it is not zero, which in echelon form is the only one.  The
- * numbers where there is none. */
+/* A null vector's coefficients with the parameters as symbols: the relation among the columns in which it is not zero,
+ * which in echelon form is the only one.  The numbers where there is none. */
 static void with_symbols(const work *w, size_t rows, size_t n, const nh_ex *e, const double *null, nh_ex *out)
 {
     nh_dag *d = w->dag;
@@ -197,7 +199,9 @@ static void with_symbols(const work *w, size_t rows, size_t n, const nh_ex *e, c
         index[count++] = c;
     }
     while (pivot + 1 < count && null[index[pivot]] != 1) pivot++;
-    if (nh_relation_find(d, count, column, w->system->parameters, symbols, 0, found) != NH_RELATION_UNIQUE || nh_is_zero(d, found[pivot])) return;
+    if (nh_relation_find(d, count, column, w->system->parameters, symbols, 0, found) != NH_RELATION_UNIQUE ||
+        nh_is_zero(d, found[pivot]))
+        return;
     for (size_t i = 0; i < count; i++) out[index[i]] = nh_simplify(d, nh_div(d, found[i], found[pivot]));
 }
 
@@ -237,7 +241,8 @@ static void add_field(work *w, nh_chain_rule rule, size_t joint, const nh_twist 
     w->out->dimension[joint * NH_CHAIN_RULES + rule]++;
 }
 
-static void add_null_space(work *w, nh_chain_rule rule, size_t joint, size_t rows, size_t n, const nh_twist *basis, const nh_ex *e)
+static void add_null_space(work *w, nh_chain_rule rule, size_t joint, size_t rows, size_t n, const nh_twist *basis,
+                           const nh_ex *e)
 {
     double null[most_basis * most_basis];
     size_t dimension = null_space(w, rows, n, e, null);
@@ -274,7 +279,8 @@ static bool dual_basis(const work *w, size_t n, const nh_twist *basis, nh_ex *in
     nh_dag *d = w->dag;
     nh_ex gram[most_basis * most_basis];
     for (size_t k = 0; k < n; k++)
-        for (size_t l = 0; l < n; l++) gram[k * n + l] = nh_add(d, nh_dot(d, basis[k].v, basis[l].v), nh_dot(d, basis[k].w, basis[l].w));
+        for (size_t l = 0; l < n; l++)
+            gram[k * n + l] = nh_add(d, nh_dot(d, basis[k].v, basis[l].v), nh_dot(d, basis[k].w, basis[l].w));
     nh_lu *lu = nh_lu_create(d, n, gram, size_of, (void *)w->system, NULL);
     if (!lu) return false;
     for (size_t l = 0; l < n; l++) {
@@ -286,13 +292,15 @@ static bool dual_basis(const work *w, size_t n, const nh_twist *basis, nh_ex *in
 }
 
 /* t less its orthogonal projection on the span of the basis: column c of e (6 x columns). */
-static void part_off(const work *w, size_t n, const nh_twist *basis, const nh_ex *inverse, const nh_twist *t, size_t columns, size_t c, nh_ex *e)
+static void part_off(const work *w, size_t n, const nh_twist *basis, const nh_ex *inverse, const nh_twist *t,
+                     size_t columns, size_t c, nh_ex *e)
 {
     nh_dag *d = w->dag;
     nh_twist off = *t;
     for (size_t k = 0; k < n; k++)
         for (size_t l = 0; l < n; l++) {
-            nh_ex part = nh_mul(d, nh_neg(d, inverse[k * n + l]), nh_add(d, nh_dot(d, basis[l].v, t->v), nh_dot(d, basis[l].w, t->w)));
+            nh_ex part = nh_mul(d, nh_neg(d, inverse[k * n + l]),
+                                nh_add(d, nh_dot(d, basis[l].v, t->v), nh_dot(d, basis[l].w, t->w)));
             for (int i = 0; i < 3; i++) {
                 off.v[i] = nh_add(d, off.v[i], nh_mul(d, part, basis[k].v[i]));
                 off.w[i] = nh_add(d, off.w[i], nh_mul(d, part, basis[k].w[i]));
@@ -304,9 +312,11 @@ static void part_off(const work *w, size_t n, const nh_twist *basis, const nh_ex
     }
 }
 
-/* The combinations of n twists, known in the frame in which `pose` is that before the joint, that stay in Lie(Q_i) everywhere: echelon form; local: the twists
- * before the joint.  Returns their number; *whole: all coefficients are whole numbers, whatever the parameters are. */
-static size_t staying(work *w, const nh_joint *j, const nh_pose *pose, size_t n, const nh_twist *twist, nh_twist *local, nh_ex *coefficient, bool *whole)
+/* The combinations of n twists, known in the frame in which `pose` is that before the joint, that stay in Lie(Q_i)
+ * everywhere: echelon form; local: the twists before the joint.  Returns their number; *whole: all coefficients are
+ * whole numbers, whatever the parameters are. */
+static size_t staying(work *w, const nh_joint *j, const nh_pose *pose, size_t n, const nh_twist *twist, nh_twist *local,
+                      nh_ex *coefficient, bool *whole)
 {
     nh_twist basis[most_basis];
     nh_ex e[6 * most_basis];
@@ -322,12 +332,14 @@ static size_t staying(work *w, const nh_joint *j, const nh_pose *pose, size_t n,
     size_t dimension = null_space(w, 6, n, e, null);
     reduce(dimension, n, null);
     for (size_t k = 0; k < dimension; k++) with_symbols(w, 6, n, e, null + k * n, coefficient + k * n);
-    for (size_t i = 0; i < dimension * n; i++) *whole &= nh_kind_of(w->dag, coefficient[i]) == NH_NUMBER && nh_number_of(w->dag, coefficient[i]).q == 1;
+    for (size_t i = 0; i < dimension * n; i++)
+        *whole &= nh_kind_of(w->dag, coefficient[i]) == NH_NUMBER && nh_number_of(w->dag, coefficient[i]).q == 1;
     return dimension;
 }
 
-/* AP1: twists c of space with Ad(P)^-1 c in Lie(Q_i) everywhere, P the pose before the joint.  At rest they are Ad(P0) b with b in Lie(Q_i): first the
- * coefficients of b are looked for, then, unless these are whole numbers, those of the unit twists of space: one of both frames has the axes as they were given. */
+/* AP1: twists c of space with Ad(P)^-1 c in Lie(Q_i) everywhere, P the pose before the joint.  At rest they are Ad(P0)
+ * b with b in Lie(Q_i): first the coefficients of b are looked for, then, unless these are whole numbers, those of the
+ * unit twists of space: one of both frames has the axes as they were given. */
 static void space_moves(work *w, size_t joint)
 {
     const nh_joint *j = &w->chain->joint[joint];

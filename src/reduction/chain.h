@@ -1,17 +1,23 @@
 /* chain: symmetries of the kinetic energy metric of an open chain, joint by joint [ChhabraEmami2014, sec. 4].
  *
- * Joint i moves its body by E_i in the displacement subgroup Q_i; a is in its Lie algebra, U the twist of the joint's frame before the joint, F the
- * momentum of all bodies behind it (both in the joint's frame), V and h the twist and the inertia of the body itself.
+ * Joint i moves its body by E_i in the displacement subgroup Q_i; a is in its Lie algebra, U the twist of the joint's
+ * frame before the joint, F the momentum of all bodies behind it (both in the joint's frame), V and h the twist and the
+ * inertia of the body itself.
  *
- *     first       a joint on the ground: every a, E_i -> g E_i                                                    (theorem 4.1)
- *     AP1         a constant twist c of space whose copy Ad(pose before the joint)^-1 c stays in Lie(Q_i): all bodies behind the joint are moved by
+ *     first       a joint on the ground: every a, E_i -> g E_i
+ *                 (theorem 4.1)
+ *     AP1         a constant twist c of space whose copy Ad(pose before the joint)^-1 c stays in Lie(Q_i): all bodies
+ *                 behind the joint are moved by
  *                 one displacement of space
- *     AP2         E_i -> g E_i:  <[a, U], F> = 0 for all positions and velocities                                  (eq. 4.27)
- *     extremity   E_i -> E_i g, nothing behind the body:  <[a, V], h V> = 0                                        (eq. 4.29, with ad)
+ *     AP2         E_i -> g E_i:  <[a, U], F> = 0 for all positions and velocities                                  (eq.
+ *                 4.27)
+ *     extremity   E_i -> E_i g, nothing behind the body:  <[a, V], h V> = 0                                        (eq.
+ *                 4.29, with ad)
  *
- * Each condition is linear in the coefficients of a (or c): its null space over random states, and the same relation with the parameters as symbols, whose
- * coefficients are expressions of these.  The last two are exact where their conditions are;
- * the caller proves the fields (they leave K invariant, but perhaps not the potential and the constraints). */
+ * Each condition is linear in the coefficients of a (or c): its null space over random states, and the same relation
+ * with the parameters as symbols, whose coefficients are expressions of these.  The last two are exact where their
+ * conditions are; the caller proves the fields (they leave K invariant, but perhaps not the potential and the
+ * constraints). */
 #ifndef NH_REDUCTION_CHAIN_H
 #define NH_REDUCTION_CHAIN_H
 
@@ -34,7 +40,8 @@ typedef struct {
     double last_null, first_other; /* singular values on both sides of the cuts, over all of them */
 } nh_chain_symmetries;
 
-/* Joints whose displacement is not a coordinate of their own are passed over.  NULL with a message when the system has no bodies. */
+/* Joints whose displacement is not a coordinate of their own are passed over.  NULL with a message when the system has
+   no bodies. */
 nh_chain_symmetries *nh_chain_symmetries_find(const nh_system *system, uint64_t seed, nh_error *error);
 void nh_chain_symmetries_free(nh_chain_symmetries *symmetries);
 

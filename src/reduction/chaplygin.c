@@ -32,7 +32,8 @@ static bool connection(nh_chaplygin *c, nh_error *error)
     bool good = lu != NULL;
     nh_lu_free(lu);
     nh_free(a);
-    return good || nh_fail(error, NH_NUMERIC, "", "the orbits of the group meet the constraint distribution: there is no connection");
+    return good || nh_fail(error, NH_NUMERIC, "",
+                           "the orbits of the group meet the constraint distribution: there is no connection");
 }
 
 static void curvature(nh_chaplygin *c)
@@ -49,7 +50,8 @@ static void curvature(nh_chaplygin *c)
                 for (size_t b = 0; b < dim; b++)
                     for (size_t k = 0; k < dim; k++) {
                         nh_ex constant = g->constant[(b * dim + k) * dim + a];
-                        if (!nh_is_zero(d, constant)) e = plus(d, e, nh_neg(d, constant), nh_mul(d, c->A[b * n + i], c->A[k * n + j]));
+                        if (!nh_is_zero(d, constant))
+                            e = plus(d, e, nh_neg(d, constant), nh_mul(d, c->A[b * n + i], c->A[k * n + j]));
                     }
                 if (tidy) e = nh_simplify(d, e);
                 c->B[(a * n + i) * n + j] = e;
@@ -116,7 +118,8 @@ static void drift(nh_chaplygin *c)
             for (size_t b = 0; b < dim; b++)
                 for (size_t k = 0; k < dim; k++) {
                     nh_ex constant = g->constant[(b * dim + k) * dim + a];
-                    if (!nh_is_zero(d, constant)) e = plus(d, e, nh_neg(d, constant), nh_mul(d, c->A[b * n + i], c->A0[k]));
+                    if (!nh_is_zero(d, constant))
+                        e = plus(d, e, nh_neg(d, constant), nh_mul(d, c->A[b * n + i], c->A0[k]));
                 }
             c->B0[a * n + i] = s->tidy ? nh_simplify(d, e) : e;
         }
@@ -184,7 +187,9 @@ static void equations(nh_chaplygin *c)
             sum = plus(d, sum, nh_sub(d, nh_diff(d, c->a[a], s->x[i]), nh_diff(d, c->a[i], s->x[a])), o->w[a]);
             for (size_t b = 0; b < n; b++) {
                 nh_ex square = nh_mul(d, o->w[a], o->w[b]);
-                if (b <= a) sum = plus(d, sum, nh_mul(d, nh_ratio(d, a == b ? 1 : 2, 2), nh_diff(d, c->K[a * n + b], s->x[i])), square);
+                if (b <= a)
+                    sum = plus(d, sum, nh_mul(d, nh_ratio(d, a == b ? 1 : 2, 2), nh_diff(d, c->K[a * n + b], s->x[i])),
+                               square);
                 energy = plus(d, energy, nh_mul(d, nh_ratio(d, 1, 2), c->K[a * n + b]), i ? nh_int(d, 0) : square);
             }
         }
@@ -207,7 +212,9 @@ bool nh_chaplygin_init(nh_chaplygin *c, const nh_slice *s, nh_error *error)
     nh_arena *arena = s->kinetic->arena;
     size_t n = s->n, d = s->d;
     *c = (nh_chaplygin){.slice = s, .dag = s->dag, .n = n, .d = d, .V = s->V};
-    if (d != s->f) return nh_fail(error, NH_NUMERIC, "", "a Chaplygin system needs as many symmetries as constraints: %zu, not %zu", s->f, d);
+    if (d != s->f)
+        return nh_fail(error, NH_NUMERIC, "",
+                       "a Chaplygin system needs as many symmetries as constraints: %zu, not %zu", s->f, d);
     c->plain = s->kinetic->reducible;
     c->A = nh_arena_alloc(arena, (3 * d * n + d * n * n + n * n + n * n * n + 2 * d + 2 * n + 1) * sizeof *c->A);
     c->J = c->A + d * n;

@@ -75,9 +75,10 @@ static double off_simple(const gyro *g)
     return off;
 }
 
-/* The mean of Theta_j over a full turn of an angle x^j in steps that start at the given part of one, and the largest value; the others as in q.  False where it
- * is not finite. */
-static bool mean_over_turn(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, size_t steps, double start, double *q, double *mean, double *largest)
+/* The mean of Theta_j over a full turn of an angle x^j in steps that start at the given part of one, and the largest
+ * value; the others as in q.  False where it is not finite. */
+static bool mean_over_turn(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, size_t steps, double start,
+                           double *q, double *mean, double *largest)
 {
     static const double turn = 6.283185307179586;
     size_t n = s->n, cube = n * n * n;
@@ -97,10 +98,12 @@ static bool mean_over_turn(const nh_slice *s, nh_tape *tape, nh_tape_work *work,
     return good;
 }
 
-/* The period of Theta along a turn of x^j through a place.  The means over equidistant steps converge exponentially where Theta is regular on the way, wherever
- * they start; where it has a pole, as where the orbits become tangent to D, they depend on the start: then the turn is no curve in the region in which the
- * stage is defined, and there is no period: false. */
-static bool period(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, const double *place, double small, double *mean, double *largest)
+/* The period of Theta along a turn of x^j through a place.  The means over equidistant steps converge exponentially
+ * where Theta is regular on the way, wherever they start; where it has a pole, as where the orbits become tangent to D,
+ * they depend on the start: then the turn is no curve in the region in which the stage is defined, and there is no
+ * period: false. */
+static bool period(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, const double *place, double small,
+                   double *mean, double *largest)
 {
     enum { fewest = 24, most = 1536 };
     size_t m = s->kinetic->m;
@@ -110,7 +113,8 @@ static bool period(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t 
     for (size_t steps = fewest; steps <= most && regular && !found; steps *= 2) {
         double other = 0;
         *largest = 0;
-        regular = mean_over_turn(s, tape, work, j, steps, 0.37, q, mean, largest) && mean_over_turn(s, tape, work, j, steps, 0.11, q, &other, largest);
+        regular = mean_over_turn(s, tape, work, j, steps, 0.37, q, mean, largest) &&
+                  mean_over_turn(s, tape, work, j, steps, 0.11, q, &other, largest);
         found = regular && fabs(*mean - other) <= small * (1 + *largest);
     }
     nh_free(q);
@@ -123,7 +127,8 @@ static bool many_valued(const nh_slice *s, const nh_ex *K, const nh_ex *U, doubl
     enum { most_places = 6 };
     const nh_kinetic *k = s->kinetic;
     size_t n = s->n, cube = n * n * n, places = k->places < most_places ? k->places : most_places;
-    nh_ex *e = nh_alloc_array(n * n + cube + 1, sizeof *e), *turned = e + n * n; /* U with the first index running fastest */
+    /* U with the first index running fastest */
+    nh_ex *e = nh_alloc_array(n * n + cube + 1, sizeof *e), *turned = e + n * n;
     bool many = false;
     memcpy(e, K, n * n * sizeof *e);
     for (size_t i = 0; i < n; i++)
@@ -132,8 +137,10 @@ static bool many_valued(const nh_slice *s, const nh_ex *K, const nh_ex *U, doubl
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t j = 0; j < n; j++)
         for (size_t p = 0; p < places && k->angle[s->shape[j]] && !many; p++) {
-            double mean, largest; /* per radian: a number beside 1, whatever the other shape coordinates are measured in */
-            many = period(s, tape, work, j, k->place + p * k->m, small, &mean, &largest) && fabs(mean) > small * (1 + largest);
+            /* per radian: a number beside 1, whatever the other shape coordinates are measured in */
+            double mean, largest;
+            many = period(s, tape, work, j, k->place + p * k->m, small, &mean, &largest) &&
+                   fabs(mean) > small * (1 + largest);
         }
     nh_tape_work_free(work);
     nh_tape_free(tape);
@@ -149,7 +156,8 @@ static double curl_of(const gyro *g)
     return most;
 }
 
-/* In units of the sizes that shape coordinates have: T^k_ij s_i s_j / s_k, Theta_j s_j, and s_l more for a derivative along x^l. */
+/* In units of the sizes that shape coordinates have: T^k_ij s_i s_j / s_k, Theta_j s_j, and s_l more for a derivative
+   along x^l. */
 static void in_units(gyro *g, const double *s)
 {
     size_t n = g->n, cube = n * n * n;
@@ -175,7 +183,8 @@ bool nh_chaplygin_flat(const nh_slice *s, const nh_ex *U)
     return true;
 }
 
-nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U, const nh_options *options)
+nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U,
+                                             const nh_options *options)
 {
     enum { most_places = 24 };
     static const double perhaps_rounding = 1e-6;
@@ -184,14 +193,22 @@ nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, 
     if (!n) return out;
     if (places > most_places) places = most_places;
     nh_ex *e = list(s, K, U, &total);
-    double *value = nh_alloc_array(places * total, sizeof *value), *work = nh_alloc_array(cube * (1 + n) + n + n * n, sizeof *work), tensor_size = 0, slope_size = 0, size = 0, curl = 0;
+    double *value = nh_alloc_array(places * total, sizeof *value),
+           *work = nh_alloc_array(cube * (1 + n) + n + n * n, sizeof *work), tensor_size = 0, slope_size = 0, size = 0,
+           curl = 0;
     double *all = nh_alloc_array(s->m + n + 1, sizeof *all), *unit = all + s->m;
     nh_kinetic_sizes(s->kinetic, places, all);
     for (size_t i = 0; i < n; i++) unit[i] = all[s->shape[i]];
     nh_kinetic_sample(s->kinetic, total, e, places, value);
     for (size_t p = 0; p < places; p++) {
         const double *v = value + p * total;
-        gyro g = {.n = n, .K = v, .U = v + n * n, .dK = v + n * n + cube, .dU = v + n * n + cube + n * n * n, .T = work, .dT = work + cube};
+        gyro g = {.n = n,
+                  .K = v,
+                  .U = v + n * n,
+                  .dK = v + n * n + cube,
+                  .dU = v + n * n + cube + n * n * n,
+                  .T = work,
+                  .dT = work + cube};
         g.Theta = g.dT + n * cube;
         g.dTheta = g.Theta + n;
         if (!tensor(&g) || !isfinite(nh_largest(cube * n, g.dT))) continue;

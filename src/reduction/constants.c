@@ -9,7 +9,8 @@ typedef struct {
     const nh_kinetic *kinetic;
     size_t d;
     const nh_options *options;
-    nh_ex *field, *relation; /* d + 1: [e_a, e_b] and the generators, their components told apart by marks; coefficients */
+    /* d + 1: [e_a, e_b] and the generators, their components told apart by marks; coefficients */
+    nh_ex *field, *relation;
     double *like;            /* d + 1: 1 and C_ab */
 } work;
 
@@ -48,7 +49,8 @@ static void with_symbols(const work *w, nh_ex *constant)
     for (size_t k = 0; k < w->d; k++) constant[k] = nh_simplify(d, nh_div(d, w->relation[1 + k], w->relation[0]));
 }
 
-void nh_constants_find(const nh_kinetic *k, size_t d, const nh_generator *generator, const double *c, const nh_ex *bracket, const nh_options *options, nh_ex *constant)
+void nh_constants_find(const nh_kinetic *k, size_t d, const nh_generator *generator, const double *c,
+                       const nh_ex *bracket, const nh_options *options, nh_ex *constant)
 {
     size_t m = k->m;
     bool symbols = parametric(k, d, generator);

@@ -57,7 +57,8 @@ static bool minus_theta(const search *s, const nh_ex *K, const nh_ex *U, nh_ex *
             out[j] = nh_sub(d, out[j], b[i]);
         }
     }
-    for (size_t j = 0; j < n && lu; j++) out[j] = nh_simplify(d, out[j]); /* or 1e-9 of it is lost near a pole of the coordinates */
+    /* or 1e-9 of it is lost near a pole of the coordinates */
+    for (size_t j = 0; j < n && lu; j++) out[j] = nh_simplify(d, out[j]);
     bool good = lu != NULL;
     nh_lu_free(lu);
     nh_free(b);
@@ -83,11 +84,13 @@ static double fit(size_t rows, const double *a, const double *b, const double *w
     return off / (size > 0 ? size : 1);
 }
 
-/* d_j log F_k and -Theta_j at the sample points: rows (place, j), column by column; rows that are not finite are left out. */
+/* d_j log F_k and -Theta_j at the sample points: rows (place, j), column by column; rows that are not finite are left
+   out. */
 static size_t sample(const search *s, const nh_ex *slope, double *column, double *want)
 {
     const nh_kinetic *k = s->s->kinetic;
-    size_t total = (s->factors + 1) * s->n, places = k->places < most_places ? k->places : most_places, rows = 0, all = places * s->n;
+    size_t total = (s->factors + 1) * s->n, places = k->places < most_places ? k->places : most_places, rows = 0,
+           all = places * s->n;
     double *value = nh_alloc_array(places * total + 1, sizeof *value);
     nh_kinetic_sample(k, total, slope, places, value);
     for (size_t p = 0; p < places; p++)
@@ -130,8 +133,10 @@ static nh_proof prove(const contest *t, const candidate *c)
     nh_proof all = {.proved = true, .all_parameters = true, .digits = INFINITY};
     for (size_t j = 0; j < s->n; j++) {
         nh_ex e[3] = {nh_neg(d, t->theta[j])};
-        for (size_t i = 0; i < c->terms; i++) e[1 + i] = nh_mul(d, nh_number(d, c->power[i]), t->slope[c->which[i] * s->n + j]);
-        all = nh_proof_both(s->s->kinetic->model, all, nh_prove_zero(s->s->kinetic->model, 1 + c->terms, e, true, t->options));
+        for (size_t i = 0; i < c->terms; i++)
+            e[1 + i] = nh_mul(d, nh_number(d, c->power[i]), t->slope[c->which[i] * s->n + j]);
+        all = nh_proof_both(s->s->kinetic->model, all,
+                            nh_prove_zero(s->s->kinetic->model, 1 + c->terms, e, true, t->options));
     }
     return all;
 }
@@ -156,12 +161,15 @@ static void choose(contest *t, size_t rows, const double *column, const double *
     double c[2];
     for (size_t i = 0; i < t->s->factors && t->left; i++) {
         candidate one = {.terms = 1, .which = {i}};
-        if (fit(rows, column + i * rows, NULL, want, c) < fits && nh_recognise_ratio(c[0], largest_denominator, fits, &one.power[0])) offer_candidate(t, &one);
+        if (fit(rows, column + i * rows, NULL, want, c) < fits &&
+            nh_recognise_ratio(c[0], largest_denominator, fits, &one.power[0]))
+            offer_candidate(t, &one);
     }
     for (size_t i = 0; i < t->s->factors; i++)
         for (size_t j = 0; j < i && t->left; j++) {
             candidate two = {.terms = 2, .which = {i, j}};
-            if (fit(rows, column + i * rows, column + j * rows, want, c) < fits && nh_recognise_ratio(c[0], largest_denominator, fits, &two.power[0]) &&
+            if (fit(rows, column + i * rows, column + j * rows, want, c) < fits &&
+                nh_recognise_ratio(c[0], largest_denominator, fits, &two.power[0]) &&
                 nh_recognise_ratio(c[1], largest_denominator, fits, &two.power[1]))
                 offer_candidate(t, &two);
         }
@@ -180,7 +188,8 @@ static nh_ex without_content(const search *s, nh_ex e)
     return e;
 }
 
-/* e^power without the factors that are constant, and with (b^x)^c = b^(x c): a density's constant factors and its sign are no matter. */
+/* e^power without the factors that are constant, and with (b^x)^c = b^(x c): a density's constant factors and its sign
+   are no matter. */
 static nh_ex without_constants(const search *s, nh_ex e, nh_num power)
 {
     nh_dag *d = s->d;
@@ -189,7 +198,8 @@ static nh_ex without_constants(const search *s, nh_ex e, nh_num power)
     if (nh_kind_of(d, e) != NH_PRODUCT) return nh_pow(d, without_content(s, e), x);
     for (size_t i = 0; i < nh_arity(d, e); i++) {
         nh_ex base = nh_child(d, e, i), exponent = nh_exponent_of(d, e, i);
-        if (moves(s, base) || moves(s, exponent)) out = nh_mul(d, out, nh_pow(d, without_content(s, base), nh_mul(d, exponent, x)));
+        if (moves(s, base) || moves(s, exponent))
+            out = nh_mul(d, out, nh_pow(d, without_content(s, base), nh_mul(d, exponent, x)));
     }
     return out;
 }
@@ -204,7 +214,8 @@ static void collect_factors(search *s, const nh_ex *K)
     for (size_t i = 0; i < s->n * s->n; i++) walk(s, K[i]);
 }
 
-bool nh_density_find(const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_options *options, nh_ex *density, nh_proof *proof)
+bool nh_density_find(const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_options *options, nh_ex *density,
+                     nh_proof *proof)
 {
     enum { most_proofs = 12 };
     search *s = nh_alloc(sizeof *s);
@@ -212,17 +223,20 @@ bool nh_density_find(const nh_slice *slice, const nh_ex *K, const nh_ex *U, cons
     nh_dag *d = slice->dag;
     *s = (search){.s = slice, .d = d, .n = n};
     nh_ex *slope = nh_alloc_array(most + n + 1, sizeof *slope), *theta = slope + most;
-    double *column = nh_alloc_array(most_places * n * (most_factors + 1) + 1, sizeof *column), *want = column + most_places * n * most_factors;
+    double *column = nh_alloc_array(most_places * n * (most_factors + 1) + 1, sizeof *column),
+           *want = column + most_places * n * most_factors;
     contest t = {.s = s, .slope = slope, .theta = theta, .options = options, .left = most_proofs};
     bool good = n > 0 && n <= 4 && slice->tidy && minus_theta(s, K, U, theta);
     if (good) collect_factors(s, K);
     for (size_t i = 0; i < s->factors; i++)
-        for (size_t j = 0; j < n; j++) slope[i * n + j] = nh_div(d, nh_diff(d, s->factor[i], slice->x[j]), s->factor[i]);
+        for (size_t j = 0; j < n; j++)
+            slope[i * n + j] = nh_div(d, nh_diff(d, s->factor[i], slice->x[j]), s->factor[i]);
     if (good) memcpy(slope + s->factors * n, theta, n * sizeof *theta);
     size_t rows = good ? sample(s, slope, column, want) : 0;
     if (rows > 2 * n) choose(&t, rows, column, want);
     if (t.found) *density = nh_int(d, 1), *proof = t.proof;
-    for (size_t i = 0; i < t.best.terms; i++) *density = nh_mul(d, *density, without_constants(s, s->factor[t.best.which[i]], t.best.power[i]));
+    for (size_t i = 0; i < t.best.terms; i++)
+        *density = nh_mul(d, *density, without_constants(s, s->factor[t.best.which[i]], t.best.power[i]));
     if (t.found) *density = nh_simplify(d, *density);
     nh_free(slope);
     nh_free(column);

@@ -40,7 +40,8 @@ static nh_tape *row_tape(const nh_generator_fit *s, layout y)
     const nh_kinetic *k = s->k;
     nh_dag *d = k->dag;
     size_t m = s->m, width = 1 + 2 * m;
-    nh_ex *e = nh_alloc_array(y.total, sizeof *e), *in = nh_alloc_array(width, sizeof *in), L = k->model->system->lagrangian;
+    nh_ex *e = nh_alloc_array(y.total, sizeof *e), *in = nh_alloc_array(width, sizeof *in),
+          L = k->model->system->lagrangian;
     in[0] = k->model->system->t;
     memcpy(in + 1, k->q, m * sizeof *in);
     memcpy(in + 1 + m, k->v, m * sizeof *in);
@@ -57,7 +58,8 @@ static nh_tape *row_tape(const nh_generator_fit *s, layout y)
         for (size_t c = 0; c < s->terms; c++) e[y.db + c * m + r] = nh_diff(d, s->b[c], k->q[r]);
     }
     memcpy(e + y.b, s->b, s->terms * sizeof *e);
-    nh_tape *tape = nh_tape_create(d, width, in, y.total, e, k->model->system->parameters, k->model->parameter, k->model->parameter_value);
+    nh_tape *tape = nh_tape_create(d, width, in, y.total, e, k->model->system->parameters, k->model->parameter,
+                                   k->model->parameter_value);
     nh_free(e);
     nh_free(in);
     return tape;
@@ -82,13 +84,15 @@ static void metric_rows(const nh_generator_fit *s, layout y, const double *z, nh
             for (size_t c = 0; c < s->terms; c++) {
                 size_t i = s->component[c];
                 const double *db = z + y.db + c * m;
-                row[s->column[c]] += unit * (z[y.b + c] * dK[i * m * m + r * m + q] + K[i * m + q] * db[r] + K[r * m + i] * db[q]);
+                row[s->column[c]] +=
+                    unit * (z[y.b + c] * dK[i * m * m + r * m + q] + K[i * m + q] * db[r] + K[r * m + i] * db[q]);
             }
         }
 }
 
 /* The prolonged field on a function of (q, v) with derivatives eq, ev, at the velocity v. */
-static void function_row(const nh_generator_fit *s, layout y, const double *z, const double *eq, const double *ev, const double *v, double unit, nh_relative *out)
+static void function_row(const nh_generator_fit *s, layout y, const double *z, const double *eq, const double *ev,
+                         const double *v, double unit, nh_relative *out)
 {
     double *row = nh_relative_condition(out);
     for (size_t c = 0; c < s->terms; c++) {
@@ -107,7 +111,8 @@ static double unit_of(const nh_generator_fit *s, const double *e)
     return size > 0 ? 1 / size : 0;
 }
 
-/* One over the size of velocities, a power of 1024, by which no digit is lost: what constraints and L say must not become small with the unit of time. */
+/* One over the size of velocities, a power of 1024, by which no digit is lost: what constraints and L say must not
+   become small with the unit of time. */
 static double slowness(const nh_generator_fit *s, const double *v)
 {
     double size = 0;
@@ -115,7 +120,8 @@ static double slowness(const nh_generator_fit *s, const double *v)
     return size > 0 && isfinite(size) ? exp2(-10 * round(log2(size) / 10)) : 1;
 }
 
-static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double *z, nh_relative *out)
+static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double *z,
+                       nh_relative *out)
 {
     const nh_kinetic *k = s->k;
     size_t m = s->m, width = 1 + 2 * m;
@@ -128,8 +134,11 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
     bool finite = nh_all_finite(y.total, z);
     if (finite) {
         if (plain(k)) metric_rows(s, y, z, out);
-        if (plain(k)) function_row(s, y, z, z + y.dV, z + y.Lv, v, unit_of(s, z + y.dV), out); /* of its own size: V may be steep elsewhere */
-        for (size_t a = 0; a < k->f; a++) function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, slowness(s, v) * unit_of(s, z + y.fv + a * m), out);
+        /* of its own size: V may be steep elsewhere */
+        if (plain(k)) function_row(s, y, z, z + y.dV, z + y.Lv, v, unit_of(s, z + y.dV), out);
+        for (size_t a = 0; a < k->f; a++)
+            function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, slowness(s, v) * unit_of(s, z + y.fv + a * m),
+                         out);
         for (size_t c = 0; c < m; c++) {
             double *row = nh_relative_value(out);
             for (size_t j = 0; j < s->terms; j++)
@@ -138,7 +147,9 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
         for (size_t i = 1; i <= pushes && !plain(k); i++) { /* L at velocities that the constraints need not allow */
             memcpy(in + 1 + m, k->speed + (p + i) % k->places * m, m * sizeof *in);
             nh_tape_eval(tape, work, in, z);
-            if (nh_all_finite(y.total, z)) function_row(s, y, z, z + y.Lq, z + y.Lv, in + 1 + m, slowness(s, in + 1 + m) * unit_of(s, z + y.Lv), out);
+            if (nh_all_finite(y.total, z))
+                function_row(s, y, z, z + y.Lq, z + y.Lv, in + 1 + m, slowness(s, in + 1 + m) * unit_of(s, z + y.Lv),
+                             out);
         }
     }
     nh_free(in);

@@ -1,5 +1,5 @@
-/* generator_fit: the combinations of a library's fields that leave a system invariant, by null vectors of their conditions at the places of its
- * kinetic data.
+/* generator_fit: the combinations of a library's fields that leave a system invariant, by null vectors of their
+ * conditions at the places of its kinetic data.
  *
  *     L_xi K = 0, xi(V) = 0  or  xi(L) = 0;   xi(f^a) = 0;   xi = sum_k c_k b_k d/dq^(i_k)
  *
@@ -24,7 +24,8 @@ typedef struct {
 
 /* The scales; k, options, m are there. */
 void nh_generator_fit_scale(nh_generator_fit *fit);
-/* Vectors, their sizes and singular values; the library, n and the scales are there.  False with a message when there is nothing to fit at. */
+/* Vectors, their sizes and singular values; the library, n and the scales are there.  False with a message when there
+   is nothing to fit at. */
 bool nh_generator_fit_solve(nh_generator_fit *fit, nh_error *error);
 void nh_generator_fit_clear(nh_generator_fit *fit);
 

@@ -17,7 +17,8 @@ enum { most_columns = 420 };
 
 /* ---- one vector ---- */
 
-/* The coefficients of one vector again, from its own terms alone: a large library is badly conditioned, a few terms are not. */
+/* The coefficients of one vector again, from its own terms alone: a large library is badly conditioned, a few terms are
+   not. */
 static void refit(nh_generator_fit *s, size_t r)
 {
     nh_generator_fit t = {.k = s->k, .options = s->options, .m = s->m};
@@ -30,7 +31,8 @@ static void refit(nh_generator_fit *s, size_t r)
     nh_generator_fit_scale(&t);
     if (nh_generator_fit_solve(&t, &ignored) && t.d > 0) {
         size_t *order = nh_library_order(&t.l), pivot = order[t.n - 1], use = 0;
-        nh_relative_echelon(t.n, t.d, order, t.size, t.vector); /* another generator may live on the same terms: the one that has the most complex term is meant */
+        /* another generator may live on the same terms: the one that has the most complex term is meant */
+        nh_relative_echelon(t.n, t.d, order, t.size, t.vector);
         for (size_t c = 0; c < t.d; c++)
             if (fabs(t.vector[pivot + c * t.n]) > fabs(t.vector[pivot + use * t.n])) use = c;
         const double *u = t.vector + use * t.n;
@@ -65,7 +67,8 @@ static bool rational(nh_generator_fit *s, size_t r, nh_ex *coefficient)
     for (size_t j = 0; j < s->n; j++) {
         double value = s->vector[j + r * s->n];
         if (value == 0) coefficient[j] = nh_int(s->k->dag, 0);
-        else if (nh_recognise_ratio(value, largest_denominator, s->options->same, &x)) coefficient[j] = nh_number(s->k->dag, x);
+        else if (nh_recognise_ratio(value, largest_denominator, s->options->same, &x))
+            coefficient[j] = nh_number(s->k->dag, x);
         else all = nh_recognise_number(s->k->dag, value, s->options->recognise, &coefficient[j]) && all;
         if (value != 0 && !all) coefficient[j] = nh_real(s->k->dag, value);
     }
@@ -82,9 +85,10 @@ static void assemble(const nh_generator_fit *s, const nh_ex *coefficient, nh_ex 
     for (size_t i = 0; i < s->m && s->l.whole; i++) component[i] = nh_simplify(d, component[i]);
 }
 
-/* The conditions on column j, told apart by the marks.  by_terms: xi(V_i)/V_i of the potential's terms instead of xi(V): where each vanishes the sum
- * does, and no roots of different distances come together. */
-static nh_ex conditions(const nh_generator_fit *s, size_t j, bool by_terms, const nh_ex *mark, nh_ex *field, nh_ex *equation)
+/* The conditions on column j, told apart by the marks.  by_terms: xi(V_i)/V_i of the potential's terms instead of
+ * xi(V): where each vanishes the sum does, and no roots of different distances come together. */
+static nh_ex conditions(const nh_generator_fit *s, size_t j, bool by_terms, const nh_ex *mark, nh_ex *field,
+                        nh_ex *equation)
 {
     const nh_kinetic *k = s->k;
     nh_dag *d = k->dag;
@@ -101,11 +105,13 @@ static nh_ex conditions(const nh_generator_fit *s, size_t j, bool by_terms, cons
 }
 
 /* The exact relation among the fields of one vector; index: their columns. */
-static nh_fixed related(const nh_generator_fit *s, size_t r, bool by_terms, size_t *terms, size_t *index, double *like, nh_ex *found)
+static nh_fixed related(const nh_generator_fit *s, size_t r, bool by_terms, size_t *terms, size_t *index, double *like,
+                        nh_ex *found)
 {
     const nh_kinetic *k = s->k;
     size_t m = s->m, total = m * (m + 1) / 2 + 1 + k->f, marks = total + nh_arity(k->dag, nh_invariance_sum(k));
-    nh_ex *e = nh_alloc_array(s->n + m + total + marks + 1, sizeof *e), *field = e + s->n, *equation = field + m, *mark = equation + total;
+    nh_ex *e = nh_alloc_array(s->n + m + total + marks + 1, sizeof *e), *field = e + s->n, *equation = field + m,
+          *mark = equation + total;
     nh_section_marks(k->dag, marks, mark);
     *terms = 0;
     for (size_t j = 0; j < s->n; j++) {
@@ -127,7 +133,8 @@ static bool parametric(nh_generator_fit *s, size_t r, nh_ex *coefficient, const 
     nh_ex *found = nh_alloc_array(s->n + 1, sizeof *found), unit = 0;
     double *like = nh_alloc_array(s->n + 1, sizeof *like);
     nh_fixed how = related(s, r, false, &terms, index, like, found);
-    if (how.too_large && nh_kind_of(d, nh_invariance_sum(s->k)) == NH_SUM) how = related(s, r, true, &terms, index, like, found);
+    if (how.too_large && nh_kind_of(d, nh_invariance_sum(s->k)) == NH_SUM)
+        how = related(s, r, true, &terms, index, like, found);
     bool good = how.found && !how.too_large;
     for (size_t i = 0; i < terms && good; i++)
         if (like[i] == 1) unit = found[i];
@@ -141,7 +148,8 @@ static bool parametric(nh_generator_fit *s, size_t r, nh_ex *coefficient, const 
     return good;
 }
 
-/* With rational numbers where these hold for all parameters, else with an exact relation; with what the numbers look like when there is none. */
+/* With rational numbers where these hold for all parameters, else with an exact relation; with what the numbers look
+   like when there is none. */
 static void make_generator(nh_generator_fit *s, size_t r, nh_ex *coefficient, nh_ex *component, nh_generator *out)
 {
     const bool *fixed;
@@ -183,9 +191,10 @@ static size_t for_all_parameters(const nh_kinetic *k, const nh_generators *found
     return n;
 }
 
-/* The generators that one library has, taken when they are more than were known, or as many and more of them hold for all parameters; *good is false with a
- * message after a breakdown. */
-static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, int level, size_t together, const nh_joint_fields *joints, const nh_options *options, nh_error *error, bool *good)
+/* The generators that one library has, taken when they are more than were known, or as many and more of them hold for
+ * all parameters; *good is false with a message after a breakdown. */
+static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, int level, size_t together,
+                        const nh_joint_fields *joints, const nh_options *options, nh_error *error, bool *good)
 {
     nh_generator_fit s = {.k = k, .options = options, .m = k->m};
     nh_generators found = {.level = level};
@@ -198,12 +207,16 @@ static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *
     found.last_null = s.last_null;
     found.first_other = s.first_other;
     nh_generator_fit_clear(&s);
-    bool more = *good && (found.count > out->count || !out->level || (found.count == out->count && for_all_parameters(k, &found) > for_all_parameters(k, out)));
+    bool more = *good && (found.count > out->count || !out->level ||
+                          (found.count == out->count && for_all_parameters(k, &found) > for_all_parameters(k, out)));
     if (more) *out = found;
     return more;
 }
 
-static bool complete(const nh_generators *found, const nh_jets *jets) { return jets && found->count >= jets->dimension; }
+static bool complete(const nh_generators *found, const nh_jets *jets)
+{
+    return jets && found->count >= jets->dimension;
+}
 
 /* d/dq of the coordinates that neither the kinetic energy nor the potential nor the constraints contain: they need no
  * fit, which units that lie far apart may spoil.  Taken where that is more than was found. */
@@ -223,19 +236,22 @@ static void cyclic(nh_generators *out, const nh_kinetic *k, const nh_options *op
     nh_free(component);
 }
 
-bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, const nh_options *options, nh_error *error)
+bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, const nh_options *options,
+                        nh_error *error)
 {
     *out = (nh_generators){0};
     nh_joint_fields joints = {0};
     bool good = true, enough = false;
-    for (int level = 1; level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && (nh_budget_spent() || nh_late())); level++) {
+    for (int level = 1;
+         level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && (nh_budget_spent() || nh_late())); level++) {
         bool more = false;
         for (size_t together = 2; together <= (jets ? 3 : 2) && good && !enough; together++) {
             more |= one_library(out, k, jets, level, together, &joints, options, error, &good);
             enough = complete(out, jets);
         }
         enough |= !more && !jets;
-        if (level > 1 || (enough && for_all_parameters(k, out) == out->count) || !good || !k->model->system->chain) continue;
+        if (level > 1 || (enough && for_all_parameters(k, out) == out->count) || !good || !k->model->system->chain)
+            continue;
         nh_joint_fields_init(&joints, k->model->system); /* simple fields are found without them */
         one_library(out, k, jets, level, 3, &joints, options, error, &good);
         enough = complete(out, jets);

@@ -7,7 +7,8 @@
 
 /* ---- circles ---- */
 
-/* Central fields whose flow closes count as circles, up to what lies in [g,g]: generators, and the pieces of the algebra that are lines. */
+/* Central fields whose flow closes count as circles, up to what lies in [g,g]: generators, and the pieces of the
+   algebra that are lines. */
 static size_t circles(const nh_group *g, const nh_options *options)
 {
     const nh_algebra *c = &g->action.algebra;
@@ -19,11 +20,13 @@ static size_t circles(const nh_group *g, const nh_options *options)
     for (size_t a = 0; a < d; a++) {
         bool commutes = true;
         for (size_t i = 0; i < d * d; i++) commutes &= c->c[a * d * d + i] == 0;
-        if (commutes && nh_flows_closed(flows, all + a * d)) memcpy(central + count++ * d, all + a * d, d * sizeof *central);
+        if (commutes && nh_flows_closed(flows, all + a * d))
+            memcpy(central + count++ * d, all + a * d, d * sizeof *central);
     }
     for (size_t i = 0; i < g->report.pieces; i++) {
         double *line = central + count * d, size = nh_largest(d, g->report.piece[i].basis);
-        for (size_t a = 0; a < d; a++) line[a] = g->report.piece[i].basis[a] / (size > 0 ? size : 1); /* turns of 2 pi are tried */
+        /* turns of 2 pi are tried */
+        for (size_t a = 0; a < d; a++) line[a] = g->report.piece[i].basis[a] / (size > 0 ? size : 1);
         count += g->report.piece[i].kind == NH_R && nh_flows_closed(flows, line);
     }
     nh_project_off(d, count, central, n1, d1);
@@ -38,7 +41,8 @@ static void name_group(nh_group *g, const nh_options *options)
     nh_text name;
     nh_text_init(&name);
     const nh_algebra *algebra = g->missing ? &g->jets->algebra : &g->action.algebra;
-    nh_algebra_report_init(&g->report, algebra, options->group, options->cluster, (size_t)options->ideals, (uint64_t)options->seed);
+    nh_algebra_report_init(&g->report, algebra, options->group, options->cluster, (size_t)options->ideals,
+                           (uint64_t)options->seed);
     g->closed = nh_alloc_array(g->report.pieces + 1, sizeof *g->closed);
     size_t n = g->missing || !g->action.closes ? 0 : circles(g, options);
     for (size_t i = 0; i < g->report.pieces; i++)
@@ -48,15 +52,16 @@ static void name_group(nh_group *g, const nh_options *options)
     nh_text_clear(&name);
 }
 
-/* The combinations of generators that are single-valued on all angles form an algebra: the null space of their changes after a turn, in units of the coordinates and of
- * the generators' sizes. */
+/* The combinations of generators that are single-valued on all angles form an algebra: the null space of their changes
+ * after a turn, in units of the coordinates and of the generators' sizes. */
 static size_t single_valued(const nh_action *g, const nh_options *options, double *c)
 {
     enum { most_places = 8 };
     static const double turn = 6.283185307179586;
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, d = g->d, places = k->places < most_places ? k->places : most_places, rows = places * m * m;
-    double *a = nh_alloc_array(rows * d + 2 * m * d + 2 * m + d + 1, sizeof *a), *before = a + rows * d, *after = before + m * d, *q = after + m * d, *unit = q + m, *size = unit + m;
+    double *a = nh_alloc_array(rows * d + 2 * m * d + 2 * m + d + 1, sizeof *a), *before = a + rows * d,
+           *after = before + m * d, *q = after + m * d, *unit = q + m, *size = unit + m;
     nh_kinetic_sizes(k, places, unit);
     for (size_t p = 0; p < places; p++) {
         memcpy(q, k->place + p * m, m * sizeof *q);
@@ -68,7 +73,8 @@ static size_t single_valued(const nh_action *g, const nh_options *options, doubl
             nh_action_values(g, q, after);
             q[s] -= turn;
             for (size_t e = 0; e < d; e++)
-                for (size_t i = 0; i < m; i++) a[(p * m + s) * m + i + e * rows] = (after[i + e * m] - before[i + e * m]) / unit[i];
+                for (size_t i = 0; i < m; i++)
+                    a[(p * m + s) * m + i + e * rows] = (after[i + e * m] - before[i + e * m]) / unit[i];
         }
     }
     for (size_t i = 0; i < rows * d; i++) a[i] /= size[i / rows] > 0 ? size[i / rows] : 1;
@@ -152,14 +158,16 @@ static bool subalgebra(const nh_algebra *g, size_t count, const size_t *subset)
     return true;
 }
 
-size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, const nh_options *options, size_t *index)
+size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, const nh_options *options,
+                           size_t *index)
 {
     (void)options;
     const nh_algebra *g = &group->action.algebra;
     size_t n = 0;
     for (size_t a = 0; a < g->d; a++) {
         bool good = true;
-        for (size_t i = 0; i < count; i++) good &= subset[i] != a && inside(g->d, g->c + (a * g->d + subset[i]) * g->d, count, subset);
+        for (size_t i = 0; i < count; i++)
+            good &= subset[i] != a && inside(g->d, g->c + (a * g->d + subset[i]) * g->d, count, subset);
         if (good) index[n++] = a;
     }
     return n;
@@ -172,13 +180,15 @@ static size_t along_dependents(const nh_group *g, size_t count, const size_t *su
     size_t n = 0;
     for (size_t i = 0; i < count; i++) {
         bool only = true;
-        for (size_t s = 0; s < k->m; s++) only &= k->dependent[s] || nh_is_zero(k->dag, g->action.generator[subset[i]].component[s]);
+        for (size_t s = 0; s < k->m; s++)
+            only &= k->dependent[s] || nh_is_zero(k->dag, g->action.generator[subset[i]].component[s]);
         n += only;
     }
     return n;
 }
 
-/* Generators of the subset that do not commute with all of it: a group that is not abelian is divided out as a whole. */
+/* Generators of the subset that do not commute with all of it: a group that is not abelian is divided out as a
+   whole. */
 static size_t interacting(const nh_algebra *g, size_t count, const size_t *subset)
 {
     size_t n = 0;
@@ -223,14 +233,15 @@ static bool next_subset(size_t d, size_t count, size_t *index)
     return false;
 }
 
-/* omega(e_a) at every sample point, forms and generators of length one in units in which the metric has diagonal one, so that lengths and angles compare: f x d each,
- * column by column. */
+/* omega(e_a) at every sample point, forms and generators of length one in units in which the metric has diagonal one,
+ * so that lengths and angles compare: f x d each, column by column. */
 static double *on_constraints(const nh_action *g)
 {
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, f = k->f, d = g->d, total = m * d + f * m + m;
     nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
-    double *z = nh_alloc_array(k->places * total + 1, sizeof *z), *out = nh_alloc_array(k->places * f * d + 1, sizeof *out);
+    double *z = nh_alloc_array(k->places * total + 1, sizeof *z),
+           *out = nh_alloc_array(k->places * f * d + 1, sizeof *out);
     for (size_t a = 0; a < d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
     memcpy(e + m * d, k->omega, f * m * sizeof *e);
     for (size_t s = 0; s < m; s++) e[m * d + f * m + s] = k->K[s * (m + 1)];
@@ -238,7 +249,8 @@ static double *on_constraints(const nh_action *g)
     for (size_t p = 0; p < k->places; p++)
         for (size_t i = 0; i < f; i++)
             for (size_t a = 0; a < d; a++) {
-                const double *E = z + p * total + a * m, *omega = z + p * total + m * d + i * m, *K = z + p * total + m * d + f * m;
+                const double *E = z + p * total + a * m, *omega = z + p * total + m * d + i * m,
+                             *K = z + p * total + m * d + f * m;
                 double sum = 0, length = 0, size = 0;
                 for (size_t s = 0; s < m; s++) {
                     double unit = K[s] > 0 ? sqrt(K[s]) : 1;
@@ -278,7 +290,9 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
     for (size_t i = 0; i < f && i <= d; i++) subset[i] = i;
     if (f > 0 && f <= d && g->action.closes) do {
             if (!subalgebra(&g->action.algebra, f, subset)) continue;
-            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest), interacting(&g->action.algebra, f, subset), local_ones(&g->action, f, subset), transversality(&g->action, on, subset)};
+            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest),
+                       interacting(&g->action.algebra, f, subset), local_ones(&g->action, f, subset),
+                       transversality(&g->action, on, subset)};
             if (m.transversality <= options->transversal || (found && !better(m, best))) continue;
             best = m;
             found = true;
@@ -324,8 +338,10 @@ static double independence(size_t m, size_t d, size_t places, const double *E, s
     return least;
 }
 
-/* The first subset of this size that generates a free action, with or without local symmetries in it; *trials are left. */
-static bool free_of_size(const nh_group *g, const nh_options *options, const double *E, bool local, size_t size, size_t *trials, size_t *index)
+/* The first subset of this size that generates a free action, with or without local symmetries in it; *trials are
+   left. */
+static bool free_of_size(const nh_group *g, const nh_options *options, const double *E, bool local, size_t size,
+                         size_t *trials, size_t *index)
 {
     const nh_action *a = &g->action;
     for (size_t i = 0; i < size; i++) index[i] = i;
@@ -333,7 +349,9 @@ static bool free_of_size(const nh_group *g, const nh_options *options, const dou
         if ((local_ones(a, size, index) > 0) != local) continue;
         if (*trials == 0) return false;
         --*trials;
-        if (subalgebra(&a->algebra, size, index) && independence(g->kinetic->m, a->d, g->kinetic->places, E, size, index) > options->group) return true;
+        if (subalgebra(&a->algebra, size, index) &&
+            independence(g->kinetic->m, a->d, g->kinetic->places, E, size, index) > options->group)
+            return true;
     } while (next_subset(a->d, size, index));
     return false;
 }
@@ -344,7 +362,8 @@ size_t nh_group_free_subset(const nh_group *g, const nh_options *options, size_t
     const nh_kinetic *k = g->kinetic;
     size_t d = g->action.d, trials = most_trials, found = 0;
     nh_ex *e = nh_alloc_array(k->m * d + 1, sizeof *e), *K = nh_alloc_array(k->m + 1, sizeof *K);
-    double *E = nh_alloc_array(k->places * k->m * d + 1, sizeof *E), *metric = nh_alloc_array(k->places * k->m + 1, sizeof *metric);
+    double *E = nh_alloc_array(k->places * k->m * d + 1, sizeof *E),
+           *metric = nh_alloc_array(k->places * k->m + 1, sizeof *metric);
     for (size_t a = 0; a < d; a++) memcpy(e + a * k->m, g->action.generator[a].component, k->m * sizeof *e);
     for (size_t s = 0; s < k->m; s++) K[s] = k->K[s * (k->m + 1)];
     nh_kinetic_sample(k, k->m * d, e, k->places, E);
@@ -354,7 +373,9 @@ size_t nh_group_free_subset(const nh_group *g, const nh_options *options, size_t
         E[i] *= unit > 0 ? sqrt(unit) : 1;
     }
     for (size_t size = g->action.orbit; size > 0 && !found; size--)
-        if (free_of_size(g, options, E, false, size, &trials, index) || free_of_size(g, options, E, true, size, &trials, index)) found = size;
+        if (free_of_size(g, options, E, false, size, &trials, index) ||
+            free_of_size(g, options, E, true, size, &trials, index))
+            found = size;
     nh_free(e);
     nh_free(E);
     nh_free(metric);

@@ -9,7 +9,8 @@
 
 /* Where the generators do not depend on the shape coordinates, T g d/dx^i = d/dx^i, and the place follows the equation
  *     q' = x'^i d/dx^i + (Ad_g zeta)^a e_a(q),
- * which stays on the path of the motion: the flows of the factors take another one, round a pole of the coordinates perhaps. */
+ * which stays on the path of the motion: the flows of the factors take another one, round a pole of the coordinates
+ * perhaps. */
 static bool independent_of_shape(const nh_slice *s)
 {
     const nh_kinetic *k = s->kinetic;
@@ -37,7 +38,8 @@ static void find_cubic(nh_group_flow *f, size_t a)
     f->cubic[a] = off <= rounding * size * size * size;
 }
 
-/* exp(t ad_a) into f->E: 1 + S ad_a + C ad_a^2 with S = sin(wt)/w, C = (1 - cos(wt))/w^2 for lambda = -w^2, and so on; else by scaling and squaring. */
+/* exp(t ad_a) into f->E: 1 + S ad_a + C ad_a^2 with S = sin(wt)/w, C = (1 - cos(wt))/w^2 for lambda = -w^2, and so on;
+   else by scaling and squaring. */
 static void exponential(nh_group_flow *f, size_t a, double t)
 {
     size_t d = f->d, n = d * d;
@@ -100,8 +102,9 @@ static double largest_entry(const nh_group_flow *f)
     return most;
 }
 
-/* det M does not depend on the basis of the Lie algebra, and vanishes where the coordinates of the second kind are singular (cos t_2
- * of a rotation).  Where it is far from zero large entries, of translations above all, cost digits only. */
+/* det M does not depend on the basis of the Lie algebra, and vanishes where the coordinates of the second kind are
+ * singular (cos t_2 of a rotation).  Where it is far from zero large entries, of translations above all, cost digits
+ * only. */
 bool nh_group_flow_guard(double time, const double *z, double *value, void *context)
 {
     (void)time;

@@ -1,7 +1,8 @@
-/* group_flow: the reduced equations of one chart together with the motion of the group over it, as one differential equation.
+/* group_flow: the reduced equations of one chart together with the motion of the group over it, as one differential
+ * equation.
  *
- * The state is (x, p), then for the group d coordinates of the second kind, g = exp(t_1 e_1) ... exp(t_d e_d), with M(t) t' = Ad_g zeta, then
- * where that is possible the place q itself. */
+ * The state is (x, p), then for the group d coordinates of the second kind, g = exp(t_1 e_1) ... exp(t_d e_d), with
+ * M(t) t' = Ad_g zeta, then where that is possible the place q itself. */
 #ifndef NH_GROUP_FLOW_H
 #define NH_GROUP_FLOW_H
 
@@ -35,7 +36,8 @@ void nh_group_flow_clear(nh_group_flow *flow);
 size_t nh_group_flow_size(const nh_group_flow *flow);
 /* z' (context: the flow). */
 bool nh_group_flow_rate(double time, const double *z, double *rate, void *flow);
-/* What must stay regular in the reduced equations, and det M, between limits that it must not leave, with M's entries: three values (context: the flow). */
+/* What must stay regular in the reduced equations, and det M, between limits that it must not leave, with M's entries:
+   three values (context: the flow). */
 bool nh_group_flow_guard(double time, const double *z, double *value, void *flow);
 /* M(t) into flow->M and Ad_g into flow->P, from the d coordinates. */
 void nh_group_flow_factors(nh_group_flow *flow, const double *t);

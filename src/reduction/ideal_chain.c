@@ -18,7 +18,10 @@ static bool ideal(const nh_algebra *g, size_t above, size_t from, nh_error *erro
         for (size_t b = from; b < d; b++)
             for (size_t k = 0; k < from; k++)
                 if (fabs(g->c[(a * d + b) * d + k]) > 1e-9 * most)
-                    return nh_fail(error, NH_INPUT, "", "a subgroup of the chain is not normal in the one before it: [e%zu, e%zu] has a component along e%zu", order[a] + 1, order[b] + 1, order[k] + 1);
+                    return nh_fail(error, NH_INPUT, "",
+                                   "a subgroup of the chain is not normal in the one before it: [e%zu, e%zu] has a "
+                                   "component along e%zu",
+                                   order[a] + 1, order[b] + 1, order[k] + 1);
     return true;
 }
 
@@ -52,7 +55,8 @@ static bool make_lifts(nh_ideals *c, const double *metric)
     return good;
 }
 
-bool nh_ideals_init(nh_ideals *c, const nh_algebra *g, size_t blocks, const size_t *size, const size_t *order, const double *metric, nh_error *error)
+bool nh_ideals_init(nh_ideals *c, const nh_algebra *g, size_t blocks, const size_t *size, const size_t *order,
+                    const double *metric, nh_error *error)
 {
     size_t d = g->d, at = 0;
     *c = (nh_ideals){.d = d, .blocks = blocks, .size = nh_alloc_array(2 * blocks + d + 1, sizeof *c->size)};
@@ -66,9 +70,11 @@ bool nh_ideals_init(nh_ideals *c, const nh_algebra *g, size_t blocks, const size
     for (size_t i = 0; i < d; i++) t[order[i] + i * d] = 1;
     c->algebra = nh_algebra_change(g, d, t, NULL);
     nh_free(t);
-    bool good = at == d || nh_fail(error, NH_INPUT, "", "the blocks of the chain contain %zu generators, but the group has %zu", at, d);
+    bool good = at == d || nh_fail(error, NH_INPUT, "",
+                                   "the blocks of the chain contain %zu generators, but the group has %zu", at, d);
     for (size_t j = 1; j < blocks && good; j++) good = ideal(&c->algebra, c->start[j - 1], c->start[j], error, order);
-    if (good && !make_lifts(c, metric)) good = nh_fail(error, NH_NUMERIC, "", "the inner product on the Lie algebra is singular");
+    if (good && !make_lifts(c, metric))
+        good = nh_fail(error, NH_NUMERIC, "", "the inner product on the Lie algebra is singular");
     if (!good) nh_ideals_clear(c);
     return good;
 }
@@ -110,7 +116,8 @@ size_t nh_ideals_find(const nh_algebra *g, size_t *size, size_t *order)
     }
     while (now) {
         unsigned long best = 0;
-        for (unsigned long set = (now - 1) & now; set; set = (set - 1) & now) /* subsets; the largest ideal, of equal ones that of the first vectors */
+        /* subsets; the largest ideal, of equal ones that of the first vectors */
+        for (unsigned long set = (now - 1) & now; set; set = (set - 1) & now)
             if (bits(set) >= bits(best) && spans_ideal(g, set)) best = set;
         size[blocks] = bits(now) - bits(best);
         for (size_t i = 0; i < d; i++)
@@ -167,7 +174,8 @@ static void add_within(const nh_ideals *c, size_t j, const double *e, const doub
     lifted(c, j, j + 1, f, y);
     nh_algebra_bracket(&c->algebra, x, y, b);
     memcpy(rest, b, d * sizeof *rest);
-    for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) { /* block j of a vector of n_j is read off directly */
+    /* block j of a vector of n_j is read off directly */
+    for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) {
         out[i] += b[i];
         for (size_t r = 0; r < d; r++) rest[r] -= b[i] * c->lift[r + i * d];
     }
@@ -176,7 +184,8 @@ static void add_within(const nh_ideals *c, size_t j, const double *e, const doub
 }
 
 /* sign b_j(x_j, sum_(k>j) H_k y_k) in parts. */
-static void add_across(const nh_ideals *c, size_t j, double sign, const double *e, const double *f, double *work, double *out)
+static void add_across(const nh_ideals *c, size_t j, double sign, const double *e, const double *f, double *work,
+                       double *out)
 {
     size_t d = c->d;
     double *x = work, *y = x + d, *b = y + d;

@@ -12,7 +12,8 @@ nh_ex nh_field_along(const nh_kinetic *k, const nh_ex *xi, nh_ex e) { return nh_
 
 void nh_field_bracket(const nh_kinetic *k, const nh_ex *xi, const nh_ex *eta, nh_ex *out)
 {
-    for (size_t s = 0; s < k->m; s++) out[s] = nh_simplify(k->dag, nh_sub(k->dag, nh_field_along(k, xi, eta[s]), nh_field_along(k, eta, xi[s])));
+    for (size_t s = 0; s < k->m; s++)
+        out[s] = nh_simplify(k->dag, nh_sub(k->dag, nh_field_along(k, xi, eta[s]), nh_field_along(k, eta, xi[s])));
 }
 
 /* xi, prolonged to velocities, on a function of (t, q, v). */
@@ -21,7 +22,8 @@ static nh_ex prolonged(const nh_kinetic *k, const nh_ex *xi, nh_ex e)
     nh_ex sum = nh_field_along(k, xi, e);
     for (size_t s = 0; s < k->m; s++) {
         nh_ex slope = nh_diff(k->dag, e, k->v[s]);
-        if (!nh_is_zero(k->dag, slope)) sum = nh_add(k->dag, sum, nh_mul(k->dag, slope, nh_diff_along(k->dag, xi[s], k->m, k->q, k->v)));
+        if (!nh_is_zero(k->dag, slope))
+            sum = nh_add(k->dag, sum, nh_mul(k->dag, slope, nh_diff_along(k->dag, xi[s], k->m, k->q, k->v)));
     }
     return sum;
 }
@@ -61,7 +63,10 @@ static double relative_size(nh_tape *tape, nh_tape_work *work, const double *z, 
 {
     double worst = 0;
     nh_tape_eval(tape, work, z, out);
-    for (size_t i = 0; i < n; i++) worst = fmax(worst, isfinite(out[2 * i]) && isfinite(out[2 * i + 1]) ? fabs(out[2 * i]) / (1e-300 + out[2 * i + 1]) : INFINITY);
+    for (size_t i = 0; i < n; i++)
+        worst =
+            fmax(worst, isfinite(out[2 * i]) && isfinite(out[2 * i + 1]) ? fabs(out[2 * i]) / (1e-300 + out[2 * i + 1])
+                                                                         : INFINITY);
     return worst;
 }
 
@@ -83,7 +88,8 @@ static double largest_residual(const nh_kinetic *k, size_t n, const nh_ex *e, co
         pair[2 * i] = e[i];
         pair[2 * i + 1] = size_of(k->dag, e[i], unit[i]);
     }
-    nh_tape *tape = nh_tape_create(k->dag, width, in, 2 * n, pair, k->model->system->parameters, k->model->parameter, k->model->parameter_value);
+    nh_tape *tape = nh_tape_create(k->dag, width, in, 2 * n, pair, k->model->system->parameters, k->model->parameter,
+                                   k->model->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t p = 0; p < k->places && n; p++) {
         z[0] = k->time[p];
@@ -99,7 +105,10 @@ static double largest_residual(const nh_kinetic *k, size_t n, const nh_ex *e, co
     return worst;
 }
 
-static nh_proof proof_of(const nh_condition *c) { return (nh_proof){.proved = c->proved, .all_parameters = c->all_parameters, .fixed = c->fixed}; }
+static nh_proof proof_of(const nh_condition *c)
+{
+    return (nh_proof){.proved = c->proved, .all_parameters = c->all_parameters, .fixed = c->fixed};
+}
 
 static void join(const nh_kinetic *k, nh_condition *c, nh_proof proof)
 {
@@ -132,11 +141,13 @@ static nh_condition condition(const nh_kinetic *k, size_t n, const nh_ex *e, dou
 nh_ex nh_invariance_sum(const nh_kinetic *k)
 {
     const nh_dag *d = k->dag;
-    bool minus = nh_kind_of(d, k->V) == NH_PRODUCT && nh_arity(d, k->V) == 1 && nh_is_number(d, nh_exponent_of(d, k->V, 0), 1);
+    bool minus =
+        nh_kind_of(d, k->V) == NH_PRODUCT && nh_arity(d, k->V) == 1 && nh_is_number(d, nh_exponent_of(d, k->V, 0), 1);
     return minus ? nh_child(d, k->V, 0) : k->V;
 }
 
-/* A potential of many terms may be too large for one proof, or for one with all parameters: xi of each term vanishes by itself, often. */
+/* A potential of many terms may be too large for one proof, or for one with all parameters: xi of each term vanishes by
+   itself, often. */
 static void prove_by_terms(const nh_kinetic *k, const nh_ex *xi, const nh_options *options, nh_condition *c)
 {
     nh_dag *d = k->dag;
@@ -184,7 +195,8 @@ static nh_condition forces_invariant(const nh_kinetic *k, const nh_ex *xi, const
     return c;
 }
 
-void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, const nh_ex *component, const nh_options *options)
+void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, const nh_ex *component,
+                       const nh_options *options)
 {
     nh_dag *d = k->dag;
     size_t m = k->m, h = m * (m + 1) / 2, n = 0, total = h + 1 + k->f;
@@ -193,20 +205,24 @@ void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, c
     memcpy(g->component, component, m * sizeof *component);
     size_t of_metric = nh_invariance_equations(k, component, e);
     for (size_t r = 0; r < m && plain(k); r++) /* entries compare with the geometric mean of the diagonal */
-        for (size_t s = 0; s <= r; s++) unit[n++] = nh_sqrt(d, nh_call(d, NH_ABS, nh_mul(d, k->K[r * m + r], k->K[s * m + s])));
+        for (size_t s = 0; s <= r; s++)
+            unit[n++] = nh_sqrt(d, nh_call(d, NH_ABS, nh_mul(d, k->K[r * m + r], k->K[s * m + s])));
     if (!plain(k)) unit[n++] = size_of_change(k, component);
     g->metric = condition(k, of_metric, e, largest_residual(k, of_metric, e, unit), options);
     unit[0] = nh_int(d, 0);
-    for (size_t r = 0; r < m; r++) unit[0] = nh_add(d, unit[0], nh_call(d, NH_ABS, nh_mul(d, component[r], nh_diff(d, k->V, k->q[r]))));
+    for (size_t r = 0; r < m; r++)
+        unit[0] = nh_add(d, unit[0], nh_call(d, NH_ABS, nh_mul(d, component[r], nh_diff(d, k->V, k->q[r]))));
     g->potential = condition(k, 1, e + of_metric, largest_residual(k, 1, e + of_metric, unit), options);
     prove_by_terms(k, component, options, &g->potential);
     for (size_t a = 0; a < k->f; a++) {
         raw[a] = prolonged(k, component, k->force[a]);
         unit[a] = nh_int(d, 0);
-        for (size_t s = 0; s < m; s++) unit[a] = nh_add(d, unit[a], nh_call(d, NH_ABS, nh_diff(d, k->force[a], k->v[s])));
+        for (size_t s = 0; s < m; s++)
+            unit[a] = nh_add(d, unit[a], nh_call(d, NH_ABS, nh_diff(d, k->force[a], k->v[s])));
     }
     g->constraints = condition(k, k->f, e + of_metric + 1, largest_residual(k, k->f, raw, unit), options);
-    g->forces = k->forced ? forces_invariant(k, component, options) : (nh_condition){.holds = true, .proved = true, .all_parameters = true};
+    g->forces = k->forced ? forces_invariant(k, component, options)
+                          : (nh_condition){.holds = true, .proved = true, .all_parameters = true};
     g->local = nh_kinetic_many_valued(k, m, component);
     g->invariant = g->metric.holds && g->potential.holds && g->constraints.holds && g->forces.holds;
     nh_free(e);

@@ -1,12 +1,13 @@
 /* invariance: does a field on configuration space leave the metric, the potential and the constraints invariant?
  *
  *     (L_xi K)_rs = xi^l d_l K_rs + K_ls d_r xi^l + K_rl d_s xi^l = 0,        xi(V) = 0,
- *     xi^s d_s f^A + v^r (d_r xi^s) df^A/dv^s = 0   where f = 0               (the field, prolonged to velocities, is tangent to f = 0)
+ *     xi^s d_s f^A + v^r (d_r xi^s) df^A/dv^s = 0   where f = 0               (the field, prolonged to velocities, is
+ *                                                   tangent to f = 0)
  *
  *     (L_xi Q)_s = xi(Q_s), prolonged to velocities, + Q_l d_s xi^l = 0,      for forces without a potential
  *
- * For linear constraints the third one says that the flow maps D to itself.  Where the Lagrangian is not of the form K - V the first two are
- * replaced by the invariance of L under the prolonged field. */
+ * For linear constraints the third one says that the flow maps D to itself.  Where the Lagrangian is not of the form K
+ * - V the first two are replaced by the invariance of L under the prolonged field. */
 #ifndef NH_INVARIANCE_H
 #define NH_INVARIANCE_H
 
@@ -29,14 +30,16 @@ typedef struct {
     bool local;            /* many-valued on an angle: a field on a covering of the configuration space only */
 } nh_generator;
 
-/* Components along the coordinates, as m expressions, into the generator (in the kinetic's arena), with the three conditions checked. */
-void nh_generator_init(nh_generator *generator, const nh_kinetic *kinetic, const char *name, const nh_ex *component, const nh_options *options);
+/* Components along the coordinates, as m expressions, into the generator (in the kinetic's arena), with the three
+   conditions checked. */
+void nh_generator_init(nh_generator *generator, const nh_kinetic *kinetic, const char *name, const nh_ex *component,
+                       const nh_options *options);
 
 /* All its conditions together. */
 nh_proof nh_generator_proof(const nh_kinetic *kinetic, const nh_generator *generator);
 
-/* The conditions as expressions: h of the metric (or 1: of L), 1 of the potential, f of the constraints (composed with the chart);
- * `out` has room for h + 1 + f, h = m(m+1)/2.  Returns the number of those of the metric. */
+/* The conditions as expressions: h of the metric (or 1: of L), 1 of the potential, f of the constraints (composed with
+ * the chart); `out` has room for h + 1 + f, h = m(m+1)/2.  Returns the number of those of the metric. */
 size_t nh_invariance_equations(const nh_kinetic *kinetic, const nh_ex *component, nh_ex *out);
 
 /* The potential, or what it is a multiple of. */

@@ -55,7 +55,13 @@ static nh_tape *force_tape(const nh_kinetic *k)
 void nh_jet_conditions_init(nh_jet_conditions *s, const nh_kinetic *k, const nh_options *options, const double *q0)
 {
     size_t m = k->m;
-    *s = (nh_jet_conditions){.kinetic = k, .options = options, .m = m, .f = k->f, .columns = m * (m + 1) / 2, .tape = forms_tape(k), .force = force_tape(k)};
+    *s = (nh_jet_conditions){.kinetic = k,
+                             .options = options,
+                             .m = m,
+                             .f = k->f,
+                             .columns = m * (m + 1) / 2,
+                             .tape = forms_tape(k),
+                             .force = force_tape(k)};
     s->work = nh_tape_work_create(s->tape);
     if (s->force) s->force_work = nh_tape_work_create(s->force);
     s->out = nh_alloc_array(forms_total(k) + 1, sizeof *s->out);
@@ -76,7 +82,8 @@ void nh_jet_conditions_clear(nh_jet_conditions *s)
     for (int kind = 0; kind < NH_CONDITION_KINDS; kind++) nh_free(s->row[kind]);
 }
 
-/* (L_xi K)_ij = xi^l d_l K_ij + K_lj B^l_i + K_il B^l_j, divided by (K_ii K_jj)^(1/2); the transport stands at the place. */
+/* (L_xi K)_ij = xi^l d_l K_ij + K_lj B^l_i + K_il B^l_j, divided by (K_ii K_jj)^(1/2); the transport stands at the
+   place. */
 static void metric_rows(nh_jet_conditions *s, const double *jets)
 {
     size_t m = s->m, size = s->t.size;
@@ -87,14 +94,15 @@ static void metric_rows(nh_jet_conditions *s, const double *jets)
             for (size_t c = 0; c < s->columns; c++) {
                 const double *xi = jets + c * size, *B = xi + m;
                 double sum = 0;
-                for (size_t l = 0; l < m; l++) sum += xi[l] * dK[i + m * (j + m * l)] + K[l + m * j] * B[l + m * i] + K[i + m * l] * B[l + m * j];
+                for (size_t l = 0; l < m; l++)
+                    sum += xi[l] * dK[i + m * (j + m * l)] + K[l + m * j] * B[l + m * i] + K[i + m * l] * B[l + m * j];
                 row[c] = sum * unit;
             }
         }
 }
 
-/* xi(V) = 0 and its derivatives B^l_k d_l V + xi^l d_k d_l V = 0, divided by the size of dV at the place: near a singularity of V it would hide
- * all the others. */
+/* xi(V) = 0 and its derivatives B^l_k d_l V + xi^l d_k d_l V = 0, divided by the size of dV at the place: near a
+ * singularity of V it would hide all the others. */
 static void potential_rows(nh_jet_conditions *s, const double *jets)
 {
     size_t m = s->m;
@@ -110,7 +118,8 @@ static void potential_rows(nh_jet_conditions *s, const double *jets)
             const double *xi = jets + col * s->t.size, *B = xi + m;
             row[col] = 0;
             for (size_t l = 0; l < m; l++)
-                row[col] += k == m ? xi[l] * dV[l] * c[l] / slope : (B[l + m * k] * dV[l] * c[l] + xi[l] * ddV[l * m + k] * c[l] * c[k]) / slope;
+                row[col] += k == m ? xi[l] * dV[l] * c[l] / slope
+                                   : (B[l + m * k] * dV[l] * c[l] + xi[l] * ddV[l * m + k] * c[l] * c[k]) / slope;
         }
     }
 }
@@ -130,16 +139,19 @@ static void magnetic_rows(nh_jet_conditions *s, const double *jets)
         for (size_t col = 0; col < s->columns; col++) {
             const double *xi = jets + col * s->t.size, *B = xi + m;
             row[col] = 0;
-            for (size_t l = 0; l < m; l++) row[col] += (xi[l] * da[l * m + i] * c[l] * c[i] + a[l] * c[l] * B[l + m * i]) / size;
+            for (size_t l = 0; l < m; l++)
+                row[col] += (xi[l] * da[l * m + i] * c[l] * c[i] + a[l] * c[l] * B[l + m * i]) / size;
         }
     }
 }
 
-/* Affine constraints, with v0 (scaled) of least length that satisfies them: (L_xi omega)(v0) + xi(b) = 0, forms of length `norm`. */
+/* Affine constraints, with v0 (scaled) of least length that satisfies them: (L_xi omega)(v0) + xi(b) = 0, forms of
+   length `norm`. */
 static void affine_rows(nh_jet_conditions *s, const double *jets, const double *norm, const double *v0)
 {
     size_t m = s->m, f = s->f, size = s->t.size;
-    const double *c = s->t.scale, *omega = s->out + m * (1 + m), *domega = omega + f * m, *b = omega + f * m * (1 + m), *db = b + f;
+    const double *c = s->t.scale, *omega = s->out + m * (1 + m), *domega = omega + f * m, *b = omega + f * m * (1 + m),
+                 *db = b + f;
     for (size_t a = 0; a < f && !s->kinetic->linear; a++) {
         if (!(norm[a] > 0)) continue;
         double unit = 1 / norm[a] / (1 + fabs(b[a]) / norm[a]), *row = nh_jet_conditions_row(s, NH_OF_CONSTRAINTS);
@@ -148,19 +160,25 @@ static void affine_rows(nh_jet_conditions *s, const double *jets, const double *
             double sum = 0;
             for (size_t l = 0; l < m; l++) {
                 sum += xi[l] * db[l * f + a] * c[l];
-                for (size_t i = 0; i < m; i++) sum += (xi[l] * domega[l * f * m + a * m + i] * c[l] * c[i] + omega[a * m + l] * c[l] * B[l + m * i]) * v0[i];
+                for (size_t i = 0; i < m; i++)
+                    sum +=
+                        (xi[l] * domega[l * f * m + a * m + i] * c[l] * c[i] + omega[a * m + l] * c[l] * B[l + m * i]) *
+                        v0[i];
             }
             row[col] = sum * unit;
         }
     }
 }
 
-/* (L_xi Q)_s = xi^l d_l Q_s + B^l_r v^r dQ_s/dv^l + Q_l B^l_s at two velocities v0 + X w that the constraints allow; X (m x n) and v0 scaled. */
-static void force_rows(nh_jet_conditions *s, const double *q, const double *jets, size_t n, const double *X, const double *v0)
+/* (L_xi Q)_s = xi^l d_l Q_s + B^l_r v^r dQ_s/dv^l + Q_l B^l_s at two velocities v0 + X w that the constraints allow; X
+   (m x n) and v0 scaled. */
+static void force_rows(nh_jet_conditions *s, const double *q, const double *jets, size_t n, const double *X,
+                       const double *v0)
 {
     size_t m = s->m, size = s->t.size;
     const double *c = s->t.scale;
-    double *z = nh_alloc_array(3 * m + m * (1 + 2 * m), sizeof *z), *v = z + 2 * m, *Q = v + m, *dq = Q + m, *dv = dq + m * m;
+    double *z = nh_alloc_array(3 * m + m * (1 + 2 * m), sizeof *z), *v = z + 2 * m, *Q = v + m, *dq = Q + m,
+           *dv = dq + m * m;
     memcpy(z, q, m * sizeof *z);
     for (int trial = 0; trial < 2 && s->force; trial++) {
         double most = 0;
@@ -187,12 +205,14 @@ static void force_rows(nh_jet_conditions *s, const double *q, const double *jets
     nh_free(z);
 }
 
-/* (L_xi omega)_i = xi^s d_s omega_i + omega_s B^s_i on an orthonormal basis X of D (scaled coordinates), forms of length one. */
+/* (L_xi omega)_i = xi^s d_s omega_i + omega_s B^s_i on an orthonormal basis X of D (scaled coordinates), forms of
+   length one. */
 static void constraint_rows(nh_jet_conditions *s, const double *q, const double *jets)
 {
     size_t m = s->m, f = s->f, size = s->t.size;
     const double *c = s->t.scale, *omega = s->out + m + m * m, *domega = omega + f * m;
-    double *forms = nh_alloc_array(f * m + m * m + m + 1, sizeof *forms), *X = forms + f * m, *lie = X + m * m, *norm = nh_alloc_array(f + 1, sizeof *norm);
+    double *forms = nh_alloc_array(f * m + m * m + m + 1, sizeof *forms), *X = forms + f * m, *lie = X + m * m,
+           *norm = nh_alloc_array(f + 1, sizeof *norm);
     for (size_t a = 0; a < f; a++) {
         for (size_t i = 0; i < m; i++) norm[a] = hypot(norm[a], omega[a * m + i] * c[i]);
         for (size_t i = 0; i < m; i++) forms[a + f * i] = norm[a] > 0 ? omega[a * m + i] * c[i] / norm[a] : 0;
@@ -207,7 +227,8 @@ static void constraint_rows(nh_jet_conditions *s, const double *q, const double 
                 for (size_t i = 0; i < m; i++) {
                     lie[i] = 0;
                     for (size_t l = 0; l < m && norm[a] > 0; l++)
-                        lie[i] += xi[l] * domega[l * f * m + a * m + i] * c[l] * c[i] / norm[a] + forms[a + f * l] * B[l + m * i];
+                        lie[i] += xi[l] * domega[l * f * m + a * m + i] * c[l] * c[i] / norm[a] +
+                                  forms[a + f * l] * B[l + m * i];
                     sum += lie[i] * X[i + m * k];
                 }
                 row[col] = sum;
@@ -239,7 +260,8 @@ bool nh_jet_conditions_at(nh_jet_conditions *s, const double *q, const double *j
 }
 
 /* The kernel of the rows of the kinds in `use`, with the threshold `small`. */
-static size_t kernel_of(const nh_jet_conditions *s, const size_t use[NH_CONDITION_KINDS], double small, double *basis, double *last, double *first)
+static size_t kernel_of(const nh_jet_conditions *s, const size_t use[NH_CONDITION_KINDS], double small, double *basis,
+                        double *last, double *first)
 {
     size_t n = s->columns, rows = 0, at = 0;
     for (int kind = 0; kind < NH_CONDITION_KINDS; kind++) rows += use[kind];
@@ -252,9 +274,11 @@ static size_t kernel_of(const nh_jet_conditions *s, const size_t use[NH_CONDITIO
     return dimension;
 }
 
-size_t nh_jet_conditions_kernel(const nh_jet_conditions *s, bool potential, bool constraints, double *basis, double *last, double *first)
+size_t nh_jet_conditions_kernel(const nh_jet_conditions *s, bool potential, bool constraints, double *basis,
+                                double *last, double *first)
 {
-    size_t use[NH_CONDITION_KINDS] = {s->rows[NH_OF_METRIC], potential ? s->rows[NH_OF_POTENTIAL] : 0, constraints ? s->rows[NH_OF_CONSTRAINTS] : 0};
+    size_t use[NH_CONDITION_KINDS] = {s->rows[NH_OF_METRIC], potential ? s->rows[NH_OF_POTENTIAL] : 0,
+                                      constraints ? s->rows[NH_OF_CONSTRAINTS] : 0};
     return kernel_of(s, use, s->options->group, basis, last, first);
 }
 

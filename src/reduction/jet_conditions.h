@@ -1,13 +1,14 @@
 /* jet_conditions: the conditions on the 1-jet (xi, B) of a symmetry at one point (jets.h), as rows of a linear system.
  *
- * One column per jet in question; works in the scaled coordinates of transport.h.  The rows are kept apart by what they belong to, so that each kind
- * can be left out. */
+ * One column per jet in question; works in the scaled coordinates of transport.h.  The rows are kept apart by what they
+ * belong to, so that each kind can be left out. */
 #ifndef NH_JET_CONDITIONS_H
 #define NH_JET_CONDITIONS_H
 
 #include "reduction/transport.h"
 
-typedef enum { NH_OF_METRIC, NH_OF_POTENTIAL, NH_OF_CONSTRAINTS, NH_CONDITION_KINDS } nh_condition_kind; /* of the metric: with the triangles */
+/* of the metric: with the triangles */
+typedef enum { NH_OF_METRIC, NH_OF_POTENTIAL, NH_OF_CONSTRAINTS, NH_CONDITION_KINDS } nh_condition_kind;
 
 typedef struct {
     const nh_kinetic *kinetic;
@@ -24,17 +25,20 @@ typedef struct {
 } nh_jet_conditions;
 
 /* q0 fixes the scales; m(m+1)/2 columns. */
-void nh_jet_conditions_init(nh_jet_conditions *conditions, const nh_kinetic *kinetic, const nh_options *options, const double *q0);
+void nh_jet_conditions_init(nh_jet_conditions *conditions, const nh_kinetic *kinetic, const nh_options *options,
+                            const double *q0);
 void nh_jet_conditions_clear(nh_jet_conditions *conditions);
 
 /* A new row, for `columns` numbers. */
 double *nh_jet_conditions_row(nh_jet_conditions *conditions, nh_condition_kind kind);
-/* Rows of all kinds at the place q (true coordinates), where the jets are (columns of length m + m^2); false when the metric is not finite there. */
+/* Rows of all kinds at the place q (true coordinates), where the jets are (columns of length m + m^2); false when the
+   metric is not finite there. */
 bool nh_jet_conditions_at(nh_jet_conditions *conditions, const double *q, const double *jets);
 
-/* The columns' combinations that satisfy the rows of the metric and those asked for: basis (columns x columns at most); returns how many.  The
- * singular values on both sides of the cut, where they are wanted. */
-size_t nh_jet_conditions_kernel(const nh_jet_conditions *conditions, bool potential, bool constraints, double *basis, double *last, double *first);
+/* The columns' combinations that satisfy the rows of the metric and those asked for: basis (columns x columns at most);
+ * returns how many.  The singular values on both sides of the cut, where they are wanted. */
+size_t nh_jet_conditions_kernel(const nh_jet_conditions *conditions, bool potential, bool constraints, double *basis,
+                                double *last, double *first);
 /* The rows of the metric with a threshold that forgives more: jets that are not needed are sorted out later. */
 size_t nh_jet_conditions_kernel_generous(const nh_jet_conditions *conditions, double *basis);
 /* From now on the columns are combinations of those so far: basis (columns x kept). */

@@ -31,7 +31,8 @@ static void first_jets(nh_jet_conditions *s, double *jets)
 }
 
 /* Toward a sample point, as far as the way is free. */
-static bool follow_ray(nh_jet_conditions *s, const double *q0, const double *target, const double *jets, double *end, double *moved)
+static bool follow_ray(nh_jet_conditions *s, const double *q0, const double *target, const double *jets, double *end,
+                       double *moved)
 {
     double part = 1;
     size_t length = s->t.size * s->columns;
@@ -43,7 +44,8 @@ static bool follow_ray(nh_jet_conditions *s, const double *q0, const double *tar
     return false;
 }
 
-static void triangle_rows(nh_jet_conditions *s, const double *from, const double *to, const double *moved, const double *direct)
+static void triangle_rows(nh_jet_conditions *s, const double *from, const double *to, const double *moved,
+                          const double *direct)
 {
     size_t size = s->t.size, length = size * s->columns;
     double *round = nh_alloc_array(length, sizeof *round);
@@ -70,14 +72,16 @@ static void find_algebra(nh_jet_conditions *s, const double *jet, nh_jets *out)
             nh_transport_rate(&s->t, A, B, rate);
             for (size_t i = 0; i < size; i++) { /* + at (a,b), - at (b,a) */
                 double term = rate[i];
-                for (size_t j = 0; j < m && i >= m; j++) term += B[m + (i - m) % m + m * j] * A[m + j + m * ((i - m) / m)];
+                for (size_t j = 0; j < m && i >= m; j++)
+                    term += B[m + (i - m) % m + m * j] * A[m + j + m * ((i - m) / m)];
                 brackets[i + (a * d + b) * size] += term;
                 brackets[i + (b * d + a) * size] -= term;
             }
         }
     }
     out->closure = nh_coordinates(size, d, jet, d * d, brackets, out->algebra.c);
-    bool abelian = nh_largest(d * d * d, out->algebra.c) <= s->options->group; /* the jets have size one: this threshold is absolute too */
+    /* the jets have size one: this threshold is absolute too */
+    bool abelian = nh_largest(d * d * d, out->algebra.c) <= s->options->group;
     for (size_t i = 0; i < d * d * d; i++) out->algebra.c[i] = abelian ? 0 : -out->algebra.c[i];
     nh_free(brackets);
     nh_free(rate);
@@ -119,8 +123,9 @@ static void conclude(nh_jet_conditions *s, const double *jets, const double *mov
     nh_free(xi);
 }
 
-/* After the first ray only those jets are carried on that leave the metric alone there too (with a generous bound: what is kept without need is
- * sorted out later).  Jets, their images at the end of that ray and the rows so far are expressed in them. */
+/* After the first ray only those jets are carried on that leave the metric alone there too (with a generous bound: what
+ * is kept without need is sorted out later).  Jets, their images at the end of that ray and the rows so far are
+ * expressed in them. */
 static void thin_out(nh_jet_conditions *s, double *jets, double *moved)
 {
     size_t n = s->columns, size = s->t.size;
@@ -155,7 +160,8 @@ static void run(nh_jet_conditions *s, nh_jets *out)
     nh_jet_conditions_at(s, out->place, jets);
     for (size_t p = 1; p < s->kinetic->places && out->places < wanted && s->columns && !nh_interrupted(); p++) {
         double *end = out->end + out->places * m, *here = moved + out->places * length;
-        if (follow_ray(s, out->place, s->kinetic->place + p * m, jets, end, here) && nh_jet_conditions_at(s, end, here)) out->places++;
+        if (follow_ray(s, out->place, s->kinetic->place + p * m, jets, end, here) && nh_jet_conditions_at(s, end, here))
+            out->places++;
         if (out->places == 1 && length == s->t.size * m * (m + 1) / 2) {
             thin_out(s, jets, here);
             length = s->t.size * s->columns;
@@ -172,8 +178,13 @@ nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *
 {
     size_t m = k->m, unknowns = m * (m + 1) / 2;
     if ((double)unknowns > options->jets) {
-        nh_fail(error, NH_LIMIT, "", "the symmetries of a kinetic energy in %zu coordinates were not computed: too many unknowns (%zu)", m, unknowns);
-        return nh_error_hint(error, "give the group by --group \"%s=1; ...\", or allow more unknowns by --option jets=%zu", k->name[0], unknowns), NULL;
+        nh_fail(error, NH_LIMIT, "",
+                "the symmetries of a kinetic energy in %zu coordinates were not computed: too many unknowns (%zu)", m,
+                unknowns);
+        return nh_error_hint(error,
+                             "give the group by --group \"%s=1; ...\", or allow more unknowns by --option jets=%zu",
+                             k->name[0], unknowns),
+               NULL;
     }
     nh_jets *out = nh_alloc(sizeof *out);
     nh_jet_conditions s;
@@ -187,8 +198,13 @@ nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *
     nh_jets_free(out);
     if (nh_interrupted()) return nh_fail_ended(error, "during the search for symmetries of the kinetic energy"), NULL;
     if (!left) {
-        nh_fail(error, NH_LIMIT, "", "the symmetries of the kinetic energy could not be transported within %g steps", options->transport_steps);
-        return nh_error_hint(error, "do masses or lengths differ by many orders of magnitude?  Allow more steps by --option transport_steps=%g, or give the group by --group", 10 * options->transport_steps), NULL;
+        nh_fail(error, NH_LIMIT, "", "the symmetries of the kinetic energy could not be transported within %g steps",
+                options->transport_steps);
+        return nh_error_hint(error,
+                             "do masses or lengths differ by many orders of magnitude?  Allow more steps by --option "
+                             "transport_steps=%g, or give the group by --group",
+                             10 * options->transport_steps),
+               NULL;
     }
     nh_fail(error, NH_NUMERIC, "", "the symmetries of the metric could not be transported: no regular path was found");
     nh_error_hint(error, "give a domain without singularities of the coordinates");

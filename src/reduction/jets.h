@@ -1,14 +1,17 @@
 /* jets: the dimension and the algebra of all local symmetries, without any ansatz.
  *
- * A field xi that leaves the metric K invariant is determined by its 1-jet (xi, B), B^i_j = d_j xi^i, at one point, because L_xi Gamma = 0 gives
+ * A field xi that leaves the metric K invariant is determined by its 1-jet (xi, B), B^i_j = d_j xi^i, at one point,
+ * because L_xi Gamma = 0 gives
  *
- *     d_k d_j xi^i = -( xi^l d_l Gamma^i_jk - Gamma^l_jk B^i_l + Gamma^i_lk B^l_j + Gamma^i_jl B^l_k )      [KobayashiNomizu1963, ch. VI]
+ *     d_k d_j xi^i = -( xi^l d_l Gamma^i_jk - Gamma^l_jk B^i_l + Gamma^i_lk B^l_j + Gamma^i_jl B^l_k )
+ *     [KobayashiNomizu1963, ch. VI]
  *
- * so that jets are transported along straight lines by a linear differential equation.  The m(m+1)/2 jets with (L_xi K)(q0) = 0 are taken to other
- * points; the combinations that satisfy there
+ * so that jets are transported along straight lines by a linear differential equation.  The m(m+1)/2 jets with (L_xi
+ * K)(q0) = 0 are taken to other points; the combinations that satisfy there
  *
  *     L_xi K = 0,    xi(V) = 0,    (L_xi omega^A)(X) = 0 for X in D,    and do not depend on the path around a triangle
- *     L_xi a = 0 of L's part a v,  (L_xi omega^A)(v0) + xi(b^A) = 0 at a v0 with omega v0 + b = 0,  L_xi Q = 0 of forces at velocities that are allowed
+ *     L_xi a = 0 of L's part a v,  (L_xi omega^A)(v0) + xi(b^A) = 0 at a v0 with omega v0 + b = 0,  L_xi Q = 0 of
+ *     forces at velocities that are allowed
  *
  * are the jets of all local symmetries.  Their brackets are known at q0 from the jets alone. */
 #ifndef NH_JETS_H

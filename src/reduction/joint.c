@@ -108,7 +108,8 @@ void nh_joint_rates_free(nh_joint_rates *r)
 void nh_joint_rates_of(const nh_joint_rates *r, const nh_twist *xi, nh_ex *rate)
 {
     nh_dag *d = r->system->dag;
-    for (size_t k = 0; k < r->n; k++) rate[k] = nh_simplify(d, nh_add(d, nh_dot(d, r->B[k].v, xi->v), nh_dot(d, r->B[k].w, xi->w)));
+    for (size_t k = 0; k < r->n; k++)
+        rate[k] = nh_simplify(d, nh_add(d, nh_dot(d, r->B[k].v, xi->v), nh_dot(d, r->B[k].w, xi->w)));
     nh_lu_solve(r->lu, rate, rate);
     for (size_t k = 0; k < r->n; k++) rate[k] = nh_simplify(d, rate[k]);
 }

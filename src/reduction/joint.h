@@ -7,7 +7,8 @@
 
 #include "system/system.h"
 
-/* A basis of the joint's Lie algebra, in its frame: its screws, except that Euler's angles stand for all rotations.  Returns its dimension. */
+/* A basis of the joint's Lie algebra, in its frame: its screws, except that Euler's angles stand for all rotations.
+   Returns its dimension. */
 size_t nh_joint_basis(nh_dag *dag, const nh_chain *chain, const nh_joint *joint, nh_twist basis[NH_MOST_SCREWS]);
 /* E. */
 nh_pose nh_joint_pose(nh_dag *dag, const nh_chain *chain, const nh_joint *joint);

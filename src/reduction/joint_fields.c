@@ -23,7 +23,8 @@ typedef struct {
 
 /* ---- one field ---- */
 
-/* Is xi a combination of the basis?  The parts off each basis twist in turn: bases that are not orthogonal may say no without need. */
+/* Is xi a combination of the basis?  The parts off each basis twist in turn: bases that are not orthogonal may say no
+   without need. */
 static bool inside(const work *w, const nh_twist *xi)
 {
     nh_dag *d = w->dag;

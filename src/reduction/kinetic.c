@@ -105,7 +105,8 @@ static bool has_metric(const nh_kinetic *k)
 }
 
 /* The singular values of K with unit diagonal at a place, in K; false where something is not finite. */
-static bool spectrum(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const double *q, double *K, double **values)
+static bool spectrum(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const double *q, double *K,
+                     double **values)
 {
     size_t m = k->m;
     double *s = K + m * m + k->f * m + 1, *unit = s + m;
@@ -114,13 +115,15 @@ static bool spectrum(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, con
         if (!isfinite(K[i])) return false;
     *values = s;
     if (!k->quadratic || !k->autonomous) return true;
-    for (size_t i = 0; i < m; i++) unit[i] = K[i * (m + 1)] != 0 ? 1 / sqrt(fabs(K[i * (m + 1)])) : 1; /* indefinite ones, too */
+    /* indefinite ones, too */
+    for (size_t i = 0; i < m; i++) unit[i] = K[i * (m + 1)] != 0 ? 1 / sqrt(fabs(K[i * (m + 1)])) : 1;
     for (size_t i = 0; i < m * m; i++) K[i] *= unit[i % m] * unit[i / m];
     return nh_svd(m, m, K, s, NULL, NULL) && s[0] > 0;
 }
 
 /* The rank that K has in most places: inertia may be missing where constraints bind. */
-static size_t usual_rank(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const nh_constraint_samples *cloud, double *K)
+static size_t usual_rank(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const nh_constraint_samples *cloud,
+                         double *K)
 {
     enum { trials = 8 };
     static const double rounding = 1e-14; /* times m */
@@ -135,7 +138,8 @@ static size_t usual_rank(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work,
     return most;
 }
 
-/* How far from singular a place is: the least singular value that is not zero everywhere, relative to the largest; 0 where something is not finite. */
+/* How far from singular a place is: the least singular value that is not zero everywhere, relative to the largest; 0
+   where something is not finite. */
 static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const double *q, size_t rank, double *K)
 {
     double *s;
@@ -153,7 +157,8 @@ static void leave_out_undefined(const nh_kinetic *k, size_t rounds, const nh_con
         in[0] = y->t;
         memcpy(in + 1, k->q, m * sizeof *in);
         memcpy(in + 1 + m, k->v, m * sizeof *in);
-        nh_tape *tape = nh_tape_create(k->dag, width, in, 1, &y->lagrangian, y->parameters, k->model->parameter, k->model->parameter_value);
+        nh_tape *tape = nh_tape_create(k->dag, width, in, 1, &y->lagrangian, y->parameters, k->model->parameter,
+                                       k->model->parameter_value);
         nh_tape_work *work = nh_tape_work_create(tape);
         for (size_t r = 0; r < rounds; r++)
             for (size_t p = 0; p < cloud[r].count; p++, good++) {
@@ -166,7 +171,8 @@ static void leave_out_undefined(const nh_kinetic *k, size_t rounds, const nh_con
     nh_free(in);
 }
 
-/* Positions and velocities from the box; the places nearest to a singularity of the coordinates are left out, the best one comes first. */
+/* Positions and velocities from the box; the places nearest to a singularity of the coordinates are left out, the best
+   one comes first. */
 static void take_places(nh_kinetic *k, uint64_t seed)
 {
     enum { rounds = 4 };
@@ -189,7 +195,8 @@ static void take_places(nh_kinetic *k, uint64_t seed)
     k->speed = nh_arena_alloc(k->arena, (most + 1) * m * sizeof *k->speed);
     k->time = nh_arena_alloc(k->arena, (most + 1) * sizeof *k->time);
     for (size_t r = 0, at = 0; r < rounds; r++)
-        for (size_t p = 0; p < cloud[r].count; p++) best = fmax(best, good[at++] = condition(k, tape, work, cloud[r].point + p * cloud[r].width + 1, rank, K));
+        for (size_t p = 0; p < cloud[r].count; p++)
+            best = fmax(best, good[at++] = condition(k, tape, work, cloud[r].point + p * cloud[r].width + 1, rank, K));
     leave_out_undefined(k, rounds, cloud, good);
     for (size_t r = 0, at = 0; r < rounds; r++) {
         for (size_t p = 0; p < cloud[r].count; p++, at++) {
@@ -241,7 +248,8 @@ nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *er
     nh_arena *arena = nh_arena_create();
     nh_kinetic *k = nh_arena_alloc(arena, sizeof *k);
     size_t m = model->m, f = model->k;
-    *k = (nh_kinetic){.model = model, .dag = model->dag, .arena = arena, .m = m, .f = f, .forced = model->system->has_forces};
+    *k = (nh_kinetic){
+        .model = model, .dag = model->dag, .arena = arena, .m = m, .f = f, .forced = model->system->has_forces};
     nh_ex *all = nh_arena_alloc(arena, (3 * m + m * m + f * (m + 2) + 1) * sizeof *all);
     k->q = all;
     k->v = k->q + m;
@@ -282,10 +290,14 @@ void nh_kinetic_free(nh_kinetic *k)
 
 nh_tape *nh_kinetic_tape(const nh_kinetic *k, size_t count, const nh_ex *out)
 {
-    return nh_tape_create(k->dag, k->m, k->q, count, out, k->model->system->parameters, k->model->parameter, k->model->parameter_value);
+    return nh_tape_create(k->dag, k->m, k->q, count, out, k->model->system->parameters, k->model->parameter,
+                          k->model->parameter_value);
 }
 
-nh_ex nh_kinetic_diff(const nh_kinetic *k, nh_ex e, nh_ex x) { return nh_interrupted() ? nh_int(k->dag, 0) : nh_diff(k->dag, e, x); }
+nh_ex nh_kinetic_diff(const nh_kinetic *k, nh_ex e, nh_ex x)
+{
+    return nh_interrupted() ? nh_int(k->dag, 0) : nh_diff(k->dag, e, x);
+}
 
 static void run(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, const double *q, double *out)
 {
@@ -296,9 +308,15 @@ static void run(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places
     nh_tape_free(tape);
 }
 
-void nh_kinetic_values(const nh_kinetic *k, size_t count, const nh_ex *e, const double *q, double *out) { run(k, count, e, 1, q, out); }
+void nh_kinetic_values(const nh_kinetic *k, size_t count, const nh_ex *e, const double *q, double *out)
+{
+    run(k, count, e, 1, q, out);
+}
 
-void nh_kinetic_sample(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, double *out) { run(k, count, e, places, k->place, out); }
+void nh_kinetic_sample(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, double *out)
+{
+    run(k, count, e, places, k->place, out);
+}
 
 void nh_kinetic_sizes(const nh_kinetic *k, size_t places, double *size)
 {
@@ -334,7 +352,8 @@ bool nh_kinetic_many_valued(const nh_kinetic *k, size_t count, const nh_ex *e)
     enum { most_places = 6 };
     static const double turn = 6.283185307179586, same = 1e-8;
     size_t places = k->places < most_places ? k->places : most_places;
-    double *q = nh_alloc_array(k->m + 3 * count + 1, sizeof *q), *before = q + k->m, *after = before + count, *size = after + count;
+    double *q = nh_alloc_array(k->m + 3 * count + 1, sizeof *q), *before = q + k->m, *after = before + count,
+           *size = after + count;
     bool many = false;
     terms_at(k, count, e, places, size);
     nh_tape *tape = nh_kinetic_tape(k, count, e);

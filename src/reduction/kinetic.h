@@ -2,8 +2,8 @@
  *
  *     L = 1/2 K_rs(q) v^r v^s + a_s(q) v^s - V(q),      f^A = omega^A_s(q) v^s + b^A(q)
  *
- * The constraints are taken without poles (sin instead of tan).  Any property beyond this (explicit time, forces, a Lagrangian that is not
- * quadratic, constraints that are not linear) is recorded. */
+ * The constraints are taken without poles (sin instead of tan).  Any property beyond this (explicit time, forces, a
+ * Lagrangian that is not quadratic, constraints that are not linear) is recorded. */
 #ifndef NH_KINETIC_H
 #define NH_KINETIC_H
 
@@ -25,31 +25,37 @@ typedef struct {
     bool quadratic, magnetic, autonomous, forced, affine, linear;
     bool metric;           /* quadratic, and K positive definite at the sample points */
     bool reducible;        /* L = K - V with a metric, linear constraints, no time, no forces */
-    bool general;          /* a metric, no time, constraints that are at most affine: it has reduced equations, though no connection is used */
+    /* a metric, no time, constraints that are at most affine: it has reduced equations, though no connection is used */
+    bool general;
     const char *obstacle;  /* why it is not reducible, in words; NULL */
     size_t places;         /* samples */
     double *place, *speed; /* places x m: positions, and velocities that satisfy the constraints */
     double *time;          /* places */
 } nh_kinetic;
 
-/* Keeps the model, which may be bare and must outlive it.  NULL with a message when there are too few usable sample points. */
+/* Keeps the model, which may be bare and must outlive it.  NULL with a message when there are too few usable sample
+   points. */
 nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *error);
 void nh_kinetic_free(nh_kinetic *kinetic);
 
 /* A tape of expressions in the coordinates, parameters bound. */
 nh_tape *nh_kinetic_tape(const nh_kinetic *kinetic, size_t count, const nh_ex *out);
-/* d e / d x; 0 once the run was ended (base/progress.h): of large mass matrices all derivatives are wanted, and of an ended run nothing is kept. */
+/* d e / d x; 0 once the run was ended (base/progress.h): of large mass matrices all derivatives are wanted, and of an
+   ended run nothing is kept. */
 nh_ex nh_kinetic_diff(const nh_kinetic *kinetic, nh_ex e, nh_ex x);
 /* Values of expressions in the coordinates at one place. */
 void nh_kinetic_values(const nh_kinetic *kinetic, size_t count, const nh_ex *e, const double *q, double *out);
 /* At the first `places` sample points, count values each. */
 void nh_kinetic_sample(const nh_kinetic *kinetic, size_t count, const nh_ex *e, size_t places, double *out);
-/* The largest modulus of each coordinate at the first `places` sample points, in which fields compare whatever the units are: 1 for an angle, and where it is zero at all of them. */
+/* The largest modulus of each coordinate at the first `places` sample points, in which fields compare whatever the
+   units are: 1 for an angle, and where it is zero at all of them. */
 void nh_kinetic_sizes(const nh_kinetic *kinetic, size_t places, double *size);
-/* The length of the sampling box in the metric with this diagonal (m), or 1 without one: fields are compared with it, and what is found does not depend on units.  A power of 1024, by
- * which no digit is lost: where the length is near one it is 1. */
+/* The length of the sampling box in the metric with this diagonal (m), or 1 without one: fields are compared with it,
+ * and what is found does not depend on units.  A power of 1024, by which no digit is lost: where the length is near one
+ * it is 1. */
 double nh_kinetic_length(const nh_kinetic *kinetic, const double *diagonal);
-/* Does one of them change its value when an angle goes once around?  It is defined on a covering of the configuration space only then. */
+/* Does one of them change its value when an angle goes once around?  It is defined on a covering of the configuration
+   space only then. */
 bool nh_kinetic_many_valued(const nh_kinetic *kinetic, size_t count, const nh_ex *e);
 
 #endif

@@ -11,7 +11,10 @@ enum { large_length = 3000 };
 static nh_ex tidy(const nh_lagrange_poincare *l, nh_ex e) { return nh_simplify_short(l->slice->dag, e, large_length); }
 static nh_ex *take(nh_arena *arena, size_t n) { return nh_arena_alloc(arena, (n + 1) * sizeof(nh_ex)); }
 
-static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b) { return nh_is_zero(d, a) || nh_is_zero(d, b) ? sum : nh_add(d, sum, nh_mul(d, a, b)); }
+static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
+{
+    return nh_is_zero(d, a) || nh_is_zero(d, b) ? sum : nh_add(d, sum, nh_mul(d, a, b));
+}
 
 void nh_lagrange_poincare_bracket(const nh_lagrange_poincare *l, const nh_ex *xi, const nh_ex *eta, nh_ex *out)
 {
@@ -22,12 +25,14 @@ void nh_lagrange_poincare_bracket(const nh_lagrange_poincare *l, const nh_ex *xi
         for (size_t b = 0; b < d; b++)
             for (size_t c = 0; c < d; c++) {
                 nh_ex constant = l->slice->action->constant[(b * d + c) * d + a];
-                if (!nh_is_zero(g, constant) && !nh_is_zero(g, xi[b])) out[a] = plus(g, out[a], nh_mul(g, constant, xi[b]), eta[c]);
+                if (!nh_is_zero(g, constant) && !nh_is_zero(g, xi[b]))
+                    out[a] = plus(g, out[a], nh_mul(g, constant, xi[b]), eta[c]);
             }
     }
 }
 
-/* Which f group directions are solved for, and which span S: those that serve as velocities of the master equations do. */
+/* Which f group directions are solved for, and which span S: those that serve as velocities of the master equations
+   do. */
 static bool choose(const nh_slice *s, size_t *solved, size_t *free)
 {
     size_t m = s->m, n = s->n, *independent = nh_alloc_array(m + 1, sizeof *independent), r = 0, f = 0;
@@ -78,7 +83,8 @@ static bool orthogonal(nh_arena *arena, nh_lagrange_poincare *l)
             nh_ex e = nh_int(g, 0);
             for (size_t a = 0; a < d; a++)
                 for (size_t b = 0; b < d; b++)
-                    if (!nh_is_zero(g, l->chi[a * r + p])) e = plus(g, e, nh_mul(g, l->chi[a * r + p], s->K[(n + a) * m + n + b]), l->chi[b * r + q]);
+                    if (!nh_is_zero(g, l->chi[a * r + p]))
+                        e = plus(g, e, nh_mul(g, l->chi[a * r + p], s->K[(n + a) * m + n + b]), l->chi[b * r + q]);
             l->I[p * r + q] = tidy(l, e);
         }
     nh_lu *lu = n && r ? nh_lu_create(g, r, l->I, nh_slice_pivot_score, (void *)s, NULL) : NULL;
@@ -87,7 +93,8 @@ static bool orthogonal(nh_arena *arena, nh_lagrange_poincare *l)
             c[p] = nh_int(g, 0);
             for (size_t a = 0; a < d; a++) {
                 nh_ex off = s->K[(n + a) * m + i];
-                for (size_t b = 0; b < d; b++) off = plus(g, off, nh_neg(g, s->K[(n + a) * m + n + b]), l->A[b * n + i]);
+                for (size_t b = 0; b < d; b++)
+                    off = plus(g, off, nh_neg(g, s->K[(n + a) * m + n + b]), l->A[b * n + i]);
                 c[p] = plus(g, c[p], l->chi[a * r + p], off);
             }
         }
@@ -144,7 +151,8 @@ static void momenta(nh_lagrange_poincare *l)
                 e = plus(g, e, nh_neg(g, s->K[i * m + n + a]), l->A[a * n + j]);
                 e = plus(g, e, nh_neg(g, s->K[(n + a) * m + j]), l->A[a * n + i]);
                 for (size_t b = 0; b < d; b++)
-                    if (!nh_is_zero(g, l->A[a * n + i])) e = plus(g, e, nh_mul(g, l->A[a * n + i], s->K[(n + a) * m + n + b]), l->A[b * n + j]);
+                    if (!nh_is_zero(g, l->A[a * n + i]))
+                        e = plus(g, e, nh_mul(g, l->A[a * n + i], s->K[(n + a) * m + n + b]), l->A[b * n + j]);
             }
             l->Kh[i * n + j] = tidy(l, e);
             l->pi[i] = plus(g, l->pi[i], l->Kh[i * n + j], l->dx[j]);
@@ -167,19 +175,34 @@ static void slopes(nh_lagrange_poincare *l)
             }
         e = nh_add(g, e, nh_mul(g, nh_ratio(g, 1, 2), kinetic));
         for (size_t a = 0; a < l->d; a++)
-            for (size_t j = 0; j < n; j++) e = plus(g, e, nh_neg(g, nh_mul(g, l->mu[a], l->dx[j])), nh_diff(g, l->A[a * n + j], s->x[i]));
+            for (size_t j = 0; j < n; j++)
+                e = plus(g, e, nh_neg(g, nh_mul(g, l->mu[a], l->dx[j])), nh_diff(g, l->A[a * n + j], s->x[i]));
         l->slope[i] = tidy(l, e);
     }
 }
 
 nh_lagrange_poincare *nh_lagrange_poincare_of(nh_arena *arena, const nh_slice *s)
 {
-    size_t n = s->n, d = s->d, r = d - s->f, *solved = nh_arena_alloc(arena, (2 * d + 2) * sizeof *solved), *free = solved + d + 1;
+    size_t n = s->n, d = s->d, r = d - s->f, *solved = nh_arena_alloc(arena, (2 * d + 2) * sizeof *solved),
+           *free = solved + d + 1;
     if (s->f > d || !choose(s, solved, free)) return NULL;
     nh_lagrange_poincare *l = nh_arena_alloc(arena, sizeof *l);
-    *l = (nh_lagrange_poincare){.slice = s, .n = n, .d = d, .r = r, .chi = take(arena, d * r), .A = take(arena, d * n), .B = take(arena, d * n * n), .dx = take(arena, n),
-                                .nu = take(arena, r), .omega = take(arena, d), .v = take(arena, d), .Kh = take(arena, n * n), .I = take(arena, r * r), .mu = take(arena, d),
-                                .pi = take(arena, n), .slope = take(arena, n)};
+    *l = (nh_lagrange_poincare){.slice = s,
+                                .n = n,
+                                .d = d,
+                                .r = r,
+                                .chi = take(arena, d * r),
+                                .A = take(arena, d * n),
+                                .B = take(arena, d * n * n),
+                                .dx = take(arena, n),
+                                .nu = take(arena, r),
+                                .omega = take(arena, d),
+                                .v = take(arena, d),
+                                .Kh = take(arena, n * n),
+                                .I = take(arena, r * r),
+                                .mu = take(arena, d),
+                                .pi = take(arena, n),
+                                .slope = take(arena, n)};
     for (size_t i = 0; i < n; i++) l->dx[i] = s->kinetic->v[s->shape[i]];
     for (size_t p = 0; p < r; p++) l->nu[p] = nh_symbol_fresh(s->dag, nh_arena_printf(arena, "nu_%zu", p + 1));
     if (!vertical(arena, l, solved, free) || !orthogonal(arena, l)) return NULL;

@@ -1,14 +1,16 @@
-/* lagrange_poincare: the objects of the Lagrange-d'Alembert-Poincare equations as expressions on a slice [CendraDiaz2018, sec. 4 and 5].
+/* lagrange_poincare: the objects of the Lagrange-d'Alembert-Poincare equations as expressions on a slice
+ * [CendraDiaz2018, sec. 4 and 5].
  *
- *     S_x = null(om_e), basis chi;      om_e A_i = om_x,i,   chi^T (Kf_ei - Kf_ee A_i) = 0                  (poincare.h)
- *     B^a_ij = d_i A^a_j - d_j A^a_i - C_bc^a A^b_i A^c_j,      v = zeta + A x' = nu^alpha chi_alpha,      omega = v - A x' = zeta
- *     l(x, x', v) = 1/2 x' Kh x' + 1/2 nu I nu - V,   Kh = H^T Kf H, H = (1; -A),   I = chi^T Kf_ee chi
+ *     S_x = null(om_e), basis chi;      om_e A_i = om_x,i,   chi^T (Kf_ei - Kf_ee A_i) = 0
+ *     (poincare.h)
+ *     B^a_ij = d_i A^a_j - d_j A^a_i - C_bc^a A^b_i A^c_j,      v = zeta + A x' = nu^alpha chi_alpha,      omega = v -
+ *     A x' = zeta l(x, x', v) = 1/2 x' Kh x' + 1/2 nu I nu - V,   Kh = H^T Kf H, H = (1; -A),   I = chi^T Kf_ee chi
  *     mu_a = (Kf_e (x', omega))_a,   pi_i = Kh_ij x'^j
  *
  *     mu_a' chi^a = mu([omega, chi]),      pi_i' = dl/dx^i + mu_a B^a_ij x'^j + mu([A_i, v])
  *
- * Needs V + D = TQ.  Without constraints S is the whole algebra and A the mechanical connection: the Lagrange-Poincare equations; without shape those of
- * Euler-Poincare. */
+ * Needs V + D = TQ.  Without constraints S is the whole algebra and A the mechanical connection: the Lagrange-Poincare
+ * equations; without shape those of Euler-Poincare. */
 #ifndef NH_LAGRANGE_POINCARE_H
 #define NH_LAGRANGE_POINCARE_H
 

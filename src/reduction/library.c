@@ -69,7 +69,8 @@ static void put_circular(nh_dag *d, factors *f, nh_ex angle, int level)
     }
 }
 
-/* g, g' and g'/g (cosh, sinh, tanh), for covectors g g': Christoffel symbols are made of them; of an exponential also 1/g and roots (logarithmic coordinates). */
+/* g, g' and g'/g (cosh, sinh, tanh), for covectors g g': Christoffel symbols are made of them; of an exponential also
+   1/g and roots (logarithmic coordinates). */
 static void put_with_slopes(const nh_kinetic *k, factors *f, nh_ex g, nh_ex q, bool for_covectors)
 {
     nh_ex slope = nh_simplify(k->dag, nh_diff(k->dag, g, q));
@@ -135,7 +136,8 @@ static void add(nh_library *l, const nh_kinetic *k, nh_ex e, size_t component)
     l->complexity[l->count++] = nh_is_number(k->dag, e, 1) ? 0 : (double)nh_complexity(k->dag, e);
 }
 
-/* Which coordinates a component depends on, from the jets: B^i_j anywhere.  Scales of the metric make the entries comparable. */
+/* Which coordinates a component depends on, from the jets: B^i_j anywhere.  Scales of the metric make the entries
+   comparable. */
 static bool *dependence(const nh_kinetic *k, const nh_jets *jets, bool *nonzero)
 {
     static const double small = 1e-7;
@@ -161,7 +163,8 @@ static bool *dependence(const nh_kinetic *k, const nh_jets *jets, bool *nonzero)
 }
 
 /* Products over the coordinates in `on`, at most `together` of them not constant. */
-static void products(nh_library *l, const nh_kinetic *k, const factors *f, const bool *on, size_t j, nh_ex so_far, size_t together, size_t component, size_t most)
+static void products(nh_library *l, const nh_kinetic *k, const factors *f, const bool *on, size_t j, nh_ex so_far,
+                     size_t together, size_t component, size_t most)
 {
     while (j < k->m && !on[j]) j++;
     if (l->count >= most) return;
@@ -170,11 +173,13 @@ static void products(nh_library *l, const nh_kinetic *k, const factors *f, const
         return;
     }
     for (size_t i = 0; i < (together ? f[j].count : 1); i++)
-        products(l, k, f, on, j + 1, nh_mul(k->dag, so_far, f[j].e[i]), together - (i > 0 && together), component, most);
+        products(l, k, f, on, j + 1, nh_mul(k->dag, so_far, f[j].e[i]), together - (i > 0 && together), component,
+                 most);
 }
 
 /* Monomials of total degree `degree` at most, of those in `on`. */
-static void monomials(nh_library *l, const nh_kinetic *k, const bool *on, size_t j, nh_ex so_far, int degree, size_t component, size_t most)
+static void monomials(nh_library *l, const nh_kinetic *k, const bool *on, size_t j, nh_ex so_far, int degree,
+                      size_t component, size_t most)
 {
     while (j < k->m && !on[j]) j++;
     if (l->count >= most) return;
@@ -183,10 +188,12 @@ static void monomials(nh_library *l, const nh_kinetic *k, const bool *on, size_t
         return;
     }
     for (int power = 0; power <= degree; power++)
-        monomials(l, k, on, j + 1, nh_mul(k->dag, so_far, nh_powi(k->dag, k->q[j], power)), degree - power, component, most);
+        monomials(l, k, on, j + 1, nh_mul(k->dag, so_far, nh_powi(k->dag, k->q[j], power)), degree - power, component,
+                  most);
 }
 
-/* What components are divided by at the level of covectors: K_ii where K is diagonal, else its determinant; 0 where that is a number or unknown. */
+/* What components are divided by at the level of covectors: K_ii where K is diagonal, else its determinant; 0 where
+   that is a number or unknown. */
 static nh_ex divisor(const nh_kinetic *k, size_t i)
 {
     nh_dag *d = k->dag;
@@ -222,7 +229,8 @@ void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, in
         size_t count = 0, first = l->count;
         for (size_t j = 0; j < m; j++) count += on[j] = depends[i + m * j];
         if (nonzero[i] && level == polynomials) monomials(l, k, on, 0, nh_int(k->dag, 1), m <= 3 ? 5 : 3, i, most);
-        else if (nonzero[i]) products(l, k, f, on, 0, nh_int(k->dag, 1), jets && count < together ? count : together, i, most);
+        else if (nonzero[i])
+            products(l, k, f, on, 0, nh_int(k->dag, 1), jets && count < together ? count : together, i, most);
         nh_ex by = level == covectors && nonzero[i] ? divisor(k, i) : 0;
         if (by) divide(l, k, first, by);
         if (by) products(l, k, f, on, 0, nh_int(k->dag, 1), jets && count < together ? count : together, i, most);
@@ -252,7 +260,8 @@ void nh_library_for(nh_library *l, const nh_kinetic *k, size_t components, int l
         factors_of(k, j, level, &f[j]);
         on[j] = true;
     }
-    for (size_t a = 0; a < components; a++) products(l, k, f, on, 0, nh_int(k->dag, 1), together, a, (a + 1) * most / (components ? components : 1));
+    for (size_t a = 0; a < components; a++)
+        products(l, k, f, on, 0, nh_int(k->dag, 1), together, a, (a + 1) * most / (components ? components : 1));
     for (size_t i = 1; i < l->count; i++) /* the simple ones first: of dependent columns the first ones stay */
         for (size_t j = i; j > 0 && l->complexity[j - 1] > l->complexity[j]; j--) swap(l, j - 1, j);
     nh_free(on);
@@ -268,7 +277,8 @@ void nh_library_put_before(nh_library *l, const nh_kinetic *k, size_t count, con
         out.complexity[c] = 0;
         whole[c] = component + c * k->m;
         for (size_t i = 0; i < k->m; i++)
-            if (!nh_is_number(k->dag, whole[c][i], 1) && !nh_is_zero(k->dag, whole[c][i])) out.complexity[c] += (double)nh_complexity(k->dag, whole[c][i]);
+            if (!nh_is_number(k->dag, whole[c][i], 1) && !nh_is_zero(k->dag, whole[c][i]))
+                out.complexity[c] += (double)nh_complexity(k->dag, whole[c][i]);
     }
     for (size_t j = 0; j < l->count; j++) {
         whole[out.count] = l->whole ? l->whole[j] : NULL;
@@ -288,8 +298,11 @@ nh_ex nh_library_component(const nh_library *l, nh_dag *d, size_t column, size_t
 
 void nh_library_pick(nh_library *out, const nh_library *l, size_t n, const size_t *index)
 {
-    *out = (nh_library){.count = n, .capacity = n, .function = nh_alloc_array(n + 1, sizeof *out->function),
-                        .component = nh_alloc_array(n + 1, sizeof *out->component), .complexity = nh_alloc_array(n + 1, sizeof *out->complexity)};
+    *out = (nh_library){.count = n,
+                        .capacity = n,
+                        .function = nh_alloc_array(n + 1, sizeof *out->function),
+                        .component = nh_alloc_array(n + 1, sizeof *out->component),
+                        .complexity = nh_alloc_array(n + 1, sizeof *out->complexity)};
     if (l->whole) out->whole = nh_alloc_array(n + 1, sizeof *out->whole);
     for (size_t i = 0; i < n; i++) {
         if (l->whole) out->whole[i] = l->whole[index[i]];

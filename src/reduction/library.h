@@ -8,12 +8,14 @@
  *     level 4    as level 2, every coordinate taken for an angle
  *     level 5    sin q, cos q, sin 2q, cos 2q, q, q^2, and the system's other functions of q alone, their derivatives,
  *                and those divided by the functions (cosh, sinh, tanh)
- *     level 6    as level 5, without powers beside functions, and g g' for g'/g; also all of these divided by K_ii, or by det K: of translations in elliptic or parabolic coordinates the covectors K xi have simple components,
- *                not the fields
- *     level 7    monomials to degree five, of more than three coordinates to degree three: what polynomial changes of coordinates make of rotations
+ *     level 6    as level 5, without powers beside functions, and g g' for g'/g; also all of these divided by K_ii, or
+ *                by det K: of translations in elliptic or parabolic coordinates the covectors K xi have simple
+ *                components, not the fields
+ *     level 7    monomials to degree five, of more than three coordinates to degree three: what polynomial changes of
+ *                coordinates make of rotations
  *
- * On which coordinates it depends is known from the jets; without these, any, and at most two at a time.  With the jets products of two come before those of three: a
- * smaller library is conditioned better. */
+ * On which coordinates it depends is known from the jets; without these, any, and at most two at a time.  With the jets
+ * products of two come before those of three: a smaller library is conditioned better. */
 #ifndef NH_LIBRARY_H
 #define NH_LIBRARY_H
 
@@ -30,9 +32,12 @@ typedef struct {
 } nh_library;
 
 /* Products of at most `together` functions; `jets` may be NULL. */
-void nh_library_init(nh_library *library, const nh_kinetic *kinetic, const nh_jets *jets, int level, size_t together, size_t most);
-/* The same functions, of at most `together` coordinates at a time, for each of `components` coefficients (of sections, see momenta.h). */
-void nh_library_for(nh_library *library, const nh_kinetic *kinetic, size_t components, int level, size_t together, size_t most);
+void nh_library_init(nh_library *library, const nh_kinetic *kinetic, const nh_jets *jets, int level, size_t together,
+                     size_t most);
+/* The same functions, of at most `together` coordinates at a time, for each of `components` coefficients (of sections,
+   see momenta.h). */
+void nh_library_for(nh_library *library, const nh_kinetic *kinetic, size_t components, int level, size_t together,
+                    size_t most);
 /* Other fields (m components each, kept by the caller) as columns before the others. */
 void nh_library_put_before(nh_library *library, const nh_kinetic *kinetic, size_t count, const nh_ex *component);
 /* Component i of a column's field. */

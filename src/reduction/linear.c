@@ -11,9 +11,13 @@
 #include "reduction/subspace.h"
 
 /* H_bc = d2 F / dw_b dw_c. */
-static nh_ex second(nh_dag *d, const nh_reduced *o, nh_ex F, size_t b, size_t c) { return nh_diff(d, nh_diff(d, F, o->w[b]), o->w[c]); }
+static nh_ex second(nh_dag *d, const nh_reduced *o, nh_ex F, size_t b, size_t c)
+{
+    return nh_diff(d, nh_diff(d, F, o->w[b]), o->w[c]);
+}
 
-/* N = b M_GG^-1 row by row (M is symmetric: M_GG N^T = b^T), b_ab the coefficient of x' nu_b in p_a'; and what must vanish beside it. */
+/* N = b M_GG^-1 row by row (M is symmetric: M_GG N^T = b^T), b_ab the coefficient of x' nu_b in p_a'; and what must
+   vanish beside it. */
 static bool coefficients(const nh_reduced *o, size_t shape, size_t g, const size_t *index, nh_ex *N, nh_ex *rest)
 {
     nh_dag *d = o->kinetic->dag;
@@ -39,18 +43,21 @@ static bool coefficients(const nh_reduced *o, size_t shape, size_t g, const size
     return good;
 }
 
-/* The largest part of p' that is not N p x', beside N and a change of the momenta by their size within the size l of x, in units
- * in which M has diagonal one:
+/* The largest part of p' that is not N p x', beside N and a change of the momenta by their size within the size l of x,
+ * in units in which M has diagonal one:
  *
  *     l |rest_ajk| sqrt(M_xx / (M_aa M_jj M_kk)) / (1 + l |N_ab| sqrt(M_bb / M_aa))
  *
  * At shapes of the sample points; coordinates of the group do not occur. */
-static double off_linear(const nh_reduced *o, size_t shape, size_t g, const size_t *index, const nh_ex *N, const nh_ex *rest)
+static double off_linear(const nh_reduced *o, size_t shape, size_t g, const size_t *index, const nh_ex *N,
+                         const nh_ex *rest)
 {
     const nh_kinetic *k = o->kinetic;
-    size_t places = k->places < 16 ? k->places : 16, rows = g * (g + 1) / 2 + 1, total = g * g + g * rows + g + 1, r = o->r;
+    size_t places = k->places < 16 ? k->places : 16, rows = g * (g + 1) / 2 + 1, total = g * g + g * rows + g + 1,
+           r = o->r;
     nh_ex *e = nh_alloc_array(total, sizeof *e), *M = e + g * g + g * rows;
-    double *value = nh_alloc_array(places * total, sizeof *value), *length = nh_alloc_array(k->m + 1, sizeof *length), l = 1, of_N = 0, off = 0;
+    double *value = nh_alloc_array(places * total, sizeof *value), *length = nh_alloc_array(k->m + 1, sizeof *length),
+           l = 1, of_N = 0, off = 0;
     memcpy(e, N, g * g * sizeof *e);
     memcpy(e + g * g, rest, g * rows * sizeof *e);
     for (size_t a = 0; a < g; a++) M[a] = o->M[index[a] * (r + 1)];
@@ -67,7 +74,8 @@ static double off_linear(const nh_reduced *o, size_t shape, size_t g, const size
         for (size_t i = 0; i < g * g; i++) of_N = fmax(of_N, fabs(n[i]) * l * unit[i % g] / unit[i / g]);
         for (size_t a = 0; a < g; a++) {
             for (size_t j = 0; j < g; j++)
-                for (size_t i = 0; i <= j; i++) off = fmax(off, fabs(*at++) * l * unit[g] / (unit[a] * unit[j] * unit[i]));
+                for (size_t i = 0; i <= j; i++)
+                    off = fmax(off, fabs(*at++) * l * unit[g] / (unit[a] * unit[j] * unit[i]));
             off = fmax(off, fabs(*at++) * l / (unit[a] * unit[g])); /* of x'^2 */
         }
     }
@@ -122,8 +130,12 @@ double nh_linear_momenta_drift(const nh_linear_momenta *l, const nh_reduced *o, 
     static const double tolerance = 1e-13, largest = 1e12;
     const nh_model *y = o->kinetic->model;
     size_t g = l->count, size = o->n + o->r;
-    equation q = {g, nh_tape_create(o->kinetic->dag, 1, o->x, g * g, l->N, y->system->parameters, y->parameter, y->parameter_value), NULL, nh_alloc_array(g * g + 1, sizeof(double))};
-    double *Y = nh_alloc_array(2 * g * g + 3 * g + 1, sizeof *Y), *copy = Y + g * g, *p = copy + g * g, *start = p + g, worst = 0, norm = 1e-300;
+    equation q = {
+        g,
+        nh_tape_create(o->kinetic->dag, 1, o->x, g * g, l->N, y->system->parameters, y->parameter, y->parameter_value),
+        NULL, nh_alloc_array(g * g + 1, sizeof(double))};
+    double *Y = nh_alloc_array(2 * g * g + 3 * g + 1, sizeof *Y), *copy = Y + g * g, *p = copy + g * g, *start = p + g,
+           worst = 0, norm = 1e-300;
     q.work = nh_tape_work_create(q.tape);
     for (size_t i = 0; i < g * g; i++) Y[i] = i % (g + 1) == 0;
     for (size_t a = 0; a < g; a++) norm = fmax(norm, fabs(start[a] = z[o->n + l->index[a]]));

@@ -183,7 +183,8 @@ static bool chaplygin(nh_linear_system *s, const nh_kinetic *k, const nh_action 
     for (size_t a = 0; a < action->d; a++)
         if (!holds_for_all(k, &action->generator[a])) 
             return refuse(s, "the symmetry group depends on the values of parameters");
-    if (!nh_chaplygin_init(c, slice, &none)) return refuse(s, "the orbits of the group meet the constraint distribution");
+    if (!nh_chaplygin_init(c, slice, &none))
+        return refuse(s, "the orbits of the group meet the constraint distribution");
     if (!c->plain) return refuse(s, k->obstacle);
     if (c->n < 2) return refuse(s, "every system with one shape coordinate is Hamiltonian");
     conformal_rows(s, c);

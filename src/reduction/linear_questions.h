@@ -41,7 +41,8 @@ typedef struct {
 } nh_linear_system;
 
 /* Of a model whose parameters have values of no importance; what follows holds for all of them. Not for currents. */
-nh_linear_system *nh_linear_system_create(const nh_model *model, nh_linear_question question, const nh_options *options);
+nh_linear_system *nh_linear_system_create(const nh_model *model, nh_linear_question question,
+                                          const nh_options *options);
 void nh_linear_system_free(nh_linear_system *system);
 
 #endif

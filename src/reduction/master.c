@@ -7,7 +7,8 @@
 #include "reduction/reduced.h"
 
 /* rho (m x r) and c (m): u = rho w + c, the dependent components by omf_dep u_dep = -omf_ind w - bf. */
-static bool solve_constraints(const nh_slice *s, const size_t *independent, nh_ex *rho, nh_ex *constant, nh_error *error)
+static bool solve_constraints(const nh_slice *s, const size_t *independent, nh_ex *rho, nh_ex *constant,
+                              nh_error *error)
 {
     nh_dag *d = s->dag;
     size_t m = s->m, f = s->f, r = m - f, n = 0, *dependent = nh_alloc_array(f + 1, sizeof *dependent);
@@ -43,11 +44,13 @@ static nh_ex dot(nh_dag *d, size_t n, const nh_ex *a, size_t stride, const nh_ex
 {
     nh_ex sum = nh_int(d, 0);
     for (size_t i = 0; i < n; i++)
-        if (!nh_is_zero(d, a[i * stride]) && !nh_is_zero(d, b[i * step])) sum = nh_add(d, sum, nh_mul(d, a[i * stride], b[i * step]));
+        if (!nh_is_zero(d, a[i * stride]) && !nh_is_zero(d, b[i * step]))
+            sum = nh_add(d, sum, nh_mul(d, a[i * stride], b[i * step]));
     return sum;
 }
 
-/* The force on the frame component j: 1/2 u^T d_j Kf u + d_j af u - d_j V along the shape, C_ab^k zeta^a mu_k along the group. */
+/* The force on the frame component j: 1/2 u^T d_j Kf u + d_j af u - d_j V along the shape, C_ab^k zeta^a mu_k along the
+   group. */
 static nh_ex frame_force(const nh_slice *s, size_t j, const nh_ex *u, const nh_ex *momentum)
 {
     nh_dag *d = s->dag;
@@ -58,7 +61,9 @@ static nh_ex frame_force(const nh_slice *s, size_t j, const nh_ex *u, const nh_e
             for (size_t c = 0; c <= r; c++) {
                 nh_ex slope = nh_diff(d, s->K[r * m + c], s->x[j]);
                 if (nh_is_zero(d, slope)) continue;
-                sum = nh_add(d, sum, nh_mul(d, nh_mul(d, r == c ? nh_ratio(d, 1, 2) : nh_int(d, 1), slope), nh_mul(d, u[r], u[c])));
+                sum = nh_add(
+                    d, sum,
+                    nh_mul(d, nh_mul(d, r == c ? nh_ratio(d, 1, 2) : nh_int(d, 1), slope), nh_mul(d, u[r], u[c])));
             }
         for (size_t r = 0; r < m; r++) {
             nh_ex slope = nh_diff(d, s->a[r], s->x[j]);
@@ -80,8 +85,10 @@ static void name_velocities(nh_reduced *o, const nh_slice *s, const size_t *inde
     const nh_kinetic *k = s->kinetic;
     for (size_t i = 0; i < o->r; i++) {
         bool shape = independent[i] < s->n;
-        const char *name = shape ? k->name[s->shape[independent[i]]] : nh_arena_printf(k->arena, "%zu", independent[i] - s->n + 1);
-        o->w[i] = shape ? k->v[s->shape[independent[i]]] : nh_symbol_fresh(k->dag, nh_arena_printf(k->arena, "zeta%s", name));
+        const char *name =
+            shape ? k->name[s->shape[independent[i]]] : nh_arena_printf(k->arena, "%zu", independent[i] - s->n + 1);
+        o->w[i] =
+            shape ? k->v[s->shape[independent[i]]] : nh_symbol_fresh(k->dag, nh_arena_printf(k->arena, "zeta%s", name));
         o->momentum[i] = nh_arena_printf(k->arena, shape ? "p_%s" : "mu_%s", name);
     }
 }
@@ -114,7 +121,8 @@ void nh_reduced_add_forces(const nh_slice *s, const nh_ex *u, nh_ex *force)
     for (size_t i = 0; i < n; i++) to[m + s->shape[i]] = u[i];
     for (size_t i = 0; i < m; i++)
         for (size_t a = 0; a < s->d; a++)
-            if (!nh_is_zero(d, s->E[i * s->d + a])) to[m + i] = nh_add(d, to[m + i], nh_mul(d, s->E[i * s->d + a], u[n + a]));
+            if (!nh_is_zero(d, s->E[i * s->d + a]))
+                to[m + i] = nh_add(d, to[m + i], nh_mul(d, s->E[i * s->d + a], u[n + a]));
     for (size_t i = 0; i < m; i++) {
         nh_ex Q = nh_substitute(d, k->Q[i], 2 * m, from, to);
         if (nh_is_zero(d, Q)) continue;
@@ -126,7 +134,8 @@ void nh_reduced_add_forces(const nh_slice *s, const nh_ex *u, nh_ex *force)
 }
 
 /* p_i = rho_i . Kf rho w, and what is left of rho_i . (pi, mu): a function of the place, whose rate is taken off. */
-static void momenta(nh_reduced *o, const nh_slice *s, const nh_ex *rho, const nh_ex *constant, const nh_ex *u, nh_ex *rest)
+static void momenta(nh_reduced *o, const nh_slice *s, const nh_ex *rho, const nh_ex *constant, const nh_ex *u,
+                    nh_ex *rest)
 {
     nh_dag *d = s->dag;
     size_t m = s->m, r = o->r;
@@ -143,14 +152,15 @@ static void momenta(nh_reduced *o, const nh_slice *s, const nh_ex *rho, const nh
     nh_free(K);
 }
 
-/* E = 1/2 u^T Kf u + V; where the constraints are affine, less c^a mu_a with constants c such that c^a e_a satisfies them: the moving energy
- * [FassoSansonetto2016].  Not known where there are no such constants, or with forces. */
+/* E = 1/2 u^T Kf u + V; where the constraints are affine, less c^a mu_a with constants c such that c^a e_a satisfies
+ * them: the moving energy [FassoSansonetto2016].  Not known where there are no such constants, or with forces. */
 static void energy(nh_reduced *o, const nh_slice *s, const nh_ex *u, const nh_ex *momentum, const double *moving)
 {
     const nh_kinetic *k = s->kinetic;
     nh_dag *d = s->dag;
     nh_ex sum = s->V;
-    for (size_t j = 0; j < s->m; j++) sum = nh_add(d, sum, nh_mul(d, nh_mul(d, nh_ratio(d, 1, 2), u[j]), dot(d, s->m, s->K + j * s->m, 1, u, 1)));
+    for (size_t j = 0; j < s->m; j++)
+        sum = nh_add(d, sum, nh_mul(d, nh_mul(d, nh_ratio(d, 1, 2), u[j]), dot(d, s->m, s->K + j * s->m, 1, u, 1)));
     for (size_t a = 0; a < s->d && moving; a++)
         if (moving[a] != 0) sum = nh_sub(d, sum, nh_mul(d, nh_real(d, moving[a]), momentum[s->n + a]));
     o->energy = sum;
@@ -163,7 +173,8 @@ bool nh_reduced_master(nh_reduced *o, const nh_slice *s, const size_t *independe
     size_t m = s->m, r = m - s->f, n = s->n;
     nh_reduced_init(o, s->kinetic, n, s->x, r, s->d);
     name_velocities(o, s, independent);
-    nh_ex *rho = nh_alloc_array(m * r + 4 * m + r + 1, sizeof *rho), *u = rho + m * r, *momentum = u + m, *force = momentum + m, *constant = force + m, *rest = constant + m;
+    nh_ex *rho = nh_alloc_array(m * r + 4 * m + r + 1, sizeof *rho), *u = rho + m * r, *momentum = u + m,
+          *force = momentum + m, *constant = force + m, *rest = constant + m;
     double *moving = nh_alloc_array(s->d + 1, sizeof *moving);
     bool good = solve_constraints(s, independent, rho, constant, error);
     for (size_t j = 0; j < m && good; j++) u[j] = nh_add(d, dot(d, r, rho + j * r, 1, o->w, 1), constant[j]);

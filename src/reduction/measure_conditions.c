@@ -44,7 +44,8 @@ static nh_ex contracted(const work *w, const nh_ex *inv, const nh_ex *U, size_t 
     size_t n = w->n;
     nh_ex sum = nh_int(w->dag, 0);
     for (size_t l = 0; l < n; l++)
-        if (!nh_is_zero(w->dag, U[(l * n + i) * n + j])) sum = nh_add(w->dag, sum, nh_mul(w->dag, inv[k * n + l], U[(l * n + i) * n + j]));
+        if (!nh_is_zero(w->dag, U[(l * n + i) * n + j]))
+            sum = nh_add(w->dag, sum, nh_mul(w->dag, inv[k * n + l], U[(l * n + i) * n + j]));
     return tidy(w, sum);
 }
 
@@ -76,7 +77,8 @@ static bool same(const nh_parameter_zeros *a, const nh_parameter_zeros *b)
     bool equal = a->ways == b->ways;
     for (size_t i = 0; i < a->ways && equal; i++) {
         equal = a->way[i].count == b->way[i].count;
-        for (size_t k = 0; k < a->way[i].count && equal; k++) equal = a->way[i].polynomial[k] == b->way[i].polynomial[k];
+        for (size_t k = 0; k < a->way[i].count && equal; k++)
+            equal = a->way[i].polynomial[k] == b->way[i].polynomial[k];
     }
     return equal;
 }
@@ -136,7 +138,8 @@ static bool simple(work *w)
         if (j >= i) continue;
         if (k == i) want = nh_add(w->dag, want, w->Theta[j]);
         if (k == j) want = nh_sub(w->dag, want, w->Theta[i]);
-        good = demand(w, tidy(w, nh_sub(w->dag, w->T[at], nh_mul(w->dag, nh_ratio(w->dag, 1, (int64_t)n - 1), want))), true);
+        good = demand(w, tidy(w, nh_sub(w->dag, w->T[at], nh_mul(w->dag, nh_ratio(w->dag, 1, (int64_t)n - 1), want))),
+                      true);
     }
     return good;
 }
@@ -149,7 +152,9 @@ static void in_all_parameters(work *w, const nh_base_parameters *base)
         for (size_t k = 0; k < where->ways; k++)
             for (size_t l = 0; l < where->way[k].count; l++) {
                 nh_ex *p = &where->way[k].polynomial[l];
-                *p = nh_parameter_zeros_polynomial(w->dag, nh_numerator(w->dag, nh_substitute(w->dag, *p, base->count, base->parameter, base->meaning)));
+                *p = nh_parameter_zeros_polynomial(
+                    w->dag,
+                    nh_numerator(w->dag, nh_substitute(w->dag, *p, base->count, base->parameter, base->meaning)));
             }
     }
 }

@@ -1,10 +1,13 @@
-/* measure_conditions: for which parameters a reduced Chaplygin system has an invariant measure, or becomes Hamiltonian by a conformal factor (chaplygin.h).
+/* measure_conditions: for which parameters a reduced Chaplygin system has an invariant measure, or becomes Hamiltonian
+ * by a conformal factor (chaplygin.h).
  *
  *     T^k_ij = (Khat^-1)^kl U_lij,      Theta_j = T^i_ij
- *     measure:  d_i Theta_j - d_j Theta_i = 0        factor:  that, and  T^k_ij - (Theta_j delta^k_i - Theta_i delta^k_j)/(n - 1) = 0
+ *     measure:  d_i Theta_j - d_j Theta_i = 0        factor:  that, and  T^k_ij - (Theta_j delta^k_i - Theta_i
+ *                                                    delta^k_j)/(n - 1) = 0
  *
- * as expressions; each vanishes for the parameters that exact/parameter_zeros.h finds. Where they are too long for that, once more with fewer parameters
- * (base_parameters.h); and where that is too long, a value modulo a prime proves that they do not vanish for almost all parameters (exact/generic_value.h). */
+ * as expressions; each vanishes for the parameters that exact/parameter_zeros.h finds. Where they are too long for
+ * that, once more with fewer parameters (base_parameters.h); and where that is too long, a value modulo a prime proves
+ * that they do not vanish for almost all parameters (exact/generic_value.h). */
 #ifndef NH_MEASURE_CONDITIONS_H
 #define NH_MEASURE_CONDITIONS_H
 

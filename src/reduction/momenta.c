@@ -11,7 +11,8 @@
 #include "reduction/section.h"
 #include "reduction/subspace.h"
 
-/* Columns: library functions b_j(q) times generators e_a.  The library is that of generators, with `component` the generator's number. */
+/* Columns: library functions b_j(q) times generators e_a.  The library is that of generators, with `component` the
+   generator's number. */
 typedef struct {
     const nh_action *g;
     const nh_kinetic *k;
@@ -40,8 +41,10 @@ static size_t distribution_basis(const search *s, const double *K, const double 
     return r;
 }
 
-/* Rows at a place from K, omega, E, b and its derivatives: omega(f^a e_a) = 0, sym_ij X_i(f^a) K(X_j, e_a) = 0; values of the field, in units of K. */
-static void place_rows(search *s, const double *K, const double *omega, const double *E, const double *b, const double *db)
+/* Rows at a place from K, omega, E, b and its derivatives: omega(f^a e_a) = 0, sym_ij X_i(f^a) K(X_j, e_a) = 0; values
+   of the field, in units of K. */
+static void place_rows(search *s, const double *K, const double *omega, const double *E, const double *b,
+                       const double *db)
 {
     size_t m = s->m, d = s->d, f = s->f, n = s->n;
     double *X = nh_alloc_array(m * m + m * d + 1, sizeof *X), *KXe = X + m * m;
@@ -63,7 +66,8 @@ static void place_rows(search *s, const double *K, const double *omega, const do
             double *row = nh_relative_condition(&s->rows);
             for (size_t c = 0; c < n; c++) {
                 double along_i = 0, along_j = 0;
-                for (size_t q = 0; q < m; q++) along_i += db[c * m + q] * X[q + i * m], along_j += db[c * m + q] * X[q + j * m];
+                for (size_t q = 0; q < m; q++)
+                    along_i += db[c * m + q] * X[q + i * m], along_j += db[c * m + q] * X[q + j * m];
                 row[c] = (along_i * KXe[j + s->l.component[c] * r] + along_j * KXe[i + s->l.component[c] * r]) / 2;
             }
         }
@@ -106,7 +110,8 @@ static void fill(search *s, nh_momentum *p)
     p->value = nh_int(dag, 0);
     for (size_t q = 0; q < s->m; q++) {
         p->field[q] = nh_int(dag, 0);
-        for (size_t a = 0; a < s->d; a++) p->field[q] = nh_add(dag, p->field[q], nh_mul(dag, p->f[a], s->g->generator[a].component[q]));
+        for (size_t a = 0; a < s->d; a++)
+            p->field[q] = nh_add(dag, p->field[q], nh_mul(dag, p->f[a], s->g->generator[a].component[q]));
         p->field[q] = nh_simplify(dag, p->field[q]);
     }
     for (size_t r = 0; r < s->m; r++)
@@ -116,7 +121,8 @@ static void fill(search *s, nh_momentum *p)
     p->value = nh_simplify(dag, p->value);
 }
 
-/* The conditions on column c, told apart by the marks: omega(b_c e_a), and (b_c)' J_a for v in D, as functions on the submanifold. */
+/* The conditions on column c, told apart by the marks: omega(b_c e_a), and (b_c)' J_a for v in D, as functions on the
+   submanifold. */
 static nh_ex conditions(const search *s, size_t c, const nh_ex *mark)
 {
     const nh_kinetic *k = s->k;
@@ -125,7 +131,8 @@ static nh_ex conditions(const search *s, size_t c, const nh_ex *mark)
     nh_ex sum = nh_int(d, 0), J = nh_int(d, 0), along = nh_diff_along(d, s->l.function[c], s->m, k->q, k->v);
     for (size_t i = 0; i < s->f; i++)
         for (size_t q = 0; q < s->m; q++)
-            sum = nh_add(d, sum, nh_mul(d, mark[i], nh_mul(d, k->omega[i * s->m + q], nh_mul(d, s->l.function[c], field[q]))));
+            sum = nh_add(d, sum,
+                         nh_mul(d, mark[i], nh_mul(d, k->omega[i * s->m + q], nh_mul(d, s->l.function[c], field[q]))));
     if (nh_is_zero(d, along)) return sum;
     for (size_t r = 0; r < s->m; r++)
         for (size_t q = 0; q < s->m; q++) J = nh_add(d, J, nh_mul(d, nh_mul(d, field[r], k->K[r * s->m + q]), k->v[q]));
@@ -161,14 +168,16 @@ static void normalise(const search *s, nh_ex *c)
     for (size_t j = 0; j < s->n; j++) c[j] = nh_neg(s->k->dag, c[j]);
 }
 
-/* A coefficient that is not constant but constant along D: a momentum that is known, times a function of the leaf of an integrable distribution. */
+/* A coefficient that is not constant but constant along D: a momentum that is known, times a function of the leaf of an
+   integrable distribution. */
 static bool multiple(const search *s, const nh_momentum *p)
 {
     const nh_kinetic *k = s->k;
     nh_dag *d = k->dag;
     for (size_t a = 0; a < s->d; a++) {
         nh_ex rate = nh_chart_compose(k->model->chart, nh_diff_along(d, p->f[a], s->m, k->q, k->v));
-        if (!nh_is_zero(d, rate) && nh_normal_is_zero(d, rate, (size_t)s->options->proof_terms) != NH_ZERO) return false;
+        if (!nh_is_zero(d, rate) && nh_normal_is_zero(d, rate, (size_t)s->options->proof_terms) != NH_ZERO)
+            return false;
     }
     return !p->horizontal;
 }
@@ -180,7 +189,8 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
     nh_ex *exact = nh_alloc_array(s->n + 1, sizeof *exact);
     double *size = nh_alloc_array(s->n + 1, sizeof *size);
     nh_relative_sizes(&s->rows, size);
-    nh_relative_echelon(s->n, count, order, size, v); /* the most complex columns as pivots: the rest of each vector is then the simplest */
+    /* the most complex columns as pivots: the rest of each vector is then the simplest */
+    nh_relative_echelon(s->n, count, order, size, v);
     out->momentum = nh_arena_alloc(s->k->arena, (count + 1) * sizeof *out->momentum);
     for (size_t r = count; r-- > 0;) {
         nh_momentum *p = &out->momentum[out->count++];
@@ -210,7 +220,8 @@ size_t nh_momenta_unproved(nh_momenta *out, const nh_action *g)
     for (size_t i = 0; i < out->count; i++) {
         nh_momentum *p = &out->momentum[i];
         for (size_t a = 0; a < g->d; a++)
-            if (!nh_is_zero(k->dag, p->f[a])) p->proof = nh_proof_both(k->model, p->proof, nh_generator_proof(k, &g->generator[a]));
+            if (!nh_is_zero(k->dag, p->f[a]))
+                p->proof = nh_proof_both(k->model, p->proof, nh_generator_proof(k, &g->generator[a]));
         n += !p->proof.proved;
     }
     return n;
@@ -236,7 +247,8 @@ void nh_momenta_mark(nh_momenta *out, const nh_kinetic *k)
     from[k->m] = k->model->system->t, to[k->m] = nh_real(d, k->time[0]);
     for (size_t i = 0; i < out->count; i++) {
         nh_ex value = nh_substitute(d, out->momentum[i].value, n, from, to);
-        out->momentum[i].local = nh_kinetic_many_valued(k, k->m, out->momentum[i].field) || nh_kinetic_many_valued(k, 1, &value);
+        out->momentum[i].local =
+            nh_kinetic_many_valued(k, k->m, out->momentum[i].field) || nh_kinetic_many_valued(k, 1, &value);
     }
     nh_free(from);
 }
@@ -252,7 +264,8 @@ static void fill_general(const nh_action *g, nh_momentum *p)
     p->value = nh_int(d, 0);
     for (size_t s = 0; s < k->m; s++) {
         nh_ex component = nh_int(d, 0), momentum = k->a[s];
-        for (size_t a = 0; a < g->d; a++) component = nh_add(d, component, nh_mul(d, p->f[a], g->generator[a].component[s]));
+        for (size_t a = 0; a < g->d; a++)
+            component = nh_add(d, component, nh_mul(d, p->f[a], g->generator[a].component[s]));
         for (size_t r = 0; r < k->m; r++) momentum = nh_add(d, momentum, nh_mul(d, k->K[s * k->m + r], k->v[r]));
         p->field[s] = nh_simplify(d, component);
         if (!nh_is_zero(d, p->field[s])) p->value = nh_add(d, p->value, nh_mul(d, p->field[s], momentum));
@@ -267,7 +280,8 @@ static nh_ex general_conditions(const nh_action *g, size_t a, const nh_ex *mark)
     nh_ex sum = nh_int(d, 0);
     for (size_t s = 0; s < k->m; s++) {
         nh_ex x = g->generator[a].component[s];
-        for (size_t i = 0; i < k->f; i++) sum = nh_add(d, sum, nh_mul(d, mark[i], nh_mul(d, k->omega[i * k->m + s], x)));
+        for (size_t i = 0; i < k->f; i++)
+            sum = nh_add(d, sum, nh_mul(d, mark[i], nh_mul(d, k->omega[i * k->m + s], x)));
         if (k->forced) sum = nh_add(d, sum, nh_mul(d, mark[k->f], nh_mul(d, k->Q[s], x)));
     }
     return sum;
@@ -300,7 +314,9 @@ static nh_ex energy_of(const nh_kinetic *k)
     nh_ex E = k->V;
     for (size_t r = 0; r < k->m; r++)
         for (size_t s = 0; s <= r; s++)
-            E = nh_add(d, E, nh_mul(d, nh_mul(d, nh_ratio(d, r == s ? 1 : 2, 2), k->K[r * k->m + s]), nh_mul(d, k->v[r], k->v[s])));
+            E = nh_add(
+                d, E,
+                nh_mul(d, nh_mul(d, nh_ratio(d, r == s ? 1 : 2, 2), k->K[r * k->m + s]), nh_mul(d, k->v[r], k->v[s])));
     return E;
 }
 

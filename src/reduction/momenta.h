@@ -10,8 +10,9 @@
  *
  * does too: a horizontal gauge momentum [FassoGiacobbeSansonetto2008].  f is sought in a library of functions.
  *
- * With a in L = 1/2 v K v + a v - V, J_a = e_a . (K v + a), and forces add f^a e_a . Q; then only constant f are sought.  Where the constraints are
- * affine, omega(v) + b = 0, and c^a e_a satisfies them itself, E - c^a J_a is conserved, the moving energy [FassoSansonetto2016]. */
+ * With a in L = 1/2 v K v + a v - V, J_a = e_a . (K v + a), and forces add f^a e_a . Q; then only constant f are
+ * sought.  Where the constraints are affine, omega(v) + b = 0, and c^a e_a satisfies them itself, E - c^a J_a is
+ * conserved, the moving energy [FassoSansonetto2016]. */
 #ifndef NH_MOMENTA_H
 #define NH_MOMENTA_H
 
@@ -20,7 +21,8 @@
 
 typedef struct {
     bool horizontal;       /* f is constant, and f^a e_a lies in D */
-    bool gauge;            /* f is not constant; neither: f is constant, and the reaction does no work along f^a e_a though that is not in D */
+    /* f is not constant; neither: f is constant, and the reaction does no work along f^a e_a though that is not in D */
+    bool gauge;
     bool moving;           /* not a momentum: the moving energy, f = c */
     nh_ex *f;              /* d */
     nh_ex *field;          /* m: f^a e_a */
@@ -38,15 +40,17 @@ typedef struct {
 
 /* A momentum is proved where its generators are, too: how many are not.  Each proof becomes that of both. */
 size_t nh_momenta_unproved(nh_momenta *momenta, const nh_action *action);
-/* Of those the rate itself decides, by a model with accelerations: what it refutes is left out.  Numbers that hardly weigh in a generator (lengths of
- * a nanometre beside a metre) may be the whole of the rate. */
+/* Of those the rate itself decides, by a model with accelerations: what it refutes is left out.  Numbers that hardly
+ * weigh in a generator (lengths of a nanometre beside a metre) may be the whole of the rate. */
 void nh_momenta_confirm(nh_momenta *momenta, const nh_model *model, const nh_options *options);
 
 /* Which of them are local. */
 void nh_momenta_mark(nh_momenta *momenta, const nh_kinetic *kinetic);
 
-/* Constants c (d) with omega(c^a e_a) = 0 (with `offset`: + b = 0) and c^a e_a . Q = 0, known in doubles, as expressions of the parameters. */
-nh_proof nh_momenta_horizontal(const nh_action *action, const double *c, bool offset, const nh_options *options, nh_ex *out);
+/* Constants c (d) with omega(c^a e_a) = 0 (with `offset`: + b = 0) and c^a e_a . Q = 0, known in doubles, as
+   expressions of the parameters. */
+nh_proof nh_momenta_horizontal(const nh_action *action, const double *c, bool offset, const nh_options *options,
+                               nh_ex *out);
 
 bool nh_momenta_find(nh_momenta *out, const nh_action *action, const nh_options *options, nh_error *error);
 

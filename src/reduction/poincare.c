@@ -7,7 +7,8 @@
 #include "graph/diff.h"
 #include "reduction/subspace.h"
 
-/* Everything at one place.  K (m x m), dK (n of them), omega (f x m, row-major), domega; dV (n).  A (d x n), dA (n of them: dA[l] = d_l A). */
+/* Everything at one place.  K (m x m), dK (n of them), omega (f x m, row-major), domega; dV (n).  A (d x n), dA (n of
+   them: dA[l] = d_l A). */
 typedef struct {
     const nh_slice *s;
     size_t m, n, d, f;
@@ -17,7 +18,8 @@ typedef struct {
     size_t r;
     double *u, *du, *momentum, *rate; /* m each: (x', zeta), its derivative, Kf u, (Kf u)' */
     double *v;              /* d */
-    double *of_momentum, *of_rate; /* m each: the sums of the moduli of their terms, beside which a residual is small or not */
+    /* m each: the sums of the moduli of their terms, beside which a residual is small or not */
+    double *of_momentum, *of_rate;
 } place;
 
 static nh_ex *list(const nh_slice *s, size_t *total)
@@ -62,7 +64,8 @@ static void place_values(place *p, double *z)
     p->dV = p->domega + n * f * m;
 }
 
-/* a x = b for a symmetric a, in units in which its blocks have size one: a_ij scale_i scale_j, b_i scale_i, x_i / scale_i. */
+/* a x = b for a symmetric a, in units in which its blocks have size one: a_ij scale_i scale_j, b_i scale_i, x_i /
+   scale_i. */
 static bool solve_scaled(size_t size, const double *scale, double *a, size_t n, double *b, double *rcond)
 {
     for (size_t i = 0; i < size * size; i++) a[i] *= scale[i % size] * scale[i / size];
@@ -84,11 +87,13 @@ static void units_of(const place *p, double *scale)
     }
 }
 
-/* [Kf_ee om_e^T; om_e 0] (A_i; lambda) = (Kf_ei; om_x,i), and the same differentiated: the connection and its derivatives. */
+/* [Kf_ee om_e^T; om_e 0] (A_i; lambda) = (Kf_ei; om_x,i), and the same differentiated: the connection and its
+   derivatives. */
 static bool connection(place *p)
 {
     size_t m = p->m, n = p->n, d = p->d, f = p->f, size = d + f;
-    double *a = nh_alloc_array(size * size + 2 * size * n + size + 1, sizeof *a), *sol = a + size * size, *right = sol + size * n, *scale = right + size * n;
+    double *a = nh_alloc_array(size * size + 2 * size * n + size + 1, sizeof *a), *sol = a + size * size,
+           *right = sol + size * n, *scale = right + size * n;
     bool good = true;
     units_of(p, scale);
     for (size_t l = 0; l <= n && good; l++) { /* l = 0: the solution itself */
@@ -149,7 +154,8 @@ static bool accelerations(place *p)
             p->of_momentum[i] += fabs(p->K[i * m + j] * p->u[j]);
             for (size_t l = 0; l < n; l++) b[i] -= p->u[l] * p->dK[l * m * m + i * m + j] * p->u[j];
         }
-        for (size_t c = 0; c < f; c++) a[m + c + i * size] = p->omega[c * m + i], a[i + (m + c) * size] = -p->omega[c * m + i];
+        for (size_t c = 0; c < f; c++)
+            a[m + c + i * size] = p->omega[c * m + i], a[i + (m + c) * size] = -p->omega[c * m + i];
     }
     for (size_t i = 0; i < n; i++) {
         b[i] -= p->dV[i];
@@ -233,7 +239,8 @@ static double terms_of(const place *p, const double *x, const double *y)
     return sum;
 }
 
-/* The largest bracket of vectors as long as x and y, by the metric: max_a sum_bc |c^a_bc| s_a / (s_b s_c) |x| |y|, s_a = sqrt(K_aa). */
+/* The largest bracket of vectors as long as x and y, by the metric: max_a sum_bc |c^a_bc| s_a / (s_b s_c) |x| |y|, s_a
+   = sqrt(K_aa). */
 static double largest_bracket(const place *p, const nh_algebra *g, const double *unit, const double *x, const double *y)
 {
     size_t d = p->d;
@@ -292,9 +299,11 @@ static void vertical(const place *p, const nh_ideals *c, const scratch *t, nh_po
         out->one_vertical = fmax(out->one_vertical, beside(pairing(d, dmu, chi) - pairing(d, mu, t->bracket), size));
         nh_ideals_split(c, chi, t->pb);
         nh_ideals_bracket(c, t->pa, t->pb, t->pc);
-        out->stages_vertical = fmax(out->stages_vertical, beside(pairing(d, dbeta, t->pb) - pairing(d, t->beta, t->pc), size));
+        out->stages_vertical =
+            fmax(out->stages_vertical, beside(pairing(d, dbeta, t->pb) - pairing(d, t->beta, t->pc), size));
         nh_ideals_join(c, t->pc, t->zeta);
-        for (size_t a = 0; a < d; a++) out->bracket = fmax(out->bracket, beside(t->unit[a] * (t->zeta[a] - t->bracket[a]), longest));
+        for (size_t a = 0; a < d; a++)
+            out->bracket = fmax(out->bracket, beside(t->unit[a] * (t->zeta[a] - t->bracket[a]), longest));
     }
 }
 
@@ -338,21 +347,25 @@ static void euler_poincare(const place *p, const nh_ideals *c, const scratch *t,
     nh_ideals_euler_poincare(c, t->pa, t->beta, t->pb);
     double size = 0;
     memset(t->terms, 0, d * sizeof *t->terms);
-    for (size_t i = 0; i < d * d * d; i++) t->terms[i / d % d] += fabs(g->c[i] * p->u[n + i / d / d]) * p->of_momentum[n + i % d];
+    for (size_t i = 0; i < d * d * d; i++)
+        t->terms[i / d % d] += fabs(g->c[i] * p->u[n + i / d / d]) * p->of_momentum[n + i % d];
     for (size_t a = 0; a < d; a++) size = fmax(size, t->terms[a]);
     for (size_t a = 0; a < d; a++) out->euler_poincare = fmax(out->euler_poincare, beside(t->pb[a] - t->pc[a], size));
 }
 
-bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, const nh_options *options, nh_error *error)
+bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, const nh_options *options,
+                       nh_error *error)
 {
     enum { most_places = 12 };
     const nh_kinetic *k = s->kinetic;
     size_t total, m = s->m, d = s->d;
     nh_ex *e = list(s, &total);
-    double *z = nh_alloc_array(total + 1, sizeof *z), *work = nh_alloc_array(9 * d + 2 * m + 1, sizeof *work), *q = work + 9 * d;
+    double *z = nh_alloc_array(total + 1, sizeof *z), *work = nh_alloc_array(9 * d + 2 * m + 1, sizeof *work),
+           *q = work + 9 * d;
     nh_tape *tape = nh_kinetic_tape(k, total, e);
     nh_tape_work *tape_work = nh_tape_work_create(tape);
-    scratch t = {work, work + d, work + 2 * d, work + 3 * d, work + 4 * d, work + 5 * d, work + 6 * d, work + 7 * d, work + 8 * d};
+    scratch t = {work,         work + d,     work + 2 * d, work + 3 * d, work + 4 * d,
+                 work + 5 * d, work + 6 * d, work + 7 * d, work + 8 * d};
     place p;
     bool good = true;
     *out = (nh_poincare){0};
@@ -364,7 +377,8 @@ bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, 
         place_values(&p, z);
         if (!isfinite(nh_largest(total, z))) continue;
         if (!connection(&p)) {
-            good = nh_fail(error, NH_NUMERIC, "", "V + D is not TQ: the momenta of the group do not determine a connection");
+            good = nh_fail(error, NH_NUMERIC, "",
+                           "V + D is not TQ: the momenta of the group do not determine a connection");
             break;
         }
         for (size_t i = 0; i < s->n; i++) p.u[i] = k->speed[at * m + s->shape[i]];
@@ -390,5 +404,6 @@ bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, 
     nh_free(e);
     nh_free(z);
     nh_free(work);
-    return good && (out->places > 0 || nh_fail(error, NH_NUMERIC, "", "the equations by stages could not be evaluated at any sample point"));
+    return good && (out->places > 0 || nh_fail(error, NH_NUMERIC, "",
+                                               "the equations by stages could not be evaluated at any sample point"));
 }

@@ -22,7 +22,8 @@ nh_kinetic *nh_quasi_symmetry_kinetic(const nh_kinetic *k)
         none[s] = nh_int(d, 0);
         Q[s] = nh_neg(d, nh_diff(d, k->V, k->q[s]));
         if (k->forced) Q[s] = nh_add(d, Q[s], k->Q[s]);
-        for (size_t r = 0; r < k->m; r++) Q[s] = plus(d, Q[s], nh_sub(d, nh_diff(d, k->a[r], k->q[s]), nh_diff(d, k->a[s], k->q[r])), k->v[r]);
+        for (size_t r = 0; r < k->m; r++)
+            Q[s] = plus(d, Q[s], nh_sub(d, nh_diff(d, k->a[r], k->q[s]), nh_diff(d, k->a[s], k->q[r])), k->v[r]);
         Q[s] = nh_simplify(d, Q[s]);
     }
     *w = *k;
@@ -53,9 +54,12 @@ static bool primitive(const nh_kinetic *k, const nh_ex *form, const nh_options *
     for (size_t i = 0; i < m; i++) zero[i] = nh_int(d, 0);
     for (size_t i = 0; i < m; i++) {
         *out = plus(d, *out, nh_substitute(d, form[i], m, k->q, zero), k->q[i]);
-        for (size_t j = 0; j < m; j++) *out = plus(d, *out, nh_substitute(d, nh_diff(d, form[i], k->q[j]), m, k->q, zero), nh_mul(d, nh_ratio(d, 1, 2), nh_mul(d, k->q[i], k->q[j])));
+        for (size_t j = 0; j < m; j++)
+            *out = plus(d, *out, nh_substitute(d, nh_diff(d, form[i], k->q[j]), m, k->q, zero),
+                        nh_mul(d, nh_ratio(d, 1, 2), nh_mul(d, k->q[i], k->q[j])));
     }
-    for (size_t i = 0; i < m && good; i++) good = vanishes(k, nh_sub(d, form[i], nh_diff(d, *out, k->q[i])), options, proof);
+    for (size_t i = 0; i < m && good; i++)
+        good = vanishes(k, nh_sub(d, form[i], nh_diff(d, *out, k->q[i])), options, proof);
     nh_free(zero);
     return good;
 }
@@ -81,7 +85,8 @@ static bool fill(nh_momentum *p, const nh_kinetic *k, const nh_action *g, const 
 {
     nh_dag *d = k->dag;
     size_t m = k->m;
-    *p = (nh_momentum){.horizontal = true, .f = nh_arena_alloc(k->arena, (g->d + m) * sizeof *p->f), .value = nh_int(d, 0)};
+    *p = (nh_momentum){
+        .horizontal = true, .f = nh_arena_alloc(k->arena, (g->d + m) * sizeof *p->f), .value = nh_int(d, 0)};
     p->field = p->f + g->d;
     for (size_t s = 0; s < m; s++) p->field[s] = nh_int(d, 0);
     nh_action strict = *g; /* of the system itself: what --weak calls a force is no condition */

@@ -26,7 +26,8 @@ static bool prolong(const nh_model *o, const nh_ex *e, nh_ex *eta)
     bool any = false, good = true;
     for (size_t s = 0; s < m; s++) q[s] = c[s].q;
     for (size_t s = 0; s < m; s++) {
-        right[s] = nh_simplify(d, nh_sub(d, nh_diff_along(d, e[s], m, q, o->rho), nh_diff_along(d, o->rho[s], m, q, e)));
+        right[s] =
+            nh_simplify(d, nh_sub(d, nh_diff_along(d, e[s], m, q, o->rho), nh_diff_along(d, o->rho[s], m, q, e)));
         any |= !nh_is_zero(d, right[s]);
     }
     for (size_t i = 0; i < n; i++) {
@@ -54,12 +55,15 @@ static nh_ex terms_of_rate(const nh_model *o)
 {
     nh_dag *d = o->dag;
     nh_ex sum = nh_terms_moduli(d, nh_diff(d, o->E, o->system->t));
-    for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_terms_moduli(d, nh_mul(d, o->rho[s], nh_diff(d, o->E, o->system->coordinate[s].q))));
-    for (size_t i = 0; i < o->n; i++) sum = nh_add(d, sum, nh_terms_moduli(d, nh_mul(d, o->a[i], nh_model_Y(o, i, o->E))));
+    for (size_t s = 0; s < o->m; s++)
+        sum = nh_add(d, sum, nh_terms_moduli(d, nh_mul(d, o->rho[s], nh_diff(d, o->E, o->system->coordinate[s].q))));
+    for (size_t i = 0; i < o->n; i++)
+        sum = nh_add(d, sum, nh_terms_moduli(d, nh_mul(d, o->a[i], nh_model_Y(o, i, o->E))));
     return sum;
 }
 
-/* One over the time in which coordinates change by their size: max_s |rho^s| / size_s at a probe, sizes over all of them, 1 for angles. */
+/* One over the time in which coordinates change by their size: max_s |rho^s| / size_s at a probe, sizes over all of
+   them, 1 for angles. */
 static double pace(const nh_model *o, const double *rho)
 {
     const nh_chart *c = o->chart;
@@ -73,8 +77,8 @@ static double pace(const nh_model *o, const double *rho)
     return most;
 }
 
-/* Where the energy does not change along Gamma, at the chart's probes: beside the terms of its rate, which may be nothing but
- * rounding, and its own terms in the time in which coordinates change by their size. */
+/* Where the energy does not change along Gamma, at the chart's probes: beside the terms of its rate, which may be
+ * nothing but rounding, and its own terms in the time in which coordinates change by their size. */
 static bool conservative(const nh_model *o)
 {
     static const double small = 1e-9;
@@ -113,10 +117,12 @@ bool nh_quotient_init(nh_reduced *out, const nh_model *o, const nh_slice *s, nh_
     nh_dag *d = o->dag;
     size_t n = s->n, g = s->d, r = o->n, m = o->m;
     const nh_action *action = s->action;
-    if (o->chart->implicit) return nh_fail(error, NH_NUMERIC, "", "the constraints cannot be solved for velocities in closed form");
+    if (o->chart->implicit)
+        return nh_fail(error, NH_NUMERIC, "", "the constraints cannot be solved for velocities in closed form");
     nh_reduced_init(out, s->kinetic, n, s->x, r, g);
     names(out, o);
-    nh_ex *from = nh_alloc_array(g + m + g * g + g * r + 1, sizeof *from), *rho = from + g, *minor = rho + m, *eta = minor + g * g;
+    nh_ex *from = nh_alloc_array(g + m + g * g + g * r + 1, sizeof *from), *rho = from + g, *minor = rho + m,
+          *eta = minor + g * g;
     for (size_t a = 0; a < g; a++) from[a] = s->kinetic->q[s->along[a]];
     for (size_t i = 0; i < m; i++) rho[i] = nh_substitute(d, o->rho[i], g, from, s->y);
     bool good = true;
@@ -131,22 +137,26 @@ bool nh_quotient_init(nh_reduced *out, const nh_model *o, const nh_slice *s, nh_
     for (size_t a = 0; a < g && good; a++) out->zeta[a] = nh_simplify(d, out->zeta[a]);
     for (size_t i = 0; i < n && good; i++) {
         out->dx[i] = rho[s->shape[i]];
-        for (size_t a = 0; a < g; a++) out->dx[i] = plus(d, out->dx[i], nh_neg(d, s->E[s->shape[i] * g + a]), out->zeta[a]);
+        for (size_t a = 0; a < g; a++)
+            out->dx[i] = plus(d, out->dx[i], nh_neg(d, s->E[s->shape[i] * g + a]), out->zeta[a]);
         out->dx[i] = nh_simplify(d, out->dx[i]);
     }
     for (size_t k = 0; k < r && good; k++) {
         out->F[k] = nh_substitute(d, o->a[k], g, from, s->y);
-        for (size_t a = 0; a < g; a++) out->F[k] = plus(d, out->F[k], nh_neg(d, nh_substitute(d, eta[a * r + k], g, from, s->y)), out->zeta[a]);
+        for (size_t a = 0; a < g; a++)
+            out->F[k] = plus(d, out->F[k], nh_neg(d, nh_substitute(d, eta[a * r + k], g, from, s->y)), out->zeta[a]);
         if (s->tidy) out->F[k] = nh_simplify(d, out->F[k]);
     }
     out->t = o->system->t;
-    for (size_t i = 0; i < n + r + g && good; i++) out->timed |= nh_depends(d, i < n ? out->dx[i] : i < n + r ? out->F[i - n] : out->zeta[i - n - r], out->t);
+    for (size_t i = 0; i < n + r + g && good; i++)
+        out->timed |= nh_depends(d, i < n ? out->dx[i] : i < n + r ? out->F[i - n] : out->zeta[i - n - r], out->t);
     out->energy = nh_substitute(d, o->E, g, from, s->y);
     out->conservative = !nh_depends(d, out->energy, out->t) && conservative(o);
     nh_reduced_guard_slice(out, s);
     nh_lu_free(lu);
     nh_free(from);
-    return good || nh_fail(error, NH_NUMERIC, "", "the generators cannot be expressed in the chart's velocities, or the slice is singular");
+    return good || nh_fail(error, NH_NUMERIC, "",
+                           "the generators cannot be expressed in the chart's velocities, or the slice is singular");
 }
 
 /* ---- states ---- */
@@ -156,7 +166,8 @@ static double fit(const nh_model *o, nh_tape *tape, nh_tape_work *work, double *
 {
     enum { most = 60 };
     size_t m = o->m, n = o->n;
-    double *value = nh_alloc_array(m * (1 + n) + m * n + m + n, sizeof *value), *R = value + m * (1 + n), *b = R + m * n, off = INFINITY;
+    double *value = nh_alloc_array(m * (1 + n) + m * n + m + n, sizeof *value), *R = value + m * (1 + n),
+           *b = R + m * n, off = INFINITY;
     for (int i = 0; i < most; i++) {
         double size = 0, now = 0;
         nh_tape_eval(tape, work, z, value);
@@ -188,7 +199,10 @@ bool nh_quotient_velocities(const nh_model *o, double t, const double *q, const 
     for (size_t p = 0; p < 1 + o->chart->probes && off > allowed; p++) {
         z[0] = t;
         memcpy(z + 1, q, m * sizeof *z);
-        for (size_t k = 0; k < n; k++) z[1 + m + k] = p ? o->chart->probe[(p - 1) * o->chart->width + 1 + m + k] : o->chart->quasi ? 0.1 + 0.1 * (double)k : v[o->chart->free[k]];
+        for (size_t k = 0; k < n; k++)
+            z[1 + m + k] = p                 ? o->chart->probe[(p - 1) * o->chart->width + 1 + m + k]
+                           : o->chart->quasi ? 0.1 + 0.1 * (double)k
+                                             : v[o->chart->free[k]];
         off = fit(o, tape, work, z, v);
     }
     memcpy(w, z + 1 + m, n * sizeof *w);
@@ -196,12 +210,16 @@ bool nh_quotient_velocities(const nh_model *o, double t, const double *q, const 
     nh_tape_free(tape);
     nh_free(e);
     nh_free(z);
-    return off <= allowed || nh_fail(error, NH_NUMERIC, "", "the velocities of the chart (%s) do not cover the initial state, which lies on another branch of the constraints", o->chart->name);
+    return off <= allowed || nh_fail(error, NH_NUMERIC, "",
+                                     "the velocities of the chart (%s) do not cover the initial state, which lies on "
+                                     "another branch of the constraints",
+                                     o->chart->name);
 }
 
 /* ---- momenta ---- */
 
-/* Values of expressions over the model's points at the sample states of the kinetic; *good counts the states that the chart covers. */
+/* Values of expressions over the model's points at the sample states of the kinetic; *good counts the states that the
+   chart covers. */
 static double *sampled(const nh_model *o, const nh_kinetic *k, size_t count, const nh_ex *e, size_t *good)
 {
     enum { most_places = 24 };
@@ -238,7 +256,8 @@ static bool admissible(const nh_model *o, const nh_kinetic *k, const nh_ex *fiel
     return good;
 }
 
-static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const nh_ex *rate, const double *c, const nh_options *options)
+static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const nh_ex *rate, const double *c,
+                const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
     nh_dag *d = o->dag;
@@ -250,7 +269,8 @@ static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const nh
     for (size_t a = 0; a < g->d; a++) {
         for (size_t s = 0; s < o->m; s++) p->field[s] = plus(d, p->field[s], p->f[a], g->generator[a].component[s]);
     }
-    for (size_t s = 0; s < o->m; s++) p->value = plus(d, p->value, p->field[s], nh_diff(d, o->system->lagrangian, k->v[s]));
+    for (size_t s = 0; s < o->m; s++)
+        p->value = plus(d, p->value, p->field[s], nh_diff(d, o->system->lagrangian, k->v[s]));
     p->horizontal = admissible(o, k, p->field, options);
     p->value = nh_simplify(d, p->value);
 }
@@ -269,7 +289,8 @@ void nh_quotient_momenta(nh_momenta *out, const nh_model *o, const nh_action *g,
         for (size_t s = 0; s < o->m; s++) J = plus(dag, J, g->generator[a].component[s], o->p[s]);
         rate[a] = nh_model_gamma(o, J);
     }
-    double *value = sampled(o, k, d, rate, &places), *rows = nh_alloc_array(places * d + d * d + 1, sizeof *rows), *c = rows + places * d;
+    double *value = sampled(o, k, d, rate, &places), *rows = nh_alloc_array(places * d + d * d + 1, sizeof *rows),
+           *c = rows + places * d;
     for (size_t p = 0; p < places; p++)
         for (size_t a = 0; a < d; a++) rows[p + a * places] = value[p * d + a];
     size_t n = places ? nh_kernel(places, d, rows, options->group, c, NULL, NULL) : 0;

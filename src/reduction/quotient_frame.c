@@ -45,13 +45,15 @@ static nh_ex energy(const nh_model *o, const nh_slice *s, const nh_ex *u)
 {
     nh_dag *d = o->dag;
     const nh_kinetic *k = s->kinetic;
-    nh_ex L = o->system->lagrangian, sum = nh_neg(d, L), *from = nh_alloc_array(2 * (s->m + s->d) + 1, sizeof *from), *to = from + s->m + s->d;
+    nh_ex L = o->system->lagrangian, sum = nh_neg(d, L), *from = nh_alloc_array(2 * (s->m + s->d) + 1, sizeof *from),
+          *to = from + s->m + s->d;
     for (size_t i = 0; i < s->m; i++) sum = nh_add(d, sum, nh_mul(d, k->v[i], nh_diff(d, L, k->v[i])));
     for (size_t i = 0; i < s->m; i++) {
         from[i] = k->v[i];
         to[i] = nh_int(d, 0);
         for (size_t a = 0; a < s->d; a++)
-            if (!nh_is_zero(d, s->E[i * s->d + a])) to[i] = nh_add(d, to[i], nh_mul(d, s->E[i * s->d + a], u[s->n + a]));
+            if (!nh_is_zero(d, s->E[i * s->d + a]))
+                to[i] = nh_add(d, to[i], nh_mul(d, s->E[i * s->d + a], u[s->n + a]));
     }
     for (size_t i = 0; i < s->n; i++) to[s->shape[i]] = nh_add(d, to[s->shape[i]], u[i]);
     for (size_t a = 0; a < s->d; a++) from[s->m + a] = k->q[s->along[a]], to[s->m + a] = s->y[a];
@@ -71,7 +73,8 @@ nh_frame_motion *nh_frame_motion_create(nh_reduced *out, const nh_model *o, cons
             e[a * m + i] = s->action->generator[a].component[i];
             for (size_t r = 0; r < m; r++) e[m * d + (a * m + i) * m + r] = nh_diff(o->dag, e[a * m + i], k->q[r]);
         }
-    *f = (nh_frame_motion){.slice = s, .bordered = nh_bordered_create(o), .tape = nh_kinetic_tape(k, m * d * (1 + m), e)};
+    *f = (nh_frame_motion){
+        .slice = s, .bordered = nh_bordered_create(o), .tape = nh_kinetic_tape(k, m * d * (1 + m), e)};
     f->work = nh_tape_work_create(f->tape);
     f->e = nh_alloc_array(m * d * (1 + m) + 3 * m + m * m + 1, sizeof *f->e);
     f->q = f->e + m * d * (1 + m);

@@ -33,7 +33,9 @@ bool nh_action_push(const nh_action *g, size_t a, double time, double *z)
     memcpy(in + m, k->v, m * sizeof *in);
     memcpy(out, g->generator[a].component, m * sizeof *out);
     for (size_t s = 0; s < m; s++) out[m + s] = nh_diff_along(k->dag, out[s], m, k->q, k->v);
-    push p = {.m = m, .tape = nh_tape_create(k->dag, 2 * m, in, 2 * m, out, k->model->system->parameters, k->model->parameter, k->model->parameter_value)};
+    push p = {.m = m,
+              .tape = nh_tape_create(k->dag, 2 * m, in, 2 * m, out, k->model->system->parameters, k->model->parameter,
+                                     k->model->parameter_value)};
     p.work = nh_tape_work_create(p.tape);
     bool good = nh_runge_sized(2 * m, push_rate, &p, 0, time, tolerance, largest, z);
     nh_tape_work_free(p.work);
@@ -42,7 +44,8 @@ bool nh_action_push(const nh_action *g, size_t a, double time, double *z)
     return good;
 }
 
-/* dt with y + dt^a e_a^y = y0; the size of y - y0, relative to the largest that coordinates of the orbit have had on the way (angles: 1 + size). */
+/* dt with y + dt^a e_a^y = y0; the size of y - y0, relative to the largest that coordinates of the orbit have had on
+   the way (angles: 1 + size). */
 static double newton(const nh_slice *s, const double *q, double *size, double *dt)
 {
     static const double turn = 6.283185307179586;

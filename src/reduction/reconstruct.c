@@ -63,7 +63,8 @@ static bool store(course *c, const nh_motion *motion, size_t from)
         out->time[at] = motion->time[i];
         nh_reduced_flow_time(f->chart->flow, motion->time[i]);
         memcpy(out->z + at * f->inner, z, f->inner * sizeof *z);
-        if (!nh_reduced_flow_at(f->chart->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, out->energy + at)) return false;
+        if (!nh_reduced_flow_at(f->chart->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, out->energy + at))
+            return false;
         out->energy_size[at] = fmax(nh_reduced_flow_energy_size(f->chart->flow), at ? out->energy_size[at - 1] : 0);
         if (f->group) good = place_of(c, z, out->q + at * out->m);
         out->count += good;
@@ -97,15 +98,20 @@ static void begin_stretch(course *c, const double *place)
     limit_guards(c, c->state);
 }
 
-/* From a state to a chart that is regular there: known or new after a guard, made for this place (`renew`, counted in c->failures) where the equations could not be integrated. */
+/* From a state to a chart that is regular there: known or new after a guard, made for this place (`renew`, counted in
+   c->failures) where the equations could not be integrated. */
 static bool change_chart(course *c, const double *z, bool renew, double *place)
 {
     static const double lost = 1e-4; /* no chart is any good */
     nh_group_flow *f = &c->f;
-    double *q = nh_alloc_array(2 * f->m + f->inner + f->d + 1, sizeof *q), *v = q + f->m, *next = v + f->m, *moved = next + f->inner, value[2];
+    double *q = nh_alloc_array(2 * f->m + f->inner + f->d + 1, sizeof *q), *v = q + f->m, *next = v + f->m,
+           *moved = next + f->inner, value[2];
     nh_error trouble = {0};
     bool good = nh_chart_leave(f->chart, z, q, v), placed = f->group && good && place_of(c, z, place);
-    const nh_reduced_chart *chart = !good ? NULL : renew ? nh_atlas_renew(c->atlas, f->chart, c->failures, q, v, moved, next, &trouble) : nh_atlas_at(c->atlas, q, v, next, &trouble);
+    const nh_reduced_chart *chart = !good ? NULL
+                                    : renew
+                                        ? nh_atlas_renew(c->atlas, f->chart, c->failures, q, v, moved, next, &trouble)
+                                        : nh_atlas_at(c->atlas, q, v, next, &trouble);
     nh_error_clear(&trouble);
     if (chart) nh_reduced_flow_limit(chart->flow, next, 0, 0);
     good = chart && nh_reduced_flow_guards(chart->flow, next, value) && value[0] > lost && value[1] > lost;
@@ -130,7 +136,8 @@ static bool renew_chart(course *c, const nh_motion *motion, double *place)
     return change_chart(c, motion->state + last * motion->size, true, place);
 }
 
-/* After a stretch that a guard has ended: go on from there; where that fails, or the equations could not be integrated, from the last output. */
+/* After a stretch that a guard has ended: go on from there; where that fails, or the equations could not be integrated,
+   from the last output. */
 static bool go_on(course *c, const nh_motion *motion, bool renew)
 {
     nh_group_flow *f = &c->f;
@@ -156,9 +163,17 @@ static void explain(course *c, const nh_motion *motion, bool found, const double
 {
     nh_reconstruction *out = c->out;
     out->dependent = !motion->complete && nh_reduced_flow_dependent(c->f.chart->flow, motion->end_state);
-    if (out->dependent) snprintf(out->note, sizeof out->note, "the constraints become dependent at t = %.6g: beyond that the motion is not determined", motion->end_time);
-    else if (!found) snprintf(out->note, sizeof out->note, "the flows of the generators meet a singularity of the coordinates at t = %.4g", times[out->count]);
-    else if (motion->guard_hit >= 0) snprintf(out->note, sizeof out->note, "%s singular at t = %.6g", motion->guard_hit == 0 ? "the constraints on the orbits become" : "the slice becomes", motion->end_time);
+    if (out->dependent)
+        snprintf(out->note, sizeof out->note,
+                 "the constraints become dependent at t = %.6g: beyond that the motion is not determined",
+                 motion->end_time);
+    else if (!found)
+        snprintf(out->note, sizeof out->note,
+                 "the flows of the generators meet a singularity of the coordinates at t = %.4g", times[out->count]);
+    else if (motion->guard_hit >= 0)
+        snprintf(out->note, sizeof out->note, "%s singular at t = %.6g",
+                 motion->guard_hit == 0 ? "the constraints on the orbits become" : "the slice becomes",
+                 motion->end_time);
     else snprintf(out->note, sizeof out->note, "%s", motion->note);
 }
 
@@ -171,8 +186,8 @@ static bool may_renew(course *c, const nh_motion *motion)
     return c->failures < most_failures;
 }
 
-/* Least sizes of the states: of x and of the place those of coordinates; of the group's coordinates what moves the place by as
- * much, s_a = min_s size_s / |e_a^s|; of momenta none. */
+/* Least sizes of the states: of x and of the place those of coordinates; of the group's coordinates what moves the
+ * place by as much, s_a = min_s size_s / |e_a^s|; of momenta none. */
 static void least_sizes(const course *c, const double *place, double *least)
 {
     const nh_group_flow *f = &c->f;
@@ -196,16 +211,24 @@ static bool run(course *c, size_t count, const double *times, const nh_reconstru
 {
     enum { most_stretches = 10000 };
     const nh_method *method = how->method;
-    double patience = !method || method->family == NH_METHOD_CVODE ? 3000 : 30000; /* one-step methods of low order take more and shorter steps */
+    /* one-step methods of low order take more and shorter steps */
+    double patience = !method || method->family == NH_METHOD_CVODE ? 3000 : 30000;
     nh_reconstruction *out = c->out;
     nh_group_flow *f = &c->f;
     size_t stretches = 0;
     memcpy(c->left, times, count * sizeof *times);
     for (; !out->complete && stretches < most_stretches; stretches++) {
         double steps = how->steps - (double)out->steps;
-        nh_flow_options o = {.rtol = how->tolerance, .max_steps = fmax(c->atlas && c->failures < 5 ? fmin(steps, patience) : steps, 1), .absolute = how->absolute, .guarded = true};
+        nh_flow_options o = {.rtol = how->tolerance,
+                             .max_steps = fmax(c->atlas && c->failures < 5 ? fmin(steps, patience) : steps, 1),
+                             .absolute = how->absolute,
+                             .guarded = true};
         if (how->effort > 0) o.effort = fmax(how->effort - out->effort, 1);
-        nh_flow_problem problem = {.size = nh_group_flow_size(f), .context = f, .rate = nh_group_flow_rate, .guards = 2 + (f->d > 0 && f->group), .guard = nh_group_flow_guard};
+        nh_flow_problem problem = {.size = nh_group_flow_size(f),
+                                   .context = f,
+                                   .rate = nh_group_flow_rate,
+                                   .guards = 2 + (f->d > 0 && f->group),
+                                   .guard = nh_group_flow_guard};
         if (how->place) {
             least_sizes(c, how->place, c->least);
             o.least = c->least;
@@ -221,8 +244,10 @@ static bool run(course *c, size_t count, const double *times, const nh_reconstru
         bool found = store(c, motion, first), late = how->effort > 0 && out->effort >= how->effort;
         out->complete = motion->complete && found;
         bool renew = may_renew(c, motion);
-        bool guarded = motion->guard_hit >= 0 && motion->end_time != c->left[0] && (c->atlas || motion->guard_hit == 2); /* a guard met at once is met again */
-        bool on = !out->complete && found && (double)out->steps < how->steps && !late && (guarded || renew) && go_on(c, motion, renew);
+        /* a guard met at once is met again */
+        bool guarded = motion->guard_hit >= 0 && motion->end_time != c->left[0] && (c->atlas || motion->guard_hit == 2);
+        bool on = !out->complete && found && (double)out->steps < how->steps && !late && (guarded || renew) &&
+                  go_on(c, motion, renew);
         if (!out->complete && !on) explain(c, motion, found, times);
         nh_motion_free(motion);
         if (!out->complete && !on) break;
@@ -239,7 +264,8 @@ typedef struct {
     const double *moved;
 } beginning;
 
-static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool group, size_t count, const double *times, const nh_reconstruct_how *how, nh_error *error)
+static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool group, size_t count, const double *times,
+                                 const nh_reconstruct_how *how, nh_error *error)
 {
     const nh_reduced_chart *chart = at->chart;
     const double *z = at->z, *q = at->q;
@@ -274,25 +300,27 @@ static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool grou
     return NULL;
 }
 
-nh_reconstruction *nh_reconstruct(const nh_reduced *o, const nh_slice *slice, const double *z, size_t count, const double *times, const nh_reconstruct_how *how,
-                                  nh_error *error)
+nh_reconstruction *nh_reconstruct(const nh_reduced *o, const nh_slice *slice, const double *z, size_t count,
+                                  const double *times, const nh_reconstruct_how *how, nh_error *error)
 {
     nh_reduced_chart chart = {.slice = slice, .reduced = o, .flow = nh_reduced_flow_create(o)};
     double *q = nh_alloc_array(slice->m, sizeof *q);
     nh_slice_place(slice, z, q);
-    nh_reconstruction *out = follow(NULL, &(beginning){.chart = &chart, .z = z, .q = q}, true, count, times, how, error);
+    nh_reconstruction *out =
+        follow(NULL, &(beginning){.chart = &chart, .z = z, .q = q}, true, count, times, how, error);
     nh_reduced_flow_free(chart.flow);
     nh_free(q);
     return out;
 }
 
-nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const double *v, bool group, size_t count, const double *times, const nh_reconstruct_how *how,
-                                       nh_error *error)
+nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const double *v, bool group, size_t count,
+                                       const double *times, const nh_reconstruct_how *how, nh_error *error)
 {
     const nh_action *g = nh_atlas_action(atlas);
     const nh_slice *preferred = nh_atlas_preferred(atlas);
     size_t m = g->kinetic->m, moves = SIZE_MAX;
-    double *z = nh_alloc_array(4 * m + NH_REACH_MOST * g->d + 1, sizeof *z), *place = z + 2 * m, *speed = place + m, *moved = speed + m;
+    double *z = nh_alloc_array(4 * m + NH_REACH_MOST * g->d + 1, sizeof *z), *place = z + 2 * m, *speed = place + m,
+           *moved = speed + m;
     nh_error ignored = {0};
     memcpy(place, q, m * sizeof *q);
     memcpy(speed, v, m * sizeof *v);
@@ -301,7 +329,10 @@ nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const d
     if (!chart) moves = 0;
     if (!chart) chart = nh_atlas_at(atlas, q, v, z, error);
     nh_error_clear(&ignored);
-    nh_reconstruction *out = chart ? follow(atlas, &(beginning){.chart = chart, .z = z, .q = q, .moves = moves, .moved = moved}, group, count, times, how, error) : NULL;
+    nh_reconstruction *out =
+        chart ? follow(atlas, &(beginning){.chart = chart, .z = z, .q = q, .moves = moves, .moved = moved}, group,
+                       count, times, how, error)
+              : NULL;
     nh_free(z);
     return out;
 }

@@ -1,12 +1,13 @@
 /* reconstruct: the full motion from a reduced one.
  *
- * The group element is written in coordinates of the second kind, g = exp(t_1 e_1) ... exp(t_d e_d), so that no group coordinates are needed:
+ * The group element is written in coordinates of the second kind, g = exp(t_1 e_1) ... exp(t_d e_d), so that no group
+ * coordinates are needed:
  *
  *     M(t) t' = Ad_g zeta,     column a of M: Ad of the first a - 1 factors on e_a,     Ad_exp(t_a e_a) = exp(t_a ad_a)
  *
- * and q = flow_1(t_1) o ... o flow_d(t_d) (sigma(x)); where the generators do not depend on x, q' = x'^i d_i + (Ad_g zeta)^a e_a(q) instead.  Where M
- * becomes singular, or large, the factors so far are kept and g starts again from the identity; where the slice or the velocities will not do any more another
- * chart of the atlas takes over. */
+ * and q = flow_1(t_1) o ... o flow_d(t_d) (sigma(x)); where the generators do not depend on x, q' = x'^i d_i + (Ad_g
+ * zeta)^a e_a(q) instead.  Where M becomes singular, or large, the factors so far are kept and g starts again from the
+ * identity; where the slice or the velocities will not do any more another chart of the atlas takes over. */
 #ifndef NH_RECONSTRUCT_H
 #define NH_RECONSTRUCT_H
 
@@ -19,8 +20,10 @@ typedef struct {
     const nh_method *method; /* with error control; NULL: the one that suits (automatic.h) */
     double tolerance, steps; /* steps: at most */
     double absolute;         /* of nh_flow_options: sizes are those that states have along the motion; 0: sizes 1 */
-    const double *place;     /* m: the least size of each coordinate, beside which an error in it counts; NULL: from the motion */
-    double effort;           /* units of base/effort.h of integration at most, a motion that needs more is not complete; 0: no limit */
+    /* m: the least size of each coordinate, beside which an error in it counts; NULL: from the motion */
+    const double *place;
+    /* units of base/effort.h of integration at most, a motion that needs more is not complete; 0: no limit */
+    double effort;
 } nh_reconstruct_how;
 
 typedef struct {
@@ -41,13 +44,15 @@ typedef struct {
     double effort, seconds; /* of integration, without the building of charts */
 } nh_reconstruction;
 
-/* The reduced motion from z with g = identity, and the places it stands for.  `slice`: the group divided out, its generators and its slice (whose x are
- * those of `reduced`).  It ends where these become singular.  NULL with a message. */
-nh_reconstruction *nh_reconstruct(const nh_reduced *reduced, const nh_slice *slice, const double *z, size_t count, const double *times,
-                                  const nh_reconstruct_how *how, nh_error *error);
-/* The same from a place and its velocity through all charts that are needed; without the group only the reduced motion is computed. */
-nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const double *v, bool group, size_t count, const double *times,
-                                       const nh_reconstruct_how *how, nh_error *error);
+/* The reduced motion from z with g = identity, and the places it stands for.  `slice`: the group divided out, its
+ * generators and its slice (whose x are those of `reduced`).  It ends where these become singular.  NULL with a
+ * message. */
+nh_reconstruction *nh_reconstruct(const nh_reduced *reduced, const nh_slice *slice, const double *z, size_t count,
+                                  const double *times, const nh_reconstruct_how *how, nh_error *error);
+/* The same from a place and its velocity through all charts that are needed; without the group only the reduced motion
+   is computed. */
+nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const double *v, bool group, size_t count,
+                                       const double *times, const nh_reconstruct_how *how, nh_error *error);
 void nh_reconstruction_free(nh_reconstruction *reconstruction);
 
 #endif

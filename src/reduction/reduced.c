@@ -69,7 +69,8 @@ void nh_reduced_guard_constraints(nh_reduced *o, const nh_slice *s, const size_t
 /* At each place an elimination of its own, with common columns: a is places x f rows of m, column by column. */
 static void choose_independent(const nh_slice *s, size_t places, double *a, size_t *independent)
 {
-    static const double group_first = 4; /* a component of the group is given up unless one of the shape is so much better */
+    /* a component of the group is given up unless one of the shape is so much better */
+    static const double group_first = 4;
     size_t m = s->m, f = s->f, rows = places * f, count = 0;
     bool *taken = nh_alloc_array(m, sizeof *taken);
     for (size_t step = 0; step < f; step++) {
@@ -127,11 +128,13 @@ void nh_reduced_independent_at(const nh_slice *s, const double *q, size_t *indep
 {
     const nh_kinetic *k = s->kinetic;
     size_t m = s->m, f = s->f;
-    double *a = nh_alloc_array(f * m + 1, sizeof *a), *value = nh_alloc_array(f * m + m * m + 1, sizeof *value), *K = value + f * m;
+    double *a = nh_alloc_array(f * m + 1, sizeof *a), *value = nh_alloc_array(f * m + m * m + 1, sizeof *value),
+           *K = value + f * m;
     if (f) nh_kinetic_values(k, f * m, s->omega, q, value);
     nh_kinetic_values(k, m * m, s->K, q, K);
     for (size_t i = 0; i < f; i++)
-        for (size_t j = 0; j < m; j++) a[i + j * f] = value[i * m + j] / (K[j * (m + 1)] > 0 ? sqrt(K[j * (m + 1)]) : 1);
+        for (size_t j = 0; j < m; j++)
+            a[i + j * f] = value[i * m + j] / (K[j * (m + 1)] > 0 ? sqrt(K[j * (m + 1)]) : 1);
     choose_independent(s, 1, a, independent);
     nh_free(a);
     nh_free(value);
@@ -141,7 +144,8 @@ void nh_reduced_independent_at(const nh_slice *s, const double *q, size_t *indep
 
 struct nh_reduced_flow {
     const nh_reduced *o;
-    nh_tape *mass, *rest, *guard, *size; /* M(x); x', F, zeta, energy of (x, w); matrices that must stay regular; the energy with its terms */
+    /* M(x); x', F, zeta, energy of (x, w); matrices that must stay regular; the energy with its terms */
+    nh_tape *mass, *rest, *guard, *size;
     nh_tape_work *mass_work, *rest_work, *guard_work, *size_work;
     size_t terms;
     double *M, *in, *out, *regular, *term, time;
@@ -165,7 +169,8 @@ static void guard_tape(nh_reduced_flow *f)
     nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
     if (first) memcpy(e, o->guard[0].e, first * sizeof *e);
     if (total > first) memcpy(e + first, o->guard[1].e, (total - first) * sizeof *e);
-    f->guard = nh_tape_create(o->kinetic->dag, o->n, o->x, total, e, y->system->parameters, y->parameter, y->parameter_value);
+    f->guard =
+        nh_tape_create(o->kinetic->dag, o->n, o->x, total, e, y->system->parameters, y->parameter, y->parameter_value);
     f->guard_work = nh_tape_work_create(f->guard);
     f->regular = nh_alloc_array(total + 1, sizeof *f->regular);
     f->sign[0] = f->sign[1] = 1;
@@ -209,7 +214,8 @@ bool nh_reduced_flow_dependent(nh_reduced_flow *f, const double *x)
     for (size_t i = 0; i < rows; i++) {
         double size = 0;
         for (size_t j = 0; j < columns; j++) size = hypot(size, f->regular[i * columns + j] * g->unit[j]);
-        for (size_t j = 0; j < columns; j++) a[i + j * rows] = size > 0 ? f->regular[i * columns + j] * g->unit[j] / size : 0;
+        for (size_t j = 0; j < columns; j++)
+            a[i + j * rows] = size > 0 ? f->regular[i * columns + j] * g->unit[j] / size : 0;
     }
     bool good = isfinite(nh_largest(rows * columns, a));
     if (good) nh_singular_values(rows, columns, a, s);
@@ -241,7 +247,10 @@ nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *o)
     size_t n = o->n, r = o->r, total = n + r + o->d + 1, p = y->system->parameters;
     nh_reduced_flow *f = nh_alloc(sizeof *f);
     nh_ex *in = nh_alloc_array(n + r + 2, sizeof *in), *e = nh_alloc_array(total, sizeof *e);
-    *f = (nh_reduced_flow){.o = o, .M = nh_alloc_array(r * r + 1, sizeof(double)), .in = nh_alloc_array(n + r + 2, sizeof(double)), .out = nh_alloc_array(total, sizeof(double))};
+    *f = (nh_reduced_flow){.o = o,
+                           .M = nh_alloc_array(r * r + 1, sizeof(double)),
+                           .in = nh_alloc_array(n + r + 2, sizeof(double)),
+                           .out = nh_alloc_array(total, sizeof(double))};
     memcpy(in, o->x, n * sizeof *in);
     memcpy(in + n, o->w, r * sizeof *in);
     if (o->timed) in[n + r] = o->t;
@@ -253,7 +262,8 @@ nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *o)
     f->rest = nh_tape_create(o->kinetic->dag, n + r + o->timed, in, total, e, p, y->parameter, y->parameter_value);
     nh_ex *term;
     f->terms = nh_terms_of(o->kinetic->dag, o->energy, &term);
-    f->size = nh_tape_create(o->kinetic->dag, n + r + o->timed, in, f->terms, term, p, y->parameter, y->parameter_value);
+    f->size =
+        nh_tape_create(o->kinetic->dag, n + r + o->timed, in, f->terms, term, p, y->parameter, y->parameter_value);
     f->size_work = nh_tape_work_create(f->size);
     f->term = nh_alloc_array(f->terms + 1, sizeof *f->term);
     nh_free(term);
@@ -318,7 +328,10 @@ static bool rate_of(double t, const double *z, double *rate, void *context)
     return nh_reduced_flow_at(context, z, rate, NULL, NULL, NULL);
 }
 
-nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *f) { return (nh_flow_problem){.size = f->o->n + f->o->r, .context = f, .rate = rate_of, .guards = 2, .guard = guards_of}; }
+nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *f)
+{
+    return (nh_flow_problem){.size = f->o->n + f->o->r, .context = f, .rate = rate_of, .guards = 2, .guard = guards_of};
+}
 
 bool nh_reduced_start(const nh_reduced *o, const double *x, const double *w, double *z)
 {

@@ -20,7 +20,10 @@ static double *next_row(double **block, size_t *count, size_t *capacity, size_t 
 double *nh_relative_condition(nh_relative *r) { return next_row(&r->a, &r->conditions, &r->room, r->columns); }
 double *nh_relative_value(nh_relative *r) { return next_row(&r->b, &r->values, &r->space, r->columns); }
 
-bool nh_relative_wants_more(const nh_relative *r) { return r->conditions < 3 * r->columns + 40 || r->values < 2 * r->columns + 40; }
+bool nh_relative_wants_more(const nh_relative *r)
+{
+    return r->conditions < 3 * r->columns + 40 || r->values < 2 * r->columns + 40;
+}
 
 void nh_relative_clear(nh_relative *r)
 {
@@ -46,7 +49,8 @@ void nh_relative_sizes(const nh_relative *r, double *size)
     }
 }
 
-double *nh_relative_null(const nh_relative *r, const nh_options *options, size_t *count, double *last_null, double *first_other, nh_error *error)
+double *nh_relative_null(const nh_relative *r, const nh_options *options, size_t *count, double *last_null,
+                         double *first_other, nh_error *error)
 {
     nh_basis basis;
     nh_nullspace_options o = nh_nullspace_options_from(options);
@@ -64,7 +68,8 @@ double *nh_relative_null(const nh_relative *r, const nh_options *options, size_t
         double *kept = nh_alloc_array(rows * n + 1, sizeof *kept), *kernel = nh_alloc_array(n * n + 1, sizeof *kernel);
         nh_basis_gather(&basis, rows, a, rows, kept);
         if (n) nh_solve_triangle_right(rows, n, basis.r, n, kept);
-        for (size_t i = 0; i < rows * n; i++) kept[i] *= sqrt((double)r->values / (double)(rows + 1)); /* per row of A and B alike */
+        /* per row of A and B alike */
+        for (size_t i = 0; i < rows * n; i++) kept[i] *= sqrt((double)r->values / (double)(rows + 1));
         *count = nh_kernel(rows, n, kept, options->group, kernel, last_null, first_other);
         vector = nh_alloc_array(columns * *count + 1, sizeof *vector);
         if (*count) nh_basis_expand(&basis, columns, *count, kernel, vector);

@@ -23,7 +23,8 @@ static int rate_of(double t, const double *y, double *rate, void *context)
 }
 
 /* Errors beside the size that a state has, or moves by, whatever its units are; one that is zero and does not move yet,
- * beside what it moves by once the others have moved; 1 for one that nothing moves.  False when the rates are not to be had. */
+ * beside what it moves by once the others have moved; 1 for one that nothing moves.  False when the rates are not to be
+ * had. */
 static bool sizes_at(problem *p, double t, double way, const double *y, double *size)
 {
     size_t n = p->n;
@@ -46,7 +47,8 @@ static bool sizes_at(problem *p, double t, double way, const double *y, double *
     return good;
 }
 
-static bool run(problem *p, double t0, double t1, double tolerance, double largest, const double *size, size_t *steps, double *y)
+static bool run(problem *p, double t0, double t1, double tolerance, double largest, const double *size, size_t *steps,
+                double *y)
 {
     size_t n = p->n, before = 0;
     double t = t0, step = (t1 - t0) / 10;
@@ -56,7 +58,8 @@ static bool run(problem *p, double t0, double t1, double tolerance, double large
     gsl_odeiv2_evolve *evolve = gsl_odeiv2_evolve_alloc(n);
     bool good = stepper && control && evolve;
     while (good && t != t1) {
-        good = *steps > 0 && gsl_odeiv2_evolve_apply(evolve, control, stepper, &system, &t, t1, &step, y) == GSL_SUCCESS;
+        good =
+            *steps > 0 && gsl_odeiv2_evolve_apply(evolve, control, stepper, &system, &t, t1, &step, y) == GSL_SUCCESS;
         size_t taken = evolve->count + evolve->failed_steps - before;
         before += taken;
         *steps -= taken < *steps ? taken : *steps;
@@ -68,7 +71,8 @@ static bool run(problem *p, double t0, double t1, double tolerance, double large
     return good;
 }
 
-static bool start(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, bool sized, size_t *steps, double *y)
+static bool start(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest,
+                  bool sized, size_t *steps, double *y)
 {
     problem p = {n, rate, context};
     gsl_error_handler_t *old = gsl_set_error_handler_off();
@@ -82,13 +86,15 @@ static bool start(size_t n, nh_runge_rate *rate, void *context, double t0, doubl
 
 enum { most_steps = 20000 };
 
-bool nh_runge(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, size_t *steps, double *y)
+bool nh_runge(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest,
+              size_t *steps, double *y)
 {
     size_t none = most_steps;
     return start(n, rate, context, t0, t1, tolerance, largest, false, steps ? steps : &none, y);
 }
 
-bool nh_runge_sized(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, double *y)
+bool nh_runge_sized(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance,
+                    double largest, double *y)
 {
     size_t none = most_steps;
     return start(n, rate, context, t0, t1, tolerance, largest, true, &none, y);

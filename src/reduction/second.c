@@ -70,7 +70,10 @@ static double *interior(const nh_chaplygin *f, const nh_ex *zeta, size_t places)
     return out;
 }
 
-static size_t places_of(const nh_chaplygin *f) { return f->slice->kinetic->places < most_places ? f->slice->kinetic->places : most_places; }
+static size_t places_of(const nh_chaplygin *f)
+{
+    return f->slice->kinetic->places < most_places ? f->slice->kinetic->places : most_places;
+}
 
 static double largest_U(const nh_chaplygin *f)
 {
@@ -82,7 +85,8 @@ static double largest_U(const nh_chaplygin *f)
     return most > 0 ? most : 1;
 }
 
-/* Signs and parts of the sample velocities: a force that is at most quadratic in the velocities is known by its values at these. */
+/* Signs and parts of the sample velocities: a force that is at most quadratic in the velocities is known by its values
+   at these. */
 enum { speeds = 4 };
 
 /* zeta^i force_i at the sample points and several velocities each; *size: the largest force. */
@@ -93,13 +97,15 @@ static double *work_along(const nh_chaplygin *f, const nh_ex *zeta, size_t place
     const nh_model *y = k->model;
     size_t n = f->n, m = k->m;
     nh_ex *in = nh_alloc_array(2 * m, sizeof *in), *e = nh_alloc_array(n + 1, sizeof *e);
-    double *z = nh_alloc_array(2 * m + n + 1, sizeof *z), *value = z + 2 * m, *out = nh_alloc_array(places * speeds + 1, sizeof *out);
+    double *z = nh_alloc_array(2 * m + n + 1, sizeof *z), *value = z + 2 * m,
+           *out = nh_alloc_array(places * speeds + 1, sizeof *out);
     memcpy(in, k->q, m * sizeof *in);
     memcpy(in + m, k->v, m * sizeof *in);
     memcpy(e, f->force, n * sizeof *e);
     e[n] = nh_int(f->dag, 0);
     for (size_t i = 0; i < n; i++) e[n] = plus(f->dag, e[n], zeta[i], f->force[i]);
-    nh_tape *tape = nh_tape_create(k->dag, 2 * m, in, n + 1, e, y->system->parameters, y->parameter, y->parameter_value);
+    nh_tape *tape =
+        nh_tape_create(k->dag, 2 * m, in, n + 1, e, y->system->parameters, y->parameter, y->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t p = 0; p < places * speeds; p++) {
         memcpy(z, k->place + p / speeds * m, m * sizeof *z);
@@ -117,7 +123,8 @@ static double *work_along(const nh_chaplygin *f, const nh_ex *zeta, size_t place
 }
 
 /* The same as nh_second_candidates where there is more than the gyroscopic form. */
-static size_t general_candidates(const nh_chaplygin *f, size_t candidates, const nh_ex *field, const nh_options *options, double *c)
+static size_t general_candidates(const nh_chaplygin *f, size_t candidates, const nh_ex *field,
+                                 const nh_options *options, double *c)
 {
     size_t m = f->slice->m, places = places_of(f), rows = places * speeds;
     nh_ex *zeta = nh_alloc_array(f->n + 1, sizeof *zeta);
@@ -136,7 +143,8 @@ static size_t general_candidates(const nh_chaplygin *f, size_t candidates, const
     return count;
 }
 
-size_t nh_second_candidates(const nh_chaplygin *f, size_t candidates, const nh_ex *field, const nh_options *options, double *c)
+size_t nh_second_candidates(const nh_chaplygin *f, size_t candidates, const nh_ex *field, const nh_options *options,
+                            double *c)
 {
     if (!f->plain) return general_candidates(f, candidates, field, options, c);
     size_t n = f->n, m = f->slice->m, places = places_of(f), rows = places * n * n;
@@ -147,7 +155,8 @@ size_t nh_second_candidates(const nh_chaplygin *f, size_t candidates, const nh_e
         double *U = interior(f, zeta, places);
         for (size_t p = 0; p < places; p++)
             for (size_t l = 0; l < n; l++)
-                for (size_t j = 0; j < n; j++) a[(p * n + l) * n + j + b * rows] = (U[(p * n + l) * n + j] + U[(p * n + j) * n + l]) / size;
+                for (size_t j = 0; j < n; j++)
+                    a[(p * n + l) * n + j + b * rows] = (U[(p * n + l) * n + j] + U[(p * n + j) * n + l]) / size;
         nh_free(U);
     }
     size_t count = nh_kernel(rows, candidates, a, options->group, c, NULL, NULL);
@@ -157,11 +166,13 @@ size_t nh_second_candidates(const nh_chaplygin *f, size_t candidates, const nh_e
     return count;
 }
 
-void nh_second_coefficients(const nh_chaplygin *f, size_t candidates, const nh_ex *field, const double *c, const nh_options *options, nh_ex *exact)
+void nh_second_coefficients(const nh_chaplygin *f, size_t candidates, const nh_ex *field, const double *c,
+                            const nh_options *options, nh_ex *exact)
 {
     nh_dag *d = f->dag;
     size_t n = f->n, m = f->slice->m;
-    nh_ex *e = nh_alloc_array(candidates + n + 2 * n * n + 1, sizeof *e), *zeta = e + candidates, *inside = zeta + n, *mark = inside + n * n;
+    nh_ex *e = nh_alloc_array(candidates + n + 2 * n * n + 1, sizeof *e), *zeta = e + candidates, *inside = zeta + n,
+          *mark = inside + n * n;
     nh_section_marks(d, n * n, mark);
     for (size_t b = 0; b < candidates; b++) {
         e[b] = exact[b] = nh_real(d, c[b]);
@@ -169,9 +180,11 @@ void nh_second_coefficients(const nh_chaplygin *f, size_t candidates, const nh_e
         contract(f, zeta, inside);
         e[b] = nh_int(d, 0);
         for (size_t l = 0; l < n; l++)
-            for (size_t j = 0; j <= l; j++) e[b] = plus(d, e[b], mark[l * n + j], nh_add(d, inside[l * n + j], inside[j * n + l]));
+            for (size_t j = 0; j <= l; j++)
+                e[b] = plus(d, e[b], mark[l * n + j], nh_add(d, inside[l * n + j], inside[j * n + l]));
     }
-    if (f->plain) nh_section_coefficients(f->slice->kinetic, candidates, e, c, nh_section_pivot(candidates, c), options, exact);
+    if (f->plain)
+        nh_section_coefficients(f->slice->kinetic, candidates, e, c, nh_section_pivot(candidates, c), options, exact);
     nh_free(e);
 }
 
@@ -182,8 +195,22 @@ static nh_kinetic *hat_system(const nh_chaplygin *f)
     nh_arena *arena = k->arena;
     size_t n = f->n;
     nh_kinetic *h = nh_arena_alloc(arena, sizeof *h);
-    *h = (nh_kinetic){.model = k->model, .dag = k->dag, .arena = arena, .m = n, .V = f->V, .quadratic = true, .autonomous = true, .affine = true, .linear = true,
-                      .metric = true, .reducible = f->plain, .general = true, .forced = !f->plain, .Q = f->force, .places = k->places, .time = k->time};
+    *h = (nh_kinetic){.model = k->model,
+                      .dag = k->dag,
+                      .arena = arena,
+                      .m = n,
+                      .V = f->V,
+                      .quadratic = true,
+                      .autonomous = true,
+                      .affine = true,
+                      .linear = true,
+                      .metric = true,
+                      .reducible = f->plain,
+                      .general = true,
+                      .forced = !f->plain,
+                      .Q = f->force,
+                      .places = k->places,
+                      .time = k->time};
     h->q = nh_arena_alloc(arena, (3 * n + 1) * sizeof *h->q);
     h->v = h->q + n;
     h->a = h->v + n;
@@ -209,7 +236,8 @@ static nh_kinetic *hat_system(const nh_chaplygin *f)
     return h;
 }
 
-/* (L_zeta U)_lij = zeta(U_lij) + U_sij d_l zeta^s + U_lsj d_i zeta^s + U_lis d_j zeta^s, largest over the sample points. */
+/* (L_zeta U)_lij = zeta(U_lij) + U_sij d_l zeta^s + U_lsj d_i zeta^s + U_lis d_j zeta^s, largest over the sample
+   points. */
 static double lie_of_U(const nh_chaplygin *f, const nh_ex *zeta)
 {
     nh_dag *d = f->dag;
@@ -234,7 +262,8 @@ static double lie_of_U(const nh_chaplygin *f, const nh_ex *zeta)
     return worst;
 }
 
-/* The same where there is more than the gyroscopic form: that the forces are invariant is known already, and ahat has to be. */
+/* The same where there is more than the gyroscopic form: that the forces are invariant is known already, and ahat has
+   to be. */
 static void general_conditions(nh_second *s)
 {
     const nh_chaplygin *f = s->first;
@@ -252,7 +281,8 @@ static void general_conditions(nh_second *s)
         }
         nh_kinetic_sample(f->slice->kinetic, 2 * n, e, places, value);
         for (size_t p = 0; p < places; p++) most = fmax(most, nh_largest(n, value + 2 * n * p + n));
-        for (size_t p = 0; p < places; p++) s->invariance = fmax(s->invariance, nh_largest(n, value + 2 * n * p) / most);
+        for (size_t p = 0; p < places; p++)
+            s->invariance = fmax(s->invariance, nh_largest(n, value + 2 * n * p) / most);
         nh_free(work);
     }
     nh_free(e);
@@ -283,7 +313,8 @@ static void conditions(nh_second *s)
     }
 }
 
-bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *field, const nh_options *options, nh_error *error)
+bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *field, const nh_options *options,
+                    nh_error *error)
 {
     size_t n = f->n, m = f->slice->m;
     *s = (nh_second){.first = f, .hat = hat_system(f), .d = d, .n = n - d};
@@ -303,9 +334,12 @@ bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *
     for (size_t i = 0; i < n; i++) s->magnetic |= !nh_is_zero(f->dag, f->a[i]);
     s->abelian = nh_largest(d * d * d, s->action.algebra.c) == 0;
     if (s->weak <= options->group && s->invariance <= options->group) return true;
-    nh_fail(error, NH_INPUT, "", s->weak > options->group ? "the momentum of the second group is not conserved: forces act along its field (relative residual %.2g)"
-                                                          : "the gyroscopic or magnetic form is not invariant under the second group (relative residual %.2g)",
-            fmax(s->weak, s->invariance));
+    nh_fail(
+        error, NH_INPUT, "",
+        s->weak > options->group
+            ? "the momentum of the second group is not conserved: forces act along its field (relative residual %.2g)"
+            : "the gyroscopic or magnetic form is not invariant under the second group (relative residual %.2g)",
+        fmax(s->weak, s->invariance));
     return nh_error_hint(error, "a cyclic coordinate of the reduced metric is not sufficient");
 }
 

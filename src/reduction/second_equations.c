@@ -46,11 +46,13 @@ static void curvature(nh_second *s)
     for (size_t a = 0; a < s->d; a++)
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j <= i; j++) {
-                nh_ex e = nh_sub(d, nh_diff(d, s->Av[a * n + j], s->slice.x[i]), nh_diff(d, s->Av[a * n + i], s->slice.x[j]));
+                nh_ex e =
+                    nh_sub(d, nh_diff(d, s->Av[a * n + j], s->slice.x[i]), nh_diff(d, s->Av[a * n + i], s->slice.x[j]));
                 for (size_t b = 0; b < s->d; b++)
                     for (size_t k = 0; k < s->d; k++) {
                         nh_ex c = s->action.constant[(b * s->d + k) * s->d + a];
-                        if (!nh_is_zero(d, c)) e = plus(d, e, nh_neg(d, c), nh_mul(d, s->Av[b * n + i], s->Av[k * n + j]));
+                        if (!nh_is_zero(d, c))
+                            e = plus(d, e, nh_neg(d, c), nh_mul(d, s->Av[b * n + i], s->Av[k * n + j]));
                     }
                 e = tidy(s, e);
                 s->Bv[(a * n + i) * n + j] = e;
@@ -58,12 +60,15 @@ static void curvature(nh_second *s)
             }
 }
 
-/* What Khat and V do not give of the force on the shape space: that of the first stage, and the magnetic one of ahat. */
+/* What Khat and V do not give of the force on the shape space: that of the first stage, and the magnetic one of
+   ahat. */
 static nh_ex force_of_first(const nh_chaplygin *f, const nh_kinetic *hat, size_t i)
 {
     nh_dag *d = f->dag;
     nh_ex sum = f->force[i];
-    for (size_t j = 0; j < f->n; j++) sum = plus(d, sum, nh_sub(d, nh_diff(d, f->a[j], f->slice->x[i]), nh_diff(d, f->a[i], f->slice->x[j])), hat->v[j]);
+    for (size_t j = 0; j < f->n; j++)
+        sum = plus(d, sum, nh_sub(d, nh_diff(d, f->a[j], f->slice->x[i]), nh_diff(d, f->a[i], f->slice->x[j])),
+                   hat->v[j]);
     return sum;
 }
 
@@ -73,7 +78,8 @@ static void gyroscopic(const nh_second *s, const nh_ex *u, nh_ex *g)
     const nh_slice *c = &s->slice;
     nh_dag *d = c->dag;
     size_t m = c->m, n = c->n;
-    nh_ex *speed = nh_alloc_array(4 * m + 2 * s->d + 1, sizeof *speed), *force = speed + m, *from = force + m, *to = from + m + s->d;
+    nh_ex *speed = nh_alloc_array(4 * m + 2 * s->d + 1, sizeof *speed), *force = speed + m, *from = force + m,
+          *to = from + m + s->d;
     for (size_t i = 0; i < m; i++) speed[i] = nh_int(d, 0);
     for (size_t i = 0; i < n; i++) speed[c->shape[i]] = u[i];
     for (size_t i = 0; i < m; i++)
@@ -105,14 +111,16 @@ static void horizontal_form(nh_second *s)
     for (size_t r = 0; r < m; r++)
         for (size_t i = 0; i < n; i++) {
             h[r * n + i] = nh_int(d, c->shape[i] == r);
-            for (size_t a = 0; a < s->d; a++) h[r * n + i] = plus(d, h[r * n + i], nh_neg(d, c->E[r * s->d + a]), s->Av[a * n + i]);
+            for (size_t a = 0; a < s->d; a++)
+                h[r * n + i] = plus(d, h[r * n + i], nh_neg(d, c->E[r * s->d + a]), s->Av[a * n + i]);
         }
     for (size_t at = 0; at < n * n * n; at++) {
         size_t k = at / (n * n), i = at / n % n, j = at % n;
         s->U[at] = nh_int(d, 0);
         for (size_t r = 0; r < cube; r++) {
             size_t a = r / (m * m), b = r / m % m, e = r % m;
-            if (!nh_is_zero(d, U[r])) s->U[at] = plus(d, s->U[at], nh_mul(d, U[r], h[a * n + k]), nh_mul(d, h[b * n + i], h[e * n + j]));
+            if (!nh_is_zero(d, U[r]))
+                s->U[at] = plus(d, s->U[at], nh_mul(d, U[r], h[a * n + k]), nh_mul(d, h[b * n + i], h[e * n + j]));
         }
     }
     nh_free(h);
@@ -141,14 +149,18 @@ static nh_ex shape_force(const nh_second *s, size_t i, const nh_ex *momentum)
     size_t n = s->n, dim = s->d;
     nh_ex x = s->slice.x[i], sum = nh_neg(d, nh_diff(d, s->slice.V, x)), half = nh_ratio(d, 1, 2);
     for (size_t a = 0; a < n; a++)
-        for (size_t b = 0; b < n; b++) sum = plus(d, sum, nh_mul(d, half, nh_diff(d, s->Kt[a * n + b], x)), nh_mul(d, o->w[a], o->w[b]));
+        for (size_t b = 0; b < n; b++)
+            sum = plus(d, sum, nh_mul(d, half, nh_diff(d, s->Kt[a * n + b], x)), nh_mul(d, o->w[a], o->w[b]));
     for (size_t a = 0; a < dim; a++) {
-        for (size_t b = 0; b < dim; b++) sum = plus(d, sum, nh_mul(d, half, nh_diff(d, s->inertia[a * dim + b], x)), nh_mul(d, o->w[n + a], o->w[n + b]));
+        for (size_t b = 0; b < dim; b++)
+            sum = plus(d, sum, nh_mul(d, half, nh_diff(d, s->inertia[a * dim + b], x)),
+                       nh_mul(d, o->w[n + a], o->w[n + b]));
         for (size_t j = 0; j < n; j++) sum = plus(d, sum, s->Bv[(a * n + i) * n + j], nh_mul(d, momentum[a], o->w[j]));
         for (size_t l = 0; l < dim; l++)
             for (size_t k = 0; k < dim; k++) {
                 nh_ex c = s->action.constant[(l * dim + k) * dim + a];
-                if (!nh_is_zero(d, c)) sum = plus(d, sum, nh_mul(d, c, s->Av[l * n + i]), nh_mul(d, momentum[a], o->w[n + k]));
+                if (!nh_is_zero(d, c))
+                    sum = plus(d, sum, nh_mul(d, c, s->Av[l * n + i]), nh_mul(d, momentum[a], o->w[n + k]));
             }
     }
     return sum;
@@ -180,7 +192,9 @@ static void equations(nh_second *s)
     nh_ex *u = nh_alloc_array(2 * r + dim + 1, sizeof *u), *ups = u + r, *momentum = ups + r;
     for (size_t i = 0; i < r; i++)
         for (size_t j = 0; j < r; j++)
-            o->M[i * r + j] = i < n && j < n ? s->Kt[i * n + j] : i >= n && j >= n ? s->inertia[(i - n) * dim + j - n] : nh_int(d, 0);
+            o->M[i * r + j] = i < n && j < n     ? s->Kt[i * n + j]
+                              : i >= n && j >= n ? s->inertia[(i - n) * dim + j - n]
+                                                 : nh_int(d, 0);
     for (size_t i = 0; i < n; i++) u[i] = o->w[i];
     for (size_t a = 0; a < dim; a++) {
         o->zeta[a] = o->w[n + a];
@@ -194,7 +208,8 @@ static void equations(nh_second *s)
         o->F[i] = nh_add(d, shape_force(s, i, momentum), ups[i]);
         for (size_t a = 0; a < dim; a++) o->F[i] = plus(d, o->F[i], nh_neg(d, s->Av[a * n + i]), ups[n + a]);
     }
-    for (size_t b = 0; b < dim && !s->first->plain; b++) o->F[n + b] = ups[n + b]; /* of ahat: with it m_b + ahat(e_b) is conserved */
+    /* of ahat: with it m_b + ahat(e_b) is conserved */
+    for (size_t b = 0; b < dim && !s->first->plain; b++) o->F[n + b] = ups[n + b];
     for (size_t b = 0; b < dim; b++)
         for (size_t a = 0; a < dim; a++)
             for (size_t k = 0; k < dim; k++) {
@@ -205,7 +220,8 @@ static void equations(nh_second *s)
     o->conservative = s->first->reduced.conservative;
     o->energy = s->slice.V;
     for (size_t i = 0; i < r; i++)
-        for (size_t j = 0; j < r; j++) o->energy = plus(d, o->energy, nh_mul(d, nh_ratio(d, 1, 2), o->M[i * r + j]), nh_mul(d, o->w[i], o->w[j]));
+        for (size_t j = 0; j < r; j++)
+            o->energy = plus(d, o->energy, nh_mul(d, nh_ratio(d, 1, 2), o->M[i * r + j]), nh_mul(d, o->w[i], o->w[j]));
     nh_free(u);
 }
 
@@ -216,7 +232,8 @@ static size_t orbit_dimension(const nh_algebra *g)
     double *a = nh_alloc_array(d * d + 1, sizeof *a), *u = nh_alloc_array(d * d + 1, sizeof *u);
     for (size_t i = 0; i < d; i++)
         for (size_t j = 0; j < d; j++)
-            for (size_t k = 0; k < d; k++) a[i + j * d] += g->c[(i * d + j) * d + k] * (0.7 + 0.31 * (double)k * (double)(k + 1));
+            for (size_t k = 0; k < d; k++)
+                a[i + j * d] += g->c[(i * d + j) * d + k] * (0.7 + 0.31 * (double)k * (double)(k + 1));
     size_t rank = nh_span(d, d, a, 1e-9, u);
     nh_free(a);
     nh_free(u);

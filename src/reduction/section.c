@@ -32,7 +32,9 @@ bool nh_section_negative(const nh_dag *d, nh_ex e)
 {
     nh_kind kind = nh_kind_of(d, e);
     if (kind == NH_SUM) return nh_num_value(nh_coefficient_of(d, e, 0)) < 0;
-    return nh_num_value(kind == NH_NUMBER ? nh_number_of(d, e) : kind == NH_PRODUCT ? nh_constant_of(d, e) : nh_num_int(1)) < 0;
+    return nh_num_value(kind == NH_NUMBER    ? nh_number_of(d, e)
+                        : kind == NH_PRODUCT ? nh_constant_of(d, e)
+                                             : nh_num_int(1)) < 0;
 }
 
 /* A number that looks like this one. */
@@ -45,7 +47,8 @@ static nh_ex recognised(nh_dag *d, double value, const nh_options *options)
     return nh_recognise_number(d, value, options->recognise, &e) ? e : nh_real(d, value);
 }
 
-static nh_proof by_numbers(const nh_kinetic *k, size_t n, const nh_ex *e, const double *v, const nh_options *options, nh_ex *c)
+static nh_proof by_numbers(const nh_kinetic *k, size_t n, const nh_ex *e, const double *v, const nh_options *options,
+                           nh_ex *c)
 {
     nh_dag *d = k->dag;
     nh_ex sum = nh_int(d, 0);
@@ -56,7 +59,8 @@ static nh_proof by_numbers(const nh_kinetic *k, size_t n, const nh_ex *e, const 
     return nh_prove_zero(k->model, 1, &sum, true, options);
 }
 
-nh_proof nh_section_coefficients(const nh_kinetic *k, size_t n, const nh_ex *e, const double *v, size_t pivot, const nh_options *options, nh_ex *c)
+nh_proof nh_section_coefficients(const nh_kinetic *k, size_t n, const nh_ex *e, const double *v, size_t pivot,
+                                 const nh_options *options, nh_ex *c)
 {
     nh_dag *d = k->dag;
     size_t count = 0, at = 0, *index = nh_alloc_array(n + 1, sizeof *index);

@@ -2,8 +2,9 @@
  *
  *     sum_j c_j e_j = 0,     e_j: the conditions on field j, told apart by symbols of their own
  *
- * c is known in doubles, at the parameters' values; the relation is solved again with the parameters as symbols, which is the proof of what the conditions are
- * for.  Where that is too large the numbers are recognised, and the sum is proved to vanish, or not. */
+ * c is known in doubles, at the parameters' values; the relation is solved again with the parameters as symbols, which
+ * is the proof of what the conditions are for.  Where that is too large the numbers are recognised, and the sum is
+ * proved to vanish, or not. */
 #ifndef NH_SECTION_H
 #define NH_SECTION_H
 
@@ -16,7 +17,8 @@ nh_ex nh_section_marked(nh_dag *dag, size_t n, const nh_ex *mark, const nh_ex *e
 void nh_section_marks(nh_dag *dag, size_t n, nh_ex *mark);
 
 /* v and c have n entries; zero entries of v stay zero, and v[pivot] stays 1. */
-nh_proof nh_section_coefficients(const nh_kinetic *kinetic, size_t n, const nh_ex *e, const double *v, size_t pivot, const nh_options *options, nh_ex *c);
+nh_proof nh_section_coefficients(const nh_kinetic *kinetic, size_t n, const nh_ex *e, const double *v, size_t pivot,
+                                 const nh_options *options, nh_ex *c);
 
 /* The first entry that is 1, or the largest. */
 size_t nh_section_pivot(size_t n, const double *v);

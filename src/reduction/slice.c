@@ -60,7 +60,8 @@ static bool next_subset(size_t m, size_t d, size_t *index)
 }
 
 /* `avoid`: rows that are taken only where others are far worse; NULL: none. */
-static void choose(const nh_action *g, size_t places, const double *place, const size_t *avoid, size_t *shape, size_t *along)
+static void choose(const nh_action *g, size_t places, const double *place, const size_t *avoid, size_t *shape,
+                   size_t *along)
 {
     static const double nearly = 1.05; /* of nearly equal ones the preferred, then the first */
     static const double avoided = 0.02;
@@ -93,7 +94,10 @@ void nh_slice_choose(const nh_action *g, size_t *shape, size_t *along)
     choose(g, k->places < trial_places ? k->places : trial_places, k->place, NULL, shape, along);
 }
 
-void nh_slice_choose_at(const nh_action *g, const double *q, const size_t *avoid, size_t *shape, size_t *along) { choose(g, 1, q, avoid, shape, along); }
+void nh_slice_choose_at(const nh_action *g, const double *q, const size_t *avoid, size_t *shape, size_t *along)
+{
+    choose(g, 1, q, avoid, shape, along);
+}
 
 /* ---- data ---- */
 
@@ -109,13 +113,15 @@ static void frame_metric(nh_slice *s, const nh_ex *frame, const nh_ex *K)
         for (size_t j = 0; j < m; j++) {
             half[r * m + j] = nh_int(d, 0);
             for (size_t q = 0; q < m; q++)
-                if (!nh_is_zero(d, frame[q * m + j])) half[r * m + j] = nh_add(d, half[r * m + j], nh_mul(d, K[r * m + q], frame[q * m + j]));
+                if (!nh_is_zero(d, frame[q * m + j]))
+                    half[r * m + j] = nh_add(d, half[r * m + j], nh_mul(d, K[r * m + q], frame[q * m + j]));
         }
     for (size_t i = 0; i < m; i++)
         for (size_t j = 0; j <= i; j++) {
             nh_ex sum = nh_int(d, 0);
             for (size_t r = 0; r < m; r++)
-                if (!nh_is_zero(d, frame[r * m + i])) sum = nh_add(d, sum, nh_mul(d, frame[r * m + i], half[r * m + j]));
+                if (!nh_is_zero(d, frame[r * m + i]))
+                    sum = nh_add(d, sum, nh_mul(d, frame[r * m + i], half[r * m + j]));
             s->K[i * m + j] = s->K[j * m + i] = tidy(s, sum);
         }
     nh_free(half);
@@ -128,7 +134,8 @@ static void frame_forms(nh_slice *s, const nh_ex *frame, const nh_ex *omega)
         for (size_t j = 0; j < s->m; j++) {
             nh_ex sum = nh_int(d, 0);
             for (size_t r = 0; r < s->m; r++)
-                if (!nh_is_zero(d, frame[r * s->m + j])) sum = nh_add(d, sum, nh_mul(d, omega[a * s->m + r], frame[r * s->m + j]));
+                if (!nh_is_zero(d, frame[r * s->m + j]))
+                    sum = nh_add(d, sum, nh_mul(d, omega[a * s->m + r], frame[r * s->m + j]));
             s->omega[a * s->m + j] = tidy(s, sum);
         }
 }
@@ -160,7 +167,8 @@ void nh_slice_init(nh_slice *s, const nh_action *g, const size_t *shape, const s
     s->y = s->omega + f * m;
     s->a = s->y + d;
     s->b = s->a + m;
-    nh_ex *from = nh_alloc_array(2 * d + 2 * m * m + f * m + 1, sizeof *from), *to = from + d, *frame = to + d, *K = frame + m * m, *omega = K + m * m;
+    nh_ex *from = nh_alloc_array(2 * d + 2 * m * m + f * m + 1, sizeof *from), *to = from + d, *frame = to + d,
+          *K = frame + m * m, *omega = K + m * m;
     s->tidy = true;
     for (size_t a = 0; a < d; a++) {
         from[a] = k->q[along[a]];
@@ -168,7 +176,8 @@ void nh_slice_init(nh_slice *s, const nh_action *g, const size_t *shape, const s
     }
     for (size_t i = 0; i < n; i++) s->x[i] = k->q[shape[i]];
     for (size_t r = 0; r < m; r++) {
-        for (size_t a = 0; a < d; a++) s->E[r * d + a] = tidy(s, nh_substitute(dag, g->generator[a].component[r], d, from, to));
+        for (size_t a = 0; a < d; a++)
+            s->E[r * d + a] = tidy(s, nh_substitute(dag, g->generator[a].component[r], d, from, to));
         for (size_t i = 0; i < n; i++) frame[r * m + i] = nh_int(dag, shape[i] == r);
         for (size_t a = 0; a < d; a++) frame[r * m + n + a] = s->E[r * d + a];
     }
@@ -181,7 +190,8 @@ void nh_slice_init(nh_slice *s, const nh_action *g, const size_t *shape, const s
     for (size_t j = 0; j < m; j++) {
         s->a[j] = nh_int(dag, 0);
         for (size_t r = 0; r < m; r++)
-            if (!nh_is_zero(dag, frame[r * m + j])) s->a[j] = nh_add(dag, s->a[j], nh_mul(dag, frame[r * m + j], nh_substitute(dag, k->a[r], d, from, to)));
+            if (!nh_is_zero(dag, frame[r * m + j]))
+                s->a[j] = nh_add(dag, s->a[j], nh_mul(dag, frame[r * m + j], nh_substitute(dag, k->a[r], d, from, to)));
         s->a[j] = tidy(s, s->a[j]);
     }
     nh_free(from);

@@ -29,7 +29,8 @@ size_t nh_span(size_t m, size_t n, const double *a, double small, double *out)
 {
     size_t rank = 0, least = m < n ? m : n;
     if (!least) return 0;
-    double *b = nh_alloc_array(m * n, sizeof *b), *s = nh_alloc_array(least, sizeof *s), *u = nh_alloc_array(m * least, sizeof *u);
+    double *b = nh_alloc_array(m * n, sizeof *b), *s = nh_alloc_array(least, sizeof *s),
+           *u = nh_alloc_array(m * least, sizeof *u);
     memcpy(b, a, m * n * sizeof *b);
     if (nh_svd(m, n, b, s, u, NULL))
         while (rank < least && s[rank] > small) rank++;

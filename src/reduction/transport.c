@@ -73,11 +73,13 @@ static void christoffel(nh_transport *t)
     for (size_t l = 0; l < m; l++)
         for (size_t j = 0; j < m; j++)
             for (size_t k = 0; k < m; k++)
-                t->first[l + m * (j + m * k)] = 0.5 * (t->dK[l + m * (k + m * j)] + t->dK[l + m * (j + m * k)] - t->dK[j + m * (k + m * l)]);
+                t->first[l + m * (j + m * k)] =
+                    0.5 * (t->dK[l + m * (k + m * j)] + t->dK[l + m * (j + m * k)] - t->dK[j + m * (k + m * l)]);
     nh_multiply(m, m * m, m, t->Kinv, t->first, t->Gamma);
 }
 
-/* For one p, in scaled coordinates: D_lj = d_p d_j K_lk X^k and S_lj = d_p d_k K_lj X^k (m x m, column-major), from the tape's output. */
+/* For one p, in scaled coordinates: D_lj = d_p d_j K_lk X^k and S_lj = d_p d_k K_lj X^k (m x m, column-major), from the
+   tape's output. */
 static void second_derivatives(const nh_transport *t, size_t p, const double *x, double *D, double *S)
 {
     size_t m = t->m, h = t->h;
@@ -104,7 +106,8 @@ static void second_derivatives(const nh_transport *t, size_t p, const double *x,
 static void along(nh_transport *t, const double *x)
 {
     size_t m = t->m;
-    double *D = t->first, *S = D + m * m, *KG = S + m * m; /* the symbols of the first kind are not needed any more; m >= 3 of these fit */
+    /* the symbols of the first kind are not needed any more; m >= 3 of these fit */
+    double *D = t->first, *S = D + m * m, *KG = S + m * m;
     double *own = m < 3 ? nh_alloc_array(3 * m * m, sizeof *own) : NULL;
     if (own) D = own, S = D + m * m, KG = S + m * m;
     memset(t->G, 0, m * m * sizeof *t->G);
@@ -114,7 +117,8 @@ static void along(nh_transport *t, const double *x)
         second_derivatives(t, p, x, D, S);
         nh_multiply(m, m, m, t->dK + m * m * p, t->G, KG);
         for (size_t j = 0; j < m; j++)
-            for (size_t l = 0; l < m; l++) t->dfirst[l + m * (j + m * p)] = 0.5 * (D[l + m * j] + S[l + m * j] - D[j + m * l]) - KG[l + m * j];
+            for (size_t l = 0; l < m; l++)
+                t->dfirst[l + m * (j + m * p)] = 0.5 * (D[l + m * j] + S[l + m * j] - D[j + m * l]) - KG[l + m * j];
     }
     nh_multiply(m, m * m, m, t->Kinv, t->dfirst, t->dG);
     nh_free(own);
@@ -131,7 +135,8 @@ bool nh_transport_at(nh_transport *t, const double *q, const double *x)
     for (size_t i = 0; i < m; i++)
         for (size_t j = 0; j < m; j++) {
             t->K[i + m * j] = t->raw[packed(i, j)] * c[i] * c[j] * t->factor;
-            for (size_t k = 0; k < m; k++) t->dK[i + m * (j + m * k)] = t->raw[t->h * (1 + k) + packed(i, j)] * c[i] * c[j] * c[k] * t->factor;
+            for (size_t k = 0; k < m; k++)
+                t->dK[i + m * (j + m * k)] = t->raw[t->h * (1 + k) + packed(i, j)] * c[i] * c[j] * c[k] * t->factor;
         }
     if (!invert(m, t->K, t->Kinv)) return false;
     christoffel(t);
@@ -170,7 +175,8 @@ static bool rate_of(double s, const double *y, double *rate, void *context)
     nh_transport *t = w->t;
     for (size_t i = 0; i < t->m; i++) t->q[i] = w->from[i] + s * w->x[i] * t->scale[i];
     if (!nh_transport_at(t, t->q, w->x)) return false;
-    for (size_t j = 0; j < w->count && !nh_interrupted(); j++) nh_transport_rate(t, w->x, y + j * t->size, rate + j * t->size);
+    for (size_t j = 0; j < w->count && !nh_interrupted(); j++)
+        nh_transport_rate(t, w->x, y + j * t->size, rate + j * t->size);
     return true;
 }
 

@@ -1,7 +1,7 @@
 /* transport: 1-jets of isometries along straight lines (jets.h).
  *
- * Works in coordinates divided by the scales s_i = l K_ii(q0)^(-1/2), and with the metric divided by l^2, the square of the length of the sampling box: in these the metric has size one, and
- * so has the box. */
+ * Works in coordinates divided by the scales s_i = l K_ii(q0)^(-1/2), and with the metric divided by l^2, the square of
+ * the length of the sampling box: in these the metric has size one, and so has the box. */
 #ifndef NH_TRANSPORT_H
 #define NH_TRANSPORT_H
 
@@ -26,11 +26,13 @@ typedef struct {
 void nh_transport_init(nh_transport *transport, const nh_kinetic *kinetic, const double *q0);
 void nh_transport_clear(nh_transport *transport);
 
-/* Metric and Christoffel symbols at a place (true coordinates), and what the direction x (scaled) needs; false when not finite. */
+/* Metric and Christoffel symbols at a place (true coordinates), and what the direction x (scaled) needs; false when not
+   finite. */
 bool nh_transport_at(nh_transport *transport, const double *q, const double *x);
 /* The derivative of a jet along the direction x that nh_transport_at was given. */
 void nh_transport_rate(const nh_transport *transport, const double *x, const double *jet, double *rate);
 /* Take `count` jets (columns of y) from q0 to q1; false when the way is blocked. */
-bool nh_transport_along(nh_transport *transport, const double *q0, const double *q1, size_t count, double *y, double tolerance);
+bool nh_transport_along(nh_transport *transport, const double *q0, const double *q1, size_t count, double *y,
+                        double tolerance);
 
 #endif

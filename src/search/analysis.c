@@ -16,15 +16,23 @@ static double rounded(double x, int digits)
     return isfinite(x) ? strtod(text, NULL) : x;
 }
 
-/* Singular values are rates, relative to 1, with errors of a few roundings of the largest one.  What is below those is a matter of the order of additions, another one on another
- * processor: it is given as that bound, and the others with as many digits as are known of all that stand above it by far. */
+/* Singular values are rates, relative to 1, with errors of a few roundings of the largest one.  What is below those is
+ * a matter of the order of additions, another one on another processor: it is given as that bound, and the others with
+ * as many digits as are known of all that stand above it by far. */
 nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
 {
     enum { digits = 3, digits_of_gap = 2 };
     static const double roundings = 64 * DBL_EPSILON;
     double bound = s->rank ? rounded(roundings * fmax(1, s->spectrum[s->rank - 1]), digits_of_gap) : 0;
-    nh_spectrum c = {.done = true, .verdict = s->verdict, .columns = s->columns, .rows = s->rows, .rank = s->rank, .dimension = s->dimension, .likely = s->likely,
-                     .gap = s->gap, .rank_in_doubt = s->rank_in_doubt};
+    nh_spectrum c = {.done = true,
+                     .verdict = s->verdict,
+                     .columns = s->columns,
+                     .rows = s->rows,
+                     .rank = s->rank,
+                     .dimension = s->dimension,
+                     .likely = s->likely,
+                     .gap = s->gap,
+                     .rank_in_doubt = s->rank_in_doubt};
     c.spectrum = nh_arena_alloc(arena, (s->rank + 1) * sizeof *c.spectrum);
     for (size_t i = 0; i < s->rank; i++) c.spectrum[i] = fmax(bound, rounded(s->spectrum[i], digits));
     bool both = s->dimension > 0 && s->dimension < s->rank;
@@ -34,11 +42,15 @@ nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
 
 const char *nh_search_word(nh_search search)
 {
-    static const char *const words[] = {[NH_SEARCH_COMPLETE] = "complete", [NH_SEARCH_EXHAUSTED] = "exhausted", [NH_SEARCH_CUT] = "cut"};
+    static const char *const words[] = {
+        [NH_SEARCH_COMPLETE] = "complete", [NH_SEARCH_EXHAUSTED] = "exhausted", [NH_SEARCH_CUT] = "cut"};
     return words[search];
 }
 
-const char *nh_limit_words(nh_arena *arena, const nh_limit *limit) { return nh_arena_printf(arena, "--option %s=%.0f", limit->option, limit->value); }
+const char *nh_limit_words(nh_arena *arena, const nh_limit *limit)
+{
+    return nh_arena_printf(arena, "--option %s=%.0f", limit->option, limit->value);
+}
 
 size_t nh_analysis_left_out(const nh_analysis *r)
 {

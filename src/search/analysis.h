@@ -14,7 +14,8 @@
 #include "integrals/unknowns.h"
 #include "problem/observables.h"
 
-/* Coefficient functions that have no closed form: Chebyshev series in one variable, a coordinate or t, good in an interval of it. */
+/* Coefficient functions that have no closed form: Chebyshev series in one variable, a coordinate or t, good in an
+   interval of it. */
 typedef struct {
     nh_ex variable;
     double low, high;
@@ -90,7 +91,8 @@ typedef struct {
     double *vector;           /* columns x dimension */
 } nh_sampled_space;
 
-/* They against the space that was counted, where that is complete to their degree: spanned by products of the currents. */
+/* They against the space that was counted, where that is complete to their degree: spanned by products of the
+   currents. */
 typedef struct {
     bool compared, agrees;
     size_t degree, products;
@@ -103,13 +105,15 @@ typedef struct {
     double value;
 } nh_limit;
 
-/* How the search ended: with everything of the kind that can exist, with all that there was to try, or by a limit (of work, size or time). */
+/* How the search ended: with everything of the kind that can exist, with all that there was to try, or by a limit (of
+   work, size or time). */
 typedef enum { NH_SEARCH_COMPLETE, NH_SEARCH_EXHAUSTED, NH_SEARCH_CUT } nh_search;
 
 /* A stage of the ladder. */
 typedef struct {
     const char *name;
-    size_t columns, sectors, dimension, found; /* sectors: parts that were solved apart; found: new independent currents */
+    /* sectors: parts that were solved apart; found: new independent currents */
+    size_t columns, sectors, dimension, found;
     double gap, seconds;
     bool skipped, undecided;          /* skipped: too large; undecided: likely null vectors without a certificate */
     nh_limit limit;                   /* of a stage that was skipped */
@@ -148,7 +152,8 @@ struct nh_analysis {
     struct nh_theory *theory;  /* where it was asked for; else NULL */
     nh_model *model, *other;  /* other: the coordinate chart beside a quasi one, or NULL */
     nh_distribution constraint; /* the kind of constraint */
-    const char *branch, *other_branch; /* of a quadratic constraint: "z' < 0", where everything was computed, and "z' > 0"; NULL: there are no branches */
+    /* of a quadratic constraint: "z' < 0", where everything was computed, and "z' > 0"; NULL: there are no branches */
+    const char *branch, *other_branch;
     bool equations_on_both;     /* as printed, the equations hold on the other branch too */
     nh_options options;
     double pace;                /* Omega of problem/time_scale.h where the system was found fast (or long), else 0 */
@@ -169,16 +174,20 @@ struct nh_analysis {
     size_t open;              /* null vectors that could be true but got no certificate */
     const char *letter;       /* of the names of currents, as Phi in Phi1; see nh_currents_name */
     nh_current *found;
-    size_t pieces;            /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
+    /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
+    size_t pieces;
     nh_current *piece;
-    size_t furthers;         /* polynomial in the velocities, functions of the currents found, but no polynomials in them: not counted; at most NH_MOST_FURTHER */
+    /* polynomial in the velocities, functions of the currents found, but no polynomials in them: not counted; at most
+       NH_MOST_FURTHER */
+    size_t furthers;
     nh_further_integral *further;
     size_t relations;         /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
     nh_further_relation *relation;
     size_t almosts;           /* nearly conserved quantities that the search met: at most NH_MOST_ALMOST */
     nh_near_current *almost;
     const struct nh_explicit_motion *motion; /* as formulas (search/explicit_motion.h); NULL: none is known */
-    size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
+    /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
+    size_t integrals;
     size_t *integral;         /* found[integral[i]] */
     nh_completeness completeness[NH_COMPLETENESS_KINDS];
     nh_count_memory *counted; /* while the search goes on */

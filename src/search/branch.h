@@ -1,7 +1,7 @@
 /* branch: do the printed formulas hold on the other branch of a quadratic constraint?
  *
- * The chart is computed on one branch.  Formulas with the dependent velocity in the place of the root (nh_chart_shown) are put into the chart of the other
- * branch, with a model of its own, and proved again there. */
+ * The chart is computed on one branch.  Formulas with the dependent velocity in the place of the root (nh_chart_shown)
+ * are put into the chart of the other branch, with a model of its own, and proved again there. */
 #ifndef NH_BRANCH_H
 #define NH_BRANCH_H
 

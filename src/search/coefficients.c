@@ -10,8 +10,10 @@
 #include "integrals/refine.h"
 #include "integrals/sharpen.h"
 
-/* The relation of the terms' rates; where it needs values of parameters, or has no exact numbers, with names for the numbers inside of terms. */
-static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, nh_letters *letters)
+/* The relation of the terms' rates; where it needs values of parameters, or has no exact numbers, with names for the
+   numbers inside of terms. */
+static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out,
+                            nh_letters *letters)
 {
     bool rounded = false;
     nh_ex *rate = nh_alloc_array(c->count + 1, sizeof *rate);
@@ -29,8 +31,9 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
     if (relation.too_large) {
         nh_ex *shown = nh_alloc_array(c->count + 1, sizeof *shown);
         memcpy(shown, out, c->count * sizeof *shown);
-        nh_fixed shorter = relation.found ? nh_companion_relation(o, c->count, c->term, options, shown)
-                                          : nh_companion_relation_nearby(o, c->count, c->term, rate, c->coefficient, options, shown);
+        nh_fixed shorter =
+            relation.found ? nh_companion_relation(o, c->count, c->term, options, shown)
+                           : nh_companion_relation_nearby(o, c->count, c->term, rate, c->coefficient, options, shown);
         if (shorter.found) memcpy(rate, shown, c->count * sizeof *shown);
         nh_free(shown);
         if (shorter.found) relation = shorter;
@@ -40,14 +43,17 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
     return relation;
 }
 
-/* Exact: Gamma of the support's terms are linearly related over the field of the parameters, some of them at their given values where that is needed. */
+/* Exact: Gamma of the support's terms are linearly related over the field of the parameters, some of them at their
+   given values where that is needed. */
 static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out,
                                nh_claim *claim, nh_letters *letters)
 {
     nh_fixed relation = relation_of(o, c, options, out, letters);
-    for (size_t j = 0; j < c->count && relation.fixed && relation.found && !relation.too_large; j++) c->term[j] = nh_fixed_values(o, relation.fixed, c->term[j]);
+    for (size_t j = 0; j < c->count && relation.fixed && relation.found && !relation.too_large; j++)
+        c->term[j] = nh_fixed_values(o, relation.fixed, c->term[j]);
     *claim = (nh_claim){.free = true, .fixed = relation.fixed, .related = relation.found};
-    if (relation.too_large) *claim = (nh_claim){.free = true}; /* nothing is known of other values: the proof may be shorter than the relation */
+    /* nothing is known of other values: the proof may be shorter than the relation */
+    if (relation.too_large) *claim = (nh_claim){.free = true};
     return relation.found;
 }
 
@@ -63,13 +69,15 @@ static bool near(size_t n, const double *a, const double *b)
     return worst <= 1e-6 * largest;
 }
 
-/* Terms that are conserved by themselves add nothing, and leave the others' coefficients undetermined; one term stays. */
+/* Terms that are conserved by themselves add nothing, and leave the others' coefficients undetermined; one term
+   stays. */
 static bool drop_constant_terms(const nh_model *o, nh_candidate *c, const nh_options *options)
 {
     nh_dag *d = o->dag;
     size_t n = 0, pivot = 0, before = c->count;
     for (size_t j = 0; j < before; j++) {
-        bool constant = j != c->pivot && nh_normal_is_zero(d, nh_model_gamma(o, c->term[j]), (size_t)options->proof_terms) == NH_ZERO;
+        bool constant = j != c->pivot &&
+                        nh_normal_is_zero(d, nh_model_gamma(o, c->term[j]), (size_t)options->proof_terms) == NH_ZERO;
         if (constant) continue;
         if (j == c->pivot) pivot = n;
         c->term[n] = c->term[j];
@@ -113,7 +121,8 @@ static void refine(const nh_model *o, nh_candidate *c, const nh_options *options
     }
     f->asked = true;
     f->refined = better.count ? better.digits[0] : -1;
-    f->moved = better.count && !near(c->count, c->coefficient, better.coefficient); /* of the same terms, but not the one that doubles saw */
+    /* of the same terms, but not the one that doubles saw */
+    f->moved = better.count && !near(c->count, c->coefficient, better.coefficient);
     if (better.count) memcpy(c->coefficient, better.coefficient, c->count * sizeof *c->coefficient);
     if (better.count) drop_zeros(c);
     nh_refined_clear(&better);
@@ -124,18 +133,23 @@ static void refine(const nh_model *o, nh_candidate *c, const nh_options *options
 static nh_ex combination(nh_dag *d, const nh_candidate *c, const nh_ex *k)
 {
     nh_ex phi = nh_int(d, 0);
-    for (size_t j = 0; j < c->count; j++) phi = nh_add(d, phi, nh_mul(d, k ? k[j] : nh_real(d, c->coefficient[j]), c->term[j]));
+    for (size_t j = 0; j < c->count; j++)
+        phi = nh_add(d, phi, nh_mul(d, k ? k[j] : nh_real(d, c->coefficient[j]), c->term[j]));
     return phi;
 }
 
-bool nh_coefficients_certain(const nh_current *f, const nh_options *options) { return f->proof.proved || f->proof.digits >= options->digits; }
+bool nh_coefficients_certain(const nh_current *f, const nh_options *options)
+{
+    return f->proof.proved || f->proof.digits >= options->digits;
+}
 
 bool nh_coefficients_refuted(const nh_current *f, const nh_options *options)
 {
     return f->asked && f->refined >= 0 && f->refined < options->digits && !nh_coefficients_certain(f, options);
 }
 
-nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_options *options, nh_current *f, nh_claim *claim)
+nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_options *options, nh_current *f,
+                               nh_claim *claim)
 {
     nh_dag *d = o->dag;
     nh_ex *k = nh_alloc_array(c->count + 1, sizeof *k);
@@ -144,7 +158,8 @@ nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_opti
     f->exact = !hopeless && exact_coefficients(o, c, options, k, claim, &f->letters);
     if (!f->exact) {
         f->exact = true;
-        for (size_t j = 0; j < c->count; j++) f->exact &= nh_recognise_number(d, c->coefficient[j], options->recognise, &k[j]);
+        for (size_t j = 0; j < c->count; j++)
+            f->exact &= nh_recognise_number(d, c->coefficient[j], options->recognise, &k[j]);
     }
     if (!claim->related) *claim = (nh_claim){.free = f->exact};
     nh_ex phi = combination(d, c, f->exact ? k : NULL);

@@ -9,7 +9,8 @@ static bool only_events(const nh_model *o, nh_ex e)
     return true;
 }
 
-/* Functions in the order: the given constraints between positions, then the currents of (t, q); current[i]: which current, or r->count. */
+/* Functions in the order: the given constraints between positions, then the currents of (t, q); current[i]: which
+   current, or r->count. */
 static size_t gather(const nh_analysis *r, nh_ex *phi, size_t *current)
 {
     const nh_system *y = r->system;
@@ -29,7 +30,8 @@ void nh_integrals_of_constraints(nh_analysis *r)
     nh_independence *kind = nh_alloc_array(most, sizeof *kind);
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_points *points = n ? nh_points_create(r->model, generic_count, 1, (uint64_t)r->options.seed + own_seed, &ignored) : NULL;
+    nh_points *points =
+        n ? nh_points_create(r->model, generic_count, 1, (uint64_t)r->options.seed + own_seed, &ignored) : NULL;
     r->integral = nh_arena_alloc(r->arena, most * sizeof *r->integral);
     if (points) nh_independence_test(r->model, points, n, phi, r->options.sure, r->options.doubt, kind, NULL);
     for (size_t i = 0; i < n && points; i++) {
@@ -37,7 +39,10 @@ void nh_integrals_of_constraints(nh_analysis *r)
         nh_current *f = &r->found[current[i]];
         bool fresh = kind[i] == NH_INDEPENDENT && r->integrals < r->constraint.hidden;
         if (fresh) r->integral[r->integrals++] = current[i];
-        if (!f->meaning[0]) f->meaning = fresh ? "integral of the constraints" : r->constraint.positions ? "the constraints between positions" : "";
+        if (!f->meaning[0])
+            f->meaning = fresh                     ? "integral of the constraints"
+                         : r->constraint.positions ? "the constraints between positions"
+                                                   : "";
     }
     nh_points_free(points);
     nh_free(kind);
@@ -51,7 +56,8 @@ enum { own_stages = 3, most_functions = 60 };
 
 typedef struct {
     size_t events, functions;
-    nh_ex event[most_functions], function[most_functions]; /* t and the coordinates; functions of them that the system shows, sines, cosines */
+    /* t and the coordinates; functions of them that the system shows, sines, cosines */
+    nh_ex event[most_functions], function[most_functions];
 } alphabet;
 
 static void letter(const nh_model *o, alphabet *a, nh_ex e)
@@ -75,7 +81,8 @@ static void letters(const nh_stage_solver *x, alphabet *a)
     }
 }
 
-/* Quadratic in the coordinates, and functions; cubic, and coordinates times functions; of degree four, and squares of the functions. */
+/* Quadratic in the coordinates, and functions; cubic, and coordinates times functions; of degree four, and squares of
+   the functions. */
 static size_t families_of(const alphabet *a, size_t stage, nh_family *part, nh_family *out)
 {
     size_t n = 0;
@@ -92,12 +99,14 @@ static size_t families_of(const alphabet *a, size_t stage, nh_family *part, nh_f
 
 void nh_integrals_find(nh_stage_solver *x)
 {
-    static const char *const names[own_stages] = {"functions of time and positions: quadratic, and the system's own", "the same, cubic, and times positions",
+    static const char *const names[own_stages] = {"functions of time and positions: quadratic, and the system's own",
+                                                  "the same, cubic, and times positions",
                                                   "the same of degree four, and squares of the system's own"};
     size_t before = x->r->independent;
     alphabet *a = nh_alloc(sizeof *a);
     letters(x, a);
-    for (size_t i = 0; i < own_stages && x->r->independent < before + x->r->constraint.integrals && !nh_stage_solver_done(x); i++) {
+    for (size_t i = 0;
+         i < own_stages && x->r->independent < before + x->r->constraint.integrals && !nh_stage_solver_done(x); i++) {
         nh_family part[3], family[2];
         size_t families = families_of(a, i, part, family);
         nh_stage_solver_stage(x, names[i], families, family);

@@ -19,7 +19,8 @@ bool nh_counted_has_velocities(const nh_model *o, nh_ex e)
     return has;
 }
 
-/* At most this; a function of a sum of products is not looked into: what is no polynomial as it is written has no degree. */
+/* At most this; a function of a sum of products is not looked into: what is no polynomial as it is written has no
+   degree. */
 static double degree_of(const nh_model *o, nh_ex e)
 {
     nh_dag *d = o->dag;
@@ -111,14 +112,20 @@ bool nh_counted_has_walls(const nh_model *o)
 
 typedef enum { NOTHING, SOMETHING, UNKNOWN } news;
 
-/* On leaves of integrable constraints not all functions are counted, and across a kink or a jump of the equations others are conserved on either side. */
+/* On leaves of integrable constraints not all functions are counted, and across a kink or a jump of the equations
+   others are conserved on either side. */
 static news look_for_news(nh_counted *x, size_t degree, size_t kind)
 {
     nh_analysis *r = x->r;
     bool general;
     if (nh_counted_has_walls(r->model)) return UNKNOWN;
     nh_ex *phi = nh_alloc_array(r->count + r->furthers + 1, sizeof *phi);
-    nh_count_question q = {.time = kind == NH_COMPLETE_IN_TIME, .alone = true, .degree = degree, .work = r->options.count_work, .memory = r->counted, .current = phi};
+    nh_count_question q = {.time = kind == NH_COMPLETE_IN_TIME,
+                           .alone = true,
+                           .degree = degree,
+                           .work = r->options.count_work,
+                           .memory = r->counted,
+                           .current = phi};
     q.known = nh_counted_proved(r, phi, &general, &q.independent);
     nh_count c = nh_count_integrals(r->model, &q);
     nh_free(phi);
@@ -140,7 +147,9 @@ bool nh_counted_covers(nh_counted *x, size_t degree, bool timely)
     if (!x->on || !is_cheap(r) || degree < 1 || degree > nh_completeness_degree(r->model, timely)) return false;
     for (size_t k = kind; k < NH_COMPLETENESS_KINDS; k++)
         if (degree <= x->covered[k]) return true;
-    if ((x->open[kind] && degree >= x->open[kind] && x->open_at[kind] == r->independent) || (x->beyond[kind] && degree >= x->beyond[kind])) return false;
+    if ((x->open[kind] && degree >= x->open[kind] && x->open_at[kind] == r->independent) ||
+        (x->beyond[kind] && degree >= x->beyond[kind]))
+        return false;
     news found = nh_late() ? UNKNOWN : look_for_news(x, degree, kind);
     if (found == NOTHING) x->covered[kind] = degree;
     if (found == UNKNOWN) x->beyond[kind] = degree;

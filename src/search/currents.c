@@ -59,7 +59,8 @@ static void decide(nh_current_checker *b, nh_candidate *c, nh_current *f)
     if (f->heldout > r->options.heldout && f->proof.digits >= open_digits) f->heldout = pow(10, -f->proof.digits);
 }
 
-/* Simple ones first, so that the complicated ones are called dependent; equally simple ones in an order that no number decides. */
+/* Simple ones first, so that the complicated ones are called dependent; equally simple ones in an order that no number
+   decides. */
 static void sort(nh_analysis *r)
 {
     nh_dag *d = r->model->dag;
@@ -151,7 +152,8 @@ static double relative_rate(const nh_model *o, const nh_points *points, nh_ex ph
     return variation > 0 && isfinite(rate) ? sqrt(rate / variation) : NAN;
 }
 
-/* No current, or none for certain, although doubles could not tell: worth a word when it is slow, as what it is.  The slowest come first. */
+/* No current, or none for certain, although doubles could not tell: worth a word when it is slow, as what it is.  The
+   slowest come first. */
 static void note_almost(nh_current_checker *b, const nh_current *f, double digits)
 {
     nh_analysis *r = b->result;
@@ -168,8 +170,9 @@ static void note_almost(nh_current_checker *b, const nh_current *f, double digit
     r->almost[at] = (nh_near_current){f->phi, copy.in_velocities, digits, rate};
 }
 
-/* A candidate that fails on held-out points, is refuted exactly or does not cancel with many digits is no current: it is left out, with a word
- * about it.  Nor is what has no certificate, although nothing speaks against it: it remains an open question. */
+/* A candidate that fails on held-out points, is refuted exactly or does not cancel with many digits is no current: it
+ * is left out, with a word about it.  Nor is what has no certificate, although nothing speaks against it: it remains an
+ * open question. */
 static bool keeps(nh_current_checker *b, const nh_current *f, bool certain)
 {
     nh_analysis *r = b->result;
@@ -178,17 +181,21 @@ static bool keeps(nh_current_checker *b, const nh_current *f, bool certain)
         note_almost(b, f, f->refined);
         return false;
     }
-    if (!certain) { /* it was only likely: what cancels as far as doubles go remains an open question, the rest is answered */
+    /* it was only likely: what cancels as far as doubles go remains an open question, the rest is answered */
+    if (!certain) {
         r->open += f->proof.digits >= open_digits;
         return false;
     }
-    if (f->heldout <= r->options.heldout && !(f->exact && f->proof.refuted)) { /* fitted coefficients never cancel further */
+    /* fitted coefficients never cancel further */
+    if (f->heldout <= r->options.heldout && !(f->exact && f->proof.refuted)) {
         r->open++;
         note_almost(b, f, f->proof.digits);
         return false;
     }
-    nh_analysis_warn(r, "rejected a combination that fits the samples to %.1e: it is not conserved (held-out residual %.1e, its rate cancels to %.0f digits)",
-                   f->quotient, f->heldout, f->proof.digits);
+    nh_analysis_warn(r,
+                     "rejected a combination that fits the samples to %.1e: it is not conserved (held-out residual "
+                     "%.1e, its rate cancels to %.0f digits)",
+                     f->quotient, f->heldout, f->proof.digits);
     return false;
 }
 
@@ -205,7 +212,9 @@ nh_current_checker *nh_current_checker_create(nh_analysis *r, nh_error *error)
         return NULL;
     }
     b->invertible = nh_chart_inverse(r->model->chart, b->inverse);
-    if (!b->invertible) nh_analysis_warn(r, "the currents are not given in coordinate velocities: the chart is not affine in its quasi-velocities");
+    if (!b->invertible)
+        nh_analysis_warn(
+            r, "the currents are not given in coordinate velocities: the chart is not affine in its quasi-velocities");
     return b;
 }
 
@@ -252,7 +261,10 @@ static bool is_known(const nh_current_checker *b, nh_ex current, double doubt)
     return old;
 }
 
-bool nh_currents_known(const nh_current_checker *b, nh_ex current) { return is_known(b, current, b->result->options.doubt); }
+bool nh_currents_known(const nh_current_checker *b, nh_ex current)
+{
+    return is_known(b, current, b->result->options.doubt);
+}
 
 /* ---- what holds in a part of the motions only ---- */
 
@@ -269,7 +281,8 @@ const char *nh_currents_region(nh_current_checker *b, nh_ex phi, double digits)
 /* What cancels to fewer digits as printed need not do better anywhere. */
 static const char *region_of(nh_current_checker *b, const nh_current *f)
 {
-    return nh_currents_region(b, f->phi, f->proof.proved ? 0 : fmax(least_almost, fmin(f->printed_digits, b->result->options.digits) / 2));
+    return nh_currents_region(
+        b, f->phi, f->proof.proved ? 0 : fmax(least_almost, fmin(f->printed_digits, b->result->options.digits) / 2));
 }
 
 /* A function of the currents and of the pieces so far is no news. */
@@ -298,7 +311,8 @@ bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_po
     nh_current *f = next_found(r);
     nh_echelon_refine(r->model, fit, candidate, &r->options);
     decide(b, candidate, f);
-    if (nh_coefficients_refuted(f, &r->options) && f->refined >= least_almost && b->nears < NH_MOST_ALMOST) b->near[b->nears++] = candidate;
+    if (nh_coefficients_refuted(f, &r->options) && f->refined >= least_almost && b->nears < NH_MOST_ALMOST)
+        b->near[b->nears++] = candidate;
     if (!keeps(b, f, certain) || ((f->moved || !certain) && nh_currents_known(b, f->phi))) return false;
     f->region = region_of(b, f);
     if (f->region) {
@@ -340,7 +354,8 @@ static size_t unite(nh_current_checker *b, nh_ex *term, bool *leading)
 }
 
 /* One of the leading terms that the vector has is its pivot. */
-static nh_candidate joined(const nh_current_checker *b, size_t n, const nh_ex *term, const bool *leading, const double *coefficient)
+static nh_candidate joined(const nh_current_checker *b, size_t n, const nh_ex *term, const bool *leading,
+                           const double *coefficient)
 {
     nh_arena *arena = b->result->arena;
     nh_candidate c = {.all = n, .accepted = b->near[0]->accepted};

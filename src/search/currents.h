@@ -7,9 +7,9 @@
 nh_current_checker *nh_current_checker_create(nh_analysis *result, nh_error *error);
 void nh_current_checker_free(nh_current_checker *bench);
 
-/* Refine a candidate, recognise its coefficients, normalise, prove, hold out and classify it; append it to result->found unless it turns
- * out not to be conserved (then a warning says so).  `fit`: the points of its null space; `certain`: the null space was; otherwise
- * only a certificate makes it a current, and nothing is said without. */
+/* Refine a candidate, recognise its coefficients, normalise, prove, hold out and classify it; append it to
+ * result->found unless it turns out not to be conserved (then a warning says so).  `fit`: the points of its null space;
+ * `certain`: the null space was; otherwise only a certificate makes it a current, and nothing is said without. */
 bool nh_currents_add(nh_current_checker *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
 
 /* Append one that was checked before. */
@@ -24,10 +24,12 @@ bool nh_currents_known(const nh_current_checker *bench, nh_ex phi);
 /* Where the current holds, in words; NULL: everywhere.  What is not proved holds to so many digits. */
 const char *nh_currents_region(nh_current_checker *bench, nh_ex phi, double digits);
 
-/* The same for a series, whose certificate was computed with it.  Nothing is added when it depends on the currents there are. */
+/* The same for a series, whose certificate was computed with it.  Nothing is added when it depends on the currents
+   there are. */
 bool nh_currents_add_series(nh_current_checker *bench, nh_ex phi, const nh_series *series, double digits);
 
-/* After the last candidate of a list: is a combination of those that were only nearly conserved a current?  Returns how many were added. */
+/* After the last candidate of a list: is a combination of those that were only nearly conserved a current?  Returns how
+   many were added. */
 size_t nh_currents_join(nh_current_checker *bench, const nh_points *fit);
 
 /* Where there are series: which currents are independent, closed forms first?  Series that depend on them go. */

@@ -42,7 +42,8 @@ static monomials build(nh_analysis *r, size_t n, const nh_ex *symbol, const nh_e
 static bool numeric_relation(const nh_points *points, const nh_model *o, const monomials *m, bool *used)
 {
     size_t count = points->count, n = m->count;
-    double *value = nh_alloc_array(n * count, sizeof *value), *a = nh_alloc_array(n * count, sizeof *a), *b = nh_alloc_array(count, sizeof *b);
+    double *value = nh_alloc_array(n * count, sizeof *value), *a = nh_alloc_array(n * count, sizeof *a),
+           *b = nh_alloc_array(count, sizeof *b);
     bool found = false;
     nh_points_evaluate(points, o, n, m->value, value);
     for (size_t j = 0; j < n; j++) {
@@ -76,7 +77,8 @@ static const char *exact_relation(nh_analysis *r, const monomials *m, const bool
 {
     nh_model *o = r->model;
     nh_dag *d = o->dag;
-    nh_ex *value = nh_alloc_array(m->count, sizeof *value), *name = nh_alloc_array(m->count, sizeof *name), *c = nh_alloc_array(m->count, sizeof *c);
+    nh_ex *value = nh_alloc_array(m->count, sizeof *value), *name = nh_alloc_array(m->count, sizeof *name),
+          *c = nh_alloc_array(m->count, sizeof *c);
     size_t n = 0, pivot = 0;
     for (size_t j = 0; j < m->count; j++) {
         if (!used[j]) continue;
@@ -85,7 +87,8 @@ static const char *exact_relation(nh_analysis *r, const monomials *m, const bool
         name[n++] = m->name_of[j];
     }
     const char *text = NULL;
-    bool exact = nh_relation_find(d, n, value, o->system->parameters, o->parameter, (size_t)r->options.proof_terms, c) == NH_RELATION_UNIQUE;
+    bool exact = nh_relation_find(d, n, value, o->system->parameters, o->parameter, (size_t)r->options.proof_terms,
+                                  c) == NH_RELATION_UNIQUE;
     if (exact && !nh_is_zero(d, c[pivot])) {
         nh_ex right = nh_int(d, 0);
         for (size_t j = 0; j < n; j++)
@@ -128,7 +131,9 @@ void nh_dependence_relations(nh_analysis *r)
     nh_error_clear(&ignored);
     for (size_t k = 0; k < r->count; k++) {
         if (r->found[k].independence != NH_DEPENDENT) continue;
-        if (!points) points = nh_points_create(r->model, point_factor * monomial_count, 1, (uint64_t)r->options.seed + 303, &ignored);
+        if (!points)
+            points =
+                nh_points_create(r->model, point_factor * monomial_count, 1, (uint64_t)r->options.seed + 303, &ignored);
         if (points) relate(r, &r->found[k], points);
     }
     nh_points_free(points);
@@ -196,7 +201,9 @@ void nh_dependence_on_known(nh_analysis *r)
     nh_points *points = NULL;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (n) points = nh_points_create(r->model, point_factor * (most_known + 1), 1, (uint64_t)r->options.seed + 307, &ignored);
+    if (n)
+        points =
+            nh_points_create(r->model, point_factor * (most_known + 1), 1, (uint64_t)r->options.seed + 307, &ignored);
     for (size_t k = 0; k < r->count && points; k++) {
         nh_current *f = &r->found[k];
         if (f->meaning[0] || f->series) continue;

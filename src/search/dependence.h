@@ -5,12 +5,13 @@
 
 #include "search/analysis.h"
 
-/* For every dependent current look for a polynomial relation of degree two with the independent ones before it; sets `relation`. */
+/* For every dependent current look for a polynomial relation of degree two with the independent ones before it; sets
+   `relation`. */
 void nh_dependence_relations(nh_analysis *result);
 
 /* For every current without a meaning of its own: is it a combination with constant coefficients, or a multiple of the
- * product or quotient of two, of the first six currents of the list `known` in the system's file?  Sets `known`, where an
- * exact relation proves it. */
+ * product or quotient of two, of the first six currents of the list `known` in the system's file?  Sets `known`, where
+ * an exact relation proves it. */
 void nh_dependence_on_known(nh_analysis *result);
 
 #endif

@@ -45,7 +45,8 @@ static bool is_unit(const nh_model *o, nh_ex factor)
     return isfinite(value) && value != 0;
 }
 
-/* What to divide the current by: Z^0 where it is a constant, so that the energy's symmetry is d/dt; else the simplest factor of zeta. */
+/* What to divide the current by: Z^0 where it is a constant, so that the energy's symmetry is d/dt; else the simplest
+   factor of zeta. */
 static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
 {
     nh_dag *d = o->dag;
@@ -73,7 +74,8 @@ static void normalise(nh_model *o, nh_current *f)
 {
     nh_dag *d = o->dag;
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
-    if (nh_is_short(d, f->phi) && nh_complexity(d, f->phi) <= longest) /* e or -e: where the symmetry does not tell which */
+    /* e or -e: where the symmetry does not tell which */
+    if (nh_is_short(d, f->phi) && nh_complexity(d, f->phi) <= longest)
         f->phi = shortest(d, nh_canonical_sign(d, f->phi) < 0 ? nh_neg(d, f->phi) : f->phi);
     nh_ex Z0 = nh_symmetry_components(o, f->phi, zeta);
     put_values(o, f->proof.fixed, f->proof.fixed ? o->n : 0, zeta);
@@ -114,8 +116,8 @@ static bool with_symmetry(nh_analysis *r, const nh_points *points, nh_current *f
 
 /* ---- what it is ---- */
 
-/* Does the current change when an angle goes once around?  Then it is defined only locally.  A series in the angle is compared half a turn before and
- * behind the middle of its interval: shorter than a turn it says nothing. */
+/* Does the current change when an angle goes once around?  Then it is defined only locally.  A series in the angle is
+ * compared half a turn before and behind the middle of its interval: shorter than a turn it says nothing. */
 static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, const nh_series *series)
 {
     nh_dag *d = o->dag;
@@ -139,7 +141,8 @@ static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, cons
     return false;
 }
 
-/* What phi is of e: "" itself, "minus the ", "a multiple of the "; NULL where phi/e is not constant for all parameters. */
+/* What phi is of e: "" itself, "minus the ", "a multiple of the "; NULL where phi/e is not constant for all
+   parameters. */
 static const char *part_of(nh_model *o, nh_ex phi, nh_ex e)
 {
     nh_ex ratio = nh_simplify_short(o->dag, nh_div(o->dag, phi, e), 0);
@@ -173,7 +176,8 @@ static void find_meaning(nh_analysis *r, const nh_points *points, nh_current *f)
     memcpy(e + 2, o->p, o->m * sizeof *e);
     nh_points_evaluate(points, o, n, e, value);
     for (size_t j = 1; j < n && !part; found = j++)
-        if (!nh_is_zero(o->dag, e[j]) && looks_proportional(count, value, value + j * count)) part = part_of(o, f->phi, e[j]);
+        if (!nh_is_zero(o->dag, e[j]) && looks_proportional(count, value, value + j * count))
+            part = part_of(o, f->phi, e[j]);
     nh_free(value);
     nh_free(e);
     f->energy = part && found == 1;
@@ -202,7 +206,8 @@ void nh_described_fill(nh_current_checker *b, nh_current *f)
     nh_error trouble;
     nh_error_clear(&trouble);
     if (!f->series) normalise(r->model, f);
-    if (!b->brief && !with_symmetry(r, b->generic, f, &trouble)) nh_analysis_warn(r, "no symmetry could be computed: %s", trouble.what);
+    if (!b->brief && !with_symmetry(r, b->generic, f, &trouble))
+        nh_analysis_warn(r, "no symmetry could be computed: %s", trouble.what);
     f->local = is_local(r->model, b->generic, f->phi, f->series);
     find_meaning(r, b->generic, f);
     nh_current_in_velocities(b, f);

@@ -49,7 +49,10 @@ static void list_letters(search *x)
     }
 }
 
-static bool is_cosine(const nh_dag *d, nh_ex e) { return nh_kind_of(d, e) == NH_FUNCTION && nh_function_of(d, e) == NH_COS; }
+static bool is_cosine(const nh_dag *d, nh_ex e)
+{
+    return nh_kind_of(d, e) == NH_FUNCTION && nh_function_of(d, e) == NH_COS;
+}
 
 /* Monomials of the letters; sin^2 stands for cos^2. */
 static void list_words(search *x, size_t degree)
@@ -60,7 +63,8 @@ static void list_words(search *x, size_t degree)
     for (size_t i = 0; i < out->letters && x->words < most_words; i++) x->word[x->words++] = out->letter[i];
     for (size_t i = 0; i < out->letters && degree > 1; i++)
         for (size_t j = i; j < out->letters && x->words < most_words; j++)
-            if (i != j || !is_cosine(x->d, out->letter[i])) x->word[x->words++] = nh_mul(x->d, out->letter[i], out->letter[j]);
+            if (i != j || !is_cosine(x->d, out->letter[i]))
+                x->word[x->words++] = nh_mul(x->d, out->letter[i], out->letter[j]);
 }
 
 static void add_column(search *x, size_t component, nh_ex e)
@@ -77,7 +81,8 @@ static void list_columns(search *x, bool dynamical)
     x->space = nh_arena_alloc(x->arena, x->words * (1 + m) * factors * (1 + m) * sizeof *x->space);
     for (size_t b = 0; b < x->words; b++)
         for (size_t f = 0; f < factors; f++)
-            for (size_t s = dynamical; s <= m; s++) add_column(x, s, f ? nh_mul(x->d, x->word[b], x->o->chart->w[f - 1]) : x->word[b]);
+            for (size_t s = dynamical; s <= m; s++)
+                add_column(x, s, f ? nh_mul(x->d, x->word[b], x->o->chart->w[f - 1]) : x->word[b]);
 }
 
 /* ---- the equations ---- */
@@ -103,21 +108,32 @@ static void prolonged(const search *x, const nh_ex *field, nh_ex *W, nh_ex *equa
     nh_ex *rate = nh_alloc_array(o->m + 1, sizeof *rate), stretch = nh_model_gamma(o, field[0]);
     nh_field f = {field[0], (nh_ex *)field + 1, W};
     for (size_t i = 0; i < o->n; i++) W[i] = nh_int(d, 0);
-    for (size_t s = 0; s < o->m; s++) rate[s] = nh_sub(d, nh_sub(d, nh_model_gamma(o, field[1 + s]), nh_mul(d, stretch, o->rho[s])), nh_model_along(o, &f, o->rho[s]));
+    for (size_t s = 0; s < o->m; s++)
+        rate[s] = nh_sub(d, nh_sub(d, nh_model_gamma(o, field[1 + s]), nh_mul(d, stretch, o->rho[s])),
+                         nh_model_along(o, &f, o->rho[s]));
     prolong(x, rate, W);
     for (size_t a = 0; a < o->k && equation; a++) {
         equation[a] = nh_int(d, 0);
-        for (size_t s = 0; s < o->m; s++) equation[a] = nh_add(d, equation[a], nh_mul(d, x->s->form[a * (1 + o->m) + 1 + s], rate[s]));
+        for (size_t s = 0; s < o->m; s++)
+            equation[a] = nh_add(d, equation[a], nh_mul(d, x->s->form[a * (1 + o->m) + 1 + s], rate[s]));
     }
     for (size_t i = 0; i < o->n && equation; i++)
-        equation[o->k + i] = nh_sub(d, nh_sub(d, nh_model_gamma(o, W[i]), nh_mul(d, stretch, o->a[i])), nh_model_along(o, &f, o->a[i]));
+        equation[o->k + i] =
+            nh_sub(d, nh_sub(d, nh_model_gamma(o, W[i]), nh_mul(d, stretch, o->a[i])), nh_model_along(o, &f, o->a[i]));
     nh_free(rate);
 }
 
 static nh_relation_space *relations(const search *x, size_t columns, size_t rows, const nh_ex *entry)
 {
-    nh_relation_columns q = {.dag = x->d, .columns = columns, .rows = rows, .entry = entry, .variables = 1 + x->o->m + x->o->n, .variable = x->o->chart->symbol,
-                             .parameters = x->o->system->parameters, .parameter = x->o->parameter, .max_terms = (size_t)x->options->proof_terms};
+    nh_relation_columns q = {.dag = x->d,
+                             .columns = columns,
+                             .rows = rows,
+                             .entry = entry,
+                             .variables = 1 + x->o->m + x->o->n,
+                             .variable = x->o->chart->symbol,
+                             .parameters = x->o->system->parameters,
+                             .parameter = x->o->parameter,
+                             .max_terms = (size_t)x->options->proof_terms};
     return nh_relation_space_of(x->arena, &q);
 }
 
@@ -166,7 +182,8 @@ static bool find_points(search *x)
     if (out->obstacle) return false;
     out->sure = r->proved == r->bound;
     out->item = nh_arena_alloc(x->arena, (r->proved + most_dynamical + 1) * sizeof *out->item);
-    for (size_t i = 0; i < r->proved; i++) out->item[out->points++] = field_of(x, r->coefficient + i * x->columns, false);
+    for (size_t i = 0; i < r->proved; i++)
+        out->item[out->points++] = field_of(x, r->coefficient + i * x->columns, false);
     return true;
 }
 
@@ -174,7 +191,8 @@ static bool find_points(search *x)
 
 static void put_evolutionary(const search *x, nh_ex **at, const nh_equation_symmetry *s, nh_ex factor)
 {
-    for (size_t r = 0; r < x->o->m; r++) *(*at)++ = nh_mul(x->d, factor, nh_sub(x->d, s->space[r], nh_mul(x->d, x->o->rho[r], s->time)));
+    for (size_t r = 0; r < x->o->m; r++)
+        *(*at)++ = nh_mul(x->d, factor, nh_sub(x->d, s->space[r], nh_mul(x->d, x->o->rho[r], s->time)));
 }
 
 /* Those that are no combinations of point symmetries, of these times currents, and of others before them. */
@@ -186,7 +204,8 @@ static void keep_new(search *x, const nh_relation_space *r, size_t count, const 
     nh_ex *entry = nh_alloc_array(columns * m + 1, sizeof *entry), *at = entry;
     bool *old = nh_alloc_array(columns + 1, sizeof *old);
     for (size_t c = 0; c <= count; c++)
-        for (size_t i = 0; i < out->points; i++) put_evolutionary(x, &at, &out->item[i], c ? current[c - 1].phi : nh_int(x->d, 1));
+        for (size_t i = 0; i < out->points; i++)
+            put_evolutionary(x, &at, &out->item[i], c ? current[c - 1].phi : nh_int(x->d, 1));
     for (size_t i = 0; i < r->proved; i++) {
         found[i] = field_of(x, r->coefficient + i * x->columns, true);
         put_evolutionary(x, &at, &found[i], nh_int(x->d, 1));
@@ -197,7 +216,9 @@ static void keep_new(search *x, const nh_relation_space *r, size_t count, const 
         while (last-- > 0 && nh_is_zero(x->d, dependent->coefficient[i * columns + last])) continue;
         old[last] = true;
     }
-    for (size_t i = 0; i < r->proved && !dependent->obstacle && dependent->proved == dependent->bound && out->dynamical < most_dynamical; i++)
+    for (size_t i = 0; i < r->proved && !dependent->obstacle && dependent->proved == dependent->bound &&
+                       out->dynamical < most_dynamical;
+         i++)
         if (!old[known + i]) out->item[out->points + out->dynamical++] = found[i];
     nh_free(old);
     nh_free(entry);
@@ -239,7 +260,8 @@ static nh_ex combination(const search *x, const nh_symmetry_space *space, nh_ex 
     nh_ex *all = nh_alloc_array(n + 1, sizeof *all), *c = nh_alloc_array(n + 1, sizeof *c), sum = 0;
     for (size_t i = 0; i < n; i++) all[i] = space->member[i].phi;
     all[n] = e;
-    if (n && nh_relation_express(x->d, n + 1, all, x->o->system->parameters, x->o->parameter, (size_t)x->options->proof_terms, c)) {
+    if (n && nh_relation_express(x->d, n + 1, all, x->o->system->parameters, x->o->parameter,
+                                 (size_t)x->options->proof_terms, c)) {
         sum = nh_int(x->d, 0);
         for (size_t i = 0; i < n; i++) sum = nh_add(x->d, sum, nh_mul(x->d, c[i], space->member[i].combination));
     }
@@ -256,7 +278,9 @@ static nh_action_answer dependence(const search *x, size_t count, const nh_named
     all[count] = e;
     nh_closure before = nh_closure_of(x->o, 0, NULL, count, all), after = nh_closure_of(x->o, 0, NULL, count + 1, all);
     nh_free(all);
-    return before.obstacle || after.obstacle ? NH_ACTION_UNDECIDED : after.known > before.known ? NH_ACTION_INDEPENDENT : NH_ACTION_DEPENDENT;
+    return before.obstacle || after.obstacle ? NH_ACTION_UNDECIDED
+           : after.known > before.known      ? NH_ACTION_INDEPENDENT
+                                             : NH_ACTION_DEPENDENT;
 }
 
 static void act(search *x, size_t count, const nh_named_current *current, const nh_symmetry_space *space)
@@ -269,7 +293,8 @@ static void act(search *x, size_t count, const nh_named_current *current, const 
             nh_ex e = derivative(x, &out->item[i], current[k].phi);
             if (nh_is_zero(x->d, e) || nh_normal_is_zero(x->d, e, (size_t)x->options->proof_terms) == NH_ZERO) continue;
             nh_ex sum = combination(x, space, e);
-            out->action[out->actions++] = (nh_symmetry_action){i, k, e, sum, sum ? NH_ACTION_DEPENDENT : dependence(x, count, current, e)};
+            out->action[out->actions++] =
+                (nh_symmetry_action){i, k, e, sum, sum ? NH_ACTION_DEPENDENT : dependence(x, count, current, e)};
         }
 }
 
@@ -284,14 +309,16 @@ static void prepare(search *x)
     nh_ex *square = nh_alloc_array(o->n * o->n + 1, sizeof *square);
     for (size_t i = 0; i < o->n * o->n; i++) {
         square[i] = nh_int(x->d, 0);
-        for (size_t s = 0; s < o->m; s++) square[i] = nh_add(x->d, square[i], nh_mul(x->d, o->R[s * o->n + i / o->n], o->R[s * o->n + i % o->n]));
+        for (size_t s = 0; s < o->m; s++)
+            square[i] = nh_add(x->d, square[i], nh_mul(x->d, o->R[s * o->n + i / o->n], o->R[s * o->n + i % o->n]));
     }
     x->lu = nh_lu_create(x->d, o->n, square, nh_chart_pivot_score, o->chart, NULL);
     if (!x->lu) x->out->obstacle = "quasi-velocities that are not independent";
     nh_free(square);
 }
 
-nh_equation_symmetries *nh_equation_symmetries_of(nh_arena *arena, const nh_submanifold *s, size_t count, const nh_named_current *current, const nh_symmetry_space *space,
+nh_equation_symmetries *nh_equation_symmetries_of(nh_arena *arena, const nh_submanifold *s, size_t count,
+                                                  const nh_named_current *current, const nh_symmetry_space *space,
                                                   const nh_options *options)
 {
     nh_equation_symmetries *out = nh_arena_alloc(arena, sizeof *out);

@@ -36,7 +36,8 @@ static void start(nh_explicit_curve *c, size_t n, const nh_ex *current)
     }
     c->currents = n;
     for (size_t j = 0; j < n; j++) c->current[j] = c->fixed ? nh_fixed_values(o, c->fixed, current[j]) : current[j];
-    for (size_t i = 0; i < o->system->parameters && c->symbols < most_symbols - most_constants; i++) c->symbol[c->symbols++] = o->parameter[i];
+    for (size_t i = 0; i < o->system->parameters && c->symbols < most_symbols - most_constants; i++)
+        c->symbol[c->symbols++] = o->parameter[i];
     c->s = state[m->parameter];
     c->solved[m->parameter] = true;
     c->value[m->parameter] = c->s;
@@ -75,7 +76,8 @@ static bool satisfied(const nh_explicit_curve *c, const bool *known)
     return good;
 }
 
-/* What still depends on states that are not solved is not known.  A constant that is none, to all digits, ends it all. */
+/* What still depends on states that are not solved is not known.  A constant that is none, to all digits, ends it
+   all. */
 static void conclude(nh_explicit_curve *c)
 {
     nh_explicit_motion *m = c->m;
@@ -83,11 +85,14 @@ static void conclude(nh_explicit_curve *c)
     for (size_t j = 0; j < m->constants && constant; j++) {
         if (m->constant[j].at_start) continue;
         nh_ex rate = nh_model_gamma(c->o, m->constant[j].value);
-        constant = nh_is_zero(c->d, rate) || nh_prove_digits(c->o, m->constant[j].value, c->options) >= c->options->digits || nh_explicit_vanishes(c, nh_exact_values(c->o, rate));
+        constant = nh_is_zero(c->d, rate) ||
+                   nh_prove_digits(c->o, m->constant[j].value, c->options) >= c->options->digits ||
+                   nh_explicit_vanishes(c, nh_exact_values(c->o, rate));
     }
     for (size_t i = 0; i < m->states; i++) {
         size_t last;
-        known[i] = i == m->parameter || (constant && c->solved[i] && nh_explicit_unknowns(c, c->value[i], &last) == 0 && agrees(c, i));
+        known[i] = i == m->parameter ||
+                   (constant && c->solved[i] && nh_explicit_unknowns(c, c->value[i], &last) == 0 && agrees(c, i));
         m->known += known[i];
     }
     if (!constant) m->constants = 0;
@@ -96,7 +101,8 @@ static void conclude(nh_explicit_curve *c)
     m->value = c->value;
 }
 
-nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o, const nh_points *points, size_t parameter, const bool *fixed, size_t n, const nh_ex *current,
+nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o, const nh_points *points,
+                                             size_t parameter, const bool *fixed, size_t n, const nh_ex *current,
                                              const nh_options *options)
 {
     enum { pair = 2 };
@@ -107,8 +113,10 @@ nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o,
     if (nh_is_zero(c.d, c.rate[parameter])) return NULL;
     bool more = true;
     while (more && !nh_budget_spent())
-        more = nh_explicit_solve_first(&c, 1) || nh_explicit_solve_second(&c, 1, true) || nh_explicit_solve_rate(&c, false) || nh_explicit_solve_second(&c, 1, false) ||
-               nh_explicit_solve_first(&c, pair) || nh_explicit_solve_second(&c, pair, false) || nh_explicit_solve_rate(&c, true);
+        more = nh_explicit_solve_first(&c, 1) || nh_explicit_solve_second(&c, 1, true) ||
+               nh_explicit_solve_rate(&c, false) || nh_explicit_solve_second(&c, 1, false) ||
+               nh_explicit_solve_first(&c, pair) || nh_explicit_solve_second(&c, pair, false) ||
+               nh_explicit_solve_rate(&c, true);
     conclude(&c);
     return c.m;
 }

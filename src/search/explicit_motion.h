@@ -1,16 +1,18 @@
 /* explicit_motion: motions as formulas, by solving one equation after another.
  *
- * The motions are the integral curves of Gamma.  With one of the states (t, q, w) as their parameter s, another state u obeys
+ * The motions are the integral curves of Gamma.  With one of the states (t, q, w) as their parameter s, another state u
+ * obeys
  *
  *     du/ds = Gamma(u)/Gamma(s)
  *
- * A current gives u where it is linear, or quadratic, in u.  Where du/ds = A(s) u + B(s), with what is known of the other states put in,
+ * A current gives u where it is linear, or quadratic, in u.  Where du/ds = A(s) u + B(s), with what is known of the
+ * other states put in,
  *
  *     u = (c + int mu B ds)/mu,   mu = exp(-int A ds)
  *
- * and c, written in the states, is a current.  So one state follows after another, as far as the antiderivatives (exact/antiderivative.h) have
- * closed forms.  Where nothing else is left, an integral without closed form gets a name: it is 0 where the motion starts, and constants that stand beside
- * it come from the state there. */
+ * and c, written in the states, is a current.  So one state follows after another, as far as the antiderivatives
+ * (exact/antiderivative.h) have closed forms.  Where nothing else is left, an integral without closed form gets a name:
+ * it is 0 where the motion starts, and constants that stand beside it come from the state there. */
 #ifndef NH_EXPLICIT_MOTION_H
 #define NH_EXPLICIT_MOTION_H
 
@@ -19,11 +21,13 @@
 
 typedef struct {
     nh_ex symbol, value;     /* C1; its value in the states */
-    bool integrated;         /* by an integration; else it is a current that was known, or one that a known current determines */
+    /* by an integration; else it is a current that was known, or one that a known current determines */
+    bool integrated;
     bool at_start;           /* its value is that of the state where the integrals are 0 */
 } nh_motion_constant;
 
-/* A root of a function of the parameter and constants: symbol^2 = square; the symbol's value in the states has the right sign. */
+/* A root of a function of the parameter and constants: symbol^2 = square; the symbol's value in the states has the
+   right sign. */
 typedef struct {
     nh_ex symbol, square, value;
 } nh_motion_root;
@@ -39,7 +43,8 @@ struct nh_motion_series;
 typedef struct nh_explicit_motion {
     size_t states, parameter, known; /* known: how many states are, with the parameter */
     const nh_ex *state;      /* t, q, w */
-    const nh_ex *value;      /* in the parameter, the constants, the roots and the integrals; 0, the number, for those that are not known */
+    /* in the parameter, the constants, the roots and the integrals; 0, the number, for those that are not known */
+    const nh_ex *value;
     const bool *is_known;
     size_t constants, roots, integrals;
     nh_motion_constant *constant;
@@ -51,9 +56,10 @@ typedef struct nh_explicit_motion {
     const char *region;      /* where the constants are constant (integrals/region.h); NULL: along every motion */
 } nh_explicit_motion;
 
-/* With this state as parameter; `fixed` as in the result.  n currents of the chart may be used.  Signs are those at the points.  NULL where Gamma does
- * not move the state.  In the arena. */
-nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *model, const nh_points *points, size_t parameter, const bool *fixed, size_t n,
-                                             const nh_ex *current, const nh_options *options);
+/* With this state as parameter; `fixed` as in the result.  n currents of the chart may be used.  Signs are those at the
+ * points.  NULL where Gamma does not move the state.  In the arena. */
+nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *model, const nh_points *points,
+                                             size_t parameter, const bool *fixed, size_t n, const nh_ex *current,
+                                             const nh_options *options);
 
 #endif

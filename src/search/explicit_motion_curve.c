@@ -10,9 +10,15 @@
 
 /* ---- expressions along the curve and in the states ---- */
 
-nh_ex nh_explicit_simple(const nh_explicit_curve *c, nh_ex e) { return nh_simplify_short(c->d, e, (size_t)c->options->quadrature_length); }
+nh_ex nh_explicit_simple(const nh_explicit_curve *c, nh_ex e)
+{
+    return nh_simplify_short(c->d, e, (size_t)c->options->quadrature_length);
+}
 
-bool nh_explicit_too_long(const nh_explicit_curve *c, nh_ex e) { return nh_complexity(c->d, e) > (size_t)c->options->quadrature_length; }
+bool nh_explicit_too_long(const nh_explicit_curve *c, nh_ex e)
+{
+    return nh_complexity(c->d, e) > (size_t)c->options->quadrature_length;
+}
 
 nh_ex nh_explicit_along(const nh_explicit_curve *c, nh_ex e)
 {
@@ -32,7 +38,8 @@ nh_ex nh_explicit_in_states(const nh_explicit_curve *c, nh_ex e)
     nh_ex zero = nh_int(c->d, 0);
     for (size_t i = m->integrals; i-- > 0;) e = nh_substitute(c->d, e, 1, &m->integral[i].symbol, &zero);
     for (size_t i = m->roots; i-- > 0;) e = nh_substitute(c->d, e, 1, &m->root[i].symbol, &m->root[i].value);
-    for (size_t i = m->constants; i-- > 0;) e = nh_substitute(c->d, e, 1, &m->constant[i].symbol, &m->constant[i].value);
+    for (size_t i = m->constants; i-- > 0;)
+        e = nh_substitute(c->d, e, 1, &m->constant[i].symbol, &m->constant[i].value);
     return e;
 }
 
@@ -79,9 +86,15 @@ void nh_explicit_settle(nh_explicit_curve *c, size_t u, nh_ex value)
     memset(c->refused, 0, c->m->states * sizeof *c->refused);
 }
 
-nh_ex nh_explicit_split_roots(nh_explicit_curve *c, nh_ex e) { return nh_square_roots(c->d, e, (size_t)c->options->quadrature_length, nh_explicit_sign, c); }
+nh_ex nh_explicit_split_roots(nh_explicit_curve *c, nh_ex e)
+{
+    return nh_square_roots(c->d, e, (size_t)c->options->quadrature_length, nh_explicit_sign, c);
+}
 
-bool nh_explicit_room(const nh_explicit_curve *c) { return c->m->constants < most_constants && c->symbols < most_symbols; }
+bool nh_explicit_room(const nh_explicit_curve *c)
+{
+    return c->m->constants < most_constants && c->symbols < most_symbols;
+}
 
 nh_ex nh_explicit_constant(nh_explicit_curve *c, nh_ex value, bool integrated)
 {
@@ -95,7 +108,10 @@ nh_ex nh_explicit_constant(nh_explicit_curve *c, nh_ex value, bool integrated)
     return symbol;
 }
 
-bool nh_explicit_vanishes(const nh_explicit_curve *c, nh_ex e) { return nh_normal_is_zero(c->d, e, (size_t)c->options->proof_terms) == NH_ZERO; }
+bool nh_explicit_vanishes(const nh_explicit_curve *c, nh_ex e)
+{
+    return nh_normal_is_zero(c->d, e, (size_t)c->options->proof_terms) == NH_ZERO;
+}
 
 int nh_explicit_degree(const nh_explicit_curve *c, nh_ex e, nh_ex u, nh_ex k[3])
 {
@@ -106,8 +122,12 @@ int nh_explicit_degree(const nh_explicit_curve *c, nh_ex e, nh_ex u, nh_ex k[3])
     k[2] = nh_substitute(d, k[2], 1, &u, &zero);
     k[1] = nh_explicit_simple(c, nh_substitute(d, first, 1, &u, &zero));
     k[0] = nh_explicit_simple(c, nh_substitute(d, e, 1, &u, &zero));
-    nh_ex rest = nh_sub(d, e, nh_add(d, k[0], nh_mul(d, u, nh_add(d, k[1], nh_mul(d, u, k[2]))))); /* u |u| has a third derivative that vanishes, too */
-    return !nh_explicit_vanishes(c, rest) ? 3 : !nh_explicit_vanishes(c, k[2]) ? 2 : !nh_explicit_vanishes(c, k[1]) ? 1 : 0;
+    /* u |u| has a third derivative that vanishes, too */
+    nh_ex rest = nh_sub(d, e, nh_add(d, k[0], nh_mul(d, u, nh_add(d, k[1], nh_mul(d, u, k[2])))));
+    return !nh_explicit_vanishes(c, rest)   ? 3
+           : !nh_explicit_vanishes(c, k[2]) ? 2
+           : !nh_explicit_vanishes(c, k[1]) ? 1
+                                            : 0;
 }
 
 /* ---- from currents ---- */
@@ -128,10 +148,13 @@ static bool canonical_root(nh_dag *d, nh_ex Q, nh_ex *factor, nh_ex *base)
 }
 
 /* Does it change along the curve? */
-static bool moves(const nh_explicit_curve *c, nh_ex e) { return nh_depends(c->d, e, c->s) || nh_explicit_has_integral(c, e); }
+static bool moves(const nh_explicit_curve *c, nh_ex e)
+{
+    return nh_depends(c->d, e, c->s) || nh_explicit_has_integral(c, e);
+}
 
-/* sqrt(Q), whose value in the states is `state`: a constant where Q does not depend on s, in place of the newest one, which Q determines; else a symbol of its
- * own, with its derivative and its square.  0: neither. */
+/* sqrt(Q), whose value in the states is `state`: a constant where Q does not depend on s, in place of the newest one,
+ * which Q determines; else a symbol of its own, with its derivative and its square.  0: neither. */
 static bool name_root(nh_explicit_curve *c, nh_ex Q, nh_ex state, bool constant, nh_ex *out)
 {
     nh_dag *d = c->d;
@@ -152,7 +175,8 @@ static bool name_root(nh_explicit_curve *c, nh_ex Q, nh_ex state, bool constant,
     nh_relate(d, symbol, 2, base);
     nh_diff_rule(d, symbol, c->s, nh_div(d, nh_diff(d, base, c->s), nh_mul(d, nh_int(d, 2), symbol)));
     c->radicand[m->roots] = plain;
-    m->root[m->roots++] = (nh_motion_root){symbol, base, nh_explicit_simple(c, nh_div(d, state, nh_explicit_in_states(c, factor)))};
+    m->root[m->roots++] =
+        (nh_motion_root){symbol, base, nh_explicit_simple(c, nh_div(d, state, nh_explicit_in_states(c, factor)))};
     *out = nh_mul(d, factor, symbol);
     return true;
 }
@@ -182,12 +206,14 @@ static void take_out_rate(nh_explicit_curve *c, nh_ex C, nh_ex *outside, nh_ex *
     *inside = nh_mul(d, nh_int(d, sign), nh_add(d, C, e));
 }
 
-/* a u^2 + b u + e = C:  u = (-b + r)/(2 a), r^2 = b^2 - 4 a (e - C); r = 2 a u + b in the states.  `constant_root`: only where r is one, but for a factor. */
+/* a u^2 + b u + e = C:  u = (-b + r)/(2 a), r^2 = b^2 - 4 a (e - C); r = 2 a u + b in the states.  `constant_root`:
+   only where r is one, but for a factor. */
 static bool solve_quadratic(nh_explicit_curve *c, size_t u, const nh_ex k[3], nh_ex current, bool constant_root)
 {
     nh_dag *d = c->d;
     nh_ex constant = nh_explicit_constant(c, current, false), two = nh_int(d, 2), inside, outside, r;
-    nh_ex D = nh_explicit_simple(c, nh_sub(d, nh_powi(d, k[1], 2), nh_product(d, 3, (nh_ex[]){nh_int(d, 4), k[2], nh_sub(d, k[0], constant)})));
+    nh_ex D = nh_explicit_simple(
+        c, nh_sub(d, nh_powi(d, k[1], 2), nh_product(d, 3, (nh_ex[]){nh_int(d, 4), k[2], nh_sub(d, k[0], constant)})));
     size_t last;
     bool solved = split_root_of(d, D, &outside, &inside) && nh_explicit_unknowns(c, inside, &last) == 0;
     if (solved) take_out_rate(c, constant, &outside, &inside);
@@ -198,11 +224,13 @@ static bool solve_quadratic(nh_explicit_curve *c, size_t u, const nh_ex k[3], nh
         c->symbols--;
         return false;
     }
-    nh_explicit_settle(c, u, nh_explicit_simple(c, nh_div(d, nh_sub(d, nh_mul(d, outside, r), k[1]), nh_mul(d, two, k[2]))));
+    nh_explicit_settle(c, u,
+                       nh_explicit_simple(c, nh_div(d, nh_sub(d, nh_mul(d, outside, r), k[1]), nh_mul(d, two, k[2]))));
     return true;
 }
 
-/* One state of one current, a polynomial in it; few states that are not solved, velocities before positions, short ones. */
+/* One state of one current, a polynomial in it; few states that are not solved, velocities before positions, short
+   ones. */
 typedef struct {
     size_t current, state;
     double cost;

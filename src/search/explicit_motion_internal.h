@@ -14,7 +14,9 @@ typedef struct {
     const nh_options *options;
     const bool *fixed;
     nh_explicit_motion *m;
-    nh_ex s, *rate, *value;     /* of every state: its rate; its value in s, the constants, the roots, the integrals and the states that are not solved */
+    /* of every state: its rate; its value in s, the constants, the roots, the integrals and the states that are not
+       solved */
+    nh_ex s, *rate, *value;
     bool *solved;
     nh_ex *refused;             /* per state: du/ds that could not be integrated; 0: none */
     size_t currents;

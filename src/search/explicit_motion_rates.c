@@ -18,13 +18,20 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
         nh_ex root = nh_sqrt(d, c->radicand[i]);
         f = nh_substitute(d, f, 1, &m->root[i].symbol, &root);
     }
-    nh_integration in = {.dag = d, .x = c->s, .constants = c->symbols, .constant = c->symbol, .max_terms = (size_t)c->options->proof_terms, .sign = nh_explicit_sign, .context = c};
+    nh_integration in = {.dag = d,
+                         .x = c->s,
+                         .constants = c->symbols,
+                         .constant = c->symbol,
+                         .max_terms = (size_t)c->options->proof_terms,
+                         .sign = nh_explicit_sign,
+                         .context = c};
     if (!nh_antiderivative(&in, f, F)) return false;
     for (size_t i = m->roots; i-- > 0;) *F = nh_substitute_root(d, *F, c->radicand[i], m->root[i].symbol);
     return true;
 }
 
-/* exp(-I) up to a constant factor, so that |p| may be p in logarithms: exp(log(p^2)/2) is p; atanh f is (log(1 + f) - log(1 - f))/2. */
+/* exp(-I) up to a constant factor, so that |p| may be p in logarithms: exp(log(p^2)/2) is p; atanh f is (log(1 + f) -
+   log(1 - f))/2. */
 static nh_ex factor_of(nh_explicit_curve *c, nh_ex I)
 {
     enum { most = 16 };
@@ -34,9 +41,12 @@ static nh_ex factor_of(nh_explicit_curve *c, nh_ex I)
     for (size_t i = 0; i < n && n <= most; i++) {
         nh_function f = nh_function_of(d, call[i]);
         nh_ex p = f == NH_LOG || f == NH_ATANH ? nh_child(d, call[i], 0) : 0;
-        bool square = f == NH_LOG && nh_kind_of(d, p) == NH_PRODUCT && nh_arity(d, p) == 1 && nh_is_number(d, nh_exponent_of(d, p, 0), 2) && nh_num_is(nh_constant_of(d, p), 1);
+        bool square = f == NH_LOG && nh_kind_of(d, p) == NH_PRODUCT && nh_arity(d, p) == 1 &&
+                      nh_is_number(d, nh_exponent_of(d, p, 0), 2) && nh_num_is(nh_constant_of(d, p), 1);
         if (square) by[known] = nh_mul(d, nh_int(d, 2), nh_call(d, NH_LOG, nh_child(d, p, 0)));
-        else if (f == NH_ATANH) by[known] = nh_mul(d, nh_ratio(d, 1, 2), nh_sub(d, nh_call(d, NH_LOG, nh_add(d, one, p)), nh_call(d, NH_LOG, nh_sub(d, one, p))));
+        else if (f == NH_ATANH)
+            by[known] = nh_mul(d, nh_ratio(d, 1, 2),
+                               nh_sub(d, nh_call(d, NH_LOG, nh_add(d, one, p)), nh_call(d, NH_LOG, nh_sub(d, one, p))));
         else continue;
         call[known++] = call[i];
     }
@@ -100,7 +110,9 @@ static size_t equations(nh_explicit_curve *c, bool named, equation *out)
         if (c->solved[u] || nh_explicit_too_long(c, own) || depends_on_many(c, own, speed)) continue;
         nh_ex r = nh_explicit_split_roots(c, nh_explicit_simple(c, nh_div(c->d, own, speed)));
         size_t last = u, n = nh_explicit_unknowns(c, r, &last);
-        if ((r == c->refused[u] && !named) || n > 1 || last != u || nh_explicit_too_long(c, r) || nh_explicit_degree(c, r, c->m->state[u], k) > 1) continue;
+        if ((r == c->refused[u] && !named) || n > 1 || last != u || nh_explicit_too_long(c, r) ||
+            nh_explicit_degree(c, r, c->m->state[u], k) > 1)
+            continue;
         out[count++] = (equation){u, nh_complexity(c->d, r), r, k[1], k[0]};
     }
     return count;

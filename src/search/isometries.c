@@ -1,10 +1,12 @@
-/* The ladder's stage of symmetries without an ansatz: isometries of the kinetic energy, counted by the transport of their 1-jets and written in closed
- * form (reduction/jets.h, generators.h), however the coordinates disguise them.  With xi such a field,
+/* The ladder's stage of symmetries without an ansatz: isometries of the kinetic energy, counted by the transport of
+ * their 1-jets and written in closed form (reduction/jets.h, generators.h), however the coordinates disguise them.
+ * With xi such a field,
  *
  *     P = xi^s K_sr v^r
  *
- * is conserved where the potential is invariant and the field tangent to the constraints (Noether); where it is not, quadratic integrals of separable and superintegrable systems on spaces of
- * constant curvature are still quadratic forms in the P with functions of position added. */
+ * is conserved where the potential is invariant and the field tangent to the constraints (Noether); where it is not,
+ * quadratic integrals of separable and superintegrable systems on spaces of constant curvature are still quadratic
+ * forms in the P with functions of position added. */
 #include <string.h>
 
 #include "base/progress.h"
@@ -43,11 +45,13 @@ static nh_ex momentum(const nh_kinetic *k, const nh_generator *g)
     nh_dag *d = k->dag;
     nh_ex sum = nh_int(d, 0);
     for (size_t s = 0; s < k->m; s++)
-        for (size_t r = 0; r < k->m; r++) sum = nh_add(d, sum, nh_product(d, 3, (nh_ex[]){g->component[s], k->K[s * k->m + r], k->v[r]}));
+        for (size_t r = 0; r < k->m; r++)
+            sum = nh_add(d, sum, nh_product(d, 3, (nh_ex[]){g->component[s], k->K[s * k->m + r], k->v[r]}));
     return nh_simplify_short(d, nh_model_compose(k->model, sum), 0);
 }
 
-/* xi^s a_s of L = 1/2 K_rs v^r v^s + a_s v^s - V: what a magnetic field or a rotor that is invariant adds to the momentum. */
+/* xi^s a_s of L = 1/2 K_rs v^r v^s + a_s v^s - V: what a magnetic field or a rotor that is invariant adds to the
+   momentum. */
 static nh_ex magnetic(const nh_kinetic *k, const nh_ex *a, const nh_generator *g)
 {
     nh_dag *d = k->dag;
@@ -56,8 +60,8 @@ static nh_ex magnetic(const nh_kinetic *k, const nh_ex *a, const nh_generator *g
     return nh_simplify_short(d, sum, 0);
 }
 
-/* The momenta of the isometries, and those of the magnetic parts that are no numbers; 0 where the metric has none or is constant (its isometries are
- * among the polynomials). */
+/* The momenta of the isometries, and those of the magnetic parts that are no numbers; 0 where the metric has none or is
+ * constant (its isometries are among the polynomials). */
 static size_t momenta(const nh_stage_solver *x, nh_ex *P, list *also)
 {
     nh_analysis *r = x->r;
@@ -78,7 +82,8 @@ static size_t momenta(const nh_stage_solver *x, nh_ex *P, list *also)
         alone.f = 0;
         for (size_t s = 0; s < k->m; s++) alone.a[s] = nh_int(k->dag, 0);
         jets = nh_jets_find(&alone, &r->options, &ignored);
-        if (jets && jets->dimension && !nh_generators_find(&found, &alone, jets, &r->options, &ignored)) found.count = 0;
+        if (jets && jets->dimension && !nh_generators_find(&found, &alone, jets, &r->options, &ignored))
+            found.count = 0;
     }
     size_t n = 0;
     for (size_t i = 0; i < found.count && i < most_momenta; i++) {
@@ -107,7 +112,8 @@ static list harmonics(const nh_stage_solver *x, int most)
     return l;
 }
 
-/* What a potential may contribute: the system's functions, lengths, harmonics, and products of the functions with harmonics. */
+/* What a potential may contribute: the system's functions, lengths, harmonics, and products of the functions with
+   harmonics. */
 static nh_family functions_family(const nh_stage_solver *x, int most_harmonic, nh_family *part)
 {
     nh_arena *arena = x->r->arena;
@@ -122,8 +128,9 @@ static nh_family functions_family(const nh_stage_solver *x, int most_harmonic, n
     return (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
 }
 
-/* Cartesian coordinates are products of functions of one coordinate in those in which the metric separates: with them the momenta of translations are what
- * an oscillator turns, whatever its coordinates, and alone what friction takes; of a free motion they are what grows like t. */
+/* Cartesian coordinates are products of functions of one coordinate in those in which the metric separates: with them
+ * the momenta of translations are what an oscillator turns, whatever its coordinates, and alone what friction takes; of
+ * a free motion they are what grows like t. */
 static void cartesian(nh_stage_solver *x, size_t n, const nh_ex *P)
 {
     enum { few = 3 };
@@ -142,16 +149,20 @@ static void cartesian(nh_stage_solver *x, size_t n, const nh_ex *P)
     nh_rates_search_in(x, &base);
     for (size_t i = 0; i < n; i++) nh_expr_set_put(&all, nh_mul(r->model->dag, r->model->system->t, P[i]));
     grown = nh_family_list_terms(&shelf, &all);
-    if (!nh_stage_solver_done(x)) nh_stage_solver_stage(x, "these momenta times 1 and t, and products of functions of one coordinate", 1, &grown);
+    if (!nh_stage_solver_done(x))
+        nh_stage_solver_stage(x, "these momenta times 1 and t, and products of functions of one coordinate", 1, &grown);
 }
 
 void nh_isometries_search(nh_stage_solver *x)
 {
     nh_analysis *r = x->r;
     const nh_model *o = r->model;
-    if (o->m > most_coordinates || (nh_counted_covers(&x->counted, 1, true) && nh_counted_covers(&x->counted, 2, false))) return;
+    if (o->m > most_coordinates ||
+        (nh_counted_covers(&x->counted, 1, true) && nh_counted_covers(&x->counted, 2, false)))
+        return;
     nh_progress("isometries of the kinetic energy", -1);
-    nh_ex *P = nh_arena_alloc(r->arena, most_momenta * sizeof *P), *PP = nh_arena_alloc(r->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
+    nh_ex *P = nh_arena_alloc(r->arena, most_momenta * sizeof *P),
+          *PP = nh_arena_alloc(r->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
     list *also = nh_arena_alloc(r->arena, sizeof *also);
     also->n = 0;
     put(also, x->r->system->t); /* a force that is uniform along the field */

@@ -1,10 +1,12 @@
-/* The ladder's stage for what moves linearly: where the equations of motion are, for all coordinates or for some that depend on no others,
+/* The ladder's stage for what moves linearly: where the equations of motion are, for all coordinates or for some that
+ * depend on no others,
  *
  *     z' = A z + b,     z = (q, w) of one block, A and b numbers or parameters,
  *
- * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, and lambda = 0, where A is defective, polynomials in t.  A's blocks are
- * solved one by one, so that many coordinates are no more trouble than few; the rates of a block of two come as formulas, those of larger ones as numbers that are then
- * named, and the vectors from the null space of z times the waves of one rate, as everywhere. */
+ * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, and lambda = 0, where A is
+ * defective, polynomials in t.  A's blocks are solved one by one, so that many coordinates are no more trouble than
+ * few; the rates of a block of two come as formulas, those of larger ones as numbers that are then named, and the
+ * vectors from the null space of z times the waves of one rate, as everywhere. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +19,8 @@
 #include "search/naming.h"
 
 enum { longest = 2000 }; /* symbols of an equation of motion */
-static const double defective = 1e-5, /* of the largest rate: a rate below it is zero, whose double eigenvalue is split by the root of rounding */
+/* of the largest rate: a rate below it is zero, whose double eigenvalue is split by the root of rounding */
+static const double defective = 1e-5,
                     equal = 1e-6;     /* relatively: one rate, likewise */
 
 typedef struct {
@@ -171,7 +174,8 @@ static size_t waves_of_two(const linear *l, bool turns, nh_ex *out)
 static void stage(linear *l, const char *name, size_t functions, const nh_ex *function)
 {
     nh_analysis *r = l->x->r;
-    nh_ex *term = nh_arena_alloc(r->arena, (l->count + 1) * sizeof *term), *copy = nh_arena_alloc(r->arena, (functions + 1) * sizeof *copy);
+    nh_ex *term = nh_arena_alloc(r->arena, (l->count + 1) * sizeof *term),
+          *copy = nh_arena_alloc(r->arena, (functions + 1) * sizeof *copy);
     nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, sizeof *all);
     for (size_t i = 0; i < l->count; i++) term[i] = l->z[l->of[i]];
     term[l->count] = nh_int(r->model->dag, 1);
@@ -202,11 +206,13 @@ static void solve_block(linear *l)
         if (fabs(re[k]) <= equal * fabs(im[k])) re[k] = 0;
         if (fabs(im[k]) <= equal * fabs(re[k])) im[k] = 0;
         bool old = im[k] < 0 || hypot(re[k], im[k]) <= defective * largest || (formulas && done);
-        for (size_t j = 0; j < k && !old; j++) old = im[j] >= 0 && hypot(re[j] - re[k], im[j] - im[k]) <= equal * largest;
+        for (size_t j = 0; j < k && !old; j++)
+            old = im[j] >= 0 && hypot(re[j] - re[k], im[j] - im[k]) <= equal * largest;
         if (old || nh_stage_solver_done(l->x)) continue;
         nh_ex wave[2];
         size_t count = formulas && !null ? waves_of_two(l, im[k] != 0, wave)
-                                         : waves(l->x->r->model->dag, l->x->r->system->t, named(l, re[k], false), named(l, im[k], true), wave);
+                                         : waves(l->x->r->model->dag, l->x->r->system->t, named(l, re[k], false),
+                                                 named(l, im[k], true), wave);
         stage(l, "what moves linearly, times exponentials and waves in t", count, wave);
         done++;
     }
@@ -217,7 +223,11 @@ void nh_linear_motion_search(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
     size_t size = o->m + o->n;
-    linear l = {.x = x, .size = size, .z = nh_alloc_array(size + 1, sizeof *l.z), .entry = nh_alloc_array(size * size + 1, sizeof *l.entry), .block = nh_alloc_array(size + 1, sizeof *l.block),
+    linear l = {.x = x,
+                .size = size,
+                .z = nh_alloc_array(size + 1, sizeof *l.z),
+                .entry = nh_alloc_array(size * size + 1, sizeof *l.entry),
+                .block = nh_alloc_array(size + 1, sizeof *l.block),
                 .of = nh_alloc_array(size + 1, sizeof *l.of)};
     bool is = read_matrix(&l);
     for (size_t first = 0; first < size && is && !nh_stage_solver_done(x); first++) {

@@ -20,8 +20,12 @@ static size_t most_proved(const nh_analysis *r) { return r->count + r->furthers 
 static void count(nh_analysis *r, bool again)
 {
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
-    nh_completeness_question q = {.current = phi, .all = r->search == NH_SEARCH_COMPLETE, .again = again, .degree = (size_t)r->options.degree,
-                                .work = r->options.count_work, .memory = r->counted};
+    nh_completeness_question q = {.current = phi,
+                                  .all = r->search == NH_SEARCH_COMPLETE,
+                                  .again = again,
+                                  .degree = (size_t)r->options.degree,
+                                  .work = r->options.count_work,
+                                  .memory = r->counted};
     nh_progress("how many integrals there are", -1);
     q.known = nh_counted_proved(r, phi, &q.general, &q.independent);
     nh_completeness_of(r->model, &q, r->completeness);
@@ -36,7 +40,10 @@ static void check(nh_analysis *r)
         const nh_completeness *c = &r->completeness[i];
         for (size_t d = 0; d < c->count.rows; d++)
             if (c->count.row[d].known > c->count.row[d].bound)
-                nh_analysis_warn(r, "at degree %zu the program proved more currents than the count allows: this is a bug, please report it", d + 1);
+                nh_analysis_warn(r,
+                                 "at degree %zu the program proved more currents than the count allows: this is a bug, "
+                                 "please report it",
+                                 d + 1);
     }
 }
 
@@ -154,11 +161,16 @@ static bool lift(search *s, size_t degree, const nh_constructed *c, bool further
         for (size_t k = 0; k < constants; k++) term[terms++] = nh_mul(r->model->dag, c->term[j], constant[k]);
     *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
     s->climb.wide = true;
-    nh_stage_solver_stage(&s->climb, nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree), 1, all);
+    nh_stage_solver_stage(&s->climb,
+                          nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree), 1, all);
     return r->count > before || (further && lift_further(s, degree, all));
 }
 
-static bool is_over(const search *s, bool further) { return further ? nh_budget_spent() || nh_late() || s->climb.r->furthers == NH_MOST_FURTHER : nh_stage_solver_done(&s->climb); }
+static bool is_over(const search *s, bool further)
+{
+    return further ? nh_budget_spent() || nh_late() || s->climb.r->furthers == NH_MOST_FURTHER
+                   : nh_stage_solver_done(&s->climb);
+}
 
 /* What is looked for: functions of the currents found too; in the shape alone; with words that are many-valued. */
 typedef struct {
@@ -173,12 +185,21 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     size_t degree = further ? c->incomplete_at : c->missing_at;
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     bool general, found = false;
-    nh_construct_question q = {.time = c->count.time, .shape = how.shape, .further = further, .secular = how.secular, .degree = degree, .price = price, .most_words = (size_t)r->options.words, .work = s->work, .current = phi};
+    nh_construct_question q = {.time = c->count.time,
+                               .shape = how.shape,
+                               .further = further,
+                               .secular = how.secular,
+                               .degree = degree,
+                               .price = price,
+                               .most_words = (size_t)r->options.words,
+                               .work = s->work,
+                               .current = phi};
     q.known = nh_counted_proved(r, phi, &general, &q.independent);
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
     for (size_t k = 0; k < x->count && !is_over(s, further); k++) found |= lift(s, degree, &x->item[k], further);
-    *more = !x->limited && (x->recognised < x->dimension || x->count); /* what could not be proved may have a simpler form in dearer words */
+    /* what could not be proved may have a simpler form in dearer words */
+    *more = !x->limited && (x->recognised < x->dimension || x->count);
     nh_construction_free(x);
     nh_free(phi);
     return found;
@@ -196,7 +217,9 @@ static bool construct_up_to(search *s, const nh_completeness *c, manner how, dou
 {
     bool found = false, more = true;
     s->work = work;
-    for (double price = 2; more && !found && price <= dearest && s->work > 0 && !is_over(s, how.further); price += price < 4 ? 1 : 2) found = construct_at(s, c, how, price, &more);
+    for (double price = 2; more && !found && price <= dearest && s->work > 0 && !is_over(s, how.further);
+         price += price < 4 ? 1 : 2)
+        found = construct_at(s, c, how, price, &more);
     return found;
 }
 
@@ -204,17 +227,23 @@ static bool construct_up_to(search *s, const nh_completeness *c, manner how, dou
 static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
 {
     const nh_completeness *first = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    return c != first && first->counted && first->missing_at == c->missing_at && c->missing_at && first->count.row[c->missing_at - 1].bound == c->count.row[c->missing_at - 1].bound;
+    return c != first && first->counted && first->missing_at == c->missing_at && c->missing_at &&
+           first->count.row[c->missing_at - 1].bound == c->count.row[c->missing_at - 1].bound;
 }
 
-/* Of one kind.  In t alone most coefficients are no words but waves, and a number that is not settled is mostly far too large. */
+/* Of one kind.  In t alone most coefficients are no words but waves, and a number that is not settled is mostly far too
+   large. */
 static bool construct(search *s, const nh_completeness *c, bool further)
 {
-    static const double part = 0.25; /* of the work, for what the currents found determine, and for functions that are rare */
-    double dearest = c->count.time ? 6 : 16, dearest_secular = 6, work = s->climb.r->options.construct * (further ? part : 1);
-    bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) && !adds_nothing(s->climb.r, c));
+    /* of the work, for what the currents found determine, and for functions that are rare */
+    static const double part = 0.25;
+    double dearest = c->count.time ? 6 : 16, dearest_secular = 6,
+           work = s->climb.r->options.construct * (further ? part : 1);
+    bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) &&
+                              !adds_nothing(s->climb.r, c));
     if (!wanted) return false;
-    manner any = {.further = further}, shape = {.further = further, .shape = true}, secular = {.further = further, .secular = true};
+    manner any = {.further = further}, shape = {.further = further, .shape = true},
+           secular = {.further = further, .secular = true};
     return (s->cyclic && construct_up_to(s, c, shape, dearest, work)) || construct_up_to(s, c, any, dearest, work)
         || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }
@@ -222,7 +251,8 @@ static bool construct(search *s, const nh_completeness *c, bool further)
 static bool is_missing(const nh_analysis *r)
 {
     bool some = false;
-    for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++) some |= r->completeness[i].missing_at && r->completeness[i].missing;
+    for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++)
+        some |= r->completeness[i].missing_at && r->completeness[i].missing;
     return some;
 }
 
@@ -240,7 +270,8 @@ static void look(nh_analysis *r)
     for (bool found = true; found && !nh_late();) {
         bool again = found = false;
         for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++) found = construct(&s, &r->completeness[i], false);
-        if (!found && lacks_further(r)) found = again = construct(&s, &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME], true);
+        if (!found && lacks_further(r))
+            found = again = construct(&s, &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME], true);
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
         if (found) count(r, stale = again);
     }
@@ -248,7 +279,8 @@ static void look(nh_analysis *r)
     take_back(&s);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.climb.bench);
-    for (size_t k = 0; k < r->furthers; k++) r->further[k].current.name = nh_currents_name(r, r->count + r->pieces + k + 1);
+    for (size_t k = 0; k < r->furthers; k++)
+        r->further[k].current.name = nh_currents_name(r, r->count + r->pieces + k + 1);
     if (r->furthers) nh_relations_find(r);
     nh_stage_solver_end(&s.climb);
     bool all = r->independent >= r->local_maximum;

@@ -4,11 +4,13 @@
 
 #include "geometry/model.h"
 
-/* The value at another parameter set (a model whose tapes bind it), nearest to `near`; false when it cannot be computed. */
+/* The value at another parameter set (a model whose tapes bind it), nearest to `near`; false when it cannot be
+   computed. */
 typedef bool nh_follow(const nh_model *changed, double near, double *value, void *context);
 
-/* A product of powers of the parameters, and of sums of them that occur in the equations of motion, that equals `value` at the model's
- * parameters and follows it at others; else a simple rational or root; else 0. */
-nh_ex nh_name_value(const nh_model *model, double value, nh_follow *follow, void *context, double tolerance, uint64_t seed);
+/* A product of powers of the parameters, and of sums of them that occur in the equations of motion, that equals `value`
+ * at the model's parameters and follows it at others; else a simple rational or root; else 0. */
+nh_ex nh_name_value(const nh_model *model, double value, nh_follow *follow, void *context, double tolerance,
+                    uint64_t seed);
 
 #endif

@@ -12,8 +12,8 @@
 #include "search/currents.h"
 #include "search/explicit_motion.h"
 
-/* Which parameters have their values, where some must: those that stand in functions and exponents of the equations of motion and of the currents, and those
- * that a current needs.  NULL: none. */
+/* Which parameters have their values, where some must: those that stand in functions and exponents of the equations of
+ * motion and of the currents, and those that a current needs.  NULL: none. */
 static const bool *special_values(const nh_analysis *r)
 {
     enum { most = 64 };
@@ -42,7 +42,8 @@ static size_t gather(const nh_analysis *r, bool general, nh_ex *current)
     return n;
 }
 
-/* More states; then no integrals without closed form; then no roots; then time as the parameter; then fewer values of parameters. */
+/* More states; then no integrals without closed form; then no roots; then time as the parameter; then fewer values of
+   parameters. */
 static bool better(const nh_explicit_motion *a, const nh_explicit_motion *b)
 {
     if (!b || a->known != b->known) return !b || a->known > b->known;
@@ -61,7 +62,8 @@ static bool is_parametric(const nh_model *o, nh_ex e)
     return true;
 }
 
-/* sqrt(m^2 u) as m sqrt(u): where that changes a sign, the root does so everywhere, and the rate vanishes for either. */
+/* sqrt(m^2 u) as m sqrt(u): where that changes a sign, the root does so everywhere, and the rate vanishes for
+   either. */
 static nh_ex shorter_roots(const nh_model *o, nh_ex e)
 {
     enum { most = 200 };
@@ -72,7 +74,8 @@ static nh_ex shorter_roots(const nh_model *o, nh_ex e)
         for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
             nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
             if (x != half && x != nh_neg(d, half)) continue;
-            bool split = nh_square_split(d, nh_simplify_short(d, base, 0), &outside, &inside) && is_parametric(o, outside);
+            bool split =
+                nh_square_split(d, nh_simplify_short(d, base, 0), &outside, &inside) && is_parametric(o, outside);
             if (split) e = nh_substitute_root(d, e, base, nh_mul(d, outside, nh_sqrt(d, inside)));
         }
     return e;
@@ -91,7 +94,8 @@ static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
         if (nh_function_of(d, call[i]) != NH_LOG || nh_kind_of(d, u) != NH_PRODUCT) continue;
         c = nh_number(d, nh_constant_of(d, u));
         for (size_t f = 0; f < nh_arity(d, u); f++)
-            if (is_parametric(o, nh_child(d, u, f)) && is_parametric(o, nh_exponent_of(d, u, f))) c = nh_mul(d, c, nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f)));
+            if (is_parametric(o, nh_child(d, u, f)) && is_parametric(o, nh_exponent_of(d, u, f)))
+                c = nh_mul(d, c, nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f)));
         nh_ex valued = nh_exact_values(o, c);
         if (nh_kind_of(d, valued) != NH_NUMBER || nh_num_value(nh_number_of(d, valued)) <= 0) continue;
         by[logs] = nh_call(d, NH_LOG, nh_div(d, u, c));
@@ -124,25 +128,29 @@ static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *
     for (size_t k = 0; k < count; k++)
         for (size_t j = 0; j < tried[k]->constants; j++) {
             if (!tried[k]->constant[j].integrated || tried[k]->constant[j].at_start) continue;
-            nh_ex e = nh_simplify_short(o->dag, shorter_logarithms(x->r, shorter_roots(o, tried[k]->constant[j].value)), 0);
+            nh_ex e =
+                nh_simplify_short(o->dag, shorter_logarithms(x->r, shorter_roots(o, tried[k]->constant[j].value)), 0);
             e = shorter_roots(o, e);
             list[n++] = (constant){e, tried[k]->fixed != NULL, nh_complexity(o->dag, e)};
         }
     qsort(list, n, sizeof *list, by_generality);
-    for (size_t j = 0; j < n && !nh_stage_solver_done(x); j++) nh_stage_solver_certify(x, list[j].e, "integration of one equation after another");
+    for (size_t j = 0; j < n && !nh_stage_solver_done(x); j++)
+        nh_stage_solver_certify(x, list[j].e, "integration of one equation after another");
     nh_free(list);
 }
 
 /* ---- the whole ---- */
 
 /* With every state as the parameter; the best one. */
-static const nh_explicit_motion *try_all(nh_stage_solver *x, const bool *fixed, size_t n, const nh_ex *current, size_t *count, const nh_explicit_motion **tried)
+static const nh_explicit_motion *try_all(nh_stage_solver *x, const bool *fixed, size_t n, const nh_ex *current,
+                                         size_t *count, const nh_explicit_motion **tried)
 {
     const nh_model *o = x->r->model;
     const nh_explicit_motion *best = NULL;
     size_t states = 1 + o->m + o->n;
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
-        const nh_explicit_motion *m = nh_explicit_motion_along(x->r->arena, o, x->ranges, i, fixed, n, current, &x->r->options);
+        const nh_explicit_motion *m =
+            nh_explicit_motion_along(x->r->arena, o, x->ranges, i, fixed, n, current, &x->r->options);
         if (!m) continue;
         tried[(*count)++] = m;
         if (better(m, best)) best = m;
@@ -170,7 +178,8 @@ void nh_quadratures_search(nh_stage_solver *x)
     if (o->chart->implicit || nh_budget_spent()) return;
     nh_progress("integration of one equation after another", nh_budget_part());
     nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current);
-    const nh_explicit_motion **tried = nh_arena_alloc(r->arena, 2 * states * sizeof *tried), *best = try_all(x, NULL, gather(r, true, current), current, &count, tried);
+    const nh_explicit_motion **tried = nh_arena_alloc(r->arena, 2 * states * sizeof *tried),
+                             *best = try_all(x, NULL, gather(r, true, current), current, &count, tried);
     const bool *fixed = special_values(r);
     if (fixed && !(best && best->known == states && !best->integrals)) {
         const nh_explicit_motion *special = try_all(x, fixed, gather(r, false, current), current, &count, tried);

@@ -1,8 +1,10 @@
-/* quadratures: currents that integration gives, one state after another, and the motion as formulas (explicit_motion.h).
+/* quadratures: currents that integration gives, one state after another, and the motion as formulas
+ * (explicit_motion.h).
  *
- * Every state is tried as the parameter of the motions, with the currents found so far; the constants of the integrations are currents like others: proved,
- * compared, held against the places where motions cross the cuts of their arctangents and logarithms.  A formula that needs values of
- * parameters (the sleigh's position: sin and cos of phi and of phi/k) is tried with those that stand in functions and exponents. */
+ * Every state is tried as the parameter of the motions, with the currents found so far; the constants of the
+ * integrations are currents like others: proved, compared, held against the places where motions cross the cuts of
+ * their arctangents and logarithms.  A formula that needs values of parameters (the sleigh's position: sin and cos of
+ * phi and of phi/k) is tried with those that stand in functions and exponents. */
 #ifndef NH_QUADRATURES_H
 #define NH_QUADRATURES_H
 

@@ -11,7 +11,8 @@
 #include "search/stages.h"
 
 enum { most_values = 24, most_rates = 4 };
-static const double split_by_rounding = 3e-7; /* a double eigenvalue comes as two that differ by the root of rounding; their mean is right to rounding */
+/* a double eigenvalue comes as two that differ by the root of rounding; their mean is right to rounding */
+static const double split_by_rounding = 3e-7;
 
 /* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
 
@@ -43,7 +44,8 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
     nh_error_clear(&ignored);
     const nh_points *points = c->x->ranges;
     size_t n = c->base->columns, count = 0, *seen = nh_alloc_array(most + 1, sizeof *seen);
-    double largest = 0, *A = nh_alloc_array(points->count * n + 1, sizeof *A), *B = nh_alloc_array(points->count * n + 1, sizeof *B);
+    double largest = 0, *A = nh_alloc_array(points->count * n + 1, sizeof *A),
+           *B = nh_alloc_array(points->count * n + 1, sizeof *B);
     nh_nullspace_options limits = nh_nullspace_options_from(&c->x->r->options);
     nh_rows_pencil(o, c->base, nh_model_gamma(o, c->q), points, A, B);
     nh_pencil *p = nh_pencil_solve(points->count, n, A, B, &limits, c->x->r->options.split, &ignored);
@@ -53,7 +55,8 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
         if (y < 0 || p->residual[k] > 1e-7 * hypot(x, y)) continue; /* relative: rates have units */
         if (y < split_by_rounding * fabs(x)) y = 0;
         if (fabs(x) < split_by_rounding * y) x = 0;
-        if (c->periodic) y = fabs(y - round(y)); /* whole harmonics are in the base: nu, 1 - nu, 1 + nu, ... are one rate */
+        /* whole harmonics are in the base: nu, 1 - nu, 1 + nu, ... are one rate */
+        if (c->periodic) y = fabs(y - round(y));
         if (fabs(x) + fabs(y) < 1e-6 * largest || again(x, y, count, re, im, seen)) continue;
         re[count] = x;
         im[count] = y;
@@ -85,7 +88,8 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
     return n > 0 && best < 0.5 * fabs(near);
 }
 
-/* A convergent p/q of a real number is off by 1/q^2 or so: by much less only when the number is p/q (1/1000 of an angle in thousandths). */
+/* A convergent p/q of a real number is off by 1/q^2 or so: by much less only when the number is p/q (1/1000 of an angle
+   in thousandths). */
 static nh_ex unusually_near(nh_dag *d, double value, double tolerance)
 {
     static const double by_chance = 1e-3;
@@ -95,8 +99,8 @@ static nh_ex unusually_near(nh_dag *d, double value, double tolerance)
     return fabs(nh_num_value(r) - value) * q * q < by_chance ? nh_number(d, r) : 0;
 }
 
-/* The pencil's eigenvalues have as many digits as the gap of its null space leaves, sometimes seven: what looks like the value is tried before
- * the digits are. */
+/* The pencil's eigenvalues have as many digits as the gap of its null space leaves, sometimes seven: what looks like
+ * the value is tried before the digits are. */
 enum { AS_DIGITS, AS_NUMBERS, NAMED };
 static const double few_digits = 1000, /* times the tolerance for recognising numbers */
                     negligible = 1e-6;  /* of one part of a rate against the other */
@@ -118,7 +122,9 @@ static nh_ex named(rate_context *c, double value)
     nh_ex e = 0;
     for (int fold = 0; fold < folds(c) && !e; fold++) {
         e = nh_name_value(r->model, unfolded(value, fold), follow, c, exact, (uint64_t)r->options.seed);
-        if (!e) e = nh_name_value(r->model, unfolded(value, fold), follow, c, few_digits * exact, (uint64_t)r->options.seed);
+        if (!e)
+            e = nh_name_value(r->model, unfolded(value, fold), follow, c, few_digits * exact,
+                              (uint64_t)r->options.seed);
     }
     return e ? e : number_of(c, value);
 }
@@ -150,7 +156,9 @@ static size_t wave_terms(waves *w, nh_ex *out)
         double re = w->re[k], im = w->im[k];
         bool turns = fabs(im) > negligible * fabs(re), decays = fabs(re) > negligible * fabs(im);
         nh_ex rate = decays ? nh_neg(d, rate_of(c, re, false, w->how[k])) : 0;
-        nh_ex decay = !decays ? nh_int(d, 1) : c->base_of_power ? nh_pow(d, c->base_of_power, rate) : nh_call(d, NH_EXP, nh_mul(d, rate, c->q));
+        nh_ex decay = !decays            ? nh_int(d, 1)
+                      : c->base_of_power ? nh_pow(d, c->base_of_power, rate)
+                                         : nh_call(d, NH_EXP, nh_mul(d, rate, c->q));
         nh_ex angle = turns ? nh_mul(d, rate_of(c, im, true, w->how[k]), c->q) : 0;
         if (!turns) out[count++] = decay;
         else {
@@ -161,8 +169,8 @@ static size_t wave_terms(waves *w, nh_ex *out)
     return count;
 }
 
-/* The base times the waves; with the base itself only where it is everything of degree one (smooth functions on a small interval are nearly
- * dependent, so that nothing unnecessary should be there). */
+/* The base times the waves; with the base itself only where it is everything of degree one (smooth functions on a small
+ * interval are nearly dependent, so that nothing unnecessary should be there). */
 static size_t wave_families(waves *w, nh_family *out)
 {
     nh_arena *arena = w->context.x->r->arena;
@@ -190,7 +198,8 @@ static promise promises(waves *w, size_t k, int how)
     return p;
 }
 
-/* As much, as nearly conserved: a number or an expression that is no more than near the rate leaves a rest that its digits do not. */
+/* As much, as nearly conserved: a number or an expression that is no more than near the rate leaves a rest that its
+   digits do not. */
 static bool as_good(promise a, promise b)
 {
     static const double rounding = 1e-13, much = 100;
@@ -244,7 +253,8 @@ static bool is_wave(const nh_stage_solver *x, nh_ex g, double nu)
     return size > 0 && rest < 1e-7 * size;
 }
 
-/* The frequencies with which a system is driven are waves of the base itself: nothing is conserved with them, and they are nearly dependent on the others. */
+/* The frequencies with which a system is driven are waves of the base itself: nothing is conserved with them, and they
+   are nearly dependent on the others. */
 static size_t without_driven(const nh_stage_solver *x, nh_ex q, size_t n, double *re, double *im)
 {
     const nh_model *o = x->r->model;
@@ -294,7 +304,10 @@ static bool pencil_of(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name
     choose_forms(&w);
     if (w.count) {
         char text[120];
-        snprintf(text, sizeof text, power ? "powers of %.60s with exponents found by the pencil" : "exponentials and waves in %.60s with rates found by the pencil", name);
+        snprintf(text, sizeof text,
+                 power ? "powers of %.60s with exponents found by the pencil"
+                       : "exponentials and waves in %.60s with rates found by the pencil",
+                 name);
         nh_stage_solver_stage(x, text, wave_families(&w, family), family);
         if (w.count > 1) one_by_one(&w, text);
     }
@@ -305,12 +318,16 @@ static bool pencil_of(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name
 static bool pencil_stage(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name, size_t which)
 {
     nh_analysis *r = x->r;
-    size_t index = q == r->model->system->t && which == NH_PENCIL_PLAIN - 1 ? NH_PENCIL_TIME : which; /* elsewhere 1 and q are a pair that rounding splits */
+    /* elsewhere 1 and q are a pair that rounding splits */
+    size_t index = q == r->model->system->t && which == NH_PENCIL_PLAIN - 1 ? NH_PENCIL_TIME : which;
     nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, index);
     return pencil_of(x, q, power, name, &base, which);
 }
 
-void nh_rates_search_in(nh_stage_solver *x, const nh_family *base) { pencil_of(x, x->r->model->system->t, 0, "t", base, NH_PENCIL_BASES); }
+void nh_rates_search_in(nh_stage_solver *x, const nh_family *base)
+{
+    pencil_of(x, x->r->model->system->t, 0, "t", base, NH_PENCIL_BASES);
+}
 
 /* The equations of motion do not depend on it (time included: whether they do is seen soon enough). */
 static bool is_cyclic(const nh_stage_solver *x, nh_ex q)
@@ -331,7 +348,8 @@ static bool positive_everywhere(const nh_stage_solver *x, nh_ex e)
     return positive;
 }
 
-/* Gamma f = nu (Gamma(Q)/Q) f: then Q^-nu f is an integral.  Q: positive lengths and functions of the system, one of Q and 1/Q. */
+/* Gamma f = nu (Gamma(Q)/Q) f: then Q^-nu f is an integral.  Q: positive lengths and functions of the system, one of Q
+   and 1/Q. */
 static void powers(nh_stage_solver *x)
 {
     enum { most = 6 };
@@ -346,7 +364,8 @@ static void powers(nh_stage_solver *x)
         tried[n++] = Q;
         char *name = nh_print_string(d, Q);
         bool timely = nh_depends(d, Q, x->r->system->t); /* masses and springs that are powers of t */
-        if (!pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 0)) pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, timely ? NH_PENCIL_GROWING : 2);
+        if (!pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 0))
+            pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, timely ? NH_PENCIL_GROWING : 2);
         nh_free(name);
     }
 }
@@ -355,17 +374,20 @@ static void powers(nh_stage_solver *x)
 static void potential_rate(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
-    nh_ex *zero = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *zero), *v = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *v);
+    nh_ex *zero = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *zero),
+          *v = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *v);
     if (o->k == 0 || nh_stage_solver_done(x)) return;
     for (size_t s = 0; s < o->m; s++) {
         v[s] = o->system->coordinate[s].v;
         zero[s] = nh_int(o->dag, 0);
     }
     nh_ex V = nh_substitute(o->dag, o->system->lagrangian, o->m, v, zero);
-    if (nh_kind_of(o->dag, V) != NH_NUMBER && !nh_depends(o->dag, V, o->system->t)) pencil_stage(x, V, 0, "the potential", NH_PENCIL_PRODUCTS);
+    if (nh_kind_of(o->dag, V) != NH_NUMBER && !nh_depends(o->dag, V, o->system->t))
+        pencil_stage(x, V, 0, "the potential", NH_PENCIL_PRODUCTS);
 }
 
-/* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
+/* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it
+   found. */
 void nh_rates_search(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
@@ -373,15 +395,21 @@ void nh_rates_search(nh_stage_solver *x)
         nh_ex q = i == 0 ? o->system->t : o->system->coordinate[i - 1].q;
         const char *name = nh_name_of(o->dag, q);
         bool found = false;
-        for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_stage_solver_done(x) && !found; base++) found = pencil_stage(x, q, 0, name, base);
-        if (i == 0 && !found && nh_depends(o->dag, o->Lbar, q) && !nh_stage_solver_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_GROWING);
+        for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_stage_solver_done(x) && !found; base++)
+            found = pencil_stage(x, q, 0, name, base);
+        if (i == 0 && !found && nh_depends(o->dag, o->Lbar, q) && !nh_stage_solver_done(x))
+            pencil_stage(x, q, 0, name, NH_PENCIL_GROWING);
         if (o->system->has_forces && !nh_stage_solver_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_SQUARES);
-        for (size_t base = NH_PENCIL_QUADRATIC; base <= NH_PENCIL_CUBIC && i == 0 && !nh_stage_solver_done(x); base++) pencil_stage(x, q, 0, name, base);
-        if (i > 0 && o->system->coordinate[i - 1].type == NH_ANGLE && x->words.waves > 1 && !found && !nh_stage_solver_done(x)) {
+        for (size_t base = NH_PENCIL_QUADRATIC; base <= NH_PENCIL_CUBIC && i == 0 && !nh_stage_solver_done(x); base++)
+            pencil_stage(x, q, 0, name, base);
+        if (i > 0 && o->system->coordinate[i - 1].type == NH_ANGLE && x->words.waves > 1 && !found &&
+            !nh_stage_solver_done(x)) {
             nh_family around = nh_stage_pencil_around(x->r->arena, o, &x->words, q);
             pencil_of(x, q, 0, name, &around, NH_PENCIL_BASES);
         }
-        for (size_t base = NH_PENCIL_PLAIN; base <= NH_PENCIL_PRODUCTS && is_cyclic(x, q) && !nh_stage_solver_done(x); base++) pencil_stage(x, q, 0, name, base);
+        for (size_t base = NH_PENCIL_PLAIN; base <= NH_PENCIL_PRODUCTS && is_cyclic(x, q) && !nh_stage_solver_done(x);
+             base++)
+            pencil_stage(x, q, 0, name, base);
     }
     powers(x);
     potential_rate(x);

@@ -31,17 +31,20 @@ static bool exact(const ring *x, const nh_count_relation *q, nh_further_relation
 {
     nh_analysis *r = x->r;
     nh_dag *d = r->model->dag;
-    nh_ex *value = nh_alloc_array(q->terms + 1, sizeof *value), *name = nh_alloc_array(q->terms + 1, sizeof *name), *c = nh_alloc_array(q->terms + 1, sizeof *c);
+    nh_ex *value = nh_alloc_array(q->terms + 1, sizeof *value), *name = nh_alloc_array(q->terms + 1, sizeof *name),
+          *c = nh_alloc_array(q->terms + 1, sizeof *c);
     for (size_t i = 0; i < q->terms; i++) {
         value[i] = product(d, x->count, x->phi, q->exponent + i * x->count);
         name[i] = product(d, x->count, x->symbol, q->exponent + i * x->count);
     }
     size_t last = q->terms - 1;
-    bool found = nh_relation_find(d, q->terms, value, r->system->parameters, r->model->parameter, (size_t)r->options.proof_terms, c) == NH_RELATION_UNIQUE;
+    bool found = nh_relation_find(d, q->terms, value, r->system->parameters, r->model->parameter,
+                                  (size_t)r->options.proof_terms, c) == NH_RELATION_UNIQUE;
     found = found && !nh_is_zero(d, c[last]);
     if (found) {
         nh_ex right = nh_int(d, 0);
-        for (size_t i = 0; i < last; i++) right = nh_sub(d, right, nh_mul(d, nh_simplify(d, nh_div(d, c[i], c[last])), name[i]));
+        for (size_t i = 0; i < last; i++)
+            right = nh_sub(d, right, nh_mul(d, nh_simplify(d, nh_div(d, c[i], c[last])), name[i]));
         char *lhs = nh_print_string(d, name[last]), *rhs = nh_print_string(d, right);
         *out = (nh_further_relation){nh_arena_strdup(r->arena, lhs), nh_arena_strdup(r->arena, rhs)};
         nh_free(rhs);
@@ -74,7 +77,8 @@ void nh_relations_find(nh_analysis *r)
         n = nh_count_relations(r->model, x.count, x.phi, degree, r->arena, NH_MOST_RELATIONS, found);
     r->relation = nh_arena_alloc(r->arena, (n + 1) * sizeof *r->relation);
     for (size_t i = 0; i < n && !nh_late(); i++)
-        if (found[i].terms > 1 && found[i].terms <= longest) r->relations += exact(&x, &found[i], &r->relation[r->relations]);
+        if (found[i].terms > 1 && found[i].terms <= longest)
+            r->relations += exact(&x, &found[i], &r->relation[r->relations]);
     nh_free(x.symbol);
     nh_free(x.phi);
 }

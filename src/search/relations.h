@@ -4,8 +4,8 @@
 
 #include "search/analysis.h"
 
-/* Among the currents and the further integrals: which products are related is seen modulo a prime (integrals/count.h), the coefficients are exact, over the parameters.  Fills
- * result->relation. */
+/* Among the currents and the further integrals: which products are related is seen modulo a prime (integrals/count.h),
+ * the coefficients are exact, over the parameters.  Fills result->relation. */
 void nh_relations_find(nh_analysis *result);
 
 #endif

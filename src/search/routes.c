@@ -6,10 +6,12 @@
 #include "base/parallel.h"
 #include "search/spans.h"
 
-/* The symmetry route has about n + 1 times as many columns, each an expression of its own: beyond this it is left out, and said. */
+/* The symmetry route has about n + 1 times as many columns, each an expression of its own: beyond this it is left out,
+   and said. */
 enum { most_columns = 400 };
 
-static nh_nullspace *solve(nh_analysis *r, size_t n, const nh_field_column *column, const nh_points *points, nh_error *error)
+static nh_nullspace *solve(nh_analysis *r, size_t n, const nh_field_column *column, const nh_points *points,
+                           nh_error *error)
 {
     nh_equations *equations = nh_equations_create(n, nh_threads(r->options.threads));
     nh_rows_symmetry(r->model, n, column, points, equations);
@@ -19,10 +21,11 @@ static nh_nullspace *solve(nh_analysis *r, size_t n, const nh_field_column *colu
     return s;
 }
 
-static void compare(nh_analysis *r, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current, const nh_nullspace *symmetry,
-                    const nh_field_column *column)
+static void compare(nh_analysis *r, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current,
+                    const nh_nullspace *symmetry, const nh_field_column *column)
 {
-    nh_ex *phi = nh_alloc_array(a->columns + 1, sizeof *phi), *field = nh_alloc_array(symmetry->columns + 1, sizeof *field);
+    nh_ex *phi = nh_alloc_array(a->columns + 1, sizeof *phi),
+          *field = nh_alloc_array(symmetry->columns + 1, sizeof *field);
     for (size_t j = 0; j < a->columns; j++) phi[j] = nh_ansatz_column(a, j);
     for (size_t j = 0; j < symmetry->columns; j++) field[j] = nh_rows_field_current(r->model, &column[j]);
     double *x = nh_span_values(r->model, points, a->columns, phi, current->dimension, current->vector);
@@ -45,10 +48,12 @@ void nh_routes_compare(nh_analysis *r, const nh_ansatz *a, const nh_points *poin
     nh_ex *b = nh_alloc_array(a->columns + 1, sizeof *b);
     for (size_t j = 0; j < a->columns; j++) b[j] = nh_ansatz_column(a, j);
     nh_field_column *column;
-    size_t n = a->columns * (r->model->n + 1) <= most_columns ? nh_rows_field_columns(r->model, a->columns, b, &column) : 0;
+    size_t n =
+        a->columns * (r->model->n + 1) <= most_columns ? nh_rows_field_columns(r->model, a->columns, b, &column) : 0;
     nh_free(b);
     if (n == 0) {
-        nh_analysis_warn(r, "the symmetry route was skipped: the ansatz is too large; the symmetries follow from the currents");
+        nh_analysis_warn(
+            r, "the symmetry route was skipped: the ansatz is too large; the symmetries follow from the currents");
         return;
     }
     nh_nullspace *s = solve(r, n, column, points, &trouble);
@@ -60,5 +65,6 @@ void nh_routes_compare(nh_analysis *r, const nh_ansatz *a, const nh_points *poin
     compare(r, a, points, current, s, column);
     nh_nullspace_free(s);
     if (!r->routes_agree)
-        nh_analysis_warn(r, "the two routes disagree: dimensions %zu and %zu, angle %.1e", r->current.dimension, r->symmetry.dimension, r->routes_angle);
+        nh_analysis_warn(r, "the two routes disagree: dimensions %zu and %zu, angle %.1e", r->current.dimension,
+                         r->symmetry.dimension, r->routes_angle);
 }

@@ -1,5 +1,5 @@
-/* The ladder's search for coefficient functions without closed form: integrals/function_series.h, for the words and the variables
- * that make sense. */
+/* The ladder's search for coefficient functions without closed form: integrals/function_series.h, for the words and the
+ * variables that make sense. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -157,7 +157,9 @@ static void named(problem *p, const char *what)
         n = nh_named_squares(r->model, p->variable, p->words, p->word, r->arena, phi, &p->equation);
     if (!n) return;
     *family = (nh_family){.kind = NH_TERMS, .terms = n, .term = phi};
-    nh_stage_solver_stage(p->x, nh_arena_printf(r->arena, "%s with coefficients that are named functions of %s", what, nh_name_of(r->model->dag, p->variable)),
+    nh_stage_solver_stage(p->x,
+                          nh_arena_printf(r->arena, "%s with coefficients that are named functions of %s", what,
+                                          nh_name_of(r->model->dag, p->variable)),
                           1, family);
 }
 
@@ -226,8 +228,8 @@ static void linear_in(nh_stage_solver *x, nh_ex q)
     search(&p, "velocities");
 }
 
-/* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are closed
- * under Gamma.  A power series continued past a kink or a
+/* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are
+ * closed under Gamma.  A power series continued past a kink or a
  * jump of the equations of motion is no current behind it. */
 void nh_series_stages(nh_stage_solver *x)
 {
@@ -246,7 +248,9 @@ void nh_series_stages(nh_stage_solver *x)
 void nh_stage_solver_series_in_each(nh_stage_solver *x)
 {
     enum { most_shapes = 3 };
-    if (x->words.shapes < 2 || x->words.shapes > most_shapes || x->r->model->chart->implicit || nh_counted_has_walls(x->r->model)) return;
+    if (x->words.shapes < 2 || x->words.shapes > most_shapes || x->r->model->chart->implicit ||
+        nh_counted_has_walls(x->r->model))
+        return;
     for (size_t i = 0; i < x->words.shapes; i++) linear_in(x, x->words.shape[i]);
 }
 

@@ -5,7 +5,8 @@
 
 #include "base/linalg.h"
 
-double *nh_span_values(const nh_model *o, const nh_points *points, size_t terms, const nh_ex *e, size_t n, const double *vector)
+double *nh_span_values(const nh_model *o, const nh_points *points, size_t terms, const nh_ex *e, size_t n,
+                       const double *vector)
 {
     size_t count = points->count;
     double *value = nh_alloc_array(terms * count + 1, sizeof *value), *out = nh_alloc_array(count * n + 1, sizeof *out);

@@ -22,7 +22,8 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
     const pencil_context *c = context;
     double list[most_values], best = HUGE_VAL;
     bool applied;
-    size_t count = nh_unknowns_pencil(changed, c->points, c->families, c->family, &c->unknown, &c->r->options, most_values, list, &applied);
+    size_t count = nh_unknowns_pencil(changed, c->points, c->families, c->family, &c->unknown, &c->r->options,
+                                      most_values, list, &applied);
     for (size_t i = 0; i < count; i++)
         if (fabs(list[i] - near) < best) {
             best = fabs(list[i] - near);
@@ -31,11 +32,12 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
     return count > 0;
 }
 
-static nh_ex recognise(const nh_analysis *r, const nh_points *points, size_t families, const nh_family *family, const nh_unknown *u,
-                       const nh_hits *hits, size_t which)
+static nh_ex recognise(const nh_analysis *r, const nh_points *points, size_t families, const nh_family *family,
+                       const nh_unknown *u, const nh_hits *hits, size_t which)
 {
     pencil_context c = {r, points, families, family, {u->symbol, 0, HUGE_VAL}};
-    return nh_name_value(r->model, hits->hit[which].value[0], follow, &c, r->options.recognise, (uint64_t)r->options.seed);
+    return nh_name_value(r->model, hits->hit[which].value[0], follow, &c, r->options.recognise,
+                         (uint64_t)r->options.seed);
 }
 
 static void name_values(nh_analysis *r, const nh_points *points, size_t families, const nh_family *family)
@@ -47,7 +49,8 @@ static void name_values(nh_analysis *r, const nh_points *points, size_t families
         nh_ex *named = nh_arena_alloc(r->arena, (h->unknowns + 1) * sizeof *named);
         for (size_t j = 0; j < h->unknowns; j++) {
             if (h->unknowns == 1) named[j] = recognise(r, points, families, family, &r->analysis->unknown[0], h, k);
-            else if (!nh_recognise_number(r->model->dag, h->hit[k].value[j], r->options.recognise, &named[j])) named[j] = 0;
+            else if (!nh_recognise_number(r->model->dag, h->hit[k].value[j], r->options.recognise, &named[j]))
+                named[j] = 0;
         }
         r->special[k] = (nh_special){h->hit[k].value, named, &h->hit[k]};
     }
@@ -59,7 +62,8 @@ static void expand(nh_analysis *r, size_t *families, nh_family **family)
     const nh_analysis_file *a = r->analysis;
     nh_dag *d = r->model->dag;
     nh_family *out = nh_arena_alloc(r->arena, (*families * (1 + r->specials) + 1) * sizeof *out);
-    nh_ex *from = nh_arena_alloc(r->arena, (a->unknowns + 1) * sizeof *from), *to = nh_arena_alloc(r->arena, (a->unknowns + 1) * sizeof *to);
+    nh_ex *from = nh_arena_alloc(r->arena, (a->unknowns + 1) * sizeof *from),
+          *to = nh_arena_alloc(r->arena, (a->unknowns + 1) * sizeof *to);
     size_t n = 0;
     for (size_t j = 0; j < a->unknowns; j++) from[j] = a->unknown[j].symbol;
     for (size_t i = 0; i < *families; i++) {

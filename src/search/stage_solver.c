@@ -17,7 +17,8 @@ bool nh_stage_solver_begin(nh_stage_solver *x, nh_analysis *r, nh_error *error)
 {
     size_t points = range_points_each * r->model->m;
     *x = (nh_stage_solver){.r = r, .counted.r = r};
-    x->ranges = nh_points_create(r->model, points > range_points ? points : range_points, 1, (uint64_t)r->options.seed, error);
+    x->ranges =
+        nh_points_create(r->model, points > range_points ? points : range_points, 1, (uint64_t)r->options.seed, error);
     x->bench = x->ranges ? nh_current_checker_create(r, error) : NULL;
     if (!x->bench) nh_stage_solver_end(x);
     return x->bench != NULL;
@@ -36,7 +37,8 @@ void nh_stage_solver_end(nh_stage_solver *x)
 static nh_ex rough(const nh_model *o, const nh_candidate *c)
 {
     nh_ex e = nh_int(o->dag, 0);
-    for (size_t j = 0; j < c->count; j++) e = nh_add(o->dag, e, nh_mul(o->dag, nh_real(o->dag, c->coefficient[j]), c->term[j]));
+    for (size_t j = 0; j < c->count; j++)
+        e = nh_add(o->dag, e, nh_mul(o->dag, nh_real(o->dag, c->coefficient[j]), c->term[j]));
     return e;
 }
 
@@ -48,11 +50,13 @@ static void keep_factor(nh_stage_solver *x, nh_ex phi)
     x->factor[x->factors++] = phi;
 }
 
-/* Gradients against those of the known currents; candidates come simplest first.  kind[k] of candidate k; returns how many are new. */
+/* Gradients against those of the known currents; candidates come simplest first.  kind[k] of candidate k; returns how
+   many are new. */
 static size_t compare(nh_stage_solver *x, nh_candidates *list, nh_independence *kind)
 {
     nh_analysis *r = x->r;
-    size_t known = r->count, most = least_tested > r->local_maximum ? least_tested : r->local_maximum, n = list->count < most ? list->count : most, fresh = 0;
+    size_t known = r->count, most = least_tested > r->local_maximum ? least_tested : r->local_maximum,
+           n = list->count < most ? list->count : most, fresh = 0;
     nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
     nh_independence *all = nh_alloc_array(known + n + 1, sizeof *all);
     for (size_t k = 0; k < known; k++) phi[k] = r->found[k].phi;
@@ -73,7 +77,8 @@ bool nh_stage_solver_done(const nh_stage_solver *x)
     return x->r->independent >= x->r->local_maximum || nh_budget_spent() || nh_late();
 }
 
-/* Certificates of vectors that are only likely are dear and mostly refused: the limit of work ends them too, and leaves the question open. */
+/* Certificates of vectors that are only likely are dear and mostly refused: the limit of work ends them too, and leaves
+   the question open. */
 static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_points *fit, bool certain)
 {
     nh_analysis *r = x->r;
@@ -95,7 +100,8 @@ static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_points *
     }
     r->independent += nh_currents_join(x->bench, fit);
     nh_free(kind);
-    if (r->independent >= r->local_maximum) nh_currents_recount(x->bench); /* a series may look independent of what came after it */
+    /* a series may look independent of what came after it */
+    if (r->independent >= r->local_maximum) nh_currents_recount(x->bench);
     return r->independent > before ? r->independent - before : 0;
 }
 
@@ -150,8 +156,10 @@ static nh_limit limit_of(const nh_stage_solver *x, const nh_sectors *sectors, si
     static const double room = 1.2;
     const nh_options *options = &x->r->options;
     double work = dense_work(sectors, points);
-    if (!x->wide && sectors->largest > (size_t)options->stage_columns) return (nh_limit){"stage_columns", (double)sectors->largest};
-    if (!nh_budget_allows(NH_WORK_DENSE, work)) return (nh_limit){"work", ceil(room * (nh_budget_used() + nh_work_millions(NH_WORK_DENSE, work)))};
+    if (!x->wide && sectors->largest > (size_t)options->stage_columns)
+        return (nh_limit){"stage_columns", (double)sectors->largest};
+    if (!nh_budget_allows(NH_WORK_DENSE, work))
+        return (nh_limit){"work", ceil(room * (nh_budget_used() + nh_work_millions(NH_WORK_DENSE, work)))};
     return (nh_limit){0};
 }
 
@@ -161,7 +169,8 @@ nh_solved nh_stage_solver_solve(nh_stage_solver *x, size_t families, const nh_fa
     nh_analysis *r = x->r;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_solved s = {.ansatz = nh_ansatz_create(r->model, x->ranges, families, family, (size_t)r->options.columns, &ignored)};
+    nh_solved s = {.ansatz =
+                       nh_ansatz_create(r->model, x->ranges, families, family, (size_t)r->options.columns, &ignored)};
     if (!s.ansatz) {
         s.limit = (nh_limit){"columns", nh_ansatz_size(families, family)};
         return s;
@@ -176,7 +185,9 @@ nh_solved nh_stage_solver_solve(nh_stage_solver *x, size_t families, const nh_fa
     } else if (sectors.count) {
         nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
         s.fit = nh_points_cover(r->model, count, (uint64_t)r->options.seed + r->stages, &ignored);
-        if (s.fit) s.nullspace = nh_sectors_solve(r->model, s.ansatz, &sectors, s.fit, &limits, nh_threads(r->options.threads), &ignored);
+        if (s.fit)
+            s.nullspace = nh_sectors_solve(r->model, s.ansatz, &sectors, s.fit, &limits, nh_threads(r->options.threads),
+                                           &ignored);
     }
     nh_sectors_clear(&sectors);
     return s;
@@ -196,7 +207,8 @@ size_t nh_stage_solver_news(nh_stage_solver *x, size_t families, const nh_family
     size_t fresh = 0;
     if (worst) *worst = s.nullspace && s.nullspace->likely ? s.nullspace->spectrum[s.nullspace->likely - 1] : 0;
     if (s.nullspace && s.nullspace->likely) {
-        nh_candidates *list = nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely, &x->r->options);
+        nh_candidates *list =
+            nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely, &x->r->options);
         nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
         fresh = compare(x, list, kind);
         nh_free(kind);
@@ -206,7 +218,10 @@ size_t nh_stage_solver_news(nh_stage_solver *x, size_t families, const nh_family
     return fresh;
 }
 
-bool nh_stage_solver_promising(nh_stage_solver *x, size_t families, const nh_family *family) { return nh_stage_solver_news(x, families, family, NULL) > 0; }
+bool nh_stage_solver_promising(nh_stage_solver *x, size_t families, const nh_family *family)
+{
+    return nh_stage_solver_news(x, families, family, NULL) > 0;
+}
 
 /* The first `count` null vectors, turned into what is new in them. */
 static size_t harvest(nh_stage_solver *x, const nh_solved *s, size_t count, bool certain)
@@ -272,7 +287,14 @@ size_t nh_stage_solver_certify(nh_stage_solver *x, nh_ex e, const char *name)
     *term = e;
     *one = 1;
     nh_candidate *c = nh_arena_alloc(r->arena, sizeof *c);
-    *c = (nh_candidate){.count = 1, .term = term, .coefficient = one, .refitted = true, .all = 1, .all_term = term, .all_coefficient = one, .all_size = one};
+    *c = (nh_candidate){.count = 1,
+                        .term = term,
+                        .coefficient = one,
+                        .refitted = true,
+                        .all = 1,
+                        .all_term = term,
+                        .all_coefficient = one,
+                        .all_size = one};
     if (nh_kind_of(r->model->dag, *term) == NH_NUMBER || nh_currents_known(x->bench, *term)) return 0;
     if (nh_prove_digits(r->model, *term, &r->options) < r->options.digits) return 0;
     nh_stage_record *note = nh_stage_solver_note(x, name);

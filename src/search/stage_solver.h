@@ -19,7 +19,8 @@ typedef struct {
     size_t factors;              /* simple currents, dependent ones too: factors of later stages */
     nh_ex factor[NH_MOST_FACTORS];
     nh_counted counted;          /* stages that the count makes superfluous are left out */
-    bool wide;                   /* the stage at hand has few columns for what it looks for: it may have as many as any ansatz */
+    /* the stage at hand has few columns for what it looks for: it may have as many as any ansatz */
+    bool wide;
 } nh_stage_solver;
 
 /* Points for the ranges of columns, and a current checker; no stages yet. */
@@ -44,13 +45,15 @@ void nh_solved_clear(nh_solved *solved);
 
 /* An entry in the list of what was tried. */
 nh_stage_record *nh_stage_solver_note(nh_stage_solver *climb, const char *name);
-/* How much new a stage seems to give, and the largest of the null values that it comes from (`worst`; may be NULL); whether any. */
+/* How much new a stage seems to give, and the largest of the null values that it comes from (`worst`; may be NULL);
+   whether any. */
 size_t nh_stage_solver_news(nh_stage_solver *climb, size_t families, const nh_family *family, double *worst);
 bool nh_stage_solver_promising(nh_stage_solver *climb, size_t families, const nh_family *family);
 /* Solve it, keep what is new, and note it. */
 void nh_stage_solver_stage(nh_stage_solver *climb, const char *name, size_t families, const nh_family *family);
-/* One expression: where it is new, and its rate cancels in ball arithmetic, it is kept.  Doubles may lose all digits of it, where determinants of the constraints are
- * small on parts of the domain.  How many independent currents that makes. */
+/* One expression: where it is new, and its rate cancels in ball arithmetic, it is kept.  Doubles may lose all digits of
+ * it, where determinants of the constraints are small on parts of the domain.  How many independent currents that
+ * makes. */
 size_t nh_stage_solver_certify(nh_stage_solver *climb, nh_ex e, const char *name);
 
 /* Exponentials and waves in t and in the coordinates, with rates from the pencil. */
@@ -63,7 +66,8 @@ void nh_linear_motion_search(nh_stage_solver *climb);
 void nh_isometries_search(nh_stage_solver *climb);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */
 void nh_series_stages(nh_stage_solver *climb);
-/* The same, linear ones, where the equations depend on several coordinates: what has a closed form should have been found before. */
+/* The same, linear ones, where the equations depend on several coordinates: what has a closed form should have been
+   found before. */
 void nh_stage_solver_series_in_each(nh_stage_solver *climb);
 /* With functions of t. */
 void nh_stage_solver_series_in_time(nh_stage_solver *climb);

@@ -57,7 +57,8 @@ static void function_stages(nh_stage_solver *x)
         part[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = linear};
         part[1] = (nh_family){.kind = NH_TERMS, .terms = 1, .term = &x->words.atom[i]};
         all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-        if (nh_stage_solver_promising(x, 1, all)) nh_stage_solver_stage(x, "velocities and forms times one function", 1, all);
+        if (nh_stage_solver_promising(x, 1, all))
+            nh_stage_solver_stage(x, "velocities and forms times one function", 1, all);
     }
 }
 
@@ -67,7 +68,9 @@ static void stages_of_many(nh_stage_solver *x)
     enum { few_coordinates = 6 };
     nh_stage stage;
     x->wide = true;
-    for (size_t i = 0; x->r->model->m > few_coordinates && !nh_stage_solver_done(x) && nh_stage_of_many(x->r->arena, x->r->model, &x->words, i, &stage); i++)
+    for (size_t i = 0; x->r->model->m > few_coordinates && !nh_stage_solver_done(x) &&
+                       nh_stage_of_many(x->r->arena, x->r->model, &x->words, i, &stage);
+         i++)
         nh_stage_solver_stage(x, stage.name, stage.families, stage.family);
     x->wide = false;
 }
@@ -75,17 +78,26 @@ static void stages_of_many(nh_stage_solver *x)
 /* Work ends it at the same place everywhere, time does not; a stage that was too large is left out and ends nothing. */
 static void how_it_ended(nh_analysis *r, bool spent)
 {
-    for (size_t i = 0; i < r->stages; i++) spent |= r->stage[i].limit.option && !strcmp(r->stage[i].limit.option, "work");
+    for (size_t i = 0; i < r->stages; i++)
+        spent |= r->stage[i].limit.option && !strcmp(r->stage[i].limit.option, "work");
     if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
     else r->search = spent || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
     if (r->search != NH_SEARCH_CUT || !spent) return;
     r->partial = true;
-    nh_analysis_warn(r, "the limit of %g million units of work ended the search; raise it by --option work=%g", r->options.work, 10 * r->options.work);
+    nh_analysis_warn(r, "the limit of %g million units of work ended the search; raise it by --option work=%g",
+                     r->options.work, 10 * r->options.work);
 }
 
 bool nh_staged_search_run(nh_analysis *r, nh_error *error)
 {
-    enum { counted_from = 1, pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 5, time_after = 14 };
+    enum {
+        counted_from = 1,
+        pencils_after = 2,
+        known_after = 5,
+        isometries_after = 4,
+        series_after = 5,
+        time_after = 14
+    };
     nh_stage_solver x;
     if (!nh_stage_solver_begin(&x, r, error)) return false;
     nh_budget_begin(r->options.work);

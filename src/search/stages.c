@@ -37,7 +37,9 @@ void nh_family_list_add(nh_family_list *s, nh_family f)
 
 void nh_family_list_product_of_sets(nh_family_list *s, const nh_expr_set *a, const nh_expr_set *b)
 {
-    if (a->n && b->n) nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_terms(s, a), nh_family_list_terms(s, b)}));
+    if (a->n && b->n)
+        nh_family_list_add(
+            s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_terms(s, a), nh_family_list_terms(s, b)}));
 }
 
 nh_family nh_family_list_polynomial(nh_family_list *s, const nh_expr_set *l, size_t degree)
@@ -116,7 +118,8 @@ nh_expr_set nh_expr_set_squares(const nh_family_list *s, const nh_expr_set *a)
 
 /* ---- the stages ---- */
 
-/* Products of components along the frame of the kinetic energy with lengths and harmonics: in polar coordinates the components of vectors. */
+/* Products of components along the frame of the kinetic energy with lengths and harmonics: in polar coordinates the
+   components of vectors. */
 nh_expr_set nh_expr_set_lengths(const nh_family_list *s, bool squares_too, bool time)
 {
     nh_dag *d = s->o->dag;
@@ -139,7 +142,8 @@ static nh_expr_set times(const nh_family_list *s, const nh_expr_set *a, const nh
 
 static nh_expr_set frame_products(const nh_family_list *s, bool squares_too)
 {
-    nh_expr_set f = {0}, w = waves(s), some = nh_expr_set_lengths(s, false, !squares_too), all = nh_expr_set_lengths(s, true, false), g = nh_expr_set_functions(s, false);
+    nh_expr_set f = {0}, w = waves(s), some = nh_expr_set_lengths(s, false, !squares_too),
+                all = nh_expr_set_lengths(s, true, false), g = nh_expr_set_functions(s, false);
     nh_expr_set_put_all(&f, s->w->frames, s->w->frame);
     nh_expr_set out = times(s, &f, &some), sq = nh_expr_set_squares(s, &f), more = times(s, &sq, &all);
     if (squares_too) nh_expr_set_put_all(&out, more.n, more.e);
@@ -184,7 +188,9 @@ static void stage_functions(nh_family_list *s)
 {
     nh_expr_set l = words(s), q = nh_expr_set_positions(s, true, false), f = nh_expr_set_functions(s, true);
     if (f.n < 2) return;
-    nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &l), nh_family_list_terms(s, &q), nh_family_list_terms(s, &f)}));
+    nh_family_list_add(s, nh_family_list_product(s, 3,
+                                                 (nh_family[]){nh_family_list_terms(s, &l), nh_family_list_terms(s, &q),
+                                                               nh_family_list_terms(s, &f)}));
     nh_family_list_product_of_sets(s, &q, &f);
 }
 
@@ -200,7 +206,10 @@ static void stage_total(nh_family_list *s, size_t degree, bool with_functions)
     nh_expr_set v = {0}, f = nh_expr_set_functions(s, true);
     for (size_t i = 0; i < s->w->positions; i++) nh_expr_set_put(&v, s->w->position[i]);
     nh_expr_set_put_all(&v, s->w->velocities, s->w->velocity);
-    if (with_functions && f.n > 1) nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_polynomial(s, &v, degree), nh_family_list_terms(s, &f)}));
+    if (with_functions && f.n > 1)
+        nh_family_list_add(
+            s, nh_family_list_product(
+                   s, 2, (nh_family[]){nh_family_list_polynomial(s, &v, degree), nh_family_list_terms(s, &f)}));
     else nh_family_list_add(s, nh_family_list_polynomial(s, &v, degree));
 }
 
@@ -220,14 +229,20 @@ static bool is_magnetic(const nh_family_list *s)
     return false;
 }
 
-/* Quadratic in the velocities, linear in positions, atoms of weight two: Runge-Lenz vectors; in the field of a monopole also linear in the velocities. */
+/* Quadratic in the velocities, linear in positions, atoms of weight two: Runge-Lenz vectors; in the field of a monopole
+   also linear in the velocities. */
 static void stage_weights(nh_family_list *s)
 {
-    nh_expr_set l = linear_words(s), v = {0}, q = nh_expr_set_squares(s, &l), x = nh_expr_set_positions(s, true, false), f = nh_expr_set_functions(s, false);
+    nh_expr_set l = linear_words(s), v = {0}, q = nh_expr_set_squares(s, &l), x = nh_expr_set_positions(s, true, false),
+                f = nh_expr_set_functions(s, false);
     nh_family_list_product_of_sets(s, &q, &x);
     nh_family_list_product_of_sets(s, &f, &x);
     nh_expr_set_put_all(&v, s->o->n, s->o->chart->w);
-    if (f.n && is_magnetic(s)) nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_terms(s, &x), nh_family_list_terms(s, &f)}));
+    if (f.n && is_magnetic(s))
+        nh_family_list_add(
+            s, nh_family_list_product(s, 3,
+                                      (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_terms(s, &x),
+                                                    nh_family_list_terms(s, &f)}));
 }
 
 /* Rational: P / v with P linear. */
@@ -238,7 +253,9 @@ static void stage_ratios(nh_family_list *s)
     for (size_t i = 0; i < s->w->velocities; i++) nh_expr_set_put(&v, nh_powi(d, s->w->velocity[i], -1));
     for (size_t i = 0; i < s->w->atoms; i++) nh_expr_set_put(&v, s->w->atom[i]);
     nh_expr_set qt = nh_expr_set_positions(s, true, true);
-    nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &l), nh_family_list_terms(s, &q), nh_family_list_terms(s, &v)}));
+    nh_family_list_add(s, nh_family_list_product(s, 3,
+                                                 (nh_family[]){nh_family_list_terms(s, &l), nh_family_list_terms(s, &q),
+                                                               nh_family_list_terms(s, &v)}));
     nh_family_list_product_of_sets(s, &v, &qt);
     nh_family_list_add(s, nh_family_list_terms(s, &qt));
 }
@@ -297,7 +314,8 @@ bool nh_stage_of_many(nh_arena *arena, const nh_model *o, const nh_dictionary *w
     return true;
 }
 
-/* Masses and springs that grow like t bring t times the words.  Elsewhere t f is a second vector of the eigenvalue of f, which rounding splits. */
+/* Masses and springs that grow like t bring t times the words.  Elsewhere t f is a second vector of the eigenvalue of
+   f, which rounding splits. */
 static void put_growing(const nh_family_list *s, nh_expr_set *l)
 {
     nh_expr_set words = {0};
@@ -307,14 +325,16 @@ static void put_growing(const nh_family_list *s, nh_expr_set *l)
     for (size_t i = 0; i < words.n; i++) nh_expr_set_put(l, nh_mul(s->o->dag, t, words.e[i]));
 }
 
-/* Squares or cubes of velocities and lengths, and the system's functions, for cubes times lengths.  Lists that are too long are left empty. */
+/* Squares or cubes of velocities and lengths, and the system's functions, for cubes times lengths.  Lists that are too
+   long are left empty. */
 static nh_family power_base(nh_family_list *s, size_t degree)
 {
     enum { most_variables = 7 };
     nh_expr_set u = {0}, l = {0}, q = nh_expr_set_lengths(s, false, false), f = nh_expr_set_functions(s, false);
     nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
     nh_expr_set_put_all(&u, s->w->lengths, s->w->length);
-    if (u.n > most_variables || s->w->lengths == 0 || (degree > 2 && (s->w->waves || f.n == 0))) return nh_family_list_terms(s, &l);
+    if (u.n > most_variables || s->w->lengths == 0 || (degree > 2 && (s->w->waves || f.n == 0)))
+        return nh_family_list_terms(s, &l);
     l = nh_expr_set_squares(s, &u);
     for (size_t k = 2; k < degree; k++) l = times(s, &l, &u);
     nh_expr_set g = degree > 2 ? times(s, &f, &q) : f;

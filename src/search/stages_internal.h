@@ -15,7 +15,8 @@ typedef struct {
     size_t count;
 } nh_family_list;
 
-/* Expressions, each once; more than fit are left out: a list that is full has more columns than the option `columns` lets any ansatz have. */
+/* Expressions, each once; more than fit are left out: a list that is full has more columns than the option `columns`
+   lets any ansatz have. */
 typedef struct {
     size_t n;
     nh_ex e[NH_MOST_EXPRS];

@@ -1,4 +1,5 @@
-/* Stages of few columns for systems of many coordinates, where everything of degree one or two times everything else is too much: centres of mass and angular momenta. */
+/* Stages of few columns for systems of many coordinates, where everything of degree one or two times everything else is
+   too much: centres of mass and angular momenta. */
 #include "search/stages_internal.h"
 
 /* Momenta times 1 and t, positions, t. */
@@ -12,7 +13,8 @@ void nh_stage_centres(nh_family_list *s)
     nh_family_list_add(s, nh_family_list_terms(s, &q));
 }
 
-/* q_i v_j - q_j v_i: with a constant kinetic energy v^T M v/2 every linear field that leaves it invariant is M^-1 S q with S antisymmetric, and has the momentum v^T S q. */
+/* q_i v_j - q_j v_i: with a constant kinetic energy v^T M v/2 every linear field that leaves it invariant is M^-1 S q
+   with S antisymmetric, and has the momentum v^T S q. */
 void nh_stage_turns(nh_family_list *s)
 {
     const nh_model *o = s->o;
@@ -22,7 +24,8 @@ void nh_stage_turns(nh_family_list *s)
     for (size_t i = 0; i < o->m; i++)
         for (size_t j = 0; j < i; j++) {
             const nh_coordinate *a = &o->system->coordinate[i], *b = &o->system->coordinate[j];
-            if (a->type != NH_ANGLE && b->type != NH_ANGLE) nh_expr_set_put(&l, nh_sub(d, nh_mul(d, a->q, b->v), nh_mul(d, b->q, a->v)));
+            if (a->type != NH_ANGLE && b->type != NH_ANGLE)
+                nh_expr_set_put(&l, nh_sub(d, nh_mul(d, a->q, b->v), nh_mul(d, b->q, a->v)));
         }
     nh_family_list_add(s, nh_family_list_terms(s, &l));
 }

@@ -6,8 +6,8 @@
 #include "exact/normal.h"
 #include "search/stages_internal.h"
 
-/* What separation of variables gives (Euler's two centres, Liouville's systems): squares of velocities with coefficients of higher degree in
- * the positions, the energy and the system's functions with lower ones. */
+/* What separation of variables gives (Euler's two centres, Liouville's systems): squares of velocities with
+ * coefficients of higher degree in the positions, the energy and the system's functions with lower ones. */
 void nh_stage_separation(nh_family_list *s)
 {
     nh_expr_set l = {0}, e = {0}, q = nh_expr_set_positions(s, false, false), f = nh_expr_set_functions(s, false);
@@ -17,8 +17,11 @@ void nh_stage_separation(nh_family_list *s)
     nh_expr_set v = nh_expr_set_squares(s, &l);
     nh_expr_set_put(&e, s->o->E);
     nh_expr_set_put_all(&e, f.n, f.e);
-    nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_polynomial(s, &q, few ? 4 : 2)}));
-    nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_terms(s, &e), nh_family_list_polynomial(s, &q, 2)}));
+    nh_family_list_add(
+        s, nh_family_list_product(
+               s, 2, (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_polynomial(s, &q, few ? 4 : 2)}));
+    nh_family_list_add(s, nh_family_list_product(
+                              s, 2, (nh_family[]){nh_family_list_terms(s, &e), nh_family_list_polynomial(s, &q, 2)}));
     nh_family_list_add(s, nh_family_list_polynomial(s, &q, 4));
 }
 
@@ -91,7 +94,8 @@ static nh_expr_set coefficients(const nh_family_list *s)
     return c;
 }
 
-/* What separation of variables gives in orthogonal coordinates: alone, because among all products of momenta these few are nearly dependent. */
+/* What separation of variables gives in orthogonal coordinates: alone, because among all products of momenta these few
+   are nearly dependent. */
 void nh_stage_separated(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
@@ -139,7 +143,8 @@ nh_expr_set nh_expr_set_one_coordinate(const nh_family_list *s)
     return all;
 }
 
-/* Parabolic coordinates are r cos^2(q/2), r sin^2(q/2): what separates in them is quadratic in the frame times lengths and half angles. */
+/* Parabolic coordinates are r cos^2(q/2), r sin^2(q/2): what separates in them is quadratic in the frame times lengths
+   and half angles. */
 void nh_stage_half_angles(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
@@ -152,7 +157,10 @@ void nh_stage_half_angles(nh_family_list *s)
     }
     nh_expr_set_put_all(&f, s->w->frames, s->w->frame);
     nh_expr_set ff = nh_expr_set_squares(s, &f);
-    nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &ff), nh_family_list_terms(s, &l), nh_family_list_terms(s, &half)}));
+    nh_family_list_add(s,
+                       nh_family_list_product(s, 3,
+                                              (nh_family[]){nh_family_list_terms(s, &ff), nh_family_list_terms(s, &l),
+                                                            nh_family_list_terms(s, &half)}));
     nh_family_list_product_of_sets(s, &ll, &half);
 }
 
@@ -167,8 +175,12 @@ void nh_stage_cubic(nh_family_list *s)
     nh_expr_set vv = nh_expr_set_squares(s, &v);
     for (size_t i = 0; i < vv.n; i++)
         for (size_t j = 0; j < v.n; j++) nh_expr_set_put(&cubes, nh_mul(d, vv.e[i], v.e[j]));
-    nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_terms(s, &cubes), nh_family_list_polynomial(s, &q, 1)}));
-    nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_terms(s, &f), nh_family_list_polynomial(s, &q, few ? 2 : 1)}));
+    nh_family_list_add(
+        s, nh_family_list_product(s, 2,
+                                  (nh_family[]){nh_family_list_terms(s, &cubes), nh_family_list_polynomial(s, &q, 1)}));
+    nh_family_list_add(s, nh_family_list_product(s, 3,
+                                                 (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_terms(s, &f),
+                                                               nh_family_list_polynomial(s, &q, few ? 2 : 1)}));
 }
 
 /* ---- polynomial potentials ---- */
@@ -179,7 +191,8 @@ static size_t degree_of_potential(const nh_family_list *s)
     enum { highest = 6, longest = 200 };
     const nh_model *o = s->o;
     nh_dag *d = o->dag;
-    nh_ex *to = nh_arena_alloc(s->arena, (2 * o->m + 1) * sizeof *to), *from = nh_arena_alloc(s->arena, (2 * o->m + 1) * sizeof *from), scale = nh_symbol_fresh(d, "s");
+    nh_ex *to = nh_arena_alloc(s->arena, (2 * o->m + 1) * sizeof *to),
+          *from = nh_arena_alloc(s->arena, (2 * o->m + 1) * sizeof *from), scale = nh_symbol_fresh(d, "s");
     for (size_t i = 0; i < o->m; i++) {
         from[i] = o->system->coordinate[i].q;
         from[o->m + i] = o->system->coordinate[i].v;
@@ -196,30 +209,34 @@ static size_t degree_of_potential(const nh_family_list *s)
 }
 
 /* All products of e[i..n-1] of exactly this degree, times `so_far`. */
-static void monomials(nh_dag *d, size_t n, const nh_ex *e, size_t degree, nh_ex so_far, nh_ex *out, size_t *count, size_t most)
+static void monomials(nh_dag *d, size_t n, const nh_ex *e, size_t degree, nh_ex so_far, nh_ex *out, size_t *count,
+                      size_t most)
 {
     if (*count >= most) return;
     if (degree == 0 || n == 0) {
         if (degree == 0) out[(*count)++] = so_far;
         return;
     }
-    for (size_t k = 0; k <= degree; k++) monomials(d, n - 1, e + 1, degree - k, nh_mul(d, so_far, nh_powi(d, e[0], (int64_t)k)), out, count, most);
+    for (size_t k = 0; k <= degree; k++)
+        monomials(d, n - 1, e + 1, degree - k, nh_mul(d, so_far, nh_powi(d, e[0], (int64_t)k)), out, count, most);
 }
 
-/* With weight d for velocities and 2 for positions the energy of a potential of degree d has weight 2d; integrals of degree four in the velocities
- * have 4d.  Lower weights are needed where the potential has lower terms. */
+/* With weight d for velocities and 2 for positions the energy of a potential of degree d has weight 2d; integrals of
+ * degree four in the velocities have 4d.  Lower weights are needed where the potential has lower terms. */
 void nh_stage_homogeneous(nh_family_list *s)
 {
     enum { highest = 4, most = 900 };
     const nh_model *o = s->o;
     size_t degree = o->k || s->w->frames || s->w->waves || s->w->atoms ? 0 : degree_of_potential(s), count = 0;
     if (degree < 3 || o->m > 3) return;
-    nh_ex *term = nh_arena_alloc(s->arena, (most + 1) * sizeof *term), *part = nh_arena_alloc(s->arena, (most + 1) * sizeof *part);
+    nh_ex *term = nh_arena_alloc(s->arena, (most + 1) * sizeof *term),
+          *part = nh_arena_alloc(s->arena, (most + 1) * sizeof *part);
     for (size_t of_v = 0; of_v <= highest; of_v++)
         for (size_t of_q = 0; 2 * of_q + degree * of_v <= degree * highest; of_q++) {
             size_t n = 0;
             monomials(o->dag, o->n, o->chart->w, of_v, nh_int(o->dag, 1), part, &n, most);
-            for (size_t i = 0; i < n; i++) monomials(o->dag, s->w->positions, s->w->position, of_q, part[i], term, &count, most);
+            for (size_t i = 0; i < n; i++)
+                monomials(o->dag, s->w->positions, s->w->position, of_q, part[i], term, &count, most);
         }
     if (count < most) nh_family_list_add(s, (nh_family){.kind = NH_TERMS, .terms = count, .term = term});
 }

@@ -23,7 +23,9 @@ bool nh_family_list_timely(const nh_family_list *s)
     const nh_model *o = s->o;
     nh_ex t = o->system->t;
     bool timely = nh_depends(o->dag, o->Lbar, t);
-    for (size_t k = 0; k < o->m; k++) timely |= nh_depends(o->dag, o->rho[k], t) || (o->system->has_forces && nh_depends(o->dag, o->system->force[k], t));
+    for (size_t k = 0; k < o->m; k++)
+        timely |=
+            nh_depends(o->dag, o->rho[k], t) || (o->system->has_forces && nh_depends(o->dag, o->system->force[k], t));
     return timely;
 }
 
@@ -47,20 +49,23 @@ static long power_of_time(const nh_model *o, nh_ex e, int *left)
     return kind == NH_SUM ? highest : all < most_powers ? all : most_powers;
 }
 
-/* That a force t^p, and no function of t, needs twice integrated.  More would be nearly dependent on the functions, where t has a short interval. */
+/* That a force t^p, and no function of t, needs twice integrated.  More would be nearly dependent on the functions,
+   where t has a short interval. */
 static long powers_of_time(const nh_model *o)
 {
     int left = longest_walk;
     long p = power_of_time(o, o->system->lagrangian, &left);
     for (size_t k = 0; k < o->m; k++) {
-        long here = power_of_time(o, o->rho[k], &left), force = o->system->has_forces ? power_of_time(o, o->system->force[k], &left) : 0;
+        long here = power_of_time(o, o->rho[k], &left),
+             force = o->system->has_forces ? power_of_time(o, o->system->force[k], &left) : 0;
         p = here > p ? here : p;
         p = force > p ? force : p;
     }
     return p + 2 < most_powers ? p + 2 : most_powers;
 }
 
-/* What a force that depends on t alone adds to momenta and centres of mass: powers of t, and functions of t by themselves and times t. */
+/* What a force that depends on t alone adds to momenta and centres of mass: powers of t, and functions of t by
+   themselves and times t. */
 void nh_family_list_drive(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
@@ -74,12 +79,14 @@ void nh_family_list_drive(nh_family_list *s)
     nh_family_list_product_of_sets(s, &f, &some);
 }
 
-/* The least that a momentum, and a centre of mass, along which nothing acts but time can need: many functions of t are nearly dependent where t has a short interval. */
+/* The least that a momentum, and a centre of mass, along which nothing acts but time can need: many functions of t are
+   nearly dependent where t has a short interval. */
 void nh_stage_drive(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
     nh_ex t = s->o->system->t;
-    nh_expr_set p = {0}, g = {0}, q = nh_expr_set_positions(s, false, false), f = nh_expr_set_functions(s, false), powers = {0};
+    nh_expr_set p = {0}, g = {0}, q = nh_expr_set_positions(s, false, false), f = nh_expr_set_functions(s, false),
+                powers = {0};
     if (!nh_family_list_timely(s)) return;
     nh_expr_set_put_all(&p, s->w->momenta, s->w->momentum);
     nh_expr_set_put(&g, nh_int(d, 1));

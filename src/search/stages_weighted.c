@@ -3,13 +3,15 @@
 #include "exact/normal.h"
 #include "search/stages_internal.h"
 
-/* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the energy (Kovalevskaya's
- * integral, Toda's, Calogero's). */
+/* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the
+ * energy (Kovalevskaya's integral, Toda's, Calogero's). */
 static void weighted(nh_family_list *s, const nh_expr_set *u, const nh_expr_set *f)
 {
     nh_expr_set ff = nh_expr_set_squares(s, f);
     nh_family_list_add(s, nh_family_list_polynomial(s, u, 4));
-    if (f->n) nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_polynomial(s, u, 2), nh_family_list_terms(s, f)}));
+    if (f->n)
+        nh_family_list_add(s, nh_family_list_product(
+                                  s, 2, (nh_family[]){nh_family_list_polynomial(s, u, 2), nh_family_list_terms(s, f)}));
     nh_family_list_add(s, nh_family_list_terms(s, &ff));
 }
 
@@ -21,8 +23,8 @@ static void put_up_to_number(const nh_family_list *s, nh_expr_set *l, nh_ex e)
     if (nh_kind_of(d, e) != NH_NUMBER) nh_expr_set_put(l, e);
 }
 
-/* Terms of the potential and, where these stay few, their derivatives by the angles again, or along quasi-velocities: a rotor adds the component of
- * gravity along it. */
+/* Terms of the potential and, where these stay few, their derivatives by the angles again, or along quasi-velocities: a
+ * rotor adds the component of gravity along it. */
 static nh_expr_set weight_two(const nh_family_list *s)
 {
     enum { most = 10, few = 7, longest = 30 };

@@ -32,7 +32,8 @@ static size_t degree_of(const space *x, nh_ex phi)
 {
     nh_dag *d = x->d;
     nh_ex s = nh_symbol_fresh(d, "a step"), *moved = nh_alloc_array(x->o->n + 1, sizeof *moved);
-    for (size_t i = 0; i < x->o->n; i++) moved[i] = nh_add(d, x->o->chart->w[i], nh_mul(d, s, nh_symbol_fresh(d, "a direction")));
+    for (size_t i = 0; i < x->o->n; i++)
+        moved[i] = nh_add(d, x->o->chart->w[i], nh_mul(d, s, nh_symbol_fresh(d, "a direction")));
     nh_ex e = nh_substitute(d, phi, x->o->n, x->o->chart->w, moved);
     size_t degree = SIZE_MAX;
     for (size_t k = 0; k <= highest && degree == SIZE_MAX; k++) {
@@ -68,8 +69,15 @@ static void list_products(space *x)
 
 static nh_relation_space *relations(const space *x, size_t rows, const nh_ex *entry)
 {
-    nh_relation_columns q = {.dag = x->d, .columns = x->columns, .rows = rows, .entry = entry, .variables = 1 + x->o->m + x->o->n, .variable = x->o->chart->symbol,
-                             .parameters = x->o->system->parameters, .parameter = x->o->parameter, .max_terms = (size_t)x->options->proof_terms};
+    nh_relation_columns q = {.dag = x->d,
+                             .columns = x->columns,
+                             .rows = rows,
+                             .entry = entry,
+                             .variables = 1 + x->o->m + x->o->n,
+                             .variable = x->o->chart->symbol,
+                             .parameters = x->o->system->parameters,
+                             .parameter = x->o->parameter,
+                             .max_terms = (size_t)x->options->proof_terms};
     return nh_relation_space_of(x->arena, &q);
 }
 
@@ -103,7 +111,8 @@ static bool is_autonomous(const nh_submanifold *s)
 {
     const nh_model *o = s->model;
     bool good = !nh_depends(o->dag, o->E, o->system->t);
-    for (size_t r = 0; r < o->m && good; r++) good = !nh_depends(o->dag, o->rho[r], o->system->t) && !nh_depends(o->dag, o->p[r], o->system->t);
+    for (size_t r = 0; r < o->m && good; r++)
+        good = !nh_depends(o->dag, o->rho[r], o->system->t) && !nh_depends(o->dag, o->p[r], o->system->t);
     for (size_t i = 0; i < o->n && good; i++) good = !nh_depends(o->dag, o->a[i], o->system->t);
     for (size_t a = 0; a < o->k && good; a++) good = nh_normal_is_zero(o->dag, s->form[a * (1 + o->m)], 0) == NH_ZERO;
     return good;
@@ -112,7 +121,8 @@ static bool is_autonomous(const nh_submanifold *s)
 static bool all_vanish(const space *x, size_t n, const nh_ex *e)
 {
     for (size_t i = 0; i < n; i++)
-        if (!nh_is_zero(x->d, e[i]) && nh_normal_is_zero(x->d, e[i], (size_t)x->options->proof_terms) != NH_ZERO) return false;
+        if (!nh_is_zero(x->d, e[i]) && nh_normal_is_zero(x->d, e[i], (size_t)x->options->proof_terms) != NH_ZERO)
+            return false;
     return true;
 }
 
@@ -136,11 +146,14 @@ static void components(const space *x, nh_ex phi, nh_ex *out)
 static size_t rows_of(const space *x, nh_space_kind kind)
 {
     size_t projectable = (1 + x->o->m) * x->o->n;
-    return kind == NH_SPACE_INSIDE ? x->fields->across : kind == NH_SPACE_CASE1 ? x->fields->all : kind == NH_SPACE_PROJECTABLE ? projectable : x->fields->all + projectable;
+    return kind == NH_SPACE_INSIDE        ? x->fields->across
+           : kind == NH_SPACE_CASE1       ? x->fields->all
+           : kind == NH_SPACE_PROJECTABLE ? projectable
+                                          : x->fields->all + projectable;
 }
 
-/* The field of -E is d/dt where this lies in the canonical distribution; [Gamma, d/dt] = 0 where nothing depends on t.  For long formulas this is the only
- * proof that is short. */
+/* The field of -E is d/dt where this lies in the canonical distribution; [Gamma, d/dt] = 0 where nothing depends on t.
+ * For long formulas this is the only proof that is short. */
 static bool is_translation(const space *x, nh_ex phi)
 {
     bool energy = false;
@@ -209,7 +222,8 @@ static const nh_field *projected(const space *x, nh_ex phi)
 }
 
 /* Of nested spaces in echelon form the last columns are nested as well: those that are new complete a basis. */
-static void add_members(const space *x, nh_symmetry_space *out, size_t n, const nh_ex *coefficient, const bool *kinds, bool *taken)
+static void add_members(const space *x, nh_symmetry_space *out, size_t n, const nh_ex *coefficient, const bool *kinds,
+                        bool *taken)
 {
     for (size_t i = 0; i < n; i++) {
         const nh_ex *c = coefficient + i * x->columns;
@@ -225,8 +239,10 @@ static void add_members(const space *x, nh_symmetry_space *out, size_t n, const 
 
 static void make_basis(const space *x, nh_symmetry_space *out)
 {
-    static const bool kinds[NH_SPACES][NH_SPACES] = {
-        [NH_SPACE_BEST] = {true, true, true, true}, [NH_SPACE_CASE1] = {false, true, false, true}, [NH_SPACE_PROJECTABLE] = {false, false, true, false}, [NH_SPACE_INSIDE] = {false, false, false, true}};
+    static const bool kinds[NH_SPACES][NH_SPACES] = {[NH_SPACE_BEST] = {true, true, true, true},
+                                                     [NH_SPACE_CASE1] = {false, true, false, true},
+                                                     [NH_SPACE_PROJECTABLE] = {false, false, true, false},
+                                                     [NH_SPACE_INSIDE] = {false, false, false, true}};
     static const bool none[NH_SPACES] = {false};
     bool taken[most_products] = {false};
     nh_ex unit[most_products];
@@ -261,7 +277,8 @@ static bool annihilated(const space *x, const candidates *b, nh_ex phi)
     if (is_translation(x, phi)) return true;
     for (size_t a = 0; a < b->n; a++) {
         nh_ex e = nh_bracket_fields_apply(x->o, b->field + a * b->width, phi);
-        if (!nh_is_zero(x->d, e) && nh_normal_is_zero(x->d, e, (size_t)x->options->proof_terms) != NH_ZERO) return false;
+        if (!nh_is_zero(x->d, e) && nh_normal_is_zero(x->d, e, (size_t)x->options->proof_terms) != NH_ZERO)
+            return false;
     }
     return true;
 }
@@ -284,7 +301,9 @@ static void offer_powers(const space *x, candidates *b)
     if (!b->n || x->count < 2 || x->count >= most_products) return;
     nh_ex *entry = nh_alloc_array(x->count * b->n, sizeof *entry);
     for (size_t i = 0; i < x->count; i++)
-        for (size_t a = 0; a < b->n; a++) entry[i * b->n + a] = nh_div(d, nh_bracket_fields_apply(x->o, b->field + a * b->width, x->current[i].phi), x->current[i].phi);
+        for (size_t a = 0; a < b->n; a++)
+            entry[i * b->n + a] =
+                nh_div(d, nh_bracket_fields_apply(x->o, b->field + a * b->width, x->current[i].phi), x->current[i].phi);
     logarithms.columns = x->count;
     nh_relation_space *r = relations(&logarithms, b->n, entry);
     for (size_t k = 0; k < r->proved; k++) {
@@ -309,26 +328,37 @@ static nh_space_bound bound(const space *x, size_t n, const nh_ex *field)
     for (size_t i = 0; i < x->count; i++) offer(x, b, x->current[i].phi, x->symbol[i]);
     for (size_t i = 0; i < x->out->dimension; i++) offer(x, b, x->out->member[i].phi, x->out->member[i].combination);
     offer_powers(x, b);
-    nh_space_bound out = {.closure = nh_closure_of(x->o, 1 + n, all, b->count, b->phi), .count = b->count, .name = nh_arena_alloc(x->arena, (b->count + 1) * sizeof *out.name)};
+    nh_space_bound out = {.closure = nh_closure_of(x->o, 1 + n, all, b->count, b->phi),
+                          .count = b->count,
+                          .name = nh_arena_alloc(x->arena, (b->count + 1) * sizeof *out.name)};
     memcpy(out.name, b->name, b->count * sizeof *b->name);
     nh_free(all);
     nh_free(b);
     return out;
 }
 
-nh_symmetry_space *nh_symmetry_space_of(nh_arena *arena, const nh_submanifold *s, size_t count, const nh_named_current *current, size_t counted,
-                                        const nh_options *options)
+nh_symmetry_space *nh_symmetry_space_of(nh_arena *arena, const nh_submanifold *s, size_t count,
+                                        const nh_named_current *current, size_t counted, const nh_options *options)
 {
     nh_symmetry_space *out = nh_arena_alloc(arena, sizeof *out);
     *out = (nh_symmetry_space){.degree = highest, .sure = true, .counted = counted};
     space *x = nh_alloc(sizeof *x);
-    *x = (space){.arena = arena, .o = s->model, .d = s->model->dag, .options = options, .fields = nh_bracket_fields_of(arena, s), .count = count, .current = current, .out = out,
-                 .degree = nh_alloc_array(count + 1, sizeof(size_t)), .symbol = nh_alloc_array(count + 1, sizeof(nh_ex))};
+    *x = (space){.arena = arena,
+                 .o = s->model,
+                 .d = s->model->dag,
+                 .options = options,
+                 .fields = nh_bracket_fields_of(arena, s),
+                 .count = count,
+                 .current = current,
+                 .out = out,
+                 .degree = nh_alloc_array(count + 1, sizeof(size_t)),
+                 .symbol = nh_alloc_array(count + 1, sizeof(nh_ex))};
     for (size_t i = 0; i < count; i++) out->others += (x->degree[i] = degree_of(x, current[i].phi)) == SIZE_MAX;
     x->autonomous = is_autonomous(s);
     list_products(x);
     if (x->o->chart->implicit) out->obstacle = "velocities that are given implicitly";
-    else if (nh_normal_is_zero(x->d, x->o->Lbar, 0) == NH_ZERO) out->obstacle = "a Lagrangian that vanishes on the constraint submanifold";
+    else if (nh_normal_is_zero(x->d, x->o->Lbar, 0) == NH_ZERO)
+        out->obstacle = "a Lagrangian that vanishes on the constraint submanifold";
     else if (make_independent(x, out)) make_basis(x, out);
     out->all_inside = all_vanish(x, x->fields->across * x->fields->width, x->fields->U);
     out->all_case1 = all_vanish(x, x->fields->all * x->fields->width, x->fields->V);

@@ -1,8 +1,10 @@
-/* symmetry_space: the constraint symmetries of the currents that were found as one linear space, and which currents can have better ones.
+/* symmetry_space: the constraint symmetries of the currents that were found as one linear space, and which currents can
+ * have better ones.
  *
- * Z(Phi) is linear in Phi, with Z(1) = Gamma/Lbar and Z(Phi Psi) = Phi Z(Psi) + Psi Z(Phi) - Phi Psi Gamma/Lbar.  That Z is projectable, is of case 1, or
- * has [Gamma, Z] in the canonical distribution, are linear conditions on Phi (bracket_fields.h): subspaces, found exactly (relation_space.h).
- * How many independent currents fulfil the last two at all is bounded by the rank of brackets (closure.h). */
+ * Z(Phi) is linear in Phi, with Z(1) = Gamma/Lbar and Z(Phi Psi) = Phi Z(Psi) + Psi Z(Phi) - Phi Psi Gamma/Lbar.  That
+ * Z is projectable, is of case 1, or has [Gamma, Z] in the canonical distribution, are linear conditions on Phi
+ * (bracket_fields.h): subspaces, found exactly (relation_space.h). How many independent currents fulfil the last two at
+ * all is bounded by the rank of brackets (closure.h). */
 #ifndef NH_SYMMETRY_SPACE_H
 #define NH_SYMMETRY_SPACE_H
 
@@ -29,7 +31,8 @@ typedef struct {
 /* How many currents of a kind there can be: those that some fields annihilate. */
 typedef struct {
     nh_closure closure;
-    size_t count;              /* independent currents of this kind that were found: currents, combinations of the basis, products of powers */
+    /* independent currents of this kind that were found: currents, combinations of the basis, products of powers */
+    size_t count;
     nh_ex *name;               /* in terms of the currents' names */
 } nh_space_bound;
 
@@ -46,9 +49,9 @@ typedef struct {
     size_t counted;            /* of all currents polynomial of this degree: an upper bound for their dimension, or 0 */
 } nh_symmetry_space;
 
-/* The currents are proved; in the arena.  `counted`: how many independent currents polynomial in the velocities, with 1, of degree two there are at most; 0:
- * not known.  `submanifold`: of the model that they are expressions of. */
-nh_symmetry_space *nh_symmetry_space_of(nh_arena *arena, const nh_submanifold *submanifold, size_t count, const nh_named_current *current, size_t counted,
-                                        const nh_options *options);
+/* The currents are proved; in the arena.  `counted`: how many independent currents polynomial in the velocities, with
+ * 1, of degree two there are at most; 0: not known.  `submanifold`: of the model that they are expressions of. */
+nh_symmetry_space *nh_symmetry_space_of(nh_arena *arena, const nh_submanifold *submanifold, size_t count,
+                                        const nh_named_current *current, size_t counted, const nh_options *options);
 
 #endif

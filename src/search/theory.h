@@ -1,5 +1,5 @@
-/* theory: the geometry of a system written out, for --equations: what a report shows of the constraint submanifold, of the equations for symmetries,
- * and of the brackets of the currents.  Everything is exact; nothing decides. */
+/* theory: the geometry of a system written out, for --equations: what a report shows of the constraint submanifold, of
+ * the equations for symmetries, and of the brackets of the currents.  Everything is exact; nothing decides. */
 #ifndef NH_THEORY_H
 #define NH_THEORY_H
 
@@ -10,7 +10,8 @@
 #include "search/equation_symmetries.h"
 
 typedef struct nh_theory {
-    const nh_model *model;         /* the chart of coordinate velocities where there is one: the geometry is written in it */
+    /* the chart of coordinate velocities where there is one: the geometry is written in it */
+    const nh_model *model;
     const nh_submanifold *submanifold, *own; /* of it; and of the chart that the currents are in (perhaps the same) */
     const nh_determining *determining;
     const nh_inertial *inertial;   /* NULL: the reaction does not split */
@@ -29,9 +30,12 @@ typedef struct nh_theory {
 } nh_theory;
 
 /* `other`: a chart of coordinate velocities beside a quasi one, or NULL.  There is room for `most` brackets. */
-nh_theory *nh_theory_of(nh_arena *arena, const nh_model *model, const nh_model *other, size_t most, const nh_options *options);
+nh_theory *nh_theory_of(nh_arena *arena, const nh_model *model, const nh_model *other, size_t most,
+                        const nh_options *options);
 void nh_theory_add(nh_arena *arena, nh_theory *theory, const char *name, const nh_symmetry *symmetry);
-/* The space of constraint symmetries of these currents, which are proved and kept by the caller, and the symmetries of the equations of motion; counted: symmetry_space.h. */
-void nh_theory_space(nh_arena *arena, nh_theory *theory, size_t count, const nh_named_current *current, size_t counted, const nh_options *options);
+/* The space of constraint symmetries of these currents, which are proved and kept by the caller, and the symmetries of
+   the equations of motion; counted: symmetry_space.h. */
+void nh_theory_space(nh_arena *arena, nh_theory *theory, size_t count, const nh_named_current *current, size_t counted,
+                     const nh_options *options);
 
 #endif

@@ -153,7 +153,8 @@ static nh_ex kinetic_energy(const nh_chain *c, nh_dag *d)
     nh_ex sum = nh_int(d, 0);
     for (size_t k = 0; k < c->screws; k++)
         for (size_t l = k; l < c->screws; l++) {
-            nh_ex rates = nh_mul(d, c->screw[k].rate, c->screw[l].rate), term = nh_mul(d, c->metric[k * c->screws + l], rates);
+            nh_ex rates = nh_mul(d, c->screw[k].rate, c->screw[l].rate),
+                  term = nh_mul(d, c->metric[k * c->screws + l], rates);
             sum = nh_add(d, sum, k == l ? nh_mul(d, nh_ratio(d, 1, 2), term) : term);
         }
     return sum;
@@ -172,7 +173,9 @@ static void metric_of_coordinates(nh_chain *c, const nh_chain_scope *o)
             for (size_t k = 0; k < c->screws; k++)
                 for (size_t l = 0; l < c->screws; l++) {
                     if (nh_is_zero(d, B[i * c->screws + k]) || nh_is_zero(d, B[j * c->screws + l])) continue;
-                    sum = nh_add(d, sum, nh_mul(d, nh_mul(d, B[i * c->screws + k], B[j * c->screws + l]), c->metric[k * c->screws + l]));
+                    sum = nh_add(
+                        d, sum,
+                        nh_mul(d, nh_mul(d, B[i * c->screws + k], B[j * c->screws + l]), c->metric[k * c->screws + l]));
                 }
             c->K[i * o->m + j] = c->K[j * o->m + i] = sum;
         }

@@ -1,17 +1,20 @@
 /* bodies: open chains (trees) of rigid bodies and joints [ChhabraEmami2014, sec. 3].
  *
- * A joint is a product of one-parameter displacements, its screws, q = exp(xi_1 s_1) exp(xi_2 s_2) ..., about or along axes through the origin
- * of the joint's frame; the body's frame is where that frame is taken by the joint.  So at s = 0 body and joint frames coincide, and a pose is
+ * A joint is a product of one-parameter displacements, its screws, q = exp(xi_1 s_1) exp(xi_2 s_2) ..., about or along
+ * axes through the origin of the joint's frame; the body's frame is where that frame is taken by the joint.  So at s =
+ * 0 body and joint frames coincide, and a pose is
  *
- *     pose(body) = pose(parent) placement exp(xi_1 s_1) exp(xi_2 s_2) ...                                        (the map F, eq. 3.21)
+ *     pose(body) = pose(parent) placement exp(xi_1 s_1) exp(xi_2 s_2) ...                                        (the
+ *     map F, eq. 3.21)
  *
  * A displacement s is a coordinate, or an expression in coordinates and t.  The metric in the rates s' of all screws is
  *
- *     S_kl = sum over bodies h(J_k, J_l),   kinetic energy = 1/2 S_kl s_k' s_l',                                  (eq. 3.22)
+ *     S_kl = sum over bodies h(J_k, J_l),   kinetic energy = 1/2 S_kl s_k' s_l',                                  (eq.
+ *     3.22)
  *
- * computed from the leaves to the root: with the composite inertia C of everything behind screw k, F = C xi_k, S_kk = <xi_k, F>, and F carried
- * towards the root gives S_jk = <xi_j, F> [Featherstone2008, ch. 6].  The potential is -g . (first moment of everything), g the acceleration of
- * gravity (eq. 3.23 with g pointing up). */
+ * computed from the leaves to the root: with the composite inertia C of everything behind screw k, F = C xi_k, S_kk =
+ * <xi_k, F>, and F carried towards the root gives S_jk = <xi_j, F> [Featherstone2008, ch. 6].  The potential is -g .
+ * (first moment of everything), g the acceleration of gravity (eq. 3.23 with g pointing up). */
 #ifndef NH_BODIES_H
 #define NH_BODIES_H
 
@@ -19,8 +22,9 @@
 #include "base/memory.h"
 #include "system/screw.h"
 
-/* The kinds of joints, and nowhere else: identifier, word of the file, screws (0: as many as `axes`), a bit for each of them that turns, how the
- * names of its coordinates end, its keys.  Screws along `axis` need no more; others have their axes in bodies_values.c. */
+/* The kinds of joints, and nowhere else: identifier, word of the file, screws (0: as many as `axes`), a bit for each of
+ * them that turns, how the names of its coordinates end, its keys.  Screws along `axis` need no more; others have their
+ * axes in bodies_values.c. */
 enum { NH_JOINT_AXIS = 1, NH_JOINT_AXES = 2, NH_JOINT_PITCH = 4, NH_JOINT_ANGLES = 8 };
 #define NH_JOINT_TABLE(X)                                                                  \
     X(FIXED, "fixed", 0, 0, "", 0)                                                         \
@@ -49,7 +53,8 @@ typedef struct {
     bool turns;       /* a turn about the axis (with a pitch: a helical motion), else a translation along it */
     nh_ex axis[3];    /* unit vector */
     nh_ex pitch;      /* translation per radian */
-    nh_ex s, rate;    /* displacement, and its derivative with respect to t: a coordinate and its velocity, or expressions in them */
+    /* displacement, and its derivative with respect to t: a coordinate and its velocity, or expressions in them */
+    nh_ex s, rate;
     long coordinate;  /* whose coordinate s is; -1: an expression */
     double low, high; /* where to sample it, away from a pole of Euler's angles; both 0: the default */
 } nh_screw;
@@ -110,17 +115,20 @@ typedef struct {
     const nh_ex *q, *v; /* coordinates and velocities */
 } nh_chain_scope;
 
-/* Fill in what follows from bodies, joints and gravity: rates, poses, positions, metric, energies, K.  `order` must be set. */
+/* Fill in what follows from bodies, joints and gravity: rates, poses, positions, metric, energies, K.  `order` must be
+   set. */
 void nh_chain_build(nh_chain *chain, const nh_chain_scope *scope);
 
 /* The displacement of one screw; its twist xi. */
 nh_pose nh_screw_pose(nh_dag *dag, const nh_screw *screw);
 nh_twist nh_screw_twist(nh_dag *dag, const nh_screw *screw);
 
-/* The frame of a body before the last `skip` screws of its joint: its pose in the ground's frame and its twist.  With skip = 0 the body itself. */
+/* The frame of a body before the last `skip` screws of its joint: its pose in the ground's frame and its twist.  With
+   skip = 0 the body itself. */
 void nh_chain_frame(const nh_chain *chain, nh_dag *dag, long body, size_t skip, nh_pose *pose, nh_twist *twist);
 
-/* Body Jacobian (eq. 3.22): column k of `out` (screws columns) is the twist of the body's frame for the rate 1 of screw k alone. */
+/* Body Jacobian (eq. 3.22): column k of `out` (screws columns) is the twist of the body's frame for the rate 1 of screw
+   k alone. */
 void nh_chain_jacobian(const nh_chain *chain, nh_dag *dag, size_t body, nh_twist *out);
 
 /* What holds all q'' at zero, gravity included: d/dt dL/dq' - dL/dq = K q'' + out (m) for L = kinetic - potential. */

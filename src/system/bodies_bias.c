@@ -1,9 +1,10 @@
-/* bodies_bias: recursive Newton and Euler [Featherstone2008, ch. 5]: the forces c(q, q', t) that hold all q'' at zero, gravity included, so that
+/* bodies_bias: recursive Newton and Euler [Featherstone2008, ch. 5]: the forces c(q, q', t) that hold all q'' at zero,
+ * gravity included, so that
  *
  *     d/dt dL/dq'^i - dL/dq^i = K_ij q''^j + c_i,       L the Lagrangian of bodies and joints.
  *
- * From the root to the leaves go twists V and accelerations A, gravity as an acceleration of the ground; back come the wrenches h A + ad*_V h V.  That is
- * linear in the number of bodies, where derivatives of the metric are quadratic. */
+ * From the root to the leaves go twists V and accelerations A, gravity as an acceleration of the ground; back come the
+ * wrenches h A + ad*_V h V.  That is linear in the number of bodies, where derivatives of the metric are quadratic. */
 #include <string.h>
 
 #include "graph/diff.h"
@@ -58,7 +59,8 @@ static nh_wrench force_on(nh_dag *d, const nh_body *b, const state *x)
 static nh_ex drift_of(const nh_chain_scope *o, nh_ex rate)
 {
     nh_ex sum = nh_diff(o->dag, rate, o->t);
-    for (size_t i = 0; i < o->m; i++) sum = nh_add(o->dag, sum, nh_mul(o->dag, nh_diff(o->dag, rate, o->q[i]), o->v[i]));
+    for (size_t i = 0; i < o->m; i++)
+        sum = nh_add(o->dag, sum, nh_mul(o->dag, nh_diff(o->dag, rate, o->q[i]), o->v[i]));
     return sum;
 }
 
@@ -76,7 +78,8 @@ void nh_chain_bias(const nh_chain *c, const nh_chain_scope *o, nh_ex *out)
         state s = j->parent == NH_GROUND ? ground : x[j->parent];
         s.V = nh_twist_inwards(d, &j->placement, &s.V);
         s.A = nh_twist_inwards(d, &j->placement, &s.A);
-        for (size_t k = j->first; k < j->first + j->screws; k++) advance(d, &c->screw[k], drift_of(o, c->screw[k].rate), &s);
+        for (size_t k = j->first; k < j->first + j->screws; k++)
+            advance(d, &c->screw[k], drift_of(o, c->screw[k].rate), &s);
         s.F = force_on(d, &c->body[j->child], &s);
         x[j->child] = s;
     }
@@ -87,7 +90,8 @@ void nh_chain_bias(const nh_chain *c, const nh_chain_scope *o, nh_ex *out)
             nh_twist xi = nh_screw_twist(d, &c->screw[k]);
             nh_pose step = nh_screw_pose(d, &c->screw[k]);
             nh_ex torque = nh_pairing(d, &xi, &F);
-            for (size_t q = 0; q < o->m; q++) out[q] = nh_add(d, out[q], nh_mul(d, nh_diff(d, c->screw[k].rate, o->v[q]), torque));
+            for (size_t q = 0; q < o->m; q++)
+                out[q] = nh_add(d, out[q], nh_mul(d, nh_diff(d, c->screw[k].rate, o->v[q]), torque));
             F = nh_wrench_outwards(d, &step, &F);
         }
         if (j->parent == NH_GROUND) continue;

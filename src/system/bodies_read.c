@@ -1,5 +1,6 @@
-/* bodies_read: the tree of a system file's `bodies:` and `joints:`: names, kinds, who carries whom, coordinates.  No expression is read here:
- * expressions may use the coordinates that joints bring, so that these must be known before. */
+/* bodies_read: the tree of a system file's `bodies:` and `joints:`: names, kinds, who carries whom, coordinates.  No
+ * expression is read here: expressions may use the coordinates that joints bring, so that these must be known
+ * before. */
 #include <string.h>
 
 #include "base/text.h"
@@ -34,7 +35,8 @@ long nh_system_word(reader *r, const nh_deck_node *node, const char *what, size_
         if (!strcmp(node->text, words[i])) return (long)i;
     nh_text list;
     nh_text_init(&list);
-    for (size_t i = 0; i < count; i++) nh_text_addf(&list, "%s%s", i == 0 ? "" : i + 1 == count ? " or " : ", ", words[i]);
+    for (size_t i = 0; i < count; i++)
+        nh_text_addf(&list, "%s%s", i == 0 ? "" : i + 1 == count ? " or " : ", ", words[i]);
     nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not %s; expected %s", node->text, what, nh_text_string(&list));
     nh_text_clear(&list);
     const char *near = nh_text_nearest(node->text, words, count);
@@ -81,9 +83,12 @@ static bool read_body(reader *r, const nh_deck_node *item, nh_body *b)
         nh_deck_fail(r->deck, name, 0, r->error, "`%s` is not a name", name->text);
         return nh_error_hint(r->error, "a name is a letter a-z or A-Z, then letters, digits and _");
     }
-    if (!strcmp(name->text, "ground")) return nh_deck_fail(r->deck, name, 0, r->error, "`ground` is the fixed frame; choose another name for the body");
+    if (!strcmp(name->text, "ground"))
+        return nh_deck_fail(r->deck, name, 0, r->error,
+                            "`ground` is the fixed frame; choose another name for the body");
     for (size_t i = 0; i < c->bodies; i++)
-        if (!strcmp(c->body[i].name, name->text)) return nh_deck_fail(r->deck, name, 0, r->error, "there are two bodies `%s`", name->text);
+        if (!strcmp(c->body[i].name, name->text))
+            return nh_deck_fail(r->deck, name, 0, r->error, "there are two bodies `%s`", name->text);
     *b = (nh_body){.name = name->text, .joint = SIZE_MAX, .node = item};
     return nh_system_text_of(r, item, "doc", "", &b->doc);
 }
@@ -126,11 +131,13 @@ static bool carries(reader *r, const nh_deck_node *item, nh_joint *j, size_t ind
     long child = nh_system_body_word(r, item, "child", NH_NOBODY);
     if (child == NH_NOBODY) return false;
     const nh_deck_node *node = nh_deck_get(item, "child");
-    if (child == NH_GROUND) return nh_deck_fail(r->deck, node, 0, r->error, "the ground cannot be the child of a joint: it does not move");
+    if (child == NH_GROUND)
+        return nh_deck_fail(r->deck, node, 0, r->error, "the ground cannot be the child of a joint: it does not move");
     j->child = (size_t)child;
     nh_body *b = &c->body[child];
     if (b->joint != SIZE_MAX) {
-        nh_deck_fail(r->deck, node, 0, r->error, "`%s` is already the child of the joint `%s`", b->name, c->joint[b->joint].name);
+        nh_deck_fail(r->deck, node, 0, r->error, "`%s` is already the child of the joint `%s`", b->name,
+                     c->joint[b->joint].name);
         return nh_error_hint(r->error, "chains must be open: close a loop by an equation under `constraints:`");
     }
     b->joint = index;
@@ -140,10 +147,15 @@ static bool carries(reader *r, const nh_deck_node *item, nh_joint *j, size_t ind
 /* Is there a key for a thing that this kind of joint does not have? */
 static bool fitting_keys(reader *r, const nh_deck_node *item, nh_joint_kind kind)
 {
-    static const struct { const char *key; unsigned bit; } rule[] = {{"axis", NH_JOINT_AXIS}, {"axes", NH_JOINT_AXES}, {"pitch", NH_JOINT_PITCH}, {"angles", NH_JOINT_ANGLES}};
+    static const struct {
+        const char *key;
+        unsigned bit;
+    } rule[] = {
+        {"axis", NH_JOINT_AXIS}, {"axes", NH_JOINT_AXES}, {"pitch", NH_JOINT_PITCH}, {"angles", NH_JOINT_ANGLES}};
     for (size_t i = 0; i < sizeof rule / sizeof *rule; i++) {
         if (kinds[kind].keys & rule[i].bit || !nh_deck_get(item, rule[i].key)) continue;
-        return nh_deck_fail(r->deck, nh_deck_get(item, rule[i].key), 0, r->error, "a joint of type %s has no `%s`", kind_names[kind], rule[i].key);
+        return nh_deck_fail(r->deck, nh_deck_get(item, rule[i].key), 0, r->error, "a joint of type %s has no `%s`",
+                            kind_names[kind], rule[i].key);
     }
     if (kinds[kind].keys & NH_JOINT_PITCH && !nh_deck_get(item, "pitch")) {
         nh_deck_fail(r->deck, item, 0, r->error, "a joint of type %s needs a `pitch`", kind_names[kind]);
@@ -154,7 +166,8 @@ static bool fitting_keys(reader *r, const nh_deck_node *item, nh_joint_kind kind
 
 static bool read_joint(reader *r, const nh_deck_node *item, size_t index)
 {
-    static const char *const keys[] = {"name", "type", "parent", "child", "at", "rotation", "axis", "axes", "pitch", "angles", "coordinates", "values", "doc"};
+    static const char *const keys[] = {"name", "type",  "parent", "child",       "at",     "rotation", "axis",
+                                       "axes", "pitch", "angles", "coordinates", "values", "doc"};
     nh_chain *c = r->system->chain;
     nh_joint *j = &c->joint[index];
     if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a joint {type: ..., parent: ..., child: ...}", r->error)) return false;
@@ -168,7 +181,9 @@ static bool read_joint(reader *r, const nh_deck_node *item, size_t index)
     if (kind < 0) return false;
     *j = (nh_joint){.kind = (nh_joint_kind)kind, .node = item, .first = c->screws};
     if (!fitting_keys(r, item, j->kind) || !carries(r, item, j, index)) return false;
-    if (!nh_system_text_of(r, item, "name", c->body[j->child].name, &j->name) || !nh_system_text_of(r, item, "doc", "", &j->doc)) return false;
+    if (!nh_system_text_of(r, item, "name", c->body[j->child].name, &j->name) ||
+        !nh_system_text_of(r, item, "doc", "", &j->doc))
+        return false;
     j->screws = degrees_of(r, item, j->kind);
     if (j->screws == SIZE_MAX) return false;
     c->screws += j->screws;
@@ -190,7 +205,8 @@ static bool read_joints(reader *r)
     for (size_t b = 0; b < c->bodies; b++) {
         if (c->body[b].joint != SIZE_MAX) continue;
         nh_deck_fail(r->deck, c->body[b].node, 0, r->error, "no joint has `%s` as its child", c->body[b].name);
-        return nh_error_hint(r->error, "a body that moves freely has a joint: {type: free, child: %s}", c->body[b].name);
+        return nh_error_hint(r->error, "a body that moves freely has a joint: {type: free, child: %s}",
+                             c->body[b].name);
     }
     return true;
 }
@@ -209,7 +225,9 @@ static bool sort_joints(reader *r)
         }
         for (size_t i = 0; i < c->joints && next == c->joints; i++) {
             if (done[c->joint[i].child]) continue;
-            nh_deck_fail(r->deck, c->joint[i].node, 0, r->error, "the joints above `%s` form a cycle and never reach the ground", c->body[c->joint[i].child].name);
+            nh_deck_fail(r->deck, c->joint[i].node, 0, r->error,
+                         "the joints above `%s` form a cycle and never reach the ground",
+                         c->body[c->joint[i].child].name);
             return nh_error_hint(r->error, "one joint must have `parent: ground`");
         }
         c->order[n] = next;
@@ -225,7 +243,8 @@ bool nh_system_read_tree(reader *r)
     if (!bodies && joints) return nh_deck_fail(r->deck, joints, 0, r->error, "the file has joints, but no `bodies:`");
     for (int i = 0; i < 2; i++) {
         const nh_deck_node *other = nh_deck_get(r->root, others[i]);
-        if (!bodies && other) return nh_deck_fail(r->deck, other, 0, r->error, "`%s` needs `bodies:`, but the file has none", others[i]);
+        if (!bodies && other)
+            return nh_deck_fail(r->deck, other, 0, r->error, "`%s` needs `bodies:`, but the file has none", others[i]);
     }
     if (!bodies) return true;
     r->system->chain = nh_system_take(r, 1, sizeof *r->system->chain);
@@ -234,7 +253,8 @@ bool nh_system_read_tree(reader *r)
 
 /* ---- coordinates ---- */
 
-/* What the screws of a joint are called when the file does not say: the joint's name, and a letter when there are several. */
+/* What the screws of a joint are called when the file does not say: the joint's name, and a letter when there are
+   several. */
 static const char *default_name(reader *r, const nh_joint *j, size_t k)
 {
     if (j->screws == 1) return j->name;
@@ -254,13 +274,16 @@ static bool coordinate_of(reader *r, const nh_joint *j, size_t k, const nh_deck_
     long known = nh_system_coordinate(s, name->text);
     for (size_t i = 0; i < j->first + k && known >= 0; i++)
         if (s->chain->screw[i].coordinate == known) {
-            nh_deck_fail(r->deck, name, 0, r->error, "`%s` is already the coordinate of another degree of freedom", name->text);
-            return nh_error_hint(r->error, "if one joint drives another, write `values: [%s]` for the second joint", name->text);
+            nh_deck_fail(r->deck, name, 0, r->error, "`%s` is already the coordinate of another degree of freedom",
+                         name->text);
+            return nh_error_hint(r->error, "if one joint drives another, write `values: [%s]` for the second joint",
+                                 name->text);
         }
     if (known < 0) {
         if (!nh_system_new_name(r, name)) return false;
         known = (long)s->coordinates++;
-        s->coordinate[known] = (nh_coordinate){.name = name->text, .doc = j->doc, .type = NH_PLAIN, .q = nh_symbol(s->dag, name->text)};
+        s->coordinate[known] =
+            (nh_coordinate){.name = name->text, .doc = j->doc, .type = NH_PLAIN, .q = nh_symbol(s->dag, name->text)};
     }
     nh_coordinate *q = &s->coordinate[known];
     if (q->type == NH_PLAIN) q->type = nh_joint_turns(j, k) ? NH_ANGLE : NH_LENGTH;
@@ -272,13 +295,15 @@ static bool coordinates_of(reader *r, const nh_joint *j)
 {
     const nh_deck_node *names = nh_deck_get(j->node, "coordinates"), *values = nh_deck_get(j->node, "values");
     nh_chain *c = r->system->chain;
-    if (names && values) return nh_deck_fail(r->deck, values, 0, r->error, "a joint has either `coordinates` or `values`");
+    if (names && values)
+        return nh_deck_fail(r->deck, values, 0, r->error, "a joint has either `coordinates` or `values`");
     if (names && !nh_deck_is(r->deck, names, NH_DECK_LIST, "coordinates", r->error)) return false;
     if (values && !nh_deck_is(r->deck, values, NH_DECK_LIST, "values", r->error)) return false;
     const nh_deck_node *list = names ? names : values;
     if (list && list->count != j->screws)
-        return nh_deck_fail(r->deck, list, 0, r->error, "a joint of type %s has %zu degree%s of freedom, but %zu %s given here", kind_names[j->kind], j->screws,
-                            j->screws == 1 ? "" : "s", list->count, list->count == 1 ? "is" : "are");
+        return nh_deck_fail(
+            r->deck, list, 0, r->error, "a joint of type %s has %zu degree%s of freedom, but %zu %s given here",
+            kind_names[j->kind], j->screws, j->screws == 1 ? "" : "s", list->count, list->count == 1 ? "is" : "are");
     for (size_t k = 0; k < j->screws; k++) {
         nh_deck_node fallback = *j->node;
         fallback.kind = NH_DECK_SCALAR;

@@ -8,8 +8,10 @@
 enum { NH_NOBODY = -2 };
 
 /* The index of a scalar among words, or -1 with a message ("`x` is not <what>; expected ..."). */
-long nh_system_word(nh_system_reader *r, const nh_deck_node *node, const char *what, size_t count, const char *const *words);
-/* The body named under `key` of a map; `fallback` when there is no such key (NH_NOBODY: it is required).  NH_NOBODY with a message. */
+long nh_system_word(nh_system_reader *r, const nh_deck_node *node, const char *what, size_t count,
+                    const char *const *words);
+/* The body named under `key` of a map; `fallback` when there is no such key (NH_NOBODY: it is required).  NH_NOBODY
+   with a message. */
 long nh_system_body_word(nh_system_reader *r, const nh_deck_node *map, const char *key, long fallback);
 /* Is screw k of a joint a turn? */
 bool nh_joint_turns(const nh_joint *joint, size_t k);

@@ -29,7 +29,8 @@ static bool constant(reader *r, const nh_deck_node *node, const char *what, nh_e
     return nh_error_hint(r->error, "use only numbers and parameters");
 }
 
-static bool constant_of(reader *r, const nh_deck_node *map, const char *key, const char *what, int64_t fallback, nh_ex *out)
+static bool constant_of(reader *r, const nh_deck_node *map, const char *key, const char *what, int64_t fallback,
+                        nh_ex *out)
 {
     const nh_deck_node *node = nh_deck_get(map, key);
     *out = nh_int(r->system->dag, fallback);
@@ -39,7 +40,8 @@ static bool constant_of(reader *r, const nh_deck_node *map, const char *key, con
 static bool vector(reader *r, const nh_deck_node *list, const char *what, nh_ex out[3])
 {
     if (!nh_deck_is(r->deck, list, NH_DECK_LIST, what, r->error)) return false;
-    if (list->count != 3) return nh_deck_fail(r->deck, list, 0, r->error, "%s has three components, not %zu", what, list->count);
+    if (list->count != 3)
+        return nh_deck_fail(r->deck, list, 0, r->error, "%s has three components, not %zu", what, list->count);
     for (int i = 0; i < 3; i++)
         if (!constant(r, list->item[i], what, &out[i])) return false;
     return true;
@@ -64,7 +66,8 @@ static bool direction(reader *r, const nh_deck_node *node, const char *what, nh_
     if (node->kind != NH_DECK_LIST) {
         long axis = nh_system_word(r, node, what, 6, axis_names);
         if (axis >= 0) unit_vector(d, (int)axis, out);
-        if (axis < 0 && !r->error->hint[0]) nh_error_hint(r->error, "any other direction is a list of three components: [1, 0, 1]");
+        if (axis < 0 && !r->error->hint[0])
+            nh_error_hint(r->error, "any other direction is a list of three components: [1, 0, 1]");
         return axis >= 0;
     }
     if (!vector(r, node, what, out)) return false;
@@ -75,7 +78,8 @@ static bool direction(reader *r, const nh_deck_node *node, const char *what, nh_
     return true;
 }
 
-static bool direction_of(reader *r, const nh_deck_node *map, const char *key, const char *what, int fallback, nh_ex out[3])
+static bool direction_of(reader *r, const nh_deck_node *map, const char *key, const char *what, int fallback,
+                         nh_ex out[3])
 {
     const nh_deck_node *node = nh_deck_get(map, key);
     unit_vector(r->system->dag, fallback, out);
@@ -86,7 +90,9 @@ static bool direction_of(reader *r, const nh_deck_node *map, const char *key, co
 static bool turn(reader *r, const nh_deck_node *map, nh_pose *a)
 {
     nh_dag *d = r->system->dag;
-    if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a turn {z: angle}", r->error) || !nh_deck_only(r->deck, map, axis_names, 6, r->error)) return false;
+    if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a turn {z: angle}", r->error) ||
+        !nh_deck_only(r->deck, map, axis_names, 6, r->error))
+        return false;
     for (size_t i = 0; i < map->count; i++) {
         nh_ex angle, axis[3];
         unit_vector(d, (int)nh_system_word(r, map->key[i], "an axis", 6, axis_names), axis);
@@ -110,7 +116,8 @@ static bool rotation_of(reader *r, const nh_deck_node *item, nh_pose *a)
 
 /* ---- bodies ---- */
 
-/* A number (the same about every axis), three principal moments, or a symmetric matrix; in the axes that `rotation` gives. */
+/* A number (the same about every axis), three principal moments, or a symmetric matrix; in the axes that `rotation`
+   gives. */
 static bool inertia_of(reader *r, const nh_deck_node *item, nh_ex I[9])
 {
     nh_dag *d = r->system->dag;
@@ -125,7 +132,10 @@ static bool inertia_of(reader *r, const nh_deck_node *item, nh_ex I[9])
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < i; j++)
                 if (!nh_is_zero(d, nh_tidy(d, nh_sub(d, I[3 * i + j], I[3 * j + i]))))
-                    return nh_deck_fail(r->deck, node->item[i]->item[j], 0, r->error, "an inertia matrix is symmetric, but row %d, column %d differs from row %d, column %d", i + 1, j + 1, j + 1, i + 1);
+                    return nh_deck_fail(
+                        r->deck, node->item[i]->item[j], 0, r->error,
+                        "an inertia matrix is symmetric, but row %d, column %d differs from row %d, column %d", i + 1,
+                        j + 1, j + 1, i + 1);
     } else {
         nh_ex moment[3];
         if (node->kind != NH_DECK_LIST && !constant(r, node, "the inertia", &moment[0])) return false;
@@ -158,13 +168,15 @@ static double value_at_parameters(const nh_system *s, nh_ex e)
 static bool not_negative(reader *r, const nh_deck_node *map, const char *key, const char *what, nh_ex e)
 {
     double value = value_at_parameters(r->system, e);
-    return value >= 0 || nh_deck_fail(r->deck, nh_deck_get(map, key), 0, r->error, "%s cannot be negative, but it is %.10g here", what, value);
+    return value >= 0 || nh_deck_fail(r->deck, nh_deck_get(map, key), 0, r->error,
+                                      "%s cannot be negative, but it is %.10g here", what, value);
 }
 
 static bool body_values(reader *r, nh_body *b)
 {
-    return constant_of(r, b->node, "mass", "the mass of a body", 0, &b->mass) && not_negative(r, b->node, "mass", "the mass of a body", b->mass) && vector_of(r, b->node, "center", "the centre of mass", b->center)
-           && inertia_of(r, b->node, b->inertia);
+    return constant_of(r, b->node, "mass", "the mass of a body", 0, &b->mass) &&
+           not_negative(r, b->node, "mass", "the mass of a body", b->mass) &&
+           vector_of(r, b->node, "center", "the centre of mass", b->center) && inertia_of(r, b->node, b->inertia);
 }
 
 /* ---- joints ---- */
@@ -180,7 +192,9 @@ static bool euler_axes(reader *r, const nh_deck_node *item, int axis[3])
     for (int i = 0; i < 3 && good; i++) axis[i] = text[i] - 'x';
     if (good) return true;
     nh_deck_fail(r->deck, node, 0, r->error, "`%s` are not three axes, each different from the one before", text);
-    return nh_error_hint(r->error, "for example zyx (the default; singular where the second angle is pi/2) or zxz (singular where it is 0)");
+    return nh_error_hint(
+        r->error,
+        "for example zyx (the default; singular where the second angle is pi/2) or zxz (singular where it is 0)");
 }
 
 static bool axes_of_joint(reader *r, const nh_joint *j, nh_screw *s)
@@ -195,7 +209,8 @@ static bool axes_of_joint(reader *r, const nh_joint *j, nh_screw *s)
     case NH_JOINT_TRANSLATING_SCREW: /* as a planar joint, whose turn advances along the normal */
     case NH_JOINT_PLANAR: { /* normal z: along x, along y, about z; and so on in turn */
         long normal = given ? nh_system_word(r, given, "the normal of a plane", 3, axis_names) : 2;
-        if (normal < 0 && !r->error->hint[0]) nh_error_hint(r->error, "any other plane is reached by a `rotation` of the joint");
+        if (normal < 0 && !r->error->hint[0])
+            nh_error_hint(r->error, "any other plane is reached by a `rotation` of the joint");
         for (int k = 0; k < 3 && normal >= 0; k++) unit_vector(d, (int)(normal + 1 + k) % 3, s[k].axis);
         return normal >= 0;
     }
@@ -227,8 +242,10 @@ static bool value_of(reader *r, const nh_deck_node *node, nh_ex *out)
     if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, out, r->error)) return false;
     for (size_t i = 0; i < s->coordinates; i++) {
         if (!nh_depends(s->dag, *out, s->coordinate[i].v)) continue;
-        nh_deck_fail(r->deck, node, 0, r->error, "the velocity `%s` cannot be used here", nh_name_of(s->dag, s->coordinate[i].v));
-        return nh_error_hint(r->error, "a displacement is an expression in coordinates and t; a condition on velocities stands under `constraints:`");
+        nh_deck_fail(r->deck, node, 0, r->error, "the velocity `%s` cannot be used here",
+                     nh_name_of(s->dag, s->coordinate[i].v));
+        return nh_error_hint(r->error, "a displacement is an expression in coordinates and t; a condition on "
+                                       "velocities stands under `constraints:`");
     }
     return true;
 }
@@ -262,25 +279,43 @@ static bool wheel_values(reader *r, const nh_deck_node *item, nh_wheel *w)
     if (!nh_deck_only(r->deck, item, keys, sizeof keys / sizeof *keys, r->error)) return false;
     const nh_deck_node *type = nh_deck_get(item, "type"), *normal = nh_deck_get(item, "normal");
     if (!type) return nh_deck_fail(r->deck, item, 0, r->error, "this wheel has no `type`: knife-edge, rolling or ball");
-    long kind = nh_system_word(r, type, "a type of wheel", 3, types), body = nh_system_body_word(r, item, "body", NH_NOBODY);
+    long kind = nh_system_word(r, type, "a type of wheel", 3, types),
+         body = nh_system_body_word(r, item, "body", NH_NOBODY);
     if (kind < 0 || body == NH_NOBODY) return false;
-    if (body == NH_GROUND) return nh_deck_fail(r->deck, nh_deck_get(item, "body"), 0, r->error, "a wheel belongs to a body, not to the ground");
-    *w = (nh_wheel){.kind = kind ? NH_WHEEL_ROLLING : NH_WHEEL_KNIFE_EDGE, .ball = kind == 2, .body = (size_t)body, .normal = 2, .node = item};
+    if (body == NH_GROUND)
+        return nh_deck_fail(r->deck, nh_deck_get(item, "body"), 0, r->error,
+                            "a wheel belongs to a body, not to the ground");
+    *w = (nh_wheel){.kind = kind ? NH_WHEEL_ROLLING : NH_WHEEL_KNIFE_EDGE,
+                    .ball = kind == 2,
+                    .body = (size_t)body,
+                    .normal = 2,
+                    .node = item};
     w->on = nh_system_body_word(r, item, "on", NH_GROUND);
     if (w->on == NH_NOBODY) return false;
-    if (w->on == body) return nh_deck_fail(r->deck, nh_deck_get(item, "on"), 0, r->error, "a wheel cannot roll on its own body");
-    static const char *const needed[3][2] = {{"axis", NULL}, {"axle", "radius"}, {"radius", NULL}}, *const foreign[3][2] = {{"axle", "radius"}, {"axis", NULL}, {"axis", "axle"}};
+    if (w->on == body)
+        return nh_deck_fail(r->deck, nh_deck_get(item, "on"), 0, r->error, "a wheel cannot roll on its own body");
+    static const char *const needed[3][2] = {{"axis", NULL}, {"axle", "radius"}, {"radius", NULL}},
+                             *const foreign[3][2] = {{"axle", "radius"}, {"axis", NULL}, {"axis", "axle"}};
     for (int i = 0; i < 2; i++) {
         const char *need = needed[kind][i], *other = foreign[kind][i];
-        if (other && nh_deck_get(item, other)) return nh_deck_fail(r->deck, nh_deck_get(item, other), 0, r->error, "a wheel of type %s has no `%s`", types[kind], other);
+        if (other && nh_deck_get(item, other))
+            return nh_deck_fail(r->deck, nh_deck_get(item, other), 0, r->error, "a wheel of type %s has no `%s`",
+                                types[kind], other);
         if (!need || nh_deck_get(item, need)) continue;
         nh_deck_fail(r->deck, item, 0, r->error, "a wheel of type %s needs `%s`", types[kind], need);
-        return nh_error_hint(r->error, kind == 0 ? "`axis: y` is the normal of the blade: the blade does not slide along it" : kind == 1 ? "for example `axle: y, radius: 0.3`: the axis of rotation and the radius" : "`radius: 0.3`");
+        return nh_error_hint(r->error,
+                             kind == 0   ? "`axis: y` is the normal of the blade: the blade does not slide along it"
+                             : kind == 1 ? "for example `axle: y, radius: 0.3`: the axis of rotation and the radius"
+                                         : "`radius: 0.3`");
     }
     if (normal) w->normal = (int)nh_system_word(r, normal, "the normal of a surface", 3, axis_names);
-    if (w->normal < 0 || !nh_system_text_of(r, item, "doc", "", &doc) || !nh_system_text_of(r, item, "name", types[kind], &w->name)) return false;
-    return vector_of(r, item, "at", "a position", w->at) && direction_of(r, item, kind ? "axle" : "axis", kind ? "an axle" : "an axis", 1, w->axis)
-           && constant_of(r, item, "radius", "a radius", 0, &w->radius) && not_negative(r, item, "radius", "a radius", w->radius);
+    if (w->normal < 0 || !nh_system_text_of(r, item, "doc", "", &doc) ||
+        !nh_system_text_of(r, item, "name", types[kind], &w->name))
+        return false;
+    return vector_of(r, item, "at", "a position", w->at) &&
+           direction_of(r, item, kind ? "axle" : "axis", kind ? "an axle" : "an axis", 1, w->axis) &&
+           constant_of(r, item, "radius", "a radius", 0, &w->radius) &&
+           not_negative(r, item, "radius", "a radius", w->radius);
 }
 
 static bool read_wheels(reader *r)
@@ -328,6 +363,7 @@ bool nh_system_read_chain(reader *r)
         q[i] = s->coordinate[i].q;
         v[i] = s->coordinate[i].v;
     }
-    nh_chain_build(c, &(nh_chain_scope){.dag = s->dag, .arena = s->arena, .t = s->t, .m = s->coordinates, .q = q, .v = v});
+    nh_chain_build(c,
+                   &(nh_chain_scope){.dag = s->dag, .arena = s->arena, .t = s->t, .m = s->coordinates, .q = q, .v = v});
     return true;
 }

@@ -1,4 +1,5 @@
-/* branches: dependent velocities that are roots.  How they are found, which branch is taken, and how formulas are written in the velocity instead of the root. */
+/* branches: dependent velocities that are roots.  How they are found, which branch is taken, and how formulas are
+   written in the velocity instead of the root. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +17,8 @@ static nh_root *add_root(nh_chart *c, size_t s, nh_ex base)
 {
     nh_dag *d = c->system->dag;
     nh_root *r = &c->root_of[c->roots++];
-    *r = (nh_root){.coordinate = s, .base = base, .symbol = nh_symbol_fresh(d, nh_name_of(d, c->system->coordinate[s].v))};
+    *r = (nh_root){
+        .coordinate = s, .base = base, .symbol = nh_symbol_fresh(d, nh_name_of(d, c->system->coordinate[s].v))};
     return r;
 }
 
@@ -74,7 +76,8 @@ static void note_root(nh_chart *c, size_t s)
     if (bases_in(c, c->rho[s], base, 2) != 1) return;
     for (size_t k = 0; k < c->roots; k++)
         if (c->root_of[k].base == base[0]) return;
-    nh_ex e = nh_substitute_root(d, c->rho[s], base[0], R), alpha = nh_simplify(d, nh_diff(d, e, R)), beta = nh_substitute(d, e, 1, &R, &zero);
+    nh_ex e = nh_substitute_root(d, c->rho[s], base[0], R), alpha = nh_simplify(d, nh_diff(d, e, R)),
+          beta = nh_substitute(d, e, 1, &R, &zero);
     if (nh_is_zero(d, alpha) || nh_depends(d, alpha, R) || depends_on_velocities(c, alpha)) return;
     nh_root *r = add_root(c, s, base[0]);
     r->value = nh_div(d, nh_sub(d, r->symbol, beta), alpha);
@@ -126,14 +129,16 @@ nh_ex nh_chart_shown(const nh_chart *c, nh_ex e)
 nh_ex nh_chart_in_velocities(const nh_chart *c, nh_ex shown)
 {
     const nh_system *s = c->system;
-    for (size_t k = 0; k < c->roots; k++) shown = nh_substitute(s->dag, shown, 1, &c->root_of[k].symbol, &s->coordinate[c->root_of[k].coordinate].v);
+    for (size_t k = 0; k < c->roots; k++)
+        shown = nh_substitute(s->dag, shown, 1, &c->root_of[k].symbol, &s->coordinate[c->root_of[k].coordinate].v);
     return shown;
 }
 
 nh_ex nh_chart_composed(const nh_chart *c, nh_ex shown, const nh_chart *other)
 {
     nh_dag *d = c->system->dag;
-    for (size_t k = 0; k < c->roots; k++) shown = nh_substitute(d, shown, 1, &c->root_of[k].symbol, &other->rho[c->root_of[k].coordinate]);
+    for (size_t k = 0; k < c->roots; k++)
+        shown = nh_substitute(d, shown, 1, &c->root_of[k].symbol, &other->rho[c->root_of[k].coordinate]);
     return shown;
 }
 
@@ -168,7 +173,8 @@ char *nh_chart_branch_name(const nh_chart *c, int branch)
 {
     nh_dag *d = c->system->dag;
     const nh_root *r = &c->root_of[0];
-    nh_ex linear = nh_mul(d, nh_int(d, c->branch), r->value), slope = nh_div(d, linear, r->symbol); /* 2 a u + b; 2 a where b = 0 */
+    /* 2 a u + b; 2 a where b = 0 */
+    nh_ex linear = nh_mul(d, nh_int(d, c->branch), r->value), slope = nh_div(d, linear, r->symbol);
     int sign = nh_depends(d, slope, r->symbol) ? 0 : sign_of(c, slope);
     nh_text text;
     nh_text_init(&text);

@@ -10,7 +10,8 @@
 #include "system/sample.h"
 
 enum { wanted_probes = 24, most_tries = 400, projection_steps = 60 };
-static const double small_step = 1e-14, satisfied = 1e-9; /* relative to the velocities, and to the terms of a constraint */
+/* relative to the velocities, and to the terms of a constraint */
+static const double small_step = 1e-14, satisfied = 1e-9;
 
 static void cloud_tape(nh_constraint_samples *c)
 {
@@ -48,7 +49,8 @@ static bool all_finite(size_t n, const double *x)
     return true;
 }
 
-/* The linear equations of one step; each is divided by its largest element, so that the units of the constraints do not matter. */
+/* The linear equations of one step; each is divided by its largest element, so that the units of the constraints do not
+   matter. */
 static void put_equations(const nh_constraint_samples *c, double *F, double *right)
 {
     size_t k = c->k, m = c->m;
@@ -83,7 +85,8 @@ static bool project(nh_constraint_samples *c, double *z)
     good = all_finite(k * (1 + m), c->out);
     for (size_t a = 0; a < k && good; a++) {
         double terms = 0;
-        for (size_t j = 0; j < m; j++) terms = fmax(terms, fabs(c->out[k + a + j * k]) * fmax(fabs(z[1 + m + j]), c->speed[j]));
+        for (size_t j = 0; j < m; j++)
+            terms = fmax(terms, fabs(c->out[k + a + j * k]) * fmax(fabs(z[1 + m + j]), c->speed[j]));
         good = fabs(c->out[a]) <= satisfied * terms;
     }
     nh_free(F);
@@ -95,7 +98,8 @@ static void measure(nh_constraint_samples *c, const double *z)
     nh_tape_eval(c->tape, c->work, z, c->out);
     if (!all_finite(c->k * (1 + c->m), c->out)) return;
     for (size_t a = 0; a < c->k; a++)
-        for (size_t j = 0; j < c->m; j++) c->size[a] = fmax(c->size[a], fabs(c->out[c->k + a + j * c->k]) * c->speed[j]);
+        for (size_t j = 0; j < c->m; j++)
+            c->size[a] = fmax(c->size[a], fabs(c->out[c->k + a + j * c->k]) * c->speed[j]);
 }
 
 static void cloud_fill(nh_constraint_samples *c, uint64_t seed)
@@ -150,16 +154,19 @@ static bool row_vanishes(const nh_constraint_samples *c, size_t a)
 {
     nh_system *s = c->system;
     if (c->size[a] == 0 || c->size[a] > rounding) return c->size[a] == 0;
-    nh_ex *symbol = nh_alloc_array(c->width, sizeof *symbol), f = nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs);
+    nh_ex *symbol = nh_alloc_array(c->width, sizeof *symbol),
+          f = nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs);
     symbol[0] = s->t;
     for (size_t i = 0; i < c->m; i++) symbol[1 + i] = s->coordinate[i].q, symbol[1 + c->m + i] = s->coordinate[i].v;
     bool zero = true;
-    for (size_t j = 0; j < c->m && zero; j++) zero = nh_embedding_vanishes(s, c->width, symbol, c->count, c->point, nh_diff(s->dag, f, s->coordinate[j].v));
+    for (size_t j = 0; j < c->m && zero; j++)
+        zero = nh_embedding_vanishes(s, c->width, symbol, c->count, c->point, nh_diff(s->dag, f, s->coordinate[j].v));
     nh_free(symbol);
     return zero;
 }
 
-/* Row i of df/dv at point p, relative to its size; zero where the constraint is stationary, as x'^2 + y'^2 = 0 is at rest. */
+/* Row i of df/dv at point p, relative to its size; zero where the constraint is stationary, as x'^2 + y'^2 = 0 is at
+   rest. */
 static void put_row(const nh_constraint_samples *c, size_t p, size_t i, bool empty, size_t rows, double *a)
 {
     const double *F = c->F + p * c->k * c->m;
@@ -194,7 +201,11 @@ static size_t rank_of(const nh_constraint_samples *c, size_t *redundant)
 
 void nh_constraint_samples_init(nh_constraint_samples *c, nh_system *system, size_t constraints, uint64_t seed)
 {
-    *c = (nh_constraint_samples){.system = system, .m = system->coordinates, .k = constraints, .width = 1 + 2 * system->coordinates, .seed = seed};
+    *c = (nh_constraint_samples){.system = system,
+                                 .m = system->coordinates,
+                                 .k = constraints,
+                                 .width = 1 + 2 * system->coordinates,
+                                 .seed = seed};
     cloud_tape(c);
     cloud_fill(c, seed);
 }
@@ -202,9 +213,15 @@ void nh_constraint_samples_init(nh_constraint_samples *c, nh_system *system, siz
 bool nh_constraint_samples_init_written(nh_constraint_samples *c, nh_system *system, uint64_t seed)
 {
     bool other = false;
-    for (size_t i = 0; i < system->parameters; i++) other |= system->parameter[i].set && system->parameter[i].written != system->parameter[i].value;
+    for (size_t i = 0; i < system->parameters; i++)
+        other |= system->parameter[i].set && system->parameter[i].written != system->parameter[i].value;
     if (!other) return false;
-    *c = (nh_constraint_samples){.system = system, .m = system->coordinates, .k = system->constraints, .width = 1 + 2 * system->coordinates, .seed = seed, .written = true};
+    *c = (nh_constraint_samples){.system = system,
+                                 .m = system->coordinates,
+                                 .k = system->constraints,
+                                 .width = 1 + 2 * system->coordinates,
+                                 .seed = seed,
+                                 .written = true};
     cloud_tape(c);
     cloud_fill(c, seed);
     return true;
@@ -227,7 +244,8 @@ static bool contradiction(const nh_constraint_samples *c, uint64_t seed, nh_erro
         nh_deck_fail(s->deck, node, 0, error, "no point of the sampling domain satisfies this constraint");
         return nh_error_hint(error, "the constraint contradicts itself, or `domain:` excludes all its solutions");
     }
-    nh_deck_fail(s->deck, node, 0, error, "this constraint contradicts those before it: no point of the sampling domain satisfies them all");
+    nh_deck_fail(s->deck, node, 0, error,
+                 "this constraint contradicts those before it: no point of the sampling domain satisfies them all");
     return nh_error_hint(error, "correct one of them; or does `domain:` exclude their common solutions?");
 }
 
@@ -239,9 +257,13 @@ bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t s
     if (rank < c->k) {
         nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
                      "this constraint follows from the others: the %zu constraints have rank %zu", c->k, rank);
-        return nh_error_hint(error, s->constraint[redundant].position ? "as an equation between positions it follows from the other constraints or contradicts them; remove it" : "it follows from the other constraints; remove it");
+        return nh_error_hint(error, s->constraint[redundant].position
+                                        ? "as an equation between positions it follows from the other constraints or "
+                                          "contradicts them; remove it"
+                                        : "it follows from the other constraints; remove it");
     }
     if (c->k < c->m) return true;
-    nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "%zu independent constraints on %zu coordinates leave no freedom to move", c->k, c->m);
+    nh_deck_fail(s->deck, s->constraint[0].node, 0, error,
+                 "%zu independent constraints on %zu coordinates leave no freedom to move", c->k, c->m);
     return nh_error_hint(error, "a system needs fewer constraints than coordinates");
 }

@@ -32,7 +32,8 @@ const nh_deck_node *nh_deck_get(const nh_deck_node *map, const char *key)
     return NULL;
 }
 
-bool nh_deck_fail(const nh_deck *deck, const nh_deck_node *node, size_t offset, nh_error *error, const char *format, ...)
+bool nh_deck_fail(const nh_deck *deck, const nh_deck_node *node, size_t offset, nh_error *error, const char *format,
+                  ...)
 {
     char what[2 * sizeof error->what]; /* longer than the field, so that nh_fail cuts it properly */
     va_list arguments;
@@ -72,8 +73,8 @@ static void describe(const nh_deck_node *node, char out[FOUND_SIZE])
 }
 
 /* "`what` must be <wanted>, found ..." */
-__attribute__((format(printf, 5, 6)))
-static bool wrong(const nh_deck *deck, const nh_deck_node *node, const char *what, nh_error *error, const char *wanted, ...)
+__attribute__((format(printf, 5, 6))) static bool wrong(const nh_deck *deck, const nh_deck_node *node, const char *what,
+                                                        nh_error *error, const char *wanted, ...)
 {
     char found[FOUND_SIZE], expected[256];
     const char *quote = quote_for(what);
@@ -114,8 +115,8 @@ static void list_known(const char *const *known, size_t count, nh_text *out)
         nh_text_addf(out, "%s%s", i > 0 ? ", " : "known keys: ", known[i]);
 }
 
-static void hint_known(const nh_deck *deck, const nh_deck_node *map, const char *word, const char *const *known, size_t count,
-                       nh_error *error)
+static void hint_known(const nh_deck *deck, const nh_deck_node *map, const char *word, const char *const *known,
+                       size_t count, nh_error *error)
 {
     const char *near = nh_text_nearest(word, known, count);
     if (near) {
@@ -191,10 +192,12 @@ static bool to_whole(const char *text, long *out)
     return true;
 }
 
-bool nh_deck_whole(const nh_deck *deck, const nh_deck_node *node, const char *what, long min, long max, long *out, nh_error *error)
+bool nh_deck_whole(const nh_deck *deck, const nh_deck_node *node, const char *what, long min, long max, long *out,
+                   nh_error *error)
 {
     long value;
-    if (is_plain(node) && nh_text_is_number(node->text) && to_whole(node->text, &value) && value >= min && value <= max) {
+    if (is_plain(node) && nh_text_is_number(node->text) && to_whole(node->text, &value) && value >= min &&
+        value <= max) {
         *out = value;
         return true;
     }
@@ -219,8 +222,8 @@ bool nh_deck_range(const nh_deck *deck, const nh_deck_node *node, const char *wh
     if (!node || node->kind != NH_DECK_LIST)
         return wrong(deck, node, what, error, "a range [low, high]");
     if (node->count != 2)
-        return nh_deck_fail(deck, node, 0, error, "%s%s%s must be a range [low, high], found a list of %zu", quote, what, quote,
-                            node->count);
+        return nh_deck_fail(deck, node, 0, error, "%s%s%s must be a range [low, high], found a list of %zu", quote,
+                            what, quote, node->count);
     for (size_t i = 0; i < 2; i++) {
         char name[128];
         snprintf(name, sizeof name, "the %s end of %s%.80s%s", end_name[i], quote, what, quote);
@@ -228,8 +231,9 @@ bool nh_deck_range(const nh_deck *deck, const nh_deck_node *node, const char *wh
             return false;
     }
     if (!(value[0] < value[1]))
-        return nh_deck_fail(deck, node->item[1], 0, error, "%s%s%s must be a range [low, high] with low < high, found [%s, %s]",
-                            quote, what, quote, node->item[0]->text, node->item[1]->text);
+        return nh_deck_fail(deck, node->item[1], 0, error,
+                            "%s%s%s must be a range [low, high] with low < high, found [%s, %s]", quote, what, quote,
+                            node->item[0]->text, node->item[1]->text);
     memcpy(out, value, sizeof value);
     return true;
 }

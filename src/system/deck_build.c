@@ -91,7 +91,8 @@ static bool add_entry(nh_deck *deck, nh_deck_node *map, size_t begin, size_t end
 {
     static const char cure[] = "write NAME=VALUE, with commas between: x=0, y=1";
     size_t equal = begin + strcspn(deck->source + begin, "=:,;");
-    const nh_deck_node *name = word_between(deck, begin, equal < end ? equal : end), *value = equal < end ? word_between(deck, equal + 1, end) : NULL;
+    const nh_deck_node *name = word_between(deck, begin, equal < end ? equal : end),
+                       *value = equal < end ? word_between(deck, equal + 1, end) : NULL;
     if (!value && !name->text[0]) return true; /* a comma at the end */
     if (!name->text[0]) nh_deck_fail(deck, name, 0, error, "a name is missing before `=`");
     else if (!value || !value->text[0]) nh_deck_fail(deck, name, 0, error, "`%s` has no value", name->text);

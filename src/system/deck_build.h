@@ -1,4 +1,5 @@
-/* deck_build: trees that the program makes itself, from other formats or to complete what a file says.  Private to readers of files. */
+/* deck_build: trees that the program makes itself, from other formats or to complete what a file says.  Private to
+   readers of files. */
 #ifndef NH_DECK_BUILD_H
 #define NH_DECK_BUILD_H
 
@@ -17,8 +18,9 @@ void nh_deck_append(nh_deck *deck, nh_deck_node *list, const nh_deck_node *item)
 /* A copy of a list or map that may be changed; of a map, without an entry of this name (NULL: with all). */
 nh_deck_node *nh_deck_copy(nh_deck *deck, const nh_deck_node *node, const char *without);
 
-/* "phi=0, omega=2", also with semicolons or colons, as the map {phi: 0, omega: 2}; messages point into the text, by the column alone, and their code is `code`.
- * Entries without a name or a value and names that stand twice are refused: NULL. */
+/* "phi=0, omega=2", also with semicolons or colons, as the map {phi: 0, omega: 2}; messages point into the text, by the
+ * column alone, and their code is `code`. Entries without a name or a value and names that stand twice are refused:
+ * NULL. */
 nh_deck *nh_deck_line(const char *name, const char *text, nh_code code, nh_error *error);
 
 /* The tree as YAML, one line for each item of the lists of the root. */

@@ -47,7 +47,8 @@ static bool all_named(const nh_deck_node *list)
 }
 
 /* An entry `x: 1` or `x: {...}` as {name: x, KEY: 1} or {name: x, ...}; where it stands in the file stays known. */
-static const nh_deck_node *named_item(nh_arena *arena, const char *short_for, const nh_deck_node *key, const nh_deck_node *value)
+static const nh_deck_node *named_item(nh_arena *arena, const char *short_for, const nh_deck_node *key,
+                                      const nh_deck_node *value)
 {
     bool whole = value->kind == NH_DECK_MAP;
     size_t count = whole ? value->count : 1;
@@ -61,7 +62,8 @@ static const nh_deck_node *named_item(nh_arena *arena, const char *short_for, co
     word[0].text = "name";
     word[1].text = short_for;
     put_entry(arena, node, &word[0], key);
-    for (size_t i = 0; i < count; i++) put_entry(arena, node, whole ? value->key[i] : &word[1], whole ? value->item[i] : value);
+    for (size_t i = 0; i < count; i++)
+        put_entry(arena, node, whole ? value->key[i] : &word[1], whole ? value->item[i] : value);
     return node;
 }
 
@@ -104,7 +106,8 @@ static const nh_deck_node *merged(nh_arena *arena, const char *key, const nh_dec
     *node = *own;
     node->count = 0;
     node->item = nh_arena_alloc(arena, (base->count + own->count + 1) * sizeof *node->item);
-    node->key = own->kind == NH_DECK_MAP ? nh_arena_alloc(arena, (base->count + own->count + 1) * sizeof *node->key) : NULL;
+    node->key =
+        own->kind == NH_DECK_MAP ? nh_arena_alloc(arena, (base->count + own->count + 1) * sizeof *node->key) : NULL;
     for (int pass = 0; pass < 2; pass++) {
         const nh_deck_node *from = pass ? own : base;
         for (size_t i = 0; i < from->count; i++) {
@@ -134,11 +137,14 @@ static const nh_deck_node *without(nh_arena *arena, const nh_deck_node *map, con
 static bool include(nh_deck *deck, int depth, nh_deck_prepare *prepare, nh_error *error)
 {
     if (prepare && !prepare(deck, error)) return false;
-    if (!nh_deck_rename(deck, deck->root, "urdf", "include", error)) return false; /* a robot description is a file like others */
+    /* a robot description is a file like others */
+    if (!nh_deck_rename(deck, deck->root, "urdf", "include", error)) return false;
     const nh_deck_node *node = nh_deck_get(deck->root, "include");
     if (!node) return true;
     if (!nh_deck_is(deck, node, NH_DECK_SCALAR, "the name of a file", error)) return false;
-    if (depth > deepest) return nh_deck_fail(deck, node, 0, error, "files include each other more than %d deep: does one include itself?", deepest);
+    if (depth > deepest)
+        return nh_deck_fail(deck, node, 0, error,
+                            "files include each other more than %d deep: does one include itself?", deepest);
     const char *slash = strrchr(deck->name, '/');
     int folder = slash && node->text[0] != '/' ? (int)(slash - deck->name) + 1 : 0;
     char *path = nh_arena_printf(deck->arena, "%.*s%s", folder, deck->name, node->text);
@@ -149,17 +155,22 @@ static bool include(nh_deck *deck, int depth, nh_deck_prepare *prepare, nh_error
     if (!text && !strstr(unreadable.what, "cannot be opened")) return *error = unreadable, false;
     if (!text) { /* the message points at the word that asks for it */
         nh_deck_fail(deck, node, 0, error, "the file `%s` cannot be opened", path);
-        return nh_error_hint(error, "the name of an included file is relative to the folder of the file that includes it");
+        return nh_error_hint(error,
+                             "the name of an included file is relative to the folder of the file that includes it");
     }
     deck->included = nh_deck_parse(path, text, length, error);
     nh_free(text);
     if (!deck->included || !include(deck->included, depth + 1, prepare, error)) return false;
-    if (!nh_deck_is(deck->included, deck->included->root, NH_DECK_MAP, "an included file (name: ..., ...)", error)) return false;
+    if (!nh_deck_is(deck->included, deck->included->root, NH_DECK_MAP, "an included file (name: ..., ...)", error))
+        return false;
     deck->root = merged(deck->arena, NULL, deck->included->root, without(deck->arena, deck->root, "include"));
     return true;
 }
 
-bool nh_deck_include(nh_deck *deck, nh_deck_prepare *prepare, nh_error *error) { return include(deck, 1, prepare, error); }
+bool nh_deck_include(nh_deck *deck, nh_deck_prepare *prepare, nh_error *error)
+{
+    return include(deck, 1, prepare, error);
+}
 
 bool nh_deck_rename(nh_deck *deck, const nh_deck_node *map, const char *old, const char *key, nh_error *error)
 {

@@ -191,7 +191,8 @@ void nh_deck_shorten(const char *text, char out[NH_DECK_SHOWN])
 }
 
 /* What is wrong with the character at `byte`, recorded; true when nothing is. */
-static bool judge(const nh_deck *deck, size_t byte, unsigned char original, size_t length, uint32_t code, nh_error *error)
+static bool judge(const nh_deck *deck, size_t byte, unsigned char original, size_t length, uint32_t code,
+                  nh_error *error)
 {
     if (length == 0) {
         nh_deck_fail_at(deck, byte, error, "the byte 0x%02X is not part of UTF-8 text", original);

@@ -22,7 +22,8 @@ enum { NH_DECK_BLOCK = 64, NH_DECK_SHOWN = 192 };
 /* A deck without a tree that owns a copy of `text` (without byte order mark), indexed. */
 nh_deck *nh_deck_create(const char *name, const char *text, size_t length);
 
-/* Refuse what is no text: bytes that are not UTF-8, control characters.  (libyaml would, but without line and column.) */
+/* Refuse what is no text: bytes that are not UTF-8, control characters.  (libyaml would, but without line and
+   column.) */
 bool nh_deck_check_text(nh_deck *deck, nh_error *error);
 
 /* libyaml counts code points, we count bytes. */

@@ -43,8 +43,8 @@ static bool next_event(builder *b, yaml_event_t *event)
         return true;
     if (p->error == YAML_MEMORY_ERROR)
         return nh_fail(b->error, NH_LIMIT, b->deck->name, "out of memory while reading");
-    return nh_deck_explain(b->deck, p->problem ? p->problem : "unknown problem", byte_at(b, p->problem_mark), p->context,
-                           byte_at(b, p->context_mark), b->error);
+    return nh_deck_explain(b->deck, p->problem ? p->problem : "unknown problem", byte_at(b, p->problem_mark),
+                           p->context, byte_at(b, p->context_mark), b->error);
 }
 
 /* Anchors, tags and aliases: nobody who writes mechanics means them; whoever begins an expression with * does. */
@@ -72,7 +72,10 @@ static bool check_scalar_text(builder *b, const char *text, size_t length, size_
         uint32_t code = 0;
         bytes = nh_utf8_decode(text + i, length - i, &code);
         if (bytes && (nh_is_invisible(code) || code == '\r'))
-            return refuse(b, begin, code < 0x20 || (code >= 0x7F && code < 0xA0) ? "this text contains a control character" : "this text contains an invisible character", "remove the escape that stands for it");
+            return refuse(b, begin,
+                          code < 0x20 || (code >= 0x7F && code < 0xA0) ? "this text contains a control character"
+                                                                       : "this text contains an invisible character",
+                          "remove the escape that stands for it");
     }
     return true;
 }
@@ -182,7 +185,9 @@ static bool check_duplicates(builder *b, const nh_deck_node *map)
 static bool check_key(builder *b, const nh_deck_node *key)
 {
     if (key->kind != NH_DECK_SCALAR)
-        return refuse(b, key->begin, key->kind == NH_DECK_LIST ? "a key must be a word, found a list" : "a key must be a word, found a map",
+        return refuse(b, key->begin,
+                      key->kind == NH_DECK_LIST ? "a key must be a word, found a list"
+                                                : "a key must be a word, found a map",
                       NH_DECK_QUOTE_HINT);
     if (!key->text[0])
         return refuse(b, key->begin, "there is no key before the `:`", "write `key: value`");
@@ -296,7 +301,8 @@ static bool read_document(builder *b)
     if (!take_event(b, &type, &begin) || !take_event(b, &type, &begin))
         return false;
     if (type != YAML_STREAM_END_EVENT)
-        return refuse(b, begin, "a second document begins here", "one file holds one document: remove this line or split the file");
+        return refuse(b, begin, "a second document begins here",
+                      "one file holds one document: remove this line or split the file");
     if (root->kind == NH_DECK_SCALAR && root->plain && !root->text[0])
         return fail_empty(b);
     b->deck->root = root;
@@ -333,7 +339,8 @@ nh_deck *nh_deck_parse(const char *name, const char *text, size_t length, nh_err
     if (!check_bytes(name, text, length, error))
         return NULL;
     nh_deck *deck = nh_deck_create(name, text, length);
-    if (nh_deck_check_text(deck, error) && (nh_xml_looks(deck) ? (deck->root = nh_urdf_read(deck, error)) != NULL : build(deck, error)))
+    if (nh_deck_check_text(deck, error) &&
+        (nh_xml_looks(deck) ? (deck->root = nh_urdf_read(deck, error)) != NULL : build(deck, error)))
         return deck;
     nh_deck_free(deck);
     return NULL;

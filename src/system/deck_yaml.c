@@ -22,8 +22,10 @@ static const rewording table[] = {
     {"", "a tag", true, NULL, NH_DECK_QUOTE_HINT},
     {"", "directive", true, "YAML reads a line that begins with `%` as a directive", NH_DECK_QUOTE_HINT},
     {"unexpected end of stream", "quoted scalar", true, "this quote is not closed",
-     "a value that begins with a quote ends with the same quote; an expression that begins with one goes into double quotes"},
-    {"document indicator", "quoted scalar", true, "this quote is not closed", "close it before the line that begins with --- or ..."},
+     "a value that begins with a quote ends with the same quote; an expression that begins with one goes into double "
+     "quotes"},
+    {"document indicator", "quoted scalar", true, "this quote is not closed",
+     "close it before the line that begins with --- or ..."},
     {"mapping values are not allowed", NULL, false, "this `:` is not allowed here",
      "put a text that contains `: ` in double quotes; keys of one map begin in the same column"},
     {"find expected ':'", "simple key", true, "expected `key: value`",
@@ -31,7 +33,8 @@ static const rewording table[] = {
     {"block sequence entries", NULL, false, "a list item `- ` is not allowed here",
      "begin the list on a line of its own, or put the expression in double quotes"},
     {"mapping keys are not allowed", NULL, false, NULL, NH_DECK_QUOTE_HINT},
-    {"node content", NULL, false, "expected a value here", "write the value, or put an expression with commas in double quotes"},
+    {"node content", NULL, false, "expected a value here",
+     "write the value, or put an expression with commas in double quotes"},
     {"<document start>", NULL, false, "this line does not continue the text above",
      "keys of one map begin in the same column; put an expression with quotes or brackets in double quotes"},
     {"unexpected ':'", NULL, false, "this `:` is not allowed here", NH_DECK_QUOTE_HINT},
@@ -60,7 +63,8 @@ static bool explain_bracket(const nh_deck *deck, size_t at, size_t since, nh_err
     size_t line = line_of(deck, since);
     if (nothing_after(deck, at)) {
         nh_deck_fail_at(deck, since, error, "this `%c` is not closed", open);
-        return nh_error_hint(error, "add `%c`, or write an expression that contains `%c` in double quotes", close, open);
+        return nh_error_hint(error, "add `%c`, or write an expression that contains `%c` in double quotes", close,
+                             open);
     }
     nh_deck_fail_at(deck, at, error, "expected `,` or `%c` in the %s that begins with `%c` in line %zu", close,
                     map ? "map" : "list", open, line);
@@ -83,7 +87,8 @@ static bool explain_misfit(const nh_deck *deck, size_t at, const char *kind, siz
         nh_deck_fail_at(deck, at, error, "unexpected text after the end of the value");
         return nh_error_hint(error, NH_DECK_QUOTE_HINT ", all of it");
     }
-    nh_deck_fail_at(deck, at, error, "this line does not fit the %s that begins in line %zu", kind, line_of(deck, since));
+    nh_deck_fail_at(deck, at, error, "this line does not fit the %s that begins in line %zu", kind,
+                    line_of(deck, since));
     return nh_error_hint(error, "start all entries of a map, and all items of a list, in the same column");
 }
 
@@ -116,7 +121,8 @@ static size_t visible(const nh_deck *deck, size_t at)
     return at;
 }
 
-bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const char *context, size_t since, nh_error *error)
+bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const char *context, size_t since,
+                     nh_error *error)
 {
     if (deck->source[at] == '\t' || strstr(problem, "tab character"))
         return explain_tab(deck, at, error);
@@ -140,5 +146,6 @@ bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const 
             nh_deck_fail_at(deck, spot, error, "a value cannot begin with `%.1s`", deck->source + spot);
         return nh_error_hint(error, "%s", row->hint);
     }
-    return nh_deck_fail_at(deck, at, error, "this is not YAML: %s%s%s", context ? context : "", context ? ", " : "", problem);
+    return nh_deck_fail_at(deck, at, error, "this is not YAML: %s%s%s", context ? context : "", context ? ", " : "",
+                           problem);
 }

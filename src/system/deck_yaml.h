@@ -7,6 +7,7 @@
 #define NH_DECK_QUOTE_HINT "put the expression in double quotes"
 
 /* `problem` and `context` are libyaml's words (context may be NULL), `at` and `since` the bytes where they stand. */
-bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const char *context, size_t since, nh_error *error);
+bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const char *context, size_t since,
+                     nh_error *error);
 
 #endif

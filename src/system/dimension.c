@@ -50,7 +50,8 @@ static value value_of_symbol(const nh_system *s, nh_ex e)
     nh_unit time = unit_of_time(s);
     if (e == s->t) return (value){KNOWN, time};
     for (size_t i = 0; i < s->parameters; i++)
-        if (e == s->parameter[i].symbol && *s->parameter[i].unit) return (value){KNOWN, nh_unit_of(s->parameter[i].unit)};
+        if (e == s->parameter[i].symbol && *s->parameter[i].unit)
+            return (value){KNOWN, nh_unit_of(s->parameter[i].unit)};
     for (size_t i = 0; i < s->coordinates; i++) {
         const nh_coordinate *c = &s->coordinate[i];
         if (!has_unit(c)) continue;
@@ -101,7 +102,8 @@ static value of_terms(checker *k, nh_ex e, size_t n)
         nh_ex term = nh_child(k->s->dag, e, i);
         value v = k->of[term];
         if (v.known == NUMBER) continue;
-        if (v.known == KNOWN && all.known == KNOWN && !nh_unit_equal(v.unit, all.unit)) tell(k, first, all.unit, term, v.unit);
+        if (v.known == KNOWN && all.known == KNOWN && !nh_unit_equal(v.unit, all.unit))
+            tell(k, first, all.unit, term, v.unit);
         if (v.known == KNOWN && (all.known != KNOWN || isnan(all.unit.scale))) all = v, first = term;
         else if (all.known == NUMBER) all.known = UNKNOWN;
     }
@@ -133,7 +135,8 @@ static value of_function(checker *k, nh_ex e)
     if (f == NH_ABS) return k->of[nh_child(k->s->dag, e, 0)];
     if (nh_is_named_function(f)) return (value){UNKNOWN, none};
     if (f == NH_ATAN2) of_terms(k, e, 2);
-    else if (f != NH_SIGN && f != NH_LOG) want_none(k, nh_child(k->s->dag, e, 0), "the argument of a function"); /* log(r): its derivatives have units */
+    else if (f != NH_SIGN && f != NH_LOG)
+        want_none(k, nh_child(k->s->dag, e, 0), "the argument of a function"); /* log(r): its derivatives have units */
     return (value){KNOWN, none};
 }
 
@@ -173,7 +176,9 @@ static value check(checker *k, nh_ex root)
 static void add(checker *k, const nh_deck_node *node, const char *part, const char **note, size_t *count)
 {
     if (k->fault->length)
-        note[(*count)++] = nh_arena_printf(k->s->arena, "%s:%zu: units in %s do not agree: %s; numbers count without a unit: write one that has a unit as a parameter",
+        note[(*count)++] = nh_arena_printf(k->s->arena,
+                                           "%s:%zu: units in %s do not agree: %s; numbers count without a unit: write "
+                                           "one that has a unit as a parameter",
                                            nh_deck_name(node->deck), node->line, part, nh_text_string(k->fault));
     nh_text_clear(k->fault);
     nh_text_init(k->fault);
@@ -213,7 +218,8 @@ static bool any_unit(const nh_system *s)
 size_t nh_dimension_check(nh_system *s, const char ***out)
 {
     size_t count = 0;
-    const nh_deck_node *root = nh_deck_root(s->deck), *lagrangian = nh_deck_get(root, "lagrangian"), *forces = nh_deck_get(root, "forces");
+    const nh_deck_node *root = nh_deck_root(s->deck), *lagrangian = nh_deck_get(root, "lagrangian"),
+                       *forces = nh_deck_get(root, "forces");
     const char **note = *out = nh_arena_alloc(s->arena, (s->constraints + s->coordinates + 2) * sizeof *note);
     if (s->chain || !lagrangian || !any_unit(s)) return 0;
     nh_text fault;

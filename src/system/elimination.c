@@ -16,8 +16,8 @@ enum { most_subsets = 2000 };
 
 /* ---- which velocities to eliminate ---- */
 
-/* |det F_S| / sqrt(det F F^T), in [0, 1] by Cauchy and Binet; here through singular values.  Velocities are measured in their units, so that those of lengths and angles
- * compare, whatever the unit of length. */
+/* |det F_S| / sqrt(det F F^T), in [0, 1] by Cauchy and Binet; here through singular values.  Velocities are measured in
+ * their units, so that those of lengths and angles compare, whatever the unit of length. */
 static double volume(size_t rows, size_t columns, double *a)
 {
     double *s = nh_alloc_array(rows + columns, sizeof *s), product = 1;
@@ -35,7 +35,8 @@ static double subset_score(const nh_constraint_samples *c, const size_t *subset,
     double *a = nh_alloc_array(c->k * c->m + 1, sizeof *a);
     for (size_t p = 0; p < c->count; p++) {
         const double *F = c->F + p * c->k * c->m;
-        for (size_t j = 0; j < c->k * c->k; j++) a[j] = F[subset[j / c->k] * c->k + j % c->k] * c->unit[subset[j / c->k]];
+        for (size_t j = 0; j < c->k * c->k; j++)
+            a[j] = F[subset[j / c->k] * c->k + j % c->k] * c->unit[subset[j / c->k]];
         double part = volume(c->k, c->k, a);
         for (size_t j = 0; j < c->k * c->m; j++) a[j] = F[j] * c->unit[j / c->k];
         double whole = fmax(volume(c->k, c->m, a), 1e-300);
@@ -82,7 +83,8 @@ static double best_subset(const nh_constraint_samples *c, size_t *out)
     for (size_t i = 0; i < c->k; i++) subset[i] = i;
     do {
         double score = subset_score(c, subset, &largest);
-        if (score > best * (1 - 1e-9) || best < 0) { /* later coordinates win ties: users list first what moves freely */
+        /* later coordinates win ties: users list first what moves freely */
+        if (score > best * (1 - 1e-9) || best < 0) {
             best = score;
             memcpy(out, subset, c->k * sizeof *out);
         }
@@ -91,7 +93,8 @@ static double best_subset(const nh_constraint_samples *c, size_t *out)
     return best;
 }
 
-/* Where the user sets parameters, the velocities that suit the values of the file, unless they are much worse: the same formulas for all values. */
+/* Where the user sets parameters, the velocities that suit the values of the file, unless they are much worse: the same
+   formulas for all values. */
 static double best_dependent(const nh_constraint_samples *c, size_t *out)
 {
     static const double much_worse = 1e-3;
@@ -152,7 +155,8 @@ static bool solve_linear(nh_chart *chart, const nh_constraint_samples *c, const 
 {
     const nh_system *s = c->system;
     nh_dag *d = s->dag;
-    nh_ex *zero = nh_alloc_array(c->k + 1, sizeof *zero), *u = nh_alloc_array(c->k + 1, sizeof *u), *b = nh_alloc_array(c->k + 1, sizeof *b);
+    nh_ex *zero = nh_alloc_array(c->k + 1, sizeof *zero), *u = nh_alloc_array(c->k + 1, sizeof *u),
+          *b = nh_alloc_array(c->k + 1, sizeof *b);
     for (size_t a = 0; a < c->k; a++) u[a] = s->coordinate[chart->dependent[a]].v;
     for (size_t a = 0; a < c->k; a++) b[a] = nh_neg(d, nh_substitute(d, f[a], c->k, u, zero));
     nh_lu *lu = nh_lu_create(d, c->k, G, nh_embedding_score, chart, NULL);
@@ -166,7 +170,8 @@ static bool solve_linear(nh_chart *chart, const nh_constraint_samples *c, const 
     return good;
 }
 
-/* f = sum_j c_j u^j, a polynomial of degree 1 to most_degree in u: u^degree = -(c_0 + ... + c_(degree-1) u^(degree-1)) / c_degree.  False: it is none. */
+/* f = sum_j c_j u^j, a polynomial of degree 1 to most_degree in u: u^degree = -(c_0 + ... + c_(degree-1) u^(degree-1))
+   / c_degree.  False: it is none. */
 static bool relate(nh_dag *d, nh_ex f, nh_ex u)
 {
     enum { most_degree = 8 };
@@ -185,7 +190,8 @@ static bool relate(nh_dag *d, nh_ex f, nh_ex u)
     return false;
 }
 
-/* What implicit velocities satisfy, for normal forms: a constraint that is a polynomial in one of them, and has no other of which nothing is known. */
+/* What implicit velocities satisfy, for normal forms: a constraint that is a polynomial in one of them, and has no
+   other of which nothing is known. */
 static void relate_implicit(nh_chart *chart, size_t k, const nh_ex *f)
 {
     nh_dag *d = chart->system->dag;
@@ -262,7 +268,8 @@ static int branch_of(const nh_constraint_samples *c, size_t which, nh_ex linear)
     return balance >= 0 ? 1 : -1;
 }
 
-/* f = a u^2 + b u + c with u the velocity `which`: u = (-b + s sqrt(b^2 - 4 a c)) / (2 a), so that everything that follows is explicit. */
+/* f = a u^2 + b u + c with u the velocity `which`: u = (-b + s sqrt(b^2 - 4 a c)) / (2 a), so that everything that
+   follows is explicit. */
 static bool quadratic_root(const nh_constraint_samples *cloud, size_t which, nh_ex f, nh_quadratic *q)
 {
     const nh_system *s = cloud->system;
@@ -292,7 +299,8 @@ static bool contains_only_parameters(const nh_constraint_samples *c, nh_ex e)
 {
     const nh_system *s = c->system;
     bool only = !nh_depends(s->dag, e, s->t);
-    for (size_t i = 0; i < c->m && only; i++) only = !nh_depends(s->dag, e, s->coordinate[i].q) && !nh_depends(s->dag, e, s->coordinate[i].v);
+    for (size_t i = 0; i < c->m && only; i++)
+        only = !nh_depends(s->dag, e, s->coordinate[i].q) && !nh_depends(s->dag, e, s->coordinate[i].v);
     return only;
 }
 
@@ -323,7 +331,8 @@ static const char *chart_name(const nh_chart *chart, char *buffer, size_t size)
 {
     size_t at = (size_t)snprintf(buffer, size, "coordinate velocities (");
     for (size_t i = 0; i < chart->n && at < size; i++)
-        at += (size_t)snprintf(buffer + at, size - at, "%s%s", i ? ", " : "", nh_name_of(chart->system->dag, chart->w[i]));
+        at += (size_t)snprintf(buffer + at, size - at, "%s%s", i ? ", " : "",
+                               nh_name_of(chart->system->dag, chart->w[i]));
     if (at < size) snprintf(buffer + at, size - at, ")");
     return buffer;
 }
@@ -336,7 +345,8 @@ static bool slopes(const nh_constraint_samples *c, const triangle *t, nh_ex *G)
     for (size_t a = 0; a < t->left; a++)
         for (size_t i = 0; i < t->left; i++) {
             G[a * t->left + i] = nh_diff(s->dag, t->f[a], s->coordinate[t->dependent[i]].v);
-            for (size_t j = 0; j < t->left; j++) linear &= !nh_depends(s->dag, G[a * t->left + i], s->coordinate[t->dependent[j]].v);
+            for (size_t j = 0; j < t->left; j++)
+                linear &= !nh_depends(s->dag, G[a * t->left + i], s->coordinate[t->dependent[j]].v);
         }
     return linear;
 }
@@ -372,12 +382,14 @@ static void put_solved(nh_chart *chart, const triangle *t)
     const nh_system *s = chart->system;
     for (size_t a = t->left; a < t->k; a++) {
         nh_ex e = t->f[a];
-        for (size_t i = 0; i < t->left; i++) e = nh_substitute(s->dag, e, 1, &s->coordinate[t->dependent[i]].v, &chart->rho[t->dependent[i]]);
+        for (size_t i = 0; i < t->left; i++)
+            e = nh_substitute(s->dag, e, 1, &s->coordinate[t->dependent[i]].v, &chart->rho[t->dependent[i]]);
         chart->rho[t->dependent[a]] = nh_simplify(s->dag, e);
     }
 }
 
-/* Linear constraints all at once; of others the linear ones first.  What is left is a root when it is one and quadratic, and stays implicit otherwise. */
+/* Linear constraints all at once; of others the linear ones first.  What is left is a root when it is one and
+   quadratic, and stays implicit otherwise. */
 static nh_chart *solved(const nh_constraint_samples *c, triangle *t, nh_ex *G, double pivot)
 {
     nh_dag *d = c->system->dag;
@@ -415,7 +427,8 @@ static nh_chart *build(const nh_constraint_samples *c, const size_t *dependent, 
     nh_free(t.dependent);
     nh_free(f);
     if (chart) return chart;
-    nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "the constraints cannot be solved for the chosen dependent velocities");
+    nh_deck_fail(s->deck, s->constraint[0].node, 0, error,
+                 "the constraints cannot be solved for the chosen dependent velocities");
     nh_error_hint(error, "name other velocities under `dependent:`, or remove that key");
     return NULL;
 }
@@ -425,7 +438,8 @@ bool nh_embedding_ranks(nh_system *system, uint64_t seed, nh_error *error)
     nh_constraint_samples c;
     if (system->constraints == 0) return true;
     nh_constraint_samples_init(&c, system, system->constraints, seed);
-    bool good = c.count == 0 || nh_constraint_samples_check_rank(&c, seed, error); /* no point found says nothing: the user's chart has points */
+    /* no point found says nothing: the user's chart has points */
+    bool good = c.count == 0 || nh_constraint_samples_check_rank(&c, seed, error);
     nh_constraint_samples_clear(&c);
     return good;
 }
@@ -440,7 +454,8 @@ nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *e
     if (c.k == 0 || nh_constraint_samples_check_rank(&c, seed, error)) {
         double pivot = c.k ? choose_dependent(&c, dependent, &replaced) : 1;
         if (pivot < 1e-12) {
-            nh_deck_fail(system->deck, system->constraint[0].node, 0, error, "the constraints do not determine the velocities named under `dependent:`");
+            nh_deck_fail(system->deck, system->constraint[0].node, 0, error,
+                         "the constraints do not determine the velocities named under `dependent:`");
             nh_error_hint(error, "name other velocities, or remove `dependent:`");
         } else {
             chart = build(&c, dependent, pivot, error);

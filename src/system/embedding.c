@@ -54,7 +54,10 @@ void nh_embedding_symbols(nh_chart *c)
     for (size_t i = 0; i < c->width; i++) nh_domain_range(s, c->symbol[i], &c->low[i], &c->high[i]);
 }
 
-void nh_chart_range(const nh_chart *c, nh_ex symbol, double *low, double *high) { nh_domain_range(c->system, symbol, low, high); }
+void nh_chart_range(const nh_chart *c, nh_ex symbol, double *low, double *high)
+{
+    nh_domain_range(c->system, symbol, low, high);
+}
 
 double nh_chart_symbol_unit(const nh_system *s, nh_ex symbol)
 {
@@ -133,12 +136,14 @@ bool nh_chart_complete(const nh_chart *c, double *z)
 
 static const double rounding = 1e-13;
 
-bool nh_embedding_vanishes(const nh_system *s, size_t width, const nh_ex *symbol, size_t points, const double *point, nh_ex e)
+bool nh_embedding_vanishes(const nh_system *s, size_t width, const nh_ex *symbol, size_t points, const double *point,
+                           nh_ex e)
 {
     enum { bits = 512, tried = 3, digits = 100 };
     nh_ball *ball = nh_ball_create(s->dag, bits);
     bool zero = true;
-    for (size_t i = 0; i < s->parameters; i++) nh_ball_set_expression(ball, s->parameter[i].symbol, nh_number(s->dag, nh_num_decimal(s->parameter[i].value)));
+    for (size_t i = 0; i < s->parameters; i++)
+        nh_ball_set_expression(ball, s->parameter[i].symbol, nh_number(s->dag, nh_num_decimal(s->parameter[i].value)));
     for (size_t p = 0; p < points && p < tried && zero; p++) {
         double size;
         for (size_t j = 0; j < width; j++) nh_ball_set_double(ball, symbol[j], point[p * width + j]);
@@ -149,7 +154,10 @@ bool nh_embedding_vanishes(const nh_system *s, size_t width, const nh_ex *symbol
 }
 
 /* Implicit velocities are known to doubles only, and cannot be asked. */
-static bool vanishes(const nh_chart *c, nh_ex e) { return c->implicit || nh_embedding_vanishes(c->system, c->width, c->symbol, c->probes, c->probe, e); }
+static bool vanishes(const nh_chart *c, nh_ex e)
+{
+    return c->implicit || nh_embedding_vanishes(c->system, c->width, c->symbol, c->probes, c->probe, e);
+}
 
 double nh_embedding_score(void *context, nh_ex e)
 {
@@ -184,7 +192,8 @@ static void probes_of_quasi(nh_chart *c, uint64_t seed)
     nh_sampler_free(sampler);
 }
 
-/* |f| beside sum_j |df/dv_j v_j| + |f - sum_j df/dv_j v_j|, which the constraint f = 0 weighs against each other, on the image of the chart. */
+/* |f| beside sum_j |df/dv_j v_j| + |f - sum_j df/dv_j v_j|, which the constraint f = 0 weighs against each other, on
+   the image of the chart. */
 static double off_constraint(const nh_chart *c, size_t a, nh_ex f)
 {
     const nh_system *s = c->system;
@@ -221,7 +230,9 @@ static bool chart_satisfies(const nh_chart *c, nh_error *error)
         if (nh_normal_is_zero(s->dag, f, 0) == NH_ZERO) continue;
         double worst = off_constraint(c, a, f);
         if (worst < allowed) continue;
-        nh_deck_fail(s->deck, s->constraint[a].node, 0, error, "the velocities' map does not satisfy this constraint (off by %.2g of its terms at a sample point)", worst);
+        nh_deck_fail(
+            s->deck, s->constraint[a].node, 0, error,
+            "the velocities' map does not satisfy this constraint (off by %.2g of its terms at a sample point)", worst);
         return nh_error_hint(error, "substitute the map into the constraint: it must vanish for all quasi-velocities");
     }
     return true;
@@ -296,10 +307,14 @@ static bool velocities_independent(const nh_chart *c, nh_error *error)
     const nh_deck *deck = c->system->deck;
     const nh_deck_node *node = nh_deck_get(nh_deck_root(deck), "velocities");
     if (rank == c->n) {
-        nh_deck_fail(deck, node, 0, error, "the quasi-velocities differ too much in size: by the map one is %.0e times as fast as another", 1 / even);
+        nh_deck_fail(deck, node, 0, error,
+                     "the quasi-velocities differ too much in size: by the map one is %.0e times as fast as another",
+                     1 / even);
         return nh_error_hint(error, "give them units in which they are of similar size");
     }
-    nh_deck_fail(deck, node, 0, error, "the velocities' map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank, c->n);
+    nh_deck_fail(deck, node, 0, error,
+                 "the velocities' map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank,
+                 c->n);
     return nh_error_hint(error, "the quasi-velocities must be independent: each must add a direction of motion");
 }
 
@@ -308,7 +323,8 @@ static nh_chart *quasi_chart(nh_system *s, uint64_t seed, nh_error *error)
     nh_text name;
     nh_text_init(&name);
     nh_text_add(&name, "quasi-velocities (");
-    for (size_t i = 0; i < s->quasi; i++) nh_text_addf(&name, "%s%s", i ? ", " : "", nh_name_of(s->dag, s->quasi_velocity[i]));
+    for (size_t i = 0; i < s->quasi; i++)
+        nh_text_addf(&name, "%s%s", i ? ", " : "", nh_name_of(s->dag, s->quasi_velocity[i]));
     nh_text_add(&name, ")");
     nh_chart *c = nh_embedding_new(s, nh_text_string(&name), s->quasi, 0);
     nh_text_clear(&name);
@@ -382,7 +398,8 @@ bool nh_chart_inverse(const nh_chart *c, nh_ex *out)
             if (!used[k]) continue;
             nh_ex rest = nh_sub(d, s->coordinate[k].v, nh_substitute(d, c->rho[k], n, c->w, zero));
             b[i] = nh_add(d, b[i], nh_mul(d, R[k * n + i], rest));
-            for (size_t j = 0; j < n; j++) N[i * n + j] = nh_add(d, N[i * n + j], nh_mul(d, R[k * n + i], R[k * n + j]));
+            for (size_t j = 0; j < n; j++)
+                N[i * n + j] = nh_add(d, N[i * n + j], nh_mul(d, R[k * n + i], R[k * n + j]));
         }
     }
     nh_lu *lu = NULL;

@@ -3,8 +3,9 @@
  *     v^s = rho^s(t, q, w),   w^1..w^n,   n = m - k          [docs/method.md, sec. 1], [CechMusilova2014, sec. 2.3]
  *
  * A chart is either the user's quasi-velocities, or the independent coordinate velocities with the dependent ones
- * eliminated: symbolically where the constraints are linear in them, otherwise they stay as implicit symbols u with f(t, q, w, u) = 0,
- * found by Newton's method at points and followed by the implicit function theorem in derivatives. */
+ * eliminated: symbolically where the constraints are linear in them, otherwise they stay as implicit symbols u with
+ * f(t, q, w, u) = 0, found by Newton's method at points and followed by the implicit function theorem in
+ * derivatives. */
 #ifndef NH_EMBEDDING_H
 #define NH_EMBEDDING_H
 
@@ -13,7 +14,8 @@
 
 typedef enum { NH_CHART_AUTO, NH_CHART_QUASI, NH_CHART_COORDINATES } nh_chart_choice;
 
-/* A dependent velocity that is a root: v^s = alpha sqrt(base) + beta.  In formulas for people it stands for itself, as a symbol of its own. */
+/* A dependent velocity that is a root: v^s = alpha sqrt(base) + beta.  In formulas for people it stands for itself, as
+   a symbol of its own. */
 typedef struct {
     size_t coordinate;
     nh_ex base, symbol;       /* symbol: prints as the velocity does */
@@ -28,7 +30,9 @@ typedef struct {
     size_t n, implicit;
     nh_ex *w;                 /* n velocities of the chart */
     nh_ex *rho;               /* m: coordinate velocities as functions of (t, q, w, u) */
-    size_t *dependent;        /* k coordinate indices, coordinate charts only; those of implicit velocities, or of a root with two branches, come first */
+    /* k coordinate indices, coordinate charts only; those of implicit velocities, or of a root with two branches, come
+       first */
+    size_t *dependent;
     size_t *free;             /* n coordinate indices: whose velocities the w are, coordinate charts only */
     nh_ex *u, *residual;      /* implicit velocities and the constraints that determine them */
     size_t width;             /* 1 + m + n + implicit: the point (t, q, w, u) */
@@ -38,11 +42,14 @@ typedef struct {
     double *probe;            /* probes x width: a few points for pivots and ranks */
     size_t probes;
     int branch;               /* of a quadratic constraint: the sign of its root; 0 otherwise */
-    nh_ex radicand, root;     /* of that root, and the root in coordinate velocities: branch*(2 a u + b), valid on both branches */
+    /* of that root, and the root in coordinate velocities: branch*(2 a u + b), valid on both branches */
+    nh_ex radicand, root;
     size_t roots;             /* dependent velocities that are roots; that of a quadratic constraint is the first */
     nh_root *root_of;
     double pivot;             /* least pivot of the elimination over the probes, relative */
-    bool replaced;            /* the dependent velocities that the user had in mind are not determined anywhere near the domain: others were chosen */
+    /* the dependent velocities that the user had in mind are not determined anywhere near the domain: others were
+       chosen */
+    bool replaced;
 } nh_chart;
 
 /* Nearer to a zero of its pivot a chart of coordinate velocities has formulas that lose too many digits. */
@@ -57,22 +64,25 @@ bool nh_chart_complete(const nh_chart *chart, double *z);
 
 /* The sampling interval of any symbol of the system. */
 void nh_chart_range(const nh_chart *chart, nh_ex symbol, double *low, double *high);
-/* What a coordinate, a velocity or the time is measured in: half the width of the interval that the system's author gives it; without one, 1. */
+/* What a coordinate, a velocity or the time is measured in: half the width of the interval that the system's author
+   gives it; without one, 1. */
 double nh_chart_symbol_unit(const nh_system *system, nh_ex symbol);
-/* That of coordinate i, in which its velocity is measured, too, per unit of time, so that velocities of lengths and angles compare in all units of length. */
+/* That of coordinate i, in which its velocity is measured, too, per unit of time, so that velocities of lengths and
+   angles compare in all units of length. */
 double nh_chart_unit(const nh_system *system, size_t i);
 /* What the entries of R (m x n, row-major) are multiplied by to be numbers without units; 1 in quasi-velocities. */
 void nh_chart_slopes(const nh_chart *chart, double *factor);
 
-/* The chart's velocities as functions of (t, q, q'): w = (R^T R)^-1 R^T (v - rho(0)) where rho is affine in w.  False where
- * it is not (the caller says so). */
+/* The chart's velocities as functions of (t, q, q'): w = (R^T R)^-1 R^T (v - rho(0)) where rho is affine in w.  False
+ * where it is not (the caller says so). */
 bool nh_chart_inverse(const nh_chart *chart, nh_ex *w_of_v);
 
-/* An expression of a chart on one branch of a quadratic constraint, with the root written in coordinate velocities again: it then
- * holds on both branches. */
+/* An expression of a chart on one branch of a quadratic constraint, with the root written in coordinate velocities
+ * again: it then holds on both branches. */
 nh_ex nh_chart_both_branches(const nh_chart *chart, nh_ex e);
 
-/* For people: no root where a dependent velocity is equal to it.  With the symbols of the chart's roots, reduced by what they satisfy. */
+/* For people: no root where a dependent velocity is equal to it.  With the symbols of the chart's roots, reduced by
+   what they satisfy. */
 nh_ex nh_chart_shown(const nh_chart *chart, nh_ex e);
 /* Such an expression in t, q, q'. */
 nh_ex nh_chart_in_velocities(const nh_chart *chart, nh_ex shown);

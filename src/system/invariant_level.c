@@ -1,10 +1,12 @@
 /* invariant_level: a system on a level of integrals that are affine in the velocities (`levels:`, --on).
  *
- * A motion of the system that begins on an invariant level P = c stays there by itself. So the system with the further constraint P = c
- * has the same motions there, and its multiplier vanishes, which nh_model_create proves: otherwise P = c is no invariant level.
+ * A motion of the system that begins on an invariant level P = c stays there by itself. So the system with the further
+ * constraint P = c has the same motions there, and its multiplier vanishes, which nh_model_create proves: otherwise P =
+ * c is no invariant level.
  *
- * The velocities are chosen anew. Where all constraints are linear they are coefficients of fields X_i without denominators, in which the
- * integrals on the level stay polynomials with simple coefficients: with b_i = dP(X_i) and a pivot b_s,
+ * The velocities are chosen anew. Where all constraints are linear they are coefficients of fields X_i without
+ * denominators, in which the integrals on the level stay polynomials with simple coefficients: with b_i = dP(X_i) and a
+ * pivot b_s,
  *
  *     b_s X_i - b_i X_s     for i /= s with b_i /= 0,          X_i     where b_i = 0
  *
@@ -24,7 +26,10 @@ typedef struct {
 
 /* ---- the fields ---- */
 
-static nh_ex slope(const nh_system *s, nh_ex f, size_t i) { return nh_simplify(s->dag, nh_diff(s->dag, f, s->coordinate[i].v)); }
+static nh_ex slope(const nh_system *s, nh_ex f, size_t i)
+{
+    return nh_simplify(s->dag, nh_diff(s->dag, f, s->coordinate[i].v));
+}
 
 static bool has_coordinates(const nh_system *s, nh_ex e)
 {
@@ -33,7 +38,8 @@ static bool has_coordinates(const nh_system *s, nh_ex e)
     return any;
 }
 
-/* Constant ones first; then that along a cyclic coordinate, for whose momentum it is an entry of the diagonal of the mass matrix. */
+/* Constant ones first; then that along a cyclic coordinate, for whose momentum it is an entry of the diagonal of the
+   mass matrix. */
 static size_t pivot_of(const basis *b, const nh_ex *entry)
 {
     const nh_system *s = b->s;
@@ -43,7 +49,8 @@ static size_t pivot_of(const basis *b, const nh_ex *entry)
         if (nh_is_zero(s->dag, entry[i])) continue;
         bool cyclic = false;
         for (size_t j = 0; j < s->coordinates; j++)
-            cyclic |= !nh_is_zero(s->dag, b->field[i * s->coordinates + j]) && !nh_depends(s->dag, s->lagrangian, s->coordinate[j].q);
+            cyclic |= !nh_is_zero(s->dag, b->field[i * s->coordinates + j]) &&
+                      !nh_depends(s->dag, s->lagrangian, s->coordinate[j].q);
         int cost = !has_coordinates(s, entry[i]) ? 0 : cyclic ? 1 : 2;
         if (cost < least) least = cost, best = i;
     }
@@ -107,7 +114,8 @@ static bool begin(basis *b, nh_system *s, size_t given)
     *b = (basis){.s = s, .n = mapped ? s->quasi : m};
     b->field = nh_arena_alloc(s->arena, (m * m + 1) * sizeof *b->field);
     b->origin = nh_arena_alloc(s->arena, (m + 1) * sizeof *b->origin);
-    for (size_t i = 0; i < b->n; i++) b->origin[i] = mapped ? nh_name_of(d, s->quasi_velocity[i]) : s->coordinate[i].name;
+    for (size_t i = 0; i < b->n; i++)
+        b->origin[i] = mapped ? nh_name_of(d, s->quasi_velocity[i]) : s->coordinate[i].name;
     for (size_t i = 0; i < b->n; i++)
         for (size_t j = 0; j < m; j++)
             b->field[i * m + j] = mapped ? nh_diff(d, s->quasi_map[j], s->quasi_velocity[i]) : nh_int(d, i == j);
@@ -143,7 +151,8 @@ static void take_velocities(const basis *b)
     for (size_t i = 0; i < b->n; i++) s->quasi_velocity[i] = nh_symbol(s->dag, name_of(b, i));
     for (size_t j = 0; j < m; j++) {
         nh_ex sum = nh_int(s->dag, 0);
-        for (size_t i = 0; i < b->n; i++) sum = nh_add(s->dag, sum, nh_mul(s->dag, b->field[i * m + j], s->quasi_velocity[i]));
+        for (size_t i = 0; i < b->n; i++)
+            sum = nh_add(s->dag, sum, nh_mul(s->dag, b->field[i * m + j], s->quasi_velocity[i]));
         s->quasi_map[j] = sum;
     }
 }
@@ -159,24 +168,30 @@ static nh_named *momenta(nh_system_reader *r, size_t *count)
     for (size_t i = 0; i < s->coordinates; i++) {
         const char *name = nh_arena_printf(s->arena, "p_%s", s->coordinate[i].name);
         if (nh_symbol_find(s->dag, name, &taken)) continue;
-        p[(*count)++] = (nh_named){.name = name, .text = name, .value = nh_diff(s->dag, s->lagrangian, s->coordinate[i].v)};
+        p[(*count)++] =
+            (nh_named){.name = name, .text = name, .value = nh_diff(s->dag, s->lagrangian, s->coordinate[i].v)};
     }
     return p;
 }
 
-static bool read_level(nh_system_reader *r, const nh_deck_node *node, size_t count, const nh_named *momentum, bool *linear)
+static bool read_level(nh_system_reader *r, const nh_deck_node *node, size_t count, const nh_named *momentum,
+                       bool *linear)
 {
     nh_system *s = r->system;
     nh_constraint *c = &s->constraint[s->constraints];
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a level `... = ...`", r->error)) return false;
     *c = (nh_constraint){.text = node->text, .node = node};
-    if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, count, momentum, &c->lhs, &c->rhs, r->error)) return false;
+    if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, count, momentum, &c->lhs, &c->rhs, r->error))
+        return false;
     nh_ex f = nh_sub(s->dag, c->lhs, c->rhs);
     bool moving = false, own;
     for (size_t j = 0; j < s->coordinates; j++) moving |= !nh_is_zero(s->dag, slope(s, f, j));
     if (!moving || !is_affine(s, f, &own)) {
-        nh_deck_fail(r->deck, node, 0, r->error, moving ? "this level is not linear in the velocities" : "this level contains no velocity");
-        return nh_error_hint(r->error, "write it as a momentum or another integral linear in the velocities, for example `p_%s = 0`", s->coordinate[0].name);
+        nh_deck_fail(r->deck, node, 0, r->error,
+                     moving ? "this level is not linear in the velocities" : "this level contains no velocity");
+        return nh_error_hint(
+            r->error, "write it as a momentum or another integral linear in the velocities, for example `p_%s = 0`",
+            s->coordinate[0].name);
     }
     *linear &= own;
     s->constraints++;
@@ -213,6 +228,7 @@ bool nh_system_refuse_level(const nh_system *s, size_t level, bool proved, nh_er
                  : "whether motions stay on this level was not decided");
     for (size_t i = 0; i < s->coordinates; i++)
         if (!nh_depends(s->dag, s->lagrangian, s->coordinate[i].q))
-            return nh_error_hint(error, "%s does not occur in the Lagrangian: `p_%s` may be constant", s->coordinate[i].name, s->coordinate[i].name);
+            return nh_error_hint(error, "%s does not occur in the Lagrangian: `p_%s` may be constant",
+                                 s->coordinate[i].name, s->coordinate[i].name);
     return nh_error_hint(error, "`nhsym analyze` without this level lists what is conserved");
 }

@@ -124,7 +124,8 @@ static bool is_zero(const search *x, const double *z)
     static const double small = 1e-9;
     for (size_t a = 0; a < x->k; a++) {
         double size = 0;
-        for (size_t j = 0; j < x->width; j++) size = fmax(size, fabs(x->out[x->k + a + j * x->k]) * (x->half[j] + fabs(z[j])));
+        for (size_t j = 0; j < x->width; j++)
+            size = fmax(size, fabs(x->out[x->k + a + j * x->k]) * (x->half[j] + fabs(z[j])));
         if (fabs(x->out[a]) > small * size) return false;
     }
     return true;
@@ -244,8 +245,12 @@ bool nh_levels_check(nh_system *s, uint64_t seed, nh_error *error)
         else nh_deck_fail(s->deck, node, 0, error,
             "no positions were found that satisfy this constraint and those before it");
         if (proved) nh_error_hint(error, "check the signs and the parameter values");
-        else nh_error_hint(error, "Newton's method was started at %d points, up to %g times the sampling domain around its centre; "
-                                    "if solutions exist, give a `domain:` near them", starts, farthest);
+        else
+            nh_error_hint(
+                error,
+                "Newton's method was started at %d points, up to %g times the sampling domain around its centre; "
+                "if solutions exist, give a `domain:` near them",
+                starts, farthest);
     }
     nh_free(level);
     return good;

@@ -4,7 +4,8 @@
 #include "graph/diff.h"
 #include "system/system_internal.h"
 
-/* start: [p = phi, s = sqrt(v^2 + p^2)], each in the initial state and those before it.  In the motion their names are symbols of their own. */
+/* start: [p = phi, s = sqrt(v^2 + p^2)], each in the initial state and those before it.  In the motion their names are
+   symbols of their own. */
 static bool read_start(nh_system_reader *r, const nh_deck_node *item, nh_known_motion *out, nh_named *symbols)
 {
     nh_system *s = r->system;
@@ -19,7 +20,8 @@ static bool read_start(nh_system_reader *r, const nh_deck_node *item, nh_known_m
         name.text = start->name;
         if (!nh_system_new_name(r, &name)) return false;
         for (size_t j = 0; j < i; j++)
-            if (!strcmp(out->start[j].name, start->name)) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", start->name);
+            if (!strcmp(out->start[j].name, start->name))
+                return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", start->name);
         if (!nh_system_right_side(s, r->deck, node, i, out->start, &start->value, r->error)) return false;
         symbols[i] = (nh_named){.name = start->name, .value = nh_symbol_fresh(s->dag, start->name)};
         out->symbol[i] = symbols[i].value;
@@ -38,8 +40,9 @@ static bool read_conditions(nh_system_reader *r, const nh_deck_node *item, nh_kn
     out->condition = nh_system_take(r, n, sizeof *out->condition);
     for (size_t i = 0; i < n; i++) {
         nh_ex left, right;
-        if (!nh_deck_is(r->deck, list->item[i], NH_DECK_SCALAR, "a condition `... = ...`", r->error)
-            || !nh_system_read_expression(s, r->deck, list->item[i], 0, 0, out->starts, out->start, &left, &right, r->error))
+        if (!nh_deck_is(r->deck, list->item[i], NH_DECK_SCALAR, "a condition `... = ...`", r->error) ||
+            !nh_system_read_expression(s, r->deck, list->item[i], 0, 0, out->starts, out->start, &left, &right,
+                                       r->error))
             return false;
         out->condition[out->conditions++] = nh_sub(s->dag, left, right);
     }
@@ -67,7 +70,10 @@ static bool read_motion(nh_system_reader *r, const nh_deck_node *item, const nh_
     const nh_deck_node *list;
     size_t n;
     if (!nh_system_list_of(r, item, "motion", &list, &n)) return false;
-    if (!n) return nh_deck_fail(r->deck, item, 0, r->error, "a motion needs the key `motion`: its coordinates as functions of time"), nh_error_hint(r->error, "for example: motion: [%s = 2*t]", s->coordinate[0].name);
+    if (!n)
+        return nh_deck_fail(r->deck, item, 0, r->error,
+                            "a motion needs the key `motion`: its coordinates as functions of time"),
+               nh_error_hint(r->error, "for example: motion: [%s = 2*t]", s->coordinate[0].name);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *node = list->item[i];
         const char *name, *which;
@@ -80,10 +86,12 @@ static bool read_motion(nh_system_reader *r, const nh_deck_node *item, const nh_
         }
         if (out->given[index]) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is given twice", name);
         size_t skip = (size_t)(strchr(node->text, '=') - node->text) + 1;
-        if (!nh_system_read_expression(s, r->deck, node, skip, 0, out->starts, symbols, NULL, &e, r->error)) return false;
+        if (!nh_system_read_expression(s, r->deck, node, skip, 0, out->starts, symbols, NULL, &e, r->error))
+            return false;
         if (depends_on_state(r, e, &which)) {
             nh_deck_fail(r->deck, node, skip, r->error, "a motion is written in t, but this contains `%s`", which);
-            return nh_error_hint(r->error, "`start: [%s0 = %s]` names its value at the start", s->coordinate[0].name, s->coordinate[0].name);
+            return nh_error_hint(r->error, "`start: [%s0 = %s]` names its value at the start", s->coordinate[0].name,
+                                 s->coordinate[0].name);
         }
         out->given[index] = true;
         out->value[index] = e;
@@ -97,8 +105,11 @@ static bool read_one(nh_system_reader *r, const nh_deck_node *item, nh_known_mot
     static const char *const keys[] = {"name", "doc", "when", "start", "motion"};
     const char *doc; /* for the reader of the file */
     nh_system *s = r->system;
-    if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a motion {name: ..., motion: [...]}", r->error) || !nh_deck_only(r->deck, item, keys, sizeof keys / sizeof *keys, r->error)) return false;
-    if (!nh_system_text_of(r, item, "name", "closed form", &out->name) || !nh_system_text_of(r, item, "doc", "", &doc)) return false;
+    if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a motion {name: ..., motion: [...]}", r->error) ||
+        !nh_deck_only(r->deck, item, keys, sizeof keys / sizeof *keys, r->error))
+        return false;
+    if (!nh_system_text_of(r, item, "name", "closed form", &out->name) || !nh_system_text_of(r, item, "doc", "", &doc))
+        return false;
     const nh_deck_node *start = nh_deck_get(item, "start");
     size_t n = start ? start->count : 0;
     nh_named *symbols = nh_system_take(r, n, sizeof *symbols);
@@ -127,21 +138,35 @@ static nh_system *names_of(const nh_system *s)
 {
     nh_arena *arena = nh_arena_create();
     nh_system *n = nh_arena_alloc(arena, sizeof *n);
-    *n = (nh_system){.arena = arena, .dag = nh_dag_create(), .name = s->name, .parameters = s->parameters, .coordinates = s->coordinates, .definitions = s->definitions, .quasi = s->quasi};
+    *n = (nh_system){.arena = arena,
+                     .dag = nh_dag_create(),
+                     .name = s->name,
+                     .parameters = s->parameters,
+                     .coordinates = s->coordinates,
+                     .definitions = s->definitions,
+                     .quasi = s->quasi};
     n->t = nh_symbol(n->dag, "t");
     n->parameter = nh_arena_alloc(arena, (s->parameters + 1) * sizeof *n->parameter);
     n->coordinate = nh_arena_alloc(arena, (s->coordinates + 1) * sizeof *n->coordinate);
     n->definition = nh_arena_alloc(arena, (s->definitions + 1) * sizeof *n->definition);
     n->quasi_velocity = nh_arena_alloc(arena, (s->quasi + 1) * sizeof *n->quasi_velocity);
-    for (size_t i = 0; i < s->parameters; i++) n->parameter[i] = (nh_parameter){.name = s->parameter[i].name, .symbol = nh_symbol(n->dag, s->parameter[i].name)};
+    for (size_t i = 0; i < s->parameters; i++)
+        n->parameter[i] =
+            (nh_parameter){.name = s->parameter[i].name, .symbol = nh_symbol(n->dag, s->parameter[i].name)};
     for (size_t i = 0; i < s->coordinates; i++)
-        n->coordinate[i] = (nh_coordinate){.name = s->coordinate[i].name, .q = nh_symbol(n->dag, s->coordinate[i].name), .v = nh_symbol(n->dag, nh_name_of(s->dag, s->coordinate[i].v))};
-    for (size_t i = 0; i < s->definitions; i++) n->definition[i] = (nh_named){.name = s->definition[i].name, .value = nh_symbol_fresh(n->dag, s->definition[i].name)};
-    for (size_t i = 0; i < s->quasi; i++) n->quasi_velocity[i] = nh_symbol(n->dag, nh_name_of(s->dag, s->quasi_velocity[i]));
+        n->coordinate[i] = (nh_coordinate){.name = s->coordinate[i].name,
+                                           .q = nh_symbol(n->dag, s->coordinate[i].name),
+                                           .v = nh_symbol(n->dag, nh_name_of(s->dag, s->coordinate[i].v))};
+    for (size_t i = 0; i < s->definitions; i++)
+        n->definition[i] =
+            (nh_named){.name = s->definition[i].name, .value = nh_symbol_fresh(n->dag, s->definition[i].name)};
+    for (size_t i = 0; i < s->quasi; i++)
+        n->quasi_velocity[i] = nh_symbol(n->dag, nh_name_of(s->dag, s->quasi_velocity[i]));
     return n;
 }
 
-/* Are they well written?  Not yet in the system's graph, where they would change the order in which sums are printed. */
+/* Are they well written?  Not yet in the system's graph, where they would change the order in which sums are
+   printed. */
 bool nh_system_check_motions(nh_system_reader *r, const nh_deck_node *known)
 {
     nh_known_motion *ignored;

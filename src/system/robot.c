@@ -14,7 +14,8 @@ enum { height_size = 40 };
 typedef struct {
     nh_deck *deck;
     nh_error *error;
-    const nh_deck_node *root, *bodies, *joints, *rims; /* of the file; rims: NULL where no robot description takes part */
+    /* of the file; rims: NULL where no robot description takes part */
+    const nh_deck_node *root, *bodies, *joints, *rims;
     nh_deck_node *wheels, *notes;
 } reader;
 
@@ -34,7 +35,10 @@ static const nh_deck_node *entry(const nh_deck_node *list, const char *key, cons
 
 static void note(reader *r, const nh_deck_node *place, const char *text)
 {
-    nh_deck_append(r->deck, r->notes, nh_deck_word_at(r->deck, nh_arena_printf(r->deck->arena, "%s:%zu: %s", place->deck->name, place->line, text), place));
+    nh_deck_append(r->deck, r->notes,
+                   nh_deck_word_at(r->deck,
+                                   nh_arena_printf(r->deck->arena, "%s:%zu: %s", place->deck->name, place->line, text),
+                                   place));
 }
 
 /* ---- wheels ---- */
@@ -42,7 +46,8 @@ static void note(reader *r, const nh_deck_node *place, const char *text)
 /* What the robot description and the body's joint say, where the entry itself says nothing. */
 static bool fill(reader *r, const nh_deck_node *item, nh_deck_node *wheel, const char *body)
 {
-    const nh_deck_node *joint = entry(r->joints, "child", body), *rim = nh_deck_get(r->rims, body), *axis = nh_deck_get(joint, "axis"), *place = item;
+    const nh_deck_node *joint = entry(r->joints, "child", body), *rim = nh_deck_get(r->rims, body),
+                       *axis = nh_deck_get(joint, "axis"), *place = item;
     bool turns = !strcmp(text_of(joint, "type"), "revolute");
     if (item->kind == NH_DECK_MAP) place = nh_deck_get(item, "body");
     if (!turns && !nh_deck_get(wheel, "axle")) {
@@ -50,8 +55,10 @@ static bool fill(reader *r, const nh_deck_node *item, nh_deck_node *wheel, const
         return nh_error_hint(r->error, "for a ball write {type: ball, body: %s, radius: ..}", body);
     }
     if (!nh_deck_get(wheel, "type")) nh_deck_put(r->deck, wheel, "type", nh_deck_word_at(r->deck, "rolling", place));
-    if (!nh_deck_get(wheel, "axle")) nh_deck_put(r->deck, wheel, "axle", axis ? axis : nh_deck_word_at(r->deck, "z", place));
-    if (!nh_deck_get(wheel, "at") && nh_deck_get(rim, "at") && !nh_deck_get(wheel, "radius")) nh_deck_put(r->deck, wheel, "at", nh_deck_get(rim, "at"));
+    if (!nh_deck_get(wheel, "axle"))
+        nh_deck_put(r->deck, wheel, "axle", axis ? axis : nh_deck_word_at(r->deck, "z", place));
+    if (!nh_deck_get(wheel, "at") && nh_deck_get(rim, "at") && !nh_deck_get(wheel, "radius"))
+        nh_deck_put(r->deck, wheel, "at", nh_deck_get(rim, "at"));
     if (nh_deck_get(wheel, "radius")) return true;
     if (nh_deck_get(rim, "radius")) return nh_deck_put(r->deck, wheel, "radius", nh_deck_get(rim, "radius")), true;
     const char *why = text_of(rim, "why");
@@ -68,7 +75,8 @@ static bool known_body(reader *r, const nh_deck_node *word, const char *body)
     }
     nh_deck_fail(r->deck, word, 0, r->error, "there is no body `%s`", word->text);
     const char *near = nh_text_nearest(body, names, r->bodies->count);
-    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : nh_error_hint(r->error, "a wheel is a body that a joint turns");
+    return near ? nh_error_hint(r->error, "did you mean `%s`?", near)
+                : nh_error_hint(r->error, "a wheel is a body that a joint turns");
 }
 
 /* An entry that is only a name, or of a body with a circle; others stay as they are. */
@@ -76,11 +84,13 @@ static bool read_wheel(reader *r, const nh_deck_node *item)
 {
     const nh_deck_node *word = item->kind == NH_DECK_SCALAR ? item : nh_deck_get(item, "body");
     const char *type = text_of(item, "type");
-    bool short_form = item->kind == NH_DECK_SCALAR || (word && word->kind == NH_DECK_SCALAR && r->rims && (!*type || !strcmp(type, "rolling")));
+    bool short_form = item->kind == NH_DECK_SCALAR ||
+                      (word && word->kind == NH_DECK_SCALAR && r->rims && (!*type || !strcmp(type, "rolling")));
     if (!short_form) return nh_deck_append(r->deck, r->wheels, item), true;
     const char *body = word->text, *converted = nh_urdf_name(r->deck->arena, word->text);
     if (!entry(r->bodies, "name", body) && entry(r->bodies, "name", converted)) body = converted;
-    nh_deck_node *wheel = item->kind == NH_DECK_MAP ? nh_deck_copy(r->deck, item, "body") : nh_deck_new_at(r->deck, NH_DECK_MAP, item);
+    nh_deck_node *wheel =
+        item->kind == NH_DECK_MAP ? nh_deck_copy(r->deck, item, "body") : nh_deck_new_at(r->deck, NH_DECK_MAP, item);
     nh_deck_put(r->deck, wheel, "body", nh_deck_word_at(r->deck, body, word));
     nh_deck_append(r->deck, r->wheels, wheel);
     return known_body(r, word, body) && fill(r, item, wheel, body);
@@ -88,7 +98,8 @@ static bool read_wheel(reader *r, const nh_deck_node *item)
 
 /* ---- what carries the root ---- */
 
-/* The height of the root's origin at which the wheels touch the plane z = 0: that of the first; others are compared with it. */
+/* The height of the root's origin at which the wheels touch the plane z = 0: that of the first; others are compared
+   with it. */
 static bool height_of(reader *r, char out[height_size])
 {
     const double close = 1e-6;
@@ -96,18 +107,23 @@ static bool height_of(reader *r, char out[height_size])
     for (size_t i = 0; i < r->wheels->count; i++) {
         const nh_deck_node *rim = nh_deck_get(r->rims, text_of(r->wheels->item[i], "body"));
         double radius, centre;
-        if (!nh_text_to_number(text_of(r->wheels->item[i], "radius"), &radius) || !nh_text_to_number(text_of(rim, "height"), &centre)) continue;
+        if (!nh_text_to_number(text_of(r->wheels->item[i], "radius"), &radius) ||
+            !nh_text_to_number(text_of(rim, "height"), &centre))
+            continue;
         if (isnan(height)) height = radius - centre;
         if (fabs(radius - centre - height) > close * (fabs(radius) + fabs(centre)))
-            note(r, r->wheels->item[i], nh_arena_printf(r->deck->arena, "the wheel `%s` does not touch the plane where the first one does: it is %.3g off",
-                                                        text_of(r->wheels->item[i], "body"), fabs(radius - centre - height)));
+            note(r, r->wheels->item[i],
+                 nh_arena_printf(r->deck->arena,
+                                 "the wheel `%s` does not touch the plane where the first one does: it is %.3g off",
+                                 text_of(r->wheels->item[i], "body"), fabs(radius - centre - height)));
     }
     snprintf(out, height_size, "%.12g", height);
     return !isnan(height) && strtod(out, NULL) != 0;
 }
 
 /* x, y, heading, unless another joint has one of these names. */
-static void put_coordinates(reader *r, nh_deck_node *joint, size_t count, const char *const *names, const nh_deck_node *place)
+static void put_coordinates(reader *r, nh_deck_node *joint, size_t count, const char *const *names,
+                            const nh_deck_node *place)
 {
     const nh_deck_node *parameters = nh_deck_get(r->root, "parameters");
     nh_deck_node *list = nh_deck_new_at(r->deck, NH_DECK_LIST, place);
@@ -127,8 +143,9 @@ static const nh_deck_node *root_body(reader *r, size_t *count)
         if (entry(r->joints, "child", text_of(r->bodies->item[i], "name"))) continue;
         if (++*count == 1) found = nh_deck_get(r->bodies->item[i], "name");
         else if (*count == 2 && found)
-            nh_deck_fail(r->deck, nh_deck_get(r->bodies->item[i], "name"), 0, r->error, "no joint has `%s` as its child, and neither `%s`",
-                         text_of(r->bodies->item[i], "name"), found->text);
+            nh_deck_fail(r->deck, nh_deck_get(r->bodies->item[i], "name"), 0, r->error,
+                         "no joint has `%s` as its child, and neither `%s`", text_of(r->bodies->item[i], "name"),
+                         found->text);
     }
     if (*count > 1) nh_error_hint(r->error, "one body carries all others: connect them by joints");
     return *count == 1 ? found : NULL;
@@ -161,7 +178,8 @@ static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node *
     if (!base_type(r, base, body, &type)) return false;
     nh_deck_node *joint = nh_deck_new_at(r->deck, NH_DECK_MAP, body);
     const char *kind = !strcmp(type, "floating") ? "free" : type;
-    nh_deck_put(r->deck, joint, "name", nh_deck_word_at(r->deck, entry(r->joints, "name", "base") ? "base_joint" : "base", body));
+    nh_deck_put(r->deck, joint, "name",
+                nh_deck_word_at(r->deck, entry(r->joints, "name", "base") ? "base_joint" : "base", body));
     nh_deck_put(r->deck, joint, "type", nh_deck_word_at(r->deck, kind, body));
     nh_deck_put(r->deck, joint, "child", body);
     if (!strcmp(kind, "planar") && height_of(r, height)) {
@@ -180,7 +198,8 @@ static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node *
 static nh_deck_node *list_under(reader *r, const char *key)
 {
     const nh_deck_node *node = nh_deck_get(r->root, key);
-    return node && node->kind == NH_DECK_LIST ? nh_deck_copy(r->deck, node, NULL) : nh_deck_new_at(r->deck, NH_DECK_LIST, r->root);
+    return node && node->kind == NH_DECK_LIST ? nh_deck_copy(r->deck, node, NULL)
+                                              : nh_deck_new_at(r->deck, NH_DECK_LIST, r->root);
 }
 
 bool nh_robot_complete(nh_deck *deck, nh_error *error)
@@ -192,7 +211,9 @@ bool nh_robot_complete(nh_deck *deck, nh_error *error)
     r.joints = nh_deck_get(r.root, "joints");
     r.rims = nh_deck_get(r.root, NH_URDF_RIMS);
     if (base && !r.bodies) return nh_deck_fail(deck, base, 0, error, "`base` needs `bodies:`, but the file has none");
-    if (!r.bodies || r.bodies->kind != NH_DECK_LIST || (wheels && wheels->kind != NH_DECK_LIST) || (r.joints && r.joints->kind != NH_DECK_LIST)) return true;
+    if (!r.bodies || r.bodies->kind != NH_DECK_LIST || (wheels && wheels->kind != NH_DECK_LIST) ||
+        (r.joints && r.joints->kind != NH_DECK_LIST))
+        return true;
     r.wheels = nh_deck_new_at(deck, NH_DECK_LIST, wheels ? wheels : r.root);
     r.notes = list_under(&r, "notes");
     for (size_t i = 0; wheels && i < wheels->count; i++)

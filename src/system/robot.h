@@ -3,9 +3,9 @@
  *     base: planar                  how the body without a joint is carried: fixed, planar or floating
  *     wheels: [left, {body: right, radius: 0.1}]
  *
- * The body that is the child of no joint gets a joint: of the type `base`; without it, where the bodies are those of a robot description, planar if
- * there are wheels and otherwise fixed.  A wheel that names a body alone rolls; its axle is the axis of the body's joint, and a robot description
- * gives its radius. */
+ * The body that is the child of no joint gets a joint: of the type `base`; without it, where the bodies are those of a
+ * robot description, planar if there are wheels and otherwise fixed.  A wheel that names a body alone rolls; its axle
+ * is the axis of the body's joint, and a robot description gives its radius. */
 #ifndef NH_ROBOT_H
 #define NH_ROBOT_H
 

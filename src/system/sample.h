@@ -1,9 +1,10 @@
 /* sample: low-discrepancy points in a box (Sobol), shifted by a seed.
  *
- * GSL has 40 dimensions of the sequence; further ones are pseudo-random.  Halton's sequence has any number of dimensions, but the
- * i-th point is i/p in those of a prime p above i: linear relations between coordinates that hold at all points, and nowhere else.
- * The shift (modulo 1, Cranley and Patterson) makes independent sets from one sequence: fit, held-out, independence.
- * Reference: [Sobol1967], [Spanier1995], [CranleyPatterson1976], GSL's quasi-random sequences. */
+ * GSL has 40 dimensions of the sequence; further ones are pseudo-random.  Halton's sequence has any number of
+ * dimensions, but the i-th point is i/p in those of a prime p above i: linear relations between coordinates that hold
+ * at all points, and nowhere else. The shift (modulo 1, Cranley and Patterson) makes independent sets from one
+ * sequence: fit, held-out, independence. Reference: [Sobol1967], [Spanier1995], [CranleyPatterson1976], GSL's
+ * quasi-random sequences. */
 #ifndef NH_SAMPLE_H
 #define NH_SAMPLE_H
 

@@ -68,7 +68,8 @@ nh_pose nh_pose_turn(nh_dag *d, const nh_ex u[3], nh_ex angle)
     nh_ex c = nh_call(d, NH_COS, angle), s = nh_call(d, NH_SIN, angle);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
-            nh_ex uu = nh_mul(d, u[i], u[j]), across = nh_tidy(d, nh_sub(d, nh_int(d, i == j), uu)), e = nh_add(d, uu, nh_mul(d, c, across));
+            nh_ex uu = nh_mul(d, u[i], u[j]), across = nh_tidy(d, nh_sub(d, nh_int(d, i == j), uu)),
+                  e = nh_add(d, uu, nh_mul(d, c, across));
             int k = 3 - i - j;
             if (i != j) e = nh_add(d, e, nh_mul(d, nh_mul(d, s, u[k]), nh_int(d, (j - i + 3) % 3 == 1 ? -1 : 1)));
             a.R[3 * i + j] = nh_tidy(d, e);
@@ -141,7 +142,10 @@ nh_wrench nh_wrench_outwards(nh_dag *d, const nh_pose *a, const nh_wrench *f)
     return out;
 }
 
-nh_ex nh_pairing(nh_dag *d, const nh_twist *t, const nh_wrench *f) { return nh_add(d, nh_dot(d, t->v, f->p), nh_dot(d, t->w, f->L)); }
+nh_ex nh_pairing(nh_dag *d, const nh_twist *t, const nh_wrench *f)
+{
+    return nh_add(d, nh_dot(d, t->v, f->p), nh_dot(d, t->w, f->L));
+}
 
 /* ---- inertias ---- */
 

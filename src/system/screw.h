@@ -1,10 +1,12 @@
 /* screw: rigid displacements, twists, wrenches and inertias whose entries are expressions.
  *
- * A pose (R, p) of a frame B in a frame A takes the coordinates of a point in B to those in A: x -> R x + p.  A twist (v, w) is the velocity of
- * a frame's origin and its angular velocity, in that frame: the body twist of [ChhabraEmami2014, sec. 4], (v, omega) in this order.  A wrench
- * (p, L) is a momentum or a force and its moment about the origin of the frame in which it is written.
+ * A pose (R, p) of a frame B in a frame A takes the coordinates of a point in B to those in A: x -> R x + p.  A twist
+ * (v, w) is the velocity of a frame's origin and its angular velocity, in that frame: the body twist of
+ * [ChhabraEmami2014, sec. 4], (v, omega) in this order.  A wrench (p, L) is a momentum or a force and its moment about
+ * the origin of the frame in which it is written.
  *
- * Entries are simplified as long as they are short; what is long is left as the shared graph that it is, so that chains of many bodies stay small. */
+ * Entries are simplified as long as they are short; what is long is left as the shared graph that it is, so that chains
+ * of many bodies stay small. */
 #ifndef NH_SCREW_H
 #define NH_SCREW_H
 
@@ -22,7 +24,8 @@ typedef struct {
     nh_ex p[3], L[3];
 } nh_wrench;
 
-/* Of bodies that move as one: mass, first moment (mass times centre of mass) and moment of inertia about the origin of the frame. */
+/* Of bodies that move as one: mass, first moment (mass times centre of mass) and moment of inertia about the origin of
+   the frame. */
 typedef struct {
     nh_ex m, h[3], I[9];
 } nh_inertia;

@@ -28,18 +28,27 @@ static bool read_number(nh_system_reader *r, const nh_deck_node *map, const char
 
 static bool read_one(nh_system_reader *r, const nh_deck_node *item, nh_named_map *out)
 {
-    static const char *const keys[] = {"name", "doc", "over", "initial", "velocities", "until", "step", "set", "options"};
-    if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a map {name: ..., over: \"NAME=LOW:HIGH\"}", r->error) || !nh_deck_only(r->deck, item, keys, sizeof keys / sizeof *keys, r->error)) return false;
-    if (!nh_system_text_of(r, item, "name", NULL, &out->name) || !nh_system_text_of(r, item, "doc", "", &out->doc) || !nh_system_text_of(r, item, "over", NULL, &out->over)
-        || !nh_system_text_of(r, item, "initial", NULL, &out->initial) || !nh_system_text_of(r, item, "velocities", NULL, &out->velocities))
+    static const char *const keys[] = {"name",  "doc",  "over", "initial", "velocities",
+                                       "until", "step", "set",  "options"};
+    if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a map {name: ..., over: \"NAME=LOW:HIGH\"}", r->error) ||
+        !nh_deck_only(r->deck, item, keys, sizeof keys / sizeof *keys, r->error))
         return false;
-    if (!out->name || !out->over) return nh_deck_fail(r->deck, item, 0, r->error, "a robustness map needs a `name` and the ranges `over` which it goes");
-    if (out->velocities && strcmp(out->velocities, "auto") && strcmp(out->velocities, "quasi") && strcmp(out->velocities, "coordinates")) {
+    if (!nh_system_text_of(r, item, "name", NULL, &out->name) || !nh_system_text_of(r, item, "doc", "", &out->doc) ||
+        !nh_system_text_of(r, item, "over", NULL, &out->over) ||
+        !nh_system_text_of(r, item, "initial", NULL, &out->initial) ||
+        !nh_system_text_of(r, item, "velocities", NULL, &out->velocities))
+        return false;
+    if (!out->name || !out->over)
+        return nh_deck_fail(r->deck, item, 0, r->error,
+                            "a robustness map needs a `name` and the ranges `over` which it goes");
+    if (out->velocities && strcmp(out->velocities, "auto") && strcmp(out->velocities, "quasi") &&
+        strcmp(out->velocities, "coordinates")) {
         nh_deck_fail(r->deck, nh_deck_get(item, "velocities"), 0, r->error, "unknown velocities `%s`", out->velocities);
         return nh_error_hint(r->error, "expected auto, quasi or coordinates");
     }
-    return read_number(r, item, "until", &out->until) && read_number(r, item, "step", &out->step) && read_numbers(r, item, "set", &out->settings, &out->setting)
-           && read_numbers(r, item, "options", &out->options, &out->option);
+    return read_number(r, item, "until", &out->until) && read_number(r, item, "step", &out->step) &&
+           read_numbers(r, item, "set", &out->settings, &out->setting) &&
+           read_numbers(r, item, "options", &out->options, &out->option);
 }
 
 bool nh_system_read_robustness(nh_system_reader *r)

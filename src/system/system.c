@@ -38,29 +38,36 @@ static bool in_coordinates(const scope *s, const char *name, nh_ex *out, nh_pars
         *out = velocity ? y->coordinate[i].v : y->coordinate[i].q;
         if (!velocity || !(s->forbid & NH_NO_VELOCITIES)) return true;
         snprintf(fault->what, sizeof fault->what, "the velocity `%s` cannot be used here", name);
-        snprintf(fault->hint, sizeof fault->hint, "the map gives the coordinates' velocities: write it in quasi-velocities, coordinates and t");
+        snprintf(fault->hint, sizeof fault->hint,
+                 "the map gives the coordinates' velocities: write it in quasi-velocities, coordinates and t");
         return false;
     }
     return false;
 }
 
-/* X' of a definition X(t, q): its derivative by time along any motion, dX/dt + sum_s dX/dq^s v^s.  One of X with velocities would hold accelerations. */
+/* X' of a definition X(t, q): its derivative by time along any motion, dX/dt + sum_s dX/dq^s v^s.  One of X with
+   velocities would hold accelerations. */
 static bool rate_of_definition(const scope *s, const char *name, nh_ex *out, nh_parse_fault *fault)
 {
     const nh_system *y = s->system;
     size_t length = strcspn(name, "'");
     const nh_named *x = NULL;
     for (size_t i = 0; i < y->definitions; i++)
-        if (strlen(y->definition[i].name) == length && !strncmp(y->definition[i].name, name, length)) x = &y->definition[i];
+        if (strlen(y->definition[i].name) == length && !strncmp(y->definition[i].name, name, length))
+            x = &y->definition[i];
     if (!x || strcmp(name + length, "'")) return false;
     *out = nh_diff(y->dag, x->value, y->t);
     for (size_t i = 0; i < y->coordinates; i++) {
         if (!nh_is_zero(y->dag, nh_diff(y->dag, x->value, y->coordinate[i].v)))
-            snprintf(fault->what, sizeof fault->what, "`%s` is the time derivative of a definition with velocities: it contains accelerations", name);
+            snprintf(fault->what, sizeof fault->what,
+                     "`%s` is the time derivative of a definition with velocities: it contains accelerations", name);
         *out = nh_add(y->dag, *out, nh_mul(y->dag, nh_diff(y->dag, x->value, y->coordinate[i].q), y->coordinate[i].v));
     }
-    if (!fault->what[0] && (s->forbid & NH_NO_VELOCITIES)) snprintf(fault->what, sizeof fault->what, "the velocity `%s` cannot be used here", name);
-    if (fault->what[0]) snprintf(fault->hint, sizeof fault->hint, "the time derivative of a definition without velocities is allowed wherever velocities are");
+    if (!fault->what[0] && (s->forbid & NH_NO_VELOCITIES))
+        snprintf(fault->what, sizeof fault->what, "the velocity `%s` cannot be used here", name);
+    if (fault->what[0])
+        snprintf(fault->hint, sizeof fault->hint,
+                 "the time derivative of a definition without velocities is allowed wherever velocities are");
     return !fault->what[0];
 }
 
@@ -68,13 +75,15 @@ static bool rate_of_definition(const scope *s, const char *name, nh_ex *out, nh_
 static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
 {
     const nh_system *y = s->system;
-    size_t n = 0, max = 2 + s->extras + y->definitions + y->parameters + 2 * y->coordinates + y->quasi + NH_FUNCTION_COUNT;
+    size_t n = 0,
+           max = 2 + s->extras + y->definitions + y->parameters + 2 * y->coordinates + y->quasi + NH_FUNCTION_COUNT;
     const char **list = nh_alloc_array(max, sizeof *list);
     for (size_t i = 0; i < s->extras; i++) list[n++] = s->extra[i].name;
     for (size_t i = 0; i < y->definitions; i++) list[n++] = y->definition[i].name;
     for (size_t i = 0; i < y->parameters; i++) list[n++] = y->parameter[i].name;
     for (size_t i = 0; i < y->coordinates; i++) list[n++] = y->coordinate[i].name;
-    for (size_t i = 0; i < y->coordinates && y->coordinate[i].v; i++) list[n++] = nh_name_of(y->dag, y->coordinate[i].v);
+    for (size_t i = 0; i < y->coordinates && y->coordinate[i].v; i++)
+        list[n++] = nh_name_of(y->dag, y->coordinate[i].v);
     for (size_t i = 0; i < y->quasi; i++) list[n++] = nh_name_of(y->dag, y->quasi_velocity[i]);
     list[n++] = "sqrt";
     for (int f = 0; f < NH_FUNCTION_COUNT; f++) list[n++] = nh_function_name((nh_function)f);
@@ -82,8 +91,14 @@ static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
     const char *near = nh_text_nearest(name, list, n), *prime = strchr(name, '\'');
     bool meant = near && (!prime || strchr(near, '\'')); /* m' is not a misspelt m */
     if (meant) snprintf(fault->hint, sizeof fault->hint, "did you mean `%s`?", near);
-    else if (prime) snprintf(fault->hint, sizeof fault->hint, "a prime marks the velocity of a coordinate or the time derivative of a definition; `%.*s` is neither", (int)(prime - name), name);
-    else if (s->extras) snprintf(fault->hint, sizeof fault->hint, "declare it in the system file (parameters, coordinates, definitions), or where this has definitions, unknowns or a start of its own");
+    else if (prime)
+        snprintf(fault->hint, sizeof fault->hint,
+                 "a prime marks the velocity of a coordinate or the time derivative of a definition; `%.*s` is neither",
+                 (int)(prime - name), name);
+    else if (s->extras)
+        snprintf(fault->hint, sizeof fault->hint,
+                 "declare it in the system file (parameters, coordinates, definitions), or where this has definitions, "
+                 "unknowns or a start of its own");
     else snprintf(fault->hint, sizeof fault->hint, "declare it under parameters, coordinates or definitions");
     nh_free(list);
 }
@@ -93,15 +108,19 @@ static void translate(const scope *s, const char *name, nh_parse_fault *fault)
 {
     const nh_system *y = s->system;
     size_t length = strlen(name);
-    if (!strcmp(name, "e")) snprintf(fault->hint, sizeof fault->hint, "the exponential function is written exp(...), and 1e-3 without blanks");
+    if (!strcmp(name, "e"))
+        snprintf(fault->hint, sizeof fault->hint,
+                 "the exponential function is written exp(...), and 1e-3 without blanks");
     for (size_t i = 0; i < y->coordinates && y->coordinate[i].v; i++) {
         const char *q = y->coordinate[i].name, *at = strstr(name, q);
         size_t n = strlen(q);
         if (!at || n >= length) continue;
         const char *rest = at == name ? name + n : name;
         size_t left = length - n;
-        bool whole = at == name || at + n == name + length, differential = left == 1 && at == name + 1 && *name == 'd'; /* dx - R dpsi = 0, over dt */
-        if (differential || (whole && ((left == 3 && !strncmp(rest, "dot", 3)) || (left == 4 && (!strncmp(rest, "_dot", 4) || !strncmp(rest, "dot_", 4))))))
+        /* dx - R dpsi = 0, over dt */
+        bool whole = at == name || at + n == name + length, differential = left == 1 && at == name + 1 && *name == 'd';
+        if (differential || (whole && ((left == 3 && !strncmp(rest, "dot", 3)) ||
+                                       (left == 4 && (!strncmp(rest, "_dot", 4) || !strncmp(rest, "dot_", 4))))))
             snprintf(fault->hint, sizeof fault->hint, "the velocity of `%s` is written %s'", q, q);
     }
 }
@@ -168,7 +187,9 @@ static const char *moving_order(const nh_system *y, nh_ex e)
 /* Parses, and checks what the grammar does not say. */
 static bool read_text(const nh_system *y, const char *text, scope *s, nh_ex *lhs, nh_ex *rhs, nh_parse_fault *fault)
 {
-    if (lhs ? !nh_parse_equation(y->dag, text, resolve, s, lhs, rhs, fault) : !nh_parse(y->dag, text, resolve, s, rhs, fault)) return false;
+    if (lhs ? !nh_parse_equation(y->dag, text, resolve, s, lhs, rhs, fault)
+            : !nh_parse(y->dag, text, resolve, s, rhs, fault))
+        return false;
     const char *name = lhs ? moving_order(y, *lhs) : NULL, *place;
     if (!name) name = moving_order(y, *rhs);
     if (!name) return true;
@@ -176,13 +197,16 @@ static bool read_text(const nh_system *y, const char *text, scope *s, nh_ex *lhs
     while (strcmp(nh_function_name(f), name)) f++;
     place = strstr(text, name);
     *fault = (nh_parse_fault){.offset = place ? (size_t)(place - text) : 0};
-    snprintf(fault->what, sizeof fault->what, "only the last argument of %s(%s) may move: the others are numbers or parameters", name, nh_function_arguments(f));
+    snprintf(fault->what, sizeof fault->what,
+             "only the last argument of %s(%s) may move: the others are numbers or parameters", name,
+             nh_function_arguments(f));
     snprintf(fault->hint, sizeof fault->hint, "the derivative with respect to another argument has no closed form");
     return false;
 }
 
-bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip, unsigned forbid,
-                               size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs, nh_error *error)
+bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip,
+                               unsigned forbid, size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs,
+                               nh_error *error)
 {
     scope s = {system, extras, extra, forbid};
     nh_parse_fault fault;

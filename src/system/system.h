@@ -51,11 +51,14 @@ typedef struct {
     double value;
     const nh_deck *deck;     /* where it was written: NULL for the command line */
     const nh_deck_node *key;
-    int64_t top, bottom;     /* with bottom > 0: exactly this ratio; the name stands for it like a definition, and is no parameter any more */
-    const char *formula;     /* the same with this constant, as in "sqrt(3)/2", or function of the other parameters; NULL: none */
+    /* with bottom > 0: exactly this ratio; the name stands for it like a definition, and is no parameter any more */
+    int64_t top, bottom;
+    /* the same with this constant, as in "sqrt(3)/2", or function of the other parameters; NULL: none */
+    const char *formula;
 } nh_setting;
 
-/* A map of where motions are hard to compute, as texts of the command line: nothing of it is looked at before it is made. */
+/* A map of where motions are hard to compute, as texts of the command line: nothing of it is looked at before it is
+   made. */
 typedef struct {
     const char *name, *doc, *over;
     const char *initial, *velocities; /* NULL: not given */
@@ -64,7 +67,8 @@ typedef struct {
     nh_setting *setting, *option;
 } nh_named_map;
 
-/* A closed form: some coordinates as functions of t and of numbers that the initial state gives.  A claim of the file; its user must check it. */
+/* A closed form: some coordinates as functions of t and of numbers that the initial state gives.  A claim of the file;
+   its user must check it. */
 typedef struct {
     const char *name;
     size_t starts, conditions, values;
@@ -80,14 +84,16 @@ typedef struct {
     nh_dag *dag;
     nh_deck *deck;
     const char *name, *title, *source;
-    const char **note; /* for the user: what was left out of a robot description or taken for something else; units that do not agree */
+    /* for the user: what was left out of a robot description or taken for something else; units that do not agree */
+    const char **note;
     size_t notes;
     nh_ex t;
     size_t parameters, coordinates, constraints, definitions, intervals, currents, not_conserved;
     nh_parameter *parameter;
     nh_coordinate *coordinate;
     nh_constraint *constraint;
-    size_t levels;           /* so many of the constraints, the last ones, say on which level of an integral the system is */
+    /* so many of the constraints, the last ones, say on which level of an integral the system is */
+    size_t levels;
     nh_named *definition;
     nh_interval *interval;   /* the sampling box as far as the user gave it */
     size_t reaches;
@@ -113,15 +119,18 @@ typedef struct {
 
 /* Read a system file; `settings` override parameter values.  NULL on failure. */
 nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *setting, nh_error *error);
-nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting, nh_error *error);
+nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting,
+                           nh_error *error);
 /* The tree of a file with all that it includes, completed as system/robot.h says. */
 nh_deck *nh_system_deck(const char *path, nh_error *error);
 void nh_system_free(nh_system *system);
 
-/* The closed forms that the file knows, in memory of the system: false only where one contains a definition that is no function of t. */
+/* The closed forms that the file knows, in memory of the system: false only where one contains a definition that is no
+   function of t. */
 bool nh_system_motions(nh_system *system, size_t *count, nh_known_motion **out, nh_error *error);
 
-/* t, coordinates, velocities and quasi-velocities by name, for messages: at most 2*coordinates + quasi + 1, counted by the result. */
+/* t, coordinates, velocities and quasi-velocities by name, for messages: at most 2*coordinates + quasi + 1, counted by
+   the result. */
 size_t nh_system_state_names(const nh_system *system, const char **names);
 
 /* The hint on a word that names no parameter: the nearest one, or all of them.  Always false. */

@@ -8,9 +8,11 @@
 
 enum { NH_NO_VELOCITIES = 1, NH_NO_QUASI = 2 };
 
-/* An expression (lhs NULL) or an equation, after the first `skip` bytes of the scalar `node`, with errors pointing into it. */
-bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip, unsigned forbid,
-                               size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs, nh_error *error);
+/* An expression (lhs NULL) or an equation, after the first `skip` bytes of the scalar `node`, with errors pointing into
+   it. */
+bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip,
+                               unsigned forbid, size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs,
+                               nh_error *error);
 
 /* A system file while it is read. */
 typedef struct {
@@ -20,13 +22,15 @@ typedef struct {
     nh_error *error;
 } nh_system_reader;
 
-/* In order: zeroed memory of the system (count + 1 elements); the list under a key (absent: empty); the text under a key; the two sides of
- * "name = expression"; and the optional parts of the file. */
+/* In order: zeroed memory of the system (count + 1 elements); the list under a key (absent: empty); the text under a
+ * key; the two sides of "name = expression"; and the optional parts of the file. */
 void *nh_system_take(nh_system_reader *r, size_t count, size_t size);
-bool nh_system_list_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const nh_deck_node **out, size_t *count);
+bool nh_system_list_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const nh_deck_node **out,
+                       size_t *count);
 /* true or false; false where there is no such key.  `meaning` is the hint for anything else. */
 bool nh_system_truth_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const char *meaning, bool *out);
-bool nh_system_text_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const char *fallback, const char **out);
+bool nh_system_text_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const char *fallback,
+                       const char **out);
 bool nh_system_assignment_name(nh_system_reader *r, const nh_deck_node *node, const char *what, const char **name);
 bool nh_system_read_right_side(nh_system_reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out);
 bool nh_system_new_name(nh_system_reader *r, const nh_deck_node *node); /* is it free and well formed? */
@@ -43,8 +47,8 @@ bool nh_system_read_notes(nh_system_reader *r); /* at the end: they are about th
 /* `levels:` as constraints, behind all others, and velocities for them (invariant_level.c). */
 bool nh_system_read_levels(nh_system_reader *r);
 
-/* Bodies and joints, in this order: who carries whom; the coordinates that joints bring (room for them: NH_MOST_SCREWS each); expressions and all
- * that follows from them.  Wheels become constraints, for which the caller has room. */
+/* Bodies and joints, in this order: who carries whom; the coordinates that joints bring (room for them: NH_MOST_SCREWS
+ * each); expressions and all that follows from them.  Wheels become constraints, for which the caller has room. */
 bool nh_system_read_tree(nh_system_reader *r);
 bool nh_system_read_joint_coordinates(nh_system_reader *r);
 bool nh_system_read_chain(nh_system_reader *r);

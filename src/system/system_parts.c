@@ -13,9 +13,13 @@ static bool count_quasi(nh_system_reader *r, const nh_deck_node *chart)
     if (s->constraints > s->coordinates) return true; /* told by the ranks */
     size_t left = s->coordinates - s->constraints;
     if (s->quasi == left) return true;
-    nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "there must be as many velocities as degrees of freedom: %zu, not %zu (coordinates: %zu, constraints: %zu)",
-                 left, s->quasi, s->coordinates, s->constraints);
-    return s->quasi < left ? nh_error_hint(r->error, "list every constraint under `constraints:`, and every velocity here") : false;
+    nh_deck_fail(
+        r->deck, list ? list : chart, 0, r->error,
+        "there must be as many velocities as degrees of freedom: %zu, not %zu (coordinates: %zu, constraints: %zu)",
+        left, s->quasi, s->coordinates, s->constraints);
+    return s->quasi < left
+               ? nh_error_hint(r->error, "list every constraint under `constraints:`, and every velocity here")
+               : false;
 }
 
 /* Which coordinate's velocity is on the left side "x'"? */
@@ -43,7 +47,8 @@ bool nh_system_read_chart(nh_system_reader *r)
     bool *given = nh_system_take(r, s->coordinates, sizeof *given);
     for (size_t i = 0; i < n; i++) {
         const char *name;
-        if (!nh_system_assignment_name(r, map->item[i], "a line `x' = ...` of the velocities' map", &name)) return false;
+        if (!nh_system_assignment_name(r, map->item[i], "a line `x' = ...` of the velocities' map", &name))
+            return false;
         long index = velocity_on_left(r, map->item[i], name);
         if (index < 0) return false;
         if (given[index]) return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` is given twice", name);
@@ -51,11 +56,14 @@ bool nh_system_read_chart(nh_system_reader *r)
         if (!nh_system_read_right_side(r, map->item[i], NH_NO_VELOCITIES, &s->quasi_map[index])) return false;
         for (size_t j = 0; j < s->coordinates; j++) /* through a definition */
             if (nh_depends(s->dag, s->quasi_map[index], s->coordinate[j].v))
-                return nh_deck_fail(r->deck, map->item[i], 0, r->error, "the velocity `%s` is not allowed here; a definition brings it in", nh_name_of(s->dag, s->coordinate[j].v));
+                return nh_deck_fail(r->deck, map->item[i], 0, r->error,
+                                    "the velocity `%s` is not allowed here; a definition brings it in",
+                                    nh_name_of(s->dag, s->coordinate[j].v));
     }
     for (size_t i = 0; i < s->coordinates; i++)
         if (!given[i])
-            return nh_deck_fail(r->deck, map ? map : chart, 0, r->error, "the velocities' map does not say what `%s'` is", s->coordinate[i].name);
+            return nh_deck_fail(r->deck, map ? map : chart, 0, r->error,
+                                "the velocities' map does not say what `%s'` is", s->coordinate[i].name);
     return true;
 }
 
@@ -79,7 +87,8 @@ bool nh_system_read_forces(nh_system_reader *r)
         long index = nh_system_coordinate(s, name);
         if (index < 0) {
             nh_deck_fail(r->deck, list->item[i], 0, r->error, "`%s` is not a coordinate", name);
-            return nh_error_hint(r->error, "a generalized force belongs to a coordinate, for example `%s = ...`", s->coordinate[0].name);
+            return nh_error_hint(r->error, "a generalized force belongs to a coordinate, for example `%s = ...`",
+                                 s->coordinate[0].name);
         }
         if (!nh_system_read_right_side(r, list->item[i], NH_NO_QUASI, &value)) return false;
         s->force[index] = nh_add(s->dag, s->force[index], value);
@@ -176,10 +185,13 @@ static bool read_field(nh_system_reader *r, const nh_deck_node *map, nh_ex *comp
         if (index < 0) {
             nh_deck_fail(r->deck, map->key[i], 0, r->error, "`%s` is not a coordinate", map->key[i]->text);
             const char *near = nh_text_nearest(map->key[i]->text, names, s->coordinates);
-            return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : nh_error_hint(r->error, "a symmetry is a field on configuration space: {x: 1}");
+            return near ? nh_error_hint(r->error, "did you mean `%s`?", near)
+                        : nh_error_hint(r->error, "a symmetry is a field on configuration space: {x: 1}");
         }
         if (!nh_deck_is(r->deck, map->item[i], NH_DECK_SCALAR, "an expression", r->error)) return false;
-        if (!nh_system_read_expression(s, r->deck, map->item[i], 0, NH_NO_VELOCITIES | NH_NO_QUASI, 0, NULL, NULL, &component[index], r->error)) return false;
+        if (!nh_system_read_expression(s, r->deck, map->item[i], 0, NH_NO_VELOCITIES | NH_NO_QUASI, 0, NULL, NULL,
+                                       &component[index], r->error))
+            return false;
     }
     return true;
 }
@@ -201,7 +213,8 @@ bool nh_system_read_symmetry(nh_system_reader *r)
 static bool shape_expression(void *context, const nh_deck_node *node, nh_ex *out)
 {
     nh_system_reader *r = context;
-    return nh_system_read_expression(r->system, r->deck, node, 0, NH_NO_VELOCITIES | NH_NO_QUASI, 0, NULL, NULL, out, r->error);
+    return nh_system_read_expression(r->system, r->deck, node, 0, NH_NO_VELOCITIES | NH_NO_QUASI, 0, NULL, NULL, out,
+                                     r->error);
 }
 
 bool nh_system_read_drawing(nh_system_reader *r)
@@ -227,7 +240,8 @@ bool nh_system_truth_of(nh_system_reader *r, const nh_deck_node *map, const char
     return nh_error_hint(r->error, "%s", meaning);
 }
 
-static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, const char *key, nh_named **out, size_t *count)
+static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, const char *key, nh_named **out,
+                            size_t *count)
 {
     static const char *const keys[] = {"name", "expr", "doc", "out_of_reach", "unwatched"};
     const nh_deck_node *list;
@@ -259,6 +273,7 @@ bool nh_system_read_known(nh_system_reader *r)
     nh_system *s = r->system;
     if (!known) return true;
     if (!nh_deck_is(r->deck, known, NH_DECK_MAP, "known", r->error)) return false;
-    return nh_deck_only(r->deck, known, keys, 3, r->error) && read_named_list(r, known, "currents", &s->current, &s->currents)
-           && read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved) && nh_system_check_motions(r, known);
+    return nh_deck_only(r->deck, known, keys, 3, r->error) &&
+           read_named_list(r, known, "currents", &s->current, &s->currents) &&
+           read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved) && nh_system_check_motions(r, known);
 }

@@ -13,12 +13,17 @@
 
 typedef nh_system_reader reader;
 
-static const char *const top_keys[] = {"name", "title", "source", "parameters", "coordinates", "definitions", "lagrangian",
-                                       "constraints", "dependent", "velocities", "forces", "domain", "known", "doc",
-                                       "bodies", "joints", "gravity", "wheels", "symmetry", "draw", "robustness", "include", "urdf", "base", "notes", "levels"};
+static const char *const top_keys[] = {
+    "name",        "title",     "source",     "parameters", "coordinates", "definitions", "lagrangian",
+    "constraints", "dependent", "velocities", "forces",     "domain",      "known",       "doc",
+    "bodies",      "joints",    "gravity",    "wheels",     "symmetry",    "draw",        "robustness",
+    "include",     "urdf",      "base",       "notes",      "levels"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
-void *nh_system_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->system->arena, (count + 1) * size); }
+void *nh_system_take(reader *r, size_t count, size_t size)
+{
+    return nh_arena_alloc(r->system->arena, (count + 1) * size);
+}
 
 /* The list under `key`; an absent key is an empty list. */
 bool nh_system_list_of(reader *r, const nh_deck_node *map, const char *key, const nh_deck_node **out, size_t *count)
@@ -54,9 +59,11 @@ bool nh_system_new_name(reader *r, const nh_deck_node *node)
         return nh_error_hint(r->error, "choose another name, for instance `%s1`", name);
     }
     nh_ex taken;
-    if (nh_symbol_find(s->dag, name, &taken)) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", name);
+    if (nh_symbol_find(s->dag, name, &taken))
+        return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", name);
     for (size_t i = 0; i < s->definitions; i++)
-        if (!strcmp(s->definition[i].name, name)) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", name);
+        if (!strcmp(s->definition[i].name, name))
+            return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", name);
     return true;
 }
 
@@ -66,9 +73,11 @@ static bool read_unit(reader *r, const nh_deck_node *item, const char **out)
     nh_unit_fault fault;
     if (!nh_system_text_of(r, item, "unit", "", out)) return false;
     if (nh_is_unit(*out, &fault)) return true;
-    nh_deck_fail(r->deck, nh_deck_get(item, "unit"), fault.offset, r->error, "unknown unit `%.*s`", (int)fault.length, *out + fault.offset);
+    nh_deck_fail(r->deck, nh_deck_get(item, "unit"), fault.offset, r->error, "unknown unit `%.*s`", (int)fault.length,
+                 *out + fault.offset);
     if (fault.nearest) return nh_error_hint(r->error, "did you mean `%s`?", fault.nearest);
-    return nh_error_hint(r->error, "use SI units and units accepted with them, such as m, kg m^2, N/m, rad/s, 1/s, deg; write any other unit under `doc`");
+    return nh_error_hint(r->error, "use SI units and units accepted with them, such as m, kg m^2, N/m, rad/s, 1/s, "
+                                   "deg; write any other unit under `doc`");
 }
 
 static bool read_parameters(reader *r)
@@ -117,7 +126,9 @@ static bool read_type(reader *r, const nh_deck_node *node, nh_coordinate_type *o
     const char *near = nh_text_nearest(node->text, names, 3);
     if (near) return nh_error_hint(r->error, "did you mean `%s`?", near);
     nh_unit_fault fault;
-    return nh_is_unit(node->text, &fault) ? nh_error_hint(r->error, "a unit stands beside it: {type: length, unit: %s}", node->text) : false;
+    return nh_is_unit(node->text, &fault)
+               ? nh_error_hint(r->error, "a unit stands beside it: {type: length, unit: %s}", node->text)
+               : false;
 }
 
 static bool read_coordinates(reader *r)
@@ -134,8 +145,10 @@ static bool read_coordinates(reader *r)
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
     if (n > most_coordinates) {
-        nh_deck_fail(r->deck, list, 0, r->error, "there are %zu coordinates; at most %d are possible", n, most_coordinates);
-        return nh_error_hint(r->error, "the program inverts matrices of this size symbolically: remove coordinates that do not move");
+        nh_deck_fail(r->deck, list, 0, r->error, "there are %zu coordinates; at most %d are possible", n,
+                     most_coordinates);
+        return nh_error_hint(
+            r->error, "the program inverts matrices of this size symbolically: remove coordinates that do not move");
     }
     s->coordinate = nh_system_take(r, n + (s->chain ? s->chain->screws : 0), sizeof *s->coordinate);
     for (size_t i = 0; i < n; i++) {
@@ -156,7 +169,9 @@ static bool read_coordinates(reader *r)
         s->coordinates = i + 1;
     }
     if (!nh_system_read_joint_coordinates(r)) return false;
-    if (s->coordinates == 0) return nh_deck_fail(r->deck, NULL, 0, r->error, "no joint of this system has a coordinate, and `coordinates:` declares none");
+    if (s->coordinates == 0)
+        return nh_deck_fail(r->deck, NULL, 0, r->error,
+                            "no joint of this system has a coordinate, and `coordinates:` declares none");
     for (size_t i = 0; i < s->coordinates; i++) /* after all coordinates: symbols print in the order of declaration */
         s->coordinate[i].v = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s'", s->coordinate[i].name));
     return true;
@@ -264,7 +279,8 @@ static bool read_constraints(reader *r)
         const nh_deck_node *node = list->item[i];
         if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a constraint `... = ...`", r->error)) return false;
         *c = (nh_constraint){.text = node->text, .node = node};
-        if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, &c->lhs, &c->rhs, r->error)) return false;
+        if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, &c->lhs, &c->rhs, r->error))
+            return false;
         nh_ex f = nh_sub(s->dag, c->lhs, c->rhs);
         bool moving = false, placed = false;
         for (size_t j = 0; j < s->coordinates; j++) {
@@ -273,7 +289,8 @@ static bool read_constraints(reader *r)
         }
         if (!moving && !placed) {
             nh_deck_fail(r->deck, node, 0, r->error, "this constraint contains no coordinate and no velocity");
-            return nh_error_hint(r->error, nh_is_zero(s->dag, f) ? "this equation always holds: remove it" : "this equation never holds: is a name missing?");
+            return nh_error_hint(r->error, nh_is_zero(s->dag, f) ? "this equation always holds: remove it"
+                                                                 : "this equation never holds: is a name missing?");
         }
         if (!moving) differentiate_position(s, c);
         s->constraints++;
@@ -288,7 +305,9 @@ static bool read_dependent(reader *r)
     nh_system *s = r->system;
     if (!nh_system_list_of(r, r->root, "dependent", &list, &n)) return false;
     if (n && n != s->constraints)
-        return nh_deck_fail(r->deck, list, 0, r->error, "there must be as many dependent velocities as constraints: %zu, not %zu", s->constraints, n);
+        return nh_deck_fail(r->deck, list, 0, r->error,
+                            "there must be as many dependent velocities as constraints: %zu, not %zu", s->constraints,
+                            n);
     s->dependent = nh_system_take(r, n, sizeof *s->dependent);
     const char **names = nh_system_take(r, s->coordinates, sizeof *names);
     for (size_t i = 0; i < s->coordinates; i++) names[i] = s->coordinate[i].name;
@@ -303,7 +322,8 @@ static bool read_dependent(reader *r)
             return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
         }
         for (size_t j = 0; j < i; j++)
-            if (s->dependent[j] == (size_t)index) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is named twice", node->text);
+            if (s->dependent[j] == (size_t)index)
+                return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is named twice", node->text);
         s->dependent[i] = (size_t)index;
     }
     s->dependents = n;
@@ -317,14 +337,18 @@ static void remove_parameter(nh_system *s, nh_parameter *p)
     s->parameters--;
 }
 
-/* An input over time takes the place of a parameter, as a definition.  What stands in it is known before the coordinates are. */
+/* An input over time takes the place of a parameter, as a definition.  What stands in it is known before the
+   coordinates are. */
 static bool make_input(reader *r, nh_parameter *p, const nh_setting *setting)
 {
     nh_system *s = r->system;
     nh_ex value;
     const char *name = p->name, *text = nh_arena_printf(s->arena, "%s = %s", name, setting->input);
-    if (!nh_system_expression_text(s, nh_arena_printf(s->arena, "--input %s", name), setting->input, 0, NULL, &value, r->error)) return false;
-    if (nh_depends(s->dag, value, p->symbol)) return nh_fail(r->error, NH_USAGE, "--input", "the input `%s` depends on itself", name);
+    if (!nh_system_expression_text(s, nh_arena_printf(s->arena, "--input %s", name), setting->input, 0, NULL, &value,
+                                   r->error))
+        return false;
+    if (nh_depends(s->dag, value, p->symbol))
+        return nh_fail(r->error, NH_USAGE, "--input", "the input `%s` depends on itself", name);
     s->definition[s->definitions++] = (nh_named){.name = name, .text = text, .value = value};
     remove_parameter(s, p);
     return true;
@@ -380,7 +404,9 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
             found->set = true;
             continue;
         }
-        if (setting[k].key) nh_deck_fail(setting[k].deck, setting[k].key, 0, r->error, "`%s` is not a parameter of %s", setting[k].name, s->name);
+        if (setting[k].key)
+            nh_deck_fail(setting[k].deck, setting[k].key, 0, r->error, "`%s` is not a parameter of %s", setting[k].name,
+                         s->name);
         else nh_fail(r->error, NH_USAGE, "", "`%s` is not a parameter of %s", setting[k].name, s->name);
         return nh_system_hint_parameters(s, setting[k].name, r->error);
     }
@@ -390,16 +416,25 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
 static bool read_all(reader *r, size_t settings, const nh_setting *setting)
 {
     nh_system *s = r->system;
-    if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)", r->error)) return false;
+    if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)",
+                    r->error))
+        return false;
     if (!nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
     const char *doc; /* for the reader of the file */
-    if (!nh_system_text_of(r, r->root, "name", "system", &s->name) || !nh_system_text_of(r, r->root, "title", s->name, &s->title)) return false;
-    if (!nh_system_text_of(r, r->root, "source", "", &s->source) || !nh_system_text_of(r, r->root, "doc", "", &doc)) return false;
+    if (!nh_system_text_of(r, r->root, "name", "system", &s->name) ||
+        !nh_system_text_of(r, r->root, "title", s->name, &s->title))
+        return false;
+    if (!nh_system_text_of(r, r->root, "source", "", &s->source) || !nh_system_text_of(r, r->root, "doc", "", &doc))
+        return false;
     s->t = nh_symbol(s->dag, "t");
     if (!read_parameters(r) || !apply_settings(r, settings, setting)) return false;
-    return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) && read_definitions(r) && nh_system_read_chain(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
-           && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_levels(r) && nh_system_read_symmetry(r) && nh_system_read_drawing(r)
-           && (s->levels || (nh_system_read_known(r) && nh_system_read_robustness(r))); /* claims about the whole system */
+    return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) && read_definitions(r) &&
+           nh_system_read_chain(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r) &&
+           nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) &&
+           nh_system_read_levels(r) && nh_system_read_symmetry(r) &&
+           nh_system_read_drawing(r)
+           /* claims about the whole system */
+           && (s->levels || (nh_system_read_known(r) && nh_system_read_robustness(r)));
 }
 
 /* Files of earlier versions: chart {velocities: ..}, and stress. */
@@ -407,7 +442,9 @@ static bool rename_old_keys(nh_deck *deck, nh_error *error)
 {
     const nh_deck_node *root = nh_deck_root(deck);
     if (!nh_deck_rename(deck, nh_deck_get(root, "chart"), "velocities", "names", error)) return false;
-    if (!nh_deck_rename(deck, root, "chart", "velocities", error) || !nh_deck_rename(deck, root, "stress", "robustness", error)) return false;
+    if (!nh_deck_rename(deck, root, "chart", "velocities", error) ||
+        !nh_deck_rename(deck, root, "stress", "robustness", error))
+        return false;
     const nh_deck_node *maps = nh_deck_get(root, "robustness");
     for (size_t i = 0; maps && maps->kind == NH_DECK_LIST && i < maps->count; i++)
         if (!nh_deck_rename(deck, maps->item[i], "chart", "velocities", error)) return false;
@@ -446,7 +483,8 @@ nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *s
     return read_deck(nh_system_deck(path, error), settings, setting, error);
 }
 
-nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting, nh_error *error)
+nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting,
+                           nh_error *error)
 {
     return read_deck(whole(nh_deck_parse(name, text, strlen(text), error), error), settings, setting, error);
 }

@@ -22,8 +22,18 @@ typedef struct {
 } nh_unit_fault;
 bool nh_is_unit(const char *text, nh_unit_fault *fault);
 
-/* What a unit stands for: powers of the base units of the SI, radians counting as 1, and how many of their product it is. */
-enum { NH_UNIT_METRE, NH_UNIT_KILOGRAM, NH_UNIT_SECOND, NH_UNIT_AMPERE, NH_UNIT_KELVIN, NH_UNIT_MOLE, NH_UNIT_CANDELA, NH_UNIT_BASES };
+/* What a unit stands for: powers of the base units of the SI, radians counting as 1, and how many of their product it
+   is. */
+enum {
+    NH_UNIT_METRE,
+    NH_UNIT_KILOGRAM,
+    NH_UNIT_SECOND,
+    NH_UNIT_AMPERE,
+    NH_UNIT_KELVIN,
+    NH_UNIT_MOLE,
+    NH_UNIT_CANDELA,
+    NH_UNIT_BASES
+};
 typedef struct {
     double power[NH_UNIT_BASES];
     double scale; /* nan: not known */

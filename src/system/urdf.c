@@ -35,13 +35,17 @@ typedef struct {
 char *nh_urdf_name(nh_arena *arena, const char *name)
 {
     bool letter = (*name >= 'a' && *name <= 'z') || (*name >= 'A' && *name <= 'Z');
-    char *out = nh_arena_printf(arena, "%s%s%s", letter ? "" : "link_", name, strcmp(name, "ground") ? "" : "_link"); /* `ground` is the fixed frame */
+    /* `ground` is the fixed frame */
+    char *out = nh_arena_printf(arena, "%s%s%s", letter ? "" : "link_", name, strcmp(name, "ground") ? "" : "_link");
     for (char *c = out; *c; c++)
         if (!((*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9'))) *c = '_';
     return out;
 }
 
-static bool has_coordinate(const joint *j) { return (j->kind == REVOLUTE || j->kind == CONTINUOUS || j->kind == PRISMATIC) && !j->mimics; }
+static bool has_coordinate(const joint *j)
+{
+    return (j->kind == REVOLUTE || j->kind == CONTINUOUS || j->kind == PRISMATIC) && !j->mimics;
+}
 
 /* A name for a parameter, or the coordinate of joint `own`, that no other coordinate has. */
 static char *free_name(reader *r, char *name, size_t own)
@@ -49,7 +53,8 @@ static char *free_name(reader *r, char *name, size_t own)
     nh_arena *arena = r->u.deck->arena;
     if (nh_is_reserved(name) || !strcmp(name, "g")) name = nh_arena_printf(arena, "%s_joint", name);
     for (size_t i = 0; i < r->count; i++)
-        if (i != own && has_coordinate(&r->joint[i]) && !strcmp(name, r->joint[i].name)) return free_name(r, nh_arena_printf(arena, "%s_", name), own);
+        if (i != own && has_coordinate(&r->joint[i]) && !strcmp(name, r->joint[i].name))
+            return free_name(r, nh_arena_printf(arena, "%s_", name), own);
     return name;
 }
 
@@ -62,7 +67,9 @@ static void parameter(reader *r, const char *name, const nh_xml_attribute *value
     nh_deck_node *p = nh_deck_new(deck, NH_DECK_MAP, value->begin, value->end);
     const char *text = value->value + strspn(value->value, " \t\n\r+");
     nh_deck_put(deck, p, "name", nh_deck_word(deck, name, value->begin, value->end));
-    nh_deck_put(deck, p, "value", nh_deck_word(deck, nh_arena_strndup(deck->arena, text, strcspn(text, " \t\n\r")), value->begin, value->end));
+    nh_deck_put(
+        deck, p, "value",
+        nh_deck_word(deck, nh_arena_strndup(deck->arena, text, strcspn(text, " \t\n\r")), value->begin, value->end));
     if (unit) nh_deck_put(deck, p, "unit", nh_deck_word(deck, unit, value->begin, value->end));
     nh_deck_put(deck, p, "doc", nh_deck_word(deck, doc, value->begin, value->end));
     nh_deck_append(deck, r->parameters, p);
@@ -71,13 +78,15 @@ static void parameter(reader *r, const char *name, const nh_xml_attribute *value
 static bool read_link(reader *r, const nh_xml *link)
 {
     nh_deck *deck = r->u.deck;
-    const char *known = "inertial visual collision", *ignored = "contact sensor self_collision_checking material gazebo verbose";
+    const char *known = "inertial visual collision",
+               *ignored = "contact sensor self_collision_checking material gazebo verbose";
     if (!nh_urdf_only(&r->u, link, "name type", known, ignored)) return false;
     const nh_xml_attribute *name = nh_urdf_need(&r->u, link, "name");
     const nh_xml *inertial = nh_xml_child(link, "inertial", NULL);
     if (!name) return false;
     if (inertial && nh_xml_child(link, "inertial", inertial))
-        return nh_urdf_fail(&r->u, nh_xml_child(link, "inertial", inertial)->begin, "the link `%s` has a second <inertial>", name->value);
+        return nh_urdf_fail(&r->u, nh_xml_child(link, "inertial", inertial)->begin,
+                            "the link `%s` has a second <inertial>", name->value);
     nh_deck_node *body = nh_deck_new(deck, NH_DECK_MAP, link->begin, link->end);
     char *own = nh_urdf_name(deck->arena, name->value);
     nh_deck_put(deck, body, "name", nh_deck_word(deck, own, name->begin, name->end));
@@ -102,7 +111,9 @@ static bool kind_of(reader *r, const nh_xml *element, joint_kind *out)
     for (int k = 0; type && k < KINDS; k++)
         if (!strcmp(type->value, names[k])) return *out = (joint_kind)k, true;
     if (!type) return false;
-    nh_urdf_fail(&r->u, type->begin, "`%s` is not a type of joint; expected fixed, revolute, continuous, prismatic, planar or floating", type->value);
+    nh_urdf_fail(&r->u, type->begin,
+                 "`%s` is not a type of joint; expected fixed, revolute, continuous, prismatic, planar or floating",
+                 type->value);
     const char *near = nh_text_nearest(type->value, names, KINDS);
     return near ? nh_error_hint(r->u.error, "did you mean `%s`?", near) : false;
 }
@@ -124,7 +135,8 @@ static bool link_of(reader *r, const nh_xml *element, const char *key, char **ou
     }
     nh_urdf_fail(&r->u, a->begin, "there is no link `%s`", a->value);
     const char *near = nh_text_nearest(a->value, names, r->links);
-    return near ? nh_error_hint(r->u.error, "did you mean `%s`?", near) : nh_error_hint(r->u.error, "every link is an element <link name=\"..\">");
+    return near ? nh_error_hint(r->u.error, "did you mean `%s`?", near)
+                : nh_error_hint(r->u.error, "every link is an element <link name=\"..\">");
 }
 
 static bool axis_of(reader *r, joint *j)
@@ -144,32 +156,41 @@ static bool axis_of(reader *r, joint *j)
 /* <dynamics>, <mimic>. */
 static bool manners_of(reader *r, joint *j)
 {
-    const nh_xml *dynamics = nh_xml_child(j->element, "dynamics", NULL), *mimic = nh_xml_child(j->element, "mimic", NULL);
+    const nh_xml *dynamics = nh_xml_child(j->element, "dynamics", NULL),
+                 *mimic = nh_xml_child(j->element, "mimic", NULL);
     double friction;
     if (dynamics) {
-        if (!nh_urdf_only(&r->u, dynamics, "damping friction", "", "") || !nh_urdf_number(&r->u, dynamics, "damping", 0, &j->damping)
-            || !nh_urdf_number(&r->u, dynamics, "friction", 0, &friction)) return false;
-        if (friction != 0) nh_urdf_note(&r->u, dynamics->begin, "the dry friction of the joint `%s` is left out", j->name);
-        if (j->damping != 0 && (j->kind == PLANAR || j->kind == FLOATING)) nh_urdf_note(&r->u, dynamics->begin, "the damping of the joint `%s` is left out", j->name);
+        if (!nh_urdf_only(&r->u, dynamics, "damping friction", "", "") ||
+            !nh_urdf_number(&r->u, dynamics, "damping", 0, &j->damping) ||
+            !nh_urdf_number(&r->u, dynamics, "friction", 0, &friction))
+            return false;
+        if (friction != 0)
+            nh_urdf_note(&r->u, dynamics->begin, "the dry friction of the joint `%s` is left out", j->name);
+        if (j->damping != 0 && (j->kind == PLANAR || j->kind == FLOATING))
+            nh_urdf_note(&r->u, dynamics->begin, "the damping of the joint `%s` is left out", j->name);
     }
     if (!mimic) return true;
-    if (j->kind == FIXED || j->kind == PLANAR || j->kind == FLOATING) return nh_urdf_fail(&r->u, mimic->begin, "only a joint with one degree of freedom can follow another");
-    const nh_xml_attribute *name = nh_urdf_only(&r->u, mimic, "joint multiplier offset", "", "") ? nh_urdf_need(&r->u, mimic, "joint") : NULL;
+    if (j->kind == FIXED || j->kind == PLANAR || j->kind == FLOATING)
+        return nh_urdf_fail(&r->u, mimic->begin, "only a joint with one degree of freedom can follow another");
+    const nh_xml_attribute *name =
+        nh_urdf_only(&r->u, mimic, "joint multiplier offset", "", "") ? nh_urdf_need(&r->u, mimic, "joint") : NULL;
     j->mimic = mimic;
     j->mimics = name ? name->value : NULL;
-    return name && nh_urdf_number(&r->u, mimic, "multiplier", 1, &j->factor) && nh_urdf_number(&r->u, mimic, "offset", 0, &j->offset);
+    return name && nh_urdf_number(&r->u, mimic, "multiplier", 1, &j->factor) &&
+           nh_urdf_number(&r->u, mimic, "offset", 0, &j->offset);
 }
 
 static bool read_joint(reader *r, const nh_xml *element, joint *j)
 {
-    const char *known = "origin parent child axis calibration dynamics limit mimic safety_controller", *ignored = "hardwareInterface gear gazebo";
+    const char *known = "origin parent child axis calibration dynamics limit mimic safety_controller",
+               *ignored = "hardwareInterface gear gazebo";
     *j = (joint){.element = element, .factor = 1};
     if (!nh_urdf_only(&r->u, element, "name type", known, ignored)) return false;
     const nh_xml_attribute *name = nh_urdf_need(&r->u, element, "name");
     if (!name || !kind_of(r, element, &j->kind)) return false;
     j->name = nh_urdf_name(r->u.deck->arena, name->value);
-    return link_of(r, element, "parent", &j->parent) && link_of(r, element, "child", &j->child) && axis_of(r, j) && manners_of(r, j)
-           && nh_urdf_origin(&r->u, element, NULL, NULL, &j->origin);
+    return link_of(r, element, "parent", &j->parent) && link_of(r, element, "child", &j->child) && axis_of(r, j) &&
+           manners_of(r, j) && nh_urdf_origin(&r->u, element, NULL, NULL, &j->origin);
 }
 
 /* ---- joints that follow others ---- */
@@ -196,11 +217,16 @@ static bool follow(reader *r, const joint *j, joint **end, double *factor, doubl
             size_t n = 0;
             for (size_t i = 0; i < r->count; i++)
                 if (has_coordinate(&r->joint[i])) names[n++] = nh_xml_get(r->joint[i].element, "name")->value;
-            nh_urdf_fail(&r->u, word->begin, next ? "the joint `%s` has not one degree of freedom" : "there is no joint `%s`", at->mimics);
+            nh_urdf_fail(&r->u, word->begin,
+                         next ? "the joint `%s` has not one degree of freedom" : "there is no joint `%s`", at->mimics);
             const char *near = nh_text_nearest(at->mimics, names, n);
-            return near ? nh_error_hint(r->u.error, "did you mean `%s`?", near) : nh_error_hint(r->u.error, "a joint follows another revolute, continuous or prismatic one");
+            return near ? nh_error_hint(r->u.error, "did you mean `%s`?", near)
+                        : nh_error_hint(r->u.error, "a joint follows another revolute, continuous or prismatic one");
         }
-        if (steps > r->count) return nh_urdf_fail(&r->u, word->begin, "the joints follow each other in a circle: none has a value of its own"), nh_error_hint(r->u.error, "remove <mimic> from one of them");
+        if (steps > r->count)
+            return nh_urdf_fail(&r->u, word->begin,
+                                "the joints follow each other in a circle: none has a value of its own"),
+                   nh_error_hint(r->u.error, "remove <mimic> from one of them");
         at = next;
     }
     *end = (joint *)at;
@@ -216,14 +242,16 @@ static bool put_value(reader *r, const joint *j, nh_deck_node *out)
     if (!follow(r, j, &end, &factor, &offset)) return false;
     nh_text_number(factor, a, sizeof a);
     nh_text_number(offset, b, sizeof b);
-    const char *text = offset == 0 ? nh_arena_printf(r->u.deck->arena, "(%s)*%s", a, end->name) : nh_arena_printf(r->u.deck->arena, "(%s)*%s + (%s)", a, end->name, b);
+    const char *text = offset == 0 ? nh_arena_printf(r->u.deck->arena, "(%s)*%s", a, end->name)
+                                   : nh_arena_printf(r->u.deck->arena, "(%s)*%s + (%s)", a, end->name, b);
     nh_deck_node *list = nh_deck_new(r->u.deck, NH_DECK_LIST, j->mimic->begin, j->mimic->end);
     nh_deck_append(r->u.deck, list, nh_deck_word(r->u.deck, text, j->mimic->begin, j->mimic->end));
     nh_deck_put(r->u.deck, out, "values", list);
     return true;
 }
 
-/* The damping of a joint that follows another is a force on that one: rates are in the ratio `factor`, powers are equal. */
+/* The damping of a joint that follows another is a force on that one: rates are in the ratio `factor`, powers are
+   equal. */
 static bool put_damping(reader *r, const joint *j)
 {
     nh_deck *deck = r->u.deck;
@@ -238,7 +266,9 @@ static bool put_damping(reader *r, const joint *j)
     parameter(r, word, a, NULL, nh_arena_printf(deck->arena, "damping of %s", nh_xml_get(j->element, "name")->value));
     nh_text_number(factor * factor, square, sizeof square);
     const char *ratio = factor * factor == 1 ? "" : nh_arena_printf(deck->arena, "%s*", square);
-    nh_deck_append(deck, r->forces, nh_deck_word(deck, nh_arena_printf(deck->arena, "%s = -%s%s*%s'", end->name, ratio, word, end->name), a->begin, a->end));
+    nh_deck_append(deck, r->forces,
+                   nh_deck_word(deck, nh_arena_printf(deck->arena, "%s = -%s%s*%s'", end->name, ratio, word, end->name),
+                                a->begin, a->end));
     return true;
 }
 
@@ -247,7 +277,9 @@ static bool put_damping(reader *r, const joint *j)
 /* "revolute, from -1.57 to 1.57, effort 10": limits are notes, not constraints. */
 static const char *doc_of(reader *r, const joint *j)
 {
-    static const char *const keys[] = {"lower", "upper", "effort", "velocity"}, *const words[] = {", from ", " to ", ", effort ", ", velocity "};
+    static const char *const keys[] = {"lower", "upper", "effort", "velocity"}, *const words[] = {", from ", " to ",
+                                                                                                  ", effort ",
+                                                                                                  ", velocity "};
     const nh_xml *limit = nh_xml_child(j->element, "limit", NULL);
     nh_text text;
     nh_text_init(&text);
@@ -255,14 +287,18 @@ static const char *doc_of(reader *r, const joint *j)
     for (int i = 0; i < 4; i++) {
         const nh_xml_attribute *a = nh_xml_get(limit, keys[i]);
         bool half = i == 1 && !nh_xml_get(limit, "lower");
-        if (a && (i > 1 || j->kind != CONTINUOUS)) nh_text_addf(&text, "%s%s", half ? ", from 0 to " : words[i], a->value);
+        if (a && (i > 1 || j->kind != CONTINUOUS))
+            nh_text_addf(&text, "%s%s", half ? ", from 0 to " : words[i], a->value);
     }
     const char *out = nh_arena_strdup(r->u.deck->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
 }
 
-static nh_deck_node *word_for(reader *r, const joint *j, const char *text) { return nh_deck_word(r->u.deck, text, j->element->begin, j->element->end); }
+static nh_deck_node *word_for(reader *r, const joint *j, const char *text)
+{
+    return nh_deck_word(r->u.deck, text, j->element->begin, j->element->end);
+}
 
 static nh_deck_node *vector(reader *r, const joint *j, const double v[3])
 {
@@ -286,7 +322,8 @@ static void split_plane(reader *r, const joint *j, nh_deck_node *turn)
     double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     char *slide = nh_arena_printf(deck->arena, "%s_slide", j->name);
     static const char *const ends[] = {"x", "y", "a"};
-    nh_deck_node *body = nh_deck_new(deck, NH_DECK_MAP, j->element->begin, j->element->end), *axes = nh_deck_new(deck, NH_DECK_LIST, j->element->begin, j->element->end);
+    nh_deck_node *body = nh_deck_new(deck, NH_DECK_MAP, j->element->begin, j->element->end),
+                 *axes = nh_deck_new(deck, NH_DECK_LIST, j->element->begin, j->element->end);
     nh_deck_node *moves = nh_deck_new(deck, NH_DECK_MAP, j->element->begin, j->element->end), *list[2];
     for (int i = 0; i < 3; i++) {
         if (i != 1) list[i / 2] = nh_deck_new(deck, NH_DECK_LIST, j->element->begin, j->element->end);
@@ -312,14 +349,17 @@ static void split_plane(reader *r, const joint *j, nh_deck_node *turn)
 
 static bool put_joint(reader *r, const joint *j)
 {
-    static const char *const types[KINDS] = {"fixed", "revolute", "revolute", "prismatic", "planar", "free"}, *const letters[] = {"x", "y", "z"};
+    static const char *const types[KINDS] = {"fixed", "revolute", "revolute", "prismatic", "planar", "free"},
+                             *const letters[] = {"x", "y", "z"};
     nh_deck *deck = r->u.deck;
     nh_deck_node *out = nh_deck_new(deck, NH_DECK_MAP, j->element->begin, j->element->end);
     const double *d = j->direction;
     int along = d[1] == 0 && d[2] == 0 ? 0 : d[0] == 0 && d[2] == 0 ? 1 : 2;
     bool plane = j->kind == PLANAR, upright = d[(along + 1) % 3] == 0 && d[(along + 2) % 3] == 0 && d[along] > 0;
     nh_urdf_pose ignored;
-    nh_deck_put(deck, out, "name", nh_deck_word(deck, j->name, nh_xml_get(j->element, "name")->begin, nh_xml_get(j->element, "name")->end));
+    nh_deck_put(
+        deck, out, "name",
+        nh_deck_word(deck, j->name, nh_xml_get(j->element, "name")->begin, nh_xml_get(j->element, "name")->end));
     nh_deck_put(deck, out, "child", word_for(r, j, j->child));
     if (plane && !upright) {
         split_plane(r, j, out);
@@ -328,7 +368,8 @@ static bool put_joint(reader *r, const joint *j)
         nh_deck_put(deck, out, "parent", word_for(r, j, j->parent));
         nh_urdf_origin(&r->u, j->element, out, "at", &ignored);
         if (plane) nh_deck_put(deck, out, "axis", word_for(r, j, letters[along]));
-        else if (j->kind != FIXED && j->kind != FLOATING) nh_deck_put(deck, out, "axis", j->axis ? j->axis : word_for(r, j, "x"));
+        else if (j->kind != FIXED && j->kind != FLOATING)
+            nh_deck_put(deck, out, "axis", j->axis ? j->axis : word_for(r, j, "x"));
     }
     if (j->mimics && !put_value(r, j, out)) return false;
     if (j->kind != FIXED) nh_deck_put(deck, out, "doc", word_for(r, j, doc_of(r, j)));
@@ -351,7 +392,8 @@ static bool put_rims(reader *r)
         nh_urdf_pose zero = {.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
         const char *own = nh_urdf_name(r->u.deck->arena, nh_xml_get(r->link[i], "name")->value);
         const joint *mine = carrier(r, own), *at = mine;
-        for (size_t steps = 0; at && steps <= r->count; steps++, at = carrier(r, at->parent)) zero = nh_urdf_product(&at->origin, &zero);
+        for (size_t steps = 0; at && steps <= r->count; steps++, at = carrier(r, at->parent))
+            zero = nh_urdf_product(&at->origin, &zero);
         bool turns = mine && (mine->kind == REVOLUTE || mine->kind == CONTINUOUS);
         if (!nh_urdf_rim(&r->u, r->link[i], own, turns ? mine->direction : NULL, &zero, r->rims)) return false;
     }
@@ -362,17 +404,23 @@ static bool put_rims(reader *r)
 
 static bool is_robot(reader *r)
 {
-    static const struct { const char *name, *what; } others[] = {{"sdf", "SDF, Gazebo's format"}, {"mujoco", "MJCF, MuJoCo's format"}, {"COLLADA", "a mesh"}};
+    static const struct {
+        const char *name, *what;
+    } others[] = {{"sdf", "SDF, Gazebo's format"}, {"mujoco", "MJCF, MuJoCo's format"}, {"COLLADA", "a mesh"}};
     if (!strcmp(r->robot->name, "robot")) return true;
     nh_urdf_fail(&r->u, r->robot->begin, "a robot description begins with <robot>, not with <%s>", r->robot->name);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (!strcmp(r->robot->name, others[i].name)) return nh_error_hint(r->u.error, "this is %s; only URDF is read", others[i].what);
-    return nh_error_hint(r->u.error, "files in XML are robot descriptions (URDF), other systems are YAML: `nhsym new skate` writes an example");
+        if (!strcmp(r->robot->name, others[i].name))
+            return nh_error_hint(r->u.error, "this is %s; only URDF is read", others[i].what);
+    return nh_error_hint(
+        r->u.error,
+        "files in XML are robot descriptions (URDF), other systems are YAML: `nhsym new skate` writes an example");
 }
 
 static void collect(reader *r)
 {
-    for (const nh_xml *e = r->robot->first; e; e = e->next) r->links += !strcmp(e->name, "link"), r->count += !strcmp(e->name, "joint");
+    for (const nh_xml *e = r->robot->first; e; e = e->next)
+        r->links += !strcmp(e->name, "link"), r->count += !strcmp(e->name, "joint");
     r->link = nh_arena_alloc(r->u.deck->arena, (r->links + 1) * sizeof *r->link);
     r->joint = nh_arena_alloc(r->u.deck->arena, (r->count + 1) * sizeof *r->joint);
     size_t n = 0;
@@ -386,7 +434,8 @@ static bool distinct(reader *r)
     for (size_t i = 0; i < r->count; i++) {
         const nh_xml_attribute *name = nh_xml_get(r->joint[i].element, "name");
         for (size_t k = 0; k < i; k++)
-            if (!strcmp(name->value, nh_xml_get(r->joint[k].element, "name")->value)) return nh_urdf_fail(&r->u, name->begin, "there are two joints `%s`", name->value);
+            if (!strcmp(name->value, nh_xml_get(r->joint[k].element, "name")->value))
+                return nh_urdf_fail(&r->u, name->begin, "there are two joints `%s`", name->value);
     }
     return true;
 }
@@ -398,7 +447,8 @@ static bool read_robot(reader *r)
     if (!is_robot(r) || !nh_urdf_only(&r->u, r->robot, "name version", "link joint", ignored)) return false;
     collect(r);
     if (!r->links) return nh_urdf_fail(&r->u, r->robot->begin, "this robot has no <link>");
-    if (r->links > most || r->count > most) return nh_urdf_fail(&r->u, r->robot->begin, "this robot has more than %d links or joints", most);
+    if (r->links > most || r->count > most)
+        return nh_urdf_fail(&r->u, r->robot->begin, "this robot has more than %d links or joints", most);
     size_t n = 0;
     for (const nh_xml *e = r->robot->first; e; e = e->next)
         if (!strcmp(e->name, "joint") && !read_joint(r, e, &r->joint[n++])) return false;
@@ -417,14 +467,17 @@ const nh_deck_node *nh_urdf_read(nh_deck *deck, nh_error *error)
     reader r = {.u = {.deck = deck, .error = error}, .robot = nh_xml_read(deck, error)};
     if (!r.robot) return NULL;
     nh_deck_node **const list[] = {&r.u.notes, &r.bodies, &r.joints, &r.parameters, &r.forces};
-    for (size_t i = 0; i < sizeof list / sizeof *list; i++) *list[i] = nh_deck_new(deck, NH_DECK_LIST, r.robot->begin, r.robot->end);
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        *list[i] = nh_deck_new(deck, NH_DECK_LIST, r.robot->begin, r.robot->end);
     r.rims = nh_deck_new(deck, NH_DECK_MAP, r.robot->begin, r.robot->end);
     r.root = nh_deck_new(deck, NH_DECK_MAP, r.robot->begin, r.robot->end);
     nh_xml_attribute gravity = {.name = "g", .value = "9.81", .begin = r.robot->begin, .end = r.robot->end};
     parameter(&r, "g", &gravity, "m/s^2", "acceleration of gravity");
     if (!read_robot(&r)) return NULL;
     const nh_xml_attribute *name = nh_xml_get(r.robot, "name");
-    if (name && name->value[0]) nh_deck_put(deck, r.root, "name", nh_deck_word(deck, nh_urdf_name(deck->arena, name->value), name->begin, name->end));
+    if (name && name->value[0])
+        nh_deck_put(deck, r.root, "name",
+                    nh_deck_word(deck, nh_urdf_name(deck->arena, name->value), name->begin, name->end));
     nh_deck_put(deck, r.root, "gravity", nh_deck_word(deck, "g", r.robot->begin, r.robot->end));
     nh_deck_put(deck, r.root, "parameters", r.parameters);
     nh_deck_put(deck, r.root, "bodies", r.bodies);

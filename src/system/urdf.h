@@ -1,15 +1,17 @@
 /* urdf: robots in the Unified Robot Description Format (URDF) as system files.
  *
- * Links become bodies, joints become joints, masses and dampings parameters; robot.c adds what carries the root and the wheels.  The tree is that
- * of a system file, so that everything else reads it as one, and messages point into the XML. */
+ * Links become bodies, joints become joints, masses and dampings parameters; robot.c adds what carries the root and the
+ * wheels.  The tree is that of a system file, so that everything else reads it as one, and messages point into the
+ * XML. */
 #ifndef NH_URDF_H
 #define NH_URDF_H
 
 #include "base/memory.h"
 #include "system/deck.h"
 
-/* A key of the root that no file has: {link: {radius: .., at: [..], height: ..} or {why: ..}}, the circles of links that could be wheels; `height`
- * is that of the centre above the root link's origin at zero displacements, `why` the reason why there is none. */
+/* A key of the root that no file has: {link: {radius: .., at: [..], height: ..} or {why: ..}}, the circles of links
+ * that could be wheels; `height` is that of the centre above the root link's origin at zero displacements, `why` the
+ * reason why there is none. */
 #define NH_URDF_RIMS " rims"
 
 /* The root of a deck that holds XML.  NULL with a message. */

@@ -19,9 +19,10 @@ typedef struct {
 bool nh_urdf_fail(nh_urdf_reader *u, size_t at, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void nh_urdf_note(nh_urdf_reader *u, size_t at, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-/* Refuse attributes and, unless `children` is NULL, child elements that are not among these words (blanks between them); other elements are noted where they
- * resemble none of them.  `ignored`: children without a meaning here. */
-bool nh_urdf_only(nh_urdf_reader *u, const nh_xml *element, const char *attributes, const char *children, const char *ignored);
+/* Refuse attributes and, unless `children` is NULL, child elements that are not among these words (blanks between
+ * them); other elements are noted where they resemble none of them.  `ignored`: children without a meaning here. */
+bool nh_urdf_only(nh_urdf_reader *u, const nh_xml *element, const char *attributes, const char *children,
+                  const char *ignored);
 
 /* The attribute, which must be there. */
 const nh_xml_attribute *nh_urdf_need(nh_urdf_reader *u, const nh_xml *element, const char *name);
@@ -30,14 +31,17 @@ bool nh_urdf_numbers(nh_urdf_reader *u, const nh_xml_attribute *a, size_t count,
 /* One number; absent: the fallback. */
 bool nh_urdf_number(nh_urdf_reader *u, const nh_xml *element, const char *name, double fallback, double *value);
 
-/* The child <origin> of an element: into `map` (or nowhere: NULL) as `place`: [x, y, z] and `rotation`, unless they are zero. */
+/* The child <origin> of an element: into `map` (or nowhere: NULL) as `place`: [x, y, z] and `rotation`, unless they are
+   zero. */
 bool nh_urdf_origin(nh_urdf_reader *u, const nh_xml *element, nh_deck_node *map, const char *place, nh_urdf_pose *out);
 nh_urdf_pose nh_urdf_product(const nh_urdf_pose *a, const nh_urdf_pose *b);
 
 /* <inertial>: mass, centre, inertia and its axes into a body. */
 bool nh_urdf_inertial(nh_urdf_reader *u, const nh_xml *inertial, nh_deck_node *body, double *mass);
 
-/* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, into `rims`. */
-bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const double *axis, const nh_urdf_pose *zero, nh_deck_node *rims);
+/* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, into
+   `rims`. */
+bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const double *axis, const nh_urdf_pose *zero,
+                 nh_deck_node *rims);
 
 #endif

@@ -70,7 +70,8 @@ static bool only_attributes(nh_urdf_reader *u, const nh_xml *element, const char
     return true;
 }
 
-bool nh_urdf_only(nh_urdf_reader *u, const nh_xml *element, const char *attributes, const char *children, const char *ignored)
+bool nh_urdf_only(nh_urdf_reader *u, const nh_xml *element, const char *attributes, const char *children,
+                  const char *ignored)
 {
     char text[most_words][word_size], other[most_words][word_size];
     const char *names[most_words], *others[most_words];
@@ -122,7 +123,8 @@ bool nh_urdf_numbers(nh_urdf_reader *u, const nh_xml_attribute *a, size_t count,
             }
             if (!nh_text_to_number(text, &x)) return nh_urdf_fail(u, begin, "`%s` is not a number", text);
             if (found < count) value[found] = x;
-            if (found < count && words) nh_deck_append(u->deck, words, nh_deck_word(u->deck, text + (text[0] == '+'), begin, begin + length));
+            if (found < count && words)
+                nh_deck_append(u->deck, words, nh_deck_word(u->deck, text + (text[0] == '+'), begin, begin + length));
             found++;
             at += length;
         }
@@ -153,7 +155,8 @@ nh_urdf_pose nh_urdf_product(const nh_urdf_pose *a, const nh_urdf_pose *b)
     return c;
 }
 
-/* 1 + the exponent of the last digit that is written, and how many digits there are from the first that is not 0 on, without zeros at the end. */
+/* 1 + the exponent of the last digit that is written, and how many digits there are from the first that is not 0 on,
+   without zeros at the end. */
 static int digits_of(const char *text, double *unit)
 {
     int digits = 0, zeros = 0, decimals = 0;
@@ -169,20 +172,23 @@ static int digits_of(const char *text, double *unit)
     return digits;
 }
 
-/* People write 1.5708 for pi/2.  A number is taken for a multiple of pi/12 (with three digits: of pi/2) where that, rounded or cut off after the digits that are
- * written, gives it: otherwise an axle would lean a little, and its wheel could not roll.  NULL: it is none. */
+/* People write 1.5708 for pi/2.  A number is taken for a multiple of pi/12 (with three digits: of pi/2) where that,
+ * rounded or cut off after the digits that are written, gives it: otherwise an axle would lean a little, and its wheel
+ * could not roll.  NULL: it is none. */
 static const char *as_part_of_pi(nh_urdf_reader *u, const char *text, double x, double *exact)
 {
     const double pi = 3.14159265358979323846;
     enum { parts = 12, enough_digits = 4 };
     double unit;
     int digits = digits_of(text, &unit), k = (int)lround(fmin(fmax(x, -100), 100) * parts / pi);
-    if (k == 0 || digits < 3 || (digits < enough_digits && k % (parts / 2)) || fabs(x - k * pi / parts) >= unit) return NULL;
+    if (k == 0 || digits < 3 || (digits < enough_digits && k % (parts / 2)) || fabs(x - k * pi / parts) >= unit)
+        return NULL;
     *exact = k * pi / parts;
     int top = abs(k), bottom = parts;
     for (int d = 2; d <= 3; d++)
         while (top % d == 0 && bottom % d == 0) top /= d, bottom /= d;
-    const char *sign = k < 0 ? "-" : "", *name = top == 1 ? nh_arena_printf(u->deck->arena, "%spi", sign) : nh_arena_printf(u->deck->arena, "%s%d*pi", sign, top);
+    const char *sign = k < 0 ? "-" : "", *name = top == 1 ? nh_arena_printf(u->deck->arena, "%spi", sign)
+                                                          : nh_arena_printf(u->deck->arena, "%s%d*pi", sign, top);
     return bottom == 1 ? name : nh_arena_printf(u->deck->arena, "%s/%d", name, bottom);
 }
 
@@ -196,12 +202,14 @@ static nh_urdf_pose turned(int axis, double angle)
     return a;
 }
 
-/* Roll, pitch and yaw are turns about fixed axes x, y, z, which is z, y, x about those that turn: R = Rz(yaw) Ry(pitch) Rx(roll). */
+/* Roll, pitch and yaw are turns about fixed axes x, y, z, which is z, y, x about those that turn: R = Rz(yaw) Ry(pitch)
+   Rx(roll). */
 static bool rotation(nh_urdf_reader *u, const nh_xml_attribute *rpy, nh_deck_node *map, nh_urdf_pose *out)
 {
     static const char *const axes[] = {"x", "y", "z"};
     double angle[3];
-    nh_deck_node *words = nh_deck_new(u->deck, NH_DECK_LIST, rpy->begin, rpy->end), *turns = nh_deck_new(u->deck, NH_DECK_LIST, rpy->begin, rpy->end);
+    nh_deck_node *words = nh_deck_new(u->deck, NH_DECK_LIST, rpy->begin, rpy->end),
+                 *turns = nh_deck_new(u->deck, NH_DECK_LIST, rpy->begin, rpy->end);
     if (!nh_urdf_numbers(u, rpy, 3, angle, words)) return false;
     for (int k = 2; k >= 0; k--) {
         const nh_deck_node *word = words->item[k];
@@ -235,32 +243,44 @@ bool nh_urdf_origin(nh_urdf_reader *u, const nh_xml *element, nh_deck_node *map,
 
 /* ---- inertias ---- */
 
-/* Of a body: all principal moments are at least 0, and none is larger than the sum of the others.  The second is noted alone: many files get it wrong. */
+/* Of a body: all principal moments are at least 0, and none is larger than the sum of the others.  The second is noted
+   alone: many files get it wrong. */
 static bool check_inertia(nh_urdf_reader *u, const nh_xml *inertia, const double I[6])
 {
-    double xx = I[0], xy = I[1], xz = I[2], yy = I[3], yz = I[4], zz = I[5], size = fabs(xx) + fabs(yy) + fabs(zz), least = -1e-9 * size;
+    double xx = I[0], xy = I[1], xz = I[2], yy = I[3], yz = I[4], zz = I[5], size = fabs(xx) + fabs(yy) + fabs(zz),
+           least = -1e-9 * size;
     double determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-    bool good = xx >= 0 && yy >= 0 && zz >= 0 && xx * yy - xy * xy >= least * size && xx * zz - xz * xz >= least * size && yy * zz - yz * yz >= least * size
-                && determinant >= least * size * size;
+    bool good = xx >= 0 && yy >= 0 && zz >= 0 && xx * yy - xy * xy >= least * size &&
+                xx * zz - xz * xz >= least * size && yy * zz - yz * yz >= least * size &&
+                determinant >= least * size * size;
     if (!good) {
         nh_urdf_fail(u, inertia->begin, "this is the inertia of no body: a principal moment is negative");
         return nh_error_hint(u->error, "ixx, iyy and izz are positive, and products such as ixy smaller than these");
     }
-    double trace = xx + yy + zz, a = trace / 2 - xx, b = trace / 2 - yy, c = trace / 2 - zz; /* of trace/2 - I, which must not be negative either */
-    bool possible = a >= least && b >= least && c >= least && a * b - xy * xy >= least * size && a * c - xz * xz >= least * size && b * c - yz * yz >= least * size;
-    if (!possible) nh_urdf_note(u, inertia->begin, "no body has this inertia: one principal moment is larger than the sum of the other two");
+    /* of trace/2 - I, which must not be negative either */
+    double trace = xx + yy + zz, a = trace / 2 - xx, b = trace / 2 - yy, c = trace / 2 - zz;
+    bool possible = a >= least && b >= least && c >= least && a * b - xy * xy >= least * size &&
+                    a * c - xz * xz >= least * size && b * c - yz * yz >= least * size;
+    if (!possible)
+        nh_urdf_note(u, inertia->begin,
+                     "no body has this inertia: one principal moment is larger than the sum of the other two");
     return true;
 }
 
 /* The matrix is symmetric, and URDF has its upper half. Converters write the other one as well, equal or zero. */
 static bool lower_half(nh_urdf_reader *u, const nh_xml *inertia, const double I[6])
 {
-    static const struct { const char *name, *upper; int of; } entry[] = {{"iyx", "ixy", 1}, {"izx", "ixz", 2}, {"izy", "iyz", 4}};
+    static const struct {
+        const char *name, *upper;
+        int of;
+    } entry[] = {{"iyx", "ixy", 1}, {"izx", "ixz", 2}, {"izy", "iyz", 4}};
     for (int i = 0; i < 3; i++) {
         const nh_xml_attribute *a = nh_xml_get(inertia, entry[i].name);
         double value = 0;
         if (a && !nh_urdf_numbers(u, a, 1, &value, NULL)) return false;
-        if (value != 0 && value != I[entry[i].of]) nh_urdf_note(u, a->begin, "%s differs from %s, which is taken: the matrix of inertia is symmetric", entry[i].name, entry[i].upper);
+        if (value != 0 && value != I[entry[i].of])
+            nh_urdf_note(u, a->begin, "%s differs from %s, which is taken: the matrix of inertia is symmetric",
+                         entry[i].name, entry[i].upper);
     }
     return true;
 }
@@ -324,7 +344,8 @@ static void put_height(nh_urdf_reader *u, const nh_xml *element, double height, 
 /* The cylinder or sphere of a <collision> or <visual>; NULL: it has none. */
 static const nh_xml *round_shape(const nh_xml *shape)
 {
-    const nh_xml *geometry = nh_xml_child(shape, "geometry", NULL), *cylinder = nh_xml_child(geometry, "cylinder", NULL);
+    const nh_xml *geometry = nh_xml_child(shape, "geometry", NULL),
+                 *cylinder = nh_xml_child(geometry, "cylinder", NULL);
     return cylinder ? cylinder : nh_xml_child(geometry, "sphere", NULL);
 }
 
@@ -335,7 +356,8 @@ static const nh_xml *round_child(const nh_xml *link, const char *kind)
     return shape;
 }
 
-bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const double *axis, const nh_urdf_pose *zero, nh_deck_node *rims)
+bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const double *axis, const nh_urdf_pose *zero,
+                 nh_deck_node *rims)
 {
     const nh_xml *shape = round_child(link, "collision"), *round;
     nh_deck_node *rim = nh_deck_new(u->deck, NH_DECK_MAP, link->begin, link->end);
@@ -361,7 +383,9 @@ bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const 
     double along = 0, size = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
     for (int i = 0; i < 3; i++) along += axis[i] * origin.R[3 * i + 2] / size;
     if (strcmp(round->name, "sphere") && fabs(along) < 1 - 1e-6)
-        nh_deck_put(u->deck, rim, "why", nh_deck_word(u->deck, "the axis of its cylinder is not that of its joint", round->begin, round->end));
+        nh_deck_put(
+            u->deck, rim, "why",
+            nh_deck_word(u->deck, "the axis of its cylinder is not that of its joint", round->begin, round->end));
     else nh_deck_put(u->deck, rim, "radius", words->item[0]);
     nh_urdf_pose centre = nh_urdf_product(zero, &origin);
     put_height(u, round, centre.p[2], rim);

@@ -1,7 +1,8 @@
 /* wheel_constraints: the conditions of a system's wheels as constraints of the system.
  *
- * Two wheels on one axle forbid the same sideways motion, and a wheel that cannot leave its surface needs no condition for it.  What the
- * conditions before it imply is therefore left out: the rank of the coefficients (c_1 .. c_m, c_0), c_s v^s + c_0 = 0, tells at sample points. */
+ * Two wheels on one axle forbid the same sideways motion, and a wheel that cannot leave its surface needs no condition
+ * for it.  What the conditions before it imply is therefore left out: the rank of the coefficients (c_1 .. c_m, c_0),
+ * c_s v^s + c_0 = 0, tells at sample points. */
 #include <math.h>
 #include <string.h>
 
@@ -73,7 +74,8 @@ static void add_constraint(nh_system *s, const nh_wheel *w, const nh_ex *row)
     nh_ex sum = row[s->coordinates];
     for (size_t i = 0; i < s->coordinates; i++) sum = nh_add(d, sum, nh_mul(d, row[i], s->coordinate[i].v));
     char *text = nh_print_string(d, sum);
-    s->constraint[s->constraints++] = (nh_constraint){.text = nh_arena_printf(s->arena, "%s = 0", text), .lhs = sum, .rhs = nh_int(d, 0), .node = w->node};
+    s->constraint[s->constraints++] = (nh_constraint){
+        .text = nh_arena_printf(s->arena, "%s = 0", text), .lhs = sum, .rhs = nh_int(d, 0), .node = w->node};
     nh_free(text);
 }
 

@@ -1,13 +1,14 @@
 /* wheels: the conditions of blades and rolling wheels, linear in the rates.
  *
- * A wheel's own turning about its axle changes neither its centre nor its axle.  So the conditions are written in the frame before that turn, where
- * its angle does not occur.  There, with the twist (v, w) relative to the surface, the centre c, the axle a, the surface's normal n and the radius r:
+ * A wheel's own turning about its axle changes neither its centre nor its axle.  So the conditions are written in the
+ * frame before that turn, where its angle does not occur.  There, with the twist (v, w) relative to the surface, the
+ * centre c, the axle a, the surface's normal n and the radius r:
  *
  *     knife-edge    a . (v + w x c) = 0
  *     rolling       u = v + w x (c - r n_a) = 0,   n_a = (n - (n.a) a) / |n - (n.a) a|
  *
- * u is the velocity of the point of contact; n_a, in the wheel's plane, points up from there to the centre [NeimarkFufaev1972, ch. III].  Its
- * components are taken along a x n (forward), n x (a x n) (sideways) and n. */
+ * u is the velocity of the point of contact; n_a, in the wheel's plane, points up from there to the centre
+ * [NeimarkFufaev1972, ch. III].  Its components are taken along a x n (forward), n x (a x n) (sideways) and n. */
 #include <string.h>
 
 #include "system/bodies.h"

@@ -10,7 +10,8 @@ typedef struct {
     XML_Parser parser;
     nh_deck *deck;
     nh_error *error;
-    size_t skip;         /* blanks before the text: an XML declaration stands at the very beginning for Expat, if not for people */
+    /* blanks before the text: an XML declaration stands at the very beginning for Expat, if not for people */
+    size_t skip;
     nh_xml *root, *open; /* open: the element whose end is still to come */
 } reader;
 
@@ -28,7 +29,8 @@ static size_t skip_space(const char *source, size_t at)
     return at;
 }
 
-/* The attributes of the start tag at `begin`, in the order of the file, which is Expat's: the tag is known to be well formed. */
+/* The attributes of the start tag at `begin`, in the order of the file, which is Expat's: the tag is known to be well
+   formed. */
 static void place_attributes(const char *source, nh_xml *element)
 {
     size_t at = element->begin + 1 + strlen(element->name);
@@ -70,7 +72,8 @@ static void XMLCALL finish(void *context, const XML_Char *name)
     r->open = r->open->parent;
 }
 
-static void XMLCALL document_type(void *context, const XML_Char *name, const XML_Char *system, const XML_Char *public, int subset)
+static void XMLCALL document_type(void *context, const XML_Char *name, const XML_Char *system, const XML_Char *public,
+                                  int subset)
 {
     reader *r = context;
     (void)name, (void)system, (void)public, (void)subset;
@@ -83,13 +86,17 @@ static void XMLCALL document_type(void *context, const XML_Char *name, const XML
 static bool explain(reader *r)
 {
     size_t line, column;
-    nh_deck_fail_at(r->deck, place(r), r->error, "this is not well-formed XML: %s", XML_ErrorString(XML_GetErrorCode(r->parser)));
+    nh_deck_fail_at(r->deck, place(r), r->error, "this is not well-formed XML: %s",
+                    XML_ErrorString(XML_GetErrorCode(r->parser)));
     if (XML_GetErrorCode(r->parser) == XML_ERROR_INVALID_TOKEN)
-        return nh_error_hint(r->error, "a tag ends with `>`, a value stands in quotes, and `&` and `<` in it are written `&amp;` and `&lt;`");
+        return nh_error_hint(
+            r->error,
+            "a tag ends with `>`, a value stands in quotes, and `&` and `<` in it are written `&amp;` and `&lt;`");
     if (!r->open) return nh_error_hint(r->error, "the file must be one element <robot name=\"..\"> ... </robot>");
     nh_deck_place(r->deck, r->open->begin, &line, &column);
-    return nh_error_hint(r->error, "`<%s>` of line %zu is open here; it ends with `</%s>`, or begins and ends as `<%s ... />`", r->open->name, line, r->open->name,
-                         r->open->name);
+    return nh_error_hint(r->error,
+                         "`<%s>` of line %zu is open here; it ends with `</%s>`, or begins and ends as `<%s ... />`",
+                         r->open->name, line, r->open->name, r->open->name);
 }
 
 bool nh_xml_looks(const nh_deck *deck)

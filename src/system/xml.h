@@ -1,7 +1,7 @@
 /* xml: XML text as a tree of elements with the place of every attribute.
  *
- * Expat parses; it tells the byte at which an element begins, from which the places of its attributes are found.  Texts between elements are
- * left out.  Document types, and with them entities of their own, are refused. */
+ * Expat parses; it tells the byte at which an element begins, from which the places of its attributes are found.  Texts
+ * between elements are left out.  Document types, and with them entities of their own, are refused. */
 #ifndef NH_XML_H
 #define NH_XML_H
 
