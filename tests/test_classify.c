@@ -597,6 +597,7 @@ Test(classify, numbers_have_their_shortest_digits)
     f = run_expecting(&p, "classify a.yaml --over b --set M=1e-7 --degree 1", 0);
     cr_expect(strstr(f.out, "= 0.1234567890123."), "%s", f.out);
     cr_expect(strstr(f.out, "M = 1e-07") || strstr(f.out, "M = 1e-7"), "%s", f.out);
+    cr_expect(!strstr(f.out, "b = "), "it is classified, and has no value:\n%s", f.out);
     finished_clear(&f);
     place_clear(&p);
 }

@@ -217,7 +217,11 @@ void nh_classification_write(const nh_classified *line, const plane *x, const nh
         "excluded|system|System|words|Words|repeat|Repeat it";
     const nh_classified *family = y ? y->family : x ? x->family : line;
     const nh_analysis *r = family->almost_all;
-    nh_pen_subject subject = {.system = r->system, .dag = r->model->dag, .chart = r->model->chart, .shown = run->shown};
+    nh_pen_subject subject = {.system = r->system,
+                              .dag = r->model->dag,
+                              .chart = r->model->chart,
+                              .shown = run->shown,
+                              .open = {family->over, family->second, family->third}};
     pen all, *p = &all;
     nh_text head;
     nh_text_init(&head);

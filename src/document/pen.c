@@ -47,6 +47,13 @@ static void section_end(nh_pen *p)
     p->section = false;
 }
 
+bool nh_pen_is_open(const nh_pen_subject *subject, const char *parameter)
+{
+    size_t i = 0, most = sizeof subject->open / sizeof *subject->open;
+    while (i < most && subject->open[i] && strcmp(subject->open[i], parameter)) i++;
+    return i < most && subject->open[i];
+}
+
 void nh_pen_section(nh_pen *p, const char *id, const char *title)
 {
     section_end(p);

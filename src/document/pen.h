@@ -94,7 +94,10 @@ typedef struct {
     nh_dag *dag;
     const nh_chart *chart;
     double shown, written;
+    const char *open[3]; /* parameters that have no value here, from the first on; NULL: no more */
 } nh_pen_subject;
+
+bool nh_pen_is_open(const nh_pen_subject *subject, const char *parameter);
 
 /* Of a text for a terminal. */
 typedef struct {

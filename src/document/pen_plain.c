@@ -46,9 +46,13 @@ static void begin(void *to, const char *what)
     w->out = &w->text;
     nh_text_init(w->out);
     bold(w, s->title);
-    nh_text_addf(w->out, "   %s", s->parameters ? "with " : "no parameters");
-    for (size_t i = 0; i < s->parameters; i++)
-        nh_text_addf(w->out, "%s%s = %.6g", i ? ", " : "", s->parameter[i].name, s->parameter[i].value);
+    if (!s->parameters) nh_text_add(w->out, "   no parameters");
+    const char *before = "   with ";
+    for (size_t i = 0; i < s->parameters; i++) {
+        if (nh_pen_is_open(&w->of, s->parameter[i].name)) continue;
+        nh_text_addf(w->out, "%s%s = %.6g", before, s->parameter[i].name, s->parameter[i].value);
+        before = ", ";
+    }
     nh_text_add(w->out, "\n");
 }
 

@@ -17,7 +17,8 @@ static void parameters(nh_pen *p, const nh_system *s)
     nh_pen_table(p, "Parameters", "name|value|meaning");
     for (size_t i = 0; i < s->parameters; i++) {
         const nh_parameter *a = &s->parameter[i];
-        nh_pen_row(p, "#<%s>|%.10g %s|%s", a->name, a->value, or_nothing(a->unit), or_nothing(a->doc));
+        if (nh_pen_is_open(&p->of, a->name)) nh_pen_row(p, "#<%s>|any|%s", a->name, or_nothing(a->doc));
+        else nh_pen_row(p, "#<%s>|%.10g %s|%s", a->name, a->value, or_nothing(a->unit), or_nothing(a->doc));
     }
     nh_pen_table_end(p);
 }
