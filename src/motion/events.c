@@ -246,7 +246,7 @@ void nh_event_search_end(const nh_event_search *c, nh_motion *motion)
     for (size_t i = 0; i < c->watch->count; i++) zero |= c->pending[i];
     if (zero)
         nh_motion_note(motion,
-                       "what is watched for a zero is zero all along, but for the tolerance: no event is told from it");
+                       "an expression is zero along the whole motion, within the tolerance: it has no single zeros");
     if (!isnan(c->jumped))
         nh_motion_note(motion,
                        "what is watched for a zero jumps from one sign to the other at t = %.10g: that is no event",
