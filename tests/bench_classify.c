@@ -180,7 +180,7 @@ static const struct {
     const char *file, *first, *second;
     double degree;
     bool shape;
-} PLANES[] = {{"henon_heiles", "B", "eps", 4, false}, {"quartic", "mu", "b", 4, false}, {"cubic", "c", "d", 4, false}, {"heavy_tops", "b", "c", 4, true},
+} PLANES[] = {{"henon_heiles", "B", "eps", 6, false}, {"quartic", "mu", "b", 4, false}, {"cubic", "c", "d", 4, false}, {"heavy_tops", "b", "c", 4, true},
               {"contact_quadratic", "b", "c", 2, false}, {"knife_cubic", "b", "c", 2, false}};
 
 /* The lists of [NakagawaYoshida2001] and [AMNS2018]: all homogeneous potentials of degree three, and all real ones of degree four, that have a second
