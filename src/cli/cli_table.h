@@ -41,7 +41,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_robustness, "robustness",  no_argument,       "",                   "benchmark", "maps of where the methods fail")                                          \
     X(opt_over,        "over",        required_argument, "RANGES",             "simulate benchmark classify scan", "values or ranges of parameters; repeatable")    \
     X(opt_shape,       "shape",       no_argument,       "",                   "classify", "only integrals whose coefficients do not depend on cyclic coordinates") \
-    X(opt_of,          "of",          required_argument, "WORDS", "verify scan classify export show", "what is asked for")              \
+    X(opt_of,          "of",          required_argument, "WORDS", "verify scan classify export show", "the results to compute")         \
     X(opt_number,      "number",      required_argument, "NAME",               "scan", "a number by its path in the JSON, as in group.dimension; repeatable")          \
     X(opt_workers,     "workers",     required_argument, "N",                  "scan", "processes that share the work; it does not change the result")                 \
     X(opt_chunk,       "chunk",       required_argument, "I/N",                "scan", "only part I of N, for job arrays; then once without it")                       \
