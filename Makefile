@@ -35,7 +35,8 @@ SANE     = -fsanitize=$(if $(filter thread,$(SANITIZE)),thread,address$(comma)un
 OPT      = $(if $(SANITIZE),-O1 -g1 $(SANE),-O2 -g)
 # A product and a sum are rounded one after the other, on every machine and in every build.
 # CFLAGS, CPPFLAGS and LDFLAGS of the environment and the command line come after the project's own.
-OWN_CFLAGS = -fPIC -fvisibility=hidden -std=c17 -ffp-contract=off $(OPT) $(WARN)
+# Nothing of the folder where it is built stands in what is built: two builds give the same bytes.
+OWN_CFLAGS = -fPIC -fvisibility=hidden -std=c17 -ffp-contract=off -ffile-prefix-map=$(CURDIR)=. $(OPT) $(WARN)
 INCLUDES = -Isrc $(patsubst -I%,-isystem %,$(MPI_INCLUDE))
 OWN_CPPFLAGS = $(INCLUDES) -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -MMD -MP
 COMPILE  = $(CC) $(OWN_CPPFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS)
@@ -262,7 +263,7 @@ deb-source:
 	@rm -rf $(BUILD)/deb && mkdir -p $(DEB)
 	@tar -cf - --exclude='./build*' --exclude=./.git --exclude=./tests/browser . | tar -xf - -C $(DEB)
 	@mv $(DEB)/src/debian $(DEB)/debian
-	@sed -e 's/@VERSION@/$(VERSION)/' -e "s/@DATE@/$$(date -R -r docs/changes.md)/" $(DEB)/debian/changelog.in >$(DEB)/debian/changelog && rm $(DEB)/debian/changelog.in
+	@sed -e 's/@VERSION@/$(VERSION)/' -e "s/@DATE@/$$(LC_ALL=C date -R -u $$([ "$$SOURCE_DATE_EPOCH" ] && echo "-d@$$SOURCE_DATE_EPOCH" || echo "-r docs/changes.md"))/" $(DEB)/debian/changelog.in >$(DEB)/debian/changelog && rm $(DEB)/debian/changelog.in
 
 deb: deb-source
 	cd $(DEB) && dpkg-buildpackage -us -uc

@@ -46,3 +46,11 @@ Test(install, flags_are_added)
     cr_expect_eq(compiled, 1u);
     cr_expect_eq(linked, 1u);
 }
+
+/* Whoever builds the same sources in another folder gets the same bytes. */
+Test(install, the_folder_of_the_build_is_not_in_it)
+{
+    char said[20000];
+    int  code = run("here=$(pwd -P); grep -lF -e \"$here\" build/nhsym build/libnhsym.a build/libnhsym.so.1 2>&1", said, sizeof said);
+    cr_expect_eq(code, 1, "%s", said); /* read, and not found */
+}
