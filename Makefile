@@ -8,6 +8,7 @@
 #   make deb       Debian packages, into build/deb (wants debhelper, dh-python and what `make packages` installs)
 #   make bench     measure, and write docs/performance.md
 #   make catalogue analyse every system without an analysis file, and write docs/catalogue.md
+#   make pictures  draw their thumbnails for it
 #   make papers    every numbered item of the three papers of the method, and write docs/papers.md
 #   make reductions reduce every system from STATES=50 initial states, and write docs/reductions.md
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
@@ -86,7 +87,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests install uninstall wheel deb deb-source bench catalogue papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE packages test-packages check-packages
+.PHONY: all library sleigh check check-all threads tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -121,7 +122,11 @@ bench: test-packages
 catalogue: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. Out of reach: with the reason that the file gives. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points. Complete to degree: up to this degree in the velocities nothing but functions of what was found is conserved, whatever functions of the coordinates (with t: of time and the coordinates) the coefficients are; generic: for generic parameters as well ([method.md](method.md), section 10).\n\n'; \
-	   $(BUILD)/tests/bench_catalogue systems; } >$(BUILD)/catalogue.md; code=$$?; mv $(BUILD)/catalogue.md docs/; $(BUILD)/tests/bench_pictures systems docs/catalogue || code=1; tail -n 1 docs/catalogue.md; exit $$code
+	   $(BUILD)/tests/bench_catalogue systems; } >$(BUILD)/catalogue.md; code=$$?; mv $(BUILD)/catalogue.md docs/; $(MAKE) --no-print-directory pictures || code=1; tail -n 1 docs/catalogue.md; exit $$code
+
+pictures: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@$(BUILD)/tests/bench_pictures systems docs/catalogue
 
 classification: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests

@@ -146,6 +146,36 @@ Test(browser, bodies_in_space)
     if (skipped) cr_skip_test("no chromium");
 }
 
+/* The picture for paper shows the faces that the script draws at the end of the motion, and stands in the page's way on paper only. */
+Test(browser, the_still_picture_is_the_last_one)
+{
+    sweep_plain_only();
+    place p = place_make();
+    write_here(&p, "box.yaml", "name: box\nbodies: [{name: box, mass: 2, inertia: [0.3, 0.5, 0.7]}]\njoints: [{type: free, child: box, coordinates: [x, y, z, a, b, c]}]\ngravity: [0, 0, -1]\n");
+    finished_clear((finished[]){run_expecting(&p, "simulate box.yaml --initial a=0.3,b=1,a'=1,b'=0.4,c'=2,x'=1 --until 2 --quiet --html page.html", 0)});
+    static const char *const LOOK =
+        "var b=document.getElementById('when');b.value=b.max;b.dispatchEvent(new Event('input'));"
+        "function faces(of){var o=[];document.querySelectorAll(of+' path').forEach(function(e){if(e.getAttribute('visibility')==='hidden'||e.getAttribute('fill')==='none')return;"
+        "o=o.concat(e.getAttribute('d').match(/-?[0-9.]+/g).map(Number));});return o;}"
+        "var s=faces('#scene'),t=faces('.still svg'),far=0;s.forEach(function(v,i){far=Math.max(far,Math.abs(v-t[i]));});"
+        "var e=document.createElement('pre');e.id='seen';e.textContent=s.length+' '+t.length+' '+far.toFixed(2)+' '+getComputedStyle(document.querySelector('.still')).display;document.body.appendChild(e);";
+    write_with(&p, "page.html", "looked.html", 1, &LOOK);
+    char *seen = document_of(&p, "looked.html"), *at = seen ? strstr(seen, "<pre id=\"seen\">") : NULL, shown[16] = "";
+    if (seen) {
+        int moving = 0, still = 0;
+        double far = 1e9;
+        cr_assert_not_null(at);
+        cr_assert_eq(sscanf(at, "<pre id=\"seen\">%d %d %lf %15[a-z]", &moving, &still, &far, shown), 4, "%.80s", at);
+        cr_expect(moving >= 8 && moving == still, "%d and %d numbers", moving, still);
+        cr_expect_lt(far, 0.3, "%g pixels apart", far);
+        cr_expect_str_eq(shown, "none");
+    }
+    bool skipped = !seen;
+    free(seen);
+    place_clear(&p);
+    if (skipped) cr_skip_test("no chromium");
+}
+
 /* Played to its end the motion stays there, or with `loop` it begins again; at four times the speed it takes two seconds, of three that are
  * shown in frames of a tenth. */
 Test(browser, a_motion_ends_or_loops)

@@ -3,11 +3,14 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 #include "catalogue.h"
 #include "evaluate/tape.h"
+#include "document/perspective.h"
 #include "document/thumbnail.h"
-#include "commands/analyze.h"
+#include "commands/simulate.h"
 #include "problem/drawing.h"
 #include "sweep.h"
 
@@ -203,19 +206,32 @@ Test(drawing, coordinates_without_bodies)
     }
 }
 
+static nh_simulation *moving(const char *path, const char *initial, double step, nh_time_series **out)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_simulate_request q = {.system_path = path, .initial = initial, .draw = true, .step = step};
+    nh_options_default(&q.options);
+    nh_simulation *s = nh_simulation_create(&q, &error);
+    cr_assert_not_null(s, "%s", error.what);
+    *out = nh_time_series_of_simulation(s);
+    cr_assert_not_null(*out);
+    return s;
+}
+
+static size_t times_in(const char *text, const char *word)
+{
+    size_t n = 0;
+    for (; (text = strstr(text, word)); text++) n++;
+    return n;
+}
+
 /* The picture of the catalogue: finite, small, with its title escaped. */
 Test(drawing, a_portrait)
 {
     sweep_plain_only();
-    nh_error error;
-    nh_error_clear(&error);
-    nh_analyze_request q = {.system_path = "systems/snakeboard.yaml"};
-    nh_options_default(&q.options);
-    q.options.max_seconds = 0.05;
-    nh_analysis *r = nh_analysis_create(&q, &error);
-    cr_assert_not_null(r, "%s", error.what);
-    nh_time_series *c = nh_time_series_of_analysis(r);
-    cr_assert_not_null(c);
+    nh_time_series *c;
+    nh_simulation *s = moving("systems/snakeboard.yaml", NULL, 0, &c);
     nh_text text;
     nh_text_init(&text);
     cr_expect(nh_thumbnail(c, "a < b", &text));
@@ -224,10 +240,98 @@ Test(drawing, a_portrait)
     cr_expect_null(strstr(svg, "nan"));
     cr_expect_null(strstr(svg, "inf"));
     cr_expect_lt(text.length, 12000u);
-    size_t lines = 0;
-    for (const char *l = svg; (l = strstr(l, "<line ")); l++) lines++;
-    cr_expect_eq(lines, 4u, "two rods and two wheels, not %zu", lines);
+    cr_expect_eq(times_in(svg, "<line "), 4u, "two rods and two wheels, not %zu", times_in(svg, "<line "));
     nh_text_clear(&text);
     nh_time_series_free(c);
-    nh_analysis_free(r);
+    nh_simulation_free(s);
+}
+
+/* Where nothing but segments is drawn, they leave paths: those of their middles. */
+Test(drawing, a_portrait_of_segments)
+{
+    nh_time_series *c;
+    nh_simulation *s = moving("systems/skate_on_belt.yaml", "th'=1, x'=2, y'=0", 0, &c);
+    nh_text text;
+    nh_text_init(&text);
+    cr_expect(nh_thumbnail(c, "skate", &text));
+    const char *path = strstr(nh_text_string(&text), " d=\"M");
+    cr_assert_not_null(path);
+    cr_expect_gt(strcspn(path + 5, "\""), 60u, "no path: %.80s", path);
+    nh_text_clear(&text);
+    nh_time_series_free(c);
+    nh_simulation_free(s);
+}
+
+/* Three faces of a box at most are seen, the others are outlines; all of it stays in the picture, and the far pieces come first. */
+static void expect_box(const nh_view *v, size_t i)
+{
+    nh_picture p = {0};
+    size_t front = 0, behind = 0;
+    nh_view_draw(v, i, &p);
+    for (size_t k = 0; k < p.count; k++) {
+        const nh_piece *e = &p.piece[k];
+        if (k) cr_expect(e[-1].depth <= e->depth);
+        if (!e->closed) continue;
+        cr_expect_eq(e->points, 4u);
+        front += e->fill >= 0;
+        behind += e->fill < 0 && e->stroke_opacity < 0.5;
+        for (size_t n = e->first; n < e->first + e->points; n++)
+            cr_expect(p.point[2 * n] >= 0 && p.point[2 * n] <= v->wide && p.point[2 * n + 1] >= 0 && p.point[2 * n + 1] <= v->high, "(%g, %g) is outside", p.point[2 * n], p.point[2 * n + 1]);
+    }
+    cr_expect(front >= 1 && front <= 3 && front + behind == 6, "%zu faces are seen, %zu are hidden", front, behind);
+    nh_picture_clear(&p);
+}
+
+/* What is nearer is larger; up is up; the target is where the view says. */
+static void expect_eye(const nh_view *v)
+{
+    double near[3], high[3], at[4], other[4];
+    nh_view_see(v, 0, v->middle, at);
+    cr_expect(fabs(at[0] - v->x) < 1e-9 && fabs(at[1] - v->y) < 1e-9 && fabs(at[3] - v->scale) < 1e-9);
+    for (size_t j = 0; j < 3; j++) near[j] = v->middle[j] + v->towards[j], high[j] = v->middle[j] + (j == (size_t)v->up);
+    nh_view_see(v, 0, near, other);
+    cr_expect(other[3] > at[3] && fabs(other[2] - 1) < 1e-12 && fabs(other[0] - at[0]) < 1e-9 && fabs(other[1] - at[1]) < 1e-9);
+    nh_view_see(v, 0, high, other);
+    cr_expect(other[1] < at[1] && fabs(other[0] - at[0]) < 1e-9);
+}
+
+Test(drawing, a_box_in_perspective)
+{
+    char folder[] = "/tmp/nhsym-drawing-XXXXXX", path[80];
+    cr_assert_not_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/box.yaml", folder);
+    FILE *file = fopen(path, "w");
+    fputs("name: box\nbodies: [{name: box, mass: 2, inertia: [0.3, 0.5, 0.7]}]\njoints: [{type: free, child: box, coordinates: [x, y, z, a, b, c]}]\ngravity: [0, 0, -1]\n", file);
+    fclose(file);
+    nh_time_series *c;
+    nh_simulation *s = moving(path, "a=0.3, b=1, a'=1, b'=0.4, c'=2, x'=1", 0, &c);
+    nh_view *v = nh_view_create(c, c->count, 640, 420);
+    cr_assert_not_null(v);
+    expect_eye(v);
+    for (size_t i = 0; i < c->count; i += 9) expect_box(v, i);
+    nh_view_free(v);
+    nh_time_series_free(c);
+    nh_simulation_free(s);
+    unlink(path);
+    rmdir(folder);
+}
+
+/* A thumbnail has the ball, its great circles before and behind, the squares of the ground and the path. */
+Test(drawing, a_portrait_in_space)
+{
+    nh_time_series *c;
+    nh_simulation *s = moving("systems/rolling_ball.yaml", NULL, 0, &c);
+    nh_text text;
+    nh_text_init(&text);
+    cr_expect(nh_thumbnail(c, "ball", &text));
+    const char *svg = nh_text_string(&text);
+    cr_expect_null(strstr(svg, "nan"));
+    cr_expect_null(strstr(svg, "inf"));
+    cr_expect_lt(text.length, 12000u);
+    cr_expect_eq(times_in(svg, "fill-opacity"), 1u, "one body, not %zu", times_in(svg, "fill-opacity"));
+    cr_expect_geq(times_in(svg, "stroke-opacity=\"0.22\""), 1u, "no hidden great circles");
+    cr_expect_geq(times_in(svg, "stroke-opacity=\"0.25\""), 1u, "no ground");
+    nh_text_clear(&text);
+    nh_time_series_free(c);
+    nh_simulation_free(s);
 }

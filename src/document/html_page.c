@@ -53,7 +53,7 @@ const char *const nh_html_style =
     "var(--line);border-radius:6px;background:var(--card);color:var(--ink)}\n"
     "#player:fullscreen{background:var(--paper);display:flex;flex-direction:column;padding:1rem}#player:fullscreen "
     "figure{flex:1;min-height:0;margin:0}#player:fullscreen #scene{height:100%}#player:fullscreen "
-    "figcaption{display:none}button{font-size:1rem;min-width:5rem;padding:.45rem .9rem;border:1px solid "
+    "figcaption{display:none}@media screen{#player:not([hidden])~.still{display:none}}button{font-size:1rem;min-width:5rem;padding:.45rem .9rem;border:1px solid "
     "var(--line);border-radius:6px;background:var(--card);color:var(--ink)}output{min-width:6.5rem;font-size:.9rem}\n"
     "@media "
     "(max-width:34rem){caption{white-space:normal}.formula{padding-left:.2rem}.where{margin-left:.4rem}.card{padding-"

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "document/html_internal.h"
+#include "document/perspective.h"
 
 enum { most_curves = 7, most_frames = 401 };
 
@@ -196,7 +197,7 @@ static void number(nh_html_writer *w, double value, int digits)
 /* `once`: a constant is written once. */
 static void frames(nh_html_writer *w, const char *before, size_t count, const nh_line *line, size_t step, bool once)
 {
-    enum { digits = 6, in_space = 4 };
+    enum { digits = 6, in_space = 5 };
     bool same = once;
     for (size_t i = 0; i < count && same; i++) same = line->value[i * line->stride] == line->value[0];
     nh_text_addf(w->out, "%s[", before);
@@ -207,24 +208,44 @@ static void frames(nh_html_writer *w, const char *before, size_t count, const nh
     nh_html_add(w, "]");
 }
 
-/* The axis of the ground's frame that points up: against gravity, the third where there is none. */
-static int upwards(const nh_time_series *c)
+static void three(nh_html_writer *w, const char *key, const double v[3])
 {
-    const nh_chain *chain = c->model->system->chain;
-    for (int e = 0; chain && e < 2; e++)
-        if (!nh_is_zero(c->model->dag, chain->gravity[e])) return e;
-    return 2;
+    nh_text_addf(w->out, "\"%s\":[%.9g,%.9g,%.9g],", key, v[0], v[1], v[2]);
+}
+
+static void eye(nh_html_writer *w, const nh_view *v, size_t step)
+{
+    nh_text_addf(w->out, ",\"view\":{\"wide\":%g,\"high\":%g,\"up\":%d,\"sides\":%d,\"arcs\":%d,", v->wide, v->high,
+                 v->up, NH_VIEW_SIDES, NH_VIEW_ARCS);
+    three(w, "towards", v->towards);
+    three(w, "right", v->right);
+    three(w, "top", v->top);
+    three(w, "light", v->light);
+    const struct {
+        const char *key;
+        double value;
+    } all[] = {{"ambient", v->ambient}, {"direct", v->direct}, {"white", v->white},       {"solid", v->solid},
+               {"faint", v->faint},     {"behind", v->behind}, {"distance", v->distance}, {"scale", v->scale},
+               {"x", v->x},             {"y", v->y},           {"floor", v->floor},       {"pitch", v->pitch},
+               {"dot", v->dot}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) nh_text_addf(w->out, "\"%s\":%.9g,", all[k].key, all[k].value);
+    for (size_t j = 0; j < 3; j++) {
+        const nh_line middle = {.value = v->middle + j, .stride = 3};
+        frames(w, j ? "," : "\"middle\":[", v->count, &middle, step, true);
+    }
+    nh_html_add(w, "]}");
 }
 
 /* The numbers for the script; there is no text of the user in it. */
-static void data(nh_html_writer *w, const nh_time_series *c)
+static void data(nh_html_writer *w, const nh_time_series *c, const nh_view *view)
 {
     size_t step = (c->count + most_frames - 2) / most_frames, shown = 0;
     const nh_line time = {.value = c->time, .stride = 1};
     if (step == 0) step = 1;
     nh_html_add(w, "<script type=\"application/json\" id=\"motion-data\">{");
     frames(w, "\"t\":", c->count, &time, step, false);
-    nh_text_addf(w->out, ",\"up\":%d,\"shapes\":[", upwards(c));
+    if (view) eye(w, view, step);
+    nh_html_add(w, ",\"shapes\":[");
     for (size_t i = 0; i < c->shapes; i++) {
         if (w->space && c->shape[i].flat) continue;
         nh_text_addf(w->out, "%s{\"kind\":\"%s\",\"v\":[", shown++ ? "," : "", nh_shape_name(c->shape[i].kind));
@@ -235,9 +256,9 @@ static void data(nh_html_writer *w, const nh_time_series *c)
     nh_html_add(w, "]}</script>\n");
 }
 
-static void player(nh_html_writer *w, const nh_time_series *c)
+static void player(nh_html_writer *w, const nh_time_series *c, const nh_view *view)
 {
-    for (size_t i = 0; i < c->shapes; i++) w->space |= nh_shape_in_space(c->shape[i].kind);
+    w->space = view != NULL;
     nh_html_add(w, "<div id=\"player\" hidden=\"hidden\">\n");
     if (c->shapes) {
         nh_html_add(w, "<figure><svg id=\"scene\" class=\"plot\" role=\"img\" aria-label=\"The system in motion; the "
@@ -256,13 +277,30 @@ static void player(nh_html_writer *w, const nh_time_series *c)
                 "<label><input type=\"checkbox\" id=\"loop\"/> loop</label> ");
     if (c->shapes) nh_html_add(w, "<button type=\"button\" id=\"full\">Full screen</button>");
     nh_html_add(w, "</div></div>\n");
-    data(w, c);
+    data(w, c, view);
+}
+
+/* For paper, for files, and where no script runs. */
+static void still(nh_html_writer *w, const nh_time_series *c, const nh_view *view)
+{
+    nh_plot plot = {.title = "Bodies in space",
+                    .description = "The bodies at the end of the motion in perspective, with their paths",
+                    .view = view,
+                    .at = c->count - 1};
+    if (!view) return;
+    nh_html_add(w, "<div class=\"still\">");
+    nh_html_figure(w, &plot, "The bodies at the end of the motion, with their paths; hidden sides are faint.");
+    nh_html_add(w, "</div>\n");
 }
 
 void nh_html_time_series(nh_html_writer *w, const nh_time_series *c)
 {
+    enum { wide = 640, high = 420 };
     bool states = c->lines && c->line[0].kind == NH_TRACK_STATE;
-    player(w, c);
+    nh_view *view = nh_view_create(c, c->count, wide, high);
+    player(w, c, view);
+    still(w, c, view);
+    nh_view_free(view);
     path_plot(w, c);
     if (states) positions(w, c);
     if (states) velocities(w, c);

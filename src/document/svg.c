@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/escape.h"
+#include "document/polyline.h"
 #include "document/typeset.h"
 
 enum {
@@ -266,54 +267,6 @@ static void headings(const canvas *c, const nh_curve *f, size_t k)
     }
 }
 
-/* A line through very many points, without those that lie on it: no point left out is farther than `near` from the line
-   drawn. */
-typedef struct {
-    nh_text *out;
-    bool on;
-    size_t held;                              /* points since the last one written */
-    /* the last written; the newest; the directions that pass all between, about `turn` */
-    double last[2], next[2], low, high, turn;
-} pen;
-
-static void pen_write(pen *p, double x, double y)
-{
-    nh_text_addf(p->out, "%s%.1f %.1f", p->on ? "L" : "M", x, y);
-    p->on = true;
-    p->last[0] = x;
-    p->last[1] = y;
-    p->held = 0;
-}
-
-static void pen_up(pen *p)
-{
-    if (p->held) pen_write(p, p->next[0], p->next[1]);
-    p->on = false;
-}
-
-static void pen_to(pen *p, double x, double y)
-{
-    static const double near = 0.25;
-    if (!p->on) {
-        pen_write(p, x, y);
-        return;
-    }
-    double dx = x - p->last[0], dy = y - p->last[1], distance = hypot(dx, dy), angle = atan2(dy, dx);
-    if (p->held == 0) p->turn = angle, p->low = -M_PI, p->high = M_PI;
-    double at = remainder(angle - p->turn, 2 * M_PI), room = distance > near ? asin(near / distance) : M_PI;
-    bool back = p->held && distance < hypot(p->next[0] - p->last[0], p->next[1] - p->last[1]);
-    if (p->held && (at < p->low || at > p->high || back)) {
-        pen_write(p, p->next[0], p->next[1]);
-        pen_to(p, x, y);
-        return;
-    }
-    p->low = fmax(p->low, at - room);
-    p->high = fmin(p->high, at + room);
-    p->next[0] = x;
-    p->next[1] = y;
-    p->held++;
-}
-
 /* A path in the plane, whose points are equally far apart in time: a cubic in time between them (Catmull and Rom's),
    for corners would be of the drawing's making. */
 static void smooth(const canvas *c, const nh_curve *f)
@@ -348,14 +301,14 @@ static void curve(const canvas *c, const nh_curve *f, size_t k)
         "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"",
         colour[k % colours], c->plot->fan ? "0.9\" stroke-opacity=\"0.5" : "1.8",
         dashes[k % (sizeof dashes / sizeof *dashes)]);
-    pen p = {.out = c->out};
+    nh_polyline p = {.out = c->out};
     bool cubic = c->plot->equal && !thin && f->count > 3;
     if (cubic) smooth(c, f);
     for (size_t i = 0; i < f->count && !cubic; i++)
-        if (!visible(c, f, i, &x, &y)) pen_up(&p);
-        else if (thin) pen_to(&p, x, y);
-        else pen_write(&p, x, y);
-    pen_up(&p);
+        if (!visible(c, f, i, &x, &y)) nh_polyline_end(&p);
+        else if (thin) nh_polyline_to(&p, x, y);
+        else nh_polyline_write(&p, x, y);
+    nh_polyline_end(&p);
     nh_text_add(c->out, "\"/>");
     if (f->heading) headings(c, f, k);
     if (f->marks) dots(c, f, k);
@@ -450,9 +403,63 @@ static void head(const canvas *c)
     nh_text_add(c->out, "</desc>");
 }
 
+static void stroke(const nh_piece *e, nh_text *out)
+{
+    if (e->fill < 0) nh_text_add(out, "fill=\"none\"");
+    else nh_text_addf(out, "fill=\"#%06X\" fill-opacity=\"%.3g\"", (unsigned)e->fill, e->fill_opacity);
+    nh_text_addf(out, " stroke=\"#%06X\" stroke-width=\"%.3g\"", (unsigned)e->stroke, e->width);
+    if (e->stroke_opacity < 1) nh_text_addf(out, " stroke-opacity=\"%.3g\"", e->stroke_opacity);
+}
+
+static bool inked_alike(const nh_piece *a, const nh_piece *b)
+{
+    return a->fill < 0 && b->fill < 0 && a->stroke == b->stroke && a->stroke_opacity == b->stroke_opacity &&
+           a->width == b->width && a->depth == b->depth;
+}
+
+void nh_svg_picture(const nh_picture *p, nh_text *out)
+{
+    nh_text_add(out, "<g stroke-linejoin=\"round\" stroke-linecap=\"round\">");
+    for (size_t k = 0; k < p->count; k++) {
+        const nh_piece *e = &p->piece[k];
+        if (k == 0 || !inked_alike(&p->piece[k - 1], e)) {
+            nh_text_add(out, k ? "\"/>\n<path " : "<path ");
+            stroke(e, out);
+            nh_text_add(out, " d=\"");
+        }
+        nh_polyline line = {.out = out};
+        for (size_t i = e->first; i < e->first + e->points; i++)
+            if (e->closed) nh_polyline_write(&line, p->point[2 * i], p->point[2 * i + 1]);
+            else nh_polyline_to(&line, p->point[2 * i], p->point[2 * i + 1]);
+        nh_polyline_end(&line);
+        if (e->closed) nh_text_add(out, "Z");
+    }
+    nh_text_add(out, p->count ? "\"/></g>\n" : "</g>\n");
+}
+
+static void bodies(canvas *c)
+{
+    enum { beside = 12, above = 10 };
+    const nh_view *v = c->plot->view;
+    nh_picture picture = {0};
+    char pitch[80];
+    c->height = v->high;
+    head(c);
+    nh_view_draw(v, c->plot->at, &picture);
+    nh_svg_picture(&picture, c->out);
+    nh_picture_clear(&picture);
+    snprintf(pitch, sizeof pitch, "squares of %.2g", v->pitch);
+    label(c, beside, v->high - above, "start", "tick", pitch);
+    nh_text_add(c->out, "</svg>\n");
+}
+
 void nh_svg_plot(const nh_plot *p, nh_text *out)
 {
     canvas c = {.plot = p, .out = out};
+    if (p->view) {
+        bodies(&c);
+        return;
+    }
     ranges(&c);
     c.legend = legend(&c, false);
     c.height = c.legend + (p->equal ? tall(&c) : height);

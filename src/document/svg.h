@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 #include "base/text.h"
+#include "document/perspective.h"
 
 typedef struct {
     const char *name;
@@ -35,12 +36,16 @@ typedef struct {
     size_t curves;
     const nh_curve *curve;
     const nh_cells *cells;       /* under the curves; or NULL */
+    const nh_view *view;         /* bodies in space at time number `at` instead of curves, cells and axes; or NULL */
+    size_t at;
 } nh_plot;
 
 /* The colour of curve number k. */
 const char *nh_svg_colour(size_t k);
 
 void nh_svg_plot(const nh_plot *plot, nh_text *out);
+/* The pieces alone, as a group. */
+void nh_svg_picture(const nh_picture *picture, nh_text *out);
 /* Does this text begin as the plot with that id does? */
 bool nh_svg_is_plot(const char *text, const char *id);
 

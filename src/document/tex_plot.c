@@ -114,8 +114,54 @@ static void range(nh_tex_writer *w, const nh_plot *p, bool vertical)
                  high + span);
 }
 
+static void rgb(nh_tex_writer *w, const char *key, int colour)
+{
+    nh_text_addf(w->out, "%s={rgb,255:red,%d;green,%d;blue,%d}", key, colour >> 16 & 0xFF, colour >> 8 & 0xFF,
+                 colour & 0xFF);
+}
+
+static void piece(nh_tex_writer *w, const nh_picture *picture, const nh_piece *e)
+{
+    static const double nearest = 3; /* pixels between two points of a long line */
+    double last[2] = {0, 0};
+    bool filled = e->fill >= 0;
+    nh_tex_add(w, "\\path[");
+    if (filled) rgb(w, "fill", e->fill), nh_text_addf(w->out, ", fill opacity=%.3g, ", e->fill_opacity);
+    rgb(w, "draw", e->stroke);
+    nh_text_addf(w->out, ", draw opacity=%.3g, line width=%.3gpt] ", e->stroke_opacity, e->width / 2);
+    for (size_t i = e->first; i < e->first + e->points; i++) {
+        const double *at = picture->point + 2 * i;
+        bool end = i == e->first || i + 1 == e->first + e->points;
+        if (!end && !filled && hypot(at[0] - last[0], at[1] - last[1]) < nearest) continue;
+        nh_text_addf(w->out, "%s(%.1f,%.1f)", i > e->first ? "--" : "", at[0], at[1]);
+        last[0] = at[0];
+        last[1] = at[1];
+    }
+    nh_tex_add(w, e->closed ? "--cycle;\n" : ";\n");
+}
+
+/* As wide as the text; pixels of the picture go down. */
+static void bodies(nh_tex_writer *w, const nh_plot *p, const char *caption)
+{
+    nh_picture picture = {0};
+    nh_view_draw(p->view, p->at, &picture);
+    nh_text_addf(w->out,
+                 "\\begin{center}\n\\begin{tikzpicture}[x={(%.6f\\linewidth,0)}, y={(0,-%.6f\\linewidth)}, line "
+                 "join=round, line cap=round]\n\\clip (0,0) rectangle (%g,%g);\n",
+                 0.9 / p->view->wide, 0.9 / p->view->wide, p->view->wide, p->view->high);
+    for (size_t k = 0; k < picture.count; k++) piece(w, &picture, &picture.piece[k]);
+    nh_picture_clear(&picture);
+    nh_tex_add(w, "\\end{tikzpicture}\n\n{\\small ");
+    nh_tex_words(w, caption);
+    nh_tex_add(w, "}\n\\end{center}\n");
+}
+
 void nh_tex_plot(nh_tex_writer *w, const nh_plot *p, const char *caption)
 {
+    if (p->view) {
+        bodies(w, p, caption);
+        return;
+    }
     nh_text_addf(w->out,
                  "\\begin{center}\n\\begin{tikzpicture}\n\\begin{axis}[width=0.92\\linewidth, height=%s, xlabel={",
                  p->equal ? "0.6\\linewidth" : "5.2cm");

@@ -5,6 +5,7 @@
 
 #include "base/escape.h"
 #include "base/memory.h"
+#include "document/polyline.h"
 #include "document/svg.h"
 
 enum { wide = 240, high = 150, margin = 14, colours = 6 };
@@ -46,9 +47,9 @@ static size_t until_far(const portrait *p)
     const nh_time_series *c = p->course;
     double *away = nh_alloc_array(2 * c->count + 1, sizeof *away), *sorted = away + c->count;
     for (size_t s = 0; s < c->shapes; s++)
-        for (size_t i = 0; i < c->count && !nh_shape_in_space(c->shape[s].kind); i++)
-            away[i] =
-                fmax(away[i], hypot(value(p, s, 0, i) - value(p, s, 0, 0), value(p, s, 1, i) - value(p, s, 1, 0)));
+        for (size_t i = 0; i < c->count; i++)
+            for (size_t n = nh_shape_in_space(c->shape[s].kind) ? 3 : 2; n-- > 0;)
+                away[i] = fmax(away[i], fabs(value(p, s, n, i) - value(p, s, n, 0)));
     for (size_t i = 0; i < c->count; i++) sorted[i] = away[i];
     qsort(sorted, c->count, sizeof *sorted, ascending);
     size_t n = 1;
@@ -63,7 +64,7 @@ static bool fit(portrait *p)
     const nh_time_series *c = p->course;
     double low[2] = {INFINITY, INFINITY}, top[2] = {-INFINITY, -INFINITY};
     for (size_t s = 0; s < c->shapes; s++)
-        for (size_t i = 0; i < p->count && !nh_shape_in_space(c->shape[s].kind); i++) {
+        for (size_t i = 0; i < p->count; i++) {
             nh_shape_kind kind = c->shape[s].kind;
             double x = value(p, s, 0, i), y = value(p, s, 1, i),
                    r = kind == NH_SHAPE_DISC    ? fabs(value(p, s, 2, i))
@@ -82,22 +83,23 @@ static bool fit(portrait *p)
     return true;
 }
 
+/* The path of a shape; of a segment's middle. A motion is given at many times: the points that lie on a line are left
+   out. */
 static void track(const portrait *p, size_t s)
 {
-    static const double nearest = 1.5; /* pixels between two points: a fast motion needs every state, a slow one few */
-    bool on = false;
-    double last_x = 0, last_y = 0;
+    nh_polyline path = {.out = p->out};
     nh_text_addf(p->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.2\" stroke-opacity=\"0.6\" d=\"",
                  colour[s % colours]);
     for (size_t i = 0; i < p->count; i++) {
-        double x = across(p, value(p, s, 0, i)), y = up(p, value(p, s, 1, i));
-        bool here = isfinite(x) && isfinite(y);
-        if (here && on && hypot(x - last_x, y - last_y) < nearest && i + 1 < p->count) continue;
-        if (here) nh_text_addf(p->out, "%s%.1f %.1f", on ? "L" : "M", x, y);
-        last_x = x;
-        last_y = y;
-        on = here;
+        double x = value(p, s, 0, i), y = value(p, s, 1, i);
+        if (p->course->shape[s].kind == NH_SHAPE_SEGMENT)
+            x = (x + value(p, s, 2, i)) / 2, y = (y + value(p, s, 3, i)) / 2;
+        x = across(p, x);
+        y = up(p, y);
+        if (isfinite(x) && isfinite(y)) nh_polyline_to(&path, x, y);
+        else nh_polyline_end(&path);
     }
+    nh_polyline_end(&path);
     nh_text_add(p->out, "\"/>\n");
 }
 
@@ -133,21 +135,39 @@ static void body(const portrait *p, size_t s)
                      across(p, v[0]), up(p, v[1]), p->scale * fabs(v[2]), colour[s % colours], colour[s % colours]);
 }
 
+static void in_plane(const portrait *p)
+{
+    const nh_time_series *c = p->course;
+    size_t segments = 0;
+    for (size_t s = 0; s < c->shapes; s++) segments += c->shape[s].kind == NH_SHAPE_SEGMENT;
+    for (size_t s = 0; s < c->shapes; s++) /* segments are rods between what moves; else they are the bodies */
+        if (c->shape[s].kind != NH_SHAPE_SEGMENT || segments == c->shapes) track(p, s);
+    for (size_t s = 0; s < c->shapes; s++) body(p, s);
+}
+
+static void in_space(const portrait *p, const nh_view *view)
+{
+    nh_picture picture = {0};
+    nh_view_draw(view, p->count - 1, &picture);
+    nh_svg_picture(&picture, p->out);
+    nh_picture_clear(&picture);
+}
+
 bool nh_thumbnail(const nh_time_series *c, const char *title, nh_text *out)
 {
     portrait p = {.course = c, .out = out};
     p.count = until_far(&p);
-    if (!c->shapes || !fit(&p)) return false;
+    nh_view *view = nh_view_create(c, p.count, wide, high);
+    if (!c->shapes || !(view || fit(&p))) return false;
     nh_text_addf(out,
                  "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 %d %d\" width=\"%d\" "
                  "height=\"%d\"><title>",
                  wide, high, wide, high);
     nh_escape_xml(title, out);
     nh_text_addf(out, "</title>\n<rect width=\"%d\" height=\"%d\" rx=\"6\" fill=\"#fff\"/>\n", wide, high);
-    for (size_t s = 0; s < c->shapes; s++)
-        if (c->shape[s].kind != NH_SHAPE_SEGMENT && !nh_shape_in_space(c->shape[s].kind)) track(&p, s);
-    for (size_t s = 0; s < c->shapes; s++)
-        if (!nh_shape_in_space(c->shape[s].kind)) body(&p, s);
+    if (view) in_space(&p, view);
+    else in_plane(&p);
+    nh_view_free(view);
     nh_text_add(out, "</svg>\n");
     return true;
 }

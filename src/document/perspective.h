@@ -1,0 +1,54 @@
+/* perspective: bodies in space as an eye sees them: where it stands, and the faces, lines and paths of one time in the
+ * order in which they are drawn, hidden sides as faint outlines.  Pages, thumbnails and LaTeX draw these pieces; the
+ * script of a page, which moves the bodies, takes its numbers from here, too. */
+#ifndef NH_PERSPECTIVE_H
+#define NH_PERSPECTIVE_H
+
+#include "document/time_series.h"
+
+/* sides: of a round face, of a half of a great circle and of a ball's outline */
+enum { NH_VIEW_SIDES = 32, NH_VIEW_ARCS = 48 };
+
+/* Pixels go to the right and down. */
+typedef struct {
+    const nh_time_series *course;
+    double wide, high;                /* of the picture, in pixels */
+    int up;                           /* the axis of the ground's frame that points up */
+    double towards[3], right[3], top[3], light[3]; /* unit vectors: to the eye, in the picture, to the lamp */
+    double ambient, direct, white;    /* how bright a face is, and how pale: numbers between 0 and 1 */
+    double solid, faint, behind;      /* opacities: of a face, of a hidden outline, of a hidden great circle */
+    double distance, scale, x, y;     /* of the eye; pixels per unit at the target; where the target is seen */
+    double floor, pitch;              /* the lowest place; the sides of the squares drawn there */
+    double dot;                       /* the least radius of a ball, in pixels */
+    size_t count;                     /* times */
+    double *middle;                   /* the target at each of them, three numbers each */
+} nh_view;
+
+/* Of the first `count` times: the picture holds the whole motion, or goes along with bodies that move far.  NULL when
+ * nothing is in space.  To be freed by nh_view_free. */
+nh_view *nh_view_create(const nh_time_series *course, size_t count, double wide, double high);
+void nh_view_free(nh_view *view);
+
+/* A point at time number i: x, y, the depth towards the eye and the pixels per unit there. */
+void nh_view_see(const nh_view *view, size_t i, const double point[3], double out[4]);
+
+/* Colours are 0xRRGGBB, or -1 for none. */
+typedef struct {
+    double depth;
+    size_t first, points;             /* of the picture's list */
+    bool closed;
+    int fill, stroke;
+    double fill_opacity, stroke_opacity, width;
+} nh_piece;
+
+typedef struct {
+    size_t count, capacity, points, room;
+    nh_piece *piece;
+    double *point;                    /* x and y of each, in pixels */
+} nh_picture;
+
+/* All that is seen at time number i, the far pieces first.  The picture begins as {0}. */
+void nh_view_draw(const nh_view *view, size_t i, nh_picture *out);
+void nh_picture_clear(nh_picture *picture);
+
+#endif
