@@ -225,6 +225,42 @@ Test(html, every_command_has_its_page)
     place_clear(&p);
 }
 
+/* The words at the ticks of a figure, one after the other. */
+static void ticks_of(const char *figure, const char *end, char *out, size_t size)
+{
+    size_t n = 0;
+    out[0] = 0;
+    for (const char *c = figure; (c = strstr(c, "class=\"tick\"")) && c < end;) {
+        c = strchr(c, '>') + 1;
+        n += (size_t)snprintf(out + n, size - n, "%.*s ", (int)strcspn(c, "<"), c);
+    }
+}
+
+/* Plots of time against error stand under one another to be compared: their axes are the same. */
+Test(html, plots_that_are_compared_have_the_same_axes)
+{
+    sweep_plain_only();
+    static const char *const captions[] = {"Seconds against error, ", "Time against error, "};
+    place p = place_with_systems();
+    cJSON *json;
+    char *page = both(&p, "benchmark sleigh --budget 300ms", NULL, &json);
+    for (size_t k = 0; k < 2; k++) {
+        char first[800] = "", ticks[800];
+        size_t plots = 0;
+        for (const char *c = page; (c = strstr(c, "<figure>")); c++) {
+            const char *end = strstr(c, "</svg>"), *caption = strstr(c, "<figcaption>");
+            if (strncmp(caption + strlen("<figcaption>"), captions[k], strlen(captions[k]))) continue;
+            ticks_of(c, end, ticks, sizeof ticks);
+            if (plots++) cr_expect_str_eq(ticks, first);
+            else snprintf(first, sizeof first, "%s", ticks);
+        }
+        cr_expect_geq(plots, k ? 1u : 2u, "%s: %zu plots", captions[k], plots);
+    }
+    cJSON_Delete(json);
+    free(page);
+    place_clear(&p);
+}
+
 static const double *numbers_of(const cJSON *array, size_t *count, double *out, size_t most)
 {
     *count = 0;

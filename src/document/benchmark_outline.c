@@ -57,7 +57,7 @@ static void fastest(nh_pen *p, const nh_benchmark *c)
         char goal[24];
         const nh_run_record *m = nh_benchmark_fastest(c, 0, c->count, nh_benchmark_goal[i], false);
         if (!m) continue;
-        snprintf(goal, sizeof goal, "%.0e", nh_benchmark_goal[i]);
+        snprintf(goal, sizeof goal, p->ink->brief ? "%.0e" : "below %.0e", nh_benchmark_goal[i]);
         nh_pen_fact_begin(p, goal);
         nh_pen_say(p, "%s in {%s}, ", m->method, m->formulation);
         put_run(p, c, m, false);
@@ -134,7 +134,20 @@ static void times(nh_pen *p, const nh_benchmark *c)
 
 /* ---- time against error ---- */
 
-static void flush(nh_pen *p, const char *formulation, size_t n, const nh_curve *curve)
+/* Plots that are compared have the same axes. */
+typedef struct {
+    double x[2], y[2];
+} ranges;
+
+static const ranges no_range = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
+
+static void hold(double range[2], double value)
+{
+    range[0] = fmin(range[0], value);
+    range[1] = fmax(range[1], value);
+}
+
+static void flush(nh_pen *p, const char *formulation, size_t n, const nh_curve *curve, const ranges *all)
 {
     char title[200], caption[300];
     if (!n) return;
@@ -150,9 +163,18 @@ static void flush(nh_pen *p, const char *formulation, size_t n, const nh_curve *
                     .log_x = true,
                     .log_y = true,
                     .floor = 1e-17,
+                    .also_x = all->x,
+                    .also_y = all->y,
                     .curves = n,
                     .curve = curve};
     nh_pen_plot(p, &plot, caption);
+}
+
+/* A motion is not known better than two references agree. */
+static double known_error(const nh_benchmark *c, const nh_run_record *m)
+{
+    static const double least = 1e-16;
+    return fmax(m->error, fmax(c->agreement, least));
 }
 
 /* One plot per formulation, one line per method. */
@@ -161,14 +183,20 @@ static void plots(nh_pen *p, const nh_benchmark *c)
     if (p->ink->brief) return;
     double *x = nh_alloc_array(2 * c->count + 1, sizeof *x), *y = x + c->count;
     nh_curve curve[most_lines];
+    ranges all = no_range;
     size_t n = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        if (!shown(&c->item[i])) continue;
+        hold(all.x, known_error(c, &c->item[i]));
+        hold(all.y, c->item[i].seconds);
+    }
     for (size_t i = 0, next; i < c->count; i = next) {
         size_t points = 0;
         next = line_end(c, i);
         for (size_t j = i; j < next; j++) {
             const nh_run_record *m = &c->item[j];
             if (!shown(m)) continue;
-            x[i + points] = fmax(m->error, fmax(c->agreement, 1e-16));
+            x[i + points] = known_error(c, m);
             y[i + points++] = m->seconds;
         }
         if (points)
@@ -181,7 +209,7 @@ static void plots(nh_pen *p, const nh_benchmark *c)
                                     .marks = true};
         bool last = next == c->count || strcmp(c->item[i].formulation, c->item[next].formulation);
         if (!last && n < most_lines) continue;
-        flush(p, c->item[i].formulation, n, curve);
+        flush(p, c->item[i].formulation, n, curve, &all);
         n = 0;
     }
     nh_free(x);
@@ -244,8 +272,12 @@ static bool same_way(const nh_fitted *a, const nh_fitted *b)
     return !strcmp(a->basis, b->basis) && !strcmp(a->route, b->route) && !strcmp(a->solver, b->solver);
 }
 
+static const double least_distance = 1e-17;
+
+static bool solved(const nh_fitted *m) { return m->right && isfinite(m->error); }
+
 /* One plot per size of the ansatz; one line per way to solve it, over the samples. */
-static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last)
+static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last, const ranges *all)
 {
     enum { most = 12 };
     size_t n = 0, room = last - first;
@@ -258,8 +290,8 @@ static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last
         double *at = x + 2 * n * room, *y = at + room;
         size_t count = 0;
         for (size_t j = i; j < last && !told; j++)
-            if (same_way(&c->fit[i], &c->fit[j]) && c->fit[j].right && isfinite(c->fit[j].error))
-                at[count] = fmax(c->fit[j].error, 1e-17), y[count++] = c->fit[j].seconds;
+            if (same_way(&c->fit[i], &c->fit[j]) && solved(&c->fit[j]))
+                at[count] = fmax(c->fit[j].error, least_distance), y[count++] = c->fit[j].seconds;
         if (!count) continue;
         snprintf(name[n], sizeof *name, "%.30s, %.30s, %.30s", c->fit[i].basis, c->fit[i].route, c->fit[i].solver);
         curve[n] =
@@ -274,6 +306,8 @@ static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last
                     .log_x = true,
                     .log_y = true,
                     .floor = 1e-18,
+                    .also_x = all->x,
+                    .also_y = all->y,
                     .curves = n,
                     .curve = curve};
     snprintf(caption, sizeof caption, "%s. Each line is one way to solve it, with few to many samples.", title);
@@ -313,9 +347,15 @@ static void discrete(nh_pen *p, const nh_benchmark *c)
         fits_brief(p, c);
         return;
     }
+    ranges all = no_range;
+    for (size_t i = 0; i < c->fits; i++) {
+        if (!solved(&c->fit[i])) continue;
+        hold(all.x, fmax(c->fit[i].error, least_distance));
+        hold(all.y, c->fit[i].seconds);
+    }
     for (size_t i = 0, next; i < c->fits; i = next) {
         for (next = i; next < c->fits && c->fit[next].functions == c->fit[i].functions;) next++;
-        fit_plot(p, c, i, next);
+        fit_plot(p, c, i, next, &all);
     }
     nh_pen_open(p, NH_PEN_FOLD, NULL, "All solutions");
     nh_pen_table(p, "All solutions",

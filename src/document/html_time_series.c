@@ -228,7 +228,8 @@ static void eye(nh_html_writer *w, const nh_view *v, size_t step)
                {"faint", v->faint},     {"behind", v->behind}, {"distance", v->distance}, {"scale", v->scale},
                {"x", v->x},             {"y", v->y},           {"floor", v->floor},       {"pitch", v->pitch},
                {"dot", v->dot}};
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++) nh_text_addf(w->out, "\"%s\":%.9g,", all[k].key, all[k].value);
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        nh_text_addf(w->out, "\"%s\":%.9g,", all[k].key, all[k].value);
     for (size_t j = 0; j < 3; j++) {
         const nh_line middle = {.value = v->middle + j, .stride = 3};
         frames(w, j ? "," : "\"middle\":[", v->count, &middle, step, true);

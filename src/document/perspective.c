@@ -110,7 +110,8 @@ static double targets(nh_view *v)
         box now = nothing;
         double p[2][3], r, *middle = v->middle + 3 * i;
         for (size_t s = 0; s < v->course->shapes; s++)
-            for (size_t n = v->course->shape[s].flat ? 0 : places(v->course, s, i, p, &r); n-- > 0;) widen(&now, p[n], r);
+            for (size_t n = v->course->shape[s].flat ? 0 : places(v->course, s, i, p, &r); n-- > 0;)
+                widen(&now, p[n], r);
         bool any = now.high[0] >= now.low[0];
         for (size_t j = 0; j < 3; j++)
             middle[j] = any ? (now.low[j] + now.high[j]) / 2 : i ? middle[(long)j - 3] : 0;

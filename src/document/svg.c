@@ -82,6 +82,14 @@ static void whole_decades(axis *a, double floor_value)
     a->high = pow(10, ceil(log10(fmax(a->high, 10 * floor_value)) + 0.2));
 }
 
+static void hold(axis *a, const double *also)
+{
+    for (size_t k = 0; also && k < 2; k++) {
+        a->low = fmin(a->low, also[k]);
+        a->high = fmax(a->high, also[k]);
+    }
+}
+
 static void ranges(canvas *c)
 {
     const nh_plot *p = c->plot;
@@ -104,6 +112,8 @@ static void ranges(canvas *c)
         any = true;
     }
     if (!any) c->x = (axis){0, 1, 0, 0, false}, c->y = c->x;
+    hold(&c->x, p->also_x);
+    hold(&c->y, p->also_y);
     if (p->log_x) whole_decades(&c->x, p->floor);
     else if (!p->timed || !(c->x.high > c->x.low)) widen(&c->x);
     if (p->log_y) whole_decades(&c->y, p->floor);
@@ -339,6 +349,16 @@ static void cells(const canvas *c, const nh_cells *g)
 
 const char *nh_svg_colour(size_t k) { return colour[k % colours]; }
 
+/* Room for a name at 17 pixels, as on a phone. */
+static double written(const char *name)
+{
+    static const double letter = 9.2, capital = 3.2; /* how much wider that is */
+    double wide = letter * (double)nh_text_width(name);
+    for (const char *c = name; *c; c++)
+        if (*c >= 'A' && *c <= 'Z') wide += capital;
+    return wide;
+}
+
 /* Rows of names above the plot; returns the height that they take.  With `draw` false only that. */
 static double legend(const canvas *c, bool draw)
 {
@@ -348,7 +368,7 @@ static double legend(const canvas *c, bool draw)
         nh_text plain;
         nh_text_init(&plain);
         nh_typeset_plain(c->plot->curve[k].name, &plain);
-        double room = 40 + 9.2 * (double)nh_text_width(nh_text_string(&plain));
+        double room = 40 + written(nh_text_string(&plain));
         nh_text_clear(&plain);
         if (x + room > width - right && x > left) x = left, y += legend_row;
         if (draw) {

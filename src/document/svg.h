@@ -31,6 +31,7 @@ typedef struct {
     const char *id, *title, *description, *x_label, *y_label;
     bool log_x, log_y, equal;    /* equal: both axes have one scale */
     double floor;                /* with a logarithmic axis: smaller values are shown there */
+    const double *also_x, *also_y; /* two values each that the axes hold, too: plots beside one another; or NULL */
     bool fan;                    /* many curves of one quantity: thin, in one colour, without a legend */
     bool timed;                  /* x is the time: a page may move a cursor along it */
     size_t curves;

@@ -107,8 +107,14 @@ static void range(nh_tex_writer *w, const nh_plot *p, bool vertical)
         low = fmin(low, a);
         high = fmax(high, b);
     }
+    const double *also = vertical ? p->also_y : p->also_x;
+    if (also) low = fmin(low, also[0]), high = fmax(high, also[1]);
     double size = fmax(fabs(low), fabs(high));
-    if (!isfinite(size) || high - low > 1e-4 * size) return;
+    if (!also && (!isfinite(size) || high - low > 1e-4 * size)) return;
+    if (also && (vertical ? p->log_y : p->log_x)) {
+        nh_text_addf(w->out, ", %cmin=%.6g, %cmax=%.6g", vertical ? 'y' : 'x', low / 2, vertical ? 'y' : 'x', 2 * high);
+        return;
+    }
     double span = size > 0 ? 0.1 * size : 1;
     nh_text_addf(w->out, ", %cmin=%.6g, %cmax=%.6g", vertical ? 'y' : 'x', low - span, vertical ? 'y' : 'x',
                  high + span);
@@ -180,8 +186,8 @@ void nh_tex_plot(nh_tex_writer *w, const nh_plot *p, const char *caption)
         nh_text_addf(w->out, ", xmin=%.6g, xmax=%.6g, ymin=%.6g, ymax=%.6g", edge(p->cells->x, p->cells->across, 0),
                      edge(p->cells->x, p->cells->across, p->cells->across), edge(p->cells->y, p->cells->up, 0),
                      edge(p->cells->y, p->cells->up, p->cells->up));
-    else if (!p->log_x) range(w, p, false);
-    if (!p->log_y && !p->cells) range(w, p, true);
+    else if (!p->log_x || p->also_x) range(w, p, false);
+    if ((!p->log_y || p->also_y) && !p->cells) range(w, p, true);
     nh_tex_add(w, "]\n");
     if (p->cells) cells(w, p->cells);
     for (size_t k = 0; k < p->curves; k++) curve(w, p, k);
