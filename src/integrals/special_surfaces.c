@@ -3,6 +3,7 @@
 
 #include <flint/fmpz_mpoly.h>
 #include <flint/fmpz_mpoly_factor.h>
+#include <flint/nmod.h>
 #include <flint/nmod_mpoly.h>
 #include <flint/nmod_poly.h>
 #include <stdlib.h>
