@@ -496,3 +496,44 @@ Test(chart, stress_as_text_and_json)
     nh_benchmark_free(c);
     nh_robustness_free(s);
 }
+
+static double observed(const nh_benchmark *c, const char *method, size_t level)
+{
+    for (size_t i = 0; i + level < c->count; i++)
+        if (!strcmp(c->item[i].method, method) && !strcmp(c->item[i].formulation, c->item[0].formulation)) return c->item[i + level].observed_order;
+    return NAN;
+}
+
+/* Only what was asked for is measured; composed midpoint steps have order 4, single ones 2, and that shows in their errors; the table has a row per run. */
+Test(chart, named_methods_and_their_orders)
+{
+    nh_error error = {0};
+    const nh_method *const only[] = {nh_method_find("midpoint"), nh_method_find("midpoint-4"), nh_method_find("rkf45")};
+    nh_simulate_request q = {.system_path = "systems/nonholonomic_particle.yaml", .until_given = true, .methods = 3, .only = only};
+    nh_options_default(&q.options);
+    q.options.until = 4;
+    nh_benchmark *c = nh_benchmark_run(&q, 1, &error);
+    must(c != NULL, &error, "nonholonomic_particle");
+    for (size_t i = 0; i < c->count; i++) {
+        bool named = false;
+        for (size_t k = 0; k < 3; k++) named |= !strcmp(c->item[i].method, only[k]->name);
+        cr_expect(named, "%s", c->item[i].method);
+        cr_expect(!strcmp(c->item[i].method, "GSL rkf45") == (c->item[i].order == 0));
+    }
+    cr_expect(c->fits == 0 && c->derivatives == 0);
+    cr_expect(isnan(observed(c, "midpoint", 0)) && isnan(observed(c, "GSL rkf45", 1)));
+    cr_expect_float_eq(observed(c, "midpoint", 2), 2, 0.05, "%g", observed(c, "midpoint", 2));
+    cr_expect_float_eq(observed(c, "midpoint, order 4", 1), 4, 0.1, "%g", observed(c, "midpoint, order 4", 1));
+    nh_text text;
+    nh_text_init(&text);
+    write_text(c, NULL, &text);
+    cr_expect(strstr(nh_text_string(&text), "Order of convergence") && strstr(nh_text_string(&text), "the integrators that were asked for"));
+    nh_text_clear(&text);
+    nh_benchmark_csv(c, &text);
+    size_t lines = 0;
+    for (const char *at = nh_text_string(&text); (at = strchr(at, '\n')); at++) lines++;
+    cr_expect_eq(lines, c->count + 1);
+    cr_expect(strstr(nh_text_string(&text), "\n\"midpoint, order 4\",") && !strstr(nh_text_string(&text), "nan"));
+    nh_text_clear(&text);
+    nh_benchmark_free(c);
+}

@@ -161,3 +161,35 @@ Test(export_cli, latex)
     }
     place_clear(&p);
 }
+
+static bool is_in(const place *p, const char *name, const char *begin, const char *word)
+{
+    char *text = read_here(p, name);
+    bool good = text && !strncmp(text, begin, strlen(begin)) && strstr(text, word);
+    free(text);
+    return good;
+}
+
+/* --json and --tex mean what they mean elsewhere: beside a language, in place of one, and `-`. */
+Test(export_cli, documents_beside_the_code)
+{
+    place p = place_make();
+    write_here(&p, "driven.yaml", system_text);
+    finished f = run_expecting(&p, "export driven.yaml --of equations --json a.json --tex a.tex", 0);
+    cr_expect_str_eq(f.out, "");
+    cr_expect(is_in(&p, "a.json", "{", "\"functions\"") && is_in(&p, "a.tex", "%", "\\documentclass"));
+    finished_clear(&f);
+    f = run_expecting(&p, "export driven.yaml --of equations --to c --json b.json", 0);
+    cr_expect(strstr(f.out, "driven_accelerations") && is_in(&p, "b.json", "{", "\"accelerations\""));
+    finished_clear(&f);
+    f = run_expecting(&p, "export driven.yaml --of equations --to c --quiet --json -", 0);
+    cr_expect(f.out[0] == '{' && !strstr(f.out, "#include"));
+    finished_clear(&f);
+    f = run_expecting(&p, "export driven.yaml --of equations --to python -o code --tex c.tex", 0);
+    cr_expect(strstr(f.out, "written: code/driven.py") && is_in(&p, "code/driven.py", "\"\"\"", "import numpy") && is_in(&p, "c.tex", "%", "document"));
+    finished_clear(&f);
+    f = run_expecting(&p, "export driven.yaml --html a.html", 2);
+    cr_expect(strstr(f.err, "does not take --html"));
+    finished_clear(&f);
+    place_clear(&p);
+}

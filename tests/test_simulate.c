@@ -285,3 +285,27 @@ Test(simulate, completions_complete_values)
     }
     place_clear(&p);
 }
+
+/* --csv FILE has what would be printed, and nothing is: of one motion, of several, beside JSON. */
+Test(simulate, the_table_as_a_file)
+{
+    static const struct {
+        const char *options, *table, *out;
+    } cases[] = {{"--csv a.csv", "t,x,x_dot,E\n0,1,0,0.5\n", ""},
+                 {"--csv a.csv --over w=1,3 --watch x", "member,w,t,x\n0,1,0,1\n", ""},
+                 {"--csv a.csv --ensemble 2 --watch x", "member,t,x\n0,0,1\n", ""},
+                 {"--csv a.csv --over w=1,3 --json - --quiet", "member,w,t,", "{"}};
+    place p = place_make();
+    write_here(&p, "spring.yaml", oscillator);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "rm -f a.csv; $N simulate spring.yaml --initial x=1 --set w=1 --until 1 --step 1 %s", cases[i].options);
+        finished f = run_shell(&p, line);
+        char *table = read_here(&p, "a.csv");
+        cr_expect(f.code == 0 && table && !strncmp(table, cases[i].table, strlen(cases[i].table)), "%s: %d\n%s%s", cases[i].options, f.code, f.err, table ? table : "no table");
+        cr_expect(strlen(cases[i].out) ? !strncmp(f.out, cases[i].out, 1) : !*f.out, "%s printed %s", cases[i].options, f.out);
+        free(table);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}

@@ -87,3 +87,10 @@ void nh_escape_terminal(const char *text, nh_text *out)
         nh_text_add_n(out, *c == '\r' && text[1] != '\n' ? "?" : c, written);
     }
 }
+
+void nh_escape_csv(const char *text, nh_text *out)
+{
+    nh_text_add(out, "\"");
+    for (; *text; text++) nh_text_add(out, *text == '"' ? "\"\"" : (const char[]){*text, 0});
+    nh_text_add(out, "\"");
+}

@@ -20,6 +20,8 @@ bool nh_is_invisible(uint32_t code);
 void nh_escape_line(const char *text, nh_text *out);
 /* Between the signs of a comment in C: one line that neither ends it, opens another nor has trigraphs. */
 void nh_escape_c_comment(const char *text, nh_text *out);
+/* A field of a table of comma-separated values (RFC 4180), always in quotation marks. */
+void nh_escape_csv(const char *text, nh_text *out);
 /* XML: SVG, MathML, HTML, in text and in attributes. */
 void nh_escape_xml(const char *text, nh_text *out);
 /* Lines for a terminal: what could command it is a question mark. */

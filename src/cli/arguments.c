@@ -28,6 +28,7 @@ enum {
     opt_budget,
     opt_svg,
     opt_pdf,
+    opt_csv,
     opt_group,
     opt_chain,
     opt_inner,
@@ -178,6 +179,19 @@ static bool add_range(nh_cli *cli, const char *text, nh_error *error)
     if (value) *last = nh_arena_printf(cli->arena, "%s,%s", *last, text);
     else cli->over_list[cli->overs++] = text;
     return true;
+}
+
+static bool add_method(nh_cli *cli, const char *text, nh_error *error)
+{
+    const nh_method *method;
+    if (!nh_method_given(text, &method, error)) return false;
+    if (method) cli->method[cli->methods++] = method;
+    return true;
+}
+/* A list of words; some names have commas. */
+static bool add_methods(nh_cli *cli, const char *text, nh_error *error)
+{
+    return nh_method_find(text) ? add_method(cli, text, error) : each(cli, text, "method", add_method, error);
 }
 
 static bool set_option(nh_cli *cli, const char *name, const char *text, nh_error *error)
@@ -372,6 +386,11 @@ static bool swallows_option(const char *value) { return value && !strncmp(value,
 /* `-` is a file, too: what is read is kept, so a pipe will do. */
 static const char *file_of(const char *word) { return strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
 
+static const char **output_of(nh_cli *cli, int code)
+{
+    return code == opt_svg ? &cli->svg : code == opt_pdf ? &cli->pdf : &cli->csv;
+}
+
 #define X(name, form, writer) case opt_##name: cli->name = value; return true;
 static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 {
@@ -383,7 +402,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_max_memory: return size(value, &cli->options.max_memory, error);
     case opt_initial: cli->initial = joined(cli, cli->initial, value); return true;
     case opt_initial_table: cli->table = file_of(value); return true;
-    case opt_method: return nh_method_given(value, &cli->method, error);
+    case opt_method: return add_methods(cli, value, error);
     case opt_project: return cli->project = true;
     case opt_weak: return cli->weak = true;
     case opt_step: return positive(value, "step", &cli->step, error);
@@ -397,8 +416,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_event: cli->event = also(cli, cli->event, value); return true;
     case opt_section: cli->section = value; return true;
     case opt_axes: cli->axes = value; return true;
-    case opt_svg: cli->svg = value; return true;
-    case opt_pdf: cli->pdf = value; return true;
+    case opt_svg: case opt_pdf: case opt_csv: *output_of(cli, code) = value; return true;
     case opt_budget: return seconds(value, &cli->budget, error);
     case opt_accuracy: return positive(value, "accuracy", &cli->accuracy, error);
     case opt_ensemble: return members(value, &cli->ensemble, error);
@@ -486,6 +504,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     cli->wheel = nh_arena_alloc(cli->arena, most * sizeof *cli->wheel);
     cli->on = nh_arena_alloc(cli->arena, most * sizeof *cli->on);
     cli->number = nh_arena_alloc(cli->arena, most * sizeof *cli->number);
+    cli->method = nh_arena_alloc(cli->arena, most * sizeof *cli->method);
     cli->colour = isatty(STDOUT_FILENO) && !getenv("NO_COLOR");
     nh_options_default(&cli->options);
     bool given[owner_count] = {false};

@@ -41,7 +41,8 @@ typedef struct {
     const char *current, *field; /* questions of verify */
     bool equations;              /* of analyze and verify: the geometry written out */
     const char *initial;         /* of simulate and reduce */
-    const nh_method *method;
+    size_t methods;
+    const nh_method **method;    /* --method, each */
     const char *table;           /* of initial states */
     const char *group, *chain, *inner, *to; /* of reduce; `to` of export, too */
     const char *input, *name;  /* of export */
@@ -63,7 +64,7 @@ typedef struct {
     bool scene, shape;           /* shape: of classify */
     double accuracy, spread;
     size_t ensemble;
-    const char *svg, *pdf;       /* of benchmark and simulate */
+    const char *svg, *pdf, *csv; /* of benchmark and simulate */
     bool robustness;
     double budget;
     double step;

@@ -17,9 +17,9 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_analysis,    "analysis",    required_argument, "FILE",               "analyze simulate benchmark", "read ansatz and motion from this analysis file")                              \
     X(opt_no_analysis, "no-analysis", no_argument,       "",                   "analyze simulate benchmark", "ignore analysis files; the program chooses ansatz and motion")     \
     X(opt_velocities, "velocities",  required_argument, "auto|quasi|coordinates", "analyze verify simulate benchmark export", "velocities of the computation")                  \
-    X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate benchmark reduce classify scan", "write the result as JSON; `-`: print it, and nothing else") \
+    X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate benchmark reduce classify scan export", "write the result as JSON; `-`: print it, and nothing else") \
     X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan", "write the result as one self-contained page") \
-    X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan", "write the result as a LaTeX document")                                 \
+    X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan export", "write the result as a LaTeX document")                                 \
     X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "LaTeX without a preamble, to include in another document")                      \
     X('o',             "output",      required_argument, "DIR",                "analyze verify simulate reduce classify benchmark scan export", "-o: write all files into a folder")                      \
     X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \
@@ -28,7 +28,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export", "initial state")                                       \
     X(opt_project,     "project",     no_argument,       "",                   "simulate benchmark reduce", "project the initial velocities onto the constraints")            \
     X(opt_initial_table, "initial-table", required_argument, "FILE",           "simulate", "a motion per row of a CSV file: initial states and parameters by name") \
-    X(opt_method,      "method",      required_argument, "NAME",               "simulate", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
+    X(opt_method,      "method",      required_argument, "NAME",               "simulate benchmark", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
     X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing")                                                       \
     X(opt_watch,       "watch",       required_argument, "\"x, T=m/2*v^2\"",   "simulate", "only these quantities, from the smallest model that determines them")                \
     X(opt_event,       "event",       required_argument, "\"y = 0, falling, stop\"", "simulate", "zeros of an expression along the motion: rising, falling or both; stop: the first ends it; repeatable") \
@@ -48,6 +48,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_budget,      "budget",      required_argument, "TIME",               "benchmark", "time to spend on measurements: 5s, 200ms")                                          \
     X(opt_svg,         "svg",         required_argument, "FILE",               "benchmark simulate", "write a picture")                                         \
     X(opt_pdf,         "pdf",         required_argument, "FILE",               "benchmark simulate", "the same picture as PDF, by the program rsvg-convert")                                         \
+    X(opt_csv, "csv", required_argument, "FILE", "benchmark simulate reduce scan", "write a comma-separated table") \
     X(opt_group,       "group",       required_argument, "FIELDS",             "reduce export", "\"1, 2\" or \"x=1; theta=1\": the group to divide out")                        \
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
     X(opt_inner,       "inner",       required_argument, "\"1,4=1/2; 4,4=3\"",  "reduce", "the inner product of generators that chooses the lifts by stages; else orthonormal") \
@@ -86,6 +87,11 @@ bool nh_word_among(const char *words, const char *word);
     X("of", "show", "only these names, one per line: parameters, coordinates, velocities")                        \
     X("output", "scan", "the folder of its parts and its result")                                                 \
     X("output", "export", "write the code into files of this folder")                                             \
+    X("csv", "benchmark", "write a table: a row for each run, with step or tolerance, error, time and observed order") \
+    X("csv", "simulate", "write the table into this file")                                                        \
+    X("csv", "reduce", "write a table of the motions: full and reduced")                                          \
+    X("csv", "scan", "write the table of the points into this file, instead of scan.csv of the folder")           \
+    X("method", "benchmark", "only this integrator of those that `nhsym explain methods` lists; repeatable")      \
     X("svg", "benchmark", "write a picture: error against time")                                                  \
     X("svg", "simulate", "write a picture: the columns over time, or a section")                                  \
     X("to", "reduce", "print the reduced equations as code, or the motions as csv")                               \

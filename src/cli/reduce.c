@@ -105,6 +105,12 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     if (!r) return nh_cli_failed(cli, &run, error);
     bool good = print(cli, r, &run, error);
+    if (cli->csv && good) {
+        nh_text table;
+        nh_text_init(&table);
+        nh_reduction_csv(r, &table);
+        good = nh_cli_write(cli, cli->csv, &table, error);
+    }
     if (cli->json && good) good = nh_cli_write_json(cli, nh_reduction_json(r, &run), error);
     good = good && nh_cli_write_documents(cli, render, r, &run, error);
     good = nh_cli_written(cli, good, error);

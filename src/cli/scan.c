@@ -65,7 +65,7 @@ static bool write_all(nh_cli *cli, const nh_scan *x, const nh_run *run, nh_error
     if (!cli->json) cli->json = nh_cli_in_folder(cli, "scan.json");
     bool good = nh_cli_use_folder(cli, error) && nh_cli_write_words(cli, render, x, run, error);
     nh_scan_csv(x, &text);
-    good = nh_cli_write(cli, nh_cli_in_folder(cli, "scan.csv"), &text, error) && good;
+    good = nh_cli_write(cli, cli->csv ? cli->csv : nh_cli_in_folder(cli, "scan.csv"), &text, error) && good;
     good = good && nh_cli_write_json(cli, nh_scan_json(x, run), error);
     good = good && nh_cli_write_documents(cli, render, x, run, error);
     return nh_cli_written(cli, good, error);

@@ -23,7 +23,9 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
                                .section = cli->section,
                                .axes = cli->axes,
                                .scene = cli->scene,
-                               .method = cli->method,
+                               .method = cli->methods ? cli->method[0] : NULL,
+                               .methods = cli->methods,
+                               .only = cli->method,
                                .accuracy = cli->accuracy,
                                .ensemble = cli->ensemble,
                                .spread = cli->spread > 0 ? cli->spread : 0.1,
@@ -100,14 +102,14 @@ static bool put_zeros(nh_cli *cli, const nh_simulation *s, nh_error *error)
    the result. */
 static bool put_table(nh_cli *cli, const nh_simulation *s, nh_error *error)
 {
-    if (!cli->folder && (cli->json || !nh_cli_delivers(cli))) return true;
+    const char *file = cli->csv ? cli->csv : cli->folder ? nh_cli_in_folder(cli, "motion.csv") : "-";
+    if (!cli->folder && !cli->csv && (cli->json || !nh_cli_delivers(cli))) return true;
     nh_text text;
     nh_text_init(&text);
     if (s->ensemble) nh_ensemble_csv(s, &text);
     else if (s->has_section && !cli->folder) nh_section_csv(s, &text);
     else nh_motion_csv(s, &text);
-    if (cli->folder && !nh_cli_write(cli, nh_cli_in_folder(cli, "motion.csv"), &text, error)) return false;
-    if (!cli->folder) fputs(nh_text_string(&text), stdout), nh_text_clear(&text);
+    if (!nh_cli_write(cli, file, &text, error)) return false;
     if (cli->folder && !put_zeros(cli, s, error)) return false;
     if (!cli->quiet) put_notes(cli, s);
     return true;
@@ -163,14 +165,15 @@ static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_
         good = s != NULL;
         if (good && q.section) nh_section_plot_add(&section, s);
         if (good && root) nh_member_json(s, row, &run, root), complete = complete && s->motion->complete;
-        if (good && !root) nh_member_csv(s, i, row, &text);
+        if (good && (!root || cli->csv)) nh_member_csv(s, i, row, &text);
         if (good) complain(s, error);
         nh_simulate_row_blame(row, error);
         nh_simulation_free(s);
         done += good;
     }
     nh_cli_progress_end();
-    if (nh_cli_delivers(cli)) fputs(nh_text_string(&text), stdout);
+    if (good && (cli->csv || nh_cli_delivers(cli)))
+        good = nh_cli_write(cli, cli->csv ? cli->csv : "-", &text, error);
     nh_text_clear(&text);
     if (root) nh_json_put_bool(root, "complete", complete && done == rows->count);
     if (root) nh_json_put_bool(root, "partial", nh_interrupted());
@@ -264,6 +267,9 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     if (cli->input)
         return nh_fail(error, NH_USAGE, "", "--input needs NAME=EXPR, found `%s`", cli->input),
                nh_error_hint(error, "for example: --input \"%s=sin(t)\"", cli->input), NH_USAGE;
+    if (cli->methods > 1)
+        return nh_fail(error, NH_USAGE, "", "--method takes one integrator, found %zu", cli->methods),
+               nh_error_hint(error, "`nhsym benchmark` compares several"), NH_USAGE;
     if (!together(cli, &request, &rows, &code, error)) return code;
     if (!nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_simulation *s = nh_simulation_create(&request, error);

@@ -11,12 +11,12 @@ nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analys
     return (nh_run){cli->line, system_path, analysis_path, cli->options.seed, cli->options.shown, NAN};
 }
 
-/* The files of --json, --svg, --pdf and of documents; those that are not given are NULL. */
-enum { outputs = 3 + NH_PEN_TEXT };
+/* The files of --json, --svg, --pdf, --csv and of documents; those that are not given are NULL. */
+enum { outputs = 4 + NH_PEN_TEXT };
 static void list_outputs(const nh_cli *cli, const char *path[outputs])
 {
 #define X(name, form, writer) cli->name,
-    const char *const all[outputs] = {NH_PEN_FORM_TABLE(X) cli->json, cli->svg, cli->pdf};
+    const char *const all[outputs] = {NH_PEN_FORM_TABLE(X) cli->json, cli->svg, cli->pdf, cli->csv};
 #undef X
     memcpy(path, all, sizeof all);
 }

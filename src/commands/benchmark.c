@@ -135,6 +135,8 @@ void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double
                                   : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name)
                                                  : k->method->name,
                         .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers",
+                        .order = k->method ? k->method->order : 0,
+                        .observed_order = NAN,
                         .tolerance = tolerance,
                         .step = step,
                         .reduced = c->formulation[k->formulation].reduced != NULL,
@@ -271,9 +273,17 @@ bool nh_benchmark_work_reference(nh_benchmark_work *c, nh_error *error)
 
 /* ---- all methods in all formulations ---- */
 
+/* NULL: multipliers by IDA, which is none of the methods that can be named. */
+static bool wanted(const nh_benchmark *b, const nh_method *method)
+{
+    bool any = !b->methods;
+    for (size_t i = 0; i < b->methods; i++) any |= b->only[i] == method;
+    return any;
+}
+
 static void add(nh_benchmark_work *c, const nh_method *method, size_t formulation, bool projected)
 {
-    if (c->candidates < NH_BENCHMARK_CANDIDATES)
+    if (c->candidates < NH_BENCHMARK_CANDIDATES && wanted(c->out, method))
         c->candidate[c->candidates++] =
             (nh_candidate_run){.method = method, .formulation = formulation, .projected = projected};
 }
@@ -311,15 +321,14 @@ static void choose_currents(nh_benchmark_work *c)
 
 static void list_candidates(nh_benchmark_work *c)
 {
-    /* in the other formulations */
-    static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF", "Lagrange-d'Alembert, order 4",
-                                            "relaxation, order 8"};
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
-        const char *why = nh_method_refused(m, c->formulation[0].programs);
+        const char *why = wanted(c->out, m) ? nh_method_refused(m, c->formulation[0].programs) : NULL;
         if (why) nh_benchmark_work_refuse(c, m->name, why);
         else add(c, m, 0, false);
     }
+    const nh_method *projected = nh_method_find("GSL rk8pd");
+    if (!wanted(c->out, projected)) return;
     if (!c->yard.currents)
         nh_benchmark_work_refuse(c, "projection",
                                  "the energy is not conserved, and the file knows no current; `known:` may hold one "
@@ -329,15 +338,24 @@ static void list_candidates(nh_benchmark_work *c)
                                  "the constraints are solved by Newton's method inside the equations of motion");
     else {
         choose_currents(c);
-        if (c->held_currents) add(c, nh_method_find("GSL rk8pd"), 0, true);
+        if (c->held_currents) add(c, projected, 0, true);
     }
+}
+
+/* The chart comes first: every method is tried there. */
+static void list_elsewhere(nh_benchmark_work *c)
+{
+    /* where no method is named */
+    static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF", "Lagrange-d'Alembert, order 4",
+                                            "relaxation, order 8"};
+    size_t named = c->out->methods, count = named ? named : sizeof elsewhere / sizeof *elsewhere;
     for (size_t f = 1; f < c->formulations; f++)
-        for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
-            const nh_method *m = nh_method_find(elsewhere[i]);
+        for (size_t i = 0; i < count; i++) {
+            const nh_method *m = named ? c->out->only[i] : nh_method_find(elsewhere[i]);
             if (!m->order || (c->formulation[f].model && !nh_method_refused(m, c->formulation[f].programs)))
                 add(c, m, f, false);
         }
-    for (int index = 1; index <= (c->model->k ? 2 : 1); index++) {
+    for (int index = 1; index <= (c->model->k ? 2 : 1) && !named; index++) {
         add(c, NULL, c->formulations - 1, false);
         c->candidate[c->candidates - 1].index = index;
     }
@@ -363,12 +381,25 @@ static void measure_all(nh_benchmark_work *c)
         }
 }
 
+/* From errors of two steps: log(e/e') / log(h/h').  Nothing where an error is not above what the reference is known
+   to. */
+static double observed_order(const nh_run_record *larger, const nh_run_record *m, double known)
+{
+    const double least = 10; /* times what the reference is known to */
+    bool tells = larger->method && m->order && fmin(m->error, larger->error) > least * known;
+    return tells ? log(larger->error / m->error) / log(larger->step / m->step) : NAN;
+}
+
 static void collect(nh_benchmark_work *c)
 {
     nh_benchmark *out = c->out;
     out->item = nh_arena_alloc(out->arena, (c->candidates * levels + 1) * sizeof *out->item);
-    for (size_t i = 0; i < c->candidates * levels; i++)
-        if (c->grid[i].method) out->item[out->count++] = c->grid[i];
+    for (size_t i = 0; i < c->candidates * levels; i++) {
+        nh_run_record *m = &c->grid[i];
+        double known = m->reduced ? c->formulation[c->candidate[i / levels].formulation].agreement : out->agreement;
+        if (i % levels && m->method) m->observed_order = observed_order(m - 1, m, known);
+        if (m->method) out->item[out->count++] = *m;
+    }
     for (size_t i = 0; i < out->count; i++) {
         nh_run_record *m = &out->item[i];
         m->front = m->status == NH_ACCURATE && !m->reduced; /* what is flagged is no advice */
@@ -431,6 +462,8 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
                              .project = request->project,
                              .once = once};
     out->arena = arena;
+    out->methods = request->methods;
+    out->only = request->only;
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
     if (!nh_simulate_read(out->question, request, &c->initial, &out->end, error)) return false;
@@ -525,12 +558,15 @@ nh_benchmark *nh_benchmark_run(const nh_simulate_request *request, double budget
     nh_benchmark_work c;
     if (!open_somewhere(&c, request, budget, error)) return NULL;
     list_candidates(&c);
+    list_elsewhere(&c);
     nh_benchmark_reduced(&c, request);
     c.begun = nh_clock(); /* the budget is for measuring: what came before is needed in any case */
     measure_all(&c);
     collect(&c);
-    nh_benchmark_derivatives(&c.formulation[0], c.out);
-    nh_benchmark_fit(&c, budget * share_of_fits);
+    if (!c.out->methods) { /* these concern no integrator */
+        nh_benchmark_derivatives(&c.formulation[0], c.out);
+        nh_benchmark_fit(&c, budget * share_of_fits);
+    }
     c.out->partial |= nh_interrupted();
     nh_benchmark_work_close(&c);
     return c.out;

@@ -19,6 +19,10 @@ typedef struct {
     double *drift;               /* per current */
     double seconds;              /* the least of some repetitions, without preparations */
     long evaluations;
+    /* of a method with a fixed step: its order by theory, else 0; and as observed between this step and the larger one
+       before, NAN where the errors do not tell */
+    int order;
+    double observed_order;
     nh_run_record_status status;
     /* of reduced equations, which compute less: errors are of their own states, and it does not count below */
     bool reduced;
@@ -51,6 +55,8 @@ typedef struct {
 struct nh_benchmark {
     nh_arena *arena;
     nh_simulation *question;     /* system, model, analysis */
+    size_t methods;              /* only these were wanted; 0: all */
+    const nh_method *const *only;
     double begin, end;
     const char *reference, *second;
     double agreement;            /* of these two: smaller errors mean nothing */

@@ -45,6 +45,8 @@ typedef struct {
     bool until_given, tolerance_given, project;
     double step;                             /* output spacing; 0: a hundredth of the time */
     const nh_method *method;                 /* NULL: the one that suits, or with an accuracy the cheapest */
+    size_t methods;                          /* of a comparison: only these; 0: all */
+    const nh_method *const *only;
     /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
     double accuracy;
     size_t ensemble;                         /* members; 0: one motion */

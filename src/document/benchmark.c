@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "base/json.h"
 
 const double nh_benchmark_goal[NH_BENCHMARK_GOALS] = {1e-3, 1e-6, 1e-9, 1e-12};
@@ -38,6 +39,33 @@ const nh_run_record *nh_benchmark_fastest(const nh_benchmark *c, size_t from, si
     return best;
 }
 
+/* ---- a table for other programs ---- */
+
+static void put_field(nh_text *out, double value)
+{
+    char text[40];
+    nh_text_number(value, text, sizeof text);
+    nh_text_addf(out, ",%s", isfinite(value) ? text : "");
+}
+
+void nh_benchmark_csv(const nh_benchmark *c, nh_text *out)
+{
+    nh_text_add(out, "method,formulation,tolerance,step,error,drift,seconds,evaluations,order,observed_order,status,"
+                     "reduced,front,note\n");
+    for (size_t i = 0; i < c->count; i++) {
+        const nh_run_record *m = &c->item[i];
+        const double number[] = {m->tolerance, m->step, m->error, m->worst_drift, m->seconds, (double)m->evaluations,
+                                 m->order ? m->order : NAN, m->observed_order};
+        nh_escape_csv(m->method, out);
+        nh_text_add(out, ",");
+        nh_escape_csv(m->formulation, out);
+        for (size_t k = 0; k < sizeof number / sizeof *number; k++) put_field(out, number[k]);
+        nh_text_addf(out, ",%s,%d,%d,", nh_run_record_status_json(m->status), m->reduced, m->front);
+        if (m->note && m->note[0]) nh_escape_csv(m->note, out);
+        nh_text_add(out, "\n");
+    }
+}
+
 /* ---- JSON ---- */
 
 static void put_item(const nh_benchmark *c, const nh_run_record *m, nh_json *list)
@@ -54,6 +82,8 @@ static void put_item(const nh_benchmark *c, const nh_run_record *m, nh_json *lis
         if (!isnan(m->drift[k])) nh_json_put_number(drifts, c->current[k], m->drift[k]);
     nh_json_put_number(item, "seconds", m->seconds);
     nh_json_put_number(item, "evaluations", (double)m->evaluations);
+    nh_json_put_number(item, "order", m->order ? m->order : NAN);
+    nh_json_put_number(item, "observed_order", m->observed_order);
     nh_json_put_text(item, "status", nh_run_record_status_json(m->status));
     nh_json_put_bool(item, "reduced", m->reduced);
     nh_json_put_bool(item, "front", m->front);

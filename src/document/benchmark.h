@@ -1,4 +1,4 @@
-/* benchmark: a comparison of methods as text, JSON, a page, LaTeX and a drawing. */
+/* benchmark: a comparison of methods as text, JSON, a page, LaTeX, a table and a drawing. */
 #ifndef NH_DOCUMENT_BENCHMARK_H
 #define NH_DOCUMENT_BENCHMARK_H
 
@@ -10,6 +10,8 @@
 char *nh_benchmark_json(const nh_benchmark *comparison, const nh_robustness *maps, const nh_run *run);
 void nh_benchmark_write(const nh_benchmark *comparison, const nh_robustness *maps, const nh_run *run,
                         nh_pen_style style, nh_text *out);
+/* Every run as a row of comma-separated values; what is not there is empty. */
+void nh_benchmark_csv(const nh_benchmark *comparison, nh_text *out);
 /* The fastest of the runs from..to-1 whose error is below the goal, or NULL; `reduced`: runs in the equations of a
  * reduction count too, and those that are flagged. */
 const nh_run_record *nh_benchmark_fastest(const nh_benchmark *comparison, size_t from, size_t to, double below,

@@ -29,8 +29,8 @@ static void answer(nh_pen *p, const nh_benchmark *c)
     if (best) nh_pen_say(p, "Fastest below an error of a millionth: %s in {%s}.", best->method, best->formulation);
     else nh_pen_say(p, "No method came below an error of a millionth.");
     nh_pen_close(p, NH_PEN_ANSWER);
-    nh_pen_words(p, "One motion, t = %.6g to %.6g, by every integrator in every formulation, measured on this machine.",
-                 c->begin, c->end);
+    nh_pen_words(p, "One motion, t = %.6g to %.6g, by %s in every formulation, measured on this machine.", c->begin,
+                 c->end, c->methods ? "the integrators that were asked for" : "every integrator");
     nh_pen_words(p, "Reference: {%s}; {%s} agrees to %.1g, so that smaller errors mean nothing.", c->reference,
                  c->second, c->agreement);
     const char *warning[NH_BENCHMARK_WARNINGS];
@@ -130,6 +130,44 @@ static void times(nh_pen *p, const nh_benchmark *c)
     if (c->count) nh_pen_table_end(p);
     nh_pen_close(p, NH_PEN_FOLD);
     nh_text_clear(&heads);
+}
+
+/* ---- the order of convergence ---- */
+
+static void put_orders(nh_pen *p, const nh_benchmark *c, size_t from, size_t to)
+{
+    const nh_run_record *first = &c->item[from];
+    bool any = false;
+    nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
+    nh_pen_cell(p, NH_PEN_ROW_HEAD, "%s", first->method);
+    nh_pen_cell(p, NH_PEN_CELL, "{%s}", first->formulation);
+    nh_pen_cell(p, NH_PEN_CELL, "%.10g", (double)first->order);
+    nh_pen_open(p, NH_PEN_CELL, NULL, NULL);
+    for (size_t i = from; i < to; i++)
+        if (isfinite(c->item[i].observed_order)) {
+            nh_pen_say(p, any ? ", %.3g" : "%.3g", c->item[i].observed_order);
+            any = true;
+        }
+    nh_pen_close(p, NH_PEN_CELL);
+    nh_pen_close(p, NH_PEN_ROW);
+}
+
+/* Of the methods with a fixed step, some errors of which are above what the reference is known to. */
+static void orders(nh_pen *p, const nh_benchmark *c)
+{
+    bool begun = false;
+    for (size_t i = 0, next; i < c->count; i = next) {
+        bool any = false;
+        next = line_end(c, i);
+        for (size_t j = i; j < next; j++) any |= isfinite(c->item[j].observed_order);
+        if (!any) continue;
+        if (!begun) nh_pen_table(p, "Order of convergence", "method|formulation|by theory|observed, step by step");
+        begun = true;
+        put_orders(p, c, i, next);
+    }
+    if (!begun) return;
+    nh_pen_table_end(p);
+    nh_pen_words(p, "Observed: log(e/e') / log(h/h') of the errors e, e' with two successive steps h > h'.");
 }
 
 /* ---- time against error ---- */
@@ -471,6 +509,7 @@ void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_
     times(p, c);
     fastest(p, c);
     plots(p, c);
+    orders(p, c);
     derivatives(p, c);
     all_runs(p, c);
     discrete(p, c);

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/escape.h"
+
 /* ---- JSON ---- */
 
 static bool taken(const char *name)
@@ -100,14 +102,6 @@ static void put_field(nh_text *out, double value)
     nh_text_addf(out, ",%s", isfinite(value) ? text : "");
 }
 
-/* RFC 4180 */
-static void put_quoted(nh_text *out, const char *text)
-{
-    nh_text_add(out, "\"");
-    for (; *text; text++) nh_text_add(out, *text == '"' ? "\"\"" : (const char[]){*text, 0});
-    nh_text_add(out, "\"");
-}
-
 void nh_scan_csv(const nh_scan *x, nh_text *out)
 {
     for (size_t a = 0; a < x->axes; a++) nh_text_addf(out, "%s%s", a ? "," : "", x->axis[a].name);
@@ -127,7 +121,7 @@ void nh_scan_csv(const nh_scan *x, nh_text *out)
         for (size_t k = 0; k < x->spaces; k++)
             if (x->columns[k]) put_field(out, nh_scan_sigma(x, i, k));
         nh_text_add(out, ",");
-        if (r->why) put_quoted(out, r->why);
+        if (r->why) nh_escape_csv(r->why, out);
         nh_text_add(out, "\n");
     }
 }
