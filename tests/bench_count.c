@@ -1,6 +1,7 @@
 /* bench_count: how many integrals polynomial in the velocities systems have, beside those that their files know.
  *
- *     bench_count [DEGREE [time|generic]] FILE...      a line per file and degree; degree 0: as far as it goes
+ *     bench_count [DEGREE] [time] [generic] [work N] FILE...      a line per file and degree; degree 0: as far as it goes;
+ *                                                                 N: the work of one count at most, 3e9
  */
 #include <ctype.h>
 #include <stdio.h>
@@ -11,7 +12,7 @@
 #include "integrals/count.h"
 #include "problem/analysis_file.h"
 
-static void count_file(const char *path, size_t degree, bool time, bool generic)
+static void count_file(const char *path, const nh_count_question *asked)
 {
     nh_error error;
     nh_error_clear(&error);
@@ -25,7 +26,9 @@ static void count_file(const char *path, size_t degree, bool time, bool generic)
     nh_ex *known = calloc(y->currents + 1, sizeof *known);
     size_t n = 0;
     for (size_t k = 0; k < y->currents; k++) n += nh_analysis_file_to_chart(o, y->current[k].value, &known[n], &error);
-    nh_count_question q = {.time = time, .generic = generic, .degree = degree, .work = 3e9, .known = n, .current = known};
+    nh_count_question q = *asked;
+    q.known = n;
+    q.current = known;
     double start = nh_clock_of_thread();
     nh_count c = nh_count_integrals(o, &q);
     printf("%s: %.3f s, work %.1e, step %zu, leaf %zu, prime %lu%s%s%s%s\n", path, nh_clock_of_thread() - start, c.work, c.step, c.leaf, (unsigned long)c.prime, c.obstacle ? ", OBSTACLE: " : "", c.obstacle ? c.obstacle : "",
@@ -39,13 +42,13 @@ static void count_file(const char *path, size_t degree, bool time, bool generic)
 
 int main(int argc, char **argv)
 {
-    size_t degree = 2;
-    bool time = false, generic = false;
+    nh_count_question q = {.degree = 2, .work = 3e9};
     for (int i = 1; i < argc; i++) {
-        if (isdigit((unsigned char)argv[i][0])) degree = strtoul(argv[i], NULL, 10);
-        else if (!strcmp(argv[i], "time")) time = true;
-        else if (!strcmp(argv[i], "generic")) generic = true;
-        else count_file(argv[i], degree, time, generic);
+        if (isdigit((unsigned char)argv[i][0])) q.degree = strtoul(argv[i], NULL, 10);
+        else if (!strcmp(argv[i], "time")) q.time = true;
+        else if (!strcmp(argv[i], "generic")) q.generic = true;
+        else if (!strcmp(argv[i], "work") && i + 1 < argc) q.work = strtod(argv[++i], NULL);
+        else count_file(argv[i], &q);
     }
     return 0;
 }

@@ -152,34 +152,72 @@ static void put_row(sum_of_rows *sum, nh_residue factor, const nh_residue *row)
     sum->row[sum->count++] = row;
 }
 
-/* The equation of beta and exponent `e`: what is known, and the symbol. */
-static void equation(nh_graded_system *s, size_t beta, size_t e, size_t number, sum_of_rows *sum)
+/* The products of a term at the exponents of one weight that are not 0, the same for all beta: `value` times the
+   coefficient of `exponent`. */
+typedef struct {
+    uint32_t exponent;
+    nh_residue value;
+} product;
+
+typedef struct {
+    size_t count, capacity, *start; /* start[i x (exponents + 1) + e]: of term i and the e-th exponent */
+    product *item;
+} products;
+
+/* False: it takes exponents beyond weight k + 1, which the coordinates do not have. */
+static bool list_products_of(nh_graded_system *s, const term *t, size_t e, products *out)
 {
     const nh_jet_ring *r = s->r;
-    size_t n = s->p->n, m = r->variables;
+    size_t m = r->variables, last = r->first[s->k + 2];
+    for (size_t z = r->pairs[e]; z < r->pairs[e + 1]; z++) {
+        nh_residue v = t->series[r->left[z]];
+        if (!v) continue;
+        uint32_t u = t->derivative ? r->up[t->index * r->size + r->right[z]] : r->right[z];
+        if (u == UINT32_MAX || u >= last) return false;
+        if (t->derivative) v = nh_residue_mul(s->f, v, r->exponent[u * m + t->index]);
+        nh_grow(&out->item, &out->capacity, out->count + 1, sizeof *out->item);
+        out->item[out->count++] = (product){u, v};
+    }
+    return true;
+}
+
+static void list_products(nh_graded_system *s, size_t from, size_t exponents, products *out)
+{
+    out->start = nh_alloc_array(s->terms * (exponents + 1) + 1, sizeof *out->start);
+    s->work += (double)s->terms * (double)(s->r->pairs[from + exponents] - s->r->pairs[from]);
+    for (size_t i = 0; i < s->terms && !s->over; i++) {
+        size_t *start = out->start + i * (exponents + 1);
+        start[0] = out->count;
+        for (size_t e = 0; e < exponents && !s->over; e++) {
+            s->over |= !list_products_of(s, &s->t[i], from + e, out);
+            start[e + 1] = out->count;
+        }
+    }
+}
+
+/* The equation of beta and the e-th exponent of the weight: what is known, and the symbol. */
+static void equation(nh_graded_system *s, size_t beta, const size_t *start, const products *all, size_t number,
+                     sum_of_rows *sum)
+{
+    size_t n = s->p->n, exponents = s->r->first[s->k + 1] - s->r->first[s->k];
     sum->count = 0;
     for (size_t i = 0; i < s->terms; i++) {
         const term *t = &s->t[i];
+        const size_t *from = start + i * (exponents + 1);
         if (t->alpha[beta] == no_alpha) continue;
         size_t a = (size_t)t->alpha[beta];
-        s->work += (double)(r->pairs[e + 1] - r->pairs[e]);
-        for (size_t z = r->pairs[e]; z < r->pairs[e + 1]; z++) {
-            nh_residue v = t->series[r->left[z]];
-            if (!v) continue;
-            size_t u = t->derivative ? r->up[t->index * r->size + r->right[z]] : r->right[z];
-            v = nh_residue_mul(s->f, v, t->derivative ? r->exponent[u * m + t->index] : s->alpha[a * n + t->index]);
-            if (!v) continue;
-            if (u == UINT32_MAX || r->degree[u] > s->k + 1) { /* the coordinates do not have these weights */
-                s->over = true;
-                return;
-            }
-            if (r->degree[u] == s->k + 1) {
+        nh_residue power = t->derivative ? 1 : s->alpha[a * n + t->index];
+        s->work += (double)(from[1] - from[0]) + 1;
+        for (size_t z = from[0]; z < from[1] && power; z++) {
+            size_t u = all->item[z].exponent;
+            nh_residue v = power == 1 ? all->item[z].value : nh_residue_mul(s->f, all->item[z].value, power);
+            if (u >= s->first) {
                 nh_grow(&s->symbol, &s->capacity, s->entries + 1, sizeof *s->symbol);
                 s->symbol[s->entries++] = (nh_graded_entry){number, a * s->unknowns_of + (u - s->first), v};
-                continue;
+            } else {
+                put_row(sum, v, nh_graded_row(s, a, u));
+                s->work += (double)s->N;
             }
-            put_row(sum, v, nh_graded_row(s, a, u));
-            s->work += (double)s->N;
         }
     }
     nh_residue_matrix_gather(s->f, s->N, s->known + number * s->N, sum->count, sum->factor, sum->row);
@@ -189,21 +227,25 @@ static void equations(nh_graded_system *s)
 {
     const nh_jet_ring *r = s->r;
     size_t from = r->first[s->k], to = r->first[s->k + 1], count = to - from;
+    products all = {0};
     s->first = to;
     s->unknowns_of = r->first[s->k + 2] - to;
     s->equations = s->betas * count;
     s->entries = 0;
     s->known = nh_alloc_array(s->equations * s->N + 1, sizeof *s->known);
     s->start = nh_alloc_array(s->equations + 1, sizeof *s->start);
+    list_products(s, from, count, &all);
     sum_of_rows sum = {0};
     for (size_t q = 0; q < s->equations && !s->over && !nh_late() && s->work < s->p->most_work; q++) {
         s->start[q] = s->entries;
-        equation(s, q / count, from + q % count, q, &sum);
+        equation(s, q / count, all.start + q % count, &all, q, &sum);
     }
     s->over |= s->work >= s->p->most_work || nh_late();
     s->start[s->equations] = s->entries;
     nh_free(sum.row);
     nh_free(sum.factor);
+    nh_free(all.start);
+    nh_free(all.item);
 }
 
 /* ---- conditions on the parameters ---- */

@@ -6,6 +6,8 @@
 #include "base/progress.h"
 #include "integrals/graded_solver_internal.h"
 
+enum { inverse_work = 40 }; /* an inverse modulo the prime takes as long as this many products */
+
 /* A condition on the parameters, unless it is empty. */
 static void add_condition(nh_graded_system *s, const nh_residue *known)
 {
@@ -24,6 +26,10 @@ typedef struct {
 } cell;
 
 typedef struct {
+    size_t count, capacity, *item;
+} row_list;
+
+typedef struct {
     size_t rows, columns, rank;
     size_t *equation;       /* of each row */
     size_t *unknown;        /* of each column */
@@ -31,7 +37,52 @@ typedef struct {
     size_t *length, *count; /* of each row; rows that are left and have this column */
     bool *done, *pivoted;   /* rows used as pivots; columns */
     size_t *pivot_row, *pivot_column;
+    row_list *member;       /* of each column: the rows that have it or had it, some of them more than once */
+    row_list queue;         /* a heap of length x rows + row, with what the rows were before beside what they are */
 } component;
+
+/* ---- the shortest row that is left: a binary heap, from which nothing is taken but its least number ---- */
+
+static void append(row_list *l, size_t x)
+{
+    nh_grow(&l->item, &l->capacity, l->count + 1, sizeof *l->item);
+    l->item[l->count++] = x;
+}
+
+static void queue_row(component *c, size_t i)
+{
+    row_list *q = &c->queue;
+    size_t key = c->length[i] * c->rows + i, at = q->count;
+    if (!c->length[i]) return;
+    append(q, key);
+    for (; at > 0 && q->item[(at - 1) / 2] > key; at = (at - 1) / 2) q->item[at] = q->item[(at - 1) / 2];
+    q->item[at] = key;
+}
+
+static size_t least_of_queue(row_list *q)
+{
+    size_t least = q->item[0], key = q->item[--q->count], at = 0;
+    for (size_t next = 1; next < q->count; next = 2 * at + 1) {
+        if (next + 1 < q->count && q->item[next + 1] < q->item[next]) next++;
+        if (q->item[next] >= key) break;
+        q->item[at] = q->item[next];
+        at = next;
+    }
+    q->item[at] = key;
+    return least;
+}
+
+/* SIZE_MAX: none has entries. */
+static size_t shortest_row(component *c)
+{
+    while (c->queue.count) {
+        size_t key = least_of_queue(&c->queue), i = key % c->rows;
+        if (!c->done[i] && c->length[i] == key / c->rows) return i;
+    }
+    return SIZE_MAX;
+}
+
+/* ---- elimination ---- */
 
 /* to := to + factor * from, both sorted by column */
 static void combine(nh_graded_system *s, component *c, size_t to, size_t from, nh_residue factor)
@@ -44,6 +95,7 @@ static void combine(nh_graded_system *s, component *c, size_t to, size_t from, n
             out[n++] = a[x++];
         } else if (x == na || b[y].column < a[x].column) {
             out[n++] = (cell){b[y].column, nh_residue_mul(s->f, factor, b[y].value)};
+            append(&c->member[b[y].column], to);
             c->count[b[y++].column]++;
         } else {
             nh_residue v = nh_residue_add(s->f, a[x].value, nh_residue_mul(s->f, factor, b[y].value));
@@ -55,6 +107,7 @@ static void combine(nh_graded_system *s, component *c, size_t to, size_t from, n
     nh_free(a);
     c->cells[to] = out;
     c->length[to] = n;
+    queue_row(c, to);
     nh_residue_add_multiple(s->f, s->before, s->known + c->equation[to] * s->before,
                             s->known + c->equation[from] * s->before, factor);
     s->work += (double)(s->before + 8 * n); /* an entry costs more than a product: its row is made anew */
@@ -85,11 +138,12 @@ static void take_pivot(nh_graded_system *s, component *c, size_t i)
         c->count[c->cells[i][z].column]--;
     }
     for (size_t j = 0; j < s->before; j++) known[j] = nh_residue_mul(s->f, known[j], inverse);
-    s->work += (double)(c->rows + 40); /* rows are looked through, an inverse is computed */
+    s->work += (double)(c->member[column].count + inverse_work);
     c->done[i] = c->pivoted[column] = true;
     c->pivot_row[c->rank] = i;
     c->pivot_column[c->rank++] = column;
-    for (size_t k = 0; k < c->rows && c->count[column]; k++) {
+    for (size_t z = 0; z < c->member[column].count && c->count[column]; z++) {
+        size_t k = c->member[column].item[z];
         const cell *x = c->done[k] ? NULL : find_cell(c, k, column);
         if (x) combine(s, c, k, i, nh_residue_negative(s->f, x->value));
     }
@@ -97,13 +151,7 @@ static void take_pivot(nh_graded_system *s, component *c, size_t i)
 
 static void eliminate(nh_graded_system *s, component *c)
 {
-    for (;;) {
-        size_t best = SIZE_MAX;
-        for (size_t i = 0; i < c->rows && (best == SIZE_MAX || c->length[best] > 1); i++)
-            if (!c->done[i] && c->length[i] && (best == SIZE_MAX || c->length[i] < c->length[best])) best = i;
-        if (best == SIZE_MAX || nh_late()) return;
-        take_pivot(s, c, best);
-    }
+    for (size_t best; (best = shortest_row(c)) != SIZE_MAX && !nh_late();) take_pivot(s, c, best);
 }
 
 /* Columns without a pivot become parameters, the others follow, last pivot first. */
@@ -156,7 +204,11 @@ static void fill(nh_graded_system *s, component *c, const size_t *place)
             if (x[n - 1].value == 0 && (z + 1 == to - from || x[z + 1].column != x[n - 1].column)) n--;
         }
         c->length[i] = n;
-        for (size_t z = 0; z < n; z++) c->count[x[z].column]++;
+        for (size_t z = 0; z < n; z++) {
+            c->count[x[z].column]++;
+            append(&c->member[x[z].column], i);
+        }
+        queue_row(c, i);
     }
 }
 
@@ -167,6 +219,7 @@ static void solve_component(nh_graded_system *s, component *c, const size_t *pla
     c->done = nh_alloc_array(c->rows + 1, sizeof *c->done);
     c->count = nh_alloc_array(c->columns + 1, sizeof *c->count);
     c->pivoted = nh_alloc_array(c->columns + 1, sizeof *c->pivoted);
+    c->member = nh_alloc_array(c->columns + 1, sizeof *c->member);
     c->pivot_row = nh_alloc_array(c->columns + 1, sizeof *c->pivot_row);
     c->pivot_column = nh_alloc_array(c->columns + 1, sizeof *c->pivot_column);
     fill(s, c, place);
@@ -175,6 +228,9 @@ static void solve_component(nh_graded_system *s, component *c, const size_t *pla
         if (!c->done[i]) add_condition(s, s->known + c->equation[i] * s->before);
     back_substitute(s, c);
     for (size_t i = 0; i < c->rows; i++) nh_free(c->cells[i]);
+    for (size_t j = 0; j < c->columns; j++) nh_free(c->member[j].item);
+    nh_free(c->queue.item);
+    nh_free(c->member);
     nh_free(c->cells);
     nh_free(c->length);
     nh_free(c->done);
