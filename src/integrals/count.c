@@ -131,6 +131,7 @@ static void read_totals(const nh_counter *c, const size_t *total, size_t from, n
     out->complete = out->bounded && out->bound == out->known;
     while (same > 0 && total[same - 1] == total[order]) same--;
     if (out->bounded && same < from) same = from;
+    out->reached = same;
     out->settled = out->bounded && order - same >= c->frame->step + steps_beyond;
 }
 
@@ -162,14 +163,23 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row
     return result;
 }
 
-/* Orders grow until all are known, or the number does not change. */
-static outcome count_degree(nh_counter *c, size_t degree, nh_count_row *out)
+/* The order to begin with.  Series of lower order bound nothing where brackets of fields have weights; then the order at
+   which a degree reaches its number was found to grow by step + 1 with the degree. */
+static size_t first_order(const nh_counter *c, size_t degree, const nh_count_row *before)
 {
     enum { first_beyond = 2 };
-    size_t step = c->frame->step;
+    size_t step = c->frame->step, least = degree * step + first_beyond,
+           expected = before ? before->reached + step + (step > 1) : 0;
+    return least > expected ? least : expected;
+}
+
+/* Orders grow until all are known, or the number does not change. `before`: the row of the degree before, or NULL. */
+static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *before, nh_count_row *out)
+{
+    size_t step = c->frame->step, order = first_order(c, degree, before);
     nh_count_row row = {0};
     bool any = false;
-    for (size_t order = degree * step + first_beyond; c->work < c->q->work && !nh_late(); order += step + 1) {
+    while (c->work < c->q->work && !nh_late()) {
         outcome o = count_at(c, degree, order, &row);
         if (o == UNLUCKY) return o;
         if (o == TOO_MUCH) break;
@@ -178,6 +188,7 @@ static outcome count_degree(nh_counter *c, size_t degree, nh_count_row *out)
         if (row.complete || row.settled || (row.functions && c->q->alone) ||
             (row.functions && c->work > least_share * c->q->work))
             break;
+        order = (row.bounded ? row.reached : order) + step + steps_beyond;
     }
     return any ? COUNTED : TOO_MUCH;
 }
@@ -202,7 +213,8 @@ static void degrees(nh_counter *c, nh_count *out)
         return;
     }
     while (first + out->rows <= last && !nh_late()) {
-        outcome o = count_degree(c, first + out->rows, &out->row[out->rows]);
+        const nh_count_row *before = out->rows ? &out->row[out->rows - 1] : NULL;
+        outcome o = count_degree(c, first + out->rows, before, &out->row[out->rows]);
         if (o == UNLUCKY && !c->equations->obstacle) {
             do attempt++;
             while (attempt < NH_COUNT_POINTS && !nh_count_regular_point(c, attempt));

@@ -28,6 +28,7 @@ typedef struct {
     size_t rank;
     size_t known_rank;      /* of the latter alone */
     size_t order;           /* r */
+    size_t reached;         /* the lowest order from which on N is the same */
     bool bounded;           /* the symbol was injective below this order: `bound` is one */
     bool settled;           /* N did not change over the last orders; otherwise more of them may lower it */
     bool complete;          /* bound == known: all are polynomials in the known ones */
