@@ -1,6 +1,8 @@
 /* The count compared with the known integrals, for the given and for generic parameter values, and as sentences. */
 #include "integrals/completeness.h"
 
+#include <string.h>
+
 /* The highest degree that is settled by the rows; what is missing at the next. */
 static void read_rows(nh_completeness *c, bool all)
 {
@@ -58,7 +60,8 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
                                       .known = q->known,
                                       .independent = q->independent,
                                       .current = q->current};
-        *c = (nh_completeness){.counted = true, .count = nh_count_integrals(model, &question)};
+        *c = (nh_completeness){
+            .counted = true, .asked = q->degree, .count = nh_count_integrals(model, &question)};
         if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) {
             *c = (nh_completeness){0};
             continue;
@@ -69,6 +72,14 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
 }
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
+
+/* A degree that was asked for and not counted, because of the work. */
+static bool ended_by_work(const nh_completeness *c)
+{
+    return c->asked > c->count.rows && c->count.end && !strcmp(c->count.end, "work");
+}
+
+static const char more_work[] = "takes more work than the option `count_work` allows";
 
 static void coordinates_words(const nh_completeness *c, const char *coefficients, nh_text *out)
 {
@@ -92,6 +103,7 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
                          ? "proved for"
                          : "the number of all is proved, the rank of their differentials taken modulo a prime, for",
                      c->generic ? "generic parameters, and these" : "these parameters");
+    if (ended_by_work(c)) nh_text_addf(out, " Degree %zu %s.", c->count.rows + 1, more_work);
     if (!c->missing_at) return;
     const nh_count_row *row = &c->count.row[c->missing_at - 1];
     if (c->degree && !c->settled) {
@@ -121,8 +133,10 @@ void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_
                      plural(uncertain), uncertain == 1 ? "is" : "are");
     if (first == time || !time->counted || time->count.obstacle) return;
     if (time->degree)
-        nh_text_addf(out, " With time in the coefficients: complete to degree %zu%s", time->degree,
-                     time->missing_at ? "" : ".");
+        nh_text_addf(out, " With time in the coefficients: complete to degree %zu", time->degree);
+    if (time->degree && ended_by_work(time))
+        nh_text_addf(out, "; degree %zu %s", time->count.rows + 1, more_work);
+    if (time->degree && !time->missing_at) nh_text_add(out, ".");
     if (!time->missing_at) return;
     nh_text_add(out, time->degree ? ";" : " With time in the coefficients:");
     if (time->settled) nh_text_addf(out, " at degree %zu at most %zu more.", time->missing_at, time->missing);

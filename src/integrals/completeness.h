@@ -14,6 +14,7 @@ enum { NH_COMPLETE_IN_COORDINATES, NH_COMPLETE_IN_TIME, NH_COMPLETENESS_KINDS };
 typedef struct {
     bool counted;           /* this kind was looked at */
     nh_count count;         /* for the parameters' values */
+    size_t asked;           /* the degree that the user chose, or 0 */
     size_t degree;          /* complete up to this degree; 0: not even to the first */
     /* up to there all are polynomials in the known ones, which is proved; otherwise functions of them, tested at a
        point */

@@ -163,8 +163,8 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row
     return result;
 }
 
-/* The order to begin with.  Series of lower order bound nothing where brackets of fields have weights; then the order at
-   which a degree reaches its number was found to grow by step + 1 with the degree. */
+/* The order to begin with.  Series of lower order bound nothing where brackets of fields have weights; the order at
+   which a degree reaches its number was found to grow by step + 1 with the degree there. */
 static size_t first_order(const nh_counter *c, size_t degree, const nh_count_row *before)
 {
     enum { first_beyond = 2 };
