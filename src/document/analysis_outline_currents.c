@@ -319,9 +319,8 @@ static void furthers(nh_pen *p, const nh_analysis *r)
 {
     if (r->furthers) {
         nh_pen_heading(p, "Further integrals");
-        nh_pen_words(
-            p,
-            "These integrals are functions of the currents above, but no polynomials in them. They are not counted.");
+        nh_pen_words(p, "These integrals are polynomial in the velocities. They are functions of the currents above: "
+                        "they are not counted.");
     }
     for (size_t k = 0; k < r->furthers; k++)
         uncounted(p, r, &r->further[k].current, nh_arena_printf(r->arena, "degree %zu", r->further[k].degree));

@@ -84,7 +84,8 @@ static const nh_glossary_entry entries[] = {
                   "stages names the option that brings them in.  There may be currents of another kind."},
     {"cut", "A search that a limit of work or time ended before all was tried (exit code 5)."},
     {"further integral",
-     "Polynomial in the velocities and a function of the currents found, but no polynomial in them."},
+     "Polynomial in the velocities and a function of the currents found, so that it is not counted.  The products of "
+     "the currents do not give it; without it the list of integrals of its degree would not be complete."},
     {"completeness",
      "Every integral that is polynomial in the velocities up to a degree, whatever functions its "
      "coefficients are, is a polynomial in the currents found.  It is proved by counting: an upper bound (power "

@@ -177,8 +177,8 @@ struct nh_analysis {
     /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
     size_t pieces;
     nh_current *piece;
-    /* polynomial in the velocities, functions of the currents found, but no polynomials in them: not counted; at most
-       NH_MOST_FURTHER */
+    /* polynomial in the velocities, functions of the currents found: not counted.  Products of the currents that the
+       count compares do not give them.  At most NH_MOST_FURTHER */
     size_t furthers;
     nh_further_integral *further;
     size_t relations;         /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
