@@ -22,6 +22,8 @@ static void drifts(nh_pen *p, const nh_analysis *r)
 }
 _Static_assert(NH_DRIFT_RUNS == 3, "the table of drifts has a column for each tolerance");
 
+static const char *agree(double difference) { return difference > NH_MOTIONS_APART ? "differ by" : "agree to"; }
+
 static void second_opinion(nh_pen *p, const nh_analysis *r)
 {
     const nh_validation *v = r->validation;
@@ -31,13 +33,14 @@ static void second_opinion(nh_pen *p, const nh_analysis *r)
                      v->crossing_chart, v->crossing);
     if (!v->multiplier_form) return;
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    nh_pen_say(p, "The same motion %s (%s): states agree to %.2g",
+    nh_pen_say(p, "The same motion %s (%s): states %s %.2g",
                constrained ? "with Chetaev multipliers" : "by the equations of all coordinates", v->multiplier_method,
-               v->state_difference);
+               agree(v->state_difference), v->state_difference);
     if (constrained)
-        nh_pen_say(p, ", multipliers to %.2g, and the constraints hold to %.2g", v->multiplier_difference,
-                   v->violation);
-    if (v->multistep) nh_pen_say(p, "; by CVODE Adams states agree to %.2g", v->multistep_difference);
+        nh_pen_say(p, ", multipliers %s %.2g, and the constraints hold to %.2g", agree(v->multiplier_difference),
+                   v->multiplier_difference, v->violation);
+    if (v->multistep) nh_pen_say(p, "; by CVODE Adams states %s %.2g", agree(v->multistep_difference),
+                                  v->multistep_difference);
     nh_pen_say(p, ".");
     nh_pen_close(p, NH_PEN_WORDS);
 }

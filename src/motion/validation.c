@@ -138,6 +138,11 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
         else if (!full->motion->complete)
             snprintf(v->note, sizeof v->note, "the multiplier form was compared only up to t = %.4g: %.180s",
                      full->motion->end_time, full->motion->note);
+        else if (v->state_difference > NH_MOTIONS_APART && !v->note[0])
+            snprintf(v->note, sizeof v->note,
+                     "in the multiplier form the motion is another one: states differ by %.2g; errors grow along this "
+                     "motion, or it passes a state at which the equations do not determine it",
+                     v->state_difference);
     } else {
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s",
                  full ? full->motion->note : ignored.what);

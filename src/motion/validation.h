@@ -11,6 +11,9 @@
 #include "motion/accuracy.h"
 #include "motion/drift.h"
 
+/* Two computations of one motion whose states differ by more, relative to their sizes, are not said to agree. */
+#define NH_MOTIONS_APART 0.01
+
 typedef struct {
     nh_arena *arena;
     const char *method, *multiplier_method, *chart;
