@@ -344,6 +344,7 @@ Test(text, finds_what_was_meant)
     cr_expect_str_eq(nearest("lagragnian"), "lagrangian");
     cr_expect_str_eq(nearest("omga"), "omega");    /* an insertion */
     cr_expect_str_eq(nearest("coord"), "coordinates"); /* a prefix */
+    cr_expect_str_eq(nearest("coords"), "coordinates"); /* one letter more */
     cr_expect_str_eq(nearest("xphi"), "phi");
     cr_expect_str_eq(nearest("cunstrants"), "constraints"); /* two steps in ten letters */
     cr_expect_str_eq(nearest("omegadot"), "omega"); /* the other way round */
@@ -355,6 +356,7 @@ Test(text, does_not_guess_wildly)
     cr_expect_null(nearest("hip"));        /* two steps in three letters */
     cr_expect_null(nearest("y"));          /* nothing in common with x */
     cr_expect_null(nearest("co"));         /* too short for a prefix */
+    cr_expect_null(nearest("coorxy"));     /* two letters that differ */
     cr_expect_null(nearest("cxxstraxxts")); /* four steps */
     cr_expect_null(nearest(""));
     cr_expect_null(nh_text_nearest("phi", NULL, 0));

@@ -239,22 +239,24 @@ static size_t distance(const char *a, size_t na, const char *b, size_t nb)
     return row[na % 3][nb];
 }
 
-static bool is_prefix(const char *a, const char *b, size_t length)
+/* How many letters both begin with. */
+static size_t common_start(const char *a, const char *b)
 {
-    for (size_t i = 0; i < length; i++)
-        if (lower(a[i]) != lower(b[i]))
-            return false;
-    return true;
+    size_t n = 0;
+    while (a[n] && lower(a[n]) == lower(b[n])) n++;
+    return n;
 }
 
-/* Could `candidate` have been meant?  Not if every letter differs: `q` is no misspelt `y`. */
+/* Could `candidate` have been meant?  Not if every letter differs: `q` is no misspelt `y`.  A beginning, as `coord`,
+ * and a longer one with another last letter, as `coords`, are taken for the word. */
 static bool near_enough(const char *word, size_t nw, const char *candidate, size_t nc, size_t apart)
 {
     size_t allowed = nw <= 4 ? 1 : nw <= 8 ? 2 : 3;
     size_t shorter = smaller(nw, nc), longer = nw + nc - shorter;
     if (apart <= allowed && apart < longer)
         return true;
-    return shorter >= 3 && is_prefix(word, candidate, shorter);
+    size_t common = common_start(word, candidate);
+    return (shorter >= 3 && common == shorter) || (shorter >= 6 && common + 1 == shorter);
 }
 
 const char *nh_text_nearest(const char *word, const char *const *candidates, size_t count)

@@ -133,7 +133,8 @@ bool nh_system_motions(nh_system *system, size_t *count, nh_known_motion **out, 
    the result. */
 size_t nh_system_state_names(const nh_system *system, const char **names);
 
-/* The hint on a word that names no parameter: the nearest one, or all of them.  Always false. */
+/* The hint on a word that names no coordinate, no parameter: the nearest one, or all of them.  Always false. */
+bool nh_system_hint_coordinates(const nh_system *system, const char *word, nh_error *error);
 bool nh_system_hint_parameters(const nh_system *system, const char *word, nh_error *error);
 
 /* Parse an expression of this system: t, parameters, definitions, coordinates, velocities x', quasi-velocities, and the

@@ -87,8 +87,7 @@ bool nh_system_read_forces(nh_system_reader *r)
         long index = nh_system_coordinate(s, name);
         if (index < 0) {
             nh_deck_fail(r->deck, list->item[i], 0, r->error, "`%s` is not a coordinate", name);
-            return nh_error_hint(r->error, "a generalized force belongs to a coordinate, for example `%s = ...`",
-                                 s->coordinate[0].name);
+            return nh_system_hint_coordinates(s, name, r->error);
         }
         if (!nh_system_read_right_side(r, list->item[i], NH_NO_QUASI, &value)) return false;
         s->force[index] = nh_add(s->dag, s->force[index], value);
@@ -121,17 +120,29 @@ size_t nh_system_state_names(const nh_system *s, const char **names)
     return n;
 }
 
+/* The nearest of the names, or all of them; "its parameters are m, g". */
+static bool hint_names(const nh_system *s, const char *what, size_t n, const char *const *names, const char *word,
+                       nh_error *error)
+{
+    const char *near = nh_text_nearest(word, names, n), *all = "";
+    if (near) return nh_error_hint(error, "did you mean `%s`?", near);
+    for (size_t i = 0; i < n; i++) all = nh_arena_printf(s->arena, "%s%s%s", all, i ? ", " : "", names[i]);
+    return nh_error_hint(error, n > 1 ? "%ss are %.150s" : "%s is %.150s", what, all);
+}
+
+bool nh_system_hint_coordinates(const nh_system *s, const char *word, nh_error *error)
+{
+    const char **names = nh_arena_alloc(s->arena, (s->coordinates + 1) * sizeof *names);
+    for (size_t i = 0; i < s->coordinates; i++) names[i] = s->coordinate[i].name;
+    return hint_names(s, "the coordinate", s->coordinates, names, word, error);
+}
+
 bool nh_system_hint_parameters(const nh_system *s, const char *word, nh_error *error)
 {
-    const char **names = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *names), *all = "";
-    for (size_t i = 0; i < s->parameters; i++) {
-        names[i] = s->parameter[i].name;
-        all = nh_arena_printf(s->arena, "%s%s%s", all, i ? ", " : "", names[i]);
-    }
-    const char *near = nh_text_nearest(word, names, s->parameters);
-    if (near) return nh_error_hint(error, "did you mean `%s`?", near);
+    const char **names = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *names);
+    for (size_t i = 0; i < s->parameters; i++) names[i] = s->parameter[i].name;
     if (!s->parameters) return nh_error_hint(error, "it has none");
-    return nh_error_hint(error, s->parameters > 1 ? "its parameters are %.150s" : "its parameter is %.150s", all);
+    return hint_names(s, "its parameter", s->parameters, names, word, error);
 }
 
 static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
@@ -143,7 +154,8 @@ static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
         if (!strcmp(names[i], key->text)) return nh_symbol_find(s->dag, key->text, out);
     nh_deck_fail(r->deck, key, 0, r->error, "`%s` is not a coordinate, a velocity or t", key->text);
     const char *near = nh_text_nearest(key->text, names, n);
-    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+    return near ? nh_error_hint(r->error, "did you mean `%s`?", near)
+                : nh_system_hint_coordinates(s, key->text, r->error);
 }
 
 bool nh_system_read_domain(nh_system_reader *r)
@@ -175,18 +187,12 @@ static bool read_field(nh_system_reader *r, const nh_deck_node *map, nh_ex *comp
 {
     nh_system *s = r->system;
     if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a field {coordinate: component, ...}", r->error)) return false;
-    const char **names = nh_system_take(r, s->coordinates, sizeof *names);
-    for (size_t i = 0; i < s->coordinates; i++) {
-        names[i] = s->coordinate[i].name;
-        component[i] = nh_int(s->dag, 0);
-    }
+    for (size_t i = 0; i < s->coordinates; i++) component[i] = nh_int(s->dag, 0);
     for (size_t i = 0; i < map->count; i++) {
         long index = nh_system_coordinate(s, map->key[i]->text);
         if (index < 0) {
             nh_deck_fail(r->deck, map->key[i], 0, r->error, "`%s` is not a coordinate", map->key[i]->text);
-            const char *near = nh_text_nearest(map->key[i]->text, names, s->coordinates);
-            return near ? nh_error_hint(r->error, "did you mean `%s`?", near)
-                        : nh_error_hint(r->error, "a symmetry is a field on configuration space: {x: 1}");
+            return nh_system_hint_coordinates(s, map->key[i]->text, r->error);
         }
         if (!nh_deck_is(r->deck, map->item[i], NH_DECK_SCALAR, "an expression", r->error)) return false;
         if (!nh_system_read_expression(s, r->deck, map->item[i], 0, NH_NO_VELOCITIES | NH_NO_QUASI, 0, NULL, NULL,

@@ -309,8 +309,6 @@ static bool read_dependent(reader *r)
                             "there must be as many dependent velocities as constraints: %zu, not %zu", s->constraints,
                             n);
     s->dependent = nh_system_take(r, n, sizeof *s->dependent);
-    const char **names = nh_system_take(r, s->coordinates, sizeof *names);
-    for (size_t i = 0; i < s->coordinates; i++) names[i] = s->coordinate[i].name;
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *node = list->item[i];
         if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the name of a coordinate", r->error)) return false;
@@ -318,8 +316,7 @@ static bool read_dependent(reader *r)
         long index = nh_system_coordinate(s, nh_arena_strndup(s->arena, node->text, length));
         if (index < 0) {
             nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not a coordinate", node->text);
-            const char *near = nh_text_nearest(node->text, names, s->coordinates);
-            return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+            return nh_system_hint_coordinates(s, node->text, r->error);
         }
         for (size_t j = 0; j < i; j++)
             if (s->dependent[j] == (size_t)index)
