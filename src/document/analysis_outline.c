@@ -68,7 +68,7 @@ static void links(nh_pen *p, const nh_analysis *r)
     nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|%s%ssearch|%s|words|Words|repeat|Repeat it",
                  r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "",
                  r->motion ? "explicit|Explicit motion|" : "", r->theory ? "geometry|Geometry|" : "",
-                 r->count ? "How it was found" : "What was tried");
+                 r->count ? "How it was found" : "The search");
     p->ink->links(p->to, nh_text_string(&sections));
     nh_text_clear(&sections);
 }

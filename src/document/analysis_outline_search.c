@@ -108,7 +108,7 @@ static void stages(nh_pen *p, const nh_analysis *r)
     nh_pen_table(p, "What was tried", "stage|columns|null values|new currents");
     for (size_t i = 0; i < r->stages; i++) {
         const nh_stage_record *s = &r->stage[i];
-        if (s->skipped) nh_pen_row(p, "#%s|not tried, too large: %s||", s->name, nh_limit_words(r->arena, &s->limit));
+        if (s->skipped) nh_pen_row(p, "#%s: not tried, too large; %s|||", s->name, nh_limit_words(r->arena, &s->limit));
         else
             nh_pen_row(p, "#%s|%zu%s|%zu%s|%zu", s->name, s->columns,
                        s->sectors > 1 ? nh_arena_printf(r->arena, " in %zu sectors", s->sectors) : "", s->dimension,
@@ -119,7 +119,7 @@ static void stages(nh_pen *p, const nh_analysis *r)
 
 void nh_analysis_write_search(nh_pen *p, const nh_analysis *r)
 {
-    nh_pen_section(p, "search", r->count ? "How it was found" : "What was tried");
+    nh_pen_section(p, "search", r->count ? "How it was found" : "The search");
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     nh_pen_say(p, r->count ? "Ansatz %s. %zu sample points" : "The ansatz was %s. %zu sample points", r->ansatz_note,
                r->samples);

@@ -85,11 +85,12 @@ static void counted(nh_pen *p, const nh_reduction *r, const nh_group *g)
     if (!g->jets) return;
     nh_pen_fact_begin(p, "Counted");
     nh_pen_say(p,
-               "%zu local symmetries of kinetic energy, potential and constraints, without an ansatz; %zu of the "
+               "%zu local symmetr%s of kinetic energy, potential and constraints, without an ansatz; %zu of the "
                "kinetic energy alone",
-               g->jets->dimension, g->jets->of_metric);
+               g->jets->dimension, g->jets->dimension == 1 ? "y" : "ies", g->jets->of_metric);
     if (r->weaker && g == r->all)
-        nh_pen_say(p, "; %zu more that change the Lagrangian by a total derivative: --weak", r->weaker);
+        nh_pen_say(p, "; %zu more that change%s the Lagrangian by a total derivative: --weak", r->weaker,
+                   r->weaker == 1 ? "s" : "");
     if (g->missing) nh_pen_say(p, "; %zu without a closed form", g->missing);
     nh_pen_close(p, NH_PEN_FACT);
 }

@@ -42,6 +42,14 @@ static void tell(const nh_motion *motion, size_t count, const double *times)
         nh_progress("a motion", (motion->end_time - times[0]) / span);
 }
 
+/* By a signal, by the limit of time or by that of memory. */
+static void note_end(nh_motion *motion)
+{
+    char words[80];
+    nh_ended_words(words, sizeof words);
+    nh_motion_note(motion, "%s at t = %.10g", words, motion->end_time);
+}
+
 /* Whether the motion may take another step. */
 static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double begin)
 {
@@ -54,7 +62,7 @@ static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double 
     double limit = options->max_steps > 0 ? options->max_steps : default_max_steps;
     bool cancelled =
         options->cancelled && options->cancelled(options->cancel_context); /* this may compute for a while */
-    if (nh_interrupted()) nh_motion_note(motion, "interrupted at t = %.10g", motion->end_time);
+    if (nh_interrupted()) note_end(motion);
     else if (cancelled) nh_motion_note(motion, "cancelled at t = %.10g", motion->end_time);
     else if ((double)motion->steps >= limit) {
         motion->limited = true;
