@@ -158,6 +158,18 @@ Test(drawing, bodies_in_space)
     nh_system_free(s);
 }
 
+/* A legend tells wheels apart that the file does not name. */
+Test(drawing, wheels_without_names)
+{
+    nh_system *s = parse("parameters: [{name: r, value: 0.3}]\nbodies: [{name: cart, mass: 1, inertia: 0.1}, {name: w, mass: 1, inertia: [0.1, 0.2, 0.1]}]\n"
+                         "joints: [{type: planar, child: cart, coordinates: [x, y, h]}, {type: revolute, parent: cart, child: w, axis: y, coordinates: [p]}]\n"
+                         "wheels: [{type: knife-edge, body: cart, axis: y}, {type: rolling, body: w, axle: y, radius: r}, {type: knife-edge, body: cart, axis: y, name: keel}, {type: knife-edge, body: cart, axis: y}]\n");
+    static const char *const names[] = {"blade 1 of cart", "wheel of w", "keel", "blade 2 of cart"};
+    cr_assert_eq(s->chain->wheels, 4u);
+    for (size_t i = 0; i < 4; i++) cr_expect_str_eq(s->chain->wheel[i].name, names[i]);
+    nh_system_free(s);
+}
+
 /* Turns about a body's own axes one after another: Euler's angles z, x, z. */
 Test(drawing, turns_of_a_file)
 {

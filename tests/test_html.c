@@ -225,6 +225,43 @@ Test(html, every_command_has_its_page)
     place_clear(&p);
 }
 
+/* Is every name of a repeated part, A_1 or S_12, defined on a line of its own? */
+static void expect_defined(const char *text, const char *line)
+{
+    for (const char *c = text; *c; c++) {
+        size_t digits = c[1] == '_' ? strspn(c + 2, "0123456789") : 0;
+        bool begins = c == text || !(isalnum((unsigned char)c[-1]) || c[-1] == '_');
+        char definition[40];
+        if (!isupper((unsigned char)*c) || !digits || !begins || isalpha((unsigned char)c[2 + digits])) continue;
+        snprintf(definition, sizeof definition, "\n  %.*s = ", (int)digits + 2, c);
+        cr_expect_not_null(strstr(text, definition), "%s: %.*s is not defined", line, (int)digits + 2, c);
+    }
+}
+
+/* Formulas for which there is no room are left out with all that only they need, and the option that is named shows them. */
+Test(html, what_is_left_out_is_named_with_the_option_that_shows_it)
+{
+    static const char *const lines[] = {"analyze car_trailers_3 --option work=1", "reduce car_trailers_3", "analyze crane --option work=1"};
+    place p = place_with_systems();
+    for (size_t i = 0; i < 3; i++) {
+        if (!sweep_tries(i, 1, 2)) continue;
+        char again[200];
+        finished f = run(&p, lines[i]);
+        double most = 0;
+        expect_defined(f.out, lines[i]);
+        cr_expect(i != 0 || strstr(f.out, "too long to be shown"), "%s: nothing is left out, so this tries nothing", lines[i]);
+        for (const char *c = f.out; (c = strstr(c, "shown=")); c++) most = fmax(most, strtod(c + 6, NULL));
+        finished_clear(&f);
+        if (!(most > 0)) continue;
+        snprintf(again, sizeof again, "%s --option shown=%.0f", lines[i], most);
+        f = run(&p, again);
+        cr_expect_null(strstr(f.out, "too long to be shown"), "%s", again);
+        expect_defined(f.out, again);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 /* The words at the ticks of a figure, one after the other. */
 static void ticks_of(const char *figure, const char *end, char *out, size_t size)
 {

@@ -1,5 +1,6 @@
 #include "document/formula.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -27,7 +28,7 @@ nh_ex nh_formula_shown(const nh_analysis *r, nh_ex e)
 
 /* ---- names for what is repeated ---- */
 
-enum { most_names = 10 * NH_FORMULA_PARTS, long_formula = 120, largest_graph = 20000, least_gain = 12 };
+enum { most_names = 120, long_formula = 120, largest_graph = 20000, least_gain = 12, formulas_per_block = 3 };
 
 /* How often does each node below n stand in the text of the formulas?  A child has a smaller index than what it stands
    in. */
@@ -83,7 +84,23 @@ static char free_letter(const nh_dag *d)
     return 'Z';
 }
 
-size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS])
+nh_formula_room nh_formula_block(double shown) { return (nh_formula_room){shown, formulas_per_block * shown}; }
+
+/* Does a document leave something out, for it is too long? */
+static bool too_long(const nh_dag *d, size_t n, const nh_ex *e, size_t parts, const nh_formula_part *part,
+                     nh_formula_room room)
+{
+    double all = 0;
+    bool longer = false;
+    for (size_t i = 0; i < n + parts; i++) {
+        double length = (double)nh_complexity(d, i < n ? e[i] : part[i - n].value);
+        longer |= length > room.longest;
+        all += length;
+    }
+    return longer || all > room.all;
+}
+
+size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_room room, nh_formula_part part[NH_FORMULA_PARTS])
 {
     size_t count = 0, longest = 0, nodes = 0;
     char letter = free_letter(d);
@@ -94,6 +111,7 @@ size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_part part[NH_F
     }
     if (longest < long_formula || nodes > largest_graph) return 0;
     for (nh_ex best; count < NH_FORMULA_PARTS && most_repeated(d, n, e, count, part, &best);) {
+        if (count >= NH_FORMULA_FEW && !too_long(d, n, e, count, part, room)) break;
         nh_formula_part *p = &part[count];
         snprintf(p->name, sizeof p->name, "%c_%zu", letter, count + 1);
         p->value = best;
@@ -103,6 +121,48 @@ size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_part part[NH_F
         count++;
     }
     return count;
+}
+
+/* The parts that e needs, itself or through another one; values use later names only. */
+static void need(nh_dag *d, nh_ex e, size_t parts, const nh_formula_part *part, bool *needed)
+{
+    nh_ex symbol[200];
+    size_t n = nh_symbols_in(d, e, symbol, sizeof symbol / sizeof *symbol);
+    for (size_t j = 0; j < n; j++)
+        for (size_t k = 0; k < parts; k++)
+            if (symbol[j] == part[k].symbol && !needed[k]) {
+                needed[k] = true;
+                need(d, part[k].value, parts, part, needed);
+            }
+}
+
+double nh_formula_fit(nh_dag *d, size_t n, const nh_ex *e, size_t parts, const nh_formula_part *part,
+                      nh_formula_room room, bool *stands, bool needed[NH_FORMULA_PARTS])
+{
+    bool known[NH_FORMULA_PARTS] = {false};
+    double used_up = 0, all = 0, wanted = 0;
+    memset(needed, 0, NH_FORMULA_PARTS * sizeof *needed);
+    for (size_t i = 0; i < n; i++) {
+        bool with[NH_FORMULA_PARTS];
+        double length = (double)nh_complexity(d, e[i]), more = length, longest = length;
+        memcpy(with, needed, sizeof with);
+        need(d, e[i], parts, part, with);
+        all += length;
+        for (size_t k = 0; k < parts; k++) {
+            if (!with[k]) continue;
+            length = (double)nh_complexity(d, part[k].value);
+            longest = fmax(longest, length);
+            if (!needed[k]) more += length;
+            if (!known[k]) all += length;
+            known[k] = true;
+        }
+        wanted = fmax(wanted, longest);
+        stands[i] = longest <= room.longest && used_up + more <= room.all;
+        if (!stands[i]) continue;
+        used_up += more;
+        memcpy(needed, with, sizeof with);
+    }
+    return isfinite(room.all) ? fmax(wanted, ceil(all / formulas_per_block)) : wanted;
 }
 
 /* ---- fields ---- */
@@ -131,16 +191,22 @@ size_t nh_formula_field(const nh_analysis *r, const nh_symmetry *z, nh_field_ter
     return n;
 }
 
+void nh_formula_left_out(double wanted, nh_text *out)
+{
+    if (wanted < 1e9) nh_text_addf(out, "... (too long to be shown; --option shown=%.0f shows it)", wanted);
+    else nh_text_add(out, "... (too long to be shown)");
+}
+
 char *nh_formula_text(nh_dag *d, nh_ex e, double shown)
 {
-    char *text = nh_print_short(d, e, shown), size[120];
+    nh_text words;
+    char *text = nh_print_short(d, e, shown);
     if (text) return text;
-    double length = (double)nh_complexity(d, e);
-    if (length < 1e9)
-        snprintf(size, sizeof size, "... (%.0f symbols, too long to be shown; --option shown=%.0f shows them)", length,
-                 length);
-    else snprintf(size, sizeof size, "... (too long to be shown)");
-    return nh_strdup(size);
+    nh_text_init(&words);
+    nh_formula_left_out((double)nh_complexity(d, e), &words);
+    text = nh_strdup(nh_text_string(&words));
+    nh_text_clear(&words);
+    return text;
 }
 
 bool nh_formula_is_sum(const char *text)

@@ -12,13 +12,23 @@ nh_ex nh_formula_shown(const nh_analysis *result, nh_ex e);
 
 /* Long formulas with names for what occurs in them more than once: the n formulas are changed, part[i] = {name, value}
  * in an order in which each uses only names that come later.  Names are new to the graph: a letter, _ and a number.
- * Returns their number, at most NH_FORMULA_PARTS; 0 when all are short. */
-enum { NH_FORMULA_PARTS = 12 };
+ * There are at most NH_FORMULA_FEW, and more only as long as nh_formula_fit would leave something out without them.
+ * Returns their number; 0 when all are short. */
+enum { NH_FORMULA_FEW = 12, NH_FORMULA_PARTS = 48 };
 typedef struct {
     char name[16];
     nh_ex symbol, value;
 } nh_formula_part;
-size_t nh_formula_parts(nh_dag *dag, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS]);
+typedef struct {
+    double longest, all;         /* symbols that a formula or the value of a name may have; all of them together */
+} nh_formula_room;
+nh_formula_room nh_formula_block(double shown); /* three times as many together */
+size_t nh_formula_parts(nh_dag *dag, size_t n, nh_ex *e, nh_formula_room room, nh_formula_part part[NH_FORMULA_PARTS]);
+
+/* Which of the formulas stand in a document: those for which there is room, with all the names that they need.
+ * needed[k]: part k is one of these names.  Returns the least option `shown` with which all of them stand there. */
+double nh_formula_fit(nh_dag *dag, size_t n, const nh_ex *e, size_t parts, const nh_formula_part *part,
+                      nh_formula_room room, bool *stands, bool needed[NH_FORMULA_PARTS]);
 
 /* The symmetry of a current as a sum of coefficients along basis fields: d/dt, d/dq, d/dx' of the chart of coordinate
  * velocities (or of the only one); or along Gamma first and then the rest, where that is much shorter.  Terms that
@@ -31,6 +41,8 @@ size_t nh_formula_field(const nh_analysis *result, const nh_symmetry *z, nh_fiel
 
 /* A formula as text; when it is longer than `shown` symbols, how long it is and which option shows it. */
 char *nh_formula_text(nh_dag *dag, nh_ex e, double shown);
+/* The words for one that is left out: with names for what is repeated it wants so many symbols. */
+void nh_formula_left_out(double wanted, nh_text *out);
 
 /* Of the text of an expression: has it a plus or minus outside all parentheses, after the first character? */
 bool nh_formula_is_sum(const char *text);

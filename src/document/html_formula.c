@@ -88,43 +88,17 @@ static void line(nh_html_writer *w, const char *label, nh_ex e)
     nh_free(text);
 }
 
-static void too_long(nh_html_writer *w, const char *label, nh_ex e)
+static void too_long(nh_html_writer *w, const char *label, nh_ex e, double wanted)
 {
     bool known = (double)nh_complexity(w->dag, e) <= w->written;
+    nh_text words;
+    nh_text_init(&words);
+    nh_formula_left_out(wanted, &words);
     nh_html_add(w, "<div class=\"formula\">");
     put_label(w, label);
-    nh_html_add(w, known ? "<em>too long for a page; the JSON has it</em></div>\n"
-                         : "<em>too long to be written out</em></div>\n");
-}
-
-/* Does it still need part i, itself or through another part?  Values use later names only. */
-static bool uses(const nh_html_writer *w, nh_ex e, size_t parts, const nh_formula_part *part, size_t i)
-{
-    nh_ex symbol[200];
-    size_t n = nh_symbols_in(w->dag, e, symbol, sizeof symbol / sizeof *symbol);
-    for (size_t j = 0; j < n; j++)
-        for (size_t k = 0; k < parts; k++)
-            if (symbol[j] == part[k].symbol && (k == i || uses(w, part[k].value, parts, part, i))) return true;
-    return false;
-}
-
-/* Is there room for e on the page, with the names that it needs and that are not there yet?  Then they are. */
-static bool room(nh_html_writer *w, nh_ex e, size_t parts, const nh_formula_part *part, bool *needed, double *used_up)
-{
-    enum { formulas_per_block = 3 };
-    bool more[NH_FORMULA_PARTS] = {false};
-    double length = (double)nh_complexity(w->dag, e), all = length;
-    bool fits = length <= w->shown;
-    for (size_t k = 0; k < parts && fits; k++) {
-        more[k] = !needed[k] && uses(w, e, parts, part, k);
-        length = (double)nh_complexity(w->dag, part[k].value);
-        if (more[k]) all += length;
-        fits = !more[k] || length <= w->shown;
-    }
-    if (!fits || *used_up + all > formulas_per_block * w->shown) return false;
-    *used_up += all;
-    for (size_t k = 0; k < parts; k++) needed[k] |= more[k];
-    return true;
+    nh_html_tagged(w, "em", nh_text_string(&words));
+    nh_html_add(w, known ? "<em>; the JSON has it</em></div>\n" : "</div>\n");
+    nh_text_clear(&words);
 }
 
 /* Numbers the parts in their order of appearance, without gaps. */
@@ -146,18 +120,17 @@ static void number_parts(nh_html_writer *w, size_t n, nh_ex *e, size_t parts, nh
 void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e)
 {
     nh_formula_part part[NH_FORMULA_PARTS];
-    bool needed[NH_FORMULA_PARTS] = {false}, any = false, *shown = nh_alloc_array(n + 1, sizeof *shown);
-    double used_up = 0;
+    bool needed[NH_FORMULA_PARTS], any = false, *shown = nh_alloc_array(n + 1, sizeof *shown);
     nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
     for (size_t i = 0; i < n; i++)
         brief[i] = nh_formula_shortened(w->analysis, w->dag, w->chart ? nh_chart_shown(w->chart, e[i]) : e[i]);
-    size_t parts = nh_formula_parts(w->dag, n, brief, part);
-    for (size_t i = 0; i < n; i++) shown[i] = room(w, brief[i], parts, part, needed, &used_up);
+    size_t parts = nh_formula_parts(w->dag, n, brief, nh_formula_block(w->shown), part);
+    double wanted = nh_formula_fit(w->dag, n, brief, parts, part, nh_formula_block(w->shown), shown, needed);
     for (size_t k = 0; k < parts; k++) any |= needed[k];
     if (any) number_parts(w, n, brief, parts, part, needed);
     for (size_t i = 0; i < n; i++)
         if (shown[i]) line(w, label[i], brief[i]);
-        else too_long(w, label[i], e[i]);
+        else too_long(w, label[i], e[i], wanted);
     if (any) nh_html_add(w, "<div class=\"where\"><p>where</p>\n");
     for (size_t k = 0; k < parts; k++)
         if (needed[k]) line(w, part[k].name, part[k].value);

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "exact/normal.h"
 #include "graph/print.h"
 #include "document/formula.h"
@@ -71,7 +72,7 @@ static nh_sheet_line *last(nh_sheet *s)
 static void put_term(nh_arena *arena, nh_sheet_line *line, nh_ex coefficient, const char *factor)
 {
     line->term = grown(arena, line->term, line->left + line->right, &line->room, sizeof *line->term);
-    line->term[line->left + line->right++] = (nh_sheet_term){coefficient, factor};
+    line->term[line->left + line->right++] = (nh_sheet_term){.coefficient = coefficient, .factor = factor};
 }
 
 void nh_sheet_add(nh_sheet *s, nh_ex coefficient, const char *factor)
@@ -103,16 +104,18 @@ static nh_ex as_shown(const nh_sheet *s, const nh_sheet_section *c, nh_ex e)
 }
 
 /* Its own names, S_1, S_2, ...: one sequence for the sheet. */
-static void rename_parts(nh_sheet *s, size_t n, nh_ex *e, size_t parts, nh_formula_part *part)
+static void rename_parts(nh_sheet *s, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed)
 {
     nh_ex from[NH_FORMULA_PARTS], to[NH_FORMULA_PARTS];
+    size_t count = 0;
     for (size_t k = 0; k < parts; k++) {
+        if (!needed[k]) continue;
         snprintf(part[k].name, sizeof part[k].name, "S_%zu", ++s->names);
-        from[k] = part[k].symbol;
-        to[k] = part[k].symbol = nh_symbol_fresh(s->dag, part[k].name);
+        from[count] = part[k].symbol;
+        to[count++] = part[k].symbol = nh_symbol_fresh(s->dag, part[k].name);
     }
-    for (size_t i = 0; i < n; i++) e[i] = nh_substitute(s->dag, e[i], parts, from, to);
-    for (size_t k = 0; k < parts; k++) part[k].value = nh_substitute(s->dag, part[k].value, parts, from, to);
+    for (size_t i = 0; i < n; i++) e[i] = nh_substitute(s->dag, e[i], count, from, to);
+    for (size_t k = 0; k < parts; k++) part[k].value = nh_substitute(s->dag, part[k].value, count, from, to);
 }
 
 nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
@@ -132,14 +135,22 @@ nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
             e[at++] = nh_formula_shortened(s->analysis, s->dag, as_shown(s, &c, c.line[i].term[j].coefficient));
         }
     }
-    size_t parts = nh_formula_parts(s->dag, n, e, part);
-    rename_parts(s, n, e, parts, part);
+    const nh_formula_room room = {s->shown, INFINITY};
+    bool needed[NH_FORMULA_PARTS], *stands = nh_alloc_array(n + 1, sizeof *stands);
+    size_t parts = nh_formula_parts(s->dag, n, e, room, part);
+    double wanted = nh_formula_fit(s->dag, n, e, parts, part, room, stands, needed);
+    rename_parts(s, n, e, parts, part, needed);
     for (size_t i = at = 0; i < c.lines; i++)
-        for (size_t j = 0; j < line[i].left + line[i].right; j++) line[i].term[j].coefficient = e[at++];
+        for (size_t j = 0; j < line[i].left + line[i].right; j++, at++) {
+            line[i].term[j].coefficient = e[at];
+            line[i].term[j].wanted = stands[at] ? 0 : wanted;
+        }
+    nh_free(stands);
     *own = c.lines;
     c.line = line;
     c.room = c.lines + NH_FORMULA_PARTS;
     for (size_t k = 0; k < parts; k++) {
+        if (!needed[k]) continue;
         nh_sheet_line *def = add_line(s->arena, &c);
         def->label = nh_sheet_label(s, "<%s>", part[k].name);
         put_term(s->arena, def, part[k].value, "");
@@ -149,7 +160,7 @@ nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
 
 char *nh_sheet_coefficient(const nh_sheet *s, const nh_sheet_term *t, bool *minus, bool *sum)
 {
-    char *text = nh_print_short(s->dag, t->coefficient, s->shown);
+    char *text = t->wanted > 0 ? NULL : nh_print_string(s->dag, t->coefficient);
     *minus = *sum = false;
     if (!text) return text;
     *sum = t->factor[0] && nh_formula_is_sum(text);

@@ -13,6 +13,7 @@
 typedef struct {
     nh_ex coefficient;
     const char *factor;      /* notation; "": none */
+    double wanted;           /* 0: it is shown; else it is left out, and the option shown that shows it */
 } nh_sheet_term;
 
 typedef struct {

@@ -42,7 +42,9 @@ static void put_term(const nh_sheet *s, const nh_sheet_term *term, bool first, n
     char *text = nh_sheet_coefficient(s, term, &minus, &sum);
     nh_text pieces;
     nh_text_init(&pieces);
-    if (!text) nh_text_add(&pieces, "<mtext>(too long for a page)</mtext>");
+    if (!text && term->wanted < 1e9)
+        nh_text_addf(&pieces, "<mtext>(too long; --option shown=%.0f shows it)</mtext>", term->wanted);
+    else if (!text) nh_text_add(&pieces, "<mtext>(too long for a page)</mtext>");
     else if (text[0] && !nh_typeset_pieces(text, NH_MATHML, widest, put_piece, &pieces))
         nh_text_add(&pieces, "<mtext>(nested too deep)</mtext>");
     const char *sign = first   ? (minus ? "<mo>\u2212</mo>" : "")

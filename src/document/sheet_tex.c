@@ -20,7 +20,9 @@ static void terms(const nh_sheet *s, size_t n, const nh_sheet_term *term, nh_tex
         char *text = nh_sheet_coefficient(s, &term[i], &minus, &sum);
         nh_tex_add(w, i ? (minus ? "\\nhbreak - " : "\\nhbreak + ") : minus ? "-" : "");
         nh_tex_add(w, sum ? "(" : "");
-        if (!text) nh_tex_add(w, "(\\text{too long for a page})");
+        if (!text && term[i].wanted < 1e9)
+            nh_text_addf(w->out, "(\\text{too long; -{}-option shown=%.0f shows it})", term[i].wanted);
+        else if (!text) nh_tex_add(w, "(\\text{too long for a page})");
         else if (text[0] && !nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, w->out))
             nh_tex_add(w, "(\\text{nested too deep})");
         nh_tex_add(w, sum ? ")" : "");

@@ -6,6 +6,7 @@
 #include "document/formula.h"
 #include "document/notation.h"
 #include "document/sheet.h"
+#include "graph/print.h"
 
 enum { line_width = 80, line_indent = 2 };
 
@@ -83,13 +84,24 @@ static void put_words(nh_text *out, const char *words)
     nh_text_clear(&text);
 }
 
+static char *left_out(const nh_sheet_term *term)
+{
+    nh_text words;
+    if (term->factor[0]) return nh_strdup("(too long)");
+    nh_text_init(&words);
+    nh_formula_left_out(term->wanted, &words);
+    char *out = nh_strdup(nh_text_string(&words));
+    nh_text_clear(&words);
+    return out;
+}
+
 static void terms(const nh_sheet *s, size_t n, const nh_sheet_term *term, nh_text *out)
 {
     if (n == 0) nh_text_add(out, "0");
     for (size_t i = 0; i < n; i++) {
         bool minus, sum;
         char *text = nh_sheet_coefficient(s, &term[i], &minus, &sum);
-        if (!text) text = nh_strdup(term[i].factor[0] ? "(too long)" : "too long to be shown (option `shown`)");
+        if (!text) text = left_out(&term[i]);
         nh_text_add(out, i ? (minus ? " - " : " + ") : minus ? "-" : "");
         nh_text_addf(out, sum ? "(%s)%s" : "%s%s", text, text[0] && term[i].factor[0] ? " " : "");
         nh_notation_write(term[i].factor, NH_NOTATION_TEXT, out);
@@ -154,11 +166,23 @@ void nh_sheet_formulas(nh_dag *d, size_t n, const char *const *label, const nh_e
                        nh_text *out)
 {
     nh_formula_part part[NH_FORMULA_PARTS];
+    bool needed[NH_FORMULA_PARTS], any = false, *stands = nh_alloc_array(n + 1, sizeof *stands);
     nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
+    nh_text words;
     memcpy(e, value, n * sizeof *e);
-    size_t parts = nh_formula_parts(d, n, e, part);
-    for (size_t i = 0; i < n; i++) put_formula(out, indent, label[i], nh_formula_text(d, e[i], shown));
-    if (parts) nh_text_addf(out, "%*swhere\n", (int)indent, "");
-    for (size_t k = 0; k < parts; k++) put_formula(out, indent, part[k].name, nh_formula_text(d, part[k].value, shown));
+    size_t parts = nh_formula_parts(d, n, e, nh_formula_block(shown), part);
+    nh_text_init(&words);
+    double wanted = nh_formula_fit(d, n, e, parts, part, nh_formula_block(shown), stands, needed);
+    nh_formula_left_out(wanted, &words);
+    for (size_t i = 0; i < n; i++)
+        put_formula(out, indent, label[i], stands[i] ? nh_print_string(d, e[i]) : nh_strdup(nh_text_string(&words)));
+    for (size_t k = 0; k < parts; k++) {
+        if (!needed[k]) continue;
+        if (!any) nh_text_addf(out, "%*swhere\n", (int)indent, "");
+        any = true;
+        put_formula(out, indent, part[k].name, nh_print_string(d, part[k].value));
+    }
+    nh_text_clear(&words);
+    nh_free(stands);
     nh_free(e);
 }

@@ -310,12 +310,30 @@ static bool wheel_values(reader *r, const nh_deck_node *item, nh_wheel *w)
     }
     if (normal) w->normal = (int)nh_system_word(r, normal, "the normal of a surface", 3, axis_names);
     if (w->normal < 0 || !nh_system_text_of(r, item, "doc", "", &doc) ||
-        !nh_system_text_of(r, item, "name", types[kind], &w->name))
+        !nh_system_text_of(r, item, "name", NULL, &w->name))
         return false;
     return vector_of(r, item, "at", "a position", w->at) &&
            direction_of(r, item, kind ? "axle" : "axis", kind ? "an axle" : "an axis", 1, w->axis) &&
            constant_of(r, item, "radius", "a radius", 0, &w->radius) &&
            not_negative(r, item, "radius", "a radius", w->radius);
+}
+
+/* "wheel of cart"; "wheel 2 of cart" where more than one of the body's has no name. */
+static void name_wheels(reader *r)
+{
+    nh_chain *c = r->system->chain;
+    for (size_t body = 0; body < c->bodies; body++) {
+        size_t all = 0, number = 0;
+        for (size_t i = 0; i < c->wheels; i++) all += c->wheel[i].body == body && !c->wheel[i].name;
+        for (size_t i = 0; i < c->wheels; i++) {
+            nh_wheel *w = &c->wheel[i];
+            if (w->body != body || w->name) continue;
+            const char *of = c->body[body].name,
+                       *kind = w->ball ? "ball" : w->kind == NH_WHEEL_ROLLING ? "wheel" : "blade";
+            w->name = all == 1 ? nh_arena_printf(r->system->arena, "%s of %s", kind, of)
+                               : nh_arena_printf(r->system->arena, "%s %zu of %s", kind, ++number, of);
+        }
+    }
 }
 
 static bool read_wheels(reader *r)
@@ -329,6 +347,7 @@ static bool read_wheels(reader *r)
         if (!wheel_values(r, list->item[i], &c->wheel[i])) return false;
         c->wheels = i + 1;
     }
+    name_wheels(r);
     return true;
 }
 
