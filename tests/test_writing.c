@@ -285,3 +285,32 @@ Test(writing, a_new_file_is_whole_or_not_there)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* A line for a shell; the program is $N. */
+static finished run_shell(const place *p, const char *line)
+{
+    char command[4096];
+    snprintf(command, sizeof command, "N='%.400s'; %.3500s", p->program, line);
+    return run_vector(p, &(manner){0}, (char *[]){"sh", "-c", command, NULL});
+}
+
+/* What a run reads it does not replace, whatever name it is given; two results do not share a file. */
+Test(writing, inputs_stay)
+{
+    static const char *const lines[] = {"$N verify a.yaml --current x --html a.yaml", "$N simulate a.yaml --until 1 --csv ./a.yaml", "$N simulate - --until 1 --svg a.yaml <a.yaml",
+                                        "$N simulate a.yaml --initial-table t.csv --csv t.csv", "ln -s a.yaml b.yaml; $N export a.yaml --to c --json b.yaml",
+                                        "ln -f t.csv u.csv; $N simulate a.yaml --until 1 --csv t.csv --svg u.csv"};
+    place p = place_make();
+    write_here(&p, "a.yaml", "name: a\ncoordinates: [x]\nlagrangian: x'^2/2\n");
+    write_here(&p, "t.csv", "x\n1\n2\n");
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        finished f = run_shell(&p, lines[i]);
+        char *text = read_here(&p, "a.yaml"), *table = read_here(&p, "t.csv");
+        cr_expect(f.code == 2 && (strstr(f.err, "which is read") || strstr(f.err, "would write one file")), "%s: %d %s", lines[i], f.code, f.err);
+        cr_expect(text && table && !strncmp(text, "name: a", 7) && !strncmp(table, "x\n1", 3), "%s", lines[i]);
+        free(text);
+        free(table);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}

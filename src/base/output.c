@@ -13,7 +13,7 @@
 static bool failed(nh_error *error, const char *path, const char *doing, int reason)
 {
     nh_fail(error, NH_NUMERIC, path, "could not be %s: %s", doing, strerror(reason));
-    return nh_error_hint(error, "the previous file is unchanged");
+    return nh_error_hint(error, reason == ENOENT ? "its folder must exist" : "the previous file is unchanged");
 }
 
 static int write_all(int file, const char *text, size_t length)

@@ -18,9 +18,7 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "--fragment needs --tex");
         return nh_error_hint(error, "for example: --tex body.tex --fragment");
     }
-    if (cli->operands > 1)
-        return nh_fail(error, NH_USAGE, "", "`nhsym analyze` takes one system, but a second one is given: `%s`",
-                       cli->operand[1]);
+    if (cli->operands > 1) return nh_cli_one_system(cli, "nhsym analyze sleigh", error);
     *q = (nh_analyze_request){.command = cli->line,
                               .settings = cli->settings,
                               .setting = cli->setting,

@@ -52,6 +52,7 @@ static bool read_question(nh_cli *cli, nh_classify_request *q, nh_error *error)
 
 static bool request_of(nh_cli *cli, nh_classify_request *q, nh_error *error)
 {
+    if (cli->operands > 1) return nh_cli_one_system(cli, "nhsym classify penning_trap --over w", error);
     if (cli->operands != 1 || !cli->over) {
         nh_fail(error, NH_USAGE, "", "classify which system, over which parameter?");
         return nh_error_hint(error, "nhsym classify penning_trap --over w");

@@ -108,6 +108,9 @@ void nh_cli_guard_worker(void); /* of a copy of the process: the time is for the
 void nh_cli_guard_writing(void);
 
 
+/* Is one system named?  Else an error, with an example of the command. */
+bool nh_cli_one_system(const nh_cli *cli, const char *example, nh_error *error);
+
 /* The file of a system by name or path, with --wheel and --base; notes of the file go to standard error. */
 const char *nh_cli_system(nh_cli *cli, const char *word, nh_error *error);
 

@@ -12,10 +12,7 @@ static bool target_given(const nh_cli *cli) { return cli->to || cli->folder || !
 
 static bool request_of(nh_cli *cli, nh_export_request *q, nh_export_target *target, nh_error *error)
 {
-    if (cli->operands != 1) {
-        nh_fail(error, NH_USAGE, "", "`nhsym export` needs a system");
-        return nh_error_hint(error, "nhsym export sleigh --to c -o code");
-    }
+    if (!nh_cli_one_system(cli, "nhsym export sleigh --to c -o code", error)) return false;
     *q = (nh_export_request){.command = cli->line,
                              .settings = cli->settings,
                              .setting = cli->setting,

@@ -19,10 +19,8 @@ static bool language_known(const char *word, nh_error *error)
 
 static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
 {
-    if (cli->operands != 1) {
-        nh_fail(error, NH_USAGE, "", "`nhsym reduce` needs a system");
-        return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
-    }
+    if (!nh_cli_one_system(cli, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"", error))
+        return false;
     *q = (nh_reduce_request){.settings = cli->settings,
                              .setting = cli->setting,
                              .chart = cli->velocities,

@@ -8,10 +8,7 @@
 
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *q, nh_error *error)
 {
-    if (cli->operands != 1) {
-        nh_fail(error, NH_USAGE, "", "`nhsym %s` needs a system", cli->command);
-        return nh_error_hint(error, "%s", example);
-    }
+    if (!nh_cli_one_system(cli, example, error)) return false;
     const char *name = cli->operand[0];
     *q = (nh_simulate_request){.settings = cli->settings,
                                .setting = cli->setting,

@@ -8,6 +8,16 @@
 
 static const char words_of_line[] = ", command line"; /* how the name of a completed file ends */
 
+bool nh_cli_one_system(const nh_cli *cli, const char *example, nh_error *error)
+{
+    if (cli->operands == 1) return true;
+    if (!cli->operands) nh_fail(error, NH_USAGE, "", "`nhsym %s` needs a system", cli->command);
+    else
+        nh_fail(error, NH_USAGE, "", "`nhsym %s` takes one system, but a second one is given: `%s`", cli->command,
+                cli->operand[1]);
+    return nh_error_hint(error, "%s", example);
+}
+
 /* A word of YAML in double quotes. */
 static void put_quoted(nh_text *out, const char *word)
 {

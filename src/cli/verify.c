@@ -5,6 +5,8 @@
 
 static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error)
 {
+    if (cli->operands > 1)
+        return nh_cli_one_system(cli, "nhsym verify sleigh --current \"m*v\"", error);
     if (cli->operands != 1 || !cli->current == !cli->field) {
         nh_fail(error, NH_USAGE, "", "`nhsym verify` needs one system and either --current or --field");
         return nh_error_hint(error, "nhsym verify sleigh --current \"m*v\", or --field \"Z0=1; phi=phi'; x=x'\"");

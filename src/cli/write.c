@@ -1,6 +1,7 @@
 /* write: what every command that reports needs. */
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/progress.h"
 #include "cli/cli.h"
@@ -13,12 +14,16 @@ nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analys
 
 /* The files of --json, --svg, --pdf, --csv and of documents; those that are not given are NULL. */
 enum { outputs = 4 + NH_PEN_TEXT };
-static void list_outputs(const nh_cli *cli, const char *path[outputs])
+typedef struct {
+    const char *option, *path;
+} destination;
+static void list_outputs(const nh_cli *cli, destination to[outputs])
 {
-#define X(name, form, writer) cli->name,
-    const char *const all[outputs] = {NH_PEN_FORM_TABLE(X) cli->json, cli->svg, cli->pdf, cli->csv};
+#define X(name, form, writer) {#name, cli->name},
+    const destination all[outputs] = {
+        NH_PEN_FORM_TABLE(X){"json", cli->json}, {"svg", cli->svg}, {"pdf", cli->pdf}, {"csv", cli->csv}};
 #undef X
-    memcpy(path, all, sizeof all);
+    memcpy(to, all, sizeof all);
 }
 
 const char *nh_cli_wants_document(const nh_cli *cli)
@@ -33,23 +38,56 @@ static bool is_stdout(const char *path) { return path && !strcmp(path, "-"); }
 
 bool nh_cli_delivers(const nh_cli *cli)
 {
-    const char *path[outputs];
+    destination to[outputs];
     bool taken = false, held = false;
-    list_outputs(cli, path);
-    for (size_t i = 0; i < outputs; i++) taken |= is_stdout(path[i]), held |= path[i] != NULL;
+    list_outputs(cli, to);
+    for (size_t i = 0; i < outputs; i++) taken |= is_stdout(to[i].path), held |= to[i].path != NULL;
     return !taken && !(cli->quiet && held);
 }
 
 bool nh_cli_speaks(const nh_cli *cli) { return !cli->quiet && nh_cli_delivers(cli); }
 
+/* Two names of one regular file. */
+static bool same_file(const char *a, const char *b)
+{
+    struct stat one, other;
+    return a && b && !stat(a, &one) && !stat(b, &other) && S_ISREG(one.st_mode) && one.st_dev == other.st_dev &&
+           one.st_ino == other.st_ino;
+}
+
+/* Does it replace what this run reads? */
+static bool is_read(const nh_cli *cli, const char *path)
+{
+    bool read = same_file(path, cli->analysis) || same_file(path, cli->table);
+    for (size_t i = 0; i < cli->operands; i++) read |= same_file(path, cli->operand[i]);
+    return read;
+}
+
+static bool can_write(const nh_cli *cli, const destination *to, size_t before, nh_error *error)
+{
+    if (!to->path || is_stdout(to->path)) return true;
+    if (!*to->path) return nh_fail(error, NH_USAGE, "", "--%s needs the name of a file", to->option);
+    if (is_read(cli, to->path)) {
+        nh_fail(error, NH_USAGE, "", "--%s would replace %s, which is read", to->option, to->path);
+        return nh_error_hint(error, "give it another name");
+    }
+    for (size_t i = 0; i < before; i++) {
+        const destination *other = to - 1 - i;
+        if (!other->path || (strcmp(other->path, to->path) && !same_file(other->path, to->path))) continue;
+        nh_fail(error, NH_USAGE, "", "--%s and --%s would write one file, %s", other->option, to->option, to->path);
+        return nh_error_hint(error, "give each a file of its own");
+    }
+    return nh_output_possible(to->path, error);
+}
+
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error)
 {
-    const char *path[outputs];
+    destination to[outputs];
     size_t printed = 0;
-    list_outputs(cli, path);
+    list_outputs(cli, to);
     for (size_t i = 0; i < outputs; i++) {
-        printed += is_stdout(path[i]);
-        if (path[i] && !is_stdout(path[i]) && !nh_output_possible(path[i], error)) return false;
+        printed += is_stdout(to[i].path);
+        if (!can_write(cli, &to[i], i, error)) return false;
     }
     if (printed < 2) return true;
     nh_fail(error, NH_USAGE, "", "`-` prints one output, but %zu options take it", printed);

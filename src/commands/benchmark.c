@@ -385,7 +385,7 @@ static void measure_all(nh_benchmark_work *c)
    to. */
 static double observed_order(const nh_run_record *larger, const nh_run_record *m, double known)
 {
-    const double least = 10; /* times what the reference is known to */
+    const double least = 3; /* times what the reference is known to */
     bool tells = larger->method && m->order && fmin(m->error, larger->error) > least * known;
     return tells ? log(larger->error / m->error) / log(larger->step / m->step) : NAN;
 }
