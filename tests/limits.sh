@@ -61,7 +61,7 @@ cat <<PAGE
 Written by \`$how > docs/limits.md\`: every command with \`--max-seconds $limit\` on $what
 (\`classify\` and \`scan\` over the first parameter of those that have one). In the latter some step takes minutes, or memory without bounds.
 Seconds are those that the processor spent after the limit, up to the end of the process, when results are written: a fifth of the limit and 0.2 s are allowed.
-The table of an ensemble, up to 17 megabytes here, is written to its end, which counts as well.
+The table of an ensemble, tens of megabytes, is written to its end, which counts as well.
 Reached: runs that the limit ended. Without a result: of these, those that could name only the system and what they were doing.
 
 | command | runs | reached | without a result | most, s | by |

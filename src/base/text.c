@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,10 +61,11 @@ void nh_text_addf(nh_text *text, const char *format, ...)
 /* ---- numbers ----
  *
  * 15 digits are what a decimal survives, 17 what a double needs; the first that reads back is the shortest.  Output is
- * mostly numbers, and printf takes longest: so it is asked once, for 17 digits, and fewer are found by rounding
- * those. */
+ * mostly numbers, and printf takes longest: so digits of usual sizes come from integers of 128 bits, and of others
+ * it is asked once, for 17 digits, and fewer are found by rounding those. */
 
 enum { most_digits = 17, least_digits = 15 };
+__extension__ typedef unsigned __int128 nh_wide;
 
 /* A number 0.d1 d2 ... d_count * 10^(exponent + 1). */
 typedef struct {
@@ -72,9 +74,65 @@ typedef struct {
     char digit[most_digits];
 } decimal;
 
+/* A number whose decimals need no more than 128 bits: mantissa / 2^shift, both exact. */
+typedef struct {
+    uint64_t mantissa;
+    int shift;
+} binary;
+
+/* Numbers that 10^0 to 10^21 bring to 15 and to 17 digits: 53 bits by 70 at most, and the shift stays below that. */
+static bool short_enough(double value, binary *b)
+{
+    enum { bits = 52, bias = 1075 };
+    uint64_t all, one = (uint64_t)1 << bits;
+    double size = fabs(value);
+    if (!(size > 2e-5 && size < 9e13)) return false;
+    memcpy(&all, &size, sizeof all);
+    *b = (binary){(all & (one - 1)) | one, bias - (int)(all >> bits)};
+    return true;
+}
+
+static nh_wide power_of_ten(int n)
+{
+    static const uint64_t power[] = {1,
+                                     10,
+                                     100,
+                                     1000,
+                                     10000,
+                                     100000,
+                                     1000000,
+                                     10000000,
+                                     100000000,
+                                     1000000000,
+                                     10000000000,
+                                     100000000000};
+    enum { most = sizeof power / sizeof *power - 1 };
+    return n <= most ? (nh_wide)power[n] : (nh_wide)power[most] * power[n - most];
+}
+
+/* value 10^power, rounded to the nearest whole number, half to even, as printf rounds. */
+static uint64_t scaled(const binary *b, int power)
+{
+    nh_wide product = b->mantissa * power_of_ten(power), whole = product >> b->shift;
+    nh_wide rest = product - (whole << b->shift), half = (nh_wide)1 << (b->shift - 1);
+    return (uint64_t)whole + (rest > half || (rest == half && (whole & 1)));
+}
+
+static decimal decimal_exactly(const binary *b, double value, int count)
+{
+    decimal d = {.negative = value < 0, .count = count, .exponent = (int)floor(log10(fabs(value)))};
+    uint64_t digits = scaled(b, count - 1 - d.exponent), least = (uint64_t)power_of_ten(count - 1);
+    if (digits < least) digits = scaled(b, count - 1 - --d.exponent); /* the logarithm was rounded */
+    if (digits >= 10 * least) digits = scaled(b, count - 1 - ++d.exponent);
+    for (int i = count - 1; i >= 0; i--, digits /= 10) d.digit[i] = (char)('0' + digits % 10);
+    return d;
+}
+
 static decimal decimal_of(double value, int count)
 {
     char text[32];
+    binary b;
+    if (short_enough(value, &b)) return decimal_exactly(&b, value, count);
     decimal d = {.negative = value < 0, .count = count};
     snprintf(text, sizeof text, "%.*e", count - 1, fabs(value));
     d.digit[0] = text[0];
@@ -131,16 +189,33 @@ static void put_decimal(char *out, const decimal *d)
         return;
     }
     if (d->negative) *out++ = '-';
-    if (whole <= 0) out += sprintf(out, "0.%.*s", -whole, "0000");
-    else out = put_digits(out, d, 0, whole);
+    if (whole > 0) out = put_digits(out, d, 0, whole);
+    else {
+        memcpy(out, "0.0000", (size_t)(2 - whole));
+        out += 2 - whole;
+    }
     if (whole > 0 && count > whole) *out++ = '.';
     if (count > whole) out = put_digits(out, d, whole > 0 ? whole : 0, count);
     *out = '\0';
 }
 
+/* |digits / 10^j - mantissa / 2^shift| <= 1 / 2^(shift + 1), multiplied by 10^j 2^(shift + 1); at equality the even
+   mantissa is read. */
+static bool nearest(const binary *b, const decimal *d)
+{
+    nh_wide ten = power_of_ten(d->count - 1 - d->exponent), own = b->mantissa * ten;
+    uint64_t digits = 0;
+    for (int i = 0; i < d->count; i++) digits = 10 * digits + (uint64_t)(d->digit[i] - '0');
+    nh_wide read = (nh_wide)digits << b->shift, off = 2 * (read > own ? read - own : own - read);
+    return off < ten || (off == ten && b->mantissa % 2 == 0);
+}
+
 static bool reads_back(const decimal *d, double value)
 {
     char text[32];
+    binary b;
+    bool even_steps = short_enough(value, &b) && b.mantissa != (uint64_t)1 << 52; /* below a power of 2 they halve */
+    if (even_steps) return nearest(&b, d);
     put_exponential(text, d, d->count);
     return strtod(text, NULL) == value;
 }
@@ -159,7 +234,11 @@ void nh_text_number(double value, char *out, size_t size)
         }
         put_decimal(text, &best);
     }
-    snprintf(out, size, "%s", text);
+    size_t length = strlen(text);
+    if (size == 0) return;
+    if (length >= size) length = size - 1;
+    memcpy(out, text, length);
+    out[length] = '\0';
 }
 
 static const char *skip_digits(const char *s)

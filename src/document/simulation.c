@@ -11,8 +11,9 @@
 static void put(nh_text *out, double x)
 {
     char text[40];
+    if (!isfinite(x)) return; /* an empty field: it has no value there */
     nh_text_number(x, text, sizeof text);
-    nh_text_add(out, isfinite(x) ? text : ""); /* an empty field: it has no value there */
+    nh_text_add(out, text);
 }
 
 /* ---- column names ----
@@ -148,13 +149,14 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
     const nh_ensemble *e = s->ensemble;
     put_names(s, "member,t", s->columns.count, out);
     for (size_t j = 0; j < e->members * e->count; j++) {
-        nh_text_addf(out, "%zu,", j / e->count);
+        put(out, (double)(j / e->count));
+        nh_text_add_n(out, ",", 1);
         put(out, e->time[j % e->count]);
         for (size_t k = 0; k < e->n; k++) {
-            nh_text_add(out, ",");
+            nh_text_add_n(out, ",", 1);
             put(out, e->value[j * e->n + k]);
         }
-        nh_text_add(out, "\n");
+        nh_text_add_n(out, "\n", 1);
     }
 }
 
