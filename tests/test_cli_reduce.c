@@ -43,6 +43,8 @@ static const refusal refusals[] = {
     /* chains */
     {"vertical_disk", "--chain", "1; 4; 2, 3", 3, {"a subgroup of the chain is not normal in the one before it: [e4, e2] has a component along e1"}},
     {"vertical_disk", "--chain", "1, 2", 2, {"must name every generator of the group once"}},
+    /* an initial time: of a system that depends on the time it would be another motion */
+    {"sleigh", "--initial", "t=2, omega=1", 2, {"--initial: reduce computes motions from t = 0 on, not from t = 2", "leave t out"}},
     /* not a group at all */
     {"sleigh", "--group", "", 2, {"give vector fields or numbers of generators"}},
     {"crane", "--group", "1, 7", 2, {"there is no generator 7; the group has 6"}},

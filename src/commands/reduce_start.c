@@ -132,6 +132,14 @@ static bool project(nh_reduction *r, const nh_reduce_request *q, const bool *giv
     return nh_error_hint(error, "give other values, or use --project, which takes these velocities");
 }
 
+/* Motions of the reduced equations and of the full ones are compared from t = 0 on. */
+static bool begins_at_zero(const nh_state *initial, nh_error *error)
+{
+    if (initial->t == 0) return true;
+    nh_fail(error, NH_USAGE, "", "--initial: reduce computes motions from t = 0 on, not from t = %g", initial->t);
+    return nh_error_hint(error, "leave t out, or write t + %g for t in the system file", initial->t);
+}
+
 bool nh_reduction_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
     size_t m = r->kinetic->m;
@@ -141,7 +149,7 @@ bool nh_reduction_initial(nh_reduction *r, const nh_reduce_request *q, nh_error 
     memcpy(r->initial.v, r->kinetic->speed, m * sizeof(double));
     if (!q->initial) return true;
     nh_analysis_file *own = nh_simulate_initial(NULL, q->initial, error);
-    bool good = own && nh_analysis_file_resolve(own, r->model, error);
+    bool good = own && nh_analysis_file_resolve(own, r->model, error) && begins_at_zero(&own->initial, error);
     if (good) {
         memcpy(r->initial.q, own->initial.q, m * sizeof(double));
         memcpy(r->initial.v, own->initial.v, m * sizeof(double));
