@@ -203,6 +203,27 @@ Test(reduce_scales, lengths_far_apart)
         }
 }
 
+/* A plane on a spring and a rotor, whose inertia is a length of up to 1e9 and more: the rotation of the plane is in closed form. */
+Test(reduce_scales, a_rotation_beside_a_great_inertia)
+{
+    static const double inertia[] = {1e-18, 1, 1e12, 1e18, 1e20};
+    for (size_t i = 0; i < sizeof inertia / sizeof *inertia; i++) {
+        char text[1000], path[SCRATCH];
+        nh_error error = {0};
+        snprintf(text, sizeof text, "name: rotor\nparameters: [{name: J, value: %g}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}]\n"
+                                    "lagrangian: 1.3*(x'^2 + y'^2)/2 + J*h'^2/2 - (x^2 + y^2)\n", inertia[i]);
+        cr_assert(scratch_text(path, text));
+        nh_reduce_request q = {.system_path = path};
+        nh_options_default(&q.options);
+        nh_reduction *r = nh_reduction_create(&q, &error);
+        remove(path);
+        cr_assert_not_null(r, "%s", error.what);
+        cr_expect_str_eq(r->group->name, "SO(2)^2", "J = %g", inertia[i]);
+        cr_expect_eq(r->warnings, 0, "J = %g: %s", inertia[i], r->warnings ? r->warning[0] : "");
+        nh_reduction_free(r);
+    }
+}
+
 /* Velocities that violate the constraints are off by a part of their size, whatever that is. */
 Test(reduce_scales, velocities_off_the_constraints)
 {

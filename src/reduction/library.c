@@ -137,7 +137,8 @@ static void add(nh_library *l, const nh_kinetic *k, nh_ex e, size_t component)
 }
 
 /* Which coordinates a component depends on, from the jets: B^i_j anywhere.  Scales of the metric make the entries
-   comparable. */
+ * comparable.  A component with a slope is not zero, small though it may be against the length of the box: a rotation
+ * of a short plane beside a rotor of great inertia. */
 static bool *dependence(const nh_kinetic *k, const nh_jets *jets, bool *nonzero)
 {
     static const double small = 1e-7;
@@ -155,7 +156,11 @@ static bool *dependence(const nh_kinetic *k, const nh_jets *jets, bool *nonzero)
             const double *jet = jets->moved + (p * jets->dimension + c) * size;
             for (size_t i = 0; i < m; i++) {
                 nonzero[i] |= fabs(jet[i]) > small * scale[i];
-                for (size_t j = 0; j < m; j++) out[i + m * j] |= fabs(jet[m + i + m * j]) * scale[j] > small * scale[i];
+                for (size_t j = 0; j < m; j++) {
+                    bool slope = fabs(jet[m + i + m * j]) * scale[j] > small * scale[i];
+                    out[i + m * j] |= slope;
+                    nonzero[i] |= slope;
+                }
             }
         }
     nh_free(K);
