@@ -73,6 +73,21 @@ Test(limits, an_ensemble_names_its_limit)
 }
 
 /* The program alone takes more than this. */
+/* What an ensemble would need is told before it is computed, with what there is and what to do. */
+Test(limits, an_ensemble_beyond_the_memory_says_its_size)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "simulate sleigh --initial omega=2 --until 10 --ensemble 10000 --max-memory 100M", 5);
+    cr_expect(strstr(f.err, "10000 motions at 101 times with 17 columns need 0.572 GB of memory, of which there are 0.0977") != NULL, "%s", f.err);
+    cr_expect(strstr(f.err, "(--watch) need less; or raise --max-memory") != NULL, "%s", f.err);
+    cr_expect_str_eq(f.out, "");
+    finished_clear(&f);
+    f = run_expecting(&p, "simulate sleigh --initial omega=2 --until 1000 --ensemble 10000000 --step 0.01", 5);
+    cr_expect(strstr(f.err, "10000000 motions at 100001 times with 17 columns need 5.66e+05 GB of memory") && !strstr(f.err, "raise"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 Test(limits, every_command_has_the_brake_on_memory)
 {
     static const char *const lines[] = {"analyze crane", "verify sleigh --current v", "simulate sleigh --until 100", "benchmark sleigh", "reduce crane", "classify penning_trap --over w", "export sleigh --to c",

@@ -78,6 +78,12 @@ double nh_memory_in_use(void)
     return pages ? strtod(pages, NULL) * (double)sysconf(_SC_PAGESIZE) : 0;
 }
 
+double nh_memory_of_machine(void)
+{
+    double pages = (double)sysconf(_SC_PHYS_PAGES), size = (double)sysconf(_SC_PAGESIZE);
+    return pages > 0 && size > 0 ? pages * size : 0;
+}
+
 /* `array_pointer` is a `T **`; memcpy reads and writes it without pretending that it is a `void **`. */
 void nh_grow(void *array_pointer, size_t *capacity, size_t need, size_t size)
 {

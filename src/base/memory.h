@@ -22,6 +22,8 @@ char *nh_strdup(const char *text);
 
 /* Bytes of this process that are in memory now; 0 where the system does not say. */
 double nh_memory_in_use(void);
+/* Bytes of memory that this machine has; 0 where the system does not say. */
+double nh_memory_of_machine(void);
 
 /* Grow `*array` (element size `size`) so that it holds at least `need` elements, doubling `*capacity`. */
 void nh_grow(void *array_pointer, size_t *capacity, size_t need, size_t size);

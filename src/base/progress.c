@@ -48,6 +48,12 @@ void nh_limit_memory_set(double bytes)
     atomic_store(&c->filled, false);
 }
 
+double nh_limit_memory(void)
+{
+    double set = nh_context_here()->most_memory, machine = nh_memory_of_machine();
+    return set > 0 ? set : machine > 0 ? machine : INFINITY;
+}
+
 void nh_limit_pass(void)
 {
     nh_context *c = nh_context_here();

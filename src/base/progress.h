@@ -32,6 +32,9 @@ void nh_limit_set(double seconds);
 /* The same for the memory of the process, in bytes; none when 0.  It is looked at now and then: a hundred times a
    second. */
 void nh_limit_memory_set(double bytes);
+/* What may be allocated, in bytes: that limit, else the memory of the machine; infinite where the system does not say.
+ */
+double nh_limit_memory(void);
 /* All is computed: a limit that was not reached is reached no more, so that a result is the same however long it takes
    to write it. */
 void nh_limit_pass(void);

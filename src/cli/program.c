@@ -32,9 +32,12 @@ const char *nh_cli_program(void)
 
 static void out_of_memory(size_t wanted)
 {
-    (void)wanted;
-    static const char text[] = "nhsym: out of memory\n";
-    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) _exit(NH_LIMIT);
+    char doing[80] = "";
+    nh_progress_last(doing, sizeof doing);
+    dprintf(STDERR_FILENO,
+            "nhsym: %s%sout of memory: %.3g MB more were wanted\nhint: ask for less (a lower degree, fewer motions "
+            "or times), or end other programs\n",
+            doing, *doing ? ": " : "", (double)wanted / NH_MEGABYTE);
     _exit(NH_LIMIT);
 }
 

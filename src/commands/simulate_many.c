@@ -2,6 +2,7 @@
 #include "commands/simulate_internal.h"
 
 #include "base/parallel.h"
+#include "base/progress.h"
 
 const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene,
                               void (*write)(const nh_closed_subsystem *scene, nh_text *out))
@@ -31,10 +32,25 @@ static bool initial_states(nh_simulation *s, const nh_simulate_request *q, const
     return good;
 }
 
+/* Values of doubles, and each again as text of up to 24 characters where the table is written. */
+static bool fits(const nh_simulate_request *q, const nh_trajectory_request *motion, nh_error *error)
+{
+    enum { bytes = sizeof(double) + 24 };
+    double size = (double)bytes * (double)q->ensemble * (double)motion->count * (double)(motion->n + 2),
+           most = nh_limit_memory();
+    if (size <= most) return true;
+    nh_fail(error, NH_LIMIT, "",
+            "%zu motions at %zu times with %zu columns need %.3g GB of memory, of which there are %.3g", q->ensemble,
+            motion->count, motion->n, size / (1024 * NH_MEGABYTE), most / (1024 * NH_MEGABYTE));
+    return nh_error_hint(error, "fewer motions (--ensemble), fewer times (--step) or fewer columns (--watch) need less%s",
+                         most < nh_memory_of_machine() ? "; or raise --max-memory" : "");
+}
+
 bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion,
                       nh_error *error)
 {
     size_t size = s->model->m + s->model->n, threads = nh_threads(q->options.threads);
+    if (!fits(q, motion, error)) return false;
     double *initial = nh_alloc_array(q->ensemble, size * sizeof *initial);
     if (initial_states(s, q, motion, initial, error)) {
         if (s->checked)
