@@ -44,6 +44,7 @@ Test(normal, identities)
         "sqrt((x+1)^2+y^2)-sqrt(x^2+2*x+1+y^2)", "sqrt(x+sqrt(x^2+1))^2-x-sqrt(1+x^2)", "sqrt(1-sin(f)^2)^2-cos(f)^2",
         "sqrt(x+1/sqrt(x^2+1))^2*sqrt(x^2+1)-x*sqrt(x^2+1)-1", "(sqrt(x+1/y)+1)^2-x-1/y-1-2*sqrt(x+1/y)", "(sqrt(x/(y+1)+1)+1)^5/(sqrt(x/(y+1)+1)-1)*x/(y+1)-(1+sqrt(x/(y+1)+1))^6",
         "((x+1/y)^(1/3)+z)^3-x-1/y-3*z*(x+1/y)^(2/3)-3*z^2*(x+1/y)^(1/3)-z^3", "abs(x+y)^2-x^2-2*x*y-y^2", "abs((x+y)*(x-y))-abs(x^2-y^2)",
+        "sign(x+y)*(x+y)-abs(x+y)", "abs(x-y)/(x-y)-sign(x-y)", "sign(x+y)^3-sign(x+y)", "abs(y-x)*sign(x-y)-x+y", "(abs(x+y)+sign(x+y))^2-(x+y+1)^2",
         "x^(a+1)-x*x^a", "x^(2*a+3)-x^3*(x^a)^2", "(x+1)^(a-b)*(1+x)^b-(x+1)^a", "x^(a/2)*x^(a/3)-x^(5*a/6)",
         "log((x+1)^2)-log(x^2+2*x+1)", "atan((x^2-1)/(x-1))-atan(x+1)", "atan2(x*(x+1),y)-atan2(x+x^2,y)",
         "log(sin(x)^2+cos(x)^2+y)-log(1+y)", "asinh(cosh(x)^2-sinh(x)^2+y)-asinh(y+1)", "sign(x*y+x)-sign(x*(1+y))",
@@ -61,7 +62,7 @@ Test(normal, non_identities)
 {
     static const char *const other[] = {
         "1", "x", "sin(f)^2+cos(f)^2", "sin(f)^2-cos(f)^2-1", "sin(a+b)-sin(a)*cos(b)+cos(a)*sin(b)", "cosh(x)^2+sinh(x)^2-1",
-        "sqrt(x^2)-x", "sqrt(x^2)+x", "abs(x)-x", "sqrt(6)-sqrt(2)*sqrt(3)-1/1000000007", "log(x*y)-log(x)*log(y)",
+        "sqrt(x^2)-x", "sqrt(x^2)+x", "abs(x)-x", "sign(x+y)-1", "sign(x-y)*(x+y)-abs(x+y)", "abs(x+y)+sign(x+y)*(x+y)", "sqrt(6)-sqrt(2)*sqrt(3)-1/1000000007", "log(x*y)-log(x)*log(y)",
         "exp(a*b)-exp(a)*exp(b)", "x^(a*b)-x^a*x^b", "sin(2*x)-2*sin(x)", "tan(x/2)-sin(x)/(1-cos(x))", "atan(x)-atan(y)",
         "atan2(x,y)-atan2(y,x)", "(x+y)^5-x^5-y^5", "1/(x-y)-1/(y-x)", "sin(pi*x)^2", "x^(1/3)*x^(1/3)-x",
         "sin(100000*x)-2*sin(50000*x)", "sqrt(x+1)*sqrt(x-1)-x", "1/(sin(x)^2+cos(x)^2-1)", "x-x*(1+1/10^15)",
