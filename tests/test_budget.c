@@ -2,9 +2,12 @@
 #include <criterion/criterion.h>
 #include <math.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/budget.h"
+#include "base/clock.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "commands/analyze.h"
 
 #include "sweep.h"
@@ -41,6 +44,19 @@ Test(budget, ends)
     nh_work_add(NH_WORK_NODE, 1e12);
     cr_expect(!nh_budget_spent() && nh_budget_part() == 0);
     nh_budget_begin(INFINITY);
+}
+
+/* A process that waits, as one does on a busy machine, is not late: only one that has computed for so long. */
+Test(budget, the_brake_counts_the_processor)
+{
+    static const struct timespec pause = {0, 150000000};
+    nh_deadline_set(0.05);
+    nanosleep(&pause, NULL);
+    cr_expect_not(nh_late());
+    for (double begin = nh_clock_of_process(); nh_clock_of_process() < begin + 0.06;) continue;
+    cr_expect(nh_late());
+    nh_deadline_set(INFINITY);
+    cr_expect_not(nh_late());
 }
 
 static nh_analysis *search(const char *system, double work, double seconds, double threads, double stage_columns)

@@ -1,5 +1,6 @@
 #include "base/clock.h"
 
+#include <math.h>
 #include <time.h>
 
 static double read_clock(clockid_t which)
@@ -12,3 +13,14 @@ static double read_clock(clockid_t which)
 double nh_clock(void) { return read_clock(CLOCK_MONOTONIC); }
 double nh_clock_of_process(void) { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
 double nh_clock_of_thread(void) { return read_clock(CLOCK_THREAD_CPUTIME_ID); }
+
+nh_clock_brake nh_clock_brake_in(double seconds)
+{
+    if (!isfinite(seconds)) return (nh_clock_brake){INFINITY, INFINITY};
+    return (nh_clock_brake){nh_clock() + seconds, nh_clock_of_process() + seconds};
+}
+
+bool nh_clock_brake_reached(nh_clock_brake brake)
+{
+    return isfinite(brake.clock) && nh_clock() > brake.clock && nh_clock_of_process() > brake.processor;
+}

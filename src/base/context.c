@@ -10,6 +10,7 @@ static nh_context of_process = {
     .limit = INFINITY,
     .limit_seconds = INFINITY,
     .deadline = INFINITY,
+    .brake = {INFINITY, INFINITY},
     .files_lock = PTHREAD_MUTEX_INITIALIZER,
 };
 
@@ -19,6 +20,7 @@ nh_context *nh_context_create(void)
 {
     nh_context *c = nh_alloc(sizeof *c);
     c->most = c->limit = c->limit_seconds = c->deadline = INFINITY;
+    c->brake = (nh_clock_brake){INFINITY, INFINITY};
     pthread_mutex_init(&c->saying_lock, NULL);
     pthread_mutex_init(&c->files_lock, NULL);
     return c;

@@ -66,7 +66,8 @@ void nh_deadline_set(double seconds)
     static const double part = 0.6; /* the rest is for certificates, a motion and what is written */
     nh_context *c = nh_context_here();
     double now = nh_clock();
-    c->deadline = isfinite(seconds) ? fmin(now + seconds, now + part * fmax(0, c->limit - now)) : INFINITY;
+    c->deadline = isfinite(seconds) ? now + part * fmax(0, c->limit - now) : INFINITY;
+    c->brake = nh_clock_brake_in(seconds);
 }
 
 void nh_interrupt(void) { nh_interrupt_context(nh_context_here()); }
@@ -103,8 +104,8 @@ bool nh_interrupted(void)
 
 bool nh_late(void)
 {
-    double deadline = nh_context_here()->deadline;
-    return nh_interrupted() || (isfinite(deadline) && nh_clock() > deadline);
+    const nh_context *c = nh_context_here();
+    return nh_interrupted() || (isfinite(c->deadline) && nh_clock() > c->deadline) || nh_clock_brake_reached(c->brake);
 }
 
 bool nh_limit_reached(void)

@@ -50,8 +50,8 @@ const char *nh_ended_option(void);
 /* Records that it was ended, while doing that, with the cure; returns false. */
 bool nh_fail_ended(nh_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A moment after which no new part is begun, so that time is left for what follows: `seconds` from now, and earlier
- * where the limit is near; none when they are not finite. */
+/* A moment after which no new part is begun, so that time is left for what follows: a brake of so many seconds, and
+ * earlier where the limit is near; none when they are not finite. */
 void nh_deadline_set(double seconds);
 /* Ended, or behind that moment. */
 bool nh_late(void);

@@ -20,7 +20,7 @@ struct nh_problem {
     nh_chart_choice chart;
     nh_options   options;
     const nh_method *method;
-    bool         seed_given, samples_given, tolerance_given;
+    bool         seed_given, limited, samples_given, tolerance_given;
     nh_file_store files; /* that it has read */
     nh_system   *system;
 };

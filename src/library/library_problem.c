@@ -28,7 +28,7 @@ void nh_problem_enter(nh_problem *p)
     nh_files_swap(&p->files);
     nh_files_begin();
     nh_interrupt_clear();
-    nh_limit_set(p->options.max_seconds);
+    nh_limit_set(p->limited ? p->options.max_seconds : INFINITY); /* as on the command line */
     nh_limit_memory_set(p->options.max_memory * NH_MEGABYTE);
 }
 
@@ -100,6 +100,7 @@ static bool read_options(nh_problem *p, nh_error *error)
     nh_options_default(&p->options);
     while (at && next_pair(p->arena, &at, "options", &name, &value, error)) {
         if (!nh_options_set(&p->options, name, value, error)) return false;
+        p->limited |= !strcmp(name, "max_seconds");
         p->seed_given |= !strcmp(name, "seed");
         p->samples_given |= !strcmp(name, "samples");
         p->tolerance_given |= !strcmp(name, "tolerance");

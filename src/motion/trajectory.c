@@ -162,14 +162,15 @@ typedef struct {
     nh_trajectory *out;
     const nh_method *method; /* NULL: automatic */
     const nh_method *used;   /* of the last motion */
-    double *z0, deadline;
+    double *z0;
+    nh_clock_brake brake;
     nh_flow_options how;
     bool leave; /* the chart ends on the way */
     nh_event_watch watch;
     nh_ex *watched; /* the events' expressions and the sizes of their terms */
 } job;
 
-static bool late(void *context) { return nh_interrupted() || nh_clock() > *(double *)context; }
+static bool late(void *context) { return nh_interrupted() || nh_clock_brake_reached(*(const nh_clock_brake *)context); }
 
 bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2],
                     const nh_flow_options *options)
@@ -372,7 +373,7 @@ static void in_all_states(job *j, nh_error *error)
     say_machine(nh_dynamics_words(j->dynamics), j->out->machine);
     bool any = j->leave;
     if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
-    bool out_of_time = late(&j->deadline) || (motion && spent_all(q, motion));
+    bool out_of_time = late(&j->brake) || (motion && spent_all(q, motion));
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         if (q->events) watch(j, nh_along_values_of(j->dynamics, true, 2 * q->events, j->watched));
@@ -397,7 +398,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
              .z0 = nh_alloc_array(size + 1, sizeof *j.z0),
              .method = q->method,
              .used = q->method,
-             .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
+             .brake = nh_clock_brake_in(q->max_seconds > 0 ? q->max_seconds : INFINITY)};
     nh_dynamics_jit(j.dynamics, q->options->compile);
     j.how = (nh_flow_options){.method = NH_ADAMS,
                               .rtol = q->options->tolerance,
@@ -406,7 +407,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
                               .effort = q->max_effort};
     j.how.step = q->step;
     j.how.cancelled = late;
-    j.how.cancel_context = &j.deadline;
+    j.how.cancel_context = &j.brake;
     open_watch(&j);
     nh_error ignored;
     nh_error_clear(&ignored);
