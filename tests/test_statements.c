@@ -422,6 +422,47 @@ Test(statements, currents_are_printed_so_that_they_hold_on_both_branches)
     place_clear(&p);
 }
 
+/* y'^2 + y^2 is no polynomial in the energy, but the sum of the squares of two currents that depend on the time. */
+Test(statements, a_further_integral_may_be_a_polynomial)
+{
+    place p = place_make();
+    write_here(&p, "further.yaml", "name: further\ncoordinates: [x, y]\nlagrangian: (x'^2+y'^2)/2 - 2*x - abs(x) - y^2/2\n");
+    reports r = analyze(&p, "further.yaml");
+    cr_expect(strstr(r.text, "functions of the currents above") && !strstr(r.text, "no polynomials"), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* A particle of constant speed falls: x' = c exp(g y/4) vanishes beside the error of the motion, and y' becomes -2, where atanh has no value. What is proved
+ * does not drift, and nothing is left to be counted where all is found. */
+Test(statements, a_proved_current_does_not_drift_by_itself)
+{
+    place p = place_make();
+    write_here(&p, "fall.yaml", "name: fall\nparameters: [{name: g, value: 9.81}]\ncoordinates: [x, y]\nlagrangian: (x'^2+y'^2)/2 - g*y\nconstraints: [\"x'^2+y'^2=4\"]\n");
+    reports r = analyze(&p, "fall.yaml");
+    cr_expect(strstr(r.text, "FOUND: 3 independent currents of at most 3 (search complete)") && !strstr(r.text, "were not counted"), "%s", r.text);
+    cr_expect(strstr(r.text, "it is proved to be constant, so this is the error of the motion") && !strstr(r.text, "so it is not the error"), "%s", r.text);
+    cr_expect(strstr(r.text, "has no finite value at some states of the test motion") && !strstr(r.text, "drifts by inf"), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* The multiplier of z'^2 = a^2 (x'^2 + y'^2) depends on the direction of the velocity, however small that is: nothing is fast here. */
+Test(statements, a_direction_is_no_rate)
+{
+    place p = place_make();
+    write_here(&p, "cone.yaml", "name: cone\nparameters: [{name: a, value: 0.4}, {name: g, value: 9.81}]\ncoordinates: [x, y, z]\n"
+                                "lagrangian: (x'^2+y'^2+z'^2)/2 - g*z\nconstraints: [\"z'^2 = a^2*(x'^2+y'^2)\"]\n");
+    reports r = analyze(&p, "cone.yaml");
+    cr_expect(!strstr(r.text, "the forces act within"), "%s", r.text);
+    reports_clear(&r);
+    write_here(&p, "brake.yaml", "name: brake\nparameters: [{name: a, value: 5e4}]\ncoordinates: [x]\nlagrangian: x'^2/2 - x^2/2\nforces: [\"x = -a*x'\"]\n");
+    r = analyze(&p, "brake.yaml");
+    cr_expect(strstr(r.text, "the forces act within 2.0e-05 units of time"), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
 /* With the root of x' and y' in it a current of one branch is none of the other. */
 Test(statements, a_current_of_one_branch_says_so)
 {

@@ -225,6 +225,26 @@ static const nh_observable *list_tracks(nh_analysis *r)
     return watch;
 }
 
+/* A drift that does not fall with the tolerance.  What is proved is constant: then it is the motion that the formula
+   magnifies (x exp(t) along x = exp(-t), whose error is absolute), or a value that no double holds. */
+static void say_drift(nh_analysis *r, const nh_current *f)
+{
+    double drift = f->drift.drift[NH_DRIFT_RUNS - 1];
+    if (!isfinite(drift))
+        nh_analysis_warn(r, "%s has no finite value at some states of the test motion in double precision", f->name);
+    else if (f->proof.proved)
+        nh_analysis_warn(r,
+                         "%s drifts by %.1e along the test motion, more than %g tolerances, and hardly less at smaller "
+                         "ones: it is proved to be constant, so this is the error of the motion, which the formula "
+                         "magnifies",
+                         f->name, drift, r->options.drift);
+    else
+        nh_analysis_warn(r,
+                         "%s drifts by %.1e along the test motion, more than %g tolerances; the drift hardly falls "
+                         "with the tolerance, so it is not the error of the motion",
+                         f->name, drift, r->options.drift);
+}
+
 static void validate(nh_analysis *r, const nh_analyze_request *q)
 {
     nh_error trouble;
@@ -272,11 +292,7 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
                              "change by %.1e; with 77 digits, along the same motion, they change by %.1e",
                              r->found[k].name, r->found[k].drift.in_doubles,
                              r->found[k].drift.drift[NH_DRIFT_RUNS - 1]);
-        if (!r->found[k].drift.explained)
-            nh_analysis_warn(r,
-                             "%s drifts by %.1e along the test motion, more than %g tolerances; the drift hardly falls "
-                             "with the tolerance, so it is not the error of the motion",
-                             r->found[k].name, r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);
+        if (!r->found[k].drift.explained) say_drift(r, &r->found[k]);
     }
     nh_motion_series_add(r);
     if (r->validation->note[0]) nh_analysis_warn(r, "%s", r->validation->note);

@@ -40,7 +40,24 @@ static double median(size_t count, double *list)
     return list[count / 2];
 }
 
-/* At rest, and what is added there by small velocities, which gyroscopic forces and friction multiply by a rate. */
+/* What changes in the accelerations at probe p, in lengths, when `part` of its velocities is turned round, and the
+   largest of these velocities. */
+static bool turned_round(const nh_model *o, nh_tape *tape, nh_tape_work *work, size_t p, double part, double *z,
+                         double *out, double *change, double *speed)
+{
+    *change = *speed = 0;
+    if (!accelerations(o, tape, work, p, -part, z, out) || !accelerations(o, tape, work, p, part, z, out + o->n))
+        return false;
+    for (size_t i = 0; i < o->n; i++) {
+        *change = fmax(*change, fabs(out[o->n + i] - out[i]) / (2 * length_of(o, i)));
+        *speed = fmax(*speed, fabs(z[1 + o->m + i]) / length_of(o, i));
+    }
+    return true;
+}
+
+/* At rest, and what is added there by small velocities, which gyroscopic forces and friction multiply by a rate.  What
+   depends on the direction of the velocities alone (dry friction, multipliers of homogeneous constraints) is no rate:
+   it does not become smaller with them. */
 static double omega(const nh_model *o)
 {
     static const double small = 1e-3;
@@ -51,18 +68,14 @@ static double omega(const nh_model *o)
     double *z = nh_alloc_array(c->width, sizeof *z), *out = nh_alloc_array(2 * n + 1, sizeof *out), most = 0;
     double *a = nh_alloc_array((n + 1) * c->probes + 1, sizeof *a), *rate = a + n * c->probes;
     for (size_t p = 0; p < c->probes; p++) {
-        double change = 0, speed = 0;
+        double change, speed, half_change, half_speed;
         if (accelerations(o, tape, work, p, 0, z, out)) {
             for (size_t i = 0; i < n; i++) a[i * c->probes + rest] = fabs(out[i]);
             rest++;
         }
-        if (!accelerations(o, tape, work, p, -small, z, out) || !accelerations(o, tape, work, p, small, z, out + n))
-            continue;
-        for (size_t i = 0; i < n; i++) {
-            change = fmax(change, fabs(out[n + i] - out[i]) / (2 * length_of(o, i)));
-            speed = fmax(speed, fabs(z[1 + o->m + i]) / length_of(o, i));
-        }
-        if (speed > 0) rate[slow++] = change / speed;
+        if (turned_round(o, tape, work, p, small, z, out, &change, &speed) && speed > 0 &&
+            turned_round(o, tape, work, p, small / 2, z, out, &half_change, &half_speed))
+            rate[slow++] = fmax(0, change - half_change) / (speed - half_speed);
     }
     for (size_t i = 0; i < n && rest; i++) most = fmax(most, sqrt(median(rest, a + i * c->probes) / length_of(o, i)));
     if (slow) most = fmax(most, median(slow, rate));
