@@ -48,7 +48,7 @@ typedef struct {
     nh_programs *programs;    /* of the model, for them; NULL: made for this motion */
     nh_velocities velocities;   /* where they can be used; the model's own otherwise */
     const nh_model *other;    /* for NH_OTHER_VELOCITIES */
-    double max_seconds;       /* an emergency brake (base/clock.h); 0: none; a motion that takes longer is not complete */
+    double max_seconds;       /* a brake (base/clock.h); 0: none; a motion that takes longer is not complete */
     double max_effort;        /* the same in units of base/effort.h, of each attempt at the motion; 0: none */
 } nh_trajectory_request;
 
