@@ -558,3 +558,29 @@ Test(html, what_is_no_formula_is_refused)
     cr_expect_not(nh_typeset(deep, NH_MATHML, &out));
     nh_text_clear(&out);
 }
+
+/* A page explains the words that stand on it, and no others; it has no column in which nothing stands; rules of joints are told. */
+Test(html, words_and_columns_that_are_needed)
+{
+    sweep_plain_only();
+    place p = place_with_systems();
+    write_here(&p, "crane.yaml", "name: crane\nbodies: [{name: column, mass: 2, inertia: 0.4}, {name: arm, mass: 1, inertia: 0.2, center: [0.5, 0, 0]}]\n"
+                                 "joints: [{type: helical, child: column, axis: z, pitch: 0.1, coordinates: [q]}, {type: revolute, parent: column, child: arm, axis: x, coordinates: [w]}]\ngravity: 9.81\n");
+    cJSON *json;
+    char *page = both(&p, "reduce crane.yaml", NULL, &json);
+    cr_expect_null(strstr(page, ">Chaplygin<"), "nothing is said of Chaplygin");
+    cr_expect_not_null(strstr(page, "<dt>group</dt>"));
+    cr_expect_null(strstr(page, ">meaning<"), "no coordinate has one");
+    cr_expect_not_null(strstr(page, "AP1: a displacement of space"));
+    cJSON_Delete(json);
+    free(page);
+    page = both(&p, "reduce vertical_disk", NULL, &json);
+    cr_expect_not_null(strstr(page, "<dt>Chaplygin</dt>"));
+    cJSON_Delete(json);
+    free(page);
+    page = both(&p, "simulate skate_on_belt --until 1", NULL, &json);
+    cr_expect_not_null(strstr(page, ">meaning<"));
+    cJSON_Delete(json);
+    free(page);
+    place_clear(&p);
+}

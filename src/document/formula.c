@@ -165,6 +165,22 @@ double nh_formula_fit(nh_dag *d, size_t n, const nh_ex *e, size_t parts, const n
     return isfinite(room.all) ? fmax(wanted, ceil(all / formulas_per_block)) : wanted;
 }
 
+void nh_formula_number(nh_dag *d, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed,
+                       char letter, size_t *names)
+{
+    nh_ex from[NH_FORMULA_PARTS], to[NH_FORMULA_PARTS];
+    size_t count = 0;
+    for (size_t k = 0; k < parts; k++) {
+        if (!needed[k]) continue;
+        snprintf(part[k].name, sizeof part[k].name, "%c_%zu", letter ? letter : part[k].name[0], ++*names);
+        from[count] = part[k].symbol;
+        to[count++] = part[k].symbol = nh_symbol_fresh(d, part[k].name);
+    }
+    for (size_t i = 0; i < n; i++) e[i] = nh_substitute(d, e[i], count, from, to);
+    for (size_t k = 0; k < parts; k++)
+        if (needed[k]) part[k].value = nh_substitute(d, part[k].value, count, from, to);
+}
+
 /* ---- fields ---- */
 
 static void add_term(const nh_model *o, nh_field_term *list, size_t *n, nh_ex e, const char *along)

@@ -30,6 +30,11 @@ size_t nh_formula_parts(nh_dag *dag, size_t n, nh_ex *e, nh_formula_room room, n
 double nh_formula_fit(nh_dag *dag, size_t n, const nh_ex *e, size_t parts, const nh_formula_part *part,
                       nh_formula_room room, bool *stands, bool needed[NH_FORMULA_PARTS]);
 
+/* Numbers the parts that are needed one after the other, without gaps, from *names + 1, with their own letter or the
+ * one given; *names counts them. */
+void nh_formula_number(nh_dag *dag, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed,
+                       char letter, size_t *names);
+
 /* The symmetry of a current as a sum of coefficients along basis fields: d/dt, d/dq, d/dx' of the chart of coordinate
  * velocities (or of the only one); or along Gamma first and then the rest, where that is much shorter.  Terms that
  * vanish are left out.  The list belongs to the model's arena. */

@@ -101,22 +101,6 @@ static void too_long(nh_html_writer *w, const char *label, nh_ex e, double wante
     nh_text_clear(&words);
 }
 
-/* Numbers the parts in their order of appearance, without gaps. */
-static void number_parts(nh_html_writer *w, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed)
-{
-    nh_ex from[NH_FORMULA_PARTS], to[NH_FORMULA_PARTS];
-    size_t count = 0;
-    for (size_t k = 0; k < parts; k++) {
-        if (!needed[k]) continue;
-        snprintf(part[k].name + 2, sizeof part[k].name - 2, "%zu", ++w->names);
-        from[count] = part[k].symbol;
-        to[count++] = nh_symbol_fresh(w->dag, part[k].name);
-    }
-    for (size_t i = 0; i < n; i++) e[i] = nh_substitute(w->dag, e[i], count, from, to);
-    for (size_t k = 0; k < parts; k++)
-        if (needed[k]) part[k].value = nh_substitute(w->dag, part[k].value, count, from, to);
-}
-
 void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e)
 {
     nh_formula_part part[NH_FORMULA_PARTS];
@@ -127,7 +111,7 @@ void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, con
     size_t parts = nh_formula_parts(w->dag, n, brief, nh_formula_block(w->shown), part);
     double wanted = nh_formula_fit(w->dag, n, brief, parts, part, nh_formula_block(w->shown), shown, needed);
     for (size_t k = 0; k < parts; k++) any |= needed[k];
-    if (any) number_parts(w, n, brief, parts, part, needed);
+    nh_formula_number(w->dag, n, brief, parts, part, needed, 0, &w->names);
     for (size_t i = 0; i < n; i++)
         if (shown[i]) line(w, label[i], brief[i]);
         else too_long(w, label[i], e[i], wanted);

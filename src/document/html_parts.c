@@ -187,13 +187,22 @@ static void with_letters(nh_html_writer *w, const char *text)
     }
 }
 
+/* Does the page say it, or the first word of it? */
+static bool said(const nh_html_writer *w, const char *word)
+{
+    const char *page = strstr(nh_text_string(w->out), "<main");
+    char first[40];
+    snprintf(first, sizeof first, "%.*s", (int)strcspn(word, " "), word);
+    return page && strcasestr(page, first);
+}
+
 void nh_html_words(nh_html_writer *w, const char *words)
 {
     nh_html_add(w, "<section id=\"words\"><h2>Words</h2>\n<dl>\n");
     for (const char *c = words; *c; c += strcspn(c, ","), c += strspn(c, ", "))
         for (size_t i = 0; i < nh_glossary_count(); i++) {
             nh_glossary_entry e = nh_glossary_at(i);
-            if (strlen(e.word) != strcspn(c, ",") || strncmp(e.word, c, strlen(e.word))) continue;
+            if (strlen(e.word) != strcspn(c, ",") || strncmp(e.word, c, strlen(e.word)) || !said(w, e.word)) continue;
             nh_html_tagged(w, "dt", e.word);
             nh_html_add(w, "<dd>");
             with_letters(w, e.text);

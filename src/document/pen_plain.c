@@ -1,6 +1,7 @@
 /* The parts of a document as text for a terminal, which has neither figures, nor links, nor what others say already:
    the glossary, the system's file. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -25,6 +26,8 @@ static const struct {
     [NH_PEN_ROW_HEAD] = {"", "", false}, [NH_PEN_KIND] = {"", "", false},
 };
 
+enum { line_width = 80 };
+
 static void words(void *to, const char *text)
 {
     nh_plain_writer *w = to;
@@ -36,7 +39,7 @@ static void bold(nh_plain_writer *w, const char *text)
     nh_text_addf(w->out, w->colour ? "\033[1m%s\033[0m" : "%s", text);
 }
 
-/* The title with the values of the parameters. */
+/* The title with the values of the parameters, of which none is broken. */
 static void begin(void *to, const char *what)
 {
     nh_plain_writer *w = to;
@@ -47,11 +50,21 @@ static void begin(void *to, const char *what)
     nh_text_init(w->out);
     bold(w, s->title);
     if (!s->parameters) nh_text_add(w->out, "   no parameters");
-    const char *before = "   with ";
-    for (size_t i = 0; i < s->parameters; i++) {
+    size_t column = nh_text_width(s->title);
+    bool first = true;
+    for (size_t i = 0; i < s->parameters; i++, first = false) {
+        char one[120];
         if (nh_pen_is_open(&w->of, s->parameter[i].name)) continue;
-        nh_text_addf(w->out, "%s%s = %.6g", before, s->parameter[i].name, s->parameter[i].value);
-        before = ", ";
+        snprintf(one, sizeof one, "%s = %.6g", s->parameter[i].name, s->parameter[i].value);
+        size_t wide = nh_text_width(one) + (first ? strlen("   with ") : 2);
+        if (column + wide >= line_width) {
+            words(w, first ? "\n    with " : ",\n    ");
+            column = 2;
+        } else {
+            words(w, first ? "   with " : ", ");
+        }
+        words(w, one);
+        column += wide;
     }
     nh_text_add(w->out, "\n");
 }
@@ -124,7 +137,7 @@ static void sheet(void *to, nh_sheet *formulas_of, bool headed)
 
 /* ---- tables ---- */
 
-enum { most_columns = 24, line_width = 80 };
+enum { most_columns = 24 };
 
 typedef struct {
     size_t count, length[most_columns];

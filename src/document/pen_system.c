@@ -14,11 +14,15 @@ static const char *or_nothing(const char *text) { return text ? text : ""; }
 static void parameters(nh_pen *p, const nh_system *s)
 {
     if (!s->parameters) return;
-    nh_pen_table(p, "Parameters", "name|value|meaning");
+    bool said = false; /* a column of meanings only where there are any */
+    for (size_t i = 0; i < s->parameters; i++) said |= *or_nothing(s->parameter[i].doc) != 0;
+    nh_pen_table(p, "Parameters", said ? "name|value|meaning" : "name|value");
     for (size_t i = 0; i < s->parameters; i++) {
         const nh_parameter *a = &s->parameter[i];
-        if (nh_pen_is_open(&p->of, a->name)) nh_pen_row(p, "#<%s>|any|%s", a->name, or_nothing(a->doc));
-        else nh_pen_row(p, "#<%s>|%.10g %s|%s", a->name, a->value, or_nothing(a->unit), or_nothing(a->doc));
+        const char *doc = or_nothing(a->doc);
+        if (nh_pen_is_open(&p->of, a->name)) nh_pen_row(p, said ? "#<%s>|any|%s" : "#<%s>|any%s", a->name, doc);
+        else
+            nh_pen_row(p, said ? "#<%s>|%.10g %s|%s" : "#<%s>|%.10g %s%s", a->name, a->value, or_nothing(a->unit), doc);
     }
     nh_pen_table_end(p);
 }
@@ -26,11 +30,14 @@ static void parameters(nh_pen *p, const nh_system *s)
 static void coordinates(nh_pen *p, const nh_system *s)
 {
     static const char *const types[] = {"angle", "length", "number"};
-    nh_pen_table(p, "Coordinates", "name|type|meaning");
+    bool said = false;
+    for (size_t i = 0; i < s->coordinates; i++) said |= *or_nothing(s->coordinate[i].doc) != 0;
+    nh_pen_table(p, "Coordinates", said ? "name|type|meaning" : "name|type");
     for (size_t i = 0; i < s->coordinates; i++) {
         const nh_coordinate *q = &s->coordinate[i];
         const char *unit = or_nothing(q->unit);
-        nh_pen_row(p, "#<%s>|%s%s%s|%s", q->name, types[q->type], *unit ? " / " : "", unit, or_nothing(q->doc));
+        nh_pen_row(p, said ? "#<%s>|%s%s%s|%s" : "#<%s>|%s%s%s%s", q->name, types[q->type], *unit ? " / " : "", unit,
+                   or_nothing(q->doc));
     }
     nh_pen_table_end(p);
 }
@@ -110,7 +117,7 @@ static void block(nh_pen *p, nh_dag *d, const char *heading, size_t n, const cha
     enum { long_block = 400 };
     double length = 0;
     for (size_t i = 0; i < n; i++) length += (double)nh_complexity(d, e[i]);
-    bool folded = length > long_block;
+    bool folded = length > long_block && !p->ink->brief;
     if (folded) nh_pen_open(p, NH_PEN_FOLD, NULL, heading);
     else nh_pen_words(p, "%s", heading);
     p->ink->formulas(p->to, n, label, e);
@@ -141,14 +148,16 @@ static void multipliers(nh_pen *p, const nh_model *o)
 
 static void equations(nh_pen *p, const nh_model *o, bool more)
 {
-    static const char *const functions[] = {"L", "E"};
+    static const char *const functions[] = {"L", "E"}, *const both[] = {"L = E"};
+    bool same = o->Lbar == o->E; /* no potential */
     const char **label = nh_alloc_array(o->n + 1, sizeof *label);
     for (size_t i = 0; i < o->n; i++) label[i] = nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i]));
     nh_pen_open(p, NH_PEN_SUBHEADING, NULL, NULL);
     nh_pen_say(p, "In {%s}", o->chart->name);
     nh_pen_close(p, NH_PEN_SUBHEADING);
     if (!p->ink->brief)
-        block(p, o->dag, "Constrained Lagrangian and energy", 2, functions, (const nh_ex[]){o->Lbar, o->E});
+        block(p, o->dag, "Constrained Lagrangian and energy", same ? 1 : 2, same ? both : functions,
+              (const nh_ex[]){o->Lbar, o->E});
     block(p, o->dag, nh_facts_equations(o), o->n, label, o->a);
     if (more) multipliers(p, o);
     nh_free(label);

@@ -73,14 +73,19 @@ static void momenta(nh_pen *p, const nh_reduction *r, const nh_reduction_motion 
                               .x = r->times,
                               .x_stride = 1,
                               .y = o->p + k,
-                              .y_stride = o->momenta};
+                              .y_stride = o->momenta,
+                              .marks = o->charted < o->count};
     nh_plot plot = {.title = "Momenta of the reduced motion",
                     .description = "Momenta of the reduced equations over time",
                     .x_label = "t",
                     .y_label = n == 1 ? o->name[0] : "momentum",
                     .curves = n,
                     .curve = curve};
-    if (n && o->charted > 1) nh_pen_plot(p, &plot, "Momenta of the reduced equations over time.");
+    if (n && o->charted > 1)
+        nh_pen_plot(p, &plot,
+                    o->charted < o->count ? "Momenta of the reduced equations over time, until the slice or the "
+                                            "velocities change for the first time."
+                                          : "Momenta of the reduced equations over time.");
 }
 
 void nh_reduction_figures(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *p)

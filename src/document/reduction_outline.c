@@ -135,6 +135,28 @@ static bool same_before(const nh_reduction *r, size_t i)
     return false;
 }
 
+/* What the rules' names mean: those that stand there. */
+static void rules(nh_pen *p, const nh_chain_symmetries *c)
+{
+    static const char *const meaning[NH_CHAIN_RULES] = {
+        [NH_CHAIN_FIRST] = "a displacement that a joint on the ground allows, of everything",
+        [NH_CHAIN_AP1] = "a displacement of space that the joint allows wherever its body is, of all bodies behind it",
+        [NH_CHAIN_AP2] = "a displacement in the frame that carries the joint, of all bodies behind it",
+        [NH_CHAIN_EXTREMITY] = "a displacement in the frame of a body at the end of the chain, of that body"};
+    bool any = false;
+    if (!c->fields) return;
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    for (int k = 0; k < NH_CHAIN_RULES; k++) {
+        bool there = false;
+        for (size_t i = 0; i < c->fields; i++) there |= (int)c->field[i].rule == k;
+        if (there)
+            nh_pen_say(p, "%s%s: %s", any ? "; " : "", nh_chain_rule_name((nh_chain_rule)k), meaning[k]);
+        any |= there;
+    }
+    nh_pen_say(p, " (Chhabra and Emami 2014, section 4).");
+    nh_pen_close(p, NH_PEN_WORDS);
+}
+
 /* Of a chain of bodies: [ChhabraEmami2014, sec. 4]. */
 static void joints(nh_pen *p, const nh_reduction *r)
 {
@@ -160,6 +182,7 @@ static void joints(nh_pen *p, const nh_reduction *r)
         nh_pen_close(p, NH_PEN_FACT);
     }
     nh_pen_close(p, NH_PEN_FACTS);
+    rules(p, c);
 }
 
 /* ---- stages ---- */

@@ -19,8 +19,8 @@ void nh_reduction_conditions(const nh_reduction_stage *s, nh_pen *p)
                     "$Upsilon$ = 0");
     else
         nh_pen_fact(p, "Condition (ii)",
-                    "of a second stage (Chhabra and Emami 2014), that no force acts along its fields: weak form %.2g, "
-                    "strong form %.2g%s",
+                    "of a second stage (Chhabra and Emami 2014), that no force acts along its fields: off by %.2g in "
+                    "the weak form, %.2g in the strong one%s",
                     t->weak, t->strong, only_weak ? " (the momentum is conserved nevertheless)" : "");
     if (t->magnetic)
         nh_pen_fact(p, "Momentum", "constant, including the part of the Lagrangian that is linear in the velocities");

@@ -103,21 +103,6 @@ static nh_ex as_shown(const nh_sheet *s, const nh_sheet_section *c, nh_ex e)
     return s->chart && !c->literal ? nh_chart_shown(s->chart, e) : e;
 }
 
-/* Its own names, S_1, S_2, ...: one sequence for the sheet. */
-static void rename_parts(nh_sheet *s, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed)
-{
-    nh_ex from[NH_FORMULA_PARTS], to[NH_FORMULA_PARTS];
-    size_t count = 0;
-    for (size_t k = 0; k < parts; k++) {
-        if (!needed[k]) continue;
-        snprintf(part[k].name, sizeof part[k].name, "S_%zu", ++s->names);
-        from[count] = part[k].symbol;
-        to[count++] = part[k].symbol = nh_symbol_fresh(s->dag, part[k].name);
-    }
-    for (size_t i = 0; i < n; i++) e[i] = nh_substitute(s->dag, e[i], count, from, to);
-    for (size_t k = 0; k < parts; k++) part[k].value = nh_substitute(s->dag, part[k].value, count, from, to);
-}
-
 nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
 {
     nh_sheet_section c = s->section[section];
@@ -139,7 +124,7 @@ nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
     bool needed[NH_FORMULA_PARTS], *stands = nh_alloc_array(n + 1, sizeof *stands);
     size_t parts = nh_formula_parts(s->dag, n, e, room, part);
     double wanted = nh_formula_fit(s->dag, n, e, parts, part, room, stands, needed);
-    rename_parts(s, n, e, parts, part, needed);
+    nh_formula_number(s->dag, n, e, parts, part, needed, 'S', &s->names); /* one sequence for the sheet */
     for (size_t i = at = 0; i < c.lines; i++)
         for (size_t j = 0; j < line[i].left + line[i].right; j++, at++) {
             line[i].term[j].coefficient = e[at];

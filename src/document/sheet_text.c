@@ -168,12 +168,14 @@ void nh_sheet_formulas(nh_dag *d, size_t n, const char *const *label, const nh_e
     nh_formula_part part[NH_FORMULA_PARTS];
     bool needed[NH_FORMULA_PARTS], any = false, *stands = nh_alloc_array(n + 1, sizeof *stands);
     nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
+    size_t names = 0;
     nh_text words;
     memcpy(e, value, n * sizeof *e);
     size_t parts = nh_formula_parts(d, n, e, nh_formula_block(shown), part);
     nh_text_init(&words);
     double wanted = nh_formula_fit(d, n, e, parts, part, nh_formula_block(shown), stands, needed);
     nh_formula_left_out(wanted, &words);
+    nh_formula_number(d, n, e, parts, part, needed, 0, &names);
     for (size_t i = 0; i < n; i++)
         put_formula(out, indent, label[i], stands[i] ? nh_print_string(d, e[i]) : nh_strdup(nh_text_string(&words)));
     for (size_t k = 0; k < parts; k++) {

@@ -149,6 +149,19 @@ static void part(const canvas *c, const char *text, size_t length)
     nh_text_clear(&piece);
 }
 
+/* Of p_phi as a letter, too. */
+static void subscript(const canvas *c, const char *text, size_t length)
+{
+    nh_text name, plain;
+    nh_text_init(&name);
+    nh_text_init(&plain);
+    nh_text_add_n(&name, text, length);
+    nh_typeset_plain(nh_text_string(&name), &plain);
+    nh_escape_xml(nh_text_string(&plain), c->out);
+    nh_text_clear(&plain);
+    nh_text_clear(&name);
+}
+
 /* E_T gets an index. */
 static void label(const canvas *c, double x, double y, const char *anchor, const char *class, const char *text)
 {
@@ -162,7 +175,7 @@ static void label(const canvas *c, double x, double y, const char *anchor, const
     part(c, text, index ? (size_t)(bar - text) : strlen(text));
     if (index) {
         nh_text_add(c->out, "<tspan dy=\"0.3em\" font-size=\"75%\">");
-        part(c, bar + 1, index);
+        subscript(c, bar + 1, index);
         nh_text_add(c->out, "</tspan>");
         if (bar[1 + index]) nh_text_add(c->out, "<tspan dy=\"-0.225em\">");
         part(c, bar + 1 + index, strlen(bar + 1 + index));

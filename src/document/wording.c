@@ -62,8 +62,8 @@ static const nh_glossary_entry entries[] = {
     {"shape", "Coordinates on a slice through the orbits of a group; the reduced equations are written in them."},
     {"stage of a reduction", "The division by one group: Chaplygin's, a second one by further symmetry, or by the "
                              "whole group at once (Lagrange-d'Alembert-Poincare)."},
-    {"Chaplygin", "A system whose group's orbits and constraint distribution are complementary: V + D = TQ, V cap "
-                  "D = 0.  It reduces to the shape space."},
+    {"Chaplygin", "A system whose group's orbits and constraint distribution are complementary: together they "
+                  "span every direction and share none.  It reduces to the shape space."},
     {"density", "Of a measure that the motions leave invariant."},
     {"question", "What a user wants to know: system, settings, initial state, limits."},
     {"problem", "A question whose files have been read."},
