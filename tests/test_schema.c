@@ -1,4 +1,4 @@
-/* docs/schema: the JSON of analyze, classify, scan, export, benchmark and simulate is checked by the part of JSON Schema
+/* docs/schema: the JSON of analyze, verify, classify, scan, export, benchmark and simulate is checked by the part of JSON Schema
  * that these files use. */
 #include <cjson/cJSON.h>
 
@@ -293,5 +293,71 @@ Test(schema, what_simulate_writes_fits)
         finished_clear(&f);
     }
     cJSON_Delete(whole);
+    place_clear(&p);
+}
+
+/* A current, a false one, fields of both kinds, a branch, the geometry. */
+Test(schema, what_verify_writes_fits)
+{
+    static const struct {
+        const char *words;
+        int code;
+    } lines[] = {
+        {"sleigh --current m*v^2+m*a^2*k^2*omega^2", 0},
+        {"sleigh --current m*v", 1},
+        {"sleigh --field x=1", 1},
+        {"sleigh --field Z0=1", 0},
+        {"sleigh --field Z0=1 --of equations --equations", 0},
+        {"appell_hamel --current x'", 1},
+        {"appell_hamel --current sin(pi*z)", 1},
+    };
+    cJSON *schema = read_json("docs/schema/verify.json");
+    place p = place_make();
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
+        snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
+        snprintf(line, sizeof line, "verify %s --quiet --json v.json", lines[i].words);
+        finished f = run_so(&p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
+        cr_expect_eq(f.code, lines[i].code, "%s: %d %s", line, f.code, f.err);
+        snprintf(path, sizeof path, "%s/v.json", p.folder);
+        cJSON *root = read_json(path);
+        verdict v = {""};
+        cr_expect(fits(schema, root, "", &v), "%s: %s", lines[i].words, v.fault);
+        cJSON_AddNumberToObject(root, "more", 1);
+        cr_expect_not(fits(schema, root, "", &v), "an unknown key");
+        cJSON_DeleteItemFromObject(root, "more");
+        cJSON_DeleteItemFromObject(root, "counterexample");
+        cr_expect_not(fits(schema, root, "", &v), "a missing key");
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    cJSON_Delete(schema);
+    place_clear(&p);
+}
+
+/* What is left when there was no time for anything is a form of each schema, and no other document is taken for it. */
+Test(schema, what_is_left_of_a_run_fits)
+{
+    static const char *const lines[][2] = {
+        {"analyze", "analyze sleigh"}, {"verify", "verify sleigh --current v"}, {"benchmark", "benchmark sleigh"}, {"export", "export sleigh"}, {"simulate", "simulate sleigh"}};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
+        snprintf(path, sizeof path, "docs/schema/%s.json", lines[i][0]);
+        cJSON *schema = whole = read_json(path);
+        snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
+        snprintf(line, sizeof line, "%s --max-seconds 1e-9 --quiet --json u.json", lines[i][1]);
+        finished f = run_so(&p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
+        cr_expect_eq(f.code, 5, "%s: %d %s", line, f.code, f.err);
+        snprintf(path, sizeof path, "%s/u.json", p.folder);
+        cJSON *root = read_json(path);
+        verdict v = {""};
+        cr_expect(fits(schema, root, "", &v), "%s: %s", line, v.fault);
+        cJSON_DeleteItemFromObject(root, "unfinished");
+        cr_expect_not(fits(schema, root, "", &v), "%s: without unfinished", line);
+        cJSON_Delete(root);
+        cJSON_Delete(schema);
+        finished_clear(&f);
+    }
     place_clear(&p);
 }

@@ -79,6 +79,8 @@ char *nh_verification_json(const nh_verification *v, const nh_run *run)
     nh_dag *d = v->model->dag;
     nh_json *root = nh_json_object();
     nh_json_put_number(root, "schema", 1);
+    nh_json_put_text(root, "version", NH_VERSION);
+    nh_json_put_text(root, "system", v->system->name);
     nh_json_put_bool(root, "conserved", v->conserved);
     nh_json_put_text(root, "region", v->region);
     nh_json_put_text(root, "of", v->of_equations ? "equations" : v->form ? "constraint" : NULL);
