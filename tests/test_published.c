@@ -224,6 +224,110 @@ static const published PUBLISHED[] = {
     /* A. Cordani, L. Gy. Feher and P. A. Horvathy, Phys. Lett. B 201 (1988) 481: the motion of two monopoles, with a vector of Runge and Lenz's kind */
     {"Taub-NUT", "parameters: {m: 0.7, q: 0.4}\ncoordinates: [x, y, z]\ndefinitions: [\"r = sqrt(x^2 + y^2 + z^2)\"]\n"
      "lagrangian: (1 + m/r)*(x'^2 + y'^2 + z'^2)/2 + q*z/r*(x*y' - y*x')/(x^2 + y^2) - q^2*(1 + m/r)/(2*m^2)\ndomain: {x: [0.5, 1.5], y: [0.5, 1.5], z: [0.3, 1]}\n", 5, 4},
+    /* O. I. Bogoyavlensky, as above */
+    {"Toda, B3",
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - exp(x - y) - exp(y - z) - exp(z)\n", 2, 4},
+    {"Toda, C3",
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - exp(x - y) - exp(y - z) - exp(2*z)\n", 2, 4},
+    {"Toda, D3",
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - exp(x - y) - exp(y - z) - exp(y + z)\n", 3, 4},
+    /* V. I. Inozemtsev, Commun. Math. Phys. 121 (1989) 629: two boundaries */
+    {"Toda with two boundaries",
+     "parameters: {a: 0.3, b: 0.4, c: 0.5, d: 0.2}\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: (x'^2 + y'^2)/2 - exp(x - y) - a*exp(y) - b*exp(2*y) - c*exp(-x) - d*exp(-2*x)\n", 2, 6},
+    /* F. Tremblay, A. V. Turbiner and P. Winternitz, as above */
+    {"Tremblay, Turbiner and Winternitz, k = 4",
+     "parameters: {w: 0.8, a: 0.3, b: 0.5}\n"
+     "coordinates: [r, {name: th, type: angle}]\n"
+     "lagrangian: (r'^2 + r^2*th'^2 - w^2*r^2)/2 - (a/cos(4*th)^2 + b/sin(4*th)^2)/r^2\n"
+     "domain: {r: [0.5, 2], th: [0.1, 0.3]}\n", 3, 6},
+    {"Tremblay, Turbiner and Winternitz, k = 1/2",
+     "parameters: {w: 0.8, a: 0.3, b: 0.5}\n"
+     "coordinates: [r, {name: th, type: angle}]\n"
+     "lagrangian: (r'^2 + r^2*th'^2 - w^2*r^2)/2 - (a/cos(th/2)^2 + b/sin(th/2)^2)/r^2\n"
+     "domain: {r: [0.5, 2], th: [0.5, 1.3]}\n", 4, 6},
+    /* H. Hartmann, Theor. Chim. Acta 24 (1972) 201; C. Quesne, J. Phys. A 21 (1988) 3093 */
+    {"Hartmann",
+     "parameters: {k: 0.7, a: 0.3, b: 0.2}\n"
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - 0 + k/sqrt(x^2+y^2+z^2) - a/(x^2+y^2) - b*z/((x^2+y^2)*sqrt(x^2+y^2+z^2))\n"
+     "domain: {x: [0.5, 2], y: [0.5, 2], z: [0.5, 2]}\n", 4, 4},
+    {"oscillator in a ring",
+     "parameters: {w: 0.7, a: 0.3, b: 0.2}\n"
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - w^2*(x^2+y^2+z^2)/2 - a/(x^2+y^2) - b/z^2\n"
+     "domain: {x: [0.5, 2], y: [0.5, 2], z: [0.5, 2]}\n", 5, 4},
+    /* H. Bateman, Phys. Rev. 38 (1931) 815: a damped oscillator and its mirror image */
+    {"Bateman",
+     "parameters: {g: 0.3, k: 1.1}\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: x'*y' + g/2*(x*y' - y*x') - k*x*y\n", 4, 6},
+    /* F. J. Herranz, A. Ballesteros, M. Santander and T. Sanz-Gil, CRM Proc. 37 (2004) 75; E. G. Kalnins, W. Miller and G. S. Pogosyan, as above */
+    {"oscillator on the sphere",
+     "coordinates: [{name: r, type: angle}, {name: f, type: angle}]\n"
+     "parameters: {w: 0.8}\n"
+     "lagrangian: (r'^2 + sin(r)^2*f'^2)/2 - w^2*tan(r)^2/2\n"
+     "domain: {r: [0.4, 1.2], f: [-1, 1]}\n", 3, 6},
+    {"Smorodinsky and Winternitz on the sphere",
+     "coordinates: [{name: r, type: angle}, {name: f, type: angle}]\n"
+     "parameters: {w: 0.8, a: 0.3, b: 0.4}\n"
+     "lagrangian: (r'^2 + sin(r)^2*f'^2)/2 - w^2*tan(r)^2/2 - (a/cos(f)^2 + b/sin(f)^2)/sin(r)^2\n"
+     "domain: {r: [0.4, 1.2], f: [0.4, 1.1]}\n", 3, 6},
+    {"Kepler on the hyperbolic plane",
+     "coordinates: [r, {name: f, type: angle}]\n"
+     "parameters: {k: 0.8}\n"
+     "lagrangian: (r'^2 + sinh(r)^2*f'^2)/2 + k*cosh(r)/sinh(r)\n"
+     "domain: {r: [0.4, 1.2], f: [-1, 1]}\n", 3, 6},
+    {"Kepler on the sphere with two poles",
+     "coordinates: [{name: r, type: angle}, {name: f, type: angle}]\n"
+     "parameters: {k: 0.8, a: 0.3, b: 0.4}\n"
+     "lagrangian: (r'^2 + sin(r)^2*f'^2)/2 + k*cos(r)/sin(r) - (a + b*cos(f))/(sin(f)^2*sin(r)^2)\n"
+     "domain: {r: [0.4, 1.2], f: [0.4, 1.1]}\n", 3, 6},
+    /* C. G. J. Jacobi, Gesammelte Werke IV (1886) 531: three bodies on a line, with forces like the inverse cube of the distance */
+    {"Jacobi, three bodies",
+     "parameters: {g: 0.4, h: 0.3, k: 0.9}\n"
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - g/(x-y)^2 - h/(y-z)^2 - k/(z-x)^2\n"
+     "domain: {x: [0.2, 0.6], y: [1.5, 2], z: [4, 5]}\n", 5, 4},
+    /* F. Calogero, J. Math. Phys. 12 (1971) 419; M. A. Olshanetsky and A. M. Perelomov, as above */
+    {"Calogero, three bodies in a trap",
+     "parameters: {w: 0.8, g: 0.4}\n"
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - w^2*(x^2+y^2+z^2)/2 - g/(x-y)^2 - g/(y-z)^2 - g/(z-x)^2\n"
+     "domain: {x: [0.2, 0.6], y: [1.5, 2], z: [4, 5]}\n", 6, 4},
+    {"Sutherland, hyperbolic",
+     "parameters: {g: 0.4}\n"
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - g/sinh(x - y)^2 - g/sinh(y - z)^2 - g/sinh(z - x)^2\n"
+     "domain: {x: [0.1, 0.4], y: [0.8, 1.2], z: [1.8, 2.3]}\n", 4, 4},
+    {"Sutherland, BC2",
+     "parameters: {a: 0.4, b: 0.3, c: 0.5}\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: (x'^2 + y'^2)/2 - a/sin(x-y)^2 - a/sin(x+y)^2 - b/sin(x)^2 - b/sin(y)^2 - c/cos(x)^2 - c/cos(y)^2\n"
+     "domain: {x: [0.2, 0.4], y: [0.8, 1.1]}\n", 2, 6},
+    /* J. Hietarinta, Phys. Rep. 147 (1987) 87 */
+    {"quartic, 1:6:1",
+     "parameters: {a: 0.4, b: 0.7}\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: (x'^2 + y'^2)/2 - x^4 - 6*x^2*y^2 - y^4 - a*(x^2 + y^2) - b*x*y\n", 2, 6},
+    /* Y. N. Fedorov, Vestn. Mosk. Univ. 44 (1989) no. 6, 38; N. E. Zhukovsky, as above */
+    {"Veselova's gyrostat",
+     "parameters: {A: 1.1, B: 1.7, C: 2.3, l: 0.4}\n"
+     "coordinates: [{name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+     "definitions: [\"W1 = p'*sin(h)*sin(s) + h'*cos(s)\", \"W2 = p'*sin(h)*cos(s) - h'*sin(s)\", \"W3 = p'*cos(h) + s'\", g1 = sin(h)*sin(s), g2 = sin(h)*cos(s), g3 = cos(h)]\n"
+     "lagrangian: (A*W1^2 + B*W2^2 + C*W3^2)/2 + l*W3\n"
+     "constraints: [\"p' + s'*cos(h) = 0\"]\n"
+     "domain: {h: [0.5, 1.3], p: [-0.7, 0.7], s: [-0.7, 0.7]}\n", 3, 4},
+    {"Lagrange's gyrostat in a field that is not uniform",
+     "parameters: {A: 1.1, C: 2.3, k: 0.4, u: 0.3, l: 0.2}\n"
+     "coordinates: [{name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+     "definitions: [\"W1 = p'*sin(h)*sin(s) + h'*cos(s)\", \"W2 = p'*sin(h)*cos(s) - h'*sin(s)\", \"W3 = p'*cos(h) + s'\", g1 = sin(h)*sin(s), g2 = sin(h)*cos(s), g3 = cos(h)]\n"
+     "lagrangian: A*(W1^2 + W2^2)/2 + C*W3^2/2 - k*g3 - u*g3^2 + l*W3\n"
+     "domain: {h: [0.5, 1.3], p: [-0.7, 0.7], s: [-0.7, 0.7]}\n", 3, 4},
     /* controls: C. Stoermer 1907; G. W. Hill 1878; V. Szebehely 1967; M. C. Gutzwiller, J. Math. Phys. 14 (1973) 139; G. K. Savvidy, Phys. Lett. B 130 (1983) 303 */
     {"Stoermer", "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + sin(th)^2/r*ph'\ndomain: {r: [0.5, 2], th: [0.4, 1.2]}\n", 2, 4},
@@ -235,7 +339,7 @@ static const published PUBLISHED[] = {
 };
 enum { PUBLISHED_COUNT = sizeof PUBLISHED / sizeof *PUBLISHED };
 
-static nh_analysis *analysed(const char *text, double construct_work)
+static nh_analysis *analysed_with(const char *text, double construct_work, double words)
 {
     char path[SCRATCH];
     FILE *out = scratch_open(path);
@@ -247,11 +351,14 @@ static nh_analysis *analysed(const char *text, double construct_work)
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     if (construct_work >= 0) q.options.construct = construct_work;
+    if (words > 0) q.options.words = words;
     nh_analysis *r = nh_analysis_create(&q, &error);
     remove(path);
     cr_assert_not_null(r, "%s", error.what);
     return r;
 }
+
+static nh_analysis *analysed(const char *text, double construct_work) { return analysed_with(text, construct_work, 0); }
 
 static size_t independent_and_proved(const nh_analysis *r)
 {
@@ -293,6 +400,23 @@ Test(published, without_work_nothing_is_constructed_and_that_is_said)
     cr_expect_eq(c->missing_at, 4);
     cr_expect_eq(c->missing, 1);
     nh_analysis_free(r);
+}
+
+/* Two bodies and their mirror images near one point: the poles are nearly dependent on each other there, so that the integral of degree four is lost in doubles; its
+ * coefficients are read from the residues.  With few words allowed few of the four denominators stand in one. */
+#define NARROW_B2 \
+    "parameters: {g: 0.4, h: 0.7}\n" PLANE "x^2 - y^2 - g/(x - y)^2 - g/(x + y)^2 - h/x^2 - h/y^2\ndomain: {x: [0.2, 0.25], y: [1.5, 1.55]}\n"
+
+Test(published, integrals_with_nearly_dependent_poles)
+{
+    static const double words[] = {0, 150};
+    for (size_t i = 0; i < 2; i++) {
+        nh_analysis *r = analysed_with(NARROW_B2, -1, words[i]);
+        const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+        cr_expect(independent_and_proved(r) >= 2 && c->degree == 6 && !c->missing_at, "%g words: %zu proved, complete to degree %zu", words[i],
+                  independent_and_proved(r), c->degree);
+        nh_analysis_free(r);
+    }
 }
 
 /* ---- integrals that are functions of others, and relations ---- */

@@ -65,6 +65,20 @@ bool nh_residue_ratio(nh_prime f, int64_t top, int64_t bottom, nh_residue *out)
     return below != 0;
 }
 
+/* Euclid's algorithm for p and a, until the remainder is small enough. */
+bool nh_residue_fraction(nh_prime f, nh_residue a, int64_t *top, int64_t *bottom)
+{
+    int64_t r0 = (int64_t)f.p, r1 = a, t0 = 0, t1 = 1;
+    while (2 * r1 * r1 >= (int64_t)f.p) {
+        int64_t q = r0 / r1, r2 = r0 - q * r1, t2 = t0 - q * t1;
+        r0 = r1, r1 = r2;
+        t0 = t1, t1 = t2;
+    }
+    *top = t1 < 0 ? -r1 : r1;
+    *bottom = t1 < 0 ? -t1 : t1;
+    return 2 * t1 * t1 < (int64_t)f.p;
+}
+
 bool nh_residue_root(nh_prime f, nh_residue a, uint64_t order, nh_residue *root)
 {
     for (; order % 2 == 0; order /= 2) { /* p = 3 modulo 4: of two roots one is a square again */

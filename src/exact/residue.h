@@ -72,6 +72,10 @@ nh_residue nh_residue_inverse(nh_prime f, nh_residue a); /* of a residue that is
 /* False: the prime divides the bottom. */
 bool nh_residue_ratio(nh_prime f, int64_t top, int64_t bottom, nh_residue *out);
 
+/* a = top/bottom modulo the prime with |top| and bottom below sqrt(p/2), if there is such a fraction: there is no
+ * second one (Wang, Guy and Davenport 1982). */
+bool nh_residue_fraction(nh_prime f, nh_residue a, int64_t *top, int64_t *bottom);
+
 /* The root of this order, for whole orders whose odd part is prime to p - 1: of a square root the one that is a square
  * itself.  False when there is none, or a is 0. */
 bool nh_residue_root(nh_prime f, nh_residue a, uint64_t order, nh_residue *root);

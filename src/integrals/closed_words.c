@@ -20,12 +20,30 @@ static uint32_t coordinates_in(const nh_jet_equations *x, nh_ex e)
     return mask;
 }
 
+/* A product of whole positive powers of coordinates, sines and cosines? */
+static bool is_plain(const nh_jet_equations *x, nh_ex e)
+{
+    const nh_dag *d = x->dag;
+    nh_kind kind = nh_kind_of(d, e);
+    if (kind != NH_PRODUCT) {
+        nh_function f = kind == NH_FUNCTION ? nh_function_of(d, e) : NH_PI;
+        return kind == NH_NUMBER || kind == NH_SYMBOL || f == NH_SIN || f == NH_COS;
+    }
+    for (size_t k = 0; k < nh_arity(d, e); k++) {
+        nh_ex exponent = nh_exponent_of(d, e, k);
+        bool whole = nh_kind_of(d, exponent) == NH_NUMBER && nh_number_of(d, exponent).q == 1;
+        if (!whole || nh_num_value(nh_number_of(d, exponent)) < 0 || !is_plain(x, nh_child(d, e, k))) return false;
+    }
+    return true;
+}
+
 /* A power that cannot be evaluated is left out. */
 static void put_power(nh_known_motions_words *w, nh_known_motions_letter *l, nh_ex e, double price)
 {
     nh_jet_equations *x = w->equations;
     if (price > w->most + tiny) return;
-    nh_known_motions_power p = {.shown = e, .value = e, .price = price, .coordinates = coordinates_in(x, e)};
+    nh_known_motions_power p = {
+        .shown = e, .value = e, .price = price, .coordinates = coordinates_in(x, e), .plain = is_plain(x, e)};
     size_t kernels = x->point->kernels;
     if (!nh_jet_equations_take(x, true, &p.value)) {
         x->obstacle = x->point->obstacle = NULL;
@@ -91,32 +109,45 @@ static void put_letter(nh_known_motions_words *w, const nh_letter *a)
 
 /* ---- words ---- */
 
-/* All choices whose prices do not exceed the largest, counted, and written where there is room. */
-static size_t choices(const nh_known_motions_words *w, size_t most, uint16_t *choice, double *price)
+/* The choice after `at`, whose price is `sum` and of whose factors `factors` are not plain.  False: it was the last. */
+static bool next_choice(const nh_known_motions_words *w, size_t most_factors, size_t *at, double *sum, size_t *factors)
 {
-    size_t count = 0, *at = nh_alloc_array(w->letters + 1, sizeof *at);
-    double sum = 0;
-    for (bool more = true; more && count <= most;) {
-        if (choice) {
-            for (size_t i = 0; i < w->letters; i++) choice[count * w->letters + i] = (uint16_t)at[i];
-            price[count] = sum;
-        }
-        count++;
-        size_t i = 0;
-        for (; i < w->letters; i++) {
-            const nh_known_motions_letter *l = &w->letter[i];
-            double now = l->power[at[i]].price;
-            if (at[i] + 1 < l->powers && sum - now + l->power[at[i] + 1].price <= w->most + tiny) {
-                sum += l->power[++at[i]].price - now;
-                break;
-            }
-            sum -= now;
-            at[i] = 0;
-        }
-        more = i < w->letters;
+    for (size_t i = 0; i < w->letters; i++) {
+        const nh_known_motions_power *power = w->letter[i].power;
+        size_t others = *factors - !power[at[i]].plain, next = at[i] + 1;
+        double rest = *sum - power[at[i]].price;
+        while (next < w->letter[i].powers && others + !power[next].plain > most_factors) next++;
+        bool fits = next < w->letter[i].powers && rest + power[next].price <= w->most + tiny;
+        at[i] = fits ? next : 0;
+        *sum = rest + power[at[i]].price;
+        *factors = others + !power[at[i]].plain;
+        if (fits) return true;
     }
+    return false;
+}
+
+/* All choices whose prices do not exceed the largest, with so many factors at most that are not plain, counted, and
+   written where there is room. */
+static size_t choices(const nh_known_motions_words *w, size_t most_factors, size_t most, uint16_t *choice,
+                      double *price)
+{
+    size_t count = 0, factors = 0, *at = nh_alloc_array(w->letters + 1, sizeof *at);
+    double sum = 0;
+    do {
+        for (size_t i = 0; choice && i < w->letters; i++) choice[count * w->letters + i] = (uint16_t)at[i];
+        if (choice) price[count] = sum;
+        count++;
+    } while (count <= most && next_choice(w, most_factors, at, &sum, &factors));
     nh_free(at);
     return count;
+}
+
+/* How many factors that are not plain leave no more than `most` words; 0: not even one. */
+static size_t factors_that_fit(const nh_known_motions_words *w, size_t most)
+{
+    size_t factors = w->letters;
+    while (factors > 0 && choices(w, factors, most, NULL, NULL) > most) factors--;
+    return factors;
 }
 
 typedef struct {
@@ -162,14 +193,15 @@ nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, doubl
     nh_letters letters = nh_letters_of(x, secular);
     for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
     nh_free(letters.item);
-    w->words = choices(w, most_words, NULL, NULL);
-    if (w->words > most_words) {
+    size_t factors = factors_that_fit(w, most_words);
+    if (w->letters && !factors) {
         nh_known_motions_words_free(w);
         return NULL;
     }
+    w->words = choices(w, factors, most_words, NULL, NULL);
     w->choice = nh_alloc_array(w->words * w->letters + 1, sizeof *w->choice);
     w->price = nh_alloc_array(w->words + 1, sizeof *w->price);
-    choices(w, most_words, w->choice, w->price);
+    choices(w, factors, most_words, w->choice, w->price);
     sort(w);
     return w;
 }

@@ -12,7 +12,8 @@
  *
  * A word is a product of powers, one of each letter at most; its price is the sum of the prices of the powers: the
  * degree, where the most negative exponent that the system has costs as much as a coordinate.  Words come cheapest
- * first. */
+ * first.  Where these are too many, words have few factors that are no polynomials: in sums over pairs of bodies few of
+ * the many denominators stand in one term. */
 #ifndef NH_CLOSED_WORDS_H
 #define NH_CLOSED_WORDS_H
 
@@ -22,6 +23,7 @@ typedef struct {
     nh_ex shown, value;   /* with parameters as symbols; as it is evaluated */
     double price;
     uint32_t coordinates; /* on which it depends: a bit each */
+    bool plain;           /* a polynomial in coordinates, sines and cosines */
 } nh_known_motions_power;
 
 typedef struct {
@@ -40,7 +42,7 @@ typedef struct {
 } nh_known_motions_words;
 
 /* Words up to a price, with `secular` letters (closed_letters.h).  All letters are registered for evaluation: choose a
-   point afterwards.  NULL: there would be more words than `most_words`. */
+   point afterwards.  NULL: there would be more words than `most_words`, even with one such factor in each. */
 nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words,
                                                       bool secular);
 void nh_known_motions_words_free(nh_known_motions_words *words);

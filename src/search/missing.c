@@ -115,6 +115,7 @@ static bool lift_further(search *s, size_t degree, const nh_family *all)
             for (size_t j = 0; j < list->candidate[k].count; j++) leads |= list->candidate[k].term[j] == all->term[0];
             found = leads && keep_further(s, degree, &list->candidate[k], x.fit);
         }
+        s->climb.bench->nears = 0; /* they are of the list */
         nh_candidates_free(list);
     }
     nh_solved_clear(&x);
@@ -161,8 +162,11 @@ static bool lift(search *s, size_t degree, const nh_constructed *c, bool further
         for (size_t k = 0; k < constants; k++) term[terms++] = nh_mul(r->model->dag, c->term[j], constant[k]);
     *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
     s->climb.wide = true;
-    nh_stage_solver_stage(&s->climb,
-                          nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree), 1, all);
+    const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
+    nh_stage_solver_stage(&s->climb, name, 1, all);
+    /* doubles lose it where poles make the terms nearly dependent on each other */
+    if (r->count == before && !further && constants == 1 && c->coefficient)
+        nh_stage_solver_certify_terms(&s->climb, c->terms, c->term, c->coefficient, name);
     return r->count > before || (further && lift_further(s, degree, all));
 }
 

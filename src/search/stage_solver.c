@@ -279,28 +279,45 @@ void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families
     nh_solved_clear(&s);
 }
 
-size_t nh_stage_solver_certify(nh_stage_solver *x, nh_ex e, const char *name)
+/* With all coefficients, as a candidate. */
+static nh_candidate *candidate_of(nh_stage_solver *x, size_t n, const nh_ex *term, const nh_num *coefficient)
+{
+    nh_arena *arena = x->r->arena;
+    nh_candidate *c = nh_arena_alloc(arena, sizeof *c);
+    *c = (nh_candidate){.count = n, .refitted = true, .all = n};
+    c->term = nh_arena_alloc(arena, n * sizeof *c->term);
+    c->all_term = nh_arena_alloc(arena, n * sizeof *c->term);
+    c->coefficient = nh_arena_alloc(arena, n * sizeof *c->coefficient);
+    c->all_coefficient = nh_arena_alloc(arena, n * sizeof *c->coefficient);
+    c->all_size = nh_arena_alloc(arena, n * sizeof *c->all_size);
+    for (size_t j = 0; j < n; j++) {
+        c->term[j] = c->all_term[j] = term[j];
+        c->coefficient[j] = c->all_coefficient[j] = nh_num_value(coefficient[j]);
+        c->all_size[j] = 1;
+    }
+    return c;
+}
+
+size_t nh_stage_solver_certify_terms(nh_stage_solver *x, size_t n, const nh_ex *term, const nh_num *coefficient,
+                                     const char *name)
 {
     nh_analysis *r = x->r;
-    nh_ex *term = nh_arena_alloc(r->arena, sizeof *term);
-    double *one = nh_arena_alloc(r->arena, sizeof *one);
-    *term = e;
-    *one = 1;
-    nh_candidate *c = nh_arena_alloc(r->arena, sizeof *c);
-    *c = (nh_candidate){.count = 1,
-                        .term = term,
-                        .coefficient = one,
-                        .refitted = true,
-                        .all = 1,
-                        .all_term = term,
-                        .all_coefficient = one,
-                        .all_size = one};
-    if (nh_kind_of(r->model->dag, *term) == NH_NUMBER || nh_currents_known(x->bench, *term)) return 0;
-    if (nh_prove_digits(r->model, *term, &r->options) < r->options.digits) return 0;
+    nh_dag *d = r->model->dag;
+    nh_ex e = nh_int(d, 0);
+    for (size_t j = 0; j < n; j++) e = nh_add(d, e, nh_mul(d, nh_number(d, coefficient[j]), term[j]));
+    if (nh_kind_of(d, e) == NH_NUMBER || nh_currents_known(x->bench, e)) return 0;
+    if (nh_prove_digits(r->model, e, &r->options) < r->options.digits) return 0;
     nh_stage_record *note = nh_stage_solver_note(x, name);
-    note->columns = note->sectors = 1;
-    note->found = nh_currents_add(x->bench, c, x->ranges, false);
+    note->columns = n;
+    note->sectors = 1;
+    note->found = nh_currents_add(x->bench, candidate_of(x, n, term, coefficient), x->ranges, false);
     note->dimension = note->found;
     r->independent += note->found;
     return note->found;
+}
+
+size_t nh_stage_solver_certify(nh_stage_solver *x, nh_ex e, const char *name)
+{
+    nh_num one = nh_num_int(1);
+    return nh_stage_solver_certify_terms(x, 1, &e, &one, name);
 }
