@@ -329,3 +329,40 @@ Test(reduce_statements, symmetries_of_a_root_of_the_velocities)
     SAYS(nh_text_string(&t.text), "Symmetry group: SE(2), dimension 3");
     done(&t);
 }
+
+/* The derivative of sign(u) is zero, so that d/dx satisfies the conditions of a symmetry on both sides of the place where a force jumps; across it the "momentum" jumps. */
+Test(reduce_statements, symmetries_on_each_side_of_a_wall)
+{
+    static const struct {
+        const char *lagrangian;
+        bool weak;
+        size_t local, whole, momenta; /* dimensions */
+    } of[] = {
+        {"(x'^2+y'^2)/2 - 2*x - abs(x) - y^2/2", true, 1, 0, 0}, {"(x'^2+y'^2)/2 + abs(x)*y'", true, 3, 1, 1},    {"(x'^2+3*y'^2)/2 - abs(x - y)", true, 2, 1, 1},
+        {"(x'^2+3*y'^2)/2 - abs(x - y)", false, 1, 1, 1},        {"(x'^2+y'^2)/2 - sign(x)", false, 3, 1, 1},     {"(x'^2+y'^2)/2 - abs(x^2+y^2-1)", true, 1, 1, 1},
+        {"(x'^2+y'^2)/2 - sqrt(x^2+y^2)", true, 1, 1, 1},        {"(x'^2+y'^2)/2 - 2*x", true, 2, 2, 2},
+    };
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        char text[300], path[SCRATCH];
+        nh_error error = {0};
+        snprintf(text, sizeof text, "name: wall\ncoordinates: [x, y]\nlagrangian: %s\n", of[i].lagrangian);
+        cr_assert(scratch_text(path, text));
+        nh_reduce_request q = {.system_path = path, .weak = of[i].weak};
+        nh_options_default(&q.options);
+        nh_reduction *r = nh_reduction_create(&q, &error);
+        must(r != NULL, &error, text);
+        cr_expect_eq(r->all->action.d, of[i].local, "%s: %zu", of[i].lagrangian, r->all->action.d);
+        cr_expect_eq(r->group->action.d, of[i].whole, "%s: %zu", of[i].lagrangian, r->group->action.d);
+        cr_expect_eq(r->momenta.count, of[i].momenta, "%s: %zu momenta", of[i].lagrangian, r->momenta.count);
+        cr_expect_eq(r->warnings > 0 && strstr(r->warning[0], "local symmetr") != NULL, of[i].local > of[i].whole, "%s: %s", of[i].lagrangian, r->warnings ? r->warning[0] : "");
+        for (size_t k = 0; k < r->stages; k++) cr_expect(!nh_stage_apart(&r->stage[k], &r->options), "%s: stage %zu", of[i].lagrangian, k + 1);
+        nh_reduction_free(r);
+        q.group = "x=1";
+        nh_error_clear(&error);
+        r = of[i].local > of[i].whole ? nh_reduction_create(&q, &error) : NULL;
+        cr_expect(!r && (of[i].local == of[i].whole || strstr(error.what, "on each side only")), "%s: %s", of[i].lagrangian, error.what ? error.what : "taken");
+        nh_error_clear(&error);
+        nh_reduction_free(r);
+        remove(path);
+    }
+}

@@ -168,9 +168,41 @@ static void count_weaker(nh_reduction *r)
     for (size_t s = 0; s < k->m && flat; s++) flat = !nh_depends(k->dag, k->V, k->q[s]);
     if (!r->all->jets || r->strict || flat || nh_interrupted()) return;
     nh_jets *j = nh_jets_find(nh_quasi_symmetry_kinetic(k), &r->options, &trouble);
-    if (j && j->dimension > r->all->jets->dimension) r->weaker = j->dimension - r->all->jets->dimension;
+    size_t more = j ? nh_group_jets_within_walls(j, k, &r->options) : 0,
+           own = j ? nh_group_jets_within_walls(r->all->jets, k, &r->options) : 0;
+    if (more > own) r->weaker = more - own;
     nh_jets_free(j);
     nh_error_clear(&trouble);
+}
+
+static void keep_within_walls(nh_reduction *r)
+{
+    r->group = nh_group_within_walls(r->all, &r->options);
+    if (!r->group) {
+        r->group = r->all;
+        return;
+    }
+    size_t lost = r->all->action.d - r->group->action.d;
+    r->all->local = true;
+    r->all->global = r->group->action.d;
+    nh_free(r->all->global_name);
+    r->all->global_name = nh_strdup(r->group->name);
+    nh_reduction_warn(r,
+                      "%zu of the %zu local symmetries move%s places where the Lagrangian or a force jumps or has a "
+                      "kink: %s left out, because motions that come there are not taken to motions",
+                      lost, r->all->action.d, lost == 1 ? "s" : "", lost == 1 ? "it is" : "they are");
+}
+
+/* What the user named leaves the walls alone, too. */
+static bool named_within_walls(nh_reduction *r, nh_error *error)
+{
+    nh_group *within = r->group ? nh_group_within_walls(r->group, &r->options) : NULL;
+    if (!within) return true;
+    nh_group_free(within);
+    nh_fail(error, NH_INPUT, "",
+            "these fields are symmetries on each side only of a place where the Lagrangian or a force jumps or has a "
+            "kink: they move this place");
+    return nh_error_hint(error, "nhsym reduce without --group lists all symmetries");
 }
 
 static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
@@ -178,7 +210,7 @@ static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     if (q->group && !q->group[strspn(q->group, " ,;\t")])
         return nh_fail(error, NH_USAGE, "--group", "give vector fields or numbers of generators");
     bool numbers = q->group && !q->group[strspn(q->group, "0123456789 ,;")];
-    if (!q->group && r->system->symmetries) return group_of_file(r, error);
+    if (!q->group && r->system->symmetries) return group_of_file(r, error) && named_within_walls(r, error);
     if (!q->group || numbers) {
         r->all = nh_group_find(r->kinetic, &r->options, error);
         if (!r->all) return false;
@@ -187,9 +219,9 @@ static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *e
             nh_reduction_warn(r, "%zu further local symmetr%s: the search found no closed form", r->all->missing,
                               r->all->missing == 1 ? "y exists" : "ies exist");
     }
-    if (numbers) return group_of_numbers(r, q->group, error);
-    if (q->group) return group_of_fields(r, q->group, error);
-    r->group = r->all;
+    if (numbers) return group_of_numbers(r, q->group, error) && named_within_walls(r, error);
+    if (q->group) return group_of_fields(r, q->group, error) && named_within_walls(r, error);
+    keep_within_walls(r);
     return true;
 }
 

@@ -28,6 +28,14 @@ nh_group *nh_group_of(const nh_kinetic *kinetic, size_t count, const nh_generato
                       const nh_options *options);
 void nh_group_free(nh_group *group);
 
+/* The subgroup of the fields that leave the places u = 0 alone where the Lagrangian, a force or a constraint jumps or
+ * has a kink (exact/walls.h).  The derivative of sign(u) is 0: the conditions of a symmetry hold on both sides, and a
+ * field that moves the wall takes motions across it to others.  NULL where it is the whole group; may have dimension
+ * 0. */
+nh_group *nh_group_within_walls(const nh_group *group, const nh_options *options);
+/* How many of the local symmetries do so. */
+size_t nh_group_jets_within_walls(const nh_jets *jets, const nh_kinetic *kinetic, const nh_options *options);
+
 /* The subset of the generators (as many as constraints) that makes a Chaplygin system; false when there is none.  Of
  * several: the one that most of the others normalise, then the least abelian, then the one with the most generators
  * along coordinates that the system calls dependent, then the best conditioned over the sample points. */
