@@ -73,6 +73,7 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"analyze sleigh --csv a.csv", "nhsym: `nhsym analyze` does not take --csv\nhint: `nhsym help analyze` lists its options; this one belongs to: benchmark simulate reduce scan\n"},
         {"simulate sleigh --method rk8pd,adams", "nhsym: --method takes one integrator, found 2\nhint: `nhsym benchmark` compares several\n"},
         {"benchmark sleigh --over a=1:2 --method rk8pd", "nhsym: --method, and --over as well\nhint: maps compare five methods, which are always the same\n"},
+        {"simulate sleigh -o a.csv", "nhsym: -o takes a folder, but `a.csv` is the name of a file\nhint: a file is written by --csv a.csv\n"},
         {"list -o folder", "nhsym: `nhsym list` does not take --output\nhint: `nhsym help list` lists its options; this one belongs to: analyze verify simulate reduce classify benchmark scan export\n"},
         {"analyze sleigh --fragment", "nhsym: --fragment needs --tex\nhint: for example: --tex body.tex --fragment\n"},
         {"explain frobnicate", "nhsym: there is no topic `frobnicate`\nhint: `nhsym explain` lists the topics\n"},

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/cli.h"
@@ -270,6 +271,20 @@ static bool set_chunk(nh_cli *cli, const char *text, nh_error *error)
     return nh_error_hint(error, "--chunk 3/40 is the third of forty parts");
 }
 
+/* A word that ends as the files of other options do is one of those, unless there is a folder of this name. */
+static bool set_folder(nh_cli *cli, const char *text, nh_error *error)
+{
+    static const char *const endings[] = {"csv", "json", "html", "tex", "svg", "pdf"};
+    const char *dot = strrchr(text, '.');
+    struct stat info;
+    cli->folder = text;
+    for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
+        if (!strcmp(dot + 1, endings[i]) && stat(text, &info))
+            return nh_fail(error, NH_USAGE, "", "-o takes a folder, but `%s` is the name of a file", text),
+                   nh_error_hint(error, "a file is written by --%s %s", endings[i], text);
+    return true;
+}
+
 static bool set_velocities(nh_cli *cli, const char *text, nh_error *error)
 {
     static const char *const names[] = {"auto", "quasi", "coordinates"};
@@ -439,7 +454,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_velocities: return set_velocities(cli, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
     case opt_progress: return set_progress(cli, value, error);
-    case 'o': cli->folder = value; return true;
+    case 'o': return set_folder(cli, value, error);
     NH_PEN_FORM_TABLE(X)
     case opt_fragment: return cli->fragment = true;
     case opt_analysis: cli->analysis = value; return true;
