@@ -172,6 +172,19 @@ Test(method, energy_is_kept_where_it_is_promised)
     }
 }
 
+/* The blade turns at a constant rate: in the pair the terms of its acceleration cancel up to rounding. */
+Test(method, rounding_of_an_acceleration_that_vanishes_is_no_other_motion)
+{
+    static const char *const skate = "name: skate\ncoordinates: [x, y, {name: p, type: angle}]\nparameters: {m: 1.5, J: 0.2, k: 4}\n"
+                                     "lagrangian: m/2*(x'^2 + y'^2) + J/2*p'^2 - k/2*x^2\nconstraints: [\"x'*sin(p) = y'*cos(p)\"]\n";
+    mechanics x = mechanics_of_text(skate, NH_CHART_AUTO);
+    nh_programs *programs = nh_programs_create(x.model);
+    const char *refused = nh_method_refused(nh_method_find("energy-preserving"), programs);
+    cr_expect_null(refused, "%s", refused);
+    nh_programs_free(programs);
+    mechanics_clear(&x);
+}
+
 Test(method, a_wrong_motion_is_refused)
 {
     nh_error error = {0};

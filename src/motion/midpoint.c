@@ -271,24 +271,60 @@ static bool solve_energy(midpoint_work *k)
 
 /* ---- which rule is valid ---- */
 
-/* Rates are compared beside what they are made of: |f_j| and |df_j/dz_i z_i|. */
+/* How large what the rates of the pair are sums of is: |R| |u| and |M^-1| (|G| |u| + |R^T| |g_q|), u = M^-1 g_w. */
+static bool pair_terms(const midpoint_work *k, const double *pair, const double *g, double *terms)
+{
+    size_t m = k->m, n = k->n;
+    const double *R = pair, *M = R + m * n, *G = M + n * n;
+    double *matrix = nh_alloc_array(2 * n * n + 2 * n + 1, sizeof *matrix), *inverse = matrix + n * n,
+           *u = inverse + n * n, *sum = u + n;
+    for (size_t i = 0; i < n * n; i++) {
+        matrix[i] = M[i];
+        inverse[i] = i % (n + 1) == 0;
+    }
+    bool good = nh_solve(n, matrix, n, inverse, NULL);
+    for (size_t i = 0; i < n && good; i++) {
+        u[i] = 0;
+        for (size_t j = 0; j < n; j++) u[i] += inverse[i + j * n] * g[m + j];
+    }
+    for (size_t s = 0; s < m && good; s++) {
+        terms[s] = 0;
+        for (size_t i = 0; i < n; i++) terms[s] += fabs(R[s * n + i] * u[i]);
+    }
+    for (size_t i = 0; i < n && good; i++) {
+        sum[i] = 0;
+        for (size_t j = 0; j < n; j++) sum[i] += fabs(G[i * n + j] * u[j]);
+        for (size_t s = 0; s < m; s++) sum[i] += fabs(R[s * n + i] * g[s]);
+    }
+    for (size_t i = 0; i < n && good; i++) {
+        terms[m + i] = 0;
+        for (size_t j = 0; j < n; j++) terms[m + i] += fabs(inverse[i + j * n]) * sum[j];
+    }
+    nh_free(matrix);
+    return good;
+}
+
+/* Rates are compared beside what they are made of: |f_j| and |df_j/dz_i z_i|, and the terms of the pair, which can
+   cancel where f_j is zero identically. */
 static bool pair_is_the_motion(nh_programs *programs)
 {
     const nh_model *o = nh_programs_model(programs);
     midpoint_work *k = work_create(programs, NH_ENERGY);
-    double *rate = k->matrix + k->size * k->size;
+    double *rate = k->matrix + k->size * k->size, *made_of = nh_alloc_array(k->size + 1, sizeof *made_of);
     size_t size = k->size;
     bool same = o->chart->probes > 0;
     for (size_t p = 0; p < o->chart->probes && same; p++) {
         const double *z = o->chart->probe + p * o->chart->width;
         const double *f = evaluate(k, NH_PROGRAM_FLOW, z[0], z + 1), *g = evaluate(k, NH_PROGRAM_GRADIENT, z[0], z + 1);
-        same = pair_rate(k, evaluate(k, NH_PROGRAM_PAIR, z[0], z + 1), g, rate);
+        const double *pair = evaluate(k, NH_PROGRAM_PAIR, z[0], z + 1);
+        same = pair_rate(k, pair, g, rate) && pair_terms(k, pair, g, made_of);
         for (size_t j = 0; j < size && same; j++) {
-            double terms = fabs(f[j]);
+            double terms = fabs(f[j]) + made_of[j];
             for (size_t i = 0; i < size; i++) terms += fabs(f[size + j + i * size] * z[1 + i]);
             same = fabs(rate[j] - f[j]) <= same_equations * terms;
         }
     }
+    nh_free(made_of);
     work_free(k);
     return same && nh_is_zero(o->dag, nh_diff(o->dag, o->E, o->system->t));
 }
