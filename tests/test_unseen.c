@@ -384,3 +384,36 @@ Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed)
         nh_analysis_free(r);
     }
 }
+
+/* z' = A z + b(t) with a polynomial b: each current is exp(-lambda t) (l . z + c(t)), and no series is needed. */
+Test(unseen, linear_motion_under_powers_of_time_has_closed_forms)
+{
+    static const unseen driven[] = {
+        {"a trough whose axis moves",
+         "parameters: {m: 1, k: 3, v: 0.5}\n"
+         "coordinates: [x, y]\n"
+         "lagrangian: m/2*(x'^2 + y'^2) - k/2*(y - v*t)^2\n", 4},
+        {"sprung masses with drag, under a force that grows",
+         "parameters: {m: 1, k: 3, c: 0.4, f: 0.2}\n"
+         "coordinates: [x, y]\n"
+         "lagrangian: m/2*(x'^2 + y'^2) - k/2*(x^2 + (y - x)^2) + f*t^2*y\n"
+         "forces: [\"x = -c*x'\"]\n", 4},
+    };
+    for (size_t i = 0; i < sizeof driven / sizeof *driven; i++) {
+        char path[SCRATCH];
+        FILE *out = scratch_open(path);
+        cr_assert_not_null(out);
+        fprintf(out, "name: driven\n%s", driven[i].text);
+        fclose(out);
+        nh_error error = {0};
+        nh_analyze_request q = {.system_path = path, .seed_given = true};
+        nh_options_default(&q.options);
+        nh_analysis *r = nh_analysis_create(&q, &error);
+        remove(path);
+        cr_assert_not_null(r, "%s: %s", driven[i].name, error.what);
+        cr_expect_eq(r->independent, driven[i].independent, "%s: %zu independent", driven[i].name, r->independent);
+        for (size_t k = 0; k < r->count; k++)
+            cr_expect_null(r->found[k].series, "%s: %s is a series", driven[i].name, r->found[k].name);
+        nh_analysis_free(r);
+    }
+}

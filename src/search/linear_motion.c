@@ -1,10 +1,10 @@
 /* The ladder's stage for what moves linearly: where the equations of motion are, for all coordinates or for some that
  * depend on no others,
  *
- *     z' = A z + b,     z = (q, w) of one block, A and b numbers or parameters,
+ *     z' = A z + b,     z = (q, w) of one block, A of numbers or parameters, b a polynomial in t,
  *
- * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, and lambda = 0, where A is
- * defective, polynomials in t.  A's blocks are solved one by one, so that many coordinates are no more trouble than
+ * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, with c a polynomial in t of the
+ * degree of b, and lambda = 0, where A is defective, polynomials in t.  A's blocks are solved one by one, so that many coordinates are no more trouble than
  * few; the rates of a block of two come as formulas, those of larger ones as numbers that are then named, and the
  * vectors from the null space of z times the waves of one rate, as everywhere. */
 #include <math.h>
@@ -18,7 +18,10 @@
 #include "search/stage_solver.h"
 #include "search/naming.h"
 
-enum { longest = 2000 }; /* symbols of an equation of motion */
+enum {
+    longest = 2000,  /* symbols of an equation of motion */
+    most_powers = 3  /* of t in b */
+};
 /* of the largest rate: a rate below it is zero, whose double eigenvalue is split by the root of rounding */
 static const double defective = 1e-5,
                     equal = 1e-6;     /* relatively: one rate, likewise */
@@ -29,6 +32,7 @@ typedef struct {
     nh_ex *z, *entry;  /* entry[i + j size]: A; 0 (the number) where there is none */
     size_t *block;     /* per variable: the first of its block */
     size_t count, *of; /* of the block at hand: its variables */
+    size_t powers;     /* the degree of b in t */
     bool turns;        /* of the rate that is followed: its imaginary part is meant */
 } linear;
 
@@ -53,19 +57,34 @@ static void join(linear *l, size_t i, size_t j)
     l->block[a > b ? a : b] = a > b ? b : a;
 }
 
-/* Row i of A; false when z_i' is not linear. */
+/* b of one row, from which the terms with z are taken: is it a polynomial in t, of what degree? */
+static bool drive(linear *l, nh_ex b)
+{
+    const nh_model *o = l->x->r->model;
+    size_t power = 0;
+    if (!nh_depends(o->dag, b, o->system->t)) return true;
+    for (; power <= most_powers && !nh_is_zero(o->dag, b); power++)
+        b = nh_simplify_short(o->dag, nh_diff(o->dag, b, o->system->t), 0);
+    if (!nh_is_zero(o->dag, b)) return false;
+    if (power > l->powers + 1) l->powers = power - 1;
+    return true;
+}
+
+/* Row i of A; false when z_i' is not linear, or depends on t otherwise. */
 static bool row(linear *l, size_t i, nh_ex rate)
 {
     const nh_model *o = l->x->r->model;
-    if (nh_depends(o->dag, rate, o->system->t) || nh_complexity(o->dag, rate) > longest) return false;
+    nh_ex b = rate, zero = nh_int(o->dag, 0);
+    if (nh_complexity(o->dag, rate) > longest) return false;
     for (size_t j = 0; j < l->size; j++) {
         if (!nh_depends(o->dag, rate, l->z[j])) continue;
         nh_ex slope = nh_simplify_short(o->dag, nh_diff(o->dag, rate, l->z[j]), 0);
         if (!constant(o, slope)) return false;
         l->entry[i + j * l->size] = slope;
         if (!nh_is_zero(o->dag, slope)) join(l, i, j);
+        b = nh_substitute(o->dag, b, 1, &l->z[j], &zero);
     }
-    return true;
+    return drive(l, b);
 }
 
 static bool read_matrix(linear *l)
@@ -170,17 +189,18 @@ static size_t waves_of_two(const linear *l, bool turns, nh_ex *out)
 
 /* ---- the stages of one block ---- */
 
-/* Its variables and 1, times these functions of t, and these alone. */
+/* Its variables and the powers of t that b has, 1 first, times these functions of t. */
 static void stage(linear *l, const char *name, size_t functions, const nh_ex *function)
 {
     nh_analysis *r = l->x->r;
-    nh_ex *term = nh_arena_alloc(r->arena, (l->count + 1) * sizeof *term),
+    nh_ex *term = nh_arena_alloc(r->arena, (l->count + l->powers + 1) * sizeof *term),
           *copy = nh_arena_alloc(r->arena, (functions + 1) * sizeof *copy);
     nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, sizeof *all);
     for (size_t i = 0; i < l->count; i++) term[i] = l->z[l->of[i]];
-    term[l->count] = nh_int(r->model->dag, 1);
+    for (size_t k = 0; k <= l->powers; k++)
+        term[l->count + k] = nh_powi(r->model->dag, r->system->t, (long)k);
     memcpy(copy, function, functions * sizeof *copy);
-    part[0] = (nh_family){.kind = NH_TERMS, .terms = l->count + 1, .term = term};
+    part[0] = (nh_family){.kind = NH_TERMS, .terms = l->count + l->powers + 1, .term = term};
     part[1] = (nh_family){.kind = NH_TERMS, .terms = functions, .term = copy};
     all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
     if (!nh_stage_solver_done(l->x)) nh_stage_solver_stage(l->x, name, 1, all);
