@@ -403,7 +403,7 @@ Test(cli_manners, initial_values_as_newcomers_write_them)
     check_hint(&p, "simulate sleigh --initial =3", 2, "nhsym: --initial:1: a name is missing before `=`\n");
     check_hint(&p, "simulate sleigh --initial phi=0,phi=1", 2, "nhsym: --initial:7: `phi` is given twice\n");
     check_hint(&p, "reduce vertical_disk --initial psii=1", 2, "nhsym: --initial:1: `psii` is not");
-    check_hint(&p, "simulate sleigh --over omgea=1:2:3", 2, "nhsym: --over: `omgea` is no coordinate, velocity or parameter of sleigh\nhint: did you mean `omega`?\n");
+    check_hint(&p, "simulate sleigh --over omgea=1:2:3", 2, "nhsym: --over: `omgea` is not a coordinate, velocity or parameter of sleigh\nhint: did you mean `omega`?\n");
     place_clear(&p);
 }
 

@@ -392,7 +392,7 @@ Test(plane, points_on_curves_are_found)
     f = run_expecting(&p, "classify a.yaml --over m,k --degree 2", 0);
     cr_expect(strstr(f.out, "all of them proved for every k, and complete to degree 2"), "%s", f.out);
     cr_expect(strstr(f.out, "m = 1, k = 1   (on m - 1 = 0)"), "%s", f.out);
-    cr_expect(strstr(f.out, "Degenerate, and not looked at: m = 0"), "%s", f.out);
+    cr_expect(strstr(f.out, "Degenerate, and not examined: m = 0"), "%s", f.out);
     finished_clear(&f);
     place_clear(&p);
 }

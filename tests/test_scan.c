@@ -502,10 +502,10 @@ Test(scan, typing_errors_are_explained)
     expect_refusal(&p, "scan sine.yaml -o s", 2, "over which values");
     expect_refusal(&p, "scan sine.yaml --over k=1:2:3", 2, "into which folder");
     expect_refusal(&p, "scan sine.yaml --over kk=1:2:3 -o s", 2, "did you mean `k`?");
-    expect_refusal(&p, "scan sine.yaml --over k=1:2 -o s", 2, "no range and no list");
+    expect_refusal(&p, "scan sine.yaml --over k=1:2 -o s", 2, "neither a range nor a list");
     expect_refusal(&p, "scan sine.yaml --over k=2:1:3 -o s", 2, "not below the second");
-    expect_refusal(&p, "scan sine.yaml --over k=1,x -o s", 2, "`x` is no number");
-    expect_refusal(&p, "scan sine.yaml --over k=1/0 -o s", 2, "`1/0` is no number");
+    expect_refusal(&p, "scan sine.yaml --over k=1,x -o s", 2, "`x` is not a number");
+    expect_refusal(&p, "scan sine.yaml --over k=1/0 -o s", 2, "`1/0` is not a number");
     expect_refusal(&p, "scan sine.yaml --over k=1,2 --over k=3 -o s", 2, "names `k` twice");
     expect_refusal(&p, "scan sine.yaml --over k=1,2 --of cuont -o s", 2, "did you mean `count`?");
     expect_refusal(&p, "scan sine.yaml --over k=1,2 --number dimensoin -o s", 2, "did you mean `dimension`?");

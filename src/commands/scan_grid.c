@@ -10,7 +10,7 @@ static const size_t most_points = 10000000;
 
 static bool unreadable(const char *text, nh_error *error)
 {
-    nh_fail(error, NH_USAGE, "", "--over `%s` is no range and no list", text);
+    nh_fail(error, NH_USAGE, "", "--over `%s` is neither a range nor a list", text);
     return nh_error_hint(error, "write NAME=LOW:HIGH:VALUES, as in k=1:4:61, or a list, as in k=1,2,5/2");
 }
 
@@ -81,7 +81,7 @@ static bool read_list(nh_arena *arena, const char *text, nh_scan_axis *a, nh_err
         size_t word = length;
         while (word && at[word - 1] == ' ') word--;
         if (!read_exact(at, word, &x)) {
-            nh_fail(error, NH_USAGE, "", "--over `%s`: `%.*s` is no number", text, (int)word, at);
+            nh_fail(error, NH_USAGE, "", "--over `%s`: `%.*s` is not a number", text, (int)word, at);
             return nh_error_hint(error, "values are decimal numbers or ratios of them, as in k=1,2,5/2");
         }
         a->value[a->count++] = value_of(arena, x);

@@ -124,7 +124,7 @@ static bool find_column(nh_simulation *s, piece p, size_t *out, nh_error *error)
         if (says(p, name[n])) return *out = n, true;
     }
     const char *word = nh_arena_strndup(s->arena, p.from, p.length), *near = nh_text_nearest(word, name, n);
-    nh_fail(error, NH_USAGE, "", "--axes: `%s` is no column of the table", word);
+    nh_fail(error, NH_USAGE, "", "--axes: `%s` is not a column of the table", word);
     return near ? nh_error_hint(error, "did you mean `%s`?", near)
                 : nh_error_hint(error, "--watch \"a = %s, b = EXPR\" --axes \"a, b\" takes any expressions", name[0]);
 }

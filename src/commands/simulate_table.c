@@ -48,7 +48,7 @@ static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, con
         if (!strcmp(names[i], name)) return true;
     for (size_t i = 0; i < s->parameters; i++) names[n++] = s->parameter[i].name;
     bool option = !strncmp(t->path, "--", 2); /* --over makes a table, too */
-    nh_fail(error, option ? NH_USAGE : NH_INPUT, t->path, "%s`%s` is no coordinate, velocity or parameter of %s",
+    nh_fail(error, option ? NH_USAGE : NH_INPUT, t->path, "%s`%s` is not a coordinate, velocity or parameter of %s",
             option ? "" : "the column ", name, s->name);
     const char *near = nh_text_nearest(name, names, n);
     return near ? nh_error_hint(error, "did you mean `%s`?", near)

@@ -23,8 +23,8 @@ static size_t count_special(const nh_classified *x)
 
 char *nh_classification_current(const nh_analysis *r, const nh_current *f, double shown)
 {
-    return nh_print_short(r->model->dag, f->has_in_velocities ? f->in_velocities
-                          : nh_chart_shown(r->model->chart, f->phi), shown);
+    return nh_print_short(r->model->dag,
+                          f->has_in_velocities ? f->in_velocities : nh_chart_shown(r->model->chart, f->phi), shown);
 }
 
 const char *const nh_classification_decide = "A count with more work may decide it: `--option count_work=N`.";
@@ -71,8 +71,10 @@ void nh_classification_almost_all(const nh_classified *x, size_t degree, const n
     nh_classification_level(x, degree, out);
     nh_text_addf(out, ": %s", bounded);
     nh_classification_amount(x, n->bound, out);
-    nh_text_addf(out, "%s%s\n", x->of == NH_OF_CURRENTS ? " with the constant 1" : "", all ? "" : n->settled
-                 ? ", the same over several orders" : ", perhaps fewer");
+    nh_text_addf(out, "%s%s\n", x->of == NH_OF_CURRENTS ? " with the constant 1" : "",
+                 all          ? ""
+                 : n->settled ? ", the same over several orders"
+                              : ", perhaps fewer");
 }
 
 void nh_classification_counted(const nh_classified *x, size_t degree, bool first, const nh_classify_number *n,
@@ -94,7 +96,7 @@ void nh_classification_left(const nh_classified *x, nh_text *out)
     size_t degenerate = 0, first = 0;
     for (size_t k = 0; k < c->values; k++) {
         if (!c->value[k].degenerate) continue;
-        nh_text_addf(out, "%s%s", degenerate++ ? "; " : "Degenerate, and not looked at: ",
+        nh_text_addf(out, "%s%s", degenerate++ ? "; " : "Degenerate, and not examined: ",
                      nh_classified_words(x, &c->value[k].polynomial));
     }
     if (degenerate) nh_text_add(out, ".\n");
@@ -157,9 +159,11 @@ void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *o
         if (row->theorem_primes > primes) primes = row->theorem_primes;
     }
     if (theorems == c->rows) return;
-    nh_text_add(out, "  Another algebraic number could be one only if modulo all of the primes it has the residue of a "
-                     "value that was examined, or none.\n");
+    nh_text_add(out,
+                "  Another algebraic number can be special only if, modulo each of the primes, it has the residue of "
+                "a value that was examined, or no residue.\n");
     if (known == c->rows)
-        nh_text_addf(out, "  With `--option theorem=%zu` so many primes are taken that no number is left out.\n",
+        nh_text_addf(out,
+                     "  With `--option theorem=%zu` the program takes enough primes to exclude all other numbers.\n",
                      primes);
 }

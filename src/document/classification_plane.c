@@ -43,7 +43,7 @@ void nh_classification_plane_left(const plane *x, nh_text *out)
     size_t written = 0;
     for (size_t k = 0; k < o->curves; k++)
         if (o->curve[k].degenerate)
-            nh_text_addf(out, "%s%s", written++ ? "; " : "Degenerate, and not looked at: ",
+            nh_text_addf(out, "%s%s", written++ ? "; " : "Degenerate, and not examined: ",
                          nh_classified_curve_words(x, &o->curve[k].polynomial));
     nh_text_add(out, written ? ".\n" : "");
     for (size_t k = 0; k < o->curves; k++)
@@ -88,15 +88,17 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
         }
     }
     if (o->rows && o->row[o->rows - 1].swept)
-        nh_text_addf(out,
-                     "  Other pairs of higher degree were not looked at where %s is no such ratio: determinants are "
-                     "larger than the option `plane`.\n",
-                     x->over[1]);
+        nh_text_addf(
+            out,
+            "  At higher degrees, other pairs were not examined where %s is not such a ratio: determinants are "
+            "larger than the option `plane`.\n",
+            x->over[1]);
     else if (o->rows)
         nh_text_add(
             out,
-            "  Another pair of algebraic numbers could have more only if modulo all of the primes it lies on one of "
-            "the curves or has a residue of a point that was examined, or none. Infinite values were not looked at.\n");
+            "  Another pair of algebraic numbers can have more only if, modulo each of the primes, it lies on one of "
+            "the curves, has the residues of a point that was examined, or has no residues. Infinite values were not "
+            "examined.\n");
 }
 
 /* ---- JSON ---- */
@@ -144,8 +146,8 @@ static void put_json_point(const plane *x, const nh_classified_point *p, nh_json
     nh_json *item = nh_json_add_object(list);
     nh_json *where = nh_json_put_object(item, "where");
     for (int k = 1; k >= 0; k--) nh_json_put_text(where, x->over[k], p->value[k]);
-    nh_json_put_text(item, "on", p->curve == SIZE_MAX ? NULL
-                     : nh_classified_curve_words(x, &x->plane->curve[p->curve].polynomial));
+    nh_json_put_text(item, "on",
+                     p->curve == SIZE_MAX ? NULL : nh_classified_curve_words(x, &x->plane->curve[p->curve].polynomial));
     nh_json_put_number(item, "from_degree", (double)p->first);
     nh_json_put_number(item, "dimension", (double)p->number[x->plane->rows].bound);
     nh_classification_put_here(item, x->plane->rows, p->number);

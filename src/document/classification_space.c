@@ -116,7 +116,7 @@ static void put_left(const space *x, nh_text *out)
     size_t written = 0;
     for (size_t k = 0; k < o->surfaces; k++)
         if (o->surface[k].degenerate)
-            nh_text_addf(out, "%s%s", written++ ? "; " : "Degenerate, and not looked at: ",
+            nh_text_addf(out, "%s%s", written++ ? "; " : "Degenerate, and not examined: ",
                          nh_classified_surface_words(x, &o->surface[k].polynomial));
     nh_text_add(out, written ? ".\n" : "");
     for (size_t k = 0; k < o->surfaces; k++)
@@ -128,9 +128,9 @@ static void put_left(const space *x, nh_text *out)
         const nh_classified_part *part = &x->part[k];
         const char *words = nh_classified_surface_words(x, part->polynomial);
         const nh_plane *in = part->within ? part->within->plane : NULL;
-        if (!in) nh_text_addf(out, "Curves and points on %s were not looked for: %s.\n", words, part->why);
+        if (!in) nh_text_addf(out, "Curves and points on %s were not searched for: %s.\n", words, part->why);
         else if (in->obstacle != nh_parametric_constant && in->rows < o->rows)
-            nh_text_addf(out, "Curves and points on %s were looked for up to degree %zu only.\n", words, in->rows);
+            nh_text_addf(out, "Curves and points on %s were searched for up to degree %zu only.\n", words, in->rows);
         put_left_within(part->within, words, out);
     }
 }
@@ -171,8 +171,8 @@ static void put_all_excluded(const space *x, bool verbose, nh_text *out)
     }
     if (looked) nh_text_add(out, ".\n");
     nh_text_addf(out, "  Not excluded: single points and curves in planes %s = constant, for other values of %s. "
-                 "That there is no other surface, and no other curve in another direction, was seen in the "
-                     "sections, modulo the primes, and is not proved.\n",
+                 "The sections show, modulo the primes, no other surface and no other curve in another direction; "
+                     "this is not proved.\n",
                  x->over[2], x->over[2]);
 }
 

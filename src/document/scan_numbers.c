@@ -188,7 +188,7 @@ static bool no_number(const nh_json *root, const char *path, const char *of, nh_
         word += strcspn(word, ".");
         word += *word == '.';
     }
-    if (!*word) return nh_fail(error, NH_USAGE, "", "--number %s: this is no number in the JSON of %s", path, of);
+    if (!*word) return nh_fail(error, NH_USAGE, "", "--number %s: this is not a number in the JSON of %s", path, of);
     const char *names[200];
     size_t n = nh_json_names(at, sizeof names / sizeof *names, names);
     nh_fail(error, NH_USAGE, "", "--number %s: there is no `%.*s` in the JSON of %s", path, (int)strcspn(word, "."),

@@ -144,7 +144,7 @@ static void answer(nh_pen *p, const nh_scan *x)
     else if (x->partial && x->finished < x->units)
         nh_pen_say(p, "Not finished: %zu of %zu units. The same command continues. ", x->finished, x->units);
     else if (x->partial)
-        nh_pen_say(p, "Not finished: %zu jumps remain to be looked at. The same command continues. ", x->unrefined);
+        nh_pen_say(p, "Not finished: %zu jumps remain to be examined. The same command continues. ", x->unrefined);
     if (!x->chunked)
         nh_pen_say(p, "%zu confirmed special value%s, %zu not confirmed, from %zu point%s.", sure, sure == 1 ? "" : "s",
                    x->specials - sure, x->points, x->points == 1 ? "" : "s");

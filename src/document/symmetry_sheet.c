@@ -236,8 +236,8 @@ static void equations(nh_sheet *s, const nh_theory *t)
                          nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", o->system->coordinate[r].name));
     }
     if (e->dynamical)
-        nh_sheet_words(
-            s, "The dynamical ones are counted without combinations of point symmetries, and of those times currents.");
+        nh_sheet_words(s, "The dynamical ones are counted without combinations of point symmetries and of their "
+                          "products with currents.");
     for (size_t i = 0; i < e->actions; i++) show_action(s, t, &e->action[i]);
     if (t->currents && e->points + e->dynamical)
         nh_sheet_words(s, e->actions ? "All other derivatives of the currents vanish."

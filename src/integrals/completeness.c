@@ -102,7 +102,7 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
                      c->linear
                          ? "proved for"
                          : "the number of all is proved, the rank of their differentials taken modulo a prime, for",
-                     c->generic ? "generic parameters, and these" : "these parameters");
+                     c->generic ? "generic parameters and for these" : "these parameters");
     if (ended_by_work(c)) nh_text_addf(out, " Degree %zu %s.", c->count.rows + 1, more_work);
     if (!c->missing_at) return;
     const nh_count_row *row = &c->count.row[c->missing_at - 1];
