@@ -89,6 +89,8 @@ typedef struct {
     const char *end;         /* why no higher degree was reached, or NULL */
 } nh_classification;
 
+/* Degree after degree, up to that of the question or to a limit (`end`).  Never NULL: what cannot be classified has an
+ * `obstacle`.  The caller frees it.  [docs/method.md, sec. 11] */
 nh_classification *nh_classify(const nh_model *model, const nh_classify_question *question);
 /* Nothing was done. */
 nh_classification *nh_classification_refused(const char *obstacle);

@@ -42,6 +42,9 @@ typedef struct {
     nh_arena *arena;
 } nh_construction;
 
+/* What the count allows beyond the known ones, as lists of terms: proposals, whose coefficients and proofs are still to
+ * be found.  Never NULL; empty where the count cannot be made.  The caller frees it.  [docs/method.md, sec. 10,
+ * "Construction"] */
 nh_construction *nh_construct(const nh_model *model, const nh_construct_question *question);
 void nh_construction_free(nh_construction *construction);
 

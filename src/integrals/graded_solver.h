@@ -42,6 +42,8 @@ typedef struct {
     nh_arena *arena;
 } nh_graded_count;
 
+/* Weight after weight until the symbol is injective, or to a limit (`solved` is false).  Never NULL; the caller clears
+ * it.  [docs/method.md, eqs. 29 and 30] */
 nh_graded_count *nh_graded_solve(const nh_graded_problem *problem);
 void nh_graded_count_clear(nh_graded_count *count);
 

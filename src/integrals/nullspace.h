@@ -26,6 +26,7 @@ typedef enum { NH_FOUND, NH_NONE, NH_UNDECIDED } nh_verdict;
 /* Collects rows.  With more than one thread what they are condensed to is computed beside the caller, of A and B at
    once; the result does not depend on it. */
 typedef struct nh_equations nh_equations;
+/* For rows of so many columns.  The caller frees it. */
 nh_equations *nh_equations_create(size_t columns, size_t threads);
 void nh_equations_free(nh_equations *equations);
 void nh_equations_reset(nh_equations *equations); /* forget all rows */
@@ -56,6 +57,8 @@ typedef struct {
     double next_left_scale; /* largest generalized singular value */
 } nh_nullspace;
 
+/* Minimises |A c| / |B c| over the rows collected so far.  The caller frees the result.  NULL with an error where
+ * no row was given, a value is not finite, or a decomposition fails.  [docs/method.md, eq. 13] */
 nh_nullspace *nh_nullspace_solve(nh_equations *equations, const nh_nullspace_options *options, nh_error *error);
 /* The same without the quotient: a plain SVD of A with columns of norm one, which takes a combination that vanishes, or
  * nearly, for a current.  To be compared with. */

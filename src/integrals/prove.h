@@ -36,6 +36,8 @@ typedef struct {
        it */
     bool rounded;
 } nh_claim;
+/* The three steps of docs/method.md, sec. 4, "Proof", on Gamma(phi): for all parameter values, for the given ones, in
+ * balls.  What the claim leaves out is not tried. */
 nh_proof nh_prove_claim(const nh_model *model, nh_ex phi, nh_claim claim, const nh_options *options);
 
 /* `parameters_free`: the claim's `free`, with nothing fixed. */

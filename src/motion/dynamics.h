@@ -15,8 +15,10 @@ typedef struct {
 /* Equations of motion on the constraint submanifold: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot
    of a chart of coordinate velocities is a guard. */
 typedef struct nh_dynamics nh_dynamics;
+/* Keeps the model, which has to outlive it.  The caller frees it. */
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
+/* As integrators take it; its context is the nh_dynamics, which one thread uses at a time. */
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
 /* Are differences better than an exact Jacobian, for rates of so many instructions in so many states? */
 bool nh_dynamics_differences(size_t length, size_t size);

@@ -23,6 +23,7 @@ typedef struct {
     int order;          /* of methods that take a step instead of a tolerance; otherwise 0 */
 } nh_method;
 
+/* All methods, in the order in which they are listed; index below the count. */
 size_t nh_method_count(void);
 const nh_method *nh_method_at(size_t index);
 /* The method of that name or word, or NULL. */

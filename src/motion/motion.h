@@ -91,6 +91,7 @@ typedef struct {
     char note[256];   /* why it ended early, in words */
 } nh_motion;
 
+/* With its states, events and end state; NULL is allowed. */
 void nh_motion_free(nh_motion *motion);
 
 /* ---- for the integrators of this folder ---- */

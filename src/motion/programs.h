@@ -15,6 +15,8 @@ typedef enum {
 } nh_program;
 
 typedef struct nh_programs nh_programs;
+/* Each program is compiled when it is first evaluated.  Keeps the model, which has to outlive it; the caller frees
+ * it. */
 nh_programs *nh_programs_create(const nh_model *model);
 void nh_programs_free(nh_programs *programs);
 const nh_model *nh_programs_model(const nh_programs *programs);

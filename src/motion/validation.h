@@ -71,6 +71,9 @@ typedef struct {
     const nh_integration_plans *ways;
 } nh_validation_request;
 
+/* Integrates the motion at the three tolerances and compares it.  The caller frees the result.  NULL with an error
+ * where no velocities satisfy the constraints at the initial state, or no motion can be computed; one that ends
+ * early is described by `complete`, `end` and `note`. */
 nh_validation *nh_validate(const nh_validation_request *request, nh_error *error);
 void nh_validation_free(nh_validation *validation);
 

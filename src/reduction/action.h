@@ -63,6 +63,8 @@ bool nh_action_moving(const nh_action *action, double *c);
 
 /* The flow of sum_a c[a] e_a for the time t, of a place q (overwritten). */
 typedef struct nh_flows nh_flows;
+/* Keeps the action, which has to outlive it.  c: d numbers, q: m coordinates.  False where the flow ends before t, or
+ * leaves all bounds. */
 nh_flows *nh_flows_create(const nh_action *action);
 void nh_flows_free(nh_flows *flows);
 bool nh_flows_move(nh_flows *flows, const double *c, double t, double *q);

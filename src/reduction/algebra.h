@@ -20,10 +20,11 @@ typedef struct {
     double *c; /* d x d x d */
 } nh_algebra;
 
-nh_algebra nh_algebra_create(size_t d); /* abelian */
+/* Abelian: all structure constants are zero.  The caller clears it. */
+nh_algebra nh_algebra_create(size_t d);
 void nh_algebra_clear(nh_algebra *algebra);
 
-/* [x, y] of two vectors. */
+/* [x, y] of two vectors of d numbers; out must not be one of them. */
 void nh_algebra_bracket(const nh_algebra *algebra, const double *x, const double *y, double *out);
 /* ad_x as a matrix: [x, y] = ad_x y (d x d, column-major). */
 void nh_algebra_ad(const nh_algebra *algebra, const double *x, double *out);

@@ -52,6 +52,8 @@ void nh_momenta_mark(nh_momenta *momenta, const nh_kinetic *kinetic);
 nh_proof nh_momenta_horizontal(const nh_action *action, const double *c, bool offset, const nh_options *options,
                                nh_ex *out);
 
+/* All conserved momenta whose sections f are in the library, with their proofs, in the arena of the kinetic data.
+ * False with an error where the null space cannot be computed. */
 bool nh_momenta_find(nh_momenta *out, const nh_action *action, const nh_options *options, nh_error *error);
 
 #endif

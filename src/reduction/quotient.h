@@ -28,6 +28,7 @@
  * which holds wherever the constraints are independent.  `model` may be bare; the result keeps what it needs until it
  * is freed. */
 typedef struct nh_frame_motion nh_frame_motion;
+/* Never NULL; the caller frees it. */
 nh_frame_motion *nh_frame_motion_create(nh_reduced *out, const nh_model *model, const nh_slice *slice);
 void nh_frame_motion_free(nh_frame_motion *motion);
 

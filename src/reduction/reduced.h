@@ -63,6 +63,7 @@ bool nh_reduced_start(const nh_reduced *reduced, const double *x, const double *
 
 /* z = (x, p); the rate, and zeta or the energy on demand. */
 typedef struct nh_reduced_flow nh_reduced_flow;
+/* Keeps the equations, which have to outlive it.  The caller frees it. */
 nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *reduced);
 void nh_reduced_flow_free(nh_reduced_flow *flow);
 /* The time at which it is evaluated from now on (0 at first), where that occurs. */

@@ -213,6 +213,7 @@ size_t nh_analysis_left_out(const nh_analysis *result);
 /* A null space's numbers, copied into an arena. */
 nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *nullspace);
 
+/* Appends a copy of the text, unless it is there already or the list is full. */
 void nh_analysis_warn(nh_analysis *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

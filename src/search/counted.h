@@ -27,6 +27,7 @@ bool nh_counted_superfluous(nh_counted *counted, size_t families, const nh_famil
    contains t. */
 double nh_counted_degree(const nh_model *model, size_t families, const nh_family *family, bool *timely);
 
+/* Does e depend on a velocity of the chart? */
 bool nh_counted_has_velocities(const nh_model *model, nh_ex e);
 
 /* Can nothing of this degree be new, with any functions of the coordinates, or of t and them? */

@@ -4,6 +4,8 @@
 
 #include "search/current_checker.h"
 
+/* Draws the held-out and the generic points.  Keeps the analysis, which has to outlive it.  NULL with an error
+ * where the domain has too few usable points. */
 nh_current_checker *nh_current_checker_create(nh_analysis *result, nh_error *error);
 void nh_current_checker_free(nh_current_checker *bench);
 

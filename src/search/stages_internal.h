@@ -22,6 +22,7 @@ typedef struct {
     nh_ex e[NH_MOST_EXPRS];
 } nh_expr_set;
 
+/* Add one, or n; all products of two of `a`, squares too. */
 void nh_expr_set_put(nh_expr_set *list, nh_ex e);
 void nh_expr_set_put_all(nh_expr_set *list, size_t n, const nh_ex *e);
 nh_expr_set nh_expr_set_squares(const nh_family_list *shelf, const nh_expr_set *a);
@@ -32,6 +33,9 @@ nh_expr_set nh_expr_set_lengths(const nh_family_list *shelf, bool squares_too, b
 /* The system's own functions of position, with 1. */
 nh_expr_set nh_expr_set_functions(const nh_family_list *shelf, bool one);
 
+/* Families in the arena of the list: these terms; products of one function of each part; all monomials up to the
+ * degree. Then added to the list: one; the products of the terms of two sets.  Beyond NH_MOST_FAMILIES none is
+ * added. */
 nh_family nh_family_list_terms(nh_family_list *shelf, const nh_expr_set *list);
 nh_family nh_family_list_product(nh_family_list *shelf, size_t n, const nh_family *part);
 nh_family nh_family_list_polynomial(nh_family_list *shelf, const nh_expr_set *list, size_t degree);
@@ -53,6 +57,7 @@ void nh_stage_time(nh_family_list *shelf);
 
 /* ---- stages_many.c ---- */
 
+/* Momenta times 1 and t, positions, t; then q_i v_j - q_j v_i. */
 void nh_stage_centres(nh_family_list *shelf);
 void nh_stage_turns(nh_family_list *shelf);
 
@@ -63,6 +68,8 @@ void nh_stage_weight_4(nh_family_list *shelf);
 
 /* ---- stages_separation.c ---- */
 
+/* Squares of velocities with coefficients of higher degree in the positions; the energy and functions with lower
+ * ones. */
 void nh_stage_separation(nh_family_list *shelf);
 /* Squares of single momenta, and the energy, with coefficients that are functions of one coordinate each, and these. */
 void nh_stage_separated(nh_family_list *shelf);
