@@ -4,9 +4,9 @@
  *     z' = A z + b,     z = (q, w) of one block, A of numbers or parameters, b a polynomial in t,
  *
  * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, with c a polynomial in t of the
- * degree of b, and lambda = 0, where A is defective, polynomials in t.  A's blocks are solved one by one, so that many coordinates are no more trouble than
- * few; the rates of a block of two come as formulas, those of larger ones as numbers that are then named, and the
- * vectors from the null space of z times the waves of one rate, as everywhere. */
+ * degree of b, and lambda = 0, where A is defective, polynomials in t. A's blocks are solved one by one, so that many
+ * coordinates are no more trouble than few; the rates of a block of two come as formulas, those of larger ones as
+ * numbers that are then named, and the vectors from the null space of z times the waves of one rate, as everywhere. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
