@@ -105,7 +105,10 @@ Test(export_cli, where_currents_hold)
     finished f = run_expecting(&p, "export sleigh --to c --of currents", 0);
     cr_expect_not_null(strstr(f.out, " * Phi1, minus the energy: proved for all m, a, k\n"));
     finished_clear(&f);
-    f = run_expecting(&p, "export euler_disk --to c --of currents", 0);
+    write_here(&p, "mathieu.yaml", "name: mathieu\nparameters: [{name: a, value: 1.1}, {name: e, value: 0.4}]\n"
+                                   "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - (a + e*cos(2*t))*x^2/2\n"
+                                   "domain: {t: [0.1, 2]}\n");
+    f = run_expecting(&p, "export mathieu.yaml --to c --of currents", 0);
     cr_expect_not_null(strstr(f.out, " for these parameter values only; a series, for 0."));
     finished_clear(&f);
     place_clear(&p);

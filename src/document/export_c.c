@@ -258,6 +258,7 @@ void nh_export_c_source(const nh_export *x, const char *prefix, bool include, nh
     if (include) nh_text_addf(out, "#include \"%s.h\"\n\n", prefix);
     nh_source_libraries(&nh_source_c, nh_text_string(&bodies), out);
     nh_text_add(out, "#include <math.h>\n\n");
+    nh_source_series(&nh_source_c, nh_text_string(&bodies), out);
     if (signs) nh_text_add(out, sign);
     if (solves) nh_text_add(out, solver);
     if (has_parameters(x)) nh_text_addf(out, "const %s_parameters %s_default = {", prefix, prefix);

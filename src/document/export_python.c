@@ -271,6 +271,7 @@ void nh_export_python(const nh_export *x, const char *prefix, bool sympy, nh_tex
     for (size_t i = 0; i < x->functions; i++) nh_export_put_body(&form, x, &x->function[i], prefix, member, &bodies);
     nh_source_libraries(form.language, nh_text_string(&bodies), out);
     nh_text_add(out, sympy ? sympy_head : numpy_head);
+    nh_source_series(form.language, nh_text_string(&bodies), out);
     put_parameters(&p);
     if (sympy) put_symbols(&p);
     nh_text_add(out, nh_text_string(&bodies));

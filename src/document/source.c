@@ -105,6 +105,11 @@ void nh_source_libraries(const nh_source_language *language, const char *code, n
         if (language->library[i][0] && strstr(code, language->library[i][0])) nh_text_add(out, language->library[i][1]);
 }
 
+void nh_source_series(const nh_source_language *language, const char *code, nh_text *out)
+{
+    if (language->series[0] && strstr(code, language->series[0])) nh_text_add(out, language->series[1]);
+}
+
 const char *nh_source_lacks(const nh_source_language *language, const nh_dag *dag, nh_ex e)
 {
     enum { most = 256 };

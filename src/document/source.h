@@ -18,6 +18,7 @@ typedef struct {
     /* Named functions, with $1, .. for the arguments.  NULL: no common library has it. */
     const char *named[NH_FUNCTION_COUNT];
     const char *library[2][2];           /* what code says that uses a library, and the line which that needs */
+    const char *series[2]; /* what code says that needs a function for Riemann's equation, and that function */
     const char *root;                    /* the square root */
     const char *pi;
     const char *power[3];      /* before, between and after base and exponent */
@@ -60,6 +61,8 @@ void nh_source_close(nh_source *code);
 bool nh_source_has_sign(const nh_source *code);
 /* The lines for the libraries that this code uses. */
 void nh_source_libraries(const nh_source_language *language, const char *code, nh_text *out);
+/* The function for Riemann's equation, where this code calls it. */
+void nh_source_series(const nh_source_language *language, const char *code, nh_text *out);
 /* Every function in e can be written; otherwise the name of one that cannot. */
 const char *nh_source_lacks(const nh_source_language *language, const nh_dag *dag, nh_ex e);
 /* A word of the language from any text: letters, digits and _. */

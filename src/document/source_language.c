@@ -16,6 +16,37 @@
 #define CONJUGATE(s, p, c, x) \
     "(4*(" p ") > (" s ")*(" s ") ? gsl_sf_hyperg_2F1_conj((" s ")/2, sqrt((" p ") - (" s ")*(" s ")/4), " c ", " x ") : " \
     "gsl_sf_hyperg_2F1((" s ")/2 + sqrt((" s ")*(" s ")/4 - (" p ")), (" s ")/2 - sqrt((" s ")*(" s ")/4 - (" p ")), " c ", " x "))"
+/* Riemann's equation has a function of its own (SERIES): y'' = (a + b z + c z^2)/(1 + z^2)^2 y by Taylor series from 0
+ * to x, y and y' at 0 given. */
+#define SERIES_C \
+    "/* y'' = (a + b z + c z^2)/(1 + z^2)^2 y by Taylor series from 0 to x. */\n" \
+    "static double nh_series(double a, double b, double c, double x, double y, double v, int slope)\n{\n" \
+    "    double z = 0;\n" \
+    "    if (!isfinite(x)) return x - x;\n" \
+    "    while (z != x) {\n" \
+    "        double u[40], e = 1 + z*z, reach = 0.3*sqrt(e), h = x - z, value = 0, rate = 0;\n" \
+    "        int k, last = fabs(h) <= reach;\n" \
+    "        if (!last) h = h > 0 ? reach : -reach;\n" \
+    "        u[0] = y;\n" \
+    "        u[1] = v;\n" \
+    "        for (k = 0; k < 38; k++) {\n" \
+    "            double s = (a + (b + c*z)*z - (4*z*z + 2*e)*k*(k - 1))*u[k] - 4*e*z*(k + 1)*k*u[k + 1];\n" \
+    "            if (k > 0) s += (b + 2*c*z - 4*z*(k - 1)*(k - 2))*u[k - 1];\n" \
+    "            if (k > 1) s += (c - (k - 2)*(k - 3))*u[k - 2];\n" \
+    "            u[k + 2] = s/(e*e*(k + 2)*(k + 1));\n" \
+    "        }\n" \
+    "        for (k = 39; k >= 0; k--) {\n" \
+    "            rate = rate*h + value;\n" \
+    "            value = value*h + u[k];\n" \
+    "        }\n" \
+    "        y = value;\n" \
+    "        v = rate;\n" \
+    "        z = last ? x : z + h;\n" \
+    "    }\n" \
+    "    return slope ? v : y;\n}\n\n"
+#define SERIES(f) \
+    [NH_RIEMANN_C] = f "($1, $2, $3, $4, 1, 0, 0)", [NH_RIEMANN_C_PRIME] = f "($1, $2, $3, $4, 1, 0, 1)", \
+    [NH_RIEMANN_S] = f "($1, $2, $3, $4, 0, 1, 0)", [NH_RIEMANN_S_PRIME] = f "($1, $2, $3, $4, 0, 1, 1)"
 #define GSL \
     {[NH_LEGENDRE_P] = "gsl_sf_hyperg_2F1(-$1, $1 + 1, 1, (1 - $2)/2)", \
      [NH_LEGENDRE_P_PRIME] = "($1*($1 + 1)/2*gsl_sf_hyperg_2F1(1 - $1, $1 + 2, 2, (1 - $2)/2))", \
@@ -23,6 +54,7 @@
      [NH_HYP2F1_PRIME] = "($1*$2/$3*gsl_sf_hyperg_2F1($1 + 1, $2 + 1, $3 + 1, $4))", \
      [NH_GAUSS_F] = CONJUGATE("$1", "$2", "$3", "$4"), \
      [NH_GAUSS_F_PRIME] = "($2/$3*" CONJUGATE("$1 + 2", "$2 + $1 + 1", "$3 + 1", "$4") ")", \
+     SERIES("nh_series"), \
      [NH_HYP1F1] = "gsl_sf_hyperg_1F1($1, $2, $3)", [NH_HYP1F1_PRIME] = "($1/$2*gsl_sf_hyperg_1F1($1 + 1, $2 + 1, $3))", \
      [NH_HYPERU] = "gsl_sf_hyperg_U($1, $2, $3)", [NH_HYPERU_PRIME] = "(-$1*gsl_sf_hyperg_U($1 + 1, $2 + 1, $3))", \
      [NH_BESSEL_J] = "gsl_sf_bessel_Jnu($1, $2)", [NH_BESSEL_J_PRIME] = "($1/$2*gsl_sf_bessel_Jnu($1, $2) - gsl_sf_bessel_Jnu($1 + 1, $2))", \
@@ -36,12 +68,37 @@
 #define MP(arguments, value, places) "np.vectorize(lambda " arguments ": float(_mp.re(" value ")))(" places ")"
 #define MP_GAUSS(places) \
     MP("s, p, c, x", "_mp.hyp2f1(s/2 + _mp.sqrt(s**2/4 - p), s/2 - _mp.sqrt(s**2/4 - p), c, x)", places)
+#define SERIES_PYTHON \
+    "\n\n@np.vectorize\n" \
+    "def _series(a, b, c, x, y, v, slope):\n" \
+    "    \"\"\"y'' = (a + b z + c z^2)/(1 + z^2)^2 y by Taylor series from 0 to x.\"\"\"\n" \
+    "    z, y, v = 0.0, float(y), float(v)\n" \
+    "    if not np.isfinite(x):\n" \
+    "        return np.nan\n" \
+    "    while z != x:\n" \
+    "        e, h, u = 1 + z*z, x - z, [y, v]\n" \
+    "        last = abs(h) <= 0.3*np.sqrt(e)\n" \
+    "        if not last:\n" \
+    "            h = np.copysign(0.3*np.sqrt(e), h)\n" \
+    "        for k in range(38):\n" \
+    "            s = (a + (b + c*z)*z - (4*z*z + 2*e)*k*(k - 1))*u[k] - 4*e*z*(k + 1)*k*u[k + 1]\n" \
+    "            if k > 0:\n" \
+    "                s += (b + 2*c*z - 4*z*(k - 1)*(k - 2))*u[k - 1]\n" \
+    "            if k > 1:\n" \
+    "                s += (c - (k - 2)*(k - 3))*u[k - 2]\n" \
+    "            u.append(s/(e*e*(k + 2)*(k + 1)))\n" \
+    "        y = v = 0.0\n" \
+    "        for k in range(39, -1, -1):\n" \
+    "            y, v = y*h + u[k], v*h + y\n" \
+    "        z = x if last else z + h\n" \
+    "    return v if slope else y\n"
 #define SCIPY \
     {[NH_LEGENDRE_P] = "_sf.hyp2f1(-$1, $1 + 1, 1, (1 - $2)/2)", [NH_LEGENDRE_P_PRIME] = "($1*($1 + 1)/2*_sf.hyp2f1(1 - $1, $1 + 2, 2, (1 - $2)/2))", \
      [NH_LEGENDRE_Q] = MP("n, x", "_mp.legenq(n, 0, x, type=2)", "$1, $2"), \
      [NH_LEGENDRE_Q_PRIME] = MP("n, x", "_mp.diff(lambda y: _mp.legenq(n, 0, y, type=2), x)", "$1, $2"), \
      [NH_HYP2F1] = "_sf.hyp2f1($1, $2, $3, $4)", [NH_HYP2F1_PRIME] = "($1*$2/$3*_sf.hyp2f1($1 + 1, $2 + 1, $3 + 1, $4))", \
      [NH_GAUSS_F] = MP_GAUSS("$1, $2, $3, $4"), [NH_GAUSS_F_PRIME] = "($2/$3*" MP_GAUSS("$1 + 2, $2 + $1 + 1, $3 + 1, $4") ")", \
+     SERIES("_series"), \
      [NH_HYP1F1] = "_sf.hyp1f1($1, $2, $3)", [NH_HYP1F1_PRIME] = "($1/$2*_sf.hyp1f1($1 + 1, $2 + 1, $3))", \
      [NH_HYPERU] = "_sf.hyperu($1, $2, $3)", [NH_HYPERU_PRIME] = "(-$1*_sf.hyperu($1 + 1, $2 + 1, $3))", \
      [NH_BESSEL_J] = "_sf.jv($1, $2)", [NH_BESSEL_J_PRIME] = "_sf.jvp($1, $2)", [NH_BESSEL_Y] = "_sf.yv($1, $2)", [NH_BESSEL_Y_PRIME] = "_sf.yvp($1, $2)", \
@@ -86,10 +143,11 @@ const nh_source_language nh_source_c = {
                 "template this throw try typeid typename using virtual wchar_t xor xor_eq "
                 "linux unix i386 NAN INFINITY HUGE_VAL HUGE NULL DOMAIN SING OVERFLOW UNDERFLOW PLOSS TLOSS EOF I "
                 "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log sqrt fabs atan2 pow memset memcpy "
-                "nh_sign nh_solve isfinite fmax last_ change_ size_ step_ i_ ",
+                "nh_sign nh_solve nh_series isfinite fmax last_ change_ size_ step_ i_ ",
     .call = {FUNCTIONS("", "a", "atan2", "a"), [NH_ABS] = "fabs", [NH_SIGN] = "nh_sign"},
     .named = GSL,
     .library = {{"gsl_sf_", "#include <gsl/gsl_sf.h>\n"}},
+    .series = {"nh_series(", SERIES_C},
     .root = "sqrt",
     .pi = "3.141592653589793",
     .power = {"pow(", ", ", ")"},
@@ -105,10 +163,11 @@ const nh_source_language nh_source_c = {
 
 const nh_source_language nh_source_python = {
     .name = "python",
-    .reserved = PYTHON_WORDS "np _sf _mp _array _solve _small last_ small_ done_ step_ namedtuple ",
+    .reserved = PYTHON_WORDS "np _sf _mp _series _array _solve _small last_ small_ done_ step_ namedtuple ",
     .call = {FUNCTIONS("np.", "arc", "arctan2", "arc"), [NH_ABS] = "np.abs", [NH_SIGN] = "np.sign"},
     .named = SCIPY,
     .library = {{"_mp.", "import mpmath as _mp\n"}, {"_sf.", "from scipy import special as _sf\n"}},
+    .series = {"_series(", SERIES_PYTHON},
     .root = "np.sqrt",
     .pi = "np.pi",
     .power = {"", "**", ""},

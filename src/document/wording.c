@@ -129,6 +129,9 @@ static const nh_glossary_entry functions[] = {
     {"legendre_q(n, x)", "Legendre's function Q_n, on -1 < x < 1 or x > 1"},
     {"hyp2f1(a, b, c, x)", "Gauss's hypergeometric function 2F1(a, b; c; x)"},
     {"gauss_f(s, p, c, x)", "the same by the sum s = a + b and the product p = a b: real where a and b are conjugate"},
+    {"riemann_c(a, b, c, x)", "y with (1 + x^2)^2 y'' = (a + b x + c x^2) y, y(0) = 1, y'(0) = 0: "
+                              "Riemann's equation, singular at i, -i and infinity; by 2F1 of (1 + i x)/2"},
+    {"riemann_s(a, b, c, x)", "the same with y(0) = 0, y'(0) = 1"},
     {"hyp1f1(a, b, x)", "Kummer's confluent function M(a, b, x) = 1F1(a; b; x)"},
     {"hyperu(a, b, x)", "Tricomi's confluent function U(a, b, x)"},
     {"bessel_j(n, x)", "Bessel's function J_n, n any real number"},

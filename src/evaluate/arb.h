@@ -11,6 +11,7 @@
 #include <flint/acb.h>
 #include <flint/acb_elliptic.h>
 #include <flint/acb_hypgeom.h>
+#include <flint/acb_poly.h>
 #else
 #include <arb.h>
 #include <arb_mat.h>
@@ -18,6 +19,7 @@
 #include <acb.h>
 #include <acb_elliptic.h>
 #include <acb_hypgeom.h>
+#include <acb_poly.h>
 #endif
 
 #endif

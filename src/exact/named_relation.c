@@ -41,6 +41,7 @@ static const struct {
     {NH_LEGENDRE_Q, NH_LEGENDRE_P, "(G*f + 1/(1 - x^2))/F"},
     {NH_BESSEL_Y, NH_BESSEL_J, "(G*f + 2/(pi*x))/F"},
     {NH_BESSEL_K, NH_BESSEL_I, "(G*f - 1/x)/F"},
+    {NH_RIEMANN_S, NH_RIEMANN_C, "(G*f + 1)/F"},
     {NH_AIRY_BI, NH_AIRY_AI, "(G*f + 1/pi)/F"},
 };
 

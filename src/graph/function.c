@@ -26,6 +26,8 @@ static const struct {
     PAIR(LEGENDRE_Q, "legendre_q", 2, "n, x"),
     PAIR(HYP2F1, "hyp2f1", 4, "a, b, c, x"),
     PAIR(GAUSS_F, "gauss_f", 4, "s, p, c, x"),
+    PAIR(RIEMANN_C, "riemann_c", 4, "a, b, c, x"),
+    PAIR(RIEMANN_S, "riemann_s", 4, "a, b, c, x"),
     PAIR(HYP1F1, "hyp1f1", 3, "a, b, x"),
     PAIR(HYPERU, "hyperu", 3, "a, b, x"),
     PAIR(BESSEL_J, "bessel_j", 2, "n, x"),

@@ -6,7 +6,7 @@
 #include "graph/parse.h"
 
 /* The second derivative, in the letters of the arguments, f and g = f'
- * [DLMF 14.2.1, 15.10.1, 13.2.1, 10.2.1, 10.25.1, 9.2.1]. */
+ * [DLMF 14.2.1, 15.10.1, 15.11.1, 13.2.1, 10.2.1, 10.25.1, 9.2.1]. */
 static const struct {
     nh_function f;
     const char *second;
@@ -15,6 +15,8 @@ static const struct {
     {NH_LEGENDRE_Q, "(2*x*g - n*(n + 1)*f)/(1 - x^2)"},
     {NH_HYP2F1, "(a*b*f - (c - (a + b + 1)*x)*g)/(x*(1 - x))"},
     {NH_GAUSS_F, "(p*f - (c - (s + 1)*x)*g)/(x*(1 - x))"}, /* s = a + b, p = a b */
+    {NH_RIEMANN_C, "(a + b*x + c*x^2)*f/(1 + x^2)^2"}, /* 15.11.1 with the singular points i, -i and infinity */
+    {NH_RIEMANN_S, "(a + b*x + c*x^2)*f/(1 + x^2)^2"},
     {NH_HYP1F1, "(a*f - (b - x)*g)/x"},
     {NH_HYPERU, "(a*f - (b - x)*g)/x"},
     {NH_BESSEL_J, "(n^2/x^2 - 1)*f - g/x"},

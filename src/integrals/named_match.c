@@ -59,9 +59,12 @@ typedef struct {
     nh_ex sum, product; /* of its two exponents */
 } singular;
 
+/* Real ones, and a conjugate pair middle +- i height. */
 typedef struct {
     size_t count;
     singular of[most_points + 1];
+    bool pair;
+    nh_ex middle, height;
 } points;
 
 static bool add_point(matcher *m, points *s, nh_ex at)
@@ -70,6 +73,17 @@ static bool add_point(matcher *m, points *s, nh_ex at)
         if (is_zero(m, nh_sub(m->d, s->of[i].at, at))) return true;
     if (s->count == most_points) return false;
     s->of[s->count++].at = at;
+    return true;
+}
+
+static bool add_pair(matcher *m, points *s, nh_ex middle, nh_ex height)
+{
+    if (s->pair)
+        return is_zero(m, nh_sub(m->d, s->middle, middle)) &&
+               is_zero(m, nh_sub(m->d, nh_powi(m->d, s->height, 2), nh_powi(m->d, height, 2)));
+    s->pair = true;
+    s->middle = middle;
+    s->height = height;
     return true;
 }
 
@@ -82,8 +96,11 @@ static bool add_zeros(matcher *m, points *s, nh_ex factor)
     if (nh_depends(d, c2, m->x)) return false;
     if (nh_is_zero(d, c2)) return add_point(m, s, simple(d, nh_neg(d, over(m, c0, c1))));
     nh_ex discriminant = nh_sub(d, nh_powi(d, c1, 2), times(m, nh_int(d, 4), times(m, c0, c2)));
-    if (!(value_of(m, discriminant) > 0)) return false;
-    nh_ex r = root(m, discriminant), below = times(m, nh_int(d, 2), c2);
+    double sign = value_of(m, discriminant);
+    if (!isfinite(sign) || sign == 0) return false;
+    nh_ex r = root(m, sign < 0 ? nh_neg(d, discriminant) : discriminant), below = times(m, nh_int(d, 2), c2);
+    if (sign < 0)
+        return add_pair(m, s, simple(d, nh_neg(d, over(m, c1, below))), simple(d, over(m, r, below)));
     return add_point(m, s, simple(d, over(m, nh_sub(d, r, c1), below))) &&
            add_point(m, s, simple(d, nh_neg(d, over(m, plus(m, r, c1), below))));
 }
@@ -346,13 +363,58 @@ static size_t confluent(matcher *m, const points *s, nh_ex out[2])
     return n;
 }
 
+/* ---- Riemann ---- */
+
+/* (1 + x^2)^exponent with the variable put in: of a square, 1/sin(s)^2, the power of what is positive here. */
+static nh_ex positive_power(matcher *m, nh_ex base, nh_ex exponent)
+{
+    nh_dag *d = m->d;
+    nh_ex out = nh_int(d, 1), rest;
+    base = simple(d, nh_substitute(d, base, 1, &m->x, &m->meaning));
+    if (nh_kind_of(d, base) != NH_PRODUCT) return nh_pow(d, base, exponent);
+    rest = nh_number(d, nh_constant_of(d, base));
+    for (size_t i = 0; i < nh_arity(d, base); i++) {
+        nh_ex factor = nh_child(d, base, i), k = nh_exponent_of(d, base, i);
+        nh_num x = nh_kind_of(d, k) == NH_NUMBER ? nh_number_of(d, k) : nh_num_real(0.5);
+        bool square = nh_num_short(x) && x.q == 1 && x.p % 2 == 0;
+        if (square && value_of(m, factor) < 0) factor = nh_neg(d, factor);
+        if (square) out = times(m, out, nh_pow(d, factor, times(m, k, exponent)));
+        else rest = times(m, rest, nh_pow(d, factor, k));
+    }
+    return times(m, out, nh_pow(d, rest, exponent));
+}
+
+/* g with g'/g = P/2 for P = (p0 + p1 x)/(1 + x^2), and the solutions of v'' = (a + b x + c x^2)/(1 + x^2)^2 v. */
+static size_t conjugate(matcher *m, const points *s, nh_ex out[2])
+{
+    nh_dag *d = m->d;
+    move(m, s->middle);
+    nh_ex stretched = times(m, s->height, m->x), x = m->x, below = plus(m, nh_int(d, 1), nh_powi(d, x, 2));
+    m->p = simple(d, times(m, s->height, put_in(m, m->p, stretched)));
+    m->q = simple(d, times(m, nh_powi(d, s->height, 2), put_in(m, m->q, stretched)));
+    m->meaning = simple(d, over(m, m->meaning, s->height));
+    nh_ex p[5], r[5];
+    if (!quartic(m, simple(d, times(m, m->p, below)), p) ||
+        !quartic(m, simple(d, times(m, invariant(m), nh_powi(d, below, 2))), r))
+        return 0;
+    for (int k = 2; k < 5; k++)
+        if (!nh_is_zero(d, p[k]) || (k > 2 && !nh_is_zero(d, r[k]))) return 0;
+    nh_ex g = times(m, positive_power(m, below, times(m, p[1], number(m, 1, 4))),
+                    nh_call(d, NH_EXP, times(m, times(m, p[0], number(m, 1, 2)), nh_call(d, NH_ATAN, x))));
+    nh_ex all[4] = {r[0], r[1], r[2], x};
+    out[0] = times(m, g, nh_call_any(d, NH_RIEMANN_C, all));
+    out[1] = times(m, g, nh_call_any(d, NH_RIEMANN_S, all));
+    return 2;
+}
+
 size_t nh_named_match(nh_dag *d, const nh_named_equation *e, nh_named_value_of *value, void *context, nh_ex out[2])
 {
     matcher m = {d, e->variable, e->p, e->q, e->meaning, value, context};
     points s = {0};
     bool good = add_poles(&m, &s, m.p) && add_poles(&m, &s, m.q);
-    size_t n = good && s.count >= 2 ? three_points(&m, &s, out) : 0;
-    if (!n && (!good || s.count < 2)) n = confluent(&m, &s, out);
+    size_t n = !good || s.count < 2 || s.pair ? 0 : three_points(&m, &s, out);
+    if (good && s.pair && !s.count) n = conjugate(&m, &s, out);
+    if (!n && (!good || s.count < 2) && !s.pair) n = confluent(&m, &s, out);
     for (size_t i = 0; i < n; i++) out[i] = simple(d, nh_substitute(d, out[i], 1, &m.x, &m.meaning));
     return n;
 }

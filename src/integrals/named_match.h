@@ -1,13 +1,12 @@
-/* named_match: solutions of u'' = P u' + Q u, P and Q rational in x, by
- * functions that have names.
+/* named_match: solutions of u'' = P u' + Q u, P and Q rational in x, by functions that have names.
  *
- *     three regular singular points      Gauss's function of a Moebius
- * variable, times powers [DLMF 15.11] R = A x^m + B/x^2                  Airy,
- * Bessel, sqrt(x) J_n(.. x^((m + 2)/2)) [DLMF 10.13] R = A + B/x + C/x^2, A x^2
- * + B x + C, A x^2 + C + D/x^2      Kummer's functions [DLMF 13.14, 12.7]
+ *     three regular singular points           Gauss's function of a Moebius variable, times powers [DLMF 15.11]
+ *     a conjugate pair and infinity           Riemann's equation with real coefficients
+ *     R = A x^m + B/x^2                       Airy; Bessel, sqrt(x) J_n(.. x^((m + 2)/2)) [DLMF 10.13]
+ *     R = A + B/x + C/x^2, A x^2 + B x + C,
+ *     A x^2 + C + D/x^2                       Kummer's functions [DLMF 13.14, 12.7]
  *
- * where u = g v with g'/g = P/2 and v'' = R v.  What comes out is a proposal:
- * whoever uses it proves it. */
+ * where u = g v with g'/g = P/2 and v'' = R v.  What comes out is a proposal: whoever uses it proves it. */
 #ifndef NH_NAMED_MATCH_H
 #define NH_NAMED_MATCH_H
 
