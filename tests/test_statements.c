@@ -463,6 +463,23 @@ Test(statements, a_direction_is_no_rate)
     place_clear(&p);
 }
 
+/* A skate on a belt: its speed times the sign of cos(h), which jumps where cos(h) = 0. The coordinates' velocities end there, so that no crossing was judged. */
+Test(statements, a_further_integral_with_a_wall_names_it)
+{
+    place p = place_make();
+    write_here(&p, "belt.yaml", "name: belt\nparameters: [{name: V, value: 0.8}]\ncoordinates: [x, y, {name: h, type: angle}]\n"
+                                "lagrangian: (x'^2+y'^2+h'^2)/2\nconstraints: [\"sin(h)*(x'-V) - cos(h)*y' = 0\"]\n");
+    reports r = analyze(&p, "belt.yaml");
+    const cJSON *further;
+    cJSON_ArrayForEach(further, item(r.json, "further_integrals")) {
+        bool walled = strstr(item(further, "expression")->valuestring, "sqrt") != NULL;
+        cr_expect(cJSON_IsString(item(further, "region")) == walled, "%s", r.source);
+    }
+    cr_expect(!strstr(r.text, "sqrt(1/cos(h)^2)*(x' - V)") || strstr(r.text, "degree 1; in some parts that end at cos(h) = 0"), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
 /* With the root of x' and y' in it a current of one branch is none of the other. */
 Test(statements, a_current_of_one_branch_says_so)
 {

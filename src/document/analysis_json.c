@@ -382,6 +382,7 @@ static void put_others(const writer *w, nh_json *root)
         nh_json *item = nh_json_add_object(list);
         put_briefly(w, item, &g->current);
         nh_json_put_number(item, "degree", (double)g->degree);
+        nh_json_put_text(item, "region", g->current.region);
     }
     list = nh_json_put_array(root, "relations");
     for (size_t k = 0; k < w->r->relations; k++)

@@ -323,7 +323,10 @@ static void furthers(nh_pen *p, const nh_analysis *r)
                         "they are not counted.");
     }
     for (size_t k = 0; k < r->furthers; k++)
-        uncounted(p, r, &r->further[k].current, nh_arena_printf(r->arena, "degree %zu", r->further[k].degree));
+        uncounted(p, r, &r->further[k].current,
+                  nh_arena_printf(r->arena, "degree %zu%s%s", r->further[k].degree,
+                                  r->further[k].current.region ? "; " : "",
+                                  r->further[k].current.region ? r->further[k].current.region : ""));
     if (r->relations) nh_pen_heading(p, "Relations");
     for (size_t k = 0; k < r->relations; k++) p->ink->equation(p->to, r->relation[k].left, r->relation[k].right);
 }

@@ -243,6 +243,22 @@ nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, 
     return out;
 }
 
+nh_region nh_region_open(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
+    nh_arena *arena)
+{
+    nh_region out = {0};
+    nh_walls walls = {0};
+    nh_crossings own = own_crossings(o, terrain, phi, options, arena);
+    nh_walls_add(&walls, o->dag, phi);
+    for (size_t i = 0; i < walls.count; i++) {
+        bool judged = walls.edge[i];
+        for (size_t k = 0; k < own.count; k++) judged |= own.item[k].wall == walls.e[i];
+        for (size_t k = 0; k < terrain->crossings.count; k++) judged |= terrain->crossings.item[k].wall == walls.e[i];
+        if (!judged) out.wall[out.count] = walls.e[i], out.kind[out.count++] = NH_REGION_PARTS;
+    }
+    return out;
+}
+
 /* ---- in words ---- */
 
 /* The wall c (x - root) of one symbol and numbers. */

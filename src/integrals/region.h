@@ -44,6 +44,11 @@ nh_terrain nh_terrain_of(const nh_model *model, const nh_options *options, nh_ar
 nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits,
     const nh_options *options, nh_arena *arena);
 
+/* The walls of phi, but ends of roots, at which nothing could be decided: no motion of this chart was seen to cross,
+ * perhaps because the chart's velocities end there.  phi is one function on each side. */
+nh_region nh_region_open(const nh_model *model, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
+    nh_arena *arena);
+
 /* "for x > 0", "on each side of x - y = 0, where it jumps", "on each side of x = 0, where the motion has an impulse";
    NULL for everywhere. */
 const char *nh_region_text(nh_dag *dag, const nh_region *region, nh_arena *arena);
