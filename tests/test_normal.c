@@ -21,6 +21,26 @@ static nh_zero_verdict verdict_of(const char *text)
     return verdict;
 }
 
+/* Four bodies on a circle: their angles are cut into differences, not into the single ones, of which there would be too many terms. */
+Test(normal, sums_of_angles)
+{
+    static const char *const cotangents =
+        "cos(x-y)/sin(x-y)*cos(y-z)/sin(y-z)"
+        "+cos(y-z)/sin(y-z)*cos(z-x)/sin(z-x)+cos(z-x)/sin(z-x)*cos(x-y)/sin(x-y)"
+        "+cos(x-y)/sin(x-y)*cos(y-u)/sin(y-u)"
+        "+cos(y-u)/sin(y-u)*cos(u-x)/sin(u-x)+cos(u-x)/sin(u-x)*cos(x-y)/sin(x-y)"
+        "+cos(x-z)/sin(x-z)*cos(z-u)/sin(z-u)+cos(z-u)/sin(z-u)*cos(u-x)/sin(u-x)+cos(u-x)/sin(u-x)*cos(x-z)/sin(x-z)"
+        "+cos(y-z)/sin(y-z)*cos(z-u)/sin(z-u)+cos(z-u)/sin(z-u)*cos(u-y)/sin(u-y)+cos(u-y)/sin(u-y)*cos(y-z)/sin(y-z)-4";
+    static const char *const forces =
+        "(cos(x-y)/sin(x-y)^3+cos(x-z)/sin(x-z)^3+cos(x-u)/sin(x-u)^3)*g"
+        "+(cos(y-x)/sin(y-x)^3+cos(y-z)/sin(y-z)^3+cos(y-u)/sin(y-u)^3)*g"
+        "+(cos(z-x)/sin(z-x)^3+cos(z-y)/sin(z-y)^3+cos(z-u)/sin(z-u)^3)*g"
+        "+(cos(u-x)/sin(u-x)^3+cos(u-y)/sin(u-y)^3+cos(u-z)/sin(u-z)^3)*g";
+    cr_expect_eq(verdict_of(cotangents), NH_ZERO);
+    cr_expect_eq(verdict_of(forces), NH_ZERO);
+    cr_expect_eq(verdict_of("1/(x-y)+1/(y-z)-2/(x-z)"), NH_NONZERO);
+}
+
 Test(normal, identities)
 {
     static const char *const zero[] = {

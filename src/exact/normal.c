@@ -2,10 +2,11 @@
 
 #include "graph/dag_internal.h"
 #include "exact/form.h"
+#include "exact/straighten.h"
 
 enum { default_terms = 20000 };
 
-nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms)
+static nh_zero_verdict is_zero(nh_dag *dag, nh_ex e, size_t max_terms)
 {
     if (nh_kind_of(dag, e) == NH_NUMBER) return nh_is_zero(dag, e) ? NH_ZERO : NH_NONZERO;
     nh_forms forms;
@@ -17,6 +18,15 @@ nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms)
     nh_form_clear(&form);
     nh_forms_clear(&forms);
     return verdict;
+}
+
+nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms)
+{
+    nh_ex straight = e;
+    nh_zero_verdict verdict = NH_TOO_LARGE;
+    if (nh_kind_of(dag, e) != NH_NUMBER && nh_straighten(dag, 1, &straight, 0, NULL))
+        verdict = is_zero(dag, straight, max_terms);
+    return verdict == NH_TOO_LARGE ? is_zero(dag, e, max_terms) : verdict;
 }
 
 nh_ex nh_canonical(nh_dag *dag, nh_ex e, size_t max_terms)

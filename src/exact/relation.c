@@ -1,9 +1,12 @@
 #include "exact/relation.h"
 
+#include <string.h>
+
 #include "exact/print_quotient.h"
 #include "exact/form.h"
 #include "exact/normal.h"
 #include "exact/relation_internal.h"
+#include "exact/straighten.h"
 
 enum { default_terms = 20000, most_kernels = 300 };
 
@@ -255,15 +258,28 @@ void nh_relation_question_clear(question *q)
     nh_free(q->c);
 }
 
-nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
-                                     size_t max_terms, nh_ex *coefficient)
+static nh_relation_verdict find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
+                                size_t max_terms, nh_ex *coefficient)
 {
-    if (n == 0) return NH_RELATION_NONE;
     question q;
     nh_relation_question_init(&q, dag, n, parameters, parameter, max_terms);
     nh_relation_verdict verdict = ask(&q, e, coefficient);
     nh_relation_question_clear(&q);
     return verdict;
+}
+
+nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
+                                     size_t max_terms, nh_ex *coefficient)
+{
+    if (n == 0) return NH_RELATION_NONE;
+    nh_relation_verdict verdict = NH_RELATION_TOO_LARGE;
+    nh_ex *straight = nh_alloc_array(n, sizeof *straight);
+    memcpy(straight, e, n * sizeof *straight);
+    if (nh_straighten(dag, n, straight, parameters, parameter))
+        verdict = find(dag, n, straight, parameters, parameter, max_terms, coefficient);
+    nh_free(straight);
+    if (verdict != NH_RELATION_TOO_LARGE) return verdict;
+    return find(dag, n, e, parameters, parameter, max_terms, coefficient);
 }
 
 /* What the last expression needs, modulo a prime. */
