@@ -50,9 +50,11 @@ Test(budget, ends)
 Test(budget, the_brake_counts_the_processor)
 {
     static const struct timespec pause = {0, 150000000};
+    double before = nh_clock_of_process();
     nh_deadline_set(0.05);
     nanosleep(&pause, NULL);
-    cr_expect_not(nh_late());
+    bool late = nh_late();
+    cr_expect(!late || nh_clock_of_process() > before + 0.05); /* a busy machine may count its own work as the test's */
     for (double begin = nh_clock_of_process(); nh_clock_of_process() < begin + 0.06;) continue;
     cr_expect(nh_late());
     nh_deadline_set(INFINITY);
