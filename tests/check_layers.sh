@@ -72,6 +72,14 @@ done)
     }
     END { for (entry in listed) if (!(entry in used)) print "docs/glossary.md: no name needs the prefix " entry }' docs/glossary.md - >>"$offences"
 
+# ---- src/cli takes headers and functions of src/base, src/library and nhsym.h only: all else stands behind these ----
+grep -nE '^[ \t]*#[ \t]*include[ \t]*"' src/cli/*.[ch] | grep -vE '"(cli|base|library)/|"nhsym\.h"' | sed 's/$/: src\/cli includes headers of src\/base and src\/library only/' >>"$offences"
+own=$(for source in src/cli/*.c; do [ -f "$build/${source%.c}.o" ] && echo "$build/${source%.c}.o"; done)
+behind=$(for source in src/base/*.c src/library/*.c; do [ -f "$build/${source%.c}.o" ] && echo "$build/${source%.c}.o"; done)
+{ nm -g --defined-only $own $behind; nm -A -u $own; } 2>/dev/null | awk '
+    NF == 3 && $2 != "U" { defined[$3] = 1; next }
+    $NF ~ /^nh_/ && $NF !~ /^nh_cli_/ && !($NF in defined) && !($NF in told) { told[$NF] = 1; sub(/:.*/, "", $1); print $1 ": takes " $NF ", which stands behind src/library" }' >>"$offences"
+
 # ---- cited sources and sections exist ----
 grep -noE '\[[A-Za-z]*:? ?[A-Z][A-Za-z]+[0-9]{4}[a-z]?' src/*/*.c src/*/*.h tests/*.c tests/*.h tests/*.sh README.md docs/*.md | grep -v '^docs/references.md' |
     sed 's/^\([^:]*:[0-9]*\):.*[^A-Za-z]\([A-Z][A-Za-z]*[0-9]\{4\}[a-z]\{0,1\}\)$/\1 \2/' | awk '!seen[$2]++' | while read -r place key; do

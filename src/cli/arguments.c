@@ -8,7 +8,6 @@
 
 #include "cli/cli.h"
 #include "cli/cli_table.h"
-#include "problem/input.h"
 
 enum {
     opt_set = 256,
@@ -140,7 +139,7 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     double x;
     if (!nh_text_to_number(value, &x))
         return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
-    cli->setting[cli->settings++] = (nh_setting){.name = name, .value = x};
+    cli->ask.setting[cli->ask.settings++] = (nh_setting){.name = name, .value = x};
     return true;
 }
 
@@ -149,56 +148,52 @@ static bool set_input(nh_cli *cli, const char *text, nh_error *error)
 {
     char *name;
     const char *value;
-    if (!strchr(text, '=')) return cli->input = joined(cli, cli->input, text), true;
+    if (!strchr(text, '=')) return cli->ask.input = joined(cli, cli->ask.input, text), true;
     if (!assignment(cli, text, "input", &name, &value, error)) return false;
-    const char *input = nh_input_text(cli->arena, name, value, error);
-    if (!input) return false;
-    cli->setting[cli->settings++] = (nh_setting){.name = name, .input = input};
-    return true;
+    return nh_request_input(&cli->ask, name, value, error);
 }
 
 static bool add_wheel(nh_cli *cli, const char *text, nh_error *error)
 {
-    return (void)error, cli->wheel[cli->wheels++] = text, true;
+    return (void)error, cli->ask.wheel[cli->ask.wheels++] = text, true;
 }
 static bool add_level(nh_cli *cli, const char *text, nh_error *error)
 {
-    return (void)error, cli->on[cli->ons++] = text, true;
+    return (void)error, cli->ask.on[cli->ask.ons++] = text, true;
 }
 static bool add_number(nh_cli *cli, const char *text, nh_error *error)
 {
-    return (void)error, cli->number[cli->numbers++] = text, true;
+    return (void)error, cli->ask.number[cli->ask.numbers++] = text, true;
 }
 
 /* "k=1:2:11", "k=1", "B"; what follows a comma and has no name is one more value: k=1,2,5/2. */
 static bool add_range(nh_cli *cli, const char *text, nh_error *error)
 {
     (void)error;
-    const char **last = cli->overs ? &cli->over_list[cli->overs - 1] : NULL;
+    const char **last = cli->ask.overs ? &cli->ask.over_list[cli->ask.overs - 1] : NULL;
     bool value = last && strchr(*last, '=') && !strchr(text, '=');
-    cli->over = joined(cli, cli->over, text);
+    cli->ask.over = joined(cli, cli->ask.over, text);
     if (value) *last = nh_arena_printf(cli->arena, "%s,%s", *last, text);
-    else cli->over_list[cli->overs++] = text;
+    else cli->ask.over_list[cli->ask.overs++] = text;
     return true;
 }
 
 static bool add_method(nh_cli *cli, const char *text, nh_error *error)
 {
-    const nh_method *method;
-    if (!nh_method_given(text, &method, error)) return false;
-    if (method) cli->method[cli->methods++] = method;
-    return true;
+    return nh_request_method(&cli->ask, text, error);
 }
 /* A list of words; some names have commas. */
 static bool add_methods(nh_cli *cli, const char *text, nh_error *error)
 {
-    return nh_method_find(text) ? add_method(cli, text, error) : each(cli, text, "method", add_method, error);
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    return add_method(cli, text, &ignored) || each(cli, text, "method", add_method, error);
 }
 
 static bool set_option(nh_cli *cli, const char *name, const char *text, nh_error *error)
 {
-    cli->limited = cli->limited || !strcmp(name, "max_seconds");
-    return nh_options_set(&cli->options, name, text, error);
+    cli->ask.limited = cli->ask.limited || !strcmp(name, "max_seconds");
+    return nh_options_set(&cli->ask.options, name, text, error);
 }
 
 /* "absolute=1e-12" */
@@ -261,12 +256,12 @@ static bool whole(const char *text, const char *option, size_t most, size_t *out
 static bool set_chunk(nh_cli *cli, const char *text, nh_error *error)
 {
     const char *slash = strchr(text, '/');
+    nh_request *q = &cli->ask;
     nh_error ignored;
     nh_error_clear(&ignored);
-    bool good = slash && whole(slash + 1, "chunk", 1000000, &cli->chunks, &ignored);
-    good = good && whole(nh_arena_strndup(cli->arena, text, (size_t)(slash - text)), "chunk", cli->chunks, &cli->chunk,
-                         &ignored);
-    if (good) return cli->chunk--, true;
+    bool good = slash && whole(slash + 1, "chunk", 1000000, &q->chunks, &ignored);
+    const char *number = good ? nh_arena_strndup(cli->arena, text, (size_t)(slash - text)) : NULL;
+    if (good && whole(number, "chunk", q->chunks, &q->chunk, &ignored)) return q->chunk--, true;
     nh_fail(error, NH_USAGE, "", "--chunk needs I/N with I from 1 to N, found `%s`", text);
     return nh_error_hint(error, "--chunk 3/40 is the third of forty parts");
 }
@@ -283,18 +278,6 @@ static bool set_folder(nh_cli *cli, const char *text, nh_error *error)
             return nh_fail(error, NH_USAGE, "", "-o takes a folder, but `%s` is the name of a file", text),
                    nh_error_hint(error, "a file is written by --%s %s", endings[i], text);
     return true;
-}
-
-static bool set_velocities(nh_cli *cli, const char *text, nh_error *error)
-{
-    static const char *const names[] = {"auto", "quasi", "coordinates"};
-    for (int i = 0; i < 3; i++) {
-        if (strcmp(text, names[i])) continue;
-        cli->velocities = (nh_chart_choice)i;
-        return true;
-    }
-    nh_fail(error, NH_USAGE, "", "there are no velocities `%s`", text);
-    return nh_error_hint(error, "--velocities takes auto, quasi or coordinates");
 }
 
 static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
@@ -331,11 +314,11 @@ static const char *name_of(int code)
 /* An option of docs/options.md that has a name of its own. */
 static bool set_number(nh_cli *cli, int code, const char *value, nh_error *error)
 {
-    cli->seed_given = cli->seed_given || code == opt_seed;
-    cli->samples_given = cli->samples_given || code == opt_samples;
-    cli->tolerance_given = cli->tolerance_given || code == opt_tolerance;
-    cli->until_given = cli->until_given || code == opt_until;
-    return nh_options_set(&cli->options, name_of(code), value, error);
+    cli->ask.seed_given = cli->ask.seed_given || code == opt_seed;
+    cli->ask.samples_given = cli->ask.samples_given || code == opt_samples;
+    cli->ask.tolerance_given = cli->ask.tolerance_given || code == opt_tolerance;
+    cli->ask.until_given = cli->ask.until_given || code == opt_until;
+    return nh_options_set(&cli->ask.options, name_of(code), value, error);
 }
 
 /* Where to read on: the help of the command, as far as the line names one. */
@@ -414,44 +397,44 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_seed: case opt_samples: case opt_tolerance: case opt_until:
     case opt_threads: case opt_columns: case opt_degree: return set_number(cli, code, value, error);
     case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
-    case opt_max_memory: return size(value, &cli->options.max_memory, error);
-    case opt_initial: cli->initial = joined(cli, cli->initial, value); return true;
-    case opt_initial_table: cli->table = file_of(value); return true;
+    case opt_max_memory: return size(value, &cli->ask.options.max_memory, error);
+    case opt_initial: cli->ask.initial = joined(cli, cli->ask.initial, value); return true;
+    case opt_initial_table: cli->ask.table = file_of(value); return true;
     case opt_method: return add_methods(cli, value, error);
-    case opt_project: return cli->project = true;
-    case opt_weak: return cli->weak = true;
-    case opt_step: return positive(value, "step", &cli->step, error);
-    case opt_to: cli->to = value; return true;
+    case opt_project: return cli->ask.project = true;
+    case opt_weak: return cli->ask.weak = true;
+    case opt_step: return positive(value, "step", &cli->ask.step, error);
+    case opt_to: cli->ask.to = value; return true;
     case opt_input: return each(cli, value, "input", set_input, error);
     case opt_wheel: return each(cli, value, "wheel", add_wheel, error);
     case opt_on: return each(cli, value, "on", add_level, error);
-    case opt_base: cli->base = value; return true;
-    case opt_name: cli->name = value; return true;
-    case opt_watch: cli->watch = joined(cli, cli->watch, value); return true;
-    case opt_event: cli->event = also(cli, cli->event, value); return true;
-    case opt_section: cli->section = value; return true;
-    case opt_axes: cli->axes = value; return true;
+    case opt_base: cli->ask.base = value; return true;
+    case opt_name: cli->ask.name = value; return true;
+    case opt_watch: cli->ask.watch = joined(cli, cli->ask.watch, value); return true;
+    case opt_event: cli->ask.event = also(cli, cli->ask.event, value); return true;
+    case opt_section: cli->ask.section = value; return true;
+    case opt_axes: cli->ask.axes = value; return true;
     case opt_svg: case opt_pdf: case opt_csv: *output_of(cli, code) = value; return true;
-    case opt_budget: return seconds(value, &cli->budget, error);
-    case opt_accuracy: return positive(value, "accuracy", &cli->accuracy, error);
-    case opt_ensemble: return members(value, &cli->ensemble, error);
-    case opt_spread: return positive(value, "spread", &cli->spread, error);
-    case opt_robustness: return cli->robustness = true;
+    case opt_budget: return seconds(value, &cli->ask.budget, error);
+    case opt_accuracy: return positive(value, "accuracy", &cli->ask.accuracy, error);
+    case opt_ensemble: return members(value, &cli->ask.ensemble, error);
+    case opt_spread: return positive(value, "spread", &cli->ask.spread, error);
+    case opt_robustness: return cli->ask.robustness = true;
     case opt_over: return each(cli, value, "over", add_range, error);
-    case opt_of: cli->of = joined(cli, cli->of, value); return true;
+    case opt_of: cli->ask.of = joined(cli, cli->ask.of, value); return true;
     case opt_number: return each(cli, value, "number", add_number, error);
-    case opt_workers: return whole(value, "workers", 256, &cli->workers, error);
+    case opt_workers: return whole(value, "workers", 256, &cli->ask.workers, error);
     case opt_chunk: return set_chunk(cli, value, error);
-    case opt_shape: return cli->shape = true;
-    case opt_scene: return cli->scene = true;
-    case opt_equations: return cli->equations = true;
-    case opt_chain: cli->chain = also(cli, cli->chain, value); return true;
-    case opt_inner: cli->inner = also(cli, cli->inner, value); return true;
-    case opt_group: cli->group = joined(cli, cli->group, value); return true;
-    case opt_current: cli->current = value; return true;
-    case opt_field: cli->field = joined(cli, cli->field, value); return true;
+    case opt_shape: return cli->ask.shape = true;
+    case opt_scene: return cli->ask.scene = true;
+    case opt_equations: return cli->ask.equations = true;
+    case opt_chain: cli->ask.chain = also(cli, cli->ask.chain, value); return true;
+    case opt_inner: cli->ask.inner = also(cli, cli->ask.inner, value); return true;
+    case opt_group: cli->ask.group = joined(cli, cli->ask.group, value); return true;
+    case opt_current: cli->ask.current = value; return true;
+    case opt_field: cli->ask.field = joined(cli, cli->ask.field, value); return true;
     case opt_option: return each(cli, value, "option", add_option, error);
-    case opt_velocities: return set_velocities(cli, value, error);
+    case opt_velocities: return nh_request_velocities(&cli->ask, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
     case opt_progress: return set_progress(cli, value, error);
     case 'o': return set_folder(cli, value, error);
@@ -513,15 +496,14 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     size_t most = (size_t)argc + 1; /* entries of lists, and operands */
     for (int i = 1; i < argc; i++)
         for (const char *c = argv[i]; *c; c++) most += *c == ',' || *c == ';';
-    cli->setting = nh_arena_alloc(cli->arena, most * sizeof *cli->setting);
+    cli->ask.setting = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.setting);
     cli->operand = nh_arena_alloc(cli->arena, most * sizeof *cli->operand);
-    cli->over_list = nh_arena_alloc(cli->arena, most * sizeof *cli->over_list);
-    cli->wheel = nh_arena_alloc(cli->arena, most * sizeof *cli->wheel);
-    cli->on = nh_arena_alloc(cli->arena, most * sizeof *cli->on);
-    cli->number = nh_arena_alloc(cli->arena, most * sizeof *cli->number);
-    cli->method = nh_arena_alloc(cli->arena, most * sizeof *cli->method);
+    cli->ask.over_list = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.over_list);
+    cli->ask.wheel = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.wheel);
+    cli->ask.on = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.on);
+    cli->ask.number = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.number);
     cli->colour = isatty(STDOUT_FILENO) && !getenv("NO_COLOR");
-    nh_options_default(&cli->options);
+    nh_options_default(&cli->ask.options);
     bool given[owner_count] = {false};
     opterr = 0;
     optind = 1;
@@ -543,5 +525,6 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
         }
     }
     while (optind < argc) take_operand(cli, argv[optind++]);
+    cli->ask.command = cli->command;
     return all_belong(cli, given, error);
 }

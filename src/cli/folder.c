@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
-#include "document/html.h"
 
 static const char *figure_name(nh_cli *cli, size_t number)
 {
@@ -21,13 +20,17 @@ const char *nh_cli_in_folder(nh_cli *cli, const char *name)
     return nh_arena_printf(cli->arena, "%s/%s", cli->folder, name);
 }
 
+bool nh_cli_make_folder(nh_cli *cli, nh_error *error)
+{
+    if (!cli->folder || !mkdir(cli->folder, 0777) || errno == EEXIST) return true;
+    nh_fail(error, NH_NUMERIC, cli->folder, "the folder could not be created: %s", strerror(errno));
+    return nh_error_hint(error, "-o takes a folder; its parent folder must exist");
+}
+
 bool nh_cli_use_folder(nh_cli *cli, nh_error *error)
 {
     if (!cli->folder) return true;
-    if (mkdir(cli->folder, 0777) && errno != EEXIST) {
-        nh_fail(error, NH_NUMERIC, cli->folder, "the folder could not be created: %s", strerror(errno));
-        return nh_error_hint(error, "-o takes a folder; its parent folder must exist");
-    }
+    if (!nh_cli_make_folder(cli, error)) return false;
     if (!cli->json) cli->json = nh_cli_in_folder(cli, "result.json");
 #define X(name, form, writer) if (!cli->name) cli->name = nh_cli_in_folder(cli, "report." #name);
     NH_PEN_FORM_TABLE(X)
@@ -53,7 +56,7 @@ static bool is_ours(const char *path, size_t number)
     bool regular = file >= 0 && !fstat(file, &info) && S_ISREG(info.st_mode),
          begun = regular && read(file, text, sizeof text - 1) > 0;
     if (file >= 0) close(file);
-    return begun && nh_html_is_figure(text, number);
+    return begun && nh_answer_is_figure(text, number);
 }
 
 /* Figures beyond the last one are of an older run, and would be taken for this one's. */
@@ -72,7 +75,7 @@ bool nh_cli_write_figures(nh_cli *cli, const char *page, nh_error *error)
 {
     size_t length, count = 0;
     bool good = true;
-    for (const char *figure; good && (figure = nh_html_next_figure(&page, &length));)
+    for (const char *figure; good && nh_answer_figure(&page, &figure, &length);)
         good = nh_output_add(&cli->files, nh_cli_in_folder(cli, figure_name(cli, ++count)), figure, length, error);
     if (good) drop_older(cli, count);
     return good;

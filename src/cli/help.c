@@ -5,9 +5,7 @@
 
 #include "cli/cli.h"
 #include "cli/cli_table.h"
-#include "commands/export.h"
-#include "document/wording.h"
-#include "reduction/linear_questions.h"
+#include "library/catalogue.h"
 
 typedef struct {
     const char *name;
@@ -168,25 +166,15 @@ static void put_values(const char *name, const char *shown, const char *between)
 {
     if (strchr(shown, '|') && shown[0] != '[') {
         for (; *shown; shown++) fputs(*shown == '|' ? between : (char[]){*shown, 0}, stdout);
-    } else if (!strcmp(name, "method")) {
-        fputs(NH_METHOD_AUTOMATIC, stdout);
-        for (size_t i = 0; i < nh_method_count(); i++) printf("%s%s", between, nh_method_at(i)->word);
-    } else if (!strcmp(name, "option")) {
-        for (size_t i = 0; i < nh_option_count(); i++) printf("%s%s=", i ? between : "", nh_option_at(i).name);
-    } else if (!strcmp(name, "of")) { /* of all commands that have the option */
-        printf("constraint%scount%sanalyze%sreduce", between, between, between);
-#define X(name, word) printf("%s" #word, between);
-        NH_LINEAR_QUESTION_TABLE(X)
-#undef X
-        for (unsigned part = 1; part <= NH_EXPORT_ALL; part <<= 1)
-            if (part != NH_EXPORT_CURRENTS) printf("%s%s", between, nh_export_part_name((nh_export_part)part));
-    } else if (!strcmp(name, "explain")) {
-        fputs("options", stdout), printf("%smethods", between);
-        for (size_t i = 0; i < nh_glossary_count(); i++)
-            if (!strchr(nh_glossary_at(i).word, ' ')) printf("%s%s", between, nh_glossary_at(i).word);
     } else if (!strcmp(name, "help")) {
         for (size_t i = 0; i < command_count; i++) printf("%s%s", i ? between : "", commands[i].name);
         printf("%sman%sbash%szsh%sfish", between, between, between, between);
+    } else {
+        nh_text text;
+        nh_text_init(&text);
+        nh_catalogue_values(name, between, &text);
+        fputs(nh_text_string(&text), stdout);
+        nh_text_clear(&text);
     }
 }
 

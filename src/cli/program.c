@@ -8,8 +8,7 @@
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "cli/cli_table.h"
-#include "evaluate/machine.h"
-#include "exact/normal.h"
+#include "library/catalogue.h"
 
 static const struct {
     const char *name;
@@ -43,7 +42,7 @@ static void out_of_memory(size_t wanted)
 
 static int run(nh_cli *cli, nh_error *error)
 {
-    if (cli->team && cli->team->size > 1 && cli->command && strcmp(cli->command, "scan")) {
+    if (cli->ask.team && cli->ask.team->size > 1 && cli->command && strcmp(cli->command, "scan")) {
         nh_fail(error, NH_USAGE, "", "several processes of nhsym-mpi share a scan, but no `%s`", cli->command);
         return nh_error_hint(error, "mpirun nhsym-mpi scan sleigh --over k=1:4:61 -o scan"), NH_USAGE;
     }
@@ -53,7 +52,7 @@ static int run(nh_cli *cli, nh_error *error)
     nh_fail(error, NH_USAGE, "", "there is no command `%s`", cli->command);
     const char *near = nh_cli_command_near(cli->command);
     if (near) nh_error_hint(error, "did you mean `nhsym %s`?", near);
-    else if (nh_places_look(cli->arena, "systems", cli->command))
+    else if (nh_catalogue_has(cli->command))
         nh_error_hint(error, "the command stands first, as in `nhsym analyze %s`", cli->command);
     else nh_error_hint(error, "`nhsym help` lists the commands");
     return NH_USAGE;
@@ -85,10 +84,11 @@ int nh_cli_main(int argc, char **argv, const nh_team *team)
     nh_error_clear(&error);
     nh_memory_set_handler(out_of_memory);
     nh_files_begin();
-    nh_cli cli = {.arena = nh_arena_create(), .team = team};
-    cli.line = line_of(&cli, argc, argv);
+    nh_cli cli = {.arena = nh_arena_create()};
+    cli.ask = (nh_request){.arena = cli.arena, .team = team};
+    cli.ask.line = line_of(&cli, argc, argv);
     int code = nh_cli_parse(&cli, argc, argv, &error) ? run(&cli, &error) : (int)error.code;
-    nh_cli_blame(&cli, &error);
+    nh_request_blame(&cli.ask, &error);
     if (error.code == NH_USAGE) code = NH_USAGE;
     bool said = team && team->rank && (error.code == NH_USAGE || error.code == NH_INPUT); /* by the first, too */
     if (error.code != NH_OK && !said) {
@@ -102,8 +102,7 @@ int nh_cli_main(int argc, char **argv, const nh_team *team)
     }
     nh_files_end();
     nh_arena_free(cli.arena);
-    nh_machine_cleanup();
-    nh_normal_cleanup();
+    nh_answer_cleanup();
     if (fflush(stdout) || ferror(stdout)) {
         fprintf(stderr, "nhsym: standard output could not be written\n");
         code = code ? code : NH_NUMERIC;

@@ -40,7 +40,8 @@ static void show(void *context, const char *doing, double part)
 
 void nh_cli_progress_begin(const nh_cli *cli)
 {
-    nh_cli_guard_begin(cli->limited ? cli->options.max_seconds : INFINITY, cli->options.max_memory * NH_MEGABYTE);
+    const nh_options *o = &cli->ask.options;
+    nh_cli_guard_begin(cli->ask.limited ? o->max_seconds : INFINITY, o->max_memory * NH_MEGABYTE);
     bool terminal = isatty(STDERR_FILENO);
     if (cli->progress == NH_PROGRESS_NEVER || (cli->progress == NH_PROGRESS_AUTO && (!terminal || cli->quiet))) return;
     live = terminal;

@@ -1,16 +1,10 @@
 /* write: what every command that reports needs. */
-#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/escape.h"
 #include "base/progress.h"
 #include "cli/cli.h"
-#include "document/unfinished.h"
-
-nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path)
-{
-    return (nh_run){cli->line, system_path, analysis_path, cli->options.seed, cli->options.shown, NAN};
-}
 
 /* The files of --json, --svg, --pdf, --csv and of documents; those that are not given are NULL. */
 enum { outputs = 4 + NH_PEN_TEXT };
@@ -58,7 +52,7 @@ static bool same_file(const char *a, const char *b)
 /* Does it replace what this run reads? */
 static bool is_read(const nh_cli *cli, const char *path)
 {
-    bool read = same_file(path, cli->analysis) || same_file(path, cli->table);
+    bool read = same_file(path, cli->analysis) || same_file(path, cli->ask.table);
     for (size_t i = 0; i < cli->operands; i++) read |= same_file(path, cli->operand[i]);
     return read;
 }
@@ -101,18 +95,6 @@ static bool write_to(nh_cli *cli, const char *path, const char *text, size_t len
     return true;
 }
 
-bool nh_cli_write_picture(nh_cli *cli, nh_text *svg, nh_error *error)
-{
-    nh_text pdf;
-    nh_text_init(&pdf);
-    bool good = !cli->pdf || nh_cli_pdf(svg, &pdf, error);
-    good = good && (!cli->pdf || write_to(cli, cli->pdf, pdf.data, pdf.length, error));
-    good = good && (!cli->svg || write_to(cli, cli->svg, nh_text_string(svg), svg->length, error));
-    nh_text_clear(&pdf);
-    nh_text_clear(svg);
-    return good;
-}
-
 bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error)
 {
     bool good = write_to(cli, path, nh_text_string(text), text->length, error);
@@ -120,31 +102,91 @@ bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error)
     return good;
 }
 
-bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error)
+bool nh_cli_written(nh_cli *cli, bool good, nh_error *error) { return nh_output_end(&cli->files, good, error); }
+
+void nh_cli_print(nh_text *text)
 {
-    bool good = write_to(cli, cli->json, json, strlen(json), error);
-    nh_free(json);
-    return good;
+    nh_text safe;
+    nh_text_init(&safe);
+    nh_escape_terminal(nh_text_string(text), &safe);
+    fputs(nh_text_string(&safe), stdout);
+    nh_text_clear(&safe);
+    nh_text_clear(text);
 }
+
+/* ---- answers ---- */
 
 static nh_pen_style style_of(const nh_cli *cli, nh_pen_form form, bool colour)
 {
     return (nh_pen_style){.form = form, .fragment = cli->fragment, .verbose = cli->verbose, .colour = colour};
 }
 
-bool nh_cli_write_words(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error)
+/* The document in words: printed, and in the folder of -o. */
+static bool put_words(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
     nh_text text;
     nh_text_init(&text);
-    if (nh_cli_speaks(cli)) render(result, run, style_of(cli, NH_PEN_TEXT, cli->colour), &text);
+    if (nh_cli_speaks(cli)) a->kind->write(a, style_of(cli, NH_PEN_TEXT, cli->colour), &text);
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
     if (!cli->folder) return true;
-    render(result, run, style_of(cli, NH_PEN_TEXT, false), &text);
+    a->kind->write(a, style_of(cli, NH_PEN_TEXT, false), &text);
     return nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), &text, error);
 }
 
-bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error)
+/* Where the table stands; NULL: in no file. */
+static const char *table_path(nh_cli *cli, const nh_answer *a)
+{
+    const char *name = a->kind->table_name;
+    return cli->csv && a->kind->table ? cli->csv : cli->folder && name ? nh_cli_in_folder(cli, name) : NULL;
+}
+
+/* What is printed: a table or code, unless a file has it, or else the document in words.  Then the notes. */
+static bool put_answer(nh_cli *cli, const nh_answer *a, nh_error *error)
+{
+    const nh_answer_kind *k = a->kind;
+    nh_text text;
+    nh_text_init(&text);
+    bool filed = k->table_name && table_path(cli, a), good = true;
+    bool held = filed || (k->table_name && cli->json) || (k->files && cli->folder);
+    bool table = k->print && k->print(a, &text), printed = table && !held && !a->failed && nh_cli_delivers(cli);
+    if (printed) fputs(nh_text_string(&text), stdout);
+    nh_text_clear(&text);
+    if (!table) good = put_words(cli, a, error);
+    if (k->notes && !cli->quiet) k->notes(a, cli->verbose, printed || filed, &text);
+    fputs(nh_text_string(&text), stderr);
+    nh_text_clear(&text);
+    return good;
+}
+
+/* The table, and what else stands in the folder. */
+static bool put_files(nh_cli *cli, const nh_answer *a, nh_error *error)
+{
+    nh_answer_file file[NH_ANSWER_FILES];
+    const char *path = a->failed ? NULL : table_path(cli, a);
+    nh_text text;
+    nh_text_init(&text);
+    if (path) a->kind->table(a, &text);
+    bool good = !path || nh_cli_write(cli, path, &text, error);
+    size_t n = good && cli->folder && a->kind->files ? a->kind->files(a, file) : 0;
+    for (size_t i = 0; i < n; i++) {
+        path = nh_cli_in_folder(cli, file[i].name);
+        cli->wrote = cli->wrote ? nh_arena_printf(cli->arena, "%s, %s", cli->wrote, path) : path;
+        good = nh_cli_write(cli, path, &file[i].text, error) && good;
+    }
+    return good;
+}
+
+static bool put_json(nh_cli *cli, const nh_answer *a, nh_error *error)
+{
+    if (!cli->json) return true;
+    char *json = a->kind->json(a);
+    bool good = write_to(cli, cli->json, json, strlen(json), error);
+    nh_free(json);
+    return good;
+}
+
+static bool put_documents(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
 #define X(name, form, writer) cli->name,
     const char *const path[] = {NH_PEN_FORM_TABLE(X)};
@@ -154,47 +196,50 @@ bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *resu
     nh_text_init(&text);
     for (nh_pen_form form = 0; form < NH_PEN_TEXT && good; form++) {
         if (!path[form]) continue;
-        render(result, run, style_of(cli, form, false), &text);
+        a->kind->write(a, style_of(cli, form, false), &text);
         if (form == NH_PEN_PAGE && cli->folder) good = nh_cli_write_figures(cli, nh_text_string(&text), error);
         good = nh_cli_write(cli, path[form], &text, error) && good;
     }
     return good;
 }
 
-bool nh_cli_written(nh_cli *cli, bool good, nh_error *error) { return nh_output_end(&cli->files, good, error); }
-
-/* ---- of a run that has no result ---- */
-
-static void render_unfinished(const void *result, const nh_run *run, nh_pen_style style, nh_text *out)
+/* To where --svg and --pdf want it. */
+static bool put_picture(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
-    nh_unfinished_write(result, run, style, out);
+    nh_text svg, pdf;
+    if ((!cli->svg && !cli->pdf) || !a->kind->picture) return true;
+    nh_text_init(&svg);
+    nh_text_init(&pdf);
+    a->kind->picture(a, &svg);
+    bool good = !cli->pdf || nh_cli_pdf(&svg, &pdf, error);
+    good = good && (!cli->pdf || write_to(cli, cli->pdf, pdf.data, pdf.length, error));
+    good = good && (!cli->svg || write_to(cli, cli->svg, nh_text_string(&svg), svg.length, error));
+    nh_text_clear(&pdf);
+    nh_text_clear(&svg);
+    return good;
 }
 
-/* Words are not printed where a table or code is expected. */
-static bool write_unfinished(nh_cli *cli, const nh_unfinished *u, const nh_run *run, nh_error *error)
+bool nh_cli_write_answer(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
-    bool quiet = cli->quiet;
-    cli->quiet |= cli->to || !strcmp(cli->command, "simulate");
-    bool good = nh_cli_write_words(cli, render_unfinished, u, run, error);
-    cli->quiet = quiet;
-    if (cli->json && good) good = nh_cli_write_json(cli, nh_unfinished_json(u, run), error);
-    good = good && nh_cli_write_documents(cli, render_unfinished, u, run, error);
-    return nh_cli_written(cli, good, error);
+    bool good = put_answer(cli, a, error) && put_files(cli, a, error) && put_json(cli, a, error) &&
+                put_documents(cli, a, error) && put_picture(cli, a, error);
+    return nh_cli_written(cli, good && !a->failed, error);
 }
 
-int nh_cli_failed(nh_cli *cli, const nh_run *run, nh_error *error)
+int nh_cli_failed(nh_cli *cli, nh_error *error)
 {
-    char doing[80], why[80];
+    nh_answer a;
+    char doing[80];
     if (!nh_interrupted() || error->code == NH_USAGE) return error->code;
     nh_cli_guard_writing();
     nh_error_clear(error);
     nh_progress_last(doing, sizeof doing);
-    nh_ended_words(why, sizeof why);
-    nh_system *system = run->system_path ? nh_system_read(run->system_path, cli->settings, cli->setting, error) : NULL;
-    nh_error_clear(error);
-    nh_unfinished u = {system, doing, why, !strcmp(cli->command, "analyze")};
-    bool good = !system || write_unfinished(cli, &u, run, error);
-    nh_system_free(system);
+    bool some = nh_answer_unfinished(&a, &cli->ask), quiet = cli->quiet;
+    /* words are not printed where a table or code is expected */
+    cli->quiet |= cli->ask.to || !strcmp(cli->command, "simulate");
+    bool good = !some || nh_cli_write_answer(cli, &a, error);
+    cli->quiet = quiet;
+    if (some) nh_answer_free(&a);
     if (good) nh_fail_ended(error, "before there was a result%s%s", *doing ? ": " : "", doing);
     return error->code;
 }

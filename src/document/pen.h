@@ -9,6 +9,7 @@
 #ifndef NH_PEN_H
 #define NH_PEN_H
 
+#include "document/form.h"
 #include "document/html_internal.h"
 #include "document/sheet.h"
 #include "document/tex_internal.h"
@@ -68,23 +69,6 @@ typedef struct {
     void (*glossary)(void *to, const char *words);   /* what these words mean; on pages only */
     void (*end)(void *to, const nh_run *run);
 } nh_pen_ink;
-
-/* The forms of documents that have an option of the command line: its name, which is that of the ink nh_pen_NAME, too;
- * the form; the member of nh_pen that the ink writes to. */
-#define NH_PEN_FORM_TABLE(X)    \
-    X(html, NH_PEN_PAGE, page)  \
-    X(tex,  NH_PEN_LATEX, tex)
-
-#define X(name, form, writer) form,
-typedef enum { NH_PEN_FORM_TABLE(X) NH_PEN_TEXT } nh_pen_form;
-#undef X
-
-/* `fragment`: LaTeX without the lines before and after the body.  `verbose`: with all the numbers.  `colour`: a
-   terminal that has it. */
-typedef struct {
-    nh_pen_form form;
-    bool fragment, verbose, colour;
-} nh_pen_style;
 
 /* What a document is about; formulas longer than `shown` are left out of it, those longer than `written` (0: none) of
    the JSON. */

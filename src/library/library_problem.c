@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "exact/normal.h"
 #include "library/library_internal.h"
-#include "problem/places.h"
 
 const char *nh_version_text(void) { return NH_VERSION; }
 
@@ -28,8 +27,8 @@ void nh_problem_enter(nh_problem *p)
     nh_files_swap(&p->files);
     nh_files_begin();
     nh_interrupt_clear();
-    nh_limit_set(p->limited ? p->options.max_seconds : INFINITY); /* as on the command line */
-    nh_limit_memory_set(p->options.max_memory * NH_MEGABYTE);
+    nh_limit_set(p->request.limited ? p->request.options.max_seconds : INFINITY);
+    nh_limit_memory_set(p->request.options.max_memory * NH_MEGABYTE);
 }
 
 void nh_problem_leave(nh_problem *p)
@@ -43,22 +42,6 @@ void nh_problem_leave(nh_problem *p)
 /* ---- questions ---- */
 
 static const char *copied(nh_arena *arena, const char *text) { return text ? nh_arena_strdup(arena, text) : NULL; }
-
-static nh_question copy_of(nh_arena *arena, const nh_question *q)
-{
-    nh_question c = *q;
-    c.system = copied(arena, q->system);
-    c.system_text = copied(arena, q->system_text);
-    c.analysis = copied(arena, q->analysis);
-    c.analysis_text = copied(arena, q->analysis_text);
-    c.set = copied(arena, q->set);
-    c.velocities = copied(arena, q->velocities);
-    c.initial = copied(arena, q->initial);
-    c.watch = copied(arena, q->watch);
-    c.method = copied(arena, q->method);
-    c.options = copied(arena, q->options);
-    return c;
-}
 
 /* The next "name = value" of a list with commas or semicolons between; false at its end, or with a message where there
    is none. */
@@ -81,76 +64,65 @@ static bool next_pair(nh_arena *arena, const char **at, const char *what, const 
     return true;
 }
 
-static bool read_parameters(nh_problem *p, nh_error *error)
+static bool read_parameters(nh_request *r, const char *set, nh_error *error)
 {
-    const char *at = p->question.set, *name, *value;
-    p->setting = nh_arena_alloc(p->arena, (at ? strlen(at) : 1) * sizeof *p->setting);
-    while (at && next_pair(p->arena, &at, "set", &name, &value, error)) {
+    const char *name, *value;
+    r->setting = nh_arena_alloc(r->arena, (set ? strlen(set) : 1) * sizeof *r->setting);
+    while (set && next_pair(r->arena, &set, "set", &name, &value, error)) {
         double x;
         if (!nh_text_to_number(value, &x))
             return nh_fail(error, NH_USAGE, "", "set: `%s` needs a number, found `%s`", name, value);
-        p->setting[p->settings++] = (nh_setting){.name = name, .value = x};
+        r->setting[r->settings++] = (nh_setting){.name = name, .value = x};
     }
     return error->code == NH_OK;
 }
 
-static bool read_options(nh_problem *p, nh_error *error)
+static bool read_options(nh_request *r, const nh_question *q, nh_error *error)
 {
-    const char *at = p->question.options, *name, *value;
-    nh_options_default(&p->options);
-    while (at && next_pair(p->arena, &at, "options", &name, &value, error)) {
-        if (!nh_options_set(&p->options, name, value, error)) return false;
-        p->limited |= !strcmp(name, "max_seconds");
-        p->seed_given |= !strcmp(name, "seed");
-        p->samples_given |= !strcmp(name, "samples");
-        p->tolerance_given |= !strcmp(name, "tolerance");
+    const char *at = q->options, *name, *value;
+    nh_options_default(&r->options);
+    while (at && next_pair(r->arena, &at, "options", &name, &value, error)) {
+        if (!nh_options_set(&r->options, name, value, error)) return false;
+        r->limited |= !strcmp(name, "max_seconds");
+        r->seed_given |= !strcmp(name, "seed");
+        r->samples_given |= !strcmp(name, "samples");
+        r->tolerance_given |= !strcmp(name, "tolerance");
     }
-    if (p->question.until > 0) p->options.until = p->question.until;
+    r->until_given = q->until > 0;
+    if (r->until_given) r->options.until = q->until;
     return error->code == NH_OK;
 }
 
-static bool read_velocities(nh_problem *p, nh_error *error)
+/* A text is from now on what its name stands for. */
+static const char *named_text(nh_arena *arena, const char *name, const char *usual, const char *text)
 {
-    static const char *const names[] = {"auto", "quasi", "coordinates"};
-    const char *given = p->question.velocities;
-    for (int i = 0; i < 3; i++) {
-        if (given && strcmp(given, names[i])) continue;
-        p->chart = (nh_chart_choice)i;
-        return true;
-    }
-    nh_fail(error, NH_USAGE, "", "there are no velocities `%s`", given);
-    return nh_error_hint(error, "velocities takes auto, quasi or coordinates");
-}
-
-/* The name of a text or the path of a file, of a system or an analysis; the text is from then on what that name stands
-   for. */
-static const char *source(nh_problem *p, const char *kind, const char *name, const char *text, nh_error *error)
-{
-    if (!text) return name ? nh_places_find(p->arena, kind, name, error) : NULL;
-    if (!name) name = strcmp(kind, "systems") ? "analysis" : "system";
+    name = nh_arena_strdup(arena, name ? name : usual);
     nh_files_add(name, text, strlen(text));
     return name;
 }
 
-static bool open_problem(nh_problem *p, nh_error *error)
+static bool find_files(nh_request *r, const nh_question *q, nh_error *error)
 {
-    const nh_question *q = &p->question;
+    if (q->system_text) r->system_path = named_text(r->arena, q->system, "system", q->system_text);
+    else if (!nh_request_system(r, q->system, error)) return false;
+    if (q->no_analysis) return true;
+    if (q->analysis_text) r->analysis_path = named_text(r->arena, q->analysis, "analysis", q->analysis_text);
+    else if (q->analysis) return nh_request_analysis(r, q->analysis, error);
+    else if (!q->system_text) nh_request_usual_analysis(r, q->system);
+    return true;
+}
+
+static bool open_problem(nh_problem *p, const nh_question *q, nh_error *error)
+{
+    nh_request *r = &p->request;
     if (!q->system && !q->system_text) {
         nh_fail(error, NH_USAGE, "", "the question names no system");
         return nh_error_hint(error, "give a name, a path, or the text of a system file");
     }
-    if (!read_parameters(p, error) || !read_velocities(p, error) ||
-        (q->method && !nh_method_given(q->method, &p->method, error)))
+    if (!read_parameters(r, q->set, error) || (q->velocities && !nh_request_velocities(r, q->velocities, error)) ||
+        (q->method && !nh_request_method(r, q->method, error)) || !find_files(r, q, error))
         return false;
-    p->system_path = source(p, "systems", q->system, q->system_text, error);
-    if (!p->system_path) return false;
-    bool named = !q->system_text && !nh_places_is_path(q->system);
-    if (q->no_analysis) p->analysis_path = NULL;
-    else if (q->analysis || q->analysis_text)
-        p->analysis_path = source(p, "analyses", q->analysis, q->analysis_text, error);
-    else if (named) p->analysis_path = nh_places_look(p->arena, "analyses", q->system);
-    if (error->code != NH_OK) return false;
-    p->system = nh_system_read(p->system_path, p->settings, p->setting, error);
+    p->system = nh_system_read(r->system_path, r->settings, r->setting, error);
     return p->system != NULL;
 }
 
@@ -161,10 +133,16 @@ nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh
     nh_error_clear(told);
     nh_arena   *arena = nh_arena_create();
     nh_problem *p = nh_arena_alloc(arena, sizeof *p);
-    *p = (nh_problem){.context = context, .arena = arena, .question = copy_of(arena, question)};
-    bool good = read_options(p, told);
+    *p = (nh_problem){.context = context, .arena = arena};
+    p->request = (nh_request){.arena = arena,
+                              .initial = copied(arena, question->initial),
+                              .from = "initial",
+                              .watch = copied(arena, question->watch),
+                              .step = question->step,
+                              .accuracy = question->accuracy};
+    bool good = read_options(&p->request, question, told);
     nh_problem_enter(p);
-    good = good && open_problem(p, told);
+    good = good && open_problem(p, question, told);
     nh_problem_leave(p);
     if (good) return p;
     nh_problem_free(p);

@@ -12,8 +12,10 @@ struct nh_rates {
 
 static bool write_equations(const nh_problem *p, nh_rates *e, nh_error *error)
 {
-    e->system = nh_system_read(p->system_path, p->settings, p->setting, error);
-    nh_chart *chart = e->system ? nh_chart_create(e->system, p->chart, (uint64_t)p->options.seed, error) : NULL;
+    const nh_request *q = &p->request;
+    e->system = nh_system_read(q->system_path, q->settings, q->setting, error);
+    nh_chart *chart =
+        e->system ? nh_chart_create(e->system, q->velocities, (uint64_t)q->options.seed, error) : NULL;
     e->model = chart ? nh_model_bare(e->system, chart) : NULL;
     if (!e->model || !nh_model_regular(e->model, error)) return false;
     e->bordered = nh_bordered_create(e->model);

@@ -1,0 +1,18 @@
+/* answer_internal: the rows of the table of answers. */
+#ifndef NH_LIBRARY_ANSWER_INTERNAL_H
+#define NH_LIBRARY_ANSWER_INTERNAL_H
+
+#include "commands/simulate.h"
+#include "library/answer.h"
+
+#define NH_ANSWER_TABLE(X) X(analyze) X(verify) X(simulate) X(benchmark) X(reduce) X(classify) X(scan) X(export)
+#define X(name) extern const nh_answer_kind nh_answer_##name;
+NH_ANSWER_TABLE(X)
+#undef X
+
+/* The motion that a request asks for. */
+nh_simulate_request nh_answer_motion(const nh_request *request);
+/* The exit code of an answer that is not refuted. */
+int nh_answer_code(bool partial, const nh_error *error);
+
+#endif
