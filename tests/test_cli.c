@@ -424,6 +424,19 @@ Test(cli, settings_reach_the_result)
     place_clear(&p);
 }
 
+/* An analysis file has an end time of its own, which an option outranks, however the option is written. */
+Test(cli, option_outranks_the_analysis_as_the_option_of_that_name_does)
+{
+    place p = place_with_systems();
+    finished named = run_expecting(&p, "simulate sleigh --initial omega=2 --step 1 --tolerance 1e-6 --until 3", 0),
+             listed = run_expecting(&p, "simulate sleigh --initial omega=2 --step 1 --option tolerance=1e-6 --option until=3", 0);
+    cr_expect_str_eq(listed.out, named.out);
+    check_contains(named.out, "\n3,");
+    finished_clear(&named);
+    finished_clear(&listed);
+    place_clear(&p);
+}
+
 Test(cli, quiet_prints_nothing)
 {
     place p = place_make();

@@ -190,18 +190,12 @@ static bool add_methods(nh_cli *cli, const char *text, nh_error *error)
     return add_method(cli, text, &ignored) || each(cli, text, "method", add_method, error);
 }
 
-static bool set_option(nh_cli *cli, const char *name, const char *text, nh_error *error)
-{
-    cli->ask.limited = cli->ask.limited || !strcmp(name, "max_seconds");
-    return nh_options_set(&cli->ask.options, name, text, error);
-}
-
 /* "absolute=1e-12" */
 static bool add_option(nh_cli *cli, const char *text, nh_error *error)
 {
     char *name;
     const char *value;
-    return assignment(cli, text, "option", &name, &value, error) && set_option(cli, name, value, error);
+    return assignment(cli, text, "option", &name, &value, error) && nh_request_option(&cli->ask, name, value, error);
 }
 
 static bool positive(const char *text, const char *option, double *out, nh_error *error)
@@ -311,16 +305,6 @@ static const char *name_of(int code)
     return o->name;
 }
 
-/* An option of docs/options.md that has a name of its own. */
-static bool set_number(nh_cli *cli, int code, const char *value, nh_error *error)
-{
-    cli->ask.seed_given = cli->ask.seed_given || code == opt_seed;
-    cli->ask.samples_given = cli->ask.samples_given || code == opt_samples;
-    cli->ask.tolerance_given = cli->ask.tolerance_given || code == opt_tolerance;
-    cli->ask.until_given = cli->ask.until_given || code == opt_until;
-    return nh_options_set(&cli->ask.options, name_of(code), value, error);
-}
-
 /* Where to read on: the help of the command, as far as the line names one. */
 static const char *help_of(const nh_cli *cli)
 {
@@ -395,8 +379,9 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     switch (code) {
     case opt_set: return each(cli, value, "set", set_parameter, error);
     case opt_seed: case opt_samples: case opt_tolerance: case opt_until:
-    case opt_threads: case opt_columns: case opt_degree: return set_number(cli, code, value, error);
-    case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
+    case opt_threads: case opt_columns: case opt_degree:
+        return nh_request_option(&cli->ask, name_of(code), value, error);
+    case opt_max_seconds: return nh_request_option(&cli->ask, "max_seconds", value, error);
     case opt_max_memory: return size(value, &cli->ask.options.max_memory, error);
     case opt_initial: cli->ask.initial = joined(cli, cli->ask.initial, value); return true;
     case opt_initial_table: cli->ask.table = file_of(value); return true;

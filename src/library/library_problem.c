@@ -81,15 +81,9 @@ static bool read_options(nh_request *r, const nh_question *q, nh_error *error)
 {
     const char *at = q->options, *name, *value;
     nh_options_default(&r->options);
-    while (at && next_pair(r->arena, &at, "options", &name, &value, error)) {
-        if (!nh_options_set(&r->options, name, value, error)) return false;
-        r->limited |= !strcmp(name, "max_seconds");
-        r->seed_given |= !strcmp(name, "seed");
-        r->samples_given |= !strcmp(name, "samples");
-        r->tolerance_given |= !strcmp(name, "tolerance");
-    }
-    r->until_given = q->until > 0;
-    if (r->until_given) r->options.until = q->until;
+    while (at && next_pair(r->arena, &at, "options", &name, &value, error))
+        if (!nh_request_option(r, name, value, error)) return false;
+    if (q->until > 0) r->until_given = true, r->options.until = q->until;
     return error->code == NH_OK;
 }
 

@@ -12,6 +12,20 @@
 
 static const char words_of_line[] = ", command line"; /* how the name of a completed file ends */
 
+bool nh_request_option(nh_request *q, const char *name, const char *text, nh_error *error)
+{
+    const struct {
+        const char *name;
+        bool *given;
+    } known[] = {{"max_seconds", &q->limited},
+                 {"seed", &q->seed_given},
+                 {"samples", &q->samples_given},
+                 {"tolerance", &q->tolerance_given},
+                 {"until", &q->until_given}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) *known[i].given |= !strcmp(name, known[i].name);
+    return nh_options_set(&q->options, name, text, error);
+}
+
 bool nh_request_velocities(nh_request *q, const char *word, nh_error *error)
 {
     static const char *const names[] = {"auto", "quasi", "coordinates"};

@@ -62,7 +62,9 @@ typedef struct {
     void (*begin_worker)(void);
 } nh_request;
 
-/* "auto", "quasi" or "coordinates"; the name of one more integrator, or "auto". */
+/* A numerical option by its name (base/option.h); "auto", "quasi" or "coordinates"; the name of one more integrator, or
+   "auto". */
+bool nh_request_option(nh_request *request, const char *name, const char *text, nh_error *error);
 bool nh_request_velocities(nh_request *request, const char *word, nh_error *error);
 bool nh_request_method(nh_request *request, const char *word, nh_error *error);
 /* A parameter over time: an expression of t, or FILE.csv:COLUMN.  There is room for one more setting. */
