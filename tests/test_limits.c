@@ -74,6 +74,21 @@ Test(limits, an_ensemble_names_its_limit)
 
 /* The program alone takes more than this. */
 /* What an ensemble would need is told before it is computed, with what there is and what to do. */
+/* Wherever the limit falls: in a motion or between two. */
+Test(limits, a_table_of_motions_holds_those_before_the_limit)
+{
+    place p = place_with_systems();
+    for (int i = 0; i < 3; i++) {
+        char line[PATH_MAX + 20];
+        snprintf(line, sizeof line, "simulate sleigh --over k=1:2:1000 --until 10 --csv %d.csv -q --max-seconds 0.2%d", i, i);
+        finished f = run_expecting(&p, line, 5);
+        cr_expect(strstr(f.err, " s was reached when ") && strstr(f.err, " of 1000 motions were computed\nhint: raise it by --max-seconds"), "%s: %s", line, f.err);
+        snprintf(line, sizeof line, "%s/%d.csv", p.folder, i);
+        cr_expect_eq(access(line, R_OK), 0, "%s is not there", line);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
 Test(limits, an_ensemble_beyond_the_memory_says_its_size)
 {
     place p = place_with_systems();

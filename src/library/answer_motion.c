@@ -78,6 +78,10 @@ static bool run_series(nh_answer *a, const nh_simulate_request *q, const nh_simu
            run_row(a, *q, done, &rows->row[done], all, &complete, error))
         done++;
     a->failed = done < rows->count && !nh_interrupted();
+    if (done < rows->count && nh_interrupted()) {
+        nh_error_clear(error);
+        nh_fail_ended(error, "when %zu of %zu motions were computed", done, rows->count);
+    }
     if (all->root) nh_json_put_bool(all->root, "complete", complete && done == rows->count);
     if (all->root) nh_json_put_bool(all->root, "partial", nh_interrupted());
     return (a->part[1] = all) != NULL;
