@@ -84,6 +84,7 @@ typedef struct {
     const char *watch;         /* observables of a simulation: "y, T = m/2*v^2" */
     const char *method;        /* of a simulation: an integrator that `nhsym explain methods` lists; NULL: the one that suits */
     const char *options;       /* of docs/options.md: "seed=3, samples=500" */
+    bool        project;       /* initial velocities that violate the constraints are moved onto them */
 } nh_question;
 
 typedef struct nh_problem nh_problem;
@@ -117,8 +118,17 @@ NH_API nh_verification *nh_verify_field(nh_problem *problem, const char *field, 
 
 /* `shape`: only currents whose coefficients do not depend on cyclic coordinates. */
 NH_API nh_classified   *nh_classify_over(nh_problem *problem, const char *parameter, bool shape, nh_error *error);
-/* `seconds`: of processor time for the measurements; 0: 5. */
-NH_API nh_benchmark    *nh_benchmark_methods(nh_problem *problem, double seconds, nh_error *error);
+
+/* What a comparison of integrators is asked beside the question; members that are NULL, 0 or false are not given. */
+typedef struct {
+    double      seconds;    /* for the measurements; 0: 5 */
+    const char *methods;    /* only these, which `nhsym explain methods` lists: "rk8pd, dalembert" */
+    bool        robustness; /* also maps of where methods fail, which compare five methods of their own */
+    const char *over;       /* one such map, over one or two ranges: "a=1e-9:1, omega=1:9" */
+} nh_comparison;
+
+/* `comparison` may be NULL: all methods, 5 seconds. */
+NH_API nh_benchmark    *nh_benchmark_methods(nh_problem *problem, const nh_comparison *comparison, nh_error *error);
 
 NH_API void nh_analysis_free(nh_analysis *analysis);
 NH_API void nh_simulation_free(nh_simulation *simulation);
@@ -127,9 +137,17 @@ NH_API void nh_verification_free(nh_verification *verification);
 NH_API void nh_classified_free(nh_classified *classified);
 NH_API void nh_benchmark_free(nh_benchmark *benchmark);
 
-/* The documents of the command line.  LaTeX of a reduction are its equations, else a document.  The text of a simulation is its table.  Free the string by
- * nh_string_free. */
-typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX } nh_format;
+/* The documents of the command line.  LaTeX of a reduction are its equations, else a document.  The text of a
+ * simulation is its table.  CSV: simulation, reduction, benchmark; SVG: simulation, benchmark; of another result these
+ * are NULL with an error.  Free the string by nh_string_free. */
+typedef enum {
+    NH_FORMAT_TEXT,
+    NH_FORMAT_JSON,
+    NH_FORMAT_HTML,
+    NH_FORMAT_LATEX,
+    NH_FORMAT_CSV,
+    NH_FORMAT_SVG
+} nh_format;
 
 NH_API char *nh_analysis_document(const nh_analysis *analysis, nh_format format, nh_error *error);
 NH_API char *nh_simulation_document(const nh_simulation *simulation, nh_format format, nh_error *error);

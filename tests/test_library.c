@@ -12,6 +12,8 @@
 #include "sweep.h"
 
 /* A harmonic oscillator: energy and phase. */
+static const char skate[] = "name: skate\nparameters: [{name: b, value: 3}]\ncoordinates: [{name: phi, type: angle}, x, y]\n"
+                            "lagrangian: x'^2 + y'^2 + phi'^2/4 + 2*b*x\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n";
 static const char oscillator[] = "name: spring\n"
                                  "parameters:\n  - {name: m, value: 2}\n  - {name: k, value: 8}\n"
                                  "coordinates: [x]\n"
@@ -217,7 +219,7 @@ Test(library, a_parameter_is_classified)
 Test(library, methods_are_compared)
 {
     opened o = open_one((nh_question){.system_text = oscillator, .initial = "x=1", .until = 3});
-    nh_benchmark *b = nh_benchmark_methods(o.problem, 0.2, &o.error);
+    nh_benchmark *b = nh_benchmark_methods(o.problem, &(nh_comparison){.seconds = 0.2}, &o.error);
     cr_assert_not_null(b, "%s", o.error.what);
     static const nh_format formats[] = {NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML};
     for (int f = 0; f < 3; f++) {
@@ -226,6 +228,41 @@ Test(library, methods_are_compared)
         nh_string_free(text);
     }
     nh_benchmark_free(b);
+    close_one(&o);
+}
+
+/* As --method, --csv, --svg, --over and --project of the command; the result outlives its question. */
+Test(library, named_methods_are_compared)
+{
+    opened o = open_one((nh_question){.system_text = skate, .initial = "phi=0.3, phi'=1, x'=1, y'=0.4", .until = 1, .project = true});
+    nh_benchmark *b = nh_benchmark_methods(o.problem, &(nh_comparison){.seconds = 0.2, .methods = "rk8pd, dalembert"}, &o.error);
+    cr_assert_not_null(b, "%s", o.error.what);
+    cr_expect_null(nh_benchmark_methods(o.problem, &(nh_comparison){.methods = "rk8pd, dalembrt"}, &o.error));
+    cr_expect(o.error.code == NH_USAGE && strstr(o.error.hint, "`dalembert`"), "%s", o.error.hint);
+    cr_expect_null(nh_benchmark_methods(o.problem, &(nh_comparison){.methods = "rk8pd", .over = "b=1:2"}, &o.error));
+    cr_expect_not_null(strstr(o.error.what, "--over"), "%s", o.error.what);
+    nh_benchmark *map = nh_benchmark_methods(o.problem, &(nh_comparison){.seconds = 0.4, .over = "b=1:2:3"}, &o.error);
+    cr_assert_not_null(map, "%s", o.error.what);
+    close_one(&o);
+    char *table = nh_benchmark_document(b, NH_FORMAT_CSV, &o.error), *picture = nh_benchmark_document(b, NH_FORMAT_SVG, &o.error), *json = nh_benchmark_document(map, NH_FORMAT_JSON, &o.error);
+    cr_expect(strstr(table, ",observed_order,") && strstr(table, "Lagrange-d'Alembert") && !strstr(table, "Cash"), "%s", table);
+    cr_expect_not_null(strstr(picture, "</svg>"));
+    cr_expect_not_null(strstr(json, "\"axes\":\t[\"b\"]"), "%s", json);
+    nh_string_free(table);
+    nh_string_free(picture);
+    nh_string_free(json);
+    nh_benchmark_free(map);
+    nh_benchmark_free(b);
+}
+
+Test(library, what_has_no_table_or_picture_says_so)
+{
+    opened o = open_one((nh_question){.system_text = oscillator});
+    nh_verification *v = nh_verify_current(o.problem, "x'", &o.error);
+    cr_assert_not_null(v, "%s", o.error.what);
+    cr_expect_null(nh_verification_document(v, NH_FORMAT_SVG, &o.error));
+    cr_expect(o.error.code == NH_USAGE && strstr(o.error.what, "no picture"), "%s", o.error.what);
+    nh_verification_free(v);
     close_one(&o);
 }
 

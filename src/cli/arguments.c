@@ -178,18 +178,6 @@ static bool add_range(nh_cli *cli, const char *text, nh_error *error)
     return true;
 }
 
-static bool add_method(nh_cli *cli, const char *text, nh_error *error)
-{
-    return nh_request_method(&cli->ask, text, error);
-}
-/* A list of words; some names have commas. */
-static bool add_methods(nh_cli *cli, const char *text, nh_error *error)
-{
-    nh_error ignored;
-    nh_error_clear(&ignored);
-    return add_method(cli, text, &ignored) || each(cli, text, "method", add_method, error);
-}
-
 /* "absolute=1e-12" */
 static bool add_option(nh_cli *cli, const char *text, nh_error *error)
 {
@@ -385,7 +373,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_max_memory: return size(value, &cli->ask.options.max_memory, error);
     case opt_initial: cli->ask.initial = joined(cli, cli->ask.initial, value); return true;
     case opt_initial_table: cli->ask.table = file_of(value); return true;
-    case opt_method: return add_methods(cli, value, error);
+    case opt_method: return nh_request_methods(&cli->ask, value, error);
     case opt_project: return cli->ask.project = true;
     case opt_weak: return cli->ask.weak = true;
     case opt_step: return positive(value, "step", &cli->ask.step, error);

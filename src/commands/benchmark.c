@@ -463,7 +463,9 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
                              .once = once};
     out->arena = arena;
     out->methods = request->methods;
-    out->only = request->only;
+    const nh_method **only = nh_arena_alloc(arena, request->methods * sizeof *only);
+    for (size_t i = 0; i < request->methods; i++) only[i] = request->only[i];
+    out->only = only; /* the caller's list may end before the result */
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
     if (!nh_simulate_read(out->question, request, &c->initial, &out->end, error)) return false;
@@ -576,5 +578,6 @@ void nh_benchmark_free(nh_benchmark *c)
 {
     if (!c) return;
     nh_simulation_free(c->question);
+    nh_arena_free(c->of_maps);
     nh_arena_free(c->arena);
 }

@@ -57,6 +57,9 @@ struct nh_benchmark {
     nh_simulation *question;     /* system, model, analysis */
     size_t methods;              /* only these were wanted; 0: all */
     const nh_method *const *only;
+    /* of where methods fail, or NULL; in an arena of its own, which nh_benchmark_free frees */
+    const struct nh_robustness *maps;
+    nh_arena *of_maps;
     double begin, end;
     const char *reference, *second;
     double agreement;            /* of these two: smaller errors mean nothing */

@@ -254,3 +254,16 @@ void nh_robustness_free(nh_robustness *maps)
 {
     if (maps) nh_arena_free(maps->arena);
 }
+
+nh_benchmark *nh_robustness_benchmark(const nh_simulate_request *request, const char *over, double seconds,
+                                      nh_error *error)
+{
+    static const double usual = 5, longest = 300; /* seconds: of runs; of maps, which count steps */
+    nh_benchmark *b = nh_benchmark_run(request, seconds > 0 ? seconds / 2 : usual, error);
+    if (!b || nh_interrupted()) return b;
+    nh_robustness *maps = nh_robustness_create(request, over, seconds > 0 ? seconds / 2 : longest, error);
+    if (!maps) return nh_benchmark_free(b), NULL;
+    b->maps = maps;
+    b->of_maps = maps->arena;
+    return b;
+}

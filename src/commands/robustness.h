@@ -39,7 +39,7 @@ typedef struct {
     nh_robustness_cell *cell;
 } nh_robustness_map;
 
-typedef struct {
+typedef struct nh_robustness {
     nh_arena *arena;
     double tolerance, accuracy; /* of every run; what counts as accurate */
     size_t maps;
@@ -55,5 +55,10 @@ typedef struct {
 nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget,
                                     nh_error *error);
 void nh_robustness_free(nh_robustness *maps);
+
+/* A comparison of methods with these maps in it, each for half of the seconds; 0: 5 for the methods, and the maps count
+ * steps, so that they are the same on a busy machine.  After an interruption there may be no maps. */
+nh_benchmark *nh_robustness_benchmark(const nh_simulate_request *request, const char *over, double seconds,
+                                      nh_error *error);
 
 #endif

@@ -18,30 +18,25 @@ static bool benchmark(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
     nh_simulate_request request = nh_answer_motion(q);
-    /* without a budget of its own a map counts steps, so that it is the same on a busy machine */
-    static const double usual = 5, longest = 300; /* seconds */
-    double budget = q->budget > 0 ? q->budget : usual, of_maps = q->budget > 0 ? budget / 2 : longest;
-    bool maps = wants_maps(q);
-    nh_benchmark *b = nh_benchmark_run(&request, maps && q->budget > 0 ? budget / 2 : budget, error);
-    if (b && maps && !nh_interrupted()) a->part[1] = nh_robustness_create(&request, q->over, of_maps, error);
-    if (b && error->code == NH_OK) return (a->part[0] = b) != NULL;
-    if (a->part[1]) nh_robustness_free(a->part[1]);
-    if (b) nh_benchmark_free(b);
-    return false;
+    static const double usual = 5; /* seconds */
+    a->part[0] = wants_maps(q) ? nh_robustness_benchmark(&request, q->over, q->budget, error)
+                               : nh_benchmark_run(&request, q->budget > 0 ? q->budget : usual, error);
+    return a->part[0] != NULL;
 }
 
-static void benchmark_free(nh_answer *a)
-{
-    if (a->part[1]) nh_robustness_free(a->part[1]);
-    nh_benchmark_free(a->part[0]);
-}
+static void benchmark_free(nh_answer *a) { nh_benchmark_free(a->part[0]); }
 
 static void benchmark_write(const nh_answer *a, nh_pen_style style, nh_text *out)
 {
-    nh_benchmark_write(a->part[0], a->part[1], &a->run, style, out);
+    const nh_benchmark *b = a->part[0];
+    nh_benchmark_write(b, b->maps, &a->run, style, out);
 }
 
-static char *benchmark_json(const nh_answer *a) { return nh_benchmark_json(a->part[0], a->part[1], &a->run); }
+static char *benchmark_json(const nh_answer *a)
+{
+    const nh_benchmark *b = a->part[0];
+    return nh_benchmark_json(b, b->maps, &a->run);
+}
 
 static void benchmark_table(const nh_answer *a, nh_text *csv) { nh_benchmark_csv(a->part[0], csv); }
 

@@ -15,6 +15,8 @@ static void *result_of(nh_problem *p, const char *command, nh_request *q, nh_err
     nh_answer a;
     q->command = command;
     nh_error_clear(error);
+    const nh_answer_kind *kind = nh_answer_kind_of(command);
+    if (kind->check && !kind->check(q, error)) return NULL;
     nh_problem_enter(p);
     bool good = nh_answer_create(&a, q, error);
     nh_problem_leave(p);
@@ -77,18 +79,39 @@ nh_classified *nh_classify_over(nh_problem *p, const char *parameter, bool shape
     return result_of(p, "classify", &q, error);
 }
 
-nh_benchmark *nh_benchmark_methods(nh_problem *p, double seconds, nh_error *error)
+nh_benchmark *nh_benchmark_methods(nh_problem *p, const nh_comparison *c, nh_error *error)
 {
     nh_request q = p->request;
-    q.budget = seconds;
+    nh_error_clear(error);
+    q.methods = 0; /* that of the question is of a simulation */
+    if (c && c->methods && !nh_request_methods(&q, c->methods, error)) return NULL;
+    q.budget = c ? c->seconds : 0;
+    q.robustness = c && c->robustness;
+    q.over = c ? c->over : NULL;
     return result_of(p, "benchmark", &q, error);
 }
 
 /* ---- documents ---- */
 
-/* Every format exists: the error stays as it is.  The LaTeX of a reduction are its equations; the table of a simulation
-   is its motion, as in a folder, whether it has a section or not. */
-static char *document(const char *command, const void *result, double seed, nh_format format)
+/* The table or the picture; NULL with a message where there is none. */
+static char *columns(const nh_answer *a, bool picture, nh_error *error)
+{
+    void (*const put)(const nh_answer *, nh_text *) = picture ? a->kind->picture : a->kind->table;
+    if (!put) {
+        nh_fail(error, NH_USAGE, "", "%s has no %s", a->kind->name, picture ? "picture" : "table");
+        return nh_error_hint(error, "it has text, JSON, a page and LaTeX"), NULL;
+    }
+    nh_text text;
+    nh_text_init(&text);
+    put(a, &text);
+    char *out = nh_strdup(nh_text_string(&text));
+    nh_text_clear(&text);
+    return out;
+}
+
+/* The LaTeX of a reduction are its equations; the table of a simulation is its motion, as in a folder, whether it has a
+   section or not. */
+static char *document(const char *command, const void *result, double seed, nh_format format, nh_error *error)
 {
     static const double shown = 600; /* symbols of the longest formula on a page, as by default */
     const nh_request request = {.to = !strcmp(command, "reduce") && format == NH_FORMAT_LATEX ? "latex" : NULL,
@@ -96,7 +119,9 @@ static char *document(const char *command, const void *result, double seed, nh_f
     const nh_answer a = {.kind = nh_answer_kind_of(command), .request = &request, .part = {(void *)result},
                          .run = {.seed = seed, .shown = shown, .seconds = NAN}};
     bool table = request.to || (format == NH_FORMAT_TEXT && a.kind->print);
+    nh_error_clear(error);
     if (format == NH_FORMAT_JSON) return a.kind->json(&a);
+    if (format == NH_FORMAT_CSV || format == NH_FORMAT_SVG) return columns(&a, format == NH_FORMAT_SVG, error);
     nh_text text;
     nh_text_init(&text);
     nh_pen_form form = format == NH_FORMAT_HTML ? NH_PEN_PAGE : format == NH_FORMAT_LATEX ? NH_PEN_LATEX : NH_PEN_TEXT;
@@ -109,38 +134,32 @@ static char *document(const char *command, const void *result, double seed, nh_f
 
 char *nh_analysis_document(const nh_analysis *a, nh_format format, nh_error *error)
 {
-    (void)error;
-    return document("analyze", a, 1, format);
+    return document("analyze", a, 1, format, error);
 }
 
 char *nh_simulation_document(const nh_simulation *s, nh_format format, nh_error *error)
 {
-    (void)error;
-    return document("simulate", s, 1, format);
+    return document("simulate", s, 1, format, error);
 }
 
 char *nh_reduction_document(const nh_reduction *r, nh_format format, nh_error *error)
 {
-    (void)error;
-    return document("reduce", r, r->options.seed, format);
+    return document("reduce", r, r->options.seed, format, error);
 }
 
 char *nh_verification_document(const nh_verification *v, nh_format format, nh_error *error)
 {
-    (void)error;
-    return document("verify", v, 1, format);
+    return document("verify", v, 1, format, error);
 }
 
 char *nh_classified_document(const nh_classified *c, nh_format format, nh_error *error)
 {
-    (void)error;
-    return document("classify", c, 1, format);
+    return document("classify", c, 1, format, error);
 }
 
 char *nh_benchmark_document(const nh_benchmark *b, nh_format format, nh_error *error)
 {
-    (void)error;
-    return document("benchmark", b, 1, format);
+    return document("benchmark", b, 1, format, error);
 }
 
 void nh_string_free(char *string) { nh_free(string); }

@@ -133,7 +133,8 @@ nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh
                               .from = "initial",
                               .watch = copied(arena, question->watch),
                               .step = question->step,
-                              .accuracy = question->accuracy};
+                              .accuracy = question->accuracy,
+                              .project = question->project};
     bool good = read_options(&p->request, question, told);
     nh_problem_enter(p);
     good = good && open_problem(p, question, told);

@@ -50,6 +50,19 @@ bool nh_request_method(nh_request *q, const char *word, nh_error *error)
     return true;
 }
 
+/* Some names have commas. */
+bool nh_request_methods(nh_request *q, const char *list, nh_error *error)
+{
+    if (nh_method_find(list)) return nh_request_method(q, list, error);
+    for (const char *at = list; *(at += strspn(at, " ,;"));) {
+        size_t length = nh_text_entry(at, ",;"), end = length;
+        while (end && at[end - 1] == ' ') end--;
+        if (!nh_request_method(q, nh_arena_strndup(q->arena, at, end), error)) return false;
+        at += length;
+    }
+    return true;
+}
+
 bool nh_request_input(nh_request *q, const char *name, const char *text, nh_error *error)
 {
     const char *input = nh_input_text(q->arena, name, text, error);

@@ -67,6 +67,8 @@ typedef struct {
 bool nh_request_option(nh_request *request, const char *name, const char *text, nh_error *error);
 bool nh_request_velocities(nh_request *request, const char *word, nh_error *error);
 bool nh_request_method(nh_request *request, const char *word, nh_error *error);
+/* The entries of a list of integrators. */
+bool nh_request_methods(nh_request *request, const char *list, nh_error *error);
 /* A parameter over time: an expression of t, or FILE.csv:COLUMN.  There is room for one more setting. */
 bool nh_request_input(nh_request *request, const char *name, const char *text, nh_error *error);
 

@@ -7,7 +7,7 @@ import re
 from ctypes import POINTER, c_bool, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
 
 SONAME = "libnhsym.so.1"
-TEXT, JSON, HTML, LATEX = range(4)      # nh_format
+TEXT, JSON, HTML, LATEX, CSV, SVG = range(6)      # nh_format
 PLAIN, AS_LATEX, AS_MATHML = range(3)   # nh_syntax
 
 
@@ -20,7 +20,12 @@ class Question(ctypes.Structure):
     """nh_question"""
     _fields_ = [("system", c_char_p), ("system_text", c_char_p), ("analysis", c_char_p), ("analysis_text", c_char_p), ("no_analysis", c_bool),
                 ("set", c_char_p), ("velocities", c_char_p), ("initial", c_char_p), ("until", c_double), ("step", c_double), ("accuracy", c_double),
-                ("watch", c_char_p), ("method", c_char_p), ("options", c_char_p)]
+                ("watch", c_char_p), ("method", c_char_p), ("options", c_char_p), ("project", c_bool)]
+
+
+class Comparison(ctypes.Structure):
+    """nh_comparison"""
+    _fields_ = [("seconds", c_double), ("methods", c_char_p), ("robustness", c_bool), ("over", c_char_p)]
 
 
 class CurrentFacts(ctypes.Structure):
@@ -56,7 +61,7 @@ SIGNATURES = {
     "nh_verify_current": (c_void_p, [c_void_p, c_char_p, _error]),
     "nh_verify_field": (c_void_p, [c_void_p, c_char_p, _error]),
     "nh_classify_over": (c_void_p, [c_void_p, c_char_p, c_bool, _error]),
-    "nh_benchmark_methods": (c_void_p, [c_void_p, c_double, _error]),
+    "nh_benchmark_methods": (c_void_p, [c_void_p, POINTER(Comparison), _error]),
     "nh_analysis_free": (None, [c_void_p]),
     "nh_simulation_free": (None, [c_void_p]),
     "nh_reduction_free": (None, [c_void_p]),

@@ -9,7 +9,7 @@ import warnings
 import numpy
 
 from ._calls import free_later
-from ._library import AS_LATEX, AS_MATHML, HTML, JSON, LATEX, PLAIN, TEXT, ErrorRecord, UsageError, error_of, library, taken
+from ._library import AS_LATEX, AS_MATHML, CSV, HTML, JSON, LATEX, PLAIN, SVG, TEXT, ErrorRecord, UsageError, error_of, library, taken
 from .formula import Formula
 
 # Keys of the JSON documents whose strings are formulas, at whatever depth.
@@ -146,8 +146,8 @@ class Result(Record):
         return self._document(LATEX)
 
     def save(self, path):
-        """Write the page (.html), the LaTeX document (.tex), the JSON (.json) or the text (.txt, .csv)."""
-        forms = {".html": HTML, ".tex": LATEX, ".json": JSON, ".txt": TEXT, ".csv": TEXT}
+        """Write the page (.html), the LaTeX document (.tex), the JSON (.json), the text (.txt), the table (.csv) or the picture (.svg) where it has one."""
+        forms = {".html": HTML, ".tex": LATEX, ".json": JSON, ".txt": TEXT, ".csv": CSV, ".svg": SVG}
         ending = "." + str(path).rpartition(".")[2]
         if ending not in forms:
             raise UsageError("%s: no such kind of file" % path, "the name ends in " + ", ".join(forms))
@@ -367,14 +367,22 @@ class Picture:
 
 
 class Benchmark(Result):
-    """Integrators compared: `table` has a row per run; `html`, `text` and what the JSON has."""
+    """Integrators compared: `table` has a row per run, with the observed order of methods of fixed steps; `csv` the same as text; `plot()`; and what the JSON has."""
 
     _kind = "benchmark"
-    _formats = (TEXT, JSON, HTML)
+
+    @property
+    def csv(self):
+        """A row per run, as --csv writes it."""
+        return self._document(CSV)
+
+    def plot(self):
+        """A picture (SVG): error against time.  In a notebook it is shown."""
+        return Picture([self._document(SVG)], ["error against time"])
 
     @property
     def table(self):
-        keys = ["method", "formulation", "tolerance", "step", "error", "drift", "seconds", "evaluations", "status", "reduced", "front"]
+        keys = ["method", "formulation", "tolerance", "step", "error", "drift", "seconds", "evaluations", "order", "observed_order", "status", "reduced", "front", "note"]
         return columns(self.json["motion"], keys)
 
 

@@ -8,7 +8,7 @@ import threading
 import numpy
 
 from ._calls import Context, Interrupted, free_later
-from ._library import ErrorRecord, InputError, Question, UsageError, error_of, library
+from ._library import Comparison, ErrorRecord, InputError, Question, UsageError, error_of, library
 from .formula import text_of
 from .results import Analysis, Benchmark, Classification, Reduction, Simulation, Verification, _arrays
 
@@ -243,11 +243,12 @@ class System:
         ask = library().nh_verify_current if field is None else library().nh_verify_field
         return p.call(lambda error: ask(p.address, text, error), progress, lambda a: Verification(a, p))
 
-    def simulate(self, initial=None, until=None, step=None, accuracy=None, method=None, watch=None, options=None, progress=None, events=None, section=None):
+    def simulate(self, initial=None, until=None, step=None, accuracy=None, method=None, watch=None, options=None, progress=None, events=None, section=None,
+                 project=False):
         """A motion: initial={"phi": 0, "omega": 2} (left out: a state on the constraints); watch=["y"] or {"T": "m/2*v^2"}; accuracy: the largest allowed error;
         method: an integrator by name, as `nhsym explain methods` lists them; events=["y = 0, falling, stop"]: zeros that are recorded, or end the motion; section="x": a
-        Poincare section, whose points are `section_table`."""
-        p = self._ask(dict(initial=_pairs(initial), until=until, step=step, accuracy=accuracy, method=method, watch=_list(watch), options=options))
+        Poincare section, whose points are `section_table`; project: initial velocities that violate the constraints are moved onto them."""
+        p = self._ask(dict(initial=_pairs(initial), until=until, step=step, accuracy=accuracy, method=method, watch=_list(watch), options=options, project=project or None))
         events, section = (None if text is None else text.encode() for text in (events if events is None or isinstance(events, str) else "; ".join(events), section))
         return p.call(lambda error: library().nh_simulate_zeros(p.address, events, section, error), progress, lambda a: Simulation(a, p))
 
@@ -261,10 +262,13 @@ class System:
         p = self._ask(dict(options=options))
         return p.call(lambda error: library().nh_classify_over(p.address, _name(over).encode(), shape, error), progress, lambda a: Classification(a, p))
 
-    def benchmark(self, seconds=5, initial=None, until=None, options=None, progress=None):
-        """Integrators compared on one motion; `seconds` for the measurements."""
-        p, seconds = self._ask(dict(initial=_pairs(initial), until=until, options=options)), _positive("seconds", seconds)
-        return p.call(lambda error: library().nh_benchmark_methods(p.address, seconds, error), progress, lambda a: Benchmark(a, p))
+    def benchmark(self, seconds=None, initial=None, until=None, options=None, progress=None, method=None, robustness=False, over=None, project=False):
+        """Integrators compared on one motion; `seconds` for the measurements (5); method: only these, a name or a list of names that `nhsym explain methods` lists;
+        robustness: also maps of where methods fail; over: one such map, over one or two ranges, {"a": "1e-9:1"} or "a=1e-9:1"; project: as for `simulate`."""
+        p = self._ask(dict(initial=_pairs(initial), until=until, options=options, project=project or None))
+        words = [None if text is None else text.encode() for text in (_list(method), _pairs(over))]
+        asked = Comparison(0 if seconds is None else _positive("seconds", seconds), words[0], bool(robustness), words[1])
+        return p.call(lambda error: library().nh_benchmark_methods(p.address, asked, error), progress, lambda a: Benchmark(a, p))
 
     # ---- equations of motion on arrays ----
 

@@ -19,7 +19,8 @@ def ctype(text, freed=False):
         return PLAIN[words[0]]
     if words[0] == "char":
         return ctypes.c_char_p if "const" in text else ctypes.c_void_p
-    special = {"nh_error": ctypes.POINTER(_library.ErrorRecord), "nh_question": ctypes.POINTER(_library.Question)}
+    special = {"nh_error": ctypes.POINTER(_library.ErrorRecord), "nh_question": ctypes.POINTER(_library.Question),
+               "nh_comparison": ctypes.POINTER(_library.Comparison)}
     return special.get(words[0], ctypes.c_void_p)
 
 
@@ -39,7 +40,7 @@ def test_every_function_is_declared_as_in_the_header():
 
 
 def test_structures_have_the_fields_of_the_header():
-    for name, structure in (("nh_error", _library.ErrorRecord), ("nh_question", _library.Question), ("nh_current_facts", _library.CurrentFacts)):
+    for name, structure in (("nh_error", _library.ErrorRecord), ("nh_question", _library.Question), ("nh_comparison", _library.Comparison), ("nh_current_facts", _library.CurrentFacts)):
         body = re.search(r"typedef struct \{([^}]*)\} %s;" % name, BARE).group(1)
         fields = []
         for line in filter(None, (line.strip() for line in body.split(";"))):
@@ -50,7 +51,7 @@ def test_structures_have_the_fields_of_the_header():
 
 
 def test_numbers_and_versions_agree():
-    for enum, first, values in (("nh_format", "NH_FORMAT_TEXT", (_library.TEXT, _library.JSON, _library.HTML, _library.LATEX)),
+    for enum, first, values in (("nh_format", "NH_FORMAT_TEXT", (_library.TEXT, _library.JSON, _library.HTML, _library.LATEX, _library.CSV, _library.SVG)),
                                 ("nh_syntax", "NH_SYNTAX_PLAIN", (_library.PLAIN, _library.AS_LATEX, _library.AS_MATHML))):
         names = re.search(r"typedef enum \{([^}]*)\} %s;" % enum, BARE).group(1).split(",")
         assert names[0].strip() == first and len(names) == len(values) and list(values) == list(range(len(values)))

@@ -118,6 +118,23 @@ def test_reduction_classification_and_benchmark():
     assert len(benchmark.table["method"]) > 5 and benchmark.table["error"].dtype == float
 
 
+def test_a_benchmark_takes_what_the_command_takes(sleigh, tmp_path):
+    benchmark = sleigh.benchmark(0.3, method=["rk8pd", "dalembert"], initial={"phi'": 1, "x'": 1, "y'": 0.1}, project=True)
+    assert {m.partition(",")[0] for m in benchmark.table["method"]} == {"GSL rk8pd", "Lagrange-d'Alembert"} and benchmark.csv.startswith("method,formulation,")
+    by_steps = benchmark.table["method"] == "Lagrange-d'Alembert"
+    assert (benchmark.table["order"][by_steps] == 2).all() and abs(numpy.nanmedian(benchmark.table["observed_order"][by_steps]) - 2) < 0.3
+    benchmark.save(tmp_path / "runs.csv")
+    benchmark.save(tmp_path / "runs.svg")
+    assert (tmp_path / "runs.csv").read_text() == benchmark.csv and "</svg>" in (tmp_path / "runs.svg").read_text() and "</svg>" in benchmark.plot()._repr_svg_()
+    assert sleigh.benchmark(0.4, over={"a": "1:2:2"}).stress[0].axes == ["a"]
+    with pytest.raises(nhsym.UsageError, match="dalembert"):
+        sleigh.benchmark(method="dalembrt")
+    with pytest.raises(nhsym.UsageError, match="over"):
+        sleigh.benchmark(method="rk8pd", over="a=1:2")
+    with pytest.raises(nhsym.UsageError, match="no picture"):
+        sleigh.verify("m*v").save(tmp_path / "no.svg")
+
+
 def test_tables_make_data_frames(analysis):
     pandas = pytest.importorskip("pandas")
     assert list(pandas.DataFrame(analysis.table).columns)[0] == "name"
