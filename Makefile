@@ -119,10 +119,12 @@ bench: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all tests $(BUILD)/tests/nhsym-shared
 	@sh tests/bench.sh $(BUILD) docs/performance.md
 
+# A page of docs/: what tests/pages says of it, and what a program prints.
+page = @{ cat tests/pages/$@.md && $(1); } >$(BUILD)/$@.md; code=$$?; mv $(BUILD)/$@.md docs/
+
 catalogue: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
-	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. Out of reach: with the reason that the file gives. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points. Complete to degree: up to this degree in the velocities nothing but functions of what was found is conserved, whatever functions of the coordinates (with t: of time and the coordinates) the coefficients are; generic: for generic parameters as well ([method.md](method.md), section 10).\n\n'; \
-	   $(BUILD)/tests/bench_catalogue systems; } >$(BUILD)/catalogue.md; code=$$?; mv $(BUILD)/catalogue.md docs/; $(MAKE) --no-print-directory pictures || code=1; tail -n 1 docs/catalogue.md; exit $$code
+	$(call page,$(BUILD)/tests/bench_catalogue systems); $(MAKE) --no-print-directory pictures || code=1; tail -n 1 docs/$@.md; exit $$code
 
 pictures: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
@@ -130,18 +132,15 @@ pictures: test-packages
 
 classification: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
-	@{ printf '# Classification\n\nWritten by `make classification`: families of `tests/data/classify`, whose files hold no answers, by `nhsym classify`. For almost all values: how many integrals polynomial in the velocities of at most this degree there are, with the constant 1, for degrees 1, 2, ..; with <= where products of known ones do not reach that number. Special values: from which degree on there are more; proved: the currents were constructed there and are all. Degenerate: values at which the equations mean nothing. Height: no other rational number with numerator and denominator up to this has more, nor has any transcendental one; no other number: none at all, real or complex; with two parameters, no other pair of rational numbers; with three, no other pair of the last two in the planes of constant first parameter, of height 4 (Suslov and tops: 2), that were not classified as a whole ([method.md](method.md), section 11). s: seconds, with the analyses that construct and prove.\n\n'; \
-	   $(BUILD)/tests/bench_classify; } >$(BUILD)/classification.md; code=$$?; mv $(BUILD)/classification.md docs/; tail -n 1 docs/classification.md; exit $$code
+	$(call page,$(BUILD)/tests/bench_classify); tail -n 1 docs/$@.md; exit $$code
 
 papers: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all tests
-	@{ printf '# The papers\n\nWritten by `make papers`: the numbered equations, definitions, theorems and figures of the three papers that the method stands on, each with a command that shows it, the value of the program on the example of the paper, and the finding: whether what is printed agrees with it, at random points; of a misprint how far the printed form is off and how well the corrected one agrees; that the paper prints no value; or why nothing can be compared. Values of `--equations` are lines of its JSON ([formats.md](formats.md)). Where the command is `make papers`, the program of this page compares with independent values of `tests/data` (of Lie algebras). Long formulas: Phi_1 = -m/2 (v^2 + a^2 k^2 phi\047^2) with v = x\047/cos phi, Phi_2 = m v sin(phi/k) + m a k phi\047 cos(phi/k), Phi_3 = m a^2 k^2/2 log((R + v/a)/(R - v/a)) - m a^2 t R with R = sqrt(v^2/a^2 + k^2 phi\047^2); the commands want them written out, and `--velocities coordinates` beside.\n\n'; \
-	   $(BUILD)/tests/bench_papers; } >$(BUILD)/papers.md; code=$$?; mv $(BUILD)/papers.md docs/; tail -n 1 docs/papers.md; exit $$code
+	$(call page,$(BUILD)/tests/bench_papers); tail -n 1 docs/$@.md; exit $$code
 
 reductions: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
-	@{ printf '# Reductions\n\nWritten by `make reductions`: every system of `systems/` that has a group to reduce by, from $(STATES) initial states of its domain, over ten units of time at the tolerance 1e-10. The last column is a ratio of times on one machine in one run.\n\nKnown: full motions that are known to 100 tolerances up to the end (the others are compared as far as they are known). Followed: reduced motions that go as far, or until the constraints become dependent. Apart: those that are further from the full motion somewhere than 100 tolerances and what that itself is known to (where more than 100 tolerances lie between them: by how much full motions with other tolerances differ; their number stands in brackets). Charts changed: how often another slice or other velocities took over ([method.md](method.md), section 9). Times faster: the time of the full motions divided by that of the reduced ones, with equal tolerances.\n\n'; \
-	   $(BUILD)/tests/bench_reductions systems $(STATES); } >$(BUILD)/reductions.md; code=$$?; mv $(BUILD)/reductions.md docs/; tail -n 1 docs/reductions.md; exit $$code
+	$(call page,$(BUILD)/tests/bench_reductions systems $(STATES)); tail -n 1 docs/$@.md; exit $$code
 
 # One row per system, made anew when the program or the system is newer.
 ROWS = $(BUILD)/parameters-$(SEED)
