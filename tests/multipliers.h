@@ -15,6 +15,8 @@
 
 #include "base/memory.h"
 #include "evaluate/arb.h"
+#include "evaluate/named_value.h"
+#undef I /* a name in headers that may follow */
 #include "graph/diff.h"
 #include "graph/num_long.h"
 #include "exact/normal.h"
@@ -125,7 +127,12 @@ static void arb_function(arb_graph *g, nh_ex e, arb_t out)
     case NH_SIGN: arb_sgn(out, x); break;
     case NH_ATAN2: arb_atan2(out, x, arb_graph_value(g, nh_child(g->dag, e, 1)), b); break;
     case NH_PI: arb_const_pi(out, b); break;
-    default: arb_indeterminate(out);
+    default: { /* Legendre's, Bessel's, ..: a wrong value would not satisfy the equation that their derivatives know */
+        arb_ptr all = _arb_vec_init((slong)nh_arity(g->dag, e));
+        for (size_t i = 0; i < nh_arity(g->dag, e); i++) arb_set(all + i, arb_graph_value(g, nh_child(g->dag, e, i)));
+        nh_named_value_ball(f, all, out, b);
+        _arb_vec_clear(all, (slong)nh_arity(g->dag, e));
+    }
     }
 }
 
