@@ -135,6 +135,17 @@ Test(named_search, euler_disk, .timeout = 300)
     expect_named(r, 3, "riemann_", 2);
 }
 
+/* The elementary ones among them: a frequency that falls as 1/(1 + t^2), and beyond the value at which it becomes a growth. */
+Test(named_search, conjugate_points_elementary)
+{
+    static const char *const force[][2] = {{"-k", "sqrt(k + 1)*atan(t)"}, {"k", "sqrt(k - 1)*atan(t)"}, {"1", "atan(t)"}, {"2", "sinh(atan(t))"}, {"-8", "sin(3*atan(t))"}};
+    for (size_t i = 0; i < sizeof force / sizeof *force; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "name: s\ncoordinates: [x]\nparameters: {k: 1.7}\nlagrangian: x'^2/2 + %s*x^2/(2*(1 + t^2)^2)\n", force[i][0]);
+        expect_named(ask_text(text), 2, force[i][1], 1);
+    }
+}
+
 static void expect_equation(nh_analysis *r, size_t series, const char *equation)
 {
     size_t seen = 0;

@@ -384,6 +384,30 @@ static nh_ex positive_power(matcher *m, nh_ex base, nh_ex exponent)
     return times(m, out, nh_pow(d, rest, exponent));
 }
 
+/* v'' = (a + l (l + 1) x^2)/(1 + x^2)^2 v for a whole number l: with x = tan s, v = sqrt(1 + x^2) u, it is u'' +
+ * (w^2 - l (l + 1)/cos(s)^2) u = 0 for w^2 = 1 - a + l (l + 1), and (d/ds + j tan s) leads from j - 1 to j. */
+static bool turning(matcher *m, nh_ex a, nh_ex c, nh_ex front, nh_ex out[2])
+{
+    enum { most_steps = 6 };
+    nh_dag *d = m->d;
+    nh_ex square = simple(d, plus(m, nh_sub(d, nh_int(d, 1), a), c)), s = nh_call(d, NH_ATAN, m->x);
+    double sign = value_of(m, square);
+    int steps = 0;
+    while (steps < most_steps && !nh_is_zero(d, nh_sub(d, c, nh_int(d, steps * (steps + 1))))) steps++;
+    if (steps == most_steps || !isfinite(sign) || (sign == 0 && !is_zero(m, square))) return false;
+    nh_ex w = times(m, root(m, sign > 0 ? square : nh_neg(d, square)), s);
+    out[0] = sign == 0 ? nh_int(d, 1) : nh_call(d, sign > 0 ? NH_COS : NH_COSH, w);
+    out[1] = sign == 0 ? s : nh_call(d, sign > 0 ? NH_SIN : NH_SINH, w);
+    for (int k = 0; k < 2; k++) {
+        for (int j = 1; j <= steps; j++)
+            out[k] = plus(m, times(m, plus(m, nh_int(d, 1), nh_powi(d, m->x, 2)), nh_diff(d, out[k], m->x)),
+                          times(m, times(m, nh_int(d, j), m->x), out[k]));
+        out[k] = times(m, front, simple(d, out[k]));
+        if (is_zero(m, out[k])) return false; /* w is 1 .. l */
+    }
+    return true;
+}
+
 /* g with g'/g = P/2 for P = (p0 + p1 x)/(1 + x^2), and the solutions of v'' = (a + b x + c x^2)/(1 + x^2)^2 v. */
 static size_t conjugate(matcher *m, const points *s, nh_ex out[2])
 {
@@ -402,6 +426,7 @@ static size_t conjugate(matcher *m, const points *s, nh_ex out[2])
     nh_ex g = times(m, positive_power(m, below, times(m, p[1], number(m, 1, 4))),
                     nh_call(d, NH_EXP, times(m, times(m, p[0], number(m, 1, 2)), nh_call(d, NH_ATAN, x))));
     nh_ex all[4] = {r[0], r[1], r[2], x};
+    if (nh_is_zero(d, r[1]) && turning(m, r[0], r[2], times(m, g, nh_sqrt(d, below)), out)) return 2;
     out[0] = times(m, g, nh_call_any(d, NH_RIEMANN_C, all));
     out[1] = times(m, g, nh_call_any(d, NH_RIEMANN_S, all));
     return 2;
