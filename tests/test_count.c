@@ -431,6 +431,22 @@ Test(count, exponentials_of_multiples_are_not_independent)
     EXPECT("name: m\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - exp(x) - exp(2*x) - exp(x/3)\n", 1, 2, 2, 3);
 }
 
+/* A degree whose bound is known, but still falls, may take more work than the option allows for one that is not begun. */
+Test(count, a_bound_that_falls_gets_more_work)
+{
+    problem p = problem_of("name: s\ncoordinates: [{name: x}, {name: y}, {name: f, type: angle}]\n"
+                           "constraints: [\"x'*sin(f) = y'*cos(f)\"]\nlagrangian: (x'^2 + y'^2 + f'^2)/2 - x\n"
+                           "known: {currents: [{name: f, expr: f'}, {name: E, expr: (x'^2 + y'^2 + f'^2)/2 + x}]}\n");
+    bool more = false;
+    for (double work = 1e4; work < 1e8 && !more; work *= 1.5) {
+        nh_count_question q = {.degree = 2, .work = work, .known = p.count, .current = p.known};
+        nh_count c = nh_count_integrals(p.model, &q);
+        more = c.rows == 2 && c.row[1].settled && c.work > 1.5 * work;
+    }
+    cr_expect(more);
+    problem_clear(&p);
+}
+
 /* Too little work: what the series so far allow is said, and that it is not settled. */
 Test(count, numbers_that_are_not_settled_are_said)
 {

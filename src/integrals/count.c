@@ -9,6 +9,7 @@
 
 enum { most_parameters = 3000, largest_series = 20000, steps_beyond = 1 };
 static const double least_share = 0.5; /* of the work, for the number of integrals where their rank is known already */
+static const double more_for_open = 5; /* times the work, for a degree whose bound still falls */
 
 /* ---- the number ---- */
 
@@ -70,7 +71,7 @@ nh_graded_problem nh_count_problem(const nh_counter *c, const nh_count_series *s
                                .degree = degree,
                                .parity = parity,
                                .most_parameters = most_parameters,
-                               .most_work = c->q->work - c->work};
+                               .most_work = c->most - c->work};
 }
 
 /* N for each order, the sum over both parities where they separate; injective_at: the larger.  False: beyond the
@@ -139,7 +140,7 @@ static void read_totals(const nh_counter *c, const size_t *total, size_t from, n
 static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row *out)
 {
     bool regular;
-    nh_count_series *s = nh_count_series_create(c, order, c->q->work, &regular);
+    nh_count_series *s = nh_count_series_create(c, order, c->most, &regular);
     if (!s) return regular ? TOO_MUCH : UNLUCKY;
     size_t *total = nh_alloc_array(order + 1, sizeof *total), from;
     nh_differentials all, known;
@@ -179,7 +180,8 @@ static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *be
     size_t step = c->frame->step, order = first_order(c, degree, before);
     nh_count_row row = {0};
     bool any = false;
-    while (c->work < c->q->work && !nh_late()) {
+    c->most = c->q->work;
+    while (c->work < c->most && !nh_late()) {
         outcome o = count_at(c, degree, order, &row);
         if (o == UNLUCKY) return o;
         if (o == TOO_MUCH) break;
@@ -188,6 +190,7 @@ static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *be
         if (row.complete || row.settled || (row.functions && c->q->alone) ||
             (row.functions && c->work > least_share * c->q->work))
             break;
+        if (row.bounded && !row.functions && c->q->known) c->most = more_for_open * c->q->work;
         order = (row.bounded ? row.reached : order) + step + steps_beyond;
     }
     return any ? COUNTED : TOO_MUCH;
@@ -289,7 +292,9 @@ static void register_known(nh_counter *c)
 
 void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_question *question)
 {
-    *c = (nh_counter){.q = question, .equations = nh_jet_equations_create(model, question->time, question->generic)};
+    *c = (nh_counter){.q = question,
+                      .most = question->work,
+                      .equations = nh_jet_equations_create(model, question->time, question->generic)};
     if (question->shape && !c->equations->obstacle) nh_jet_equations_drop_cyclic(c->equations);
     c->current = nh_alloc_array(question->known + 1, sizeof *c->current);
     c->degree = nh_alloc_array(question->known + 1, sizeof *c->degree);

@@ -16,7 +16,7 @@ typedef struct {
     bool *named;             /* with named functions, which stand for any solutions of their equations */
     nh_ex *rate;             /* Gamma of these: it has to vanish for every such solution */
     bool unnamed;            /* they are left out */
-    double work;
+    double work, most; /* products of residues so far, and at most */
 } nh_counter;
 
 enum { NH_COUNT_POINTS = 200 }; /* so many are tried */
