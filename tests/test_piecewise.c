@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include "catalogue.h"
+#include "graph/diff.h"
+#include "graph/print.h"
 #include "integrals/region.h"
 #include "scratch.h"
 #include "search/explicit_motion.h"
@@ -172,6 +174,118 @@ Test(piecewise, currents_are_continuous_along_motions)
             double change = r->motion->constant[j].at_start ? 0 : largest_change(r->model, r->motion->constant[j].value);
             cr_expect(change < 5e-3, "%s: constant %zu of the explicit motion changes by %.1e", p->name, j + 1, change);
         }
+        nh_analysis_free(r);
+    }
+}
+
+/* ---- where the chart's velocities end ---- */
+
+/* x'^2 + y'^2 + z'^2 = 2 T under constraints f = 0, in all velocities: v' = g - F^T (F F^T)^-1 (df/dt + df/dq v + F g) with F = df/dv, g = -dU/dq. */
+typedef struct {
+    size_t m;
+    nh_tape *tape; /* F (m), df/dt + df/dq v, g (m), f as functions of (t, q, v) */
+    nh_tape_work *work;
+    nh_ex in[16];
+} bound_motion;
+
+static bound_motion bound_motion_make(const nh_model *o)
+{
+    const nh_system *s = o->system;
+    nh_dag *d = o->dag;
+    nh_ex out[16], still[16], f = nh_sub(d, s->constraint[0].lhs, s->constraint[0].rhs), rate;
+    bound_motion b = {.m = s->coordinates};
+    b.in[0] = s->t;
+    for (size_t i = 0; i < b.m; i++) b.in[1 + i] = s->coordinate[i].q, b.in[1 + b.m + i] = s->coordinate[i].v, still[i] = nh_int(d, 0);
+    nh_ex U = nh_neg(d, nh_substitute(d, s->lagrangian, b.m, b.in + 1 + b.m, still));
+    rate = nh_diff(d, f, s->t);
+    for (size_t i = 0; i < b.m; i++) {
+        out[i] = nh_diff(d, f, b.in[1 + b.m + i]);
+        rate = nh_add(d, rate, nh_mul(d, nh_diff(d, f, b.in[1 + i]), b.in[1 + b.m + i]));
+        out[b.m + 1 + i] = nh_neg(d, nh_diff(d, U, b.in[1 + i]));
+    }
+    out[b.m] = rate;
+    out[2 * b.m + 1] = f;
+    b.tape = nh_tape_create(d, 1 + 2 * b.m, b.in, 2 * b.m + 2, out, s->parameters, o->parameter, o->parameter_value);
+    b.work = nh_tape_work_create(b.tape);
+    return b;
+}
+
+static void bound_rate(const bound_motion *b, const double *z, double *rate)
+{
+    double out[16], FF = 0, right;
+    size_t m = b->m;
+    nh_tape_eval(b->tape, b->work, z, out);
+    right = out[m];
+    for (size_t i = 0; i < m; i++) FF += out[i] * out[i], right += out[i] * out[m + 1 + i];
+    rate[0] = 1;
+    for (size_t i = 0; i < m; i++) rate[1 + i] = z[1 + m + i], rate[1 + m + i] = out[m + 1 + i] - out[i] * right / FF;
+}
+
+static double change_under_constraint(const nh_model *o, nh_ex in_velocities)
+{
+    enum { steps = 4000, starts = 6 };
+    bound_motion b = bound_motion_make(o);
+    size_t width = 1 + 2 * b.m;
+    double z[16], at[16], k[4][16], worst = 0, first, now;
+    uint64_t seed = 5;
+    nh_tape *value = nh_tape_create(o->dag, width, b.in, 1, &in_velocities, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(value);
+    for (int start = 0; start < starts; start++) {
+        for (size_t j = 0; j < width; j++) z[j] = j ? 3 * nh_random(&seed) - 1.5 : -1;
+        for (int newton = 0; newton < 20; newton++) { /* onto the constraint */
+            double out[16], FF = 0;
+            nh_tape_eval(b.tape, b.work, z, out);
+            for (size_t i = 0; i < b.m; i++) FF += out[i] * out[i];
+            for (size_t i = 0; i < b.m; i++) z[1 + b.m + i] -= out[i] * out[2 * b.m + 1] / FF;
+        }
+        nh_tape_eval(value, work, z, &first);
+        for (int i = 0; i < steps; i++) {
+            double h = 4.0 / steps;
+            for (int stage = 0; stage < 4; stage++) {
+                double part = stage == 0 ? 0 : stage == 3 ? h : h / 2;
+                for (size_t j = 0; j < width; j++) at[j] = z[j] + (stage ? part * k[stage - 1][j] : 0);
+                bound_rate(&b, at, k[stage]);
+            }
+            for (size_t j = 0; j < width; j++) z[j] += h / 6 * (k[0][j] + 2 * k[1][j] + 2 * k[2][j] + k[3][j]);
+            nh_tape_eval(value, work, z, &now);
+            if (isfinite(now) && isfinite(first)) worst = fmax(worst, fabs(now - first) / (1 + fabs(first)));
+        }
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(value);
+    nh_tape_work_free(b.work);
+    nh_tape_free(b.tape);
+    return worst;
+}
+
+/* x' = x z'/y: at y = 0 the chart ends, and motions go through. sqrt(x^2/y^2 + 1) z' changes its sign there, sqrt(x^2 + y^2) z'/y does not. */
+Test(piecewise, motions_go_through_where_the_chart_ends)
+{
+    static const struct {
+        const char *text, *smooth; /* a current that has to be listed */
+    } of[] = {
+        {"lagrangian: (x'^2+y'^2+z'^2)/2\nconstraints: [\"x*z' = y*x'\"]\n", "z'*sqrt(x^2 + y^2)/y"},
+        {"lagrangian: (x'^2+y'^2+z'^2)/2 - y\nconstraints: [\"(y-1)*z' = (x+y)*x'\"]\n", "z'*sqrt(x^2 + 2*y*(x + y - 1) + 1)/(x + y)"},
+        {"lagrangian: (x'^2+y'^2+z'^2)/2\nconstraints: [\"t*z' = x*x'\"]\n", "z'*sqrt(t^2 + x^2)/x"},
+        {"lagrangian: (x'^2+y'^2+z'^2)/2\nconstraints: [\"x*z' = y*x' + y\"]\n", "z'*sqrt(x^2 + y^2)/y"},
+        {"lagrangian: (x'^2+y'^2+z'^2)/2 + y^2/2\nconstraints: [\"x*z' = y*x'\"]\n", "z'*sqrt(y^2 + x^2)/y"},
+    };
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        if (!sweep_tries(i, 2, 5)) continue;
+        char text[300];
+        bool listed = false;
+        snprintf(text, sizeof text, "coordinates: [x, y, z]\n%s", of[i].text);
+        nh_analysis *r = analysed(text);
+        for (size_t k = 0; k < r->count + r->furthers; k++) {
+            const nh_current *f = k < r->count ? &r->found[k] : &r->further[k - r->count].current;
+            cr_assert(f->has_in_velocities);
+            double change = f->region ? 0 : change_under_constraint(r->model, f->in_velocities);
+            char *printed = nh_print_string(r->model->dag, f->in_velocities);
+            listed |= !strcmp(printed, of[i].smooth);
+            nh_free(printed);
+            cr_expect(change < 5e-3, "%s: %s changes by %.1e", of[i].text, f->name, change);
+        }
+        cr_expect(listed, "%s: %s is not listed", of[i].text, of[i].smooth);
         nh_analysis_free(r);
     }
 }

@@ -285,13 +285,24 @@ long nh_ball_bits(const nh_ball *ball) { return ball->bits; }
 
 /* ---- asking ---- */
 
-void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value)
+static void set_to(nh_ball *ball, nh_ex symbol, nh_ex value, bool middle)
 {
     arb_t v;
     arb_init(v);
     if (!eval(ball, value, v)) arb_indeterminate(v);
+    if (middle) arb_get_mid_arb(v, v);
     arb_set(place(ball, symbol), v);
     arb_clear(v);
+}
+
+void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value)
+{
+    set_to(ball, symbol, value, false);
+}
+
+void nh_ball_set_middle(nh_ball *ball, nh_ex symbol, nh_ex value)
+{
+    set_to(ball, symbol, value, true);
 }
 
 /* A double and how far from it anything in the ball can be. */

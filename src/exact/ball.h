@@ -18,6 +18,8 @@ void nh_ball_set_ratio(nh_ball *ball, nh_ex symbol, int64_t p, int64_t q);
 void nh_ball_set_double(nh_ball *ball, nh_ex symbol, double value);
 /* Set a symbol to the value of an expression in symbols set before. */
 void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value);
+/* To its mid-point: for iterations that correct themselves, whose radii would only grow. */
+void nh_ball_set_middle(nh_ball *ball, nh_ex symbol, nh_ex value);
 
 /* The value of e.  False when it is not finite there, or a symbol has no value. */
 bool nh_ball_value(nh_ball *ball, nh_ex e, double *mid, double *radius);

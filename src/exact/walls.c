@@ -25,6 +25,31 @@ static bool is_even(const nh_dag *d, nh_ex exponent)
     return x.q == 1 && x.p % 2 == 0;
 }
 
+static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth);
+
+/* base^exponent, a factor of a term below a root or a sign: its pole. */
+static void put_pole(nh_walls *w, nh_dag *d, nh_ex base, nh_ex exponent, bool edge, int depth)
+{
+    bool number = nh_kind_of(d, exponent) == NH_NUMBER, even = is_even(d, exponent);
+    bool negative = number && nh_num_value(nh_number_of(d, exponent)) < 0;
+    if (negative) put_factors(w, d, base, edge && !even, depth + 1);
+    else if (nh_kind_of(d, base) == NH_FUNCTION && nh_function_of(d, base) == NH_TAN)
+        put_factors(w, d, nh_call(d, NH_COS, nh_child(d, base, 0)), edge && !even, depth + 1);
+}
+
+/* The poles of a sum, which may change its sign there like 1/x + 1, or be large on both sides like 1/x^2 + 1, whose
+ * root is sqrt(x^2 + 1)/|x|. */
+static void put_poles_of_terms(nh_walls *w, nh_dag *d, nh_ex sum, bool edge, int depth)
+{
+    for (size_t i = 0; i < nh_arity(d, sum); i++) {
+        nh_ex term = nh_child(d, sum, i);
+        bool product = nh_kind_of(d, term) == NH_PRODUCT;
+        for (size_t k = 0; k < (product ? nh_arity(d, term) : 1); k++)
+            put_pole(w, d, product ? nh_child(d, term, k) : term, product ? nh_exponent_of(d, term, k) : nh_int(d, 1),
+                     edge, depth);
+    }
+}
+
 /* The factors of something that vanishes on a wall: of a product all bases, since a quotient changes its sign at a
  * pole, too.  `edge`: under a root. */
 static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth)
@@ -38,8 +63,12 @@ static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth)
             put_factors(w, d, nh_child(d, e, i), edge && !is_even(d, nh_exponent_of(d, e, i)), depth + 1);
     } else if (kind != NH_FUNCTION || nh_function_of(d, e) != NH_EXP) {
         nh_ex factored = kind == NH_SUM && depth == 0 ? nh_simplify_short(d, e, 0) : e;
-        if (factored != e) put_factors(w, d, factored, edge, depth + 1);
-        else put(w, e, edge);
+        if (factored != e) {
+            put_factors(w, d, factored, edge, depth + 1);
+            return;
+        }
+        put(w, e, edge);
+        if (kind == NH_SUM) put_poles_of_terms(w, d, e, edge, depth);
     }
 }
 

@@ -3,7 +3,7 @@
  * Sums, products, whole powers, sin, exp, ... are analytic wherever they are finite: quotients of them have poles,
  * and no jumps.  What is left are the zero sets of
  *
- *     u          of |u|, sign(u) and u^x with a broken exponent x
+ *     u, 1/u     of |u|, sign(u) and u^x with a broken exponent x
  *     y          of atan2(y, x), whose cut is y = 0, x < 0
  *     1/v        of atan(v): where v is infinite
  *     1 - v^2    of asin(v), acos(v);  v - 1 of acosh(v)

@@ -5,13 +5,15 @@
 
 #include "graph/diff.h"
 #include "integrals/exact_points.h"
+#include "integrals/projected_points.h"
 #include "system/sample.h"
 
 enum { lines = 16, wanted = 6, steps_out = 31, grid = 2 * steps_out + 1, halvings = 80, bits = 192 };
 static const double first_step = 0.08, ratio = 1.25; /* in half widths of the box: out to 0.08 * 1.25^30 = 65 of them */
 static const double depth[NH_CROSSING_DEPTHS] = {1.0 / (1 << 12), 1.0 / (1 << 24), 1.0 / (1LL << 36)};
 
-/* One line z = origin + s direction, and the walls' functions along it. */
+/* One line, and the walls' functions along it: z = origin + s direction, or the same for (t, q, v), with v projected
+ * onto the constraints. */
 typedef struct {
     const nh_model *o;
     const nh_walls *walls;
@@ -21,23 +23,47 @@ typedef struct {
     nh_ball *ball;
     nh_ex *rate;        /* Gamma: 1, rho, a */
     double *origin, *direction, *z, *out, *half;
+    nh_projector *projector; /* NULL: lines in the chart */
+    double *position;          /* t, q, v */
     nh_arena *arena;
     nh_crossings list;
 } finder;
 
-/* The functions of all walls at s into f, their derivatives along the line into slope; false where they are not
- * finite or there is no point. */
-static bool at(finder *x, double s, double *f, double *slope)
+/* The point z of the line at s; false where there is none. */
+static bool point_at(finder *x, double s, bool exact)
 {
-    for (size_t j = 0; j < x->explicit_width; j++) x->z[j] = x->origin[j] + s * x->direction[j];
-    if (!nh_chart_complete(x->o->chart, x->z)) return false;
+    size_t m = x->o->m;
+    if (!x->projector) {
+        for (size_t j = 0; j < x->explicit_width; j++) x->z[j] = x->origin[j] + s * x->direction[j];
+        return nh_chart_complete(x->o->chart, x->z);
+    }
+    for (size_t j = 0; j < 1 + 2 * m; j++) x->position[j] = x->origin[j] + s * x->direction[j];
+    return exact ? nh_projected_exact_point(x->projector, x->position, x->position + 1 + m, x->z)
+                 : nh_projected_point(x->projector, x->position, x->position + 1 + m, x->z);
+}
+
+/* The functions of all walls at z into f, their derivatives along the line into slope, 0 where they would have to know
+ * how the velocities change on it. */
+static void evaluate(finder *x, double *f, double *slope)
+{
+    size_t known = x->projector ? 1 + x->o->m : x->explicit_width;
     nh_tape_eval(x->tape, x->work, x->z, x->out);
     for (size_t i = 0; i < x->walls->count; i++) {
         const double *g = x->out + i * (1 + x->explicit_width);
+        bool complete = true;
         f[i] = g[0];
         slope[i] = 0;
-        for (size_t j = 0; j < x->explicit_width; j++) slope[i] += g[1 + j] * x->direction[j];
+        for (size_t j = 0; j < known; j++) slope[i] += g[1 + j] * x->direction[j];
+        for (size_t j = known; j < x->explicit_width; j++) complete &= g[1 + j] == 0;
+        if (!complete) slope[i] = 0;
     }
+}
+
+/* Both at s. */
+static bool at(finder *x, double s, double *f, double *slope)
+{
+    if (!point_at(x, s, false)) return false;
+    evaluate(x, f, slope);
     return true;
 }
 
@@ -106,7 +132,8 @@ static void keep(finder *x, size_t i, double s, bool touches)
     nh_crossing c = {.wall = x->walls->e[i], .touches = touches};
     for (int side = 0; side < 2; side++)
         for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++) {
-            if (!at(x, s + (side ? depth[k] : -depth[k]), f, slope)) return;
+            if (!point_at(x, s + (side ? depth[k] : -depth[k]), true)) return;
+            evaluate(x, f, slope);
             int to = touches ? side : f[i] > 0;
             c.point[to][k] = nh_arena_alloc(x->arena, x->o->width * sizeof(double));
             memcpy(c.point[to][k], x->z, x->o->width * sizeof(double));
@@ -175,10 +202,12 @@ static void create(finder *x)
     memcpy(x->rate + 1 + o->m, o->a, o->n * sizeof *x->rate);
     x->ball = nh_ball_create(o->dag, bits);
     nh_exact_parameters(o, x->ball);
-    x->z = nh_alloc_array(4 * o->width, sizeof *x->z);
-    x->origin = x->z + o->width;
-    x->direction = x->origin + o->width;
-    x->half = x->direction + o->width;
+    size_t room = o->width > 1 + 2 * o->m ? o->width : 1 + 2 * o->m;
+    x->z = nh_alloc_array(5 * room, sizeof *x->z);
+    x->origin = x->z + room;
+    x->direction = x->origin + room;
+    x->half = x->direction + room;
+    x->position = x->half + room;
     for (size_t j = 0; j < width; j++) x->half[j] = (o->chart->high[j] - o->chart->low[j]) / 2;
 }
 
@@ -192,21 +221,48 @@ static void clear(finder *x)
     nh_tape_free(x->tape);
 }
 
+/* A line through the chart's box. */
+static void draw_in_chart(finder *x, uint64_t *state)
+{
+    const nh_chart *c = x->o->chart;
+    for (size_t j = 0; j < x->o->width; j++) {
+        bool free = j < x->explicit_width;
+        x->origin[j] = c->low[j] + (c->high[j] - c->low[j]) * nh_random(state);
+        x->direction[j] = free ? x->half[j] * (2 * nh_random(state) - 1) : 0;
+        x->z[j] = x->origin[j];
+    }
+}
+
+/* One through the box of t, q and v. */
+static void draw_in_velocities(finder *x, uint64_t *state)
+{
+    const nh_system *s = x->o->system;
+    for (size_t j = 0; j < 1 + 2 * x->o->m; j++) {
+        double low, high;
+        const nh_coordinate *c = j ? &s->coordinate[(j - 1) % x->o->m] : NULL;
+        nh_chart_range(x->o->chart, !c ? s->t : j <= x->o->m ? c->q : c->v, &low, &high);
+        x->origin[j] = low + (high - low) * nh_random(state);
+        x->direction[j] = (high - low) / 2 * (2 * nh_random(state) - 1);
+    }
+}
+
 nh_crossings nh_crossings_find(const nh_model *o, const nh_walls *walls, uint64_t *state, nh_arena *arena)
 {
     finder x = {.o = o, .walls = walls, .explicit_width = o->width - o->chart->implicit, .arena = arena};
     if (walls->count == 0) return x.list;
     create(&x);
-    x.list.item = nh_arena_alloc(arena, walls->count * wanted * sizeof *x.list.item);
+    x.list.item = nh_arena_alloc(arena, 2 * walls->count * wanted * sizeof *x.list.item);
     for (size_t line = 0; line < lines; line++) {
-        for (size_t j = 0; j < o->width; j++) {
-            bool free = j < x.explicit_width;
-            x.origin[j] = o->chart->low[j] + (o->chart->high[j] - o->chart->low[j]) * nh_random(state);
-            x.direction[j] = free ? x.half[j] * (2 * nh_random(state) - 1) : 0;
-            x.z[j] = x.origin[j];
-        }
+        draw_in_chart(&x, state);
         follow(&x);
     }
+    x.projector = nh_projector_create(o, x.ball);
+    memset(x.found, 0, sizeof x.found);
+    for (size_t line = 0; line < lines && x.projector; line++) {
+        draw_in_velocities(&x, state);
+        follow(&x);
+    }
+    nh_projector_free(x.projector);
     clear(&x);
     return x.list;
 }

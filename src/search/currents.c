@@ -8,6 +8,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "graph/print.h"
+#include "integrals/continued.h"
 #include "integrals/refine.h"
 #include "search/coefficients.h"
 #include "search/dependence.h"
@@ -285,6 +286,21 @@ static const char *region_of(nh_current_checker *b, const nh_current *f)
         b, f->phi, f->proof.proved ? 0 : fmax(least_almost, fmin(f->printed_digits, b->result->options.digits) / 2));
 }
 
+bool nh_currents_continue(nh_current_checker *b, nh_current *f)
+{
+    const nh_options *options = &b->result->options;
+    nh_model *o = b->result->model;
+    if (!f->proof.proved) return false;
+    nh_ex phi = nh_continued_roots(o, f->phi, (uint64_t)options->seed);
+    nh_claim claim = {.free = f->proof.all_parameters || f->proof.fixed, .fixed = f->proof.fixed};
+    if (phi == f->phi) return false;
+    nh_proof proof = nh_prove_claim(o, phi, claim, options);
+    if (!proof.proved || nh_currents_region(b, phi, 0)) return false;
+    f->phi = nh_simplify_short(o->dag, phi, 0);
+    f->proof = proof;
+    return true;
+}
+
 /* A function of the currents and of the pieces so far is no news. */
 static void keep_piece(nh_current_checker *b, const nh_current *f)
 {
@@ -315,6 +331,7 @@ bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_po
         b->near[b->nears++] = candidate;
     if (!keeps(b, f, certain) || ((f->moved || !certain) && nh_currents_known(b, f->phi))) return false;
     f->region = region_of(b, f);
+    if (f->region && nh_currents_continue(b, f)) f->region = NULL;
     if (f->region) {
         keep_piece(b, f);
         return false;

@@ -99,6 +99,8 @@ static bool keep_further(search *s, size_t degree, nh_candidate *candidate, cons
     if (!r->further) r->further = nh_arena_alloc(r->arena, NH_MOST_FURTHER * sizeof *r->further);
     f->independence = NH_DEPENDENT;
     nh_region open = nh_region_open(r->model, &s->climb.bench->terrain, f->phi, &r->options, r->arena);
+    if (open.count && nh_currents_continue(s->climb.bench, f))
+        open = nh_region_open(r->model, &s->climb.bench->terrain, f->phi, &r->options, r->arena);
     f->region = nh_region_text(r->model->dag, &open, r->arena);
     r->further[r->furthers++] = (nh_further_integral){*f, degree};
     return true;
