@@ -1,4 +1,4 @@
-/* docs/schema: the JSON of analyze, verify, classify, scan, export, benchmark and simulate is checked by the part of JSON Schema
+/* docs/schema: the JSON of analyze, verify, classify, scan, export, benchmark, simulate and reduce is checked by the part of JSON Schema
  * that these files use. */
 #include <cjson/cJSON.h>
 
@@ -335,11 +335,48 @@ Test(schema, what_verify_writes_fits)
     place_clear(&p);
 }
 
+static void reduce_fits(const place *p, const char *words)
+{
+    char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
+    snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p->project);
+    snprintf(line, sizeof line, "reduce %s --quiet --json r.json", words);
+    finished f = run_so(p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
+    cr_assert(f.code == 0 || f.code == 5, "%s: %d %s", line, f.code, f.err);
+    snprintf(path, sizeof path, "%s/r.json", p->folder);
+    cJSON *root = read_json(path), *group = cJSON_GetObjectItem(root, "group");
+    verdict v = {""};
+    cr_expect(fits(whole, root, "", &v), "%s: %s", words, v.fault);
+    cJSON_AddNumberToObject(group, "more", 1);
+    cr_expect_not(fits(whole, root, "", &v), "an unknown key");
+    cJSON_DeleteItemFromObject(group, "more");
+    cJSON_DeleteItemFromObject(group, "name");
+    cr_expect_not(fits(whole, root, "", &v), "a missing key");
+    cJSON_Delete(root);
+    finished_clear(&f);
+}
+
+/* Every shipped system; the other forms: an accuracy, chosen generators, a chain, the theory's objects, a limit. */
+Test(schema, what_reduce_writes_fits)
+{
+    static const char *const lines[] = {"vertical_disk --accuracy 1e-8", "vertical_disk --group 1,2 --equations", "vertical_disk --chain 3;4;1,2",
+                                        "rolling_ball --weak", "rolling_disk --option work=100"};
+    place p = place_make();
+    whole = read_json("docs/schema/reduce.json");
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) reduce_fits(&p, lines[i]);
+    char *name[most_files];
+    size_t n = list("systems", name);
+    cr_assert_gt(n, 60);
+    for (size_t i = 0; i < n; free(name[i++]))
+        if (sweep_tries(i, 12, 24)) reduce_fits(&p, name[i]);
+    cJSON_Delete(whole);
+    place_clear(&p);
+}
+
 /* What is left when there was no time for anything is a form of each schema, and no other document is taken for it. */
 Test(schema, what_is_left_of_a_run_fits)
 {
     static const char *const lines[][2] = {
-        {"analyze", "analyze sleigh"}, {"verify", "verify sleigh --current v"}, {"benchmark", "benchmark sleigh"}, {"export", "export sleigh"}, {"simulate", "simulate sleigh"}};
+        {"analyze", "analyze sleigh"}, {"verify", "verify sleigh --current v"}, {"benchmark", "benchmark sleigh"}, {"export", "export sleigh"}, {"simulate", "simulate sleigh"}, {"reduce", "reduce sleigh"}};
     place p = place_make();
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
