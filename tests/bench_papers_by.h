@@ -460,6 +460,27 @@ static double vanishes(const document *d, const char *text)
     " + M*r*e/2*(x1'*(varphi'*cos(varphi)*sin(theta) + theta'*sin(varphi)*cos(theta)) + x2'*(varphi'*sin(varphi)*sin(theta) - theta'*cos(theta)*cos(varphi))" \
     " - r*cos(theta)*sin(theta)*varphi'^2) - M*g*r*e/2*cos(theta)"
 
+/* Lines of the form beside that of psi1, psi2. */
+static double other_upsilon(const document *d)
+{
+    const cJSON *line;
+    double count = 0;
+    shown(d, "0.gyroscopic_form", "Upsilon_psi1,psi2", "psi1'");
+    cJSON_ArrayForEach(line, section_of(d, "0.gyroscopic_form"))
+        count += !strncmp(text_at(line, "label"), "Upsilon_", 8) && strcmp(text_at(line, "label"), "Upsilon_psi1,psi2");
+    return count;
+}
+
+/* alpha_theta = theta (dphi1 + a_1 dpsi1 + a_2 dpsi2): d a_2/dpsi1 - d a_1/dpsi2 = Xi, with a_i functions of the shape alone. */
+static double basic(const document *d)
+{
+    nh_dag *g = d->system->dag;
+    nh_ex a1 = coefficient(d, "1.hamiltonian", "phat_psi1", "theta_1"), a2 = coefficient(d, "1.hamiltonian", "phat_psi2", "theta_1");
+    nh_ex phi1 = parsed(d, "phi1"), xi = coefficient(d, "1.magnetic_form", "Xi_psi1,psi2", "theta_1");
+    if (nh_depends(g, a1, phi1) || nh_depends(g, a2, phi1)) return INFINITY;
+    return differ(d, nh_sub(g, nh_diff(g, a2, parsed(d, "psi1")), nh_diff(g, a1, parsed(d, "psi2"))), xi);
+}
+
 /* Helmholtz's condition dF_i/dq'_j + dF_j/dq'_i = 0 of a force without accelerations, for i = j = x: by what it is violated. */
 static double helmholtz(const document *d)
 {
@@ -467,6 +488,8 @@ static double helmholtz(const document *d)
     nh_ex slope = nh_diff(g, coefficient(d, "chetaev_equations", "F_x", ""), parsed(d, "x'"));
     return differ(d, nh_mul(g, nh_int(g, 2), slope), parsed(d, "-2*(k^2 - 1)/k^2*m*phi'*tan(phi)"));
 }
+
+#include "bench_papers_figures.h"
 
 /* ---- by name ---- */
 
@@ -489,6 +512,9 @@ static void by(const row *r, const document *d, double *printed, double *meant, 
     else if (!strcmp(what, "crane metric")) *printed = crane_metric();
     else if (!strcmp(what, "crane hamiltonian")) *printed = crane_hamiltonian(d);
     else if (!strcmp(what, "upsilon")) *printed = upsilon(d);
+    else if (!strcmp(what, "other upsilon")) *printed = other_upsilon(d);
+    else if (!strcmp(what, "basic")) *printed = basic(d);
+    else if (!strcmp(what, "figure")) *printed = figure(d, atoi(r->of));
     else if (!strcmp(what, "bracket")) stages(true, (size_t)atoi(r->of), printed, meant), *meant = INFINITY;
     else if (!strcmp(what, "euler-poincare") && !strcmp(r->of, "whole")) stages(false, 9, printed, meant), *meant = INFINITY;
     else if (!strcmp(what, "euler-poincare")) stages(false, 9, meant, printed);

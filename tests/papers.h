@@ -27,7 +27,7 @@
 
 /* ---- commands whose JSON is read ---- */
 
-enum { D_PHI1, D_PHI2, D_PHI3, D_PRODUCT, D_ANALYZE, D_SPEED, D_CRANE, D_DISK, D_ROLLING, D_BODY, D_PENDULUM, D_UPRIGHT, D_SYMMETRIES, D_SUBNORMAL, D_DISK_CURRENTS, D_COUNT, D_NONE };
+enum { D_PHI1, D_PHI2, D_PHI3, D_PRODUCT, D_ANALYZE, D_SPEED, D_CRANE, D_DISK, D_ROLLING, D_BODY, D_PENDULUM, D_UPRIGHT, D_SYMMETRIES, D_SUBNORMAL, D_DISK_CURRENTS, D_SCALING, D_TOP, D_COUNT, D_NONE };
 
 static const struct {
     const char *system, *words, *shown; /* shown: with the names of long formulas, which the page defines; NULL: the words themselves */
@@ -47,6 +47,8 @@ static const struct {
     {"sleigh", "analyze sleigh --equations", NULL},
     {"euler_disk", "reduce euler_disk --chain \"4; 1; 2; 3\" --until 1", NULL},
     {"euler_disk", "analyze euler_disk", NULL},
+    {"free_particle", "verify free_particle --field \"t=2*t; x=x; y=y; z=z\"", NULL},
+    {"euler_top", "reduce euler_top --until 1", NULL},
 };
 
 /* ---- rows ---- */
@@ -78,7 +80,8 @@ typedef struct {
 #define C "chains"
 
 static const row ROWS[] = {
-    {A, "2.1", "prolongations of fields", NOT, D_NONE, .printed = "notation; the first prolongation is used in the tests of invariance (`reduce`)"},
+    {A, "2.1", "first prolongation of 2 t d/dt + x d/dx + y d/dy + z d/dz: along x', dZ^x/dt - x' dZ^0/dt", AT, D_SCALING, .label = "symmetry.components.x'",
+        .printed = "x' - x'*2"},
     {A, "(1)", "first variation formula", NOT, D_NONE, .printed = "an identity of integrals over sections; its consequence is (2)"},
     {A, "(2), (3)", "E_phi: coefficient of phi''", VALUE, D_PHI1, "chetaev_equations", "#0", "phi''", "-m*a^2*k^2", .k = 0},
     {A, "(2), (3)", "A_x", VALUE, D_PHI1, "chetaev_equations", "#1", "", "m*a*phi'^2*cos(phi)", .k = 0},
@@ -126,7 +129,7 @@ static const row ROWS[] = {
     {A, "(32)", "first form", BY, D_PHI1, .label = "32"},
     {A, "(32)", "second form, x'' = ..", VALUE, D_PHI1, "semispray", "Gamma", "d/dx'", "a*phi'^2*cos(phi) - phi'*x'*tan(phi)", .k = 0},
     {A, "(33)", "the motion from phi = 0, x' = 0, in (31) and (32)", BY, D_PHI1, .label = "33"},
-    {A, "figures 2-5", "paths for k = 1, .., 4", NOT, D_NONE, .printed = "drawings of (33); `analyze sleigh --html` draws them from computed motions"},
+    {A, "figures 2-5", "paths for k = 1, .., 4, drawn from computed motions, against (33)", BY, D_ANALYZE, .label = "figure", .of = "0"},
     {A, "(34), 1st", "coefficient of Z^phi - phi' Z^0", VALUE, D_PHI1, "determining_equations", "(17)", "zeta^phi", "-m*a*phi'*x'/cos(phi)", .k = 0},
     {A, "(34), 2nd", "coefficient of Z^0", BY, D_PHI1, .label = "34"},
     {A, "(34), 5th", "coefficient of Z^x - x' Z^0", VALUE, D_PHI1, "determining_equations", "(19, x)", "zeta^x", "-m/cos(phi)^2", .k = 0},
@@ -134,9 +137,9 @@ static const row ROWS[] = {
     {A, "(35)", "v' in v and omega", AT, D_ANALYZE, .label = "reduced_equations.1.rate", .printed = "a*omega^2"},
     {A, "(36)", "Phi_1", CURRENT, D_NONE, .label = "sleigh", .printed = PHI1},
     {A, "(37)", "E_T, E_R along (33)", BY, D_PHI1, .label = "37"},
-    {A, "figure 6", "energies over time", NOT, D_NONE, .printed = "a drawing of (37); in the page of `analyze sleigh`"},
+    {A, "figure 6", "energies over time, drawn from computed motions, against (37)", BY, D_ANALYZE, .label = "figure", .of = "1"},
     {A, "(38)", "E_T,C, E_R,C along (33)", BY, D_PHI1, .label = "38"},
-    {A, "figure 7", "energies with respect to the centre of mass", NOT, D_NONE, .printed = "a drawing of (38); in the page of `analyze sleigh`"},
+    {A, "figure 7", "energies with respect to the centre of mass, likewise against (38); the paper divides them by E_0", BY, D_ANALYZE, .label = "figure", .of = "3"},
     {A, "Phi_2", "", CURRENT, D_NONE, .label = "sleigh", .printed = PHI2},
     {A, "Phi_3", "", CURRENT, D_NONE, .label = "sleigh", .printed = PHI3},
     {A, "Phi_3", "shortened, with energies: needs the sign of x'/cos phi", CURRENT, D_NONE, .label = "sleigh",
@@ -173,8 +176,9 @@ static const row ROWS[] = {
     {A, "4.3", "the force is not variational: 2 dF_x/dx', which Helmholtz's conditions want to be 0, is -2 (k^2 - 1)/k^2 m phi' tan(phi)", BY, D_PHI1, .label = "helmholtz"},
 
     {C, "(2.1)-(2.4)", "metric of the crane's eight coordinates, (3.22)", BY, D_NONE, .label = "crane metric"},
-    {C, "(2.5)", "cotangent lift of an action", NOT, D_NONE, .printed = "notation; `reduce` prolongs every generator to test it"},
-    {C, "(2.6)", "momentum map: p_phi1 of the group's third generator", IS, D_CRANE, .label = "divided.generators.2.phi1", .printed = "1"},
+    {C, "(2.5)", "cotangent lift of an action", NOT, D_NONE, .printed = "notation for (2.6); only invariance under the lift is used, which `reduce` proves by velocities"},
+    {C, "(2.6)", "momentum map: p_phi1 of the group's third generator, by (3.22)", AT, D_CRANE, .label = "divided.momentum_map.2",
+        .printed = "(jz3 + jx6*sin(phi2)^2 + jy6*cos(phi2)^2)*(theta' + phi1')"},
     {C, "definition 2.1", "the group: NHR1, NHR2", IS, D_CRANE, .label = "group.name", .printed = "SE(2) x SO(2)^3"},
     {C, "definition 2.2, (2.7)", "Chaplygin system: NHR3", IS, D_CRANE, .label = "chaplygin", .printed = "true"},
     {C, "(2.8)", "A-hat: x, psi1", VALUE, D_CRANE, "0.connection", "Ahat_psi1^1", "", "-l*c*cos(psi1)/" DELTA, .k = 0},
@@ -188,7 +192,7 @@ static const row ROWS[] = {
     {C, "theorem 2.3, 5.1, (2.11)", "reduced motion against the full one", SMALL, D_CRANE, .label = "stages.0.agreement_with_full"},
     {C, "(2.12)", "Upsilon_12 = F . vector with the momentum in the body frame", BY, D_CRANE, .label = "upsilon"},
     {C, "(2.12)", "curvature: theta", VALUE, D_CRANE, "0.connection", "B_psi1,psi2^4", "", "-l*b*cos(psi1)/" DELTA "^2", .k = 0, .ours = true},
-    {C, "(2.12)", "all other Upsilon vanish", VALUE, D_CRANE, "0.gyroscopic_form", "Upsilon_psi1,phi1", "psi1'", "0", .k = 0},
+    {C, "(2.12)", "all other Upsilon vanish: lines of others", BY, D_CRANE, .label = "other upsilon"},
     {C, "proposition 1, (i), (ii)", "condition (ii) for N = Q3", SMALL, D_CRANE, .label = "stages.1.condition_strong"},
     {C, "proposition 2", "the momentum is kept", SMALL, D_CRANE, .label = "stages.1.momentum_drift"},
     {C, "(2.13)", "the level set's form", NOT, D_NONE, .printed = "coordinate-free; in coordinates it is (2.19) and (2.20)"},
@@ -197,17 +201,18 @@ static const row ROWS[] = {
     {C, "(2.14)", "A-breve: psi2", VALUE, D_CRANE, "1.mechanical_connection", "Abreve_psi2^1", "", "b*sin(psi1)/" DELTA, .k = 0},
     {C, "(2.15), (2.16)", "N_theta = N", IS, D_CRANE, .label = "stages.1.abelian", .printed = "true"},
     {C, "lemma 2.4, alpha_theta", "momentum along psi1 on the level set", VALUE, D_CRANE, "1.hamiltonian", "phat_psi1", "theta_1", "c*sin(psi1)/" DELTA, .k = 0},
-    {C, "lemma 2.5", "d alpha_theta is basic", NOT, D_NONE, .printed = "a proof; its result is the form of (2.20)"},
+    {C, "lemma 2.5", "d alpha_theta is basic: nothing in it depends on phi1, and d alpha_theta = Xi_theta along psi1, psi2", BY, D_CRANE, .label = "basic"},
     {C, "(2.17), (2.20)", "Xi_theta", VALUE, D_CRANE, "1.magnetic_form", "Xi_psi1,psi2", "theta_1", "b*l*cos(psi1)/" DELTA "^2", .k = 0},
     {C, "(2.18)", "the inverse of phi_theta: along psi2", VALUE, D_CRANE, "1.hamiltonian", "phat_psi2", "theta_1", "b*sin(psi1)/" DELTA, .k = 0},
     {C, "theorem 2.6, 5.2, (2.19)", "twice reduced motion against the full one", SMALL, D_CRANE, .label = "stages.1.agreement_with_full"},
     {C, "(2.11), (2.19)", "an invariant measure of the reduced crane: for no positive parameters", IS, D_CRANE, .label = "stages.0.measure.never", .printed = "true", .ours = true},
     {C, "definition 3.1, (3.21), (3.22)", "metric from bodies and joints; r_cm,3 and r_6 are misprinted", BY, D_NONE, .label = "crane metric"},
-    {C, "(3.23)", "potential", NOT, D_NONE, .printed = "zero in the example; the sign needs g pointing up"},
+    {C, "(3.23)", "potential", NOT, D_NONE, .printed = "zero in the example, and no other is given; with the printed sign g would point up"},
     {C, "(3.24)", "Legendre map of the chain", BY, D_NONE, .label = "crane metric"},
     {C, "theorem 4.1", "the first joint's group", IS, D_CRANE, .label = "joints.0.rule", .printed = "first joint"},
     {C, "(4.25)-(4.29), proposition 3", "symmetries joint by joint: d/dphi1 leaves the kinetic energy invariant", IS, D_CRANE, .label = "joints.#phi1.kinetic_energy", .printed = "true"},
-    {C, "(5.31)-(5.34)", "a non-abelian second group in coordinates", NOT, D_NONE, .printed = "the program uses the bundle of coadjoint orbits instead, compared with the full motion"},
+    {C, "(5.31)-(5.34)", "a non-abelian second group (Euler's top, SO(3)), by the bundle of coadjoint orbits: reduced motion against the full one", SMALL, D_TOP,
+        .label = "stages.1.agreement_with_full", .ours = true},
     {C, "figures 1, 2", "the crane and its frames", NOT, D_NONE, .printed = "drawings"},
 
     {B, "(1)-(4)", "reduced covariant derivative", NOT, D_NONE, .printed = "coordinate-free; in the algebra it is b of (10)"},
