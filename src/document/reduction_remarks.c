@@ -60,9 +60,32 @@ static void conditions(const nh_reduction *r, const nh_reduction_stage *s, nh_pe
         count++;
     }
     if (!c->known && r->system->parameters)
-        nh_pen_say(p, "; %sfor which parameters one exists is not known: the conditions are too large (classify --of "
-                      "measure examines one parameter)",
+        nh_pen_say(p, "; %sfor which parameters one exists is not known: the conditions are too large",
                    c->rare ? "for almost all parameters none exists (proved); " : "");
+}
+
+/* A parameter of the conditions; else any. */
+static const char *one_parameter(const nh_reduction *r, const nh_measure_conditions *c)
+{
+    nh_dag *d = r->kinetic->dag;
+    const nh_parameter *all = r->system->parameter;
+    for (size_t i = 0; i < c->count; i++)
+        for (size_t w = 0; w < c->condition[i].where.ways; w++)
+            for (size_t j = 0; j < r->system->parameters; j++)
+                if (nh_depends(d, c->condition[i].where.way[w].polynomial[0], all[j].symbol)) return all[j].name;
+    return all[0].name;
+}
+
+/* What is not decided for all parameters, classify answers for the values of one. */
+static void pointer(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *p)
+{
+    const nh_chaplygin_measure *m = &s->measure;
+    const nh_measure_conditions *c = &s->conditions;
+    bool measure = !m->measure && !c->never, factor = !m->factor && s->shown->n > 2 && !c->never_hamiltonian;
+    if (!r->system->parameters || !(measure || factor) || s->kind == NH_STAGE_SECOND) return;
+    nh_pen_say(p, "; the values of one parameter with %s: classify --over %s --of %s",
+               measure ? "a measure" : "such a factor", one_parameter(r, c),
+               measure ? "measure" : "hamiltonization");
 }
 
 static void factor(const nh_reduction_stage *s, nh_pen *p)
@@ -101,6 +124,7 @@ static void measure(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *
                    m->proof.proved ? nh_facts_holds(r->kinetic->model, &m->proof, false) : " to rounding");
     if (!m->measure) conditions(r, s, p);
     factor(s, p);
+    pointer(r, s, p);
     nh_pen_close(p, NH_PEN_FACT);
 }
 
