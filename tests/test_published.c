@@ -177,6 +177,9 @@ static const published PUBLISHED[] = {
     /* E. G. Kalnins, J. M. Kress, W. Miller and P. Winternitz, J. Math. Phys. 44 (2003) 5811: words with (x^2 + 1)^-n and x^-k are sums of fewer of them */
     {"Darboux's space II", "parameters: {a: 0.4, b: 0.3}\ncoordinates: [x, y]\n"
      "lagrangian: (x^2 + 1)/x^2*(x'^2 + y'^2)/2 - x^2/(x^2 + 1)*(a*(x^2/4 + y^2) + b*y)\n" QUADRANT, 3, 6},
+    /* the same: exp(2 y) in integrals, which the equations do not contain */
+    {"Darboux's space IV", "parameters: {b: 0.3}\ncoordinates: [x, y]\n"
+     "lagrangian: (2*cos(2*x) + b)/sin(2*x)^2*(x'^2 + y'^2)/2\ndomain: {x: [0.2, 0.6]}\n", 3, 6},
     /* E. T. Whittaker, Analytical Dynamics (1937), sec. 53: two centres in elliptic coordinates */
     {"two centres, elliptic coordinates", "parameters: {a: 0.3, b: 0.4}\ncoordinates: [u, v]\n"
      "lagrangian: (cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)/2 + (a*cosh(u) + b*cos(v))/(cosh(u)^2 - cos(v)^2)\ndomain: {u: [0.5, 2], v: [0.5, 2]}\n", 2, 6},

@@ -247,7 +247,21 @@ static void take_potential(const nh_jet_equations *x, nh_letters *l)
     nh_free(zero);
 }
 
-nh_letters nh_letters_of(nh_jet_equations *x, bool secular)
+/* Those in coordinates of the equations: the shape alone has none. */
+static void take_rates(const nh_jet_equations *x, nh_letters *l, const nh_construct_rates *rates)
+{
+    nh_dag *d = x->dag;
+    double sign;
+    for (size_t i = 0; rates && i < rates->count; i++) {
+        const nh_construct_rate *r = &rates->item[i];
+        if (!is_coordinate(x, r->coordinate)) continue;
+        nh_ex argument = nh_mul(d, nh_number(d, r->rate), r->coordinate);
+        nh_letter *found = direction(d, l, r->wave ? NH_LETTER_CIRCLE : NH_LETTER_EXPONENTIAL, argument, &sign);
+        if (found && !r->wave && sign < 0) found->down = fmax(found->down, least_down);
+    }
+}
+
+nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_rates *rates)
 {
     const nh_model *o = x->model;
     nh_letters l = {0};
@@ -262,6 +276,7 @@ nh_letters nh_letters_of(nh_jet_equations *x, bool secular)
     size_t coordinates = l.count;
     for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1); /* forces are derivatives */
     take_determinant(x, &l);
+    take_rates(x, &l, rates);
     take_potential(x, &l);
     for (size_t i = coordinates; i < l.count; i++)
         l.item[i].linear = l.item[i].kind == NH_LETTER_POWER && is_linear(x, &l, coordinates, l.item[i].base);

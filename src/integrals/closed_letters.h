@@ -2,6 +2,7 @@
 #ifndef NH_CLOSED_LETTERS_H
 #define NH_CLOSED_LETTERS_H
 
+#include "integrals/construct_rates.h"
 #include "integrals/jet_equations.h"
 
 typedef enum { NH_LETTER_POWER, NH_LETTER_CIRCLE, NH_LETTER_EXPONENTIAL } nh_letter_kind;
@@ -22,7 +23,7 @@ typedef struct {
 } nh_letters;
 
 /* With `secular` ones also coordinates that are seen only inside of functions: what has them is many-valued on an
-   angle.  The caller frees letters->item. */
-nh_letters nh_letters_of(nh_jet_equations *equations, bool secular);
+   angle.  `rates`: exponentials and waves in cyclic coordinates, or NULL.  The caller frees letters->item. */
+nh_letters nh_letters_of(nh_jet_equations *equations, bool secular, const nh_construct_rates *rates);
 
 #endif

@@ -186,11 +186,11 @@ static void sort(nh_known_motions_words *w)
 }
 
 nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, double price, size_t most_words,
-                                                      bool secular)
+                                                      bool secular, const nh_construct_rates *rates)
 {
     nh_known_motions_words *w = nh_alloc(sizeof *w);
     *w = (nh_known_motions_words){.equations = x, .most = price};
-    nh_letters letters = nh_letters_of(x, secular);
+    nh_letters letters = nh_letters_of(x, secular, rates);
     for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
     nh_free(letters.item);
     size_t factors = factors_that_fit(w, most_words);

@@ -8,6 +8,7 @@
  *     factors of det M     with half powers of both signs: what normalises the reduced momenta
  *     cos u, sin u         of the least angle of which the system has multiples; negative powers where it has them
  *     exp u                whole powers, of both signs where it has them
+ *     cos, sin, exp of a cyclic coordinate times a rate, where solutions have this rate (construct_rates.h)
  *     log u, asin u, ..    whole powers
  *
  * A word is a product of powers, one of each letter at most; its price is the sum of the prices of the powers: the
@@ -17,6 +18,7 @@
 #ifndef NH_CLOSED_WORDS_H
 #define NH_CLOSED_WORDS_H
 
+#include "integrals/construct_rates.h"
 #include "integrals/jet_equations.h"
 
 typedef struct {
@@ -41,10 +43,10 @@ typedef struct {
     double *price;        /* per word */
 } nh_known_motions_words;
 
-/* Words up to a price, with `secular` letters (closed_letters.h).  All letters are registered for evaluation: choose a
-   point afterwards.  NULL: there would be more words than `most_words`, even with one such factor in each. */
+/* Words up to a price; `secular`, `rates`: closed_letters.h.  All letters are registered for evaluation: choose a point
+   afterwards.  NULL: there would be more words than `most_words`, even with one such factor in each. */
 nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words,
-                                                      bool secular);
+                                                      bool secular, const nh_construct_rates *rates);
 void nh_known_motions_words_free(nh_known_motions_words *words);
 
 /* Leave out words that are linear combinations of cheaper ones (partial fractions, sines and cosines in denominators),

@@ -375,10 +375,10 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     nh_counter c;
     *out = (nh_construction){.arena = arena};
     nh_counter_open(&c, model, &q);
-    nh_known_motions_words *words =
-        c.equations->obstacle
-            ? NULL
-            : nh_known_motions_words_create(c.equations, question->price, question->most_words, question->secular);
+    nh_known_motions_words *words = NULL;
+    if (!c.equations->obstacle)
+        words = nh_known_motions_words_create(c.equations, question->price, question->most_words, question->secular,
+                                              question->rates);
     if (words && !c.equations->obstacle) c.work += nh_known_motions_words_reduce(words);
     nh_velocity_frame frame = nh_velocity_frame_of(c.equations);
     outcome o = words ? UNLUCKY : TOO_MUCH;

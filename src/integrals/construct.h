@@ -17,6 +17,7 @@ typedef struct {
     bool time;              /* coefficients may depend on t */
     bool shape;             /* they do not depend on cyclic coordinates, which leaves fewer of them and longer series */
     bool further;        /* what is no polynomial in the known ones is new, even if it is another function of them */
+    const struct nh_construct_rates *rates; /* what words may contain beside the system's functions, or NULL */
     bool secular;           /* words may contain coordinates that are seen only inside of functions */
     size_t degree;          /* in the velocities, at most */
     double price;           /* of the dearest words */

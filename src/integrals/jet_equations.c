@@ -121,6 +121,11 @@ static bool occurs(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_ex sy
     return found;
 }
 
+bool nh_jet_equations_is_cyclic(const nh_jet_equations *x, nh_ex q)
+{
+    return !occurs(x, x->m, x->rho, q) && !occurs(x, x->n * x->n, x->M, q) && !occurs(x, x->n, x->A, q);
+}
+
 bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
 {
     nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate),
@@ -129,7 +134,7 @@ bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
     if (x->time) coordinate[0] = x->coordinate[0];
     for (size_t s = 0; s < x->m; s++) {
         nh_ex q = x->coordinate[x->time + s];
-        if (!occurs(x, x->m, x->rho, q) && !occurs(x, x->n * x->n, x->M, q) && !occurs(x, x->n, x->A, q)) continue;
+        if (nh_jet_equations_is_cyclic(x, q)) continue;
         coordinate[x->time + kept] = q;
         rho[kept++] = x->rho[s];
     }

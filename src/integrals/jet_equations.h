@@ -31,6 +31,7 @@ typedef struct {
 /* Obstacles are found here as far as they do not depend on the point. */
 nh_jet_equations *nh_jet_equations_create(const nh_model *model, bool time, bool generic);
 /* From now on those of the shape alone, which are closed: cyclic coordinates are none of theirs.  Are there any? */
+bool nh_jet_equations_is_cyclic(const nh_jet_equations *equations, nh_ex coordinate);
 bool nh_jet_equations_drop_cyclic(nh_jet_equations *equations);
 bool nh_jet_equations_have_cyclic(const nh_model *model);
 void nh_jet_equations_free(nh_jet_equations *equations);

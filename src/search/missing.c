@@ -6,6 +6,7 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "integrals/construct.h"
+#include "integrals/construct_rates.h"
 #include "integrals/echelon.h"
 #include "search/currents.h"
 #include "search/relations.h"
@@ -183,6 +184,7 @@ static bool is_over(const search *s, bool further)
 /* What is looked for: functions of the currents found too; in the shape alone; with words that are many-valued. */
 typedef struct {
     bool further, shape, secular;
+    const nh_construct_rates *rates;
 } manner;
 
 /* Words of one price. */
@@ -197,6 +199,7 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
                                .shape = how.shape,
                                .further = further,
                                .secular = how.secular,
+                               .rates = how.rates,
                                .degree = degree,
                                .price = price,
                                .most_words = (size_t)r->options.words,
@@ -250,8 +253,11 @@ static bool construct(search *s, const nh_completeness *c, bool further)
     bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) &&
                               !adds_nothing(s->climb.r, c));
     if (!wanted) return false;
-    manner any = {.further = further}, shape = {.further = further, .shape = true},
-           secular = {.further = further, .secular = true};
+    size_t degree = further ? c->incomplete_at : c->missing_at;
+    nh_construct_rates rates = nh_construct_rates_of(s->climb.r->model, degree, c->count.time, part * work);
+    manner any = {.further = further, .rates = &rates}, shape = {.further = further, .shape = true}, secular = any;
+    secular.secular = true;
+    work = fmax(work - rates.work, 0);
     return (s->cyclic && construct_up_to(s, c, shape, dearest, work)) || construct_up_to(s, c, any, dearest, work)
         || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }
