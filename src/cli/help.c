@@ -47,12 +47,29 @@ static bool takes(const command_word *c, const option_word *o) { return nh_word_
 
 /* ---- screens ---- */
 
+/* Two columns on a screen of 80; what is too long for the first one has a line of its own. */
+static void put_row(const char *head, const char *text)
+{
+    enum { indent = 2, second = 34, screen = 80 };
+    int at = printf("%*s%s", indent, "", head);
+    if (at >= second) at = printf("\n") - 1;
+    at += printf("%*s", second - at, "");
+    for (bool first = true; *text; first = false) {
+        int word = (int)strcspn(text, " ");
+        if (!first && at + 1 + word > screen) at = printf("\n%*s", second, "") - 1;
+        else if (!first) at += printf(" ");
+        at += printf("%.*s", word, text);
+        text += word + strspn(text + word, " ");
+    }
+    puts("");
+}
+
 static void put_option(const option_word *o, const char *command)
 {
     char head[80], first[6] = "";
     if (letter(o)) snprintf(first, sizeof first, "-%c, ", letter(o));
     snprintf(head, sizeof head, "%s--%s%s%s", first, o->name, o->shown[0] ? " " : "", o->shown);
-    printf("  %-31s %s\n", head, meaning(o, command));
+    put_row(head, meaning(o, command));
 }
 
 static void one_command(const command_word *c)
