@@ -75,27 +75,27 @@ Test(plane, curves_are_lifted_and_factored)
             residue[i].coefficient[k] = nh_residue_mul(prime[i], nh_residue_of(prime[i], whole[k / 4][k % 4]),
                                                        nh_residue_inverse(prime[i], 2));
     }
-    nh_special_curves c = nh_special_curves_lift(4, prime, residue);
+    nh_special_surfaces c = nh_special_surfaces_lift(4, prime, residue);
     cr_assert(c.lifted);
-    cr_assert_eq(c.curves, 2);
-    cr_assert(c.curve[0].degree[0] == 1 && c.curve[0].degree[1] == 1);
-    cr_expect(c.curve[0].coefficient[1] == 2 && c.curve[0].coefficient[2] == -3);
+    cr_assert_eq(c.surfaces, 2);
+    cr_assert(c.surface[0].degree[0] == 1 && c.surface[0].degree[1] == 1);
+    cr_expect(c.surface[0].coefficient[1] == 2 && c.surface[0].coefficient[2] == -3);
     nh_special_factor half = {.degree = 1, .coefficient = (int64_t[]){-3, 2}}, other = {.degree = 1,
         .coefficient = (int64_t[]){-3, 1}}, root = {.degree = 2, .coefficient = (int64_t[]){-4, 0, 1}};
-    cr_expect(nh_special_curve_contains(&c.curve[0], &half, 1, 1));
-    cr_expect_not(nh_special_curve_contains(&c.curve[0], &other, 1, 1));
-    cr_expect(nh_special_curve_contains(&c.curve[1], &root, 1, 1), "4 - 5 + 1");
+    cr_expect(nh_special_curve_contains(&c.surface[0], &half, 1, 1));
+    cr_expect_not(nh_special_curve_contains(&c.surface[0], &other, 1, 1));
+    cr_expect(nh_special_curve_contains(&c.surface[1], &root, 1, 1), "4 - 5 + 1");
     for (uint64_t seed = 1; seed < 20; seed++) {
         nh_residue lambda, mu;
-        if (!nh_special_curve_point(&c.curve[1], prime[0], seed, &lambda, &mu)) continue;
+        if (!nh_special_curve_point(&c.surface[1], prime[0], seed, &lambda, &mu)) continue;
         nh_residue five = nh_residue_mul(prime[0], 5, nh_residue_mul(prime[0], mu, mu));
         cr_expect_eq(nh_residue_add(prime[0], nh_residue_mul(prime[0], lambda, lambda), 1), five);
     }
-    nh_special_curves_clear(&c);
+    nh_special_surfaces_clear(&c);
     residue[3].coefficient[5] ^= 1; /* the last prime does not agree */
-    c = nh_special_curves_lift(4, prime, residue);
+    c = nh_special_surfaces_lift(4, prime, residue);
     cr_expect_not(c.lifted);
-    nh_special_curves_clear(&c);
+    nh_special_surfaces_clear(&c);
     for (size_t i = 0; i < 4; i++) nh_free(residue[i].coefficient);
 }
 

@@ -29,15 +29,15 @@ Test(space, surfaces_come_from_sections)
 {
     enum { primes = 4, sections = 8 };
     nh_prime prime[primes];
-    nh_residue_volume volume[primes];
+    nh_residue_surface volume[primes];
     for (size_t i = 0; i < primes; i++) {
         nh_residue nu[sections];
         nh_residue_surface section[sections];
         prime[i] = nh_prime_at(i);
         for (size_t k = 0; k < sections; k++) section[k] = section_at(prime[i], nu[k] = (nh_residue)(100 + 7 * k));
-        nh_residue_volume none;
-        cr_expect_not(nh_residue_volume_from(prime[i], 4, nu, section, &none)); /* of degree 3 over degree 2 */
-        cr_assert(nh_residue_volume_from(prime[i], sections, nu, section, &volume[i]));
+        nh_residue_surface none;
+        cr_expect_not(nh_residue_surface_from(prime[i], 4, nu, section, &none)); /* of degree 3 over degree 2 */
+        cr_assert(nh_residue_surface_from(prime[i], sections, nu, section, &volume[i]));
         for (size_t k = 0; k < sections; k++) nh_free(section[k].coefficient);
     }
     nh_special_surfaces s = nh_special_surfaces_lift(primes, prime, volume);

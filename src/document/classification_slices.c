@@ -107,8 +107,7 @@ static void draw_inside(drawing *d, const space *x, size_t index, const char *na
     const nh_special_surface *s = p->polynomial;
     if (p->v != 2 || s->degree[0] + s->degree[1]) return;
     if (-(double)s->coefficient[0] / (double)s->coefficient[1] != d->nu) return;
-    nh_special_surface over = {.degree = {c->degree[0], c->degree[1], 0}, .coefficient = c->coefficient};
-    draw_surface(d, &over, name);
+    draw_surface(d, c, name);
 }
 
 static bool is_at(const nh_classified_space_point *q, double nu) { return q->about[2] == nu; }

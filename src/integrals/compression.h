@@ -8,9 +8,10 @@
 
 #include "integrals/staircase.h"
 
-/* sum of coefficient[j * (degree[0] + 1) + i] lambda^i mu^j modulo a prime; the coefficients are on the heap. */
+/* sum of coefficient[(k * (degree[1] + 1) + j) * (degree[0] + 1) + i] lambda^i mu^j nu^k modulo a prime; degree[2] is 0
+ * without a third parameter.  The coefficients are on the heap. */
 typedef struct {
-    size_t degree[2];
+    size_t degree[3];
     nh_residue *coefficient;
 } nh_residue_surface;
 

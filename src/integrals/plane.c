@@ -136,24 +136,15 @@ static void add(residues *r, nh_prime prime, nh_common_curves *c)
     r->across[r->count++] = c->across;
 }
 
-static bool same_curve(const nh_special_curve *a, const nh_special_curve *b)
+static void take_curves(nh_plane *o, const nh_special_surfaces *found, bool degenerate)
 {
-    size_t count = (a->degree[0] + 1) * (a->degree[1] + 1);
-    return !memcmp(a->degree, b->degree, sizeof a->degree)
-        && !memcmp(a->coefficient, b->coefficient, count * sizeof *a->coefficient);
-}
-
-static void take_curves(nh_plane *o, const nh_special_curves *found, bool degenerate)
-{
-    for (size_t k = 0; k < found->curves; k++) {
-        const nh_special_curve *c = &found->curve[k];
-        size_t at = 0, count = (c->degree[0] + 1) * (c->degree[1] + 1);
-        while (at < o->curves && !same_curve(&o->curve[at].polynomial, c)) at++;
+    for (size_t k = 0; k < found->surfaces; k++) {
+        const nh_special_curve *c = &found->surface[k];
+        size_t at = 0;
+        while (at < o->curves && !nh_special_surface_same(&o->curve[at].polynomial, c)) at++;
         if (at == o->curves) {
             nh_grow(&o->curve, &o->curve_capacity, o->curves + 1, sizeof *o->curve);
-            o->curve[o->curves++] = (nh_plane_curve){.polynomial = *c};
-            o->curve[at].polynomial.coefficient = nh_alloc_array(count, sizeof *c->coefficient);
-            memcpy(o->curve[at].polynomial.coefficient, c->coefficient, count * sizeof *c->coefficient);
+            o->curve[o->curves++] = (nh_plane_curve){.polynomial = nh_special_surface_copy(c)};
         }
         o->curve[at].degenerate |= degenerate;
     }
@@ -186,8 +177,8 @@ static double height(const residues *r, double norm)
 
 static bool lift(search *s, const residues *r, nh_plane_row *row)
 {
-    nh_special_curves special = nh_special_curves_lift(r->count, r->prime, r->special);
-    nh_special_curves degenerate = nh_special_curves_lift(r->count, r->prime, r->degenerate);
+    nh_special_surfaces special = nh_special_surfaces_lift(r->count, r->prime, r->special);
+    nh_special_surfaces degenerate = nh_special_surfaces_lift(r->count, r->prime, r->degenerate);
     nh_special_factors across = nh_special_lift(r->count, r->prime, r->across);
     bool lifted = special.lifted && degenerate.lifted && across.lifted;
     if (lifted) {
@@ -196,8 +187,8 @@ static bool lift(search *s, const residues *r, nh_plane_row *row)
         take_lines(s->out, across.factors, across.factor);
         row->height = height(r, special.norm * degenerate.norm * across.norm);
     }
-    nh_special_curves_clear(&special);
-    nh_special_curves_clear(&degenerate);
+    nh_special_surfaces_clear(&special);
+    nh_special_surfaces_clear(&degenerate);
     nh_special_factors_clear(&across);
     return lifted;
 }

@@ -67,7 +67,7 @@ static bool more_sections(search *s, size_t degree, size_t prime, size_t want, n
 
 /* Special and degenerate surfaces and walls modulo one prime. */
 typedef struct {
-    nh_residue_volume part[3];
+    nh_residue_surface part[3];
 } volumes;
 
 static void clear_volumes(volumes *v)
@@ -88,7 +88,7 @@ static bool interpolate(const sections *x, nh_prime f, volumes *out)
     nh_residue_surface section[most_sections];
     for (int part = 0; part < 3 && good; part++) {
         for (size_t k = 0; k < x->count; k++) section[k] = part_of(&x->at[k], part);
-        good = nh_residue_volume_from(f, x->count, x->nu, section, &out->part[part]);
+        good = nh_residue_surface_from(f, x->count, x->nu, section, &out->part[part]);
     }
     if (!good) clear_volumes(out);
     return good;
@@ -114,7 +114,7 @@ static bool volumes_modulo(search *s, size_t degree, size_t prime, nh_plane_row 
 typedef struct {
     size_t count;
     nh_prime prime[NH_CLASSIFY_MOST_PRIMES];
-    nh_residue_volume part[3][NH_CLASSIFY_MOST_PRIMES];
+    nh_residue_surface part[3][NH_CLASSIFY_MOST_PRIMES];
 } residues;
 
 static void clear(residues *r)
@@ -144,15 +144,6 @@ static void add(residues *r, nh_prime prime, volumes *v)
     r->count++;
 }
 
-static nh_special_surface copy_of(const nh_special_surface *from)
-{
-    nh_special_surface out = *from;
-    size_t count = (out.degree[0] + 1) * (out.degree[1] + 1) * (out.degree[2] + 1);
-    out.coefficient = nh_alloc_array(count, sizeof *out.coefficient);
-    memcpy(out.coefficient, from->coefficient, count * sizeof *out.coefficient);
-    return out;
-}
-
 static void take_surfaces(nh_space *o, const nh_special_surfaces *found, bool degenerate)
 {
     for (size_t k = 0; k < found->surfaces; k++) {
@@ -160,7 +151,7 @@ static void take_surfaces(nh_space *o, const nh_special_surfaces *found, bool de
         while (at < o->surfaces && !nh_special_surface_same(&o->surface[at].polynomial, &found->surface[k])) at++;
         if (at == o->surfaces) {
             nh_grow(&o->surface, &o->surface_capacity, o->surfaces + 1, sizeof *o->surface);
-            o->surface[o->surfaces++] = (nh_space_surface){.polynomial = copy_of(&found->surface[k])};
+            o->surface[o->surfaces++] = (nh_space_surface){.polynomial = nh_special_surface_copy(&found->surface[k])};
         }
         o->surface[at].degenerate |= degenerate;
     }
@@ -171,7 +162,7 @@ static void take_one(nh_special_surface **list, size_t *count, size_t *capacity,
     for (size_t k = 0; k < *count; k++)
         if (nh_special_surface_same(&(*list)[k], x)) return;
     nh_grow(list, capacity, *count + 1, sizeof **list);
-    (*list)[(*count)++] = copy_of(x);
+    (*list)[(*count)++] = nh_special_surface_copy(x);
 }
 
 static bool lift(search *s, const residues *r)

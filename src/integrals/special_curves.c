@@ -1,7 +1,6 @@
-/* Special curves over the rationals: FLINT's polynomials in two variables. */
-#include "integrals/special_curves.h"
+/* Special curves and surfaces over the rationals: FLINT's polynomials in several variables. */
+#include "integrals/special_curves_internal.h"
 
-#include <flint/fmpz_mpoly.h>
 #include <flint/fmpz_mpoly_factor.h>
 #include <flint/fmpz_poly.h>
 #include <math.h>
@@ -13,50 +12,43 @@
 
 /* ---- lifting ---- */
 
-/* Coefficients times their common denominator; false: the last prime does not agree. */
+static size_t length_of(const size_t degree[3]) { return (degree[0] + 1) * (degree[1] + 1) * (degree[2] + 1); }
+
+/* False: the last prime does not agree. */
 static bool lift(size_t primes, const nh_prime *prime, const nh_residue_surface *residue, fmpz_mpoly_t out,
                  const fmpz_mpoly_ctx_t ctx)
 {
-    size_t width = residue[0].degree[0] + 1, count = width * (residue[0].degree[1] + 1);
-    fmpq_t *q = nh_alloc_array(count, sizeof *q);
-    nh_residue *r = nh_alloc_array(primes, sizeof *r);
-    fmpz_t shared, x;
-    bool good = true;
-    fmpz_init_set_ui(shared, 1);
-    fmpz_init(x);
-    for (size_t k = 0; k < count; k++) fmpq_init(q[k]);
-    for (size_t k = 0; k < count && good; k++) {
-        for (size_t i = 0; i < primes; i++) r[i] = residue[i].coefficient[k];
-        good = nh_special_reconstruct(primes, prime, r, q[k]);
-        fmpz_lcm(shared, shared, fmpq_denref(q[k]));
-    }
-    for (size_t k = 0; k < count && good; k++) {
-        fmpz_divexact(x, shared, fmpq_denref(q[k]));
-        fmpz_mul(x, x, fmpq_numref(q[k]));
-        if (!fmpz_is_zero(x)) fmpz_mpoly_set_coeff_fmpz_ui(out, x, (ulong[]){k % width, k / width}, ctx);
-    }
-    for (size_t k = 0; k < count; k++) fmpq_clear(q[k]);
-    fmpz_clear(x);
-    fmpz_clear(shared);
-    nh_free(r);
-    nh_free(q);
-    return good;
+    const size_t *degree = residue[0].degree;
+    size_t count = length_of(degree), width = degree[0] + 1, each = width * (degree[1] + 1);
+    const nh_residue **all = nh_alloc_array(primes, sizeof *all);
+    for (size_t i = 0; i < primes; i++) all[i] = residue[i].coefficient;
+    fmpz *x = nh_special_lift_numbers(primes, prime, count, all);
+    nh_free(all);
+    if (!x) return false;
+    for (size_t z = 0; z < count; z++)
+        if (!fmpz_is_zero(x + z))
+            fmpz_mpoly_set_coeff_fmpz_ui(out, x + z, (ulong[]){z % width, z % each / width, z / each}, ctx);
+    _fmpz_vec_clear(x, (slong)count);
+    return true;
 }
 
-/* False: too long for 64 bits. */
-static bool take_curve(nh_special_curve *out, const fmpz_mpoly_struct *p, const fmpz_mpoly_ctx_t ctx)
+bool nh_special_surface_take(nh_special_surface *out, const fmpz_mpoly_struct *p, const fmpz_mpoly_ctx_t ctx)
 {
     fmpz_t c;
     bool good = true;
     fmpz_init(c);
-    for (int v = 0; v < 2; v++) out->degree[v] = (size_t)fmpz_mpoly_degree_si(p, v, ctx);
-    out->coefficient = nh_alloc_array((out->degree[0] + 1) * (out->degree[1] + 1), sizeof *out->coefficient);
-    for (slong k = 0; k < fmpz_mpoly_length(p, ctx) && good; k++) {
-        ulong e[2];
-        fmpz_mpoly_get_term_exp_ui(e, p, k, ctx);
-        fmpz_mpoly_get_term_coeff_fmpz(c, p, k, ctx);
+    for (int v = 0; v < 3; v++) {
+        slong degree = fmpz_mpoly_degree_si(p, v, ctx);
+        out->degree[v] = degree > 0 ? (size_t)degree : 0;
+    }
+    size_t width = out->degree[0] + 1, each = width * (out->degree[1] + 1);
+    out->coefficient = nh_alloc_array(length_of(out->degree), sizeof *out->coefficient);
+    for (slong z = 0; z < fmpz_mpoly_length(p, ctx) && good; z++) {
+        ulong e[3];
+        fmpz_mpoly_get_term_exp_ui(e, p, z, ctx);
+        fmpz_mpoly_get_term_coeff_fmpz(c, p, z, ctx);
         good = fmpz_fits_si(c);
-        if (good) out->coefficient[e[1] * (out->degree[0] + 1) + e[0]] = fmpz_get_si(c);
+        if (good) out->coefficient[e[2] * each + e[1] * width + e[0]] = fmpz_get_si(c);
     }
     fmpz_clear(c);
     return good;
@@ -65,12 +57,23 @@ static bool take_curve(nh_special_curve *out, const fmpz_mpoly_struct *p, const 
 /* By degrees, then by coefficients from the highest on. */
 static int by_size(const void *a, const void *b)
 {
-    const nh_special_curve *x = a, *y = b;
-    for (int v = 0; v < 2; v++)
+    const nh_special_surface *x = a, *y = b;
+    for (int v = 0; v < 3; v++)
         if (x->degree[v] != y->degree[v]) return x->degree[v] < y->degree[v] ? -1 : 1;
-    for (size_t k = (x->degree[0] + 1) * (x->degree[1] + 1); k-- > 0;)
+    for (size_t k = length_of(x->degree); k-- > 0;)
         if (x->coefficient[k] != y->coefficient[k]) return x->coefficient[k] < y->coefficient[k] ? -1 : 1;
     return 0;
+}
+
+bool nh_special_surface_same(const nh_special_surface *a, const nh_special_surface *b) { return by_size(a, b) == 0; }
+
+nh_special_surface nh_special_surface_copy(const nh_special_surface *from)
+{
+    nh_special_surface out = *from;
+    size_t count = length_of(from->degree);
+    out.coefficient = nh_alloc_array(count, sizeof *out.coefficient);
+    memcpy(out.coefficient, from->coefficient, count * sizeof *out.coefficient);
+    return out;
 }
 
 static double norm_of(const fmpz_mpoly_t p, const fmpz_mpoly_ctx_t ctx)
@@ -86,22 +89,22 @@ static double norm_of(const fmpz_mpoly_t p, const fmpz_mpoly_ctx_t ctx)
     return sum;
 }
 
-nh_special_curves nh_special_curves_lift(size_t primes, const nh_prime *prime, const nh_residue_surface *residue)
+nh_special_surfaces nh_special_surfaces_lift(size_t primes, const nh_prime *prime, const nh_residue_surface *residue)
 {
-    nh_special_curves out = {.norm = 1};
+    nh_special_surfaces out = {.norm = 1};
     fmpz_mpoly_ctx_t ctx;
     fmpz_mpoly_t p;
     fmpz_mpoly_factor_t factors;
-    fmpz_mpoly_ctx_init(ctx, 2, ORD_LEX);
+    fmpz_mpoly_ctx_init(ctx, 3, ORD_LEX);
     fmpz_mpoly_init(p, ctx);
     fmpz_mpoly_factor_init(factors, ctx);
     if (primes > 1 && lift(primes, prime, residue, p, ctx)) {
         out.norm = norm_of(p, ctx);
         out.lifted = fmpz_mpoly_factor(factors, p, ctx);
-        out.curve = nh_alloc_array((size_t)factors->num + 1, sizeof *out.curve);
+        out.surface = nh_alloc_array((size_t)factors->num + 1, sizeof *out.surface);
         for (slong k = 0; k < factors->num; k++)
-            out.lifted &= take_curve(&out.curve[out.curves++], factors->poly + k, ctx);
-        qsort(out.curve, out.curves, sizeof *out.curve, by_size);
+            out.lifted &= nh_special_surface_take(&out.surface[out.surfaces++], factors->poly + k, ctx);
+        qsort(out.surface, out.surfaces, sizeof *out.surface, by_size);
     }
     fmpz_mpoly_factor_clear(factors, ctx);
     fmpz_mpoly_clear(p, ctx);
@@ -109,10 +112,10 @@ nh_special_curves nh_special_curves_lift(size_t primes, const nh_prime *prime, c
     return out;
 }
 
-void nh_special_curves_clear(nh_special_curves *c)
+void nh_special_surfaces_clear(nh_special_surfaces *s)
 {
-    for (size_t k = 0; k < c->curves; k++) nh_free(c->curve[k].coefficient);
-    nh_free(c->curve);
+    for (size_t k = 0; k < s->surfaces; k++) nh_free(s->surface[k].coefficient);
+    nh_free(s->surface);
 }
 
 /* ---- points ---- */

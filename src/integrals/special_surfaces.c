@@ -1,16 +1,13 @@
 /* Special surfaces over the rationals: FLINT's polynomials in three variables. */
 #include "integrals/special_surfaces.h"
 
-#include <flint/fmpz_mpoly.h>
-#include <flint/fmpz_mpoly_factor.h>
 #include <flint/nmod.h>
 #include <flint/nmod_mpoly.h>
 #include <flint/nmod_poly.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "integrals/special_values_internal.h"
+#include "integrals/special_curves_internal.h"
 
 /* ---- from sections to one polynomial ---- */
 
@@ -53,7 +50,7 @@ static bool rational_function(nh_prime f, size_t count, const ulong *nu, const u
     return found;
 }
 
-static void write_volume(size_t width, const nmod_poly_struct *top, nh_residue_volume *out)
+static void write_surface(size_t width, const nmod_poly_struct *top, nh_residue_surface *out)
 {
     size_t each = width * (out->degree[1] + 1);
     for (size_t z = 0; z < each; z++)
@@ -64,11 +61,11 @@ static void write_volume(size_t width, const nmod_poly_struct *top, nh_residue_v
             out->coefficient[k * each + z] = (nh_residue)nmod_poly_get_coeff_ui(top + z, (slong)k);
 }
 
-bool nh_residue_volume_from(nh_prime f, size_t count, const nh_residue *nu, const nh_residue_surface *section,
-                            nh_residue_volume *out)
+bool nh_residue_surface_from(nh_prime f, size_t count, const nh_residue *nu, const nh_residue_surface *section,
+                             nh_residue_surface *out)
 {
     size_t width = section[0].degree[0] + 1, each = width * (section[0].degree[1] + 1);
-    *out = (nh_residue_volume){.degree = {section[0].degree[0], section[0].degree[1], 0}};
+    *out = (nh_residue_surface){.degree = {section[0].degree[0], section[0].degree[1], 0}};
     nmod_poly_struct *top = nh_alloc_array(2 * each, sizeof *top), *bottom = top + each;
     ulong *at = nh_alloc_array(2 * count, sizeof *at), *value = at + count;
     nmod_poly_t shared, q;
@@ -90,116 +87,13 @@ bool nh_residue_volume_from(nh_prime f, size_t count, const nh_residue *nu, cons
         nmod_poly_div(q, shared, bottom + z);
         nmod_poly_mul(top + z, top + z, q);
     }
-    if (good) write_volume(width, top, out);
+    if (good) write_surface(width, top, out);
     for (size_t z = 0; z < 2 * each; z++) nmod_poly_clear(top + z);
     nmod_poly_clear(q);
     nmod_poly_clear(shared);
     nh_free(at);
     nh_free(top);
     return good;
-}
-
-/* ---- over the integers ---- */
-
-static bool lift(size_t primes, const nh_prime *prime, const nh_residue_volume *residue, fmpz_mpoly_t out,
-                 const fmpz_mpoly_ctx_t ctx)
-{
-    const size_t *degree = residue[0].degree;
-    size_t count = (degree[0] + 1) * (degree[1] + 1) * (degree[2] + 1);
-    fmpq_t *q = nh_alloc_array(count, sizeof *q);
-    nh_residue *r = nh_alloc_array(primes, sizeof *r);
-    fmpz_t shared, x;
-    bool good = true;
-    fmpz_init_set_ui(shared, 1);
-    fmpz_init(x);
-    for (size_t z = 0; z < count; z++) fmpq_init(q[z]);
-    for (size_t z = 0; z < count && good; z++) {
-        for (size_t i = 0; i < primes; i++) r[i] = residue[i].coefficient[z];
-        good = nh_special_reconstruct(primes, prime, r, q[z]);
-        fmpz_lcm(shared, shared, fmpq_denref(q[z]));
-    }
-    for (size_t z = 0; z < count && good; z++) {
-        ulong e[3] = {z % (degree[0] + 1), z / (degree[0] + 1) % (degree[1] + 1),
-                      z / ((degree[0] + 1) * (degree[1] + 1))};
-        fmpz_divexact(x, shared, fmpq_denref(q[z]));
-        fmpz_mul(x, x, fmpq_numref(q[z]));
-        if (!fmpz_is_zero(x)) fmpz_mpoly_set_coeff_fmpz_ui(out, x, e, ctx);
-    }
-    for (size_t z = 0; z < count; z++) fmpq_clear(q[z]);
-    fmpz_clear(x);
-    fmpz_clear(shared);
-    nh_free(r);
-    nh_free(q);
-    return good;
-}
-
-/* False: too long for 64 bits. */
-static bool take_surface(nh_special_surface *out, const fmpz_mpoly_struct *p, const fmpz_mpoly_ctx_t ctx)
-{
-    fmpz_t c;
-    bool good = true;
-    fmpz_init(c);
-    for (int v = 0; v < 3; v++) {
-        slong degree = fmpz_mpoly_degree_si(p, v, ctx);
-        out->degree[v] = degree > 0 ? (size_t)degree : 0;
-    }
-    size_t width = out->degree[0] + 1, each = width * (out->degree[1] + 1);
-    out->coefficient = nh_alloc_array(each * (out->degree[2] + 1), sizeof *out->coefficient);
-    for (slong z = 0; z < fmpz_mpoly_length(p, ctx) && good; z++) {
-        ulong e[3];
-        fmpz_mpoly_get_term_exp_ui(e, p, z, ctx);
-        fmpz_mpoly_get_term_coeff_fmpz(c, p, z, ctx);
-        good = fmpz_fits_si(c);
-        if (good) out->coefficient[e[2] * each + e[1] * width + e[0]] = fmpz_get_si(c);
-    }
-    fmpz_clear(c);
-    return good;
-}
-
-static size_t length_of(const nh_special_surface *x)
-{
-    return (x->degree[0] + 1) * (x->degree[1] + 1) * (x->degree[2] + 1);
-}
-
-/* By degrees, then by coefficients from the highest on. */
-static int by_size(const void *a, const void *b)
-{
-    const nh_special_surface *x = a, *y = b;
-    for (int v = 0; v < 3; v++)
-        if (x->degree[v] != y->degree[v]) return x->degree[v] < y->degree[v] ? -1 : 1;
-    for (size_t k = length_of(x); k-- > 0;)
-        if (x->coefficient[k] != y->coefficient[k]) return x->coefficient[k] < y->coefficient[k] ? -1 : 1;
-    return 0;
-}
-
-bool nh_special_surface_same(const nh_special_surface *a, const nh_special_surface *b) { return by_size(a, b) == 0; }
-
-nh_special_surfaces nh_special_surfaces_lift(size_t primes, const nh_prime *prime, const nh_residue_volume *residue)
-{
-    nh_special_surfaces out = {.lifted = false};
-    fmpz_mpoly_ctx_t ctx;
-    fmpz_mpoly_t p;
-    fmpz_mpoly_factor_t factors;
-    fmpz_mpoly_ctx_init(ctx, 3, ORD_LEX);
-    fmpz_mpoly_init(p, ctx);
-    fmpz_mpoly_factor_init(factors, ctx);
-    if (primes > 1 && lift(primes, prime, residue, p, ctx)) {
-        out.lifted = fmpz_mpoly_factor(factors, p, ctx);
-        out.surface = nh_alloc_array((size_t)factors->num + 1, sizeof *out.surface);
-        for (slong k = 0; k < factors->num; k++)
-            out.lifted &= take_surface(&out.surface[out.surfaces++], factors->poly + k, ctx);
-        qsort(out.surface, out.surfaces, sizeof *out.surface, by_size);
-    }
-    fmpz_mpoly_factor_clear(factors, ctx);
-    fmpz_mpoly_clear(p, ctx);
-    fmpz_mpoly_ctx_clear(ctx);
-    return out;
-}
-
-void nh_special_surfaces_clear(nh_special_surfaces *s)
-{
-    for (size_t k = 0; k < s->surfaces; k++) nh_free(s->surface[k].coefficient);
-    nh_free(s->surface);
 }
 
 /* ---- modulo a prime ---- */
@@ -275,7 +169,7 @@ static void read_surface(const nh_special_surface *s, fmpz_mpoly_t out, const fm
 {
     size_t width = s->degree[0] + 1, each = width * (s->degree[1] + 1);
     fmpz_mpoly_zero(out, ctx);
-    for (size_t z = 0; z < length_of(s); z++)
+    for (size_t z = 0; z < each * (s->degree[2] + 1); z++)
         if (s->coefficient[z])
             fmpz_mpoly_set_coeff_si_ui(out, s->coefficient[z], (ulong[]){z % width, z % each / width, z / each}, ctx);
 }
@@ -318,7 +212,7 @@ bool nh_special_surface_section(const nh_special_surface *s, const nh_special_su
         fmpz_mpoly_mul(power, power, a, ctx);
     }
     divide_content(sum, ctx);
-    bool good = take_surface(&found, sum, ctx);
+    bool good = nh_special_surface_take(&found, sum, ctx);
     int i = v == 0 ? 1 : 0, j = v == 2 ? 1 : 2; /* the other two: v does not occur */
     *out = (nh_special_curve){.degree = {found.degree[i], found.degree[j]}, .coefficient = found.coefficient};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) fmpz_mpoly_clear(all[k], ctx);
@@ -326,22 +220,15 @@ bool nh_special_surface_section(const nh_special_surface *s, const nh_special_su
     return good;
 }
 
-static void read_curve(const nh_special_curve *c, fmpz_mpoly_t out, const fmpz_mpoly_ctx_t ctx)
-{
-    for (size_t j = 0; j <= c->degree[1]; j++)
-        for (size_t i = 0; i <= c->degree[0]; i++)
-            fmpz_mpoly_set_coeff_si_ui(out, c->coefficient[j * (c->degree[0] + 1) + i], (ulong[]){i, j}, ctx);
-}
-
 bool nh_special_curve_covers(const nh_special_curve *whole, const nh_special_curve *part)
 {
     fmpz_mpoly_ctx_t ctx;
     fmpz_mpoly_t p, q;
-    fmpz_mpoly_ctx_init(ctx, 2, ORD_LEX);
+    fmpz_mpoly_ctx_init(ctx, 3, ORD_LEX);
     fmpz_mpoly_init(p, ctx);
     fmpz_mpoly_init(q, ctx);
-    read_curve(whole, p, ctx);
-    read_curve(part, q, ctx);
+    read_surface(whole, p, ctx);
+    read_surface(part, q, ctx);
     bool inside = fmpz_mpoly_is_zero(p, ctx) || fmpz_mpoly_divides(p, p, q, ctx);
     fmpz_mpoly_clear(q, ctx);
     fmpz_mpoly_clear(p, ctx);

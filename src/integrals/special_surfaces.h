@@ -1,4 +1,5 @@
-/* special_surfaces: algebraic surfaces in the space of three parameters, from their sections modulo primes.
+/* special_surfaces: algebraic surfaces in the space of three parameters: from their sections modulo primes, and what
+ * lies on them.
  *
  * At nu = nu_1, nu_2, .. and modulo a prime the section is a monic polynomial in lambda and mu, whose coefficients are
  * rational functions of nu: found from their values by the extended Euclidean algorithm, where one value more than is
@@ -8,34 +9,10 @@
 
 #include "integrals/special_curves.h"
 
-/* Irreducible over Q: sum of coefficient[(k * (degree[1] + 1) + j) * (degree[0] + 1) + i] lambda^i mu^j nu^k, whole,
- * without common factor. */
-typedef struct {
-    size_t degree[3];
-    int64_t *coefficient;    /* on the heap */
-} nh_special_surface;
-
-typedef struct {
-    bool lifted;             /* the last prime agreed */
-    size_t surfaces;
-    nh_special_surface *surface;
-} nh_special_surfaces;
-
-/* The same modulo a prime, in one piece. */
-typedef struct {
-    size_t degree[3];
-    nh_residue *coefficient;
-} nh_residue_volume;
-
 /* From sections of the same degrees at different nu, without factors that depend on nu alone. False: they are too
  * few. */
-bool nh_residue_volume_from(nh_prime field, size_t count, const nh_residue *nu, const nh_residue_surface *section,
-                            nh_residue_volume *out);
-
-/* Of the same degrees modulo several primes. */
-nh_special_surfaces nh_special_surfaces_lift(size_t primes, const nh_prime *prime, const nh_residue_volume *residue);
-void nh_special_surfaces_clear(nh_special_surfaces *surfaces);
-bool nh_special_surface_same(const nh_special_surface *a, const nh_special_surface *b);
+bool nh_residue_surface_from(nh_prime field, size_t count, const nh_residue *nu, const nh_residue_surface *section,
+                             nh_residue_surface *out);
 
 /* A point (lambda, mu, nu) of it modulo the prime, which follows from the number; false: none was found. */
 bool nh_special_surface_point(const nh_special_surface *surface, nh_prime field, uint64_t seed, nh_residue at[3]);

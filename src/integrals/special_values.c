@@ -73,7 +73,8 @@ void nh_special_roots_clear(nh_special_roots *r)
 
 /* ---- over the integers ---- */
 
-bool nh_special_reconstruct(size_t primes, const nh_prime *prime, const nh_residue *residue, fmpq_t out)
+/* Residues of one number. */
+static bool reconstruct(size_t primes, const nh_prime *prime, const nh_residue *residue, fmpq_t out)
 {
     fmpz_t x, m;
     fmpz_init_set_ui(x, residue[0]);
@@ -94,32 +95,31 @@ bool nh_special_reconstruct(size_t primes, const nh_prime *prime, const nh_resid
     return good;
 }
 
-static bool lift(size_t primes, const nh_prime *prime, const nh_residue_polynomial *residue, fmpz_poly_t out)
+fmpz *nh_special_lift_numbers(size_t primes, const nh_prime *prime, size_t count, const nh_residue *const *residue)
 {
-    size_t degree = residue[0].degree;
-    fmpq_t *q = nh_alloc_array(degree + 1, sizeof *q);
+    fmpq_t *q = nh_alloc_array(count, sizeof *q);
     nh_residue *r = nh_alloc_array(primes, sizeof *r);
-    fmpz_t common, x;
+    fmpz *out = _fmpz_vec_init((slong)count);
+    fmpz_t common;
     bool good = true;
     fmpz_init_set_ui(common, 1);
-    fmpz_init(x);
-    for (size_t j = 0; j <= degree; j++) fmpq_init(q[j]);
-    for (size_t j = 0; j <= degree && good; j++) {
-        for (size_t i = 0; i < primes; i++) r[i] = residue[i].coefficient[j];
-        good = nh_special_reconstruct(primes, prime, r, q[j]);
-        fmpz_lcm(common, common, fmpq_denref(q[j]));
+    for (size_t k = 0; k < count; k++) fmpq_init(q[k]);
+    for (size_t k = 0; k < count && good; k++) {
+        for (size_t i = 0; i < primes; i++) r[i] = residue[i][k];
+        good = reconstruct(primes, prime, r, q[k]);
+        fmpz_lcm(common, common, fmpq_denref(q[k]));
     }
-    for (size_t j = 0; j <= degree && good; j++) {
-        fmpz_divexact(x, common, fmpq_denref(q[j]));
-        fmpz_mul(x, x, fmpq_numref(q[j]));
-        fmpz_poly_set_coeff_fmpz(out, (slong)j, x);
+    for (size_t k = 0; k < count && good; k++) {
+        fmpz_divexact(out + k, common, fmpq_denref(q[k]));
+        fmpz_mul(out + k, out + k, fmpq_numref(q[k]));
     }
-    for (size_t j = 0; j <= degree; j++) fmpq_clear(q[j]);
-    fmpz_clear(x);
+    for (size_t k = 0; k < count; k++) fmpq_clear(q[k]);
     fmpz_clear(common);
     nh_free(r);
     nh_free(q);
-    return good;
+    if (good) return out;
+    _fmpz_vec_clear(out, (slong)count);
+    return NULL;
 }
 
 /* False: too long for 64 bits. */
@@ -154,9 +154,16 @@ nh_special_factors nh_special_lift(size_t primes, const nh_prime *prime, const n
     fmpz_poly_factor_t factors;
     fmpz_poly_init(p);
     fmpz_poly_factor_init(factors);
-    if (primes > 1 && lift(primes, prime, residue, p)) {
+    size_t count = residue[0].degree + 1;
+    const nh_residue **all = nh_alloc_array(primes, sizeof *all);
+    for (size_t i = 0; i < primes; i++) all[i] = residue[i].coefficient;
+    fmpz *lifted = primes > 1 ? nh_special_lift_numbers(primes, prime, count, all) : NULL;
+    nh_free(all);
+    if (lifted) {
         out.lifted = true;
         out.norm = 0;
+        for (size_t j = 0; j < count; j++) fmpz_poly_set_coeff_fmpz(p, (slong)j, lifted + j);
+        _fmpz_vec_clear(lifted, (slong)count);
         for (slong j = 0; j <= fmpz_poly_degree(p); j++) out.norm += fabs(fmpz_get_d(fmpz_poly_get_coeff_ptr(p, j)));
         if (fmpz_poly_degree(p) > 0) fmpz_poly_factor(factors, p);
         out.factor = nh_alloc_array((size_t)factors->num + 1, sizeof *out.factor);

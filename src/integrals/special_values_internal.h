@@ -6,7 +6,9 @@
 
 #include "exact/residue.h"
 
-/* A rational number from its residues modulo all primes but the last, which has to agree. */
-bool nh_special_reconstruct(size_t primes, const nh_prime *prime, const nh_residue *residue, fmpq_t out);
+/* Rational numbers from their residues modulo all primes but the last, which has to agree, times their common
+ * denominator.  residue[i][k] is that of number k modulo prime i.  _fmpz_vec_clear(.., count); NULL: one does not
+ * agree. */
+fmpz *nh_special_lift_numbers(size_t primes, const nh_prime *prime, size_t count, const nh_residue *const *residue);
 
 #endif
