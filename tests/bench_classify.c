@@ -229,8 +229,8 @@ static void put_plane(const nh_classified_plane *x, nh_text *items, size_t *foun
     for (size_t k = 0; k < x->plane->curves; k++) {
         const nh_plane_curve *c = &x->plane->curve[k];
         if (!c->first || c->degenerate) continue;
-        nh_text_addf(items, "%s from degree %zu;", nh_classified_curve_words(x, &c->polynomial), c->first);
-        printf("%s%s from degree %zu (%zu, %s)", written++ ? "; " : "", nh_classified_curve_words(x, &c->polynomial), c->first,
+        nh_text_addf(items, "%s from degree %zu;", nh_classified_surface_words(x->family, &c->polynomial), c->first);
+        printf("%s%s from degree %zu (%zu, %s)", written++ ? "; " : "", nh_classified_surface_words(x->family, &c->polynomial), c->first,
                c->number[c->first].bound, x->curve[k].complete ? "proved" : "counted");
     }
     for (size_t k = 0; k < x->points; k++) {
@@ -243,7 +243,7 @@ static void put_plane(const nh_classified_plane *x, nh_text *items, size_t *foun
     printf("%s | ", written ? "" : "none");
     written = 0;
     for (size_t k = 0; k < x->plane->curves; k++)
-        if (x->plane->curve[k].degenerate) printf("%s%s", written++ ? "; " : "", nh_classified_curve_words(x, &x->plane->curve[k].polynomial));
+        if (x->plane->curve[k].degenerate) printf("%s%s", written++ ? "; " : "", nh_classified_surface_words(x->family, &x->plane->curve[k].polynomial));
     printf(" | %.0e |", rows ? x->plane->row[rows - 1].height : 0);
 }
 
@@ -297,9 +297,9 @@ static void put_space(const nh_classified_space *x)
     size_t written = 0;
     for (size_t k = 0; k < x->parts; k++) {
         const nh_classified_part *p = &x->part[k];
-        const nh_space_surface *s = p->surface == SIZE_MAX ? NULL : &x->space->surface[p->surface];
+        const nh_plane_curve *s = p->surface == SIZE_MAX ? NULL : &x->space->surface[p->surface];
         if (!s || !s->first) continue;
-        printf("%s%s from degree %zu (%zu, %s)", written++ ? "; " : "", nh_classified_surface_words(x, &s->polynomial),
+        printf("%s%s from degree %zu (%zu, %s)", written++ ? "; " : "", nh_classified_surface_words(x->family, &s->polynomial),
                s->first, s->number[s->first].bound, p->complete ? "proved" : "counted");
     }
     for (size_t k = 0; k < x->curves; k++) {
@@ -317,7 +317,7 @@ static void put_space(const nh_classified_space *x)
     written = 0;
     for (size_t k = 0; k < x->space->surfaces; k++)
         if (x->space->surface[k].degenerate)
-            printf("%s%s", written++ ? "; " : "", nh_classified_surface_words(x, &x->space->surface[k].polynomial));
+            printf("%s%s", written++ ? "; " : "", nh_classified_surface_words(x->family, &x->space->surface[k].polynomial));
 }
 
 static bool space_row(size_t index)

@@ -127,8 +127,8 @@ typedef struct {
 /* Over all three. */
 nh_classified_space *nh_classify_space_system(const nh_classify_request *request, nh_error *error);
 void nh_classified_space_free(nh_classified_space *classified);
-/* "eps - 2 = 0", in the names of the space; in the arena of its family. */
-const char *nh_classified_surface_words(const nh_classified_space *space, const nh_special_surface *surface);
+/* "eps - 2 = 0" for a curve or surface of parameters of this family; in its arena. */
+const char *nh_classified_surface_words(const nh_classified *family, const nh_special_surface *surface);
 
 /* The current of this index, where those behind the currents found are functions of them that are polynomial in the
    velocities. */
@@ -139,8 +139,6 @@ const char *nh_classified_words(const nh_classified *classified, const nh_specia
 /* The same for a parameter of this name. */
 const char *nh_classified_values(const nh_classified *classified, const char *name,
                                  const nh_special_factor *polynomial);
-/* "eps - 2 = 0", in the names of the plane; in the arena of its family. */
-const char *nh_classified_curve_words(const nh_classified_plane *plane, const nh_special_curve *curve);
 /* Is it one rational number? */
 bool nh_classified_rational(const nh_special_factor *polynomial, int64_t *top, int64_t *bottom);
 

@@ -13,6 +13,10 @@ nh_classify_question nh_classified_question(nh_classified *classified, const nh_
 /* The index of a parameter; false with an error. */
 bool nh_classified_parameter(const nh_system *system, const char *name, size_t *out, nh_error *error);
 
+/* -b/a where the curve or surface is a v + b, for the parameter v (0: the first that the family varies); in the arena.
+ * NULL: it is not of this form. */
+const char *nh_classified_graph(const nh_classified *family, const nh_special_surface *surface, int v);
+
 /* The values of the other parameters with these between them, on the heap; how many they are. */
 nh_setting *nh_classified_settings(const nh_classified *classified, size_t count, const nh_setting *at, size_t *all);
 /* classify_confirm.c: what holds at one value, where the number is `bound`. */

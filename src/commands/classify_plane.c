@@ -11,66 +11,54 @@ typedef nh_classified_plane plane;
 
 /* ---- words ---- */
 
-static void put_power(nh_text *out, const char *name, size_t power)
-{
-    if (power) nh_text_addf(out, "%s", name);
-    if (power > 1) nh_text_addf(out, "^%zu", power);
-}
-
-/* The coefficients of lambda^i mu^j, highest first; `from` and `to`: the powers of lambda that are written. */
-static void put_polynomial(const plane *x, const nh_special_curve *c, size_t from, size_t to, bool negative,
+/* The coefficient of v^power; v < 0: the whole polynomial. Highest powers first. */
+static void put_polynomial(const nh_classified *x, const nh_special_surface *s, int v, size_t power, bool negative,
                            nh_text *out)
 {
-    size_t written = 0;
-    for (size_t i = to + 1; i-- > from;)
-        for (size_t j = c->degree[1] + 1; j-- > 0;) {
-            int64_t a = c->coefficient[j * (c->degree[0] + 1) + i];
-            size_t left = i - from;
-            if (!a) continue;
-            bool minus = (a < 0) != negative, number = left == 0 && j == 0;
-            uint64_t size = a < 0 ? 0 - (uint64_t)a : (uint64_t)a;
-            nh_text_add(out, written++ == 0 ? (minus ? "-" : "") : minus ? " - " : " + ");
-            if (size != 1 || number) nh_text_addf(out, "%" PRIu64 "%s", size, number ? "" : "*");
-            put_power(out, x->over[0], left);
-            if (left && j) nh_text_add(out, "*");
-            put_power(out, x->over[1], j);
-        }
+    const char *const name[3] = {x->over, x->second, x->third};
+    size_t width = s->degree[0] + 1, each = width * (s->degree[1] + 1), written = 0;
+    for (size_t i = s->degree[0] + 1; i-- > 0;)
+        for (size_t j = s->degree[1] + 1; j-- > 0;)
+            for (size_t k = s->degree[2] + 1; k-- > 0;) {
+                int64_t a = s->coefficient[k * each + j * width + i];
+                size_t e[3] = {i, j, k}, left = 0;
+                if (!a || (v >= 0 && e[v] != power)) continue;
+                if (v >= 0) e[v] = 0;
+                for (int w = 0; w < 3; w++) left += e[w] > 0;
+                bool minus = (a < 0) != negative;
+                uint64_t size = a < 0 ? 0 - (uint64_t)a : (uint64_t)a;
+                nh_text_add(out, written++ == 0 ? (minus ? "-" : "") : minus ? " - " : " + ");
+                if (size != 1 || !left) nh_text_addf(out, "%" PRIu64 "%s", size, left ? "*" : "");
+                for (int w = 0; w < 3; w++) {
+                    if (!e[w]) continue;
+                    nh_text_add(out, name[w]);
+                    if (e[w] > 1) nh_text_addf(out, "^%zu", e[w]);
+                    if (--left) nh_text_add(out, "*");
+                }
+            }
     if (!written) nh_text_add(out, "0");
 }
 
-const char *nh_classified_curve_words(const plane *x, const nh_special_curve *c)
+const char *nh_classified_surface_words(const nh_classified *x, const nh_special_surface *s)
 {
     nh_text text;
     nh_text_init(&text);
-    put_polynomial(x, c, 0, c->degree[0], false, &text);
-    const char *out = nh_arena_printf(x->family->arena, "%s = 0", nh_text_string(&text));
+    put_polynomial(x, s, -1, 0, false, &text);
+    const char *out = nh_arena_printf(x->arena, "%s = 0", nh_text_string(&text));
     nh_text_clear(&text);
     return out;
 }
 
-/* The curve with both parameters exchanged, in the arena. */
-static nh_special_curve turned(const plane *x, const nh_special_curve *c)
+const char *nh_classified_graph(const nh_classified *x, const nh_special_surface *s, int v)
 {
-    nh_special_curve out = {.degree = {c->degree[1], c->degree[0]}};
-    out.coefficient = nh_arena_alloc(x->family->arena,
-                                     (c->degree[0] + 1) * (c->degree[1] + 1) * sizeof *out.coefficient);
-    for (size_t j = 0; j <= c->degree[1]; j++)
-        for (size_t i = 0; i <= c->degree[0]; i++)
-            out.coefficient[i * (c->degree[1] + 1) + j] = c->coefficient[j * (c->degree[0] + 1) + i];
-    return out;
-}
-
-/* lambda = -b(mu)/a(mu) for a curve a(mu) lambda + b(mu); NULL: it is not of this form. */
-static const char *graph_of(const plane *x, const nh_special_curve *c)
-{
-    if (c->degree[0] != 1) return NULL;
+    if (s->degree[v] != 1) return NULL;
     nh_text top, bottom;
     nh_text_init(&top);
     nh_text_init(&bottom);
-    put_polynomial(x, c, 0, 0, true, &top);
-    put_polynomial(x, c, 1, 1, false, &bottom);
-    const char *out = !strcmp(nh_text_string(&bottom), "1") ? nh_arena_strdup(x->family->arena, nh_text_string(&top))
-        : nh_arena_printf(x->family->arena, "(%s)/(%s)", nh_text_string(&top), nh_text_string(&bottom));
+    put_polynomial(x, s, v, 0, true, &top);
+    put_polynomial(x, s, v, 1, false, &bottom);
+    const char *out = !strcmp(nh_text_string(&bottom), "1") ? nh_arena_strdup(x->arena, nh_text_string(&top))
+        : nh_arena_printf(x->arena, "(%s)/(%s)", nh_text_string(&top), nh_text_string(&bottom));
     nh_text_clear(&bottom);
     nh_text_clear(&top);
     return out;
@@ -97,18 +85,12 @@ static void classify_curve(plane *x, const nh_classify_request *q, const nh_plan
     nh_error error;
     nh_error_clear(&error);
     if (c->degenerate) return;
-    nh_special_curve other = turned(x, &c->polynomial);
-    const char *name[2] = {x->over[0], x->over[1]}, *formula = graph_of(x, &c->polynomial);
-    if (!formula) {
-        const char *swapped[2] = {x->over[1], x->over[0]};
-        memcpy(x->over, swapped, sizeof swapped); /* for the words */
-        formula = graph_of(x, &other);
-        memcpy(x->over, name, sizeof name);
-        out->upright = true;
-    }
+    const char *formula = nh_classified_graph(x->family, &c->polynomial, 0);
+    out->upright = !formula;
+    if (!formula) formula = nh_classified_graph(x->family, &c->polynomial, 1);
     out->why = "currents are constructed on curves on which one parameter is a rational function of the other";
     if (!formula) return;
-    const char *bound = name[out->upright], *free = name[!out->upright];
+    const char *bound = x->over[out->upright], *free = x->over[!out->upright];
     size_t count = x->family->others;
     nh_setting *setting = nh_arena_alloc(x->family->arena, (count + 1) * sizeof *setting);
     memcpy(setting + 1, x->family->other, count * sizeof *setting); /* of which some may depend on this one */

@@ -11,64 +11,10 @@
 typedef nh_classified_space space;
 typedef nh_classified_part part;
 
-/* ---- words ---- */
-
-/* The coefficient of v^power; v < 0: the whole polynomial. Highest powers first. */
-static void put_polynomial(const space *x, const nh_special_surface *s, int v, size_t power, bool negative,
-                           nh_text *out)
-{
-    size_t width = s->degree[0] + 1, each = width * (s->degree[1] + 1), written = 0;
-    for (size_t i = s->degree[0] + 1; i-- > 0;)
-        for (size_t j = s->degree[1] + 1; j-- > 0;)
-            for (size_t k = s->degree[2] + 1; k-- > 0;) {
-                int64_t a = s->coefficient[k * each + j * width + i];
-                size_t e[3] = {i, j, k}, left = 0;
-                if (!a || (v >= 0 && e[v] != power)) continue;
-                if (v >= 0) e[v] = 0;
-                for (int w = 0; w < 3; w++) left += e[w] > 0;
-                bool minus = (a < 0) != negative;
-                uint64_t size = a < 0 ? 0 - (uint64_t)a : (uint64_t)a;
-                nh_text_add(out, written++ == 0 ? (minus ? "-" : "") : minus ? " - " : " + ");
-                if (size != 1 || !left) nh_text_addf(out, "%" PRIu64 "%s", size, left ? "*" : "");
-                for (int w = 0; w < 3; w++) {
-                    if (!e[w]) continue;
-                    nh_text_add(out, x->over[w]);
-                    if (e[w] > 1) nh_text_addf(out, "^%zu", e[w]);
-                    if (--left) nh_text_add(out, "*");
-                }
-            }
-    if (!written) nh_text_add(out, "0");
-}
-
-const char *nh_classified_surface_words(const space *x, const nh_special_surface *s)
-{
-    nh_text text;
-    nh_text_init(&text);
-    put_polynomial(x, s, -1, 0, false, &text);
-    const char *out = nh_arena_printf(x->family->arena, "%s = 0", nh_text_string(&text));
-    nh_text_clear(&text);
-    return out;
-}
-
-/* v = -b/a for a surface a v + b. */
-static const char *formula_of(const space *x, const nh_special_surface *s, int v)
-{
-    nh_text top, bottom;
-    nh_text_init(&top);
-    nh_text_init(&bottom);
-    put_polynomial(x, s, v, 0, true, &top);
-    put_polynomial(x, s, v, 1, false, &bottom);
-    const char *out = !strcmp(nh_text_string(&bottom), "1") ? nh_arena_strdup(x->family->arena, nh_text_string(&top))
-        : nh_arena_printf(x->family->arena, "(%s)/(%s)", nh_text_string(&top), nh_text_string(&bottom));
-    nh_text_clear(&bottom);
-    nh_text_clear(&top);
-    return out;
-}
-
 /* ---- parts ---- */
 
 /* The degree up to which products of currents that are proved on the whole surface are as many as were counted. */
-static size_t complete_on(const nh_space_surface *s, const nh_classified_plane *within)
+static size_t complete_on(const nh_plane_curve *s, const nh_classified_plane *within)
 {
     size_t d = 0;
     if (within->plane->obstacle == nh_parametric_constant) {
@@ -89,7 +35,7 @@ static void classify_part(space *x, const nh_classify_request *q, part *p)
     if (p->v == 3) return;
     for (int w = 0, k = 0; w < 3; w++)
         if (w != p->v) p->other[k++] = w;
-    const char *formula = formula_of(x, s, p->v);
+    const char *formula = nh_classified_graph(x->family, s, p->v);
     size_t count = x->family->others;
     nh_setting *setting = nh_arena_alloc(x->family->arena, (count + 1) * sizeof *setting);
     memcpy(setting + 1, x->family->other, count * sizeof *setting); /* of which some may depend on this one */
@@ -178,7 +124,7 @@ static bool is_new(const space *x, const part *p, const nh_special_curve *curve,
 {
     bool fresh = true;
     for (size_t k = 0; k < x->space->surfaces && fresh; k++) {
-        const nh_space_surface *s = &x->space->surface[k];
+        const nh_plane_curve *s = &x->space->surface[k];
         if ((s->first || s->degenerate) && lies_on(&s->polynomial, p, curve, point))
             fresh = !s->degenerate && more(x, number, s->number);
     }
@@ -199,7 +145,7 @@ static void collect_curves(space *x, size_t index)
     for (size_t k = 0; k < o->curves; k++) {
         const nh_plane_curve *c = &o->curve[k];
         if (!c->first || c->degenerate || !is_new(x, p, &c->polynomial, NULL, c->number)) continue;
-        const char *words = nh_classified_curve_words(p->within, &c->polynomial);
+        const char *words = nh_classified_surface_words(p->within->family, &c->polynomial);
         x->curve[x->curves++] = (nh_classified_space_curve){
             .part = index, .index = k, .where = nh_arena_printf(x->family->arena, "%s, %s", p->graph, words)};
     }

@@ -34,6 +34,9 @@ void nh_classification_counted(const nh_classified *classified, size_t degree, b
 /* What was not looked at, or not decided; what is proved where there are not more. */
 void nh_classification_left(const nh_classified *classified, nh_text *out);
 void nh_classification_excluded(const nh_classified *classified, bool verbose, nh_text *out);
+/* Curves or surfaces that are degenerate or undecided. */
+void nh_classification_open_words(const nh_classified *family, size_t count, const nh_plane_curve *curve,
+                                  nh_text *out);
 void nh_classification_plane_left(const nh_classified_plane *classified, nh_text *out);
 void nh_classification_plane_excluded(const nh_classified_plane *classified, bool verbose, nh_text *out);
 
@@ -69,5 +72,21 @@ void nh_classification_put_head(const nh_classified *classified, nh_json *root);
 void nh_classification_put_currents(const nh_analysis *result, size_t count, const size_t *index, nh_json *to);
 /* Per degree from 1 on: numbers at one value. */
 void nh_classification_put_here(nh_json *to, size_t rows, const nh_classify_number *number);
+
+/* ---- JSON of two and three parameters ---- */
+
+/* All before the special values. */
+nh_json *nh_classification_begin(const nh_classified *family, const char *obstacle, const char *end, size_t rows,
+                                 const nh_plane_row *row);
+/* What is proved where one parameter less varies; NULL: nothing. */
+void nh_classification_put_along(const nh_classified *along, nh_json *to);
+/* One degree; `height` may be NaN. */
+nh_json *nh_classification_add_degree(nh_json *list, size_t degree, const nh_plane_row *row, double height);
+/* The numbers on a curve or surface, or at a point. */
+void nh_classification_put_found(nh_json *item, size_t rows, size_t first, const nh_classify_number *number,
+                                 bool proved, const char *why);
+/* Curves or surfaces that are degenerate or undecided: the list of the latter, to which more may be added. */
+nh_json *nh_classification_put_open(const nh_classified *family, nh_json *root, size_t count,
+                                    const nh_plane_curve *curve);
 
 #endif

@@ -70,6 +70,68 @@ void nh_classification_put_here(nh_json *to, size_t rows, const nh_classify_numb
     }
 }
 
+/* ---- two and three parameters ---- */
+
+nh_json *nh_classification_begin(const nh_classified *x, const char *obstacle, const char *end, size_t rows,
+                                 const nh_plane_row *row)
+{
+    nh_json *root = nh_json_object();
+    nh_classification_put_head(x, root);
+    nh_json_put_text(root, "obstacle", obstacle);
+    nh_json_put_text(root, "ended_by", end);
+    nh_json_put_number(root, "generic", rows ? (double)row[rows - 1].number.bound : NAN);
+    nh_classification_put_currents(x->almost_all, x->known, x->currents, root);
+    return root;
+}
+
+void nh_classification_put_along(const nh_classified *along, nh_json *to)
+{
+    nh_classification_put_currents(along ? along->almost_all : NULL, along ? along->known : 0,
+                                   along ? along->currents : NULL, to);
+}
+
+static void put_primes(nh_json *to, size_t count, const uint64_t *prime)
+{
+    nh_json *primes = nh_json_put_array(to, "primes");
+    for (size_t i = 0; i < count; i++) nh_json_add_number(primes, (double)prime[i]);
+}
+
+nh_json *nh_classification_add_degree(nh_json *list, size_t degree, const nh_plane_row *row, double height)
+{
+    nh_json *item = nh_json_add_object(list);
+    nh_json_put_number(item, "degree", (double)degree);
+    nh_classification_put_number(item, "almost_all", &row->number);
+    nh_json_put_number(item, "known", (double)row->known);
+    nh_json_put_bool(item, "exact", row->number.bound == row->known);
+    nh_json_put_number(item, "unknowns", (double)row->unknowns);
+    nh_json_put_number(item, "determinant", (double)row->size);
+    nh_json_put_bool(item, "lifted", row->lifted);
+    put_primes(item, row->primes, row->prime);
+    nh_json_put_number(item, "excluded_height", height);
+    return item;
+}
+
+void nh_classification_put_found(nh_json *item, size_t rows, size_t first, const nh_classify_number *number,
+                                 bool proved, const char *why)
+{
+    nh_json_put_number(item, "from_degree", (double)first);
+    nh_json_put_number(item, "dimension", (double)number[rows].bound);
+    nh_classification_put_here(item, rows, number);
+    nh_json_put_bool(item, "proved", proved);
+    nh_json_put_text(item, "not_constructed_because", why);
+}
+
+nh_json *nh_classification_put_open(const nh_classified *x, nh_json *root, size_t count, const nh_plane_curve *curve)
+{
+    nh_json *degenerate = nh_json_put_array(root, "degenerate"), *undecided = nh_json_put_array(root, "undecided");
+    for (size_t k = 0; k < count; k++) {
+        const char *words = nh_classified_surface_words(x, &curve[k].polynomial);
+        if (curve[k].degenerate) nh_json_add_text(degenerate, words);
+        if (curve[k].open) nh_json_add_text(undecided, words);
+    }
+    return undecided;
+}
+
 /* ---- one parameter ---- */
 
 static void put_degrees(const nh_classified *x, nh_json *to)
@@ -85,8 +147,7 @@ static void put_degrees(const nh_classified *x, nh_json *to)
         nh_json_put_number(item, "unknowns", (double)row->unknowns);
         nh_json_put_bool(item, "lifted", row->lifted);
         nh_json_put_number(item, "examined", (double)row->roots);
-        nh_json *primes = nh_json_put_array(item, "primes");
-        for (size_t i = 0; i < row->primes; i++) nh_json_add_number(primes, (double)row->prime[i]);
+        put_primes(item, row->primes, row->prime);
         nh_json_put_number(item, "excluded_height", row->lifted ? row->height : NAN);
         nh_json_put_bool(item, "excluded_everywhere", row->theorem);
         nh_json_put_number(item, "primes_for_everywhere", row->bits > 0 ? (double)row->theorem_primes : NAN);

@@ -116,7 +116,7 @@ static void outline_curve(const plane *x, pen *p, size_t k, const size_t *almost
 {
     const nh_plane_curve *c = &x->plane->curve[k];
     const nh_classified_curve *at = &x->curve[k];
-    nh_pen_card(p, nh_classified_curve_words(x, &c->polynomial));
+    nh_pen_card(p, nh_classified_surface_words(x->family, &c->polynomial));
     nh_classification_write_numbers(x->family, p, x->plane->rows, c->number, c->first, at->complete, almost_all);
     if (!at->along) {
         nh_classification_write_no_currents(x->family, p, at->why);
@@ -137,7 +137,8 @@ static const char *place_of(const plane *x, const nh_classified_point *q)
         nh_text_addf(&text, q->about[v] - q->about[v] == 0 ? "%s%s = %s" : "%s%.0s%s", v ? "" : ", ", x->over[v],
                      q->value[v]);
     if (q->curve != SIZE_MAX)
-        nh_text_addf(&text, "   (on %s)", nh_classified_curve_words(x, &x->plane->curve[q->curve].polynomial));
+        nh_text_addf(&text, "   (on %s)",
+                     nh_classified_surface_words(x->family, &x->plane->curve[q->curve].polynomial));
     const char *out = nh_arena_strdup(x->family->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;

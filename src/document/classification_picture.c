@@ -120,7 +120,7 @@ void nh_classification_picture(const plane *x, nh_pen *pen)
     for (size_t k = 0; k < x->plane->curves; k++) {
         const nh_plane_curve *c = &x->plane->curve[k];
         if (!c->first && !c->degenerate) continue;
-        const char *words = nh_classified_curve_words(x, &c->polynomial);
+        const char *words = nh_classified_surface_words(x->family, &c->polynomial);
         draw_curve(&d, x, k, c->degenerate ? nh_arena_printf(d.arena, "%s: degenerate", words)
                    : nh_arena_printf(d.arena, "%s: %zu", words, c->number[rows].bound));
     }

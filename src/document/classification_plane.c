@@ -37,23 +37,29 @@ static bool closed(const plane *x)
 
 /* ---- lines ---- */
 
+void nh_classification_open_words(const nh_classified *x, size_t count, const nh_plane_curve *curve, nh_text *out)
+{
+    size_t written = 0;
+    for (size_t k = 0; k < count; k++)
+        if (curve[k].degenerate)
+            nh_text_addf(out, "%s%s", written++ ? "; " : "Degenerate, and not examined: ",
+                         nh_classified_surface_words(x, &curve[k].polynomial));
+    nh_text_add(out, written ? ".\n" : "");
+    for (size_t k = 0; k < count; k++)
+        if (curve[k].open)
+            nh_text_addf(out, "Not decided on %s: how many there are of degree %zu. %s\n",
+                         nh_classified_surface_words(x, &curve[k].polynomial), curve[k].open,
+                         nh_classification_decide);
+}
+
 void nh_classification_plane_left(const plane *x, nh_text *out)
 {
     const nh_plane *o = x->plane;
-    size_t written = 0;
-    for (size_t k = 0; k < o->curves; k++)
-        if (o->curve[k].degenerate)
-            nh_text_addf(out, "%s%s", written++ ? "; " : "Degenerate, and not examined: ",
-                         nh_classified_curve_words(x, &o->curve[k].polynomial));
-    nh_text_add(out, written ? ".\n" : "");
-    for (size_t k = 0; k < o->curves; k++)
-        if (o->curve[k].open)
-            nh_text_addf(out, "Not decided on %s: how many there are of degree %zu. %s\n",
-                         nh_classified_curve_words(x, &o->curve[k].polynomial), o->curve[k].open,
-                         nh_classification_decide);
+    nh_classification_open_words(x->family, o->curves, o->curve, out);
     for (size_t k = 0; k < o->curves; k++) /* on which there are not more */
         if (!o->curve[k].first && !o->curve[k].degenerate && !x->curve[k].along)
-            nh_text_addf(out, "Not examined: points on %s.\n", nh_classified_curve_words(x, &o->curve[k].polynomial));
+            nh_text_addf(out, "Not examined: points on %s.\n",
+                         nh_classified_surface_words(x->family, &o->curve[k].polynomial));
     for (size_t k = 0; k < o->lines; k++)
         if (unexamined(x, &o->line[k]))
             nh_text_addf(out, "Not examined, or not up to the highest degree: points with %s.\n",
@@ -103,89 +109,51 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
 
 /* ---- JSON ---- */
 
-static void put_degrees(const plane *x, nh_json *to)
-{
-    nh_json *list = nh_json_put_array(to, "degrees");
-    for (size_t d = 1; d <= x->plane->rows; d++) {
-        const nh_plane_row *row = &x->plane->row[d - 1];
-        nh_json *item = nh_json_add_object(list);
-        nh_json_put_number(item, "degree", (double)d);
-        nh_classification_put_number(item, "almost_all", &row->number);
-        nh_json_put_number(item, "known", (double)row->known);
-        nh_json_put_bool(item, "exact", exact(row));
-        nh_json_put_number(item, "unknowns", (double)row->unknowns);
-        nh_json_put_number(item, "determinant", (double)row->size);
-        nh_json_put_bool(item, "lifted", row->lifted);
-        nh_json *primes = nh_json_put_array(item, "primes");
-        for (size_t i = 0; i < row->primes; i++) nh_json_add_number(primes, (double)row->prime[i]);
-        nh_json_put_number(item, "excluded_height", row->lifted ? row->height : NAN);
-        nh_json_put_number(item, "lines", (double)row->swept);
-    }
-}
-
 static void put_json_curve(const plane *x, size_t index, nh_json *list)
 {
     const nh_plane_curve *c = &x->plane->curve[index];
     const nh_classified_curve *at = &x->curve[index];
     nh_json *item = nh_json_add_object(list);
-    nh_json_put_text(item, "where", nh_classified_curve_words(x, &c->polynomial));
+    nh_json_put_text(item, "where", nh_classified_surface_words(x->family, &c->polynomial));
     nh_json_put_text(item, "on", NULL);
-    nh_json_put_number(item, "from_degree", (double)c->first);
-    nh_json_put_number(item, "dimension", (double)c->number[x->plane->rows].bound);
-    nh_classification_put_here(item, x->plane->rows, c->number);
-    nh_json_put_bool(item, "proved", at->complete > 0);
-    nh_json_put_text(item, "not_constructed_because", at->why);
-    const nh_classified *along = at->along;
-    nh_classification_put_currents(along ? along->almost_all : NULL, along ? along->known : 0,
-                                   along ? along->currents : NULL, item);
+    nh_classification_put_found(item, x->plane->rows, c->first, c->number, at->complete > 0, at->why);
+    nh_classification_put_along(at->along, item);
 }
 
 /* {"B": "1", "eps": "1/3"}, or equations as text. */
 static void put_json_point(const plane *x, const nh_classified_point *p, nh_json *list)
 {
+    const nh_analysis *r = p->at->result;
     nh_json *item = nh_json_add_object(list);
     nh_json *where = nh_json_put_object(item, "where");
     for (int k = 1; k >= 0; k--) nh_json_put_text(where, x->over[k], p->value[k]);
     nh_json_put_text(item, "on",
-                     p->curve == SIZE_MAX ? NULL : nh_classified_curve_words(x, &x->plane->curve[p->curve].polynomial));
-    nh_json_put_number(item, "from_degree", (double)p->first);
-    nh_json_put_number(item, "dimension", (double)p->number[x->plane->rows].bound);
-    nh_classification_put_here(item, x->plane->rows, p->number);
-    nh_json_put_bool(item, "proved", p->at->result && p->at->complete >= p->first);
-    nh_json_put_text(item, "not_constructed_because", p->at->why);
-    const nh_analysis *r = p->at->result;
+                     p->curve == SIZE_MAX
+                         ? NULL
+                         : nh_classified_surface_words(x->family, &x->plane->curve[p->curve].polynomial));
+    nh_classification_put_found(item, x->plane->rows, p->first, p->number, r && p->at->complete >= p->first,
+                                p->at->why);
     nh_classification_put_currents(r, r ? r->count : 0, NULL, item);
-}
-
-static void put_others(const plane *x, nh_json *root)
-{
-    const nh_plane *o = x->plane;
-    nh_json *degenerate = nh_json_put_array(root, "degenerate"), *undecided = nh_json_put_array(root, "undecided");
-    for (size_t k = 0; k < o->curves; k++) {
-        const char *words = nh_classified_curve_words(x, &o->curve[k].polynomial);
-        if (o->curve[k].degenerate) nh_json_add_text(degenerate, words);
-        if (o->curve[k].open) nh_json_add_text(undecided, words);
-    }
-    for (size_t k = 0; k < o->lines; k++)
-        if (unexamined(x, &o->line[k]))
-            nh_json_add_text(undecided, nh_classified_values(x->family, x->over[1], &o->line[k].across));
 }
 
 char *nh_classification_plane_json(const plane *x, const nh_run *run)
 {
     const nh_plane *o = x->plane;
-    nh_json *root = nh_json_object();
-    nh_classification_put_head(x->family, root);
-    nh_json_put_text(root, "obstacle", o->obstacle);
-    nh_json_put_text(root, "ended_by", o->end);
-    nh_json_put_number(root, "generic", o->rows ? (double)o->row[o->rows - 1].number.bound : NAN);
-    nh_classification_put_currents(x->family->almost_all, x->family->known, x->family->currents, root);
-    put_degrees(x, root);
-    nh_json *list = nh_json_put_array(root, "special");
+    nh_json *root = nh_classification_begin(x->family, o->obstacle, o->end, o->rows, o->row);
+    nh_json *list = nh_json_put_array(root, "degrees");
+    for (size_t d = 1; d <= o->rows; d++) {
+        const nh_plane_row *row = &o->row[d - 1];
+        nh_json *item = nh_classification_add_degree(list, d, row, row->lifted ? row->height : NAN);
+        nh_json_put_number(item, "lines", (double)row->swept);
+    }
+    list = nh_json_put_array(root, "special");
     for (size_t k = 0; k < o->curves; k++)
         if (special(&o->curve[k])) put_json_curve(x, k, list);
     for (size_t k = 0; k < x->points; k++) put_json_point(x, &x->point[k], list);
-    put_others(x, root);
+    list = nh_classification_put_open(x->family, root, o->curves, o->curve);
+    for (size_t k = 0; k < o->lines; k++)
+        if (unexamined(x, &o->line[k]))
+            nh_json_add_text(list, nh_classified_values(x->family, x->over[1], &o->line[k].across));
     nh_json_put_bool(root, "nowhere_else", closed(x));
     nh_json_put_bool(root, "partial", x->partial);
     nh_run_json(run, x->family->almost_all->system, root);

@@ -152,9 +152,9 @@ static void draw_slice(const space *x, double nu, nh_pen *pen)
     char digits[32];
     window(&d, x);
     for (size_t k = 0; k < x->space->surfaces; k++) {
-        const nh_space_surface *s = &x->space->surface[k];
+        const nh_plane_curve *s = &x->space->surface[k];
         if (!s->first && !s->degenerate) continue;
-        const char *words = nh_classified_surface_words(x, &s->polynomial);
+        const char *words = nh_classified_surface_words(x->family, &s->polynomial);
         draw_surface(&d, &s->polynomial, s->degenerate ? nh_arena_printf(d.arena, "%s: degenerate", words)
                      : nh_arena_printf(d.arena, "%s: %zu", words, s->number[rows].bound));
     }

@@ -8,9 +8,7 @@
 typedef nh_classified_space space;
 typedef nh_pen pen;
 
-static bool special(const nh_space_surface *s) { return s->first > 0 && !s->degenerate; }
-
-static bool exact(const nh_space_row *row) { return row->number.bound == row->known; }
+static bool special(const nh_plane_curve *s) { return s->first > 0 && !s->degenerate; }
 
 /* ---- what is special ---- */
 
@@ -40,9 +38,9 @@ static void put_surfaces(const space *x, pen *p, const size_t *almost_all)
     for (size_t k = 0; k < x->parts; k++) {
         const nh_classified_part *part = &x->part[k];
         if (part->surface == SIZE_MAX || !special(&x->space->surface[part->surface])) continue;
-        const nh_space_surface *s = &x->space->surface[part->surface];
+        const nh_plane_curve *s = &x->space->surface[part->surface];
         if (!written++) nh_pen_section(p, "surfaces", "More on the surfaces");
-        nh_pen_card(p, nh_classified_surface_words(x, &s->polynomial));
+        nh_pen_card(p, nh_classified_surface_words(x->family, &s->polynomial));
         nh_classification_write_numbers(x->family, p, x->space->rows, s->number, s->first, part->complete, almost_all);
         if (part->within) put_along(p, part->within->family, part->complete);
         else nh_classification_write_no_currents(x->family, p, part->why);
@@ -113,20 +111,10 @@ static void put_left_within(const nh_classified_plane *within, const char *words
 static void put_left(const space *x, nh_text *out)
 {
     const nh_space *o = x->space;
-    size_t written = 0;
-    for (size_t k = 0; k < o->surfaces; k++)
-        if (o->surface[k].degenerate)
-            nh_text_addf(out, "%s%s", written++ ? "; " : "Degenerate, and not examined: ",
-                         nh_classified_surface_words(x, &o->surface[k].polynomial));
-    nh_text_add(out, written ? ".\n" : "");
-    for (size_t k = 0; k < o->surfaces; k++)
-        if (o->surface[k].open)
-            nh_text_addf(out, "Not decided on %s: how many there are of degree %zu. %s\n",
-                         nh_classified_surface_words(x, &o->surface[k].polynomial), o->surface[k].open,
-                         nh_classification_decide);
+    nh_classification_open_words(x->family, o->surfaces, o->surface, out);
     for (size_t k = 0; k < x->parts; k++) {
         const nh_classified_part *part = &x->part[k];
-        const char *words = nh_classified_surface_words(x, part->polynomial);
+        const char *words = nh_classified_surface_words(x->family, part->polynomial);
         const nh_plane *in = part->within ? part->within->plane : NULL;
         if (!in) nh_text_addf(out, "Curves and points on %s were not searched for: %s.\n", words, part->why);
         else if (in->obstacle != nh_parametric_constant && in->rows < o->rows)
@@ -137,7 +125,7 @@ static void put_left(const space *x, nh_text *out)
 
 static void put_excluded(const space *x, size_t degree, bool verbose, nh_text *out)
 {
-    const nh_space_row *row = &x->space->row[degree - 1];
+    const nh_plane_row *row = &x->space->row[degree - 1];
     nh_text_addf(out, "  degree %zu: ", degree);
     if (!row->planes || row->height < 1) nh_text_add(out, "no values are excluded by a proof\n");
     else
@@ -167,7 +155,7 @@ static void put_all_excluded(const space *x, bool verbose, nh_text *out)
         if (!in || in->rows < o->rows || in->row[o->rows - 1].height < 1) continue;
         nh_text_addf(out, looked++ ? "; on %s: %.1e" : "  Where one parameter follows from the others the same "
                      "holds for pairs of these. On %s: %.1e",
-                     nh_classified_surface_words(x, x->part[k].polynomial), in->row[o->rows - 1].height);
+                     nh_classified_surface_words(x->family, x->part[k].polynomial), in->row[o->rows - 1].height);
     }
     if (looked) nh_text_add(out, ".\n");
     nh_text_addf(out, "  Not excluded: single points and curves in planes %s = constant, for other values of %s. "
@@ -205,71 +193,35 @@ void nh_classification_outline_space(const space *x, pen *p)
 
 /* ---- JSON ---- */
 
-static void put_degrees(const space *x, nh_json *to)
-{
-    nh_json *list = nh_json_put_array(to, "degrees");
-    for (size_t d = 1; d <= x->space->rows; d++) {
-        const nh_space_row *row = &x->space->row[d - 1];
-        nh_json *item = nh_json_add_object(list);
-        nh_json_put_number(item, "degree", (double)d);
-        nh_classification_put_number(item, "almost_all", &row->number);
-        nh_json_put_number(item, "known", (double)row->known);
-        nh_json_put_bool(item, "exact", exact(row));
-        nh_json_put_number(item, "unknowns", (double)row->unknowns);
-        nh_json_put_number(item, "determinant", (double)row->size);
-        nh_json_put_bool(item, "lifted", row->lifted);
-        nh_json *primes = nh_json_put_array(item, "primes");
-        for (size_t i = 0; i < row->primes; i++) nh_json_add_number(primes, (double)row->prime[i]);
-        nh_json_put_number(item, "excluded_height", row->planes ? row->height : NAN);
-        nh_json_put_number(item, "sections", (double)row->sections);
-        nh_json_put_number(item, "planes", (double)row->planes);
-    }
-}
-
-static void put_found(const space *x, nh_json *item, size_t first, const nh_classify_number *number, bool proved,
-                      const char *why)
-{
-    nh_json_put_number(item, "from_degree", (double)first);
-    nh_json_put_number(item, "dimension", (double)number[x->space->rows].bound);
-    nh_classification_put_here(item, x->space->rows, number);
-    nh_json_put_bool(item, "proved", proved);
-    nh_json_put_text(item, "not_constructed_because", why);
-}
-
-static void put_along_json(const nh_classified *along, nh_json *item)
-{
-    nh_classification_put_currents(along ? along->almost_all : NULL, along ? along->known : 0,
-                                   along ? along->currents : NULL, item);
-}
-
 static void put_special(const space *x, nh_json *list)
 {
     for (size_t k = 0; k < x->parts; k++) {
         const nh_classified_part *part = &x->part[k];
         if (part->surface == SIZE_MAX || !special(&x->space->surface[part->surface])) continue;
-        const nh_space_surface *s = &x->space->surface[part->surface];
+        const nh_plane_curve *s = &x->space->surface[part->surface];
         nh_json *item = nh_json_add_object(list);
-        nh_json_put_text(item, "where", nh_classified_surface_words(x, &s->polynomial));
+        nh_json_put_text(item, "where", nh_classified_surface_words(x->family, &s->polynomial));
         nh_json_put_text(item, "on", NULL);
-        put_found(x, item, s->first, s->number, part->complete > 0, part->why);
-        put_along_json(part->within ? part->within->family : NULL, item);
+        nh_classification_put_found(item, x->space->rows, s->first, s->number, part->complete > 0, part->why);
+        nh_classification_put_along(part->within ? part->within->family : NULL, item);
     }
     for (size_t k = 0; k < x->curves; k++) {
         const nh_classified_curve *at;
         const nh_plane_curve *c = curve_of(x, k, &at);
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "where", x->curve[k].where);
-        nh_json_put_text(item, "on", nh_classified_surface_words(x, x->part[x->curve[k].part].polynomial));
-        put_found(x, item, c->first, c->number, at->complete > 0, at->why);
-        put_along_json(at->along, item);
+        nh_json_put_text(item, "on", nh_classified_surface_words(x->family, x->part[x->curve[k].part].polynomial));
+        nh_classification_put_found(item, x->space->rows, c->first, c->number, at->complete > 0, at->why);
+        nh_classification_put_along(at->along, item);
     }
     for (size_t k = 0; k < x->points; k++) {
         const nh_classified_space_point *q = &x->point[k];
         const nh_analysis *r = q->at->at->result;
         nh_json *item = nh_json_add_object(list), *where = nh_json_put_object(item, "where");
         for (int v = 2; v >= 0; v--) nh_json_put_text(where, x->over[v], q->value[v]);
-        nh_json_put_text(item, "on", nh_classified_surface_words(x, x->part[q->part].polynomial));
-        put_found(x, item, q->at->first, q->at->number, r && q->at->at->complete >= q->at->first, q->at->at->why);
+        nh_json_put_text(item, "on", nh_classified_surface_words(x->family, x->part[q->part].polynomial));
+        nh_classification_put_found(item, x->space->rows, q->at->first, q->at->number,
+                                    r && q->at->at->complete >= q->at->first, q->at->at->why);
         nh_classification_put_currents(r, r ? r->count : 0, NULL, item);
     }
 }
@@ -277,22 +229,19 @@ static void put_special(const space *x, nh_json *list)
 char *nh_classification_space_json(const space *x, const nh_run *run)
 {
     const nh_space *o = x->space;
-    nh_json *root = nh_json_object();
-    nh_classification_put_head(x->family, root);
-    nh_json_put_text(root, "obstacle", o->obstacle);
-    nh_json_put_text(root, "ended_by", o->end);
-    nh_json_put_number(root, "generic", o->rows ? (double)o->row[o->rows - 1].number.bound : NAN);
-    nh_classification_put_currents(x->family->almost_all, x->family->known, x->family->currents, root);
-    put_degrees(x, root);
-    put_special(x, nh_json_put_array(root, "special"));
-    nh_json *degenerate = nh_json_put_array(root, "degenerate"), *undecided = nh_json_put_array(root, "undecided");
-    for (size_t k = 0; k < o->surfaces; k++) {
-        const char *words = nh_classified_surface_words(x, &o->surface[k].polynomial);
-        if (o->surface[k].degenerate) nh_json_add_text(degenerate, words);
-        if (o->surface[k].open) nh_json_add_text(undecided, words);
+    nh_json *root = nh_classification_begin(x->family, o->obstacle, o->end, o->rows, o->row);
+    nh_json *list = nh_json_put_array(root, "degrees");
+    for (size_t d = 1; d <= o->rows; d++) {
+        const nh_plane_row *row = &o->row[d - 1];
+        nh_json *item = nh_classification_add_degree(list, d, row, row->planes ? row->height : NAN);
+        nh_json_put_number(item, "sections", (double)row->sections);
+        nh_json_put_number(item, "planes", (double)row->planes);
     }
+    put_special(x, nh_json_put_array(root, "special"));
+    list = nh_classification_put_open(x->family, root, o->surfaces, o->surface);
     for (size_t k = 0; k < x->parts; k++)
-        if (!x->part[k].within) nh_json_add_text(undecided, nh_classified_surface_words(x, x->part[k].polynomial));
+        if (!x->part[k].within)
+            nh_json_add_text(list, nh_classified_surface_words(x->family, x->part[k].polynomial));
     nh_json_put_bool(root, "nowhere_else", false); /* other values of the first parameter are not looked at */
     nh_json_put_bool(root, "partial", x->partial);
     nh_run_json(run, x->family->almost_all->system, root);

@@ -58,7 +58,7 @@ static bool residue_of(search *s, const place *p, nh_prime f, nh_residue *out)
         s->family.third_value = at[2];
         return found;
     }
-    if (p->kind == NH_CLASSIFY_CURVE) return nh_special_curve_point(p->curve, f, f.p, out, &s->family.value);
+    if (p->kind == NH_CLASSIFY_CURVE) return nh_special_curve_point(p->surface, f, f.p, out, &s->family.value);
     return p->kind != NH_CLASSIFY_ROOT || nh_special_root(p->root, f, out);
 }
 

@@ -24,8 +24,7 @@ typedef enum { NH_CLASSIFY_ANY, NH_CLASSIFY_ROOT, NH_CLASSIFY_INFINITE, NH_CLASS
 typedef struct {
     nh_classify_kind kind;
     const nh_special_factor *root;
-    const nh_special_curve *curve;
-    const nh_special_surface *surface;
+    const nh_special_surface *surface; /* or a curve */
 } nh_classify_place;
 
 /* The index-th prime modulo which the numbers below roots have them. */

@@ -136,17 +136,17 @@ static void add(residues *r, nh_prime prime, nh_common_curves *c)
     r->across[r->count++] = c->across;
 }
 
-static void take_curves(nh_plane *o, const nh_special_surfaces *found, bool degenerate)
+void nh_plane_take_curves(nh_plane_curve **list, size_t *count, size_t *capacity, const nh_special_surfaces *found,
+                          bool degenerate)
 {
     for (size_t k = 0; k < found->surfaces; k++) {
-        const nh_special_curve *c = &found->surface[k];
         size_t at = 0;
-        while (at < o->curves && !nh_special_surface_same(&o->curve[at].polynomial, c)) at++;
-        if (at == o->curves) {
-            nh_grow(&o->curve, &o->curve_capacity, o->curves + 1, sizeof *o->curve);
-            o->curve[o->curves++] = (nh_plane_curve){.polynomial = nh_special_surface_copy(c)};
+        while (at < *count && !nh_special_surface_same(&(*list)[at].polynomial, &found->surface[k])) at++;
+        if (at == *count) {
+            nh_grow(list, capacity, *count + 1, sizeof **list);
+            (*list)[(*count)++] = (nh_plane_curve){.polynomial = nh_special_surface_copy(&found->surface[k])};
         }
-        o->curve[at].degenerate |= degenerate;
+        (*list)[at].degenerate |= degenerate;
     }
 }
 
@@ -182,8 +182,9 @@ static bool lift(search *s, const residues *r, nh_plane_row *row)
     nh_special_factors across = nh_special_lift(r->count, r->prime, r->across);
     bool lifted = special.lifted && degenerate.lifted && across.lifted;
     if (lifted) {
-        take_curves(s->out, &degenerate, true);
-        take_curves(s->out, &special, false);
+        nh_plane *o = s->out;
+        nh_plane_take_curves(&o->curve, &o->curves, &o->curve_capacity, &degenerate, true);
+        nh_plane_take_curves(&o->curve, &o->curves, &o->curve_capacity, &special, false);
         take_lines(s->out, across.factors, across.factor);
         row->height = height(r, special.norm * degenerate.norm * across.norm);
     }
@@ -217,17 +218,16 @@ static bool find_zeros(search *s, size_t degree, nh_plane_row *row)
 
 /* ---- numbers on curves and lines ---- */
 
-static void count_curves(search *s, size_t degree)
+void nh_plane_count_curves(nh_classify_search *s, nh_classify_kind kind, size_t degree, size_t almost_all,
+                           size_t count, nh_plane_curve *curve)
 {
-    size_t almost_all = s->out->row[degree - 1].number.bound;
-    for (size_t k = 0; k < s->out->curves && !nh_late(); k++) {
-        nh_plane_curve *c = &s->out->curve[k];
+    for (size_t k = 0; k < count && !nh_late(); k++) {
+        nh_plane_curve *c = &curve[k];
         if (c->degenerate) continue;
-        nh_progress("special curves", -1);
-        nh_classify_place p = {.kind = NH_CLASSIFY_CURVE, .curve = &c->polynomial};
+        nh_progress(kind == NH_CLASSIFY_CURVE ? "special curves" : "special surfaces", -1);
+        nh_classify_place p = {.kind = kind, .surface = &c->polynomial};
         nh_classify_number *n = &c->number[degree];
-        bool counted = nh_classify_count(&s->s, degree, &p, almost_all, NULL, n), more = counted
-            && n->bound > almost_all;
+        bool counted = nh_classify_count(s, degree, &p, almost_all, NULL, n), more = counted && n->bound > almost_all;
         if (more && n->settled && !c->first) c->first = degree;
         if ((!counted || (more && !n->settled)) && !c->open) c->open = degree;
     }
@@ -330,7 +330,7 @@ static void run(search *s)
             break;
         }
         o->row[o->rows++] = row;
-        count_curves(s, degree);
+        nh_plane_count_curves(&s->s, NH_CLASSIFY_CURVE, degree, row.number.bound, o->curves, o->curve);
     }
     for (size_t k = 0; k < o->lines && o->rows && !nh_late(); k++) classify_line(s, k);
     if (s->s.family.obstacle && !o->rows) o->obstacle = s->s.family.obstacle;

@@ -16,8 +16,9 @@
 #include "integrals/classify.h"
 #include "integrals/special_curves.h"
 
+/* A curve, or a surface of three parameters (space.h). */
 typedef struct {
-    nh_special_curve polynomial;
+    nh_special_surface polynomial;
     bool degenerate;
     size_t first, open;      /* as of a value, classify.h */
     nh_classify_number number[NH_COUNT_HIGHEST_DEGREE + 1];
@@ -40,6 +41,9 @@ typedef struct {
     double height;           /* of pairs of rationals; 0: not lifted, here or at a lower degree */
     /* so many lines were looked at in place of determinants (plane_sweep.h); 0: determinants */
     size_t swept;
+    /* of three parameters: surfaces are from so many sections; so many planes were looked at, and `height` is of pairs
+     * in those in which nothing more was seen */
+    size_t sections, planes;
 } nh_plane_row;
 
 /* A point that has more integrals than almost all, and than almost all of a curve that it lies on. */

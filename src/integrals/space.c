@@ -144,19 +144,6 @@ static void add(residues *r, nh_prime prime, volumes *v)
     r->count++;
 }
 
-static void take_surfaces(nh_space *o, const nh_special_surfaces *found, bool degenerate)
-{
-    for (size_t k = 0; k < found->surfaces; k++) {
-        size_t at = 0;
-        while (at < o->surfaces && !nh_special_surface_same(&o->surface[at].polynomial, &found->surface[k])) at++;
-        if (at == o->surfaces) {
-            nh_grow(&o->surface, &o->surface_capacity, o->surfaces + 1, sizeof *o->surface);
-            o->surface[o->surfaces++] = (nh_space_surface){.polynomial = nh_special_surface_copy(&found->surface[k])};
-        }
-        o->surface[at].degenerate |= degenerate;
-    }
-}
-
 static void take_one(nh_special_surface **list, size_t *count, size_t *capacity, const nh_special_surface *x)
 {
     for (size_t k = 0; k < *count; k++)
@@ -174,8 +161,9 @@ static bool lift(search *s, const residues *r)
         lifted &= found[k].lifted;
     }
     if (lifted) {
-        take_surfaces(s->out, &found[1], true);
-        take_surfaces(s->out, &found[0], false);
+        nh_space *o = s->out;
+        nh_plane_take_curves(&o->surface, &o->surfaces, &o->surface_capacity, &found[1], true);
+        nh_plane_take_curves(&o->surface, &o->surfaces, &o->surface_capacity, &found[0], false);
         for (size_t k = 0; k < found[2].surfaces; k++)
             take_one(&s->out->wall, &s->out->walls, &s->out->wall_capacity, &found[2].surface[k]);
     }
@@ -183,42 +171,23 @@ static bool lift(search *s, const residues *r)
     return lifted;
 }
 
-static bool find_surfaces(search *s, size_t degree, nh_space_row *row)
+static bool find_surfaces(search *s, size_t degree, nh_plane_row *row)
 {
     residues r = {.count = 0};
-    nh_plane_row plane = {.number = row->number};
     bool good = true;
     row->sections = first_sections;
     for (size_t prime = 0; prime < NH_CLASSIFY_MOST_PRIMES && good && !row->lifted; prime++) {
         volumes v = {0};
-        good = volumes_modulo(s, degree, prime, &plane, &row->sections, &v);
+        good = volumes_modulo(s, degree, prime, row, &row->sections, &v);
         if (!good) break;
         add(&r, nh_classify_prime(&s->s, prime), &v);
         row->lifted = r.count >= least_primes && lift(s, &r);
     }
-    row->unknowns = plane.unknowns;
-    row->size = plane.size;
     row->primes = r.count;
     for (size_t i = 0; i < r.count; i++) row->prime[i] = r.prime[i].p;
     clear(&r);
     s->question.third_bottom = 0;
     return good && row->lifted;
-}
-
-static void count_surfaces(search *s, size_t degree)
-{
-    size_t almost_all = s->out->row[degree - 1].number.bound;
-    for (size_t k = 0; k < s->out->surfaces && !nh_late(); k++) {
-        nh_space_surface *c = &s->out->surface[k];
-        if (c->degenerate) continue;
-        nh_progress("special surfaces", -1);
-        nh_classify_place p = {.kind = NH_CLASSIFY_SURFACE, .surface = &c->polynomial};
-        nh_classify_number *n = &c->number[degree];
-        bool counted = nh_classify_count(&s->s, degree, &p, almost_all, NULL, n), more = counted
-            && n->bound > almost_all;
-        if (more && n->settled && !c->first) c->first = degree;
-        if ((!counted || (more && !n->settled)) && !c->open) c->open = degree;
-    }
 }
 
 /* ---- planes nu = a/b ---- */
@@ -236,7 +205,7 @@ static nh_special_surface *known_of(const nh_space *o, bool walls, size_t *count
 }
 
 /* Is anything special in the plane of the question but sections of what is known? */
-static outcome look(search *s, size_t degree, const nh_space_row *row, size_t prime)
+static outcome look(search *s, size_t degree, const nh_plane_row *row, size_t prime)
 {
     nh_prime f = nh_classify_prime(&s->s, prime);
     nh_plane_row plane = {.number = row->number};
@@ -278,7 +247,7 @@ static double height_at(const nh_space *o, double logarithm, int64_t top, int64_
     return floor(exp(logarithm / (double)degree) * (1 - rounding));
 }
 
-static bool examine(search *s, size_t degree, nh_space_row *row, int64_t top, int64_t bottom)
+static bool examine(search *s, size_t degree, nh_plane_row *row, int64_t top, int64_t bottom)
 {
     enum { primes = 2 };
     nh_space *o = s->out;
@@ -302,7 +271,7 @@ static bool examine(search *s, size_t degree, nh_space_row *row, int64_t top, in
     return true;
 }
 
-static bool sweep(search *s, size_t degree, nh_space_row *row, size_t height)
+static bool sweep(search *s, size_t degree, nh_plane_row *row, size_t height)
 {
     bool good = true;
     row->height = INFINITY;
@@ -321,7 +290,7 @@ static bool sweep(search *s, size_t degree, nh_space_row *row, size_t height)
 
 /* ---- degrees ---- */
 
-static const char *end_of(const search *s, const nh_space_row *row)
+static const char *end_of(const search *s, const nh_plane_row *row)
 {
     return s->out->end ? s->out->end : s->s.family.obstacle ? s->s.family.obstacle : nh_late() ? "time"
         : !row->number.bounded ? "work" : row->size > s->question.plane ? "plane"
@@ -332,7 +301,7 @@ static void run(search *s)
 {
     nh_space *o = s->out;
     while (o->rows < s->question.degree && !nh_late()) {
-        nh_space_row row = {.known = 0};
+        nh_plane_row row = {.known = 0};
         size_t degree = o->rows + 1;
         nh_classify_place any = {.kind = NH_CLASSIFY_ANY};
         nh_progress("integrals for almost all values", -1);
@@ -344,7 +313,7 @@ static void run(search *s)
         }
         if (o->rows) row.height = fmin(row.height, o->row[o->rows - 1].height);
         o->row[o->rows++] = row;
-        count_surfaces(s, degree);
+        nh_plane_count_curves(&s->s, NH_CLASSIFY_SURFACE, degree, row.number.bound, o->surfaces, o->surface);
     }
     if (o->rows < s->question.degree && !o->end) o->end = "time";
     if (s->s.family.obstacle && !o->rows) o->obstacle = s->s.family.obstacle;

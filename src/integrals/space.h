@@ -16,31 +16,13 @@
 #ifndef NH_SPACE_H
 #define NH_SPACE_H
 
-#include "integrals/classify.h"
+#include "integrals/plane.h"
 #include "integrals/special_surfaces.h"
 
 typedef struct {
-    nh_special_surface polynomial;
-    bool degenerate;
-    size_t first, open;      /* as of a value, classify.h */
-    nh_classify_number number[NH_COUNT_HIGHEST_DEGREE + 1];
-} nh_space_surface;
-
-typedef struct {
-    nh_classify_number number; /* for almost all values */
-    size_t known, unknowns, size; /* products of known integrals; of the linear system; of the determinants */
-    bool lifted;
-    size_t sections;         /* at so many nu, modulo these primes: */
-    size_t primes;
-    uint64_t prime[NH_CLASSIFY_MOST_PRIMES];
-    size_t planes;           /* so many were looked at, up to the height of the question */
-    double height;           /* in those in which nothing more was seen, of pairs of rationals; at all degrees so far */
-} nh_space_row;
-
-typedef struct {
     size_t rows, surfaces, walls, planes, surface_capacity, wall_capacity, plane_capacity;
-    nh_space_row row[NH_COUNT_HIGHEST_DEGREE]; /* of degrees 1, 2, .. */
-    nh_space_surface *surface; /* special and degenerate ones, and ones on which A loses rank although there are not
+    nh_plane_row row[NH_COUNT_HIGHEST_DEGREE]; /* of degrees 1, 2, .. */
+    nh_plane_curve *surface; /* special and degenerate ones, and ones on which A loses rank although there are not
                               * more integrals */
     nh_special_surface *wall;
     nh_special_surface *plane; /* nu = a/b, in which something else may be special */
