@@ -352,7 +352,11 @@ static finding find(const row *r)
     case NOT: f.good = f.not = true; snprintf(f.value, sizeof f.value, "-"); snprintf(f.finding, sizeof f.finding, "not computable: %s", r->printed); break;
     default: claim(r, &f);
     }
-    if (r->ours && f.good) snprintf(f.finding, sizeof f.finding, r->kind == SMALL ? "holds" : "computed; the paper prints no value");
+    if (r->ours && f.good && r->kind == BY)
+        snprintf(f.finding, sizeof f.finding, "computed: holds to %d digits; the paper prints no value",
+                 digits_of(printed));
+    else if (r->ours && f.good)
+        snprintf(f.finding, sizeof f.finding, r->kind == SMALL ? "holds" : "computed; the paper prints no value");
     return f;
 }
 

@@ -454,6 +454,30 @@ static double vanishes(const document *d, const char *text)
     return differ(d, nh_add(d->system->dag, e, size), size);
 }
 
+/* The currents that solve (51), by its accelerations: their rate, beside the largest of its terms. */
+static double solves(const document *d, int analyzed, const char *function)
+{
+    static const char *const coordinate[3][3] = {
+        {"theta", "theta'", "@T"}, {"varphi", "varphi'", "@P"}, {"psi", "psi'", "@S"}};
+    nh_dag *g = d->system->dag;
+    const cJSON *item;
+    double worst = INFINITY;
+    cJSON_ArrayForEach(item, at(document_of(analyzed)->root, "currents"))
+    {
+        nh_ex phi, sum = nh_int(g, 0), term = sum;
+        if (!strstr(text_at(item, "expression"), function)) continue;
+        phi = parsed(d, text_at(item, "expression"));
+        for (size_t i = 0; i < 3; i++) {
+            nh_ex v = parsed(d, coordinate[i][1]), by_q = nh_diff(g, phi, parsed(d, coordinate[i][0]));
+            nh_ex by_v = nh_diff(g, phi, v);
+            sum = nh_add(g, sum, nh_add(g, nh_mul(g, by_q, v), nh_mul(g, by_v, with_accelerations(d, coordinate[i][2]))));
+            if (i == 0) term = nh_mul(g, by_q, v);
+        }
+        worst = differ(d, nh_add(g, sum, term), term);
+    }
+    return worst;
+}
+
 #define DISK_LAGRANGIAN "-M*g*r*sin(theta) + (I1 + M*r^2*e^2/4)/2*(theta'^2 + varphi'^2*sin(theta)^2) + M/2*(x1'^2 + x2'^2) + M*r^2*theta'^2/2" \
     " + M*r^2*varphi'^2*cos(theta)^2/2 + M*r*x1'*(theta'*sin(theta)*sin(varphi) - varphi'*cos(theta)*cos(varphi))" \
     " - M*r*x2'*(theta'*cos(varphi)*sin(theta) + varphi'*cos(theta)*sin(varphi)) + I3/2*(varphi'*cos(theta) + psi')^2" \
@@ -518,6 +542,7 @@ static void by(const row *r, const document *d, double *printed, double *meant, 
     else if (!strcmp(what, "bracket")) stages(true, (size_t)atoi(r->of), printed, meant), *meant = INFINITY;
     else if (!strcmp(what, "euler-poincare") && !strcmp(r->of, "whole")) stages(false, 9, printed, meant), *meant = INFINITY;
     else if (!strcmp(what, "euler-poincare")) stages(false, 9, meant, printed);
+    else if (!strcmp(what, "solves")) *printed = solves(document_of(D_ROLLING), r->document, r->of);
     else if (!strcmp(what, "disk lagrangian")) *printed = differ(d, parsed(d, DISK_LAGRANGIAN), d->system->lagrangian);
     else if (!strcmp(what, "disk") && r->of[0] == '1') *printed = vanishes(d, FIRST("r*I3")), *meant = vanishes(d, FIRST("I3"));
     else if (!strcmp(what, "disk")) *printed = vanishes(d, r->of[0] == '2' ? SECOND : THIRD);
