@@ -62,7 +62,7 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"analyze sleigh --seed many", "nhsym: the option `seed` needs a number, found `many`\n"},
         {"analyze sleigh --option sed=3", "nhsym: there is no option `sed`\nhint: did you mean `seed`?\n"},
         {"analyze sleigh --option seed", "nhsym: --option needs NAME=VALUE, found `seed`\n"},
-        {"analyze sleigh --velocities quasy", "nhsym: there are no velocities `quasy`\nhint: --velocities takes auto, quasi or coordinates\n"},
+        {"analyze sleigh --velocities quasy", "nhsym: there are no velocities `quasy`\nhint: did you mean `quasi`?\n"},
         {"show", "nhsym: `nhsym show` needs the name of a system\nhint: nhsym show sleigh\n"},
         {"analyze sleigh --htm page.html", "nhsym: there is no option `--htm`\nhint: write the full name: `--html`\n"},
         {"analyze sleigh --qui", "nhsym: there is no option `--qui`\nhint: write the full name: `--quiet`\n"},

@@ -35,10 +35,12 @@ Test(pdf, without_the_converter_the_package_is_named)
     place p = place_with_systems();
     finished f = run_so(&p, &(manner){.environment = nowhere}, "simulate sleigh --initial omega=2 --until 3 --quiet --svg a.svg --pdf a.pdf");
     cr_expect_eq(f.code, 4, "%d %s", f.code, f.err);
-    cr_expect(strstr(f.err, "rsvg-convert cannot be run") && strstr(f.err, "librsvg2-bin"), "%s", f.err);
+    cr_expect(strstr(f.err, "no program rsvg-convert") && strstr(f.err, "librsvg2-bin"), "%s", f.err);
     char path[PATH_MAX + 10];
     snprintf(path, sizeof path, "%s/a.pdf", p.folder);
     cr_expect_neq(access(path, F_OK), 0);
+    snprintf(path, sizeof path, "%s/a.svg", p.folder);
+    cr_expect_neq(access(path, F_OK), 0, "it is said before anything is computed");
     finished_clear(&f);
     place_clear(&p);
 }

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
+
 void nh_error_clear(nh_error *error)
 {
     if (error)
@@ -71,6 +73,13 @@ bool nh_error_hint(nh_error *error, const char *format, ...)
     fill(error->hint, sizeof error->hint, format, arguments);
     va_end(arguments);
     return false;
+}
+
+bool nh_error_hint_near(nh_error *error, const char *written, const char *const *words, size_t count,
+                        const char *otherwise)
+{
+    const char *near = nh_text_nearest(written, words, count);
+    return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "%s", otherwise);
 }
 
 void nh_error_format(const nh_error *error, char *out, size_t size)

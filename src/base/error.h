@@ -18,5 +18,8 @@ bool nh_fail(nh_error *error, nh_code code, const char *where, const char *forma
 
 /* Add what the user can do about it; ignored when a hint is there already.  Returns false. */
 bool nh_error_hint(nh_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* "did you mean `..`?" where one of the words is near to what was written, else the other hint. */
+bool nh_error_hint_near(nh_error *error, const char *written, const char *const *words, size_t count,
+                        const char *otherwise);
 
 #endif

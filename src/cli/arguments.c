@@ -271,7 +271,8 @@ static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
         return true;
     }
     nh_fail(error, NH_USAGE, "", "--progress does not know `%s`", text);
-    return nh_error_hint(error, "--progress takes auto, always or never");
+    return nh_error_hint_near(error, text, names, sizeof names / sizeof *names,
+                              "--progress takes auto, always or never");
 }
 
 /* The bytes of the dashes that a word begins with, also of those that word processors put for `--`: U+2013, U+2014,
@@ -300,6 +301,32 @@ static const char *help_of(const nh_cli *cli)
     return nh_arena_printf(cli->arena, known ? "nhsym help %s" : "nhsym help", cli->command);
 }
 
+static bool takes(const nh_cli *cli, const char *option)
+{
+    bool known = cli->command && nh_word_among(all_commands, cli->command);
+    for (size_t i = 0; i < owner_count; i++)
+        if (!strcmp(owners[i].name, option)) return !known || nh_word_among(owners[i].commands, cli->command);
+    return false;
+}
+
+/* What other programs call an option of this command, or NULL. */
+static const char *named_elsewhere(const nh_cli *cli, const char *word)
+{
+    static const char *const others[][3] = {
+        {"language", "to"},          {"lang", "to"},         {"target", "to"},          {"format", "to", "svg"},
+        {"png", "svg", "output"},    {"plot", "svg", "output"}, {"figure", "svg", "output"},
+        {"picture", "svg", "output"}, {"param", "set"},      {"params", "set"},         {"parameter", "set"},
+        {"parameters", "set"},       {"time", "until"},      {"tend", "until"},         {"tmax", "until"},
+        {"t", "until"},              {"duration", "until"},  {"dt", "step"},            {"x0", "initial"},
+        {"state", "initial"},        {"solver", "method"},   {"integrator", "method"},  {"file", "output"},
+        {"dir", "output"},           {"rtol", "tolerance"},   {"eps", "tolerance"},      {"report", "html"},
+        {"timeout", "max-seconds"}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        for (size_t k = 1; k < 3 && others[i][k]; k++)
+            if (!strcmp(word, others[i][0]) && takes(cli, others[i][k])) return others[i][k];
+    return NULL;
+}
+
 static bool unknown_option(const nh_cli *cli, const char *word, nh_error *error)
 {
     const char *names[sizeof long_options / sizeof *long_options];
@@ -308,7 +335,9 @@ static bool unknown_option(const nh_cli *cli, const char *word, nh_error *error)
     size_t length = strcspn(word, "=");
     nh_fail(error, NH_USAGE, "", "there is no option `%.*s`", (int)length, word);
     word = nh_arena_strndup(cli->arena, word, length);
-    const char *near = nh_text_nearest(word + dashes(word), names, n);
+    word += dashes(word);
+    const char *near = named_elsewhere(cli, word);
+    if (!near) near = nh_text_nearest(word, names, n);
     for (const struct option *o = long_options; near && o->name; o++)
         if (!strcmp(near, o->name)) near = name_of(o->val); /* an old name: the one of today */
     return near ? nh_error_hint(error, "did you mean `--%s`?", near)

@@ -78,7 +78,8 @@ bool nh_cli_can_write(const nh_cli *cli, nh_error *error);
    not at all. */
 bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error);
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);
-/* The bytes of a picture as PDF. */
+/* The bytes of a picture as PDF; before anything is computed: is there a program that makes them? */
+bool nh_cli_pdf_possible(nh_error *error);
 bool nh_cli_pdf(const nh_text *svg, nh_text *out, nh_error *error);
 /* The name of the first option that asks for a document; NULL: none does. */
 const char *nh_cli_wants_document(const nh_cli *cli);

@@ -4,8 +4,10 @@
 
 int nh_cli_version(nh_cli *cli, nh_error *error)
 {
-    (void)cli;
-    (void)error;
+    if (cli->operands) {
+        nh_fail(error, NH_USAGE, "", "`nhsym version` takes no name, found `%s`", cli->operand[0]);
+        return nh_error_hint(error, "`nhsym version`, or --version"), NH_USAGE;
+    }
     puts("nhsym " NH_VERSION);
     return NH_OK;
 }

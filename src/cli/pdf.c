@@ -3,6 +3,7 @@
  * A program instead of the library: its two dozen libraries would have to be loaded by every short command, and nobody
  * who wants no PDF needs it. */
 #include <errno.h>
+#include <limits.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
@@ -14,6 +15,7 @@
 
 extern char **environ;
 
+#define INSTALL "install it (Debian: apt-get install librsvg2-bin), or write the picture by --svg"
 static const char converter[] = "rsvg-convert";
 
 /* Its exit status; -1, with errno, when it could not be started. */
@@ -50,6 +52,20 @@ static bool read_all(FILE *file, nh_text *out)
     return !ferror(file) && out->length > 0;
 }
 
+bool nh_cli_pdf_possible(nh_error *error)
+{
+    const char *path = getenv("PATH");
+    char file[PATH_MAX];
+    for (const char *at = path ? path : ""; *at; at += *at == ':') {
+        int length = (int)strcspn(at, ":");
+        snprintf(file, sizeof file, "%.*s/%s", length, length ? at : ".", converter);
+        if (!access(file, X_OK)) return true;
+        at += length;
+    }
+    nh_fail(error, NH_NUMERIC, "--pdf", "there is no program %s, which makes a PDF of a picture", converter);
+    return nh_error_hint(error, INSTALL);
+}
+
 bool nh_cli_pdf(const nh_text *svg, nh_text *out, nh_error *error)
 {
     FILE *in = tmpfile(), *made = tmpfile();
@@ -64,5 +80,5 @@ bool nh_cli_pdf(const nh_text *svg, nh_text *out, nh_error *error)
     if (!files) return nh_fail(error, NH_NUMERIC, "--pdf", "no temporary file could be written: %s", why);
     if (why) nh_fail(error, NH_NUMERIC, "--pdf", "the program %s cannot be run: %s", converter, why);
     else nh_fail(error, NH_NUMERIC, "--pdf", "the program %s failed with status %d", converter, status);
-    return nh_error_hint(error, "install it (Debian: apt-get install librsvg2-bin), or write the picture by --svg");
+    return nh_error_hint(error, INSTALL);
 }

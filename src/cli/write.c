@@ -83,6 +83,7 @@ bool nh_cli_can_write(const nh_cli *cli, nh_error *error)
         printed += is_stdout(to[i].path);
         if (!can_write(cli, &to[i], i, error)) return false;
     }
+    if (cli->pdf && !nh_cli_pdf_possible(error)) return false;
     if (printed < 2) return true;
     nh_fail(error, NH_USAGE, "", "`-` prints one output, but %zu options take it", printed);
     return nh_error_hint(error, "give the others a file");

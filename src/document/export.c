@@ -25,9 +25,12 @@ bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *erro
         nh_fail(error, NH_USAGE, "--to", "there is no language `%.100s`", name);
     else
         nh_fail(error, NH_USAGE, "--to", "no language is given");
-    const char *near = name ? nh_text_nearest(name, targets, target_count) : NULL;
-    return near ? nh_error_hint(error, "did you mean `%s`?", near)
-                : nh_error_hint(error, "--to takes c, python, sympy, matlab, latex or json");
+    /* names of the same in other programs */
+    static const char *const others[][2] = {{"tex", "latex"}, {"numpy", "python"}, {"cpp", "c"}, {"c++", "c"}};
+    for (size_t i = 0; name && i < sizeof others / sizeof *others; i++)
+        if (!strcmp(name, others[i][0])) return nh_error_hint(error, "did you mean `%s`?", others[i][1]);
+    return nh_error_hint_near(error, name ? name : "", targets, target_count,
+                              "--to takes c, python, sympy, matlab, latex or json");
 }
 
 bool nh_export_prefix(const nh_export *x, const char *wish, const char **out, nh_error *error)

@@ -174,9 +174,7 @@ static bool choose(const nh_scan_numbers_request *q, size_t *command, nh_error *
         if (!q->of || !strcmp(q->of, names[*command])) return true;
     }
     nh_fail(error, NH_USAGE, "", "--of does not know `%s`", q->of);
-    const char *near = nh_text_nearest(q->of, names, command_count);
-    return near ? nh_error_hint(error, "did you mean `%s`?", near)
-                : nh_error_hint(error, "--of takes count, analyze or reduce");
+    return nh_error_hint_near(error, q->of, names, command_count, "--of takes count, analyze or reduce");
 }
 
 /* Where a path leaves the document: nearest of the names that are there. */

@@ -52,9 +52,11 @@ static bool of_motions(const nh_request *q) { return q->of && !strcmp(q->of, "eq
 
 static bool verify_check(const nh_request *q, nh_error *error)
 {
-    if (q->of && !of_motions(q) && strcmp(q->of, "constraint")) {
+    static const char *const words[] = {"constraint", "equations"};
+    if (q->of && !of_motions(q) && strcmp(q->of, words[0])) {
         nh_fail(error, NH_USAGE, "", "--of does not know `%s`", q->of);
-        return nh_error_hint(error, "--of takes constraint or equations");
+        return nh_error_hint_near(error, q->of, words, sizeof words / sizeof *words,
+                                  "--of takes constraint or equations");
     }
     if (!q->of || q->field) return true;
     nh_fail(error, NH_USAGE, "", "--of needs --field");
@@ -134,9 +136,8 @@ static bool read_question(const nh_request *q, nh_classify_request *out, nh_erro
         return nh_error_hint(error, "give the other%s with --set", out->third ? "s values" : " a value");
     }
     nh_fail(error, NH_USAGE, "", "--of does not know `%s`", q->of);
-    const char *near = nh_text_nearest(q->of, names, NH_LINEAR_QUESTIONS);
-    return near ? nh_error_hint(error, "did you mean `%s`?", near)
-                : nh_error_hint(error, "currents, measure, hamiltonization, symmetries or constraints");
+    return nh_error_hint_near(error, q->of, names, NH_LINEAR_QUESTIONS,
+                              "currents, measure, hamiltonization, symmetries or constraints");
 }
 
 static bool read_classify(const nh_request *q, nh_classify_request *out, nh_error *error)

@@ -35,7 +35,9 @@ bool nh_request_velocities(nh_request *q, const char *word, nh_error *error)
         return true;
     }
     nh_fail(error, NH_USAGE, "", "there are no velocities `%s`", word);
-    return nh_error_hint(error, "%svelocities takes auto, quasi or coordinates", q->line ? "--" : "");
+    return nh_error_hint_near(error, word, names, sizeof names / sizeof *names,
+                              q->line ? "--velocities takes auto, quasi or coordinates"
+                                      : "velocities takes auto, quasi or coordinates");
 }
 
 bool nh_request_method(nh_request *q, const char *word, nh_error *error)

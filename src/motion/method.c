@@ -2,6 +2,7 @@
 #include "motion/method.h"
 
 #include <string.h>
+#include <strings.h>
 
 #include "base/text.h"
 
@@ -44,13 +45,29 @@ const nh_method *nh_method_find(const char *name)
     return NULL;
 }
 
+/* What other programs call the like: SUNDIALS, SciPy, MATLAB, Hairer's codes, mechanics. */
+static const char *elsewhere(const char *word)
+{
+    static const char *const others[][2] = {
+        {"ida", "bdf"},         {"ode15s", "bdf"},           {"ode23s", "bdf"},           {"lsoda", "bdf"},
+        {"vode", "bdf"},        {"cvode", "bdf"},            {"radau", "esdirk"},         {"radau5", "esdirk"},
+        {"ode113", "adams"},    {"dopri5", "dormand-prince"}, {"ode45", "dormand-prince"}, {"rk45", "dormand-prince"},
+        {"rk4", "rkf45"},       {"rk5", "dormand-prince"},   {"rk8", "rk8pd"},            {"dop853", "rk8pd"},
+        {"ode78", "rk8pd"},     {"ode89", "rk8pd"},          {"verlet", "dalembert"},     {"leapfrog", "dalembert"},
+        {"symplectic", "dalembert"}, {"variational", "dalembert"}, {"gauss", "midpoint"}, {"implicit", "midpoint"}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (!strcasecmp(word, others[i][0])) return others[i][1];
+    return NULL;
+}
+
 bool nh_method_given(const char *word, const nh_method **out, nh_error *error)
 {
     const char *word_of[sizeof methods / sizeof *methods + 1] = {NH_METHOD_AUTOMATIC};
     *out = nh_method_find(word);
     if (*out || !strcmp(word, NH_METHOD_AUTOMATIC)) return true;
     for (size_t i = 0; i < nh_method_count(); i++) word_of[1 + i] = methods[i].word;
-    const char *near = nh_text_nearest(word, word_of, nh_method_count() + 1);
+    const char *near = elsewhere(word);
+    if (!near) near = nh_text_nearest(word, word_of, nh_method_count() + 1);
     nh_fail(error, NH_USAGE, "", "there is no method `%s`", word);
     return near ? nh_error_hint(error, "did you mean `%s`? `nhsym explain methods` lists them", near)
                 : nh_error_hint(error, "`nhsym explain methods` lists them");
