@@ -56,6 +56,23 @@ static double upwards(double bound)
     return out;
 }
 
+/* To so many digits, so that rounding in the motion, or in the kernels of another processor, changes nothing of what
+ * is printed.  `side`: not below x, not above x, or 0 for the nearest. */
+static double rounded(double x, int digits, int side)
+{
+    static const double less_than_a_unit = 0.3;
+    char text[32];
+    double out = x;
+    for (int k = 0; k == 0 || side * (x - out) > 0; k++) {
+        snprintf(text, sizeof text, "%.*e", digits - 1, x + side * k * less_than_a_unit * fabs(x) * pow(10, -digits));
+        out = strtod(text, NULL);
+    }
+    return out;
+}
+
+/* bounds hold the rounding of coefficients, and lengths follow from bounds */
+enum { digits_of_lengths = 2, digits_of_ends = 8, digits_of_states = 12 };
+
 /* What follows goes into every try of an interval. */
 typedef struct {
     nh_ball_series *series;
@@ -113,7 +130,9 @@ static bool next_link(trial *t, double edge, int side, nh_motion_series_link *ou
         if (!side || nh_ball_series_move(t->series, out->centre, out->half / 2)) most = take_all(t, out);
         found = most <= 1;
         if (found) *best = ideal(out->half, most);
-        else out->half *= isfinite(most) ? fmax(shortest, fmin(shorter, ideal(1, most))) : shorter;
+        else
+            out->half = rounded(out->half * (isfinite(most) ? fmax(shortest, fmin(shorter, ideal(1, most))) : shorter),
+                digits_of_lengths, 0);
     }
     return found;
 }
@@ -128,7 +147,7 @@ static size_t chain(nh_arena *arena, trial *t, const nh_motion_series_link *firs
     size_t n = 0;
     while (n < most_links && side * (to - edge) > 0) {
         nh_motion_series_link *l = &out[n];
-        double half = safe * best * fmin(1, best / before), rest = fabs(to - edge) / 2;
+        double half = rounded(safe * best * fmin(1, best / before), digits_of_lengths, 0), rest = fabs(to - edge) / 2;
         l->half = fmin(half, rest);
         l->integral = nh_arena_alloc(arena, (t->m->integrals + 1) * sizeof *l->integral);
         before = best;
@@ -201,13 +220,15 @@ void nh_motion_series_add(nh_analysis *r)
     size_t width = r->model->m + r->model->n;
     if (!m || !m->integrals || !v || !v->count) return;
     double *z = nh_arena_alloc(r->arena, (1 + width) * sizeof *z);
-    z[0] = v->time[0];
-    memcpy(z + 1, v->state, width * sizeof *z);
+    z[0] = rounded(v->time[0], digits_of_states, 0);
+    for (size_t j = 0; j < width; j++) z[1 + j] = rounded(v->state[j], digits_of_states, 0);
     double low = z[m->parameter], high = low;
     for (size_t i = 0; i < v->count; i++) {
         double s = m->parameter ? v->state[i * width + m->parameter - 1] : v->time[i];
         if (isfinite(s)) low = fmin(low, s), high = fmax(high, s);
     }
+    low = rounded(low, digits_of_ends, -1);
+    high = rounded(high, digits_of_ends, 1);
     nh_explicit_motion *own = nh_arena_alloc(r->arena, sizeof *own);
     *own = *m;
     own->series = nh_motion_series_from(r->arena, r->model, m, z, low, high);
