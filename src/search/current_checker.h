@@ -12,6 +12,7 @@ typedef struct {
     nh_ex *inverse;               /* the chart's velocities in coordinate velocities */
     bool invertible;
     bool brief;                   /* the fields of what comes next are not wanted */
+    size_t refuted;               /* candidates so far that are certainly not conserved */
     size_t nears;                 /* candidates of the present list that are nearly conserved, and only nearly */
     nh_candidate *near[NH_MOST_ALMOST];
 } nh_current_checker;

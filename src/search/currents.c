@@ -327,6 +327,7 @@ bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_po
     nh_current *f = next_found(r);
     nh_echelon_refine(r->model, fit, candidate, &r->options);
     decide(b, candidate, f);
+    b->refuted += nh_coefficients_refuted(f, &r->options);
     if (nh_coefficients_refuted(f, &r->options) && f->refined >= least_almost && b->nears < NH_MOST_ALMOST)
         b->near[b->nears++] = candidate;
     if (!keeps(b, f, certain) || ((f->moved || !certain) && nh_currents_known(b, f->phi))) return false;

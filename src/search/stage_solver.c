@@ -50,13 +50,17 @@ static void keep_factor(nh_stage_solver *x, nh_ex phi)
     x->factor[x->factors++] = phi;
 }
 
+static size_t most_tested(const nh_analysis *r)
+{
+    return least_tested > r->local_maximum ? least_tested : r->local_maximum;
+}
+
 /* Gradients against those of the known currents; candidates come simplest first.  kind[k] of candidate k; returns how
    many are new. */
 static size_t compare(nh_stage_solver *x, nh_candidates *list, nh_independence *kind)
 {
     nh_analysis *r = x->r;
-    size_t known = r->count, most = least_tested > r->local_maximum ? least_tested : r->local_maximum,
-           n = list->count < most ? list->count : most, fresh = 0;
+    size_t known = r->count, most = most_tested(r), n = list->count < most ? list->count : most, fresh = 0;
     nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
     nh_independence *all = nh_alloc_array(known + n + 1, sizeof *all);
     for (size_t k = 0; k < known; k++) phi[k] = r->found[k].phi;
@@ -232,22 +236,6 @@ static size_t harvest(nh_stage_solver *x, const nh_solved *s, size_t count, bool
     return found;
 }
 
-/* How many of the likely null vectors are no functions of the currents found so far: whether these are null vectors
- * remains open. */
-static size_t still_open(nh_stage_solver *x, const nh_solved *s)
-{
-    nh_candidates *list =
-        nh_echelon(x->r->model, s->fit, s->ansatz, s->nullspace, s->nullspace->likely, &x->r->options);
-    nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
-    size_t all = list->count;
-    compare(x, list, kind); /* may shorten the list */
-    size_t open = all - list->count;
-    for (size_t k = 0; k < list->count; k++) open += kind[k] != NH_DEPENDENT && kind[k] != NH_CONSTANT;
-    nh_free(kind);
-    nh_candidates_free(list);
-    return open;
-}
-
 void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families, const nh_family *family)
 {
     nh_progress(name, nh_budget_part());
@@ -269,9 +257,11 @@ void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families
         note->found = harvest(x, &s, s.nullspace->dimension, true);
         if (s.nullspace->likely > s.nullspace->dimension) {
             /* how many of them are certain hangs on rounding; what they are does not */
-            note->found += harvest(x, &s, s.nullspace->likely, false);
-            note->undecided = still_open(x, &s) > 0;
-            if (!note->undecided) note->dimension = s.nullspace->likely;
+            size_t open = r->open, refuted = x->bench->refuted, likely = s.nullspace->likely;
+            note->found += harvest(x, &s, likely, false);
+            note->undecided = r->open > open || likely > most_tested(r);
+            refuted = x->bench->refuted - refuted;
+            if (!note->undecided && refuted < likely - note->dimension) note->dimension = likely - refuted;
         }
         keep_spectrum(x, s.nullspace, note->found > 0);
     }
