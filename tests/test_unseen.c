@@ -160,7 +160,7 @@ static const unseen UNSEEN[] = {
      "lagrangian: m/2*(x'^2 + y'^2) + I/2*th'^2 + J/2*ph'^2 + m*f*x\n"
      "constraints: [\"x' = R*th'*cos(ph)\", \"y' = R*th'*sin(ph)\"]\n"
      "known: {currents: [{name: product, expr: \"(m*R^2 + I)*th'*ph' - m*f*R*sin(ph)\"}]}\n",
-     4},
+     6},
     /* explicit time */
     {"driven oscillator",
      "parameters: [{name: w, value: 1.4}, {name: f, value: 0.5}, {name: W, value: 2.3}]\n"
@@ -197,7 +197,7 @@ static const unseen UNSEEN[] = {
      "lagrangian: x'^2/2 + g*x\n"
      "forces: [\"x = -k*x'^2\"]\n"
      "known: {currents: [{name: energy of a kind, expr: (x'^2 - g/k)*exp(2*k*x)}]}\n",
-     1},
+     2},
     {"Kepler's problem in logarithmic polar coordinates",
      "parameters: [{name: k, value: 1}]\n"
      "coordinates: [a, {name: b, type: angle}]\n"
@@ -361,7 +361,7 @@ enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed)
 {
     for (size_t i = 0; i < COUNT; i++) {
-        if (!sweep_tries(i, 9, 36)) continue;
+        if (!sweep_tries(i + 1, 9, 36)) continue;
         const unseen *u = &UNSEEN[i];
         char path[SCRATCH];
         FILE *out = scratch_open(path);
