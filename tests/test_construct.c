@@ -1,7 +1,11 @@
 /* Integrals constructed from their power series: the terms, what is known already, and what has no closed form. */
 #include <criterion/criterion.h>
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "graph/diff.h"
+#include "integrals/closed_primitives.h"
 #include "integrals/construct.h"
 #include "names.h"
 
@@ -79,4 +83,55 @@ Test(construct, functions_without_closed_form_are_not_recognised)
     nh_construction_free(c);
     nh_model_free(o);
     nh_system_free(s);
+}
+
+/* ---- antiderivatives of roots ---- */
+
+/* Does one of the functions have this derivative by q, up to a constant factor, at all points of a grid? */
+static bool one_derives(nh_system *s, nh_model *o, size_t count, const nh_ex *e, const char *q, const char *derivative)
+{
+    bool found = false;
+    for (size_t k = 0; k < count && !found; k++) {
+        nh_ex ratio = nh_div(o->dag, nh_diff(o->dag, e[k], expression_of(s, q)), nh_model_compose(o, expression_of(s, derivative)));
+        nh_tape *tape = nh_model_tape(o, 1, &ratio);
+        nh_tape_work *work = nh_tape_work_create(tape);
+        double first = 0, value;
+        found = true;
+        for (size_t p = 0; p < 20 && found; p++) {
+            nh_tape_eval(tape, work, o->chart->probe + p * o->chart->width, &value);
+            if (p == 0) first = value;
+            found = value != 0 && fabs(value / first - 1) < 1e-9;
+        }
+        nh_tape_work_free(work);
+        nh_tape_free(tape);
+    }
+    return found;
+}
+
+Test(construct, roots_have_their_antiderivatives)
+{
+    static const struct {
+        const char *text, *q, *derivative;
+        bool time;
+    } ROW[] = {
+        {"coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z' = y*x'\"]\n", "y", "1/sqrt(1 + y^2)", false},
+        {"coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z' = cos(y)*x'\"]\n", "y", "sin(y)/sqrt(1 + cos(y)^2)", false},
+        {"coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z' = cos(y)*x'\"]\n", "y", "cos(y)/sqrt(1 + cos(y)^2)", false},
+        {"coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z' = 3*sin(2*y)*x'\"]\n", "y", "cos(2*y)/sqrt(1 + 9*sin(2*y)^2)", false},
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [\"(x - t)*y' = y*x'\"]\n", "x", "1/sqrt((x - t)^2 + y^2)", true},
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [\"(x - t)*y' = y*x'\"]\n", "x", "1/(x - t)", true},
+    };
+    for (size_t i = 0; i < sizeof ROW / sizeof *ROW; i++) {
+        enum { most = 12 };
+        char text[400];
+        nh_ex e[most];
+        snprintf(text, sizeof text, "name: s\ndomain: {y: [0.5, 1.2], x: [2, 3]}\n%s", ROW[i].text);
+        nh_system *s = system_of(text);
+        nh_model *o = model_of(s);
+        size_t count = nh_closed_primitives(o, ROW[i].time, most, e);
+        cr_expect(one_derives(s, o, count, e, ROW[i].q, ROW[i].derivative), "%s: %s of %zu", ROW[i].text, ROW[i].derivative, count);
+        cr_expect(nh_closed_primitives(o, ROW[i].time, 1, e) == (count ? 1 : 0));
+        nh_model_free(o);
+        nh_system_free(s);
+    }
 }

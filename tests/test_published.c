@@ -36,6 +36,11 @@ static const published PUBLISHED[] = {
     {"cubic with sqrt(14) i", "coordinates: [x, y]\nlagrangian: (-14*x'^2 + y'^2)/2 - (y^3/3 - 105*x^2*y + 1666/3*x^3)\n", 2, 4},
     /* M. Blau and M. O'Loughlin, Nucl. Phys. B 654 (2003) 135: exponentials of a cyclic coordinate */
     {"geodesics of a plane wave", "coordinates: [u, v, x, y]\nlagrangian: (x'^2 + y'^2)/2 + u'*v' + (x^2 - y^2)*u'^2/2\n", 8, 3},
+    /* A. V. Kilin, Regul. Chaotic Dyn. 6 (2001) 291: Chaplygin's ball, here of revolution; along one direction of the plane its place is an
+       inverse hyperbolic sine of cos(h) */
+    {"Chaplygin's ball of revolution",
+     "parameters: {m: 1.3, A: 0.4, C: 0.7, r: 0.6}\n" BALL BODY "lagrangian: m*(x'^2 + y'^2)/2 + A*(W1^2 + W2^2)/2 + C*W3^2/2\nconstraints: [" ROLLS
+     "]\n" TURNED, 5, 2},
     /* S. D. Kelly and R. M. Murray, J. Robotic Systems 12 (1995) 417: wheels that turn together about vertical axes */
     {"robot of fixed orientation",
      "parameters: {m: 2, I: 0.7, J: 0.4, R: 0.5}\ncoordinates: [x, y, {name: th, type: angle}, {name: psi, type: angle}]\n"

@@ -19,9 +19,7 @@ bool nh_counted_has_velocities(const nh_model *o, nh_ex e)
     return has;
 }
 
-/* At most this; a function of a sum of products is not looked into: what is no polynomial as it is written has no
-   degree. */
-static double degree_of(const nh_model *o, nh_ex e)
+double nh_counted_degree_of(const nh_model *o, nh_ex e)
 {
     nh_dag *d = o->dag;
     double degree = 0;
@@ -29,7 +27,7 @@ static double degree_of(const nh_model *o, nh_ex e)
     if (nh_kind_of(d, e) == NH_SYMBOL) return 1;
     if (nh_kind_of(d, e) != NH_SUM && nh_kind_of(d, e) != NH_PRODUCT) return no_degree;
     for (size_t k = 0; k < nh_arity(d, e); k++) {
-        double own = degree_of(o, nh_child(d, e, k));
+        double own = nh_counted_degree_of(o, nh_child(d, e, k));
         if (nh_kind_of(d, e) == NH_SUM) {
             degree = fmax(degree, own);
             continue;
@@ -45,7 +43,7 @@ static double degree_of(const nh_model *o, nh_ex e)
 static double highest(const nh_model *o, size_t count, const nh_ex *e)
 {
     double degree = 0;
-    for (size_t i = 0; i < count && degree < no_degree; i++) degree = fmax(degree, degree_of(o, e[i]));
+    for (size_t i = 0; i < count && degree < no_degree; i++) degree = fmax(degree, nh_counted_degree_of(o, e[i]));
     return degree;
 }
 

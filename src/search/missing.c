@@ -5,6 +5,7 @@
 
 #include "base/budget.h"
 #include "base/progress.h"
+#include "integrals/closed_primitives.h"
 #include "integrals/construct.h"
 #include "integrals/construct_rates.h"
 #include "integrals/echelon.h"
@@ -242,6 +243,38 @@ static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
            first->count.row[c->missing_at - 1].bound == c->count.row[c->missing_at - 1].bound;
 }
 
+/* ---- what is integrated along a coordinate ---- */
+
+/* Integrals found, times 1, coordinates, t and antiderivatives: with x' = c f'(h) h' for a current c, x - c f is
+   constant. */
+static bool integrate(search *s, const nh_completeness *c)
+{
+    enum { most_primitives = 12, most_factors = 12 };
+    nh_analysis *r = s->climb.r;
+    const nh_model *o = r->model;
+    nh_dag *d = o->dag;
+    size_t words = most_primitives + o->m + 2, factors = 1, n = 0, before = r->count;
+    nh_ex *word = nh_arena_alloc(r->arena, words * sizeof *word), factor[most_factors] = {nh_int(d, 1)},
+          *phi = nh_alloc_array(most_proved(r), sizeof *phi);
+    bool general;
+    words = nh_closed_primitives(o, c->count.time, most_primitives, word);
+    size_t independent, known = nh_counted_proved(r, phi, &general, &independent);
+    for (size_t k = 0; k < known && factors < most_factors; k++)
+        if (nh_counted_degree_of(o, phi[k]) <= (double)c->missing_at) factor[factors++] = phi[k];
+    nh_free(phi);
+    if (!words) return false;
+    word[words++] = nh_int(d, 1);
+    word[words++] = o->system->t;
+    for (size_t k = 0; k < o->m; k++) word[words++] = o->system->coordinate[k].q;
+    nh_ex *term = nh_arena_alloc(r->arena, factors * words * sizeof *term);
+    for (size_t i = 0; i < factors; i++)
+        for (size_t j = 0; j < words; j++) term[n++] = nh_mul(d, factor[i], word[j]);
+    nh_family all = {.kind = NH_TERMS, .terms = n, .term = term};
+    s->climb.wide = true;
+    nh_stage_solver_stage(&s->climb, "currents found so far times coordinates and antiderivatives", 1, &all);
+    return r->count > before;
+}
+
 /* Of one kind.  In t alone most coefficients are no words but waves, and a number that is not settled is mostly far too
    large. */
 static bool construct(search *s, const nh_completeness *c, bool further)
@@ -259,6 +292,7 @@ static bool construct(search *s, const nh_completeness *c, bool further)
     secular.secular = true;
     work = fmax(work - rates.work, 0);
     return (s->cyclic && construct_up_to(s, c, shape, dearest, work)) || construct_up_to(s, c, any, dearest, work)
+        || (!further && integrate(s, c))
         || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }
 
