@@ -284,6 +284,24 @@ static nh_analysis *ask_car(const char *inertia, const char *function)
     return r;
 }
 
+/* x is found from C2 = x/sin(t) - .., and has no pole where sin(t) = 0, t = 0 for one. */
+Test(quadratures, a_formula_has_no_poles_of_its_derivation)
+{
+    nh_analysis *r = ask("name: forced\nparameters: [{name: m, value: 1.3}, {name: k, value: 2.1}, {name: F, value: 0.7}, {name: w, value: 0.9}]\n"
+                         "coordinates: [x]\nlagrangian: m*x'^2/2 - k*x^2/2 + F*x*cos(w*t)\n");
+    const nh_explicit_motion *m = r->motion;
+    cr_assert(m && m->proved && m->known == 3 && m->constants == 2);
+    nh_ex symbol[3] = {r->model->system->t, m->constant[0].symbol, m->constant[1].symbol};
+    double start[3] = {0, 0.4, 0.3}, x;
+    nh_tape *tape = nh_tape_create(r->model->dag, 3, symbol, 1, &m->value[1], 4, r->model->parameter, r->model->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, start, &x);
+    cr_expect(isfinite(x), "x is %g at t = 0", x);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_analysis_free(r);
+}
+
 Test(quadratures, car)
 {
     sweep_whole_only();

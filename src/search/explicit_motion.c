@@ -5,6 +5,7 @@
 
 #include "base/budget.h"
 #include "exact/normal.h"
+#include "exact/normal.h"
 #include "graph/diff.h"
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"
@@ -76,6 +77,33 @@ static bool satisfied(const nh_explicit_curve *c, const bool *known)
     return good;
 }
 
+/* How many quotients in e can be infinite on the curve. */
+static size_t poles(const nh_explicit_curve *c, nh_ex e)
+{
+    enum { most = 64 };
+    nh_ex product[most], tangent[most];
+    size_t count = 0, n = nh_products_in(c->d, e, product, most), f = nh_functions_in(c->d, e, tangent, most);
+    for (size_t i = 0; i < n && i < most; i++)
+        for (size_t k = 0; k < nh_arity(c->d, product[i]); k++) {
+            nh_ex x = nh_exponent_of(c->d, product[i], k);
+            bool below = nh_kind_of(c->d, x) == NH_NUMBER && nh_num_value(nh_number_of(c->d, x)) < 0;
+            count += below && nh_depends(c->d, nh_child(c->d, product[i], k), c->s);
+        }
+    for (size_t i = 0; i < f && i < most; i++)
+        count += nh_function_of(c->d, tangent[i]) == NH_TAN && nh_depends(c->d, tangent[i], c->s);
+    return count;
+}
+
+/* A sum solved for one of its terms, (a(t)/sin(t) + C) sin(t), is a(t) + C sin(t): it has no poles of its own. */
+static nh_ex without_poles(const nh_explicit_curve *c, nh_ex e)
+{
+    size_t before = poles(c, e);
+    if (before == 0 || nh_explicit_too_long(c, e)) return e;
+    nh_ex sum = nh_canonical_sum(c->d, e), tidy = nh_simplify(c->d, sum);
+    if (poles(c, tidy) < before && !nh_explicit_too_long(c, tidy)) return tidy;
+    return poles(c, sum) < before && !nh_explicit_too_long(c, sum) ? sum : e;
+}
+
 /* What still depends on states that are not solved is not known.  A constant that is none, to all digits, ends it
    all. */
 static void conclude(nh_explicit_curve *c)
@@ -89,6 +117,8 @@ static void conclude(nh_explicit_curve *c)
                    nh_prove_digits(c->o, m->constant[j].value, c->options) >= c->options->digits ||
                    nh_explicit_vanishes(c, nh_exact_values(c->o, rate));
     }
+    for (size_t i = 0; i < m->states; i++)
+        if (c->solved[i] && c->value[i]) c->value[i] = without_poles(c, c->value[i]);
     for (size_t i = 0; i < m->states; i++) {
         size_t last;
         known[i] = i == m->parameter ||
