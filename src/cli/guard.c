@@ -4,7 +4,8 @@
  * soon, with what it has.  A second signal, one that comes while results are written, and a computation that has still
  * not come back when it has used `grace` more of the processor, or `more` of the memory, end the process at once:
  * without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that
- * comes while results are written takes nothing away from them. */
+ * comes while results are written takes nothing away from them; after a signal they are written if that takes no longer
+ * than `patience_of_user`: the tables of many motions take minutes. */
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
@@ -21,13 +22,16 @@ static atomic_bool writing, standing;
 static pthread_t guard;
 static double limit, end; /* seconds; by the monotonic clock */
 static double most;       /* bytes; 0: any */
+static bool stopped;      /* by a signal */
 
 static void end_at_once(int code, const char *reached, const char *option)
 {
     char doing[80] = "";
     nh_leave_now();
     nh_progress_last(doing, sizeof doing);
-    if (code == NH_INTERRUPTED) dprintf(STDERR_FILENO, "nhsym: interrupted\n");
+    if (code == NH_INTERRUPTED)
+        dprintf(STDERR_FILENO, "nhsym: interrupted%s\n",
+                atomic_load(&writing) ? ": the results were being written, and are not" : "");
     else
         dprintf(STDERR_FILENO,
                 "nhsym: %s%s%sthe %s limit was reached before any result could be written\nhint: raise it by %s\n",
@@ -50,7 +54,7 @@ static int next_signal(const sigset_t *set)
 {
     static const double shortest = 0.01;
     const double longest = most > 0 ? 0.02 : 3600;
-    double left = fmin(fmax(end - nh_clock(), shortest), longest), whole = floor(left);
+    double left = stopped ? shortest : fmin(fmax(end - nh_clock(), shortest), longest), whole = floor(left);
     struct timespec pause = {(time_t)whole, (long)(1e9 * (left - whole))};
     int number = sigtimedwait(set, NULL, &pause);
     return number > 0 ? number : 0;
@@ -70,6 +74,16 @@ static bool past_grace(void)
            now - end > patience * grace;
 }
 
+/* What was interrupted and has come back is written, unless that takes long: of the processor, as above. */
+static bool past_patience(void)
+{
+    static const double patience_of_user = 0.3, patience = 10;
+    static double used, begun; /* when it came back */
+    if (!stopped || !atomic_load(&writing)) return false;
+    if (used == 0) used = nh_clock_of_process(), begun = nh_clock();
+    return nh_clock_of_process() - used > patience_of_user || nh_clock() - begun > patience * patience_of_user;
+}
+
 /* So much more than the limit is left for what a computation needs to come back, and to write what there is. */
 static bool past_memory(void)
 {
@@ -84,6 +98,9 @@ static void *stand(void *unused)
         if (next_signal(&set)) {
             if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED, NULL, NULL);
             nh_interrupt();
+            stopped = true;
+        } else if (past_patience()) {
+            end_at_once(NH_INTERRUPTED, NULL, NULL);
         } else if (past_grace()) {
             end_at_once(NH_LIMIT, "time", "--max-seconds");
         } else if (past_memory()) {

@@ -7,6 +7,12 @@
 
 The package calls the library libnhsym (nhsym.h); docs/python.md describes it.
 """
+try:
+    import numpy as _  # noqa: F401: first, so that what is missing is said by name
+except ImportError as reason:
+    raise ImportError("nhsym needs NumPy, which this Python does not have: %s\nhint: install it (Debian: apt-get install python3-numpy; else: python3 -m pip install numpy)"
+                      % reason) from None
+
 from ._library import Error, InputError, LimitError, NumericalError, UsageError, library_version
 from ._calls import Interrupted
 from .formula import Formula

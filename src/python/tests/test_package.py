@@ -22,6 +22,12 @@ def built(tmp_path_factory):
     return folder / "python"
 
 
+def test_without_numpy_the_package_to_install_is_named():
+    code = "import sys; sys.modules['numpy'] = None; import nhsym"
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert ended.returncode == 1 and "nhsym needs NumPy" in ended.stderr and "python3-numpy" in ended.stderr
+
+
 def test_the_sdist_holds_what_it_is_built_from(built):
     with tarfile.open(next(built.glob("nhsym-*.tar.gz"))) as sdist:
         names = {pathlib.PurePath(name).name for name in sdist.getnames()}
