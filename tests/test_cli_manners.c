@@ -379,6 +379,7 @@ Test(cli_manners, a_slip_of_the_hand_is_named)
         {"simulate sleigh --velocities quas", "nhsym: there are no velocities `quas`\nhint: did you mean `quasi`?\n"},
         {"verify sleigh --field x=1 --of equation", "nhsym: --of does not know `equation`\nhint: did you mean `equations`?\n"},
         {"analyze sleigh --progress alway", "nhsym: --progress does not know `alway`\nhint: did you mean `always`?\n"},
+        {"new mine.yaml", "nhsym: `mine.yaml` is not a name: a name is a letter, then letters, digits and _\nhint: `nhsym new mine` writes mine.yaml\n"},
         {"version 3", "nhsym: `nhsym version` takes no name, found `3`\nhint: `nhsym version`, or --version\n"},
         {"reduce sleigh --to cvs", "nhsym: --to: there is no language `cvs`\nhint: did you mean `csv`?\n"},
         {"reduce sleigh --to pyton", "nhsym: --to: there is no language `pyton`\nhint: did you mean `python`?\n"},

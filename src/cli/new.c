@@ -15,7 +15,10 @@ int nh_cli_new(nh_cli *cli, nh_error *error)
     if (!name || !nh_catalogue_pattern(name, &text)) {
         if (!name) nh_fail(error, NH_USAGE, "", "`nhsym new` takes one name");
         else nh_fail(error, NH_USAGE, "", "`%s` is not a name: a name is a letter, then letters, digits and _", name);
-        nh_error_hint(error, "`nhsym new skate` writes skate.yaml");
+        size_t length = name ? strlen(name) : 0, ending = strlen(".yaml");
+        bool file = length > ending && !strcmp(name + length - ending, ".yaml");
+        const char *shown = file ? nh_arena_strndup(cli->arena, name, length - ending) : "skate";
+        nh_error_hint(error, "`nhsym new %s` writes %s.yaml", shown, shown);
         return NH_USAGE;
     }
     const char *path = nh_arena_printf(cli->arena, "%s.yaml", name);
