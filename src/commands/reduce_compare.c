@@ -171,3 +171,16 @@ bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options)
 {
     return s->compared && !(s->agreement <= NH_REDUCTION_ALLOWED * options->tolerance + s->unsure);
 }
+
+void nh_reduction_compare_full(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas *atlas)
+{
+    nh_reduction_compare(b, s,
+                         &(nh_reduction_time_series){.atlas = atlas,
+                                                     .q = b->r->initial.q,
+                                                     .v = b->r->initial.v,
+                                                     .outputs = NH_REDUCTION_OUTPUTS,
+                                                     .want = b->full,
+                                                     .stride = b->r->kinetic->m,
+                                                     .reached = b->reached});
+    nh_atlas_free(atlas);
+}

@@ -78,6 +78,8 @@ nh_reconstruction *nh_reduction_choose(nh_reduction_bench *bench, nh_reduction_s
                                        const nh_reduction_time_series *course, nh_reconstruct_how *how);
 /* Integrate, reconstruct, compare; all that the stage says of it. */
 void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_time_series *course);
+/* From the initial state, with the full motion; the atlas is freed. */
+void nh_reduction_compare_full(nh_reduction_bench *bench, nh_reduction_stage *stage, nh_atlas *atlas);
 
 /* A subset of the generators that acts freely, as large as possible; the whole group when that does. */
 bool nh_reduction_free_subgroup(nh_reduction *reduction, nh_action *out);

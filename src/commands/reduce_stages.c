@@ -117,15 +117,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
         nh_atlas_add(atlas, pretty->slice, &pretty->reduced, independent, NULL);
         nh_atlas_prefer(atlas);
     }
-    nh_reduction_compare(b, s,
-                         &(nh_reduction_time_series){.atlas = atlas,
-                                                     .q = r->initial.q,
-                                                     .v = r->initial.v,
-                                                     .outputs = NH_REDUCTION_OUTPUTS,
-                                                     .want = b->full,
-                                                     .stride = m,
-                                                     .reached = b->reached});
-    nh_atlas_free(atlas);
+    nh_reduction_compare_full(b, s, atlas);
     return true;
 }
 

@@ -151,15 +151,7 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
         nh_atlas_add(atlas, shown, pretty, own, NULL);
         nh_atlas_prefer(atlas);
     }
-    nh_reduction_compare(b, s,
-                         &(nh_reduction_time_series){.atlas = atlas,
-                                                     .q = r->initial.q,
-                                                     .v = r->initial.v,
-                                                     .outputs = NH_REDUCTION_OUTPUTS,
-                                                     .want = b->full,
-                                                     .stride = m,
-                                                     .reached = b->reached});
-    nh_atlas_free(atlas);
+    nh_reduction_compare_full(b, s, atlas);
     nh_error trouble = {0};
     bool given = r->chain_text || r->inner_text;
     if (!r->brief && s->kind == NH_STAGE_POINCARE && !by_stages(r, s, given ? error : &trouble)) {

@@ -146,26 +146,6 @@ static bool constant(nh_ball_series *s, nh_ex e, arb_poly_t out)
     return fine;
 }
 
-static bool eval_sum(nh_ball_series *s, nh_ex e, arb_poly_t out)
-{
-    arb_poly_t term;
-    arb_t c;
-    arb_poly_init(term);
-    arb_init(c);
-    bool fine = true;
-    nh_ball_set_number(s->ball, c, nh_constant_of(s->dag, e));
-    arb_poly_set_coeff_arb(out, 0, c);
-    for (size_t i = 0; i < nh_arity(s->dag, e) && fine; i++) {
-        fine = eval(s, nh_child(s->dag, e, i), term);
-        nh_ball_set_number(s->ball, c, nh_coefficient_of(s->dag, e, i));
-        arb_poly_scalar_mul(term, term, c, s->bits);
-        arb_poly_add(out, out, term, s->bits);
-    }
-    arb_clear(c);
-    arb_poly_clear(term);
-    return fine;
-}
-
 /* base^x in place. */
 static bool power(nh_ball_series *s, arb_poly_t base, nh_ex exponent)
 {
@@ -182,21 +162,28 @@ static bool power(nh_ball_series *s, arb_poly_t base, nh_ex exponent)
     return fine;
 }
 
-static bool eval_product(nh_ball_series *s, nh_ex e, arb_poly_t out)
+/* A sum with its coefficients, or a product with its exponents. */
+static bool eval_terms(nh_ball_series *s, nh_ex e, bool product, arb_poly_t out)
 {
-    arb_poly_t factor;
+    arb_poly_t term;
     arb_t c;
-    arb_poly_init(factor);
+    arb_poly_init(term);
     arb_init(c);
     bool fine = true;
     nh_ball_set_number(s->ball, c, nh_constant_of(s->dag, e));
     arb_poly_set_coeff_arb(out, 0, c);
     for (size_t i = 0; i < nh_arity(s->dag, e) && fine; i++) {
-        fine = eval(s, nh_child(s->dag, e, i), factor) && power(s, factor, nh_exponent_of(s->dag, e, i));
-        if (fine) arb_poly_mullow(out, out, factor, s->terms, s->bits);
+        fine = eval(s, nh_child(s->dag, e, i), term) && (!product || power(s, term, nh_exponent_of(s->dag, e, i)));
+        if (fine && product) {
+            arb_poly_mullow(out, out, term, s->terms, s->bits);
+        } else if (fine) {
+            nh_ball_set_number(s->ball, c, nh_coefficient_of(s->dag, e, i));
+            arb_poly_scalar_mul(term, term, c, s->bits);
+            arb_poly_add(out, out, term, s->bits);
+        }
     }
     arb_clear(c);
-    arb_poly_clear(factor);
+    arb_poly_clear(term);
     return fine;
 }
 
@@ -226,8 +213,8 @@ static bool eval_node(nh_ball_series *s, nh_ex e, arb_poly_t out)
     if (!moves(s, e)) return constant(s, e, out);
     switch (nh_kind_of(s->dag, e)) {
     case NH_SYMBOL: return eval_symbol(s, e, out);
-    case NH_SUM: return eval_sum(s, e, out);
-    case NH_PRODUCT: return eval_product(s, e, out);
+    case NH_SUM: return eval_terms(s, e, false, out);
+    case NH_PRODUCT: return eval_terms(s, e, true, out);
     default: return eval_function(s, e, out);
     }
 }

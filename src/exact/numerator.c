@@ -5,6 +5,30 @@
 
 enum { most_terms = 2000 };
 
+/* A normal form in pieces. */
+typedef struct {
+    nh_forms forms;
+    nh_form form;
+    nh_pieces pieces;
+    nh_arena *arena;
+} taken;
+
+/* False: it is too long; to be closed all the same. */
+static bool take_apart(nh_dag *dag, nh_ex e, taken *x)
+{
+    x->arena = nh_arena_create();
+    nh_forms_init(&x->forms, dag, false, most_terms);
+    return nh_form_make(&x->forms, e, true, &x->form) == NH_FIELD_FINE &&
+           nh_pieces_make(x->form.field, x->arena, x->form.value, false, &x->pieces);
+}
+
+static void close_pieces(taken *x)
+{
+    nh_form_clear(&x->form);
+    nh_forms_clear(&x->forms);
+    nh_arena_free(x->arena);
+}
+
 /* Everything below the fraction bar is dropped. */
 static void keep_numerator(nh_pieces *pieces)
 {
@@ -18,21 +42,14 @@ static void keep_numerator(nh_pieces *pieces)
 
 nh_ex nh_numerator(nh_dag *dag, nh_ex e)
 {
-    nh_forms forms;
-    nh_form form;
-    nh_pieces pieces;
-    nh_arena *arena = nh_arena_create();
-    nh_forms_init(&forms, dag, false, most_terms);
-    nh_quotient_field_state state = nh_form_make(&forms, e, true, &form);
+    taken x;
     nh_ex result = e;
-    if (state == NH_FIELD_FINE && nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
-        keep_numerator(&pieces);
-        nh_ex top = nh_print_quotient_product(&form.kernels, &pieces, false);
+    if (take_apart(dag, e, &x)) {
+        keep_numerator(&x.pieces);
+        nh_ex top = nh_print_quotient_product(&x.form.kernels, &x.pieces, false);
         if (nh_is_short(dag, top)) result = top;
     }
-    nh_form_clear(&form);
-    nh_forms_clear(&forms);
-    nh_arena_free(arena);
+    close_pieces(&x);
     return result;
 }
 
@@ -40,39 +57,25 @@ nh_ex nh_numerator(nh_dag *dag, nh_ex e)
 
 nh_ex nh_canonical_sum(nh_dag *dag, nh_ex e)
 {
-    nh_forms forms;
-    nh_form form;
-    nh_pieces pieces;
+    taken x;
     nh_ex result = e;
-    nh_arena *arena = nh_arena_create();
-    nh_forms_init(&forms, dag, false, most_terms);
-    if (nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE &&
-        nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
-        nh_ex sum = nh_print_quotient_terms(&form.kernels, &pieces);
+    if (take_apart(dag, e, &x)) {
+        nh_ex sum = nh_print_quotient_terms(&x.form.kernels, &x.pieces);
         if (nh_is_short(dag, sum)) result = sum;
     }
-    nh_form_clear(&form);
-    nh_forms_clear(&forms);
-    nh_arena_free(arena);
+    close_pieces(&x);
     return result;
 }
 
 int nh_canonical_sign(nh_dag *dag, nh_ex e)
 {
-    nh_forms forms;
-    nh_form form;
-    nh_pieces pieces;
+    taken x;
     int sign = 1;
-    nh_arena *arena = nh_arena_create();
-    nh_forms_init(&forms, dag, false, most_terms);
-    if (nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE &&
-        nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
-        if (nh_num_value(pieces.constant) < 0) sign = -1;
-        for (size_t j = 0; j < pieces.factors; j++)
-            if (pieces.factor[j].power % 2 && nh_num_value(pieces.factor[j].coefficient[0]) < 0) sign = -sign;
+    if (take_apart(dag, e, &x)) {
+        if (nh_num_value(x.pieces.constant) < 0) sign = -1;
+        for (size_t j = 0; j < x.pieces.factors; j++)
+            if (x.pieces.factor[j].power % 2 && nh_num_value(x.pieces.factor[j].coefficient[0]) < 0) sign = -sign;
     }
-    nh_form_clear(&form);
-    nh_forms_clear(&forms);
-    nh_arena_free(arena);
+    close_pieces(&x);
     return sign;
 }

@@ -5,7 +5,6 @@
 #include "base/progress.h"
 #include "exact/normal.h"
 #include "exact/relation.h"
-#include "exact/relation_space.h"
 
 enum { most_letters = 24, most_words = 300, most_columns = 360, most_nodes = 400000, most_dynamical = 12 };
 
@@ -125,16 +124,7 @@ static void prolonged(const search *x, const nh_ex *field, nh_ex *W, nh_ex *equa
 
 static nh_relation_space *relations(const search *x, size_t columns, size_t rows, const nh_ex *entry)
 {
-    nh_relation_columns q = {.dag = x->d,
-                             .columns = columns,
-                             .rows = rows,
-                             .entry = entry,
-                             .variables = 1 + x->o->m + x->o->n,
-                             .variable = x->o->chart->symbol,
-                             .parameters = x->o->system->parameters,
-                             .parameter = x->o->parameter,
-                             .max_terms = (size_t)x->options->proof_terms};
-    return nh_relation_space_of(x->arena, &q);
+    return nh_symmetry_space_relations(x->arena, x->o, x->options, columns, rows, entry);
 }
 
 /* The symmetries of the ansatz; NULL where formulas are too long. */

@@ -4,7 +4,6 @@
 
 #include "base/progress.h"
 #include "exact/normal.h"
-#include "exact/relation_space.h"
 #include "graph/diff.h"
 #include "integrals/symmetry.h"
 
@@ -67,18 +66,24 @@ static void list_products(space *x)
                 put(x, nh_mul(d, x->current[i].phi, x->current[j].phi), nh_mul(d, x->symbol[i], x->symbol[j]));
 }
 
-static nh_relation_space *relations(const space *x, size_t rows, const nh_ex *entry)
+nh_relation_space *nh_symmetry_space_relations(nh_arena *arena, const nh_model *o, const nh_options *options,
+                                               size_t columns, size_t rows, const nh_ex *entry)
 {
-    nh_relation_columns q = {.dag = x->d,
-                             .columns = x->columns,
+    nh_relation_columns q = {.dag = o->dag,
+                             .columns = columns,
                              .rows = rows,
                              .entry = entry,
-                             .variables = 1 + x->o->m + x->o->n,
-                             .variable = x->o->chart->symbol,
-                             .parameters = x->o->system->parameters,
-                             .parameter = x->o->parameter,
-                             .max_terms = (size_t)x->options->proof_terms};
-    return nh_relation_space_of(x->arena, &q);
+                             .variables = 1 + o->m + o->n,
+                             .variable = o->chart->symbol,
+                             .parameters = o->system->parameters,
+                             .parameter = o->parameter,
+                             .max_terms = (size_t)options->proof_terms};
+    return nh_relation_space_of(arena, &q);
+}
+
+static nh_relation_space *relations(const space *x, size_t rows, const nh_ex *entry)
+{
+    return nh_symmetry_space_relations(x->arena, x->o, x->options, x->columns, rows, entry);
 }
 
 /* The last column of a relation. */

@@ -9,6 +9,7 @@
 #define NH_SYMMETRY_SPACE_H
 
 #include "base/option.h"
+#include "exact/relation_space.h"
 #include "integrals/bracket_fields.h"
 #include "integrals/closure.h"
 
@@ -53,5 +54,9 @@ typedef struct {
  * 1, of degree two there are at most; 0: not known.  `submanifold`: of the model that they are expressions of. */
 nh_symmetry_space *nh_symmetry_space_of(nh_arena *arena, const nh_submanifold *submanifold, size_t count,
                                         const nh_named_current *current, size_t counted, const nh_options *options);
+
+/* Relations among columns of functions on the velocity phase space, in the arena. */
+nh_relation_space *nh_symmetry_space_relations(nh_arena *arena, const nh_model *model, const nh_options *options,
+                                               size_t columns, size_t rows, const nh_ex *entry);
 
 #endif
