@@ -10,19 +10,19 @@
  *         nh_string_free(formula);
  *     }
  *
- * A fallible function takes an nh_error last, returns NULL or false on failure and fills the error; no function prints or ends the process.  The caller
- * owns a result.  A result is complete when it is returned and remains valid without its problem and context.  Threads with separate contexts are independent; objects
- * of one context may be used by one thread at a time.  Angles are in radians, other quantities in the units of the system file. */
+ * A fallible function takes an nh_error last, returns NULL or false on failure and fills the error.  No function prints;
+ * none ends the process unless an allocation fails (abort; the option max_memory ends a computation before).  The
+ * caller owns a result, which remains valid without its problem and context.  Threads with separate contexts are
+ * independent; one thread at a time may use a context's objects.  Angles: radians, all else: as in the system file. */
 #ifndef NHSYM_H
 #define NHSYM_H
-
 #include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-#if defined(__GNUC__)
+#ifdef __GNUC__
 #define NH_API __attribute__((visibility("default")))
 #else
 #define NH_API
@@ -52,13 +52,11 @@ typedef struct {
 NH_API void nh_error_clear(nh_error *error);
 /* The whole message, several lines without a final newline, into `out` (always terminated). */
 NH_API void nh_error_format(const nh_error *error, char *out, size_t size);
-
 NH_API const char *nh_version_text(void); /* "0.1.0" */
 
 /* ---- a context: the state of one thread's computations ---- */
 
 typedef struct nh_context nh_context;
-
 NH_API nh_context *nh_context_create(void);
 NH_API void nh_context_free(nh_context *context);
 /* The current step and its completed part in [0, 1]; below 0: unknown.  The computing thread calls `tell`; NULL: no calls. */
@@ -88,7 +86,6 @@ typedef struct {
 } nh_question;
 
 typedef struct nh_problem nh_problem;
-
 /* Reads the files.  The context must outlive the problem. */
 NH_API nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh_error *error);
 /* After its results, in the thread that worked with it: what the algebra keeps for this thread is given back, too. */
@@ -115,19 +112,18 @@ NH_API nh_simulation *nh_simulate_zeros(nh_problem *problem, const char *events,
 NH_API nh_reduction    *nh_reduce(nh_problem *problem, nh_error *error);
 NH_API nh_verification *nh_verify_current(nh_problem *problem, const char *current, nh_error *error); /* "m*v" */
 NH_API nh_verification *nh_verify_field(nh_problem *problem, const char *field, nh_error *error);     /* "Z0=1; phi=phi'; x=x'" */
-
+NH_API bool nh_verification_holds(const nh_verification *verification);
+NH_API bool nh_verification_proved(const nh_verification *verification);
 /* `shape`: only currents whose coefficients do not depend on cyclic coordinates. */
 NH_API nh_classified   *nh_classify_over(nh_problem *problem, const char *parameter, bool shape, nh_error *error);
 
-/* What a comparison of integrators is asked beside the question; members that are NULL, 0 or false are not given. */
+/* A comparison of integrators; NULL, or members that are NULL, 0 or false: all methods, 5 seconds. */
 typedef struct {
     double      seconds;    /* for the measurements; 0: 5 */
     const char *methods;    /* only these, which `nhsym explain methods` lists: "rk8pd, dalembert" */
     bool        robustness; /* also maps of where methods fail, which compare five methods of their own */
     const char *over;       /* one such map, over one or two ranges: "a=1e-9:1, omega=1:9" */
 } nh_comparison;
-
-/* `comparison` may be NULL: all methods, 5 seconds. */
 NH_API nh_benchmark    *nh_benchmark_methods(nh_problem *problem, const nh_comparison *comparison, nh_error *error);
 
 NH_API void nh_analysis_free(nh_analysis *analysis);
@@ -140,14 +136,8 @@ NH_API void nh_benchmark_free(nh_benchmark *benchmark);
 /* The documents of the command line.  LaTeX of a reduction are its equations, else a document.  The text of a
  * simulation is its table.  CSV: simulation, reduction, benchmark; SVG: simulation, benchmark; of another result these
  * are NULL with an error.  Free the string by nh_string_free. */
-typedef enum {
-    NH_FORMAT_TEXT,
-    NH_FORMAT_JSON,
-    NH_FORMAT_HTML,
-    NH_FORMAT_LATEX,
-    NH_FORMAT_CSV,
-    NH_FORMAT_SVG
-} nh_format;
+typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX, NH_FORMAT_CSV,
+               NH_FORMAT_SVG } nh_format;
 
 NH_API char *nh_analysis_document(const nh_analysis *analysis, nh_format format, nh_error *error);
 NH_API char *nh_simulation_document(const nh_simulation *simulation, nh_format format, nh_error *error);
@@ -164,7 +154,6 @@ NH_API const char *nh_analysis_search(const nh_analysis *analysis);  /* "complet
 NH_API size_t nh_analysis_currents(const nh_analysis *analysis);
 NH_API size_t nh_analysis_independent(const nh_analysis *analysis);  /* functionally independent ones among them */
 NH_API size_t nh_analysis_most(const nh_analysis *analysis);         /* the number that exists locally: 2m - k, with t one more */
-
 typedef struct {
     const char *name;    /* "Phi1" */
     const char *meaning; /* "energy", "minus the momentum of x", or "" */
@@ -178,7 +167,6 @@ typedef struct {
 NH_API nh_current_facts nh_current_describe(const nh_analysis *analysis, size_t index); /* strings live as long as the analysis */
 
 typedef enum { NH_SYNTAX_PLAIN, NH_SYNTAX_LATEX, NH_SYNTAX_MATHML } nh_syntax;
-
 /* A formula in t, coordinates, parameters and the velocities of the system file.  NULL: too long to be written.  Free the string by nh_string_free. */
 NH_API char *nh_current_formula(const nh_analysis *analysis, size_t index, nh_syntax syntax);
 /* Any formula in the language of system files ("J*phi'^2/2"), typeset.  NULL: it is none. */
@@ -198,15 +186,9 @@ NH_API void nh_simulation_read(const nh_simulation *simulation, size_t column, d
 /* One column against another as an SVG picture, with one scale on both axes where x is not the time; NULL: there is no such column.  Free the string by nh_string_free. */
 NH_API char *nh_simulation_svg(const nh_simulation *simulation, size_t x, size_t y);
 
-/* ---- a verification ---- */
-
-NH_API bool nh_verification_holds(const nh_verification *verification);
-NH_API bool nh_verification_proved(const nh_verification *verification);
-
 /* ---- equations of motion ---- */
 
 typedef struct nh_rates nh_rates;
-
 NH_API nh_rates *nh_rates_create(nh_problem *problem, nh_error *error); /* remains valid without its problem */
 NH_API void nh_rates_free(nh_rates *rates);
 /* The accelerations of all coordinates at many states that satisfy the constraints, arranged as for nh_current_values; NAN where they are not determined. */
