@@ -141,6 +141,8 @@ nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a);
 nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b);
 nh_ex nh_call_any(nh_dag *dag, nh_function f, const nh_ex *argument); /* as many as it takes */
 nh_ex nh_pi(nh_dag *dag);
+/* tan((2 k + 1) pi/2), which has no value; its inverse is 0. */
+bool nh_is_infinite_tangent(nh_dag *dag, nh_ex e);
 /* a = rest + c pi with sin(c pi), cos(c pi) that are numbers or half a root? */
 bool nh_split_turn(nh_dag *dag, nh_ex a, nh_ex *rest, nh_ex *sine, nh_ex *cosine);
 /* sum_i coefficient[i] * term[i] */

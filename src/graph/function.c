@@ -173,6 +173,14 @@ static bool is_call(const nh_dag *dag, nh_ex e, nh_function f)
     return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == f;
 }
 
+bool nh_is_infinite_tangent(nh_dag *dag, nh_ex e)
+{
+    nh_ex sine, cosine;
+    nh_num turn;
+    return is_call(dag, e, NH_TAN) && is_pi(dag, without_factor(dag, nh_child(dag, e, 0), &turn)) &&
+           known_turn(dag, turn, &sine, &cosine) && nh_is_zero(dag, cosine);
+}
+
 nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a)
 {
     nh_ex e, sine, cosine;
@@ -182,9 +190,11 @@ nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a)
         e = nh_call(dag, f, nh_neg(dag, a));
         return table[f].parity < 0 ? nh_neg(dag, e) : e;
     }
-    if ((f == NH_SIN || f == NH_COS) && is_pi(dag, without_factor(dag, a, &turn)) &&
-        known_turn(dag, turn, &sine, &cosine))
-        return f == NH_SIN ? sine : cosine;
+    if ((f == NH_SIN || f == NH_COS || f == NH_TAN) && is_pi(dag, without_factor(dag, a, &turn)) &&
+        known_turn(dag, turn, &sine, &cosine)) {
+        if (f != NH_TAN) return f == NH_SIN ? sine : cosine;
+        if (!nh_is_zero(dag, cosine)) return nh_div(dag, sine, cosine);
+    }
     if (f == NH_EXP && is_call(dag, a, NH_LOG)) return nh_child(dag, a, 0);
     if (f == NH_LOG && is_call(dag, a, NH_EXP)) return nh_child(dag, a, 0);
     return nh_dag_intern(dag, NH_FUNCTION, f, 1, &a);

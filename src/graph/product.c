@@ -219,11 +219,20 @@ static void take_back(nh_dag *dag, nh_term_list *b)
     if (changed) merge_factors(dag, b);
 }
 
+/* 1/tan(pi/2), which is cot(pi/2) = 0. */
+static bool has_zero_cotangent(nh_dag *dag, const nh_term_list *b)
+{
+    for (size_t i = 0; i < b->count; i++)
+        if (is_integer(dag, b->list[i].x) && nh_number_of(dag, b->list[i].x).p < 0 &&
+            nh_is_infinite_tangent(dag, b->list[i].e)) return true;
+    return false;
+}
+
 static nh_ex build_product(nh_dag *dag, nh_term_list *b)
 {
     do merge_factors(dag, b);
     while (expand_factors(dag, b));
-    if (nh_num_is(b->c, 0)) return nh_int(dag, 0);
+    if (nh_num_is(b->c, 0) || has_zero_cotangent(dag, b)) return nh_int(dag, 0);
     take_back(dag, b);
     if (b->count == 0) return nh_number(dag, b->c);
     if (b->count == 1 && nh_num_is(b->c, 1) && nh_is_number(dag, b->list[0].x, 1)) return b->list[0].e;
