@@ -65,6 +65,22 @@ Test(simulate, methods_that_cannot_be_used)
     place_clear(&p);
 }
 
+/* L = x'^2/2 - sign(x): the equations of motion on both sides are x'' = 0, and the energy jumps by 2 where x = 0. */
+Test(simulate, an_impulse_is_not_passed_in_silence)
+{
+    place p = place_with_systems();
+    write_here(&p, "jump.yaml", "name: jump\ncoordinates: [x]\nlagrangian: x'^2/2 - sign(x)\n");
+    for (int crosses = 0; crosses < 2; crosses++) {
+        char line[200];
+        snprintf(line, sizeof line, "simulate jump.yaml --initial x=-1,x'=%s --until 4 --step 1", crosses ? "0.4" : "-0.4");
+        finished f = run_expecting(&p, line, 0);
+        bool warned = strstr(f.err, "warning: between t = 2 and t = 3 the motion crosses x = 0, where it has an impulse") != NULL;
+        cr_expect_eq(warned, crosses == 1, "%s", f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 /* What is written on standard error gives the same motion again. */
 Test(simulate, a_state_that_nobody_gives)
 {

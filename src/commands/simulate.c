@@ -288,8 +288,11 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
     if (nh_simulate_read(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
     if (times) s->astray = words_astray(s, &initial);
     if (times && choose_columns(s, q, error) && nh_simulate_events(s, q, error) &&
-        integrate(s, q, &initial, count, times, error))
+        integrate(s, q, &initial, count, times, error)) {
+        bool whole = !s->ensemble && !s->trajectory->scene;
+        if (whole) s->impulse = nh_simulate_impulse(s, &q->options);
         return s;
+    }
     nh_simulation_free(s);
     return NULL;
 }

@@ -11,6 +11,9 @@ const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene
 /* --event, --section and --axes, after the columns. */
 bool nh_simulate_events(nh_simulation *s, const nh_simulate_request *request, nh_error *error);
 
+/* The motion crosses a place where it has an impulse (integrals/region.h): which, and when; NULL: none. */
+const char *nh_simulate_impulse(nh_simulation *s, const nh_options *options);
+
 /* An ensemble instead of the one motion that `motion` asks for. */
 bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *request, const nh_trajectory_request *motion,
                       nh_error *error);
