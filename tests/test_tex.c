@@ -221,6 +221,34 @@ Test(tex, reductions_are_documents)
     place_clear(&p);
 }
 
+/* A row of a legend has at most as many letters as fit into a line; tables of many columns fill it, and have their caption. */
+Test(tex, benchmarks_fit_the_page)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "benchmark sleigh --budget 200ms --quiet --tex b.tex", 0);
+    finished_clear(&f);
+    char *tex = read_here(&p, "b.tex");
+    size_t figures = 0, several = 0;
+    for (const char *c = tex; (c = strstr(c, "legend columns=")); figures++) {
+        int columns = atoi(c + strlen("legend columns="));
+        const char *end = strstr(c, "\\end{axis}");
+        size_t longest = 0, all = 0;
+        while ((c = strstr(c, "\\addlegendentry{")) && c < end) {
+            size_t length = strcspn(c += strlen("\\addlegendentry{"), "}");
+            all += length;
+            if (length > longest) longest = length;
+        }
+        cr_expect(columns < 0 ? all < 100 : columns == 1 || (size_t)columns * longest < 100, "%d columns, %zu, %zu", columns, longest, all);
+        several += columns > 0;
+        c = end;
+    }
+    cr_expect(figures > 2 && several > 0, "%zu %zu", figures, several);
+    cr_expect_gt(times(tex, "\\scriptsize\\tabcolsep=2pt\\begin{longtable}{*{9}{p{\\dimexpr\\linewidth/9-2\\tabcolsep\\relax}}}\n\\multicolumn{9}"), 0u);
+    cr_expect_eq(times(tex, "\\begin{longtable}"), times(tex, "\\endfirsthead"));
+    free(tex);
+    place_clear(&p);
+}
+
 /* The next number behind `before` is this one: where it begins; else NULL. */
 static const char *next_number(const char *at, const char *before, double number)
 {

@@ -73,6 +73,10 @@ const char *const nh_html_style =
     "th{padding-top:.02rem;padding-bottom:.02rem;line-height:1.2}\n"
     "h1{font-size:1.6rem}h2{column-span:all;break-inside:avoid;margin:1.1rem 0 "
     ".3rem;font-size:1.2rem}h2::after{content:'';display:block;height:4cm;margin-bottom:-4cm}"
+    /* a wide table goes across both columns, and over pages */
+    "details:has(th:nth-child(7)){column-span:all;margin:.4rem 0}details:has(th:nth-child(7)) .wide{break-inside:auto}"
+    "details:has(th:nth-child(7)) table{width:100%}details:has(th:nth-child(7)) td:not(:last-child){white-space:nowrap}"
+    "details:has(th:nth-child(7)) td:last-child{width:24%}"
     "section:has(>.still,>#player,>figure) h2::after{height:9cm;margin-bottom:-9cm}h3{margin:.7rem 0 "
     ".2rem;font-size:1rem}h4{margin:.5rem 0 .1rem}p{margin:.35rem 0}\n"
     "h2,h3,h4,summary,h2+p,h3+p,p:has(+.formula),p:has(+figure),p:has(+dl),p:has(+.wide){break-after:avoid}figure,."

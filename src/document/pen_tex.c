@@ -118,24 +118,37 @@ static void sheet(void *to, nh_sheet *formulas_of, bool headed)
     nh_sheet_tex(formulas_of, headed ? "subsubsection" : "subsection", to);
 }
 
-/* Columns of equal width whose words are set ragged. */
-static void table(void *to, const char *caption, const char *heads)
+/* The heads of the columns, under a line of their own on every page. */
+static void put_heads(nh_tex_writer *w, size_t n, const char *heads)
 {
-    nh_tex_writer *w = to;
-    size_t n = 1;
-    for (const char *c = heads; *c; c++) n += *c == '|';
-    nh_tex_words(w, caption);
-    nh_text_addf(w->out, "\n{\\footnotesize\\begin{longtable}{*{%zu}{p{%.3f\\linewidth}}}\n", n,
-                 0.98 / (double)n - 0.025);
     for (size_t length; n-- > 0; heads += length + (heads[length] == '|')) {
         length = strcspn(heads, "|");
         char *head = nh_alloc_array(length + 1, 1);
         memcpy(head, heads, length);
         if (*head == '#') nh_tex_number(w, strtod(head + 1, NULL), 2);
         else nh_tex_words(w, head);
-        nh_tex_add(w, n ? " & " : "\\tabularnewline\\hline\\endhead\n");
+        nh_tex_add(w, n ? " & " : "\\tabularnewline\\hline\\noalign{\\vskip 2pt}");
         nh_free(head);
     }
+}
+
+/* Columns of equal width that fill the line, smaller and closer where there are many.  The caption is a part of the
+   first head, which no page separates from its rows. */
+static void table(void *to, const char *caption, const char *heads)
+{
+    enum { many = 7 };
+    nh_tex_writer *w = to;
+    size_t n = 1;
+    for (const char *c = heads; *c; c++) n += *c == '|';
+    nh_text_addf(w->out, "{%s\\begin{longtable}{*{%zu}{p{\\dimexpr\\linewidth/%zu-2\\tabcolsep\\relax}}}\n",
+                 n < many ? "\\footnotesize" : "\\scriptsize\\tabcolsep=2pt", n, n);
+    nh_text_addf(w->out, "\\multicolumn{%zu}{l}{\\normalsize ", n);
+    nh_tex_words(w, caption);
+    nh_tex_add(w, "}\\tabularnewline[4pt]\n");
+    put_heads(w, n, heads);
+    nh_tex_add(w, "\\endfirsthead\n");
+    put_heads(w, n, heads);
+    nh_tex_add(w, "\\endhead\n");
 }
 
 static void table_end(void *to) { nh_tex_add(to, "\\end{longtable}}\n"); }

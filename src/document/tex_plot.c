@@ -1,6 +1,7 @@
 /* Plots for pgfplots: the data stand in the document, and TeX draws them. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "document/tex_internal.h"
 
@@ -39,6 +40,19 @@ static void legend(nh_tex_writer *w, const nh_plot *p, const nh_curve *f)
     nh_tex_add(w, "\\addlegendentry{");
     nh_tex_name(w, f->name);
     nh_tex_add(w, "}\n");
+}
+
+/* Names in one row (-1), or as many in each as the width of a page has room for. */
+static int legend_columns(const nh_plot *p)
+{
+    enum { letters = 95, sign = 6 }; /* in a row of \footnotesize; what stands for a line before its name */
+    size_t all = 0, longest = 0;
+    for (size_t k = 0; k < p->curves; k++) {
+        size_t length = strlen(p->curve[k].name) + sign;
+        all += length;
+        if (length > longest) longest = length;
+    }
+    return all <= letters ? -1 : longest < letters ? (int)(letters / longest) : 1;
 }
 
 /* Between this point of a grid and the one before, or beside its ends. */
@@ -175,9 +189,11 @@ void nh_tex_plot(nh_tex_writer *w, const nh_plot *p, const char *caption)
     nh_tex_add(w, "}, ylabel={");
     nh_tex_name(w, p->y_label);
     nh_tex_add(w, "}, grid=major, grid style={gray!25}, unbounded coords=jump, label style={font=\\small}, tick label "
-                  "style={font=\\footnotesize}, "
-                  "legend columns=-1, legend style={draw=none, font=\\footnotesize, at={(0.5,1.03)}, anchor=south, "
-                  "/tikz/every even column/.append style={column sep=1em}}");
+                  "style={font=\\footnotesize}");
+    nh_text_addf(w->out,
+                 ", legend columns=%d, legend cell align=left, legend style={draw=none, font=\\footnotesize, "
+                 "at={(0.5,1.03)}, anchor=south, /tikz/every even column/.append style={column sep=1em}}",
+                 legend_columns(p));
     if (p->log_x) nh_tex_add(w, ", xmode=log");
     if (p->log_y) nh_tex_add(w, ", ymode=log");
     if (p->equal) nh_tex_add(w, ", axis equal");
