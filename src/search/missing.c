@@ -156,9 +156,11 @@ static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
     return n;
 }
 
-/* Is the list of its terms that of a current? */
+/* Is the list of its terms that of a current?  Longer lists take seconds, and doubles lose what is in them: of 17 with
+   more than 300 terms none was one. */
 static bool lift(search *s, size_t degree, const nh_constructed *c, bool further)
 {
+    enum { most_terms = 300 };
     nh_analysis *r = s->climb.r;
     nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
     nh_ex constant[most_constants];
@@ -169,11 +171,12 @@ static bool lift(search *s, size_t degree, const nh_constructed *c, bool further
     *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
     s->climb.wide = true;
     const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
-    nh_stage_solver_stage(&s->climb, name, 1, all);
+    bool solvable = terms <= most_terms;
+    if (solvable) nh_stage_solver_stage(&s->climb, name, 1, all);
     /* doubles lose it where poles make the terms nearly dependent on each other */
     if (r->count == before && !further && constants == 1 && c->coefficient)
         nh_stage_solver_certify_terms(&s->climb, c->terms, c->term, c->coefficient, name);
-    return r->count > before || (further && lift_further(s, degree, all));
+    return r->count > before || (further && solvable && lift_further(s, degree, all));
 }
 
 static bool is_over(const search *s, bool further)

@@ -200,23 +200,17 @@ static void stage_linear_functions(nh_family_list *s)
     if (f.n > 1) nh_family_list_product_of_sets(s, &l, &f);
 }
 
-/* Total degree in positions and velocities, with the atoms; only where the angles do not matter. */
-static void stage_total(nh_family_list *s, size_t degree, bool with_functions)
+/* Products of two positions or velocities, times the atoms; only where the angles do not matter. */
+static void stage_degree_2(nh_family_list *s)
 {
+    enum { degree = 2 };
     nh_expr_set v = {0}, f = nh_expr_set_functions(s, true);
     for (size_t i = 0; i < s->w->positions; i++) nh_expr_set_put(&v, s->w->position[i]);
     nh_expr_set_put_all(&v, s->w->velocities, s->w->velocity);
-    if (with_functions && f.n > 1)
-        nh_family_list_add(
-            s, nh_family_list_product(
-                   s, 2, (nh_family[]){nh_family_list_polynomial(s, &v, degree), nh_family_list_terms(s, &f)}));
-    else nh_family_list_add(s, nh_family_list_polynomial(s, &v, degree));
+    nh_family products = nh_family_list_polynomial(s, &v, degree);
+    if (f.n > 1) products = nh_family_list_product(s, 2, (nh_family[]){products, nh_family_list_terms(s, &f)});
+    nh_family_list_add(s, products);
 }
-
-static void stage_degree_2(nh_family_list *s) { stage_total(s, 2, true); }
-static void stage_degree_3(nh_family_list *s) { stage_total(s, 3, false); }
-static void stage_degree_4(nh_family_list *s) { stage_total(s, 4, false); }
-static void stage_degree_6(nh_family_list *s) { stage_total(s, 6, false); }
 
 /* L has terms of degree one in the velocities: a magnetic field. */
 static bool is_magnetic(const nh_family_list *s)
@@ -288,9 +282,6 @@ static const recipe stages[] = {
     {"squares of the frame times lengths and first harmonics", stage_frame},
     {"squares of the frame times lengths and half angles", nh_stage_half_angles},
     {"ratios of velocities", stage_ratios},
-    {"total degree 3", stage_degree_3},
-    {"total degree 4", stage_degree_4},
-    {"total degree 6", stage_degree_6},
 };
 
 static nh_stage cook(const recipe *r, nh_arena *arena, const nh_model *o, const nh_dictionary *w)
