@@ -154,6 +154,24 @@ Test(library, rates_are_accelerations)
     close_one(&o);
 }
 
+/* What a question points to is the caller's, and may change as soon as the problem is open. */
+Test(library, a_question_is_read_once)
+{
+    char system[] = "systems/sleigh.yaml", analysis[] = "analyses/sleigh.yaml", set[] = "a = 0.3", velocities[] = "quasi", initial[] = "phi = 0.2";
+    nh_question q = {.system = system, .analysis = analysis, .set = set, .velocities = velocities, .initial = initial, .until = 0.1};
+    opened o = open_one(q);
+    cr_assert_not_null(o.problem, "%s", o.error.what);
+    char *const given[] = {system, analysis, set, velocities, initial};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) memset(given[i], '#', strlen(given[i]));
+    nh_rates *rates = nh_rates_create(o.problem, &o.error);
+    cr_expect_not_null(rates, "%s: %s", o.error.where, o.error.what);
+    nh_simulation *motion = nh_simulate(o.problem, &o.error);
+    cr_expect_not_null(motion, "%s: %s", o.error.where, o.error.what);
+    nh_rates_free(rates);
+    nh_simulation_free(motion);
+    close_one(&o);
+}
+
 Test(library, a_motion_agrees_with_its_closed_form)
 {
     opened o = open_one((nh_question){.system_text = oscillator, .set = "k=18", .initial = "x=1, x'=0", .until = 2, .step = 0.5, .accuracy = 1e-9});

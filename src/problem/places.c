@@ -89,7 +89,7 @@ bool nh_places_is_path(const char *name)
 const char *nh_places_look(nh_arena *arena, const char *kind, const char *name)
 {
     place where[most_places] = {{NULL, false}};
-    if (nh_places_is_path(name)) return access(name, F_OK) ? NULL : name;
+    if (nh_places_is_path(name)) return access(name, F_OK) ? NULL : nh_arena_strdup(arena, name);
     size_t n = places(arena, kind, where);
     for (size_t i = 0; i < n; i++) {
         const char *file = nh_arena_printf(arena, "%s/%s.yaml", where[i].folder, name);
