@@ -3,6 +3,7 @@
 
 #include <flint/fmpz_mpoly_factor.h>
 #include <flint/fmpz_poly.h>
+#include <flint/fmpz_vec.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* Special surfaces over the rationals: FLINT's polynomials in three variables. */
 #include "integrals/special_surfaces.h"
 
+#include <flint/fmpz.h>
 #include <flint/nmod.h>
 #include <flint/nmod_mpoly.h>
 #include <flint/nmod_poly.h>
