@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "integrals/count.h"
+#include "count/count.h"
 #include "problem/analysis_file.h"
 
 static void count_file(const char *path, const nh_count_question *asked)

@@ -8,7 +8,7 @@
 
 #include "base/clock.h"
 #include "base/text.h"
-#include "integrals/count_internal.h"
+#include "count/count_internal.h"
 #include "system/system.h"
 
 enum { most_coordinates = 6 };

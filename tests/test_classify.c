@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "integrals/classify.h"
-#include "integrals/special_bound.h"
+#include "classify/classify.h"
+#include "classify/special_bound.h"
 #include "names.h"
 #include "program.h"
 #include "sweep.h"

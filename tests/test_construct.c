@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "graph/diff.h"
-#include "integrals/closed_primitives.h"
-#include "integrals/construct.h"
+#include "count/closed_primitives.h"
+#include "count/construct.h"
 #include "names.h"
 
 #define PLANE "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - "

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "exact/normal.h"
-#include "integrals/completeness.h"
+#include "count/completeness.h"
 #include "problem/analysis_file.h"
 #include "names.h"
 

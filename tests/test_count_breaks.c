@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "exact/residue_matrix.h"
-#include "integrals/count_internal.h"
+#include "count/count_internal.h"
 #include "problem/analysis_file.h"
 #include "names.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "commands/classify.h"
-#include "integrals/plane.h"
+#include "classify/plane.h"
 #include "names.h"
 #include "program.h"
 #include "sweep.h"

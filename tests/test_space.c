@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "integrals/special_surfaces.h"
+#include "classify/special_surfaces.h"
 #include "program.h"
 #include "sweep.h"
 

@@ -1,17 +1,17 @@
 /* classify: at which values of a parameter, or of two, does a system have more conservation laws than for almost all?
  *
  * The system with all other parameters at their values is analysed at a value of no importance: what is proved there
- * for every value of the parameter is known to the engine (integrals/classify.h). At every special value that is
+ * for every value of the parameter is known to the engine (classify/classify.h). At every special value that is
  * rational the system is analysed with exactly this number in the parameter's place.
  *
- * With two parameters the engine is integrals/plane.h. The system is analysed at isolated points, and classified along
- * curves on which one parameter is a rational function of the other. With three it is integrals/space.h; on surfaces on
+ * With two parameters the engine is classify/plane.h. The system is analysed at isolated points, and classified along
+ * curves on which one parameter is a rational function of the other. With three it is classify/space.h; on surfaces on
  * which one parameter is a rational function of the others the system is classified over these. */
 #ifndef NH_STUDY_CLASSIFY_H
 #define NH_STUDY_CLASSIFY_H
 
-#include "integrals/plane.h"
-#include "integrals/space.h"
+#include "classify/plane.h"
+#include "classify/space.h"
 #include "reduction/linear_questions.h"
 #include "commands/analyze.h"
 

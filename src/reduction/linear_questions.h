@@ -1,5 +1,5 @@
 /* linear_questions: what else can be asked of a family of systems, as linear equations for unknown functions
- * (integrals/linear_family.h).
+ * (classify/linear_family.h).
  *
  *     measure          is exp(sigma(q)) dq dw invariant?                     one function, a multiple of exp(sigma)
  *     hamiltonization  f K_li d_j f - K_lj d_i f = U_lij f on the shape space of a Chaplygin system: then th = -d log f
@@ -13,7 +13,7 @@
 #define NH_LINEAR_QUESTIONS_H
 
 #include "base/option.h"
-#include "integrals/linear_family.h"
+#include "classify/linear_family.h"
 #include "reduction/kinetic.h"
 
 #define NH_LINEAR_QUESTION_TABLE(X)                                      \

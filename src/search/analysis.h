@@ -3,7 +3,7 @@
 #define NH_ANALYSIS_H
 
 #include "geometry/distribution.h"
-#include "integrals/completeness.h"
+#include "count/completeness.h"
 #include "motion/validation.h"
 #include "integrals/independence.h"
 #include "integrals/letters.h"

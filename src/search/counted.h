@@ -1,6 +1,6 @@
 /* counted: stages that the count makes superfluous.
  *
- * Where the differentials of all solutions of degree d, counted modulo a prime (integrals/count.h), depend on those of
+ * Where the differentials of all solutions of degree d, counted modulo a prime (count/count.h), depend on those of
  * the currents that are proved, no function of degree d in the velocities is new, whatever its coefficients are: a
  * stage whose ansatz has no others is left out.  Where nothing is counted (constraints and Lagrangians that are not
  * polynomial in the velocities, leaves of integrable constraints) all stages are run. */
@@ -10,7 +10,7 @@
 #include "integrals/ansatz.h"
 #include "search/analysis.h"
 
-/* What is known of degrees, for either kind of coefficients (integrals/completeness.h). */
+/* What is known of degrees, for either kind of coefficients (count/completeness.h). */
 typedef struct {
     nh_analysis *r;
     bool on;                    /* otherwise nothing is left out */

@@ -5,9 +5,9 @@
 
 #include "base/budget.h"
 #include "base/progress.h"
-#include "integrals/closed_primitives.h"
-#include "integrals/construct.h"
-#include "integrals/construct_rates.h"
+#include "count/closed_primitives.h"
+#include "count/construct.h"
+#include "count/construct_rates.h"
 #include "integrals/echelon.h"
 #include "search/currents.h"
 #include "search/relations.h"

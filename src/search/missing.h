@@ -1,7 +1,7 @@
 /* missing: construction of integrals that the count predicts beyond the currents found.
  *
- * The integrals polynomial in the velocities are counted (integrals/count.h); where more of them may exist than are
- * proved, their power series say of which terms they consist (integrals/construct.h), and a stage with these terms
+ * The integrals polynomial in the velocities are counted (count/count.h); where more of them may exist than are
+ * proved, their power series say of which terms they consist (count/construct.h), and a stage with these terms
  * alone looks for them as any other: coefficients over the parameters, proof, field. Currents that are certified only
  * give way to proved ones. */
 #ifndef NH_MISSING_H

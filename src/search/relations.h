@@ -4,7 +4,7 @@
 
 #include "search/analysis.h"
 
-/* Among the currents and the further integrals: which products are related is seen modulo a prime (integrals/count.h),
+/* Among the currents and the further integrals: which products are related is seen modulo a prime (count/count.h),
  * the coefficients are exact, over the parameters.  Fills result->relation. */
 void nh_relations_find(nh_analysis *result);
 

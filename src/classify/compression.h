@@ -1,0 +1,24 @@
+/* compression: where a matrix with two parameters loses rank, as common zeros of determinants.
+ *
+ * For a matrix A(lambda, mu) of generic rank R and random constant L (R x rows) and C (columns x R), det(L A C)
+ * vanishes wherever the rank of A is below R; elsewhere two of them have no zero in common, but for points that random
+ * choices make, which are others the next time. */
+#ifndef NH_COMPRESSION_H
+#define NH_COMPRESSION_H
+
+#include "classify/staircase.h"
+
+/* sum of coefficient[(k * (degree[1] + 1) + j) * (degree[0] + 1) + i] lambda^i mu^j nu^k modulo a prime; degree[2] is 0
+ * without a third parameter.  The coefficients are on the heap. */
+typedef struct {
+    size_t degree[3];
+    nh_residue *coefficient;
+} nh_residue_surface;
+
+size_t nh_compression_rank(const nh_staircase_matrices *matrices, nh_prime field);
+
+/* Another one for each seed.  False: behind the deadline. */
+bool nh_compression_determinant(const nh_staircase_matrices *matrices, nh_prime field, size_t rank, uint64_t seed,
+                                nh_residue_surface *out);
+
+#endif

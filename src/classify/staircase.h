@@ -1,0 +1,40 @@
+/* staircase: at which values of a parameter does a linear system modulo a prime lose rank?
+ *
+ * For A(lambda) = A_0 + lambda A_1 + .. + lambda^D A_D, with companion variables y_i = lambda y_(i-1) where D > 1, the
+ * pencil A + lambda E is reduced to its regular part (Kronecker's form, by the staircase algorithm [VanDooren1979] over
+ * a finite field):
+ *
+ *     rows      echelon form of [E | A]: rows without a part in E are constant equations, whose pivots are substituted
+ *     columns   the same for the transposes
+ *
+ * until E is square and invertible. Then chi = det(lambda + E^-1 A) is the product of the finite elementary divisors:
+ * rank A(lambda) is that of almost all values exactly where chi(lambda) is not zero.
+ *
+ * With two parameters the same steps for [.. | A_01 | A_10 | A_00] leave small matrices with the same loss of rank. */
+#ifndef NH_STAIRCASE_H
+#define NH_STAIRCASE_H
+
+#include "classify/sparse_pencil.h"
+
+/* A polynomial modulo a prime, from the constant term on; on the heap. */
+typedef struct {
+    size_t degree;
+    nh_residue *coefficient;
+} nh_residue_polynomial;
+
+/* chi, monic, and the columns less the rank for almost all values. `products` of residues may be taken and becomes what
+ * is left of them, negative when it was too little. False then, and behind the deadline (base/progress.h). */
+bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, double *products, nh_residue_polynomial *chi,
+                  size_t *nullity);
+
+/* With two parameters: what is left, by powers, then rows, then columns; on the heap. */
+typedef struct {
+    size_t degree, second, rows, columns; /* degrees in lambda and in mu */
+    nh_residue *entry;
+} nh_staircase_matrices;
+nh_staircase_matrices nh_staircase_reduce(const nh_sparse_pencil *pencil, nh_prime field, double *products);
+
+/* The rank at one value of the only parameter. */
+size_t nh_staircase_rank(const nh_sparse_pencil *pencil, nh_prime field, nh_residue lambda);
+
+#endif

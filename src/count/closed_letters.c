@@ -1,0 +1,285 @@
+/* What occurs in the Lagrangian, the equations of motion and the determinant of the inertia: bases of powers with their
+   exponents, angles, exponents. */
+#include "count/closed_letters.h"
+
+#include <math.h>
+
+#include "exact/kernel.h"
+#include "exact/normal.h"
+#include "graph/diff.h"
+#include "graph/terms.h"
+
+enum { most_found = 400, largest_form = 2000, largest_inertia = 4, least_down = 1 };
+
+/* ---- the list ---- */
+
+static nh_letter *letter_of(nh_letters *l, nh_letter_kind kind, nh_ex base)
+{
+    for (size_t i = 0; i < l->count; i++)
+        if (l->item[i].kind == kind && l->item[i].base == base) return &l->item[i];
+    nh_grow(&l->item, &l->capacity, l->count + 1, sizeof *l->item);
+    l->item[l->count] = (nh_letter){.kind = kind, .base = base, .root = 1, .up = 1};
+    return &l->item[l->count++];
+}
+
+static bool is_coordinate(const nh_jet_equations *x, nh_ex symbol)
+{
+    bool found = false;
+    for (size_t k = 0; k < x->coordinates; k++) found |= x->coordinate[k] == symbol;
+    return found;
+}
+
+/* Does it depend on coordinates of the equations, on no others, and on no velocity? */
+static bool of_position(const nh_jet_equations *x, nh_ex e)
+{
+    bool position = false, velocity = false;
+    for (size_t k = 0; k < x->coordinates; k++) position |= nh_depends(x->dag, e, x->coordinate[k]);
+    for (size_t s = 0; s < x->model->m; s++) {
+        nh_ex q = x->model->system->coordinate[s].q;
+        if (nh_depends(x->dag, e, q) && !is_coordinate(x, q)) return false;
+    }
+    for (size_t i = 0; i < x->n; i++) velocity |= nh_depends(x->dag, e, x->w[i]);
+    return position && !velocity;
+}
+
+/* ---- sines, cosines, exponentials ---- */
+
+/* A unit of which both are multiples. */
+static nh_num common(nh_num a, nh_num b)
+{
+    int64_t q = a.q / nh_gcd(a.q, b.q) * b.q;
+    return nh_num_ratio(nh_gcd(a.p * (q / a.q), b.p * (q / b.q)), q);
+}
+
+/* The letter of an argument's direction: one that is there already is made finer. */
+static nh_letter *direction(nh_dag *d, nh_letters *l, nh_letter_kind kind, nh_ex argument, double *sign)
+{
+    nh_parts whole;
+    nh_parts_make(d, true, argument, &whole);
+    nh_letter *found = NULL;
+    *sign = 1;
+    if (whole.count == 1 && nh_num_short(whole.item[0].coefficient) && whole.item[0].coefficient.p) {
+        nh_num c = whole.item[0].coefficient;
+        *sign = c.p < 0 ? -1 : 1;
+        c.p = c.p < 0 ? -c.p : c.p;
+        nh_ex atom = whole.item[0].atom;
+        for (size_t i = 0; i < l->count && !found; i++) {
+            nh_parts other;
+            if (l->item[i].kind != kind) continue;
+            nh_parts_make(d, true, l->item[i].base, &other);
+            if (other.count == 1 && other.item[0].atom == atom) {
+                found = &l->item[i];
+                c = common(c, other.item[0].coefficient);
+            }
+            nh_free(other.item);
+        }
+        nh_ex base = nh_mul(d, nh_number(d, nh_num_ratio(c.p, c.q)), atom);
+        if (found) found->base = base;
+        else found = letter_of(l, kind, base);
+    }
+    nh_free(whole.item);
+    return found;
+}
+
+static void take_function(const nh_jet_equations *x, nh_letters *l, nh_ex e)
+{
+    nh_dag *d = x->dag;
+    nh_letter *found;
+    double sign;
+    if (!of_position(x, e)) return;
+    switch (nh_function_of(d, e)) {
+    case NH_SIN: case NH_COS: case NH_TAN:
+        found = direction(d, l, NH_LETTER_CIRCLE, nh_child(d, e, 0), &sign);
+        if (found && nh_function_of(d, e) == NH_TAN) found->down = fmax(found->down, least_down);
+        break;
+    case NH_SINH: case NH_COSH: case NH_TANH:
+        found = direction(d, l, NH_LETTER_EXPONENTIAL, nh_child(d, e, 0), &sign);
+        if (found) found->down = fmax(found->down, least_down);
+        break;
+    case NH_EXP:
+        found = direction(d, l, NH_LETTER_EXPONENTIAL, nh_child(d, e, 0), &sign);
+        if (found && sign < 0) found->down = fmax(found->down, least_down);
+        break;
+    case NH_ABS: case NH_SIGN: case NH_PI: break;
+    default: letter_of(l, NH_LETTER_POWER, e);
+    }
+}
+
+/* ---- powers ---- */
+
+/* `less`: what the lowest exponent of an integral is expected above this one. */
+static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_num exponent, double less)
+{
+    nh_dag *d = x->dag;
+    bool function = nh_kind_of(d, base) == NH_FUNCTION;
+    nh_function f = function ? nh_function_of(d, base) : NH_PI;
+    double value = nh_num_value(exponent), sign;
+    if (!of_position(x, base) || !nh_num_short(exponent)) return;
+    if (function && (f == NH_SIN || f == NH_COS) && exponent.q == 1) {
+        nh_letter *angle = direction(d, l, NH_LETTER_CIRCLE, nh_child(d, base, 0), &sign);
+        double *down = !angle ? NULL : f == NH_SIN ? &angle->down_sine : &angle->down;
+        if (down && value < 0) *down = fmax(*down, fmax(-value - less, 1));
+        return;
+    }
+    if (function && f == NH_EXP) return;
+    if (exponent.q == 1 && value > 0) return; /* whole powers are polynomials in what the base is made of */
+    nh_letter *found = letter_of(l, NH_LETTER_POWER, base);
+    found->root = found->root / nh_gcd(found->root, exponent.q) * exponent.q;
+    if (value < 0) found->down = fmax(found->down, fmax(-value - less, 1 / (double)found->root));
+    else found->up = fmax(found->up, value);
+}
+
+static void take_expression(const nh_jet_equations *x, nh_letters *l, nh_ex e, double less)
+{
+    nh_dag *d = x->dag;
+    nh_ex *found = nh_alloc_array(most_found, sizeof *found), own = nh_canonical(d, e, largest_form);
+    size_t n = nh_functions_in(d, own, found, most_found);
+    for (size_t i = 0; i < n && i < most_found; i++) take_function(x, l, found[i]);
+    n = nh_products_in(d, own, found, most_found);
+    for (size_t i = 0; i < n && i < most_found; i++)
+        for (size_t k = 0; k < nh_arity(d, found[i]); k++) {
+            nh_ex exponent = nh_exponent_of(d, found[i], k);
+            if (nh_kind_of(d, exponent) == NH_NUMBER)
+                take_power(x, l, nh_child(d, found[i], k), nh_number_of(d, exponent), less);
+        }
+    nh_free(found);
+}
+
+/* ---- the determinant of the inertia ---- */
+
+/* Of the rows `row` .. and the columns that are not used yet. */
+static nh_ex minor_of(const nh_model *o, size_t row, uint32_t used)
+{
+    if (row == o->n) return nh_int(o->dag, 1);
+    nh_ex sum = nh_int(o->dag, 0);
+    bool minus = false;
+    for (size_t j = 0; j < o->n; j++) {
+        if (used >> j & 1) continue;
+        nh_ex term = o->M[row * o->n + j];
+        if (!nh_is_zero(o->dag, term)) {
+            term = nh_mul(o->dag, term, minor_of(o, row + 1, used | (uint32_t)1 << j));
+            sum = minus ? nh_sub(o->dag, sum, term) : nh_add(o->dag, sum, term);
+        }
+        minus = !minus;
+    }
+    return sum;
+}
+
+/* The factors of an expression with half powers; sums without what their terms have in common, unless `plain`: the
+   quotient may be written with it again. */
+static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool plain)
+{
+    nh_dag *d = x->dag;
+    bool product = nh_kind_of(d, e) == NH_PRODUCT;
+    for (size_t k = 0; k < (product ? nh_arity(d, e) : 1); k++) {
+        nh_ex base = product ? nh_child(d, e, k) : e, common = nh_int(d, 1);
+        if (!of_position(x, base)) continue;
+        bool sum = nh_kind_of(d, base) == NH_SUM;
+        if (sum && !plain) common = nh_terms_common(d, base);
+        if (!nh_is_number(d, common, 1)) {
+            take_factors(x, l, common, true);
+            take_factors(x, l, nh_simplify_short(d, nh_div(d, base, common), largest_form), true);
+        } else take_power(x, l, base, sum ? nh_num_ratio(-1, 2) : nh_num_int(-1), 0);
+    }
+}
+
+static void take_determinant(const nh_jet_equations *x, nh_letters *l)
+{
+    const nh_model *o = x->model;
+    if (o->n <= largest_inertia) take_factors(x, l, nh_simplify_short(x->dag, minor_of(o, 0, 0), largest_form), false);
+}
+
+/* ---- the coordinates ---- */
+
+/* In coordinates that are letters. */
+static bool is_linear(const nh_jet_equations *x, const nh_letters *l, size_t coordinates, nh_ex base)
+{
+    bool linear = true;
+    for (size_t k = 0; k < x->coordinates && linear; k++) {
+        nh_ex slope = nh_diff(x->dag, base, x->coordinate[k]);
+        bool letter = nh_is_zero(x->dag, slope);
+        for (size_t j = 0; j < coordinates; j++) letter |= l->item[j].base == x->coordinate[k];
+        for (size_t j = 0; j < x->coordinates; j++) linear &= letter && !nh_depends(x->dag, slope, x->coordinate[j]);
+    }
+    return linear;
+}
+
+/* Where a coordinate is seen only inside of functions its powers are unlikely. */
+static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_ex q)
+{
+    enum { most = 64 };
+    nh_dag *d = x->dag;
+    nh_ex function[most], fresh[most];
+    bool inside = false, plain = false;
+    for (size_t k = 0; k < n; k++) {
+        size_t count = nh_functions_in(d, e[k], function, most);
+        if (count >= most) return false;
+        for (size_t i = 0; i < count; i++) {
+            inside |= nh_depends(d, function[i], q);
+            fresh[i] = nh_int(d, (int64_t)i + 2);
+        }
+        plain |= nh_depends(d, nh_substitute(d, e[k], count, function, fresh), q);
+    }
+    return inside && !plain;
+}
+
+/* The highest powers of coordinates in the potential: so far, at most twice, a power costs no more than a
+   coordinate. */
+static void take_potential(const nh_jet_equations *x, nh_letters *l)
+{
+    static const double most = 2;
+    const nh_model *o = x->model;
+    nh_dag *d = x->dag;
+    nh_ex *zero = nh_alloc_array(x->n + 1, sizeof *zero);
+    for (size_t i = 0; i < x->n; i++) zero[i] = nh_int(d, 0);
+    nh_ex *term, V = nh_substitute(d, o->Lbar, x->n, x->w, zero);
+    size_t terms = nh_terms_of(d, V, &term);
+    for (size_t i = 0; i < terms; i++) {
+        if (nh_kind_of(d, term[i]) != NH_PRODUCT) continue;
+        for (size_t k = 0; k < nh_arity(d, term[i]); k++) {
+            nh_ex base = nh_child(d, term[i], k), exponent = nh_exponent_of(d, term[i], k);
+            for (size_t j = 0; j < l->count && nh_kind_of(d, exponent) == NH_NUMBER; j++)
+                if (l->item[j].base == base && l->item[j].kind == NH_LETTER_POWER)
+                    l->item[j].up = fmax(l->item[j].up, fmin(most, nh_num_value(nh_number_of(d, exponent))));
+        }
+    }
+    nh_free(term);
+    nh_free(zero);
+}
+
+/* Those in coordinates of the equations: the shape alone has none. */
+static void take_rates(const nh_jet_equations *x, nh_letters *l, const nh_construct_rates *rates)
+{
+    nh_dag *d = x->dag;
+    double sign;
+    for (size_t i = 0; rates && i < rates->count; i++) {
+        const nh_construct_rate *r = &rates->item[i];
+        if (!is_coordinate(x, r->coordinate)) continue;
+        nh_ex argument = nh_mul(d, nh_number(d, r->rate), r->coordinate);
+        nh_letter *found = direction(d, l, r->wave ? NH_LETTER_CIRCLE : NH_LETTER_EXPONENTIAL, argument, &sign);
+        if (found && !r->wave && sign < 0) found->down = fmax(found->down, least_down);
+    }
+}
+
+nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_rates *rates)
+{
+    const nh_model *o = x->model;
+    nh_letters l = {0};
+    size_t n = 0;
+    nh_ex *e = nh_alloc_array(o->m + o->n * o->n + o->n + 2, sizeof *e);
+    e[n++] = o->Lbar;
+    for (size_t s = 0; s < o->m; s++) e[n++] = o->rho[s];
+    for (size_t i = 0; i < o->n * o->n; i++) e[n++] = o->M[i];
+    for (size_t i = 0; i < o->n; i++) e[n++] = o->A[i];
+    for (size_t k = 0; k < x->coordinates; k++)
+        if (secular || !only_inside(x, n, e, x->coordinate[k])) letter_of(&l, NH_LETTER_POWER, x->coordinate[k]);
+    size_t coordinates = l.count;
+    for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1); /* forces are derivatives */
+    take_determinant(x, &l);
+    take_rates(x, &l, rates);
+    take_potential(x, &l);
+    for (size_t i = coordinates; i < l.count; i++)
+        l.item[i].linear = l.item[i].kind == NH_LETTER_POWER && is_linear(x, &l, coordinates, l.item[i].base);
+    nh_free(e);
+    return l;
+}

@@ -1,0 +1,333 @@
+/* Words over a system's letters, cheapest first, and their series. */
+#include "count/closed_words.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exact/residue_matrix.h"
+#include "count/closed_letters.h"
+
+static const double tiny = 1e-9;
+
+/* ---- powers of a letter ---- */
+
+static uint32_t coordinates_in(const nh_jet_equations *x, nh_ex e)
+{
+    uint32_t mask = 0;
+    for (size_t k = 0; k < x->coordinates && k < 32; k++)
+        if (nh_depends(x->dag, e, x->coordinate[k])) mask |= (uint32_t)1 << k;
+    return mask;
+}
+
+/* A product of whole positive powers of coordinates, sines and cosines? */
+static bool is_plain(const nh_jet_equations *x, nh_ex e)
+{
+    const nh_dag *d = x->dag;
+    nh_kind kind = nh_kind_of(d, e);
+    if (kind != NH_PRODUCT) {
+        nh_function f = kind == NH_FUNCTION ? nh_function_of(d, e) : NH_PI;
+        return kind == NH_NUMBER || kind == NH_SYMBOL || f == NH_SIN || f == NH_COS;
+    }
+    for (size_t k = 0; k < nh_arity(d, e); k++) {
+        nh_ex exponent = nh_exponent_of(d, e, k);
+        bool whole = nh_kind_of(d, exponent) == NH_NUMBER && nh_number_of(d, exponent).q == 1;
+        if (!whole || nh_num_value(nh_number_of(d, exponent)) < 0 || !is_plain(x, nh_child(d, e, k))) return false;
+    }
+    return true;
+}
+
+/* A power that cannot be evaluated is left out. */
+static void put_power(nh_known_motions_words *w, nh_known_motions_letter *l, nh_ex e, double price)
+{
+    nh_jet_equations *x = w->equations;
+    if (price > w->most + tiny) return;
+    nh_known_motions_power p = {
+        .shown = e, .value = e, .price = price, .coordinates = coordinates_in(x, e), .plain = is_plain(x, e)};
+    size_t kernels = x->point->kernels;
+    if (!nh_jet_equations_take(x, true, &p.value)) {
+        x->obstacle = x->point->obstacle = NULL;
+        x->point->kernels = kernels;
+        return;
+    }
+    nh_grow(&l->power, &l->capacity, l->powers + 1, sizeof *l->power);
+    size_t at = l->powers++;
+    for (; at > 0 && l->power[at - 1].price > price; at--) l->power[at] = l->power[at - 1];
+    l->power[at] = p;
+}
+
+/* Exponents k/root; downwards an exponent costs its part of the lowest that the system has.  Whole powers of what is
+   linear are sums of other words. */
+static void put_powers(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
+{
+    nh_dag *d = w->equations->dag;
+    double root = (double)a->root, down = a->down, up = a->up;
+    for (int64_t k = 1; (double)k / root <= w->most * up; k++)
+        if (!a->linear || k % a->root)
+            put_power(w, l, nh_pow(d, a->base, nh_ratio(d, k, a->root)), (double)k / root / up);
+    for (int64_t k = 1; a->down > 0 && (double)k / root <= w->most * down; k++)
+        put_power(w, l, nh_pow(d, a->base, nh_ratio(d, -k, a->root)), (double)k / root / down);
+}
+
+static void put_exponentials(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
+{
+    nh_dag *d = w->equations->dag;
+    for (int64_t k = 1; (double)k <= w->most; k++) {
+        put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, k), a->base)), (double)k);
+        if (a->down > 0) put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, -k), a->base)), (double)k);
+    }
+}
+
+/* cos^i sin^j without those that sin^2 + cos^2 = 1 makes of others: of the products of negative powers, 1/(cos sin)
+   alone. */
+static void put_circle(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
+{
+    nh_dag *d = w->equations->dag;
+    nh_ex c = nh_call(d, NH_COS, a->base), s = nh_call(d, NH_SIN, a->base);
+    double cost_c = 1 / fmax(a->down, 1), cost_s = 1 / fmax(a->down_sine, 1);
+    int most_c = (int)(w->most / cost_c), most_s = (int)(w->most / cost_s);
+    for (int i = a->down > 0 ? -most_c : 0; i <= (int)w->most; i++)
+        for (int j = a->down_sine > 0 ? -most_s : 0; j <= 1; j++) {
+            if ((i == 0 && j == 0) || (j < 0 && i > 1) || (j < 0 && i < 0 && (i < -1 || j < -1))) continue;
+            put_power(w, l, nh_mul(d, nh_powi(d, c, i), nh_powi(d, s, j)),
+                      (i < 0 ? -i * cost_c : i) + (j < 0 ? -j * cost_s : j));
+        }
+}
+
+static void put_letter(nh_known_motions_words *w, const nh_letter *a)
+{
+    nh_grow(&w->letter, &w->capacity, w->letters + 1, sizeof *w->letter);
+    nh_known_motions_letter *l = &w->letter[w->letters];
+    *l = (nh_known_motions_letter){0};
+    put_power(w, l, nh_int(w->equations->dag, 1), 0);
+    if (a->kind == NH_LETTER_CIRCLE) put_circle(w, l, a);
+    else if (a->kind == NH_LETTER_EXPONENTIAL) put_exponentials(w, l, a);
+    else put_powers(w, l, a);
+    if (l->powers > 1) w->letters++;
+    else nh_free(l->power);
+}
+
+/* ---- words ---- */
+
+/* The choice after `at`, whose price is `sum` and of whose factors `factors` are not plain.  False: it was the last. */
+static bool next_choice(const nh_known_motions_words *w, size_t most_factors, size_t *at, double *sum, size_t *factors)
+{
+    for (size_t i = 0; i < w->letters; i++) {
+        const nh_known_motions_power *power = w->letter[i].power;
+        size_t others = *factors - !power[at[i]].plain, next = at[i] + 1;
+        double rest = *sum - power[at[i]].price;
+        while (next < w->letter[i].powers && others + !power[next].plain > most_factors) next++;
+        bool fits = next < w->letter[i].powers && rest + power[next].price <= w->most + tiny;
+        at[i] = fits ? next : 0;
+        *sum = rest + power[at[i]].price;
+        *factors = others + !power[at[i]].plain;
+        if (fits) return true;
+    }
+    return false;
+}
+
+/* All choices whose prices do not exceed the largest, with so many factors at most that are not plain, counted, and
+   written where there is room. */
+static size_t choices(const nh_known_motions_words *w, size_t most_factors, size_t most, uint16_t *choice,
+                      double *price)
+{
+    size_t count = 0, factors = 0, *at = nh_alloc_array(w->letters + 1, sizeof *at);
+    double sum = 0;
+    do {
+        for (size_t i = 0; choice && i < w->letters; i++) choice[count * w->letters + i] = (uint16_t)at[i];
+        if (choice) price[count] = sum;
+        count++;
+    } while (count <= most && next_choice(w, most_factors, at, &sum, &factors));
+    nh_free(at);
+    return count;
+}
+
+/* How many factors that are not plain leave no more than `most` words; 0: not even one. */
+static size_t factors_that_fit(const nh_known_motions_words *w, size_t most)
+{
+    size_t factors = w->letters;
+    while (factors > 0 && choices(w, factors, most, NULL, NULL) > most) factors--;
+    return factors;
+}
+
+typedef struct {
+    double price;
+    size_t factors, index;
+} rank;
+
+static int by_price(const void *a, const void *b)
+{
+    const rank *x = a, *y = b;
+    if (fabs(x->price - y->price) > tiny) return x->price < y->price ? -1 : 1;
+    if (x->factors != y->factors) return x->factors < y->factors ? -1 : 1;
+    return (x->index > y->index) - (x->index < y->index);
+}
+
+static void sort(nh_known_motions_words *w)
+{
+    size_t n = w->letters;
+    rank *order = nh_alloc_array(w->words + 1, sizeof *order);
+    uint16_t *choice = nh_alloc_array(w->words * n + 1, sizeof *choice);
+    double *price = nh_alloc_array(w->words + 1, sizeof *price);
+    for (size_t k = 0; k < w->words; k++) {
+        order[k] = (rank){.price = w->price[k], .index = k};
+        for (size_t i = 0; i < n; i++) order[k].factors += w->choice[k * n + i] > 0;
+    }
+    qsort(order, w->words, sizeof *order, by_price);
+    for (size_t k = 0; k < w->words; k++) {
+        memcpy(choice + k * n, w->choice + order[k].index * n, n * sizeof *choice);
+        price[k] = w->price[order[k].index];
+    }
+    nh_free(order);
+    nh_free(w->choice);
+    nh_free(w->price);
+    w->choice = choice;
+    w->price = price;
+}
+
+nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, double price, size_t most_words,
+                                                      bool secular, const nh_construct_rates *rates)
+{
+    nh_known_motions_words *w = nh_alloc(sizeof *w);
+    *w = (nh_known_motions_words){.equations = x, .most = price};
+    nh_letters letters = nh_letters_of(x, secular, rates);
+    for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
+    nh_free(letters.item);
+    size_t factors = factors_that_fit(w, most_words);
+    if (w->letters && !factors) {
+        nh_known_motions_words_free(w);
+        return NULL;
+    }
+    w->words = choices(w, factors, most_words, NULL, NULL);
+    w->choice = nh_alloc_array(w->words * w->letters + 1, sizeof *w->choice);
+    w->price = nh_alloc_array(w->words + 1, sizeof *w->price);
+    choices(w, factors, most_words, w->choice, w->price);
+    sort(w);
+    return w;
+}
+
+void nh_known_motions_words_free(nh_known_motions_words *w)
+{
+    if (!w) return;
+    for (size_t i = 0; i < w->letters; i++) nh_free(w->letter[i].power);
+    nh_free(w->letter);
+    nh_free(w->choice);
+    nh_free(w->price);
+    nh_free(w);
+}
+
+uint32_t nh_known_motions_word_coordinates(const nh_known_motions_words *w, size_t word)
+{
+    uint32_t mask = 0;
+    for (size_t i = 0; i < w->letters; i++) mask |= w->letter[i].power[w->choice[word * w->letters + i]].coordinates;
+    return mask;
+}
+
+nh_ex nh_known_motions_word(const nh_known_motions_words *w, size_t word)
+{
+    nh_dag *d = w->equations->dag;
+    nh_ex e = nh_int(d, 1);
+    for (size_t i = 0; i < w->letters; i++)
+        e = nh_mul(d, e, w->letter[i].power[w->choice[word * w->letters + i]].shown);
+    return e;
+}
+
+/* ---- independent words ---- */
+
+/* Values of all words at the point of the equations.  False: it is no regular one. */
+static bool values_at(const nh_known_motions_words *w, const nh_jet_ring *point, nh_residue *value,
+                      nh_residue *out)
+{
+    nh_jet_equations *x = w->equations;
+    nh_jet_eval *v = nh_jet_equations_eval(x, point, x->at);
+    size_t first = 0;
+    bool good = true;
+    for (size_t i = 0; i < w->letters && good; i++)
+        for (size_t k = 0; k < w->letter[i].powers && good; k++)
+            good = nh_jet_eval_all(v, 1, &w->letter[i].power[k].value, &value[first++]);
+    for (size_t k = 0; k < w->words && good; k++) {
+        const uint16_t *choice = w->choice + k * w->letters;
+        out[k] = 1;
+        first = 0;
+        for (size_t i = 0; i < w->letters; first += w->letter[i++].powers)
+            if (choice[i]) out[k] = nh_residue_mul(point->field, out[k], value[first + choice[i]]);
+    }
+    nh_jet_eval_free(v);
+    return good;
+}
+
+static void keep_words(nh_known_motions_words *w, size_t count, const size_t *chosen)
+{
+    for (size_t k = 0; k < count; k++) {
+        memmove(w->choice + k * w->letters, w->choice + chosen[k] * w->letters, w->letters * sizeof *w->choice);
+        w->price[k] = w->price[chosen[k]];
+    }
+    w->words = count;
+}
+
+double nh_known_motions_words_reduce(nh_known_motions_words *w)
+{
+    enum { spare = 8, most_tries = 64, rows_together = 4 }; /* rows_together: dense algebra, in the time of a product */
+    nh_jet_equations *x = w->equations;
+    nh_prime field = nh_jet_point_prime(x->point, 0);
+    size_t n = w->words, one = 1, rows = n + spare, found = 0, powers = 0;
+    size_t *chosen = nh_alloc_array(n + 1, sizeof *chosen);
+    for (size_t i = 0; i < w->letters; i++) powers += w->letter[i].powers;
+    nh_jet_ring *point = nh_jet_ring_create(field, 1, &one, 0);
+    nh_residue *matrix = nh_alloc_array(rows * n + 1, sizeof *matrix);
+    nh_residue *value = nh_alloc_array(powers + 1, sizeof *value);
+    for (uint64_t seed = 1; found < rows && seed < most_tries * rows; seed++) {
+        nh_jet_equations_choose(x, field, seed);
+        found += values_at(w, point, value, matrix + found * n);
+    }
+    if (found == rows) keep_words(w, nh_residue_matrix_echelon(field, rows, n, n, matrix, chosen), chosen);
+    nh_jet_ring_free(point);
+    nh_free(value);
+    nh_free(matrix);
+    nh_free(chosen);
+    return (double)rows * (double)rows * (double)rows / rows_together;
+}
+
+/* ---- values ---- */
+
+/* Series of every power of every letter; series[i]: of letter i, one after another. */
+static bool powers(const nh_known_motions_words *w, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue **series)
+{
+    bool good = true;
+    for (size_t i = 0; i < w->letters && good; i++) {
+        const nh_known_motions_letter *l = &w->letter[i];
+        series[i] = nh_alloc_array(l->powers * ring->size, sizeof **series);
+        for (size_t k = 0; k < l->powers && good; k++)
+            good = nh_jet_eval_all(v, 1, &l->power[k].value, series[i] + k * ring->size);
+    }
+    return good;
+}
+
+bool nh_known_motions_words_evaluate(const nh_known_motions_words *w, const nh_jet_ring *ring,
+                                     const nh_residue *coordinate, nh_residue *out, double *work)
+{
+    nh_residue **series = nh_alloc_array(w->letters + 1, sizeof *series),
+               *both = nh_alloc_array(ring->size, sizeof *both);
+    nh_jet_eval *v = nh_jet_equations_eval(w->equations, ring, coordinate);
+    bool good = powers(w, v, ring, series);
+    for (size_t k = 0; k < w->words && good; k++) {
+        nh_residue *word = out + k * ring->size;
+        bool first = true;
+        nh_jet_constant(ring, 1, word);
+        for (size_t i = 0; i < w->letters; i++) {
+            const nh_residue *factor = series[i] + w->choice[k * w->letters + i] * ring->size;
+            if (!w->choice[k * w->letters + i]) continue;
+            if (!first) {
+                nh_jet_mul(ring, word, factor, both);
+                *work += (double)ring->pairs[ring->size];
+            }
+            memcpy(word, first ? factor : both, ring->size * sizeof *word);
+            first = false;
+        }
+    }
+    for (size_t i = 0; i < w->letters; i++) nh_free(series[i]);
+    nh_jet_eval_free(v);
+    nh_free(both);
+    nh_free(series);
+    return good;
+}

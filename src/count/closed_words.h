@@ -1,0 +1,65 @@
+/* closed_words: functions of the coordinates in closed form that the coefficients of a system's integrals may be made
+ * of.
+ *
+ * The letters are taken from the equations of motion, the Lagrangian and the determinant of the inertia:
+ *
+ *     q                    whole powers; negative and fractional ones where the system has them
+ *     bases of powers      sums under roots and in denominators, with the least root that occurs
+ *     factors of det M     with half powers of both signs: what normalises the reduced momenta
+ *     cos u, sin u         of the least angle of which the system has multiples; negative powers where it has them
+ *     exp u                whole powers, of both signs where it has them
+ *     cos, sin, exp of a cyclic coordinate times a rate, where solutions have this rate (construct_rates.h)
+ *     log u, asin u, ..    whole powers
+ *
+ * A word is a product of powers, one of each letter at most; its price is the sum of the prices of the powers: the
+ * degree, where the most negative exponent that the system has costs as much as a coordinate.  Words come cheapest
+ * first.  Where these are too many, words have few factors that are no polynomials: in sums over pairs of bodies few of
+ * the many denominators stand in one term. */
+#ifndef NH_CLOSED_WORDS_H
+#define NH_CLOSED_WORDS_H
+
+#include "count/construct_rates.h"
+#include "count/jet_equations.h"
+
+typedef struct {
+    nh_ex shown, value;   /* with parameters as symbols; as it is evaluated */
+    double price;
+    uint32_t coordinates; /* on which it depends: a bit each */
+    bool plain;           /* a polynomial in coordinates, sines and cosines */
+} nh_known_motions_power;
+
+typedef struct {
+    size_t powers, capacity;
+    nh_known_motions_power *power; /* cheapest first; the first is 1 */
+} nh_known_motions_letter;
+
+typedef struct {
+    nh_jet_equations *equations;
+    double most;          /* the largest price */
+    size_t letters, capacity;
+    nh_known_motions_letter *letter;
+    size_t words;
+    uint16_t *choice;     /* words x letters: which power of each */
+    double *price;        /* per word */
+} nh_known_motions_words;
+
+/* Words up to a price; `secular`, `rates`: closed_letters.h.  All letters are registered for evaluation: choose a point
+   afterwards.  NULL: there would be more words than `most_words`, even with one such factor in each. */
+nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words,
+                                                      bool secular, const nh_construct_rates *rates);
+void nh_known_motions_words_free(nh_known_motions_words *words);
+
+/* Leave out words that are linear combinations of cheaper ones (partial fractions, sines and cosines in denominators),
+ * by values at random points; returns products of residues.  The equations stand at another point afterwards.  Roots
+ * that are related may have other signs at other points: their words stay. */
+double nh_known_motions_words_reduce(nh_known_motions_words *words);
+
+/* The coordinates that a word depends on, and the word with parameters as symbols. */
+uint32_t nh_known_motions_word_coordinates(const nh_known_motions_words *words, size_t word);
+nh_ex nh_known_motions_word(const nh_known_motions_words *words, size_t word);
+
+/* Series of all words, one after another.  False: another point is needed.  `work` counts products of residues. */
+bool nh_known_motions_words_evaluate(const nh_known_motions_words *words, const nh_jet_ring *ring,
+                                     const nh_residue *coordinate, nh_residue *out, double *work);
+
+#endif

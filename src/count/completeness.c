@@ -1,0 +1,144 @@
+/* The count compared with the known integrals, for the given and for generic parameter values, and as sentences. */
+#include "count/completeness.h"
+
+#include <string.h>
+
+/* The highest degree that is settled by the rows; what is missing at the next. */
+static void read_rows(nh_completeness *c, bool all)
+{
+    c->degree = c->missing_at = c->missing = c->incomplete_at = 0;
+    c->linear = c->count.rows > 0;
+    c->all = all;
+    while (c->degree < c->count.rows && (all || c->count.row[c->degree].complete || c->count.row[c->degree].functions))
+        c->linear &= c->count.row[c->degree++].complete;
+    for (size_t d = c->count.rows; d-- > 0;)
+        if (!c->count.row[d].complete) c->incomplete_at = d + 1;
+    if (c->degree == c->count.rows) return;
+    const nh_count_row *row = &c->count.row[c->degree];
+    c->settled = row->settled;
+    c->missing_at = row->degree;
+    c->missing = row->rank > row->known_rank ? row->rank - row->known_rank : 0;
+}
+
+/* For generic parameters the bound can only be lower: the same products have to meet it. */
+static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
+{
+    if (!model->system->parameters || !q->general || !c->degree) return false;
+    nh_count_question question = {.time = c->count.time,
+                                  .generic = true,
+                                  .degree = c->degree,
+                                  .work = q->work,
+                                  .memory = q->memory,
+                                  .known = q->known,
+                                  .independent = q->independent,
+                                  .current = q->current};
+    nh_completeness generic = {.count = nh_count_integrals(model, &question)};
+    read_rows(&generic, q->all);
+    return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
+}
+
+size_t nh_completeness_degree(const nh_model *model, bool time)
+{
+    enum { two = 2, few = 4, highest = 6, high = 4, low = 2 };
+    size_t coordinates = model->m + time;
+    return coordinates <= two ? highest : coordinates <= few ? high : low;
+}
+
+void nh_completeness_of(const nh_model *model, const nh_completeness_question *q,
+                        nh_completeness out[NH_COMPLETENESS_KINDS])
+{
+    for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) {
+        nh_completeness *c = &out[kind];
+        if (q->again &&
+            kind != (out[NH_COMPLETE_IN_COORDINATES].counted ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME))
+            continue;
+        size_t chosen = nh_completeness_degree(model, kind == NH_COMPLETE_IN_TIME);
+        nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME,
+                                      .degree = q->degree ? q->degree : chosen,
+                                      .work = q->work,
+                                      .memory = q->memory,
+                                      .known = q->known,
+                                      .independent = q->independent,
+                                      .current = q->current};
+        *c = (nh_completeness){
+            .counted = true, .asked = q->degree, .count = nh_count_integrals(model, &question)};
+        if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) {
+            *c = (nh_completeness){0};
+            continue;
+        }
+        read_rows(c, q->all);
+        c->generic = !q->again && holds_generically(model, q, c);
+    }
+}
+
+static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
+
+/* A degree that was asked for and not counted, because of the work. */
+static bool ended_by_work(const nh_completeness *c)
+{
+    return c->asked > c->count.rows && c->count.end && !strcmp(c->count.end, "work");
+}
+
+static const char more_work[] = "takes more work than the option `count_work` allows";
+
+static void coordinates_words(const nh_completeness *c, const char *coefficients, nh_text *out)
+{
+    const char *most = c->degree > 1 ? "at most " : "";
+    if (c->degree && c->count.row[c->degree - 1].bound == 1)
+        nh_text_addf(out,
+                     "Complete to degree %zu: no function polynomial in the velocities of degree %s%zu, with any "
+                     "functions of %s as coefficients, is conserved",
+                     c->degree, most, c->degree, coefficients);
+    else if (c->degree)
+        nh_text_addf(out,
+                     "Complete to degree %zu: every integral polynomial in the velocities of degree %s%zu, with any "
+                     "functions of %s%s as coefficients, is a %s those found",
+                     c->degree, most, c->degree, coefficients,
+                     c->count.leaf ? " (and of what the constraints keep constant)" : "",
+                     c->linear ? "polynomial in" : "function of");
+    if (c->degree && c->all && !c->linear) nh_text_add(out, ": there cannot be more independent ones.");
+    else if (c->degree)
+        nh_text_addf(out, " (%s %s).",
+                     c->linear
+                         ? "proved for"
+                         : "the number of all is proved, the rank of their differentials taken modulo a prime, for",
+                     c->generic ? "generic parameters and for these" : "these parameters");
+    if (ended_by_work(c)) nh_text_addf(out, " Degree %zu %s.", c->count.rows + 1, more_work);
+    if (!c->missing_at) return;
+    const nh_count_row *row = &c->count.row[c->missing_at - 1];
+    if (c->degree && !c->settled) {
+        nh_text_addf(out,
+                     " Degree %zu is not settled: series up to order %zu, as far as the work for a count goes, still "
+                     "allow %zu more independent integral%s.",
+                     c->missing_at, row->order, c->missing, plural(c->missing));
+        return;
+    }
+    nh_text_addf(out, "%s degree %zu", c->degree ? " At" : "Not complete: at", c->missing_at);
+    if (!c->degree) nh_text_addf(out, ", with any functions of %s as coefficients,", coefficients);
+    nh_text_addf(out, " there may be at most %zu more independent integral%s (order %zu%s).", c->missing,
+                 plural(c->missing), row->order, row->settled ? "" : ", not settled");
+}
+
+void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_t uncertain, nh_text *out)
+{
+    const nh_completeness *first = &c[c[0].counted ? 0 : 1], *time = &c[NH_COMPLETE_IN_TIME];
+    if (!first->counted) return;
+    if (first->count.obstacle) {
+        nh_text_addf(out, "More integrals were not counted: %s.", first->count.obstacle);
+        return;
+    }
+    coordinates_words(first, first == time ? "time and the coordinates" : "the coordinates", out);
+    if (first->missing_at && uncertain)
+        nh_text_addf(out, " The %zu current%s that %s certified, not proved, may be among them.", uncertain,
+                     plural(uncertain), uncertain == 1 ? "is" : "are");
+    if (first == time || !time->counted || time->count.obstacle) return;
+    if (time->degree)
+        nh_text_addf(out, " With time in the coefficients: complete to degree %zu", time->degree);
+    if (time->degree && ended_by_work(time))
+        nh_text_addf(out, "; degree %zu %s", time->count.rows + 1, more_work);
+    if (time->degree && !time->missing_at) nh_text_add(out, ".");
+    if (!time->missing_at) return;
+    nh_text_add(out, time->degree ? ";" : " With time in the coefficients:");
+    if (time->settled) nh_text_addf(out, " at degree %zu at most %zu more.", time->missing_at, time->missing);
+    else nh_text_addf(out, " degree %zu is not settled.", time->missing_at);
+}

@@ -1,0 +1,405 @@
+/* Solutions as long series, recognised in the span of words. */
+#include "count/construct_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/progress.h"
+#include "exact/residue_matrix.h"
+
+enum { spare = 24, spare_few = 8, beyond_degree = 4, most_points = 60 };
+
+/* ---- which combinations of solutions are recognised ---- */
+
+/* The combinations x of rows with x m = 0 (m: n x columns, destroyed), as rows of out. */
+static size_t left_kernel(nh_prime field, size_t n, size_t columns, const nh_residue *m, nh_residue *out)
+{
+    size_t width = columns + n, *pivot = nh_alloc_array(n + 1, sizeof *pivot), count = 0;
+    nh_residue *both = nh_alloc_array(n * width + 1, sizeof *both);
+    for (size_t i = 0; i < n; i++) {
+        memcpy(both + i * width, m + i * columns, columns * sizeof *both);
+        both[i * width + columns + i] = 1;
+    }
+    size_t rank = nh_residue_matrix_echelon(field, n, width, width, both, pivot);
+    for (size_t i = 0; i < rank; i++)
+        if (pivot[i] >= columns) memcpy(out + count++ * n, both + i * width + columns, n * sizeof *out);
+    nh_free(both);
+    nh_free(pivot);
+    return count;
+}
+
+/* Combinations (rows) whose coefficients are combinations of words: no remainders, at random combinations of them. */
+static size_t recognised(nh_construct_attempt *a, size_t part, nh_residue *out)
+{
+    const nh_graded_count *g = a->solution[part];
+    size_t N = g->total[g->order], tests = N + spare_few, opens = a->lines.count - a->kept;
+    uint64_t random = 8128;
+    nh_residue *sum = nh_alloc_array(N * tests + 1, sizeof *sum),
+               *product = nh_alloc_array(N * tests + 1, sizeof *product);
+    nh_residue *mix = nh_alloc_array(opens * tests + 1, sizeof *mix),
+               *left = nh_alloc_array(N * opens + 1, sizeof *left);
+    for (size_t alpha = 0; alpha < g->alphas; alpha++) {
+        for (size_t s = 0; s < N; s++)
+            for (size_t j = 0; j < opens; j++)
+                left[s * opens + j] = a->value[(a->kept + j) * a->width + a->first[part] + alpha * N + s];
+        for (size_t i = 0; i < opens * tests; i++) mix[i] = nh_residue_random(a->field, &random);
+        nh_residue_matrix_multiply(a->field, N, opens, tests, left, mix, product);
+        nh_residue_add_multiple(a->field, N * tests, sum, product, 1);
+    }
+    size_t nullity = left_kernel(a->field, N, tests, sum, out);
+    nh_free(left);
+    nh_free(mix);
+    nh_free(product);
+    nh_free(sum);
+    return nullity;
+}
+
+/* ---- simple representatives ---- */
+
+/* Terms (alpha, word), the most complex first: of the highest degree in the velocities; then with the dearest word, or
+ * monomial by monomial; monomials from either end. */
+static size_t *order_terms(const nh_construct_attempt *a, const nh_graded_count *g, size_t n, size_t way)
+{
+    size_t terms = g->alphas * a->kept, *order = nh_alloc_array(terms + 1, sizeof *order), count = 0, highest = 0,
+           *degree = nh_alloc_array(g->alphas + 1, sizeof *degree);
+    for (size_t i = 0; i < g->alphas; i++) {
+        for (size_t l = 0; l < n; l++) degree[i] += g->alpha[i * n + l];
+        if (degree[i] > highest) highest = degree[i];
+    }
+    for (size_t d = highest + 1; d-- > 0;)
+        for (size_t j = 0; j < terms; j++) {
+            size_t word = way & 2 ? j % a->kept : j / g->alphas, alpha = way & 2 ? j / a->kept : j % g->alphas;
+            if (way & 1) alpha = g->alphas - 1 - alpha;
+            if (degree[alpha] == d) order[count++] = alpha * a->kept + (a->kept - 1 - word);
+        }
+    nh_free(degree);
+    return order;
+}
+
+/* The reduced echelon form of the recognised combinations: their terms in this order, then the combination itself;
+   `coefficient`: of the words, for each alpha rows x kept. */
+static nh_residue *simplest(const nh_construct_attempt *a, const nh_graded_count *g, size_t rows,
+                            const nh_residue *combination, const nh_residue *coefficient, const size_t *order)
+{
+    size_t N = g->total[g->order], terms = g->alphas * a->kept, width = terms + N,
+           *pivot = nh_alloc_array(rows + 1, sizeof *pivot);
+    nh_residue *out = nh_alloc_array(rows * width + 1, sizeof *out);
+    for (size_t i = 0; i < rows; i++) {
+        for (size_t j = 0; j < terms; j++)
+            out[i * width + j] = coefficient[(order[j] / a->kept * rows + i) * a->kept + order[j] % a->kept];
+        memcpy(out + i * width + terms, combination + i * N, N * sizeof *out);
+    }
+    nh_residue_matrix_echelon(a->field, rows, width, width, out, pivot);
+    nh_free(pivot);
+    return out;
+}
+
+/* Of the recognised combinations, in terms of words. */
+static nh_residue *in_words(const nh_construct_attempt *a, size_t part, size_t rows, const nh_residue *combination)
+{
+    const nh_graded_count *g = a->solution[part];
+    size_t N = g->total[g->order], n = a->kept;
+    nh_residue *out = nh_alloc_array(g->alphas * rows * n + 1, sizeof *out),
+               *own = nh_alloc_array(N * n + 1, sizeof *own);
+    for (size_t alpha = 0; alpha < g->alphas; alpha++) {
+        for (size_t s = 0; s < N; s++)
+            for (size_t k = 0; k < n; k++) own[s * n + k] = a->value[k * a->width + a->first[part] + alpha * N + s];
+        nh_residue_matrix_multiply(a->field, rows, N, n, combination, own, out + alpha * rows * n);
+    }
+    nh_free(own);
+    return out;
+}
+
+/* ---- what is new ---- */
+
+/* The rows of one echelon form that are new. */
+typedef struct {
+    nh_residue *row;      /* rows x (terms + N) */
+    size_t width, *order, *fresh, count, length; /* of the terms; which rows; how many; their terms together */
+} representatives;
+
+/* The row's entry as a fraction; false: there is none. */
+static bool read_coefficient(const nh_construct_attempt *a, nh_residue value, nh_num *out)
+{
+    int64_t top, bottom;
+    bool good = nh_residue_fraction(a->field, value, &top, &bottom);
+    if (good) *out = nh_num_ratio(top, bottom);
+    return good;
+}
+
+static void add_constructed(nh_construction *out, const nh_construct_attempt *a, const nh_graded_count *g,
+                            const representatives *r, size_t i)
+{
+    const nh_jet_equations *x = a->counter->equations;
+    nh_constructed *c = &out->item[out->count++];
+    size_t terms = g->alphas * a->kept;
+    *c = (nh_constructed){.term = nh_arena_alloc(out->arena, terms * sizeof *c->term),
+                          .coefficient = nh_arena_alloc(out->arena, terms * sizeof *c->coefficient)};
+    for (size_t j = 0; j < terms; j++) {
+        if (!r->row[i * r->width + j]) continue;
+        nh_ex e = nh_known_motions_word(a->words, a->chosen[r->order[j] % a->kept]);
+        e = nh_mul(x->dag, e, nh_velocity_frame_monomial(a->frame, x, g->alpha + r->order[j] / a->kept * x->n));
+        if (c->coefficient && !read_coefficient(a, r->row[i * r->width + j], &c->coefficient[c->terms]))
+            c->coefficient = NULL;
+        c->term[c->terms++] = e;
+    }
+}
+
+/* What is known, as vectors: differentials at one point, or values of products under random functionals; and the same
+   of the solutions. */
+typedef struct {
+    nh_count_space known;
+    const nh_residue *solution; /* of the parity at hand: N x known.width */
+} news;
+
+static bool known_differentials(news *x, nh_construct_attempt *a)
+{
+    nh_differentials all, known;
+    nh_count_differentials(a->counter, &all, &known);
+    bool good = nh_count_known_differ(a->counter, a->series->ring, a->series->coordinate, &known);
+    x->known.width = known.kept + known.n;
+    for (size_t i = 0; i < known.rows && good; i++)
+        nh_count_space_add(&x->known, a->field, known.row + i * x->known.width);
+    nh_count_differentials_clear(&all, &known);
+    return good;
+}
+
+static nh_residue *solution_differentials(const news *x, const nh_construct_attempt *a, const nh_graded_count *g)
+{
+    nh_differentials all, solution;
+    nh_count_differentials(a->counter, &all, &solution);
+    nh_count_solutions_differ(g, a->field, &solution);
+    nh_residue *out = nh_alloc_array(solution.rows * x->known.width + 1, sizeof *out);
+    memcpy(out, solution.row, solution.rows * x->known.width * sizeof *out);
+    nh_count_differentials_clear(&all, &solution);
+    return out;
+}
+
+/* Products are compared with solutions to an order that determines them. */
+static nh_count_series *short_series(nh_construct_attempt *a, size_t degree)
+{
+    bool regular;
+    size_t order = (degree + beyond_degree / 2) * a->counter->frame->step;
+    return nh_count_series_create(a->counter, order < a->series->ring->order ? order : a->series->ring->order, INFINITY,
+                                  &regular);
+}
+
+static bool known_products(news *x, nh_construct_attempt *a, const nh_count_series *s, size_t degree,
+                           nh_count_functionals *f)
+{
+    nh_count_monomials p = nh_count_monomials_list(a->counter, degree);
+    *f = nh_count_functionals_create(s->ring, a->counter->equations->n, p.count + spare, 271828 + degree);
+    x->known.width = f->count;
+    nh_residue *value = nh_alloc_array(p.count * f->count + 1, sizeof *value);
+    bool good = p.count && nh_count_product_values(a->counter, s->ring, s->coordinate, &p, f, value);
+    for (size_t i = 0; i < p.count && good; i++) nh_count_space_add(&x->known, a->field, value + i * f->count);
+    nh_free(value);
+    nh_count_monomials_clear(&p);
+    return good;
+}
+
+/* Does a combination of solutions enlarge what is known? */
+static bool is_new(const nh_construct_attempt *a, news *x, const nh_residue *combination, size_t N)
+{
+    nh_residue *sum = nh_alloc_array(x->known.width + 1, sizeof *sum);
+    for (size_t s = 0; s < N; s++)
+        nh_residue_add_multiple(a->field, x->known.width, sum, x->solution + s * x->known.width, combination[s]);
+    bool grows = nh_count_space_add(&x->known, a->field, sum);
+    nh_free(sum);
+    return grows;
+}
+
+static representatives represent(const nh_construct_attempt *a, const nh_graded_count *g, size_t rows,
+                                 const nh_residue *combination, const nh_residue *coefficient, size_t way, news *x)
+{
+    size_t N = g->total[g->order], terms = g->alphas * a->kept;
+    representatives r = {.order = order_terms(a, g, a->counter->equations->n, way), .width = terms + N};
+    r.row = simplest(a, g, rows, combination, coefficient, r.order);
+    r.fresh = nh_alloc_array(rows + 1, sizeof *r.fresh);
+    for (size_t i = rows; i-- > 0;) {
+        if (!is_new(a, x, r.row + i * r.width + terms, N)) continue;
+        r.fresh[r.count++] = i;
+        for (size_t j = 0; j < terms; j++) r.length += r.row[i * r.width + j] != 0;
+    }
+    return r;
+}
+
+static void representatives_clear(representatives *r)
+{
+    nh_free(r->row);
+    nh_free(r->order);
+    nh_free(r->fresh);
+}
+
+/* How many of the combinations are new; they are not kept. */
+static size_t count_new(const nh_construct_attempt *a, news *x, size_t rows, const nh_residue *combination, size_t N)
+{
+    size_t before = x->known.rows, count = 0;
+    for (size_t i = 0; i < rows; i++) count += is_new(a, x, combination + i * N, N);
+    x->known.rows = before;
+    return count;
+}
+
+/* Of one parity: the shortest representatives of several echelon forms. */
+static void recognise(nh_construction *out, nh_construct_attempt *a, size_t part, news *x)
+{
+    enum { ways = 4 };
+    const nh_graded_count *g = a->solution[part];
+    size_t N = g->total[g->order], before = x->known.rows;
+    nh_residue *combination = nh_alloc_array(N * N + 1, sizeof *combination);
+    size_t found = recognised(a, part, combination);
+    out->recognised += found;
+    if (count_new(a, x, found, combination, N)) {
+        nh_residue *coefficient = in_words(a, part, found, combination);
+        representatives best = represent(a, g, found, combination, coefficient, 0, x);
+        for (size_t way = 1; way < ways; way++) {
+            x->known.rows = before;
+            representatives r = represent(a, g, found, combination, coefficient, way, x),
+                            worse = r.length < best.length ? best : r;
+            if (r.length < best.length) best = r;
+            representatives_clear(&worse);
+        }
+        out->item = nh_realloc_array(out->item, out->count + best.count + 1, sizeof *out->item);
+        for (size_t i = 0; i < best.count; i++) add_constructed(out, a, g, &best, best.fresh[i]);
+        representatives_clear(&best);
+        nh_free(coefficient);
+    }
+    nh_free(combination);
+}
+
+/* ---- a point ---- */
+
+typedef enum { DONE, UNLUCKY, TOO_MUCH } outcome;
+
+/* The solutions of both parities. */
+static outcome solve(nh_construction *out, nh_construct_attempt *a, size_t degree)
+{
+    nh_counter *c = a->counter;
+    a->parts = a->series->split ? 2 : 1;
+    for (size_t part = 0; part < a->parts; part++) {
+        nh_graded_problem p = nh_count_problem(c, a->series, degree,
+                                               a->parts == 1 ? NH_ALL_DEGREES
+                                               : part        ? NH_ODD_DEGREES
+                                                             : NH_EVEN_DEGREES);
+        p.keep = true;
+        nh_graded_count *g = a->solution[part] = nh_graded_solve(&p);
+        c->work += g->work;
+        if (!g->solved || c->work >= c->q->work || nh_late()) return TOO_MUCH;
+        out->dimension += g->total[g->order];
+    }
+    return DONE;
+}
+
+/* The solutions as vectors, by their coefficients of w^alpha; afterwards these are in the frame's velocities. */
+static bool solution_news(nh_construct_attempt *a, news *x, const nh_count_series *s, const nh_count_functionals *f,
+                          nh_residue **solution)
+{
+    bool good = true;
+    for (size_t part = 0; part < a->parts && good; part++) {
+        nh_graded_count *g = a->solution[part];
+        size_t N = g->total[g->order];
+        if (N && s) {
+            solution[part] = nh_alloc_array(N * x->known.width + 1, sizeof *solution[part]);
+            nh_count_solution_values(g, a->series->ring, f, solution[part]);
+        } else if (N) {
+            solution[part] = solution_differentials(x, a, g);
+        }
+        good = nh_velocity_frame_apply(a->frame, a->counter->equations, a->series->ring, a->series->coordinate, g,
+                                       &a->counter->work);
+    }
+    return good;
+}
+
+/* One parity after another: what is new is added to what is known. */
+static outcome recognise_all(nh_construction *out, nh_construct_attempt *a, const nh_construct_question *question)
+{
+    nh_counter *c = a->counter;
+    nh_count_series *s = question->further ? short_series(a, question->degree) : NULL;
+    nh_count_functionals f = {0};
+    news x = {0};
+    nh_residue *solution[2] = {NULL, NULL};
+    bool good = s ? known_products(&x, a, s, question->degree, &f) : !question->further && known_differentials(&x, a),
+         scarce = true;
+    good = good && solution_news(a, &x, s, &f, solution) && nh_construct_values(a);
+    if (good) {
+        nh_construct_words_choose(a);
+        scarce = nh_construct_words_scarce(a, out->order, a->kept, a->chosen) && c->work < c->q->work && !nh_late();
+    }
+    for (size_t part = 0; part < a->parts && good && scarce; part++) {
+        x.solution = solution[part];
+        if (x.solution) recognise(out, a, part, &x);
+    }
+    for (size_t part = 0; part < a->parts; part++) nh_free(solution[part]);
+    nh_free(x.known.row);
+    nh_count_functionals_clear(&f);
+    nh_count_series_free(s);
+    return !good ? UNLUCKY : scarce ? DONE : TOO_MUCH;
+}
+
+static outcome attempt_at(nh_construction *out, nh_construct_attempt *a, const nh_construct_question *question)
+{
+    nh_counter *c = a->counter;
+    bool regular;
+    out->order = nh_construct_order(a, question->degree);
+    if (!out->order) return TOO_MUCH;
+    a->series = nh_count_series_create(c, out->order, c->q->work, &regular);
+    if (!a->series) return regular ? TOO_MUCH : UNLUCKY;
+    a->field = a->series->ring->field;
+    out->dimension = 0;
+    outcome solved = solve(out, a, question->degree);
+    if (solved != DONE) return solved;
+    a->lines = nh_count_lines_create(a->series->ring, a->words->words + out->dimension + spare);
+    return recognise_all(out, a, question);
+}
+
+static void clear(nh_construct_attempt *a)
+{
+    for (size_t part = 0; part < a->parts; part++) nh_graded_count_clear(a->solution[part]);
+    nh_count_lines_clear(&a->lines);
+    nh_count_series_free(a->series);
+    nh_free(a->value);
+    nh_free(a->chosen);
+}
+
+nh_construction *nh_construct(const nh_model *model, const nh_construct_question *question)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_construction *out = nh_arena_alloc(arena, sizeof *out);
+    nh_count_question q = {.time = question->time,
+                           .shape = question->shape,
+                           .degree = question->degree,
+                           .work = question->work,
+                           .known = question->known,
+                           .independent = question->independent,
+                           .current = question->current};
+    nh_counter c;
+    *out = (nh_construction){.arena = arena};
+    nh_counter_open(&c, model, &q);
+    nh_known_motions_words *words = NULL;
+    if (!c.equations->obstacle)
+        words = nh_known_motions_words_create(c.equations, question->price, question->most_words, question->secular,
+                                              question->rates);
+    if (words && !c.equations->obstacle) c.work += nh_known_motions_words_reduce(words);
+    nh_velocity_frame frame = nh_velocity_frame_of(c.equations);
+    outcome o = words ? UNLUCKY : TOO_MUCH;
+    for (size_t point = 0; point < most_points && o == UNLUCKY && !c.equations->obstacle && !nh_late(); point++) {
+        nh_construct_attempt a = {.counter = &c, .words = words, .frame = &frame};
+        if (!nh_count_regular_point(&c, point)) continue;
+        o = attempt_at(out, &a, question);
+        clear(&a);
+    }
+    out->words = words ? words->words : 0;
+    out->limited = o != DONE;
+    out->work = c.work;
+    nh_velocity_frame_clear(&frame);
+    nh_known_motions_words_free(words);
+    nh_counter_close(&c);
+    return out;
+}
+
+void nh_construction_free(nh_construction *c)
+{
+    if (!c) return;
+    nh_free(c->item);
+    nh_arena_free(c->arena);
+}

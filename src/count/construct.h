@@ -1,0 +1,52 @@
+/* construct: closed forms of integrals that the count predicts.
+ *
+ * The power series of the solutions of Gamma(Phi) = 0 (graded_solver.h) are continued to an order at which they have
+ * more coefficients than there are words (closed_words.h).  Which combinations of the solutions have coefficients
+ * c_alpha in the span of the words?  The remainder of every c_alpha modulo one echelon form of the words is linear in
+ * the combination: its null space is what is recognised.  In the reduced echelon form with the most complex terms first
+ * each row is a simple representative; rows whose differentials do not depend on those of the known integrals are new.
+ *
+ * All this holds modulo one prime and at one point.  It says of which terms an integral consists, and is no proof:
+ * whoever asks has to solve for the coefficients of these terms and to prove what comes out. */
+#ifndef NH_CONSTRUCT_H
+#define NH_CONSTRUCT_H
+
+#include "count/count.h"
+
+typedef struct {
+    bool time;              /* coefficients may depend on t */
+    bool shape;             /* they do not depend on cyclic coordinates, which leaves fewer of them and longer series */
+    bool further;        /* what is no polynomial in the known ones is new, even if it is another function of them */
+    const struct nh_construct_rates *rates; /* what words may contain beside the system's functions, or NULL */
+    bool secular;           /* words may contain coordinates that are seen only inside of functions */
+    size_t degree;          /* in the velocities, at most */
+    double price;           /* of the dearest words */
+    size_t most_words;
+    double work;            /* products of residues */
+    size_t known;
+    const nh_ex *current;
+    size_t independent;      /* of these */
+} nh_construct_question;
+
+typedef struct {
+    size_t terms;
+    nh_ex *term;            /* a word times a monomial in the velocities, without coefficient; the most complex first */
+    nh_num *coefficient;    /* for these parameters, if all are short fractions modulo the prime; otherwise NULL */
+} nh_constructed;
+
+typedef struct {
+    size_t words, order, dimension, recognised; /* N at this order; how much of it is recognised */
+    size_t count;
+    nh_constructed *item;   /* simplest first */
+    bool limited;           /* there are too many words, or the work is not enough */
+    double work;
+    nh_arena *arena;
+} nh_construction;
+
+/* What the count allows beyond the known ones, as lists of terms: proposals, whose coefficients and proofs are still to
+ * be found.  Never NULL; empty where the count cannot be made.  The caller frees it.  [docs/method.md, sec. 10,
+ * "Construction"] */
+nh_construction *nh_construct(const nh_model *model, const nh_construct_question *question);
+void nh_construction_free(nh_construction *construction);
+
+#endif

@@ -1,0 +1,335 @@
+/* The count: points modulo primes, weights, series of growing order until the number of integrals is met or does not
+   change. */
+#include "count/count_internal.h"
+
+#include <string.h>
+
+#include "base/progress.h"
+#include "graph/diff.h"
+
+enum { most_parameters = 3000, largest_series = 20000, steps_beyond = 1 };
+static const double least_share = 0.5; /* of the work, for the number of integrals where their rank is known already */
+static const double more_for_open = 5; /* times the work, for a degree whose bound still falls */
+
+/* ---- the number ---- */
+
+/* Every term of Gamma changes the parity of |alpha|: no X_0, and no rates linear in the velocities. */
+static bool has_parity(const nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *rate)
+{
+    size_t n = x->n, count = nh_jet_equations_monomials(n);
+    if (x->fields > n) return false;
+    for (size_t l = 0; l < n; l++)
+        for (size_t i = 0; i < n; i++)
+            if (!nh_jet_is_zero(ring, rate + (l * count + 1 + i) * ring->size)) return false;
+    return true;
+}
+
+/* The ring of an order, and in it the coordinates, the fields and the rates.  What alone takes more than `most` work is
+   not begun: 40 coordinates would take gigabytes. */
+nh_count_series *nh_count_series_create(nh_counter *c, size_t order, double most, bool *regular)
+{
+    nh_jet_equations *x = c->equations;
+    nh_adapted_frame *f = c->frame;
+    size_t size = nh_jet_ring_size(f->kept, f->weight, order, largest_series);
+    *regular = true;
+    if (size == SIZE_MAX) return NULL;
+    nh_count_series *s = nh_alloc(sizeof *s);
+    *s = (nh_count_series){.ring = nh_jet_ring_create(x->point->field, f->kept, f->weight, order)};
+    c->work += (double)s->ring->pairs[size] * x->products;
+    if (c->work >= most) {
+        nh_count_series_free(s);
+        return NULL;
+    }
+    s->coordinate = nh_alloc_array(f->all * size + 1, sizeof *s->coordinate);
+    s->field = nh_alloc_array(x->fields * f->kept * size + 1, sizeof *s->field);
+    s->rate = nh_alloc_array(x->n * nh_jet_equations_monomials(x->n) * size + 1, sizeof *s->rate);
+    *regular = nh_adapted_frame_series(f, s->ring, s->coordinate, s->field) &&
+               nh_jet_equations_accelerations(x, s->ring, s->coordinate, s->rate);
+    s->split = *regular && has_parity(x, s->ring, s->rate);
+    if (*regular) return s;
+    nh_count_series_free(s);
+    return NULL;
+}
+
+void nh_count_series_free(nh_count_series *s)
+{
+    if (!s) return;
+    nh_jet_ring_free(s->ring);
+    nh_free(s->rate);
+    nh_free(s->field);
+    nh_free(s->coordinate);
+    nh_free(s);
+}
+
+nh_graded_problem nh_count_problem(const nh_counter *c, const nh_count_series *s, size_t degree, nh_parity parity)
+{
+    return (nh_graded_problem){.ring = s->ring,
+                               .n = c->equations->n,
+                               .fields = c->equations->fields,
+                               .field = s->field,
+                               .rate = s->rate,
+                               .degree = degree,
+                               .parity = parity,
+                               .most_parameters = most_parameters,
+                               .most_work = c->most - c->work};
+}
+
+/* N for each order, the sum over both parities where they separate; injective_at: the larger.  False: beyond the
+   limits. */
+static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, size_t *total, size_t *injective_at,
+                   nh_differentials *d)
+{
+    size_t order = s->ring->order;
+    bool good = true;
+    memset(total, 0, (order + 1) * sizeof *total);
+    *injective_at = 0;
+    for (int part = 0; part < (s->split ? 2 : 1) && good; part++) {
+        nh_graded_problem p = nh_count_problem(c, s, degree,
+                                               !s->split ? NH_ALL_DEGREES
+                                               : part    ? NH_ODD_DEGREES
+                                                         : NH_EVEN_DEGREES);
+        size_t from;
+        good = nh_count_solve(c, &p, total, &from, d);
+        if (*injective_at < from) *injective_at = from;
+    }
+    return good;
+}
+
+/* Both at the same random velocities. */
+void nh_count_differentials(const nh_counter *c, nh_differentials *all, nh_differentials *known)
+{
+    size_t n = c->equations->n;
+    uint64_t random = 31337;
+    nh_residue *w = nh_alloc_array(n + 1, sizeof *w);
+    for (size_t i = 0; i < n; i++) w[i] = nh_residue_random(c->equations->point->field, &random);
+    *all = *known = (nh_differentials){.n = n, .kept = c->frame->kept, .w = w};
+}
+
+void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known)
+{
+    nh_free(all->w);
+    nh_free(all->row);
+    nh_free(known->row);
+}
+
+typedef enum { COUNTED, UNLUCKY, TOO_MUCH } outcome;
+
+/* Residues stand for any solutions of the equations of named functions.  Where they show more independent functions
+ * than there are, the functions meant are related in ways that other solutions are not. */
+static bool shows_too_many(const nh_counter *c, const nh_count_row *row)
+{
+    bool named = false;
+    for (size_t k = 0; k < c->known; k++) named |= c->named[k];
+    return named && row->known_rank > c->q->independent;
+}
+
+static void read_totals(const nh_counter *c, const size_t *total, size_t from, nh_count_row *out)
+{
+    size_t order = out->order, same = order;
+    out->bound = total[order];
+    out->bounded = from <= order;
+    out->functions = out->bounded && out->rank == out->known_rank;
+    out->complete = out->bounded && out->bound == out->known;
+    while (same > 0 && total[same - 1] == total[order]) same--;
+    if (out->bounded && same < from) same = from;
+    out->reached = same;
+    out->settled = out->bounded && order - same >= c->frame->step + steps_beyond;
+}
+
+/* One degree at one order. */
+static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row *out)
+{
+    bool regular;
+    nh_count_series *s = nh_count_series_create(c, order, c->most, &regular);
+    if (!s) return regular ? TOO_MUCH : UNLUCKY;
+    size_t *total = nh_alloc_array(order + 1, sizeof *total), from;
+    nh_differentials all, known;
+    nh_count_differentials(c, &all, &known);
+    outcome result = totals(c, s, degree, total, &from, &all) ? COUNTED : TOO_MUCH;
+    bool products =
+        c->q->alone || result != COUNTED || nh_count_products(c, s->ring, s->coordinate, degree, total[order], out);
+    if (result == COUNTED && !(products && nh_count_known_differ(c, s->ring, s->coordinate, &known) &&
+                               nh_count_known_differ(c, s->ring, s->coordinate, &all)))
+        result = UNLUCKY;
+    out->rank = nh_count_rank(&all, s->ring->field);
+    out->known_rank = nh_count_rank(&known, s->ring->field);
+    out->degree = degree;
+    out->order = order;
+    /* another point, without them */
+    if (result == COUNTED && shows_too_many(c, out)) c->unnamed = true, result = UNLUCKY;
+    read_totals(c, total, from, out);
+    nh_count_differentials_clear(&all, &known);
+    nh_free(total);
+    nh_count_series_free(s);
+    return result;
+}
+
+/* The order to begin with.  Series of lower order bound nothing where brackets of fields have weights; the order at
+   which a degree reaches its number was found to grow by step + 1 with the degree there. */
+static size_t first_order(const nh_counter *c, size_t degree, const nh_count_row *before)
+{
+    enum { first_beyond = 2 };
+    size_t step = c->frame->step, least = degree * step + first_beyond,
+           expected = before ? before->reached + step + (step > 1) : 0;
+    return least > expected ? least : expected;
+}
+
+/* Orders grow until all are known, or the number does not change. `before`: the row of the degree before, or NULL. */
+static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *before, nh_count_row *out)
+{
+    size_t step = c->frame->step, order = first_order(c, degree, before);
+    nh_count_row row = {0};
+    bool any = false;
+    c->most = c->q->work;
+    while (c->work < c->most && !nh_late()) {
+        outcome o = count_at(c, degree, order, &row);
+        if (o == UNLUCKY) return o;
+        if (o == TOO_MUCH) break;
+        *out = row;
+        any = row.bounded;
+        if (row.complete || row.settled || (row.functions && c->q->alone) ||
+            (row.functions && c->work > least_share * c->q->work))
+            break;
+        if (row.bounded && !row.functions && c->q->known) c->most = more_for_open * c->q->work;
+        order = (row.bounded ? row.reached : order) + step + steps_beyond;
+    }
+    return any ? COUNTED : TOO_MUCH;
+}
+
+/* ---- points ---- */
+
+bool nh_count_regular_point(nh_counter *c, size_t attempt)
+{
+    nh_jet_equations *x = c->equations;
+    nh_adapted_frame_free(c->frame);
+    c->frame = NULL;
+    nh_jet_equations_choose(x, nh_jet_point_prime(x->point, attempt % 16), 1 + attempt);
+    return nh_count_take_known(c) && (c->frame = nh_adapted_frame_create(x)) != NULL;
+}
+
+static void degrees(nh_counter *c, nh_count *out)
+{
+    size_t last = c->q->degree ? c->q->degree : NH_COUNT_HIGHEST_DEGREE, first = c->q->alone ? last : 1, attempt = 0;
+    while (attempt < NH_COUNT_POINTS && !c->equations->obstacle && !nh_count_regular_point(c, attempt)) attempt++;
+    if (!c->frame || c->equations->obstacle) {
+        out->obstacle = c->equations->obstacle ? c->equations->obstacle : "no regular point was found modulo a prime";
+        return;
+    }
+    while (first + out->rows <= last && !nh_late()) {
+        const nh_count_row *before = out->rows ? &out->row[out->rows - 1] : NULL;
+        outcome o = count_degree(c, first + out->rows, before, &out->row[out->rows]);
+        if (o == UNLUCKY && !c->equations->obstacle) {
+            do attempt++;
+            while (attempt < NH_COUNT_POINTS && !nh_count_regular_point(c, attempt));
+            if (attempt < NH_COUNT_POINTS) continue;
+        }
+        if (o != COUNTED) {
+            out->end = c->equations->obstacle ? c->equations->obstacle
+                       : o == UNLUCKY         ? "no regular point was found modulo a prime"
+                                              : "work";
+            break;
+        }
+        out->rows++;
+    }
+    if (out->rows == 0) out->obstacle = c->equations->obstacle ? c->equations->obstacle : "the series are too long";
+    out->step = c->frame ? c->frame->step : 0;
+    out->leaf = c->frame ? c->frame->all - c->frame->kept : 0;
+    out->prime = c->equations->point->field.p;
+}
+
+/* Is it a function of time, the coordinates, the velocities and the parameters alone? */
+static bool is_current(const nh_jet_equations *x, nh_ex e)
+{
+    enum { most = 256 };
+    nh_ex symbol[most];
+    size_t n = nh_symbols_in(x->dag, e, symbol, most);
+    bool good = n < most;
+    for (size_t i = 0; i < n && good; i++) {
+        good = symbol[i] == x->model->system->t;
+        for (size_t k = 0; k < x->coordinates && !good; k++) good = symbol[i] == x->coordinate[k];
+        for (size_t k = 0; k < x->n && !good; k++) good = symbol[i] == x->w[k];
+        for (size_t k = 0; k < x->model->system->parameters && !good; k++) good = symbol[i] == x->model->parameter[k];
+    }
+    return good;
+}
+
+static bool has_named(const nh_dag *dag, nh_ex e)
+{
+    enum { most = 256 };
+    nh_ex call[most];
+    size_t n = nh_functions_in(dag, e, call, most);
+    bool found = n == most;
+    for (size_t i = 0; i < n && !found; i++) found = nh_is_named_function(nh_function_of(dag, call[i]));
+    return found;
+}
+
+/* Those that can be followed; what one of them stumbles over is no obstacle for the equations. */
+static void register_known(nh_counter *c)
+{
+    nh_jet_equations *x = c->equations;
+    for (size_t k = 0; k < c->q->known; k++) {
+        nh_ex e = c->q->current[k];
+        size_t kernels = x->point->kernels;
+        bool named = has_named(x->dag, e), good = is_current(x, e) && (!named || c->q->independent);
+        if (named && good) c->rate[c->known] = nh_model_gamma(x->model, e);
+        x->point->solutions = true;
+        good = good && nh_jet_equations_take(x, false, &e) &&
+               (!named || nh_jet_equations_take(x, false, &c->rate[c->known])) &&
+               (x->point->kernels == kernels || !nh_jet_equations_related(x, nh_jet_point_prime(x->point, 0)));
+        nh_ex *slope = c->slope + c->known * x->n;
+        for (size_t i = 0; i < x->n && good; i++) {
+            slope[i] = nh_diff(x->dag, e, x->w[i]);
+            good = nh_jet_equations_take(x, false, &slope[i]);
+        }
+        if (good) {
+            c->index[c->known] = k;
+            c->named[c->known] = named;
+            c->current[c->known++] = e;
+        }
+        if (!good) x->obstacle = x->point->obstacle = NULL, x->point->kernels = kernels;
+    }
+}
+
+void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_question *question)
+{
+    *c = (nh_counter){.q = question,
+                      .most = question->work,
+                      .equations = nh_jet_equations_create(model, question->time, question->generic)};
+    if (question->shape && !c->equations->obstacle) nh_jet_equations_drop_cyclic(c->equations);
+    c->current = nh_alloc_array(question->known + 1, sizeof *c->current);
+    c->degree = nh_alloc_array(question->known + 1, sizeof *c->degree);
+    c->index = nh_alloc_array(question->known + 1, sizeof *c->index);
+    c->failed = nh_alloc_array(question->known + 1, sizeof *c->failed);
+    c->named = nh_alloc_array(question->known + 1, sizeof *c->named);
+    c->rate = nh_alloc_array(question->known + 1, sizeof *c->rate);
+    c->slope = nh_alloc_array(question->known * model->n + 1, sizeof *c->slope);
+    if (!c->equations->obstacle && nh_jet_equations_related(c->equations, nh_jet_point_prime(c->equations->point, 0)))
+        c->equations->obstacle = "functions that may be related to each other";
+    if (!c->equations->obstacle) register_known(c);
+}
+
+void nh_counter_close(nh_counter *c)
+{
+    nh_adapted_frame_free(c->frame);
+    nh_jet_equations_free(c->equations);
+    nh_free(c->slope);
+    nh_free(c->rate);
+    nh_free(c->named);
+    nh_free(c->failed);
+    nh_free(c->index);
+    nh_free(c->degree);
+    nh_free(c->current);
+}
+
+nh_count nh_count_integrals(const nh_model *model, const nh_count_question *question)
+{
+    nh_count out = {.generic = question->generic};
+    nh_counter c;
+    nh_counter_open(&c, model, question);
+    out.time = c.equations->time;
+    if (c.equations->obstacle) out.obstacle = c.equations->obstacle;
+    else degrees(&c, &out);
+    out.work = c.work;
+    nh_counter_close(&c);
+    return out;
+}

@@ -1,0 +1,51 @@
+/* For the files of the graded solver. */
+#ifndef NH_GRADED_SOLVER_INTERNAL_H
+#define NH_GRADED_SOLVER_INTERNAL_H
+
+#include "count/graded_solver.h"
+
+/* An entry of the symbol. */
+typedef struct {
+    size_t equation, unknown;
+    nh_residue value;
+} nh_graded_entry;
+
+typedef struct {
+    const nh_graded_problem *p;
+    const nh_jet_ring *r;
+    nh_prime f;
+    nh_arena *arena;
+    size_t alphas, betas, terms;
+    uint8_t *alpha, *beta;  /* exponents of w */
+    struct nh_graded_term *t;
+    size_t N, before, stride; /* parameters now, and before this weight; room for them in a row */
+    nh_residue *row;        /* alphas x size x stride: every coefficient in terms of the parameters */
+    nh_residue *condition;  /* conditions x stride: on the first `reached` parameters, not used yet */
+    size_t conditions, reached;
+    double work;
+    bool over;              /* a limit was met */
+    /* of the weight k that is being solved: */
+    /* exponents of weight k + 1: their number and the first; equations of weight k */
+    size_t k, unknowns_of, first, equations;
+    nh_residue *known;      /* equations x N */
+    nh_graded_entry *symbol;          /* by equation */
+    size_t *start;          /* equations + 1: entries of each */
+    size_t entries, capacity;
+    nh_residue *fresh;      /* conditions found at this weight */
+    size_t fresh_count;
+} nh_graded_system;
+
+/* The coefficient of z^exponent in c_alpha, in terms of the parameters. */
+static inline nh_residue *nh_graded_row(const nh_graded_system *s, size_t alpha, size_t exponent)
+{
+    return s->row + (alpha * s->r->size + exponent) * s->stride;
+}
+
+/* This coefficient is free. */
+void nh_graded_parameter(nh_graded_system *system, size_t alpha, size_t exponent);
+
+/* The equations of weight k, for the unknowns of weight k + 1: what cannot be met becomes a condition on the parameters
+   of before. */
+void nh_graded_solve_symbol(nh_graded_system *system);
+
+#endif

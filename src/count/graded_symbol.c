@@ -1,0 +1,300 @@
+/* The symbol of one weight: its components, each by sparse elimination with the shortest row and its rarest column
+   first. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/progress.h"
+#include "count/graded_solver_internal.h"
+
+enum { inverse_work = 40 }; /* an inverse modulo the prime takes as long as this many products */
+
+/* A condition on the parameters, unless it is empty. */
+static void add_condition(nh_graded_system *s, const nh_residue *known)
+{
+    for (size_t j = 0; j < s->before; j++)
+        if (known[j]) {
+            memcpy(s->fresh + s->fresh_count++ * s->before, known, s->before * sizeof *known);
+            return;
+        }
+}
+
+/* ---- one component of the symbol: sparse elimination, the shortest row and its rarest column first ---- */
+
+typedef struct {
+    size_t column;
+    nh_residue value;
+} cell;
+
+typedef struct {
+    size_t count, capacity, *item;
+} row_list;
+
+typedef struct {
+    size_t rows, columns, rank;
+    size_t *equation;       /* of each row */
+    size_t *unknown;        /* of each column */
+    cell **cells;
+    size_t *length, *count; /* of each row; rows that are left and have this column */
+    bool *done, *pivoted;   /* rows used as pivots; columns */
+    size_t *pivot_row, *pivot_column;
+    row_list *member;       /* of each column: the rows that have it or had it, some of them more than once */
+    row_list queue;         /* a heap of length x rows + row, with what the rows were before beside what they are */
+} component;
+
+/* ---- the shortest row that is left: a binary heap, from which nothing is taken but its least number ---- */
+
+static void append(row_list *l, size_t x)
+{
+    nh_grow(&l->item, &l->capacity, l->count + 1, sizeof *l->item);
+    l->item[l->count++] = x;
+}
+
+static void queue_row(component *c, size_t i)
+{
+    row_list *q = &c->queue;
+    size_t key = c->length[i] * c->rows + i, at = q->count;
+    if (!c->length[i]) return;
+    append(q, key);
+    for (; at > 0 && q->item[(at - 1) / 2] > key; at = (at - 1) / 2) q->item[at] = q->item[(at - 1) / 2];
+    q->item[at] = key;
+}
+
+static size_t least_of_queue(row_list *q)
+{
+    size_t least = q->item[0], key = q->item[--q->count], at = 0;
+    for (size_t next = 1; next < q->count; next = 2 * at + 1) {
+        if (next + 1 < q->count && q->item[next + 1] < q->item[next]) next++;
+        if (q->item[next] >= key) break;
+        q->item[at] = q->item[next];
+        at = next;
+    }
+    q->item[at] = key;
+    return least;
+}
+
+/* SIZE_MAX: none has entries. */
+static size_t shortest_row(component *c)
+{
+    while (c->queue.count) {
+        size_t key = least_of_queue(&c->queue), i = key % c->rows;
+        if (!c->done[i] && c->length[i] == key / c->rows) return i;
+    }
+    return SIZE_MAX;
+}
+
+/* ---- elimination ---- */
+
+/* to := to + factor * from, both sorted by column */
+static void combine(nh_graded_system *s, component *c, size_t to, size_t from, nh_residue factor)
+{
+    cell *a = c->cells[to], *b = c->cells[from],
+         *out = nh_alloc_array(c->length[to] + c->length[from] + 1, sizeof *out);
+    size_t x = 0, y = 0, n = 0, na = c->length[to], nb = c->length[from];
+    while (x < na || y < nb) {
+        if (y == nb || (x < na && a[x].column < b[y].column)) {
+            out[n++] = a[x++];
+        } else if (x == na || b[y].column < a[x].column) {
+            out[n++] = (cell){b[y].column, nh_residue_mul(s->f, factor, b[y].value)};
+            append(&c->member[b[y].column], to);
+            c->count[b[y++].column]++;
+        } else {
+            nh_residue v = nh_residue_add(s->f, a[x].value, nh_residue_mul(s->f, factor, b[y].value));
+            if (v) out[n++] = (cell){a[x].column, v};
+            else c->count[a[x].column]--;
+            x++, y++;
+        }
+    }
+    nh_free(a);
+    c->cells[to] = out;
+    c->length[to] = n;
+    queue_row(c, to);
+    nh_residue_add_multiple(s->f, s->before, s->known + c->equation[to] * s->before,
+                            s->known + c->equation[from] * s->before, factor);
+    s->work += (double)(s->before + 8 * n); /* an entry costs more than a product: its row is made anew */
+}
+
+static const cell *find_cell(const component *c, size_t i, size_t column)
+{
+    size_t low = 0, high = c->length[i];
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (c->cells[i][middle].column < column) low = middle + 1;
+        else high = middle;
+    }
+    return low < c->length[i] && c->cells[i][low].column == column ? &c->cells[i][low] : NULL;
+}
+
+/* Divide the row by its entry in the rarest column, and take it as a pivot. */
+static void take_pivot(nh_graded_system *s, component *c, size_t i)
+{
+    size_t at = 0;
+    for (size_t z = 1; z < c->length[i]; z++)
+        if (c->count[c->cells[i][z].column] < c->count[c->cells[i][at].column]) at = z;
+    size_t column = c->cells[i][at].column;
+    nh_residue inverse = nh_residue_inverse(s->f, c->cells[i][at].value),
+               *known = s->known + c->equation[i] * s->before;
+    for (size_t z = 0; z < c->length[i]; z++) {
+        c->cells[i][z].value = nh_residue_mul(s->f, c->cells[i][z].value, inverse);
+        c->count[c->cells[i][z].column]--;
+    }
+    for (size_t j = 0; j < s->before; j++) known[j] = nh_residue_mul(s->f, known[j], inverse);
+    s->work += (double)(c->member[column].count + inverse_work);
+    c->done[i] = c->pivoted[column] = true;
+    c->pivot_row[c->rank] = i;
+    c->pivot_column[c->rank++] = column;
+    for (size_t z = 0; z < c->member[column].count && c->count[column]; z++) {
+        size_t k = c->member[column].item[z];
+        const cell *x = c->done[k] ? NULL : find_cell(c, k, column);
+        if (x) combine(s, c, k, i, nh_residue_negative(s->f, x->value));
+    }
+}
+
+static void eliminate(nh_graded_system *s, component *c)
+{
+    for (size_t best; (best = shortest_row(c)) != SIZE_MAX && !nh_late();) take_pivot(s, c, best);
+}
+
+/* Columns without a pivot become parameters, the others follow, last pivot first. */
+static void back_substitute(nh_graded_system *s, component *c)
+{
+    for (size_t j = 0; j < c->columns && !s->over; j++)
+        if (!c->pivoted[j])
+            nh_graded_parameter(s, c->unknown[j] / s->unknowns_of, s->first + c->unknown[j] % s->unknowns_of);
+    for (size_t t = c->rank; t-- > 0 && !s->over;) {
+        size_t i = c->pivot_row[t], u = c->unknown[c->pivot_column[t]];
+        nh_residue *out = nh_graded_row(s, u / s->unknowns_of, s->first + u % s->unknowns_of);
+        const nh_residue *known = s->known + c->equation[i] * s->before;
+        for (size_t j = 0; j < s->before; j++) out[j] = nh_residue_negative(s->f, known[j]);
+        for (size_t z = 0; z < c->length[i]; z++) {
+            size_t other = c->unknown[c->cells[i][z].column];
+            if (other != u)
+                nh_residue_add_multiple(s->f, s->N, out,
+                                        nh_graded_row(s, other / s->unknowns_of, s->first + other % s->unknowns_of),
+                                        nh_residue_negative(s->f, c->cells[i][z].value));
+            s->work += (double)s->N;
+        }
+    }
+}
+
+/* ---- the symbol's components ---- */
+
+static size_t root_of(size_t *parent, size_t x)
+{
+    while (parent[x] != x) x = parent[x] = parent[parent[x]];
+    return x;
+}
+
+static int by_column(const void *a, const void *b)
+{
+    size_t x = ((const cell *)a)->column, y = ((const cell *)b)->column;
+    return (x > y) - (x < y);
+}
+
+/* Rows are filled with the entries of their equations, equal columns added. */
+static void fill(nh_graded_system *s, component *c, const size_t *place)
+{
+    for (size_t i = 0; i < c->rows; i++) {
+        size_t from = s->start[c->equation[i]], to = s->start[c->equation[i] + 1], n = 0;
+        cell *x = c->cells[i] = nh_alloc_array(to - from + 1, sizeof *x);
+        for (size_t z = from; z < to; z++) x[z - from] = (cell){place[s->symbol[z].unknown], s->symbol[z].value};
+        qsort(x, to - from, sizeof *x, by_column);
+        for (size_t z = 0; z < to - from; z++) {
+            if (n && x[n - 1].column == x[z].column) x[n - 1].value = nh_residue_add(s->f, x[n - 1].value, x[z].value);
+            else x[n++] = x[z];
+            if (x[n - 1].value == 0 && (z + 1 == to - from || x[z + 1].column != x[n - 1].column)) n--;
+        }
+        c->length[i] = n;
+        for (size_t z = 0; z < n; z++) {
+            c->count[x[z].column]++;
+            append(&c->member[x[z].column], i);
+        }
+        queue_row(c, i);
+    }
+}
+
+static void solve_component(nh_graded_system *s, component *c, const size_t *place)
+{
+    c->cells = nh_alloc_array(c->rows + 1, sizeof *c->cells);
+    c->length = nh_alloc_array(c->rows + 1, sizeof *c->length);
+    c->done = nh_alloc_array(c->rows + 1, sizeof *c->done);
+    c->count = nh_alloc_array(c->columns + 1, sizeof *c->count);
+    c->pivoted = nh_alloc_array(c->columns + 1, sizeof *c->pivoted);
+    c->member = nh_alloc_array(c->columns + 1, sizeof *c->member);
+    c->pivot_row = nh_alloc_array(c->columns + 1, sizeof *c->pivot_row);
+    c->pivot_column = nh_alloc_array(c->columns + 1, sizeof *c->pivot_column);
+    fill(s, c, place);
+    eliminate(s, c);
+    for (size_t i = 0; i < c->rows; i++)
+        if (!c->done[i]) add_condition(s, s->known + c->equation[i] * s->before);
+    back_substitute(s, c);
+    for (size_t i = 0; i < c->rows; i++) nh_free(c->cells[i]);
+    for (size_t j = 0; j < c->columns; j++) nh_free(c->member[j].item);
+    nh_free(c->queue.item);
+    nh_free(c->member);
+    nh_free(c->cells);
+    nh_free(c->length);
+    nh_free(c->done);
+    nh_free(c->count);
+    nh_free(c->pivoted);
+    nh_free(c->pivot_row);
+    nh_free(c->pivot_column);
+}
+
+/* Positions sorted by `key` in [0, keys): start[key] is the first. */
+static void group(size_t count, const size_t *key, size_t keys, size_t *start, size_t *out)
+{
+    memset(start, 0, (keys + 2) * sizeof *start);
+    for (size_t i = 0; i < count; i++) start[key[i] + 2]++;
+    for (size_t k = 0; k < keys; k++) start[k + 2] += start[k + 1];
+    for (size_t i = 0; i < count; i++) out[start[key[i] + 1]++] = i;
+}
+
+/* Components of unknowns that occur together, each solved for itself. */
+void nh_graded_solve_symbol(nh_graded_system *s)
+{
+    size_t unknowns = s->alphas * s->unknowns_of, components = 0, connected = 0;
+    size_t *parent = nh_alloc_array(unknowns + 1, sizeof *parent),
+           *number = nh_alloc_array(unknowns + 1, sizeof *number), *place = nh_alloc_array(unknowns + 1, sizeof *place);
+    size_t *list = nh_alloc_array(s->equations + 1, sizeof *list), *of = nh_alloc_array(s->equations + 1, sizeof *of),
+           *order = nh_alloc_array(s->equations + 1, sizeof *order);
+    s->fresh = nh_alloc_array(s->equations * s->before + 1, sizeof *s->fresh);
+    s->fresh_count = 0;
+    for (size_t i = 0; i < unknowns; i++) parent[i] = i;
+    for (size_t q = 0; q < s->equations; q++)
+        for (size_t z = s->start[q] + 1; z < s->start[q + 1]; z++)
+            parent[root_of(parent, s->symbol[z].unknown)] = root_of(parent, s->symbol[z - 1].unknown);
+    for (size_t i = 0; i < unknowns; i++)
+        if (root_of(parent, i) == i) number[i] = components++;
+    for (size_t i = 0; i < unknowns; i++) number[i] = number[root_of(parent, i)]; /* roots keep theirs */
+    for (size_t q = 0; q < s->equations; q++) {
+        if (s->start[q] == s->start[q + 1]) {
+            add_condition(s, s->known + q * s->before);
+        } else {
+            list[connected] = q;
+            of[connected++] = number[s->symbol[s->start[q]].unknown];
+        }
+    }
+    size_t *rows = nh_alloc_array(components + 3, sizeof *rows),
+           *columns = nh_alloc_array(components + 3, sizeof *columns),
+           *member = nh_alloc_array(unknowns + 1, sizeof *member);
+    group(connected, of, components, rows, order);
+    group(unknowns, number, components, columns, member);
+    for (size_t i = 0; i < connected; i++) order[i] = list[order[i]];
+    for (size_t k = 0; k < components && !s->over && !nh_late(); k++) {
+        component c = {.rows = rows[k + 1] - rows[k],
+                       .columns = columns[k + 1] - columns[k],
+                       .equation = order + rows[k],
+                       .unknown = member + columns[k]};
+        for (size_t j = 0; j < c.columns; j++) place[c.unknown[j]] = j;
+        solve_component(s, &c, place);
+    }
+    nh_free(member);
+    nh_free(columns);
+    nh_free(rows);
+    nh_free(order);
+    nh_free(of);
+    nh_free(list);
+    nh_free(place);
+    nh_free(number);
+    nh_free(parent);
+}

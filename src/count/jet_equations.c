@@ -1,0 +1,401 @@
+/* The equations of motion as power series: values at a few velocities give the coefficients of the polynomials in the
+   velocities. */
+#include "count/jet_equations.h"
+
+#include <flint/nmod_mat.h>
+#include <string.h>
+
+#include "exact/normal.h"
+#include "integrals/exact_points.h"
+
+enum { largest_form = 2000 };
+
+/* ---- expressions ---- */
+
+static nh_ex canonical(nh_jet_equations *x, nh_ex e)
+{
+    return nh_canonical(x->dag, x->generic ? e : nh_exact_values(x->model, e), largest_form);
+}
+
+/* Roots and functions of the velocities, and what is divided by them, are not polynomial in them. */
+static bool has_velocities_inside(const nh_jet_equations *x, size_t first_kernel, nh_ex e)
+{
+    enum { most = 1000 };
+    bool found = false;
+    nh_ex *product = nh_alloc_array(most, sizeof *product);
+    for (size_t i = 0; i < x->n && !found; i++) {
+        if (!nh_depends(x->dag, e, x->w[i])) continue;
+        for (size_t k = first_kernel; k < x->point->kernels && !found; k++)
+            found = nh_depends(x->dag, x->point->kernel[k].key, x->w[i]);
+        size_t n = nh_products_in(x->dag, e, product, most);
+        for (size_t k = 0; k < n && !found; k++)
+            for (size_t f = 0; f < nh_arity(x->dag, product[k]) && !found; f++)
+                found = nh_num_value(nh_number_of(x->dag, nh_exponent_of(x->dag, product[k], f))) < 0 &&
+                        nh_depends(x->dag, nh_child(x->dag, product[k], f), x->w[i]);
+    }
+    nh_free(product);
+    return found;
+}
+
+bool nh_jet_equations_take(nh_jet_equations *x, bool polynomial, nh_ex *e)
+{
+    size_t kernels = x->point->kernels;
+    *e = canonical(x, *e);
+    if (!nh_jet_point_register(x->point, 1, e)) x->obstacle = x->point->obstacle;
+    else if (polynomial && has_velocities_inside(x, kernels, *e))
+        x->obstacle = "functions that are not polynomial in the velocities";
+    return !x->obstacle;
+}
+
+static nh_ex *take(nh_jet_equations *x, size_t n, const nh_ex *e)
+{
+    nh_ex *own = nh_arena_alloc(x->arena, (n + 1) * sizeof *own);
+    for (size_t i = 0; i < n; i++) {
+        own[i] = e[i];
+        if (!x->obstacle) nh_jet_equations_take(x, true, &own[i]);
+    }
+    return own;
+}
+
+static bool depends_on_time(const nh_jet_equations *x)
+{
+    nh_ex t = x->model->system->t;
+    bool found = false;
+    for (size_t i = 0; i < x->m && !found; i++) found = nh_depends(x->dag, x->rho[i], t);
+    for (size_t i = 0; i < x->n * x->n && !found; i++) found = nh_depends(x->dag, x->M[i], t);
+    for (size_t i = 0; i < x->n && !found; i++) found = nh_depends(x->dag, x->A[i], t);
+    return found;
+}
+
+/* Is there a part of rho without velocities? */
+static bool affine(nh_jet_equations *x)
+{
+    nh_ex *zero = nh_alloc_array(x->n + 1, sizeof *zero);
+    bool found = false;
+    for (size_t i = 0; i < x->n; i++) zero[i] = nh_int(x->dag, 0);
+    for (size_t s = 0; s < x->m && !found; s++)
+        found = !nh_is_zero(x->dag, nh_substitute(x->dag, x->rho[s], x->n, x->w, zero));
+    nh_free(zero);
+    return found;
+}
+
+static double nodes(const nh_jet_equations *x, size_t n, const nh_ex *e)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) count += nh_node_count(x->dag, e[i]);
+    return (double)count;
+}
+
+/* Every node is about a product, at each choice of velocities; and the accelerations are solved for. */
+static double products(const nh_jet_equations *x)
+{
+    double n = (double)x->n, monomials = (double)nh_jet_equations_monomials(x->n);
+    return (n + 2) * nodes(x, x->m, x->rho) + (monomials + n + 1) * nodes(x, x->n, x->A) +
+           2 * nodes(x, x->n * x->n, x->M) + n * n * (n + monomials);
+}
+
+nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool generic)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_jet_equations *x = nh_arena_alloc(arena, sizeof *x);
+    *x = (nh_jet_equations){
+        .model = o, .dag = o->dag, .arena = arena, .generic = generic, .n = o->n, .m = o->m, .w = o->chart->w};
+    x->point = nh_jet_point_create(o->dag);
+    if (o->chart->implicit) x->obstacle = "velocities that are given implicitly";
+    x->rho = take(x, o->m, o->rho);
+    x->M = take(x, o->n * o->n, o->M);
+    x->A = take(x, o->n, o->A);
+    x->products = products(x);
+    x->time = time || depends_on_time(x);
+    x->coordinates = o->m + x->time;
+    x->coordinate = o->chart->symbol + !x->time; /* t, q */
+    x->fields = o->n + (x->time || (!x->obstacle && affine(x)));
+    x->at = nh_arena_alloc(arena, (x->coordinates + o->system->parameters + 2) * sizeof *x->at);
+    return x;
+}
+
+static bool occurs(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_ex symbol)
+{
+    bool found = false;
+    for (size_t i = 0; i < n && !found; i++) found = nh_depends(x->dag, e[i], symbol);
+    return found;
+}
+
+bool nh_jet_equations_is_cyclic(const nh_jet_equations *x, nh_ex q)
+{
+    return !occurs(x, x->m, x->rho, q) && !occurs(x, x->n * x->n, x->M, q) && !occurs(x, x->n, x->A, q);
+}
+
+bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
+{
+    nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate),
+          *rho = nh_arena_alloc(x->arena, (x->m + 1) * sizeof *rho);
+    size_t kept = 0;
+    if (x->time) coordinate[0] = x->coordinate[0];
+    for (size_t s = 0; s < x->m; s++) {
+        nh_ex q = x->coordinate[x->time + s];
+        if (nh_jet_equations_is_cyclic(x, q)) continue;
+        coordinate[x->time + kept] = q;
+        rho[kept++] = x->rho[s];
+    }
+    bool some = kept < x->m;
+    x->coordinate = coordinate;
+    x->rho = rho;
+    x->m = kept;
+    x->coordinates = kept + x->time;
+    return some;
+}
+
+bool nh_jet_equations_have_cyclic(const nh_model *model)
+{
+    nh_jet_equations *x = nh_jet_equations_create(model, false, false);
+    bool some = !x->obstacle && nh_jet_equations_drop_cyclic(x);
+    nh_jet_equations_free(x);
+    return some;
+}
+
+void nh_jet_equations_free(nh_jet_equations *x)
+{
+    if (!x) return;
+    nh_jet_point_free(x->point);
+    nh_arena_free(x->arena);
+}
+
+void nh_jet_equations_choose(nh_jet_equations *x, nh_prime field, uint64_t seed)
+{
+    uint64_t random = seed + 12345;
+    nh_jet_point_choose(x->point, field, seed);
+    for (size_t k = 0; k <= x->coordinates + x->model->system->parameters; k++)
+        x->at[k] = nh_residue_random(field, &random);
+}
+
+/* ---- values ---- */
+
+static void set_constant(nh_jet_eval *v, const nh_jet_ring *ring, nh_ex symbol, nh_residue c, bool varies)
+{
+    nh_residue *series = nh_alloc_array(ring->size, sizeof *series);
+    series[0] = c;
+    nh_jet_eval_set(v, symbol, series, varies);
+    nh_free(series);
+}
+
+nh_jet_eval *nh_jet_equations_eval(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate)
+{
+    nh_jet_eval *v = nh_jet_eval_create(x->point, ring);
+    for (size_t k = 0; k < x->coordinates; k++)
+        nh_jet_eval_set(v, x->coordinate[k], coordinate + k * ring->size, false);
+    for (size_t k = 0; k < x->model->system->parameters; k++)
+        set_constant(v, ring, x->model->parameter[k], x->at[x->coordinates + k], false);
+    if (!x->time)
+        set_constant(v, ring, x->model->system->t, x->at[x->coordinates + x->model->system->parameters], false);
+    for (size_t i = 0; i < x->n; i++) set_constant(v, ring, x->w[i], 0, true);
+    return v;
+}
+
+void nh_jet_equations_velocities(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, const nh_residue *w)
+{
+    for (size_t i = 0; i < x->n; i++) set_constant(v, ring, x->w[i], w[i], true);
+}
+
+/* w = a e_i + b e_j */
+static void two_velocities(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, size_t i, nh_residue a,
+                           size_t j, nh_residue b)
+{
+    nh_residue *w = nh_alloc_array(x->n + 1, sizeof *w);
+    w[i] = a;
+    if (b) w[j] = b;
+    nh_jet_equations_velocities(x, v, ring, w);
+    nh_free(w);
+}
+
+static void random_velocities(nh_jet_equations *x, const nh_jet_ring *ring, nh_residue *w)
+{
+    uint64_t random = x->point->random + 99;
+    for (size_t i = 0; i < x->n; i++) w[i] = nh_residue_random(ring->field, &random);
+}
+
+static bool same(const nh_jet_ring *ring, size_t count, const nh_residue *a, const nh_residue *b)
+{
+    return memcmp(a, b, count * ring->size * sizeof *a) == 0;
+}
+
+/* b is at 0 in `part`, then R_1, .. R_n: m series each. */
+static bool linear_parts(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue *part)
+{
+    size_t block = x->m * ring->size;
+    nh_residue minus = (nh_residue)(ring->field.p - 1);
+    bool good = nh_jet_eval_all(v, x->m, x->rho, part);
+    for (size_t i = 0; i < x->n && good; i++) {
+        nh_residue *R = part + (1 + i) * block;
+        two_velocities(x, v, ring, i, 1, i, 0);
+        good = nh_jet_eval_all(v, x->m, x->rho, R);
+        nh_residue_add_multiple(ring->field, block, R, part, minus);
+    }
+    return good;
+}
+
+bool nh_jet_equations_fields(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate,
+                             nh_residue *out)
+{
+    size_t block = x->m * ring->size, field = x->coordinates * ring->size;
+    nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
+    nh_residue *part = nh_alloc_array((x->n + 3) * block, sizeof *part), *expected = part + (x->n + 1) * block,
+               *value = expected + block;
+    nh_residue *w = nh_alloc_array(x->n + 1, sizeof *w);
+    bool good = linear_parts(x, v, ring, part);
+    random_velocities(x, ring, w);
+    nh_jet_equations_velocities(x, v, ring, w);
+    if (good && nh_jet_eval_all(v, x->m, x->rho, value)) {
+        memcpy(expected, part, block * sizeof *expected);
+        for (size_t i = 0; i < x->n; i++)
+            nh_residue_add_multiple(ring->field, block, expected, part + (1 + i) * block, w[i]);
+        if (!same(ring, x->m, expected, value)) x->obstacle = "constraints that are not linear in the velocities";
+    }
+    for (size_t i = 0; i < x->fields; i++) {
+        nh_residue *X = out + i * field;
+        memset(X, 0, field * sizeof *X);
+        memcpy(X + x->time * ring->size, part + (i < x->n ? 1 + i : 0) * block, block * sizeof *X);
+        if (i == x->n && x->time) X[0] = 1;
+    }
+    nh_free(w);
+    nh_free(part);
+    nh_jet_eval_free(v);
+    return good && !x->obstacle;
+}
+
+/* ---- accelerations ---- */
+
+size_t nh_jet_equations_monomials(size_t n) { return 1 + n + n * (n + 1) / 2; }
+
+/* The place of w^i w^j, i <= j. */
+static size_t quadratic(size_t n, size_t i, size_t j) { return 1 + n + i * n - i * (i - 1) / 2 - i + j; }
+
+/* The coefficients of A in w: polynomial + l per component, monomials in between: [mu][l]. */
+static bool polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue *part)
+{
+    nh_prime f = ring->field;
+    size_t n = x->n, block = n * ring->size;
+    nh_residue minus = (nh_residue)(f.p - 1), half = nh_residue_inverse(f, 2);
+    nh_residue *up = nh_alloc_array(block + 1, sizeof *up), *down = nh_alloc_array(block + 1, sizeof *down);
+    bool good = nh_jet_eval_all(v, n, x->A, part);
+    for (size_t i = 0; i < n && good; i++) {
+        nh_residue *linear = part + (1 + i) * block, *square = part + quadratic(n, i, i) * block;
+        two_velocities(x, v, ring, i, 1, i, 0);
+        good = nh_jet_eval_all(v, n, x->A, up);
+        two_velocities(x, v, ring, i, minus, i, 0);
+        good = good && nh_jet_eval_all(v, n, x->A, down);
+        nh_residue_add_multiple(f, block, linear, up, half);
+        nh_residue_add_multiple(f, block, linear, down, nh_residue_negative(f, half));
+        nh_residue_add_multiple(f, block, square, up, half);
+        nh_residue_add_multiple(f, block, square, down, half);
+        nh_residue_add_multiple(f, block, square, part, minus);
+    }
+    for (size_t i = 0; i < n && good; i++)
+        for (size_t j = i + 1; j < n && good; j++) {
+            nh_residue *mixed = part + quadratic(n, i, j) * block;
+            two_velocities(x, v, ring, i, 1, j, 1);
+            good = nh_jet_eval_all(v, n, x->A, mixed);
+            size_t taken[5] = {0, 1 + i, 1 + j, quadratic(n, i, i), quadratic(n, j, j)};
+            for (size_t k = 0; k < 5; k++) nh_residue_add_multiple(f, block, mixed, part + taken[k] * block, minus);
+        }
+    nh_free(down);
+    nh_free(up);
+    return good;
+}
+
+/* At random velocities A and M have to be what the polynomials say. */
+static bool is_polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, const nh_residue *part,
+                          const nh_residue *M)
+{
+    size_t n = x->n, block = n * ring->size;
+    nh_residue *w = nh_alloc_array(n + 1, sizeof *w), *expected = nh_alloc_array((1 + n) * block + 1, sizeof *expected),
+               *value = nh_alloc_array(n * block + 1, sizeof *value);
+    random_velocities(x, ring, w);
+    nh_jet_equations_velocities(x, v, ring, w);
+    memcpy(expected, part, block * sizeof *expected);
+    for (size_t i = 0; i < n; i++) nh_residue_add_multiple(ring->field, block, expected, part + (1 + i) * block, w[i]);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i; j < n; j++)
+            nh_residue_add_multiple(ring->field, block, expected, part + quadratic(n, i, j) * block,
+                                    nh_residue_mul(ring->field, w[i], w[j]));
+    bool good = nh_jet_eval_all(v, n, x->A, value);
+    if (good && !same(ring, n, expected, value))
+        x->obstacle = "forces or inertia that are not polynomial in the velocities of degree two";
+    good = good && nh_jet_eval_all(v, n * n, x->M, value);
+    if (good && !same(ring, n * n, M, value)) x->obstacle = "a kinetic energy that is not quadratic in the velocities";
+    nh_free(value);
+    nh_free(expected);
+    nh_free(w);
+    return good && !x->obstacle;
+}
+
+bool nh_jet_equations_accelerations(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate,
+                                    nh_residue *out)
+{
+    size_t n = x->n, count = nh_jet_equations_monomials(n), e = ring->size;
+    nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
+    nh_residue *part = nh_alloc_array(count * n * e + 1, sizeof *part), *M = nh_alloc_array(n * n * e + 1, sizeof *M);
+    bool good =
+        nh_jet_eval_all(v, n * n, x->M, M) && polynomial(x, v, ring, part) && is_polynomial(x, v, ring, part, M);
+    for (size_t l = 0; l < n && good; l++)
+        for (size_t mu = 0; mu < count; mu++)
+            memcpy(out + (l * count + mu) * e, part + (mu * n + l) * e, e * sizeof *out);
+    good = good && nh_jet_solve(ring, n, M, count, out);
+    nh_free(M);
+    nh_free(part);
+    nh_jet_eval_free(v);
+    return good;
+}
+
+/* ---- relations between kernels ---- */
+
+/* Series of low order in time and the coordinates, at one point, for all atoms of a kind, into columns from `first` on.
+   False: another point. */
+static bool atoms_at(nh_jet_equations *x, const nh_jet_ring *ring, bool real, nmod_mat_t rows, size_t first)
+{
+    nh_residue *q = nh_alloc_array(ring->variables * ring->size + 1, sizeof *q);
+    for (size_t k = 0; k < ring->variables; k++) {
+        q[k * ring->size + ring->up[k * ring->size]] = 1;
+        q[k * ring->size] = x->at[k < x->coordinates ? k : x->coordinates + x->model->system->parameters];
+    }
+    nh_jet_eval *v = nh_jet_equations_eval(x, ring, q);
+    if (!x->time) nh_jet_eval_set(v, x->model->system->t, q + x->coordinates * ring->size, false);
+    size_t count;
+    nh_jet_eval_atoms(v, real, &count, NULL);
+    nh_residue *series = nh_alloc_array(count * ring->size + 1, sizeof *series);
+    bool good = nh_jet_eval_atoms(v, real, &count, series);
+    for (size_t i = 0; i < count && good; i++)
+        for (size_t e = 0; e < ring->size; e++) nmod_mat_entry(rows, i, first + e) = series[i * ring->size + e];
+    nh_free(series);
+    nh_jet_eval_free(v);
+    nh_free(q);
+    return good;
+}
+
+bool nh_jet_equations_related(nh_jet_equations *x, nh_prime field)
+{
+    enum { order = 3, points = 6, most_tries = 200 };
+    size_t *one = nh_alloc_array(x->coordinates + 2, sizeof *one), variables = x->coordinates + !x->time, count;
+    for (size_t k = 0; k < variables; k++) one[k] = 1;
+    nh_jet_ring *ring = nh_jet_ring_create(field, variables, one, order);
+    bool independent = true;
+    x->point->conjugates = true;
+    for (int real = 0; real < 2 && independent; real++) {
+        nmod_mat_t rows;
+        nmod_mat_init(rows, (slong)x->point->kernels + 1, (slong)(points * ring->size), field.p);
+        size_t found = 0;
+        for (uint64_t seed = 1; seed < most_tries && found < points; seed++) {
+            nh_jet_equations_choose(x, field, seed);
+            found += atoms_at(x, ring, real, rows, found * ring->size);
+        }
+        nh_jet_eval *v = nh_jet_eval_create(x->point, ring);
+        nh_jet_eval_atoms(v, real, &count, NULL);
+        nh_jet_eval_free(v);
+        independent = found == points && (size_t)nmod_mat_rank(rows) == count;
+        nmod_mat_clear(rows);
+    }
+    x->point->conjugates = false;
+    nh_jet_ring_free(ring);
+    nh_free(one);
+    return !independent;
+}
