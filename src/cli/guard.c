@@ -4,8 +4,8 @@
  * soon, with what it has.  A second signal, one that comes while results are written, and a computation that has still
  * not come back when it has used `grace` more of the processor, or `more` of the memory, end the process at once:
  * without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that
- * comes while results are written takes nothing away from them; after a signal they are written if that takes no longer
- * than `patience_of_user`: the tables of many motions take minutes. */
+ * comes while results are written takes nothing away from them, nor does the first signal: where writing takes longer
+ * than `patience_of_user` (the tables of many motions take minutes), a line says what a second one does. */
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
@@ -74,14 +74,17 @@ static bool past_grace(void)
            now - end > patience * grace;
 }
 
-/* What was interrupted and has come back is written, unless that takes long: of the processor, as above. */
-static bool past_patience(void)
+/* What was interrupted and has come back is written.  Where that takes long it is said, once. */
+static void tell_of_writing(void)
 {
-    static const double patience_of_user = 0.3, patience = 10;
-    static double used, begun; /* when it came back */
-    if (!stopped || !atomic_load(&writing)) return false;
-    if (used == 0) used = nh_clock_of_process(), begun = nh_clock();
-    return nh_clock_of_process() - used > patience_of_user || nh_clock() - begun > patience * patience_of_user;
+    static const double patience_of_user = 0.3;
+    static double begun; /* when it came back */
+    static bool told;
+    if (told || !stopped || !atomic_load(&writing)) return;
+    if (begun == 0) begun = nh_clock();
+    if (nh_clock() - begun < patience_of_user) return;
+    told = true;
+    dprintf(STDERR_FILENO, "nhsym: interrupted; writing the results so far: interrupt again to end without them\n");
 }
 
 /* So much more than the limit is left for what a computation needs to come back, and to write what there is. */
@@ -99,12 +102,12 @@ static void *stand(void *unused)
             if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED, NULL, NULL);
             nh_interrupt();
             stopped = true;
-        } else if (past_patience()) {
-            end_at_once(NH_INTERRUPTED, NULL, NULL);
         } else if (past_grace()) {
             end_at_once(NH_LIMIT, "time", "--max-seconds");
         } else if (past_memory()) {
             end_at_once(NH_LIMIT, "memory", "--max-memory");
+        } else {
+            tell_of_writing();
         }
     }
     return unused;
