@@ -56,7 +56,9 @@ static const piecewise PIECEWISE[] = {
     {"two kinks",
      "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - abs(x) - abs(y)\n"
      "known: {currents: [{name: one, expr: x'^2/2 + abs(x)}, {name: other, expr: y'^2/2 + abs(y)}]}\n",
-     2, "on each side of x = 0, where it jumps, on each side of y = 0, where it jumps"},
+     2, "on each side of y = 0, where it jumps"},
+    {"one kink",
+     "coordinates: [x]\nlagrangian: x'^2/2 - abs(x)\nknown: {currents: [{name: energy, expr: x'^2/2 + abs(x)}]}\n", 1, "on each side of x = 0, where it jumps"},
     {"two slanted kinks",
      "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - abs(x - y) - abs(x + y)\n"
      "known: {currents: [{name: one, expr: (x' + y')^2/4 + abs(x + y)}, {name: other, expr: (x' - y')^2/4 + abs(x - y)}]}\n",

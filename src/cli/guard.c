@@ -33,8 +33,8 @@ static void end_at_once(int code, const char *reached, const char *option)
         dprintf(STDERR_FILENO, "nhsym: interrupted%s\n",
                 atomic_load(&writing) ? ": the results were being written, and are not" : "");
     else
-        dprintf(STDERR_FILENO, "nhsym: %s%sthe %s limit was reached%s\nhint: raise it by %s\n", doing, *doing ? ": " : "",
-                reached,
+        dprintf(STDERR_FILENO, "nhsym: %s%sthe %s limit was reached%s\nhint: raise it by %s\n", doing,
+                *doing ? ": " : "", reached,
                 atomic_load(&writing) ? ", and writing the results takes longer: they are not written"
                                       : " before any result could be written",
                 option);

@@ -8,7 +8,45 @@
 #include "graph/measure.h"
 #include "search/explicit_motion_internal.h"
 
-/* int f ds, in which roots are written as such. */
+enum { most_sides = 8 };
+
+/* |u| and sign(u) of functions u of s, which are side u and side wherever u has one sign. */
+typedef struct {
+    nh_explicit_curve *curve;
+    size_t calls, sides;
+    nh_ex call[most_sides], by[most_sides];   /* in their place */
+    nh_ex side[most_sides], sign[most_sides]; /* symbols, and what they are */
+} pieces;
+
+static void read_pieces(pieces *p, nh_ex f)
+{
+    nh_dag *d = p->curve->d;
+    nh_ex all[most_sides];
+    size_t n = nh_functions_in(d, f, all, most_sides);
+    for (size_t i = 0; i < n && i < most_sides; i++) {
+        nh_function name = nh_function_of(d, all[i]);
+        if ((name != NH_ABS && name != NH_SIGN) || !nh_depends(d, all[i], p->curve->s)) continue;
+        nh_ex u = nh_child(d, all[i], 0), sign = nh_call(d, NH_SIGN, u);
+        size_t k = 0;
+        while (k < p->sides && p->sign[k] != sign) k++;
+        if (k == p->sides) {
+            p->sign[k] = sign;
+            p->side[p->sides++] = nh_symbol_fresh(d, "side");
+        }
+        p->call[p->calls] = all[i];
+        p->by[p->calls++] = name == NH_ABS ? nh_mul(d, p->side[k], u) : p->side[k];
+    }
+}
+
+static nh_ex with_sides(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->calls, p->call, p->by); }
+static nh_ex with_signs(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->sides, p->side, p->sign); }
+static int sign_on_sides(void *context, nh_ex e)
+{
+    const pieces *p = context;
+    return nh_explicit_sign(p->curve, with_signs(p, e));
+}
+
+/* int f ds, in which roots are written as such; its constant may be another one on either side of a zero of u. */
 static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
 {
     nh_dag *d = c->d;
@@ -18,15 +56,24 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
         nh_ex root = nh_sqrt(d, c->radicand[i]);
         f = nh_substitute(d, f, 1, &m->root[i].symbol, &root);
     }
+    pieces p = {.curve = c};
+    read_pieces(&p, f);
+    nh_ex *constant = nh_alloc_array(c->symbols + most_sides, sizeof *constant);
+    memcpy(constant, c->symbol, c->symbols * sizeof *constant);
+    memcpy(constant + c->symbols, p.side, p.sides * sizeof *constant);
     nh_integration in = {.dag = d,
                          .x = c->s,
-                         .constants = c->symbols,
-                         .constant = c->symbol,
+                         .constants = c->symbols + p.sides,
+                         .constant = constant,
                          .max_terms = (size_t)c->options->proof_terms,
-                         .sign = nh_explicit_sign,
-                         .context = c};
-    if (!nh_antiderivative(&in, f, F)) return false;
-    for (size_t i = m->roots; i-- > 0;) *F = nh_substitute_root(d, *F, c->radicand[i], m->root[i].symbol);
+                         .sign = sign_on_sides,
+                         .context = &p};
+    bool found = nh_antiderivative(&in, with_sides(&p, f), F);
+    nh_free(constant);
+    if (!found) return false;
+    for (size_t i = m->roots; i-- > 0;)
+        *F = nh_substitute_root(d, *F, with_sides(&p, c->radicand[i]), m->root[i].symbol);
+    *F = with_signs(&p, *F);
     return true;
 }
 
