@@ -21,24 +21,6 @@ static void append(list *l, nh_ex e)
     if (!there) l->out[l->count++] = e;
 }
 
-/* 1 or -1 where e has one sign at all probes of the chart, else 0. */
-static int sign_of(const nh_model *o, nh_ex e)
-{
-    const nh_chart *c = o->chart;
-    nh_tape *tape = nh_model_tape(o, 1, &e);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    size_t above = 0, below = 0;
-    for (size_t p = 0; p < c->probes; p++) {
-        double value;
-        nh_tape_eval(tape, work, c->probe + p * c->width, &value);
-        above += value > 0;
-        below += value < 0;
-    }
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return above == c->probes ? 1 : below == c->probes ? -1 : 0;
-}
-
 static bool has_coordinates(const nh_jet_equations *x, nh_ex e)
 {
     bool has = false;
@@ -65,17 +47,17 @@ static nh_ex primitive_of_root(const nh_jet_equations *x, const quadratic *q, nh
 {
     nh_dag *d = x->dag;
     const nh_model *o = x->model;
-    int sign = sign_of(o, q->c);
+    int sign = nh_model_sign(o, q->c);
     nh_ex size = sign < 0 ? nh_neg(d, q->c) : q->c,
           middle = nh_add(d, z, nh_div(d, q->b, nh_mul(d, nh_int(d, 2), q->c)));
     nh_ex rest = nh_sub(d, q->a, nh_div(d, nh_powi(d, q->b, 2), nh_mul(d, nh_int(d, 4), q->c)));
     rest = nh_simplify_short(d, rest, largest_form);
     bool constant = !has_coordinates(x, rest) && !has_coordinates(x, q->c);
     if (!sign || nh_is_zero(d, rest)) return 0;
-    if (constant && sign_of(o, rest) > 0)
+    if (constant && nh_model_sign(o, rest) > 0)
         return nh_call(d, sign > 0 ? NH_ASINH : NH_ASIN, nh_mul(d, middle, nh_sqrt(d, nh_div(d, size, rest))));
     nh_ex inside = nh_add(d, middle, nh_sqrt(d, nh_simplify_short(d, nh_div(d, root, size), largest_form)));
-    return sign > 0 && sign_of(o, inside) > 0 ? nh_call(d, NH_LOG, inside) : 0;
+    return sign > 0 && nh_model_sign(o, inside) > 0 ? nh_call(d, NH_LOG, inside) : 0;
 }
 
 /* Of a root of `base`, by a coordinate. */
@@ -113,7 +95,7 @@ static void of_letters(list *l, const nh_letters *letters)
         const nh_letter *a = &letters->item[i];
         if (a->kind != NH_LETTER_POWER) continue;
         bool linear = nh_kind_of(l->dag, a->base) == NH_SYMBOL || a->linear;
-        int sign = linear && a->down > 0 ? sign_of(l->equations->model, a->base) : 0;
+        int sign = linear && a->down > 0 ? nh_model_sign(l->equations->model, a->base) : 0;
         if (sign) append(l, nh_call(l->dag, NH_LOG, sign > 0 ? a->base : nh_neg(l->dag, a->base)));
         if (a->root != 2) continue;
         along_coordinates(l, a->base);

@@ -70,6 +70,8 @@ nh_ex nh_model_omega(const nh_model *model, const nh_field *a, const nh_field *b
 
 /* A tape of expressions over the points (t, q, w, u), parameters bound. */
 nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);
+/* 1 or -1 where e, a function on the submanifold, has one sign at all probes of the chart; else 0. */
+int nh_model_sign(const nh_model *model, nh_ex e);
 
 /* The value of an expression of the parameters. */
 double nh_model_number(const nh_model *model, nh_ex e);

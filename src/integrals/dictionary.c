@@ -109,24 +109,6 @@ static void add_integral(harvester *h, nh_ex base)
     }
 }
 
-/* 1 or -1 where e has one sign at all probes of the chart, else 0. */
-static int sign_of(const nh_model *o, nh_ex e)
-{
-    const nh_chart *c = o->chart;
-    nh_tape *tape = nh_model_tape(o, 1, &e);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    size_t above = 0, below = 0;
-    for (size_t p = 0; p < c->probes; p++) {
-        double value;
-        nh_tape_eval(tape, work, c->probe + p * c->width, &value);
-        above += value > 0;
-        below += value < 0;
-    }
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return above == c->probes ? 1 : below == c->probes ? -1 : 0;
-}
-
 /* The integral of 1/base by a coordinate or t: log(b + c q), atan(q sqrt(c/b)) of b + c q^2 (atanh where c/b < 0). */
 static void add_logarithm(harvester *h, nh_ex base, bool of_time_alone)
 {
@@ -138,10 +120,10 @@ static void add_logarithm(harvester *h, nh_ex base, bool of_time_alone)
         nh_ex b = nh_substitute(d, base, 1, &q, &zero), by = 0;
         if (nh_is_zero(d, slope) || has_position(o, b) || has_position(o, c)) continue;
         if (nh_is_zero(d, c)) {
-            int sign = sign_of(o, base);
+            int sign = nh_model_sign(o, base);
             if (sign) by = nh_call(d, NH_LOG, sign > 0 ? base : nh_neg(d, base));
         } else if (nh_is_zero(d, nh_substitute(d, slope, 1, &q, &zero)) && !nh_is_zero(d, b)) {
-            int sign = sign_of(o, nh_div(d, c, b));
+            int sign = nh_model_sign(o, nh_div(d, c, b));
             nh_ex scale = nh_div(d, sign < 0 ? nh_neg(d, c) : c, b);
             if (sign) by = nh_call(d, sign > 0 ? NH_ATAN : NH_ATANH, nh_mul(d, q, nh_sqrt(d, scale)));
         }

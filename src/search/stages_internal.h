@@ -22,7 +22,7 @@ typedef struct {
     nh_ex e[NH_MOST_EXPRS];
 } nh_expr_set;
 
-/* Add one, or n; all products of two of `a`, squares too. */
+/* The first adds one expression, the second n; the third returns the products of two of `a`, squares included. */
 void nh_expr_set_put(nh_expr_set *list, nh_ex e);
 void nh_expr_set_put_all(nh_expr_set *list, size_t n, const nh_ex *e);
 nh_expr_set nh_expr_set_squares(const nh_family_list *shelf, const nh_expr_set *a);
