@@ -185,6 +185,8 @@ static const published PUBLISHED[] = {
     /* the same: exp(2 y) in integrals, which the equations do not contain */
     {"Darboux's space IV", "parameters: {b: 0.3}\ncoordinates: [x, y]\n"
      "lagrangian: (2*cos(2*x) + b)/sin(2*x)^2*(x'^2 + y'^2)/2\ndomain: {x: [0.2, 0.6]}\n", 3, 6},
+    /* the plane in coordinates log r and angle: exp(x) cos(y), where the equations have exp(2 x) */
+    {"plane, conformal coordinates", "coordinates: [x, y]\nlagrangian: exp(2*x)*(x'^2 + y'^2)/2\n", 3, 6},
     /* E. T. Whittaker, Analytical Dynamics (1937), sec. 53: two centres in elliptic coordinates */
     {"two centres, elliptic coordinates", "parameters: {a: 0.3, b: 0.4}\ncoordinates: [u, v]\n"
      "lagrangian: (cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)/2 + (a*cosh(u) + b*cos(v))/(cosh(u)^2 - cos(v)^2)\ndomain: {u: [0.5, 2], v: [0.5, 2]}\n", 2, 6},

@@ -189,6 +189,25 @@ static void take_determinant(const nh_jet_equations *x, nh_letters *l)
     if (o->n <= largest_inertia) take_factors(x, l, nh_simplify_short(x->dag, minor_of(o, 0, 0), largest_form), false);
 }
 
+/* A frame in which the inertia is 1 has the roots of what the momenta have: exp(u/2) where the inertia has exp(u). */
+static void take_roots(const nh_jet_equations *x, nh_letters *l)
+{
+    nh_dag *d = x->dag;
+    double sign;
+    for (size_t i = 0; i < x->model->n; i++) {
+        nh_ex inertia = nh_simplify_short(d, x->model->M[i * x->model->n + i], largest_form);
+        bool product = nh_kind_of(d, inertia) == NH_PRODUCT;
+        for (size_t k = 0; k < (product ? nh_arity(d, inertia) : 1); k++) {
+            nh_ex factor = product ? nh_child(d, inertia, k) : inertia;
+            if (nh_kind_of(d, factor) != NH_FUNCTION || nh_function_of(d, factor) != NH_EXP || !of_position(x, factor))
+                continue;
+            nh_ex half = nh_mul(d, nh_ratio(d, 1, 2), nh_child(d, factor, 0));
+            nh_letter *found = direction(d, l, NH_LETTER_EXPONENTIAL, half, &sign);
+            if (found) found->down = fmax(found->down, least_down);
+        }
+    }
+}
+
 /* ---- the coordinates ---- */
 
 /* In coordinates that are letters. */
@@ -276,6 +295,7 @@ nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_r
     size_t coordinates = l.count;
     for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1); /* forces are derivatives */
     take_determinant(x, &l);
+    take_roots(x, &l);
     take_rates(x, &l, rates);
     take_potential(x, &l);
     for (size_t i = coordinates; i < l.count; i++)
