@@ -308,14 +308,15 @@ Test(cli_manners, an_interrupted_motion_leaves_nothing_behind)
     place_clear(&p);
 }
 
-/* The tables of many motions take long to be written: this is said, and a second signal ends the run without them and without a part of a file. */
+/* The tables of many motions take long to be written: this is said, and a second
+   signal ends the run without them and without a part of a file; a signal that comes several times at once, as `timeout` sends it, is one. */
 Test(cli_manners, an_interrupted_ensemble_says_that_it_is_written)
 {
     place p = place_with_systems();
     char command[800];
     snprintf(command, sizeof command,
              "'%.200s' simulate sleigh --ensemble 20000 --until 2000 --step 20 --quiet --progress always --json e.json >out 2>err & p=$!\n"
-             "until [ -s err ] || ! kill -0 $p; do sleep 0.02; done\nsleep 0.5\nkill -INT $p\n"
+             "until [ -s err ] || ! kill -0 $p; do sleep 0.02; done\nsleep 0.5\nfor i in 1 2 3; do kill -INT $p; sleep 0.01; done\n"
              "until grep -q 'writing the results so far' err || ! kill -0 $p; do sleep 0.02; done\nkill -INT $p || exit 93\n"
              "for i in $(seq 100); do kill -0 $p || break; sleep 0.02; done\n! kill -0 $p || { kill -9 $p; exit 94; }\n"
              "[ -z \"$(ls *.json .e* 2>/dev/null)\" ] || exit 95\ngrep -q 'were being written, and are not' err || exit 96\nwait $p", p.program);
@@ -433,6 +434,30 @@ Test(cli_manners, initial_values_as_newcomers_write_them)
     check_hint(&p, "simulate sleigh --initial phi=0,phi=1", 2, "nhsym: --initial:7: `phi` is given twice\n");
     check_hint(&p, "reduce vertical_disk --initial psii=1", 2, "nhsym: --initial:1: `psii` is not");
     check_hint(&p, "simulate sleigh --over omgea=1:2:3", 2, "nhsym: --over: `omgea` is not a coordinate, velocity or parameter of sleigh\nhint: did you mean `omega`?\n");
+    place_clear(&p);
+}
+
+/* Velocities as other programs and books write them, where a name stands and where an expression does. */
+Test(cli_manners, velocities_as_others_write_them)
+{
+    static const char *const words[][2] = {{"v2", "x2"},   {"vx2", "x2"},    {"v_x2", "x2"},     {"x2dot", "x2"}, {"x2_dot", "x2"}, {"xdot2", "x2"},
+                                           {"dx2", "x2"},  {"dotx2", "x2"},  {"dx2_dt", "x2"},   {"vy", "y"},     {"ydot", "y"}};
+    place p = place_make();
+    write_here(&p, "two.yaml", "name: two\ncoordinates: [x1, x2, y]\nlagrangian: (x1'^2 + x2'^2 + y'^2)/2\n");
+    write_here(&p, "v.yaml", "name: v\nparameters: {v1: 1}\ncoordinates: [x1, x2, y]\nlagrangian: (x1'^2 + x2'^2 + v1*y'^2)/2\n");
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        char line[100], hint[100];
+        snprintf(hint, sizeof hint, "\nhint: the velocity of `%s` is written %s'\n", words[i][1], words[i][1]);
+        snprintf(line, sizeof line, "simulate two.yaml --initial %s=1", words[i][0]);
+        check_hint(&p, line, 2, hint);
+        snprintf(line, sizeof line, "verify two.yaml --current 2*%s", words[i][0]);
+        check_hint(&p, line, 2, hint);
+    }
+    check_hint(&p, "simulate two.yaml --initial dx2/dt=1", 2, "\nhint: the velocity of `x2` is written x2'\n");
+    check_hint(&p, "simulate two.yaml --over v2=1:2:3", 2, "\nhint: the velocity of `x2` is written x2'\n");
+    check_hint(&p, "simulate two.yaml --initial x3=1", 2, "\nhint: did you mean `x1`?\n");
+    check_hint(&p, "simulate two.yaml --initial speed=1", 2, "\nhint: it has t, x1, x1', x2, x2', y, y'\n");
+    check_hint(&p, "verify v.yaml --current 2*v2", 2, "\nhint: did you mean `v1`?\n");
     place_clear(&p);
 }
 

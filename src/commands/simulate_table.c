@@ -50,7 +50,8 @@ static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, con
     bool option = !strncmp(t->path, "--", 2); /* --over makes a table, too */
     nh_fail(error, option ? NH_USAGE : NH_INPUT, t->path, "%s`%s` is not a coordinate, velocity or parameter of %s",
             option ? "" : "the column ", name, s->name);
-    const char *near = nh_text_nearest(name, names, n);
+    const char *near = nh_text_nearest(name, names, n), *q = nh_system_velocity_meant(s, name, near);
+    if (q) return nh_error_hint(error, NH_VELOCITY_IS_WRITTEN, q, q);
     return near ? nh_error_hint(error, "did you mean `%s`?", near)
                 : nh_error_hint(error, "it has %s", names_of(arena, names, n));
 }

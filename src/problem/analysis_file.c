@@ -317,14 +317,12 @@ static bool unknown_state(reader *r, const nh_deck_node *key)
     const char **names = nh_analysis_file_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
     size_t n = nh_system_state_names(s, names);
     nh_deck_fail(r->a->deck, key, 0, r->error, "`%s` is not a coordinate or velocity of %s", key->text, s->name);
-    size_t stem = strlen(key->text) > 4 ? strlen(key->text) - 4 : 0;
-    for (size_t i = 0; stem && i < s->coordinates; i++) /* the columns of a table are called so */
-        if (!strcmp(key->text + stem, "_dot") && strlen(s->coordinate[i].name) == stem &&
-            !strncmp(key->text, s->coordinate[i].name, stem))
-            return nh_error_hint(r->error, "the velocity of `%s` is written %s'", s->coordinate[i].name,
-                                 s->coordinate[i].name);
-    const char *near = nh_text_nearest(key->text, names, n);
-    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+    const char *near = nh_text_nearest(key->text, names, n), *q = nh_system_velocity_meant(s, key->text, near);
+    if (q) return nh_error_hint(r->error, NH_VELOCITY_IS_WRITTEN, q, q);
+    if (near) return nh_error_hint(r->error, "did you mean `%s`?", near);
+    const char *all = names[0];
+    for (size_t i = 1; i < n; i++) all = nh_arena_printf(s->arena, "%s, %s", all, names[i]);
+    return nh_error_hint(r->error, "it has %.150s", all);
 }
 
 static bool read_initial(reader *r, const nh_deck_node *map)

@@ -71,8 +71,8 @@ static bool rate_of_definition(const scope *s, const char *name, nh_ex *out, nh_
     return !fault->what[0];
 }
 
-/* "did you mean" over everything that has a name here. */
-static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
+/* "did you mean" over everything that has a name here: the nearest name, or NULL. */
+static const char *suggest(const scope *s, const char *name, nh_parse_fault *fault)
 {
     const nh_system *y = s->system;
     size_t n = 0,
@@ -101,28 +101,18 @@ static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
                  "unknowns or a start of its own");
     else snprintf(fault->hint, sizeof fault->hint, "declare it under parameters, coordinates or definitions");
     nh_free(list);
+    return near;
 }
 
 /* xdot, x_dot, dotx for x', and e for exp: how the same is written elsewhere. */
-static void translate(const scope *s, const char *name, nh_parse_fault *fault)
+static void translate(const scope *s, const char *name, const char *near, nh_parse_fault *fault)
 {
     const nh_system *y = s->system;
-    size_t length = strlen(name);
     if (!strcmp(name, "e"))
         snprintf(fault->hint, sizeof fault->hint,
                  "the exponential function is written exp(...), and 1e-3 without blanks");
-    for (size_t i = 0; i < y->coordinates && y->coordinate[i].v; i++) {
-        const char *q = y->coordinate[i].name, *at = strstr(name, q);
-        size_t n = strlen(q);
-        if (!at || n >= length) continue;
-        const char *rest = at == name ? name + n : name;
-        size_t left = length - n;
-        /* dx - R dpsi = 0, over dt */
-        bool whole = at == name || at + n == name + length, differential = left == 1 && at == name + 1 && *name == 'd';
-        if (differential || (whole && ((left == 3 && !strncmp(rest, "dot", 3)) ||
-                                       (left == 4 && (!strncmp(rest, "_dot", 4) || !strncmp(rest, "dot_", 4))))))
-            snprintf(fault->hint, sizeof fault->hint, "the velocity of `%s` is written %s'", q, q);
-    }
+    const char *q = nh_system_velocity_meant(y, name, near);
+    if (q) snprintf(fault->hint, sizeof fault->hint, NH_VELOCITY_IS_WRITTEN, q, q);
 }
 
 static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
@@ -150,8 +140,7 @@ static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault 
         snprintf(fault->hint, sizeof fault->hint, "write it in the coordinates' own velocities");
         return false;
     }
-    suggest(s, name, fault);
-    translate(s, name, fault);
+    translate(s, name, suggest(s, name, fault), fault);
     return false;
 }
 

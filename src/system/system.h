@@ -133,6 +133,12 @@ bool nh_system_motions(nh_system *system, size_t *count, nh_known_motion **out, 
    the result. */
 size_t nh_system_state_names(const nh_system *system, const char **names);
 
+/* The coordinate whose velocity `word` may mean, as others write it: of x1 that is x1dot, x1_dot, dotx1, xdot1, dx1,
+ * dx1/dt, vx1, v_x1, and v1 where no other name ends in 1.  NULL: none, or `near`, the nearest name in letters (or
+ * NULL), begins with v as well. */
+#define NH_VELOCITY_IS_WRITTEN "the velocity of `%s` is written %s'"
+const char *nh_system_velocity_meant(const nh_system *system, const char *word, const char *near);
+
 /* The hint on a word that names no coordinate, no parameter: the nearest one, or all of them.  Always false. */
 bool nh_system_hint_coordinates(const nh_system *system, const char *word, nh_error *error);
 bool nh_system_hint_parameters(const nh_system *system, const char *word, nh_error *error);

@@ -120,6 +120,40 @@ size_t nh_system_state_names(const nh_system *s, const char **names)
     return n;
 }
 
+/* Is it before, middle, after, one behind the other? */
+static bool consists_of(const char *word, const char *before, const char *middle, size_t length, const char *after)
+{
+    size_t n = strlen(before);
+    return !strncmp(word, before, n) && !strncmp(word + n, middle, length) && !strcmp(word + n + length, after);
+}
+
+const char *nh_system_velocity_meant(const nh_system *s, const char *word, const char *near)
+{
+    static const char *const around[][2] = {{"", "dot"}, {"", "_dot"}, {"dot", ""}, {"dot_", ""}, {"d", ""},
+                                            {"d", "/dt"}, {"d", "_dt"}, {"v", ""},  {"v_", ""}};
+    static const char digits[] = "0123456789";
+    const char *same = NULL; /* the coordinate that ends in the digits after v */
+    size_t alike = 0;
+    for (size_t i = 0; i < s->coordinates; i++) {
+        const char *q = s->coordinate[i].name;
+        size_t stem = strlen(q);
+        if (!s->coordinate[i].v) continue; /* velocities have no names yet */
+        for (size_t k = 0; k < sizeof around / sizeof *around; k++)
+            if (consists_of(word, around[k][0], q, stem, around[k][1]) && !(near && *word == 'v' && *near == 'v'))
+                return q;
+        while (stem && strchr(digits, q[stem - 1])) stem--;
+        const char *number = q + stem;
+        if (!*number) continue;
+        if (consists_of(word, "", q, stem, nh_arena_printf(s->arena, "dot%s", number)) ||
+            consists_of(word, "", q, stem, nh_arena_printf(s->arena, "_dot%s", number)))
+            return q;
+        if (*word != 'v' || strcmp(word + 1, number)) continue;
+        same = q;
+        alike++;
+    }
+    return alike == 1 && !(near && *near == 'v') ? same : NULL;
+}
+
 /* The nearest of the names, or all of them; "its parameters are m, g". */
 static bool hint_names(const nh_system *s, const char *what, size_t n, const char *const *names, const char *word,
                        nh_error *error)
@@ -153,7 +187,8 @@ static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
     for (size_t i = 0; i < n; i++)
         if (!strcmp(names[i], key->text)) return nh_symbol_find(s->dag, key->text, out);
     nh_deck_fail(r->deck, key, 0, r->error, "`%s` is not a coordinate, a velocity or t", key->text);
-    const char *near = nh_text_nearest(key->text, names, n);
+    const char *near = nh_text_nearest(key->text, names, n), *q = nh_system_velocity_meant(s, key->text, near);
+    if (q) return nh_error_hint(r->error, NH_VELOCITY_IS_WRITTEN, q, q);
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near)
                 : nh_system_hint_coordinates(s, key->text, r->error);
 }
