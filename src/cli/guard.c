@@ -1,8 +1,9 @@
 /* guard: signals and the limits of time and memory.
  *
  * One thread waits for all of them.  The first signal, and a limit, end the computation by base/progress.h: it returns
- * soon, with what it has.  A second signal, one that comes while results are written, and a computation that has still
- * not come back when it has used `grace` more of the processor, or `more` of the memory, end the process at once:
+ * soon, with what it has.  The same signal again within `same_press` is still the first one: `timeout` sends it to the
+ * process and to its group.  A second signal, one that comes while results are written, and a computation that has
+ * still not come back when it has used `grace` more of the processor, or `more` of the memory, end the process at once:
  * without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that
  * comes while results are written takes nothing away from them, nor does the first signal: where writing takes longer
  * than `patience_of_user` (the tables of many motions take minutes), a line says what a second one does. */
@@ -95,14 +96,27 @@ static bool past_memory(void)
     return most > 0 && nh_memory_in_use() > (1 + part) * most + more;
 }
 
+/* The first ends the computation, the second the process. */
+static void take_signal(int number)
+{
+    static const double same_press = 0.3;
+    static int first; /* that was taken */
+    static double taken;
+    if (number == first && nh_clock() - taken < same_press) return;
+    if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED, NULL, NULL);
+    nh_interrupt();
+    stopped = true;
+    first = number;
+    taken = nh_clock();
+}
+
 static void *stand(void *unused)
 {
     sigset_t set = signals();
     while (true) {
-        if (next_signal(&set)) {
-            if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED, NULL, NULL);
-            nh_interrupt();
-            stopped = true;
+        int number = next_signal(&set);
+        if (number) {
+            take_signal(number);
         } else if (past_grace()) {
             end_at_once(NH_LIMIT, "time", "--max-seconds");
         } else if (past_memory()) {
