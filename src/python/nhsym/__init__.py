@@ -13,6 +13,7 @@ except ImportError as reason:
     raise ImportError("nhsym needs NumPy, which this Python does not have: %s\nhint: install it (Debian: apt-get install python3-numpy; else: python3 -m pip install numpy)"
                       % reason) from None
 
+from ._arguments import ArgumentError
 from ._library import Error, InputError, LimitError, NumericalError, UsageError, library_version
 from ._calls import Interrupted
 from .formula import Formula
@@ -20,5 +21,5 @@ from .results import Analysis, Benchmark, Classification, Current, Record, Reduc
 from .system import System, system
 
 __version__ = "0.1.0"
-__all__ = ["Analysis", "Benchmark", "Classification", "Current", "Error", "Formula", "InputError", "Interrupted", "LimitError", "NumericalError", "Record",
+__all__ = ["Analysis", "ArgumentError", "Benchmark", "Classification", "Current", "Error", "Formula", "InputError", "Interrupted", "LimitError", "NumericalError", "Record",
            "Reduction", "Simulation", "System", "UsageError", "Verification", "library_version", "system"]

@@ -8,7 +8,7 @@ import os
 import queue
 import threading
 
-from ._library import PROGRESS, library
+from ._library import PROGRESS, UsageError, library
 
 
 class Interrupted(KeyboardInterrupt):
@@ -89,6 +89,8 @@ class Context:
 
     def call(self, work, progress=None):
         """work() without the signals of the main thread; progress(doing, part) is called from the computing thread."""
+        if progress is not None and not callable(progress):
+            raise UsageError("progress is no function: %r" % (progress,), "progress=lambda doing, part: print(doing)")
         with self.lock:
             self.failure = None
             told = self._tell(progress) if progress else None

@@ -3,11 +3,13 @@ import functools
 import html
 import re
 
+from ._arguments import explains_arguments
 from ._library import AS_LATEX, AS_MATHML, UsageError, library, taken
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp", "log", "sqrt", "abs", "sign")
 
 
+@explains_arguments
 class Formula(str):
     """A formula as text, in the language of system files: `Formula("J*phi'^2/2")`.  It is a str, shown typeset in a notebook."""
 

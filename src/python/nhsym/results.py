@@ -1,5 +1,4 @@
 """Results as objects: their JSON as attributes, their pages in a notebook, their numbers as arrays."""
-import difflib
 import functools
 import html
 import json
@@ -8,6 +7,7 @@ import warnings
 
 import numpy
 
+from ._arguments import explains_arguments, nearest, no_attribute, outside
 from ._calls import free_later
 from ._library import AS_LATEX, AS_MATHML, CSV, HTML, JSON, LATEX, PLAIN, SVG, TEXT, ErrorRecord, UsageError, error_of, library, taken
 from .formula import Formula
@@ -18,10 +18,11 @@ FORMULAS = {"expression", "in_velocities", "lagrangian", "energy", "rate", "cons
 
 
 def _no_entry(key, names):
-    near = difflib.get_close_matches(str(key), names, 1)
-    return KeyError("there is no `%s`%s" % (key, "; did you mean `%s`?" % near[0] if near else ", but " + ", ".join(names)))
+    near = nearest(key, names)
+    return KeyError("there is no `%s`%s" % (key, "; did you mean `%s`?" % near if near else ", but " + ", ".join(names)))
 
 
+@explains_arguments
 class Record:
     """A part of a result: what its JSON has, as attributes; as a dict: `record.as_dict()`."""
 
@@ -34,8 +35,7 @@ class Record:
         try:
             return self[name]
         except KeyError:
-            near = difflib.get_close_matches(name, dir(self), 1)
-            raise AttributeError("there is no `%s` here%s" % (name, "; did you mean `%s`?" % near[0] if near else ", but " + ", ".join(self._content))) from None
+            raise no_attribute(self, name, self._content) from None
 
     def __getitem__(self, key):
         return _wrapped(self._content[key], key in FORMULAS, self._coordinates)
@@ -83,9 +83,16 @@ def columns(rows, keys):
     return table
 
 
+def array_of(name, value):
+    try:
+        return numpy.asarray(value, float)
+    except (TypeError, ValueError) as reason:
+        raise UsageError("%s is not an array of numbers: %s" % (name, reason), "give a list or an array of numbers") from None
+
+
 def _arrays(q, v, t, m):
     """States as the library takes them: (m, count) and count times; and the shape of the answer."""
-    q, v, t = numpy.asarray(q, float), numpy.asarray(v, float), numpy.asarray(t, float)
+    q, v, t = (array_of(name, value) for name, value in (("q", q), ("v", v), ("t", t)))
     for name, value in (("q", q), ("v", v)):
         if value.ndim == 0 or value.shape[0] != m:
             raise UsageError("%s has the shape %s" % (name, value.shape), "give an array whose first axis has the %d coordinates, in their order" % m)
@@ -99,6 +106,7 @@ def _arrays(q, v, t, m):
     return flat[0], flat[1], times, count, shape
 
 
+@explains_arguments
 class Result(Record):
     """A result of the library.  `text`, `html`, `latex` are the documents of the program; `json` is parsed."""
 
@@ -175,6 +183,7 @@ def _aligned(pairs):
 
 # ---- an analysis ----
 
+@explains_arguments
 class Current(Record):
     """A conserved quantity: `name`, `meaning`, `formula`, `proved`, `for_all` (parameters), `independent`, `digits`, `drift`, and what its JSON has.
     Called with positions, velocities and times it gives values."""
@@ -234,6 +243,7 @@ class Current(Record):
         return "<%s = %s%s>" % (self.name, self.formula or "(long)", ", " + self.meaning if self.meaning else "")
 
 
+@explains_arguments
 class Analysis(Result):
     """Currents and their symmetries: `currents`, `verdict`, `search`, `independent`, `most`, `equations`, `table`, and what the JSON has."""
 
@@ -246,6 +256,8 @@ class Analysis(Result):
     def __getitem__(self, key):
         """A current by its name or number, or a part of the JSON by its key."""
         if isinstance(key, int):
+            if not -len(self.currents) <= key < len(self.currents):
+                raise IndexError("there is no current number %d; there are %d, numbered from 0" % (key, len(self.currents)))
             return self.currents[key]
         named = [current for current in self.currents if current.name == key]
         if named or key in self._content:
@@ -288,6 +300,7 @@ class Analysis(Result):
 
 # ---- motions ----
 
+@explains_arguments
 class Simulation(Result):
     """A motion: `table` is a dict of arrays, time first; `complete`, `warnings` and what the JSON has."""
 
@@ -298,7 +311,7 @@ class Simulation(Result):
         super().__init__(address, problem)
         if not self.complete:
             warnings.warn("the motion of %s ended early, at t = %g: %s" % (problem.name, self.table["t"][-1], "; ".join(self.json["warnings"])), RuntimeWarning,
-                          stacklevel=4)
+                          stacklevel=outside())
 
     @functools.cached_property
     def table(self):
@@ -335,7 +348,8 @@ class Simulation(Result):
         names = list(self.table)
         for name in (x,) + y:
             if name not in names:
-                raise UsageError("there is no column `%s`" % name, "the columns are " + ", ".join(names))
+                near = nearest(name, names)
+                raise UsageError("there is no column `%s`" % name, "did you mean `%s`?" % near if near else "the columns are " + ", ".join(names))
         y = y or (names[1],)
         return Picture([taken(library().nh_simulation_svg(self._address, names.index(x), names.index(name))) for name in y], ["%s against %s" % (name, x) for name in y])
 
@@ -343,6 +357,7 @@ class Simulation(Result):
         return "<Simulation of %s: %d rows, %s>" % (self._problem.name, len(self.table["t"]), ", ".join(self.table))
 
 
+@explains_arguments
 class Picture:
     """One or more SVG pictures, one below the other."""
 
@@ -366,6 +381,7 @@ class Picture:
                 file.write(picture)
 
 
+@explains_arguments
 class Benchmark(Result):
     """Integrators compared: `table` has a row per run, with the observed order of methods of fixed steps; `csv` the same as text; `plot()`; and what the JSON has."""
 

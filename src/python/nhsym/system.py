@@ -7,26 +7,29 @@ import threading
 
 import numpy
 
+from ._arguments import entries_of, explained, explains_arguments, no_attribute, number_of, pairs_of, unfit
 from ._calls import Context, Interrupted, free_later
 from ._library import Comparison, ErrorRecord, InputError, Question, UsageError, error_of, library
 from .formula import text_of
-from .results import Analysis, Benchmark, Classification, Reduction, Simulation, Verification, _arrays
+from .results import Analysis, Benchmark, Classification, Reduction, Simulation, Verification, _arrays, array_of
 
 
 def _robot(source, wheels, base):
     """The text of a file that includes this one and names wheels, ["left", "right"] or {"left": 0.1, "right": None}, and the kind of the base."""
     path = os.path.abspath(os.fspath(source))
-    entries = wheels.items() if hasattr(wheels, "items") else [(wheel, None) for wheel in ([wheels] if isinstance(wheels, str) else wheels or ())]
+    entries = wheels.items() if hasattr(wheels, "items") else [(wheel, None) for wheel in ([wheels] if isinstance(wheels, str) else entries_of("wheels", wheels or (), 'give links, ["left"], or radii, {"left": 0.1}'))]
     content = {"include": path, "wheels": [link if radius is None else {"body": link, "radius": radius} for link, radius in entries], "base": base}
     return "".join("%s: %s\n" % (key, json.dumps(value, ensure_ascii=False)) for key, value in content.items() if value)
 
 
-def system(source, *, wheels=None, base=None, **settings):
+@explained
+def system(source, *, wheels=None, base=None, set=None, velocities=None, analysis=None, options=None):
     """The system of this name ("sleigh"), of this file (a path, or a name that ends in .yaml or .urdf), or of this text (of several lines).
 
     Of a robot description: wheels=["left", "right"] or {"left": 0.1} (with radius), base="fixed", "planar" or "floating".
 
     Settings: set={"m": 2}, velocities="quasi", analysis="file.yaml" (or a text; False: none), options={"seed": 3}."""
+    settings = dict(set=set, velocities=velocities, analysis=analysis, options=options)
     if wheels or base:
         return System(_question={"system": os.path.basename(os.fspath(source)), "system_text": _robot(source, wheels, base)}, **settings)
     if isinstance(source, os.PathLike):
@@ -46,17 +49,13 @@ def _name(coordinate):
     return text_of(coordinate)
 
 
-def _named(entries, second):
+def _named(what, entries, second):
     """A mapping or a list as the maps of a system file: {"x": "angle"}, ["x", {"name": "y"}]."""
     if isinstance(entries, str):
         entries = entries.replace(",", " ").split()
     if hasattr(entries, "items"):
         return [dict({"name": _name(key)}, **(value if isinstance(value, dict) else {second: value})) for key, value in entries.items()]
-    return [dict(entry) if isinstance(entry, dict) else {"name": _name(entry)} for entry in entries]
-
-
-def _number(value):
-    return value if isinstance(value, (int, float)) and not isinstance(value, bool) else float(value) if not isinstance(value, str) else value
+    return [dict(entry) if isinstance(entry, dict) else {"name": _name(entry)} for entry in entries_of(what, entries, 'give names, ["x", "y"], or a mapping')]
 
 
 def _equations(entries, right="0"):
@@ -67,13 +66,27 @@ def _equations(entries, right="0"):
     return [text if "=" in text else "%s = %s" % (text, right) for text in texts]
 
 
+def _velocities(quasi):
+    hint = """give {"names": ["u"], "map": {"x'": "2*u"}}"""
+    if not quasi:
+        return None
+    given = dict(pairs_of("quasi_velocities", quasi, hint))
+    if set(given) != {"names", "map"}:
+        raise unfit("quasi_velocities", quasi, hint)
+    return {"names": entries_of("their names", given["names"], hint), "map": _equations(given["map"])}
+
+
+def _domain(domain):
+    hint = 'give {"x": [-1, 1]}'
+    return {_name(key): entries_of("the range of %s" % _name(key), ends, hint) for key, ends in pairs_of("domain", domain, hint)} if domain else None
+
+
 def _file(name, coordinates, lagrangian, parameters, constraints, forces, definitions, velocities, domain, title, more):
     """The text of a system file.  JSON is YAML."""
-    content = {"name": name, "title": title, "coordinates": _named(coordinates, "type"),
-               "parameters": [dict(p, value=_number(p["value"])) if "value" in p else p for p in _named(parameters, "value")],
+    content = {"name": name, "title": title, "coordinates": _named("coordinates", coordinates, "type"),
+               "parameters": [dict(p, value=number_of("the parameter " + p["name"], p["value"])) if "value" in p else p for p in _named("parameters", parameters, "value")],
                "definitions": _equations(definitions), "lagrangian": None if lagrangian is None else text_of(lagrangian), "constraints": _equations(constraints),
-               "velocities": velocities and {"names": list(velocities["names"]), "map": _equations(velocities["map"])},
-               "forces": _equations(forces), "domain": domain and {_name(key): list(value) for key, value in domain.items()}}
+               "velocities": _velocities(velocities), "forces": _equations(forces), "domain": _domain(domain)}
     content.update(more)
     lines = []
     for key, value in content.items():
@@ -88,20 +101,27 @@ def _file(name, coordinates, lagrangian, parameters, constraints, forces, defini
 
 # ---- questions ----
 
-def _pairs(value):
+def _pairs(what, value):
     """{"m": 2} as "m=2", numbers of any kind as decimals; a string as it is."""
     if value is None or isinstance(value, str):
         return value
-    return ", ".join("%s=%s" % (_name(key), entry if isinstance(entry, str) else repr(_number(entry))) for key, entry in value.items())
+    given = pairs_of(what, value, 'give a mapping, {"x": 1}, or a text, "x=1, y=2"')
+    return ", ".join("%s=%s" % (_name(key), entry if isinstance(entry, str) else repr(number_of("%s of %s" % (_name(key), what), entry))) for key, entry in given)
 
 
-def _list(value):
+def _list(what, value, separator=", "):
     """Names and expressions as "y, T = m/2*v^2"."""
     if value is None or isinstance(value, str):
         return value
     if hasattr(value, "items"):
-        return ", ".join("%s = %s" % (key, text_of(entry)) for key, entry in value.items())
-    return ", ".join(text_of(entry) for entry in value)
+        return separator.join("%s = %s" % (key, text_of(entry)) for key, entry in value.items())
+    if hasattr(value, "free_symbols"):
+        return text_of(value)
+    return separator.join(text_of(entry) for entry in entries_of(what, value, "give a text or a list of texts"))
+
+
+def _bytes(text):
+    return None if text is None else text.encode()
 
 
 def _positive(name, value):
@@ -119,6 +139,8 @@ def _of_analysis(analysis):
         return {}
     if analysis is False:
         return {"no_analysis": True}
+    if not isinstance(analysis, (str, os.PathLike)):
+        raise unfit("analysis", analysis, "give the path of a file, its text, or False for none")
     path = os.fspath(analysis)
     return {"analysis_text": path} if "\n" in path else {"analysis": path}
 
@@ -158,6 +180,7 @@ class Problem:
         return make(address)
 
 
+@explains_arguments
 class System:
     """A mechanical system and the questions about it.
 
@@ -174,9 +197,7 @@ class System:
                 raise UsageError("a system needs coordinates", 'nhsym.System(coordinates=["x"], lagrangian="x\'^2/2"), or nhsym.system("sleigh") for one by name')
             text = _file(name, coordinates, lagrangian, parameters, constraints, forces, definitions, quasi_velocities, domain, title, more)
             _question = {"system": name, "system_text": text}
-        elif more:
-            raise TypeError("unknown settings: %s (known: set, velocities, analysis, options)" % ", ".join(more))
-        self._question = dict(_question, **{key: value for key, value in dict(set=_pairs(set), velocities=velocities, options=_pairs(options)).items() if value is not None},
+        self._question = dict(_question, **{key: value for key, value in dict(set=_pairs("set", set), velocities=velocities, options=_pairs("options", options)).items() if value is not None},
                               **_of_analysis(analysis))
         self._lock = threading.Lock()
         self.problem = Problem(self._question)
@@ -208,7 +229,7 @@ class System:
 
     def set(self, **parameters):
         """The same system with other values of parameters."""
-        return self._with({"set": ", ".join(filter(None, [self._question.get("set"), _pairs(parameters)]))})
+        return self._with({"set": ", ".join(filter(None, [self._question.get("set"), _pairs("set", parameters)]))})
 
     def _with(self, question):
         other = object.__new__(System)
@@ -224,7 +245,7 @@ class System:
             if key in given:
                 given[key] = _positive(key, given[key])
         if "options" in given:
-            given["options"] = ", ".join(filter(None, [self._question.get("options"), _pairs(given["options"])]))
+            given["options"] = ", ".join(filter(None, [self._question.get("options"), _pairs("options", given["options"])]))
         return Problem(dict(self._question, **given)) if given else self.problem
 
     # ---- questions ----
@@ -239,7 +260,8 @@ class System:
         if (current is None) == (field is None):
             raise UsageError("verify what?", 'verify("m*x\'"), or verify(field={"x": 1})')
         p = self._ask(dict(options=options))
-        text = (text_of(current) if field is None else field if isinstance(field, str) else "; ".join("%s=%s" % (_name(k), text_of(e)) for k, e in field.items())).encode()
+        parts = [] if field is None or isinstance(field, str) else pairs_of("field", field, """give components, {"x": 1}, or a text, "Z0=1; x=x'\"""")
+        text = _bytes(text_of(current) if field is None else field if isinstance(field, str) else "; ".join("%s=%s" % (_name(k), text_of(e)) for k, e in parts))
         ask = library().nh_verify_current if field is None else library().nh_verify_field
         return p.call(lambda error: ask(p.address, text, error), progress, lambda a: Verification(a, p))
 
@@ -248,25 +270,25 @@ class System:
         """A motion: initial={"phi": 0, "omega": 2} (left out: a state on the constraints); watch=["y"] or {"T": "m/2*v^2"}; accuracy: the largest allowed error;
         method: an integrator by name, as `nhsym explain methods` lists them; events=["y = 0, falling, stop"]: zeros that are recorded, or end the motion; section="x": a
         Poincare section, whose points are `section_table`; project: initial velocities that violate the constraints are moved onto them."""
-        p = self._ask(dict(initial=_pairs(initial), until=until, step=step, accuracy=accuracy, method=method, watch=_list(watch), options=options, project=project or None))
-        events, section = (None if text is None else text.encode() for text in (events if events is None or isinstance(events, str) else "; ".join(events), section))
+        p = self._ask(dict(initial=_pairs("initial", initial), until=until, step=step, accuracy=accuracy, method=method, watch=_list("watch", watch), options=options, project=project or None))
+        events, section = _bytes(_list("events", events, "; ")), _bytes(section if section is None else text_of(section))
         return p.call(lambda error: library().nh_simulate_zeros(p.address, events, section, error), progress, lambda a: Simulation(a, p))
 
     def reduce(self, initial=None, until=None, accuracy=None, options=None, progress=None):
         """The symmetry group and the reduced equations."""
-        p = self._ask(dict(initial=_pairs(initial), until=until, accuracy=accuracy, options=options))
+        p = self._ask(dict(initial=_pairs("initial", initial), until=until, accuracy=accuracy, options=options))
         return p.call(lambda error: library().nh_reduce(p.address, error), progress, lambda a: Reduction(a, p))
 
     def classify(self, over, shape=False, options=None, progress=None):
         """The values of the parameter `over` at which there are more conservation laws."""
         p = self._ask(dict(options=options))
-        return p.call(lambda error: library().nh_classify_over(p.address, _name(over).encode(), shape, error), progress, lambda a: Classification(a, p))
+        return p.call(lambda error: library().nh_classify_over(p.address, _bytes(_list("over", over)), bool(shape), error), progress, lambda a: Classification(a, p))
 
     def benchmark(self, seconds=None, initial=None, until=None, options=None, progress=None, method=None, robustness=False, over=None, project=False):
         """Integrators compared on one motion; `seconds` for the measurements (5); method: only these, a name or a list of names that `nhsym explain methods` lists;
         robustness: also maps of where methods fail; over: one such map, over one or two ranges, {"a": "1e-9:1"} or "a=1e-9:1"; project: as for `simulate`."""
-        p = self._ask(dict(initial=_pairs(initial), until=until, options=options, project=project or None))
-        words = [None if text is None else text.encode() for text in (_list(method), _pairs(over))]
+        p = self._ask(dict(initial=_pairs("initial", initial), until=until, options=options, project=project or None))
+        words = [_bytes(_list("method", method)), _bytes(_pairs("over", over))]
         asked = Comparison(0 if seconds is None else _positive("seconds", seconds), words[0], bool(robustness), words[1])
         return p.call(lambda error: library().nh_benchmark_methods(p.address, asked, error), progress, lambda a: Benchmark(a, p))
 
@@ -288,11 +310,16 @@ class System:
 
     def right_hand_side(self, t, y):
         """y' of y = (positions, velocities), as scipy.integrate.solve_ivp takes it, also vectorized."""
-        y = numpy.asarray(y, float)
+        y = array_of("y", y)
         m = len(self.coordinates)
         if y.ndim == 0 or y.shape[0] != 2 * m:
             raise UsageError("y has the shape %s" % (y.shape,), "give %d positions, then as many velocities" % m)
         return numpy.concatenate([y[m:], self.accelerations(y[:m], y[m:], t)])
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        raise no_attribute(self, name, [word for word in dir(self) if not word.startswith("_")])
 
     def __repr__(self):
         return "<System %s: coordinates %s; %s>" % (self.name, ", ".join(self.coordinates), ", ".join("%s = %g" % p for p in self.parameters.items()))

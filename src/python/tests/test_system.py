@@ -1,5 +1,6 @@
 """Systems: by name, from files, texts and Python; errors."""
 import fractions
+import inspect
 import pathlib
 
 import numpy
@@ -114,6 +115,40 @@ def test_errors_carry_place_cause_and_cure():
     with pytest.raises(nhsym.InputError) as error:
         spring.simulate(initial={"xx": 1})
     assert error.value.where.startswith("initial:") and "--" not in str(error.value)
+
+
+def test_every_call_names_the_argument_that_was_meant():
+    spring = nhsym.system(OSCILLATOR)
+    seen = 0
+    for kind in (nhsym.System, nhsym.Analysis, nhsym.Current, nhsym.Simulation, nhsym.Benchmark, nhsym.Record, nhsym.Formula):
+        for name, method in vars(kind).items():
+            names = [p.name for p in inspect.signature(method).parameters.values() if p.name != "self" and p.kind != p.VAR_POSITIONAL] if inspect.isfunction(method) and not name.startswith("_") else []
+            if not names or name == "set":
+                continue
+            with pytest.raises(nhsym.ArgumentError, match="did you mean `%s`" % names[-1]):
+                method(None, **{names[-1] + "x": 1})
+            seen += 1
+    assert seen > 9
+    for call in (lambda: spring.analyze(acuracy=1), lambda: nhsym.system(OSCILLATOR, velocites="quasi"), lambda: spring.classify(), lambda: spring.analyze(1, 2, 3, 4, 5)):
+        with pytest.raises(TypeError) as error:
+            call()
+        assert isinstance(error.value, nhsym.UsageError) and error.value.hint and error.value.code == 2
+    with pytest.raises(nhsym.ArgumentError, match="options={..}"):
+        spring.analyze(tolerance=1e-9)
+    with pytest.raises(AttributeError, match="did you mean `analyze`"):
+        spring.analyse()
+
+
+def test_arguments_of_another_kind_are_refused_kindly():
+    spring = nhsym.system(OSCILLATOR)
+    wrong = [lambda: spring.simulate(watch=7), lambda: spring.simulate(events=7), lambda: spring.simulate(initial=[1, 2]), lambda: spring.simulate(progress=3),
+             lambda: spring.verify(field=3), lambda: spring.accelerations(["a"], [0]), lambda: nhsym.system(OSCILLATOR, analysis=7), lambda: spring.analyze(options=["seed=3"]),
+             lambda: nhsym.System(coordinates=7, lagrangian="x'^2"), lambda: nhsym.System(coordinates=["x"], lagrangian="x'^2", parameters={"m": None}),
+             lambda: nhsym.System(coordinates=["x"], lagrangian="x'^2", quasi_velocities=["u"]), lambda: nhsym.System(coordinates=["x"], lagrangian="x'^2", domain={"x": 3})]
+    for call in wrong:
+        with pytest.raises(nhsym.UsageError) as error:
+            call()
+        assert error.value.hint
 
 
 def test_integrators_by_name():
