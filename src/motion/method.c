@@ -45,8 +45,8 @@ const nh_method *nh_method_find(const char *name)
     return NULL;
 }
 
-/* What other programs call the like: SUNDIALS, SciPy, MATLAB, Hairer's codes, mechanics. */
-static const char *elsewhere(const char *word)
+/* What other programs call the like: SUNDIALS, SciPy, MATLAB, Hairer's codes, mechanics; exactly, or nearly. */
+static const char *elsewhere(const char *word, bool exactly)
 {
     static const char *const others[][2] = {
         {"ida", "bdf"},         {"ode15s", "bdf"},           {"ode23s", "bdf"},           {"lsoda", "bdf"},
@@ -56,7 +56,7 @@ static const char *elsewhere(const char *word)
         {"ode78", "rk8pd"},     {"ode89", "rk8pd"},          {"verlet", "dalembert"},     {"leapfrog", "dalembert"},
         {"symplectic", "dalembert"}, {"variational", "dalembert"}, {"gauss", "midpoint"}, {"implicit", "midpoint"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (!strcasecmp(word, others[i][0])) return others[i][1];
+        if (!strcasecmp(word, others[i][0]) || (!exactly && nh_text_nearest(word, others[i], 1))) return others[i][1];
     return NULL;
 }
 
@@ -66,8 +66,9 @@ bool nh_method_given(const char *word, const nh_method **out, nh_error *error)
     *out = nh_method_find(word);
     if (*out || !strcmp(word, NH_METHOD_AUTOMATIC)) return true;
     for (size_t i = 0; i < nh_method_count(); i++) word_of[1 + i] = methods[i].word;
-    const char *near = elsewhere(word);
+    const char *near = elsewhere(word, true);
     if (!near) near = nh_text_nearest(word, word_of, nh_method_count() + 1);
+    if (!near) near = elsewhere(word, false);
     nh_fail(error, NH_USAGE, "", "there is no method `%s`", word);
     return near ? nh_error_hint(error, "did you mean `%s`? `nhsym explain methods` lists them", near)
                 : nh_error_hint(error, "`nhsym explain methods` lists them");
