@@ -1,10 +1,11 @@
 /* The ladder's stage for what moves linearly: where the equations of motion are, for all coordinates or for some that
  * depend on no others,
  *
- *     z' = A z + b,     z = (q, w) of one block, A of numbers or parameters, b a polynomial in t,
+ *     z' = A z + b,     z = (q, w) of one block, A of numbers or parameters, b a sum of functions of t whose
+ *                       derivatives are finitely many functions (powers, exponentials, waves and their products),
  *
- * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, with c a polynomial in t of the
- * degree of b, and lambda = 0, where A is defective, polynomials in t. A's blocks are solved one by one, so that many
+ * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, with c such a sum, too (of t times
+ * these functions where the drive is in resonance), and lambda = 0, where A is defective, polynomials in t. A's blocks are solved one by one, so that many
  * coordinates are no more trouble than few; the rates of a block of two come as formulas, those of larger ones as
  * numbers that are then named, and the vectors from the null space of z times the waves of one rate, as everywhere. */
 #include <math.h>
@@ -13,6 +14,7 @@
 
 #include "base/linalg.h"
 #include "graph/diff.h"
+#include "graph/terms.h"
 #include "exact/normal.h"
 #include "integrals/recognise.h"
 #include "search/stage_solver.h"
@@ -20,7 +22,7 @@
 
 enum {
     longest = 2000,  /* symbols of an equation of motion */
-    most_powers = 3  /* of t in b */
+    most_drives = 12 /* functions of t in b and its derivatives */
 };
 /* of the largest rate: a rate below it is zero, whose double eigenvalue is split by the root of rounding */
 static const double defective = 1e-5,
@@ -32,7 +34,8 @@ typedef struct {
     nh_ex *z, *entry;  /* entry[i + j size]: A; 0 (the number) where there is none */
     size_t *block;     /* per variable: the first of its block */
     size_t count, *of; /* of the block at hand: its variables */
-    size_t powers;     /* the degree of b in t */
+    size_t drives;     /* 1, the functions of t that the terms of b are constant multiples of, and of their derivatives */
+    nh_ex drive[most_drives];
     bool turns;        /* of the rate that is followed: its imaginary part is meant */
 } linear;
 
@@ -57,17 +60,50 @@ static void join(linear *l, size_t i, size_t j)
     l->block[a > b ? a : b] = a > b ? b : a;
 }
 
-/* b of one row, from which the terms with z are taken: is it a polynomial in t, of what degree? */
+/* The function of t that the term is a constant multiple of. */
+static nh_ex function_of_time(nh_dag *d, nh_ex term, nh_ex t)
+{
+    if (nh_kind_of(d, term) != NH_PRODUCT) return nh_depends(d, term, t) ? term : nh_int(d, 1);
+    nh_ex g = nh_int(d, 1);
+    for (size_t i = 0; i < nh_arity(d, term); i++) {
+        nh_ex factor = nh_pow(d, nh_child(d, term, i), nh_exponent_of(d, term, i));
+        if (nh_depends(d, factor, t)) g = nh_mul(d, g, factor);
+    }
+    return g;
+}
+
+static bool add_drive(linear *l, nh_ex term)
+{
+    nh_dag *d = l->x->r->model->dag;
+    nh_ex g = function_of_time(d, term, l->x->r->system->t);
+    bool old = nh_is_zero(d, term);
+    for (size_t i = 0; i < l->drives && !old; i++) old = g == l->drive[i];
+    if (!old && l->drives == most_drives) return false;
+    if (!old) l->drive[l->drives++] = g;
+    return true;
+}
+
+/* The functions of the terms of e that are new, sums below factors multiplied out; false where they are too many. */
+static bool add_drives(linear *l, nh_ex e)
+{
+    nh_ex *part;
+    bool fits = true;
+    size_t n = nh_terms_of(l->x->r->model->dag, e, &part);
+    if (n == 1) fits = add_drive(l, e);
+    for (size_t k = 1; k < n && fits; k++) fits = add_drives(l, part[k]);
+    nh_free(part);
+    return fits;
+}
+
+/* b of one row, from which the terms with z are taken, and the derivatives of its functions. */
 static bool drive(linear *l, nh_ex b)
 {
     const nh_model *o = l->x->r->model;
-    size_t power = 0;
-    if (!nh_depends(o->dag, b, o->system->t)) return true;
-    for (; power <= most_powers && !nh_is_zero(o->dag, b); power++)
-        b = nh_simplify_short(o->dag, nh_diff(o->dag, b, o->system->t), 0);
-    if (!nh_is_zero(o->dag, b)) return false;
-    if (power > l->powers + 1) l->powers = power - 1;
-    return true;
+    size_t first = l->drives;
+    bool fits = add_drives(l, nh_simplify_short(o->dag, b, 0));
+    for (size_t i = first; i < l->drives && fits; i++)
+        fits = add_drives(l, nh_simplify_short(o->dag, nh_diff(o->dag, l->drive[i], o->system->t), 0));
+    return fits;
 }
 
 /* Row i of A; false when z_i' is not linear, or depends on t otherwise. */
@@ -91,6 +127,7 @@ static bool read_matrix(linear *l)
 {
     const nh_model *o = l->x->r->model;
     if (o->chart->implicit) return false;
+    l->drive[l->drives++] = nh_int(o->dag, 1);
     for (size_t i = 0; i < l->size; i++) {
         l->block[i] = i;
         l->z[i] = o->chart->symbol[1 + i];
@@ -189,28 +226,40 @@ static size_t waves_of_two(const linear *l, bool turns, nh_ex *out)
 
 /* ---- the stages of one block ---- */
 
-/* Its variables and the powers of t that b has, 1 first, times these functions of t. */
-static void stage(linear *l, const char *name, size_t functions, const nh_ex *function)
+/* Its variables and the functions that drive it, once or also times t, times these functions of t. */
+static void stage(linear *l, const char *name, bool resonant, size_t functions, const nh_ex *function)
 {
     nh_analysis *r = l->x->r;
-    nh_ex *term = nh_arena_alloc(r->arena, (l->count + l->powers + 1) * sizeof *term),
+    size_t terms = l->count + (resonant ? 2 : 1) * l->drives;
+    nh_ex *term = nh_arena_alloc(r->arena, terms * sizeof *term),
           *copy = nh_arena_alloc(r->arena, (functions + 1) * sizeof *copy);
     nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, sizeof *all);
     for (size_t i = 0; i < l->count; i++) term[i] = l->z[l->of[i]];
-    for (size_t k = 0; k <= l->powers; k++)
-        term[l->count + k] = nh_powi(r->model->dag, r->system->t, (long)k);
+    for (size_t k = 0; k < l->drives; k++) {
+        term[l->count + k] = l->drive[k];
+        if (resonant) term[l->count + l->drives + k] = nh_mul(r->model->dag, r->system->t, l->drive[k]);
+    }
     memcpy(copy, function, functions * sizeof *copy);
-    part[0] = (nh_family){.kind = NH_TERMS, .terms = l->count + l->powers + 1, .term = term};
+    part[0] = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
     part[1] = (nh_family){.kind = NH_TERMS, .terms = functions, .term = copy};
     all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
     if (!nh_stage_solver_done(l->x)) nh_stage_solver_stage(l->x, name, 1, all);
+}
+
+/* Where the drive is no polynomial it may be in resonance. */
+static void both_stages(linear *l, const char *name, size_t functions, const nh_ex *function)
+{
+    const nh_analysis *r = l->x->r;
+    size_t before = r->independent;
+    stage(l, name, false, functions, function);
+    if (l->drives > 1 && r->independent < before + functions) stage(l, name, true, functions, function);
 }
 
 static void polynomials(linear *l)
 {
     nh_dag *d = l->x->r->model->dag;
     nh_ex t = l->x->r->system->t, f[3] = {nh_int(d, 1), t, nh_mul(d, t, t)};
-    stage(l, "what moves linearly, times powers of t", 3, f);
+    stage(l, "what moves linearly, times powers of t", false, 3, f);
 }
 
 /* Each rate once, with its conjugate: of two values that differ by rounding the first. */
@@ -233,7 +282,7 @@ static void solve_block(linear *l)
         size_t count = formulas && !null ? waves_of_two(l, im[k] != 0, wave)
                                          : waves(l->x->r->model->dag, l->x->r->system->t, named(l, re[k], false),
                                                  named(l, im[k], true), wave);
-        stage(l, "what moves linearly, times exponentials and waves in t", count, wave);
+        both_stages(l, "what moves linearly, times exponentials and waves in t", count, wave);
         done++;
     }
     nh_free(re);
