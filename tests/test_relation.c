@@ -210,6 +210,18 @@ Test(relation, roots_of_parameters)
     TRY(list);
 }
 
+/* |u|, sign(u) and u are related, also from one expression to the next. */
+Test(relation, pieces)
+{
+    static const example list[] = {
+        {"k a m J", NH_RELATION_UNIQUE, {"k*(a-abs(x-y))*sign(x-y)/m", "k*(x-y-a*sign(x-y))/J"}, {"m", "J"}},
+        {"a", NH_RELATION_UNIQUE, {"abs(x)*x", "a*sign(x)*x^2"}, {"a", "-1"}},
+        {"a", NH_RELATION_UNIQUE, {"sign(x)^3*y", "a*abs(x)*y/x"}, {"a", "-1"}},
+        {"a", NH_RELATION_NONE, {"abs(x)", "a*x"}, {0}},
+    };
+    TRY(list);
+}
+
 /* Roots of variables with a constant ratio. */
 Test(relation, proportional_roots)
 {

@@ -347,16 +347,14 @@ static bool is_sign(const nh_dag *dag, nh_ex e)
     return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == NH_SIGN;
 }
 
-/* sign(u)^2 = 1, but where u = 0. */
-static void relate_signs(nh_form *f)
+void nh_form_relate_signs(nh_form *f)
 {
     for (size_t i = 0; i < f->kernels.count; i++)
         if (f->kernels.item[i].kind == NH_KERNEL_PLAIN && is_sign(f->kernels.dag, f->kernels.item[i].atom))
             nh_quotient_field_relate(f->field, i, 2, nh_quotient_number(f->field, nh_num_int(1)));
 }
 
-/* |u| = sign(u) u where both stand in one expression, else |u|^2 = u^2. */
-static void relate_abs(nh_form *f, size_t generator)
+void nh_form_relate_abs(nh_form *f, size_t generator)
 {
     nh_dag *dag = f->kernels.dag;
     nh_ex atom = f->kernels.item[generator].atom, sign = nh_call(dag, NH_SIGN, atom);
@@ -374,7 +372,7 @@ static void relate(nh_form *f)
 {
     square_root root[most_roots];
     size_t roots = 0;
-    relate_signs(f);
+    nh_form_relate_signs(f);
     for (size_t n = 0; n < f->kernels.count; n++) {
         size_t i = f->kernels.order[n];
         const nh_kernel *k = &f->kernels.item[i];
@@ -385,7 +383,7 @@ static void relate(nh_form *f)
         if (k->kind == NH_KERNEL_SIN || k->kind == NH_KERNEL_SINH)
             nh_quotient_field_relate_pair(f->field, i, k->partner, k->kind == NH_KERNEL_SINH);
         if (k->kind == NH_KERNEL_ROOT) relate_root(f, i, root, &roots);
-        if (k->kind == NH_KERNEL_ABS) relate_abs(f, i);
+        if (k->kind == NH_KERNEL_ABS) nh_form_relate_abs(f, i);
     }
 }
 

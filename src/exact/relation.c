@@ -107,8 +107,7 @@ static bool relate_kernel(question *q, size_t kernel, const size_t *earlier, siz
     nh_form *f = &q->form;
     nh_kernel k = f->kernels.item[kernel]; /* a copy: roots may be added */
     if (k.kind == NH_KERNEL_SIN) nh_quotient_field_relate_pair(f->field, kernel, k.partner, false);
-    if (k.kind == NH_KERNEL_ABS)
-        nh_quotient_field_relate(f->field, kernel, 2, nh_quotient_pow(f->field, nh_form_eval(f, k.atom), 2));
+    if (k.kind == NH_KERNEL_ABS) nh_form_relate_abs(f, kernel);
     if (k.kind != NH_KERNEL_ROOT) return false;
     const nh_quotient *radicand = nh_form_eval(f, k.atom);
     if (!q->constant[kernel] && relate_to_earlier(q, kernel, radicand, earlier, count)) return false;
@@ -143,6 +142,7 @@ static bool collect_kernels(question *q)
     if (k->count > most_kernels) return false;
     size_t count = k->count, roots = sort_out(q), *earlier = nh_alloc_array(roots + 1, sizeof *earlier);
     q->form.field = nh_quotient_field_create(count + (roots ? roots - 1 : 0), q->forms.max_terms);
+    nh_form_relate_signs(&q->form);
     roots = 0;
     for (int pass = 0; pass < 2; pass++) /* constants first: the others may turn out to be multiples of their roots */
         for (size_t i = 0; i < count; i++) {
