@@ -325,6 +325,28 @@ Test(parameters, an_exponent_of_three_parameters)
     place_clear(&p);
 }
 
+/* Integrals in whose formulas a root of the equations of motion stands, of which the parameters divide the radicand. */
+Test(parameters, a_root_with_parameters_below)
+{
+    sweep_plain_only();
+    expect_names(&(named_case){
+        "name: electric\ncoordinates: [x, y]\nparameters: {m: 1, c: 1, q: 1, E: 0.4}\n"
+        "lagrangian: -m*c^2*sqrt(1 - (x'^2 + y'^2)/c^2) + q*E*x\n",
+        {"", "--set c=1.7", "--set c=3 --set q=2.5 --set E=0.13"},
+        4});
+}
+
+/* |u| and sign(u) stand in the accelerations together. */
+Test(parameters, momenta_beside_a_kink)
+{
+    sweep_plain_only();
+    expect_names(&(named_case){
+        "name: spring\ncoordinates: [x, y]\nparameters: {m: 1, M: 2, k: 3, l: 0.5}\n"
+        "lagrangian: m/2*x'^2 + M/2*y'^2 - k/2*(abs(x - y) - l)^2\n",
+        {"", "--set M=2.7", "--set m=0.3 --set l=1.1"},
+        3});
+}
+
 /* The masses' ratio, although both sums of distances keep their roots in the potential. */
 Test(parameters, generators_have_parameters_whatever_the_values)
 {

@@ -62,22 +62,67 @@ static bool is_parametric(const nh_model *o, nh_ex e)
     return true;
 }
 
-/* sqrt(m^2 u) as m sqrt(u): where that changes a sign, the root does so everywhere, and the rate vanishes for
-   either. */
+/* The radicands of the square roots in these expressions; their number, at most so many. */
+static size_t roots_in(nh_dag *d, size_t n, const nh_ex *e, nh_ex *radicand, size_t most)
+{
+    enum { most_products = 200 };
+    nh_ex product[most_products], half = nh_ratio(d, 1, 2);
+    size_t count = 0;
+    for (size_t k = 0; k < n; k++) {
+        size_t products = nh_products_in(d, e[k], product, most_products);
+        for (size_t i = 0; i < products && i < most_products; i++)
+            for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
+                nh_ex x = nh_exponent_of(d, product[i], f);
+                if ((x == half || x == nh_neg(d, half)) && count < most)
+                    radicand[count++] = nh_child(d, product[i], f);
+            }
+    }
+    return count;
+}
+
+/* sqrt(u) sqrt(v) as sqrt(u v), also below other roots: what is integrated is factored, and so hides that the states
+   cancel in 1 - C^2. */
+static nh_ex joined_roots(nh_dag *d, nh_ex e)
+{
+    enum { most = 200, passes = 4 };
+    nh_ex product[most], by[most], half = nh_ratio(d, 1, 2);
+    for (int pass = 0; pass < passes; pass++) {
+        size_t n = nh_products_in(d, e, product, most), joined = 0;
+        for (size_t i = 0; i < n && i < most; i++) {
+            nh_ex radicand = nh_int(d, 1), others = nh_number(d, nh_constant_of(d, product[i]));
+            size_t roots = 0;
+            for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
+                nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
+                bool root = x == half || x == nh_neg(d, half);
+                roots += root;
+                if (root) radicand = nh_mul(d, radicand, nh_pow(d, base, nh_add(d, x, x)));
+                else others = nh_mul(d, others, nh_pow(d, base, x));
+            }
+            if (roots < 2) continue;
+            nh_ex above = nh_simplify_short(d, radicand, 0);
+            nh_ex below = nh_simplify_short(d, nh_div(d, nh_int(d, 1), radicand), 0);
+            bool over = nh_complexity(d, below) < nh_complexity(d, above);
+            product[joined] = product[i];
+            by[joined++] = over ? nh_div(d, others, nh_sqrt(d, below)) : nh_mul(d, others, nh_sqrt(d, above));
+        }
+        if (!joined) return e;
+        e = nh_substitute(d, e, joined, product, by);
+    }
+    return e;
+}
+
+/* sqrt(m^2 u) as m sqrt(u): where that changes a sign, the root does so everywhere in e. */
 static nh_ex shorter_roots(const nh_model *o, nh_ex e)
 {
     enum { most = 200 };
     nh_dag *d = o->dag;
-    nh_ex product[most], half = nh_ratio(d, 1, 2), outside, inside;
-    size_t n = nh_products_in(d, e, product, most);
-    for (size_t i = 0; i < n && i < most; i++)
-        for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
-            nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
-            if (x != half && x != nh_neg(d, half)) continue;
-            bool split =
-                nh_square_split(d, nh_simplify_short(d, base, 0), &outside, &inside) && is_parametric(o, outside);
-            if (split) e = nh_substitute_root(d, e, base, nh_mul(d, outside, nh_sqrt(d, inside)));
-        }
+    nh_ex radicand[most], outside, inside;
+    size_t n = roots_in(d, 1, &e, radicand, most);
+    for (size_t i = 0; i < n; i++) {
+        bool split = nh_square_split(d, nh_simplify_short(d, radicand[i], 0), &outside, &inside) &&
+                     is_parametric(o, outside);
+        if (split) e = nh_substitute_root(d, e, radicand[i], nh_mul(d, outside, nh_sqrt(d, inside)));
+    }
     return e;
 }
 
@@ -119,6 +164,39 @@ static int by_generality(const void *left, const void *right)
     return a->e < b->e ? -1 : a->e > b->e;
 }
 
+/* sqrt(s^2 R) as s sqrt(R), where sqrt(R) stands in the equations of motion and the parameters make s positive: the
+   rate then vanishes whatever the sign of s. */
+static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
+{
+    enum { most = 200 };
+    nh_dag *d = o->dag;
+    nh_ex own[most], theirs[most], half = nh_ratio(d, 1, 2), s, rest;
+    size_t roots = roots_in(d, 1, &e, own, most), known = roots_in(d, o->n, o->a, theirs, most);
+    for (size_t i = 0; i < roots; i++)
+        for (size_t j = 0; j < known; j++) {
+            nh_ex ratio = nh_simplify_short(d, nh_div(d, own[i], theirs[j]), 0);
+            if (own[i] == theirs[j] || !is_parametric(o, ratio) || !nh_square_split(d, ratio, &s, &rest)) continue;
+            nh_ex value = nh_exact_values(o, s);
+            if (rest != nh_int(d, 1) || nh_kind_of(d, value) != NH_NUMBER) continue;
+            if (nh_num_value(nh_number_of(d, value)) < 0) s = nh_neg(d, s);
+            e = nh_substitute_root(d, e, own[i], nh_mul(d, s, nh_pow(d, theirs[j], half)));
+            break;
+        }
+    return e;
+}
+
+/* The constant's value, shorter.  A sign that this changes in its roots and not in those of the equations of motion may
+   ask for values of parameters. */
+static nh_ex as_current(const nh_analysis *r, nh_ex value, bool general)
+{
+    const nh_model *o = r->model;
+    nh_dag *d = o->dag;
+    nh_ex e = shorter_roots(o, nh_simplify_short(d, shorter_logarithms(r, shorter_roots(o, value)), 0));
+    nh_ex rooted = nh_simplify_short(d, roots_of_the_equations(o, joined_roots(d, e)), 0);
+    if (e == rooted || !general || nh_prove_current(o, e, true, &r->options).all_parameters) return e;
+    return nh_prove_current(o, rooted, true, &r->options).all_parameters ? rooted : e;
+}
+
 static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *const *tried)
 {
     const nh_model *o = x->r->model;
@@ -128,9 +206,7 @@ static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *
     for (size_t k = 0; k < count; k++)
         for (size_t j = 0; j < tried[k]->constants; j++) {
             if (!tried[k]->constant[j].integrated || tried[k]->constant[j].at_start) continue;
-            nh_ex e =
-                nh_simplify_short(o->dag, shorter_logarithms(x->r, shorter_roots(o, tried[k]->constant[j].value)), 0);
-            e = shorter_roots(o, e);
+            nh_ex e = as_current(x->r, tried[k]->constant[j].value, !tried[k]->fixed);
             list[n++] = (constant){e, tried[k]->fixed != NULL, nh_complexity(o->dag, e)};
         }
     qsort(list, n, sizeof *list, by_generality);
