@@ -39,8 +39,8 @@ void nh_form_clear(nh_form *form);
    field. */
 nh_ex nh_form_rewrite(nh_forms *forms, nh_ex e);
 
-/* What |u| and sign(u) satisfy, their kernels collected: sign(u)^2 = 1 but where u = 0; |u| = sign(u) u where both stand
-   in one field, else |u|^2 = u^2. */
+/* What |u| and sign(u) satisfy, their kernels collected: sign(u)^2 = 1 but where u = 0; |u| = sign(u) u where both
+   stand in one field, else |u|^2 = u^2. */
 void nh_form_relate_signs(nh_form *form);
 void nh_form_relate_abs(nh_form *form, size_t kernel);
 

@@ -5,9 +5,10 @@
  *                       derivatives are finitely many functions (powers, exponentials, waves and their products),
  *
  * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, with c such a sum, too (of t times
- * these functions where the drive is in resonance), and lambda = 0, where A is defective, polynomials in t. A's blocks are solved one by one, so that many
- * coordinates are no more trouble than few; the rates of a block of two come as formulas, those of larger ones as
- * numbers that are then named, and the vectors from the null space of z times the waves of one rate, as everywhere. */
+ * these functions where the drive is in resonance), and lambda = 0, where A is defective, polynomials in t. A's blocks
+ * are solved one by one, so that many coordinates are no more trouble than few; the rates of a block of two come as
+ * formulas, those of larger ones as numbers that are then named, and the vectors from the null space of z times the
+ * waves of one rate, as everywhere. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -34,7 +35,7 @@ typedef struct {
     nh_ex *z, *entry;  /* entry[i + j size]: A; 0 (the number) where there is none */
     size_t *block;     /* per variable: the first of its block */
     size_t count, *of; /* of the block at hand: its variables */
-    size_t drives;     /* 1, the functions of t that the terms of b are constant multiples of, and of their derivatives */
+    size_t drives;     /* 1 and the functions of t that terms of b and of its derivatives are multiples of */
     nh_ex drive[most_drives];
     bool turns;        /* of the rate that is followed: its imaginary part is meant */
 } linear;
