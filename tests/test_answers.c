@@ -1,5 +1,6 @@
 /* From null vectors to statements: echelon form, recognition of numbers, independence, proofs, unknown frequencies. */
 #include "families.h"
+#include "sweep.h"
 
 #include <stdio.h>
 

@@ -4,10 +4,10 @@
  *     z' = A z + b,     z = (q, w) of one block, A of numbers or parameters, b a sum of functions of t whose
  *                       derivatives are finitely many functions (powers, exponentials, waves and their products),
  *
- * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, with c such a sum, too (of t times
- * these functions where the drive is in resonance), and lambda = 0, where A is defective, polynomials in t. A's blocks
- * are solved one by one, so that many coordinates are no more trouble than few; the rates of a block of two come as
- * formulas, those of larger ones as numbers that are then named, and the vectors from the null space of z times the
+ * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, with c such a sum, too (of t
+ * times these functions where the drive is in resonance), and lambda = 0, where A is defective, polynomials in t. A's
+ * blocks are solved one by one, so that many coordinates are no more trouble than few; the rates of a block of two come
+ * as formulas, those of larger ones as numbers that are then named, and the vectors from the null space of z times the
  * waves of one rate, as everywhere. */
 #include <math.h>
 #include <stdio.h>
