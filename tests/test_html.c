@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "document/typeset.h"
+#include "graph/parse.h"
 #include "numbers.h"
 #include "program.h"
 #include "sweep.h"
@@ -163,6 +164,37 @@ Test(html, a_current_without_proof_says_why)
     cr_expect_str_eq(nh_formula_doubt(&f), " (coefficients fitted in double precision)");
 }
 
+static bool any_name(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
+{
+    (void)fault;
+    *out = nh_symbol(context, name);
+    return true;
+}
+
+/* Sums that are equal, or minus each other, are written the same way, at every depth; others are left alone. */
+Test(html, equal_sums_in_formulas_are_written_once)
+{
+    static const struct {
+        const char *a, *b;
+        bool same;
+    } cases[] = {{"x/(5*m*(90*m + 2*(30*m + 25*m*l*c + 21)*c) + 623)", "x/(5*m*(90*m + 2*(5*m*(5*l*c + 6) + 21)*c) + 623)", true},
+                 {"x*exp(sin(c)^2 + cos(l)^2 - 1)", "x*exp(cos(l)^2 - cos(c)^2)", true},
+                 {"x*(l*m + 3*c*(m + l))", "-x*(-l*m - 3*c*m - 3*c*l)", true},
+                 {"x*(l*m + 3*c*(m + l))", "x*(l*m + 3*c*(m + 1.000000001*l))", false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_dag *d = nh_dag_create();
+        nh_parse_fault fault;
+        nh_ex e[2], before[2];
+        cr_assert(nh_parse(d, cases[i].a, any_name, d, &e[0], &fault) && nh_parse(d, cases[i].b, any_name, d, &e[1], &fault), "%s", fault.what);
+        memcpy(before, e, sizeof e);
+        cr_assert_neq(e[0], e[1]);
+        nh_formula_unify(d, 2, e);
+        cr_expect_eq(e[0] == e[1], cases[i].same, "%s, %s", cases[i].a, cases[i].b);
+        if (!cases[i].same) cr_expect(e[0] == before[0] && e[1] == before[1]);
+        nh_dag_free(d);
+    }
+}
+
 Test(html, every_number_is_in_the_json)
 {
     place p = place_with_systems();
@@ -246,12 +278,18 @@ Test(html, what_is_left_out_is_named_with_the_option_that_shows_it)
     for (size_t i = 0; i < 3; i++) {
         if (!sweep_tries(i, 1, 2)) continue;
         char again[200];
-        finished f = run(&p, lines[i]);
+        snprintf(again, sizeof again, "%s --html=page.html --tex=paper.tex", lines[i]);
+        finished f = run(&p, again);
+        char *page = read_here(&p, "page.html"), *paper = read_here(&p, "paper.tex");
         double most = 0;
         expect_defined(f.out, lines[i]);
         cr_expect(i != 0 || strstr(f.out, "too long to be shown"), "%s: nothing is left out, so this tries nothing", lines[i]);
+        cr_expect(i != 0 || strstr(page, "long formula"), "%s: the page folds nothing", again);
+        cr_expect(!strstr(page, "long to be shown") && !strstr(page, "(too long") && !strstr(paper, "long to be shown") && !strstr(paper, "(\\text{too long"), "%s: they have room for it", again);
         for (const char *c = f.out; (c = strstr(c, "shown=")); c++) most = fmax(most, strtod(c + 6, NULL));
         finished_clear(&f);
+        free(page);
+        free(paper);
         if (!(most > 0)) continue;
         snprintf(again, sizeof again, "%s --option shown=%.0f", lines[i], most);
         f = run(&p, again);

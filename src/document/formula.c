@@ -14,8 +14,8 @@ nh_ex nh_formula_shortened(const nh_analysis_file *a, nh_dag *d, nh_ex e)
         nh_kind kind = nh_kind_of(d, a->definition[i].value);
         if (kind == NH_NUMBER || kind == NH_SYMBOL) continue;
         nh_ex name = nh_symbol(d, a->definition[i].name), value = a->definition[i].value;
-        bool root = kind == NH_PRODUCT && nh_arity(d, value) == 1 && nh_num_is(nh_constant_of(d, value), 1)
-                    && nh_exponent_of(d, value, 0) == nh_ratio(d, 1, 2);
+        bool root = kind == NH_PRODUCT && nh_arity(d, value) == 1 && nh_num_is(nh_constant_of(d, value), 1) &&
+                    nh_exponent_of(d, value, 0) == nh_ratio(d, 1, 2);
         e = root ? nh_substitute_root(d, e, nh_child(d, value, 0), name) : nh_substitute(d, e, 1, &value, &name);
     }
     return e;
@@ -28,7 +28,14 @@ nh_ex nh_formula_shown(const nh_analysis *r, nh_ex e)
 
 /* ---- names for what is repeated ---- */
 
-enum { most_names = 120, long_formula = 120, largest_graph = 20000, least_gain = 12, formulas_per_block = 3 };
+enum {
+    most_names = 120,
+    long_formula = 120,
+    largest_graph = 20000,
+    least_gain = 12,
+    formulas_per_block = 3,
+    page_room = 4
+};
 
 /* How often does each node below n stand in the text of the formulas?  A child has a smaller index than what it stands
    in. */
@@ -84,7 +91,12 @@ static char free_letter(const nh_dag *d)
     return 'Z';
 }
 
-nh_formula_room nh_formula_block(double shown) { return (nh_formula_room){shown, formulas_per_block * shown}; }
+nh_formula_room nh_formula_block(double shown) { return (nh_formula_room){shown, formulas_per_block * shown, 1}; }
+
+nh_formula_room nh_formula_page(double shown)
+{
+    return (nh_formula_room){page_room * shown, formulas_per_block * page_room * shown, page_room};
+}
 
 /* Does a document leave something out, for it is too long? */
 static bool too_long(const nh_dag *d, size_t n, const nh_ex *e, size_t parts, const nh_formula_part *part,
@@ -110,6 +122,7 @@ size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_room room, nh_
         nodes += nh_node_count(d, e[i]);
     }
     if (longest < long_formula || nodes > largest_graph) return 0;
+    nh_formula_unify(d, n, e);
     for (nh_ex best; count < NH_FORMULA_PARTS && most_repeated(d, n, e, count, part, &best);) {
         if (count >= NH_FORMULA_FEW && !too_long(d, n, e, count, part, room)) break;
         nh_formula_part *p = &part[count];
@@ -162,7 +175,7 @@ double nh_formula_fit(nh_dag *d, size_t n, const nh_ex *e, size_t parts, const n
         used_up += more;
         memcpy(needed, with, sizeof with);
     }
-    return isfinite(room.all) ? fmax(wanted, ceil(all / formulas_per_block)) : wanted;
+    return ceil((isfinite(room.all) ? fmax(wanted, all / formulas_per_block) : wanted) / room.times);
 }
 
 void nh_formula_number(nh_dag *d, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed,
@@ -179,6 +192,29 @@ void nh_formula_number(nh_dag *d, size_t n, nh_ex *e, size_t parts, nh_formula_p
     for (size_t i = 0; i < n; i++) e[i] = nh_substitute(d, e[i], count, from, to);
     for (size_t k = 0; k < parts; k++)
         if (needed[k]) part[k].value = nh_substitute(d, part[k].value, count, from, to);
+}
+
+nh_formula_list nh_formula_list_make(nh_dag *d, size_t n, const nh_ex *e, double shown, nh_formula_room room,
+                                     size_t *names)
+{
+    nh_formula_list l = {.formula = nh_alloc_array(n + 1, sizeof *l.formula),
+                         .stands = nh_alloc_array(2 * n + 1, sizeof *l.stands)};
+    l.short_enough = l.stands + n;
+    if (n) memcpy(l.formula, e, n * sizeof *e);
+    const nh_formula_room least = nh_formula_block(shown);
+    l.parts = nh_formula_parts(d, n, l.formula, least, l.part);
+    nh_formula_fit(d, n, l.formula, l.parts, l.part, least, l.short_enough, l.beside);
+    l.wanted = nh_formula_fit(d, n, l.formula, l.parts, l.part, room, l.stands, l.needed);
+    for (size_t i = 0; i < n; i++) l.short_enough[i] &= l.stands[i];
+    for (size_t k = 0; k < l.parts; k++) l.named |= l.needed[k];
+    nh_formula_number(d, n, l.formula, l.parts, l.part, l.needed, 0, names);
+    return l;
+}
+
+void nh_formula_list_clear(nh_formula_list *l)
+{
+    nh_free(l->formula);
+    nh_free(l->stands);
 }
 
 /* ---- fields ---- */
@@ -207,9 +243,11 @@ size_t nh_formula_field(const nh_analysis *r, const nh_symmetry *z, nh_field_ter
     return n;
 }
 
-void nh_formula_left_out(double wanted, nh_text *out)
+void nh_formula_left_out(double wanted, double page, nh_text *out)
 {
-    if (wanted < 1e9) nh_text_addf(out, "... (too long to be shown; --option shown=%.0f shows it)", wanted);
+    if (wanted <= page)
+        nh_text_addf(out, "... (too long to be shown here; --html, --tex or --option shown=%.0f shows it)", wanted);
+    else if (wanted < 1e9) nh_text_addf(out, "... (too long to be shown; --option shown=%.0f shows it)", wanted);
     else nh_text_add(out, "... (too long to be shown)");
 }
 
@@ -219,7 +257,7 @@ char *nh_formula_text(nh_dag *d, nh_ex e, double shown)
     char *text = nh_print_short(d, e, shown);
     if (text) return text;
     nh_text_init(&words);
-    nh_formula_left_out((double)nh_complexity(d, e), &words);
+    nh_formula_left_out((double)nh_complexity(d, e), 0, &words);
     text = nh_strdup(nh_text_string(&words));
     nh_text_clear(&words);
     return text;

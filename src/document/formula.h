@@ -10,6 +10,9 @@ nh_ex nh_formula_shortened(const nh_analysis_file *analysis, nh_dag *dag, nh_ex 
 /* e without roots that are dependent velocities. */
 nh_ex nh_formula_shown(const nh_analysis *result, nh_ex e);
 
+/* Sums in the n formulas that are equal, or minus each other, by their normal forms get the shortest of their forms. */
+void nh_formula_unify(nh_dag *dag, size_t n, nh_ex *e);
+
 /* Long formulas with names for what occurs in them more than once: the n formulas are changed, part[i] = {name, value}
  * in an order in which each uses only names that come later.  Names are new to the graph: a letter, _ and a number.
  * There are at most NH_FORMULA_FEW, and more only as long as nh_formula_fit would leave something out without them.
@@ -20,9 +23,11 @@ typedef struct {
     nh_ex symbol, value;
 } nh_formula_part;
 typedef struct {
-    double longest, all;         /* symbols that a formula or the value of a name may have; all of them together */
+    double longest, all; /* symbols that a formula or the value of a name may have; all of them together */
+    double times;        /* how often the option `shown` the longest is */
 } nh_formula_room;
 nh_formula_room nh_formula_block(double shown); /* three times as many together */
+nh_formula_room nh_formula_page(double shown);  /* of a page, which folds what is long, and of LaTeX: four times that */
 size_t nh_formula_parts(nh_dag *dag, size_t n, nh_ex *e, nh_formula_room room, nh_formula_part part[NH_FORMULA_PARTS]);
 
 /* Which of the formulas stand in a document: those for which there is room, with all the names that they need.
@@ -35,6 +40,21 @@ double nh_formula_fit(nh_dag *dag, size_t n, const nh_ex *e, size_t parts, const
 void nh_formula_number(nh_dag *dag, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed,
                        char letter, size_t *names);
 
+/* Formulas under each other, with names for what is repeated, and the parts of that. */
+typedef struct {
+    nh_ex *formula;              /* with names */
+    bool *stands, *short_enough; /* is there room for it: in the document; beside others, or where nothing folds */
+    nh_formula_part part[NH_FORMULA_PARTS];
+    size_t parts;
+    bool named;                                              /* is any part needed? */
+    bool needed[NH_FORMULA_PARTS], beside[NH_FORMULA_PARTS]; /* by what stands; by what is short enough */
+    double wanted;
+} nh_formula_list;
+/* room: of the document; shown: the option, which says what is short enough.  *names: as nh_formula_number has it. */
+nh_formula_list nh_formula_list_make(nh_dag *dag, size_t n, const nh_ex *e, double shown, nh_formula_room room,
+                                     size_t *names);
+void nh_formula_list_clear(nh_formula_list *list);
+
 /* The symmetry of a current as a sum of coefficients along basis fields: d/dt, d/dq, d/dx' of the chart of coordinate
  * velocities (or of the only one); or along Gamma first and then the rest, where that is much shorter.  Terms that
  * vanish are left out.  The list belongs to the model's arena. */
@@ -46,8 +66,9 @@ size_t nh_formula_field(const nh_analysis *result, const nh_symmetry *z, nh_fiel
 
 /* A formula as text; when it is longer than `shown` symbols, how long it is and which option shows it. */
 char *nh_formula_text(nh_dag *dag, nh_ex e, double shown);
-/* The words for one that is left out: with names for what is repeated it wants so many symbols. */
-void nh_formula_left_out(double wanted, nh_text *out);
+/* The words for one that is left out: with names for what is repeated it wants so many symbols.
+ * `page`: how many a page has room for; 0 where the words stand on a page. */
+void nh_formula_left_out(double wanted, double page, nh_text *out);
 
 /* Of the text of an expression: has it a plus or minus outside all parentheses, after the first character? */
 bool nh_formula_is_sum(const char *text);

@@ -93,7 +93,7 @@ static void too_long(nh_html_writer *w, const char *label, nh_ex e, double wante
     bool known = (double)nh_complexity(w->dag, e) <= w->written;
     nh_text words;
     nh_text_init(&words);
-    nh_formula_left_out(wanted, &words);
+    nh_formula_left_out(wanted, 0, &words);
     nh_html_add(w, "<div class=\"formula\">");
     put_label(w, label);
     nh_html_tagged(w, "em", nh_text_string(&words));
@@ -101,24 +101,38 @@ static void too_long(nh_html_writer *w, const char *label, nh_ex e, double wante
     nh_text_clear(&words);
 }
 
+/* Those that are short enough, or the others, with the names that only they need. */
+static void put_list(nh_html_writer *w, const nh_formula_list *l, size_t n, const char *const *label, bool beside)
+{
+    bool any = false;
+    for (size_t i = 0; i < n; i++)
+        if (l->stands[i] && l->short_enough[i] == beside) line(w, label[i], l->formula[i]);
+    for (size_t k = 0; k < l->parts; k++) {
+        if (!l->needed[k] || l->beside[k] != beside) continue;
+        if (!any) nh_html_add(w, "<div class=\"where\"><p>where</p>\n");
+        any = true;
+        line(w, l->part[k].name, l->part[k].value);
+    }
+    if (any) nh_html_add(w, "</div>\n");
+}
+
 void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e)
 {
-    nh_formula_part part[NH_FORMULA_PARTS];
-    bool needed[NH_FORMULA_PARTS], any = false, *shown = nh_alloc_array(n + 1, sizeof *shown);
     nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
+    size_t folded = 0;
     for (size_t i = 0; i < n; i++)
         brief[i] = nh_formula_shortened(w->analysis, w->dag, w->chart ? nh_chart_shown(w->chart, e[i]) : e[i]);
-    size_t parts = nh_formula_parts(w->dag, n, brief, nh_formula_block(w->shown), part);
-    double wanted = nh_formula_fit(w->dag, n, brief, parts, part, nh_formula_block(w->shown), shown, needed);
-    for (size_t k = 0; k < parts; k++) any |= needed[k];
-    nh_formula_number(w->dag, n, brief, parts, part, needed, 0, &w->names);
-    for (size_t i = 0; i < n; i++)
-        if (shown[i]) line(w, label[i], brief[i]);
-        else too_long(w, label[i], e[i], wanted);
-    if (any) nh_html_add(w, "<div class=\"where\"><p>where</p>\n");
-    for (size_t k = 0; k < parts; k++)
-        if (needed[k]) line(w, part[k].name, part[k].value);
-    if (any) nh_html_add(w, "</div>\n");
+    nh_formula_list l = nh_formula_list_make(w->dag, n, brief, w->shown, nh_formula_page(w->shown), &w->names);
+    put_list(w, &l, n, label, true);
+    for (size_t i = 0; i < n; i++) {
+        folded += l.stands[i] && !l.short_enough[i];
+        if (!l.stands[i]) too_long(w, label[i], e[i], l.wanted);
+    }
+    if (folded) {
+        nh_text_addf(w->out, "<details><summary>%zu long formula%s</summary>\n", folded, folded > 1 ? "s" : "");
+        put_list(w, &l, n, label, false);
+        nh_html_add(w, "</details>\n");
+    }
+    nh_formula_list_clear(&l);
     nh_free(brief);
-    nh_free(shown);
 }

@@ -98,19 +98,30 @@ static void code(void *to, const char *text)
     nh_tex_add(to, "\\par\n");
 }
 
+/* Words inside a formula. */
+static void put_text(nh_text *out, const char *words)
+{
+    nh_tex_writer inner = {.out = out};
+    if (!words[0]) return;
+    nh_text_add(out, "\\text{");
+    nh_tex_words(&inner, words);
+    nh_text_add(out, "}");
+}
+
 static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
 {
+    nh_text *latex = nh_alloc_array(n + 1, sizeof *latex);
+    const char **shown = nh_alloc_array(n + 1, sizeof *shown);
     for (size_t i = 0; i < n; i++) {
-        nh_text latex;
-        nh_text_init(&latex);
-        if (nh_pen_is_name(label[i])) {
-            nh_tex_formula(to, label[i], e[i]);
-        } else {
-            nh_notation_write(label[i], NH_NOTATION_LATEX, &latex);
-            nh_tex_labelled(to, nh_text_string(&latex), e[i]);
-        }
-        nh_text_clear(&latex);
+        nh_text_init(&latex[i]);
+        if (!nh_pen_is_name(label[i])) nh_notation_write(label[i], NH_NOTATION_LATEX, &latex[i]);
+        else if (!nh_typeset(label[i], NH_LATEX, &latex[i])) put_text(&latex[i], label[i]);
+        shown[i] = nh_text_string(&latex[i]);
     }
+    nh_tex_formulas(to, n, shown, label, e);
+    for (size_t i = 0; i < n; i++) nh_text_clear(&latex[i]);
+    nh_free(shown);
+    nh_free(latex);
 }
 
 static void sheet(void *to, nh_sheet *formulas_of, bool headed)

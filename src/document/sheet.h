@@ -12,16 +12,16 @@
 
 typedef struct {
     nh_ex coefficient;
-    const char *factor;      /* notation; "": none */
-    double wanted;           /* 0: it is shown; else it is left out, and the option shown that shows it */
+    const char *factor; /* notation; "": none */
+    double wanted;      /* 0: it is shown; else it is left out, and the option shown that shows it */
 } nh_sheet_term;
 
 typedef struct {
-    const char *tag;         /* notation: the number of an equation, "(17)"; "" */
-    const char *label;       /* notation; "": an equation, whose left side is a sum */
-    const char *words;       /* instead of a formula; else NULL */
+    const char *tag;   /* notation: the number of an equation, "(17)"; "" */
+    const char *label; /* notation; "": an equation, whose left side is a sum */
+    const char *words; /* instead of a formula; else NULL */
     size_t left, right, room;
-    nh_sheet_term *term;     /* the left side's, then the right side's */
+    nh_sheet_term *term; /* the left side's, then the right side's */
 } nh_sheet_line;
 
 typedef struct {
@@ -36,11 +36,11 @@ typedef struct {
     nh_arena *arena;
     nh_dag *dag;
     const nh_analysis_file *analysis; /* whose abbreviations text and page use; or NULL */
-    const nh_chart *chart;   /* whose roots are shown as velocities; or NULL */
-    double shown, written;   /* options: longer formulas are left out of text and page; of the JSON */
+    const nh_chart *chart;            /* whose roots are shown as velocities; or NULL */
+    double shown, written;            /* options: longer formulas are left out of text and page; of the JSON */
     size_t sections, room;
     nh_sheet_section *section;
-    size_t names;            /* of repeated parts, so far */
+    size_t names; /* of repeated parts, so far */
 } nh_sheet;
 
 /* ---- writing it: into the last section, the last line ---- */
@@ -61,8 +61,8 @@ const char *nh_sheet_label(nh_sheet *sheet, const char *format, ...) __attribute
 /* ---- reading it ---- */
 
 /* The section as text and page show it: with the user's abbreviations, and with names for what is repeated in long
- * formulas, which are defined in lines after the `own` first ones. */
-nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, size_t *own);
+ * formulas, which are defined in lines after the `own` first ones.  A page and LaTeX have room for longer ones. */
+nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, bool page, size_t *own);
 /* A coefficient before its factor: its sign, and the rest, which needs parentheses where it is a sum; "" for 1.  NULL:
    too long.  To be freed. */
 char *nh_sheet_coefficient(const nh_sheet *sheet, const nh_sheet_term *term, bool *minus, bool *sum);
@@ -76,7 +76,7 @@ void nh_sheet_fold(const char *text, nh_text *out);
    follow. */
 void nh_sheet_formulas(nh_dag *dag, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown,
                        nh_text *out);
-void nh_sheet_json(nh_sheet *sheet, nh_json *to);     /* a member of `to` for each section */
+void nh_sheet_json(nh_sheet *sheet, nh_json *to);                            /* a member of `to` for each section */
 void nh_sheet_html(nh_sheet *sheet, const char *heading, nh_html_writer *w); /* heading: h3 */
 void nh_sheet_tex(nh_sheet *sheet, const char *heading, nh_tex_writer *w);   /* heading: subsection */
 

@@ -84,12 +84,13 @@ static void put_words(nh_text *out, const char *words)
     nh_text_clear(&text);
 }
 
-static char *left_out(const nh_sheet_term *term)
+static char *left_out(const nh_sheet *s, const nh_sheet_term *term)
 {
     nh_text words;
-    if (term->factor[0]) return nh_strdup("(too long)");
     nh_text_init(&words);
-    nh_formula_left_out(term->wanted, &words);
+    if (!term->factor[0]) nh_formula_left_out(term->wanted, nh_formula_page(s->shown).longest, &words);
+    else if (term->wanted < 1e9) nh_text_addf(&words, "(too long; --option shown=%.0f shows it)", term->wanted);
+    else nh_text_add(&words, "(too long)");
     char *out = nh_strdup(nh_text_string(&words));
     nh_text_clear(&words);
     return out;
@@ -101,7 +102,7 @@ static void terms(const nh_sheet *s, size_t n, const nh_sheet_term *term, nh_tex
     for (size_t i = 0; i < n; i++) {
         bool minus, sum;
         char *text = nh_sheet_coefficient(s, &term[i], &minus, &sum);
-        if (!text) text = left_out(&term[i]);
+        if (!text) text = left_out(s, &term[i]);
         nh_text_add(out, i ? (minus ? " - " : " + ") : minus ? "-" : "");
         nh_text_addf(out, sum ? "(%s)%s" : "%s%s", text, text[0] && term[i].factor[0] ? " " : "");
         nh_notation_write(term[i].factor, NH_NOTATION_TEXT, out);
@@ -128,7 +129,7 @@ void nh_sheet_text(nh_sheet *s, bool colour, nh_text *out)
 {
     for (size_t i = 0; i < s->sections; i++) {
         size_t own;
-        nh_sheet_section c = nh_sheet_brief(s, i, &own);
+        nh_sheet_section c = nh_sheet_brief(s, i, false, &own);
         if (c.title[0]) nh_text_addf(out, "\n%s%s%s\n", colour ? "\033[1m" : "", c.title, colour ? "\033[0m" : "");
         if (c.words[0]) put_words(out, c.words);
         for (size_t j = 0; j < c.lines; j++) {
@@ -165,26 +166,17 @@ static void put_formula(nh_text *out, size_t indent, const char *label, char *va
 void nh_sheet_formulas(nh_dag *d, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown,
                        nh_text *out)
 {
-    nh_formula_part part[NH_FORMULA_PARTS];
-    bool needed[NH_FORMULA_PARTS], any = false, *stands = nh_alloc_array(n + 1, sizeof *stands);
-    nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
     size_t names = 0;
     nh_text words;
-    memcpy(e, value, n * sizeof *e);
-    size_t parts = nh_formula_parts(d, n, e, nh_formula_block(shown), part);
     nh_text_init(&words);
-    double wanted = nh_formula_fit(d, n, e, parts, part, nh_formula_block(shown), stands, needed);
-    nh_formula_left_out(wanted, &words);
-    nh_formula_number(d, n, e, parts, part, needed, 0, &names);
+    nh_formula_list l = nh_formula_list_make(d, n, value, shown, nh_formula_block(shown), &names);
+    nh_formula_left_out(l.wanted, nh_formula_page(shown).longest, &words);
     for (size_t i = 0; i < n; i++)
-        put_formula(out, indent, label[i], stands[i] ? nh_print_string(d, e[i]) : nh_strdup(nh_text_string(&words)));
-    for (size_t k = 0; k < parts; k++) {
-        if (!needed[k]) continue;
-        if (!any) nh_text_addf(out, "%*swhere\n", (int)indent, "");
-        any = true;
-        put_formula(out, indent, part[k].name, nh_print_string(d, part[k].value));
-    }
+        put_formula(out, indent, label[i],
+                    l.stands[i] ? nh_print_string(d, l.formula[i]) : nh_strdup(nh_text_string(&words)));
+    if (l.named) nh_text_addf(out, "%*swhere\n", (int)indent, "");
+    for (size_t k = 0; k < l.parts; k++)
+        if (l.needed[k]) put_formula(out, indent, l.part[k].name, nh_print_string(d, l.part[k].value));
     nh_text_clear(&words);
-    nh_free(stands);
-    nh_free(e);
+    nh_formula_list_clear(&l);
 }

@@ -193,43 +193,53 @@ void nh_tex_display(nh_tex_writer *w, const char *label, const char *text)
     nh_text_clear(&latex);
 }
 
-/* What is too long for a page, under its name in LaTeX. */
-static void too_long(nh_tex_writer *w, const char *name, nh_ex e)
+static void put_formula(nh_tex_writer *w, const char *latex, const char *plain, nh_ex e)
+{
+    char *text = nh_print_string(w->dag, e);
+    nh_text before;
+    nh_text_init(&before);
+    nh_text_addf(&before, "%s%s", latex, latex[0] ? " = " : "");
+    display(w, nh_text_string(&before), plain, text);
+    nh_text_clear(&before);
+    nh_free(text);
+}
+
+static void too_long(nh_tex_writer *w, const char *latex, nh_ex e, double wanted)
 {
     bool known = (double)nh_complexity(w->dag, e) <= w->written;
-    nh_text_addf(w->out, "\\par %s: too long for a page%s.\\par\n", name, known ? "; the JSON has it" : "");
+    nh_text words;
+    nh_text_init(&words);
+    nh_formula_left_out(wanted, 0, &words);
+    nh_text_addf(w->out, "\\par $%s$ = ", latex);
+    nh_tex_words(w, nh_text_string(&words));
+    nh_text_addf(w->out, "%s.\\par\n", known ? "; the JSON has it" : "");
+    nh_text_clear(&words);
 }
 
-static char *text_of(const nh_tex_writer *w, nh_ex e)
+static void put_names(nh_tex_writer *w, const nh_formula_list *l)
 {
-    nh_ex shown = w->chart ? nh_chart_shown(w->chart, e) : e;
-    return nh_print_short(w->dag, nh_formula_shortened(w->analysis, w->dag, shown), w->shown);
-}
-
-void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e)
-{
-    char *text = text_of(w, e);
-    if (text) {
-        nh_tex_display(w, label, text);
-    } else {
-        nh_text name;
-        nh_tex_writer inner = {.out = &name};
-        nh_text_init(&name);
-        nh_tex_name(&inner, label);
-        too_long(w, nh_text_string(&name), e);
-        nh_text_clear(&name);
+    if (!l->named) return;
+    nh_tex_add(w, "\\par where\\par\n");
+    for (size_t k = 0; k < l->parts; k++) {
+        nh_text latex;
+        nh_text_init(&latex);
+        if (l->needed[k] && nh_typeset(l->part[k].name, NH_LATEX, &latex))
+            put_formula(w, nh_text_string(&latex), l->part[k].name, l->part[k].value);
+        nh_text_clear(&latex);
     }
-    nh_free(text);
 }
 
-void nh_tex_labelled(nh_tex_writer *w, const char *latex, nh_ex e)
+void nh_tex_formulas(nh_tex_writer *w, size_t n, const char *const *latex, const char *const *plain, const nh_ex *e)
 {
-    char *text = text_of(w, e);
-    nh_text name;
-    nh_text_init(&name);
-    nh_text_addf(&name, text ? "%s = " : "$%s$", latex);
-    if (text) display(w, nh_text_string(&name), latex, text);
-    else too_long(w, nh_text_string(&name), e);
-    nh_text_clear(&name);
-    nh_free(text);
+    nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
+    for (size_t i = 0; i < n; i++)
+        brief[i] = nh_formula_shortened(w->analysis, w->dag, w->chart ? nh_chart_shown(w->chart, e[i]) : e[i]);
+    nh_formula_list l = nh_formula_list_make(w->dag, n, brief, w->shown, nh_formula_page(w->shown), &w->names);
+    for (size_t i = 0; i < n; i++) {
+        if (l.stands[i]) put_formula(w, latex[i], plain[i], l.formula[i]);
+        else too_long(w, latex[i], e[i], l.wanted);
+    }
+    put_names(w, &l);
+    nh_formula_list_clear(&l);
+    nh_free(brief);
 }
