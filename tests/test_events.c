@@ -283,3 +283,70 @@ Test(events, errors_say_where)
     }
     place_clear(&p);
 }
+
+/* ---- places where the equations of motion determine no acceleration ---- */
+
+typedef struct {
+    const char *name, *text, *initial;
+    double end;        /* where the motion reaches one; 0: it does not */
+    const char *words;
+} place_without_acceleration;
+
+static const place_without_acceleration SINGULAR[] = {
+    {"cone",
+     "parameters: {a: 0.7}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - z\n"
+     "constraints: [\"z*z' = a^2*(x*x' + y*y')\"]\n",
+     "x=0.8, y=0.6, z=0.7, x'=-0.8, y'=-0.6", 0.835877792354, "constraint z*z' = a^2*(x*x' + y*y') vanish"},
+    {"beside the tip",
+     "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - z\nconstraints: [\"z*z' = x*x' + y*y'\"]\n",
+     "x=1, y=0, z=1, x'=-1, y'=0.001", 0, ""},
+    {"crossing", "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [\"x*y' + y*x' = 0\"]\n",
+     "x=1, y=0, x'=-1", 1, "constraint x*y' + y*x' = 0 vanish"},
+    {"vanishing row",
+     "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"x*z' = x*y*x'\"]\n",
+     "x=1, y=0.3, z=0, x'=-1, y'=0.2", 1.033734, "constraint x*z' = x*y*x' vanish"},
+    {"two rows that meet",
+     "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"y' = x*z'\", \"y' = -x*z'\"]\n",
+     "x=1, y=0, z=0, x'=-0.7", 1.428571428571, "constraints are not independent"},
+    {"mass that vanishes", "coordinates: [x, y]\nlagrangian: (x^2*x'^2 + y'^2)/2\n", "x=1, y=0, x'=-1, y'=1", 0.5,
+     "mass matrix is singular, without inertia in x,"},
+    {"mass that grows less", "coordinates: [x, y]\nlagrangian: (exp(-9*t)*x'^2 + y'^2)/2\n", "x=1, y=0, x'=-1, y'=1", 0,
+     ""},
+    {"gimbal",
+     "coordinates: [{name: psi, type: angle}, {name: theta, type: angle}, {name: phi, type: angle}]\n"
+     "definitions:\n  - w1 = psi'*sin(theta)*sin(phi) + theta'*cos(phi)\n"
+     "  - w2 = psi'*sin(theta)*cos(phi) - theta'*sin(phi)\n  - w3 = psi'*cos(theta) + phi'\n"
+     "lagrangian: (w1^2 + 1.5*w2^2 + 2*w3^2)/2\n",
+     "psi=0, theta=1, phi=0, theta'=-1", 1, "mass matrix is singular, without inertia in psi, phi"},
+};
+
+/* Motions end there, by integrators with and without dense output, and say why; beside it they go on. */
+Test(events, places_without_acceleration)
+{
+    static const char *const method[] = {"auto", "adams", "verner"};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof SINGULAR / sizeof *SINGULAR; i++)
+        for (size_t k = 0; k < sizeof method / sizeof *method; k++) {
+            const place_without_acceleration *c = &SINGULAR[i];
+            if (k && i % 2 == k - 1) continue;
+            write_here(&p, "a.yaml", c->text);
+            finished f = run_shell(&p, "$N simulate a.yaml --initial \"%s\" --until 2 --step 0.1 --method %s --json a.json",
+                                   c->initial, method[k]);
+            char *text = read_here(&p, "a.json");
+            nh_json *root = text ? nh_json_parse(text) : NULL;
+            const nh_json *time = nh_json_get(root, "time");
+            size_t n = nh_json_count(time);
+            double last = n ? nh_json_number_at(time, n - 1) : -1;
+            cr_expect(f.code == (c->end > 0 ? 4 : 0), "%s, %s: code %d\n%s", c->name, method[k], f.code, f.err);
+            if (c->end > 0) {
+                cr_expect(strstr(f.err, c->words), "%s, %s: %s", c->name, method[k], f.err);
+                cr_expect(last < c->end && last > c->end - 0.11, "%s, %s: last output %g", c->name, method[k], last);
+            } else {
+                cr_expect(fabs(last - 2) < 1e-12, "%s, %s: last output %g\n%s", c->name, method[k], last, f.err);
+            }
+            nh_json_free(root);
+            free(text);
+            finished_clear(&f);
+        }
+    place_clear(&p);
+}

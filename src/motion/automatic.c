@@ -21,7 +21,7 @@ typedef struct {
     size_t count;
     double begin, now;    /* units at the start; time of the last evaluation */
     bool tried;
-    nh_motion *stiff;     /* by BDF, complete or ended by a guard; NULL: not stiff */
+    nh_motion *stiff;     /* by BDF, complete or ended by a guard or at a singular place; NULL: not stiff */
 } attempt;
 
 static bool rate(double t, const double *z, double *out, void *context)
@@ -55,7 +55,7 @@ static void try_stiff(attempt *a, double effort)
     options.effort = options.effort > 0 ? fmin(effort, options.effort) : effort;
     nh_motion *motion =
         nh_method_flow(nh_method_find("CVODE BDF"), a->problem, a->initial, a->count, a->times, &options, &ignored);
-    if (motion && (motion->complete || motion->guard_hit >= 0)) a->stiff = motion;
+    if (motion && (motion->complete || motion->guard_hit >= 0 || motion->singular)) a->stiff = motion;
     else nh_motion_free(motion);
 }
 
@@ -78,7 +78,8 @@ static bool give_up(void *context)
 /* A motion of the pair that ended by itself before its work reached the limit: short of steps, or of digits. */
 static bool may_be_stiff(const attempt *a, const nh_motion *motion)
 {
-    return motion && !a->tried && !motion->complete && motion->guard_hit < 0 && !cancelled(a) &&
+    return motion && !a->tried && !motion->complete && motion->guard_hit < 0 && !motion->singular &&
+           !cancelled(a) &&
            !(a->options->effort > 0 && motion->effort > a->options->effort);
 }
 

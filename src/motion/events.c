@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_roots.h>
 
 #include "base/memory.h"
@@ -20,53 +19,16 @@ static const double most_jump = 0.5; /* of the size there: more beside the zero 
 
 struct nh_event_search {
     const nh_event_watch *watch;
-    const nh_stepper *stepper;
+    nh_inside_step *inside;
     nh_sign_changes change;
     double *raw;   /* values and sizes, 2 count */
     bool *pending; /* per function: zero at the beginning of the whole motion, and of no sign since */
-    double before, now;
-    double *old, *end, *work; /* states at both ends of the last step, and one more */
-    double *off, *first;      /* the distance of the completing step from `end`; the state at the beginning of all */
-    gsl_odeiv2_step *step;    /* completes steppers without states inside their steps; NULL: this one has them */
-    gsl_odeiv2_system system;
-    bool completed; /* `off` is that of the last step */
-    size_t which;   /* the function whose zero is wanted */
+    double before, now; /* ends of the last step */
+    double *first, *at; /* the state at the beginning of all; values */
+    size_t which;       /* the function whose zero is wanted */
     double jumped, lost,
         unknown; /* times of a jump, of a function that changes too often, of one without values; NAN */
 };
-
-/* ---- states inside a step ---- */
-
-static int call_rate(double t, const double *z, double *rate, void *context)
-{
-    const nh_stepper *s = ((nh_event_search *)context)->stepper;
-    return s->rate(t, z, rate, s->rate_context) ? GSL_SUCCESS : GSL_FAILURE;
-}
-
-/* From `old` to z at a time in the step. */
-static bool step_to(nh_event_search *c, double time, double *z)
-{
-    memcpy(z, c->old, c->change.size * sizeof *z);
-    return gsl_odeiv2_step_apply(c->step, c->before, time - c->before, z, c->work, NULL, NULL, &c->system) ==
-           GSL_SUCCESS;
-}
-
-static bool inside(double time, double *z, void *context)
-{
-    nh_event_search *c = context;
-    size_t size = c->change.size;
-    if (time == c->before || time == c->now) return memcpy(z, time == c->now ? c->end : c->old, size * sizeof *z), true;
-    if (!c->step) return c->stepper->state(time, z, c->stepper->context);
-    if (!c->completed) {
-        if (!step_to(c, c->now, c->off)) return false;
-        for (size_t i = 0; i < size; i++) c->off[i] = c->end[i] - c->off[i];
-        c->completed = true;
-    }
-    double part = (time - c->before) / (c->now - c->before);
-    if (!step_to(c, time, z)) return false;
-    for (size_t i = 0; i < size; i++) z[i] += part * part * c->off[i];
-    return true;
-}
 
 /* ---- values ---- */
 
@@ -86,7 +48,8 @@ static bool signed_value(double t, const double *z, double *value, void *context
 static double value_of_one(double t, void *context)
 {
     nh_event_search *c = context;
-    bool good = inside(t, c->change.z, c) && c->watch->value(t, c->change.z, c->raw, c->watch->context);
+    bool good = nh_inside_step_state(t, c->change.z, c->inside) &&
+                c->watch->value(t, c->change.z, c->raw, c->watch->context);
     return good ? c->raw[c->which] : NAN;
 }
 
@@ -199,7 +162,7 @@ static bool take_zeros(nh_event_search *c, double near, double far, nh_motion *m
     nh_sign_changes *s = &c->change;
     size_t from = motion->events;
     int way = c->now < c->before ? -1 : 1;
-    double *at = c->work + s->size, root; /* room for the values */
+    double *at = c->at, root;
     if (!nh_sign_changes_at(s, far, at)) return false;
     for (size_t i = 0; i < s->count; i++) {
         if (!(at[i] * s->side[i] < 0)) continue;
@@ -210,7 +173,7 @@ static bool take_zeros(nh_event_search *c, double near, double far, nh_motion *m
             c->jumped = root;
             continue;
         }
-        if (!is_wanted(c, i, direction) || !inside(root, s->z, c)) continue;
+        if (!is_wanted(c, i, direction) || !nh_inside_step_state(root, s->z, c->inside)) continue;
         append(motion, root, i, direction, s->z);
         put_in_order(motion, c->watch->begin, from);
     }
@@ -219,24 +182,21 @@ static bool take_zeros(nh_event_search *c, double near, double far, nh_motion *m
     return false;
 }
 
-bool nh_event_search_step(nh_event_search *c, double now, nh_motion *motion)
+bool nh_event_search_step(nh_event_search *c, nh_motion *motion)
 {
     nh_sign_changes *s = &c->change;
-    double near, far, from = c->before;
+    double near, far, from = c->before = nh_inside_step_begin(c->inside), now = c->now = nh_inside_step_end(c->inside);
     bool stop = motion->stopped;
-    c->now = now;
-    c->completed = false;
-    if (now == c->before || stop || !c->stepper->state(now, c->end, c->stepper->context)) return stop;
-    if (motion->searched == now) nh_sign_changes_take_sides(s, now, c->end);
-    else
+    if (stop) return stop;
+    if (motion->searched == now) {
+        if (nh_inside_step_state(now, s->z, c->inside)) nh_sign_changes_take_sides(s, now, s->z);
+    } else
         while (!stop && from != now && nh_sign_changes_first(s, from, now, &near, &far)) {
             stop = take_zeros(c, near, far, motion);
             from = far;
         }
     if (s->exhausted && isnan(c->lost)) c->lost = from;
     settle_beginning(c, motion);
-    memcpy(c->old, c->end, s->size * sizeof *c->old);
-    c->before = now;
     return stop;
 }
 
@@ -262,14 +222,14 @@ void nh_event_search_end(const nh_event_search *c, nh_motion *motion)
 }
 
 nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_options *options,
-                                        const nh_stepper *stepper)
+                                        nh_inside_step *inside)
 {
     const nh_event_watch *watch = options->watch;
     if (!watch || !watch->count) return NULL;
     size_t size = motion->size, n = watch->count;
     nh_event_search *c = nh_alloc(sizeof *c);
     *c = (nh_event_search){.watch = watch,
-                           .stepper = stepper,
+                           .inside = inside,
                            .before = motion->end_time,
                            .now = motion->end_time,
                            .jumped = NAN,
@@ -280,19 +240,15 @@ nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_o
                                   .value = signed_value,
                                   .context = c,
                                   .closer = refinements,
-                                  .inside = inside,
-                                  .inside_context = c};
+                                  .inside = nh_inside_step_state,
+                                  .inside_context = inside};
     c->raw = nh_alloc_array(2 * n, sizeof *c->raw);
     c->pending = nh_alloc_array(n, sizeof *c->pending);
-    c->old = nh_alloc_array(5 * size + n, sizeof *c->old);
-    c->end = c->old + size, c->off = c->end + size, c->first = c->off + size, c->work = c->first + size;
-    memcpy(c->old, motion->end_state, size * sizeof *c->old);
+    c->first = nh_alloc_array(size + n, sizeof *c->first);
+    c->at = c->first + size;
     memcpy(c->first, motion->end_state, size * sizeof *c->first);
-    gsl_set_error_handler_off();
-    c->system = (gsl_odeiv2_system){.function = call_rate, .dimension = size, .params = c};
-    if (stepper->rate) c->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size);
     nh_sign_changes_open(&c->change);
-    nh_sign_changes_take_sides(&c->change, c->before, c->old);
+    nh_sign_changes_take_sides(&c->change, c->before, c->first);
     for (size_t i = 0; i < n; i++) c->pending[i] = c->change.side[i] == 0 && c->before == watch->begin;
     return c;
 }
@@ -300,10 +256,9 @@ nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_o
 void nh_event_search_free(nh_event_search *c)
 {
     if (!c) return;
-    if (c->step) gsl_odeiv2_step_free(c->step);
     nh_sign_changes_clear(&c->change);
     nh_free(c->raw);
     nh_free(c->pending);
-    nh_free(c->old);
+    nh_free(c->first);
     nh_free(c);
 }

@@ -48,6 +48,9 @@ typedef struct {
     bool (*wall)(double t, const double *z, double *value, void *context);
 } nh_flow_problem;
 
+/* Places where the equations determine no acceleration (singular.h). */
+typedef struct nh_singular_watch nh_singular_watch;
+
 typedef struct {
     nh_flow_method method;
     double rtol;
@@ -65,6 +68,7 @@ typedef struct {
     bool (*after)(double t, double *z, void *context);
     void *after_context;
     const nh_event_watch *watch; /* NULL: nothing is watched */
+    nh_singular_watch *singular; /* the motion ends at such a place; NULL: it is not watched for them */
     /* guards end the motions of one-step methods, too (safeguards.h); those of CVODE they always do */
     bool guarded;
 } nh_flow_options;
@@ -76,6 +80,7 @@ typedef struct {
     double *state;    /* count x size, row by row: state[i*size + j] */
     bool complete;    /* all wanted times were reached, or a zero at which it was to stop */
     bool limited;     /* it ended early at the limit of steps or of counted operations */
+    bool singular;    /* it ended where the equations of motion determine no acceleration (singular.h) */
     long guard_hit;   /* index of the guard that ended it, or -1 */
     double end_time;  /* where it ended */
     /* size: the state there; at a guard it is past the last output, and the next chart starts from it */

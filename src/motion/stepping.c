@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "motion/events.h"
+#include "motion/singular.h"
 
 static const double default_max_steps = 1e7;
 /* of the whole time, in NH_ADVANCE_AFTER steps: no motion gets to its end so; */
@@ -93,13 +94,77 @@ static void stop_at_zero(nh_motion *motion, size_t count, const double *times, c
     memcpy(motion->end_state, state, size * sizeof *state);
 }
 
+/* What a motion is watched for. */
+typedef struct {
+    nh_inside_step *inside; /* NULL: for nothing */
+    nh_event_search *events;
+    nh_singular_watch *singular;
+    double rtol;
+} watched;
+
+static watched begin_to_watch(const nh_motion *motion, const nh_flow_options *options, const nh_stepper *stepper)
+{
+    watched w = {.singular = options->singular, .rtol = options->rtol};
+    if (!options->watch && !options->singular) return w;
+    w.inside = nh_inside_step_create(motion, stepper);
+    w.events = nh_event_search_create(motion, options, w.inside);
+    return w;
+}
+
+static void end_watching(watched *w, nh_motion *motion)
+{
+    if (w->events) nh_event_search_end(w->events, motion);
+    nh_event_search_free(w->events);
+    nh_inside_step_free(w->inside);
+}
+
+/* In the last step.  *singular: the time at which the equations determine no acceleration, or NAN.  True: the motion
+   stops at an event before it. */
+static bool watch_step(watched *w, double time, double last, nh_motion *motion, double *singular)
+{
+    if (!w->inside || !nh_inside_step_take(w->inside, time)) return false;
+    double begin = nh_inside_step_begin(w->inside);
+    if (w->singular) *singular = nh_singular_watch_step(w->singular, w->inside, w->rtol);
+    if (fabs(*singular - begin) > fabs(last - begin)) *singular = NAN; /* integrators step over the last time */
+    size_t before = motion->events;
+    bool stop = w->events && nh_event_search_step(w->events, motion);
+    if (isnan(*singular)) return stop;
+    while (motion->events > before &&
+           fabs(motion->event[motion->events - 1].time - begin) > fabs(*singular - begin))
+        motion->events--, stop = false;
+    if (stop) *singular = NAN;
+    return stop;
+}
+
+/* The integrator does not get on: is this why? */
+static void tell_singular(const watched *w, nh_motion *motion)
+{
+    if (w->singular && nh_singular_watch_end(w->singular, w->inside))
+        nh_motion_note(motion, "near there %s", nh_singular_watch_words(w->singular));
+}
+
+/* The outputs before the time at which the equations determine no acceleration. */
+static void end_at_singular(nh_motion *motion, size_t count, const double *times, double at, const watched *w,
+                            const nh_stepper *stepper)
+{
+    static const double near = 1e-7; /* of the whole time: values there are those of the place itself */
+    double before = at - near * (times[count - 1] - times[0]);
+    store_reached(motion, count, times, before, stepper);
+    motion->end_time = at;
+    motion->singular = true;
+    nh_motion_note(motion, "at t = %.10g %s%s: the equations of motion determine no acceleration there", at,
+                   nh_singular_watch_words(w->singular),
+                   nh_singular_watch_close(w->singular) ? ", as far as the errors of the motion tell" : "");
+}
+
 void nh_motion_run(nh_motion *motion, size_t count, const double *times, const nh_flow_options *options,
                    const nh_stepper *stepper)
 {
     double begin = nh_clock(), before = nh_effort();
     double *work = nh_alloc_array(motion->size, sizeof *work);
-    nh_event_search *search = nh_event_search_create(motion, options, stepper);
+    watched w = begin_to_watch(motion, options, stepper);
     bool stop = false;
+    double singular = NAN;
     nh_step step = NH_STEP_ON;
     bool given = nh_turn_give(); /* steps evaluate tapes, and touch no expressions */
     double mark = motion->end_time, least = least_advance * fabs(times[count - 1] - times[0]);
@@ -107,12 +172,15 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
         double time = motion->end_time;
         tell(motion, count, times);
         step = stepper->advance(&time, motion, stepper->context);
-        if (step == NH_STEP_FAILED) break;
+        if (step == NH_STEP_FAILED) {
+            tell_singular(&w, motion);
+            break;
+        }
         motion->steps++;
         nh_effort_add(stepper->step_effort);
         stuck = time == motion->end_time ? stuck + 1 : 0;
         motion->end_time = time;
-        if (search && (stop = nh_event_search_step(search, time, motion))) break;
+        if ((stop = watch_step(&w, time, times[count - 1], motion, &singular)) || !isnan(singular)) break;
         if (!store_reached(motion, count, times, time, stepper)) break;
         if (motion->steps % NH_ADVANCE_AFTER == 0) {
             slow = fabs(time - mark) < least ? slow + 1 : 0;
@@ -120,13 +188,14 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
         }
         if (stuck == NH_STUCK_AFTER || slow == most_slow) {
             stepper->stuck(motion, stepper->context);
+            tell_singular(&w, motion);
             break;
         }
     }
     if (stop) stop_at_zero(motion, count, times, stepper);
-    else if (motion->steps > 0) keep_end_state(motion, work, stepper);
-    if (search) nh_event_search_end(search, motion);
-    nh_event_search_free(search);
+    if (!stop && !isnan(singular)) end_at_singular(motion, count, times, singular, &w, stepper);
+    if (!stop && motion->steps > 0) keep_end_state(motion, work, stepper);
+    end_watching(&w, motion);
     if (given) nh_turn_take();
     motion->complete = motion->count == count || motion->stopped;
     nh_free(work);

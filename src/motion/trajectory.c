@@ -1,5 +1,6 @@
 #include "motion/automatic.h"
 #include "motion/cvode.h"
+#include "motion/singular_terms.h"
 #include "motion/trajectory.h"
 
 #include <float.h>
@@ -168,6 +169,9 @@ typedef struct {
     bool leave; /* the chart ends on the way */
     nh_event_watch watch;
     nh_ex *watched; /* the events' expressions and the sizes of their terms */
+    nh_dynamics *other;           /* of the model in other velocities, */
+    nh_closed_subsystem_run *run; /* of the scene */
+    nh_singular_of_model *singular;
 } job;
 
 static bool late(void *context) { return nh_interrupted() || nh_clock_brake_reached(*(const nh_clock_brake *)context); }
@@ -206,6 +210,48 @@ static void watch(job *j, nh_along_values *values)
     j->how.watch = values ? &j->watch : NULL;
 }
 
+/* ---- places where the equations determine no acceleration ---- */
+
+static nh_along_values *in_chart(size_t n, const nh_ex *e, void *context)
+{
+    return nh_along_values_of(((job *)context)->dynamics, false, n, e);
+}
+
+static nh_along_values *in_coordinates(size_t n, const nh_ex *e, void *context)
+{
+    return nh_along_values_of(((job *)context)->dynamics, true, n, e);
+}
+
+static nh_along_values *by_other(size_t n, const nh_ex *e, void *context)
+{
+    const job *j = context;
+    return nh_along_values_by_other(j->q->model, j->other, n, e);
+}
+
+static nh_along_values *by_scene(size_t n, const nh_ex *e, void *context)
+{
+    const job *j = context;
+    return nh_along_values_create(j->q->model, point_of_scene, j->run, n, e);
+}
+
+/* From now on motions end at such places (`make` NULL: they do not), where the known states tell of them. */
+static void watch_singular(job *j, const bool *known,
+                           nh_along_values *make(size_t n, const nh_ex *e, void *context))
+{
+    nh_singular_of_model_free(j->singular);
+    bool chart = make == in_chart || make == by_scene;
+    j->singular = make ? nh_singular_of_model_create(j->q->model, chart, known, make, j) : NULL;
+    j->how.singular = nh_singular_of_model_watch(j->singular);
+}
+
+static void watch_singular_of_scene(job *j, const nh_closed_subsystem *s)
+{
+    bool *known = nh_alloc_array(s->states + 1, sizeof *known);
+    for (size_t i = 0; i < s->kept + s->levels; i++) known[s->state[i]] = true;
+    watch_singular(j, known, by_scene);
+    nh_free(known);
+}
+
 static void open_watch(job *j)
 {
     const nh_trajectory_request *q = j->q;
@@ -229,6 +275,7 @@ static void open_watch(job *j)
 static void close_watch(job *j)
 {
     watch(j, NULL);
+    watch_singular(j, NULL, NULL);
     nh_free((int *)j->watch.direction);
     nh_free((bool *)j->watch.stop);
     nh_free(j->watched);
@@ -264,6 +311,8 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     nh_free(e);
     nh_closed_subsystem_run *run = nh_closed_subsystem_run_create(s, j->q->times[0], j->z0);
     if (events) watch(j, nh_along_values_create(j->q->model, point_of_scene, run, 2 * events, j->watched));
+    j->run = run;
+    watch_singular_of_scene(j, s);
     nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_closed_subsystem_problem(run, &whole);
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
@@ -284,6 +333,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     }
     j->out->motion = motion;
     watch(j, NULL);
+    watch_singular(j, NULL, NULL);
     say_machine(nh_closed_subsystem_run_words(run), j->out->machine);
     nh_free(small);
     nh_closed_subsystem_run_free(run);
@@ -321,6 +371,7 @@ static nh_motion *in_own_velocities(job *j, nh_error *error)
     const nh_trajectory_request *q = j->q;
     nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
     if (q->events) watch(j, nh_along_values_of(j->dynamics, false, 2 * q->events, j->watched));
+    watch_singular(j, NULL, in_chart);
     if (!fixed_steps(j))
         return nh_automatic_or(j->method, &problem, j->z0, q->count, q->times, &j->how, &j->used, error);
     nh_programs *own = q->programs ? NULL : nh_programs_create(q->model);
@@ -334,15 +385,17 @@ static nh_motion *in_own_velocities(job *j, nh_error *error)
 static bool in_other_velocities(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
-    nh_dynamics *other = nh_dynamics_create(q->other);
+    nh_dynamics *other = j->other = nh_dynamics_create(q->other);
     nh_flow_problem problem = nh_dynamics_problem(other);
     double *z0 = nh_alloc_array(q->other->m + q->other->n + 1, sizeof *z0);
     nh_dynamics_jit(other, q->options->compile);
     bool starts = nh_dynamics_start(other, q->initial, q->project, z0, error) && !meets_pivot(j, other, z0);
     if (q->events) watch(j, nh_along_values_by_other(q->model, other, 2 * q->events, j->watched));
+    watch_singular(j, NULL, by_other);
     nh_motion *motion =
         starts ? nh_automatic_or(j->method, &problem, z0, q->count, q->times, &j->how, &j->used, error) : NULL;
     watch(j, NULL);
+    watch_singular(j, NULL, NULL);
     bool steep = false;
     if (motion) nh_free(nh_steep_points(other, motion, &steep));
     bool good = motion && motion->complete && !steep && nh_motion_to_coordinates(other, motion);
@@ -377,6 +430,7 @@ static void in_all_states(job *j, nh_error *error)
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         if (q->events) watch(j, nh_along_values_of(j->dynamics, true, 2 * q->events, j->watched));
+        watch_singular(j, NULL, in_coordinates);
         j->out->formulation = "all coordinates, accelerations from the bordered system";
         motion = nh_motion_everywhere(j->dynamics, fixed_steps(j) ? NULL : j->method, j->z0, q->count, q->times,
                                       &j->how, j->out->machine, &j->used, error);

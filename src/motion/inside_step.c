@@ -1,0 +1,115 @@
+#include "motion/inside_step.h"
+
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+#include "base/memory.h"
+
+struct nh_inside_step {
+    const nh_stepper *stepper;
+    size_t size;
+    double before, now;
+    double *states;                   /* those that follow */
+    double *old, *end, *off, *errors; /* states at both ends; the distance of the completing step from `end` */
+    gsl_odeiv2_step *step; /* completes steppers without states inside their steps; NULL: this one has them */
+    gsl_odeiv2_system system;
+    bool completed;       /* `off` is that of this step */
+    double *first, *last; /* rates at both ends, where they are known */
+    bool first_known, last_known;
+};
+
+static int call_rate(double t, const double *z, double *rate, void *context)
+{
+    const nh_stepper *s = ((nh_inside_step *)context)->stepper;
+    return s->rate(t, z, rate, s->rate_context) ? GSL_SUCCESS : GSL_FAILURE;
+}
+
+nh_inside_step *nh_inside_step_create(const nh_motion *motion, const nh_stepper *stepper)
+{
+    size_t size = motion->size;
+    nh_inside_step *c = nh_alloc(sizeof *c);
+    *c = (nh_inside_step){
+        .stepper = stepper, .size = size, .before = motion->end_time, .now = motion->end_time, .completed = true};
+    c->old = c->states = nh_alloc_array(6 * size, sizeof *c->states);
+    c->end = c->old + size, c->off = c->end + size, c->errors = c->off + size;
+    c->first = c->errors + size, c->last = c->first + size;
+    memcpy(c->old, motion->end_state, size * sizeof *c->old);
+    memcpy(c->end, motion->end_state, size * sizeof *c->end);
+    gsl_set_error_handler_off();
+    c->system = (gsl_odeiv2_system){.function = call_rate, .dimension = size, .params = c};
+    if (stepper->rate) c->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size);
+    return c;
+}
+
+void nh_inside_step_free(nh_inside_step *c)
+{
+    if (!c) return;
+    if (c->step) gsl_odeiv2_step_free(c->step);
+    nh_free(c->states);
+    nh_free(c);
+}
+
+bool nh_inside_step_take(nh_inside_step *c, double now)
+{
+    double *last = c->old;
+    if (now == c->now || !c->stepper->state(now, c->errors, c->stepper->context)) return false;
+    c->old = c->end, c->end = c->errors, c->errors = last;
+    c->before = c->now, c->now = now;
+    c->completed = false;
+    double *rate = c->first;
+    c->first = c->last, c->last = rate;
+    c->first_known = c->last_known, c->last_known = false;
+    return true;
+}
+
+double nh_inside_step_begin(const nh_inside_step *c) { return c->before; }
+double nh_inside_step_end(const nh_inside_step *c) { return c->now; }
+size_t nh_inside_step_size(const nh_inside_step *c) { return c->size; }
+
+/* From `old` to z at a time in the step. */
+static bool step_to(nh_inside_step *c, double time, double *z)
+{
+    memcpy(z, c->old, c->size * sizeof *z);
+    return gsl_odeiv2_step_apply(c->step, c->before, time - c->before, z, c->errors, NULL, NULL, &c->system) ==
+           GSL_SUCCESS;
+}
+
+bool nh_inside_step_state(double time, double *z, void *inside)
+{
+    nh_inside_step *c = inside;
+    size_t size = c->size;
+    if (time == c->before || time == c->now) return memcpy(z, time == c->now ? c->end : c->old, size * sizeof *z), true;
+    if (!c->step) return c->stepper->state(time, z, c->stepper->context);
+    if (!c->completed) {
+        if (!step_to(c, c->now, c->off)) return false;
+        for (size_t i = 0; i < size; i++) c->off[i] = c->end[i] - c->off[i];
+        c->completed = true;
+    }
+    double part = (time - c->before) / (c->now - c->before);
+    if (!step_to(c, time, z)) return false;
+    for (size_t i = 0; i < size; i++) z[i] += part * part * c->off[i];
+    return true;
+}
+
+static bool rate_at(nh_inside_step *c, double t, const double *z, double *rate, bool *known)
+{
+    if (!*known) *known = c->stepper->rate(t, z, rate, c->stepper->rate_context);
+    return *known;
+}
+
+bool nh_inside_step_sketch(double time, double *z, void *inside)
+{
+    nh_inside_step *c = inside;
+    double h = c->now - c->before, x = (time - c->before) / h, y = 1 - x;
+    if (!c->step || time == c->before || time == c->now) return nh_inside_step_state(time, z, inside);
+    if (!rate_at(c, c->before, c->old, c->first, &c->first_known) ||
+        !rate_at(c, c->now, c->end, c->last, &c->last_known))
+        return false;
+    /* Hermite's cubic */
+    for (size_t i = 0; i < c->size; i++)
+        z[i] = y * y * (1 + 2 * x) * c->old[i] + x * x * (1 + 2 * y) * c->end[i] +
+               h * x * y * (y * c->first[i] - x * c->last[i]);
+    return true;
+}
