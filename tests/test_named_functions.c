@@ -277,6 +277,9 @@ Test(named_functions, identities_are_exact)
     expect_zero("(n + 1)*legendre_q(n + 1, cos(y)) - (2*n + 1)*cos(y)*legendre_q(n, cos(y)) + n*legendre_q(n - 1, cos(y))", true);
     expect_zero("hyp2f1_prime(a, b, c, x) - a*b/c*hyp2f1(a + 1, b + 1, c + 1, x)", true);
     expect_zero("hyp2f1_prime(a, b, c, x) - a*b/c*hyp2f1(a + 1, b + 1, c, x)", false);
+    expect_zero("x*hyp2f1_prime(1/4, b, 5/4, x) - ((1 - x)^(-b) - hyp2f1(1/4, b, 5/4, x))/4", true);
+    expect_zero("x*hyp2f1_prime(1/4, b, 5/4, x) - ((1 - x)^(-b) + hyp2f1(1/4, b, 5/4, x))/4", false);
+    expect_zero("x*hyp2f1_prime(1/2, a, a + 1, x) - a/sqrt(1 - x) + a*hyp2f1(1/2, a, a + 1, x)", true);
     expect_zero("hyp1f1_prime(a, b, x) - a/b*hyp1f1(a + 1, b + 1, x)", true);
     expect_zero("hyperu_prime(a, b, x) + a*hyperu(a + 1, b + 1, x)", true);
     expect_zero("bessel_j(n, x + x*y) - bessel_j(n, x*(1 + y))", true);

@@ -187,6 +187,9 @@ static const published PUBLISHED[] = {
      "lagrangian: (2*cos(2*x) + b)/sin(2*x)^2*(x'^2 + y'^2)/2\ndomain: {x: [0.2, 0.6]}\n", 3, 6},
     /* the plane in coordinates log r and angle: exp(x) cos(y), where the equations have exp(2 x) */
     {"plane, conformal coordinates", "coordinates: [x, y]\nlagrangian: exp(2*x)*(x'^2 + y'^2)/2\n", 3, 6},
+    /* a particle on Martinet's distribution, and on one with a sine: incomplete beta functions, elliptic integrals */
+    {"Martinet", "parameters: {m: 1.3, M: 0.6}\ncoordinates: [x, y, z]\nlagrangian: m*(x'^2 + y'^2)/2 + M*z'^2/2\nconstraints: [\"z' = y^2*x'\"]\n", 5, 4},
+    {"particle on planes that turn", "parameters: {a: 0.7}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z' = sin(a*y)*x'\"]\n", 5, 4},
     /* E. T. Whittaker, Analytical Dynamics (1937), sec. 53: two centres in elliptic coordinates */
     {"two centres, elliptic coordinates", "parameters: {a: 0.3, b: 0.4}\ncoordinates: [u, v]\n"
      "lagrangian: (cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)/2 + (a*cosh(u) + b*cos(v))/(cosh(u)^2 - cos(v)^2)\ndomain: {u: [0.5, 2], v: [0.5, 2]}\n", 2, 6},

@@ -1,4 +1,5 @@
-/* Quadratic polynomials of a coordinate, a sine or a cosine under roots, and what has their roots as derivatives. */
+/* Polynomials of a coordinate, a sine or a cosine under roots, and what has their roots as derivatives: elementary ones
+   of quadratic polynomials, elliptic integrals, incomplete beta functions of two powers. */
 #include "count/closed_primitives.h"
 
 #include "exact/normal.h"
@@ -72,6 +73,78 @@ static void along_coordinates(list *l, nh_ex base)
     }
 }
 
+/* ---- two powers ---- */
+
+/* base = a + b q^n, a and b without coordinates: b q^n is read from q base', and a from what is left. */
+static bool read_binomial(const nh_jet_equations *x, nh_ex base, nh_ex q, int64_t *n, nh_ex *a, nh_ex *b)
+{
+    enum { least = 3, most = 8 };
+    nh_dag *d = x->dag;
+    nh_ex rate = nh_mul(d, q, nh_diff(d, base, q));
+    for (*n = least; *n <= most; ++*n) {
+        nh_ex power = nh_powi(d, q, *n);
+        *b = nh_simplify_short(d, nh_div(d, rate, nh_mul(d, nh_int(d, *n), power)), largest_form);
+        *a = nh_simplify_short(d, nh_sub(d, base, nh_mul(d, *b, power)), largest_form);
+        if (!has_coordinates(x, *a) && !has_coordinates(x, *b)) return true;
+    }
+    return false;
+}
+
+/* Of q^(k - 1)/sqrt(a + b q^n), up to a factor: q^k 2F1(k/n, 1/2; 1 + k/n; -b q^n/a) [DLMF 8.17.7], elementary where
+   2 k = n.  The others are sums of these and of q^k sqrt(a + b q^n). */
+static void along_binomials(list *l, nh_ex base)
+{
+    const nh_jet_equations *x = l->equations;
+    nh_dag *d = l->dag;
+    for (size_t i = 0; i < x->coordinates; i++) {
+        nh_ex q = x->coordinate[i], a, b;
+        int64_t n;
+        if (q == x->model->system->t || !nh_depends(d, base, q) || !read_binomial(x, base, q, &n, &a, &b)) continue;
+        if (nh_model_sign(x->model, a) <= 0) continue;
+        nh_ex argument = nh_neg(d, nh_div(d, nh_mul(d, b, nh_powi(d, q, n)), a)), half = nh_ratio(d, 1, 2);
+        for (int64_t k = 1; k < n; k++) {
+            quadratic p = {.a = a, .b = nh_int(d, 0), .c = b};
+            nh_ex order[] = {nh_ratio(d, k, n), half, nh_ratio(d, k + n, n), argument};
+            if (2 * k == n) append(l, primitive_of_root(x, &p, nh_powi(d, q, k), base));
+            else append(l, nh_mul(d, nh_powi(d, q, k), nh_call_any(d, NH_HYP2F1, order)));
+        }
+    }
+}
+
+/* ---- angles ---- */
+
+/* Of 1/sqrt(a - a m sin(u)^2) and of the root itself: incomplete elliptic integrals, up to factors. */
+static void append_elliptic(list *l, nh_ex angle, nh_ex a, nh_ex product)
+{
+    const nh_jet_equations *x = l->equations;
+    nh_dag *d = l->dag;
+    a = nh_simplify_short(d, a, largest_form);
+    if (has_coordinates(x, a) || nh_model_sign(x->model, a) <= 0) return;
+    nh_ex argument[] = {angle, nh_simplify_short(d, nh_div(d, product, a), largest_form)};
+    append(l, nh_call_any(d, NH_ELLIPTIC_F, argument));
+    append(l, nh_call_any(d, NH_ELLIPTIC_EINC, argument));
+}
+
+/* Roots of a + c sin(u)^2, a + c cos(u)^2 = (a + c) - c sin(u)^2, a + b cos(u) = (a + b) - 2 b sin(u/2)^2. */
+static void along_angle(list *l, nh_ex base, nh_ex angle)
+{
+    const nh_jet_equations *x = l->equations;
+    nh_dag *d = l->dag;
+    nh_ex z = nh_symbol(d, "z of a primitive"), of[2] = {nh_call(d, NH_COS, angle), nh_call(d, NH_SIN, angle)};
+    for (int i = 0; i < 2; i++) {
+        quadratic p;
+        nh_ex e = nh_substitute(d, base, 1, &of[i], &z);
+        if (has_coordinates(x, e) || !nh_depends(d, e, z)) continue;
+        bool square = read_quadratic(d, e, z, &p);
+        if (square && nh_is_zero(d, p.b)) {
+            if (i == 0) append_elliptic(l, angle, nh_add(d, p.a, p.c), p.c);
+            else append_elliptic(l, angle, p.a, nh_neg(d, p.c));
+        } else if (i == 0 && nh_is_zero(d, p.c)) {
+            append_elliptic(l, nh_mul(d, nh_ratio(d, 1, 2), angle), nh_add(d, p.a, p.b), nh_mul(d, nh_int(d, 2), p.b));
+        }
+    }
+}
+
 /* By the sine and the cosine of an angle: the square of one of them is in `base`, and nothing else of a coordinate. */
 static void along_circle(list *l, nh_ex base, nh_ex angle)
 {
@@ -102,6 +175,13 @@ static void of_letters(list *l, const nh_letters *letters)
         along_coordinates(l, nh_numerator(l->dag, a->base)); /* 1 + (x/y)^2 */
         for (size_t k = 0; k < letters->count; k++)
             if (letters->item[k].kind == NH_LETTER_CIRCLE) along_circle(l, a->base, letters->item[k].base);
+    }
+    for (size_t i = 0; i < letters->count; i++) { /* those that are not elementary come last */
+        const nh_letter *a = &letters->item[i];
+        if (a->kind != NH_LETTER_POWER || a->root != 2) continue;
+        along_binomials(l, nh_numerator(l->dag, a->base)); /* 1 + 1/y^4 */
+        for (size_t k = 0; k < letters->count; k++)
+            if (letters->item[k].kind == NH_LETTER_CIRCLE) along_angle(l, a->base, letters->item[k].base);
     }
 }
 

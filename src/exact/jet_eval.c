@@ -247,11 +247,32 @@ static void primitive(nh_jet_eval *v, nh_ex e, nh_residue *out)
     }
 }
 
+/* f' = P + Q f, right to one order more each time; of the arguments one moves. */
+static void first_order(nh_jet_eval *v, const nh_jet_kernel *k, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    const nh_residue *u = v->value[nh_child(v->dag, k->key, k->place)];
+    nh_residue *prime = nh_alloc_array(r->size, sizeof *prime);
+    for (size_t i = 0; i < nh_arity(v->dag, k->key); i++)
+        v->unlucky |= i != k->place && v->varies[nh_child(v->dag, k->key, i)];
+    nh_jet_constant(r, k->value, out);
+    for (size_t order = 0; order < r->order; order++) {
+        memcpy(prime, v->value[k->P], r->size * sizeof *prime);
+        nh_jet_add_product(r, prime, v->value[k->Q], out);
+        nh_jet_integral(r, u, prime, k->value, out);
+    }
+    nh_free(prime);
+}
+
 /* f'' = P f' + Q f: E(f) = f' E(u) and E(f') = f'' E(u), which are right to one order more each time. */
 static void solution(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
     const nh_jet_kernel *k = nh_jet_point_solution(v->point, e);
+    if (k->kind == NH_JET_FIRST_ORDER) {
+        first_order(v, k, out);
+        return;
+    }
     const nh_residue *u = v->value[nh_child(v->dag, e, nh_arity(v->dag, e) - 1)];
     nh_residue *f = nh_alloc_array(3 * r->size, sizeof *f), *prime = f + r->size, *second = prime + r->size;
     nh_jet_constant(r, k->value, f);

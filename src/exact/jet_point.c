@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "exact/kernel.h"
+#include "exact/named_relation.h"
 #include "graph/diff.h"
 #include "graph/named_function.h"
 #include "graph/num_long.h"
@@ -85,6 +86,27 @@ static nh_ex base_of(nh_dag *dag, nh_ex e)
     return nh_call_any(dag, nh_named_function_base(nh_function_of(dag, e)), argument);
 }
 
+static bool note_equation(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex f, size_t place, nh_ex P, nh_ex Q)
+{
+    if (!note(x, kind, f, 1)) return false;
+    nh_jet_kernel *k = &x->kernel[x->kernels - 1];
+    k->P = P;
+    k->Q = Q;
+    k->place = place;
+    return nh_jet_point_register(x, 2, (nh_ex[]){P, Q});
+}
+
+/* f' = P + Q f.  False: it has no such equation. */
+static bool note_first_order(nh_jet_point *x, nh_ex f)
+{
+    size_t place;
+    nh_ex P, Q;
+    if (find(x, NH_JET_FIRST_ORDER, f)) return true;
+    if (!nh_named_relation_first_order(x->dag, f, &place, &P, &Q)) return false;
+    note_equation(x, NH_JET_FIRST_ORDER, f, place, P, Q);
+    return true;
+}
+
 /* The right side of f'' = P f' + Q f is linear in f and f'. */
 static bool note_solution(nh_jet_point *x, nh_ex e)
 {
@@ -96,10 +118,7 @@ static bool note_solution(nh_jet_point *x, nh_ex e)
     second = nh_named_function_rate(dag, prime, last);
     nh_ex P = nh_substitute(dag, second, 2, (nh_ex[]){f, prime}, (nh_ex[]){zero, one});
     nh_ex Q = nh_substitute(dag, second, 2, (nh_ex[]){f, prime}, (nh_ex[]){one, zero});
-    if (!note(x, NH_JET_SOLUTION, f, 1)) return false;
-    x->kernel[x->kernels - 1].P = P;
-    x->kernel[x->kernels - 1].Q = Q;
-    return nh_jet_point_register(x, 2, (nh_ex[]){P, Q});
+    return note_equation(x, NH_JET_SOLUTION, f, last, P, Q);
 }
 
 static bool note_function(nh_jet_point *x, nh_ex e)
@@ -124,6 +143,8 @@ static bool note_function(nh_jet_point *x, nh_ex e)
     case NH_ATAN2:
     case NH_PI: return note(x, NH_JET_FREE, e, 1);
     default:
+        if (x->solutions && nh_is_named_function(nh_function_of(x->dag, e)) && note_first_order(x, e))
+            return !x->obstacle;
         if (x->solutions && nh_is_named_function(nh_function_of(x->dag, e)) &&
             nh_function_of(x->dag, e) < NH_ELLIPTIC_K)
             return note_solution(x, e);
@@ -305,7 +326,8 @@ nh_residue nh_jet_point_free_value(nh_jet_point *x, nh_ex primitive)
 
 const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *x, nh_ex f)
 {
-    nh_jet_kernel *k = find(x, NH_JET_SOLUTION, base_of(x->dag, f));
+    nh_jet_kernel *k = find(x, NH_JET_FIRST_ORDER, f);
+    if (!k) k = find(x, NH_JET_SOLUTION, base_of(x->dag, f));
     if (!k->chosen)
         k->value = nh_residue_random(x->field, &x->random), k->sine = nh_residue_random(x->field, &x->random),
         k->chosen = true;

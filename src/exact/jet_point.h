@@ -11,6 +11,7 @@
  *     log, asin, atan, atan2, asinh, ..    any residue each
  *     f, f' where f'' = P f' + Q f         any residue each, where `solutions` is set: they stand for any solution of
  *                                          the equation, not for f
+ *     f where f' = P + Q f                 any residue, the same
  *
  * Arguments have to be canonical (nh_form_rewrite).  There are no other relations when the atoms of exp and the
  * logarithms have derivatives that are linearly independent over Q, and so have the atoms of sin and cos with the
@@ -21,7 +22,14 @@
 #include "graph/dag.h"
 #include "exact/residue.h"
 
-typedef enum { NH_JET_CIRCLE, NH_JET_EXPONENTIAL, NH_JET_ROOT, NH_JET_FREE, NH_JET_SOLUTION } nh_jet_kernel_kind;
+typedef enum {
+    NH_JET_CIRCLE,
+    NH_JET_EXPONENTIAL,
+    NH_JET_ROOT,
+    NH_JET_FREE,
+    NH_JET_SOLUTION,
+    NH_JET_FIRST_ORDER
+} nh_jet_kernel_kind;
 
 typedef struct {
     nh_jet_kernel_kind kind;
@@ -30,6 +38,7 @@ typedef struct {
     bool chosen;
     nh_residue value, sine; /* of exp, the root, the primitive, or cos and sin, or f and f' */
     nh_ex P, Q;            /* of f */
+    size_t place;          /* by which argument of f */
 } nh_jet_kernel;
 
 typedef struct {
@@ -66,7 +75,7 @@ bool nh_jet_point_root(nh_jet_point *point, nh_ex radicand, nh_residue value, nh
 bool nh_jet_point_circle(nh_jet_point *point, nh_ex argument, nh_residue *sine, nh_residue *cosine);
 bool nh_jet_point_exponential(nh_jet_point *point, nh_ex argument, nh_residue *out);
 nh_residue nh_jet_point_free_value(nh_jet_point *point, nh_ex primitive);
-/* The kernel of f, for f and for f', with its residues chosen. */
+/* The kernel of f, for f and for f' where the equation is of second order, with its residues chosen. */
 const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *point, nh_ex f);
 
 #endif

@@ -88,12 +88,58 @@ static bool next_order(nh_dag *dag, nh_ex e, nh_function f, nh_ex *argument, nh_
     return false;
 }
 
+/* 2F1(a, b; a + 1; x): which of the first two arguments is the other that is smaller than the third by one?  False:
+   none is. */
+static bool is_beta(nh_dag *dag, nh_ex f, size_t *which)
+{
+    enum { first_two = 2, third = 2 };
+    if (nh_named_function_base(nh_function_of(dag, f)) != NH_HYP2F1) return false;
+    for (*which = 0; *which < first_two; ++*which)
+        if (nh_is_number(dag, nh_sub(dag, nh_child(dag, f, third), nh_child(dag, f, *which)), 1)) return true;
+    return false;
+}
+
+/* x f' = a ((1 - x)^(-b) - f): a constant part and a factor of f. */
+static void beta_equation(nh_dag *dag, nh_ex f, size_t which, nh_ex *constant, nh_ex *factor)
+{
+    enum { last = 3 };
+    nh_ex a = nh_child(dag, f, which), b = nh_child(dag, f, 1 - which), x = nh_child(dag, f, last),
+          ratio = nh_div(dag, a, x);
+    *constant = nh_mul(dag, ratio, nh_pow(dag, nh_sub(dag, nh_int(dag, 1), x), nh_neg(dag, b)));
+    *factor = nh_neg(dag, ratio);
+}
+
+bool nh_named_relation_first_order(nh_dag *dag, nh_ex f, size_t *place, nh_ex *constant, nh_ex *factor)
+{
+    enum { last = 3 };
+    size_t which;
+    nh_function kind = nh_function_of(dag, f);
+    if (kind == NH_ELLIPTIC_F || kind == NH_ELLIPTIC_EINC) {
+        *place = 0;
+        *constant = nh_named_function_rate(dag, f, 0);
+        *factor = nh_int(dag, 0);
+        return true;
+    }
+    if (kind != NH_HYP2F1 || !is_beta(dag, f, &which)) return false;
+    *place = last;
+    beta_equation(dag, f, which, constant, factor);
+    return true;
+}
+
 bool nh_named_relation_step(nh_dag *dag, nh_ex e, nh_ex *out)
 {
     nh_function f = nh_function_of(dag, e), base = nh_named_function_base(f);
-    nh_ex argument[NH_MOST_ARGUMENTS];
+    nh_ex argument[NH_MOST_ARGUMENTS], constant, factor;
+    size_t which;
     if (f >= NH_ELLIPTIC_K) return false;
     for (size_t i = 0; i < nh_arity(dag, e); i++) argument[i] = nh_child(dag, e, i);
+    if (is_beta(dag, e, &which)) {
+        nh_ex beta = nh_call_any(dag, base, argument);
+        if (f == base) return false;
+        beta_equation(dag, beta, which, &constant, &factor);
+        *out = nh_add(dag, constant, nh_mul(dag, factor, beta));
+        return true;
+    }
     if (next_order(dag, e, base, argument, out)) return true;
     for (size_t k = 0; k < sizeof wronskian / sizeof *wronskian && f != base; k++)
         if (wronskian[k].second == base)

@@ -5,7 +5,10 @@
  *
  * With these every function of such a family is a combination of one of them
  * and its derivative, whose orders lie in (0, 1], or in (n - 1, n] with a
- * symbol n. */
+ * symbol n.  The incomplete beta function, 2F1(a, b; a + 1; x), has an equation
+ * of first order [DLMF 8.17.7, 15.5.3]:
+ *
+ *     x f' = a ((1 - x)^(-b) - f) */
 #ifndef NH_NAMED_RELATION_H
 #define NH_NAMED_RELATION_H
 
@@ -15,5 +18,9 @@
  * nearer to that interval, or by the first of two solutions.  False: there is
  * no step. */
 bool nh_named_relation_step(nh_dag *dag, nh_ex e, nh_ex *out);
+
+/* f' = *constant + *factor f by the argument *place, for incomplete beta
+ * functions and incomplete elliptic integrals.  False: f is none. */
+bool nh_named_relation_first_order(nh_dag *dag, nh_ex f, size_t *place, nh_ex *constant, nh_ex *factor);
 
 #endif
