@@ -95,6 +95,19 @@ static bool lacks_space(const nh_deck_node *node)
     return colon && colon[1] && !nh_deck_is_space(colon[1]);
 }
 
+/* How the list is written that was meant by a map or a single text: `forces: {x: -x'}` by its first entry. */
+static void hint_list(const nh_deck_node *node, const char *what, nh_error *error)
+{
+    static const char *const of_equations[] = {"definitions", "forces", "map"};
+    for (size_t i = 0; i < sizeof of_equations / sizeof *of_equations; i++)
+        if (!strcmp(what, of_equations[i]) && node->kind == NH_DECK_MAP && node->count &&
+            node->item[0]->kind == NH_DECK_SCALAR)
+            nh_error_hint(error, "%s: [\"%s = %s\"%s]", what, node->key[0]->text, node->item[0]->text,
+                          node->count > 1 ? ", .." : "");
+    if (node->kind == NH_DECK_SCALAR && strchr(node->text, '=')) nh_error_hint(error, "%s: [\"%s\"]", what, node->text);
+    nh_error_hint(error, "a list is written [a, b], or one item per line, each after `- `");
+}
+
 bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind, const char *what, nh_error *error)
 {
     static const char *const wanted[] = {"a single value", "a list", "a map (`key: value`)"};
@@ -105,7 +118,7 @@ bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind
     if (fresh && node && kind == NH_DECK_MAP && lacks_space(node))
         nh_error_hint(error, "write a space after the colon");
     if (fresh && node && kind == NH_DECK_LIST)
-        nh_error_hint(error, "a list is written [a, b], or one item per line, each after `- `");
+        hint_list(node, what, error);
     return false;
 }
 

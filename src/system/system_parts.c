@@ -74,11 +74,6 @@ bool nh_system_read_forces(nh_system_reader *r)
     nh_system *s = r->system;
     s->force = nh_system_take(r, s->coordinates, sizeof *s->force);
     for (size_t i = 0; i < s->coordinates; i++) s->force[i] = nh_int(s->dag, 0);
-    const nh_deck_node *forces = nh_deck_get(r->root, "forces"), *first;
-    if (forces && forces->kind == NH_DECK_MAP && forces->count && (first = forces->item[0])->kind == NH_DECK_SCALAR) {
-        nh_deck_fail(r->deck, forces, 0, r->error, "`forces` must be a list, found a map");
-        return nh_error_hint(r->error, "forces: [\"%s = %s\"]", forces->key[0]->text, first->text);
-    }
     if (!nh_system_list_of(r, r->root, "forces", &list, &n)) return false;
     for (size_t i = 0; i < n; i++) {
         const char *name;
