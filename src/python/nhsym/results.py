@@ -74,12 +74,13 @@ def _wrapped(value, formula, coordinates):
 
 
 def columns(rows, keys):
-    """Rows as a dict of arrays: of numbers where there are only numbers and gaps (nan)."""
+    """Rows as a dict of arrays: of truth values where there are only such, of numbers where there are only numbers and gaps (nan)."""
     table = {}
     for key in keys:
         values = [row.get(key) for row in rows]
+        truths = values and all(isinstance(value, bool) for value in values)
         numbers = all(value is None or isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
-        table[key] = numpy.array([numpy.nan if v is None else v for v in values], float) if numbers else numpy.array(values, object)
+        table[key] = numpy.array([numpy.nan if v is None else v for v in values], float) if numbers else numpy.array(values, bool if truths else object)
     return table
 
 

@@ -137,6 +137,11 @@ def test_a_benchmark_takes_what_the_command_takes(sleigh, tmp_path):
         sleigh.verify("m*v").save(tmp_path / "no.svg")
 
 
+def test_columns_have_the_kind_of_their_values(analysis):
+    table = analysis.table
+    assert table["proved"].dtype == bool and (~table["proved"]).sum() == 0 and table["digits"].dtype == float and table["name"].dtype == object
+
+
 def test_tables_make_data_frames(analysis):
     pandas = pytest.importorskip("pandas")
     assert list(pandas.DataFrame(analysis.table).columns)[0] == "name"
