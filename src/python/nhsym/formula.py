@@ -3,6 +3,7 @@ import functools
 import html
 import re
 
+from . import _functions
 from ._arguments import explains_arguments
 from ._library import AS_LATEX, AS_MATHML, UsageError, library, taken
 
@@ -124,14 +125,19 @@ class _Reader:
         return self.call(name) if self.take("(") else self.named(name)
 
     def call(self, name):
-        if name not in FUNCTIONS:
+        if name not in FUNCTIONS and name not in _functions.named():
             self.at -= 2
             self.refuse()
         given = [self.sum()]
         while self.take(","):
             given.append(self.sum())
         self.demand(")")
-        return getattr(self.sympy, {"abs": "Abs"}.get(name, name))(*given)
+        if name in FUNCTIONS:
+            return getattr(self.sympy, {"abs": "Abs"}.get(name, name))(*given)
+        try:
+            return _functions.named()[name](*given)
+        except TypeError:
+            raise UsageError("`%s` does not take %d arguments" % (name, len(given)), "`nhsym explain functions` lists them") from None
 
     def named(self, name):
         if name not in self.names:
@@ -167,6 +173,9 @@ def _printer():
                 return name
             name = {"Abs": "abs"}.get(name, name)
             if name not in FUNCTIONS:
+                text = _functions.written(e, self._print)
+                if text:
+                    return text
                 from sympy import cos
                 again = e.rewrite(cos)
                 if again.has(type(e)):
@@ -174,7 +183,7 @@ def _printer():
                 return "(%s)" % self._print(again)
             return "%s(%s)" % (name, ", ".join(self._print(a) for a in e.args))
 
-        _print_Abs = _print_Function
+        _print_Abs = _print_hyper = _print_Function
         _print_sec = _print_csc = _print_cot = _print_Function
 
         def _print_Exp1(self, e):
@@ -196,7 +205,7 @@ def _of_sympy(expression):
     from sympy.core.function import AppliedUndef
     expression = sympy.sympify(expression)
     known = (sympy.Symbol, sympy.Rational, sympy.Float, sympy.Add, sympy.Mul, sympy.Pow, sympy.Function, AppliedUndef, sympy.Derivative, sympy.core.relational.Relational)
-    for part in sympy.preorder_traversal(expression) if isinstance(expression, sympy.Basic) else [expression]:
+    for part in _functions.parts(expression):
         number = part in (sympy.pi, sympy.E) if isinstance(part, sympy.Expr) else False
         if not isinstance(part, known + (sympy.Tuple,)) and not number:
             raise UsageError("%s cannot be written in a system file: %s is a %s" % (expression, part, type(part).__name__),
