@@ -322,7 +322,7 @@ Test(named_functions, letters_on_paper)
     expect_typeset("elliptic_f(phi, m)", NH_LATEX, "F\\left(\\varphi \\mid m\\right)");
     expect_typeset("bessel_j(n, x)^2", NH_LATEX, "{\\left(J_{n}\\left(x\\right)\\right)}^{2}");
     expect_typeset("bessel_y_prime(n, x)", NH_MATHML,
-                   "<msub><msup><mi>Y</mi><mo>\u2032</mo></msup><mrow><mi>n</mi></mrow></msub><mo>\u2061</mo><mo>(</mo><mi>x</mi><mo>)</mo>");
+                   "<msub><msup><mi>Y</mi><mo>\u2032</mo></msup><mrow><mi>n</mi></mrow></msub><mo>\u2061</mo><mo stretchy=\"false\">(</mo><mi>x</mi><mo stretchy=\"false\">)</mo>");
 }
 
 /* Every function that a language has, called with these arguments, and what it computes. */

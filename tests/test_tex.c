@@ -33,6 +33,8 @@ Test(tex, long_formulas_come_in_pieces)
          "\\penalty60  - x^{2}\\,y^{2}\\,z^{2}\\,x\\,y\\,z\\,u\\,v\\,w | \\penalty60  + u\\,v\\,w\\,u\\,v\\,w\\,u\\,v\\,w\\,u\\,v\\bigr) | "},
         {"sqrt(aaaaaaaaaaaaaaaaaaaa + bbbbbbbbbbbbbbbbbbbb + cccccccccccc)",
          "\\bigl(\\mathrm{aaaaaaaaaaaaaaaaaaaa} | \\penalty60  + \\mathrm{bbbbbbbbbbbbbbbbbbbb} | \\penalty60  + \\mathrm{cccccccccccc}\\bigr)^{1\\big/2} | "},
+        {"k*(aaaaaaaaaaaaaaaaaaaa + bbbbbbbbbbbbbbbbbbbb*(c + d/e))", /* parentheses are as high as the fraction between them */
+         "k\\, | \\penalty300 \\biggl(\\mathrm{aaaaaaaaaaaaaaaaaaaa} | \\penalty60  + \\mathrm{bbbbbbbbbbbbbbbbbbbb}\\,{\\left(c + \\frac{d}{e}\\right)}\\biggr) | "},
         {"sin(aaaaaaaaaaaaaaaaaaaa + bbbbbbbbbbbbbbbbbbbb + cccccccccccc)/x",
          "\\frac{1}{x}\\, | \\penalty300 \\sin\\bigl(\\mathrm{aaaaaaaaaaaaaaaaaaaa} | \\penalty60  + \\mathrm{bbbbbbbbbbbbbbbbbbbb} | \\penalty60  + \\mathrm{cccccccccccc}\\bigr) | "},
         {"x/(aaaaaaaaaaaaaaaaaaaa + bbbbbbbbbbbbbbbbbbbb + cccccccccccc)",

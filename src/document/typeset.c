@@ -28,8 +28,12 @@ static const nh_typeset_script scripts[] = {
                    "<mi>\u03c0</mi>",
                    "<mo stretchy=\"false\">(</mo>",
                    "<mo stretchy=\"false\">)</mo>",
+                   "<mo stretchy=\"false\">(</mo>",
+                   "<mo stretchy=\"false\">)</mo>",
                    "<mo stretchy=\"false\">|</mo>",
                    "<mo>/</mo>",
+                   "<mo minsize=\"2.2em\" maxsize=\"2.2em\">(</mo>",
+                   "<mo minsize=\"2.2em\" maxsize=\"2.2em\">)</mo>",
                    "<mo form=\"infix\">+</mo>",
                    "<mo form=\"infix\">\u2212</mo>"},
     [NH_LATEX] = {{"{", "}"},
@@ -54,10 +58,14 @@ static const nh_typeset_script scripts[] = {
                   {"", ""},
                   {"\\mathrm{", "}"},
                   "\\pi ",
+                  "\\left(",
+                  "\\right)",
                   "\\bigl(",
                   "\\bigr)",
                   "\\bigm|",
                   "\\big/",
+                  "\\biggl(",
+                  "\\biggr)",
                   " + ",
                   " - "},
 };
@@ -115,12 +123,22 @@ static void grouped(const writer *w, const nh_formula_node *e)
     add(w, w->s->group[1]);
 }
 
-static void parenthesised(const writer *w, const nh_formula_node *e)
+bool nh_typeset_tall(const nh_formula_node *e)
 {
+    if (e->kind == NH_FORMULA_NODE_FRACTION) return true;
+    if (e->kind == NH_FORMULA_NODE_POWER) return nh_typeset_tall(e->child);
+    bool any = false;
+    for (const nh_formula_node *c = e->child; c && !any; c = c->next) any = nh_typeset_tall(c);
+    return any;
+}
+
+void nh_typeset_parenthesised(const writer *w, const nh_formula_node *e)
+{
+    bool tall = nh_typeset_tall(e);
     add(w, w->s->group[0]);
-    add(w, w->s->open);
+    add(w, tall ? w->s->open : w->s->flat_open);
     put(w, e);
-    add(w, w->s->close);
+    add(w, tall ? w->s->close : w->s->flat_close);
     add(w, w->s->group[1]);
 }
 
@@ -262,25 +280,27 @@ static void arguments(const writer *w, const nh_formula_node *e)
         put(w, e->child);
         return;
     }
-    add(w, w->s->open);
+    bool tall = nh_typeset_tall(e);
+    add(w, tall ? w->s->open : w->s->flat_open);
     for (const nh_formula_node *c = e->child; c; c = c->next) {
         put(w, c);
         if (c->next) add(w, w->s->comma);
     }
-    add(w, w->s->close);
+    add(w, tall ? w->s->close : w->s->flat_close);
 }
 
 static void named_call(const writer *w, const nh_formula_node *e)
 {
     size_t k = 0;
     const nh_formula_node *c = nh_typeset_named_head(w, e);
+    bool tall = nh_typeset_tall(e);
     add(w, w->s->apply);
-    add(w, w->s->open);
+    add(w, tall ? w->s->open : w->s->flat_open);
     for (; c; c = c->next) {
         put(w, c);
         if (c->next) nh_typeset_named_comma(w, e->text, k++);
     }
-    add(w, w->s->close);
+    add(w, tall ? w->s->close : w->s->flat_close);
 }
 
 static void call(const writer *w, const nh_formula_node *e)
@@ -318,7 +338,7 @@ static void power(const writer *w, const nh_formula_node *e)
         put(w, base);
         add(w, w->s->base[1]);
     } else {
-        parenthesised(w, base);
+        nh_typeset_parenthesised(w, base);
     }
     add(w, w->s->power[1]);
     grouped(w, exponent);
@@ -330,7 +350,7 @@ static void power(const writer *w, const nh_formula_node *e)
 
 static void factor(const writer *w, const nh_formula_node *e)
 {
-    if (e->kind == NH_FORMULA_NODE_SUM || e->kind == NH_FORMULA_NODE_MINUS) parenthesised(w, e);
+    if (e->kind == NH_FORMULA_NODE_SUM || e->kind == NH_FORMULA_NODE_MINUS) nh_typeset_parenthesised(w, e);
     else put(w, e);
 }
 

@@ -34,7 +34,9 @@ typedef struct {
     const char *group[2], *base[2], *fraction[3], *root[2], *power[3], *below[3], *dot[2], *ddot[2], *open, *close,
         *bar[2];
     const char *plus, *minus, *equal, *times, *dot_times, *apply, *comma, *number[2], *italic[2], *upright[2], *pi;
+    const char *flat_open, *flat_close; /* around what is not tall; open and close grow with what is between them */
     const char *wide_open, *wide_close, *wide_bar, *slash; /* parentheses and bars that a line may end between */
+    const char *tall_open, *tall_close; /* the same around fractions, which they are as high as */
     const char *next_plus, *next_minus; /* at the beginning of a piece */
 } nh_typeset_script;
 
@@ -46,8 +48,11 @@ typedef struct {
     nh_text *out;
 } nh_typeset_writer;
 
+/* Is a fraction in it, outside of exponents? */
+bool nh_typeset_tall(const nh_formula_node *e);
 /* In one piece. */
 void nh_typeset_put(const nh_typeset_writer *w, const nh_formula_node *e);
+void nh_typeset_parenthesised(const nh_typeset_writer *w, const nh_formula_node *e);
 /* The name of a function, without its argument. */
 void nh_typeset_function(const nh_typeset_writer *w, const char *name);
 /* Functions with letters and indices of their own (typeset_named.c): the letter with its index; returns the first of

@@ -58,6 +58,16 @@ static double width(const nh_formula_node *e)
 
 static bool wide(const flow *f, const nh_formula_node *e) { return width(e) > f->widest; }
 
+/* Does a fraction stand in it when it is opened up?  One with a wide denominator becomes a slash. */
+static bool tall(const flow *f, const nh_formula_node *e)
+{
+    if (!wide(f, e)) return nh_typeset_tall(e);
+    if (e->kind == NH_FORMULA_NODE_FRACTION && !wide(f, e->child->next)) return true;
+    bool any = false;
+    for (const nh_formula_node *c = e->child; c && !any; c = c->next) any = tall(f, c);
+    return any;
+}
+
 /* ---- breaks ---- */
 
 /* A line may end here; the dearer, the deeper inside the formula. */
@@ -74,9 +84,10 @@ static int of_product(int depth) { return 300 + of_sum(depth); }
 
 static void bracketed(flow *f, const nh_formula_node *e, int depth)
 {
-    add(f, f->w.s->wide_open);
+    bool high = tall(f, e);
+    add(f, high ? f->w.s->tall_open : f->w.s->wide_open);
     open_up(f, e, depth + 1);
-    add(f, f->w.s->wide_close);
+    add(f, high ? f->w.s->tall_close : f->w.s->wide_close);
 }
 
 /* Beside other factors or a sign; a slash beside others would be misread. */
@@ -85,11 +96,7 @@ static void factor(flow *f, const nh_formula_node *e, bool alone, int depth)
     bool sum = e->kind == NH_FORMULA_NODE_SUM || e->kind == NH_FORMULA_NODE_MINUS,
          slash = e->kind == NH_FORMULA_NODE_FRACTION && wide(f, e->child->next) && !alone;
     if (sum && !wide(f, e)) {
-        add(f, f->w.s->group[0]);
-        add(f, f->w.s->open);
-        nh_typeset_put(&f->w, e);
-        add(f, f->w.s->close);
-        add(f, f->w.s->group[1]);
+        nh_typeset_parenthesised(&f->w, e);
     } else if (sum || slash) {
         bracketed(f, e, depth);
     } else {
@@ -170,7 +177,8 @@ static void call(flow *f, const nh_formula_node *e, int depth)
     if (named) first = nh_typeset_named_head(&f->w, e);
     else if (!root && !bar) nh_typeset_function(&f->w, e->text);
     if (!root && !bar) add(f, s->apply);
-    add(f, bar ? s->wide_bar : s->wide_open);
+    bool high = tall(f, e);
+    add(f, bar ? s->wide_bar : high ? s->tall_open : s->wide_open);
     for (const nh_formula_node *c = first; c; c = c->next) {
         open_up(f, c, depth + 1);
         if (c->next && named) nh_typeset_named_comma(&f->w, e->text, k++);
@@ -178,7 +186,7 @@ static void call(flow *f, const nh_formula_node *e, int depth)
         if (c->next) may_break(f, of_sum(depth + 1), NH_FOLLOWS_TERM);
     }
     if (root) add(f, s->power[0]);
-    add(f, bar ? s->wide_bar : s->wide_close);
+    add(f, bar ? s->wide_bar : high ? s->tall_close : s->wide_close);
     if (root)
         nh_text_addf(&f->text, "%s%s%s1%s%s%s2%s%s%s", s->power[1], s->group[0], s->number[0], s->number[1], s->slash,
                      s->number[0], s->number[1], s->group[1], s->power[2]);
@@ -187,10 +195,11 @@ static void call(flow *f, const nh_formula_node *e, int depth)
 static void power(flow *f, const nh_formula_node *e, int depth)
 {
     const nh_typeset_script *s = f->w.s;
-    add(f, s->wide_open);
+    bool high = tall(f, e->child);
+    add(f, high ? s->tall_open : s->wide_open);
     open_up(f, e->child, depth + 1);
     add(f, s->power[0]);
-    add(f, s->wide_close);
+    add(f, high ? s->tall_close : s->wide_close);
     add(f, s->power[1]);
     add(f, s->group[0]);
     nh_typeset_put(&f->w, e->child->next);
