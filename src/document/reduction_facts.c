@@ -63,12 +63,12 @@ const char *nh_reduction_letters(const nh_reduction *r, const nh_reduction_stage
 {
     bool shape = s->shown->n > 0;
     nh_arena *arena = r->kinetic->arena;
-    const char *p = shape ? "p: momenta of the shape; " : "";
-    static const char group[] = "velocity of the group along its field a, in the body frame";
+    const char *p = shape ? "$p_{i}$: momenta of the shape; " : "";
+    static const char group[] = "velocity of the group along its field $e_{a}$, in the body frame";
     switch (s->kind) {
     case NH_STAGE_CHAPLYGIN:
         return nh_arena_printf(arena, s->shown->d ? "%s$zeta_{a}$: %s" : "%s",
-                               s->shown->d ? p : "p: momenta of the shape", group);
+                               s->shown->d ? p : "$p_{i}$: momenta of the shape", group);
     case NH_STAGE_SECOND:
         return nh_arena_printf(arena,
                                "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ the velocity %sthat "
