@@ -435,3 +435,51 @@ Test(unseen, linear_motion_that_is_driven_has_closed_forms)
         nh_analysis_free(r);
     }
 }
+
+/* Where the count does not reach, or has no such coefficients, one stage finds what the others do not: each of these has a system. */
+Test(unseen, stages_that_have_a_system_of_their_own)
+{
+    static const struct {
+        const char *stage, *text;
+        size_t independent;
+    } ROW[] = {
+        /* asin + acos are functions that may be related: not counted; P_x - pi/2 F t in elliptic coordinates */
+        {"these momenta times 1 and t, and products of functions of one coordinate",
+         "parameters: {F: 0.7}\n"
+         "coordinates: [u, v, z]\n"
+         "lagrangian: (cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)/2 + z'^2/2 + F*cosh(u)*cos(v)*(asin(z/9) + acos(z/9))\n"
+         "domain: {u: [0.5, 1.5], v: [0.3, 1.2]}\n", 6},
+        /* no polynomial in the velocities; t is known on a short interval, where its functions are nearly dependent */
+        {"momenta times 1, t and logarithms of t, positions, powers of t",
+         "coordinates: [x, y, z]\n"
+         "lagrangian: t*(x'^2 + y'^2 + z'^2)/2 + x*log(t) + y*t^3\n"
+         "constraints: [\"z'^2 = 1\"]\n"
+         "domain: {t: [1, 1.1]}\n", 5},
+        /* a rolling disk, which has two integrals with Legendre functions of h, beside a quartic oscillator */
+        {"velocities with coefficients that are named functions of h",
+         "parameters: {m: 1.3, A: 0.25, C: 0.5, r: 0.8, g: 0.9}\n"
+         "coordinates: [x, y, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}, w]\n"
+         "lagrangian: A*(h'^2 + p'^2*sin(h)^2)/2 + C*(p'*cos(h) + s')^2/2 - g*m*r*sin(h) + m*(h'^2*r^2*cos(h)^2 + x'^2 + y'^2)/2 + w'^2/2 - w^3 - w^4\n"
+         "constraints: [\"x' = h'*r*sin(h)*sin(p) - p'*r*cos(h)*cos(p) - r*s'*cos(p)\", \"y' = -h'*r*sin(h)*cos(p) - p'*r*sin(p)*cos(h) - r*s'*sin(p)\"]\n"
+         "domain: {h: [0.8, 1.8]}\n", 4},
+    };
+    for (size_t i = 0; i < sizeof ROW / sizeof *ROW; i++) {
+        char path[SCRATCH];
+        FILE *out = scratch_open(path);
+        cr_assert_not_null(out);
+        fprintf(out, "name: own\n%s", ROW[i].text);
+        fclose(out);
+        nh_error error = {0};
+        nh_analyze_request q = {.system_path = path, .seed_given = true};
+        nh_options_default(&q.options);
+        nh_analysis *r = nh_analysis_create(&q, &error);
+        remove(path);
+        cr_assert_not_null(r, "%s: %s", ROW[i].stage, error.what);
+        size_t found = 0;
+        for (size_t k = 0; k < r->stages; k++)
+            if (!strcmp(r->stage[k].name, ROW[i].stage)) found += r->stage[k].found;
+        cr_expect_gt(found, 0, "%s", ROW[i].stage);
+        cr_expect_eq(r->independent, ROW[i].independent, "%s: %zu independent", ROW[i].stage, r->independent);
+        nh_analysis_free(r);
+    }
+}

@@ -90,14 +90,7 @@ static void how_it_ended(nh_analysis *r, bool spent)
 
 bool nh_staged_search_run(nh_analysis *r, nh_error *error)
 {
-    enum {
-        counted_from = 1,
-        pencils_after = 2,
-        known_after = 5,
-        isometries_after = 4,
-        series_after = 5,
-        time_after = 14
-    };
+    enum { counted_from = 1, pencils_after = 2, isometries_after = 4, time_after = 13 };
     nh_stage_solver x;
     if (!nh_stage_solver_begin(&x, r, error)) return false;
     nh_budget_begin(r->options.work);
@@ -112,10 +105,10 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
         if (i + 1 == pencils_after) stages_of_many(&x);
         if (i + 1 == pencils_after && !nh_stage_solver_done(&x)) nh_linear_motion_search(&x);
         if (i + 1 == pencils_after && !nh_stage_solver_done(&x)) nh_rates_search(&x);
-        if (i + 1 == known_after) function_stages(&x);
-        if (i + 1 == known_after && !nh_stage_solver_done(&x)) known_stage(&x);
         if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) nh_isometries_search(&x);
-        if (i + 1 == series_after && !nh_stage_solver_done(&x)) nh_series_stages(&x);
+        if (i + 1 == isometries_after) function_stages(&x);
+        if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) known_stage(&x);
+        if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) nh_series_stages(&x);
         if (i + 1 == time_after) nh_stage_solver_series_in_time(&x);
     }
     if (!nh_stage_solver_done(&x)) nh_stage_solver_series_in_each(&x);

@@ -194,12 +194,6 @@ static void stage_functions(nh_family_list *s)
     nh_family_list_product_of_sets(s, &q, &f);
 }
 
-static void stage_linear_functions(nh_family_list *s)
-{
-    nh_expr_set l = linear_words(s), f = nh_expr_set_functions(s, true);
-    if (f.n > 1) nh_family_list_product_of_sets(s, &l, &f);
-}
-
 /* Products of two positions or velocities, times the atoms; only where the angles do not matter. */
 static void stage_degree_2(nh_family_list *s)
 {
@@ -269,7 +263,6 @@ static const recipe stages[] = {
     {"momenta times 1, t and logarithms of t, positions, powers of t", nh_stage_drive},
     {"energy, momenta, velocities and forms times 1, t and the positions", stage_words_positions},
     {"velocities and forms times first harmonics of the angles", stage_linear_waves},
-    {"velocities and forms times the system's own functions", stage_linear_functions},
     {"energy, momenta and forms times positions and the system's own functions", stage_functions},
     {"total degree 2 times the system's own functions", stage_degree_2},
     {"quadratic forms times positions", stage_weights},
