@@ -176,6 +176,11 @@ static void of_letters(list *l, const nh_letters *letters)
         for (size_t k = 0; k < letters->count; k++)
             if (letters->item[k].kind == NH_LETTER_CIRCLE) along_circle(l, a->base, letters->item[k].base);
     }
+    for (size_t i = 0; i < letters->count; i++) {
+        if (letters->item[i].kind != NH_LETTER_CIRCLE) continue;
+        append(l, nh_call(l->dag, NH_COS, letters->item[i].base));
+        append(l, nh_call(l->dag, NH_SIN, letters->item[i].base));
+    }
     for (size_t i = 0; i < letters->count; i++) { /* those that are not elementary come last */
         const nh_letter *a = &letters->item[i];
         if (a->kind != NH_LETTER_POWER || a->root != 2) continue;
