@@ -312,6 +312,8 @@ Test(piecewise, an_impulse_is_no_passage)
         nh_analysis *r = analysed(of[i].text);
         cr_expect_eq(r->independent > 0, !of[i].region, "%s: %zu", of[i].text, r->independent);
         cr_expect_eq(r->pieces > 0, of[i].region != NULL, "%s: %zu", of[i].text, r->pieces);
+        cr_expect_eq(nh_analysis_to_the_end(r), r->pieces, "%s: motions end at the wall", of[i].text);
+        cr_expect_eq(r->verdict, NH_FOUND, "%s", of[i].text);
         for (size_t k = 0; k < r->pieces; k++) cr_expect(of[i].region && !strcmp(r->piece[k].region, of[i].region), "%s: %s", of[i].text, r->piece[k].region);
         nh_analysis_free(r);
     }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "motion/trajectory.h"
 #include "base/budget.h"
 #include "base/clock.h"
 #include "base/linalg.h"
@@ -196,7 +197,9 @@ static void conclude(nh_analysis *r)
 {
     bool kept_out = r->search == NH_SEARCH_CUT || (r->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(r)),
          open = r->open > 0 || kept_out, failed = r->count == 0 && r->current.dimension > 0;
-    r->verdict = r->count == 0 ? (open || failed || r->pieces ? NH_UNDECIDED : NH_NONE) : NH_FOUND;
+    r->verdict = r->count || nh_analysis_to_the_end(r)   ? NH_FOUND
+                 : open || failed || r->pieces ? NH_UNDECIDED
+                                               : NH_NONE;
     if (r->count == 0 && kept_out)
         nh_analysis_warn(r, "stages beyond a limit may contain further currents%s",
                          nh_analysis_left_out(r) ? ": the list of stages names the options to raise" : "");
@@ -245,6 +248,33 @@ static void say_drift(nh_analysis *r, const nh_current *f)
                          f->name, drift, r->options.drift);
 }
 
+/* When the test motion ends: at the latest where it reaches a place at which it has an impulse, of which a warning
+   tells. */
+static double end_of_motion(nh_analysis *r, const nh_state *initial)
+{
+    static const double before = 1e-9; /* of the time to it */
+    double end = r->options.until, times[2] = {initial->t, end};
+    nh_terrain terrain = nh_terrain_of(r->model, &r->options, r->arena);
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (!terrain.impulses || !(end > initial->t)) return end;
+    nh_trajectory_request request = {.model = r->model,
+                                     .initial = initial,
+                                     .count = 2,
+                                     .times = times,
+                                     .options = &r->options,
+                                     .impulses = terrain.impulses,
+                                     .impulse = terrain.impulse};
+    nh_trajectory *motion = nh_trajectory_create(&request, &ignored);
+    double reached = motion ? motion->motion->end_time : end;
+    if (reached > initial->t && reached < end) {
+        end = reached - before * (reached - initial->t);
+        nh_analysis_warn(r, "the test motion ends at t = %.6g: %s", reached, motion->motion->note);
+    }
+    nh_trajectory_free(motion);
+    return end;
+}
+
 static void validate(nh_analysis *r, const nh_analyze_request *q)
 {
     nh_error trouble;
@@ -273,7 +303,7 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
                                      .watches = r->tracks.count,
                                      .watch = watch,
                                      .initial = &initial,
-                                     .until = r->options.until,
+                                     .until = end_of_motion(r, &initial),
                                      .outputs = motion_outputs,
                                      .options = &r->options,
                                      .accuracy = q->accuracy,

@@ -216,6 +216,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     nh_event *event = nh_arena_alloc(s->arena, (s->events + 1) * sizeof *event);
     for (size_t i = 0; i < s->events; i++) event[i] = s->event[i].event;
     request.events = s->events, request.event = event;
+    if (!q->ensemble) request.impulses = nh_simulate_impulses(s, &options, &request.impulse);
     nh_ex *known;
     if (!use_method(s, q, times, &request, error)) return false;
     if (request.smallest) request.currents = known_currents(s, &known), request.current = known;
@@ -288,11 +289,8 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
     if (nh_simulate_read(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
     if (times) s->astray = words_astray(s, &initial);
     if (times && choose_columns(s, q, error) && nh_simulate_events(s, q, error) &&
-        integrate(s, q, &initial, count, times, error)) {
-        bool whole = !s->ensemble && !s->trajectory->scene;
-        if (whole) s->impulse = nh_simulate_impulse(s, &q->options);
+        integrate(s, q, &initial, count, times, error))
         return s;
-    }
     nh_simulation_free(s);
     return NULL;
 }

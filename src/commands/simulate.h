@@ -67,7 +67,6 @@ struct nh_simulation {
     const char *begin;
     /* the initial position violates a constraint between positions: which, and by how much; NULL */
     const char *astray;
-    const char *impulse;  /* where the motion went through an impulse without it; NULL */
     const char *idle;     /* parameters and bodies without influence on what is watched, in words; empty: all matter */
     bool compared;        /* the whole model was integrated too, because the motion is short */
     /* the least times of both, and how far what is watched is off, relative to its size along the motion */

@@ -11,8 +11,8 @@ const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene
 /* --event, --section and --axes, after the columns. */
 bool nh_simulate_events(nh_simulation *s, const nh_simulate_request *request, nh_error *error);
 
-/* The motion crosses a place where it has an impulse (integrals/region.h): which, and when; NULL: none. */
-const char *nh_simulate_impulse(nh_simulation *s, const nh_options *options);
+/* Functions at whose zeros motions have an impulse (integrals/region.h), in the simulation's memory: how many. */
+size_t nh_simulate_impulses(nh_simulation *s, const nh_options *options, const nh_ex **impulse);
 
 /* An ensemble instead of the one motion that `motion` asks for. */
 bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *request, const nh_trajectory_request *motion,

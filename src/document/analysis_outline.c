@@ -43,6 +43,7 @@ static void answer(nh_pen *p, const nh_analysis *r)
     if (r->count)
         nh_pen_say(p, "%zu independent current%s of at most %zu", r->independent, plural(r->independent),
                    r->local_maximum);
+    else if (r->verdict == NH_FOUND) nh_pen_say(p, "%s", nh_facts_between_walls(r));
     else if (p->ink->brief)
         nh_pen_say(p, "no current%s %s", r->pieces ? " of all motions" : "",
                    r->verdict == NH_NONE ? "in this ansatz" : "so far");

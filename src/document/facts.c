@@ -191,6 +191,17 @@ const char *nh_facts_nothing(const nh_analysis *r)
                                                                  : "Undecided: no candidate has a certificate";
 }
 
+const char *nh_facts_between_walls(const nh_analysis *r)
+{
+    const char *where = NULL;
+    size_t n = nh_analysis_to_the_end(r);
+    for (size_t k = 0; k < r->pieces; k++)
+        if (r->piece[k].to_the_end && (!where || strcmp(where, r->piece[k].region) == 0)) where = r->piece[k].region;
+        else if (r->piece[k].to_the_end) where = "each in its region, where motions end";
+    return nh_arena_printf(r->arena, "%zu independent current%s of at most %zu, %s", n, n == 1 ? "" : "s",
+                          r->local_maximum, where);
+}
+
 bool nh_facts_given(const nh_analysis *r) { return r->analysis && r->analysis->families > 0; }
 
 const char *nh_facts_search(const nh_analysis *r)
@@ -220,6 +231,7 @@ void nh_facts_completeness(const nh_analysis *r, nh_text *out)
     const nh_completeness *first = &r->completeness[r->completeness[0].counted ? 0 : 1];
     bool all = r->search == NH_SEARCH_COMPLETE && r->independent >= r->local_maximum;
     size_t uncertain = 0;
+    if (!r->count && nh_analysis_to_the_end(r)) return; /* the count is of those that go on through walls */
     if (all && first->counted && first->count.obstacle) return; /* there are no more to be counted */
     for (size_t k = 0; k < r->count; k++)
         uncertain += r->found[k].independence == NH_INDEPENDENT && (!r->found[k].proof.proved || r->found[k].series);

@@ -46,6 +46,8 @@ void nh_facts_branch(const nh_analysis *result, nh_text *out);
 const char *nh_facts_where(const nh_analysis *result, const nh_current *found);
 
 /* What is said where no current was found. */
+/* "4 independent currents on each side of x = 0, where the motion has an impulse": there is no other current. */
+const char *nh_facts_between_walls(const nh_analysis *result);
 const char *nh_facts_nothing(const nh_analysis *result);
 /* The ansatz is the analysis file's: nothing else was tried. */
 bool nh_facts_given(const nh_analysis *result);

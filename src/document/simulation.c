@@ -309,7 +309,6 @@ static void put_motion(const nh_simulation *s, nh_json *root)
     nh_json *warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < s->system->notes; i++) nh_json_add_text(warnings, s->system->note[i]);
     if (s->astray) nh_json_add_text(warnings, s->astray);
-    if (s->impulse) nh_json_add_text(warnings, s->impulse);
     if (s->motion->note[0]) nh_json_add_text(warnings, s->motion->note);
 }
 

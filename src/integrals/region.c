@@ -284,6 +284,13 @@ static void condition(nh_dag *d, nh_ex wall, int sign, nh_text *out)
     nh_print(d, level ? root : nh_int(d, 0), out);
 }
 
+bool nh_region_to_the_end(const nh_region *r)
+{
+    bool all = true;
+    for (size_t i = 0; i < r->count; i++) all &= r->kind[i] == NH_REGION_IMPULSE;
+    return all;
+}
+
 const char *nh_region_text(nh_dag *d, const nh_region *r, nh_arena *arena)
 {
     if (r->count == 0) return NULL;

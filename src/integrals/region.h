@@ -49,6 +49,9 @@ nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex p
 nh_region nh_region_open(const nh_model *model, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
     nh_arena *arena);
 
+/* Does it hold until motions end?  They do at an impulse, which their equations do not determine. */
+bool nh_region_to_the_end(const nh_region *region);
+
 /* "for x > 0", "on each side of x - y = 0, where it jumps", "on each side of x = 0, where the motion has an impulse";
    NULL for everywhere. */
 const char *nh_region_text(nh_dag *dag, const nh_region *region, nh_arena *arena);

@@ -11,6 +11,7 @@
 
 #include "base/clock.h"
 #include "base/progress.h"
+#include "graph/print.h"
 #include "graph/terms.h"
 #include "motion/sizes.h"
 
@@ -440,7 +441,46 @@ static void in_all_states(job *j, nh_error *error)
         take_values(j, nh_along_values_of(j->dynamics, motion->size > q->model->m + q->model->n, q->n, q->e), motion);
 }
 
-nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *error)
+/* The places of impulses are events that end the motion, after those of the request. */
+static nh_event *with_impulses(const nh_trajectory_request *q)
+{
+    nh_event *event = nh_alloc_array(q->events + q->impulses + 1, sizeof *event);
+    if (q->events) memcpy(event, q->event, q->events * sizeof *event);
+    for (size_t i = 0; i < q->impulses; i++) event[q->events + i] = (nh_event){q->impulse[i], 0, true};
+    return event;
+}
+
+/* There the motion has no state that belongs to one of the sides, and no end that was asked for. */
+static void end_at_impulse(nh_motion *motion, const nh_trajectory_request *q)
+{
+    const nh_event_found *last = motion && motion->stopped ? &motion->event[motion->events - 1] : NULL;
+    if (!last || last->which < q->events) return;
+    char *wall = nh_print_string(q->model->dag, q->impulse[last->which - q->events]);
+    nh_motion_note(motion,
+                   "at t = %.10g it reaches %.100s = 0, where it has an impulse that the equations of motion do not "
+                   "determine",
+                   last->time, wall);
+    nh_free(wall);
+    if (motion->count > 1 && motion->time[motion->count - 1] == last->time) motion->count--;
+    motion->events--;
+    motion->stopped = motion->complete = false;
+}
+
+static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error);
+
+nh_trajectory *nh_trajectory_create(const nh_trajectory_request *given, nh_error *error)
+{
+    if (!given->impulses) return make(given, error);
+    nh_trajectory_request q = *given;
+    nh_event *event = with_impulses(given);
+    q.event = event, q.events += q.impulses, q.impulses = 0;
+    nh_trajectory *out = make(&q, error);
+    if (out) end_at_impulse(out->motion, given);
+    nh_free(event);
+    return out;
+}
+
+static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error)
 {
     size_t size = q->model->m + q->model->n;
     nh_trajectory *out = nh_alloc(sizeof *out);

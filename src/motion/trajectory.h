@@ -38,6 +38,10 @@ typedef struct {
     const bool *by_terms;
     size_t events;            /* motion.h: found */
     const nh_event *event;
+    /* functions of t and q: the motion ends at their zeros, where it has an impulse that its equations do not determine
+       (integrals/region.h) */
+    size_t impulses;
+    const nh_ex *impulse;
     bool smallest;            /* integrate only what they need */
     size_t currents;          /* of the chart, known to be conserved: they may make states superfluous there */
     const nh_ex *current;

@@ -52,6 +52,13 @@ const char *nh_limit_words(nh_arena *arena, const nh_limit *limit)
     return nh_arena_printf(arena, "--option %s=%.0f", limit->option, limit->value);
 }
 
+size_t nh_analysis_to_the_end(const nh_analysis *r)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < r->pieces; k++) n += r->piece[k].to_the_end;
+    return n;
+}
+
 size_t nh_analysis_left_out(const nh_analysis *r)
 {
     size_t count = 0;

@@ -49,6 +49,7 @@ typedef struct {
     bool has_symmetry, by_current_route, by_symmetry_route, local;
     bool on_both;             /* of two branches: as printed, current and field hold on the other one too */
     const char *region;       /* of a piece: where it holds, "for x > 0" */
+    bool to_the_end;          /* of a piece: motions end where its region does, at walls where they have an impulse */
     const nh_series *series;  /* NULL for a closed form */
     nh_symmetry symmetry;
     nh_drift drift;
@@ -207,6 +208,8 @@ struct nh_analysis {
 const char *nh_search_word(nh_search search);
 /* "--option stage_columns=412": what would bring a stage in that was too large.  In the arena. */
 const char *nh_limit_words(nh_arena *arena, const nh_limit *limit);
+/* The pieces that are constant along every motion, since motions end where they do. */
+size_t nh_analysis_to_the_end(const nh_analysis *result);
 /* How many stages were too large. */
 size_t nh_analysis_left_out(const nh_analysis *result);
 

@@ -269,21 +269,22 @@ bool nh_currents_known(const nh_current_checker *b, nh_ex current)
 
 /* ---- what holds in a part of the motions only ---- */
 
-const char *nh_currents_region(nh_current_checker *b, nh_ex phi, double digits)
+const char *nh_currents_region(nh_current_checker *b, nh_ex phi, double digits, bool *to_the_end)
 {
     nh_analysis *r = b->result;
     nh_model *o = r->model;
     if (!b->surveyed) b->terrain = nh_terrain_of(o, &r->options, r->arena);
     b->surveyed = true;
     nh_region region = nh_region_of(o, &b->terrain, phi, digits, &r->options, r->arena);
+    if (to_the_end) *to_the_end = nh_region_to_the_end(&region);
     return nh_region_text(o->dag, &region, r->arena);
 }
 
 /* What cancels to fewer digits as printed need not do better anywhere. */
-static const char *region_of(nh_current_checker *b, const nh_current *f)
+static const char *region_of(nh_current_checker *b, nh_current *f)
 {
-    return nh_currents_region(
-        b, f->phi, f->proof.proved ? 0 : fmax(least_almost, fmin(f->printed_digits, b->result->options.digits) / 2));
+    double digits = fmax(least_almost, fmin(f->printed_digits, b->result->options.digits) / 2);
+    return nh_currents_region(b, f->phi, f->proof.proved ? 0 : digits, &f->to_the_end);
 }
 
 bool nh_currents_continue(nh_current_checker *b, nh_current *f)
@@ -295,7 +296,7 @@ bool nh_currents_continue(nh_current_checker *b, nh_current *f)
     nh_claim claim = {.free = f->proof.all_parameters || f->proof.fixed, .fixed = f->proof.fixed};
     if (phi == f->phi) return false;
     nh_proof proof = nh_prove_claim(o, phi, claim, options);
-    if (!proof.proved || nh_currents_region(b, phi, 0)) return false;
+    if (!proof.proved || nh_currents_region(b, phi, 0, NULL)) return false;
     f->phi = nh_simplify_short(o->dag, phi, 0);
     f->proof = proof;
     return true;

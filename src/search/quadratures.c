@@ -240,7 +240,7 @@ static const char *region_of(nh_stage_solver *x, const nh_explicit_motion *m)
 {
     const char *all = NULL;
     for (size_t j = 0; j < m->constants; j++) {
-        const char *one = nh_currents_region(x->bench, m->constant[j].value, 0);
+        const char *one = nh_currents_region(x->bench, m->constant[j].value, 0, NULL);
         if (one && !(all && strstr(all, one))) all = all ? nh_arena_printf(x->r->arena, "%s, %s", all, one) : one;
     }
     return all;
