@@ -322,11 +322,13 @@ static void furthers(nh_pen *p, const nh_analysis *r)
         nh_pen_words(p, "These integrals are polynomial in the velocities. They are functions of the currents above: "
                         "they are not counted.");
     }
-    for (size_t k = 0; k < r->furthers; k++)
+    for (size_t k = 0; k < r->furthers; k++) {
+        const char *where = r->further[k].current.region;
         uncounted(p, r, &r->further[k].current,
-                  nh_arena_printf(r->arena, "degree %zu%s%s", r->further[k].degree,
-                                  r->further[k].current.region ? "; " : "",
-                                  r->further[k].current.region ? r->further[k].current.region : ""));
+                  nh_arena_printf(r->arena, "degree %zu; depends on %s%s%s%s%s", r->further[k].degree, r->found[0].name,
+                                  r->count > 1 ? " to " : "", r->count > 1 ? r->found[r->count - 1].name : "",
+                                  where ? "; " : "", where ? where : ""));
+    }
     if (r->relations) nh_pen_heading(p, "Relations");
     for (size_t k = 0; k < r->relations; k++) p->ink->equation(p->to, r->relation[k].left, r->relation[k].right);
 }
