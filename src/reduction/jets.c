@@ -201,7 +201,8 @@ nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *
         nh_fail(error, NH_LIMIT, "", "the symmetries of the kinetic energy could not be transported within %g steps",
                 options->transport_steps);
         return nh_error_hint(error,
-                             "do masses or lengths differ by many orders of magnitude?  Allow more steps by --option "
+                             "do masses or lengths differ by many orders of magnitude, or does the domain lie close "
+                             "to a singularity of the coordinates?  Allow more steps by --option "
                              "transport_steps=%g, or give the group by --group",
                              10 * options->transport_steps),
                NULL;

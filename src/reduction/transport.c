@@ -180,13 +180,46 @@ static bool rate_of(double s, const double *y, double *rate, void *context)
     return true;
 }
 
+/* |det K| at a part of the way, in scaled coordinates. */
+static double determinant(nh_transport *t, const way *w, double part)
+{
+    size_t m = t->m;
+    for (size_t i = 0; i < m; i++) t->q[i] = w->from[i] + part * w->x[i] * t->scale[i];
+    nh_tape_eval(t->tape, t->work, t->q, t->raw);
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < m; j++) t->K[i + m * j] = t->raw[packed(i, j)] * t->scale[i] * t->scale[j] * t->factor;
+    return fabs(nh_determinant(m, t->K));
+}
+
+/* Does det K keep away from zero?  A transport would spend all its steps on the way to a zero.  Each minimum among
+   samples is narrowed by golden sections. */
+static bool is_regular(nh_transport *t, const way *w)
+{
+    enum { samples = 16, sections = 24 };
+    static const double golden = 0.3819660112501051, vanishing = 1e-6;
+    double value[samples + 1];
+    for (int i = 0; i <= samples; i++) value[i] = determinant(t, w, (double)i / samples);
+    for (int i = 1; i < samples; i++) {
+        double sides = fmin(value[i - 1], value[i + 1]), low = (double)(i - 1) / samples,
+               high = (double)(i + 1) / samples;
+        if (!(value[i] <= sides)) continue;
+        double x = low + golden * (high - low), y = high - golden * (high - low), at_x = determinant(t, w, x),
+               at_y = determinant(t, w, y);
+        for (int k = 0; k < sections; k++)
+            if (at_x < at_y) high = y, y = x, at_y = at_x, at_x = determinant(t, w, x = low + golden * (high - low));
+            else low = x, x = y, at_x = at_y, at_y = determinant(t, w, y = high - golden * (high - low));
+        if (fmin(at_x, at_y) < vanishing * sides) return false;
+    }
+    return true;
+}
+
 bool nh_transport_along(nh_transport *t, const double *q0, const double *q1, size_t count, double *y, double tolerance)
 {
     static const double largest = 1e8; /* a jet that has grown so much has lost its digits */
     double *x = nh_alloc_array(t->m, sizeof *x);
     way w = {t, q0, x, count};
     for (size_t i = 0; i < t->m; i++) x[i] = (q1[i] - q0[i]) / t->scale[i];
-    bool good = nh_runge(t->size * count, rate_of, &w, 0, 1, tolerance, largest, &t->steps, y);
+    bool good = is_regular(t, &w) && nh_runge(t->size * count, rate_of, &w, 0, 1, tolerance, largest, &t->steps, y);
     nh_free(x);
     return good;
 }
