@@ -10,9 +10,10 @@
  *         nh_string_free(formula);
  *     }
  *
- * A fallible function takes an nh_error last, returns NULL or false on failure and fills the error.  No function prints;
- * none ends the process unless an allocation fails (abort; the option max_memory ends a computation before).  The
- * caller owns a result, which remains valid without its problem and context.  Threads with separate contexts are
+ * A fallible function takes an nh_error last, returns NULL or false on failure and fills the error.  No function prints
+ * or ends the process.  Where an allocation fails the error is NH_LIMIT (without an nh_error: NULL, false or NAN), memory
+ * of this call is lost, and its objects remain usable; nh_context_create sets the allocators of FLINT and GMP for it.
+ * The caller owns a result, which remains valid without its problem and context.  Threads with separate contexts are
  * independent; one thread at a time may use a context's objects.  Angles: radians, all else: as in the system file. */
 #ifndef NHSYM_H
 #define NHSYM_H
@@ -163,7 +164,6 @@ typedef struct {
     double digits;       /* to which its rate vanishes in ball arithmetic */
     double drift;        /* along the test motion, relative; NAN: none was computed */
 } nh_current_facts;
-
 NH_API nh_current_facts nh_current_describe(const nh_analysis *analysis, size_t index); /* strings live as long as the analysis */
 
 typedef enum { NH_SYNTAX_PLAIN, NH_SYNTAX_LATEX, NH_SYNTAX_MATHML } nh_syntax;

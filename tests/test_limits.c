@@ -4,6 +4,7 @@
 #include "sweep.h"
 
 #include <cjson/cJSON.h>
+#include <sys/resource.h>
 
 static bool ends(const finished *f) { return strstr(f->err, "time limit") || strstr(f->out, "time limit"); }
 
@@ -102,6 +103,21 @@ Test(limits, an_ensemble_beyond_the_memory_says_its_size)
     finished_clear(&f);
     place_clear(&p);
 }
+
+#ifndef __SANITIZE_ADDRESS__ /* whose own memory needs an address space without limit */
+/* In 2 GB of address space a motion at 9 million times has no room. */
+Test(limits, an_allocation_that_fails_has_a_sentence)
+{
+    place p = place_with_systems();
+    struct rlimit tight = {(rlim_t)2 << 30, (rlim_t)2 << 30};
+    cr_assert_eq(setrlimit(RLIMIT_AS, &tight), 0);
+    finished f = run_expecting(&p, "simulate sleigh --initial omega=2 --until 900 --step 1e-4", 5);
+    cr_expect(strstr(f.err, "out of memory: ") && strstr(f.err, " MB more were wanted\nhint: "), "%s", f.err);
+    cr_expect_str_eq(f.out, "");
+    finished_clear(&f);
+    place_clear(&p);
+}
+#endif
 
 Test(limits, every_command_has_the_brake_on_memory)
 {

@@ -2,7 +2,9 @@
 #include <math.h>
 
 #include "base/context_internal.h"
+#include "base/foreign_memory.h"
 #include "base/memory.h"
+#include "base/recovery.h"
 
 static nh_context of_process = {
     .most = INFINITY,
@@ -16,14 +18,21 @@ static nh_context of_process = {
 
 static _Thread_local nh_context *entered; /* NULL: that of the process */
 
-nh_context *nh_context_create(void)
+static void create(void *out)
 {
     nh_context *c = nh_alloc(sizeof *c);
     c->most = c->limit = c->limit_seconds = c->deadline = INFINITY;
     c->brake = (nh_clock_brake){INFINITY, INFINITY};
     pthread_mutex_init(&c->saying_lock, NULL);
     pthread_mutex_init(&c->files_lock, NULL);
-    return c;
+    *(nh_context **)out = c;
+}
+
+nh_context *nh_context_create(void)
+{
+    nh_context *c = NULL;
+    nh_foreign_memory_begin();
+    return nh_recovery_run(create, &c) ? c : NULL;
 }
 
 void nh_context_free(nh_context *c)

@@ -7,6 +7,7 @@
 
 #include "base/context_internal.h"
 #include "base/memory.h"
+#include "base/recovery.h"
 #include "base/text.h"
 
 void nh_files_begin(void) { nh_context_here()->files_kept = true; }
@@ -44,6 +45,13 @@ static char *slurp(FILE *file, size_t limit, size_t *length)
     return text;
 }
 
+typedef struct {
+    nh_undo undo; /* first */
+    FILE *file;
+} open_file;
+
+static void close_it(nh_undo *undo) { fclose(((open_file *)undo)->file); }
+
 static char *from_file(const char *path, size_t limit, size_t *length, nh_error *error)
 {
     struct stat status;
@@ -52,6 +60,8 @@ static char *from_file(const char *path, size_t limit, size_t *length, nh_error 
         nh_fail(error, NH_INPUT, path, "this file cannot be opened: %s", strerror(errno));
         return NULL;
     }
+    open_file opened = {.undo.undo = close_it, .file = file};
+    nh_undo_add(&opened.undo);
     bool folder = fstat(fileno(file), &status) == 0 && S_ISDIR(status.st_mode);
     if (folder) nh_fail(error, NH_INPUT, path, "this is a directory, not a file");
     char *text = folder ? NULL : slurp(file, limit, length);
@@ -60,6 +70,7 @@ static char *from_file(const char *path, size_t limit, size_t *length, nh_error 
         nh_free(text);
         text = NULL;
     }
+    nh_undo_remove(&opened.undo);
     fclose(file);
     return text;
 }
@@ -82,32 +93,35 @@ static void keep(nh_context *c, const char *path, const char *text, size_t lengt
 void nh_files_add(const char *path, const char *text, size_t length)
 {
     nh_context *c = nh_context_here();
+    nh_held held;
     c->files_kept = true;
-    pthread_mutex_lock(&c->files_lock);
+    nh_hold(&held, &c->files_lock);
     keep(c, path, text, length);
-    pthread_mutex_unlock(&c->files_lock);
+    nh_release(&held);
 }
 
 uint64_t nh_files_fingerprint(void)
 {
     nh_context *c = nh_context_here();
+    nh_held held;
     uint64_t h = 0;
-    pthread_mutex_lock(&c->files_lock);
+    nh_hold(&held, &c->files_lock);
     for (const nh_known_file *f = c->file; f; f = f->next) h = nh_text_fingerprint(h, f->text, f->length);
-    pthread_mutex_unlock(&c->files_lock);
+    nh_release(&held);
     return h;
 }
 
 char *nh_files_read(const char *path, size_t limit, size_t *length, nh_error *error)
 {
     nh_context *c = nh_context_here();
+    nh_held held;
     if (!c->files_kept) return from_file(path, limit, length, error);
-    pthread_mutex_lock(&c->files_lock); /* also while a file is read: two that want it at once get one text */
+    nh_hold(&held, &c->files_lock); /* also while a file is read: two that want it at once get one text */
     const nh_known_file *f = c->file;
     while (f && strcmp(f->path, path)) f = f->next;
     char *text = f ? copy_of(f->text, f->length) : from_file(path, limit, length, error);
     if (f) *length = f->length;
     else if (text) keep(c, path, text, *length);
-    pthread_mutex_unlock(&c->files_lock);
+    nh_release(&held);
     return text;
 }

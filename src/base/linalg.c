@@ -254,6 +254,14 @@ static void give(size_t count, const double *from, double *to)
     if (to) memcpy(to, from, count * sizeof *to);
 }
 
+/* Did LAPACK do it?  It says apart that it had no memory. */
+static bool worked(lapack_int info)
+{
+    if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR)
+        nh_memory_ended(0);
+    return info == 0;
+}
+
 /* dgesdd is several times faster than dgesvd, but its divide and conquer can fail where plain QR iteration does not. */
 static void compute_svd(void *context)
 {
@@ -263,10 +271,10 @@ static void compute_svd(void *context)
                ldvt = leading(smaller(d->m, d->n));
     double *superdiagonal = d->slow ? nh_alloc_array(smaller(d->m, d->n), sizeof *superdiagonal) : NULL;
     if (d->slow)
-        d->ok = LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt,
-                               superdiagonal) == 0;
+        d->ok = worked(LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt,
+                                      superdiagonal));
     else
-        d->ok = LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt) == 0;
+        d->ok = worked(LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt));
     nh_free(superdiagonal);
 }
 
@@ -314,7 +322,7 @@ bool nh_eigen(size_t n, double *a, double *re, double *im, double *v)
         return false;
     nh_work_add(NH_WORK_DENSE, EIGEN * product(n, n, n));
     lapack_int size = (lapack_int)n;
-    return LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', v ? 'V' : 'N', size, a, size, re, im, NULL, size, v, size) == 0;
+    return worked(LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', v ? 'V' : 'N', size, a, size, re, im, NULL, size, v, size));
 }
 
 /* ---- equations ---- */
@@ -336,7 +344,7 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
     if (info == 0 && rcond)
         info = LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', size, a, size, norm, rcond);
     nh_free(swap);
-    return info == 0;
+    return worked(info);
 }
 
 /* dgelsy: rank by pivoted QR with a condition estimate; the solution of least norm.  It does not iterate. */
@@ -361,7 +369,7 @@ int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size
     lapack_int info = LAPACKE_dgelsy(LAPACK_COL_MAJOR, (lapack_int)m, (lapack_int)n, (lapack_int)nrhs, a, (lapack_int)m,
                                      b, (lapack_int)ldb, order, rcond, &rank);
     nh_free(order);
-    return info == 0 ? (int)rank : -1;
+    return worked(info) ? (int)rank : -1;
 }
 
 /* ---- products ---- */

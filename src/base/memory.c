@@ -3,13 +3,18 @@
 
 #include <fcntl.h>
 #include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/recovery.h"
+
 static nh_memory_handler *the_handler;
+static atomic_size_t before_failure = SIZE_MAX; /* allocations */
 
 void nh_memory_set_handler(nh_memory_handler *handler)
 {
@@ -17,18 +22,39 @@ void nh_memory_set_handler(nh_memory_handler *handler)
 }
 
 /* A handler that returns would leave its caller with a null pointer: abort rather than that. */
-static _Noreturn void out_of_memory(size_t wanted)
+void nh_memory_ended(size_t wanted)
 {
+    nh_recovery_go(wanted);
     if (the_handler)
         the_handler(wanted);
     abort();
+}
+
+void *nh_memory_got(void *pointer)
+{
+    if (!pointer)
+        nh_memory_ended(0);
+    return pointer;
+}
+
+size_t nh_memory_fail_after(size_t allocations)
+{
+    return atomic_exchange(&before_failure, allocations);
+}
+
+/* Is it the one that a test wants to fail? */
+static bool to_fail(void)
+{
+    if (atomic_load_explicit(&before_failure, memory_order_relaxed) == SIZE_MAX)
+        return false;
+    return atomic_fetch_sub(&before_failure, 1) == 0;
 }
 
 static size_t product(size_t count, size_t size)
 {
     size_t bytes;
     if (__builtin_mul_overflow(count, size, &bytes))
-        out_of_memory(SIZE_MAX);
+        nh_memory_ended(SIZE_MAX);
     return bytes ? bytes : 1;
 }
 
@@ -40,18 +66,26 @@ void *nh_alloc(size_t size)
 void *nh_alloc_array(size_t count, size_t size)
 {
     size_t bytes = product(count, size);
-    void *memory = calloc(1, bytes);
+    void *memory = to_fail() ? NULL : calloc(1, bytes);
     if (!memory)
-        out_of_memory(bytes);
+        nh_memory_ended(bytes);
+    return memory;
+}
+
+void *nh_alloc_bytes(size_t size)
+{
+    void *memory = to_fail() ? NULL : malloc(size ? size : 1);
+    if (!memory)
+        nh_memory_ended(size);
     return memory;
 }
 
 void *nh_realloc_array(void *old, size_t count, size_t size)
 {
     size_t bytes = product(count, size);
-    void *memory = realloc(old, bytes);
+    void *memory = to_fail() ? NULL : realloc(old, bytes);
     if (!memory)
-        out_of_memory(bytes);
+        nh_memory_ended(bytes);
     return memory;
 }
 
@@ -135,7 +169,7 @@ void nh_arena_free(nh_arena *arena)
 static block *new_block(size_t size)
 {
     if (size > SIZE_MAX - sizeof(block))
-        out_of_memory(SIZE_MAX);
+        nh_memory_ended(SIZE_MAX);
     return nh_alloc(sizeof(block) + size);
 }
 
@@ -171,7 +205,7 @@ void *nh_arena_alloc(nh_arena *arena, size_t size)
 char *nh_arena_strndup(nh_arena *arena, const char *text, size_t length)
 {
     if (length == SIZE_MAX)
-        out_of_memory(SIZE_MAX);
+        nh_memory_ended(SIZE_MAX);
     char *copy = nh_arena_alloc(arena, length + 1);
     if (length)
         memcpy(copy, text, length);

@@ -1,7 +1,8 @@
-/* memory: allocation that either succeeds or ends in the handler the program installed, and arenas.
+/* memory: allocation that either succeeds or does not return, and arenas.
  *
- * A library that checks every small allocation by hand has mostly untested branches; instead the one handler
- * decides (the command line reports exit code 5, "limit reached").  The default handler aborts. */
+ * A library that checks every small allocation by hand has mostly untested branches.  Here an allocation that fails
+ * gives up the run of this thread (base/recovery.h), as the functions of nhsym.h want it; outside of a run it calls the
+ * handler of the program (that of the command line ends the process with exit code 5); without one it aborts. */
 #ifndef NH_MEMORY_H
 #define NH_MEMORY_H
 
@@ -11,11 +12,18 @@
 
 typedef void nh_memory_handler(size_t wanted);
 
-/* Called when memory runs out; must not return. */
+/* Called when memory runs out outside of every run; must not return. */
 void nh_memory_set_handler(nh_memory_handler *handler);
+/* What an allocation that fails does. */
+_Noreturn void nh_memory_ended(size_t wanted);
+/* What another library has allocated; where it is NULL, memory has ended. */
+void *nh_memory_got(void *pointer);
+/* For tests: the allocation after so many more fails, once; SIZE_MAX: none.  What was left of the number before. */
+size_t nh_memory_fail_after(size_t allocations);
 
 void *nh_alloc(size_t size);                 /* zeroed; size 0 gives a valid pointer */
-void *nh_alloc_array(size_t count, size_t size); /* zeroed; overflow of count*size goes to the handler */
+void *nh_alloc_bytes(size_t size);           /* not zeroed */
+void *nh_alloc_array(size_t count, size_t size); /* zeroed; overflow of count*size is a failure, too */
 void *nh_realloc_array(void *old, size_t count, size_t size); /* new part not zeroed */
 void nh_free(void *pointer);
 char *nh_strdup(const char *text);

@@ -8,8 +8,39 @@
 #include "base/context_internal.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/recovery.h"
 
 enum { most_threads = 64 };
+
+/* ---- without memory ----
+ *
+ * A thread that works for another one, which is within a run (base/recovery.h), does so in a run of its own; where that
+ * is given up the other thread gives up its run, too, when it has no thread any more that works for it. */
+
+typedef struct {
+    bool recovers; /* the other thread is within a run */
+    atomic_size_t wanted; /* bytes, by a run that was given up; 0: none was */
+} rescue;
+
+static rescue rescue_here(void) { return (rescue){.recovers = nh_recovery_here()}; }
+
+/* False: it was given up. */
+static bool do_rescued(rescue *r, void (*job)(void *), void *data)
+{
+    if (!r->recovers) return job(data), true;
+    if (nh_recovery_run(job, data)) return true;
+    size_t wanted = nh_recovery_wanted();
+    atomic_store(&r->wanted, wanted ? wanted : 1);
+    return false;
+}
+
+static void end_rescue(rescue *r)
+{
+    size_t wanted = atomic_load(&r->wanted);
+    if (wanted) nh_memory_ended(wanted);
+}
+
+/* ---- a queue of jobs ---- */
 
 typedef struct {
     size_t jobs;
@@ -17,19 +48,26 @@ typedef struct {
     void (*job)(size_t, void *);
     void *context;
     nh_context *here;
+    rescue rescue;
 } queue;
+
+static void do_jobs(void *argument)
+{
+    queue *q = argument;
+    for (size_t i; (i = atomic_fetch_add(&q->next, 1)) < q->jobs;) q->job(i, q->context);
+}
 
 static void *work(void *argument)
 {
     queue *q = argument;
     nh_context_enter(q->here);
-    for (size_t i; (i = atomic_fetch_add(&q->next, 1)) < q->jobs;) q->job(i, q->context);
+    if (!do_rescued(&q->rescue, do_jobs, q)) atomic_store(&q->next, q->jobs);
     return NULL;
 }
 
 void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context)
 {
-    queue q = {.jobs = jobs, .job = job, .context = context, .here = nh_context_here()};
+    queue q = {.jobs = jobs, .job = job, .context = context, .here = nh_context_here(), .rescue = rescue_here()};
     pthread_t helper[most_threads];
     size_t wanted = threads < jobs ? threads : jobs, started = 0;
     if (wanted > most_threads) wanted = most_threads;
@@ -37,6 +75,7 @@ void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *co
         if (pthread_create(&helper[started], NULL, work, &q) == 0) started++;
     work(&q);
     for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);
+    end_rescue(&q.rescue);
 }
 
 /* ---- in turns ---- */
@@ -45,7 +84,13 @@ typedef struct {
     void (*job)(size_t, void *);
     void *context;
     pthread_mutex_t turn;
+    bool recovers;
 } line;
+
+typedef struct {
+    const line *line;
+    size_t index;
+} place;
 
 static _Thread_local pthread_mutex_t *turn; /* NULL: this thread does no such job */
 static _Thread_local bool has_turn;
@@ -67,19 +112,28 @@ bool nh_turn_take(void)
     return has_turn = true;
 }
 
+static void do_place(void *argument)
+{
+    const place *p = argument;
+    p->line->job(p->index, p->line->context);
+}
+
 static void do_in_turn(size_t index, void *context)
 {
     line *l = context;
+    place p = {l, index};
+    rescue r = {.recovers = l->recovers};
     turn = &l->turn;
     nh_turn_take();
-    l->job(index, l->context);
+    do_rescued(&r, do_place, &p);
     nh_turn_give();
     turn = NULL;
+    end_rescue(&r);
 }
 
 void nh_parallel_in_turns(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context)
 {
-    line l = {.job = job, .context = context};
+    line l = {.job = job, .context = context, .recovers = nh_recovery_here()};
     pthread_mutex_init(&l.turn, NULL);
     nh_parallel(jobs, threads, do_in_turn, &l);
     pthread_mutex_destroy(&l.turn);
@@ -95,27 +149,33 @@ size_t nh_threads(double wanted)
 /* ---- one job beside the caller ---- */
 
 struct nh_aside {
+    nh_undo undo; /* first */
     pthread_t thread;
     bool started;
     void (*job)(void *);
     void *context;
     nh_context *here;
+    rescue rescue;
 };
 
 static void *do_aside(void *argument)
 {
     nh_aside *a = argument;
     nh_context_enter(a->here);
-    a->job(a->context);
+    do_rescued(&a->rescue, a->job, a->context);
     return NULL;
 }
+
+static void await(nh_undo *undo) { pthread_join(((nh_aside *)undo)->thread, NULL); }
 
 nh_aside *nh_aside_begin(void (*job)(void *), void *context)
 {
     nh_aside *a = nh_alloc(sizeof *a);
-    *a = (nh_aside){.job = job, .context = context, .here = nh_context_here()};
+    *a = (nh_aside){.undo.undo = await, .job = job, .context = context, .here = nh_context_here(),
+                    .rescue = rescue_here()};
     a->started = pthread_create(&a->thread, NULL, do_aside, a) == 0;
-    if (!a->started) job(context);
+    if (a->started) nh_undo_add(&a->undo);
+    else job(context);
     return a;
 }
 
@@ -123,7 +183,10 @@ void nh_aside_end(nh_aside *a)
 {
     if (!a) return;
     if (a->started) pthread_join(a->thread, NULL);
+    nh_undo_remove(&a->undo);
+    rescue r = a->rescue;
     nh_free(a);
+    end_rescue(&r);
 }
 
 /* ---- one job that may be left alone ---- */
@@ -135,6 +198,7 @@ typedef struct {
     pthread_cond_t ended;
     bool done, left;
     nh_context *here;
+    rescue rescue;
 } errand;
 
 size_t nh_jobs_left(void) { return atomic_load(&nh_context_here()->left_alone); }
@@ -150,14 +214,14 @@ static void *go(void *argument)
 {
     errand *e = argument;
     nh_context_enter(e->here);
-    e->job(e->context);
+    bool whole = do_rescued(&e->rescue, e->job, e->context);
     pthread_mutex_lock(&e->lock);
     e->done = true;
     bool left = e->left;
     pthread_cond_signal(&e->ended);
     pthread_mutex_unlock(&e->lock);
     if (!left) return NULL;
-    e->release(e->context);
+    if (whole) e->release(e->context);
     errand_free(e);
     atomic_fetch_sub(&nh_context_here()->left_alone, 1);
     return NULL;
@@ -180,6 +244,7 @@ bool nh_interruptible(void (*job)(void *), void (*release)(void *), void *contex
                   .release = release,
                   .context = context,
                   .here = nh_context_here(),
+                  .rescue = rescue_here(),
                   .lock = PTHREAD_MUTEX_INITIALIZER,
                   .ended = PTHREAD_COND_INITIALIZER};
     pthread_t thread;
@@ -200,6 +265,8 @@ bool nh_interruptible(void (*job)(void *), void (*release)(void *), void *contex
     pthread_mutex_unlock(&e->lock);
     if (!done) return pthread_detach(thread), false;
     pthread_join(thread, NULL);
+    rescue r = e->rescue;
     errand_free(e);
+    end_rescue(&r);
     return true;
 }

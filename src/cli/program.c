@@ -5,6 +5,7 @@
 
 #include "base/escape.h"
 #include "base/files.h"
+#include "base/foreign_memory.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "cli/cli_table.h"
@@ -83,6 +84,7 @@ int nh_cli_main(int argc, char **argv, const nh_team *team)
     nh_error error;
     nh_error_clear(&error);
     nh_memory_set_handler(out_of_memory);
+    nh_foreign_memory_begin();
     nh_files_begin();
     nh_cli cli = {.arena = nh_arena_create()};
     cli.ask = (nh_request){.arena = cli.arena, .team = team};

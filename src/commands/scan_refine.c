@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "base/json.h"
+#include "base/memory.h"
 #include "base/progress.h"
 #include "commands/scan_internal.h"
 
@@ -141,7 +142,7 @@ static bool minimise(task *t, gsl_min_fminimizer *m)
 static bool find_minimum(task *t)
 {
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
+    gsl_min_fminimizer *m = nh_memory_got(gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent));
     gsl_function f = {square_at, t};
     double middle = axis_value(t, nh_scan_index(t->scan, t->jump->place, t->jump->axis));
     bool good = !gsl_min_fminimizer_set(m, &f, middle, t->from, t->to) && minimise(t, m);

@@ -18,6 +18,7 @@
 #include "base/leave.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/recovery.h"
 
 enum { longest_path = 512 };
 static const double most_seconds = 60;
@@ -168,16 +169,26 @@ static bool start(nh_compilation *c)
     return false;
 }
 
+typedef struct {
+    nh_undo undo; /* first */
+    nh_compilation *c;
+} beginning;
+
+static void give_up(nh_undo *undo) { remove_folder(((beginning *)undo)->c); }
+
 nh_compilation *nh_compile(const char *text)
 {
     nh_compilation *c = nh_alloc(sizeof *c);
+    beginning b = {.undo.undo = give_up, .c = c};
     const char *wish = getenv("NHSYM_CC");
     c->program = wish ? wish : "cc";
     c->begun = nh_clock();
     snprintf(c->words, sizeof c->words, "still being compiled by %.100s", c->program);
     if (!*c->program) snprintf(c->words, sizeof c->words, "not compiled: NHSYM_CC names no compiler");
-    else if (make_folder(c) && write_source(c, text) && start(c)) return c;
-    remove_folder(c);
+    nh_undo_add(&b.undo);
+    bool good = *c->program && make_folder(c) && write_source(c, text) && start(c);
+    nh_undo_remove(&b.undo);
+    if (!good) remove_folder(c);
     return c;
 }
 

@@ -8,6 +8,7 @@
 
 #include "evaluate/compile.h"
 #include "base/memory.h"
+#include "base/recovery.h"
 #include "evaluate/tape_internal.h"
 
 enum { most_machines = 64, most_instructions = 20000 };
@@ -130,9 +131,10 @@ static nh_machine *look_up(const nh_text *text)
 static nh_machine *put_on_shelf(nh_text *text)
 {
     if (shelved == most_machines || (!shelved && atexit(nh_machine_cleanup))) return NULL;
-    nh_machine *m = &shelf[shelved++];
+    nh_machine *m = &shelf[shelved];
     *m = (nh_machine){.text = *text, .compilation = nh_compile(nh_text_string(text)), .busy = true};
     nh_text_init(text);
+    shelved++;
     return m;
 }
 
@@ -144,10 +146,11 @@ static nh_machine *machine_of(const nh_tape *tape, bool start)
     nh_text text;
     nh_text_init(&text);
     machine_text(tape, &text);
-    pthread_mutex_lock(&lock);
+    nh_held held;
+    nh_hold(&held, &lock);
     nh_machine *m = look_up(&text);
     if (!m && start) m = put_on_shelf(&text);
-    pthread_mutex_unlock(&lock);
+    nh_release(&held);
     nh_text_clear(&text);
     return m;
 }
@@ -157,14 +160,15 @@ nh_machine *nh_machine_of(const nh_tape *tape) { return machine_of(tape, true); 
 
 nh_machine_code *nh_machine_get(nh_machine *m, bool wait, bool *busy)
 {
-    pthread_mutex_lock(&lock);
+    nh_held held;
+    nh_hold(&held, &lock);
     if (m->busy) {
         void *address = nh_compile_result(m->compilation, entry_point, wait, &m->busy);
         memcpy(&m->code, &address, sizeof m->code); /* ISO C knows no conversion from a pointer to an object */
     }
     *busy = m->busy;
     nh_machine_code *code = m->code;
-    pthread_mutex_unlock(&lock);
+    nh_release(&held);
     return code;
 }
 

@@ -54,8 +54,8 @@ static uint64_t hash_of(unsigned kind, unsigned op, size_t count, const uint32_t
 
 static void rehash(nh_dag *dag)
 {
+    dag->bucket = nh_realloc_array(dag->bucket, 2 * dag->bucket_count, sizeof *dag->bucket);
     dag->bucket_count *= 2;
-    dag->bucket = nh_realloc_array(dag->bucket, dag->bucket_count, sizeof *dag->bucket);
     memset(dag->bucket, 0, dag->bucket_count * sizeof *dag->bucket);
     for (uint32_t i = 0; i < dag->node_count; i++) {
         uint32_t *head = &dag->bucket[dag->node[i].hash & (dag->bucket_count - 1)];
@@ -163,9 +163,10 @@ bool nh_symbol_find(const nh_dag *dag, const char *name, nh_ex *out)
 static nh_ex new_symbol(nh_dag *dag, const char *name, bool hidden)
 {
     uint32_t index = (uint32_t)dag->name_count;
+    const char *kept = nh_arena_strdup(dag->names, name);
     nh_grow(&dag->name, &dag->name_capacity, dag->name_count + 1, sizeof *dag->name);
     nh_ex symbol = nh_dag_intern(dag, NH_SYMBOL, 0, 1, &index);
-    dag->name[dag->name_count++] = (nh_symbol_name){nh_arena_strdup(dag->names, name), symbol, hidden};
+    dag->name[dag->name_count++] = (nh_symbol_name){kept, symbol, hidden};
     return symbol;
 }
 

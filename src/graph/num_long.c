@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/recovery.h"
 
 enum { most_bits = 4096, most_kept = 1 << 20 };
 
@@ -49,8 +50,9 @@ static void grow(void)
     if (2 * (table.count + 1) < table.slots) return;
     if (table.slots == 0) atexit(clear_table);
     size_t slots = table.slots ? 2 * table.slots : 256;
+    size_t *slot = nh_alloc_array(slots, sizeof *slot);
     nh_free(table.slot);
-    table.slot = nh_alloc_array(slots, sizeof *table.slot);
+    table.slot = slot;
     table.slots = slots;
     for (size_t i = 1; i <= table.count; i++) table.slot[place_of(table.value[i])] = i;
 }
@@ -58,17 +60,19 @@ static void grow(void)
 /* The index of the number, a new one if need be; 0 when there are too many. */
 static size_t keep(const mpq_t v)
 {
-    pthread_mutex_lock(&table.lock);
+    nh_held held;
+    nh_hold(&held, &table.lock);
     grow();
     size_t at = place_of(v);
     if (!table.slot[at] && table.count < most_kept) {
         nh_grow(&table.value, &table.capacity, table.count + 2, sizeof *table.value);
-        mpq_init(table.value[++table.count]);
-        mpq_set(table.value[table.count], v);
-        table.slot[at] = table.count;
+        mpq_t *kept = &table.value[table.count + 1]; /* counted when it is whole */
+        mpq_init(*kept);
+        mpq_set(*kept, v);
+        table.slot[at] = ++table.count;
     }
     size_t index = table.slot[at];
-    pthread_mutex_unlock(&table.lock);
+    nh_release(&held);
     return index;
 }
 
@@ -107,9 +111,10 @@ nh_num nh_num_of_mpq(const mpq_t v)
 void nh_num_get_mpq(mpq_t out, nh_num a)
 {
     if (a.q == NH_LONG) {
-        pthread_mutex_lock(&table.lock);
+        nh_held held;
+        nh_hold(&held, &table.lock);
         mpq_set(out, table.value[a.p]);
-        pthread_mutex_unlock(&table.lock);
+        nh_release(&held);
         return;
     }
     mpz_set_si(mpq_numref(out), a.p);

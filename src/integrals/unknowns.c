@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "integrals/pencil.h"
@@ -176,11 +177,17 @@ static void bounds(const objective *o, nlopt_opt opt)
     nh_free(low);
 }
 
+static void optimise(nlopt_opt opt, double *theta, double *value)
+{
+    if (nlopt_optimize(opt, theta, value) == NLOPT_OUT_OF_MEMORY) nh_memory_ended(0);
+}
+
 /* Multi-level single linkage; every evaluation is remembered, so that all basins are seen, not only the best one. */
 static void search(objective *o, const nh_options *options)
 {
     unsigned n = (unsigned)o->n;
-    nlopt_opt global = nlopt_create(NLOPT_GN_MLSL_LDS, n), local = nlopt_create(NLOPT_LN_SBPLX, n);
+    nlopt_opt global = nh_memory_got(nlopt_create(NLOPT_GN_MLSL_LDS, n));
+    nlopt_opt local = nh_memory_got(nlopt_create(NLOPT_LN_SBPLX, n));
     double *theta = nh_alloc_array(o->n, sizeof *theta), value;
     for (size_t i = 0; i < o->n; i++) theta[i] = (o->unknown[i].low + o->unknown[i].high) / 2;
     nlopt_srand((unsigned long)options->seed);
@@ -192,7 +199,7 @@ static void search(objective *o, const nh_options *options)
     nlopt_set_maxeval(global, (int)(options->evaluations * (double)o->n)); /* MLSL never stops by itself */
     nlopt_set_population(global, 16 * n);
     o->running = global;
-    nlopt_optimize(global, theta, &value);
+    optimise(global, theta, &value);
     o->running = NULL;
     nlopt_destroy(local);
     nlopt_destroy(global);
@@ -208,7 +215,7 @@ static double polish(objective *o, double *theta, double width)
     double value = evaluate(n, theta, NULL, o), found, before = value;
     for (int round = 0; round < 4 && (round == 0 || value < progress * before); round++, width *= 1e-3) {
         before = value;
-        nlopt_opt opt = nlopt_create(NLOPT_LN_SBPLX, n);
+        nlopt_opt opt = nh_memory_got(nlopt_create(NLOPT_LN_SBPLX, n));
         double *best = nh_alloc_array(o->n, sizeof *best), *step = nh_alloc_array(o->n, sizeof *step);
         memcpy(best, theta, o->n * sizeof *best);
         for (size_t i = 0; i < o->n; i++) step[i] = width * (o->unknown[i].high - o->unknown[i].low);
@@ -218,7 +225,7 @@ static double polish(objective *o, double *theta, double width)
         nlopt_set_xtol_rel(opt, DBL_EPSILON);
         nlopt_set_maxeval(opt, 30 * (int)n);
         o->running = opt;
-        nlopt_optimize(opt, best, &found);
+        optimise(opt, best, &found);
         o->running = NULL;
         found = evaluate(n, best, NULL, o);
         if (found < value) {

@@ -9,25 +9,36 @@
 
 /* ---- commands ---- */
 
-/* The result of a request: the first part of its answer. */
-static void *result_of(nh_problem *p, const char *command, nh_request *q, nh_error *error)
+typedef struct {
+    nh_request *request;
+    nh_error *error;
+    const char *methods; /* of a comparison, or NULL */
+    void *result;
+} computation;
+
+static void compute(void *argument)
 {
+    computation *c = argument;
+    const nh_answer_kind *kind = nh_answer_kind_of(c->request->command);
     nh_answer a;
+    if (c->methods && !nh_request_methods(c->request, c->methods, c->error)) return;
+    if (kind->check && !kind->check(c->request, c->error)) return;
+    if (nh_answer_create(&a, c->request, c->error)) c->result = a.part[0];
+}
+
+/* The result of a request: the first part of its answer. */
+static void *result_of(nh_problem *p, const char *command, nh_request *q, const char *methods, nh_error *error)
+{
+    computation c = {.request = q, .error = error, .methods = methods};
     q->command = command;
-    nh_error_clear(error);
-    const nh_answer_kind *kind = nh_answer_kind_of(command);
-    if (kind->check && !kind->check(q, error)) return NULL;
-    nh_problem_enter(p);
-    bool good = nh_answer_create(&a, q, error);
-    nh_problem_leave(p);
-    return good ? a.part[0] : NULL;
+    return nh_problem_run(p, compute, &c, error) ? c.result : NULL;
 }
 
 nh_analysis *nh_analyze(nh_problem *p, nh_error *error)
 {
     nh_request q = p->request;
     q.documents = true;
-    return result_of(p, "analyze", &q, error);
+    return result_of(p, "analyze", &q, NULL, error);
 }
 
 nh_simulation *nh_simulate(nh_problem *p, nh_error *error) { return nh_simulate_zeros(p, NULL, NULL, error); }
@@ -37,13 +48,13 @@ nh_simulation *nh_simulate_zeros(nh_problem *p, const char *events, const char *
     nh_request q = p->request;
     q.event = events;
     q.section = section;
-    return result_of(p, "simulate", &q, error);
+    return result_of(p, "simulate", &q, NULL, error);
 }
 
 nh_reduction *nh_reduce(nh_problem *p, nh_error *error)
 {
     nh_request q = p->request;
-    return result_of(p, "reduce", &q, error);
+    return result_of(p, "reduce", &q, NULL, error);
 }
 
 static nh_verification *verify(nh_problem *p, const char *current, const char *field, nh_error *error)
@@ -51,7 +62,7 @@ static nh_verification *verify(nh_problem *p, const char *current, const char *f
     nh_request q = p->request;
     q.current = current;
     q.field = field;
-    return result_of(p, "verify", &q, error);
+    return result_of(p, "verify", &q, NULL, error);
 }
 
 nh_verification *nh_verify_current(nh_problem *p, const char *current, nh_error *error)
@@ -76,7 +87,7 @@ nh_classified *nh_classify_over(nh_problem *p, const char *parameter, bool shape
         return nh_fail(error, NH_USAGE, "", "over: expected the name of one parameter, found `%s`", parameter), NULL;
     q.over = parameter;
     q.shape = shape;
-    return result_of(p, "classify", &q, error);
+    return result_of(p, "classify", &q, NULL, error);
 }
 
 nh_benchmark *nh_benchmark_methods(nh_problem *p, const nh_comparison *c, nh_error *error)
@@ -84,11 +95,10 @@ nh_benchmark *nh_benchmark_methods(nh_problem *p, const nh_comparison *c, nh_err
     nh_request q = p->request;
     nh_error_clear(error);
     q.methods = 0; /* that of the question is of a simulation */
-    if (c && c->methods && !nh_request_methods(&q, c->methods, error)) return NULL;
     q.budget = c ? c->seconds : 0;
     q.robustness = c && c->robustness;
     q.over = c ? c->over : NULL;
-    return result_of(p, "benchmark", &q, error);
+    return result_of(p, "benchmark", &q, c ? c->methods : NULL, error);
 }
 
 /* ---- documents ---- */
@@ -109,27 +119,47 @@ static char *columns(const nh_answer *a, bool picture, nh_error *error)
     return out;
 }
 
+typedef struct {
+    const char *command;
+    void *result;
+    double seed;
+    nh_format format;
+    nh_error *error;
+    char *text;
+} writing;
+
 /* The LaTeX of a reduction are its equations; the table of a simulation is its motion, as in a folder, whether it has a
    section or not. */
-static char *document(const char *command, const void *result, double seed, nh_format format, nh_error *error)
+static void write_document(void *argument)
 {
     static const double shown = 600; /* symbols of the longest formula on a page, as by default */
-    const nh_request request = {.to = !strcmp(command, "reduce") && format == NH_FORMAT_LATEX ? "latex" : NULL,
+    writing *w = argument;
+    nh_format format = w->format;
+    const nh_request request = {.to = !strcmp(w->command, "reduce") && format == NH_FORMAT_LATEX ? "latex" : NULL,
                                 .folder = ""};
-    const nh_answer a = {.kind = nh_answer_kind_of(command), .request = &request, .part = {(void *)result},
-                         .run = {.seed = seed, .shown = shown, .seconds = NAN}};
+    const nh_answer a = {.kind = nh_answer_kind_of(w->command), .request = &request, .part = {w->result},
+                         .run = {.seed = w->seed, .shown = shown, .seconds = NAN}};
     bool table = request.to || (format == NH_FORMAT_TEXT && a.kind->print);
-    nh_error_clear(error);
-    if (format == NH_FORMAT_JSON) return a.kind->json(&a);
-    if (format == NH_FORMAT_CSV || format == NH_FORMAT_SVG) return columns(&a, format == NH_FORMAT_SVG, error);
-    nh_text text;
-    nh_text_init(&text);
-    nh_pen_form form = format == NH_FORMAT_HTML ? NH_PEN_PAGE : format == NH_FORMAT_LATEX ? NH_PEN_LATEX : NH_PEN_TEXT;
-    if (!table || !a.kind->print(&a, &text))
-        a.kind->write(&a, (nh_pen_style){.form = form, .verbose = form == NH_PEN_TEXT}, &text);
-    char *out = nh_strdup(nh_text_string(&text));
-    nh_text_clear(&text);
-    return out;
+    if (format == NH_FORMAT_JSON) w->text = a.kind->json(&a);
+    else if (format == NH_FORMAT_CSV || format == NH_FORMAT_SVG)
+        w->text = columns(&a, format == NH_FORMAT_SVG, w->error);
+    else {
+        nh_text text;
+        nh_text_init(&text);
+        nh_pen_form form = format == NH_FORMAT_HTML    ? NH_PEN_PAGE
+                           : format == NH_FORMAT_LATEX ? NH_PEN_LATEX
+                                                       : NH_PEN_TEXT;
+        if (!table || !a.kind->print(&a, &text))
+            a.kind->write(&a, (nh_pen_style){.form = form, .verbose = form == NH_PEN_TEXT}, &text);
+        w->text = nh_strdup(nh_text_string(&text));
+        nh_text_clear(&text);
+    }
+}
+
+static char *document(const char *command, const void *result, double seed, nh_format format, nh_error *error)
+{
+    writing w = {.command = command, .result = (void *)result, .seed = seed, .format = format, .error = error};
+    return nh_library_try(write_document, &w, error) ? w.text : NULL;
 }
 
 char *nh_analysis_document(const nh_analysis *a, nh_format format, nh_error *error)

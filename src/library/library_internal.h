@@ -15,8 +15,12 @@ struct nh_problem {
     nh_system   *system;
 };
 
-/* A computation in the problem's context begins and ends: its files, its time limit. */
-void nh_problem_enter(nh_problem *problem);
-void nh_problem_leave(nh_problem *problem);
+/* False: memory ended before the job did (base/recovery.h).  A thread in which that has happened once does further jobs
+   on a thread of their own, because what FLINT keeps for this one may be in disorder. */
+bool nh_library_run(void (*job)(void *), void *data);
+/* The same, with a message. */
+bool nh_library_try(void (*job)(void *), void *data, nh_error *error);
+/* The same, in the problem's context: with its files and its time limit. */
+bool nh_problem_run(nh_problem *problem, void (*job)(void *), void *data, nh_error *error);
 
 #endif

@@ -1,9 +1,11 @@
 /* library_problem: contexts and problems of the public interface.  A problem is a question whose names and numbers have
    been read. */
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 
 #include "base/progress.h"
+#include "base/recovery.h"
 #include "base/text.h"
 #include "exact/normal.h"
 #include "library/library_internal.h"
@@ -21,7 +23,7 @@ void nh_context_on_progress(nh_context *context, void (*tell)(void *, const char
 
 void nh_context_interrupt(nh_context *context) { nh_interrupt_context(context); }
 
-void nh_problem_enter(nh_problem *p)
+static void enter(nh_problem *p)
 {
     p->before = nh_context_enter(p->context);
     nh_files_swap(&p->files);
@@ -31,12 +33,60 @@ void nh_problem_enter(nh_problem *p)
     nh_limit_memory_set(p->request.options.max_memory * NH_MEGABYTE);
 }
 
-void nh_problem_leave(nh_problem *p)
+static void leave(nh_problem *p)
 {
     nh_limit_set(INFINITY);
     nh_limit_memory_set(0);
     nh_files_swap(&p->files);
     nh_context_enter(p->before);
+}
+
+/* ---- without memory ---- */
+
+typedef struct {
+    nh_problem *problem;
+    void (*job)(void *);
+    void *data;
+    bool done;
+} task;
+
+static void do_task(void *argument)
+{
+    task *t = argument;
+    if (t->problem) enter(t->problem);
+    t->done = nh_recovery_run(t->job, t->data);
+    if (t->problem) leave(t->problem);
+}
+
+static void *do_apart(void *argument) { return do_task(argument), NULL; }
+
+static bool run(task t)
+{
+    pthread_t apart;
+    if (!nh_recovery_lost()) do_task(&t);
+    else if (!pthread_create(&apart, NULL, do_apart, &t)) pthread_join(apart, NULL);
+    return t.done;
+}
+
+static bool try(task t, nh_error *error)
+{
+    nh_error_clear(error);
+    if (run(t)) return true;
+    nh_error_clear(error);
+    nh_fail(error, NH_LIMIT, "", "out of memory");
+    return nh_error_hint(error, "ask for less (a lower degree, fewer motions or times), or give memory back");
+}
+
+bool nh_library_run(void (*job)(void *), void *data) { return run((task){NULL, job, data, false}); }
+
+bool nh_library_try(void (*job)(void *), void *data, nh_error *error)
+{
+    return try((task){NULL, job, data, false}, error);
+}
+
+bool nh_problem_run(nh_problem *p, void (*job)(void *), void *data, nh_error *error)
+{
+    return try((task){p, job, data, false}, error);
 }
 
 /* ---- questions ---- */
@@ -120,27 +170,46 @@ static bool open_problem(nh_problem *p, const nh_question *q, nh_error *error)
     return p->system != NULL;
 }
 
+typedef struct {
+    nh_context *context;
+    const nh_question *question;
+    nh_error *error;
+    nh_problem *problem;
+    bool good;
+} opening;
+
+static void begin_problem(void *argument)
+{
+    opening *o = argument;
+    const nh_question *q = o->question;
+    nh_arena *arena = nh_arena_create();
+    nh_problem *p = nh_arena_alloc(arena, sizeof *p);
+    *p = (nh_problem){.context = o->context, .arena = arena};
+    p->request = (nh_request){.arena = arena,
+                              .initial = copied(arena, q->initial),
+                              .from = "initial",
+                              .watch = copied(arena, q->watch),
+                              .step = q->step,
+                              .accuracy = q->accuracy,
+                              .project = q->project};
+    o->good = read_options(&p->request, q, o->error);
+    o->problem = p;
+}
+
+static void read_problem(void *argument)
+{
+    opening *o = argument;
+    o->good = open_problem(o->problem, o->question, o->error);
+}
+
 nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh_error *error)
 {
     nh_error ignored;
-    nh_error *told = error ? error : &ignored;
-    nh_error_clear(told);
-    nh_arena   *arena = nh_arena_create();
-    nh_problem *p = nh_arena_alloc(arena, sizeof *p);
-    *p = (nh_problem){.context = context, .arena = arena};
-    p->request = (nh_request){.arena = arena,
-                              .initial = copied(arena, question->initial),
-                              .from = "initial",
-                              .watch = copied(arena, question->watch),
-                              .step = question->step,
-                              .accuracy = question->accuracy,
-                              .project = question->project};
-    bool good = read_options(&p->request, question, told);
-    nh_problem_enter(p);
-    good = good && open_problem(p, question, told);
-    nh_problem_leave(p);
-    if (good) return p;
-    nh_problem_free(p);
+    opening o = {.context = context, .question = question, .error = error ? error : &ignored};
+    if (nh_library_try(begin_problem, &o, o.error) && o.good &&
+        nh_problem_run(o.problem, read_problem, &o, o.error) && o.good)
+        return o.problem;
+    nh_problem_free(o.problem);
     return NULL;
 }
 
@@ -150,7 +219,7 @@ void nh_problem_free(nh_problem *p)
     nh_system_free(p->system);
     nh_files_free(p->files);
     nh_arena_free(p->arena);
-    nh_normal_cleanup(); /* FLINT keeps memory for each thread */
+    if (!nh_recovery_lost()) nh_normal_cleanup(); /* FLINT keeps memory for each thread */
 }
 
 const char *nh_problem_name(const nh_problem *p) { return p->system->name; }

@@ -1,4 +1,6 @@
 /* library_rates: the equations of motion of the public interface, in all coordinates. */
+#include <math.h>
+
 #include "base/error.h"
 #include "geometry/bordered.h"
 #include "library/library_columns.h"
@@ -10,9 +12,15 @@ struct nh_rates {
     nh_system   *system; /* its own: it remains without the problem */
 };
 
-static bool write_equations(const nh_problem *p, nh_rates *e, nh_error *error)
+typedef struct {
+    const nh_request *request;
+    nh_error *error;
+    nh_rates *rates;
+    bool good;
+} writing;
+
+static bool write_equations(const nh_request *q, nh_rates *e, nh_error *error)
 {
-    const nh_request *q = &p->request;
     e->system = nh_system_read(q->system_path, q->settings, q->setting, error);
     nh_chart *chart =
         e->system ? nh_chart_create(e->system, q->velocities, (uint64_t)q->options.seed, error) : NULL;
@@ -22,16 +30,20 @@ static bool write_equations(const nh_problem *p, nh_rates *e, nh_error *error)
     return true;
 }
 
-nh_rates *nh_rates_create(nh_problem *p, nh_error *error)
+static void create(void *argument)
 {
+    writing *w = argument;
     nh_rates *e = nh_alloc(sizeof *e);
     *e = (nh_rates){0};
-    nh_error_clear(error);
-    nh_problem_enter(p);
-    bool good = write_equations(p, e, error);
-    nh_problem_leave(p);
-    if (good) return e;
-    nh_rates_free(e);
+    w->good = write_equations(w->request, e, w->error);
+    w->rates = e;
+}
+
+nh_rates *nh_rates_create(nh_problem *p, nh_error *error)
+{
+    writing w = {.request = &p->request, .error = error};
+    if (nh_problem_run(p, create, &w, error) && w.good) return w.rates;
+    nh_rates_free(w.rates);
     return NULL;
 }
 
@@ -44,11 +56,28 @@ void nh_rates_free(nh_rates *e)
     nh_free(e);
 }
 
+typedef struct {
+    const nh_rates *rates;
+    size_t count;
+    const double *t, *q, *v;
+    double *out;
+} evaluation;
+
+static void evaluate(void *argument)
+{
+    const evaluation *r = argument;
+    nh_bordered *bordered = r->rates->bordered;
+    nh_columns columns;
+    nh_columns_open(&columns, nh_bordered_coordinates(bordered), r->count, r->t, r->q, r->v);
+    for (size_t from = 0, n; (n = nh_columns_next(&columns, from)) > 0; from += n)
+        nh_bordered_accelerations_batch(bordered, n, columns.in, r->count, r->out + from);
+    nh_columns_close(&columns);
+}
+
 void nh_rates_at(nh_rates *e, size_t count, const double *t, const double *q, const double *v, double *out)
 {
-    nh_columns columns;
-    nh_columns_open(&columns, nh_bordered_coordinates(e->bordered), count, t, q, v);
-    for (size_t from = 0, n; (n = nh_columns_next(&columns, from)) > 0; from += n)
-        nh_bordered_accelerations_batch(e->bordered, n, columns.in, count, out + from);
-    nh_columns_close(&columns);
+    evaluation r = {e, count, t, q, v, out};
+    if (nh_library_run(evaluate, &r)) return;
+    size_t values = nh_bordered_coordinates(e->bordered) * count;
+    for (size_t i = 0; i < values; i++) out[i] = NAN;
 }

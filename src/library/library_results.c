@@ -9,6 +9,7 @@
 #include "evaluate/tape.h"
 #include "graph/print.h"
 #include "library/library_columns.h"
+#include "library/library_internal.h"
 #include "search/analysis.h"
 
 /* ---- an analysis ---- */
@@ -43,25 +44,52 @@ nh_current_facts nh_current_describe(const nh_analysis *a, size_t index)
 /* In velocities where that is possible, else in the chart. */
 static nh_ex shown_form(const nh_current *c) { return c->has_in_velocities ? c->in_velocities : c->phi; }
 
-char *nh_formula_typeset(const char *formula, nh_syntax syntax)
+typedef struct {
+    const nh_analysis *analysis;
+    size_t index;
+    const char *formula;
+    nh_syntax syntax;
+    char *out;
+} setting;
+
+static char *typeset(const char *formula, nh_syntax syntax)
 {
     if (syntax == NH_SYNTAX_PLAIN) return nh_strdup(formula);
     nh_text text;
     nh_text_init(&text);
-    bool  good = nh_typeset(formula, syntax == NH_SYNTAX_LATEX ? NH_LATEX : NH_MATHML, &text);
+    bool good = nh_typeset(formula, syntax == NH_SYNTAX_LATEX ? NH_LATEX : NH_MATHML, &text);
     char *out = good ? nh_strdup(nh_text_string(&text)) : NULL;
     nh_text_clear(&text);
     return out;
 }
 
+static void typeset_formula(void *argument)
+{
+    setting *s = argument;
+    s->out = typeset(s->formula, s->syntax);
+}
+
+char *nh_formula_typeset(const char *formula, nh_syntax syntax)
+{
+    setting s = {.formula = formula, .syntax = syntax};
+    return nh_library_run(typeset_formula, &s) ? s.out : NULL;
+}
+
+static void typeset_current(void *argument)
+{
+    setting *s = argument;
+    const nh_analysis *a = s->analysis;
+    s->out = nh_print_short(a->model->dag, shown_form(&a->found[s->index]), a->options.written);
+    if (!s->out || s->syntax == NH_SYNTAX_PLAIN) return;
+    char *plain = s->out;
+    s->out = typeset(plain, s->syntax);
+    nh_free(plain);
+}
+
 char *nh_current_formula(const nh_analysis *a, size_t index, nh_syntax syntax)
 {
-    if (index >= a->count) return NULL;
-    char *plain = nh_print_short(a->model->dag, shown_form(&a->found[index]), a->options.written);
-    if (!plain || syntax == NH_SYNTAX_PLAIN) return plain;
-    char *out = nh_formula_typeset(plain, syntax);
-    nh_free(plain);
-    return out;
+    setting s = {.analysis = a, .index = index, .syntax = syntax};
+    return index < a->count && nh_library_run(typeset_current, &s) ? s.out : NULL;
 }
 
 /* Of t, positions and velocities; NULL where the current cannot be written in velocities. */
@@ -82,40 +110,44 @@ static nh_tape *tape_of(const nh_analysis *a, size_t index)
     return tape;
 }
 
-double nh_current_value(const nh_analysis *a, size_t index, double t, const double *q, const double *v)
-{
-    nh_tape *tape = tape_of(a, index);
-    if (!tape) return NAN;
-    size_t m = a->system->coordinates;
-    double out, *value = nh_alloc_array(2 * m + 1, sizeof *value);
-    value[0] = t;
-    memcpy(value + 1, q, m * sizeof *q);
-    memcpy(value + 1 + m, v, m * sizeof *v);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, value, &out);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(value);
-    return isfinite(out) ? out : NAN;
-}
+typedef struct {
+    const nh_analysis *analysis;
+    size_t index, count;
+    const double *t, *q, *v;
+    double *out;
+    bool good;
+} evaluation;
 
-bool nh_current_values(const nh_analysis *a, size_t index, size_t count, const double *t, const double *q,
-                       const double *v, double *out)
+static void evaluate(void *argument)
 {
-    nh_tape *tape = tape_of(a, index);
-    if (!tape) return false;
+    evaluation *e = argument;
+    nh_tape *tape = tape_of(e->analysis, e->index);
+    if (!tape) return;
     nh_columns columns;
-    nh_columns_open(&columns, a->system->coordinates, count, t, q, v);
+    nh_columns_open(&columns, e->analysis->system->coordinates, e->count, e->t, e->q, e->v);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t from = 0, n; (n = nh_columns_next(&columns, from)) > 0; from += n) {
-        double *to = out + from;
+        double *to = e->out + from;
         nh_tape_eval_batch(tape, work, n, columns.in, &to);
         for (size_t j = 0; j < n; j++) to[j] = isfinite(to[j]) ? to[j] : NAN;
     }
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_columns_close(&columns);
-    return true;
+    e->good = true;
+}
+
+double nh_current_value(const nh_analysis *a, size_t index, double t, const double *q, const double *v)
+{
+    double out;
+    return nh_current_values(a, index, 1, &t, q, v, &out) ? out : NAN;
+}
+
+bool nh_current_values(const nh_analysis *a, size_t index, size_t count, const double *t, const double *q,
+                       const double *v, double *out)
+{
+    evaluation e = {.analysis = a, .index = index, .count = count, .t = t, .q = q, .v = v, .out = out};
+    return nh_library_run(evaluate, &e) && e.good;
 }
 
 /* ---- a simulation ---- */
@@ -147,10 +179,17 @@ void nh_simulation_read(const nh_simulation *s, size_t column, double *out)
     for (size_t row = 0; row < s->motion->count; row++) out[row] = nh_simulation_value(s, row, column);
 }
 
-char *nh_simulation_svg(const nh_simulation *s, size_t x, size_t y)
+typedef struct {
+    const nh_simulation *simulation;
+    size_t x, y;
+    char *out;
+} picture;
+
+static void draw(void *argument)
 {
-    size_t rows = s->motion->count, columns = nh_simulation_columns(s);
-    if (x >= columns || y >= columns) return NULL;
+    picture *p = argument;
+    const nh_simulation *s = p->simulation;
+    size_t rows = s->motion->count, x = p->x, y = p->y;
     double *value = nh_alloc_array(2 * rows, sizeof *value);
     nh_simulation_read(s, x, value);
     nh_simulation_read(s, y, value + rows);
@@ -170,9 +209,15 @@ char *nh_simulation_svg(const nh_simulation *s, size_t x, size_t y)
     nh_text_addf(&words, "%s against %s", up, across);
     plot.description = nh_text_string(&words);
     nh_svg_plot(&plot, &text);
-    char *out = nh_strdup(nh_text_string(&text));
+    p->out = nh_strdup(nh_text_string(&text));
     nh_text_clear(&text);
     nh_text_clear(&words);
     nh_free(value);
-    return out;
+}
+
+char *nh_simulation_svg(const nh_simulation *s, size_t x, size_t y)
+{
+    picture p = {.simulation = s, .x = x, .y = y};
+    size_t columns = nh_simulation_columns(s);
+    return x < columns && y < columns && nh_library_run(draw, &p) ? p.out : NULL;
 }

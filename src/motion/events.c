@@ -78,7 +78,7 @@ static bool solve(nh_event_search *c, double near, double far, double *root)
         *root = fabs(at_near) < fabs(at_far) ? near : far;
         return true;
     }
-    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    gsl_root_fsolver *solver = nh_memory_got(gsl_root_fsolver_alloc(gsl_root_fsolver_brent));
     double enough = roundings * DBL_EPSILON * fmax(fabs(low), fabs(high));
     bool good = gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS;
     for (int i = 0; i < most_iterations && good; i++) {

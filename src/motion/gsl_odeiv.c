@@ -97,9 +97,9 @@ static const gsl_odeiv2_control_type control_type = {"sizes",       control_allo
 /* A driver with this control in place of its own. */
 static gsl_odeiv2_driver *driver_of(explicit_work *work, const gsl_odeiv2_step_type *type)
 {
-    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(&work->system, type, work->h, work->rtol, work->rtol);
-    gsl_odeiv2_control *own = driver ? gsl_odeiv2_control_alloc(&control_type) : NULL;
-    if (!own) return driver ? (gsl_odeiv2_driver_free(driver), NULL) : NULL;
+    gsl_odeiv2_driver *driver =
+        nh_memory_got(gsl_odeiv2_driver_alloc_y_new(&work->system, type, work->h, work->rtol, work->rtol));
+    gsl_odeiv2_control *own = nh_memory_got(gsl_odeiv2_control_alloc(&control_type));
     ((control_state *)own->state)->work = work;
     gsl_odeiv2_control_free(driver->c);
     driver->c = own;
@@ -257,7 +257,8 @@ static bool set_up(explicit_work *work, nh_gsl_odeiv_method method)
     work->evaluations += work->sizes.evaluations;
     work->h = first_step(work, work->times[work->count - 1] - work->times[0]);
     if (work->h != 0) work->driver = driver_of(work, *types[method]);
-    if (work->driver && method != NH_MSADAMS) work->between = gsl_odeiv2_step_alloc(*types[method], size);
+    if (work->driver && method != NH_MSADAMS)
+        work->between = nh_memory_got(gsl_odeiv2_step_alloc(*types[method], size));
     return work->driver != NULL;
 }
 

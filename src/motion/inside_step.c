@@ -39,7 +39,7 @@ nh_inside_step *nh_inside_step_create(const nh_motion *motion, const nh_stepper 
     memcpy(c->end, motion->end_state, size * sizeof *c->end);
     gsl_set_error_handler_off();
     c->system = (gsl_odeiv2_system){.function = call_rate, .dimension = size, .params = c};
-    if (stepper->rate) c->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size);
+    if (stepper->rate) c->step = nh_memory_got(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size));
     return c;
 }
 

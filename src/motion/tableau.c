@@ -9,6 +9,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
+#include "base/memory.h"
+
 static int spy(double t, const double *z, double *rate, void *context)
 {
     nh_tableau *tableau = context;
@@ -27,8 +29,7 @@ bool nh_tableau_rk8pd(nh_tableau *tableau)
     *tableau = (nh_tableau){0};
     gsl_set_error_handler_off();
     gsl_odeiv2_system system = {.function = spy, .dimension = NH_MOST_STAGES, .params = tableau};
-    gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, NH_MOST_STAGES);
-    if (!step) return false;
+    gsl_odeiv2_step *step = nh_memory_got(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, NH_MOST_STAGES));
     int flag = gsl_odeiv2_step_apply(step, 0, 1, tableau->b, tableau->e, NULL, NULL, &system);
     gsl_odeiv2_step_free(step);
     return flag == GSL_SUCCESS;

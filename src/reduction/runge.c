@@ -53,10 +53,10 @@ static bool run(problem *p, double t0, double t1, double tolerance, double large
     size_t n = p->n, before = 0;
     double t = t0, step = (t1 - t0) / 10;
     gsl_odeiv2_system system = {rate_of, NULL, n, p};
-    gsl_odeiv2_step *stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, n);
-    gsl_odeiv2_control *control = gsl_odeiv2_control_scaled_new(tolerance, tolerance, 1, 0, size, n);
-    gsl_odeiv2_evolve *evolve = gsl_odeiv2_evolve_alloc(n);
-    bool good = stepper && control && evolve;
+    gsl_odeiv2_step *stepper = nh_memory_got(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, n));
+    gsl_odeiv2_control *control = nh_memory_got(gsl_odeiv2_control_scaled_new(tolerance, tolerance, 1, 0, size, n));
+    gsl_odeiv2_evolve *evolve = nh_memory_got(gsl_odeiv2_evolve_alloc(n));
+    bool good = true;
     while (good && t != t1) {
         good =
             *steps > 0 && gsl_odeiv2_evolve_apply(evolve, control, stepper, &system, &t, t1, &step, y) == GSL_SUCCESS;

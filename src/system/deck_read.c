@@ -42,7 +42,7 @@ static bool next_event(builder *b, yaml_event_t *event)
     if (yaml_parser_parse(p, event))
         return true;
     if (p->error == YAML_MEMORY_ERROR)
-        return nh_fail(b->error, NH_LIMIT, b->deck->name, "out of memory while reading");
+        nh_memory_ended(0);
     return nh_deck_explain(b->deck, p->problem ? p->problem : "unknown problem", byte_at(b, p->problem_mark),
                            p->context, byte_at(b, p->context_mark), b->error);
 }
@@ -313,7 +313,7 @@ static bool build(nh_deck *deck, nh_error *error)
 {
     builder b = {.deck = deck, .error = error};
     if (!yaml_parser_initialize(&b.parser))
-        return nh_fail(error, NH_LIMIT, deck->name, "out of memory while reading");
+        nh_memory_ended(0);
     yaml_parser_set_encoding(&b.parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&b.parser, (const unsigned char *)deck->source, deck->length);
     bool good = read_document(&b);

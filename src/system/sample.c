@@ -38,7 +38,7 @@ nh_sampler *nh_sampler_create(size_t dimension, const double *low, const double 
         s->width[i] = high[i] - low[i];
         s->shift[i] = nh_random(&s->state);
     }
-    if (dimension) s->qrng = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)s->sobol);
+    if (dimension) s->qrng = nh_memory_got(gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)s->sobol));
     return s;
 }
 

@@ -105,10 +105,12 @@ bool nh_xml_looks(const nh_deck *deck)
     return *begin == '<' && begin[1] != '<'; /* `<<` is YAML's key of a merge */
 }
 
+static void *reallocate(void *old, size_t size) { return nh_realloc_array(old, 1, size); }
+
 const nh_xml *nh_xml_read(nh_deck *deck, nh_error *error)
 {
-    reader r = {.parser = XML_ParserCreate("UTF-8"), .deck = deck, .error = error};
-    if (!r.parser) return nh_fail(error, NH_LIMIT, deck->name, "out of memory while reading"), NULL;
+    static const XML_Memory_Handling_Suite memory = {nh_alloc_bytes, reallocate, nh_free};
+    reader r = {.parser = XML_ParserCreate_MM("UTF-8", &memory, NULL), .deck = deck, .error = error};
     r.skip = skip_space(deck->source, 0);
     XML_SetUserData(r.parser, &r);
     XML_SetElementHandler(r.parser, start, finish);
