@@ -63,7 +63,7 @@ static nh_system *system_of(const char *name, size_t settings, const nh_setting 
 {
     char path[200];
     nh_error error = {0};
-    snprintf(path, sizeof path, "systems/%s.yaml", name);
+    snprintf(path, sizeof path, strchr(name, '/') ? "%s" : "systems/%s.yaml", name);
     nh_system *s = nh_system_read(path, settings, setting, &error);
     if (!s) stop(path, error.what);
     return s;

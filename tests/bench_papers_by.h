@@ -163,6 +163,51 @@ static double equation_15(const document *d)
     return violation(d, "15", more);
 }
 
+/* The determining equations as they are printed for a constraint with eps'_l(g) = 0: the largest left side beside its terms. */
+static double semiholonomic(const document *d)
+{
+    enum { terms = 8 };
+    nh_dag *g = d->system->dag;
+    nh_ex Lbar = coefficient(d, "lagrangian", "Lbar", ""), time = component(d, "t"), energy = nh_neg(g, Lbar), v[2], p[2], Z[2], slide[2];
+    double worst = 0;
+    for (size_t l = 0; l < 2; l++) {
+        char name[40];
+        snprintf(name, sizeof name, "%s'", FREE[l]);
+        v[l] = parsed(d, name);
+        p[l] = nh_diff(g, Lbar, v[l]);
+        Z[l] = component(d, FREE[l]);
+        slide[l] = nh_sub(g, Z[l], nh_mul(g, v[l], time));
+        energy = nh_add(g, energy, nh_mul(g, p[l], v[l]));
+    }
+    for (size_t k = 0; k < 5; k++) { /* one; two for l; two for l */
+        nh_ex term[terms];
+        size_t n = 0, l = (k + 1) % 2;
+        char by[40];
+        snprintf(by, sizeof by, k ? "d_c/d%s" : "d'_c/dt", FREE[l]);
+        if (k < 3) {
+            term[n++] = nh_mul(g, along(d, "d'_c/dt", k ? p[l] : Lbar), time);
+            term[n++] = nh_neg(g, nh_mul(g, energy, along(d, by, time)));
+        } else {
+            term[n++] = nh_neg(g, nh_mul(g, energy, nh_diff(g, time, v[l])));
+        }
+        for (size_t s = 0; s < 2; s++) {
+            char over[40], velocity[40];
+            snprintf(over, sizeof over, "d_c/d%s", FREE[s]);
+            snprintf(velocity, sizeof velocity, "%s'", FREE[s]);
+            if (k < 3) term[n++] = nh_mul(g, along(d, over, k ? p[l] : Lbar), slide[s]);
+            if (k == 1 || k == 2) term[n++] = nh_mul(g, component(d, velocity), nh_diff(g, p[l], v[s]));
+            term[n++] = nh_mul(g, p[s], k < 3 ? along(d, by, Z[s]) : nh_diff(g, Z[s], v[l]));
+        }
+        double sum[points] = {0}, size[points] = {0}, value[points];
+        for (size_t i = 0; i < n; i++) {
+            evaluate(d, term[i], value);
+            for (size_t q = 0; q < points; q++) sum[q] += value[q], size[q] += fabs(value[q]);
+        }
+        for (size_t q = 0; q < points; q++) worst = fmax(worst, fabs(sum[q]) / size[q]);
+    }
+    return worst;
+}
+
 static void equation_24(const document *d, double *printed, double *meant)
 {
     nh_dag *g = d->system->dag;
@@ -528,6 +573,7 @@ static void by(const row *r, const document *d, double *printed, double *meant, 
     else if (!strcmp(what, "F")) *printed = lie_form(d);
     else if (!strcmp(what, "current")) *printed = current_of_field(d);
     else if (!strcmp(what, "15")) *printed = equation_15(d), *meant = violation(d, "15", NULL);
+    else if (!strcmp(what, "semiholonomic")) *printed = semiholonomic(d);
     else if (!strcmp(what, "22")) equation_22(d, printed, meant);
     else if (!strcmp(what, "24")) equation_24(d, printed, meant);
     else if (!strcmp(what, "32")) equation_32(d, printed, meant);

@@ -27,7 +27,7 @@
 
 /* ---- commands whose JSON is read ---- */
 
-enum { D_PHI1, D_PHI2, D_PHI3, D_PRODUCT, D_ANALYZE, D_SPEED, D_CRANE, D_DISK, D_ROLLING, D_BODY, D_PENDULUM, D_UPRIGHT, D_SYMMETRIES, D_SUBNORMAL, D_DISK_CURRENTS, D_SCALING, D_TOP, D_COUNT, D_NONE };
+enum { D_PHI1, D_PHI2, D_PHI3, D_PRODUCT, D_ANALYZE, D_SPEED, D_CRANE, D_DISK, D_ROLLING, D_BODY, D_PENDULUM, D_UPRIGHT, D_SYMMETRIES, D_SUBNORMAL, D_DISK_CURRENTS, D_SCALING, D_TOP, D_SEMIHOLONOMIC, D_COUNT, D_NONE };
 
 static const struct {
     const char *system, *words, *shown; /* shown: with the names of long formulas, which the page defines; NULL: the words themselves */
@@ -49,6 +49,7 @@ static const struct {
     {"euler_disk", "analyze euler_disk", NULL},
     {"free_particle", "verify free_particle --field \"t=2*t; x=x; y=y; z=z\"", NULL},
     {"euler_top", "reduce euler_top --until 1", NULL},
+    {"tests/data/curved_rail.yaml", "verify tests/data/curved_rail.yaml --equations --current \"(T + V)*(y - c*x^2 - b*sin(phi))\"", NULL},
 };
 
 /* ---- rows ---- */
@@ -103,7 +104,7 @@ static const row ROWS[] = {
     {A, "(17)", "for the field of Phi_3", HOLDS, D_PHI3, .of = "17"},
     {A, "(18)", "for the field of Phi_3", HOLDS, D_PHI3, .of = "18"},
     {A, "(19)", "for the field of Phi_3", HOLDS, D_PHI3, .of = "19"},
-    {A, "semiholonomic form", "of (14)-(16)", NOT, D_NONE, .printed = "the same equations with eps'_l(g) = 0; the program does not write a second form"},
+    {A, "semiholonomic form", "of (14)-(16), for the field of a product of two currents", BY, D_SEMIHOLONOMIC, .label = "semiholonomic"},
     {A, "(20)", "Z^phi of Phi_2", AT, D_PHI2, .label = "symmetry.components.phi", .printed = "cos(phi/k)/(a*k)"},
     {A, "(20)", "Ztilde^x of Phi_2", AT, D_PHI2, .label = "symmetry.components.x'", .printed = "(a*phi'*cos(phi) - x'*tan(phi))*cos(phi/k)/(a*k)"},
     {A, "(21)", "Gamma: along phi'", VALUE, D_PHI1, "semispray", "Gamma", "d/dphi'", "-phi'*x'/(a*k^2*cos(phi))", .k = 0},
@@ -207,7 +208,8 @@ static const row ROWS[] = {
     {C, "theorem 2.6, 5.2, (2.19)", "twice reduced motion against the full one", SMALL, D_CRANE, .label = "stages.1.agreement_with_full"},
     {C, "(2.11), (2.19)", "an invariant measure of the reduced crane: for no positive parameters", IS, D_CRANE, .label = "stages.0.measure.never", .printed = "true", .ours = true},
     {C, "definition 3.1, (3.21), (3.22)", "metric from bodies and joints; r_cm,3 and r_6 are misprinted", BY, D_NONE, .label = "crane metric"},
-    {C, "(3.23)", "potential", NOT, D_NONE, .printed = "zero in the example, and no other is given; with the printed sign g would point up"},
+    {C, "(3.23)", "potential of a field g that points down: T + V of the masses of a double pendulum", CURRENT, D_NONE, .label = "double_pendulum",
+        .printed = "T + a*g*l*cos(p) + b*g*(l*cos(p) + h*cos(q))", .meant = "T - a*g*l*cos(p) - b*g*(l*cos(p) + h*cos(q))"},
     {C, "(3.24)", "Legendre map of the chain", BY, D_NONE, .label = "crane metric"},
     {C, "theorem 4.1", "the first joint's group", IS, D_CRANE, .label = "joints.0.rule", .printed = "first joint"},
     {C, "(4.25)-(4.29), proposition 3", "symmetries joint by joint: d/dphi1 leaves the kinetic energy invariant", IS, D_CRANE, .label = "joints.#phi1.kinetic_energy", .printed = "true"},
