@@ -114,20 +114,6 @@ static void multiply(const scope *s, size_t n, const nh_ex *a, const nh_ex *b, n
     memcpy(out, c, n * n * sizeof *c);
 }
 
-static double value_of(const scope *s, nh_ex e)
-{
-    const nh_ex *symbol;
-    const double *value;
-    double out;
-    nh_system_bindings(s->r->system, &symbol, &value);
-    nh_tape *tape = nh_tape_create(s->d, 0, NULL, 1, &e, s->r->system->parameters, symbol, value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, &out, &out);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return out;
-}
-
 /* lambda with N^4 = lambda N^2; false where there is none. */
 static bool quartic(const scope *s, size_t n, const nh_ex *square, const nh_ex *fourth, nh_ex *lambda)
 {
@@ -150,7 +136,7 @@ static bool exponential(const scope *s, size_t n, const nh_ex *N, nh_ex t, nh_ex
     multiply(s, n, square, N, cube);
     multiply(s, n, square, square, fourth);
     if (!quartic(s, n, square, fourth, &lambda)) return false;
-    double sign = value_of(s, lambda);
+    double sign = nh_system_number(s->r->system, lambda);
     if (!isfinite(sign)) return false;
     if (sign == 0) {
         C = nh_div(d, nh_powi(d, t, 2), nh_int(d, 2));

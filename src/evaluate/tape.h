@@ -28,6 +28,10 @@ void nh_tape_work_free(nh_tape_work *work);
 /* One point: in[n_in], out[n_out].  What is undefined there comes out as inf or nan. */
 void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, double *out);
 
+/* The values of `e`, which depend on the symbols `fixed` only: out[n]. */
+void nh_tape_constants(nh_dag *dag, size_t n, const nh_ex *e, size_t n_fixed, const nh_ex *fixed, const double *value,
+                       double *out);
+
 /* Let long work at single points pass to machine code (machine.h): when the interpreter has spent `patience` times what
  * compiling will cost, the compiler is started beside it, and its code is used from when it is ready.  Whatever is to
  * come, this costs at most about 1 + 1/patience times the better choice. The results do not change.  Where nothing can

@@ -41,3 +41,13 @@ void nh_tape_work_free(nh_tape_work *work)
     nh_free(work->row);
     nh_free(work);
 }
+
+void nh_tape_constants(nh_dag *dag, size_t n, const nh_ex *e, size_t n_fixed, const nh_ex *fixed, const double *value,
+                       double *out)
+{
+    nh_tape *tape = nh_tape_create(dag, 0, NULL, n, e, n_fixed, fixed, value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, NULL, out);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+}

@@ -40,11 +40,7 @@ static void values_of_kernels(problem *p)
     memcpy(symbol + s->parameters, s->unknown, s->unknowns * sizeof *symbol);
     memcpy(value, s->parameter_value, s->parameters * sizeof *value);
     memcpy(value + s->parameters, s->value, s->unknowns * sizeof *value);
-    nh_tape *tape = nh_tape_create(s->dag, 0, NULL, k->count, kernel, all, symbol, value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, NULL, p->value);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
+    nh_tape_constants(s->dag, k->count, kernel, all, symbol, value, p->value);
     nh_free(symbol);
     nh_free(value);
     nh_free(kernel);

@@ -89,11 +89,7 @@ nh_tape *nh_model_tape(const nh_model *o, size_t count, const nh_ex *out)
 double nh_model_number(const nh_model *o, nh_ex e)
 {
     double value;
-    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, 1, &e, o->system->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, NULL, &value);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
+    nh_tape_constants(o->dag, 1, &e, o->system->parameters, o->parameter, o->parameter_value, &value);
     return value;
 }
 

@@ -57,9 +57,7 @@ const char *nh_fixed_text(const nh_model *o, const bool *fixed)
 bool nh_fixed_is_like(const nh_model *o, size_t n, const nh_ex *exact, const double *like)
 {
     double *value = nh_alloc_array(n + 1, sizeof *value), largest = 0, factor = 0, worst = 0;
-    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, n, exact, o->system->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, NULL, value);
+    nh_tape_constants(o->dag, n, exact, o->system->parameters, o->parameter, o->parameter_value, value);
     for (size_t j = 0; j < n; j++)
         if (fabs(like[j]) > largest) {
             largest = fabs(like[j]);
@@ -68,8 +66,6 @@ bool nh_fixed_is_like(const nh_model *o, size_t n, const nh_ex *exact, const dou
     /* 0/0 for special values */
     for (size_t j = 0; j < n; j++)
         worst = isfinite(value[j]) ? fmax(worst, fabs(value[j] - factor * like[j])) : INFINITY;
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
     nh_free(value);
     return isfinite(factor) && factor != 0 && worst <= same * fabs(factor) * largest;
 }

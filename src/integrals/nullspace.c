@@ -249,22 +249,29 @@ static bool solve(nh_nullspace *result, nh_equations *equations, const nh_basis 
     return ok;
 }
 
+/* The basis is cleared. */
+static nh_nullspace *solve_in(nh_basis *basis, nh_equations *equations, const nh_nullspace_options *options,
+                              nh_error *error)
+{
+    nh_nullspace *result = nh_alloc(sizeof *result);
+    result->columns = equations->columns;
+    result->rows = nh_qr_rows(equations->residuals);
+    result->dropped = nh_alloc_array(result->columns, sizeof(bool));
+    describe_basis(result, basis, options);
+    bool ok = solve(result, equations, basis, options, error);
+    nh_basis_clear(basis);
+    if (ok)
+        return result;
+    nh_nullspace_free(result);
+    return NULL;
+}
+
 nh_nullspace *nh_nullspace_solve(nh_equations *equations, const nh_nullspace_options *options, nh_error *error)
 {
     nh_basis basis;
     if (!check_input(equations, error) || !independent_values(&basis, equations, options, error))
         return NULL;
-    nh_nullspace *result = nh_alloc(sizeof *result);
-    result->columns = equations->columns;
-    result->rows = nh_qr_rows(equations->residuals);
-    result->dropped = nh_alloc_array(result->columns, sizeof(bool));
-    describe_basis(result, &basis, options);
-    bool ok = solve(result, equations, &basis, options, error);
-    nh_basis_clear(&basis);
-    if (ok)
-        return result;
-    nh_nullspace_free(result);
-    return NULL;
+    return solve_in(&basis, equations, options, error);
 }
 
 /* All columns that vary, of norm one, and R = 1: nothing is known about their dependence. */
@@ -292,16 +299,7 @@ nh_nullspace *nh_nullspace_plain(nh_equations *equations, const nh_nullspace_opt
     nh_basis basis;
     if (!check_input(equations, error)) return NULL;
     every_column(&basis, equations, options);
-    nh_nullspace *result = nh_alloc(sizeof *result);
-    result->columns = equations->columns;
-    result->rows = nh_qr_rows(equations->residuals);
-    result->dropped = nh_alloc_array(result->columns, sizeof(bool));
-    describe_basis(result, &basis, options);
-    bool ok = solve(result, equations, &basis, options, error);
-    nh_basis_clear(&basis);
-    if (ok) return result;
-    nh_nullspace_free(result);
-    return NULL;
+    return solve_in(&basis, equations, options, error);
 }
 
 void nh_nullspace_free(nh_nullspace *nullspace)

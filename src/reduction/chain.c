@@ -260,16 +260,7 @@ static void add_null_space(work *w, nh_chain_rule rule, size_t joint, size_t row
 /* |e| at the parameters' values. */
 static double size_of(void *context, nh_ex e)
 {
-    const nh_system *s = context;
-    const nh_ex *symbols;
-    const double *values;
-    double value;
-    nh_system_bindings(s, &symbols, &values);
-    nh_tape *tape = nh_tape_create(s->dag, 0, NULL, 1, &e, s->parameters, symbols, values);
-    nh_tape_work *scratch = nh_tape_work_create(tape);
-    nh_tape_eval(tape, scratch, NULL, &value);
-    nh_tape_work_free(scratch);
-    nh_tape_free(tape);
+    double value = nh_system_number(context, e);
     return isfinite(value) ? fabs(value) : 0;
 }
 

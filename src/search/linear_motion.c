@@ -148,11 +148,7 @@ static bool eigenvalues(const linear *l, const nh_model *o, double *re, double *
     double *A = nh_alloc_array(n * n + 1, sizeof *A);
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < n; i++) e[i + j * n] = l->entry[l->of[i] + l->of[j] * l->size];
-    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, n * n, e, o->system->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, NULL, A);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
+    nh_tape_constants(o->dag, n * n, e, o->system->parameters, o->parameter, o->parameter_value, A);
     bool good = nh_eigen(n, A, re, im, NULL);
     nh_free(A);
     nh_free(e);

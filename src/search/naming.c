@@ -61,11 +61,7 @@ static sets make_sets(const nh_model *o, size_t n, const nh_ex *atom, uint64_t s
         double *value = s.parameter + k * p;
         for (size_t i = 0; i < p; i++)
             value[i] = o->parameter_value[i] * (k ? 1 + spread * (nh_random(&seed) - 0.5) : 1);
-        nh_tape *tape = nh_tape_create(o->dag, 0, NULL, n, atom, p, o->parameter, value);
-        nh_tape_work *work = nh_tape_work_create(tape);
-        nh_tape_eval(tape, work, NULL, s.atom + k * n);
-        nh_tape_work_free(work);
-        nh_tape_free(tape);
+        nh_tape_constants(o->dag, n, atom, p, o->parameter, value, s.atom + k * n);
     }
     return s;
 }

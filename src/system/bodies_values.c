@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "graph/diff.h"
-#include "evaluate/tape.h"
 #include "system/bodies_tree.h"
 
 typedef nh_system_reader reader;
@@ -150,24 +149,9 @@ static bool inertia_of(reader *r, const nh_deck_node *item, nh_ex I[9])
     return true;
 }
 
-/* A constant at the values of the parameters. */
-static double value_at_parameters(const nh_system *s, nh_ex e)
-{
-    const nh_ex *symbols;
-    const double *values;
-    double value;
-    nh_system_bindings(s, &symbols, &values);
-    nh_tape *tape = nh_tape_create(s->dag, 0, NULL, 1, &e, s->parameters, symbols, values);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, NULL, &value);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return value;
-}
-
 static bool not_negative(reader *r, const nh_deck_node *map, const char *key, const char *what, nh_ex e)
 {
-    double value = value_at_parameters(r->system, e);
+    double value = nh_system_number(r->system, e);
     return value >= 0 || nh_deck_fail(r->deck, nh_deck_get(map, key), 0, r->error,
                                       "%s cannot be negative, but it is %.10g here", what, value);
 }

@@ -147,17 +147,9 @@ nh_ex nh_chart_composed(const nh_chart *c, nh_ex shown, const nh_chart *other)
 /* The sign of something that contains parameters only, at their values; 0 when it contains anything else. */
 static int sign_of(const nh_chart *c, nh_ex e)
 {
-    const nh_ex *symbols;
-    const double *values;
-    double value;
     for (size_t j = 0; j < c->width; j++)
         if (nh_depends(c->system->dag, e, c->symbol[j])) return 0;
-    nh_system_bindings(c->system, &symbols, &values);
-    nh_tape *tape = nh_tape_create(c->system->dag, 0, NULL, 1, &e, c->system->parameters, symbols, values);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, NULL, &value);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
+    double value = nh_system_number(c->system, e);
     return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "evaluate/tape.h"
 #include "graph/diff.h"
 #include "graph/parse.h"
 #include "graph/print.h"
@@ -254,6 +255,16 @@ void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const do
     }
     *symbols = s;
     *values = v;
+}
+
+double nh_system_number(const nh_system *s, nh_ex e)
+{
+    const nh_ex *symbols;
+    const double *values;
+    double value;
+    nh_system_bindings(s, &symbols, &values);
+    nh_tape_constants(s->dag, 1, &e, s->parameters, symbols, values, &value);
+    return value;
 }
 
 void nh_system_free(nh_system *system)

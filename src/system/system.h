@@ -160,6 +160,8 @@ bool nh_system_expression_part(const nh_system *system, const char *where, const
 
 /* Parameter symbols and values as parallel arrays owned by the arena. */
 void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const double **values);
+/* The value of an expression in the parameters. */
+double nh_system_number(const nh_system *system, nh_ex e);
 
 /* A level (0, 1, ..) to which motions do not keep, or of which that is not decided.  Returns false. */
 bool nh_system_refuse_level(const nh_system *system, size_t level, bool proved, nh_error *error);
