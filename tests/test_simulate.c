@@ -70,6 +70,9 @@ Test(simulate, an_impulse_is_not_passed_in_silence)
 {
     place p = place_with_systems();
     write_here(&p, "jump.yaml", "name: jump\ncoordinates: [x]\nlagrangian: x'^2/2 - sign(x)\n");
+    finished all = run_expecting(&p, "simulate jump.yaml --initial x=-1,x'=0.4 --until 4 --step 4 --ensemble 2", 4);
+    cr_expect(strstr(all.err, "2 members did not reach the end; member 0: at t = 2.5 it reaches x = 0"), "%s", all.err);
+    finished_clear(&all);
     for (int crosses = 0; crosses < 2; crosses++) {
         char line[200];
         snprintf(line, sizeof line, "simulate jump.yaml --initial x=-1,x'=%s --until 4 --step 1", crosses ? "0.4" : "-0.4");

@@ -216,7 +216,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     nh_event *event = nh_arena_alloc(s->arena, (s->events + 1) * sizeof *event);
     for (size_t i = 0; i < s->events; i++) event[i] = s->event[i].event;
     request.events = s->events, request.event = event;
-    if (!q->ensemble) request.impulses = nh_simulate_impulses(s, &options, &request.impulse);
+    request.impulses = nh_simulate_impulses(s, &options, &request.impulse);
     nh_ex *known;
     if (!use_method(s, q, times, &request, error)) return false;
     if (request.smallest) request.currents = known_currents(s, &known), request.current = known;

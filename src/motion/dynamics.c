@@ -18,6 +18,7 @@ struct nh_dynamics {
     nh_tape *constraint; /* df^a/dv^s (k x m, row-major), of constraints without poles; NULL: no pivot to watch */
     nh_tape_work *constraint_work;
     double *slope;       /* its values, and the k x k part of the dependent velocities */
+    double least;        /* the pivot at which the chart ends, of the sign that the pivot has at the start */
     size_t walls;        /* of the rates (exact/walls.h) */
     nh_tape *wall;       /* NULL: there are none */
     nh_tape_work *wall_work;
@@ -186,7 +187,16 @@ static bool pivot_of(double t, const double *z, double *value, void *context)
             part[a + b * k] = d->slope[a * m + d->model->chart->dependent[b]] / (norm > 0 ? norm : 1);
     }
     *value = nh_determinant(k, part);
+    *value -= d->least;
     return isfinite(*value);
+}
+
+void nh_dynamics_end_early(nh_dynamics *d, double t, const double *z)
+{
+    static const double small = 0.01;
+    double pivot = 0;
+    d->least = 0;
+    if (d->constraint && pivot_of(t, z, &pivot, d)) d->least = small * pivot;
 }
 
 static bool walls_of(double t, const double *z, double *value, void *context)

@@ -28,6 +28,9 @@ double nh_dynamics_patience(const nh_dynamics *dynamics);
 const char *nh_dynamics_words(const nh_dynamics *dynamics);
 /* Instructions of one evaluation of the equations of motion. */
 size_t nh_dynamics_length(const nh_dynamics *dynamics);
+/* From now on the chart ends where its pivot is a small part of what it is at (t, z): close to a zero errors of the
+   states may turn a motion back. */
+void nh_dynamics_end_early(nh_dynamics *dynamics, double t, const double *z);
 /* Does the model's chart have a pivot to watch? */
 bool nh_dynamics_watched(const nh_model *model);
 const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);

@@ -378,7 +378,7 @@ static bool open_plan(plan *p, const nh_trajectory_request *q, nh_ensemble *e, c
         .request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e), .limit = INFINITY};
     p->evaluations = nh_alloc_array((e->members + lanes - 1) / lanes, sizeof *p->evaluations);
     p->alone = nh_alloc_array(e->members, sizeof *p->alone);
-    return !e->scene->implicit && !e->scene->walls && e->scene->kept &&
+    return !e->scene->implicit && !e->scene->walls && !q->impulses && e->scene->kept &&
            /* members cross walls at different times */ nh_tableau_rk8pd(&p->tableau);
 }
 

@@ -390,7 +390,8 @@ static bool in_other_velocities(job *j, nh_error *error)
     nh_flow_problem problem = nh_dynamics_problem(other);
     double *z0 = nh_alloc_array(q->other->m + q->other->n + 1, sizeof *z0);
     nh_dynamics_jit(other, q->options->compile);
-    bool starts = nh_dynamics_start(other, q->initial, q->project, z0, error) && !meets_pivot(j, other, z0);
+    bool starts = nh_dynamics_start(other, q->initial, q->project, z0, error);
+    if (starts) nh_dynamics_end_early(other, q->times[0], z0), starts = !meets_pivot(j, other, z0);
     if (q->events) watch(j, nh_along_values_by_other(q->model, other, 2 * q->events, j->watched));
     watch_singular(j, NULL, by_other);
     nh_motion *motion =
@@ -506,6 +507,7 @@ static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error)
     nh_error ignored;
     nh_error_clear(&ignored);
     if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error)) {
+        nh_dynamics_end_early(j.dynamics, q->times[0], j.z0);
         bool other =
             q->velocities == NH_OTHER_VELOCITIES && q->other && !fixed_steps(&j) && nh_may_leave_chart(q->model);
         j.leave =
