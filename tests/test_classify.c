@@ -602,6 +602,19 @@ Test(classify, numbers_have_their_shortest_digits)
     place_clear(&p);
 }
 
+/* Equations that are defined piece by piece are classified on the sides on which the domain lies. */
+Test(classify, one_side_of_a_kink)
+{
+    place p = place_make();
+    write_here(&p, "a.yaml", "name: a\nparameters: {a: 3}\ncoordinates: [x, y]\ndomain: {x: [0.5, 1], y: [-1, -0.5]}\n"
+               "lagrangian: (x'^2 + y'^2)/2 - x^2*abs(y) - a*abs(y)^3 - abs(x)*x^2*0.3 + 0.3*x^3\n");
+    finished f = run_expecting(&p, "classify a.yaml --over a --degree 2", 0);
+    cr_expect(strstr(f.out, "over a, for y < 0 and x >"), "%s", f.out);
+    cr_expect(strstr(f.out, "\na = 2\n") && strstr(f.out, "\na = 1/3\n") && strstr(f.out, "\n2 values of a"), "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* What stays open names the option, and more of it decides. */
 Test(classify, an_open_value_names_the_option_that_decides_it)
 {

@@ -518,3 +518,31 @@ Test(statements, a_root_is_printed_as_its_velocity)
     reports_clear(&r);
     place_clear(&p);
 }
+
+/* What is constant in a region only is compared with the bound, too, and what is counted on one side says so. */
+Test(statements, completeness_names_the_region)
+{
+    static const struct {
+        const char *system, *where, *words;
+        bool regional;
+    } row[] = {
+        {"coordinates: [x, y, z]\nparameters: {m: 1.1, a: 0.8, g: 9.81}\nlagrangian: m/2*(x'^2 + y'^2 + z'^2) - m*g*z\nconstraints: [\"x^2 + y^2 = a^2\"]\n",
+         NULL, "and of those that are constant in a region only", true},
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - abs(x)\ndomain: {x: [0.5, 1]}\n", "for x > 0", "for x > 0: every integral", true},
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + 3*y'^2)/2 - (abs(x - y) - 1)^2\ndomain: {x: [0, 0.5], y: [1, 2]}\n", "for x - y < 0", "for x - y < 0: every integral", false},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        place p = place_make();
+        char text[400];
+        snprintf(text, sizeof text, "name: s\n%s", row[i].system);
+        write_here(&p, "s.yaml", text);
+        reports r = analyze(&p, "s.yaml");
+        const cJSON *c = item(r.json, "completeness"), *where = item(c, "where");
+        cr_expect(row[i].where ? cJSON_IsString(where) && !strcmp(where->valuestring, row[i].where) : cJSON_IsNull(where), "%zu: %s", i, r.text);
+        cr_expect_eq((bool)cJSON_IsTrue(item(c, "regional")), row[i].regional, "%zu", i);
+        cr_expect_geq(item(c, "degree")->valueint, 4, "%zu", i);
+        cr_expect_gt(occurrences(r.text, row[i].words), 0, "%zu: %s", i, r.text);
+        reports_clear(&r);
+        place_clear(&p);
+    }
+}

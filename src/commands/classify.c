@@ -142,7 +142,7 @@ bool nh_classified_rational(const nh_special_factor *f, int64_t *top, int64_t *b
 size_t nh_classified_complete(const nh_analysis *r)
 {
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    return c->counted && !c->count.obstacle ? c->degree : 0;
+    return c->counted && !c->count.obstacle && !c->regional ? c->degree : 0;
 }
 
 size_t nh_classified_complete_everywhere(const nh_classified *x)

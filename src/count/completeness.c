@@ -23,18 +23,36 @@ static void read_rows(nh_completeness *c, bool all)
 /* For generic parameters the bound can only be lower: the same products have to meet it. */
 static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
 {
-    if (!model->system->parameters || !q->general || !c->degree) return false;
+    if (!model->system->parameters || !q->general || !c->degree || (c->regional && !q->regional_general)) return false;
     nh_count_question question = {.time = c->count.time,
                                   .generic = true,
                                   .degree = c->degree,
                                   .work = q->work,
                                   .memory = q->memory,
-                                  .known = q->known,
-                                  .independent = q->independent,
+                                  .known = q->known - (c->regional ? 0 : q->regional),
+                                  .independent = q->independent - (c->regional ? 0 : q->regional),
                                   .current = q->current};
     nh_completeness generic = {.count = nh_count_integrals(model, &question)};
     read_rows(&generic, q->all);
     return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
+}
+
+/* With what is constant in a region only, where the others are not all. */
+static nh_completeness completeness(const nh_model *model, const nh_completeness_question *q,
+                                    nh_count_question question)
+{
+    nh_completeness c = {.counted = true, .asked = q->degree}, wide = c;
+    question.known -= q->regional;
+    question.independent -= q->regional;
+    c.count = nh_count_integrals(model, &question);
+    read_rows(&c, q->all);
+    if (!q->regional || !c.missing_at || c.count.obstacle) return c;
+    question.known += q->regional;
+    question.independent += q->regional;
+    wide.count = nh_count_integrals(model, &question);
+    wide.regional = true;
+    read_rows(&wide, q->all);
+    return wide.degree > c.degree || wide.missing < c.missing ? wide : c;
 }
 
 size_t nh_completeness_degree(const nh_model *model, bool time)
@@ -60,13 +78,11 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
                                       .known = q->known,
                                       .independent = q->independent,
                                       .current = q->current};
-        *c = (nh_completeness){
-            .counted = true, .asked = q->degree, .count = nh_count_integrals(model, &question)};
+        *c = completeness(model, q, question);
         if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) {
             *c = (nh_completeness){0};
             continue;
         }
-        read_rows(c, q->all);
         c->generic = !q->again && holds_generically(model, q, c);
     }
 }
@@ -83,19 +99,21 @@ static const char more_work[] = "takes more work than the option `count_work` al
 
 static void coordinates_words(const nh_completeness *c, const char *coefficients, nh_text *out)
 {
-    const char *most = c->degree > 1 ? "at most " : "";
+    const char *most = c->degree > 1 ? "at most " : "", *before = c->count.where ? " " : "",
+               *where = c->count.where ? c->count.where : "",
+               *found = c->regional ? "those found and of those that are constant in a region only" : "those found";
     if (c->degree && c->count.row[c->degree - 1].bound == 1)
         nh_text_addf(out,
-                     "Complete to degree %zu: no function polynomial in the velocities of degree %s%zu, with any "
+                     "Complete to degree %zu%s%s: no function polynomial in the velocities of degree %s%zu, with any "
                      "functions of %s as coefficients, is conserved",
-                     c->degree, most, c->degree, coefficients);
+                     c->degree, before, where, most, c->degree, coefficients);
     else if (c->degree)
         nh_text_addf(out,
-                     "Complete to degree %zu: every integral polynomial in the velocities of degree %s%zu, with any "
-                     "functions of %s%s as coefficients, is a %s those found",
-                     c->degree, most, c->degree, coefficients,
+                     "Complete to degree %zu%s%s: every integral polynomial in the velocities of degree %s%zu, with "
+                     "any functions of %s%s as coefficients, is a %s %s",
+                     c->degree, before, where, most, c->degree, coefficients,
                      c->count.leaf ? " (and of what the constraints keep constant)" : "",
-                     c->linear ? "polynomial in" : "function of");
+                     c->linear ? "polynomial in" : "function of", found);
     if (c->degree && c->all && !c->linear) nh_text_add(out, ": there cannot be more independent ones.");
     else if (c->degree)
         nh_text_addf(out, " (%s %s).",
@@ -113,7 +131,8 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
                      c->missing_at, row->order, c->missing, plural(c->missing));
         return;
     }
-    nh_text_addf(out, "%s degree %zu", c->degree ? " At" : "Not complete: at", c->missing_at);
+    if (!c->degree) nh_text_addf(out, "Not complete%s%s:", before, where);
+    nh_text_addf(out, " %s degree %zu", c->degree ? "At" : "at", c->missing_at);
     if (!c->degree) nh_text_addf(out, ", with any functions of %s as coefficients,", coefficients);
     nh_text_addf(out, " there may be at most %zu more independent integral%s (order %zu%s).", c->missing,
                  plural(c->missing), row->order, row->settled ? "" : ", not settled");
@@ -134,6 +153,7 @@ void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_
     if (first == time || !time->counted || time->count.obstacle) return;
     if (time->degree)
         nh_text_addf(out, " With time in the coefficients: complete to degree %zu", time->degree);
+    if (time->degree && time->regional) nh_text_add(out, ", with those that are constant in a region only");
     if (time->degree && ended_by_work(time))
         nh_text_addf(out, "; degree %zu %s", time->count.rows + 1, more_work);
     if (time->degree && !time->missing_at) nh_text_add(out, ".");

@@ -19,6 +19,7 @@ typedef struct {
     /* up to there all are polynomials in the known ones, which is proved; otherwise functions of them, tested at a
        point */
     bool linear;
+    bool regional;          /* of those, too, that are constant in a region only */
     bool all;               /* functions of them in any case: there can be no more functionally independent ones */
     bool generic;           /* and so for algebraically independent parameters */
     size_t missing_at;      /* the least degree at which the bound is not reached, or 0 */
@@ -34,7 +35,9 @@ typedef struct {
     size_t known;
     const nh_ex *current;
     size_t independent;     /* of these */
-    bool general;           /* all of them hold for all parameters */
+    size_t regional;        /* the last so many are constant in a region only, and independent */
+    bool general;           /* all others hold for all parameters; all of these */
+    bool regional_general;
     bool all;               /* there can be no more functionally independent ones */
     bool again;             /* only the kind that comes first, for the parameters' values: the rest is as it was */
     size_t degree;          /* 0: chosen */

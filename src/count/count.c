@@ -321,6 +321,14 @@ void nh_counter_close(nh_counter *c)
     nh_free(c->current);
 }
 
+const char *nh_count_where(const nh_model *model)
+{
+    nh_jet_equations *x = nh_jet_equations_create(model, false, true);
+    const char *where = nh_region_text(model->dag, &x->side, model->arena);
+    nh_jet_equations_free(x);
+    return where;
+}
+
 nh_count nh_count_integrals(const nh_model *model, const nh_count_question *question)
 {
     nh_count out = {.generic = question->generic};
@@ -329,6 +337,7 @@ nh_count nh_count_integrals(const nh_model *model, const nh_count_question *ques
     out.time = c.equations->time;
     if (c.equations->obstacle) out.obstacle = c.equations->obstacle;
     else degrees(&c, &out);
+    out.where = nh_region_text(model->dag, &c.equations->side, model->arena);
     out.work = c.work;
     nh_counter_close(&c);
     return out;

@@ -44,6 +44,8 @@ typedef struct {
     size_t leaf;            /* coordinates across the leaves of integrable constraints */
     uint64_t prime;
     double work;            /* products of residues, about */
+    /* "for x > 0 and y < 0": the equations are defined piece by piece, and were counted there; NULL: everywhere */
+    const char *where;
     const char *obstacle;   /* why nothing was counted, or NULL */
     const char *end;        /* why no higher degree was counted, or NULL */
 } nh_count;
@@ -82,6 +84,10 @@ typedef struct {
  * when there are too many products. */
 size_t nh_count_relations(const nh_model *model, size_t known, const nh_ex *current, size_t degree, nh_arena *arena,
                           size_t most, nh_count_relation *out);
+
+/* Where integrals are counted, for equations that are defined piece by piece: "for x > 0 and y < 0", on the sides on
+   which the first probe of the chart lies; NULL: everywhere.  In the model's arena. */
+const char *nh_count_where(const nh_model *model);
 
 /* Behind the deadline (base/progress.h) what comes out is of no use. */
 nh_count nh_count_integrals(const nh_model *model, const nh_count_question *question);

@@ -3,12 +3,14 @@
  *     q^s' = b^s + R^s_i w^i,    M_ij w^j' = A_i,    A_i polynomial in w of degree two      [docs/method.md, sec. 2]
  *
  * The coefficients in w are found from values at w = 0, +-e_i, e_i + e_j, and one more value, at random velocities, has
- * to agree.  Time is the first coordinate where it is asked for, or occurs. */
+ * to agree.  Time is the first coordinate where it is asked for, or occurs.  Where |u| and sign(u) stand in the
+ * equations they hold on one side of every u = 0. */
 #ifndef NH_JET_EQUATIONS_H
 #define NH_JET_EQUATIONS_H
 
 #include "geometry/model.h"
 #include "exact/jet_eval.h"
+#include "integrals/region.h"
 
 typedef struct {
     const nh_model *model;
@@ -25,6 +27,8 @@ typedef struct {
     /* the point, and after the coordinates the parameters, which matter when they are indeterminates, and t when it is
        no coordinate */
     nh_residue *at;
+    bool complete;           /* what is taken from now on is none of the equations */
+    nh_region side;
     const char *obstacle;    /* why nothing can be counted; NULL */
 } nh_jet_equations;
 

@@ -56,6 +56,8 @@ static nh_json *put_count(nh_json *to, const char *key, const nh_completeness *c
                      !c->degree  ? NULL
                      : c->linear ? "polynomials in the currents"
                                  : "functions of the currents");
+    nh_json_put_text(item, "where", c->count.where);
+    nh_json_put_bool(item, "regional", c->regional);
     nh_json_put_text(item, "proved",
                      !c->degree || !c->linear ? NULL
                      : c->generic             ? "for generic parameters"

@@ -58,7 +58,8 @@ void nh_classification_head(const nh_classified *x, nh_text *out)
         nh_text_number(x->other[i].value, digits, sizeof digits);
         nh_text_addf(out, "%s%s = %s", i ? ", " : ", with ", x->other[i].name, digits);
     }
-    nh_text_add(out, ".\n");
+    const char *where = nh_classification_side(x);
+    nh_text_addf(out, "%s%s.\n", where ? ", " : "", where ? where : "");
 }
 
 /* Where the integrals for almost all values are known and proved, more is more. */

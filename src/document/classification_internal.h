@@ -17,6 +17,7 @@ extern const char *const nh_classification_decide; /* what may decide an open nu
  * all", "degree 2"; a number, of brackets the rank instead of what it lacks. */
 const char *nh_classification_subject(const nh_classified *classified);
 const char *nh_classification_where(const nh_classified *classified);
+const char *nh_classification_side(const nh_classified *classified); /* "for x > 0"; NULL: everywhere */
 const char *nh_classification_more(const nh_classified *classified);
 void nh_classification_level(const nh_classified *classified, size_t level, nh_text *out);
 void nh_classification_amount(const nh_classified *classified, size_t bound, nh_text *out);

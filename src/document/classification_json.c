@@ -43,6 +43,7 @@ void nh_classification_put_head(const nh_classified *x, nh_json *root)
     nh_json *levels = nh_json_put_array(root, "levels");
     for (size_t i = s->constraints - s->levels; i < s->constraints; i++)
         nh_json_add_text(levels, s->constraint[i].text);
+    nh_json_put_text(root, "where", nh_classification_side(x));
     nh_json_put_number(root, "degree", (double)x->degree);
 }
 

@@ -52,7 +52,8 @@ void nh_classification_write_no_currents(const nh_classified *x, pen *p, const c
                  x->question ? "; " : ". No currents: ", why ? why : "the run was ended");
 }
 
-const char nh_classification_fewer[] = "proved, but fewer than were counted: the others were not constructed";
+const char nh_classification_fewer[] =
+    "proved, but fewer than were counted: the others were not constructed, or hold in a region only";
 
 void nh_classification_write_value(const nh_classified *x, pen *p, const nh_classified_value *at, size_t first)
 {

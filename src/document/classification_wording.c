@@ -1,6 +1,8 @@
 /* What a classification counts, in words: by question. */
 #include "document/classification_internal.h"
 
+#include "count/count.h"
+
 static const struct {
     const char *subject;     /* of the whole */
     const char *where;       /* heading of the special values, and of sentences about them */
@@ -20,6 +22,11 @@ static const struct {
 const char *nh_classification_subject(const nh_classified *x) { return WORDS[x->of].subject; }
 const char *nh_classification_where(const nh_classified *x) { return WORDS[x->of].where; }
 const char *nh_classification_more(const nh_classified *x) { return WORDS[x->of].more; }
+
+const char *nh_classification_side(const nh_classified *x)
+{
+    return x->of == NH_OF_CURRENTS ? nh_count_where(x->almost_all->model) : NULL;
+}
 
 void nh_classification_level(const nh_classified *x, size_t level, nh_text *out)
 {

@@ -50,8 +50,8 @@ static const nh_completeness *complete_to(const nh_analysis *r, const nh_sampled
     /* a system that depends on time is counted with it */
     bool in_time = x->timely || !r->completeness[NH_COMPLETE_IN_COORDINATES].counted;
     const nh_completeness *c = &r->completeness[in_time ? NH_COMPLETE_IN_TIME : NH_COMPLETE_IN_COORDINATES];
-    bool complete = c->counted && !c->count.obstacle && !c->count.leaf && x->degree <= c->count.rows &&
-                    c->count.row[x->degree - 1].complete;
+    bool everywhere = c->counted && !c->count.obstacle && !c->count.leaf && !c->regional && !c->count.where,
+         complete = everywhere && x->degree <= c->count.rows && c->count.row[x->degree - 1].complete;
     return complete ? c : NULL;
 }
 

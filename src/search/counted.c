@@ -100,6 +100,18 @@ size_t nh_counted_proved(const nh_analysis *r, nh_ex *phi, bool *general, size_t
     return n;
 }
 
+size_t nh_counted_regional(const nh_analysis *r, nh_ex *phi, bool *general)
+{
+    size_t n = 0;
+    *general = true;
+    for (size_t k = 0; k < r->pieces; k++) {
+        if (!r->piece[k].proof.proved || r->piece[k].series) continue;
+        phi[n++] = r->piece[k].phi;
+        *general &= r->piece[k].proof.all_parameters;
+    }
+    return n;
+}
+
 bool nh_counted_has_walls(const nh_model *o)
 {
     nh_ex *e = nh_arena_alloc(o->arena, (o->m + o->n) * sizeof *e), wall[NH_MOST_WALLS];

@@ -43,5 +43,7 @@ bool nh_counted_has_walls(const nh_model *model);
 /* The currents that are proved, in closed form; out: room for all of them.  `general`: they hold for all parameters;
    `independent`: how many are. */
 size_t nh_counted_proved(const nh_analysis *result, nh_ex *out, bool *general, size_t *independent);
+/* Those that are constant in a region only, likewise; they are independent of each other and of the others. */
+size_t nh_counted_regional(const nh_analysis *result, nh_ex *out, bool *general);
 
 #endif

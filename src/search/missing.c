@@ -16,7 +16,7 @@
 /* ---- the count ---- */
 
 /* What is proved, in closed form, and room for it. */
-static size_t most_proved(const nh_analysis *r) { return r->count + r->furthers + 1; }
+static size_t most_proved(const nh_analysis *r) { return r->count + r->furthers + r->pieces + 1; }
 
 /* What is proved is compared with how much there can be. */
 static void count(nh_analysis *r, bool again)
@@ -30,6 +30,9 @@ static void count(nh_analysis *r, bool again)
                                   .memory = r->counted};
     nh_progress("how many integrals there are", -1);
     q.known = nh_counted_proved(r, phi, &q.general, &q.independent);
+    q.regional = nh_counted_regional(r, phi + q.known, &q.regional_general);
+    q.known += q.regional;
+    q.independent += q.regional;
     nh_completeness_of(r->model, &q, r->completeness);
     if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
     nh_free(phi);
@@ -210,6 +213,9 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
                                .work = s->work,
                                .current = phi};
     q.known = nh_counted_proved(r, phi, &general, &q.independent);
+    size_t regional = nh_counted_regional(r, phi + q.known, &general);
+    q.known += regional;
+    q.independent += regional;
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
     for (size_t k = 0; k < x->count && !is_over(s, further); k++) found |= lift(s, degree, &x->item[k], further);
