@@ -139,6 +139,25 @@ Test(breaks, related_functions_stay_related)
     EXPECT(PLANE("(x + y)^(1/3)*(x + y)^(1/6)*(x + y)^(-1/2)*x^4 - x^4"), 4, 10);
 }
 
+/* Roots of squares of roots: residues may have the sign of another branch, which is of another system. */
+Test(breaks, roots_of_squares_are_no_field)
+{
+    static const struct {
+        const char *text;
+        bool counted;
+    } ROW[] = {
+        {PLANE("sqrt(1 + x + sqrt(2*x + x^2)) - (sqrt(2 + x) + sqrt(x))/sqrt(2)"), false},
+        {PLANE("sqrt(x + 2*sqrt(x) + 1) - sqrt(x)"), false},
+        {PLANE("sqrt(x + sqrt(x^2 + y^2)) + sqrt(sqrt(x^2 + y^2) - x)"), true},
+        {PLANE("sqrt(x + 2*sqrt(x) + 2) - sqrt(x)"), true},
+        {PLANE("sqrt(1 + x + sqrt(2*x + x^2))"), true},
+    };
+    for (size_t i = 0; i < sizeof ROW / sizeof *ROW; i++) {
+        nh_count c = count_text(ROW[i].text, 2);
+        cr_expect_eq(c.obstacle == NULL, ROW[i].counted, "%s: %s", ROW[i].text, c.obstacle ? c.obstacle : "counted");
+    }
+}
+
 /* ---- infinitely many functions of what the constraints keep constant ---- */
 
 Test(breaks, leaves_are_counted_one_by_one)

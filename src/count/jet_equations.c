@@ -5,6 +5,7 @@
 #include <flint/nmod_mat.h>
 #include <string.h>
 
+#include "exact/kernel.h"
 #include "exact/normal.h"
 #include "integrals/exact_points.h"
 
@@ -423,9 +424,68 @@ static bool atoms_at(nh_jet_equations *x, const nh_jet_ring *ring, bool real, nm
     return good;
 }
 
+/* The root of an expression that has roots itself. */
+static bool is_nested(nh_dag *d, const nh_jet_kernel *k)
+{
+    enum { most = 64 };
+    nh_ex product[most];
+    if (k->kind != NH_JET_ROOT) return false;
+    size_t n = nh_products_in(d, k->key, product, most);
+    bool nested = false;
+    for (size_t i = 0; i < n && i < most; i++)
+        for (size_t j = 0; j < nh_arity(d, product[i]); j++)
+            nested |= nh_exponent_kind_of(d, nh_exponent_of(d, product[i], j)) == NH_EXPONENT_ROOT &&
+                      nh_kind_of(d, nh_child(d, product[i], j)) != NH_NUMBER;
+    return nested;
+}
+
+/* Where all roots of sums without roots have values: has such a sum of roots one, and is it a square?  False: no point
+   to ask. */
+static bool asks(nh_jet_equations *x, const nh_jet_ring *ring, size_t at, bool *square)
+{
+    nh_jet_point *p = x->point;
+    nh_jet_eval *v = nh_jet_equations_eval(x, ring, x->at);
+    nh_residue value, root;
+    bool good = true;
+    for (size_t i = 0; i < p->kernels && good; i++) {
+        const nh_jet_kernel *k = &p->kernel[i];
+        if (k->kind != NH_JET_ROOT || is_nested(x->dag, k)) continue;
+        nh_num least = nh_num_ratio(1, (int64_t)k->order);
+        good = nh_jet_eval_all(v, 1, &k->key, &value) && value && nh_jet_point_root(p, k->key, value, least, &root);
+    }
+    good = good && nh_jet_eval_all(v, 1, &p->kernel[at].key, &value) && value;
+    if (good) *square = nh_residue_root(p->field, value, 2, &root);
+    nh_jet_eval_free(v);
+    return good;
+}
+
+/* sqrt(1 + x + sqrt(2 x + x^2)) = (sqrt(2 + x) + sqrt(x))/sqrt(2), where residues may have the other sign: a sum of
+   roots that is a square at all points has its root among the other kernels. */
+static bool has_root_of_square(nh_jet_equations *x, nh_prime field)
+{
+    enum { points = 24, most_tries = 4000 };
+    size_t one[1] = {1};
+    nh_jet_ring *ring = nh_jet_ring_create(field, 1, one, 0);
+    bool related = false;
+    for (size_t at = 0; at < x->point->kernels && !related; at++) {
+        size_t asked = 0;
+        bool square = true;
+        const nh_jet_kernel *k = &x->point->kernel[at];
+        if (k->order % 2 || nh_kind_of(x->dag, k->key) != NH_SUM || !is_nested(x->dag, k)) continue;
+        for (uint64_t seed = 1; seed < most_tries && asked < points && square; seed++) {
+            nh_jet_equations_choose(x, field, seed);
+            asked += asks(x, ring, at, &square);
+        }
+        related = square;
+    }
+    nh_jet_ring_free(ring);
+    return related;
+}
+
 bool nh_jet_equations_related(nh_jet_equations *x, nh_prime field)
 {
     enum { order = 3, points = 6, most_tries = 200 };
+    if (has_root_of_square(x, field)) return true;
     size_t *one = nh_alloc_array(x->coordinates + 2, sizeof *one), variables = x->coordinates + !x->time, count;
     for (size_t k = 0; k < variables; k++) one[k] = 1;
     nh_jet_ring *ring = nh_jet_ring_create(field, variables, one, order);
