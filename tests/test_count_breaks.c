@@ -137,6 +137,8 @@ Test(breaks, related_functions_stay_related)
     EXPECT(PLANE("cos(x)^2*cos(y)^2 + sin(x)^2*cos(y)^2 + sin(y)^2"), 4, 10);
     EXPECT(PLANE("cosh(2*x) - 2*cosh(x)^2 + tan(y)*cos(y) - sin(y)"), 4, 10);
     EXPECT(PLANE("(x + y)^(1/3)*(x + y)^(1/6)*(x + y)^(-1/2)*x^4 - x^4"), 4, 10);
+    EXPECT(PLANE("(x + sqrt(1 + x^2))^(1/3)*(sqrt(1 + x^2) - x)^(1/3)"), 4, 10);
+    EXPECT(PLANE("exp(2*log(x)) - x^2"), 4, 10);
 }
 
 /* Roots of squares of roots: residues may have the sign of another branch, which is of another system. */
@@ -273,4 +275,19 @@ Test(count_breaks, named_functions_that_are_related)
     cr_expect_eq(known_at_one("x'^2/2 + x^2/2", CURRENT("A", "(x'*hyp1f1(1, 1, -2*t) + 2*x*hyp1f1_prime(1, 1, -2*t) - x*hyp1f1(1, 1, -2*t))*exp(t)"), 1), 1);
     /* The determinant of Wronski is in the formula, and of other solutions it is another number: pi (A B' - A' B) = 1. */
     cr_expect_eq(known_at_one(spring, CURRENT("A", "(x'*airy_ai(-t) + x*airy_ai_prime(-t))*(1 + pi*(airy_ai(-t)*airy_bi_prime(-t) - airy_ai_prime(-t)*airy_bi(-t)))"), 1), 2);
+}
+
+/* Of incomplete beta functions and elliptic integrals the residues stand for f + c: as t F(1/2, 1/2; 3/2; -t^2) = asinh(t) is known twice, two currents are
+ * one. */
+Test(count_breaks, antiderivatives_with_names)
+{
+    const char *root = "sqrt(1 + t^2)*x'^2/2", *beta = "x - sqrt(1 + t^2)*x'*t*hyp2f1(1/2, 1/2, 3/2, -t^2)", *momentum = CURRENT("p", "sqrt(1 + t^2)*x'");
+    char known[600];
+    snprintf(known, sizeof known, CURRENT("A", "%s") "%s", beta, momentum);
+    cr_expect_eq(known_at_one(root, known, 2), 3);
+    snprintf(known, sizeof known, CURRENT("A", "%s") CURRENT("B", "x - sqrt(1 + t^2)*x'*asinh(t)"), beta);
+    cr_expect_eq(known_at_one(root, known, 1), 2);
+    cr_expect_eq(known_at_one("sqrt(2 - sin(t)^2)*x'^2/2", CURRENT("A", "x - sqrt(2 - sin(t)^2)*x'*elliptic_f(t, 1/2)/sqrt(2)") CURRENT("p", "sqrt(2 - sin(t)^2)*x'"), 2), 3);
+    cr_expect_eq(known_at_one("x'^2/2/sqrt(2 - sin(t)^2)", CURRENT("A", "x - x'*elliptic_einc(t, 1/2)*sqrt(2)/sqrt(2 - sin(t)^2)"), 1), 2);
+    cr_expect_eq(known_at_one("x'^2/2/sqrt(2 - sin(t)^2)", CURRENT("A", "x - x'*elliptic_f(t, 1/2)*sqrt(2)/sqrt(2 - sin(t)^2)"), 1), 1); /* it is none */
 }

@@ -41,11 +41,11 @@ static const published PUBLISHED[] = {
     {"Chaplygin's ball of revolution",
      "parameters: {m: 1.3, A: 0.4, C: 0.7, r: 0.6}\n" BALL BODY "lagrangian: m*(x'^2 + y'^2)/2 + A*(W1^2 + W2^2)/2 + C*W3^2/2\nconstraints: [" ROLLS
      "]\n" TURNED, 5, 2},
-    /* S. D. Kelly and R. M. Murray, J. Robotic Systems 12 (1995) 417: wheels that turn together about vertical axes */
     {"homogeneous ball with a rotor", "parameters: {m: 1.3, A: 0.4, K: 0.1, r: 0.5}\n"
      "coordinates: [x, y, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}, {name: u, type: angle}]\n"
      "lagrangian: m*(x'^2 + y'^2)/2 + A*(h'^2 + p'^2 + s'^2 + 2*p'*s'*cos(h))/2 + K*(p'*cos(h) + s' + u')^2/2\n"
      "constraints: [\"x' = r*(h'*sin(p) - s'*sin(h)*cos(p))\", \"y' = -r*(h'*cos(p) + s'*sin(h)*sin(p))\"]\ndomain: {h: [0.6, 2]}\n", 6, 2},
+    /* S. D. Kelly and R. M. Murray, J. Robotic Systems 12 (1995) 417: wheels that turn together about vertical axes */
     {"robot of fixed orientation",
      "parameters: {m: 2, I: 0.7, J: 0.4, R: 0.5}\ncoordinates: [x, y, {name: th, type: angle}, {name: psi, type: angle}]\n"
      "lagrangian: m*(x'^2 + y'^2)/2 + I*th'^2/2 + 3*J*psi'^2/2\nconstraints: [\"x' = R*cos(th)*psi'\", \"y' = R*sin(th)*psi'\"]\n", 6, 3},
