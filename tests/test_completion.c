@@ -49,10 +49,11 @@ Test(completion, bash_completes_everything)
                          "source <(nhsym help bash)\n"
                          "ask() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _nhsym; printf '%s\\n' \"${COMPREPLY[@]}\"; }\n"
                          "echo; ask nhsym ''; ask nhsym simulate sleigh --method auto; ask nhsym simulate sleigh --method relax; ask nhsym analyze sle; ask nhsym analyze m; ask nhsym analyze rob\n"
-                         "ask nhsym simulate sleigh --svg mi; ask nhsym analyze sleigh -o mi; ask nhsym analyze sleigh --velocities q; ask nhsym explain ga; ask nhsym help ver; ask nhsym reduce sleigh --to py; ask nhsym classify x --of hamil; ask nhsym export x --of subm\n"
+                         "ask nhsym simulate sleigh --svg mi; ask nhsym analyze sleigh -o mi; ask nhsym analyze sleigh --velocities q; ask nhsym explain ga; ask nhsym help ver; ask nhsym reduce sleigh --to py; ask nhsym classify x --of hamil; ask nhsym export x --of subm; ask nhsym show x --of coord; ask nhsym verify x --of equ\n"
+                         "[ -z \"$(ask nhsym show x --of hamil)\" ] || echo 'show lacks a list of its own for --of'\n"
                          "for c in $(nhsym help | sed -n 's/^  nhsym \\([a-z]*\\).*/\\1/p'); do for o in $(nhsym help $c | sed -n 's/^  \\(-[a-z], \\)*\\(--[a-z-]*\\).*/\\2/p'); do\n"
                          "  ask nhsym $c x $o | grep -qx -- $o && echo + || echo \"lacks $c $o\"; done; done\n");
-    static const char *const words[] = {"analyze", "scan", "export", "auto", "relaxation-8", "sleigh", "mine.yaml", "robot.urdf", "quasi", "gap", "verify", "python", "hamiltonization", "submanifold", NULL};
+    static const char *const words[] = {"analyze", "scan", "export", "auto", "relaxation-8", "sleigh", "mine.yaml", "robot.urdf", "quasi", "gap", "verify", "python", "hamiltonization", "submanifold", "coordinates", "equations", NULL};
     expect_words(out, words);
     cr_expect_null(strstr(out, "lacks"), "%s", strstr(out, "lacks"));
     size_t options = 0;

@@ -110,7 +110,7 @@ static void roff(const char *text)
 
 static void manual_page(void)
 {
-    puts(".TH NHSYM 1 \"\" \"nhsym " NH_VERSION "\" \"User Commands\"\n.SH NAME\nnhsym \\- symmetries and conservation "
+    puts(".TH NHSYM 1 \"\" \"nhsym " NH_VERSION "\" \"User Commands\"\n.ad l\n.SH NAME\nnhsym \\- symmetries and conservation "
                                                 "laws of mechanical systems with constraints\n.SH SYNOPSIS");
     for (size_t i = 0; i < command_count; i++)
         printf(".B nhsym %s\n.I %s\n.br\n", commands[i].name, commands[i].operand[0] ? commands[i].operand : "\\&");
@@ -178,8 +178,9 @@ static size_t names_for(const char *option, const char *command)
     return i;
 }
 
-/* The words that an option or a command takes, with `between`; nothing where these are not a fixed list. */
-static void put_values(const char *name, const char *shown, const char *between)
+/* The words that an option of a command, or a command, takes, with `between`; nothing where these are not a fixed
+   list. */
+static void put_values(const char *name, const char *shown, const char *command, const char *between)
 {
     if (strchr(shown, '|') && shown[0] != '[') {
         for (; *shown; shown++) fputs(*shown == '|' ? between : (char[]){*shown, 0}, stdout);
@@ -189,7 +190,7 @@ static void put_values(const char *name, const char *shown, const char *between)
     } else {
         nh_text text;
         nh_text_init(&text);
-        nh_catalogue_values(name, between, &text);
+        nh_catalogue_values(name, command, between, &text);
         fputs(nh_text_string(&text), stdout);
         nh_text_clear(&text);
     }
@@ -199,6 +200,7 @@ static bool has_values(const option_word *o)
 {
     return (strchr(o->shown, '|') && o->shown[0] != '[') || nh_word_among("method option of", o->name);
 }
+static bool by_command(const option_word *o) { return !strcmp(o->name, "of"); }
 static bool is_file(const option_word *o)
 {
     return !strcmp(o->shown, "FILE") || !strcmp(o->shown, "DIR") || strstr(o->shown, "FILE|-");
@@ -232,6 +234,19 @@ static void bash_named(const char *option)
     puts(" esac; return ;;");
 }
 
+/* An option that takes other words in each command. */
+static void bash_by_command(const option_word *o)
+{
+    printf("    --%s) case ${COMP_WORDS[1]} in", o->name);
+    for (size_t i = 0; i < command_count; i++) {
+        if (!takes(&commands[i], o)) continue;
+        printf(" %s) COMPREPLY=($(compgen -W \"", commands[i].name);
+        put_values(o->name, o->shown, commands[i].name, " ");
+        fputs("\" -- \"$word\")) ;;", stdout);
+    }
+    puts(" esac; return ;;");
+}
+
 static void bash(void)
 {
     fputs(bash_names, stdout);
@@ -243,13 +258,17 @@ static void bash(void)
             bash_named(options[i].name);
             continue;
         }
+        if (by_command(&options[i])) {
+            bash_by_command(&options[i]);
+            continue;
+        }
         bool file = is_file(&options[i]), equation = !strcmp(options[i].name, "option");
         printf("    %.1s%.1s%.1s--%s) %sCOMPREPLY=(", letter(&options[i]) ? "-" : "",
                letter(&options[i]) ? &options[i].meaning[1] : "", letter(&options[i]) ? "|" : "", options[i].name,
                equation ? "compopt -o nospace 2>/dev/null; " : "");
         if (file) fputs("$(compgen -f -- \"$word\")", stdout);
         else
-            fputs("$(compgen -W \"", stdout), put_values(options[i].name, options[i].shown, " "),
+            fputs("$(compgen -W \"", stdout), put_values(options[i].name, options[i].shown, "", " "),
                 fputs("\" -- \"$word\")", stdout);
         puts("); return ;;");
     }
@@ -265,7 +284,7 @@ static void bash(void)
     puts("    esac\n    case ${COMP_WORDS[1]} in");
     for (const char *const *name = (const char *const[]){"explain", "help", NULL}; *name; name++) {
         printf("    %s) COMPREPLY=($(compgen -W \"", *name);
-        put_values(*name, "", " ");
+        put_values(*name, "", *name, " ");
         puts("\" -- \"$word\")); return ;;");
     }
     puts("    esac\n    case $word in\n    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
@@ -312,12 +331,12 @@ static void zsh(void)
                           : is_file(&options[j])                   ? ":file:_files"
                                                                    : ":value:");
             if (row < named_count) printf("{_nhsym_names %s \"%s\"}", named[row].of, named[row].behind);
-            if (has_values(&options[j])) putchar('('), put_values(options[j].name, options[j].shown, " "), putchar(')');
+            if (has_values(&options[j])) putchar('('), put_values(options[j].name, options[j].shown, commands[i].name, " "), putchar(')');
             putchar('\'');
         }
         fputs(" \\\n    '*:word:", stdout);
         if (nh_word_among("explain help", commands[i].name))
-            putchar('('), put_values(commands[i].name, "", " "), putchar(')');
+            putchar('('), put_values(commands[i].name, "", commands[i].name, " "), putchar(')');
         else fputs("->system", stdout);
         puts("' ;;");
     }
@@ -346,12 +365,20 @@ static void fish(void)
                : required ? "-x"
                           : "");
         for (const char *c = meaning(&options[j], NULL); *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
-        if (has_values(&options[j])) fputs("' -a '", stdout), put_values(options[j].name, options[j].shown, " ");
+        if (has_values(&options[j]) && !by_command(&options[j]))
+            fputs("' -a '", stdout), put_values(options[j].name, options[j].shown, "", " ");
         puts("'");
+        for (size_t i = 0; i < command_count && by_command(&options[j]); i++) {
+            if (!takes(&commands[i], &options[j])) continue;
+            printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -l %s -x -a '", commands[i].name,
+                   options[j].name);
+            put_values(options[j].name, options[j].shown, commands[i].name, " ");
+            puts("'");
+        }
     }
     for (const char *const *name = (const char *const[]){"explain", "help", NULL}; *name; name++) {
         printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -a '", *name);
-        put_values(*name, "", " ");
+        put_values(*name, "", *name, " ");
         puts("'");
     }
     for (size_t i = 0; i < named_count; i++)

@@ -222,7 +222,27 @@ bool nh_catalogue_explain(nh_arena *arena, size_t words, const char *const *give
                 : nh_error_hint(error, "`nhsym explain` lists the topics");
 }
 
-void nh_catalogue_values(const char *name, const char *between, nh_text *out)
+/* What --of takes in a command. */
+static void values_of(const char *command, const char *between, nh_text *out)
+{
+    static const char *const fixed[][4] = {{"verify", "constraint", "equations"},
+                                           {"scan", "count", "analyze", "reduce"},
+                                           {"show", "parameters", "coordinates", "velocities"}};
+    const char *first = "";
+    for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++)
+        for (size_t k = 1; !strcmp(command, fixed[i][0]) && k < 4 && fixed[i][k]; k++, first = between)
+            nh_text_addf(out, "%s%s", first, fixed[i][k]);
+#define X(name, word) nh_text_addf(out, "%s" #word, first), first = between;
+    if (!strcmp(command, "classify")) {
+        NH_LINEAR_QUESTION_TABLE(X)
+    }
+#undef X
+    if (strcmp(command, "export")) return;
+    for (unsigned part = 1; part <= NH_EXPORT_ALL; part <<= 1, first = between)
+        nh_text_addf(out, "%s%s", first, nh_export_part_name((nh_export_part)part));
+}
+
+void nh_catalogue_values(const char *name, const char *command, const char *between, nh_text *out)
 {
     if (!strcmp(name, "method")) {
         nh_text_add(out, NH_METHOD_AUTOMATIC);
@@ -230,14 +250,8 @@ void nh_catalogue_values(const char *name, const char *between, nh_text *out)
     } else if (!strcmp(name, "option")) {
         for (size_t i = 0; i < nh_option_count(); i++)
             nh_text_addf(out, "%s%s=", i ? between : "", nh_option_at(i).name);
-    } else if (!strcmp(name, "of")) { /* of all commands that have the option */
-        nh_text_addf(out, "constraint%scount%sanalyze%sreduce", between, between, between);
-#define X(name, word) nh_text_addf(out, "%s" #word, between);
-        NH_LINEAR_QUESTION_TABLE(X)
-#undef X
-        for (unsigned part = 1; part <= NH_EXPORT_ALL; part <<= 1)
-            if (part != NH_EXPORT_CURRENTS)
-                nh_text_addf(out, "%s%s", between, nh_export_part_name((nh_export_part)part));
+    } else if (!strcmp(name, "of")) {
+        values_of(command, between, out);
     } else if (!strcmp(name, "explain")) {
         nh_text_addf(out, "options%smethods", between);
         for (size_t i = 0; i < nh_glossary_count(); i++)

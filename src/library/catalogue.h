@@ -19,7 +19,8 @@ bool nh_catalogue_pattern(const char *name, nh_text *out);
 
 /* What words of the reports mean, "options", "methods" or "functions"; none: all topics. */
 bool nh_catalogue_explain(nh_arena *arena, size_t words, const char *const *word, nh_text *out, nh_error *error);
-/* The words that the option, or the command, takes, with `between`; nothing where these are not a fixed list. */
-void nh_catalogue_values(const char *option, const char *between, nh_text *out);
+/* The words that the option takes in this command, or the command itself, with `between`; nothing where these are not a
+   fixed list. */
+void nh_catalogue_values(const char *option, const char *command, const char *between, nh_text *out);
 
 #endif
