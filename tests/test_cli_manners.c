@@ -462,6 +462,19 @@ Test(cli_manners, velocities_as_others_write_them)
     place_clear(&p);
 }
 
+/* Commas for the decimal point, and units behind numbers. */
+Test(cli_manners, numbers_as_others_write_them)
+{
+    place p = place_make();
+    write_here(&p, "comma.yaml", "name: c\nparameters:\n  m: 0,5\ncoordinates: [x]\nlagrangian: m*x'^2/2\n");
+    check_hint(&p, "simulate sleigh --until 1,5", 2, "\nhint: decimals stand behind a point: 1.5\n");
+    check_hint(&p, "simulate sleigh --until 5s", 2, "\nhint: numbers stand here without units: 5\n");
+    check_hint(&p, "simulate sleigh --set m=2.5kg", 2, "\nhint: numbers stand here without units: 2.5\n");
+    check_hint(&p, "simulate sleigh --set m=0,5", 2, "\nhint: commas stand between values, and decimals behind a point: 0.5\n");
+    check_hint(&p, "simulate comma.yaml", 3, "\nhint: decimals stand behind a point: 0.5\n");
+    place_clear(&p);
+}
+
 /* A table is what `simulate` and `reduce --to` are called for: --quiet leaves the remarks out, and the table where a file holds the result. */
 Test(cli_manners, quiet_keeps_a_table_that_nothing_else_holds)
 {

@@ -1,6 +1,7 @@
 /* error: see error.h.  Messages are cut to their fixed fields, never in the middle of a UTF-8 character. */
 #include "base/error.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -80,6 +81,20 @@ bool nh_error_hint_near(nh_error *error, const char *written, const char *const 
 {
     const char *near = nh_text_nearest(written, words, count);
     return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "%s", otherwise);
+}
+
+bool nh_error_hint_number(nh_error *error, const char *written)
+{
+    static const char digits[] = "0123456789";
+    size_t sign = strspn(written, "+-"), whole = sign + strspn(written + sign, digits);
+    if (whole == sign) return false;
+    if (written[whole] == ',' && strspn(written + whole + 1, digits))
+        return nh_error_hint(error, "decimals stand behind a point: %.*s.%s", (int)whole, written, written + whole + 1);
+    size_t number = whole + (written[whole] == '.') + strspn(written + whole + (written[whole] == '.'), digits);
+    const char *unit = written + number + strspn(written + number, " ");
+    return isalpha((unsigned char)*unit) && strncmp(unit, "pi", 2)
+               ? nh_error_hint(error, "numbers stand here without units: %.*s", (int)number, written)
+               : false;
 }
 
 void nh_error_format(const nh_error *error, char *out, size_t size)

@@ -21,5 +21,8 @@ bool nh_error_hint(nh_error *error, const char *format, ...) __attribute__((form
 /* "did you mean `..`?" where one of the words is near to what was written, else the other hint. */
 bool nh_error_hint_near(nh_error *error, const char *written, const char *const *words, size_t count,
                         const char *otherwise);
+/* What keeps `written` from being a number, where it is a comma for the decimal point, or a unit behind it.  Returns
+   false. */
+bool nh_error_hint_number(nh_error *error, const char *written);
 
 #endif

@@ -58,8 +58,10 @@ bool nh_options_set(nh_options *options, const char *name, const char *value, nh
                     : nh_error_hint(error, "`nhsym explain options` lists them");
     }
     double x;
-    if (!nh_text_to_number(value, &x))
-        return nh_fail(error, NH_USAGE, "", "the option `%s` needs a number, found `%s`", name, value);
+    if (!nh_text_to_number(value, &x)) {
+        nh_fail(error, NH_USAGE, "", "the option `%s` needs a number, found `%s`", name, value);
+        return nh_error_hint_number(error, value);
+    }
     if (!(x >= table[index].low && x <= table[index].high))
         return nh_fail(error, NH_USAGE, "", "the option `%s` must lie between %g and %g, found `%s`", name,
                        table[index].low, table[index].high, value);

@@ -94,7 +94,10 @@ static bool assignment(nh_cli *cli, const char *text, const char *option, char *
     const char *equal = strchr(text, '=');
     if (!equal || equal == text) {
         nh_fail(error, NH_USAGE, "", "--%s needs NAME=VALUE, found `%s`", option, text);
-        return false;
+        double half; /* of 0,5 */
+        return nh_text_to_number(text, &half)
+                   ? nh_error_hint(error, "commas stand between values, and decimals behind a point: 0.5")
+                   : false;
     }
     size_t length = (size_t)(equal - text);
     while (length && text[length - 1] == ' ') length--;
@@ -137,8 +140,10 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     const char *value;
     if (!assignment(cli, text, "set", &name, &value, error)) return false;
     double x;
-    if (!nh_text_to_number(value, &x))
-        return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
+    if (!nh_text_to_number(value, &x)) {
+        nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
+        return nh_error_hint_number(error, value);
+    }
     cli->ask.setting[cli->ask.settings++] = (nh_setting){.name = name, .value = x};
     return true;
 }
@@ -189,7 +194,8 @@ static bool add_option(nh_cli *cli, const char *text, nh_error *error)
 static bool positive(const char *text, const char *option, double *out, nh_error *error)
 {
     if (nh_text_to_number(text, out) && *out > 0) return true;
-    return nh_fail(error, NH_USAGE, "", "--%s needs a positive number, found `%s`", option, text);
+    nh_fail(error, NH_USAGE, "", "--%s needs a positive number, found `%s`", option, text);
+    return nh_error_hint_number(error, text);
 }
 
 /* "5", "5s" or "200ms". */

@@ -184,7 +184,7 @@ bool nh_deck_number(const nh_deck *deck, const nh_deck_node *node, const char *w
         bool fresh = error && error->code == NH_OK;
         wrong(deck, node, what, error, "a number");
         hint_unquote(node, fresh, error);
-        return false;
+        return fresh && is_plain(node) ? nh_error_hint_number(error, node->text) : false;
     }
     return nh_text_to_number(node->text, out) || wrong(deck, node, what, error, "a number that a double can hold");
 }
