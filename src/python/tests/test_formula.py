@@ -1,6 +1,8 @@
 """Formulas to SymPy and back."""
 import math
+import pathlib
 import random
+import re
 
 import numpy
 import pytest
@@ -101,3 +103,9 @@ def test_named_functions_to_sympy_and_back():
     assert sympy.lambdify(x, riemann.diff(x))(numpy.array([0.0, 0.25]))[1] == pytest.approx(float(riemann.diff(x).subs(x, 0.25).evalf()))
     with pytest.raises(nhsym.UsageError, match="explain functions"):
         nhsym.Formula("legendre_q(x)").sympy()
+
+
+def test_no_named_function_of_the_library_is_left_out():
+    source = pathlib.Path(__file__).resolve().parents[2] / "graph" / "function.c"
+    names = re.findall(r'^ +(?:PAIR|NAMED)\(\w+, "(\w+)"', source.read_text(), re.MULTILINE)
+    assert sorted(names) == sorted(NAMED)
