@@ -110,8 +110,8 @@ static void roff(const char *text)
 
 static void manual_page(void)
 {
-    puts(".TH NHSYM 1 \"\" \"nhsym " NH_VERSION "\" \"User Commands\"\n.ad l\n.SH NAME\nnhsym \\- symmetries and conservation "
-                                                "laws of mechanical systems with constraints\n.SH SYNOPSIS");
+    puts(".TH NHSYM 1 \"\" \"nhsym " NH_VERSION "\" \"User Commands\"\n.ad l\n.SH NAME");
+    puts("nhsym \\- symmetries and conservation laws of mechanical systems with constraints\n.SH SYNOPSIS");
     for (size_t i = 0; i < command_count; i++)
         printf(".B nhsym %s\n.I %s\n.br\n", commands[i].name, commands[i].operand[0] ? commands[i].operand : "\\&");
     puts(".SH COMMANDS");
@@ -331,7 +331,11 @@ static void zsh(void)
                           : is_file(&options[j])                   ? ":file:_files"
                                                                    : ":value:");
             if (row < named_count) printf("{_nhsym_names %s \"%s\"}", named[row].of, named[row].behind);
-            if (has_values(&options[j])) putchar('('), put_values(options[j].name, options[j].shown, commands[i].name, " "), putchar(')');
+            if (has_values(&options[j])) {
+                putchar('(');
+                put_values(options[j].name, options[j].shown, commands[i].name, " ");
+                putchar(')');
+            }
             putchar('\'');
         }
         fputs(" \\\n    '*:word:", stdout);
