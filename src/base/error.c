@@ -92,7 +92,8 @@ bool nh_error_hint_number(nh_error *error, const char *written)
         return nh_error_hint(error, "decimals stand behind a point: %.*s.%s", (int)whole, written, written + whole + 1);
     size_t number = whole + (written[whole] == '.') + strspn(written + whole + (written[whole] == '.'), digits);
     const char *unit = written + number + strspn(written + number, " ");
-    return isalpha((unsigned char)*unit) && strncmp(unit, "pi", 2)
+    bool other = (strchr("eE", *unit) && strpbrk(unit, digits)) || strchr("xX", *unit) || !strncmp(unit, "pi", 2);
+    return isalpha((unsigned char)*unit) && !other /* a power of ten, hexadecimal digits, a multiple of pi */
                ? nh_error_hint(error, "numbers stand here without units: %.*s", (int)number, written)
                : false;
 }
