@@ -45,7 +45,7 @@ static const char *violated(nh_reduction *r, const nh_chaplygin *first, const nh
     const char *why =
         "its momentum is conserved only in combination with others that are not symmetries of the reduced system";
     if (!nh_second_init(&t, first, 1, field, &r->options, &error))
-        why = nh_arena_printf(r->arena, "condition (ii) fails: %s", error.what);
+        why = nh_arena_printf(r->arena, "condition (ii) of Chhabra and Emami (2014) fails: %s", error.what);
     nh_error_clear(&error);
     nh_second_clear(&t);
     return why;
