@@ -51,6 +51,7 @@ static nh_completeness completeness(const nh_model *model, const nh_completeness
     question.independent += q->regional;
     wide.count = nh_count_integrals(model, &question);
     wide.regional = true;
+    wide.only_regional = q->known == q->regional;
     read_rows(&wide, q->all);
     return wide.degree > c.degree || wide.missing < c.missing ? wide : c;
 }
@@ -101,7 +102,9 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
 {
     const char *most = c->degree > 1 ? "at most " : "", *before = c->count.where ? " " : "",
                *where = c->count.where ? c->count.where : "",
-               *found = c->regional ? "those found and of those that are constant in a region only" : "those found";
+               *found = !c->regional      ? "those found"
+                        : c->only_regional ? "those that are constant in a region only"
+                                           : "those found and of those that are constant in a region only";
     if (c->degree && c->count.row[c->degree - 1].bound == 1)
         nh_text_addf(out,
                      "Complete to degree %zu%s%s: no function polynomial in the velocities of degree %s%zu, with any "

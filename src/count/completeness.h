@@ -19,7 +19,8 @@ typedef struct {
     /* up to there all are polynomials in the known ones, which is proved; otherwise functions of them, tested at a
        point */
     bool linear;
-    bool regional;          /* of those, too, that are constant in a region only */
+    /* of those, too, that are constant in a region only; there are no others */
+    bool regional, only_regional;
     bool all;               /* functions of them in any case: there can be no more functionally independent ones */
     bool generic;           /* and so for algebraically independent parameters */
     size_t missing_at;      /* the least degree at which the bound is not reached, or 0 */

@@ -337,11 +337,11 @@ static void pieces(nh_pen *p, const nh_analysis *r)
 {
     if (!r->pieces) return;
     nh_pen_heading(p, "Constant only in a region");
-    nh_pen_words(p, "These functions are constant while a motion stays in the given region. They are not counted.%s",
+    nh_pen_words(p, "These functions are constant while a motion stays in the given region. %s",
                  nh_analysis_to_the_end(r)
-                     ? " At a wall where a motion has an impulse it ends: the equations of motion do not determine "
-                       "how it goes on."
-                     : "");
+                     ? "At a wall where a motion has an impulse it ends: the equations of motion do not determine how "
+                       "it goes on."
+                     : "They are not counted.");
     for (size_t k = 0; k < r->pieces; k++) uncounted(p, r, &r->piece[k], r->piece[k].region);
 }
 

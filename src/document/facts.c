@@ -231,7 +231,6 @@ void nh_facts_completeness(const nh_analysis *r, nh_text *out)
     const nh_completeness *first = &r->completeness[r->completeness[0].counted ? 0 : 1];
     bool all = r->search == NH_SEARCH_COMPLETE && r->independent >= r->local_maximum;
     size_t uncertain = 0;
-    if (!r->count && nh_analysis_to_the_end(r)) return; /* the count is of those that go on through walls */
     if (all && first->counted && first->count.obstacle) return; /* there are no more to be counted */
     for (size_t k = 0; k < r->count; k++)
         uncertain += r->found[k].independence == NH_INDEPENDENT && (!r->found[k].proof.proved || r->found[k].series);
