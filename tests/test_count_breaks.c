@@ -160,6 +160,21 @@ Test(breaks, roots_of_squares_are_no_field)
     }
 }
 
+/* Roots of squares without roots: the potential vanishes where the domain lies, although another sign of the root gives
+   one that does not. */
+Test(breaks, roots_of_squares_have_the_sign_of_the_domain)
+{
+    static const char *const POTENTIAL[] = {"sqrt(1 - cos(2*x))/sqrt(2) - sin(x)", "sqrt(1 - sin(x)^2) - cos(x)",
+                                            "sqrt(x^2 + 2*x*y + y^2) - x - y", "sqrt(exp(2*x) + 2 + exp(-2*x)) - exp(x) - exp(-x)",
+                                            "(1 - sin(x)^2)^(3/2) - cos(x)^3", "abs(x)*sqrt(y) - sqrt(x^2*y)"};
+    for (size_t i = 0; i < sizeof POTENTIAL / sizeof *POTENTIAL; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "name: s\ncoordinates: [x, y]\ndomain: {x: [0.5, 1.4], y: [0.5, 1]}\nlagrangian: (x'^2 + y'^2)/2 - (%s)\n", POTENTIAL[i]);
+        nh_count c = count_text(text, 2);
+        cr_expect(!c.obstacle && c.rows == 2 && c.row[0].bound == 4 && c.row[1].bound == 10, "%s: %s %zu", text, c.obstacle ? c.obstacle : "", c.row[0].bound);
+    }
+}
+
 /* ---- infinitely many functions of what the constraints keep constant ---- */
 
 Test(breaks, leaves_are_counted_one_by_one)

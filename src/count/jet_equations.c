@@ -6,66 +6,21 @@
 #include <string.h>
 
 #include "exact/kernel.h"
+#include "count/one_side.h"
 #include "exact/normal.h"
 #include "integrals/exact_points.h"
 
-enum { largest_form = 2000, most_functions = 64 };
+enum { largest_form = 2000 };
 
 /* ---- expressions ---- */
 
-static void keep_side(nh_jet_equations *x, nh_ex u, bool above)
-{
-    nh_region *r = &x->side;
-    for (size_t k = 0; k < r->count; k++)
-        if (r->wall[k] == u) return;
-    if (r->count == NH_MOST_WALLS) return;
-    r->wall[r->count] = u;
-    r->kind[r->count++] = above ? NH_REGION_ABOVE : NH_REGION_BELOW;
-}
-
-/* The calls of abs and sign in e that are pieces at this probe of the chart; `by`: what they are beside it. */
-static size_t pieces_in(nh_jet_equations *x, const double *probe, nh_ex e, size_t most, nh_ex *call, nh_ex *by)
-{
-    nh_dag *d = x->dag;
-    nh_ex all[most_functions];
-    size_t n = nh_functions_in(d, e, all, most_functions), pieces = 0;
-    for (size_t i = 0; i < n && i < most_functions && pieces < most; i++) {
-        nh_function f = nh_function_of(d, all[i]);
-        if (f != NH_ABS && f != NH_SIGN) continue;
-        nh_ex u = nh_child(d, all[i], 0);
-        nh_tape *tape = nh_model_tape(x->model, 1, &u);
-        nh_tape_work *work = nh_tape_work_create(tape);
-        double value;
-        nh_tape_eval(tape, work, probe, &value);
-        nh_tape_work_free(work);
-        nh_tape_free(tape);
-        if (!(value < 0 || value > 0)) continue;
-        nh_ex sign = nh_int(d, value > 0 ? 1 : -1);
-        call[pieces] = all[i];
-        by[pieces++] = f == NH_ABS ? nh_mul(d, sign, u) : sign;
-        if (!x->complete) keep_side(x, u, value > 0);
-    }
-    return pieces;
-}
-
-/* |u| as u or -u and sign(u) as 1 or -1, whatever it is at the first probe of the chart: one function, on an open set
-   of the submanifold. */
-static nh_ex on_one_side(nh_jet_equations *x, nh_ex e)
-{
-    enum { most = 16, nested = 4 };
-    nh_ex call[most], by[most];
-    for (size_t level = 0; level < nested && x->model->chart->probes; level++) {
-        size_t n = pieces_in(x, x->model->chart->probe, e, most, call, by);
-        if (!n) break;
-        e = nh_substitute(x->dag, e, n, call, by);
-    }
-    return e;
-}
-
 static nh_ex canonical(nh_jet_equations *x, nh_ex e)
 {
-    nh_ex one = on_one_side(x, e);
-    return nh_canonical(x->dag, x->generic ? one : nh_exact_values(x->model, one), largest_form);
+    nh_region *side = x->complete ? NULL : &x->side;
+    e = nh_one_side(x->model, e, side);
+    e = nh_canonical(x->dag, x->generic ? e : nh_exact_values(x->model, e), largest_form);
+    nh_ex without = nh_one_side_of_roots(x->model, e, side);
+    return without == e ? e : nh_canonical(x->dag, without, largest_form);
 }
 
 /* Roots and functions of the velocities, and what is divided by them, are not polynomial in them. */

@@ -1,0 +1,70 @@
+#include "count/one_side.h"
+
+#include "exact/normal.h"
+#include "exact/square.h"
+
+static void keep(nh_region *r, nh_ex u, bool above)
+{
+    for (size_t k = 0; k < r->count; k++)
+        if (r->wall[k] == u) return;
+    if (r->count == NH_MOST_WALLS) return;
+    r->wall[r->count] = u;
+    r->kind[r->count++] = above ? NH_REGION_ABOVE : NH_REGION_BELOW;
+}
+
+/* The sign of u at the first probe of the chart: 1, -1, or 0 where it has none. */
+static int side_of(const nh_model *o, nh_ex u, nh_region *side)
+{
+    nh_tape *tape = nh_model_tape(o, 1, &u);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double value;
+    nh_tape_eval(tape, work, o->chart->probe, &value);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    int sign = (value > 0) - (value < 0);
+    if (sign && side) keep(side, u, sign > 0);
+    return sign;
+}
+
+nh_ex nh_one_side(const nh_model *o, nh_ex e, nh_region *side)
+{
+    enum { most_functions = 64, nested = 4 };
+    nh_dag *d = o->dag;
+    nh_ex call[most_functions], by[most_functions];
+    for (size_t level = 0; level < nested && o->chart->probes; level++) {
+        size_t n = nh_functions_in(d, e, call, most_functions), pieces = 0;
+        for (size_t i = 0; i < n && i < most_functions; i++) {
+            nh_function f = nh_function_of(d, call[i]);
+            if (f != NH_ABS && f != NH_SIGN) continue;
+            nh_ex u = nh_child(d, call[i], 0);
+            int sign = side_of(o, u, side);
+            if (!sign) continue;
+            call[pieces] = call[i];
+            by[pieces++] = nh_mul(d, nh_int(d, sign), f == NH_ABS ? u : nh_int(d, 1));
+        }
+        if (!pieces) break;
+        e = nh_substitute(d, e, pieces, call, by);
+    }
+    return e;
+}
+
+nh_ex nh_one_side_of_roots(const nh_model *o, nh_ex e, nh_region *side)
+{
+    enum { most = 200 };
+    nh_dag *d = o->dag;
+    nh_ex product[most], outside, inside;
+    size_t n = o->chart->probes ? nh_products_in(d, e, product, most) : 0;
+    for (size_t i = 0; i < n && i < most; i++)
+        for (size_t k = 0; k < nh_arity(d, product[i]); k++) {
+            nh_ex base = nh_child(d, product[i], k), exponent = nh_exponent_of(d, product[i], k);
+            bool root = nh_kind_of(d, exponent) == NH_NUMBER && nh_num_short(nh_number_of(d, exponent)) &&
+                        nh_number_of(d, exponent).q == 2;
+            if (!root || !nh_square_split(d, nh_simplify_short(d, base, 0), &outside, &inside) ||
+                nh_kind_of(d, outside) == NH_NUMBER)
+                continue;
+            int sign = side_of(o, outside, side);
+            nh_ex value = nh_mul(d, nh_int(d, sign), nh_mul(d, outside, nh_sqrt(d, inside)));
+            if (sign) e = nh_substitute_root(d, e, base, value);
+        }
+    return e;
+}
