@@ -145,14 +145,14 @@ static bool describe(nh_verification *v, const nh_options *options, nh_error *er
     return true;
 }
 
-/* Conserved wherever it is smooth: all along the motions, too? */
+/* Conserved wherever it is smooth: all along the motions, too, which end at walls where they have an impulse? */
 static void delimit(nh_verification *v, const nh_options *options)
 {
     nh_terrain terrain = nh_terrain_of(v->model, options, v->arena);
     nh_region region =
         nh_region_of(v->model, &terrain, v->current, v->proof.proved ? 0 : v->proof.digits / 2, options, v->arena);
     v->region = nh_region_text(v->model->dag, &region, v->arena);
-    v->conserved = !v->region;
+    v->conserved = nh_region_to_the_end(&region);
 }
 
 static bool examine(nh_verification *v, const nh_options *options, nh_error *error)

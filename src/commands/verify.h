@@ -24,7 +24,8 @@ struct nh_verification {
     size_t made;
     nh_named *make;
     bool conserved;           /* or: is a symmetry */
-    /* a current is conserved in a part of the motions only: where (integrals/region.h); then `conserved` is false */
+    /* a current is conserved in a part of the motions only: where (integrals/region.h); then `conserved` is false, but
+       where motions end with that part */
     const char *region;
     bool trivial;             /* the current is constant */
     /* of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */

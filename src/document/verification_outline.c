@@ -18,7 +18,7 @@ static void answer(nh_pen *p, const nh_verification *v)
         else
             nh_pen_say(p, ", to %.6g digits%s", floor(v->proof.digits),
                        v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
-        nh_pen_say(p, "%s%s.", nh_verification_branches(v),
+        nh_pen_say(p, "%s%s%s%s.", nh_verification_branches(v), v->region ? ", " : "", v->region ? v->region : "",
                    v->trivial ? "; it is trivial: the current is a constant" : "");
     } else if (v->region) {
         nh_pen_say(p, "No: this is conserved only in a region: %s.", v->region);
