@@ -11,7 +11,7 @@
 nh_ex nh_one_side(const nh_model *model, nh_ex e, nh_region *side);
 
 /* sqrt(u^2 v) as u sqrt(v) or -u sqrt(v), likewise: modulo a prime the root of a square would be either of both,
- * although it has its values among the other functions.  For canonical e. */
+ * although it has its values among the other functions.  */
 nh_ex nh_one_side_of_roots(const nh_model *model, nh_ex e, nh_region *side);
 
 #endif
