@@ -5,6 +5,7 @@
 
 #include "exact/normal.h"
 #include "count/completeness.h"
+#include "count/one_side.h"
 #include "problem/analysis_file.h"
 #include "names.h"
 
@@ -493,4 +494,22 @@ Test(count, words_say_which_coefficients_are_meant)
     words_of(FREE_2, true, &said);
     cr_expect_not_null(strstr(nh_text_string(&said), "is a function of those found: there cannot be more independent ones."), "%s", nh_text_string(&said));
     nh_text_clear(&said);
+}
+
+/* What holds on one side of a wall counts on that side only. */
+Test(count, a_side_has_what_holds_there)
+{
+    problem p = problem_of("name: k\ncoordinates: [x, y]\ndomain: {x: [2, 3], y: [-2, -1]}\nlagrangian: (x'^2 + y'^2)/2 - abs(x)\n");
+    nh_ex x = nh_symbol(p.model->dag, "x"), y = nh_symbol(p.model->dag, "y");
+    const struct {
+        nh_ex wall;
+        nh_region_kind kind;
+        bool within;
+    } row[] = {{x, NH_REGION_ABOVE, true}, {x, NH_REGION_BELOW, false}, {y, NH_REGION_ABOVE, false},   {y, NH_REGION_BELOW, true},
+               {x, NH_REGION_APART, true}, {x, NH_REGION_PARTS, false}, {y, NH_REGION_IMPULSE, true}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        nh_region region = {.count = 1, .wall = {row[i].wall}, .kind = {row[i].kind}};
+        cr_expect_eq(nh_one_side_within(p.model, &region), row[i].within, "%zu", i);
+    }
+    problem_clear(&p);
 }

@@ -68,3 +68,14 @@ nh_ex nh_one_side_of_roots(const nh_model *o, nh_ex e, nh_region *side)
         }
     return e;
 }
+
+bool nh_one_side_within(const nh_model *o, const nh_region *region)
+{
+    bool within = o->chart->probes > 0;
+    for (size_t i = 0; i < region->count && within; i++) {
+        nh_region_kind kind = region->kind[i];
+        int wanted = kind == NH_REGION_ABOVE ? 1 : kind == NH_REGION_BELOW ? -1 : 0;
+        within = kind != NH_REGION_PARTS && (!wanted || side_of(o, region->wall[i], NULL) == wanted);
+    }
+    return within;
+}

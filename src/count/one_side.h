@@ -14,4 +14,7 @@ nh_ex nh_one_side(const nh_model *model, nh_ex e, nh_region *side);
  * although it has its values among the other functions.  */
 nh_ex nh_one_side_of_roots(const nh_model *model, nh_ex e, nh_region *side);
 
+/* Does what holds in this region hold on the sides that are taken?  Not where it holds in some parts only. */
+bool nh_one_side_within(const nh_model *model, const nh_region *region);
+
 #endif

@@ -105,7 +105,7 @@ size_t nh_counted_regional(const nh_analysis *r, nh_ex *phi, bool *general)
     size_t n = 0;
     *general = true;
     for (size_t k = 0; k < r->pieces; k++) {
-        if (!r->piece[k].proof.proved || r->piece[k].series) continue;
+        if (!r->piece[k].proof.proved || r->piece[k].series || !r->piece[k].counted) continue;
         phi[n++] = r->piece[k].phi;
         *general &= r->piece[k].proof.all_parameters;
     }

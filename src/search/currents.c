@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "count/one_side.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "graph/print.h"
@@ -321,6 +322,7 @@ static const char *hold(nh_current_checker *b, nh_current *f)
         nh_free(term);
     }
     f->to_the_end = nh_region_to_the_end(&region);
+    f->counted = nh_one_side_within(o, &region);
     return nh_region_text(o->dag, &region, b->result->arena);
 }
 
