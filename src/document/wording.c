@@ -90,7 +90,8 @@ static const nh_glossary_entry entries[] = {
      "Every integral that is polynomial in the velocities up to a degree, whatever functions its "
      "coefficients are, is a polynomial in the currents found.  It is proved by counting: an upper bound (power "
      "series modulo a prime) and a lower one (products of the currents) agree.  Integrals of other kinds, and "
-     "those of higher degree, are not excluded."},
+     "those of higher degree, are not excluded.  Equations that are defined piece by piece are counted where the "
+     "domain lies, which is said."},
     {"proved", "The rate of change is zero as an exact expression."},
     {"certified", "The rate of change is zero to at least 50 digits in ball arithmetic."},
     {"residual", "The rate of change of a current at points that were not used to find it, relative to the size "
