@@ -23,8 +23,8 @@ typedef struct {
 /* Can nothing in these families be new?  `timely`: they will be multiplied by functions of t. */
 bool nh_counted_superfluous(nh_counted *counted, size_t families, const nh_family *family, bool timely);
 
-/* The degree in the velocities, at most; a function of a sum of products is not looked into: what is no polynomial as it
-   is written has the degree infinity. */
+/* The degree in the velocities, at most; a function of a sum of products is not looked into: what is no polynomial as
+   it is written has the degree infinity. */
 double nh_counted_degree_of(const nh_model *model, nh_ex e);
 
 /* The degree of an ansatz in the velocities, infinite where it is not polynomial in them; `timely` is set where it
