@@ -125,21 +125,27 @@ static void append_elliptic(list *l, nh_ex angle, nh_ex a, nh_ex product)
     append(l, nh_call_any(d, NH_ELLIPTIC_EINC, argument));
 }
 
+/* base = a + b z + c z^2 or a + b z in the wave z = cos(u), sin(u), with no other coordinate. */
+typedef enum { NEITHER, LINEAR, SQUARE } power;
+static power power_of_wave(const nh_jet_equations *x, nh_ex base, nh_ex wave, quadratic *p)
+{
+    nh_ex z = nh_symbol(x->dag, "z of a primitive"), e = nh_substitute(x->dag, base, 1, &wave, &z);
+    if (has_coordinates(x, e) || !nh_depends(x->dag, e, z)) return NEITHER;
+    return read_quadratic(x->dag, e, z, p) ? SQUARE : nh_is_zero(x->dag, p->c) ? LINEAR : NEITHER;
+}
+
 /* Roots of a + c sin(u)^2, a + c cos(u)^2 = (a + c) - c sin(u)^2, a + b cos(u) = (a + b) - 2 b sin(u/2)^2. */
 static void along_angle(list *l, nh_ex base, nh_ex angle)
 {
-    const nh_jet_equations *x = l->equations;
     nh_dag *d = l->dag;
-    nh_ex z = nh_symbol(d, "z of a primitive"), of[2] = {nh_call(d, NH_COS, angle), nh_call(d, NH_SIN, angle)};
+    nh_ex of[2] = {nh_call(d, NH_COS, angle), nh_call(d, NH_SIN, angle)};
     for (int i = 0; i < 2; i++) {
         quadratic p;
-        nh_ex e = nh_substitute(d, base, 1, &of[i], &z);
-        if (has_coordinates(x, e) || !nh_depends(d, e, z)) continue;
-        bool square = read_quadratic(d, e, z, &p);
-        if (square && nh_is_zero(d, p.b)) {
+        power highest = power_of_wave(l->equations, base, of[i], &p);
+        if (highest == SQUARE && nh_is_zero(d, p.b)) {
             if (i == 0) append_elliptic(l, angle, nh_add(d, p.a, p.c), p.c);
             else append_elliptic(l, angle, p.a, nh_neg(d, p.c));
-        } else if (i == 0 && nh_is_zero(d, p.c)) {
+        } else if (i == 0 && highest == LINEAR) {
             append_elliptic(l, nh_mul(d, nh_ratio(d, 1, 2), angle), nh_add(d, p.a, p.b), nh_mul(d, nh_int(d, 2), p.b));
         }
     }
@@ -150,12 +156,10 @@ static void along_circle(list *l, nh_ex base, nh_ex angle)
 {
     const nh_jet_equations *x = l->equations;
     nh_dag *d = l->dag;
-    nh_ex z = nh_symbol(d, "z of a primitive"), of[2] = {nh_call(d, NH_COS, angle), nh_call(d, NH_SIN, angle)};
+    nh_ex of[2] = {nh_call(d, NH_COS, angle), nh_call(d, NH_SIN, angle)};
     for (int i = 0; i < 2; i++) {
         quadratic p;
-        nh_ex e = nh_substitute(d, base, 1, &of[i], &z);
-        if (has_coordinates(x, e) || !nh_depends(d, e, z) || !read_quadratic(d, e, z, &p)) continue;
-        if (!nh_is_zero(d, p.b)) continue;
+        if (power_of_wave(x, base, of[i], &p) != SQUARE || !nh_is_zero(d, p.b)) continue;
         quadratic other = {.a = nh_add(d, p.a, p.c), .b = p.b, .c = nh_neg(d, p.c)};
         append(l, primitive_of_root(x, &p, of[i], base));
         append(l, primitive_of_root(x, &other, of[1 - i], base));
