@@ -49,6 +49,12 @@ static const published PUBLISHED[] = {
     {"robot of fixed orientation",
      "parameters: {m: 2, I: 0.7, J: 0.4, R: 0.5}\ncoordinates: [x, y, {name: th, type: angle}, {name: psi, type: angle}]\n"
      "lagrangian: m*(x'^2 + y'^2)/2 + I*th'^2/2 + 3*J*psi'^2/2\nconstraints: [\"x' = R*cos(th)*psi'\", \"y' = R*sin(th)*psi'\"]\n", 6, 3},
+    /* J. Koiller, Arch. Rational Mech. Anal. 118 (1992) 113: a cart on two wheels, here of different radii.  The rate of turning times an exponential of what both
+       wheels have rolled; and waves in h, the frequency of which has more digits than 32 bits */
+    {"cart on two wheels",
+     "parameters: {m: 2.3117, J: 0.91703, a: 0.4517, r: 0.25, R: 0.31}\ncoordinates: [x, y, {name: h, type: angle}, {name: p, type: angle}, {name: q, type: angle}]\n"
+     "lagrangian: m*(x'^2 + y'^2)/2 + m*a*h'*(y'*cos(h) - x'*sin(h)) + J*h'^2/2\n"
+     "constraints: [\"x'*sin(h) = y'*cos(h)\", \"x'*cos(h) + y'*sin(h) - h' = r*p'\", \"x'*cos(h) + y'*sin(h) + h' = R*q'\"]\ndomain: {h: [-1.2, 1.2]}\n", 5, 2},
     /* C. R. Holt, J. Math. Phys. 23 (1982) 1037; J. Hietarinta, Phys. Rep. 147 (1987) 87: degrees 3, 4 and 6 */
     {"Holt, 3/4", "parameters: {d: 0.3}\n" PLANE "3/4*x^(4/3) - (y^2 + d)*x^(-2/3)\n" QUADRANT, 2, 6},
     {"Holt, 9/2", PLANE "9/2*x^(4/3) - y^2*x^(-2/3)\n" QUADRANT, 2, 6},

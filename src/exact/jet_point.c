@@ -58,8 +58,9 @@ static bool note(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex key, uint64_t o
         k = &x->kernel[x->kernels++];
         *k = (nh_jet_kernel){.kind = kind, .key = key, .order = 1};
     }
-    if (order > most_order / k->order) x->obstacle = "multiples of one angle or exponent with large denominators";
-    else k->order *= order / (uint64_t)nh_gcd((int64_t)k->order, (int64_t)order);
+    uint64_t finer = order / (uint64_t)nh_gcd((int64_t)k->order, (int64_t)order);
+    if (finer > most_order / k->order) x->obstacle = "multiples of one angle or exponent with large denominators";
+    else k->order *= finer;
     return !x->obstacle;
 }
 

@@ -9,6 +9,7 @@
 #include "search/stage_solver.h"
 #include "search/naming.h"
 #include "search/stages.h"
+#include "search/volume_rate.h"
 
 enum { most_values = 24, most_rates = 4 };
 /* a double eigenvalue comes as two that differ by the root of rounding; their mean is right to rounding */
@@ -386,6 +387,18 @@ static void potential_rate(nh_stage_solver *x)
         pencil_stage(x, V, 0, "the potential", NH_PENCIL_PRODUCTS);
 }
 
+/* exp(-nu Q) f where volumes grow like exp(Q): the velocities of a body on wheels fall and grow with combinations of the
+   wheels' angles. */
+static void volume_rate(nh_stage_solver *x)
+{
+    const nh_model *o = x->r->model;
+    if ((o->k == 0 && !o->system->has_forces) || nh_stage_solver_done(x)) return;
+    nh_ex Q = nh_volume_rate_potential(o, &x->words, (size_t)x->r->options.proof_terms);
+    bool found = !Q || nh_kind_of(o->dag, Q) == NH_SYMBOL;
+    for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_stage_solver_done(x) && !found; base++)
+        found = pencil_stage(x, Q, 0, "the logarithm of the invariant density", base);
+}
+
 /* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it
    found. */
 void nh_rates_search(nh_stage_solver *x)
@@ -412,5 +425,6 @@ void nh_rates_search(nh_stage_solver *x)
             pencil_stage(x, q, 0, name, base);
     }
     powers(x);
+    volume_rate(x);
     potential_rate(x);
 }
