@@ -183,7 +183,7 @@ NH_API size_t nh_simulation_columns(const nh_simulation *simulation);
 NH_API const char *nh_simulation_column(const nh_simulation *simulation, size_t column);
 NH_API double nh_simulation_value(const nh_simulation *simulation, size_t row, size_t column);
 NH_API void nh_simulation_read(const nh_simulation *simulation, size_t column, double *out); /* all rows */
-/* One column against another as an SVG picture, with one scale on both axes where x is not the time; NULL: there is no such column.  Free the string by nh_string_free. */
+/* One column against another as an SVG picture, with one scale on both axes where both are positions; NULL: there is no such column.  Free the string by nh_string_free. */
 NH_API char *nh_simulation_svg(const nh_simulation *simulation, size_t x, size_t y);
 
 /* ---- equations of motion ---- */

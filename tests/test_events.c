@@ -270,7 +270,7 @@ Test(events, errors_say_where)
         {"--section \"phi; phi'\"", "--section needs one expression, found 2"},
         {"--section phi --axes 'phi, ph'", "did you mean `phi`?"},
         {"--section phi --axes phi", "--axes needs two columns"},
-        {"--axes \"phi, phi'\"", "--axes without --section"},
+        {"--axes 'phi, ph'", "--axes: `ph` is not a column of the table\nhint: did you mean `phi`?"},
         {"--event phi --ensemble 3", "--ensemble, and --event as well"},
         {"--event 'phi, stop' --accuracy 1e-6", "leave out `stop` or --accuracy"},
     };

@@ -167,6 +167,68 @@ Test(simulate, a_picture_shows_what_is_watched)
     place_clear(&p);
 }
 
+/* How wide and high the first curve of a picture is, in its units. */
+static void extent(const char *svg, double size[2])
+{
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+    const char *c = strstr(svg, "<path");
+    c = c ? strstr(c, " d=\"") : NULL;
+    cr_assert(c, "no curve in %.200s", svg);
+    size_t axis = 0;
+    for (c += 4; *c && *c != '"';) {
+        char *end;
+        double number = strtod(c, &end);
+        if (end == c) {
+            c++;
+            continue;
+        }
+        low[axis] = fmin(low[axis], number);
+        high[axis] = fmax(high[axis], number);
+        axis = !axis;
+        c = end;
+    }
+    for (axis = 0; axis < 2; axis++) size[axis] = high[axis] - low[axis];
+}
+
+/* --axes: a circle is a circle in the plane, and an orbit in phase space fills the picture; members of several motions have their values as names. */
+Test(simulate, pictures_of_two_columns)
+{
+    static const struct {
+        const char *options;
+        bool circle;
+        size_t paths, names, fans; /* curves; names of the legend; thin curves */
+    } cases[] = {
+        {"--initial \"x=1, y'=1\" --axes 'x, y'", true, 1, 0, 0},
+        {"--initial \"x=1\" --axes \"x, x'\"", false, 1, 0, 0},
+        {"--initial \"x=1\" --axes \"t, x'\"", false, 1, 0, 0},
+        {"--initial \"y'=1\" --over x=1:3:3 --axes 'x, y'", false, 3, 3, 0},
+        {"--initial \"y'=1\" --over k=1:3:3 --over x=1,2 --axes 'x, y'", false, 6, 6, 0},
+        {"--initial \"y'=1\" --over k=1:3:5 --over x=1,2", false, 10, 0, 10},
+        {"--initial \"x=1, y'=1\" --ensemble 9 --axes 'x, y'", true, 9, 0, 9},
+    };
+    place p = place_make();
+    write_here(&p, "plane.yaml", "parameters: {k: 1}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - k*(x^2 + y^2))/2\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "$N simulate plane.yaml --until 6.3 %s --svg a.svg --quiet", cases[i].options);
+        finished f = run_shell(&p, line);
+        char *a = read_here(&p, "a.svg");
+        cr_assert(f.code == 0 && a && !*f.out, "%s: %s%s", cases[i].options, f.out, f.err);
+        double size[2];
+        size_t paths = 0, names = 0, fans = 0;
+        extent(a, size);
+        for (const char *c = a; (c = strstr(c, "<path")); c++) paths++;
+        for (const char *c = a; (c = strstr(c, "class=\"legend\"")); c++) names++;
+        for (const char *c = a; (c = strstr(c, "stroke-opacity=\"0.5\"")); c++) fans++;
+        cr_expect(paths == cases[i].paths && names == cases[i].names && fans == cases[i].fans, "%s: %zu curves, %zu names, %zu thin", cases[i].options, paths, names, fans);
+        if (i < 2) cr_expect((fabs(size[0] - size[1]) < 1) == cases[i].circle, "%s: %g x %g", cases[i].options, size[0], size[1]);
+        if (i == 4) cr_expect(strstr(a, "k = 2, x = 1<"), "%s", a);
+        free(a);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 Test(simulate, tables_of_initial_states_and_parameters)
 {
     static const struct {

@@ -33,7 +33,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_watch,       "watch",       required_argument, "\"x, T=m/2*v^2\"",   "simulate", "only these quantities, from the smallest model that determines them")                \
     X(opt_event,       "event",       required_argument, "\"y = 0, falling, stop\"", "simulate", "zeros of an expression along the motion: rising, falling or both; stop: the first ends it; repeatable") \
     X(opt_section,     "section",     required_argument, "\"x, rising\"",       "simulate", "a Poincare section: a row for each zero of the expression, instead of the motion's table") \
-    X(opt_axes,        "axes",        required_argument, "\"y, y'\"",            "simulate", "the two columns that the picture of a section shows") \
+    X(opt_axes,        "axes",        required_argument, "\"y, y'\"",            "simulate", "the two columns that the picture shows: a path, or a phase portrait; else columns over time") \
     X(opt_scene,       "scene",       no_argument,       "",                   "simulate", "only the quantities of the analysis file")                             \
     X(opt_accuracy,    "accuracy",    required_argument, "EPS",                "analyze simulate reduce", "largest error of the motions; the program chooses and checks method and tolerance") \
     X(opt_ensemble,    "ensemble",    required_argument, "N",                  "simulate", "N motions at once, from states around the initial state")             \

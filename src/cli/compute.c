@@ -105,23 +105,18 @@ int nh_cli_classify(nh_cli *cli, nh_error *error)
     return documented(cli, error);
 }
 
-/* Several motions are one table. */
+/* Several motions are one table, or one picture. */
 static bool one_table(const nh_cli *cli, nh_error *error)
 {
     const nh_request *q = &cli->ask;
     if (!q->table && !q->overs) return true;
     if (q->table && q->overs)
         return lacks(error, "--initial-table, and --over as well", "write the values of --over into the table");
-    const char *document = nh_cli_wants_document(cli), *other = q->ensemble   ? "ensemble"
-                                                                : cli->folder ? "output"
-                                                                : document    ? document
-                                                                : q->section  ? NULL
-                                                                : cli->svg    ? "svg"
-                                                                : cli->pdf    ? "pdf"
-                                                                              : NULL;
+    const char *document = nh_cli_wants_document(cli),
+               *other = q->ensemble ? "ensemble" : cli->folder ? "output" : document;
     if (!other) return true;
     nh_fail(error, NH_USAGE, "", "--%s, and --%s as well", q->overs ? "over" : "initial-table", other);
-    return nh_error_hint(error, "several motions are one table, or JSON");
+    return nh_error_hint(error, "several motions are one table (--csv), one picture (--svg) or one JSON");
 }
 
 int nh_cli_simulate(nh_cli *cli, nh_error *error)

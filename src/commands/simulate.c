@@ -286,6 +286,7 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
     double until, *times = NULL;
     size_t count;
     s->arena = arena;
+    s->table = q->table;
     if (nh_simulate_read(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
     if (times) s->astray = words_astray(s, &initial);
     if (times && choose_columns(s, q, error) && nh_simulate_events(s, q, error) &&
@@ -349,6 +350,20 @@ nh_simulation *nh_simulation_create(const nh_simulate_request *q, nh_error *erro
         nh_simulation_free(s);
     }
     return simulate_in_chart(q, error);
+}
+
+/* A coordinate that is no angle. */
+static bool is_position(const nh_simulation *s, size_t column)
+{
+    const nh_system *system = s->system;
+    for (size_t i = 0; i < system->coordinates; i++)
+        if (s->columns.track[column].value == system->coordinate[i].q) return system->coordinate[i].type != NH_ANGLE;
+    return false;
+}
+
+bool nh_simulation_is_path(const nh_simulation *s, size_t x, size_t y)
+{
+    return is_position(s, x) && is_position(s, y);
 }
 
 void nh_simulation_free(nh_simulation *s)

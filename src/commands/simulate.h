@@ -10,6 +10,7 @@
 /* A motion of a table. */
 typedef struct {
     const char *initial, *from; /* as behind --initial, or NULL; file and line */
+    const char *name;           /* its cells: "omega = 1, k = 2" */
     size_t settings;
     nh_setting *setting;        /* of the columns that are parameters */
 } nh_simulate_row;
@@ -38,7 +39,7 @@ typedef struct {
     const char *watch;                       /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
     const char *event;   /* "y = 0, falling, stop; phi'": zeros that are recorded, or end the motion; or NULL */
     const char *section; /* "x, rising": a Poincare section; or NULL */
-    const char *axes;    /* "y, y'": the columns of its picture; NULL: chosen */
+    const char *axes;    /* "y, y'": the columns of the picture; NULL: chosen */
     bool scene;                              /* the same with what the analysis file watches */
     bool draw;                               /* follow what is drawn, too (one motion with all columns) */
     /* project: velocities that violate the constraints are moved onto them */
@@ -55,6 +56,8 @@ typedef struct {
     double spread;
     nh_options options;
 } nh_simulate_request;
+
+enum { NH_AXIS_TIME = -1 }; /* the time instead of a column */
 
 struct nh_simulation {
     nh_arena *arena;
@@ -76,7 +79,9 @@ struct nh_simulation {
     size_t events;             /* those of --event, then that of --section */
     nh_simulated_event *event;
     bool has_section;
-    size_t axis[2];       /* columns of the section's picture */
+    bool has_axes;        /* of --axes */
+    int axis[2];          /* columns of the picture; of a section, of --axes, or of several motions */
+    const nh_simulate_rows *table; /* of the request */
     nh_motion *motion;    /* its states are those of the scene, where there is one */
     double *value;        /* motion->count x columns.count, row by row */
     nh_programs *programs; /* of a method with fixed steps */
@@ -102,6 +107,9 @@ nh_simulation *nh_simulation_create(const nh_simulate_request *request, nh_error
 /* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model).  `from`: where it is
    written, for messages; NULL: --initial. */
 nh_analysis_file *nh_simulate_initial(const char *from, const char *initial, nh_error *error);
+
+/* Are both columns positions of one kind of unit, so that a picture of one against the other has one scale? */
+bool nh_simulation_is_path(const nh_simulation *simulation, size_t x, size_t y);
 
 /* The first part of it, into a simulation that has an arena and nothing else: system, analysis, model, tolerance, the
  * initial state (one on the constraints where none is given) and the final time.  Also on failure:

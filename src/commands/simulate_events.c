@@ -115,14 +115,15 @@ static bool allowed(const nh_simulate_request *q, nh_simulation *s, nh_error *er
 }
 
 /* The column of that name. */
-static bool find_column(nh_simulation *s, piece p, size_t *out, nh_error *error)
+static bool find_column(nh_simulation *s, piece p, int *out, nh_error *error)
 {
     const char **name = nh_arena_alloc(s->arena, (s->columns.count + 1) * sizeof *name);
     size_t n = 0;
     for (; n < s->columns.count && s->columns.track[n].kind != NH_TRACK_SHAPE; n++) {
         name[n] = s->columns.track[n].name;
-        if (says(p, name[n])) return *out = n, true;
+        if (says(p, name[n])) return *out = (int)n, true;
     }
+    if (says(p, "t")) return *out = NH_AXIS_TIME, true;
     const char *word = nh_arena_strndup(s->arena, p.from, p.length), *near = nh_text_nearest(word, name, n);
     nh_fail(error, NH_USAGE, "", "--axes: `%s` is not a column of the table", word);
     return near ? nh_error_hint(error, "did you mean `%s`?", near)
@@ -145,12 +146,15 @@ static bool is_column_of(const nh_simulation *s, size_t k, nh_ex e)
     return k < s->columns.count && s->columns.track[k].value == e;
 }
 
-/* The first two watched quantities; else the first coordinate that the section leaves free, and its velocity. */
+/* Over time the first quantity.  Of a section the first two watched quantities; else the first coordinate that the
+   section leaves free, and its velocity. */
 static void choose_axes(nh_simulation *s, const nh_simulate_request *q)
 {
     const nh_model *o = s->model;
     const nh_simulated_event *section = &s->event[s->events - 1];
-    s->axis[0] = 0;
+    s->axis[0] = q->section ? 0 : NH_AXIS_TIME;
+    s->axis[1] = 0;
+    if (!q->section) return;
     s->axis[1] = s->columns.count > 1;
     for (size_t i = 0; i < o->m && !q->watch && !q->scene; i++) {
         nh_ex coordinate = o->system->coordinate[i].q;
@@ -160,8 +164,8 @@ static void choose_axes(nh_simulation *s, const nh_simulate_request *q)
         if (nh_depends(o->dag, section->event.e, coordinate) || at == s->columns.count ||
             !is_column_of(s, i, coordinate))
             continue;
-        s->axis[0] = i;
-        s->axis[1] = at;
+        s->axis[0] = (int)i;
+        s->axis[1] = (int)at;
         return;
     }
 }
@@ -169,10 +173,6 @@ static void choose_axes(nh_simulation *s, const nh_simulate_request *q)
 bool nh_simulate_events(nh_simulation *s, const nh_simulate_request *q, nh_error *error)
 {
     s->event = nh_arena_alloc(s->arena, (entries(q->event) + entries(q->section)) * sizeof *s->event);
-    if (q->axes && !q->section) {
-        nh_fail(error, NH_USAGE, "", "--axes without --section");
-        return nh_error_hint(error, "--watch chooses the curves of other pictures");
-    }
     if (q->event && !read_events(s, "--event", q->event, false, error)) return false;
     size_t before = s->events;
     if (q->section && !read_events(s, "--section", q->section, true, error)) return false;
@@ -182,7 +182,7 @@ bool nh_simulate_events(nh_simulation *s, const nh_simulate_request *q, nh_error
     }
     if (s->events && !allowed(q, s, error)) return false;
     s->has_section = q->section != NULL;
-    if (!q->section) return true;
+    s->has_axes = q->axes != NULL;
     if (q->axes) return read_axes(s, q->axes, error);
     return choose_axes(s, q), true;
 }

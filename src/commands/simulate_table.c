@@ -74,13 +74,15 @@ static void keep_given(const char *given, size_t columns, const char *const *nam
 static bool read_row(nh_arena *arena, const char *given, const nh_table *t, size_t row, const char *const *name,
                      const column_kind *kind, nh_simulate_row *out, nh_error *error)
 {
-    nh_text words;
+    nh_text words, cells;
     nh_text_init(&words);
+    nh_text_init(&cells);
     bool good = true;
     out->from = nh_arena_printf(arena, "%s:%zu", t->path, t->line[row]);
     out->setting = nh_arena_alloc(arena, t->columns * sizeof *out->setting);
     for (size_t j = 0; j < t->columns && good; j++) {
         const char *cell = t->cell[row * t->columns + j];
+        if (*cell) nh_text_addf(&cells, "%s%s = %s", cells.length ? ", " : "", name[j], cell);
         if (kind[j] == COLUMN_STATE && *cell) nh_text_addf(&words, "%s%s=%s", words.length ? ", " : "", name[j], cell);
         if (kind[j] == COLUMN_STATE) continue;
         nh_setting *p = &out->setting[out->settings++];
@@ -89,7 +91,9 @@ static bool read_row(nh_arena *arena, const char *given, const nh_table *t, size
     }
     if (words.length) keep_given(given, t->columns, name, &words);
     out->initial = words.length ? nh_arena_strdup(arena, nh_text_string(&words)) : NULL;
+    out->name = nh_arena_strdup(arena, nh_text_string(&cells));
     nh_text_clear(&words);
+    nh_text_clear(&cells);
     return good;
 }
 

@@ -16,7 +16,8 @@ void nh_simulation_write(const nh_simulation *simulation, const nh_run *run, nh_
 /* The member `accuracy` of a motion; null when a is NULL. */
 void nh_accuracy_json(const nh_accuracy *a, nh_json *root);
 
-/* A picture: what is watched, or the coordinates, over time; of an ensemble one quantity of all members. */
+/* A picture: the section; else the columns of --axes; else what is watched, or the coordinates, over time, and of an
+   ensemble one quantity of all members. */
 void nh_motion_svg(const nh_simulation *simulation, nh_text *out);
 
 /* Events of --event as a table: event, direction, t and the columns of the motion; points of --section: t and these
@@ -29,15 +30,17 @@ size_t nh_events_of(const nh_simulation *simulation, size_t which);
 /* Both on a page. */
 void nh_events_write(nh_pen *pen, const nh_simulation *simulation);
 
-/* The points of the sections of several motions, in two of their columns.  Zeros are an empty one. */
+/* One motion or several in a picture of two of their columns: curves, or the points of their sections.  `name` is what
+ * the legend calls the motion, or NULL.  Zeros are an empty picture. */
 typedef struct {
     size_t members;
     nh_curve *curve;
+    bool named, timed, equal;
     char title[300], x_label[100], y_label[100];
-} nh_section_plot;
-void nh_section_plot_add(nh_section_plot *plot, const nh_simulation *simulation);
-nh_plot nh_section_plot_of(const nh_section_plot *plot);
-void nh_section_plot_clear(nh_section_plot *plot);
+} nh_motion_plot;
+void nh_motion_plot_add(nh_motion_plot *plot, const nh_simulation *simulation, const char *name);
+nh_plot nh_motion_plot_of(const nh_motion_plot *plot);
+void nh_motion_plot_clear(nh_motion_plot *plot);
 
 /* The same of an ensemble: a column `member` in front; a list of objects. */
 void nh_ensemble_csv(const nh_simulation *simulation, nh_text *out);

@@ -1,8 +1,6 @@
-/* simulation_events: the events and the section of a motion, for a page, and as a picture. */
+/* simulation_events: the events and the section of a motion, for a page. */
 #include <stdio.h>
-#include <string.h>
 
-#include "base/memory.h"
 #include "document/simulation.h"
 
 enum { most_rows = 40, most_columns = 8 };
@@ -14,64 +12,6 @@ size_t nh_events_of(const nh_simulation *s, size_t which)
     size_t n = 0;
     for (size_t i = 0; s->motion && i < s->motion->events; i++) n += s->motion->event[i].which == which;
     return n;
-}
-
-/* ---- the picture of a section ---- */
-
-/* The value of one column at each point of the section. */
-static double *column_of(const nh_simulation *s, size_t column, size_t points)
-{
-    double *out = nh_alloc_array(points + 1, sizeof *out);
-    size_t n = 0;
-    for (size_t i = 0; i < s->motion->events; i++)
-        if (s->motion->event[i].which + 1 == s->events)
-            out[n++] = s->trajectory->event_value[i * s->columns.count + column];
-    return out;
-}
-
-void nh_section_plot_add(nh_section_plot *plot, const nh_simulation *s)
-{
-    size_t points = nh_events_of(s, s->events - 1), n = plot->members++;
-    nh_curve *all = nh_alloc_array(plot->members, sizeof *all);
-    if (n) memcpy(all, plot->curve, n * sizeof *all);
-    else {
-        snprintf(plot->x_label, sizeof plot->x_label, "%s", s->columns.track[s->axis[0]].name);
-        snprintf(plot->y_label, sizeof plot->y_label, "%s", s->columns.track[s->axis[1]].name);
-        snprintf(plot->title, sizeof plot->title, "%.150s: section %.100s, %s", s->system->title,
-                 s->event[s->events - 1].name, nh_direction_word(s->event[s->events - 1].event.direction));
-    }
-    nh_free(plot->curve);
-    all[n] = (nh_curve){.name = plot->y_label,
-                        .count = points,
-                        .x = column_of(s, s->axis[0], points),
-                        .x_stride = 1,
-                        .y = column_of(s, s->axis[1], points),
-                        .y_stride = 1,
-                        .dots = true};
-    plot->curve = all;
-}
-
-nh_plot nh_section_plot_of(const nh_section_plot *plot)
-{
-    return (nh_plot){.id = "section",
-                     .title = plot->title,
-                     .description = plot->title,
-                     .x_label = plot->x_label,
-                     .y_label = plot->y_label,
-                     .fan = true,
-                     .curves = plot->members,
-                     .curve = plot->curve};
-}
-
-void nh_section_plot_clear(nh_section_plot *plot)
-{
-    for (size_t i = 0; i < plot->members; i++) {
-        nh_free((double *)plot->curve[i].x);
-        nh_free((double *)plot->curve[i].y);
-    }
-    nh_free(plot->curve);
-    plot->curve = NULL;
-    plot->members = 0;
 }
 
 /* ---- the page ---- */
@@ -115,11 +55,11 @@ void nh_events_write(nh_pen *p, const nh_simulation *s)
     if (!s->events) return;
     nh_pen_section(p, "events", s->has_section ? "Section" : "Events");
     if (s->has_section && nh_events_of(s, s->events - 1)) {
-        nh_section_plot plot = {0};
-        nh_section_plot_add(&plot, s);
-        nh_plot picture = nh_section_plot_of(&plot);
+        nh_motion_plot plot = {0};
+        nh_motion_plot_add(&plot, s, NULL);
+        nh_plot picture = nh_motion_plot_of(&plot);
         nh_pen_plot(p, &picture, plot.title);
-        nh_section_plot_clear(&plot);
+        nh_motion_plot_clear(&plot);
     }
     for (size_t i = 0; i < s->events; i++) {
         if (nh_events_of(s, i)) table(p, s, i);

@@ -63,6 +63,18 @@ static void fans(nh_pen *p, const nh_simulation *s)
     }
 }
 
+/* What --axes asks for; a section has its own place. */
+static void columns_against_one_another(nh_pen *p, const nh_simulation *s)
+{
+    if (!s->has_axes || s->has_section) return;
+    nh_motion_plot plot = {0};
+    nh_motion_plot_add(&plot, s, NULL);
+    nh_plot picture = nh_motion_plot_of(&plot);
+    picture.id = "axes";
+    nh_pen_plot(p, &picture, plot.title);
+    nh_motion_plot_clear(&plot);
+}
+
 void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     nh_pen pen, *p = &pen;
@@ -79,6 +91,7 @@ void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_style
     nh_pen_section(p, "motion", "Motion");
     if (c) p->ink->series(p->to, c);
     else fans(p, s);
+    columns_against_one_another(p, s);
     nh_events_write(p, s);
     nh_pen_words(p, "%.10g evaluations of the equations, %.3g seconds of integration.",
                  (double)(e ? e->evaluations : s->motion->evaluations), e ? e->seconds : s->motion->seconds);

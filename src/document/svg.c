@@ -325,7 +325,7 @@ static void curve(const canvas *c, const nh_curve *f, size_t k)
         colour[k % colours], c->plot->fan ? "0.9\" stroke-opacity=\"0.5" : "1.8",
         dashes[k % (sizeof dashes / sizeof *dashes)]);
     nh_polyline p = {.out = c->out};
-    bool cubic = c->plot->equal && !thin && f->count > 3;
+    bool cubic = (c->plot->equal || c->plot->path) && !thin && f->count > 3;
     if (cubic) smooth(c, f);
     for (size_t i = 0; i < f->count && !cubic; i++)
         if (!visible(c, f, i, &x, &y)) nh_polyline_end(&p);

@@ -34,6 +34,7 @@ typedef struct {
     const double *also_x, *also_y; /* two values each that the axes hold, too: plots beside one another; or NULL */
     bool fan;                    /* many curves of one quantity: thin, in one colour, without a legend */
     bool timed;                  /* x is the time: a page may move a cursor along it */
+    bool path;                   /* points follow one another at equal times: drawn without corners, as with `equal` */
     size_t curves;
     const nh_curve *curve;
     const nh_cells *cells;       /* under the curves; or NULL */

@@ -7,11 +7,11 @@
 #include "document/simulation.h"
 #include "library/answer_internal.h"
 
-/* Motions that are computed one by one: a table or a JSON, and what a picture of their sections needs. */
+/* Motions that are computed one by one: a table or a JSON, and their picture. */
 typedef struct {
     nh_text table;
     nh_json *root; /* or NULL */
-    nh_section_plot section;
+    nh_motion_plot picture;
 } series;
 
 nh_simulate_request nh_answer_motion(const nh_request *q)
@@ -58,7 +58,7 @@ static bool run_row(const nh_answer *a, nh_simulate_request q, size_t index, con
     q.settings += row->settings;
     if (row->initial) q.initial = row->initial, q.from = row->from;
     nh_simulation *s = nh_simulation_create(&q, error);
-    if (s && q.section) nh_section_plot_add(&all->section, s);
+    if (s) nh_motion_plot_add(&all->picture, s, row->name);
     if (s && all->root) nh_member_json(s, row, &a->run, all->root), *complete = *complete && s->motion->complete;
     if (s && (!all->root || a->request->csv)) nh_member_csv(s, index, row, &all->table);
     if (s) complain(s, error);
@@ -153,7 +153,7 @@ static void simulation_free(nh_answer *a)
     if (a->part[0]) nh_simulation_free(a->part[0]);
     if (!all) return;
     nh_text_clear(&all->table);
-    nh_section_plot_clear(&all->section);
+    nh_motion_plot_clear(&all->picture);
     nh_free(all);
 }
 
@@ -202,7 +202,7 @@ static size_t simulation_files(const nh_answer *a, nh_answer_file file[NH_ANSWER
     return n;
 }
 
-/* The motion; the sections of all motions in one picture. */
+/* The motion; all motions in one picture. */
 static void simulation_picture(const nh_answer *a, nh_text *svg)
 {
     const series *all = a->part[1];
@@ -210,7 +210,7 @@ static void simulation_picture(const nh_answer *a, nh_text *svg)
         nh_motion_svg(a->part[0], svg);
         return;
     }
-    nh_plot plot = nh_section_plot_of(&all->section);
+    nh_plot plot = nh_motion_plot_of(&all->picture);
     nh_svg_plot(&plot, svg);
 }
 

@@ -199,8 +199,9 @@ static void draw(void *argument)
                     .title = up,
                     .x_label = across,
                     .y_label = up,
-                    .equal = x > 0,
+                    .equal = x > 0 && y > 0 && nh_simulation_is_path(s, x - 1, y - 1),
                     .timed = x == 0,
+                    .path = x > 0,
                     .curves = 1,
                     .curve = &curve};
     nh_text  text, words;
