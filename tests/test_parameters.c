@@ -197,6 +197,14 @@ Test(parameters, only_the_special_one_is_fixed)
                                {"", "--set m=0.9127 --set k=1.1371"}, 2});
 }
 
+/* Stiffnesses 1, 4, 7 make a - 2 b + c zero, and with it a term of the integral of a particle on a sphere. */
+Test(parameters, no_term_vanishes_at_the_given_values)
+{
+    sweep_plain_only();
+    expect_names(&(named_case){"name: s\nparameters: {a: 1, b: 4, c: 7}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2 - a*x^2 - b*y^2 - c*z^2)/2\n"
+                               "constraints: [\"z' = -(x*x' + y*y')/z\"]\n", {"", "--set b=2.3 --set c=9"}, 3});
+}
+
 /* What the first value of an unknown is called. */
 static void expect_unknown(const cJSON *root, const char *set, const char *unknown, const char *name)
 {

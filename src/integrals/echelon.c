@@ -34,10 +34,10 @@ static nh_nullspace *echelon_of_terms(const nh_model *model, const nh_points *po
 
 typedef struct {
     size_t terms, dimension;
-    double *v;       /* terms x dimension, each row scaled by its term's size */
-    double *size;    /* of the terms over the samples */
-    size_t *order;   /* terms, most complex first */
-    size_t *pivot;   /* per vector */
+    double *v;     /* terms x dimension, each row scaled by its term's size */
+    double *size;  /* of the terms over the samples */
+    size_t *order; /* terms, most complex first */
+    size_t *pivot; /* per vector */
 } table;
 
 /* Root mean square of each term about its mean. */
@@ -66,10 +66,20 @@ static int most_complex_first(const void *a, const void *b)
     return x->index < y->index ? 1 : -1;
 }
 
-static void order_terms(const nh_ansatz *a, size_t *order)
+static bool is_among(size_t n, const nh_ex *e, nh_ex x)
 {
+    for (size_t i = 0; i < n; i++)
+        if (e[i] == x) return true;
+    return false;
+}
+
+/* Wanted pivots come before all others. */
+static void order_terms(const nh_ansatz *a, size_t pivots, const nh_ex *pivot, size_t *order)
+{
+    enum { before_all = 1 << 30 };
     ranked *r = nh_alloc_array(a->terms + 1, sizeof *r);
-    for (size_t j = 0; j < a->terms; j++) r[j] = (ranked){j, nh_complexity(a->dag, a->term[j])};
+    for (size_t j = 0; j < a->terms; j++)
+        r[j] = (ranked){j, nh_complexity(a->dag, a->term[j]) + (is_among(pivots, pivot, a->term[j]) ? before_all : 0)};
     qsort(r, a->terms, sizeof *r, most_complex_first);
     for (size_t j = 0; j < a->terms; j++) order[j] = r[j].index;
     nh_free(r);
@@ -138,7 +148,7 @@ static void reduce(table *t, double small)
 }
 
 static table make_table(const nh_model *model, const nh_points *points, const nh_ansatz *a, const nh_nullspace *n,
-                        size_t count, double small)
+                        size_t count, size_t pivots, const nh_ex *pivot, double small)
 {
     table t = {.terms = a->terms, .dimension = count};
     t.v = nh_alloc_array(t.terms * t.dimension + 1, sizeof *t.v);
@@ -146,7 +156,7 @@ static table make_table(const nh_model *model, const nh_points *points, const nh
     t.order = nh_alloc_array(t.terms + 1, sizeof *t.order);
     t.pivot = nh_alloc_array(t.dimension + 1, sizeof *t.pivot);
     term_sizes(model, points, a, t.size);
-    order_terms(a, t.order);
+    order_terms(a, pivots, pivot, t.order);
     for (size_t k = 0; k < t.dimension; k++)
         for (size_t c = 0; c < a->columns; c++) {
             double x = n->vector[c + k * n->columns];
@@ -246,7 +256,14 @@ static size_t candidate_complexity(const nh_dag *dag, const nh_candidate *c)
 nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz,
                           const nh_nullspace *nullspace, size_t count, const nh_options *options)
 {
-    table t = make_table(model, points, ansatz, nullspace, count, options->support);
+    return nh_echelon_with_pivots(model, points, ansatz, nullspace, count, 0, NULL, options);
+}
+
+nh_candidates *nh_echelon_with_pivots(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz,
+                                      const nh_nullspace *nullspace, size_t count, size_t pivots, const nh_ex *pivot,
+                                      const nh_options *options)
+{
+    table t = make_table(model, points, ansatz, nullspace, count, pivots, pivot, options->support);
     nh_candidates *list = nh_alloc(sizeof *list);
     list->arena = nh_arena_create();
     list->candidate = take(list, t.dimension, sizeof *list->candidate);

@@ -33,6 +33,10 @@ nh_nullspace_options nh_nullspace_options_from(const nh_options *options);
 /* Echelon form of the first `count` vectors (nullspace->dimension, or ->likely): coefficients to about seven digits. */
 nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz,
                           const nh_nullspace *nullspace, size_t count, const nh_options *options);
+/* The same with these terms as pivots, as far as some vector has a part in them. */
+nh_candidates *nh_echelon_with_pivots(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz,
+                                      const nh_nullspace *nullspace, size_t count, size_t pivots, const nh_ex *pivot,
+                                      const nh_options *options);
 /* The smallest support of a candidate that satisfies the equations as well as the null space did, fitted again. */
 void nh_echelon_refine(const nh_model *model, const nh_points *points, nh_candidate *candidate,
                        const nh_options *options);

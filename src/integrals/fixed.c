@@ -151,6 +151,16 @@ static bool is_related(const bool *fixed, void *context)
     return true;
 }
 
+bool nh_fixed_relation_of_symbols(const nh_model *o, size_t n, const nh_ex *e, const double *like,
+                                  const nh_options *options, nh_ex *coefficient)
+{
+    nh_ex *work = nh_alloc_array(2 * n + o->system->parameters + 1, sizeof *work);
+    problem p = {o, n, (size_t)options->proof_terms, e, like, work, work + n, work + 2 * n, coefficient};
+    bool found = relation(&p, NULL, coefficient) == NH_RELATION_UNIQUE;
+    nh_free(work);
+    return found;
+}
+
 nh_fixed nh_fixed_relation(const nh_model *o, size_t n, const nh_ex *e, const double *like, const nh_options *options,
                            nh_ex *coefficient)
 {

@@ -23,6 +23,10 @@ typedef struct {
 nh_fixed nh_fixed_relation(const nh_model *model, size_t n, const nh_ex *e, const double *like,
                            const nh_options *options, nh_ex *coefficient);
 
+/* The same, with every parameter a symbol: false where there is none such. */
+bool nh_fixed_relation_of_symbols(const nh_model *model, size_t n, const nh_ex *e, const double *like,
+                                  const nh_options *options, nh_ex *coefficient);
+
 /* Are the exact coefficients these numbers at the parameters' values, up to a factor?  (A relation may exist that is
    not the one that was fitted.) */
 bool nh_fixed_is_like(const nh_model *model, size_t n, const nh_ex *exact, const double *like);

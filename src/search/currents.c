@@ -361,6 +361,21 @@ static void keep_piece(nh_current_checker *b, const nh_current *f)
     nh_free(phi);
 }
 
+/* A true current, the next of the list: everywhere, or as a piece. */
+static bool keep(nh_current_checker *b, nh_current *f)
+{
+    f->region = hold(b, f);
+    if (f->region && nh_currents_continue(b, f)) f->region = NULL;
+    if (f->region) {
+        keep_piece(b, f);
+        return false;
+    }
+    nh_described_fill(b, f);
+    nh_specials_name(b->result, &f->letters);
+    b->result->count++;
+    return true;
+}
+
 bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_points *fit, bool certain)
 {
     nh_analysis *r = b->result;
@@ -371,16 +386,29 @@ bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_po
     if (nh_coefficients_refuted(f, &r->options) && f->refined >= least_almost && b->nears < NH_MOST_ALMOST)
         b->near[b->nears++] = candidate;
     if (!keeps(b, f, certain) || ((f->moved || !certain) && nh_currents_known(b, f->phi))) return false;
-    f->region = hold(b, f);
-    if (f->region && nh_currents_continue(b, f)) f->region = NULL;
-    if (f->region) {
-        keep_piece(b, f);
-        return false;
-    }
-    nh_described_fill(b, f);
-    nh_specials_name(r, &f->letters);
-    r->count++;
-    return true;
+    return keep(b, f);
+}
+
+/* The coefficients are those of an exact relation with all parameters as symbols. */
+static bool add_related(nh_current_checker *b, nh_ex phi, double quotient)
+{
+    nh_analysis *r = b->result;
+    nh_current *f = next_found(r);
+    *f = (nh_current){.phi = phi, .exact = true, .quotient = quotient};
+    if (nh_currents_known(b, phi)) return false;
+    f->heldout = heldout_residual(r->model, b->heldout, phi);
+    f->proof = nh_prove_claim(r->model, phi, (nh_claim){.free = true, .related = true}, &r->options);
+    return keeps(b, f, true) && keep(b, f);
+}
+
+size_t nh_currents_exchange_last(nh_current_checker *b, nh_ex phi, bool *exchanged)
+{
+    nh_analysis *r = b->result;
+    nh_current last = r->found[--r->count];
+    bool added = add_related(b, phi, last.quotient);
+    *exchanged = added && nh_currents_known(b, last.phi);
+    if (!*exchanged) nh_currents_put(b, &last);
+    return added && !*exchanged;
 }
 
 bool nh_currents_add_series(nh_current_checker *b, nh_ex phi, const nh_series *series, double digits)

@@ -14,6 +14,11 @@ void nh_current_checker_free(nh_current_checker *bench);
  * `certain`: the null space was; otherwise only a certificate makes it a current, and nothing is said without. */
 bool nh_currents_add(nh_current_checker *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
 
+/* The last current holds at the given parameters only, phi for all: phi takes its place where it is a function of phi
+   and the others (`exchanged`).  Where it is none, phi comes before it; where phi is no news, nothing happens.  Returns
+   how many more there are. */
+size_t nh_currents_exchange_last(nh_current_checker *bench, nh_ex phi, bool *exchanged);
+
 /* Append one that was checked before. */
 void nh_currents_put(nh_current_checker *bench, const nh_current *found);
 

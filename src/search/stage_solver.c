@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "exact/normal.h"
 #include "integrals/prove.h"
+#include "search/other_values.h"
 
 enum { range_points = 256, range_points_each = 10, least_points = 256, least_tested = 60, short_factor = 14 };
 static const double points_per_column = 2.5;
@@ -81,34 +82,6 @@ bool nh_stage_solver_done(const nh_stage_solver *x)
     return x->r->independent >= x->r->local_maximum || nh_budget_spent() || nh_late();
 }
 
-/* Certificates of vectors that are only likely are dear and mostly refused: the limit of work ends them too, and leaves
-   the question open. */
-static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_points *fit, bool certain)
-{
-    nh_analysis *r = x->r;
-    size_t before = r->independent;
-    nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
-    compare(x, list, kind);
-    for (size_t k = 0; k < list->count && r->independent < r->local_maximum; k++) {
-        nh_candidate *c = &list->candidate[k];
-        if (!certain && nh_stage_solver_done(x)) {
-            r->open += kind[k] == NH_INDEPENDENT;
-            continue;
-        }
-        if (kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, fit, certain)) {
-            r->independent++;
-            keep_factor(x, r->found[r->count - 1].phi);
-        } else if (c->count == 1 && kind[k] == NH_DEPENDENT) {
-            keep_factor(x, c->term[0]);
-        }
-    }
-    r->independent += nh_currents_join(x->bench, fit);
-    nh_free(kind);
-    /* a series may look independent of what came after it */
-    if (r->independent >= r->local_maximum) nh_currents_recount(x->bench);
-    return r->independent > before ? r->independent - before : 0;
-}
-
 /* ---- one stage ---- */
 
 nh_stage_record *nh_stage_solver_note(nh_stage_solver *x, const char *name)
@@ -167,6 +140,11 @@ static nh_limit limit_of(const nh_stage_solver *x, const nh_sectors *sectors, si
     return (nh_limit){0};
 }
 
+static size_t points_for(const nh_sectors *sectors)
+{
+    return (size_t)fmax(least_points, points_per_column * (double)sectors->largest);
+}
+
 /* Columns are limited by the largest part, and by what can be held at all. */
 nh_solved nh_stage_solver_solve(nh_stage_solver *x, size_t families, const nh_family *family)
 {
@@ -180,7 +158,7 @@ nh_solved nh_stage_solver_solve(nh_stage_solver *x, size_t families, const nh_fa
         return s;
     }
     nh_sectors sectors = split(x, s.ansatz);
-    size_t count = (size_t)fmax(least_points, points_per_column * (double)sectors.largest);
+    size_t count = points_for(&sectors);
     s.sectors = sectors.count;
     s.limit = limit_of(x, &sectors, count);
     if (s.limit.option) {
@@ -227,11 +205,83 @@ bool nh_stage_solver_promising(nh_stage_solver *x, size_t families, const nh_fam
     return nh_stage_solver_news(x, families, family, NULL) > 0;
 }
 
+/* The null space of the stage where the parameters have other values. */
+static void solve_elsewhere(nh_stage_solver *x, const nh_solved *s, size_t pivots, const nh_ex *pivot,
+                            nh_other_values *other)
+{
+    const nh_analysis *r = x->r;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (!nh_other_values_begin(r->model, other)) return;
+    nh_sectors sectors = split(x, s->ansatz); /* in the order in which it is */
+    size_t count = points_for(&sectors);
+    nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
+    nh_nullspace *nullspace = NULL;
+    if (sectors.count && !limit_of(x, &sectors, count).option)
+        other->points = nh_points_create(&other->model, count, 1, (uint64_t)r->options.seed + r->stages, &ignored);
+    if (other->points)
+        nullspace = nh_sectors_solve(&other->model, s->ansatz, &sectors, other->points, &limits,
+                                     nh_threads(r->options.threads), &ignored);
+    if (nullspace) nh_other_values_take(other, s->ansatz, nullspace, pivots, pivot, &r->options);
+    nh_nullspace_free(nullspace);
+    nh_sectors_clear(&sectors);
+}
+
+/* A current that holds at the given values of the parameters only, while another holds for all: that one is wanted. */
+static size_t without_values(nh_stage_solver *x, const nh_solved *s, size_t pivots, const nh_ex *pivot, size_t k,
+                             nh_other_values *other)
+{
+    const nh_analysis *r = x->r;
+    const nh_proof *proof = &r->found[r->count - 1].proof;
+    if (!proof->proved || proof->all_parameters || r->model->system->parameters == 0) return 0;
+    if (!other->tried) solve_elsewhere(x, s, pivots, pivot, other);
+    return nh_other_values_exchange(x->bench, other, pivot[k]);
+}
+
+static nh_ex *pivots_of(const nh_candidates *list)
+{
+    nh_ex *pivot = nh_alloc_array(list->count + 1, sizeof *pivot);
+    for (size_t k = 0; k < list->count; k++) pivot[k] = list->candidate[k].term[list->candidate[k].pivot];
+    return pivot;
+}
+
+/* Certificates of vectors that are only likely are dear and mostly refused: the limit of work ends them too, and leaves
+   the question open. */
+static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_solved *s, bool certain)
+{
+    nh_analysis *r = x->r;
+    size_t before = r->independent, pivots = list->count;
+    nh_ex *pivot = pivots_of(list);
+    nh_other_values other = {0};
+    nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
+    compare(x, list, kind);
+    for (size_t k = 0; k < list->count && r->independent < r->local_maximum; k++) {
+        nh_candidate *c = &list->candidate[k];
+        if (!certain && nh_stage_solver_done(x)) {
+            r->open += kind[k] == NH_INDEPENDENT;
+            continue;
+        }
+        if (kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, s->fit, certain)) {
+            r->independent += 1 + without_values(x, s, pivots, pivot, k, &other);
+            keep_factor(x, r->found[r->count - 1].phi);
+        } else if (c->count == 1 && kind[k] == NH_DEPENDENT) {
+            keep_factor(x, c->term[0]);
+        }
+    }
+    r->independent += nh_currents_join(x->bench, s->fit);
+    nh_free(kind);
+    nh_free(pivot);
+    nh_other_values_clear(&other);
+    /* a series may look independent of what came after it */
+    if (r->independent >= r->local_maximum) nh_currents_recount(x->bench);
+    return r->independent > before ? r->independent - before : 0;
+}
+
 /* The first `count` null vectors, turned into what is new in them. */
 static size_t harvest(nh_stage_solver *x, const nh_solved *s, size_t count, bool certain)
 {
     nh_candidates *list = nh_echelon(x->r->model, s->fit, s->ansatz, s->nullspace, count, &x->r->options);
-    size_t found = add_new(x, list, s->fit, certain);
+    size_t found = add_new(x, list, s, certain);
     nh_candidates_free(list);
     return found;
 }
