@@ -8,6 +8,8 @@
 #include "document/analysis_outline_internal.h"
 #include "document/facts.h"
 #include "document/formula.h"
+#include "exact/normal.h"
+#include "graph/diff.h"
 #include "graph/measure.h"
 #include "graph/print.h"
 
@@ -261,14 +263,37 @@ static void definitions(nh_pen *p, const nh_analysis *r, const nh_current *f, bo
 
 /* ---- a current ---- */
 
+/* The energy as a function of all velocities, v^s dL/dv^s - L; of -E, or E, on the submanifold where that is long. */
+static bool energy_in_all_velocities(const nh_analysis *r, const nh_current *f, nh_ex *E)
+{
+    enum { lengthy = 200 };
+    nh_dag *d = r->model->dag;
+    const nh_system *s = r->system;
+    bool itself = f->energy && (!strcmp(f->meaning, "energy") || !strncmp(f->meaning, "minus", 5));
+    size_t length = itself ? nh_complexity(d, f->phi) : 0;
+    if (length <= lengthy) return false;
+    *E = nh_neg(d, s->lagrangian);
+    for (size_t i = 0; i < r->model->m; i++) {
+        nh_ex v = s->coordinate[i].v;
+        *E = nh_add(d, *E, nh_mul(d, v, nh_diff(d, s->lagrangian, v)));
+    }
+    *E = nh_simplify_short(d, *E, 0);
+    return nh_complexity(d, *E) < length / 2;
+}
+
 /* The field d/dt belongs to minus the energy: with it E, which the reader knows, and not only its negative. */
 static void closed_form(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
     nh_dag *d = r->model->dag;
-    nh_ex E = nh_symbol(d, "E");
-    bool minus = f->energy && !strncmp(f->meaning, "minus", 5) && !nh_depends(d, f->phi, E);
-    if (minus) p->ink->formulas(p->to, 2, (const char *[]){f->name, "E"}, (nh_ex[]){nh_neg(d, E), nh_neg(d, f->phi)});
+    nh_ex symbol = nh_symbol(d, "E"), E = nh_neg(d, f->phi);
+    bool minus = !strncmp(f->meaning, "minus", 5), taken = nh_depends(d, f->phi, symbol),
+         all = !taken && energy_in_all_velocities(r, f, &E);
+    if (f->energy && !taken && (minus || all))
+        p->ink->formulas(p->to, 2, (const char *[]){f->name, "E"}, (nh_ex[]){minus ? nh_neg(d, symbol) : symbol, E});
     else nh_pen_formula(p, f->name, f->phi);
+    if (all && r->model->k)
+        nh_pen_words(p, "E is written in all velocities, between which the constraints hold: in those of the chart it "
+                        "is longer.");
 }
 
 static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *told)

@@ -91,7 +91,8 @@ static char free_letter(const nh_dag *d)
     return 'Z';
 }
 
-nh_formula_room nh_formula_block(double shown) { return (nh_formula_room){shown, formulas_per_block * shown, 1}; }
+/* Beside others, or where nothing folds. */
+static nh_formula_room block(double shown) { return (nh_formula_room){shown, formulas_per_block * shown, 1}; }
 
 nh_formula_room nh_formula_page(double shown)
 {
@@ -194,14 +195,13 @@ void nh_formula_number(nh_dag *d, size_t n, nh_ex *e, size_t parts, nh_formula_p
         if (needed[k]) part[k].value = nh_substitute(d, part[k].value, count, from, to);
 }
 
-nh_formula_list nh_formula_list_make(nh_dag *d, size_t n, const nh_ex *e, double shown, nh_formula_room room,
-                                     size_t *names)
+nh_formula_list nh_formula_list_make(nh_dag *d, size_t n, const nh_ex *e, double shown, size_t *names)
 {
     nh_formula_list l = {.formula = nh_alloc_array(n + 1, sizeof *l.formula),
                          .stands = nh_alloc_array(2 * n + 1, sizeof *l.stands)};
     l.short_enough = l.stands + n;
     if (n) memcpy(l.formula, e, n * sizeof *e);
-    const nh_formula_room least = nh_formula_block(shown);
+    const nh_formula_room least = block(shown), room = nh_formula_page(shown);
     l.parts = nh_formula_parts(d, n, l.formula, least, l.part);
     nh_formula_fit(d, n, l.formula, l.parts, l.part, least, l.short_enough, l.beside);
     l.wanted = nh_formula_fit(d, n, l.formula, l.parts, l.part, room, l.stands, l.needed);
@@ -243,11 +243,9 @@ size_t nh_formula_field(const nh_analysis *r, const nh_symmetry *z, nh_field_ter
     return n;
 }
 
-void nh_formula_left_out(double wanted, double page, nh_text *out)
+void nh_formula_left_out(double wanted, nh_text *out)
 {
-    if (wanted <= page)
-        nh_text_addf(out, "... (too long to be shown here; --html, --tex or --option shown=%.0f shows it)", wanted);
-    else if (wanted < 1e9) nh_text_addf(out, "... (too long to be shown; --option shown=%.0f shows it)", wanted);
+    if (wanted < 1e9) nh_text_addf(out, "... (too long to be shown; --option shown=%.0f shows it)", wanted);
     else nh_text_add(out, "... (too long to be shown)");
 }
 
@@ -257,7 +255,7 @@ char *nh_formula_text(nh_dag *d, nh_ex e, double shown)
     char *text = nh_print_short(d, e, shown);
     if (text) return text;
     nh_text_init(&words);
-    nh_formula_left_out((double)nh_complexity(d, e), 0, &words);
+    nh_formula_left_out((double)nh_complexity(d, e), &words);
     text = nh_strdup(nh_text_string(&words));
     nh_text_clear(&words);
     return text;

@@ -17,7 +17,7 @@ void nh_formula_unify(nh_dag *dag, size_t n, nh_ex *e);
  * in an order in which each uses only names that come later.  Names are new to the graph: a letter, _ and a number.
  * There are at most NH_FORMULA_FEW, and more only as long as nh_formula_fit would leave something out without them.
  * Returns their number; 0 when all are short. */
-enum { NH_FORMULA_FEW = 12, NH_FORMULA_PARTS = 48 };
+enum { NH_FORMULA_FEW = 12, NH_FORMULA_PARTS = 100 };
 typedef struct {
     char name[16];
     nh_ex symbol, value;
@@ -26,8 +26,7 @@ typedef struct {
     double longest, all; /* symbols that a formula or the value of a name may have; all of them together */
     double times;        /* how often the option `shown` the longest is */
 } nh_formula_room;
-nh_formula_room nh_formula_block(double shown); /* three times as many together */
-nh_formula_room nh_formula_page(double shown);  /* of a page, which folds what is long, and of LaTeX: four times that */
+nh_formula_room nh_formula_page(double shown); /* of a document: four times as long; three such formulas together */
 size_t nh_formula_parts(nh_dag *dag, size_t n, nh_ex *e, nh_formula_room room, nh_formula_part part[NH_FORMULA_PARTS]);
 
 /* Which of the formulas stand in a document: those for which there is room, with all the names that they need.
@@ -50,9 +49,8 @@ typedef struct {
     bool needed[NH_FORMULA_PARTS], beside[NH_FORMULA_PARTS]; /* by what stands; by what is short enough */
     double wanted;
 } nh_formula_list;
-/* room: of the document; shown: the option, which says what is short enough.  *names: as nh_formula_number has it. */
-nh_formula_list nh_formula_list_make(nh_dag *dag, size_t n, const nh_ex *e, double shown, nh_formula_room room,
-                                     size_t *names);
+/* shown: the option, which says what is short enough.  *names: as nh_formula_number has it. */
+nh_formula_list nh_formula_list_make(nh_dag *dag, size_t n, const nh_ex *e, double shown, size_t *names);
 void nh_formula_list_clear(nh_formula_list *list);
 
 /* The symmetry of a current as a sum of coefficients along basis fields: d/dt, d/dq, d/dx' of the chart of coordinate
@@ -66,9 +64,8 @@ size_t nh_formula_field(const nh_analysis *result, const nh_symmetry *z, nh_fiel
 
 /* A formula as text; when it is longer than `shown` symbols, how long it is and which option shows it. */
 char *nh_formula_text(nh_dag *dag, nh_ex e, double shown);
-/* The words for one that is left out: with names for what is repeated it wants so many symbols.
- * `page`: how many a page has room for; 0 where the words stand on a page. */
-void nh_formula_left_out(double wanted, double page, nh_text *out);
+/* The words for one that is left out: with names for what is repeated it wants so many symbols. */
+void nh_formula_left_out(double wanted, nh_text *out);
 
 /* Of the text of an expression: has it a plus or minus outside all parentheses, after the first character? */
 bool nh_formula_is_sum(const char *text);

@@ -93,7 +93,7 @@ static void too_long(nh_html_writer *w, const char *label, nh_ex e, double wante
     bool known = (double)nh_complexity(w->dag, e) <= w->written;
     nh_text words;
     nh_text_init(&words);
-    nh_formula_left_out(wanted, 0, &words);
+    nh_formula_left_out(wanted, &words);
     nh_html_add(w, "<div class=\"formula\">");
     put_label(w, label);
     nh_html_tagged(w, "em", nh_text_string(&words));
@@ -122,7 +122,7 @@ void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, con
     size_t folded = 0;
     for (size_t i = 0; i < n; i++)
         brief[i] = nh_formula_shortened(w->analysis, w->dag, w->chart ? nh_chart_shown(w->chart, e[i]) : e[i]);
-    nh_formula_list l = nh_formula_list_make(w->dag, n, brief, w->shown, nh_formula_page(w->shown), &w->names);
+    nh_formula_list l = nh_formula_list_make(w->dag, n, brief, w->shown, &w->names);
     put_list(w, &l, n, label, true);
     for (size_t i = 0; i < n; i++) {
         folded += l.stands[i] && !l.short_enough[i];

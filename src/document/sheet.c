@@ -103,7 +103,7 @@ static nh_ex as_shown(const nh_sheet *s, const nh_sheet_section *c, nh_ex e)
     return s->chart && !c->literal ? nh_chart_shown(s->chart, e) : e;
 }
 
-nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, bool page, size_t *own)
+nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
 {
     nh_sheet_section c = s->section[section];
     nh_formula_part part[NH_FORMULA_PARTS];
@@ -121,7 +121,7 @@ nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, bool page, size_t *
         }
     }
     const nh_formula_room least = {s->shown, INFINITY, 1};
-    nh_formula_room room = page ? nh_formula_page(s->shown) : least;
+    nh_formula_room room = nh_formula_page(s->shown);
     room.all = INFINITY;
     bool needed[NH_FORMULA_PARTS], *stands = nh_alloc_array(n + 1, sizeof *stands);
     size_t parts = nh_formula_parts(s->dag, n, e, least, part);

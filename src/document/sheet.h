@@ -61,8 +61,8 @@ const char *nh_sheet_label(nh_sheet *sheet, const char *format, ...) __attribute
 /* ---- reading it ---- */
 
 /* The section as text and page show it: with the user's abbreviations, and with names for what is repeated in long
- * formulas, which are defined in lines after the `own` first ones.  A page and LaTeX have room for longer ones. */
-nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, bool page, size_t *own);
+ * formulas, which are defined in lines after the `own` first ones. */
+nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, size_t *own);
 /* A coefficient before its factor: its sign, and the rest, which needs parentheses where it is a sum; "" for 1.  NULL:
    too long.  To be freed. */
 char *nh_sheet_coefficient(const nh_sheet *sheet, const nh_sheet_term *term, bool *minus, bool *sum);

@@ -82,7 +82,7 @@ void nh_sheet_html(nh_sheet *s, const char *heading, nh_html_writer *w)
 {
     for (size_t i = 0; i < s->sections; i++) {
         size_t own;
-        nh_sheet_section c = nh_sheet_brief(s, i, true, &own);
+        nh_sheet_section c = nh_sheet_brief(s, i, &own);
         if (c.title[0]) nh_html_tagged(w, heading, c.title);
         if (c.words[0]) put_words(w, c.words);
         for (size_t j = 0; j < c.lines; j++) {

@@ -60,7 +60,7 @@ void nh_sheet_tex(nh_sheet *s, const char *heading, nh_tex_writer *w)
 {
     for (size_t i = 0; i < s->sections; i++) {
         size_t own;
-        nh_sheet_section c = nh_sheet_brief(s, i, true, &own);
+        nh_sheet_section c = nh_sheet_brief(s, i, &own);
         if (c.title[0]) {
             nh_text_addf(w->out, "\\%s*{", heading);
             nh_tex_words(w, c.title);

@@ -84,11 +84,11 @@ static void put_words(nh_text *out, const char *words)
     nh_text_clear(&text);
 }
 
-static char *left_out(const nh_sheet *s, const nh_sheet_term *term)
+static char *left_out(const nh_sheet_term *term)
 {
     nh_text words;
     nh_text_init(&words);
-    if (!term->factor[0]) nh_formula_left_out(term->wanted, nh_formula_page(s->shown).longest, &words);
+    if (!term->factor[0]) nh_formula_left_out(term->wanted, &words);
     else if (term->wanted < 1e9) nh_text_addf(&words, "(too long; --option shown=%.0f shows it)", term->wanted);
     else nh_text_add(&words, "(too long)");
     char *out = nh_strdup(nh_text_string(&words));
@@ -102,7 +102,7 @@ static void terms(const nh_sheet *s, size_t n, const nh_sheet_term *term, nh_tex
     for (size_t i = 0; i < n; i++) {
         bool minus, sum;
         char *text = nh_sheet_coefficient(s, &term[i], &minus, &sum);
-        if (!text) text = left_out(s, &term[i]);
+        if (!text) text = left_out(&term[i]);
         nh_text_add(out, i ? (minus ? " - " : " + ") : minus ? "-" : "");
         nh_text_addf(out, sum ? "(%s)%s" : "%s%s", text, text[0] && term[i].factor[0] ? " " : "");
         nh_notation_write(term[i].factor, NH_NOTATION_TEXT, out);
@@ -129,7 +129,7 @@ void nh_sheet_text(nh_sheet *s, bool colour, nh_text *out)
 {
     for (size_t i = 0; i < s->sections; i++) {
         size_t own;
-        nh_sheet_section c = nh_sheet_brief(s, i, false, &own);
+        nh_sheet_section c = nh_sheet_brief(s, i, &own);
         if (c.title[0]) nh_text_addf(out, "\n%s%s%s\n", colour ? "\033[1m" : "", c.title, colour ? "\033[0m" : "");
         if (c.words[0]) put_words(out, c.words);
         for (size_t j = 0; j < c.lines; j++) {
@@ -169,8 +169,8 @@ void nh_sheet_formulas(nh_dag *d, size_t n, const char *const *label, const nh_e
     size_t names = 0;
     nh_text words;
     nh_text_init(&words);
-    nh_formula_list l = nh_formula_list_make(d, n, value, shown, nh_formula_block(shown), &names);
-    nh_formula_left_out(l.wanted, nh_formula_page(shown).longest, &words);
+    nh_formula_list l = nh_formula_list_make(d, n, value, shown, &names);
+    nh_formula_left_out(l.wanted, &words);
     for (size_t i = 0; i < n; i++)
         put_formula(out, indent, label[i],
                     l.stands[i] ? nh_print_string(d, l.formula[i]) : nh_strdup(nh_text_string(&words)));

@@ -144,23 +144,13 @@ static void conclude(nh_sheet *s, const nh_space_bound *b, const char *letter, c
                                          b->count ? "; of those found: " : "; none was found", names));
 }
 
-/* U_a = c^l d/dw^l, unless it is long. */
+/* U_a = c^l d/dw^l. */
 static void show_across(nh_sheet *s, const nh_model *o, size_t a, const nh_ex *coefficient)
 {
-    enum { longest = 150 };
-    nh_ex *c = nh_arena_alloc(s->arena, (o->n + 1) * sizeof *c);
-    bool brief = true;
-    for (size_t l = 0; l < o->n; l++) {
-        c[l] = nh_simplify_short(s->dag, coefficient[l], 0);
-        brief &= nh_complexity(s->dag, c[l]) <= longest;
-    }
-    if (!brief) {
-        nh_sheet_words(s, nh_sheet_label(s, "$U_{%zu}$ is too long to be shown.", a + 1));
-        return;
-    }
     nh_sheet_sum(s, "", nh_sheet_label(s, "U_{%zu}", a + 1));
     for (size_t l = 0; l < o->n; l++)
-        nh_sheet_add(s, c[l], nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", nh_name_of(s->dag, o->chart->w[l])));
+        nh_sheet_add(s, nh_simplify_short(s->dag, coefficient[l], 0),
+                     nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", nh_name_of(s->dag, o->chart->w[l])));
 }
 
 static void bounds(nh_sheet *s, const nh_theory *t)

@@ -209,7 +209,7 @@ static void too_long(nh_tex_writer *w, const char *latex, nh_ex e, double wanted
     bool known = (double)nh_complexity(w->dag, e) <= w->written;
     nh_text words;
     nh_text_init(&words);
-    nh_formula_left_out(wanted, 0, &words);
+    nh_formula_left_out(wanted, &words);
     nh_text_addf(w->out, "\\par $%s$ = ", latex);
     nh_tex_words(w, nh_text_string(&words));
     nh_text_addf(w->out, "%s.\\par\n", known ? "; the JSON has it" : "");
@@ -234,7 +234,7 @@ void nh_tex_formulas(nh_tex_writer *w, size_t n, const char *const *latex, const
     nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
     for (size_t i = 0; i < n; i++)
         brief[i] = nh_formula_shortened(w->analysis, w->dag, w->chart ? nh_chart_shown(w->chart, e[i]) : e[i]);
-    nh_formula_list l = nh_formula_list_make(w->dag, n, brief, w->shown, nh_formula_page(w->shown), &w->names);
+    nh_formula_list l = nh_formula_list_make(w->dag, n, brief, w->shown, &w->names);
     for (size_t i = 0; i < n; i++) {
         if (l.stands[i]) put_formula(w, latex[i], plain[i], l.formula[i]);
         else too_long(w, latex[i], e[i], l.wanted);

@@ -172,23 +172,6 @@ static bool proved_by_symmetry(const nh_model *o, nh_ex phi, nh_claim claim, con
     return holds;
 }
 
-/* Is phi the energy, and conserved because neither L nor a force depends on time or does work, and the constraints let
- * velocities be scaled?  By the equations of motion Gamma(E) = (EL)_s rho^s - dL/dt with (EL)_s Y_i(rho^s) = 0, so that
- * it vanishes where rho^s = w^i Y_i(rho^s) and dL/dt = 0, however long the accelerations are. */
-static bool is_energy_without_work(const nh_model *o, nh_ex phi, const nh_options *options)
-{
-    nh_dag *d = o->dag;
-    const nh_system *s = o->system;
-    bool holds = (phi == o->E || phi == nh_neg(d, o->E)) && !s->has_forces && !nh_depends(d, s->lagrangian, s->t);
-    for (size_t i = 0; i < o->m && holds; i++) {
-        nh_ex rest = nh_neg(d, o->rho[i]);
-        for (size_t j = 0; j < o->n; j++)
-            rest = nh_add(d, rest, nh_mul(d, o->chart->symbol[1 + o->m + j], nh_model_Y(o, j, o->rho[i])));
-        holds = nh_normal_is_zero(d, rest, (size_t)options->proof_terms) == NH_ZERO;
-    }
-    return holds;
-}
-
 void nh_rate_terms(const nh_model *o, nh_ex phi, nh_ex *term)
 {
     nh_dag *d = o->dag;
@@ -220,7 +203,7 @@ nh_proof nh_prove_claim(const nh_model *o, nh_ex phi, nh_claim claim, const nh_o
     claim.rounded = !nh_is_exact(o->dag, nh_exact_values(o, phi));
     if (claim.rounded) claim.related = false;
     if (claim.related) proof = holding(proof, claim.fixed);
-    else if (claim.free && length > lengthy && is_energy_without_work(o, phi, options)) proof = holding(proof, NULL);
+    else if (claim.free && length > lengthy && nh_symmetry_is_energy(o, phi)) proof = holding(proof, NULL);
     else if (!claim.rounded && length > lengthy && proved_by_symmetry(o, phi, claim, options))
         proof = claim.free ? holding(proof, claim.fixed) : (nh_proof){.proved = true};
     proof = prove_zero(o, n, term, proof, claim, options);

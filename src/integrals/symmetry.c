@@ -6,13 +6,12 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 
-enum { large_length = 3000, many_coordinates = 12 }; /* nh_complexity */
+enum { lengthy = 200, large_length = 3000, many_coordinates = 12 }; /* nh_complexity */
 
 /* A long formula with rounded coefficients, a series, has no simpler form; a very long one none that could be found in
    reasonable time. */
 static nh_ex tidy(nh_dag *d, nh_ex e)
 {
-    enum { lengthy = 200 };
     return nh_complexity(d, e) > lengthy && !nh_is_short(d, e) ? e : nh_simplify_short(d, e, large_length);
 }
 
@@ -78,16 +77,16 @@ static nh_ex recognised(const nh_model *o, nh_ex z, size_t i)
  * simple components.  What is recognised is proved, M x = b. */
 static void solve(const nh_model *o, const nh_ex *b, nh_ex *x)
 {
-    enum { lengthy = 80 };
+    enum { short_enough = 80 };
     nh_dag *d = o->dag;
     bool large = false, good = true;
     nh_ex *guess = nh_alloc_array(2 * o->n + 1, sizeof *guess), *right = guess + o->n;
     memcpy(right, b, o->n * sizeof *right);
     nh_lu_solve(o->M_lu, b, x);
-    for (size_t i = 0; i < o->n; i++) large |= nh_complexity(d, x[i]) > lengthy;
+    for (size_t i = 0; i < o->n; i++) large |= nh_complexity(d, x[i]) > short_enough;
     for (size_t i = 0; i < o->n && large && good; i++) {
         guess[i] = recognised(o, x[i], i);
-        good = guess[i] != x[i] || nh_complexity(d, x[i]) <= lengthy;
+        good = guess[i] != x[i] || nh_complexity(d, x[i]) <= short_enough;
     }
     for (size_t j = 0; j < o->n && large && good; j++) {
         nh_ex off = nh_neg(d, right[j]);
@@ -157,10 +156,46 @@ static void solve_directly(nh_model *o, nh_symmetry *z)
     }
 }
 
+bool nh_symmetry_is_energy(const nh_model *o, nh_ex phi)
+{
+    nh_dag *d = o->dag;
+    const nh_system *s = o->system;
+    bool holds = (phi == o->E || phi == nh_neg(d, o->E)) && !s->has_forces && !nh_depends(d, s->lagrangian, s->t);
+    for (size_t i = 0; i < o->m && holds; i++) {
+        nh_ex rest = nh_neg(d, o->rho[i]);
+        for (size_t j = 0; j < o->n; j++)
+            rest = nh_add(d, rest, nh_mul(d, o->chart->symbol[1 + o->m + j], nh_model_Y(o, j, o->rho[i])));
+        holds = nh_normal_is_zero(d, rest, 0) == NH_ZERO;
+    }
+    return holds;
+}
+
+/* d/dt of -E, or -d/dt of E, where nothing depends on time: Z^0 = 1 and zeta = -w, so that
+ * Z^s = rho^s - w^i Y_i(rho^s) = 0. */
+static bool is_translation(nh_model *o, nh_symmetry *z)
+{
+    nh_dag *d = o->dag;
+    if (nh_complexity(d, o->E) <= lengthy || !nh_symmetry_is_energy(o, z->phi)) return false;
+    for (size_t s = 0; s < o->m; s++)
+        if (nh_depends(d, o->rho[s], o->system->t)) return false;
+    bool minus = z->phi != o->E;
+    z->Z0 = nh_int(d, minus ? 1 : -1);
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex w = o->chart->symbol[1 + o->m + i];
+        z->zeta[i] = minus ? nh_neg(d, w) : w;
+        z->W[i] = nh_int(d, 0);
+    }
+    z->field = (nh_field){z->Z0, take(o, o->m), take(o, o->n)};
+    for (size_t s = 0; s < o->m; s++) z->field.space[s] = z->coordinate_rate[s] = nh_int(d, 0);
+    memcpy(z->field.velocity, z->W, o->n * sizeof *z->W);
+    return true;
+}
+
 /* zeta, Z^0, W and the field's components in the chart. */
 static void solve_components(nh_model *o, nh_symmetry *z)
 {
     nh_dag *d = o->dag;
+    if (is_translation(o, z)) return;
     z->Z0 = nh_symmetry_components(o, z->phi, z->zeta);
     z->field = (nh_field){z->Z0, take(o, o->m), take(o, o->n)};
     bool many = is_of_many(o, z);

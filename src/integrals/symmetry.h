@@ -37,6 +37,12 @@ bool nh_symmetry_of(nh_model *model, const nh_points *points, nh_ex phi, double 
 /* Only Z^0 (returned) and zeta (n) of a current. */
 nh_ex nh_symmetry_components(const nh_model *model, nh_ex phi, nh_ex *zeta);
 
+/* Is phi the energy, or minus the energy, and conserved because neither L nor a force depends on time or does work, and
+ * the constraints let velocities be scaled?  By the equations of motion Gamma(E) = (EL)_s rho^s - dL/dt with
+ * (EL)_s Y_i(rho^s) = 0, so that it vanishes where rho^s = w^i Y_i(rho^s) and dL/dt = 0, however long the accelerations
+ * are.  The symmetry of -E is d/dt then. */
+bool nh_symmetry_is_energy(const nh_model *model, nh_ex phi);
+
 /* A field given by Z^0 and zeta: its current alpha(Z) = Lbar Z^0 + pbar_i zeta^i. */
 nh_ex nh_symmetry_current(const nh_model *model, nh_ex Z0, const nh_ex *zeta);
 

@@ -6,7 +6,8 @@
 #include "exact/normal.h"
 #include "integrals/fixed.h"
 
-static const size_t longest = 3000; /* of a current that is brought into a form of its own */
+static const size_t lengthy = 200,  /* an energy: its symmetry needs no solving */
+    longest = 3000;                 /* of a current that is brought into a form of its own */
 
 /* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
 
@@ -73,6 +74,10 @@ static void put_values(nh_model *o, const bool *fixed, size_t n, nh_ex *e)
 static void normalise(nh_model *o, nh_current *f)
 {
     nh_dag *d = o->dag;
+    if (nh_complexity(d, o->E) > lengthy && nh_symmetry_is_energy(o, f->phi)) {
+        f->phi = nh_neg(d, o->E);
+        return;
+    }
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
     /* e or -e: where the symmetry does not tell which */
     if (nh_is_short(d, f->phi) && nh_complexity(d, f->phi) <= longest)
