@@ -6,8 +6,8 @@
 
 #include "base/output.h"
 #include "catalogue.h"
-#include "document/thumbnail.h"
 #include "commands/simulate.h"
+#include "thumbnail.h"
 
 /* The motion at so many equal steps of the time for which it goes by itself. */
 static nh_simulation *move(const char *path, nh_error *error)
@@ -33,7 +33,7 @@ static bool draw(const char *folder, const char *name, const char *into)
     nh_time_series *c = s ? nh_time_series_of_simulation(s) : NULL;
     nh_text text;
     nh_text_init(&text);
-    bool good = c && nh_thumbnail(c, s->system->title, &text) && nh_output_write(to, nh_text_string(&text), text.length, &error);
+    bool good = c && thumbnail(c, s->system->title, &text) && nh_output_write(to, nh_text_string(&text), text.length, &error);
     if (!good) fprintf(stderr, "%s: no picture: %s\n", name, error.what);
     nh_text_clear(&text);
     nh_time_series_free(c);

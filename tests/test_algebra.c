@@ -76,6 +76,28 @@ static nh_algebra in_random_basis(const nh_algebra *g, uint64_t seed, double *t)
     return nh_algebra_change(g, n, t, NULL);
 }
 
+/* The largest violation of antisymmetry and of Jacobi's identity. */
+static double jacobi(const nh_algebra *g)
+{
+    size_t d = g->d;
+    double worst = 0;
+    const double *c = g->c;
+    for (size_t i = 0; i < d; i++)
+        for (size_t j = 0; j < d; j++)
+            for (size_t l = 0; l < d; l++) {
+                worst = fmax(worst, fabs(c[(i * d + j) * d + l] + c[(j * d + i) * d + l]));
+                for (size_t k = 0; k < d; k++) { /* [[i,j],l] + [[j,l],i] + [[l,i],j] */
+                    double sum = 0;
+                    for (size_t n = 0; n < d; n++)
+                        sum += c[(i * d + j) * d + n] * c[(n * d + l) * d + k] +
+                               c[(j * d + l) * d + n] * c[(n * d + i) * d + k] +
+                               c[(l * d + i) * d + n] * c[(n * d + j) * d + k];
+                    worst = fmax(worst, fabs(sum));
+                }
+            }
+    return worst;
+}
+
 static const struct {
     const char *letters, *name;
     size_t centre;
@@ -101,7 +123,7 @@ Test(algebra, products_in_random_bases_are_named)
             nh_algebra_report r;
             nh_text name;
             nh_text_init(&name);
-            cr_expect_lt(nh_algebra_jacobi(&plain), 1e-14);
+            cr_expect_lt(jacobi(&plain), 1e-14);
             nh_algebra_report_init(&r, &g, SMALL, CLUSTER, MOST, seed);
             nh_algebra_name(&r, NULL, &name);
             cr_expect_str_eq(nh_text_string(&name), products[i].name, "%s, seed %d: %s", products[i].letters, (int)seed, nh_text_string(&name));

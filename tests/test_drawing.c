@@ -9,10 +9,10 @@
 #include "catalogue.h"
 #include "evaluate/tape.h"
 #include "document/perspective.h"
-#include "document/thumbnail.h"
 #include "commands/simulate.h"
 #include "problem/drawing.h"
 #include "sweep.h"
+#include "thumbnail.h"
 
 static nh_system *parse(const char *text)
 {
@@ -246,7 +246,7 @@ Test(drawing, a_portrait)
     nh_simulation *s = moving("systems/snakeboard.yaml", NULL, 0, &c);
     nh_text text;
     nh_text_init(&text);
-    cr_expect(nh_thumbnail(c, "a < b", &text));
+    cr_expect(thumbnail(c, "a < b", &text));
     const char *svg = nh_text_string(&text);
     cr_expect_not_null(strstr(svg, "<title>a &lt; b</title>"));
     cr_expect_null(strstr(svg, "nan"));
@@ -265,7 +265,7 @@ Test(drawing, a_portrait_of_segments)
     nh_simulation *s = moving("systems/skate_on_belt.yaml", "th'=1, x'=2, y'=0", 0, &c);
     nh_text text;
     nh_text_init(&text);
-    cr_expect(nh_thumbnail(c, "skate", &text));
+    cr_expect(thumbnail(c, "skate", &text));
     const char *path = strstr(nh_text_string(&text), " d=\"M");
     cr_assert_not_null(path);
     cr_expect_gt(strcspn(path + 5, "\""), 60u, "no path: %.80s", path);
@@ -335,7 +335,7 @@ Test(drawing, a_portrait_in_space)
     nh_simulation *s = moving("systems/rolling_ball.yaml", NULL, 0, &c);
     nh_text text;
     nh_text_init(&text);
-    cr_expect(nh_thumbnail(c, "ball", &text));
+    cr_expect(thumbnail(c, "ball", &text));
     const char *svg = nh_text_string(&text);
     cr_expect_null(strstr(svg, "nan"));
     cr_expect_null(strstr(svg, "inf"));

@@ -1,5 +1,5 @@
 /* perspective: bodies in space as an eye sees them: where it stands, and the faces, lines and paths of one time in the
- * order in which they are drawn, hidden sides as faint outlines.  Pages, thumbnails and LaTeX draw these pieces; the
+ * order in which they are drawn, hidden sides as faint outlines.  Pages and LaTeX draw these pieces; the
  * script of a page, which moves the bodies, takes its numbers from here, too. */
 #ifndef NH_PERSPECTIVE_H
 #define NH_PERSPECTIVE_H

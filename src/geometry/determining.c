@@ -92,22 +92,3 @@ nh_determining *nh_determining_of(nh_arena *arena, const nh_model *o)
     }
     return all;
 }
-
-nh_ex nh_determining_value(const nh_determining *all, size_t equation, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
-                           const nh_ex *W)
-{
-    const nh_model *o = all->model;
-    nh_dag *d = o->dag;
-    const nh_determining_equation *e = &all->equation[equation];
-    nh_ex sum = nh_int(d, 0);
-    for (size_t i = 0; i < e->terms; i++) {
-        const nh_determining_term *t = &e->term[i];
-        nh_ex of = t->of == NH_DETERMINING_PHI  ? phi
-                   : t->of == NH_DETERMINING_Z0 ? Z0
-                   : t->of == NH_DETERMINING_W  ? W[t->index]
-                                                : zeta[t->index];
-        if (t->of == NH_DETERMINING_Z) of = nh_add(d, of, nh_mul(d, o->chart->w[t->index], Z0));
-        sum = nh_add(d, sum, nh_mul(d, t->coefficient, along(o, t->along, t->direction, of)));
-    }
-    return sum;
-}

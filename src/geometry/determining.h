@@ -55,8 +55,5 @@ typedef struct {
 } nh_determining;
 
 nh_determining *nh_determining_of(nh_arena *arena, const nh_model *model);
-/* The left-hand side for a field and its current, which vanishes for a constraint symmetry. */
-nh_ex nh_determining_value(const nh_determining *determining, size_t equation, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
-                           const nh_ex *W);
 
 #endif

@@ -42,27 +42,6 @@ void nh_algebra_coad(const nh_algebra *g, const double *x, const double *mu, dou
     }
 }
 
-double nh_algebra_jacobi(const nh_algebra *g)
-{
-    size_t d = g->d;
-    double worst = 0;
-    const double *c = g->c;
-    for (size_t i = 0; i < d; i++)
-        for (size_t j = 0; j < d; j++)
-            for (size_t l = 0; l < d; l++) {
-                worst = fmax(worst, fabs(c[(i * d + j) * d + l] + c[(j * d + i) * d + l]));
-                for (size_t k = 0; k < d; k++) { /* [[i,j],l] + [[j,l],i] + [[l,i],j] */
-                    double sum = 0;
-                    for (size_t n = 0; n < d; n++)
-                        sum += c[(i * d + j) * d + n] * c[(n * d + l) * d + k] +
-                               c[(j * d + l) * d + n] * c[(n * d + i) * d + k] +
-                               c[(l * d + i) * d + n] * c[(n * d + j) * d + k];
-                    worst = fmax(worst, fabs(sum));
-                }
-            }
-    return worst;
-}
-
 nh_algebra nh_algebra_change(const nh_algebra *g, size_t r, const double *t, double *off)
 {
     size_t d = g->d;

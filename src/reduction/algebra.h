@@ -31,8 +31,6 @@ void nh_algebra_ad(const nh_algebra *algebra, const double *x, double *out);
 /* (ad*_x mu)_b = C_ab^k x^a mu_k. */
 void nh_algebra_coad(const nh_algebra *algebra, const double *x, const double *mu, double *out);
 
-/* The largest violation of antisymmetry and of Jacobi's identity. */
-double nh_algebra_jacobi(const nh_algebra *algebra);
 /* The same algebra in the basis f_j = sum_i t[i + j*d] e_i, or the subalgebra that r < d such vectors span; *off (may
  * be NULL): by how much brackets leave the span. */
 nh_algebra nh_algebra_change(const nh_algebra *algebra, size_t r, const double *t, double *off);

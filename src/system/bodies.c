@@ -77,24 +77,6 @@ void nh_chain_frame(const nh_chain *c, nh_dag *d, long body, size_t skip, nh_pos
     for (size_t k = 0; k + skip < j->screws; k++) advance(d, &c->screw[j->first + k], pose, twist);
 }
 
-void nh_chain_jacobian(const nh_chain *c, nh_dag *d, size_t body, nh_twist *out)
-{
-    nh_pose behind = nh_pose_identity(d); /* of the body in the frame of the screw at hand */
-    for (size_t k = 0; k < c->screws; k++)
-        for (int i = 0; i < 3; i++) out[k].v[i] = out[k].w[i] = nh_int(d, 0);
-    for (long b = (long)body; b != NH_GROUND;) {
-        const nh_joint *j = &c->joint[c->body[b].joint];
-        for (size_t k = j->first + j->screws; k-- > j->first;) {
-            nh_twist own = nh_screw_twist(d, &c->screw[k]);
-            nh_pose step = nh_screw_pose(d, &c->screw[k]);
-            out[k] = nh_twist_inwards(d, &behind, &own);
-            behind = nh_pose_product(d, &step, &behind);
-        }
-        behind = nh_pose_product(d, &j->placement, &behind);
-        b = j->parent;
-    }
-}
-
 /* ---- from the leaves to the root ---- */
 
 nh_inertia nh_body_inertia(nh_dag *d, const nh_body *b)

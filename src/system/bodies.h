@@ -127,10 +127,6 @@ nh_twist nh_screw_twist(nh_dag *dag, const nh_screw *screw);
    skip = 0 the body itself. */
 void nh_chain_frame(const nh_chain *chain, nh_dag *dag, long body, size_t skip, nh_pose *pose, nh_twist *twist);
 
-/* Body Jacobian (eq. 3.22): column k of `out` (screws columns) is the twist of the body's frame for the rate 1 of screw
-   k alone. */
-void nh_chain_jacobian(const nh_chain *chain, nh_dag *dag, size_t body, nh_twist *out);
-
 /* What holds all q'' at zero, gravity included: d/dt dL/dq' - dL/dq = K q'' + out (m) for L = kinetic - potential. */
 void nh_chain_bias(const nh_chain *chain, const nh_chain_scope *scope, nh_ex *out);
 

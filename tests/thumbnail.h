@@ -1,4 +1,6 @@
-#include "document/thumbnail.h"
+/* thumbnail: a motion as a small picture: paths, and the system at their end. */
+#ifndef NH_TESTS_THUMBNAIL_H
+#define NH_TESTS_THUMBNAIL_H
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,8 +9,9 @@
 #include "base/memory.h"
 #include "document/polyline.h"
 #include "document/svg.h"
+#include "document/time_series.h"
 
-enum { wide = 240, high = 150, margin = 14, colours = 6 };
+enum { thumbnail_wide = 240, thumbnail_high = 150, margin = 14, colours = 6 };
 
 static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 
@@ -19,29 +22,29 @@ typedef struct {
     double x, y, scale; /* the middle, and pixels per unit */
 } portrait;
 
-static double value(const portrait *p, size_t shape, size_t number, size_t i)
+static inline double value(const portrait *p, size_t shape, size_t number, size_t i)
 {
     const nh_line *line = nh_time_series_shape(p->course, shape, number);
     return line->value[i * line->stride];
 }
 
-static double across(const portrait *p, double x) { return wide / 2 + p->scale * (x - p->x); }
-static double up(const portrait *p, double y) { return high / 2 - p->scale * (y - p->y); }
+static inline double across(const portrait *p, double x) { return thumbnail_wide / 2 + p->scale * (x - p->x); }
+static inline double up(const portrait *p, double y) { return thumbnail_high / 2 - p->scale * (y - p->y); }
 
-static void widen(double low[2], double high_end[2], double x, double y)
+static inline void widen(double low[2], double high_end[2], double x, double y)
 {
     if (!isfinite(x) || !isfinite(y)) return;
     low[0] = fmin(low[0], x), high_end[0] = fmax(high_end[0], x);
     low[1] = fmin(low[1], y), high_end[1] = fmax(high_end[1], y);
 }
 
-static int ascending(const void *a, const void *b)
+static inline int ascending(const void *a, const void *b)
 {
     return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
 }
 
 /* A motion that runs away is shown until it is far from where it mostly is. */
-static size_t until_far(const portrait *p)
+static inline size_t until_far(const portrait *p)
 {
     enum { far = 12 };
     const nh_time_series *c = p->course;
@@ -59,7 +62,7 @@ static size_t until_far(const portrait *p)
 }
 
 /* Everything at these times must find room; a disc with its rim. */
-static bool fit(portrait *p)
+static inline bool fit(portrait *p)
 {
     const nh_time_series *c = p->course;
     double low[2] = {INFINITY, INFINITY}, top[2] = {-INFINITY, -INFINITY};
@@ -79,13 +82,13 @@ static bool fit(portrait *p)
     p->x = (low[0] + top[0]) / 2;
     p->y = (low[1] + top[1]) / 2;
     p->scale =
-        fmin((wide - 2 * margin) / fmax(top[0] - low[0], least), (high - 2 * margin) / fmax(top[1] - low[1], least));
+        fmin((thumbnail_wide - 2 * margin) / fmax(top[0] - low[0], least), (thumbnail_high - 2 * margin) / fmax(top[1] - low[1], least));
     return true;
 }
 
 /* The path of a shape; of a segment's middle. A motion is given at many times: the points that lie on a line are left
    out. */
-static void track(const portrait *p, size_t s)
+static inline void track(const portrait *p, size_t s)
 {
     nh_polyline path = {.out = p->out};
     nh_text_addf(p->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.2\" stroke-opacity=\"0.6\" d=\"",
@@ -103,7 +106,7 @@ static void track(const portrait *p, size_t s)
     nh_text_add(p->out, "\"/>\n");
 }
 
-static void line(const portrait *p, size_t s, double x1, double y1, double x2, double y2, double width)
+static inline void line(const portrait *p, size_t s, double x1, double y1, double x2, double y2, double width)
 {
     nh_text_addf(p->out,
                  "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%g\" "
@@ -111,7 +114,7 @@ static void line(const portrait *p, size_t s, double x1, double y1, double x2, d
                  across(p, x1), up(p, y1), across(p, x2), up(p, y2), colour[s % colours], width);
 }
 
-static void body(const portrait *p, size_t s)
+static inline void body(const portrait *p, size_t s)
 {
     enum { dot = 3, nose = 16 };
     nh_shape_kind kind = p->course->shape[s].kind;
@@ -135,7 +138,7 @@ static void body(const portrait *p, size_t s)
                      across(p, v[0]), up(p, v[1]), p->scale * fabs(v[2]), colour[s % colours], colour[s % colours]);
 }
 
-static void in_plane(const portrait *p)
+static inline void in_plane(const portrait *p)
 {
     const nh_time_series *c = p->course;
     size_t segments = 0;
@@ -145,7 +148,7 @@ static void in_plane(const portrait *p)
     for (size_t s = 0; s < c->shapes; s++) body(p, s);
 }
 
-static void in_space(const portrait *p, const nh_view *view)
+static inline void in_space(const portrait *p, const nh_view *view)
 {
     nh_picture picture = {0};
     nh_view_draw(view, p->count - 1, &picture);
@@ -153,21 +156,25 @@ static void in_space(const portrait *p, const nh_view *view)
     nh_picture_clear(&picture);
 }
 
-bool nh_thumbnail(const nh_time_series *c, const char *title, nh_text *out)
+/* A stand-alone SVG document of a few kilobytes, without axes, both on one scale; `title` is its text alternative.
+   False when nothing is drawn. */
+static inline bool thumbnail(const nh_time_series *c, const char *title, nh_text *out)
 {
     portrait p = {.course = c, .out = out};
     p.count = until_far(&p);
-    nh_view *view = nh_view_create(c, p.count, wide, high);
+    nh_view *view = nh_view_create(c, p.count, thumbnail_wide, thumbnail_high);
     if (!c->shapes || !(view || fit(&p))) return false;
     nh_text_addf(out,
                  "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 %d %d\" width=\"%d\" "
                  "height=\"%d\"><title>",
-                 wide, high, wide, high);
+                 thumbnail_wide, thumbnail_high, thumbnail_wide, thumbnail_high);
     nh_escape_xml(title, out);
-    nh_text_addf(out, "</title>\n<rect width=\"%d\" height=\"%d\" rx=\"6\" fill=\"#fff\"/>\n", wide, high);
+    nh_text_addf(out, "</title>\n<rect width=\"%d\" height=\"%d\" rx=\"6\" fill=\"#fff\"/>\n", thumbnail_wide, thumbnail_high);
     if (view) in_space(&p, view);
     else in_plane(&p);
     nh_view_free(view);
     nh_text_add(out, "</svg>\n");
     return true;
 }
+
+#endif
