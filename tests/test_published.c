@@ -55,6 +55,10 @@ static const published PUBLISHED[] = {
      "parameters: {m: 2.3117, J: 0.91703, a: 0.4517, r: 0.25, R: 0.31}\ncoordinates: [x, y, {name: h, type: angle}, {name: p, type: angle}, {name: q, type: angle}]\n"
      "lagrangian: m*(x'^2 + y'^2)/2 + m*a*h'*(y'*cos(h) - x'*sin(h)) + J*h'^2/2\n"
      "constraints: [\"x'*sin(h) = y'*cos(h)\", \"x'*cos(h) + y'*sin(h) - h' = r*p'\", \"x'*cos(h) + y'*sin(h) + h' = R*q'\"]\ndomain: {h: [-1.2, 1.2]}\n", 5, 2},
+    /* B. Carter, Commun. Math. Phys. 10 (1968) 280: geodesics around a black hole that turns; of two thousand words with its denominators 361 are independent */
+    {"Kerr", "parameters: {M: 0.3, a: 0.2}\ncoordinates: [T, r, {name: h, type: angle}, {name: p, type: angle}]\n"
+     "definitions: [\"S = r^2 + a^2*cos(h)^2\", \"D = r^2 - 2*M*r + a^2\"]\n"
+     "lagrangian: -D/S*(T' - a*sin(h)^2*p')^2/2 + S/D*r'^2/2 + S*h'^2/2 + sin(h)^2/S*((r^2 + a^2)*p' - a*T')^2/2\ndomain: {r: [2, 4], h: [0.5, 2.5]}\n", 4, 3},
     /* C. R. Holt, J. Math. Phys. 23 (1982) 1037; J. Hietarinta, Phys. Rep. 147 (1987) 87: degrees 3, 4 and 6 */
     {"Holt, 3/4", "parameters: {d: 0.3}\n" PLANE "3/4*x^(4/3) - (y^2 + d)*x^(-2/3)\n" QUADRANT, 2, 6},
     {"Holt, 9/2", PLANE "9/2*x^(4/3) - y^2*x^(-2/3)\n" QUADRANT, 2, 6},

@@ -265,13 +265,12 @@ static void keep_words(nh_known_motions_words *w, size_t count, const size_t *ch
     w->words = count;
 }
 
-double nh_known_motions_words_reduce(nh_known_motions_words *w)
+/* Values of all words at so many points, in echelon form.  Returns the rank; `chosen`: its columns. */
+static size_t independent_at(const nh_known_motions_words *w, nh_prime field, size_t rows, size_t *chosen, bool *enough)
 {
-    enum { spare = 8, most_tries = 64, rows_together = 4 }; /* rows_together: dense algebra, in the time of a product */
+    enum { most_tries = 64 };
     nh_jet_equations *x = w->equations;
-    nh_prime field = nh_jet_point_prime(x->point, 0);
-    size_t n = w->words, one = 1, rows = n + spare, found = 0, powers = 0;
-    size_t *chosen = nh_alloc_array(n + 1, sizeof *chosen);
+    size_t n = w->words, one = 1, found = 0, powers = 0, independent = 0;
     for (size_t i = 0; i < w->letters; i++) powers += w->letter[i].powers;
     nh_jet_ring *point = nh_jet_ring_create(field, 1, &one, 0);
     nh_residue *matrix = nh_alloc_array(rows * n + 1, sizeof *matrix);
@@ -280,12 +279,32 @@ double nh_known_motions_words_reduce(nh_known_motions_words *w)
         nh_jet_equations_choose(x, field, seed);
         found += values_at(w, point, value, matrix + found * n);
     }
-    if (found == rows) keep_words(w, nh_residue_matrix_echelon(field, rows, n, n, matrix, chosen), chosen);
+    *enough = found == rows;
+    if (*enough) independent = nh_residue_matrix_echelon(field, rows, n, n, matrix, chosen);
     nh_jet_ring_free(point);
     nh_free(value);
     nh_free(matrix);
+    return independent;
+}
+
+/* Points are taken until they are more than the rank: words are often many more than are independent. */
+double nh_known_motions_words_reduce(nh_known_motions_words *w)
+{
+    enum { spare = 8, first = 64, rows_together = 4 }; /* rows_together: dense algebra, in the time of a product */
+    nh_prime field = nh_jet_point_prime(w->equations->point, 0);
+    size_t n = w->words, kept = 0, *chosen = nh_alloc_array(n + 1, sizeof *chosen), rows = first;
+    double work = 0;
+    bool enough = true;
+    for (bool more = true; more && enough; rows *= 2) {
+        more = rows < n + spare;
+        if (!more) rows = n + spare;
+        kept = independent_at(w, field, rows, chosen, &enough);
+        work += (double)rows * (double)n * (double)kept / rows_together;
+        more &= kept + spare > rows;
+    }
+    if (enough) keep_words(w, kept, chosen);
     nh_free(chosen);
-    return (double)rows * (double)rows * (double)rows / rows_together;
+    return work;
 }
 
 /* ---- values ---- */
