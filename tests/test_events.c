@@ -256,6 +256,31 @@ Test(events, tables_and_pictures)
     place_clear(&p);
 }
 
+/* The table of a page and of LaTeX: a head per column, and a row per zero. */
+Test(events, tables_of_documents)
+{
+    place p = place_make();
+    write_here(&p, "pendulum.yaml", pendulum);
+    finished f = run_shell(&p, "$N simulate pendulum.yaml --initial phi=2 --until 9 --event phi --html a.html --tex a.tex -q");
+    char *page = read_here(&p, "a.html"), *tex = read_here(&p, "a.tex");
+    cr_assert(f.code == 0 && page && tex, "%s", f.err);
+    const char *table = strstr(page, "<caption>phi, both: 2"), *end = table ? strstr(table, "</table>") : NULL;
+    cr_assert(end);
+    size_t heads = 0, cells = 0, rows = 0;
+    for (const char *c = table; (c = strstr(c, "<th scope=\"col\"")) && c < end; c++) heads++;
+    for (const char *c = table; (c = strstr(c, "<td")) && c < end; c++) cells++;
+    for (const char *c = table; (c = strstr(c, "<th scope=\"row\"")) && c < end; c++) rows++;
+    const char *time = strstr(table, "2.087438");
+    cr_expect(heads == 5 && rows == 2 && cells == 8, "%zu heads, %zu rows, %zu cells", heads, rows, cells);
+    cr_expect(time && time < end && strstr(table, ">direction<") && !memchr(table, '|', (size_t)(end - table)), "%.*s", (int)(end - table), table);
+    table = strstr(tex, "phi, both: 2");
+    end = table ? strstr(table, "longtable") : NULL;
+    cr_expect(end && strstr(table, "t & direction & phi & ") && !memchr(table, '|', (size_t)(end - table)), "%.*s", end ? (int)(end - table) : 0, table);
+    free(page), free(tex);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 Test(events, errors_say_where)
 {
     static const struct {

@@ -24,10 +24,10 @@ static void table(nh_pen *p, const nh_simulation *s, size_t which)
     nh_text heads;
     char caption[300];
     nh_text_init(&heads);
-    nh_text_add(&heads, "#t|direction");
+    nh_text_add(&heads, "t|direction");
     for (; columns < s->columns.count && columns < most_columns && s->columns.track[columns].kind != NH_TRACK_SHAPE;
          columns++)
-        nh_text_addf(&heads, "|#%s", s->columns.track[columns].name);
+        nh_text_addf(&heads, "|%s", s->columns.track[columns].name);
     snprintf(caption, sizeof caption, "%.150s, %s%s: %zu%s", event->name, nh_direction_word(event->event.direction),
              event->event.stop ? ", ends the motion"
              : event->section  ? ", the section"
@@ -38,13 +38,12 @@ static void table(nh_pen *p, const nh_simulation *s, size_t which)
     for (size_t i = 0; i < s->motion->events && rows < most_rows; i++) {
         const nh_event_found *found = &s->motion->event[i];
         if (found->which != which) continue;
-        nh_text row;
-        nh_text_init(&row);
-        nh_text_addf(&row, "#%.10g|%s", found->time, nh_direction_word(found->direction));
+        nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
+        nh_pen_cell(p, NH_PEN_ROW_HEAD, "%.10g", found->time);
+        nh_pen_cell(p, NH_PEN_CELL, "%s", nh_direction_word(found->direction));
         for (size_t k = 0; k < columns; k++)
-            nh_text_addf(&row, "|%.6g", s->trajectory->event_value[i * s->columns.count + k]);
-        nh_pen_row(p, "%s", nh_text_string(&row));
-        nh_text_clear(&row);
+            nh_pen_cell(p, NH_PEN_CELL, "%.6g", s->trajectory->event_value[i * s->columns.count + k]);
+        nh_pen_close(p, NH_PEN_ROW);
         rows++;
     }
     nh_pen_table_end(p);
