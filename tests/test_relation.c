@@ -302,6 +302,27 @@ static void expect_exactly(const char *parameters, const char *const *text, cons
     nh_dag_free(dag);
 }
 
+#define PULL(q, p) "*cos(" q " - " p ")/sin(" q " - " p ")^3"
+
+/* The forces among four particles on a circle, which add up to zero: as polynomials in sines and cosines their common
+   denominator has more than 5000 terms, in exponentials less. */
+Test(relation, sines_of_differences_have_short_denominators)
+{
+    static const char *const text[] = {"a*(m" PULL("x", "y") " + m" PULL("x", "z") " + m" PULL("x", "u") ")",
+                                       "m" PULL("y", "x") " + m" PULL("y", "z") " + m" PULL("y", "u"),
+                                       "m" PULL("z", "x") " + m" PULL("z", "y") " + m" PULL("z", "u"),
+                                       "m" PULL("u", "x") " + m" PULL("u", "y") " + m" PULL("u", "z")};
+    static const char *const expected[] = {"1", "a", "a", "a"};
+    enum { n = 4, few = 5000 };
+    nh_dag *dag = nh_dag_create();
+    nh_ex parameter[2], e[n], c[n];
+    size_t parameters = symbols(dag, "a m", parameter);
+    for (size_t j = 0; j < n; j++) e[j] = ex(dag, text[j]);
+    cr_assert(nh_relation_find(dag, n, e, parameters, parameter, few, c) == NH_RELATION_UNIQUE);
+    for (size_t j = 0; j < n; j++) cr_expect(c[j] == ex(dag, expected[j]), "coefficient %zu", j);
+    nh_dag_free(dag);
+}
+
 #define LIST(...) (const char *const[]){__VA_ARGS__, NULL}
 
 /* No common factor, a positive leading coefficient first, factored where that is shorter. */

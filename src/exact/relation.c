@@ -101,12 +101,38 @@ static bool relate_to_earlier(question *q, size_t root, const nh_quotient *radic
     return false;
 }
 
+/* Is the kernel a sine that is written in exponentials? */
+static bool in_exponentials(const question *q, size_t kernel)
+{
+    return q->exponentials && !q->constant[kernel] && q->form.kernels.item[kernel].kind == NH_KERNEL_SIN;
+}
+
+/* Generators of the field from `first` on: i, then exp(i u) of each. */
+static void relate_to_exponentials(question *q, size_t first)
+{
+    nh_quotient_field *field = q->form.field;
+    nh_num half = nh_num_ratio(1, 2), minus = nh_num_int(-1);
+    q->constant[first] = false;
+    nh_quotient_field_relate(field, first, 2, nh_quotient_number(field, minus));
+    const nh_quotient *minus_i = nh_quotient_scale(field, nh_quotient_power_of(field, first, 1), minus);
+    for (size_t i = 0; i < q->form.kernels.count; i++) {
+        if (!in_exponentials(q, i)) continue;
+        q->constant[++first] = false;
+        const nh_quotient *z = nh_quotient_scale(field, nh_quotient_power_of(field, first, 1), half),
+                          *inverse = nh_quotient_scale(field, nh_quotient_power_of(field, first, -1), half),
+                          *less = nh_quotient_add(field, z, nh_quotient_scale(field, inverse, minus));
+        nh_quotient_field_relate(field, i, 1, nh_quotient_mul(field, minus_i, less));
+        nh_quotient_field_relate(field, q->form.kernels.item[i].partner, 1, nh_quotient_add(field, z, inverse));
+    }
+}
+
 /* Radicands come before their roots.  Returns whether the kernel is a root of variables that stands for itself. */
 static bool relate_kernel(question *q, size_t kernel, const size_t *earlier, size_t count)
 {
     nh_form *f = &q->form;
     nh_kernel k = f->kernels.item[kernel]; /* a copy: roots may be added */
-    if (k.kind == NH_KERNEL_SIN) nh_quotient_field_relate_pair(f->field, kernel, k.partner, false);
+    if (k.kind == NH_KERNEL_SIN && !in_exponentials(q, kernel))
+        nh_quotient_field_relate_pair(f->field, kernel, k.partner, false);
     if (k.kind == NH_KERNEL_ABS) nh_form_relate_abs(f, kernel);
     if (k.kind != NH_KERNEL_ROOT) return false;
     const nh_quotient *radicand = nh_form_eval(f, k.atom);
@@ -122,7 +148,7 @@ static size_t sort_out(question *q)
     const nh_kernels *k = &q->form.kernels;
     size_t roots = 0;
     for (size_t i = 0; i < k->count; i++) roots += k->item[i].kind == NH_KERNEL_ROOT;
-    q->constant = nh_alloc_array(k->count + roots + 1, sizeof *q->constant);
+    q->constant = nh_alloc_array(2 * k->count + roots + 2, sizeof *q->constant);
     for (size_t i = 0; i < k->count; i++) {
         q->constant[i] = constant_kernel(q, &k->item[i]);
         if (q->constant[i] && k->item[i].kind == NH_KERNEL_ROOT) roots--;
@@ -141,7 +167,10 @@ static bool collect_kernels(question *q)
     nh_kernels_settle(k);
     if (k->count > most_kernels) return false;
     size_t count = k->count, roots = sort_out(q), *earlier = nh_alloc_array(roots + 1, sizeof *earlier);
-    q->form.field = nh_quotient_field_create(count + (roots ? roots - 1 : 0), q->forms.max_terms);
+    size_t exponentials = 0, first = count + (roots ? roots - 1 : 0);
+    for (size_t i = 0; i < count; i++) exponentials += in_exponentials(q, i);
+    q->form.field = nh_quotient_field_create(first + exponentials + 1, q->forms.max_terms);
+    if (exponentials) relate_to_exponentials(q, first);
     nh_form_relate_signs(&q->form);
     roots = 0;
     for (int pass = 0; pass < 2; pass++) /* constants first: the others may turn out to be multiples of their roots */
@@ -259,13 +288,26 @@ void nh_relation_question_clear(question *q)
 }
 
 static nh_relation_verdict find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
-                                size_t max_terms, nh_ex *coefficient)
+                                size_t max_terms, bool exponentials, nh_ex *coefficient)
 {
     question q;
     nh_relation_question_init(&q, dag, n, parameters, parameter, max_terms);
+    q.exponentials = exponentials;
     nh_relation_verdict verdict = ask(&q, e, coefficient);
     nh_relation_question_clear(&q);
     return verdict;
+}
+
+static bool any_sine(const nh_dag *dag, size_t n, const nh_ex *e)
+{
+    enum { most = 64 };
+    nh_ex call[most];
+    for (size_t j = 0; j < n; j++) {
+        size_t count = nh_functions_in(dag, e[j], call, most);
+        for (size_t i = 0; i < count && i < most; i++)
+            if (nh_function_of(dag, call[i]) == NH_SIN || nh_function_of(dag, call[i]) == NH_COS) return true;
+    }
+    return false;
 }
 
 nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
@@ -276,10 +318,13 @@ nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size
     nh_ex *straight = nh_alloc_array(n, sizeof *straight);
     memcpy(straight, e, n * sizeof *straight);
     if (nh_straighten(dag, n, straight, parameters, parameter))
-        verdict = find(dag, n, straight, parameters, parameter, max_terms, coefficient);
+        verdict = find(dag, n, straight, parameters, parameter, max_terms, false, coefficient);
     nh_free(straight);
-    if (verdict != NH_RELATION_TOO_LARGE) return verdict;
-    return find(dag, n, e, parameters, parameter, max_terms, coefficient);
+    if (verdict == NH_RELATION_TOO_LARGE)
+        verdict = find(dag, n, e, parameters, parameter, max_terms, false, coefficient);
+    if (verdict == NH_RELATION_TOO_LARGE && any_sine(dag, n, e))
+        verdict = find(dag, n, e, parameters, parameter, max_terms, true, coefficient);
+    return verdict;
 }
 
 /* What the last expression needs, modulo a prime. */
