@@ -36,6 +36,8 @@ static const published PUBLISHED[] = {
     {"cubic with sqrt(14) i", "coordinates: [x, y]\nlagrangian: (-14*x'^2 + y'^2)/2 - (y^3/3 - 105*x^2*y + 1666/3*x^3)\n", 2, 4},
     /* M. Blau and M. O'Loughlin, Nucl. Phys. B 654 (2003) 135: exponentials of a cyclic coordinate */
     {"geodesics of a plane wave", "coordinates: [u, v, x, y]\nlagrangian: (x'^2 + y'^2)/2 + u'*v' + (x^2 - y^2)*u'^2/2\n", 8, 3},
+    /* the same with a profile that grows along the wave: Airy functions of u, with x u' beside x' */
+    {"geodesics of a growing plane wave", "coordinates: [u, v, x]\nlagrangian: u'*v' + x'^2/2 + u*x^2*u'^2/2\n", 6, 4},
     /* A. V. Kilin, Regul. Chaotic Dyn. 6 (2001) 291: Chaplygin's ball, here of revolution; along one direction of the plane its place is an
        inverse hyperbolic sine of cos(h) */
     {"Chaplygin's ball of revolution",

@@ -21,8 +21,9 @@ typedef struct {
     nh_ex s, pace; /* the variable and Gamma of it */
     size_t n;
     nh_ex word[most_words];
-    nh_ex A[most_words * most_words]; /* Gamma(word i) = pace sum_j A[i most_words
-                                         + j] word j */
+    nh_ex whole[most_words];          /* velocities w, positions q as q pace: of the same degree in the velocities */
+    nh_ex A[most_words * most_words]; /* Gamma(whole i) = pace sum_j A[i most_words
+                                         + j] whole j */
     bool closed[most_words];          /* there is such a row */
     size_t forms;
     const nh_ex *form;
@@ -60,19 +61,19 @@ static bool depends_on_s_alone(const seeker *x, nh_ex e)
     return true;
 }
 
-/* Row i of A, where Gamma(word i) is pace times something linear in the words:
+/* Row i of A, where Gamma(whole i) is pace times something linear in the words:
  * its derivatives at pace = 1 say what. */
 static bool row(seeker *x, size_t i)
 {
     nh_dag *d = x->o->dag;
-    nh_ex rate = nh_model_gamma(x->o, x->word[i]), rest = rate, one = nh_int(d, 1);
+    nh_ex rate = nh_model_gamma(x->o, x->whole[i]), rest = rate, one = nh_int(d, 1);
     if (x->word[i] == x->pace || nh_complexity(d, rate) > longest) return false;
     for (size_t j = 0; j < x->n; j++) {
         nh_ex *a = &x->A[i * most_words + j], slope = nh_diff(d, rate, x->word[j]);
         if (nh_kind_of(d, x->pace) == NH_SYMBOL) slope = nh_substitute(d, slope, 1, &x->pace, &one);
         *a = nh_is_zero(d, slope) || x->word[j] == x->pace ? nh_int(d, 0) : nh_simplify(d, slope);
         if (!depends_on_s_alone(x, *a) || nh_complexity(d, *a) > longest_entry) return false;
-        rest = nh_sub(d, rest, nh_product(d, 3, (nh_ex[]){x->pace, *a, x->word[j]}));
+        rest = nh_sub(d, rest, nh_product(d, 3, (nh_ex[]){x->pace, *a, x->whole[j]}));
     }
     return nh_normal_is_zero(d, rest, 0) == NH_ZERO;
 }
@@ -220,9 +221,10 @@ static size_t forms_of(const seeker *x, size_t i, size_t j, linear_form *out)
     nh_dag *d = x->o->dag;
     const nh_ex one = nh_int(d, 1), zero = nh_int(d, 0), a = x->word[i], b = x->word[j];
     size_t n = 2;
-    out[0] = (linear_form){{one, zero}, a};
-    out[1] = (linear_form){{zero, one}, b};
-    for (size_t k = 0; k < x->forms && n < most_forms; k++) {
+    bool velocities = x->whole[i] == a && x->whole[j] == b;
+    out[0] = (linear_form){{one, zero}, x->whole[i]};
+    out[1] = (linear_form){{zero, one}, x->whole[j]};
+    for (size_t k = 0; k < x->forms && n < most_forms && velocities; k++) {
         nh_ex whole = x->form[k];
         if (!nh_depends(d, whole, a) || !nh_depends(d, whole, b) || nh_complexity(d, whole) > longest_form) continue;
         linear_form f = {{simple(x, nh_diff(d, whole, a)), simple(x, nh_diff(d, whole, b))}, whole};
@@ -257,6 +259,13 @@ static void seek(seeker *x, size_t i, size_t j)
     for (size_t k = 0; k < best.count && x->count < NH_MOST_NAMED; k++) x->out[x->count++] = best.phi[k];
 }
 
+static bool is_position(const nh_model *o, nh_ex symbol)
+{
+    size_t s = 0;
+    while (s < o->m && symbol != o->system->coordinate[s].q) s++;
+    return s < o->m;
+}
+
 size_t nh_named_coefficients(const nh_model *o, nh_ex variable, size_t words, const nh_ex *word, size_t forms,
                              const nh_ex *form, nh_arena *arena, nh_ex out[NH_MOST_NAMED], const char **open)
 {
@@ -269,7 +278,10 @@ size_t nh_named_coefficients(const nh_model *o, nh_ex variable, size_t words, co
                   .arena = arena,
                   .out = out};
     for (size_t i = 0; i < words && x->n < most_words; i++)
-        if (nh_kind_of(o->dag, word[i]) == NH_SYMBOL && word[i] != variable) x->word[x->n++] = word[i];
+        if (nh_kind_of(o->dag, word[i]) == NH_SYMBOL && word[i] != variable) {
+            x->whole[x->n] = is_position(o, word[i]) ? nh_mul(o->dag, word[i], x->pace) : word[i];
+            x->word[x->n++] = word[i];
+        }
     for (size_t i = 0; i < x->n; i++) x->closed[i] = row(x, i);
     for (size_t i = 0; i < x->n; i++)
         for (size_t j = i + 1; j < x->n; j++)

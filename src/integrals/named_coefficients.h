@@ -7,7 +7,8 @@
  *     f' = -A_aa f - A_ba h,    h' = -A_ab f - A_bb h, (31)
  *
  * is equivalent to one equation of second order, exactly and over all
- * parameters (named_variable.h, named_match.h). */
+ * parameters (named_variable.h, named_match.h).  A position q stands for
+ * q Gamma(s): of a plane wave x' f(u) + x u' h(u). */
 #ifndef NH_NAMED_COEFFICIENTS_H
 #define NH_NAMED_COEFFICIENTS_H
 

@@ -245,6 +245,17 @@ void nh_series_stages(nh_stage_solver *x)
     search(&p, "squares of velocities");
 }
 
+/* Velocities and positions times the rate of q: Killing fields of plane waves are translations with functions of the
+   wave's phase. */
+static void affine_in(nh_stage_solver *x, nh_ex q)
+{
+    const nh_model *o = x->r->model;
+    problem p = {.x = x, .variable = q};
+    put_all(&p, o->n, o->chart->w);
+    put_all(&p, x->words.positions, x->words.position);
+    named(&p, "velocities and their products with positions");
+}
+
 void nh_stage_solver_series_in_each(nh_stage_solver *x)
 {
     enum { most_shapes = 3 };
@@ -252,6 +263,7 @@ void nh_stage_solver_series_in_each(nh_stage_solver *x)
         nh_counted_has_walls(x->r->model))
         return;
     for (size_t i = 0; i < x->words.shapes; i++) linear_in(x, x->words.shape[i]);
+    for (size_t i = 0; i < x->words.shapes; i++) affine_in(x, x->words.shape[i]);
 }
 
 /* Does the motion depend on t otherwise than through its state? */
