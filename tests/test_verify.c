@@ -120,7 +120,7 @@ Test(verify, the_third_field_as_printed_is_refuted_and_corrected_is_proved)
     static const char corrected[] = PLACES "; phi'=" PHI_RATE " - " D "*phi'/(a*k^2*cos(phi)); x'=" X_RATE " - " B "*(a*phi'*cos(phi) - x'*tan(phi))";
     nh_verification *v = field(printed, NH_CHART_COORDINATES);
     cr_expect(!v->conserved && v->has_counterexample);
-    cr_expect_not_null(strstr(v->equation, "(NX)"), "%s", v->equation);
+    cr_expect_eq(v->equation_number, 18, "%s", v->equation);
     nh_verification_free(v);
     v = field(corrected, NH_CHART_COORDINATES);
     cr_expect(v->conserved && v->proof.all_parameters);
@@ -131,11 +131,11 @@ Test(verify, fields_outside_the_distribution_or_without_symmetry_are_refuted)
 {
     nh_verification *v = field("y=1", NH_CHART_QUASI);
     cr_expect_not(v->conserved);
-    cr_expect_not_null(strstr(v->equation, "canonical distribution"), "%s", v->equation);
+    cr_expect_eq(v->equation_number, 6, "%s", v->equation);
     nh_verification_free(v);
     v = field("phi=1", NH_CHART_QUASI);
     cr_expect_not(v->conserved);
-    cr_expect_str_eq(v->equation, "(N0)");
+    cr_expect_eq(v->equation_number, 17, "%s", v->equation);
     nh_verification_free(v);
     v = field("Z0=1", NH_CHART_QUASI);
     cr_expect(v->conserved && v->symmetry.kase == 1);

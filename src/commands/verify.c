@@ -273,6 +273,24 @@ static void outside(nh_verification *v, const given *g)
     }
 }
 
+/* What has to vanish, as --equations writes it, and its number in [CechMusilova2014]. */
+static void name_condition(nh_verification *v, size_t number, const char *in_chart, const char *in_quasi, size_t j)
+{
+    const nh_model *o = v->model;
+    const nh_chart *c = o->chart;
+    const char *w = nh_name_of(o->dag, c->w[j]), *q = c->quasi ? w : v->system->coordinate[c->free[j]].name;
+    nh_text label;
+    nh_text_init(&label);
+    for (const char *at = c->quasi ? in_quasi : in_chart; *at; at++) {
+        if (*at == '@') nh_text_addf(&label, "<%s>", q);
+        else if (*at == '#') nh_text_addf(&label, "<%s>", w);
+        else nh_text_add_n(&label, at, 1);
+    }
+    v->equation = nh_arena_printf(v->arena, "%s", nh_text_string(&label));
+    v->equation_number = number;
+    nh_text_clear(&label);
+}
+
 /* The terms of the k-th condition: Z in the canonical distribution (as many as constraints), (N0), (NY) (n); (NX) (n)
  * only determines W and is checked only when the user gave W. */
 static size_t condition(nh_verification *v, const given *g, size_t k, nh_ex *term)
@@ -285,16 +303,17 @@ static size_t condition(nh_verification *v, const given *g, size_t k, nh_ex *ter
             term[n++] = nh_mul(d, o->nu[k * o->m + s], g->space[s]);
             term[n++] = nh_neg(d, nh_product(d, 3, (nh_ex[]){o->nu[k * o->m + s], o->rho[s], g->time}));
         }
-        v->equation = nh_arena_printf(v->arena, "the canonical distribution, i_Z phi^%zu", k + 1);
+        v->equation = nh_arena_printf(v->arena, "i_{Z} \\form^{%zu}", k + 1);
+        v->equation_number = 6;
     } else if (k == o->k) {
         term[n++] = nh_model_X0(o, v->current);
         for (size_t i = 0; i < o->n; i++) term[n++] = nh_mul(d, o->A[i], g->zeta[i]);
-        v->equation = "(N0)";
+        name_condition(v, 17, "\\frac{\\dcp Phi}{\\d t} + \\bar{A}_{l} zeta^{l}", "X_{0}(Phi) + A_{l} zeta^{l}", 0);
     } else if (k <= o->k + o->n) {
         size_t j = k - o->k - 1;
         term[n++] = nh_model_Y(o, j, v->current);
         for (size_t i = 0; i < o->n; i++) term[n++] = nh_neg(d, nh_mul(d, o->M[i * o->n + j], g->zeta[i]));
-        v->equation = nh_arena_printf(v->arena, "(NY) for %s", nh_name_of(d, o->chart->w[j]));
+        name_condition(v, 19, "\\frac{\\p Phi}{\\p #} + \\bar{B}_{l,@} zeta^{l}", "Y_{@}(Phi) - M_{l,@} zeta^{l}", j);
     } else {
         size_t j = k - o->k - 1 - o->n;
         term[n++] = nh_model_X(o, j, v->current);
@@ -303,7 +322,10 @@ static size_t condition(nh_verification *v, const given *g, size_t k, nh_ex *ter
             term[n++] = nh_mul(d, nh_model_G(o)[i * o->n + j], g->zeta[i]);
             term[n++] = nh_mul(d, o->M[i * o->n + j], g->W[i]);
         }
-        v->equation = nh_arena_printf(v->arena, "(NX) for %s", nh_name_of(d, o->chart->w[j]));
+        name_condition(v, 18,
+                       "\\frac{\\pc Phi}{\\p @} - \\bar{A}_{@} Z^{0} + G_{l,@} zeta^{l} - "
+                       "\\bar{B}_{l,@} \\tilde{Z}^{l}",
+                       "X_{@}(Phi) - A_{@} Z^{0} + G_{l,@} zeta^{l} + M_{l,@} W^{l}", j);
     }
     return n;
 }
@@ -404,8 +426,9 @@ static void motion_condition(nh_verification *v, const given *g, size_t k, nh_ex
     term[0] = nh_model_gamma(o, own);
     term[1] = nh_neg(o->dag, nh_model_along(o, &Z, motion));
     term[2] = nh_neg(o->dag, nh_mul(o->dag, v->factor, motion));
-    v->equation = nh_arena_printf(v->arena, "[Gamma,Z] - f Gamma along %s",
-                                  place ? v->system->coordinate[k].name : nh_name_of(o->dag, o->chart->w[k - o->m]));
+    v->equation_number = 0;
+    const char *along = place ? v->system->coordinate[k].name : nh_name_of(o->dag, o->chart->w[k - o->m]);
+    v->equation = nh_arena_printf(v->arena, "[Gamma,Z]^{<%s>} - f Gamma^{<%s>}", along, along);
 }
 
 /* Z(Phi) of the currents that the system file knows. */

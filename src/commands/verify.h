@@ -40,7 +40,10 @@ struct nh_verification {
     bool has_counterexample;
     double *counterexample;   /* model->width values (t, q, w, u) */
     double rate;              /* Gamma(Phi), or the violated equation, there */
-    const char *equation;     /* which equation of a field fails: "(N0)", "(NY) for phi'", ... */
+    /* of a field: what does not vanish, as a label of document/notation.h, and the equation's number in
+       [CechMusilova2014], or 0 */
+    const char *equation;
+    size_t equation_number;
 };
 
 /* NULL for bad input. */

@@ -38,7 +38,8 @@ static void write_piece(void *context, const char *piece, nh_typeset_follows fol
     nh_html_writer *w = context;
     nh_html_add(w, "<math displaystyle=\"true\">");
     add_compact(w->out, piece);
-    nh_html_add(w, follows == NH_FOLLOWS_FACTOR ? "</math>\u00ad" : "</math> ");
+    nh_html_add(w, "</math>");
+    if (follows != NH_FOLLOWS_NOTHING) nh_html_add(w, follows == NH_FOLLOWS_FACTOR ? "\u00ad" : " ");
 }
 
 void nh_html_source(nh_html_writer *w, const char *text)
@@ -75,7 +76,7 @@ static void put_label(nh_html_writer *w, const char *label)
     if (!label[0]) return;
     if (label[0] == '<') nh_text_addf(w->out, "<math>%s</math> ", label);
     else nh_html_source(w, label);
-    nh_html_add(w, "<math><mo>=</mo></math> ");
+    nh_html_add(w, " <math><mo>=</mo></math> ");
 }
 
 static void line(nh_html_writer *w, const char *label, nh_ex e)

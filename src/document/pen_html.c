@@ -73,7 +73,7 @@ static void letters(void *to, const char *label)
 static void equation(void *to, const char *label, const char *formula)
 {
     nh_html_add(to, "<div class=\"formula\">");
-    if (*label) nh_html_source(to, label), nh_html_add(to, "<math><mo>=</mo></math> ");
+    if (*label) nh_html_source(to, label), nh_html_add(to, " <math><mo>=</mo></math> ");
     nh_html_source(to, formula);
     nh_html_add(to, "</div>\n");
 }

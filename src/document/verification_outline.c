@@ -33,13 +33,22 @@ static void counterexample(nh_pen *p, const nh_verification *v)
     if (!v->has_counterexample) return;
     nh_pen_section(p, "counterexample", "Where it fails");
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    if (of_field(v)) nh_pen_say(p, "The condition that fails: %s. It gives %.6g, not 0,", v->equation, v->rate);
-    else nh_pen_say(p, "The rate of change along the motion is %.6g, not 0,", v->rate);
+    if (of_field(v)) {
+        nh_pen_say(p, "The condition that fails is ");
+        p->ink->letters(p->to, v->equation);
+        nh_pen_say(p, " = 0");
+        if (v->equation_number) nh_pen_say(p, " (%zu in Čech and Musilová, 2014)", v->equation_number);
+        nh_pen_say(p, ". Its left side is %.6g", v->rate);
+    } else {
+        nh_pen_say(p, "The rate of change along the motion is %.6g, not 0,", v->rate);
+    }
     nh_pen_say(p, " in the state ");
     for (size_t j = 0; j < v->model->width; j++)
         nh_pen_say(p, j ? ", <%s> = %.10g" : "<%s> = %.10g", nh_name_of(v->model->dag, v->model->chart->symbol[j]),
                    v->counterexample[j]);
     nh_pen_say(p, ".");
+    if (of_field(v) && v->equation_number > 6 && !v->theory)
+        nh_pen_say(p, " With --equations the letters are defined.");
     nh_pen_close(p, NH_PEN_WORDS);
 }
 
