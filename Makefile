@@ -87,7 +87,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE packages test-packages check-packages
+.PHONY: all library sleigh check check-all threads tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE packages test-packages check-packages check-plain check-sanitized
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -100,9 +100,14 @@ sleigh: packages
 	@$(BUILD)/nhsym analyze sleigh
 
 check: check-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) all tests
-	@$(MAKE) --no-print-directory -j$(JOBS) SANITIZE=1 all tests
+	@$(MAKE) --no-print-directory -j$(JOBS) check-plain check-sanitized
 	@sh tests/run.sh build build-sanitize
+
+# Together: while one links the program, the other compiles.
+check-plain:
+	@$(MAKE) --no-print-directory all tests
+check-sanitized:
+	@$(MAKE) --no-print-directory SANITIZE=1 all tests
 
 check-all: export NHSYM_SWEEPS = all
 check-all: check

@@ -173,11 +173,12 @@ static void batch_clear(batch *b)
 
 /* ---- what a program prints, against what is expected ---- */
 
-/* For each call a number, 0 where it has values, then these. */
+/* For each call a number, 0 where it has values, then these.  What the sanitized build writes is compared in one language: the plain one writes the same. */
 static void compare(const batch *b, const char *language, const char *command, double allowed,
                     bool (*wanted)(const exported *e))
 {
     char line[SCRATCH + 400];
+    if (SWEEP_SANITIZED && !sweep_whole() && strcmp(language, "C")) return;
     snprintf(line, sizeof line, "cd %s && %s", b->folder, command);
     FILE *pipe = popen(line, "r");
     cr_assert_not_null(pipe);

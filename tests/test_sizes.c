@@ -52,7 +52,7 @@ Test(sizes, oscillators, .timeout = 600)
     sweep_plain_only();
     static const size_t sizes[] = {4, 5, 6, 8, 12};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-        if (!sweep_tries(s, 2, 16)) continue;
+        if (!sweep_tries(s, 3, 16)) continue;
         nh_text text;
         coordinates(&text, sizes[s], "x");
         for (size_t i = 1; i <= sizes[s]; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
@@ -98,7 +98,7 @@ Test(sizes, chains, .timeout = 600)
     sweep_plain_only();
     static const size_t sizes[] = {6, 8, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-        if (!sweep_tries(s, 2, 16)) continue;
+        if (!sweep_tries(s + 1, 2, 16)) continue;
         nh_text text;
         chain(&text, sizes[s], false);
         nh_analysis *r = search(&text, 0);

@@ -134,9 +134,10 @@ Test(tex, every_number_is_in_the_json)
 
 /* ---- pdflatex ---- */
 
-/* Sets NAME.tex; false without pdflatex. */
+/* Sets NAME.tex; false without pdflatex.  What the sanitized program writes, the plain one writes too. */
 static bool set_in_type(const place *p, const char *name)
 {
+    if (SWEEP_SANITIZED && !sweep_whole()) return true;
     char command[400];
     snprintf(command, sizeof command,
              "command -v pdflatex >/dev/null && kpsewhich pgfplots.sty >/dev/null || exit 3\n"
@@ -154,9 +155,11 @@ static const char *const REDUCED[] = {"crane", "vertical_disk", "kepler", "const
 
 Test(tex, documents_are_set_without_a_fault)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     bool installed = true;
     for (size_t s = 0; installed && s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
+        if (!sweep_tries(s, 2, 2)) continue;
         char line[200];
         snprintf(line, sizeof line, "analyze %s --quiet --tex a.tex", SYSTEMS[s]);
         finished f = run(&p, line);
@@ -164,6 +167,7 @@ Test(tex, documents_are_set_without_a_fault)
         installed = set_in_type(&p, "a");
     }
     for (size_t i = 0; installed && i < sizeof REDUCED / sizeof *REDUCED; i++) {
+        if (!sweep_tries(i, 2, 2)) continue;
         char line[200];
         snprintf(line, sizeof line, "reduce %s --equations --quiet --tex r.tex", REDUCED[i]);
         finished f = run(&p, line);
