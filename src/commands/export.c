@@ -170,8 +170,11 @@ static bool read_inputs(nh_export *x, const char *list, nh_error *error)
         if (i == s->parameters) {
             nh_fail(error, NH_USAGE, "--input", "`%.100s` is not a parameter of %s", word, s->name);
             const char *near = nh_text_nearest(word, names, s->parameters);
-            return near ? nh_error_hint(error, "did you mean `%s`?", near)
-                        : nh_error_hint(error, "an input is declared under `parameters:`, and used in `forces:`");
+            if (near) return nh_error_hint(error, "did you mean `%s`?", near);
+            return nh_error_hint(error,
+                                 "an input is declared in the system file: parameters: {%.40s: 0}, forces: "
+                                 "[\"%s = %.40s\"]",
+                                 word, s->coordinate[0].name, word);
         }
         if (!may_change(s, i, error)) return false;
         x->inputs += !x->input[i];

@@ -108,6 +108,15 @@ static void hint_list(const nh_deck_node *node, const char *what, nh_error *erro
     nh_error_hint(error, "a list is written [a, b], or one item per line, each after `- `");
 }
 
+/* `- x: -x'` among equations. */
+static void hint_equation(const nh_deck_node *node, const char *what, nh_error *error)
+{
+    if (strstr(what, "= expression`") && node->kind == NH_DECK_MAP && node->count == 1 &&
+        node->item[0]->kind == NH_DECK_SCALAR)
+        nh_error_hint(error, "with `=` in the place of the colon: \"%s = %s\"", node->key[0]->text,
+                      node->item[0]->text);
+}
+
 bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind, const char *what, nh_error *error)
 {
     static const char *const wanted[] = {"a single value", "a list", "a map (`key: value`)"};
@@ -119,6 +128,8 @@ bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind
         nh_error_hint(error, "write a space after the colon");
     if (fresh && node && kind == NH_DECK_LIST)
         hint_list(node, what, error);
+    if (fresh && node && kind == NH_DECK_SCALAR)
+        hint_equation(node, what, error);
     return false;
 }
 

@@ -105,13 +105,17 @@ static const char *suggest(const scope *s, const char *name, nh_parse_fault *fau
     return near;
 }
 
-/* xdot, x_dot, dotx for x', and e for exp: how the same is written elsewhere. */
+/* xdot, x_dot, dotx for x', e for exp, np.sin for sin: how the same is written elsewhere. */
 static void translate(const scope *s, const char *name, const char *near, nh_parse_fault *fault)
 {
     const nh_system *y = s->system;
     if (!strcmp(name, "e"))
         snprintf(fault->hint, sizeof fault->hint,
                  "the exponential function is written exp(...), and 1e-3 without blanks");
+    static const char *const module[] = {"np", "numpy", "math", "sp", "sympy", "cmath", "scipy"};
+    for (size_t i = 0; i < sizeof module / sizeof *module; i++)
+        if (!strcmp(name, module[i]))
+            snprintf(fault->hint, sizeof fault->hint, "functions are written without a module: sin(x), sqrt(x), pi");
     const char *q = nh_system_velocity_meant(y, name, near);
     if (q) snprintf(fault->hint, sizeof fault->hint, NH_VELOCITY_IS_WRITTEN, q, q);
 }

@@ -410,13 +410,42 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
     return true;
 }
 
+/* Keys that a file of another program may have, and what stands in their place here. */
+static const struct {
+    const char *key, *hint;
+} elsewhere[] = {
+    {"T", "definitions: [\"T = m/2*x'^2\", \"V = k/2*x^2\"], then lagrangian: T - V"},
+    {"V", "definitions: [\"T = m/2*x'^2\", \"V = k/2*x^2\"], then lagrangian: T - V"},
+    {"kinetic", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
+    {"kinetic_energy", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
+    {"potential", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
+    {"potential_energy", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
+    {"hamiltonian", "a system is given by its Lagrangian: lagrangian: m/2*x'^2 - k/2*x^2"},
+    {"holonomic", "constraints: [\"x = y\", \"y' = x*x'\"]: equations of positions and of velocities"},
+    {"nonholonomic", "constraints: [\"x = y\", \"y' = x*x'\"]: equations of positions and of velocities"},
+    {"inputs", "an input is a parameter: {name: u, value: 0, input: true}"},
+    {"quasi_velocities", "velocities: {names: [v], map: [\"x' = v\"]}"},
+    {"initial", "a motion's start is no part of the system: --initial \"x=1\", or an analysis file (`validate`)"},
+};
+
+static bool other_words(const reader *r)
+{
+    for (size_t i = 0; i < r->root->count; i++)
+        for (size_t j = 0; j < sizeof elsewhere / sizeof *elsewhere; j++)
+            if (!strcmp(r->root->key[i]->text, elsewhere[j].key)) {
+                nh_deck_fail(r->deck, r->root->key[i], 0, r->error, "unknown key `%s`", elsewhere[j].key);
+                return nh_error_hint(r->error, "%s", elsewhere[j].hint);
+            }
+    return true;
+}
+
 static bool read_all(reader *r, size_t settings, const nh_setting *setting)
 {
     nh_system *s = r->system;
     if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)",
                     r->error))
         return false;
-    if (!nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
+    if (!other_words(r) || !nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
     const char *doc; /* for the reader of the file */
     if (!nh_system_text_of(r, r->root, "name", "system", &s->name) ||
         !nh_system_text_of(r, r->root, "title", s->name, &s->title))

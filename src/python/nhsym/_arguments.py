@@ -19,8 +19,24 @@ def nearest(word, names):
     return lower[near[0]] if near else None
 
 
+def velocity_meant(word, names):
+    """x' where x_dot, xdot or dx is asked for, or None."""
+    for name in names:
+        if name.endswith("'") and word in (name[:-1] + "_dot", name[:-1] + "dot", "d" + name[:-1], name[:-1] + "_d", name[:-1] + "d"):
+            return name
+    return None
+
+
+# What other programs call these arguments.
+_ELSEWHERE = {"t_end": "until", "tend": "until", "t_final": "until", "tf": "until", "tmax": "until", "t_max": "until", "time": "until", "duration": "until", "t_span": "until",
+              "t": "until", "dt": "step", "h": "step", "t_eval": "step",
+              "x0": "initial", "y0": "initial", "state": "initial", "initial_state": "initial", "initial_conditions": "initial", "ics": "initial", "solver": "method",
+              "integrator": "method", "observe": "watch", "outputs": "watch", "params": "parameters", "values": "parameters", "parameter": "over", "budget": "seconds",
+              "L": "lagrangian", "q": "coordinates", "callback": "progress"}
+
+
 def _unknown(name, function, names):
-    near = nearest(name, names)
+    near = _ELSEWHERE.get(name) if _ELSEWHERE.get(name) in names else nearest(name, names)
     hint = "did you mean `%s`?" % near if near else "its arguments are " + ", ".join(names) if names else "it takes no arguments"
     if not near and "options" in names:
         hint += "; numerical options stand in options={..}"

@@ -7,7 +7,7 @@ import warnings
 
 import numpy
 
-from ._arguments import explains_arguments, nearest, no_attribute, outside
+from ._arguments import explains_arguments, nearest, no_attribute, outside, velocity_meant
 from ._calls import free_later
 from ._library import AS_LATEX, AS_MATHML, CSV, HTML, JSON, LATEX, PLAIN, SVG, TEXT, ErrorRecord, UsageError, error_of, library, taken
 from .formula import Formula
@@ -18,7 +18,7 @@ FORMULAS = {"expression", "in_velocities", "lagrangian", "energy", "rate", "cons
 
 
 def _no_entry(key, names):
-    near = nearest(key, names)
+    near = velocity_meant(key, names) or nearest(key, names)
     return KeyError("there is no `%s`%s" % (key, "; did you mean `%s`?" % near if near else ", but " + ", ".join(names)))
 
 
@@ -349,7 +349,7 @@ class Simulation(Result):
         names = list(self.table)
         for name in (x,) + y:
             if name not in names:
-                near = nearest(name, names)
+                near = velocity_meant(name, names) or nearest(name, names)
                 raise UsageError("there is no column `%s`" % name, "did you mean `%s`?" % near if near else "the columns are " + ", ".join(names))
         y = y or (names[1],)
         return Picture([taken(library().nh_simulation_svg(self._address, names.index(x), names.index(name))) for name in y], ["%s against %s" % (name, x) for name in y])

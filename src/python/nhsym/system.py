@@ -227,9 +227,10 @@ class System:
             return self._question["system_text"]
         raise InputError("the text of a shipped system is in its file", "nhsym show %s" % self.name)
 
-    def set(self, **parameters):
-        """The same system with other values of parameters."""
-        return self._with({"set": ", ".join(filter(None, [self._question.get("set"), _pairs("set", parameters)]))})
+    def set(self, values=(), /, **parameters):
+        """The same system with other values of parameters: set(k=3), or a mapping from names or symbols."""
+        given = {_name(key): value for key, value in pairs_of("values", values or {}, "set(k=3), or set({k: 3})")}
+        return self._with({"set": ", ".join(filter(None, [self._question.get("set"), _pairs("set", {**given, **parameters})]))})
 
     def _with(self, question):
         other = object.__new__(System)

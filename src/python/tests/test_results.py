@@ -90,6 +90,8 @@ def test_a_motion(sleigh, analysis):
     assert motion.plot("x", "y")._repr_svg_().startswith("<svg") and motion.plot("t", "x", "y")._repr_html_().count("<svg") == 2
     with pytest.raises(nhsym.UsageError, match="zz"):
         motion.plot("zz")
+    with pytest.raises(nhsym.UsageError, match="did you mean `x'`"):
+        motion.plot("t", "x_dot")
 
 
 def test_a_motion_that_ends_early_says_so():

@@ -58,6 +58,7 @@ def test_built_from_strings_and_from_sympy_alike():
 def test_parameters_are_changed_in_a_copy():
     spring = nhsym.system(OSCILLATOR)
     other = spring.set(k=18).set(m=1)
+    assert spring.set({sympy.Symbol("k"): 18, "m": 1}).parameters == other.parameters
     assert spring.parameters == {"m": 2, "k": 8} and other.parameters == {"m": 1, "k": 18}
     assert nhsym.system(OSCILLATOR, set={"k": fractions.Fraction(1, 4)}).parameters["k"] == 0.25
 
@@ -133,6 +134,8 @@ def test_every_call_names_the_argument_that_was_meant():
         with pytest.raises(TypeError) as error:
             call()
         assert isinstance(error.value, nhsym.UsageError) and error.value.hint and error.value.code == 2
+    with pytest.raises(nhsym.ArgumentError, match="did you mean `until`"):
+        nhsym.system(OSCILLATOR).simulate(t_end=5)
     with pytest.raises(nhsym.ArgumentError, match="options={..}"):
         spring.analyze(tolerance=1e-9)
     with pytest.raises(AttributeError, match="did you mean `analyze`"):
