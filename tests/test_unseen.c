@@ -403,6 +403,16 @@ Test(unseen, linear_motion_that_is_driven_has_closed_forms)
          "coordinates: [x, y]\n"
          "lagrangian: m/2*(x'^2 + y'^2) - k/2*(x^2 + (y - x)^2) + f*t^2*y\n"
          "forces: [\"x = -c*x'\"]\n", 4, false},
+        {"springs that weaken as 1/t^2",
+         "parameters: {k: 0.1}\n"
+         "coordinates: [x, y]\n"
+         "lagrangian: (x'^2 + y'^2)/2 - k*(x^2 + 3*y^2)/(2*t^2)\n"
+         "domain: {t: [1, 2]}\n", 4, true},
+        {"pendulum with friction as the square of its velocity",
+         "parameters: {c: 0.3, g: 0.8}\n"
+         "coordinates: [{name: h, type: angle}]\n"
+         "lagrangian: h'^2/2 + g*cos(h)\n"
+         "forces: [\"h = -c*h'^2\"]\n", 1, true},
         {"a mass that grows, under a wave",
          "parameters: {m: 1, k: 4, b: 0.2, F: 0.5, w: 1.7}\n"
          "coordinates: [x]\n"

@@ -351,13 +351,33 @@ static nh_ex invariant(matcher *m)
     return simple(d, nh_sub(d, R, times(m, nh_diff(d, m->p, m->x), number(m, 1, 2))));
 }
 
+/* Euler's equation, R = B/x^2: x^r with r (r - 1) = B, in real functions where r is not. */
+static size_t powers(matcher *m, nh_ex R, nh_ex out[2])
+{
+    nh_dag *d = m->d;
+    nh_ex B = simple(d, times(m, R, nh_powi(d, m->x, 2))), half = number(m, 1, 2);
+    nh_ex square = simple(d, shifted(m, times(m, nh_int(d, 4), B), 1, 1));
+    if (nh_depends(d, B, m->x) || nh_is_zero(d, B)) return 0;
+    nh_ex x = value_of(m, m->x) < 0 ? nh_neg(d, m->x) : m->x, middle = nh_sqrt(d, x), logarithm = nh_call(d, NH_LOG, x);
+    double sign = value_of(m, square);
+    if (!isfinite(sign) || (sign == 0 && !is_zero(m, square))) return 0;
+    nh_ex w = sign == 0 ? logarithm : times(m, half, root(m, sign > 0 ? square : nh_neg(d, square)));
+    for (int k = 0; k < 2; k++) {
+        nh_ex wave = nh_call(d, k ? NH_SIN : NH_COS, times(m, w, logarithm));
+        if (sign > 0) out[k] = nh_pow(d, x, simple(d, k ? nh_sub(d, half, w) : plus(m, half, w)));
+        else out[k] = sign < 0 ? times(m, middle, wave) : k ? times(m, middle, logarithm) : middle;
+    }
+    return 2;
+}
+
 static size_t confluent(matcher *m, const points *s, nh_ex out[2])
 {
     nh_ex g;
     if (s->count) move(m, s->of[0].at);
     else complete_square(m, invariant(m));
     nh_ex R = invariant(m);
-    size_t n = gauge(m, &g) ? bessel(m, R, out) : 0;
+    size_t n = gauge(m, &g) ? powers(m, R, out) : 0;
+    if (!n) n = gauge(m, &g) ? bessel(m, R, out) : 0;
     if (!n) n = gauge(m, &g) ? whittaker(m, R, out) : 0;
     for (size_t i = 0; i < n; i++) out[i] = times(m, g, out[i]);
     return n;

@@ -2,6 +2,7 @@
  *
  *     three regular singular points           Gauss's function of a Moebius variable, times powers [DLMF 15.11]
  *     a conjugate pair and infinity           Riemann's equation with real coefficients
+ *     R = B/x^2                               powers of x, with logarithms in waves
  *     R = A x^m + B/x^2                       Airy; Bessel, sqrt(x) J_n(.. x^((m + 2)/2)) [DLMF 10.13]
  *     R = A + B/x + C/x^2, A x^2 + B x + C,
  *     A x^2 + C + D/x^2                       Kummer's functions [DLMF 13.14, 12.7]

@@ -338,6 +338,23 @@ nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *o, const nh_di
     return nh_family_list_terms(&s, &both);
 }
 
+/* Of the potentials, again and again: exp(2 c x) (x'^2/2 + f(x)) is kept under friction c x'^2 where f' + 2 c f = V'. */
+static void put_derivatives(const nh_family_list *s, nh_expr_set *l)
+{
+    enum { highest = 6 };
+    const nh_model *o = s->o;
+    for (size_t i = 0; i < s->w->potentials; i++)
+        for (size_t k = 0; k < o->m; k++) {
+            nh_ex e = s->w->potential[i];
+            for (size_t j = 0; j < highest && nh_depends(o->dag, e, o->system->coordinate[k].q); j++) {
+                e = nh_diff(o->dag, e, o->system->coordinate[k].q);
+                if (nh_kind_of(o->dag, e) == NH_PRODUCT)
+                    e = nh_div(o->dag, e, nh_number(o->dag, nh_constant_of(o->dag, e)));
+                nh_expr_set_put(l, e);
+            }
+        }
+}
+
 nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t base)
 {
     enum { most_with_waves = 110 };
@@ -347,6 +364,7 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
     if (base == NH_PENCIL_QUADRATIC || base == NH_PENCIL_CUBIC) return power_base(&s, base == NH_PENCIL_CUBIC ? 3 : 2);
     if (base == NH_PENCIL_SQUARES) {
         nh_expr_set u = {0}, f = nh_expr_set_functions(&s, true);
+        put_derivatives(&s, &f);
         nh_expr_set_put_all(&u, o->n, o->chart->w);
         nh_expr_set uu = nh_expr_set_squares(&s, &u);
         nh_expr_set_put_all(&uu, f.n, f.e);
