@@ -27,7 +27,7 @@
 
 /* ---- commands whose JSON is read ---- */
 
-enum { D_PHI1, D_PHI2, D_PHI3, D_PRODUCT, D_ANALYZE, D_SPEED, D_CRANE, D_DISK, D_ROLLING, D_BODY, D_PENDULUM, D_UPRIGHT, D_SYMMETRIES, D_SUBNORMAL, D_DISK_CURRENTS, D_SCALING, D_TOP, D_SEMIHOLONOMIC, D_COUNT, D_NONE };
+enum { D_PHI1, D_PHI2, D_PHI3, D_PRODUCT, D_ANALYZE, D_SPEED, D_CRANE, D_DISK, D_ROLLING, D_BODY, D_PENDULUM, D_UPRIGHT, D_SYMMETRIES, D_SUBNORMAL, D_DISK_CURRENTS, D_SCALING, D_TOP, D_SEMIHOLONOMIC, D_ZERO, D_COUNT, D_NONE };
 
 static const struct {
     const char *system, *words, *shown; /* shown: with the names of long formulas, which the page defines; NULL: the words themselves */
@@ -50,6 +50,7 @@ static const struct {
     {"free_particle", "verify free_particle --field \"t=2*t; x=x; y=y; z=z\"", NULL},
     {"euler_top", "reduce euler_top --until 1", NULL},
     {"tests/data/curved_rail.yaml", "verify tests/data/curved_rail.yaml --equations --current \"(T + V)*(y - c*x^2 - b*sin(phi))\"", NULL},
+    {"euler_disk", "reduce euler_disk --group \"psi=1; x1=1; x2=1\" --chain \"1; 2, 3\" --option lifts=1 --equations --until 1", NULL},
 };
 
 /* ---- rows ---- */
@@ -234,7 +235,10 @@ static const row ROWS[] = {
     {B, "(44), (46)", "orbits of dimension 3 in 5 coordinates", IS, D_DISK, .label = "group.orbit", .printed = "3"},
     {B, "(45)", "constraint of the disk: x1'", VALUE, D_ROLLING, "normal_form", "x1'", "", "-r*psi'*cos(varphi)", .k = 0},
     {B, "(47)", "S: along d/dx1", VALUE, D_DISK, "last.connection", "chi_1", "e_2", "-r*cos(varphi)", .k = 0},
-    {B, "(48)", "connection with zero lifts", NOT, D_NONE, .printed = "the program takes the lifts orthogonal to S; any invariant choice gives equivalent equations"},
+    {B, "(48)", "the lift of d/dvarphi: along the group", VALUE, D_ZERO, "last.connection", "hor(d/dvarphi)", "e_1", "0", .k = 0},
+    {B, "(48)", "... and along d/dvarphi", VALUE, D_ZERO, "last.connection", "hor(d/dvarphi)", "d/dvarphi", "1", .k = 0},
+    {B, "(48)", "... and the curvature, which vanishes", VALUE, D_ZERO, "last.connection", "B_theta,varphi^1", "", "0", .k = 0},
+    {B, "(48)", "the equations by stages with this connection", SMALL, D_ZERO, .label = "stages.last.by_stages.by_stages_horizontal"},
     {B, "(49), (50)", "the chain", IS, D_DISK, .label = "stages.last.chain", .printed = "[[1],[2,3]]"},
     {B, "reduced Lagrangian", "l of the disk", BY, D_ROLLING, .label = "disk lagrangian"},
     {B, "(51), final system, 1st", "I_3, not r I_3", BY, D_ROLLING, .label = "disk", .of = "1"},

@@ -261,8 +261,13 @@ static void printed_connection(object *o, const double *q, double *A)
         for (size_t i = 0; i < o->n; i++) A[a + i * o->d] = line_value(o, "connection", "", "A_%s^%zu", name_of(o, i), a + 1);
 }
 
-/* chi and the lifts lie in D and are orthogonal to each other; B is the curvature of A; l has the metric on both. */
-static void check_bundle(object *o, size_t stage)
+/* An inner product of the first three generators in which they are not orthogonal. */
+#define INCLINED " --inner 1,1=2;1,2=1/3;1,3=-1/4;2,2=3/2;2,3=1/5;3,3=2"
+static const double inclined[3][3] = {{2, 1. / 3, -1. / 4}, {1. / 3, 3. / 2, 1. / 5}, {-1. / 4, 1. / 5, 2}};
+
+/* chi and the lifts lie in D and are orthogonal to each other, for the kinetic energy or for the inner product above; B is the curvature of A; l has the
+ * metric on both. */
+static void check_bundle(object *o, size_t stage, bool own)
 {
     size_t n = o->n, d = o->d, m = o->m, r = d - o->f;
     double omega[most * most], K[most * most], E[most * most], A[most * most], vector[2 * most][most] = {{0}}, *B = nh_alloc_array(d * n * n + 1, sizeof *B);
@@ -293,13 +298,20 @@ static void check_bundle(object *o, size_t stage)
             char of[100];
             for (size_t s = 0; s < m; s++)
                 for (size_t t = 0; t < m; t++) product += vector[i][s] * K[s + t * m] * vector[j][t];
-            if (i < n && j >= n) same(o, "a lift on S", product, 0, 1e-8);
-            if (i < n && j >= n) continue;
-            if (j < n) snprintf(of, sizeof of, i == j ? "%s'^2" : "%s' %s'", name_of(o, i), name_of(o, j));
+            if (i < n && j >= n && !own) same(o, "a lift on S", product, 0, 1e-8);
+            if (i < n && j >= n) snprintf(of, sizeof of, "%s' nu_%zu", name_of(o, i), j - n + 1);
+            else if (j < n) snprintf(of, sizeof of, i == j ? "%s'^2" : "%s' %s'", name_of(o, i), name_of(o, j));
             else snprintf(of, sizeof of, i == j ? "nu_%zu^2" : "nu_%zu nu_%zu", i - n + 1, j - n + 1);
             same(o, "l", line_value(o, "lagrangian", of, "l"), i == j ? product / 2 : product, 1e-8);
         }
     }
+    for (size_t i = 0; i < n && own; i++)
+        for (size_t p = 0; p < r; p++) {
+            double product = 0;
+            for (size_t a = 0; a < d; a++)
+                for (size_t b = 0; b < d; b++) product += chi_of(o, p, a) * inclined[a][b] * A[b + i * d];
+            same(o, "a lift on S, by the inner product", product, 0, 1e-8);
+        }
     curvature(o, n, d, o->x, printed_connection, B);
     check_lifts(o, "connection", A);
     for (size_t a = 0; a < d; a++)
@@ -451,10 +463,6 @@ static void check_equations(object *o, size_t stage, const motion *w)
 }
 
 /* ---- by stages ---- */
-
-/* An inner product of the first three generators in which they are not orthogonal. */
-#define INCLINED " --inner 1,1=2;1,2=1/3;1,3=-1/4;2,2=3/2;2,3=1/5;3,3=2"
-static const double inclined[3][3] = {{2, 1. / 3, -1. / 4}, {1. / 3, 3. / 2, 1. / 5}, {-1. / 4, 1. / 5, 2}};
 
 typedef struct {
     size_t blocks, block[most];      /* of each generator */
@@ -626,7 +634,7 @@ static void check(const char *name, const char *text, const char *line, const ch
         if (!strcmp(kind, "chaplygin")) check_chaplygin(&o);
         if (!strcmp(kind, "second")) check_second(&o, stage);
         if (!strcmp(kind, "lagrange-dalembert-poincare")) {
-            check_bundle(&o, stage);
+            check_bundle(&o, stage, strstr(line, "lifts=1") != NULL);
             check_bundle_equations(&o, stage, line);
         }
         const cJSON *agreement = cJSON_GetObjectItem(o.s.stage, "agreement_with_full");
@@ -723,7 +731,7 @@ Test(reduced_objects, constraint_across_a_chain)
     check("arm with a blade", "name: arm\nparameters: [{name: m, value: 1.2}, {name: l, value: 0.5}]\n"
           "bodies: [{name: a, mass: m, inertia: [0.1, 0.1, 0.4]}, {name: b, mass: 0.7, inertia: [0.1, 0.1, 0.2], center: [0.2, 0, 0]}]\n"
           "joints:\n  - {type: planar, child: a, coordinates: [x, y, h]}\n  - {type: revolute, parent: a, child: b, at: [l, 0, 0], coordinates: [p]}\n"
-          "wheels: [{type: knife-edge, body: b, at: [0.6, 0, 0], axis: y}]\n", " --group x=1;y=1;h=1,x=-y,y=x" INCLINED, "cl");
+          "wheels: [{type: knife-edge, body: b, at: [0.6, 0, 0], axis: y}]\n", " --group x=1;y=1;h=1,x=-y,y=x" INCLINED " --option lifts=1", "cl");
 }
 
 /* A metric that couples everything, and a constraint with two symmetries, one of which is not conserved. */

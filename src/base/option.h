@@ -52,6 +52,7 @@
     X(planes,           4,      0,      100,   whole, "",         "classify over three parameters: the first one takes all ratios up to this height; 0: none")                \
     X(staircase,        5e10,   1e6,    1e15,  real,  "products", "classify: of residues that looking for the values of one degree may take")  \
     X(theorem,          150,    0,      1e5,   whole, "primes",   "classify: so many at most for a proof that leaves out no number; 0: none") \
+    X(lifts,            0,      0,      1,      whole, "",         "lifts orthogonal to S by 0: the kinetic energy, 1: --inner") \
     X(shown,            600,     10,     1e9,   whole, "symbols",  "formulas four times as long, with names for what is repeated, are left out of documents") \
     X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \
     X(tolerance,        1e-10,   1e-14,  1e-2,  real,  "",         "relative tolerance of the motions")                                      \

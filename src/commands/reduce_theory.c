@@ -22,6 +22,16 @@ static nh_ex *inverse_of(nh_arena *arena, const nh_slice *s, size_t n, const nh_
     return good ? inverse : NULL;
 }
 
+/* The inner product to which the lifts are orthogonal: NULL, or that of the generators: orthonormal unless given. */
+static const nh_ex *lifts_of(const nh_reduction *r, const nh_slice *s)
+{
+    if (!(r->options.lifts > 0)) return NULL;
+    if (r->inner) return r->inner;
+    nh_ex *identity = nh_arena_alloc(r->arena, (s->d * s->d + 1) * sizeof *identity);
+    for (size_t i = 0; i < s->d * s->d; i++) identity[i] = nh_int(s->dag, i % (s->d + 1) == 0);
+    return identity;
+}
+
 void nh_reduction_write_out(nh_reduction *r)
 {
     for (size_t i = 0; i < r->stages && !nh_interrupted(); i++) {
@@ -34,7 +44,8 @@ void nh_reduction_write_out(nh_reduction *r)
             t->inverse = inverse_of(r->arena, &s->second->slice, s->second->n, s->second->Kt);
             t->locked = inverse_of(r->arena, &s->second->slice, s->second->d, s->second->inertia);
         }
-        if (s->kind == NH_STAGE_POINCARE) t->bundle = nh_lagrange_poincare_of(r->arena, s->shown_slice);
+        if (s->kind == NH_STAGE_POINCARE)
+            t->bundle = nh_lagrange_poincare_of(r->arena, s->shown_slice, lifts_of(r, s->shown_slice));
         s->theory = t;
     }
 }

@@ -111,7 +111,11 @@ static bool by_stages(nh_reduction *r, nh_reduction_stage *s, nh_error *error)
                                   : nh_ideals_find(&slice->action->algebra, size, order);
     bool good = blocks > 0 && inner_product(r, slice, metric, error) &&
                 nh_ideals_init(&r->chain, &slice->action->algebra, blocks, size, order, metric, error);
-    if (good) good = s->by_stages = nh_poincare_check(&s->poincare, slice, &r->chain, &r->options, error);
+    bool own = r->options.lifts > 0;
+    for (size_t a = 0; a < d * d && own && !r->inner_text; a++) metric[a] = a % (d + 1) == 0;
+    if (good)
+        good = s->by_stages =
+            nh_poincare_check(&s->poincare, slice, &r->chain, own ? metric : NULL, &r->options, error);
     s->chain = &r->chain;
     nh_free(size);
     nh_free(metric);

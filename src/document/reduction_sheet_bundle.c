@@ -15,13 +15,16 @@ static const char *speed(const nh_reduction_builder *b, const nh_slice *s, size_
 /* S, and with the lifts D. */
 static void distribution(const nh_reduction_builder *b, const nh_lagrange_poincare *l)
 {
+    static const char rest[] = "Entries that are not listed vanish.";
+    const char *orthogonal = l->lifts ? "the inner product of the generators" : "the kinetic energy",
+               *what = !l->slice->f ? "Without constraints S is the whole algebra"
+                                    : "S is what V and the constraint distribution D have in common. The $chi_{a}$ "
+                                      "span S, with the lifts they span D";
     nh_sheet_begin(
         b->s, "connection", "Nonholonomic connection and curvature",
-        l->slice->f
-            ? "S is what V and the constraint distribution D have in common. The $chi_{a}$ span S, with the lifts they "
-              "span D. The lifts are orthogonal to S for the kinetic energy. Entries that are not listed vanish."
-            : "Without constraints S is the whole algebra and the connection the mechanical one. Entries that are not "
-              "listed vanish.");
+        l->slice->f || l->lifts
+            ? nh_sheet_label(b->s, "%s. The lifts are orthogonal to S for %s. %s", what, orthogonal, rest)
+            : nh_sheet_label(b->s, "%s and the connection the mechanical one. %s", what, rest));
     for (size_t p = 0; p < l->r; p++) {
         nh_sheet_sum(b->s, "", number(b, "chi", p));
         for (size_t a = 0; a < l->d; a++) nh_sheet_add(b->s, l->chi[a * l->r + p], number(b, "e", a));
@@ -44,6 +47,9 @@ static void lagrangian(const nh_reduction_builder *b, const nh_lagrange_poincare
                          i == j ? nh_sheet_label(b->s, "%s^{2}", speed(b, s, i))
                                 : nh_sheet_label(b->s, "%s %s", speed(b, s, i), speed(b, s, j)));
         }
+    for (size_t i = 0; i < l->n; i++)
+        for (size_t p = 0; p < l->r; p++)
+            nh_sheet_add(b->s, l->C[i * l->r + p], nh_sheet_label(b->s, "%s nu_{%zu}", speed(b, s, i), p + 1));
     for (size_t p = 0; p < l->r; p++)
         for (size_t q = p; q < l->r; q++) {
             nh_ex e = p == q ? nh_mul(b->d, nh_ratio(b->d, 1, 2), l->I[p * l->r + q]) : l->I[p * l->r + q];

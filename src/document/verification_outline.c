@@ -37,7 +37,8 @@ static void counterexample(nh_pen *p, const nh_verification *v)
         nh_pen_say(p, "The condition that fails is ");
         p->ink->letters(p->to, v->equation);
         nh_pen_say(p, " = 0");
-        if (v->equation_number) nh_pen_say(p, " (%zu in Čech and Musilová, 2014)", v->equation_number);
+        if (v->equation_number)
+            nh_pen_say(p, " (%s in Čech and Musilová, 2014)", nh_arena_printf(v->arena, "%zu", v->equation_number));
         nh_pen_say(p, ". Its left side is %.6g", v->rate);
     } else {
         nh_pen_say(p, "The rate of change along the motion is %.6g, not 0,", v->rate);

@@ -71,38 +71,62 @@ static bool vertical(nh_arena *arena, nh_lagrange_poincare *l, const size_t *sol
     return good;
 }
 
-/* A_i + chi c_i with I c_i = chi^T (Kf_ei - Kf_ee A_i). */
-static bool orthogonal(nh_arena *arena, nh_lagrange_poincare *l)
+/* chi^T K_ee chi with the kinetic energy, or with an inner product of the generators. */
+static void inertia(const nh_lagrange_poincare *l, const nh_ex *inner, nh_ex *out)
 {
     const nh_slice *s = l->slice;
     nh_dag *g = s->dag;
     size_t n = l->n, d = l->d, r = l->r, m = s->m;
-    nh_ex *c = take(arena, r);
     for (size_t p = 0; p < r; p++)
         for (size_t q = 0; q < r; q++) {
             nh_ex e = nh_int(g, 0);
             for (size_t a = 0; a < d; a++)
-                for (size_t b = 0; b < d; b++)
+                for (size_t b = 0; b < d; b++) {
+                    nh_ex K = inner ? inner[a * d + b] : s->K[(n + a) * m + n + b];
                     if (!nh_is_zero(g, l->chi[a * r + p]))
-                        e = plus(g, e, nh_mul(g, l->chi[a * r + p], s->K[(n + a) * m + n + b]), l->chi[b * r + q]);
-            l->I[p * r + q] = tidy(l, e);
+                        e = plus(g, e, nh_mul(g, l->chi[a * r + p], K), l->chi[b * r + q]);
+                }
+            out[p * r + q] = tidy(l, e);
         }
-    nh_lu *lu = n && r ? nh_lu_create(g, r, l->I, nh_slice_pivot_score, (void *)s, NULL) : NULL;
+}
+
+/* chi^T (Kf_ei - Kf_ee A_i), or -chi^T g0 A_i. */
+static void off_orthogonal(const nh_lagrange_poincare *l, const nh_ex *inner, size_t i, nh_ex *c)
+{
+    const nh_slice *s = l->slice;
+    nh_dag *g = s->dag;
+    size_t n = l->n, d = l->d, r = l->r, m = s->m;
+    for (size_t p = 0; p < r; p++) {
+        c[p] = nh_int(g, 0);
+        for (size_t a = 0; a < d; a++) {
+            nh_ex off = inner ? nh_int(g, 0) : s->K[(n + a) * m + i];
+            for (size_t b = 0; b < d; b++)
+                off = plus(g, off, nh_neg(g, inner ? inner[a * d + b] : s->K[(n + a) * m + n + b]), l->A[b * n + i]);
+            c[p] = plus(g, c[p], l->chi[a * r + p], off);
+        }
+    }
+}
+
+/* A_i + chi c_i with I c_i = chi^T (Kf_ei - Kf_ee A_i); the same with g0 for Kf_ee and 0 for Kf_ei. */
+static bool orthogonal(nh_arena *arena, nh_lagrange_poincare *l)
+{
+    const nh_slice *s = l->slice;
+    nh_dag *g = s->dag;
+    size_t n = l->n, d = l->d, r = l->r;
+    nh_ex *c = take(arena, r), *I = l->lifts ? take(arena, r * r) : l->I;
+    inertia(l, NULL, l->I);
+    if (l->lifts) inertia(l, l->lifts, I);
+    nh_lu *lu = n && r ? nh_lu_create(g, r, I, nh_slice_pivot_score, (void *)s, NULL) : NULL;
     for (size_t i = 0; i < n && lu; i++) {
-        for (size_t p = 0; p < r; p++) {
-            c[p] = nh_int(g, 0);
-            for (size_t a = 0; a < d; a++) {
-                nh_ex off = s->K[(n + a) * m + i];
-                for (size_t b = 0; b < d; b++)
-                    off = plus(g, off, nh_neg(g, s->K[(n + a) * m + n + b]), l->A[b * n + i]);
-                c[p] = plus(g, c[p], l->chi[a * r + p], off);
-            }
-        }
+        off_orthogonal(l, l->lifts, i, c);
         nh_lu_solve(lu, c, c);
         for (size_t a = 0; a < d; a++) {
             for (size_t p = 0; p < r; p++) l->A[a * n + i] = plus(g, l->A[a * n + i], l->chi[a * r + p], c[p]);
             l->A[a * n + i] = tidy(l, l->A[a * n + i]);
         }
+        for (size_t p = 0; p < r; p++) l->C[i * r + p] = nh_int(g, 0);
+        if (l->lifts) off_orthogonal(l, NULL, i, l->C + i * r);
+        for (size_t p = 0; p < r; p++) l->C[i * r + p] = tidy(l, l->C[i * r + p]);
     }
     bool good = lu || !n || !r;
     nh_lu_free(lu);
@@ -157,6 +181,7 @@ static void momenta(nh_lagrange_poincare *l)
             l->Kh[i * n + j] = tidy(l, e);
             l->pi[i] = plus(g, l->pi[i], l->Kh[i * n + j], l->dx[j]);
         }
+        for (size_t p = 0; p < l->r; p++) l->pi[i] = plus(g, l->pi[i], l->C[i * l->r + p], l->nu[p]);
     }
 }
 
@@ -181,7 +206,7 @@ static void slopes(nh_lagrange_poincare *l)
     }
 }
 
-nh_lagrange_poincare *nh_lagrange_poincare_of(nh_arena *arena, const nh_slice *s)
+nh_lagrange_poincare *nh_lagrange_poincare_of(nh_arena *arena, const nh_slice *s, const nh_ex *lifts)
 {
     size_t n = s->n, d = s->d, r = d - s->f, *solved = nh_arena_alloc(arena, (2 * d + 2) * sizeof *solved),
            *free = solved + d + 1;
@@ -200,6 +225,8 @@ nh_lagrange_poincare *nh_lagrange_poincare_of(nh_arena *arena, const nh_slice *s
                                 .v = take(arena, d),
                                 .Kh = take(arena, n * n),
                                 .I = take(arena, r * r),
+                                .C = take(arena, n * r),
+                                .lifts = lifts,
                                 .mu = take(arena, d),
                                 .pi = take(arena, n),
                                 .slope = take(arena, n)};

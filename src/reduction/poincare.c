@@ -20,6 +20,7 @@ typedef struct {
     double *v;              /* d */
     /* m each: the sums of the moduli of their terms, beside which a residual is small or not */
     double *of_momentum, *of_rate;
+    const double *lifts; /* inner product of the generators for the lifts; NULL: that of the kinetic energy */
 } place;
 
 static nh_ex *list(const nh_slice *s, size_t *total)
@@ -88,9 +89,10 @@ static void units_of(const place *p, double *scale)
 }
 
 /* [Kf_ee om_e^T; om_e 0] (A_i; lambda) = (Kf_ei; om_x,i), and the same differentiated: the connection and its
-   derivatives. */
+   derivatives.  With an inner product of the generators g0 for Kf_ee, and 0 for Kf_ei. */
 static bool connection(place *p)
 {
+    const double *g0 = p->lifts;
     size_t m = p->m, n = p->n, d = p->d, f = p->f, size = d + f;
     double *a = nh_alloc_array(size * size + 2 * size * n + size + 1, sizeof *a), *sol = a + size * size,
            *right = sol + size * n, *scale = right + size * n;
@@ -100,15 +102,15 @@ static bool connection(place *p)
         const double *dK = p->dK + (l ? l - 1 : 0) * m * m, *dw = p->domega + (l ? l - 1 : 0) * f * m;
         memset(a, 0, size * size * sizeof *a);
         for (size_t i = 0; i < d; i++) {
-            for (size_t j = 0; j < d; j++) a[i + j * size] = p->K[(n + i) * m + n + j];
+            for (size_t j = 0; j < d; j++) a[i + j * size] = g0 ? g0[i * d + j] : p->K[(n + i) * m + n + j];
             for (size_t c = 0; c < f; c++) a[i + (d + c) * size] = a[d + c + i * size] = p->omega[c * m + n + i];
         }
         for (size_t i = 0; i < n; i++) {
             double *b = right + i * size;
-            for (size_t r = 0; r < d; r++) b[r] = l ? dK[(n + r) * m + i] : p->K[(n + r) * m + i];
+            for (size_t r = 0; r < d; r++) b[r] = g0 ? 0 : l ? dK[(n + r) * m + i] : p->K[(n + r) * m + i];
             for (size_t c = 0; c < f; c++) b[d + c] = l ? dw[c * m + i] : p->omega[c * m + i];
             for (size_t r = 0; r < d && l; r++) {
-                for (size_t j = 0; j < d; j++) b[r] -= dK[(n + r) * m + n + j] * sol[j + i * size];
+                for (size_t j = 0; j < d && !g0; j++) b[r] -= dK[(n + r) * m + n + j] * sol[j + i * size];
                 for (size_t c = 0; c < f; c++) {
                     b[r] -= dw[c * m + n + r] * sol[d + c + i * size];
                     b[d + c] -= dw[c * m + n + r] * sol[r + i * size];
@@ -353,8 +355,8 @@ static void euler_poincare(const place *p, const nh_ideals *c, const scratch *t,
     for (size_t a = 0; a < d; a++) out->euler_poincare = fmax(out->euler_poincare, beside(t->pb[a] - t->pc[a], size));
 }
 
-bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, const nh_options *options,
-                       nh_error *error)
+bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, const double *lifts,
+                       const nh_options *options, nh_error *error)
 {
     enum { most_places = 12 };
     const nh_kinetic *k = s->kinetic;
@@ -370,6 +372,7 @@ bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, 
     bool good = true;
     *out = (nh_poincare){0};
     place_init(&p, s);
+    p.lifts = lifts;
     for (size_t at = 0; at < k->places && out->places < most_places && good; at++) {
         memcpy(q, k->place + at * m, m * sizeof *q);
         for (size_t a = 0; a < d; a++) q[s->along[a]] = s->y0[a];

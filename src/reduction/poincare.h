@@ -6,6 +6,9 @@
  *
  *     om_e A_i = om_x,i,      chi^T (Kf_ei - Kf_ee A_i) = 0                               (unique iff V + D = TQ)
  *
+ * or, with an inner product g0 of the generators, chi^T g0 A_i = 0: of the vectors of D over d_i that with the shortest
+ * part along V, which is 0 where d_i itself lies in D [CendraDiaz2018, eq. 48].
+ *
  * v = zeta + A x' lies in S_x, l(x, x', v) = L(x', v - A x'), mu = dl/dv, pi_i = dl/dx'^i.  One stage:
  *
  *     mu'(chi) = mu([v - A x', chi]),      pi_i' = dl/dx^i + mu_a B^a_ij x'^j + mu([A_i, v])
@@ -35,8 +38,9 @@ typedef struct {
     double curvature;        /* largest |B| */
 } nh_poincare;
 
-/* With velocities of the sample points.  Fails when V + D != TQ. */
-bool nh_poincare_check(nh_poincare *out, const nh_slice *slice, const nh_ideals *chain, const nh_options *options,
-                       nh_error *error);
+/* With velocities of the sample points.  lifts: an inner product of the generators (d x d) to which the lifts are
+ * orthogonal, or NULL: the kinetic energy.  Fails when V + D != TQ. */
+bool nh_poincare_check(nh_poincare *out, const nh_slice *slice, const nh_ideals *chain, const double *lifts,
+                       const nh_options *options, nh_error *error);
 
 #endif
