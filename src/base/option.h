@@ -52,8 +52,8 @@
     X(planes,           4,      0,      100,   whole, "",         "classify over three parameters: the first one takes all ratios up to this height; 0: none")                \
     X(staircase,        5e10,   1e6,    1e15,  real,  "products", "classify: of residues that looking for the values of one degree may take")  \
     X(theorem,          150,    0,      1e5,   whole, "primes",   "classify: so many at most for a proof that leaves out no number; 0: none") \
-    X(lifts,            0,      0,      1,      whole, "",         "lifts orthogonal to S by 0: the kinetic energy, 1: --inner") \
-    X(shown,            600,     10,     1e9,   whole, "symbols",  "formulas four times as long, with names for what is repeated, are left out of documents") \
+    X(lifts,            0,      0,      1,    whole, "",     "1: lifts orthogonal for --inner, 0: for the energy") \
+    X(shown,            600,     10,     1e9,   whole, "symbols",  "documents leave out what is four times as long") \
     X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \
     X(tolerance,        1e-10,   1e-14,  1e-2,  real,  "",         "relative tolerance of the motions")                                      \
     X(absolute,         1e-3,    0,      1e6,   real,  "",         "part of a state's largest size so far below which errors are absolute; benchmark: the size")       \
