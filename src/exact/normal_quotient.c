@@ -154,7 +154,8 @@ bool nh_quotient_has(const nh_quotient_field *field, const nh_quotient *a, size_
 
 size_t nh_quotient_terms(const nh_quotient *a) { return (size_t)(a->num->length + a->den->length); }
 
-/* Has p, whose term has these exponents and the coefficient c, also the term in which from cos(b) has become s to sin(b)? */
+/* p has a term of these exponents, with the coefficient c: has it also the one in which s to sin(b) stands for
+ * from cos(b)? */
 static bool has_partner(const nh_quotient_field *field, const fmpz_mpoly_t p, fmpz_t c, size_t from, size_t to,
                         const size_t b[2], int s)
 {
@@ -182,7 +183,8 @@ bool nh_quotient_has_sum_of_angles(const nh_quotient_field *field, const nh_quot
         for (slong i = 0; i < part[k]->length && !found; i++) {
             fmpz_mpoly_get_term_exp_ui(field->exponent, part[k], i, field->ctx);
             fmpz_mpoly_get_term_coeff_fmpz(c, part[k], i, field->ctx);
-            found = has_partner(field, part[k], c, a[0], a[1], b, s) || has_partner(field, part[k], c, a[1], a[0], b, -s);
+            found = has_partner(field, part[k], c, a[0], a[1], b, s) ||
+                    has_partner(field, part[k], c, a[1], a[0], b, -s);
         }
     fmpz_clear(c);
     return found;
