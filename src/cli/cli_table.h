@@ -116,7 +116,7 @@ const char *nh_cli_command_near(const char *word);
     X(simulate, "SYSTEM|FILE", "compute a motion, as CSV or JSON", "nhsym simulate sleigh --initial \"phi=0, omega=2\" --until 5 --step 0.1 > motion.csv")                  \
     X(benchmark,    "SYSTEM|FILE", "compare integrators on one motion", "nhsym benchmark sleigh --budget 1s --svg sleigh.svg")                \
     X(reduce,   "SYSTEM|FILE", "the symmetry group and the reduced equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
-    X(classify, "SYSTEM|FILE", "at which values of a parameter more is conserved", "nhsym classify penning_trap --over w") \
+    X(classify, "SYSTEM|FILE", "at which values of a parameter more is conserved", "nhsym classify penning_trap --over w --degree 2") \
     X(scan,     "SYSTEM|FILE", "numbers over a grid of parameters, and jumps", "nhsym scan sleigh --over k=1:4:61 -o scan") \
     X(export,   "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code") \
     X(list,     "",            "list the available systems", "nhsym list")                                                                                  \

@@ -98,9 +98,10 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
 
 int nh_cli_classify(nh_cli *cli, nh_error *error)
 {
-    if (cli->operands > 1) return one_system(cli, "nhsym classify penning_trap --over w", error), NH_USAGE;
+    if (cli->operands > 1) return one_system(cli, "nhsym classify penning_trap --over w --degree 2", error), NH_USAGE;
     if (cli->operands != 1 || !cli->ask.over)
-        return lacks(error, "classify which system, over which parameter?", "nhsym classify penning_trap --over w"),
+        return lacks(error, "classify which system, over which parameter?",
+                     "nhsym classify penning_trap --over w --degree 2"),
                NH_USAGE;
     return documented(cli, error);
 }

@@ -144,7 +144,9 @@ static void manual_page(void)
          "After 5 and 130 the output files hold partial results, marked partial.\n.SH ENVIRONMENT\n.TP\n.B "
          "NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NHSYM_CC\nthe C compiler for "
          "long motions (default: cc); empty: no compiler\n.TP\n.B NO_COLOR\n"
-         "no colours");
+         "no colours\n.SH FILES\n.TP\n.B share/nhsym\nsystems and analyses, beside the folder bin of the program\n"
+         ".TP\n.B share/doc/nhsym\nthe documentation: README.md, tutorial.md, formats.md (files, "
+         "command line and JSON), motions.md,\nexport.md, python.md\n.SH SEE ALSO\n.BR nhsym (3)");
 }
 
 /* ---- completions ---- */

@@ -320,6 +320,8 @@ class System:
     def __getattr__(self, name):
         if name.startswith("_"):
             raise AttributeError(name)
+        if name in ("export", "code", "to_c", "codegen"):
+            raise AttributeError("there is no `%s` here\nhint: write `text` into a file and run `nhsym export FILE --to c`" % name)
         raise no_attribute(self, name, [word for word in dir(self) if not word.startswith("_")])
 
     def __repr__(self):

@@ -138,6 +138,8 @@ def test_every_call_names_the_argument_that_was_meant():
         nhsym.system(OSCILLATOR).simulate(t_end=5)
     with pytest.raises(nhsym.ArgumentError, match="options={..}"):
         spring.analyze(tolerance=1e-9)
+    with pytest.raises(AttributeError, match="nhsym export FILE --to c"):
+        spring.export("c")
     with pytest.raises(AttributeError, match="did you mean `analyze`"):
         spring.analyse()
 
