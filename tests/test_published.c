@@ -61,6 +61,10 @@ static const published PUBLISHED[] = {
     {"Kerr", "parameters: {M: 0.3, a: 0.2}\ncoordinates: [T, r, {name: h, type: angle}, {name: p, type: angle}]\n"
      "definitions: [\"S = r^2 + a^2*cos(h)^2\", \"D = r^2 - 2*M*r + a^2\"]\n"
      "lagrangian: -D/S*(T' - a*sin(h)^2*p')^2/2 + S/D*r'^2/2 + S*h'^2/2 + sin(h)^2/S*((r^2 + a^2)*p' - a*T')^2/2\ndomain: {r: [2, 4], h: [0.5, 2.5]}\n", 4, 3},
+    /* J. Tannery, Bull. Sci. Math. 16 (1892) 190; G. Valent, C. Duval and V. Shevchishin, J. Geom. Phys. 87 (2015) 461: all geodesics are closed, by integrals of
+       degree three with cos(2 p) and sin(2 p), which are seen at order 10 */
+    {"Tannery's surface", "coordinates: [{name: h, type: angle}, {name: p, type: angle}]\n"
+     "lagrangian: ((1 + cos(h)/2)^2*h'^2 + sin(h)^2*p'^2)/2\ndomain: {h: [0.5, 2.5]}\n", 3, 6},
     /* C. R. Holt, J. Math. Phys. 23 (1982) 1037; J. Hietarinta, Phys. Rep. 147 (1987) 87: degrees 3, 4 and 6 */
     {"Holt, 3/4", "parameters: {d: 0.3}\n" PLANE "3/4*x^(4/3) - (y^2 + d)*x^(-2/3)\n" QUADRANT, 2, 6},
     {"Holt, 9/2", PLANE "9/2*x^(4/3) - y^2*x^(-2/3)\n" QUADRANT, 2, 6},

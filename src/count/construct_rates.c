@@ -153,9 +153,11 @@ static void read_eigenvalues(const nmod_mat_t A, uint64_t p, nh_ex coordinate, n
 
 /* ---- a point ---- */
 
-static void rates_of(const nh_counter *c, const nh_count_series *s, const nh_graded_count *g, size_t k,
+/* False where the series are too short: there are more of them than solutions. */
+static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_graded_count *g, size_t k,
                      nh_construct_rates *out)
 {
+    bool closed = true;
     const nh_jet_ring *ring = s->ring;
     size_t N = g->total[g->order], m = c->frame->all;
     size_t end = ring->first[ring->order - c->frame->step + 1]; /* derivatives are right up to there */
@@ -165,21 +167,23 @@ static void rates_of(const nh_counter *c, const nh_count_series *s, const nh_gra
     nmod_mat_init(A, (slong)N, (slong)N, ring->field.p);
     if (cyclic_field(c->frame, s, k, b)) {
         functionals(g, ring, b, end, both);
-        if (matrix_of(both, N, A)) read_eigenvalues(A, ring->field.p, c->equations->coordinate[k], out);
+        closed = matrix_of(both, N, A);
+        if (closed) read_eigenvalues(A, ring->field.p, c->equations->coordinate[k], out);
     }
     double products = (double)m * (double)ring->pairs[ring->size] + 2 * (double)(N + spare) * (double)end;
     out->work += (double)g->alphas * (double)N * products;
     nmod_mat_clear(A);
     nmod_mat_clear(both);
     nh_free(b);
+    return closed;
 }
 
-/* False: another point is needed. */
-static bool rates_at(nh_counter *c, size_t degree, nh_construct_rates *out)
+/* False: another point is needed.  `closed`: the order tells all solutions apart. */
+static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, nh_construct_rates *out)
 {
     const nh_adapted_frame *f = c->frame;
-    size_t order = (degree + beyond_degree) * f->step;
     bool regular = true;
+    *closed = true;
     if (f->kept != f->all || nh_jet_ring_size(f->kept, f->weight, order, most_coefficients) == SIZE_MAX) return true;
     nh_count_series *s = nh_count_series_create(c, order, c->q->work, &regular);
     for (size_t part = 0; s && part < (s->split ? 2 : 1) && !nh_late(); part++) {
@@ -190,7 +194,8 @@ static bool rates_at(nh_counter *c, size_t degree, nh_construct_rates *out)
         out->work += g->work;
         bool few = g->solved && g->total[g->order] <= most_solutions;
         for (size_t k = 0; k < c->equations->coordinates && few; k++)
-            if (nh_jet_equations_is_cyclic(c->equations, c->equations->coordinate[k])) rates_of(c, s, g, k, out);
+            if (nh_jet_equations_is_cyclic(c->equations, c->equations->coordinate[k]))
+                *closed &= rates_of(c, s, g, k, out);
         nh_graded_count_clear(g);
     }
     nh_count_series_free(s);
@@ -202,12 +207,16 @@ nh_construct_rates nh_construct_rates_of(const nh_model *model, size_t degree, b
     nh_count_question q = {.time = time, .degree = degree, .work = work};
     nh_construct_rates out = {0};
     nh_counter c;
-    bool some = false, done = false;
+    bool some = false, done = false, closed = false;
     nh_counter_open(&c, model, &q);
     for (size_t k = 0; k < c.equations->coordinates && !c.equations->obstacle; k++)
         some |= nh_jet_equations_is_cyclic(c.equations, c.equations->coordinate[k]);
-    for (size_t point = 0; some && !done && point < most_points && !c.equations->obstacle && !nh_late(); point++)
-        done = nh_count_regular_point(&c, point) && rates_at(&c, degree, &out);
+    for (size_t point = 0; some && !done && point < most_points && !c.equations->obstacle && !nh_late(); point++) {
+        if (!nh_count_regular_point(&c, point)) continue;
+        size_t order = (degree + beyond_degree) * c.frame->step, more = (degree + 1) * c.frame->step;
+        done = rates_at(&c, degree, order, &closed, &out);
+        if (done && !closed && out.work < work) done = rates_at(&c, degree, order + more, &closed, &out);
+    }
     nh_counter_close(&c);
     return out;
 }

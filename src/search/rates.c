@@ -387,8 +387,8 @@ static void potential_rate(nh_stage_solver *x)
         pencil_stage(x, V, 0, "the potential", NH_PENCIL_PRODUCTS);
 }
 
-/* exp(-nu Q) f where volumes grow like exp(Q): the velocities of a body on wheels fall and grow with combinations of the
-   wheels' angles. */
+/* exp(-nu Q) f where volumes grow like exp(Q): the velocities of a body on wheels fall and grow with combinations of
+   the wheels' angles. */
 static void volume_rate(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;

@@ -338,7 +338,8 @@ nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *o, const nh_di
     return nh_family_list_terms(&s, &both);
 }
 
-/* Of the potentials, again and again: exp(2 c x) (x'^2/2 + f(x)) is kept under friction c x'^2 where f' + 2 c f = V'. */
+/* Of the potentials, again and again: exp(2 c x) (x'^2/2 + f(x)) is kept under friction c x'^2 where f' + 2 c f =
+   V'. */
 static void put_derivatives(const nh_family_list *s, nh_expr_set *l)
 {
     enum { highest = 6 };
