@@ -495,6 +495,16 @@ static const struct {
     {"E_TC - mass", "E_{\\mathrm{TC}} - \\mathrm{mass}"},
 };
 
+/* The capital upsilon of the almost-symplectic form has hooks: the other letter is a Y to the eye. */
+Test(html, upsilon_is_no_y)
+{
+    nh_text mathml;
+    nh_text_init(&mathml);
+    cr_assert(nh_typeset("Upsilon", NH_MATHML, &mathml));
+    cr_expect_not_null(strstr(nh_text_string(&mathml), "\u03d2"), "%s", nh_text_string(&mathml));
+    nh_text_clear(&mathml);
+}
+
 Test(html, formulas_are_set_as_they_are_written)
 {
     for (size_t i = 0; i < sizeof FORMULAS / sizeof *FORMULAS; i++) {

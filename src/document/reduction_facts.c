@@ -71,9 +71,12 @@ const char *nh_reduction_letters(const nh_reduction *r, const nh_reduction_stage
                                s->shown->d ? p : "$p_{i}$: momenta of the shape", group);
     case NH_STAGE_SECOND:
         return nh_arena_printf(arena,
-                               "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ the velocity %sthat "
-                               "belongs to it; $eta_{a}$: %s",
-                               p, shape ? "$eta_{a} + A <x'>$ " : "", group);
+                               "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$, written v1, .., the "
+                               "velocity %s; $eta_{a}$: %s",
+                               p,
+                               shape ? "$eta_{a} + \\breve{A} <x'>$ that belongs to it by the mechanical connection"
+                                     : "that belongs to it",
+                               group);
     case NH_STAGE_QUOTIENT: return nh_arena_printf(arena, "$zeta_{a}$: %s", group);
     default:
         return nh_arena_printf(

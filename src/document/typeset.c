@@ -106,7 +106,7 @@ static const struct {
     {"varphi", "φ", "\\varphi "},
     {"Pi", "Π", "\\Pi "},
     {"upsilon", "υ", "\\upsilon "},
-    {"Upsilon", "Υ", "\\Upsilon "},
+    {"Upsilon", "ϒ", "\\Upsilon "}, /* with hooks: the other letter looks like an italic Y */
     {"vartheta", "ϑ", "\\vartheta "},
 };
 
