@@ -197,6 +197,31 @@ Test(parameters, only_the_special_one_is_fixed)
                                {"", "--set m=0.9127 --set k=1.1371"}, 2});
 }
 
+/* The last current, or further integral, holds where a parameter is this expression of others. */
+static void expect_related(const char *system, const char *list, const char *parameter, const char *expression)
+{
+    place p = place_make();
+    write_here(&p, "s.yaml", system);
+    cJSON *root = analyzed(&p, "");
+    const cJSON *all = cJSON_GetObjectItemCaseSensitive(root, list), *last = cJSON_GetArrayItem(all, cJSON_GetArraySize(all) - 1),
+                *holds = cJSON_GetObjectItemCaseSensitive(last, "holds");
+    cr_assert_not_null(last, "%s: nothing", system);
+    cr_expect(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(last, "proved")) && cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(last, "proved_for_all_parameters")));
+    cr_expect(cJSON_GetArraySize(holds) == 1 && !strcmp(text_of(holds, parameter), expression), "%s: holds: %s", text_of(last, "expression"),
+              cJSON_PrintUnformatted(holds));
+    cJSON_Delete(root);
+    place_clear(&p);
+}
+
+/* What holds at k = 18, m = 2, w = 3 holds for k = m w^2. */
+Test(parameters, values_that_need_only_be_related)
+{
+    sweep_plain_only();
+    expect_related("name: s\nparameters: {k: 18, m: 2, w: 3}\ncoordinates: [x, y]\nlagrangian: m*(x'^2 + y'^2)/2 - k*x^2/2 - m*w^2*y^2/2\n", "further_integrals", "k", "m*w^2");
+    expect_related("name: s\nparameters: {m: 1.3, a: 0.7, b: 1.4}\ncoordinates: [x, y]\nlagrangian: m*(x'^2 + y'^2 - a^2*x^2 - b^2*y^2)/2\n", "further_integrals", "b", "2*a");
+    expect_related("name: s\nparameters: {a: 2, b: 2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - a*x^2 - b*y^2)/2 - (x^2 + y^2)^2\n", "currents", "b", "a");
+}
+
 /* Stiffnesses 1, 4, 7 make a - 2 b + c zero, and with it a term of the integral of a particle on a sphere. */
 Test(parameters, no_term_vanishes_at_the_given_values)
 {

@@ -139,10 +139,23 @@ static const char *all_or_these(const nh_model *o, const nh_proof *p)
     return p->all_parameters || !o->system->parameters ? "all parameters" : "these values";
 }
 
-static void put_fixed(nh_json *object, const nh_model *o, const bool *fixed)
+/* A value, or in terms of which parameters. */
+static void put_fixed_one(nh_json *object, const nh_model *o, size_t i, nh_ex e)
+{
+    const char *name = o->system->parameter[i].name;
+    if (nh_kind_of(o->dag, e) == NH_NUMBER) {
+        nh_json_put_number(object, name, o->parameter_value[i]);
+        return;
+    }
+    char *text = nh_print_string(o->dag, e);
+    nh_json_put_text(object, name, text);
+    nh_free(text);
+}
+
+static void put_fixed(nh_json *object, const nh_model *o, const nh_ex *fixed)
 {
     for (size_t i = 0; i < o->system->parameters; i++)
-        if (fixed[i]) nh_json_put_number(object, o->system->parameter[i].name, o->parameter_value[i]);
+        if (nh_fixed_has(o, fixed, i)) put_fixed_one(object, o, i, fixed[i]);
 }
 
 void nh_facts_put_holds(nh_json *item, const nh_model *o, const nh_proof *p)
@@ -199,7 +212,7 @@ const char *nh_facts_between_walls(const nh_analysis *r)
         if (r->piece[k].to_the_end && (!where || strcmp(where, r->piece[k].region) == 0)) where = r->piece[k].region;
         else if (r->piece[k].to_the_end) where = "each in its region, where motions end";
     return nh_arena_printf(r->arena, "%zu independent current%s of at most %zu, %s", n, n == 1 ? "" : "s",
-                          r->local_maximum, where);
+                           r->local_maximum, where);
 }
 
 bool nh_facts_given(const nh_analysis *r) { return r->analysis && r->analysis->families > 0; }

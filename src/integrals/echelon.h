@@ -17,6 +17,9 @@ typedef struct {
     double quotient;     /* |A c| / |B c| of the final coefficients */
     bool refitted;       /* the support alone has a one-dimensional null space */
     double accepted;     /* quotient that the null space itself reached: what a smaller support must reach too */
+    /* where it needs values of several parameters, relations among these are not looked for: a current for all values
+       may take its place */
+    bool by_values;
     size_t all;          /* every term of the echelon vector, before small ones were dropped */
     nh_ex *all_term;
     double *all_coefficient, *all_size; /* size: |c_j b_j| relative to the largest */

@@ -5,48 +5,73 @@
 
 #include "base/text.h"
 #include "exact/relation.h"
+#include "graph/print.h"
+#include "integrals/fixed_ties.h"
 
 static const double same = 1e-6;
 
 /* ---- values ---- */
 
-nh_ex nh_fixed_values(const nh_model *o, const bool *fixed, nh_ex e)
+bool nh_fixed_has(const nh_model *o, const nh_ex *fixed, size_t i) { return fixed && fixed[i] != o->parameter[i]; }
+
+static nh_ex value_of(const nh_model *o, size_t i) { return nh_number(o->dag, nh_num_decimal(o->parameter_value[i])); }
+
+nh_ex nh_fixed_values(const nh_model *o, const nh_ex *fixed, nh_ex e)
 {
     size_t n = 0, all = o->system->parameters;
     nh_ex *from = nh_alloc_array(2 * all + 1, sizeof *from), *to = from + all;
     for (size_t i = 0; i < all; i++) {
-        if (fixed && !fixed[i]) continue;
+        if (fixed && !nh_fixed_has(o, fixed, i)) continue;
         from[n] = o->parameter[i];
-        to[n++] = nh_number(o->dag, nh_num_decimal(o->parameter_value[i]));
+        to[n++] = fixed ? fixed[i] : value_of(o, i);
     }
     if (n) e = nh_substitute(o->dag, e, n, from, to);
     nh_free(from);
     return e;
 }
 
-const bool *nh_fixed_every(const nh_model *o)
+static nh_ex *none_fixed(const nh_model *o)
 {
     size_t all = o->system->parameters;
-    bool *fixed = nh_arena_alloc(o->arena, (all + 1) * sizeof *fixed);
-    memset(fixed, 1, all * sizeof *fixed);
+    nh_ex *fixed = nh_arena_alloc(o->arena, (all + 1) * sizeof *fixed);
+    memcpy(fixed, o->parameter, all * sizeof *fixed);
     return fixed;
 }
 
-bool nh_fixed_all(const nh_model *o, const bool *fixed)
+const nh_ex *nh_fixed_every(const nh_model *o)
+{
+    nh_ex *fixed = none_fixed(o);
+    for (size_t i = 0; i < o->system->parameters; i++) fixed[i] = value_of(o, i);
+    return fixed;
+}
+
+const nh_ex *nh_fixed_those(const nh_model *o, const bool *which)
+{
+    nh_ex *fixed = none_fixed(o);
+    for (size_t i = 0; i < o->system->parameters; i++)
+        if (which[i]) fixed[i] = value_of(o, i);
+    return fixed;
+}
+
+bool nh_fixed_all(const nh_model *o, const nh_ex *fixed)
 {
     for (size_t i = 0; i < o->system->parameters && fixed; i++)
-        if (!fixed[i]) return false;
+        if (nh_kind_of(o->dag, fixed[i]) != NH_NUMBER) return false;
     return true;
 }
 
-const char *nh_fixed_text(const nh_model *o, const bool *fixed)
+const char *nh_fixed_text(const nh_model *o, const nh_ex *fixed)
 {
     nh_text text;
     nh_text_init(&text);
-    for (size_t i = 0; i < o->system->parameters; i++)
-        if (fixed[i])
-            nh_text_addf(&text, "%s%s = %.15g", nh_text_string(&text)[0] ? ", " : "", o->system->parameter[i].name,
-                         o->parameter_value[i]);
+    for (size_t i = 0; i < o->system->parameters; i++) {
+        if (!nh_fixed_has(o, fixed, i)) continue;
+        nh_text_addf(&text, "%s%s = ", nh_text_string(&text)[0] ? ", " : "", o->system->parameter[i].name);
+        char *related = nh_kind_of(o->dag, fixed[i]) == NH_NUMBER ? NULL : nh_print_string(o->dag, fixed[i]);
+        if (related) nh_text_addf(&text, "%s", related);
+        else nh_text_addf(&text, "%.15g", o->parameter_value[i]);
+        nh_free(related);
+    }
     const char *out = nh_arena_strdup(o->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
@@ -80,12 +105,12 @@ typedef struct {
 } problem;
 
 /* `fixed` NULL: none is. */
-static nh_relation_verdict relation(const problem *p, const bool *fixed, nh_ex *out)
+static nh_relation_verdict relation(const problem *p, const nh_ex *fixed, nh_ex *out)
 {
     const nh_model *o = p->o;
     size_t count = 0;
     for (size_t i = 0; i < o->system->parameters; i++)
-        if (!fixed || !fixed[i]) p->free[count++] = o->parameter[i];
+        if (!nh_fixed_has(o, fixed, i)) p->free[count++] = o->parameter[i];
     for (size_t j = 0; j < p->n; j++) p->valued[j] = fixed ? nh_fixed_values(o, fixed, p->e[j]) : p->e[j];
     nh_relation_verdict verdict = nh_relation_find(o->dag, p->n, p->valued, count, p->free, p->limit, out);
     if (verdict == NH_RELATION_UNIQUE && p->like && !nh_fixed_is_like(o, p->n, out, p->like))
@@ -119,31 +144,79 @@ static bool occurs(const nh_model *o, size_t n, const nh_ex *e, nh_ex symbol)
     return false;
 }
 
-const bool *nh_fixed_least(const nh_model *o, size_t n, const nh_ex *occurring, nh_fixed_test *holds, void *context)
+/* One after the other of those that have their values is set free. */
+static void set_free(const nh_model *o, nh_ex *fixed, nh_fixed_test *holds, void *context)
 {
     size_t all = o->system->parameters, *order = nh_alloc_array(all + 1, sizeof *order);
-    bool *fixed = nh_arena_alloc(o->arena, (all + 1) * sizeof *fixed);
     set_order(o->system, order);
-    for (size_t k = 0; k < all; k++) fixed[k] = occurs(o, n, occurring, o->parameter[k]);
     for (size_t k = 0; k < all; k++) {
         size_t i = order[k];
-        if (!fixed[i]) continue;
-        fixed[i] = false;
-        fixed[i] = !holds(fixed, context);
+        if (nh_kind_of(o->dag, fixed[i]) != NH_NUMBER) continue;
+        nh_ex value = fixed[i];
+        fixed[i] = o->parameter[i];
+        if (!holds(fixed, context)) fixed[i] = value;
     }
     nh_free(order);
+}
+
+/* Several that must have their values may have to be related only. */
+static void with_ties(const nh_model *o, nh_ex *fixed, nh_fixed_test *holds, void *context)
+{
+    size_t all = o->system->parameters, n = 0, *which = nh_alloc_array(all + 1, sizeof *which);
+    const nh_ex *tie[NH_MOST_TIES];
+    for (size_t i = 0; i < all; i++)
+        if (nh_fixed_has(o, fixed, i)) which[n++] = i;
+    size_t ties = nh_fixed_ties(o, n, which, tie);
+    for (size_t k = 0; k < ties; k++) {
+        if (!holds(tie[k], context)) continue;
+        memcpy(fixed, tie[k], all * sizeof *fixed);
+        set_free(o, fixed, holds, context);
+        break;
+    }
+    nh_free(which);
+}
+
+static const nh_ex *least(const nh_model *o, size_t n, const nh_ex *occurring, bool ties, nh_fixed_test *holds,
+                          void *context)
+{
+    nh_ex *fixed = none_fixed(o);
+    for (size_t k = 0; k < o->system->parameters; k++)
+        if (occurs(o, n, occurring, o->parameter[k])) fixed[k] = value_of(o, k);
+    set_free(o, fixed, holds, context);
+    if (ties) with_ties(o, fixed, holds, context);
     return fixed;
 }
 
-const bool *nh_fixed_both(const nh_model *o, const bool *a, const bool *b)
+const nh_ex *nh_fixed_least(const nh_model *o, size_t n, const nh_ex *occurring, nh_fixed_test *holds, void *context)
+{
+    return least(o, n, occurring, true, holds, context);
+}
+
+/* Values, where what one is replaced by has a value for the other. */
+const nh_ex *nh_fixed_both(const nh_model *o, const nh_ex *a, const nh_ex *b)
 {
     if (!a || !b) return a ? a : b;
-    bool *both = nh_arena_alloc(o->arena, (o->system->parameters + 1) * sizeof *both);
-    for (size_t i = 0; i < o->system->parameters; i++) both[i] = a[i] || b[i];
+    size_t all = o->system->parameters;
+    nh_ex *both = none_fixed(o);
+    bool mixed = false;
+    for (size_t i = 0; i < all; i++) {
+        bool in_a = nh_fixed_has(o, a, i), in_b = nh_fixed_has(o, b, i);
+        both[i] = in_a ? a[i] : b[i];
+        mixed = mixed || (in_a && in_b && a[i] != b[i]);
+    }
+    for (size_t i = 0; i < all; i++)
+        for (size_t j = 0; j < all; j++)
+            mixed = mixed || (nh_fixed_has(o, both, j) && nh_fixed_has(o, both, i) &&
+                              nh_depends(o->dag, both[i], o->parameter[j]));
+    for (size_t i = 0; i < all && mixed; i++)
+        for (size_t j = 0; j < all; j++)
+            if (nh_fixed_has(o, a, j) || nh_fixed_has(o, b, j) || nh_depends(o->dag, a[i], o->parameter[j]) ||
+                nh_depends(o->dag, b[i], o->parameter[j]))
+                both[j] = nh_fixed_has(o, a, i) || nh_fixed_has(o, b, i) ? value_of(o, j) : both[j];
     return both;
 }
 
-static bool is_related(const bool *fixed, void *context)
+static bool is_related(const nh_ex *fixed, void *context)
 {
     problem *p = context;
     if (relation(p, fixed, p->trial) != NH_RELATION_UNIQUE) return false;
@@ -161,8 +234,8 @@ bool nh_fixed_relation_of_symbols(const nh_model *o, size_t n, const nh_ex *e, c
     return found;
 }
 
-nh_fixed nh_fixed_relation(const nh_model *o, size_t n, const nh_ex *e, const double *like, const nh_options *options,
-                           nh_ex *coefficient)
+static nh_fixed find(const nh_model *o, size_t n, const nh_ex *e, const double *like, const nh_options *options,
+                     bool ties, nh_ex *coefficient)
 {
     size_t all = o->system->parameters;
     nh_ex *work = nh_alloc_array(2 * n + all + 1, sizeof *work);
@@ -171,11 +244,23 @@ nh_fixed nh_fixed_relation(const nh_model *o, size_t n, const nh_ex *e, const do
     nh_relation_verdict symbols = relation(&p, NULL, coefficient);
     out.found = out.all_parameters = symbols == NH_RELATION_UNIQUE;
     if (!out.found) {
-        const bool *fixed = nh_fixed_every(o);
+        const nh_ex *fixed = nh_fixed_every(o);
         out.found = relation(&p, fixed, coefficient) == NH_RELATION_UNIQUE;
         out.too_large = symbols == NH_RELATION_TOO_LARGE;
-        out.fixed = out.found && !out.too_large ? nh_fixed_least(o, n, e, is_related, &p) : fixed;
+        out.fixed = out.found && !out.too_large ? least(o, n, e, ties, is_related, &p) : fixed;
     }
     nh_free(work);
     return out;
+}
+
+nh_fixed nh_fixed_relation(const nh_model *o, size_t n, const nh_ex *e, const double *like, const nh_options *options,
+                           nh_ex *coefficient)
+{
+    return find(o, n, e, like, options, true, coefficient);
+}
+
+nh_fixed nh_fixed_relation_by_values(const nh_model *o, size_t n, const nh_ex *e, const double *like,
+                                     const nh_options *options, nh_ex *coefficient)
+{
+    return find(o, n, e, like, options, false, coefficient);
 }

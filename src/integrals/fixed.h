@@ -4,7 +4,11 @@
  *
  * First every parameter is a symbol.  Where there is no such relation some of them must have their values: beginning
  * with all of them fixed, one after the other is set free as long as the relation remains.  Those that the user set,
- * and short values (1 before 0.6173), are set free last, because it is at these that something special happens. */
+ * and short values (1 before 0.6173), are set free last, because it is at these that something special happens.  Where
+ * several are left, they may have to be related only, not to have these values (integrals/fixed_ties.h).
+ *
+ * `fixed` is a list of what each parameter is replaced by: a free one by itself, one that must have its value by that
+ * number, one that is related to others by an expression of these, which are free. */
 #ifndef NH_FIXED_H
 #define NH_FIXED_H
 
@@ -14,7 +18,7 @@
 typedef struct {
     bool found;
     bool all_parameters; /* none is fixed */
-    const bool *fixed;   /* per parameter, in the model's arena; NULL with all_parameters */
+    const nh_ex *fixed;  /* in the model's arena; NULL with all_parameters */
     bool too_large;      /* what holds for other values than the given ones could not be decided */
 } nh_fixed;
 
@@ -22,6 +26,10 @@ typedef struct {
    up to a factor (NULL: any). */
 nh_fixed nh_fixed_relation(const nh_model *model, size_t n, const nh_ex *e, const double *like,
                            const nh_options *options, nh_ex *coefficient);
+
+/* The same without relations among parameters: those that are not free have their values. */
+nh_fixed nh_fixed_relation_by_values(const nh_model *model, size_t n, const nh_ex *e, const double *like,
+                                     const nh_options *options, nh_ex *coefficient);
 
 /* The same, with every parameter a symbol: false where there is none such. */
 bool nh_fixed_relation_of_symbols(const nh_model *model, size_t n, const nh_ex *e, const double *like,
@@ -33,23 +41,29 @@ bool nh_fixed_is_like(const nh_model *model, size_t n, const nh_ex *exact, const
 
 /* Which parameters must have their values for something to hold that holds with all of them fixed: `occurring` are
    expressions with those that matter. */
-typedef bool nh_fixed_test(const bool *fixed, void *context);
-const bool *nh_fixed_least(const nh_model *model, size_t n, const nh_ex *occurring, nh_fixed_test *holds,
+typedef bool nh_fixed_test(const nh_ex *fixed, void *context);
+const nh_ex *nh_fixed_least(const nh_model *model, size_t n, const nh_ex *occurring, nh_fixed_test *holds,
                            void *context);
 
 /* What must be fixed for two statements: NULL as well as an empty list means nothing. */
-const bool *nh_fixed_both(const nh_model *model, const bool *a, const bool *b);
+const nh_ex *nh_fixed_both(const nh_model *model, const nh_ex *a, const nh_ex *b);
 
 /* e with the fixed parameters at their exact values; all of them with `fixed` NULL. */
-nh_ex nh_fixed_values(const nh_model *model, const bool *fixed, nh_ex e);
+nh_ex nh_fixed_values(const nh_model *model, const nh_ex *fixed, nh_ex e);
+
+/* Is the parameter replaced?  (None is for NULL.) */
+bool nh_fixed_has(const nh_model *model, const nh_ex *fixed, size_t parameter);
+
+/* These have their values, per parameter; in the model's arena. */
+const nh_ex *nh_fixed_those(const nh_model *model, const bool *which);
 
 /* A list of all. */
-const bool *nh_fixed_every(const nh_model *model);
+const nh_ex *nh_fixed_every(const nh_model *model);
 
-/* Are all parameters fixed?  (True for NULL.) */
-bool nh_fixed_all(const nh_model *model, const bool *fixed);
+/* Have all parameters their values?  (True for NULL.) */
+bool nh_fixed_all(const nh_model *model, const nh_ex *fixed);
 
-/* "k = 1, a = 2" of the fixed ones, in the model's arena. */
-const char *nh_fixed_text(const nh_model *model, const bool *fixed);
+/* "k = 1, a = 2*b" of those that are replaced, in the model's arena. */
+const char *nh_fixed_text(const nh_model *model, const nh_ex *fixed);
 
 #endif

@@ -56,12 +56,12 @@ static nh_ex without_signs(nh_dag *d, nh_ex e)
     return signs ? nh_substitute(d, e, signs, call, by) : e;
 }
 
-static nh_ex with_symbols(const nh_model *o, const bool *fixed, nh_ex e)
+static nh_ex with_symbols(const nh_model *o, const nh_ex *fixed, nh_ex e)
 {
     return fixed ? nh_fixed_values(o, fixed, e) : e;
 }
 
-static nh_proof holding(nh_proof proof, const bool *fixed)
+static nh_proof holding(nh_proof proof, const nh_ex *fixed)
 {
     proof.proved = true;
     proof.all_parameters = !fixed;
@@ -75,7 +75,7 @@ typedef struct {
     size_t limit;
 } zero_problem;
 
-static bool vanishes(const bool *fixed, void *context)
+static bool vanishes(const nh_ex *fixed, void *context)
 {
     const zero_problem *z = context;
     return nh_normal_is_zero(z->o->dag, nh_fixed_values(z->o, fixed, z->e), z->limit) == NH_ZERO;
@@ -128,7 +128,7 @@ nh_proof nh_proof_both(const nh_model *o, nh_proof a, nh_proof b)
     nh_proof out = {.proved = a.proved && b.proved,
                     .all_parameters = a.all_parameters && b.all_parameters,
                     .digits = fmin(a.digits, b.digits)};
-    const bool *of_a = a.all_parameters || a.fixed ? a.fixed : nh_fixed_every(o),
+    const nh_ex *of_a = a.all_parameters || a.fixed ? a.fixed : nh_fixed_every(o),
                *of_b = b.all_parameters || b.fixed ? b.fixed : nh_fixed_every(o);
     if (out.proved && !out.all_parameters) out.fixed = nh_fixed_both(o, of_a, of_b);
     out.points = a.points < b.points ? a.points : b.points;

@@ -15,7 +15,7 @@ typedef struct {
     bool all_parameters;  /* for all parameter values */
     /* else, where it is proved for all values of some: the others, which must have theirs; NULL: for the given values
        only */
-    const bool *fixed;
+    const nh_ex *fixed;
     double digits;        /* of cancellation, least over the points; 0 when it could not be evaluated */
     size_t points;        /* that could be evaluated */
     /* numbers in it were too long for exact rationals: more than a double's digits cannot be asked for */
@@ -30,7 +30,7 @@ void nh_rate_terms(const nh_model *model, nh_ex phi, nh_ex *term);
 typedef struct {
     /* its coefficients hold for all parameter values, so that step 1 makes sense; but for those fixed: */
     bool free;
-    const bool *fixed; /* per parameter: it must have its value; NULL: none must */
+    const nh_ex *fixed; /* what must have its value, or be related to others (integrals/fixed.h); NULL: none must */
     bool related;      /* an exact relation of its terms' rates is the proof */
     /* set by the proof: Phi holds numbers that are no rationals, whose sums may come out whole; nothing is proved of
        it */

@@ -126,7 +126,7 @@ static nh_fixed related(const nh_generator_fit *s, size_t r, bool by_terms, size
 }
 
 /* Coefficients in Q(parameters): the conditions must cancel identically. */
-static bool parametric(nh_generator_fit *s, size_t r, nh_ex *coefficient, const bool **fixed)
+static bool parametric(nh_generator_fit *s, size_t r, nh_ex *coefficient, const nh_ex **fixed)
 {
     nh_dag *d = s->k->dag;
     size_t terms, *index = nh_alloc_array(s->n + 1, sizeof *index);
@@ -152,7 +152,7 @@ static bool parametric(nh_generator_fit *s, size_t r, nh_ex *coefficient, const 
    like when there is none. */
 static void make_generator(nh_generator_fit *s, size_t r, nh_ex *coefficient, nh_ex *component, nh_generator *out)
 {
-    const bool *fixed;
+    const nh_ex *fixed;
     nh_generator related;
     rational(s, r, coefficient);
     assemble(s, coefficient, component);

@@ -17,7 +17,7 @@
 
 typedef struct {
     bool holds, proved, all_parameters; /* at the sample points; exactly; for all parameter values */
-    const bool *fixed;                  /* else those that must have their values; NULL: all (nh_proof) */
+    const nh_ex *fixed;                  /* else those that must have their values; NULL: all (nh_proof) */
     double residual;                    /* largest relative violation over the sample points */
 } nh_condition;
 

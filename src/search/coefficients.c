@@ -21,7 +21,8 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
         rate[j] = nh_model_gamma(o, c->term[j]);
         rounded = rounded || !nh_is_short(o->dag, c->term[j]);
     }
-    nh_fixed relation = nh_fixed_relation(o, c->count, rate, c->coefficient, options, out);
+    nh_fixed relation = (c->by_values ? nh_fixed_relation_by_values : nh_fixed_relation)(o, c->count, rate,
+                                                                                         c->coefficient, options, out);
     if (!relation.all_parameters && (rounded || !relation.too_large)) {
         nh_fixed named = nh_letters_relation(o, c->count, c->term, c->coefficient, options, rate, letters);
         if (named.found) relation = named;

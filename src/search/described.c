@@ -66,7 +66,7 @@ static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
 }
 
 /* The fixed parameters' values in a list of expressions. */
-static void put_values(nh_model *o, const bool *fixed, size_t n, nh_ex *e)
+static void put_values(nh_model *o, const nh_ex *fixed, size_t n, nh_ex *e)
 {
     for (size_t i = 0; i < n && e; i++) e[i] = nh_simplify_short(o->dag, nh_fixed_values(o, fixed, e[i]), 0);
 }
@@ -90,7 +90,7 @@ static void normalise(nh_model *o, nh_current *f)
 }
 
 /* The same in a field, time first. */
-static void put_values_in_field(nh_model *o, const bool *fixed, nh_field *z)
+static void put_values_in_field(nh_model *o, const nh_ex *fixed, nh_field *z)
 {
     if (!z->space) return;
     put_values(o, fixed, 1, &z->time);
@@ -98,7 +98,7 @@ static void put_values_in_field(nh_model *o, const bool *fixed, nh_field *z)
     put_values(o, fixed, o->n, z->velocity);
 }
 
-static void put_values_in_symmetry(nh_model *o, const bool *fixed, nh_symmetry *z)
+static void put_values_in_symmetry(nh_model *o, const nh_ex *fixed, nh_symmetry *z)
 {
     put_values(o, fixed, 1, &z->Z0);
     put_values(o, fixed, o->n, z->zeta);

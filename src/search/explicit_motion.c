@@ -132,7 +132,7 @@ static void conclude(nh_explicit_curve *c)
 }
 
 nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o, const nh_points *points,
-                                             size_t parameter, const bool *fixed, size_t n, const nh_ex *current,
+                                             size_t parameter, const nh_ex *fixed, size_t n, const nh_ex *current,
                                              const nh_options *options)
 {
     enum { pair = 2 };

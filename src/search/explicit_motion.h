@@ -52,14 +52,14 @@ typedef struct nh_explicit_motion {
     nh_motion_integral *integral;
     bool proved;             /* the known values satisfy the equations of motion, by differentiation and normal forms */
     const struct nh_motion_series *series; /* of the integrals, along the checked motion; NULL: none */
-    const bool *fixed;       /* per parameter of the system: it has its value; NULL: none has */
+    const nh_ex *fixed;       /* which parameters have their values (integrals/fixed.h); NULL: none */
     const char *region;      /* where the constants are constant (integrals/region.h); NULL: along every motion */
 } nh_explicit_motion;
 
 /* With this state as parameter; `fixed` as in the result.  n currents of the chart may be used.  Signs are those at the
  * points.  NULL where Gamma does not move the state.  In the arena. */
 nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *model, const nh_points *points,
-                                             size_t parameter, const bool *fixed, size_t n, const nh_ex *current,
+                                             size_t parameter, const nh_ex *fixed, size_t n, const nh_ex *current,
                                              const nh_options *options);
 
 #endif

@@ -12,7 +12,7 @@ typedef struct {
     nh_dag *d;
     const nh_points *points;
     const nh_options *options;
-    const bool *fixed;
+    const nh_ex *fixed;
     nh_explicit_motion *m;
     /* of every state: its rate; its value in s, the constants, the roots, the integrals and the states that are not
        solved */

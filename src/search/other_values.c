@@ -81,19 +81,18 @@ static bool current_of(const nh_model *o, const nh_other_values *other, nh_candi
     return good;
 }
 
-size_t nh_other_values_exchange(nh_current_checker *b, nh_other_values *other, nh_ex pivot)
+size_t nh_other_values_exchange(nh_current_checker *b, nh_other_values *other, nh_ex pivot, bool *exchanged)
 {
     const nh_analysis *r = b->result;
     nh_ex phi;
     size_t more = 0;
-    bool exchanged = false;
-    for (int i = 0; i < 2 && !exchanged; i++) {
+    *exchanged = false;
+    for (int i = 0; i < 2 && !*exchanged; i++) {
         nh_candidates *list = i == 0 ? other->simplest : other->with_pivots;
-        for (size_t k = 0; list && k < list->count && !exchanged; k++) {
+        for (size_t k = 0; list && k < list->count && !*exchanged; k++) {
             nh_candidate *c = &list->candidate[k];
             if (i == 1 && c->term[c->pivot] != pivot) continue;
-            if (current_of(r->model, other, c, &r->options, &phi))
-                more += nh_currents_exchange_last(b, phi, &exchanged);
+            if (current_of(r->model, other, c, &r->options, &phi)) more += nh_currents_exchange_last(b, phi, exchanged);
         }
     }
     return more;

@@ -27,7 +27,7 @@ void nh_other_values_take(nh_other_values *other, const nh_ansatz *ansatz, const
 void nh_other_values_clear(nh_other_values *other);
 
 /* Puts currents that hold for all values of the parameters in the place of the last one, which holds at the given ones
-   only and has this pivot.  Returns how many more currents there are. */
-size_t nh_other_values_exchange(nh_current_checker *bench, nh_other_values *other, nh_ex pivot);
+   only and has this pivot; `exchanged`: that one is gone.  Returns how many more currents there are. */
+size_t nh_other_values_exchange(nh_current_checker *bench, nh_other_values *other, nh_ex pivot, bool *exchanged);
 
 #endif

@@ -12,25 +12,36 @@
 #include "search/currents.h"
 #include "search/explicit_motion.h"
 
+/* Is it replaced, or does one that is depend on it? */
+static bool is_needed(const nh_model *o, const nh_ex *fixed, size_t parameter)
+{
+    for (size_t i = 0; i < o->system->parameters; i++)
+        if (nh_fixed_has(o, fixed, i) && (i == parameter || nh_depends(o->dag, fixed[i], o->parameter[parameter])))
+            return true;
+    return false;
+}
+
 /* Which parameters have their values, where some must: those that stand in functions and exponents of the equations of
  * motion and of the currents, and those that a current needs.  NULL: none. */
-static const bool *special_values(const nh_analysis *r)
+static const nh_ex *special_values(const nh_analysis *r)
 {
     enum { most = 64 };
     const nh_model *o = r->model;
     size_t n = o->system->parameters;
-    bool *fixed = nh_arena_alloc(r->arena, (n + 1) * sizeof *fixed), any = false;
+    bool *fixed = nh_alloc_array(n + 1, sizeof *fixed), any = false;
     for (size_t j = 0; j < o->m + o->n + r->count; j++) {
         const nh_current *f = j < o->m + o->n ? NULL : &r->found[j - o->m - o->n];
         nh_ex e = f ? f->phi : j < o->m ? o->rho[j] : o->a[j - o->m], call[most];
         size_t calls = nh_functions_in(o->dag, e, call, most);
         for (size_t p = 0; p < n; p++) {
-            if (f && !f->proof.all_parameters) fixed[p] |= !f->proof.fixed || f->proof.fixed[p];
+            if (f && !f->proof.all_parameters) fixed[p] |= !f->proof.fixed || is_needed(o, f->proof.fixed, p);
             for (size_t i = 0; i < calls && i < most; i++) fixed[p] |= nh_depends(o->dag, call[i], o->parameter[p]);
             any |= fixed[p];
         }
     }
-    return any ? fixed : NULL;
+    const nh_ex *list = any ? nh_fixed_those(o, fixed) : NULL;
+    nh_free(fixed);
+    return list;
 }
 
 /* The currents in closed form; `general`: that hold for all values of the parameters. */
@@ -73,8 +84,7 @@ static size_t roots_in(nh_dag *d, size_t n, const nh_ex *e, nh_ex *radicand, siz
         for (size_t i = 0; i < products && i < most_products; i++)
             for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
                 nh_ex x = nh_exponent_of(d, product[i], f);
-                if ((x == half || x == nh_neg(d, half)) && count < most)
-                    radicand[count++] = nh_child(d, product[i], f);
+                if ((x == half || x == nh_neg(d, half)) && count < most) radicand[count++] = nh_child(d, product[i], f);
             }
     }
     return count;
@@ -119,8 +129,8 @@ static nh_ex shorter_roots(const nh_model *o, nh_ex e)
     nh_ex radicand[most], outside, inside;
     size_t n = roots_in(d, 1, &e, radicand, most);
     for (size_t i = 0; i < n; i++) {
-        bool split = nh_square_split(d, nh_simplify_short(d, radicand[i], 0), &outside, &inside) &&
-                     is_parametric(o, outside);
+        bool split =
+            nh_square_split(d, nh_simplify_short(d, radicand[i], 0), &outside, &inside) && is_parametric(o, outside);
         if (split) e = nh_substitute_root(d, e, radicand[i], nh_mul(d, outside, nh_sqrt(d, inside)));
     }
     return e;
@@ -218,7 +228,7 @@ static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *
 /* ---- the whole ---- */
 
 /* With every state as the parameter; the best one. */
-static const nh_explicit_motion *try_all(nh_stage_solver *x, const bool *fixed, size_t n, const nh_ex *current,
+static const nh_explicit_motion *try_all(nh_stage_solver *x, const nh_ex *fixed, size_t n, const nh_ex *current,
                                          size_t *count, const nh_explicit_motion **tried)
 {
     const nh_model *o = x->r->model;
@@ -256,7 +266,7 @@ void nh_quadratures_search(nh_stage_solver *x)
     nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current);
     const nh_explicit_motion **tried = nh_arena_alloc(r->arena, 2 * states * sizeof *tried),
                              *best = try_all(x, NULL, gather(r, true, current), current, &count, tried);
-    const bool *fixed = special_values(r);
+    const nh_ex *fixed = special_values(r);
     if (fixed && !(best && best->known == states && !best->integrals)) {
         const nh_explicit_motion *special = try_all(x, fixed, gather(r, false, current), current, &count, tried);
         if (special && better(special, best)) best = special;

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "integrals/fixed.h"
 #include "integrals/prove.h"
 #include "search/other_values.h"
 
@@ -227,15 +228,32 @@ static void solve_elsewhere(nh_stage_solver *x, const nh_solved *s, size_t pivot
     nh_sectors_clear(&sectors);
 }
 
+/* Several parameters need their values: do they need to be related only? */
+static void relate(nh_stage_solver *x, const nh_solved *s, nh_candidate *c, nh_ex pivot, bool certain)
+{
+    nh_analysis *r = x->r;
+    nh_current last = r->found[r->count - 1];
+    size_t values = 0;
+    for (size_t i = 0; i < r->model->system->parameters && last.proof.fixed; i++)
+        values += nh_fixed_has(r->model, last.proof.fixed, i);
+    if (values < 2) return;
+    c->by_values = false;
+    c->pivot = 0;
+    c->term[0] = pivot;
+    r->count--;
+    if (!nh_currents_add(x->bench, c, s->fit, certain)) nh_currents_put(x->bench, &last);
+}
+
 /* A current that holds at the given values of the parameters only, while another holds for all: that one is wanted. */
-static size_t without_values(nh_stage_solver *x, const nh_solved *s, size_t pivots, const nh_ex *pivot, size_t k,
-                             nh_other_values *other)
+static size_t without_values(nh_stage_solver *x, const nh_solved *s, size_t pivots, const nh_ex *pivot, nh_ex own,
+                             nh_other_values *other, bool *exchanged)
 {
     const nh_analysis *r = x->r;
     const nh_proof *proof = &r->found[r->count - 1].proof;
+    *exchanged = true;
     if (!proof->proved || proof->all_parameters || r->model->system->parameters == 0) return 0;
     if (!other->tried) solve_elsewhere(x, s, pivots, pivot, other);
-    return nh_other_values_exchange(x->bench, other, pivot[k]);
+    return nh_other_values_exchange(x->bench, other, own, exchanged);
 }
 
 static nh_ex *pivots_of(const nh_candidates *list)
@@ -261,8 +279,11 @@ static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_solved *
             r->open += kind[k] == NH_INDEPENDENT;
             continue;
         }
+        c->by_values = true;
         if (kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, s->fit, certain)) {
-            r->independent += 1 + without_values(x, s, pivots, pivot, k, &other);
+            bool exchanged;
+            r->independent += 1 + without_values(x, s, pivots, pivot, pivot[k], &other, &exchanged);
+            if (!exchanged) relate(x, s, c, pivot[k], certain);
             keep_factor(x, r->found[r->count - 1].phi);
         } else if (c->count == 1 && kind[k] == NH_DEPENDENT) {
             keep_factor(x, c->term[0]);
