@@ -137,6 +137,28 @@ static char *simulate_finely(nh_context *context, nh_error *error)
     return text;
 }
 
+/* Too little for the buffer of OpenBLAS, which nothing has asked for yet in this process: it would wait for ever. */
+Test(recovery, room_for_the_first_decomposition_may_be_missing, .timeout = 60)
+{
+    nh_context *context = nh_context_create();
+    nh_error error = {0};
+    struct rlimit before, tight;
+    getrlimit(RLIMIT_AS, &before);
+    tight = before;
+    tight.rlim_cur = address_space() + ((size_t)1 << 26);
+    cr_assert_eq(setrlimit(RLIMIT_AS, &tight), 0);
+    char *text = once(analyze, context, &error);
+    cr_assert_eq(setrlimit(RLIMIT_AS, &before), 0);
+    cr_assert_null(text);
+    cr_assert_eq(error.code, NH_LIMIT, "%s", error.what);
+    cr_assert_not_null(strstr(error.what, "out of memory"), "%s", error.what);
+    nh_error_clear(&error);
+    text = once(analyze, context, &error);
+    cr_assert_not_null(text, "%s", error.what);
+    nh_string_free(text);
+    nh_context_free(context);
+}
+
 /* Afterwards there is room again. */
 Test(recovery, an_address_space_may_end)
 {

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #include "base/budget.h"
 #include "base/effort.h"
@@ -25,6 +26,9 @@ enum {
     SVD = 12, PIVOTED = 3, EIGEN = 20 /* times m n min(m, n) multiplications */
 };
 
+/* bytes of the buffer that OpenBLAS maps for every thread that calls it */
+static const size_t BUFFER = (size_t)128 << 20;
+
 /* units of effort: of LAPACK, per row, and per multiplication in small matrices */
 static const double CALL = 350, ROW = 50, FLOP = 0.4;
 
@@ -32,6 +36,20 @@ void nh_linalg_threads(int count)
 {
     if (openblas_set_num_threads)
         openblas_set_num_threads(count);
+}
+
+/* Where the address space has no room for its buffer OpenBLAS tries for ever to map it: before the first call of a
+   thread, room is looked for in the same way. */
+static void look_for_room(void)
+{
+    static _Thread_local bool found;
+    if (found || !openblas_set_num_threads)
+        return;
+    void *room = mmap(NULL, BUFFER, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (room == MAP_FAILED)
+        nh_memory_ended(BUFFER);
+    munmap(room, BUFFER);
+    found = true;
 }
 
 static size_t smaller(size_t a, size_t b)
@@ -168,6 +186,7 @@ static void factorise(nh_qr *qr, size_t first, size_t count, double *t)
 static void absorb(void *context)
 {
     nh_qr *qr = context;
+    look_for_room();
     for (size_t first = 0; first < qr->columns; first += PANEL) {
         size_t count = smaller(PANEL, qr->columns - first), right = first + count;
         factorise(qr, first, count, qr->t);
@@ -266,6 +285,7 @@ static bool worked(lapack_int info)
 static void compute_svd(void *context)
 {
     decomposition *d = context;
+    look_for_room();
     char job = d->u ? 'S' : 'N';
     lapack_int rows = (lapack_int)d->m, columns = (lapack_int)d->n, ld = leading(d->m),
                ldvt = leading(smaller(d->m, d->n));
@@ -322,6 +342,7 @@ bool nh_eigen(size_t n, double *a, double *re, double *im, double *v)
         return false;
     nh_work_add(NH_WORK_DENSE, EIGEN * product(n, n, n));
     lapack_int size = (lapack_int)n;
+    look_for_room();
     return worked(LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', v ? 'V' : 'N', size, a, size, re, im, NULL, size, v, size));
 }
 
@@ -335,6 +356,7 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
         return true;
     if (!nh_all_finite(n * n, a) || !nh_all_finite(n * nrhs, b))
         return false;
+    look_for_room();
     nh_work_add(NH_WORK_DENSE, product(n, n, n + nrhs));
     nh_effort_add(CALL + ROW * (double)n + FLOP * product(n, n, n + nrhs));
     lapack_int size = (lapack_int)n;
@@ -361,6 +383,7 @@ int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size
         return 0;
     }
     nh_work_add(NH_WORK_DENSE, PIVOTED * product(m, n, smaller(m, n)));
+    look_for_room();
     nh_effort_add(PIVOTED * (CALL + ROW * (double)n + FLOP * product(m, n, smaller(m, n))));
     lapack_int rank = -1;
     lapack_int *order = nh_alloc_array(n, sizeof *order);
@@ -381,6 +404,7 @@ void nh_multiply(size_t m, size_t n, size_t k, const double *a, const double *b,
     if (m == 0 || n == 0 || k == 0)
         return;
     nh_work_add(NH_WORK_DENSE, product(m, n, k));
+    look_for_room();
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (lapack_int)m, (lapack_int)n, (lapack_int)k, 1.0, a,
                 (lapack_int)m, b, (lapack_int)k, 0.0, c, (lapack_int)m);
 }
@@ -390,6 +414,7 @@ void nh_solve_triangle_right(size_t m, size_t n, const double *r, size_t ldr, do
     if (m == 0 || n == 0)
         return;
     nh_work_add(NH_WORK_DENSE, product(m, n, n) / 2);
+    look_for_room();
     cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)m, (lapack_int)n, 1.0, r,
                 (lapack_int)ldr, b, (lapack_int)m);
 }
@@ -399,6 +424,7 @@ void nh_solve_triangle(size_t n, size_t nrhs, const double *r, size_t ldr, doubl
     if (n == 0 || nrhs == 0)
         return;
     nh_work_add(NH_WORK_DENSE, product(n, n, nrhs) / 2);
+    look_for_room();
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)n, (lapack_int)nrhs, 1.0,
                 r, (lapack_int)ldr, x, (lapack_int)ldx);
 }
