@@ -4,6 +4,8 @@
 
 #include "search/analysis.h"
 
+enum { NH_LEAST_ALMOST = 6 /* digits to which what is almost conserved is */ };
+
 typedef struct {
     nh_analysis *result;
     nh_points *heldout, *generic; /* points that no fit has seen */

@@ -30,6 +30,8 @@ bool nh_currents_known(const nh_current_checker *bench, nh_ex phi);
 
 /* Where the current holds, in words; NULL: everywhere.  What is not proved holds to so many digits. */
 const char *nh_currents_region(nh_current_checker *bench, nh_ex phi, double digits, bool *to_the_end);
+/* The same of this current; what is not proved everywhere may be proved there. */
+const char *nh_currents_hold(nh_current_checker *bench, nh_current *found);
 /* A proved current that ends or jumps at a zero of u because of a root of u^2: is it a current everywhere with u
    instead of that root (integrals/continued.h)?  Then it becomes that one. */
 bool nh_currents_continue(nh_current_checker *bench, nh_current *found);

@@ -1,0 +1,77 @@
+/* currents_region: what holds in a part of the motions only. */
+#include <math.h>
+
+#include "count/one_side.h"
+#include "exact/normal.h"
+#include "integrals/continued.h"
+#include "search/currents.h"
+
+static nh_region region_of(nh_current_checker *b, nh_ex phi, double digits)
+{
+    nh_analysis *r = b->result;
+    if (!b->surveyed) b->terrain = nh_terrain_of(r->model, &r->options, r->arena);
+    b->surveyed = true;
+    return nh_region_of(r->model, &b->terrain, phi, digits, &r->options, r->arena);
+}
+
+const char *nh_currents_region(nh_current_checker *b, nh_ex phi, double digits, bool *to_the_end)
+{
+    nh_region region = region_of(b, phi, digits);
+    if (to_the_end) *to_the_end = nh_region_to_the_end(&region);
+    return nh_region_text(b->result->model->dag, &region, b->result->arena);
+}
+
+/* e with |u| and sign(u) as they are on the side of the wall u = 0 on which the region lies. */
+static nh_ex on_its_side(nh_dag *d, const nh_region *region, nh_ex e)
+{
+    nh_ex from[4 * NH_MOST_WALLS], to[4 * NH_MOST_WALLS];
+    size_t n = 0;
+    for (size_t i = 0; i < region->count; i++) {
+        if (region->kind[i] != NH_REGION_ABOVE && region->kind[i] != NH_REGION_BELOW) continue;
+        for (int side = -1; side <= 1; side += 2) {
+            int sign = (region->kind[i] == NH_REGION_ABOVE ? 1 : -1) * side;
+            nh_ex u = nh_mul(d, nh_int(d, side), region->wall[i]);
+            from[n] = nh_call(d, NH_ABS, u);
+            to[n++] = nh_mul(d, nh_int(d, sign), u);
+            from[n] = nh_call(d, NH_SIGN, u);
+            to[n++] = nh_int(d, sign);
+        }
+    }
+    return nh_substitute(d, e, n, from, to);
+}
+
+const char *nh_currents_hold(nh_current_checker *b, nh_current *f)
+{
+    const nh_model *o = b->result->model;
+    const nh_options *options = &b->result->options;
+    /* what cancels to fewer digits as printed need not do better anywhere */
+    nh_region region =
+        region_of(b, f->phi, f->proof.proved ? 0 : fmax(NH_LEAST_ALMOST, fmin(f->printed_digits, options->digits) / 2));
+    if (region.count && !f->proof.proved) {
+        size_t n = 1 + o->m + o->n;
+        nh_ex *term = nh_alloc_array(n, sizeof *term);
+        nh_rate_terms(o, f->phi, term);
+        for (size_t j = 0; j < n; j++) term[j] = on_its_side(o->dag, &region, term[j]);
+        nh_proof proof = nh_prove_zero(o, n, term, f->exact, options);
+        if (proof.proved) f->proof = proof;
+        nh_free(term);
+    }
+    f->to_the_end = nh_region_to_the_end(&region);
+    f->counted = nh_one_side_within(o, &region);
+    return nh_region_text(o->dag, &region, b->result->arena);
+}
+
+bool nh_currents_continue(nh_current_checker *b, nh_current *f)
+{
+    const nh_options *options = &b->result->options;
+    nh_model *o = b->result->model;
+    if (!f->proof.proved) return false;
+    nh_ex phi = nh_continued_roots(o, f->phi, (uint64_t)options->seed);
+    nh_claim claim = {.free = f->proof.all_parameters || f->proof.fixed, .fixed = f->proof.fixed};
+    if (phi == f->phi) return false;
+    nh_proof proof = nh_prove_claim(o, phi, claim, options);
+    if (!proof.proved || nh_currents_region(b, phi, 0, NULL)) return false;
+    f->phi = nh_simplify_short(o->dag, phi, 0);
+    f->proof = proof;
+    return true;
+}
