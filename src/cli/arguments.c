@@ -95,6 +95,10 @@ static bool assignment(nh_cli *cli, const char *text, const char *option, char *
     if (!equal || equal == text) {
         nh_fail(error, NH_USAGE, "", "--%s needs NAME=VALUE, found `%s`", option, text);
         double half; /* of 0,5 */
+        const char *colon = strchr(text, ':'); /* of YAML */
+        if (colon && colon != text)
+            return nh_error_hint(error, "--%s \"%.*s=%s\"", option, (int)(colon - text), text,
+                                 colon + 1 + strspn(colon + 1, " "));
         return nh_text_to_number(text, &half)
                    ? nh_error_hint(error, "commas stand between values, and decimals behind a point: 0.5")
                    : false;

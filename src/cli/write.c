@@ -1,5 +1,6 @@
 /* write: what every command that reports needs. */
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "base/escape.h"
@@ -57,6 +58,21 @@ static bool is_read(const nh_cli *cli, const char *path)
     return read;
 }
 
+/* A file of one option must not have the ending of another: who opens it would find something else. */
+static bool ending_fits(const destination *to, nh_error *error)
+{
+    static const char *const ending[][2] = {{"html", "html"}, {"tex", "tex"}, {"json", "json"}, {"svg", "svg"},
+                                            {"pdf", "pdf"},   {"csv", "csv"}, {"png", "svg"},   {"jpg", "svg"}};
+    const char *dot = strrchr(to->path, '.');
+    for (size_t i = 0; dot && i < sizeof ending / sizeof *ending; i++) {
+        if (strcasecmp(dot + 1, ending[i][0]) || !strcmp(ending[i][0], to->option)) continue;
+        nh_fail(error, NH_USAGE, "", "--%s does not write what `%s` is the name of", to->option, to->path);
+        if (!strcmp(ending[i][1], to->option)) return nh_error_hint(error, "pictures are .svg or .pdf");
+        return nh_error_hint(error, "did you mean --%s %s?", ending[i][1], to->path);
+    }
+    return true;
+}
+
 static bool can_write(const nh_cli *cli, const destination *to, size_t before, nh_error *error)
 {
     if (!to->path || is_stdout(to->path)) return true;
@@ -71,7 +87,7 @@ static bool can_write(const nh_cli *cli, const destination *to, size_t before, n
         nh_fail(error, NH_USAGE, "", "--%s and --%s would write one file, %s", other->option, to->option, to->path);
         return nh_error_hint(error, "give each a file of its own");
     }
-    return nh_output_possible(to->path, error);
+    return ending_fits(to, error) && nh_output_possible(to->path, error);
 }
 
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error)

@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/escape.h"
 #include "document/export_internal.h"
@@ -26,9 +27,11 @@ bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *erro
     else
         nh_fail(error, NH_USAGE, "--to", "no language is given");
     /* names of the same in other programs */
-    static const char *const others[][2] = {{"tex", "latex"}, {"numpy", "python"}, {"cpp", "c"}, {"c++", "c"}};
+    static const char *const others[][2] = {{"tex", "latex"}, {"numpy", "python"}, {"scipy", "python"},
+                                            {"cpp", "c"},     {"c++", "c"},        {"m", "matlab"}};
     for (size_t i = 0; name && i < sizeof others / sizeof *others; i++)
-        if (!strcmp(name, others[i][0])) return nh_error_hint(error, "did you mean `%s`?", others[i][1]);
+        if (!strcasecmp(name, others[i][0]))
+            return nh_error_hint(error, "did you mean `%s`?", others[i][1]);
     return nh_error_hint_near(error, name ? name : "", targets, target_count,
                               "--to takes c, python, sympy, matlab, latex or json");
 }
