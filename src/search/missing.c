@@ -18,15 +18,16 @@
 /* What is proved, in closed form, and room for it. */
 static size_t most_proved(const nh_analysis *r) { return r->count + r->furthers + r->pieces + 1; }
 
-/* What is proved is compared with how much there can be. */
+/* What is proved is compared with how much there can be.  A degree that was asked for may cost more. */
 static void count(nh_analysis *r, bool again)
 {
+    enum { times_if_asked = 10 };
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     nh_completeness_question q = {.current = phi,
                                   .all = r->search == NH_SEARCH_COMPLETE,
                                   .again = again,
                                   .degree = (size_t)r->options.degree,
-                                  .work = r->options.count_work,
+                                  .work = r->options.count_work * (r->options.degree ? times_if_asked : 1),
                                   .memory = r->counted};
     nh_progress("how many integrals there are", -1);
     q.known = nh_counted_proved(r, phi, &q.general, &q.independent);
