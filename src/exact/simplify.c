@@ -359,7 +359,7 @@ static nh_ex simplify(context *shared, nh_ex e)
     shared->depth++;
     c.inexact = !nh_is_short(c.dag, e);
     if (compete(&c, e, true)) compete(&c, e, false);
-    offer_turned(&c, e);
+    offer_turned(&c, c.best);
     if (c.best == e) offer(&c, of_parts(&c, e));
     if (c.best == e) offer(&c, apart(&c, e));
     shared->depth--;
@@ -430,6 +430,7 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_forms_init(&shared.literal, dag, true, most_terms);
     nh_forms_init(&shared.cut, dag, false, most_terms);
     nh_ex result = simplify(&shared, e);
+    if (result != e) result = simplify(&shared, result); /* short enough now for what was too long before */
     if (result != e) result = restore_roots(&shared, e, restore_calls(&shared, e, result));
     nh_forms_clear(&shared.literal);
     nh_forms_clear(&shared.cut);
