@@ -45,6 +45,7 @@ typedef struct {
     bool inexact; /* the source has inexact numbers, so that more of them are no sign of overflow */
     nh_ex angle[most_angles]; /* that stand by themselves, outside of sums, below a sine or cosine */
     size_t angles;
+    size_t fewest; /* terms of a form */
     turn try[most_tries];
     size_t tries;
     nh_ex sum[most_turns]; /* what the symbols of the present source stand for */
@@ -55,6 +56,7 @@ static nh_ex simplify(context *shared, nh_ex e);
 
 static void offer(contest *c, nh_ex candidate)
 {
+    if (c->turns && nh_complexity(c->dag, candidate) >= c->length) return;
     for (size_t i = c->turns; i-- > 0;)
         candidate = nh_substitute(c->dag, candidate, 1, &c->shared->turned[i], &c->sum[i]);
     if (candidate == c->last || candidate == c->best) return;
@@ -178,8 +180,10 @@ static bool is_angle(const contest *c, const nh_kernel *k)
 static void note_turns(contest *c, const nh_form *form)
 {
     const nh_kernels *k = &form->kernels;
+    size_t terms = nh_quotient_terms(form->value);
+    if (!c->fewest || terms < c->fewest) c->fewest = terms;
     c->tries = 0;
-    if (nh_quotient_terms(form->value) > turned_terms) return;
+    if (terms > turned_terms) return;
     for (size_t j = 0; j < k->count; j++)
         for (size_t i = 0; i < j && is_angle(c, &k->item[j]); i++) {
             if (!is_angle(c, &k->item[i])) continue;
@@ -204,7 +208,8 @@ static bool takes_turn(contest *c, const turn *t, nh_ex *e)
     size_t before = c->length;
     c->sum[c->turns++] = nh_add(dag, t->a, nh_mul(dag, s, t->b));
     nh_form form;
-    if (nh_form_make(&c->shared->cut, turned, true, &form) == NH_FIELD_FINE) {
+    if (nh_form_make(&c->shared->cut, turned, true, &form) == NH_FIELD_FINE &&
+        nh_quotient_terms(form.value) <= c->fewest) {
         beautify(c, &form);
         offer_form(c, &form);
     }
