@@ -14,8 +14,10 @@ enum {
     factor_terms = 60,    /* see normal_factor.c */
     most_angles = 12,     /* see offer_turned */
     most_turns = 3,       /* sums of angles that become angles at once, */
-    most_tries = 6,       /* of this many that look worth it, */
-    turned_terms = 600,   /* in quotients of at most so many terms */
+    most_tries = 4,       /* of this many that look worth it, */
+    turned_terms = 100,   /* in quotients of at most so many terms */
+    turned_length = 400,  /* and expressions of at most this complexity */
+    short_again = 400,    /* complexity of what is simplified once more when it was too long at first */
     shortest = 4,         /* complexity below which there is nothing to gain */
     deepest = 20,         /* levels of arguments and of terms that are simplified on their own */
     longest = 3000        /* of the equations of a system, complexity beyond which they are left alone */
@@ -27,6 +29,7 @@ typedef struct {
     nh_ex turned[most_turns]; /* symbols for sums of angles; 0: not made yet */
     nh_forms literal, cut;
     nh_index done;     /* part -> simplified */
+    bool too_long;     /* some form was */
     nh_index rational; /* part -> is it a polynomial in symbols and their inverses? */
     int depth;
 } context;
@@ -183,6 +186,7 @@ static void note_turns(contest *c, const nh_form *form)
     size_t terms = nh_quotient_terms(form->value);
     if (!c->fewest || terms < c->fewest) c->fewest = terms;
     c->tries = 0;
+    c->shared->too_long |= terms > turned_terms;
     if (terms > turned_terms) return;
     for (size_t j = 0; j < k->count; j++)
         for (size_t i = 0; i < j && is_angle(c, &k->item[j]); i++) {
@@ -245,6 +249,7 @@ static bool compete(contest *c, nh_ex e, bool literal)
     nh_form form;
     bool fine = nh_form_make(literal ? &c->shared->literal : &c->shared->cut, e, true, &form) == NH_FIELD_FINE;
     bool more = literal && worth_cutting(c->dag, &form.kernels);
+    c->shared->too_long |= !fine;
     if (fine) {
         beautify(c, &form);
         offer_form(c, &form);
@@ -364,7 +369,7 @@ static nh_ex simplify(context *shared, nh_ex e)
     shared->depth++;
     c.inexact = !nh_is_short(c.dag, e);
     if (compete(&c, e, true)) compete(&c, e, false);
-    offer_turned(&c, c.best);
+    if (c.length <= turned_length) offer_turned(&c, c.best);
     if (c.best == e) offer(&c, of_parts(&c, e));
     if (c.best == e) offer(&c, apart(&c, e));
     shared->depth--;
@@ -435,7 +440,8 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_forms_init(&shared.literal, dag, true, most_terms);
     nh_forms_init(&shared.cut, dag, false, most_terms);
     nh_ex result = simplify(&shared, e);
-    if (result != e) result = simplify(&shared, result); /* short enough now for what was too long before */
+    if (result != e && shared.too_long && nh_complexity(dag, result) <= short_again)
+        result = simplify(&shared, result); /* what was too long before may not be so now */
     if (result != e) result = restore_roots(&shared, e, restore_calls(&shared, e, result));
     nh_forms_clear(&shared.literal);
     nh_forms_clear(&shared.cut);
