@@ -299,7 +299,7 @@ Test(writing, inputs_stay)
 {
     static const char *const lines[] = {"$N verify a.yaml --current x --html a.yaml", "$N simulate a.yaml --until 1 --csv ./a.yaml", "$N simulate - --until 1 --svg a.yaml <a.yaml",
                                         "$N simulate a.yaml --initial-table t.csv --csv t.csv", "ln -s a.yaml b.yaml; $N export a.yaml --to c --json b.yaml",
-                                        "ln -f t.csv u.csv; $N simulate a.yaml --until 1 --csv t.csv --svg u.csv"};
+                                        "ln -f t.csv u.svg; $N simulate a.yaml --until 1 --csv t.csv --svg u.svg"};
     place p = place_make();
     write_here(&p, "a.yaml", "name: a\ncoordinates: [x]\nlagrangian: x'^2/2\n");
     write_here(&p, "t.csv", "x\n1\n2\n");
