@@ -564,6 +564,22 @@ Test(classify, exact_ratios_stand_for_parameters)
     nh_verification_free(v);
 }
 
+/* z'/w has no value at w = 0, nor sqrt(B^2 - 2*w^2) at w = B = 4: a current that the file knows is left out there, and the system is read. */
+Test(classify, currents_without_a_value_there_are_left_out)
+{
+    static const struct { int64_t w; size_t left; } rows[] = {{1, 6}, {0, 5}, {4, 4}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        nh_setting exact[] = {at("w", rows[i].w, 1), at("B", 4, 1)};
+        nh_error error = {0};
+        nh_system *s = nh_system_read("systems/penning_trap.yaml", 2, exact, &error);
+        must(s != NULL, &error, "the system");
+        cr_expect_eq(s->currents, rows[i].left, "w = %lld: %zu", (long long)rows[i].w, s->currents);
+        cr_expect_eq(error.what[0], '\0');
+        cr_expect_str_eq(s->current[0].name, "energy");
+        nh_system_free(s);
+    }
+}
+
 Test(classify, the_command_refuses)
 {
     static const struct {

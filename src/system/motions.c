@@ -172,7 +172,7 @@ bool nh_system_check_motions(nh_system_reader *r, const nh_deck_node *known)
     nh_known_motion *ignored;
     size_t count;
     if (!nh_deck_get(known, "motions")) return true;
-    nh_system_reader own = {names_of(r->system), r->deck, r->root, r->error};
+    nh_system_reader own = {.system = names_of(r->system), .deck = r->deck, .root = r->root, .error = r->error};
     bool good = read_all(&own, known, &count, &ignored);
     nh_dag_free(own.system->dag);
     nh_arena_free(own.system->arena);
@@ -181,6 +181,6 @@ bool nh_system_check_motions(nh_system_reader *r, const nh_deck_node *known)
 
 bool nh_system_motions(nh_system *s, size_t *count, nh_known_motion **out, nh_error *error)
 {
-    nh_system_reader r = {s, s->deck, nh_deck_root(s->deck), error};
+    nh_system_reader r = {.system = s, .deck = s->deck, .root = nh_deck_root(s->deck), .error = error};
     return read_all(&r, nh_deck_get(r.root, "known"), count, out);
 }

@@ -20,6 +20,7 @@ typedef struct {
     nh_deck *deck;
     const nh_deck_node *root;
     nh_error *error;
+    bool exact; /* a parameter was given an exact value or a formula */
 } nh_system_reader;
 
 /* In order: zeroed memory of the system (count + 1 elements); the list under a key (absent: empty); the text under a

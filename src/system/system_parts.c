@@ -276,6 +276,8 @@ bool nh_system_truth_of(nh_system_reader *r, const nh_deck_node *map, const char
     return nh_error_hint(r->error, "%s", meaning);
 }
 
+/* A formula that holds for almost all values may have none at an exact value, as z'/w at w = 0: it is left out there.
+   A mistyped one was met before, when the file was read without exact values. */
 static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, const char *key, nh_named **out,
                             size_t *count)
 {
@@ -286,18 +288,20 @@ static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, cons
     *out = nh_system_take(r, n, sizeof **out);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i];
+        nh_named *named = &(*out)[*count];
         if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "an entry {name: ..., expr: ...}", r->error)) return false;
         if (!nh_deck_only(r->deck, item, keys, 5, r->error)) return false;
         const nh_deck_node *expr = nh_deck_get(item, "expr");
         if (!expr) return nh_deck_fail(r->deck, item, 0, r->error, "this entry has no `expr`");
-        (*out)[i] = (nh_named){.text = expr->text};
-        if (!nh_system_text_of(r, item, "name", "", &(*out)[i].name)) return false;
-        if (!nh_system_text_of(r, item, "out_of_reach", NULL, &(*out)[i].out_of_reach)) return false;
+        *named = (nh_named){.text = expr->text};
+        if (!nh_system_text_of(r, item, "name", "", &named->name)) return false;
+        if (!nh_system_text_of(r, item, "out_of_reach", NULL, &named->out_of_reach)) return false;
         if (!nh_system_truth_of(r, item, "unwatched", "a current without a column in `simulate` and `benchmark`",
-                                &(*out)[i].unwatched))
+                                &named->unwatched))
             return false;
-        if (!nh_system_expression(r->system, r->deck, expr, 0, NULL, &(*out)[i].value, r->error)) return false;
-        *count = i + 1;
+        if (nh_system_expression(r->system, r->deck, expr, 0, NULL, &named->value, r->error)) ++*count;
+        else if (!r->exact) return false;
+        else nh_error_clear(r->error);
     }
     return true;
 }

@@ -380,7 +380,7 @@ static bool fix(reader *r, nh_parameter *p, const nh_setting *setting)
     }
     s->definition[s->definitions++] = d;
     remove_parameter(s, p);
-    return true;
+    return r->exact = true;
 }
 
 static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
@@ -495,7 +495,7 @@ static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *se
     s->arena = arena;
     s->deck = deck;
     s->dag = nh_dag_create();
-    reader r = {s, deck, nh_deck_root(deck), error};
+    reader r = {.system = s, .deck = deck, .root = nh_deck_root(deck), .error = error};
     if (read_all(&r, settings, setting) && nh_system_read_notes(&r)) {
         nh_reach_walls(s);
         return s;
