@@ -92,3 +92,29 @@ Test(documents, the_page_and_the_latex_document_say_the_same)
         place_clear(&p);
     }
 }
+
+/* Places in the space of the parameters are formulas, the word of an option is code; the Lagrangian has a bar where constraints were inserted. */
+Test(documents, formulas_and_options_are_set_as_such)
+{
+    static const struct {
+        const char *command, *wanted[4], *not;
+    } of[] = {
+        {"classify penning_trap --over w --degree 2",
+         {"<h3><math", "<p>With <code>--option theorem=", "<p>Lagrangian and energy</p>\n<div class=\"formula\"><math displaystyle=\"true\"><mi>L</mi>", "\\subsection*{$3\\,w^{2} - 16 = 0$ ($w =  - 2.3094011$, $2.3094011$)}"},
+         "<h3>3"},
+        {"simulate sleigh --until 0.1", {"<p>Constrained Lagrangian and energy</p>\n<div class=\"formula\"><math><mover accent=\"true\"><mrow><mi>L</mi>"}, "<mi>L</mi></math> <math><mo>=</mo></math> <math displaystyle=\"true\"><mi>E"},
+    };
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        char line[400];
+        snprintf(line, sizeof line, "%s --quiet --html page.html --tex page.tex", of[i].command);
+        finished done = run_expecting(&p, line, 0);
+        char *page = read_here(&p, "page.html"), *tex = read_here(&p, "page.tex");
+        for (size_t k = 0; k < 4 && of[i].wanted[k]; k++) cr_expect(strstr(page, of[i].wanted[k]) || strstr(tex, of[i].wanted[k]), "%s: no %s", of[i].command, of[i].wanted[k]);
+        cr_expect_null(strstr(page, of[i].not), "%s: %s", of[i].command, of[i].not);
+        free(page);
+        free(tex);
+        finished_clear(&done);
+    }
+    place_clear(&p);
+}

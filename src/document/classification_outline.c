@@ -95,7 +95,7 @@ static void outline_line(const nh_classified *x, pen *p)
         const nh_classify_value *v = &c->value[k];
         if (!v->first || v->degenerate) continue;
         if (!written++) nh_pen_section(p, "special", nh_classification_where(x));
-        nh_pen_card(p, nh_classified_words(x, &v->polynomial));
+        nh_pen_place_card(p, nh_classified_words(x, &v->polynomial));
         nh_classification_write_numbers(x, p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
         nh_classification_write_value(x, p, &x->value[k], v->first);
     }
@@ -117,7 +117,7 @@ static void outline_curve(const plane *x, pen *p, size_t k, const size_t *almost
 {
     const nh_plane_curve *c = &x->plane->curve[k];
     const nh_classified_curve *at = &x->curve[k];
-    nh_pen_card(p, nh_classified_surface_words(x->family, &c->polynomial));
+    nh_pen_place_card(p, nh_classified_surface_words(x->family, &c->polynomial));
     nh_classification_write_numbers(x->family, p, x->plane->rows, c->number, c->first, at->complete, almost_all);
     if (!at->along) {
         nh_classification_write_no_currents(x->family, p, at->why);
@@ -168,7 +168,7 @@ static void outline_plane(const plane *x, pen *p)
     for (size_t k = 0; k < x->points; k++) {
         const nh_classified_point *q = &x->point[k];
         if (!k) nh_pen_section(p, "points", "More at the points");
-        nh_pen_card(p, place_of(x, q));
+        nh_pen_place_card(p, place_of(x, q));
         nh_classification_write_numbers(x->family, p, o->rows, q->number, q->first, q->at->complete, almost_all);
         nh_classification_write_value(x->family, p, q->at, q->first);
     }

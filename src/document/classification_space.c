@@ -40,7 +40,7 @@ static void put_surfaces(const space *x, pen *p, const size_t *almost_all)
         if (part->surface == SIZE_MAX || !special(&x->space->surface[part->surface])) continue;
         const nh_plane_curve *s = &x->space->surface[part->surface];
         if (!written++) nh_pen_section(p, "surfaces", "More on the surfaces");
-        nh_pen_card(p, nh_classified_surface_words(x->family, &s->polynomial));
+        nh_pen_place_card(p, nh_classified_surface_words(x->family, &s->polynomial));
         nh_classification_write_numbers(x->family, p, x->space->rows, s->number, s->first, part->complete, almost_all);
         if (part->within) put_along(p, part->within->family, part->complete);
         else nh_classification_write_no_currents(x->family, p, part->why);
@@ -60,7 +60,7 @@ static void put_curves(const space *x, pen *p, const size_t *almost_all)
         const nh_classified_curve *at;
         const nh_plane_curve *c = curve_of(x, k, &at);
         if (!k) nh_pen_section(p, "curves", "More on the curves");
-        nh_pen_card(p, x->curve[k].where);
+        nh_pen_place_card(p, x->curve[k].where);
         nh_classification_write_numbers(x->family, p, x->space->rows, c->number, c->first, at->complete, almost_all);
         if (at->along) put_along(p, at->along, at->complete);
         else nh_classification_write_no_currents(x->family, p, at->why);
@@ -84,7 +84,7 @@ static void put_points(const space *x, pen *p, const size_t *almost_all)
     for (size_t k = 0; k < x->points; k++) {
         const nh_classified_point *at = x->point[k].at;
         if (!k) nh_pen_section(p, "points", "More at the points");
-        nh_pen_card(p, place_of(x, &x->point[k]));
+        nh_pen_place_card(p, place_of(x, &x->point[k]));
         nh_classification_write_numbers(x->family, p, x->space->rows, at->number, at->first, at->at->complete,
                                         almost_all);
         nh_classification_write_value(x->family, p, at->at, at->first);

@@ -21,8 +21,18 @@ void nh_html_prose(nh_html_writer *w, const char *text)
                                          "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     for (const char *c = text; *c;) {
         const char *digit = c + 1 + (c[0] == '^' && c[1] == '-');
+        const char *quoted = *c == '`' ? strchr(c + 1, '`') : NULL;
+        if (quoted) {
+            nh_text code;
+            nh_text_init(&code);
+            nh_text_add_n(&code, c + 1, (size_t)(quoted - c - 1));
+            nh_html_tagged(w, "code", nh_text_string(&code));
+            nh_text_clear(&code);
+            c = quoted + 1;
+            continue;
+        }
         if (*c != '^' || *digit < '0' || *digit > '9') {
-            size_t length = 1 + strcspn(c + 1, "^");
+            size_t length = 1 + strcspn(c + 1, "^`");
             nh_text run;
             nh_text_init(&run);
             nh_text_add_n(&run, c, length);

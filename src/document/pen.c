@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "document/formula.h"
 #include "document/notation.h"
+#include "document/typeset.h"
 #include "graph/print.h"
 
 void nh_pen_begin(nh_pen *p, nh_pen_style style, const nh_pen_subject *s, const char *what, nh_text *out)
@@ -227,6 +228,43 @@ void nh_pen_name_heading(nh_pen *p, const char *name)
 {
     nh_pen_open(p, NH_PEN_NAME, NULL, NULL);
     p->ink->source(p->to, name);
+    nh_pen_close(p, NH_PEN_NAME);
+}
+
+/* How many letters of `text` are a formula: the longest of its beginnings, up to a comma or a parenthesis, that has an
+   equals sign or is a number, and is one of the language. */
+static size_t formula_length(const char *text)
+{
+    nh_text one;
+    size_t found = 0;
+    nh_text_init(&one);
+    for (size_t n = strlen(text); n && !found; n--) {
+        bool ends = !text[n] || text[n] == ',' || text[n] == ')' || !strncmp(text + n, " (", 2);
+        if (!ends || !(memchr(text, '=', n) || strchr("-0123456789", text[0]))) continue;
+        nh_text_clear(&one);
+        nh_text_add_n(&one, text, n);
+        if (nh_typeset_width(nh_text_string(&one)) > 0) found = n;
+    }
+    nh_text_clear(&one);
+    return found;
+}
+
+void nh_pen_place_card(nh_pen *p, const char *where)
+{
+    nh_pen_card(p, p->ink->brief ? where : NULL);
+    if (p->ink->brief) return;
+    nh_pen_open(p, NH_PEN_NAME, NULL, NULL);
+    for (const char *at = where; *at;) {
+        bool begins = at == where || strchr(" (,", at[-1]);
+        size_t n = begins ? formula_length(at) : 0, length = n ? n : strchr(" (,)", *at) ? 1 : strcspn(at, " (,)");
+        nh_text part;
+        nh_text_init(&part);
+        nh_text_add_n(&part, at, length);
+        if (n) p->ink->source(p->to, nh_text_string(&part));
+        else p->ink->words(p->to, nh_text_string(&part));
+        nh_text_clear(&part);
+        at += length;
+    }
     nh_pen_close(p, NH_PEN_NAME);
 }
 

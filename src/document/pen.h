@@ -118,6 +118,8 @@ void nh_pen_end(nh_pen *pen, const nh_run *run);
 /* A section, and a card in it, end where the next one begins, and before the system and the glossary. */
 void nh_pen_section(nh_pen *pen, const char *id, const char *title);
 void nh_pen_card(nh_pen *pen, const char *title);
+/* Its title is a place in the space of the parameters: equations between commas, with remarks in parentheses. */
+void nh_pen_place_card(nh_pen *pen, const char *where);
 void nh_pen_card_end(nh_pen *pen);
 /* The system as it was written; with a model its equations, with an analysis the kind of its constraints.  Then its
    geometry, if there is one. */

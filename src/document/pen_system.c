@@ -148,16 +148,17 @@ static void multipliers(nh_pen *p, const nh_model *o)
 
 static void equations(nh_pen *p, const nh_model *o, bool more)
 {
-    static const char *const functions[] = {"L", "E"}, *const both[] = {"L = E"};
     bool same = o->Lbar == o->E; /* no potential */
+    const char *const written = o->k ? "\\bar{L}" : "L";
+    const char *const both = nh_arena_printf(o->arena, "%s = E", written);
     const char **label = nh_alloc_array(o->n + 1, sizeof *label);
     for (size_t i = 0; i < o->n; i++) label[i] = nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i]));
     nh_pen_open(p, NH_PEN_SUBHEADING, NULL, NULL);
     nh_pen_say(p, "In {%s}", o->chart->name);
     nh_pen_close(p, NH_PEN_SUBHEADING);
     if (!p->ink->brief)
-        block(p, o->dag, "Constrained Lagrangian and energy", same ? 1 : 2, same ? both : functions,
-              (const nh_ex[]){o->Lbar, o->E});
+        block(p, o->dag, o->k ? "Constrained Lagrangian and energy" : "Lagrangian and energy", same ? 1 : 2,
+              (const char *const[]){same ? both : written, "E"}, (const nh_ex[]){o->Lbar, o->E});
     block(p, o->dag, nh_facts_equations(o), o->n, label, o->a);
     if (more) multipliers(p, o);
     nh_free(label);
