@@ -492,6 +492,8 @@ static const struct {
     {"atan2(y, x)", "\\operatorname{atan2}\\left(y, x\\right)"},
     {"p_psi1' + jx2", "\\dot{p}_{\\psi _{1}} + \\mathrm{jx}_{2}"},
     {"psi1'", "\\dot{\\psi }_{1}"},
+    {"cos(p)*cos(a)*a'", "\\cos p\\,\\cos\\left(a\\right)\\,\\dot{a}"},
+    {"sin(a)^2*x + cos(a)", "\\sin^{2}\\left(a\\right)\\,x + \\cos a"},
     {"E_TC - mass", "E_{\\mathrm{TC}} - \\mathrm{mass}"},
 };
 

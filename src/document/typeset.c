@@ -274,7 +274,7 @@ void nh_typeset_function(const writer *w, const char *text)
 static void arguments(const writer *w, const nh_formula_node *e)
 {
     add(w, w->s->apply);
-    bool bare = e->child && !e->child->next && e->child->kind == NH_FORMULA_NODE_NAME;
+    bool bare = e->child && !e->child->next && e->child->kind == NH_FORMULA_NODE_NAME && !e->followed;
     if (bare) add(w, w->form == NH_LATEX ? " " : "<mspace width=\"0.17em\"/>");
     if (bare) {
         put(w, e->child);
@@ -360,7 +360,7 @@ static bool starts_with_number(const nh_formula_node *e)
     return e->kind == NH_FORMULA_NODE_NUMBER;
 }
 
-static bool starts_with_name_of_function(const nh_formula_node *e)
+bool nh_typeset_names_a_function(const nh_formula_node *e)
 {
     if (e->kind == NH_FORMULA_NODE_POWER) e = e->child;
     return e->kind == NH_FORMULA_NODE_CALL && strcmp(e->text, "sqrt") && strcmp(e->text, "abs");
@@ -370,7 +370,7 @@ bool nh_typeset_times(const writer *w, const nh_formula_node *factor)
 {
     bool dot = starts_with_number(factor);
     add(w, dot ? w->s->dot_times : w->s->times);
-    if (w->form == NH_MATHML && starts_with_name_of_function(factor)) add(w, "<mspace width=\"0.17em\"/>");
+    if (w->form == NH_MATHML && nh_typeset_names_a_function(factor)) add(w, "<mspace width=\"0.17em\"/>");
     return dot;
 }
 

@@ -24,6 +24,7 @@ struct nh_formula_node {
     const char *text;   /* of a number, a name (without primes) or a function */
     size_t primes;
     bool minus;         /* as a term of a sum: it is subtracted */
+    bool followed;      /* a function: a factor behind it could be taken for a part of its argument */
     nh_formula_node *child;     /* first of its parts */
     nh_formula_node *next;      /* its neighbour */
 };
@@ -53,6 +54,8 @@ bool nh_typeset_tall(const nh_formula_node *e);
 /* In one piece. */
 void nh_typeset_put(const nh_typeset_writer *w, const nh_formula_node *e);
 void nh_typeset_parenthesised(const nh_typeset_writer *w, const nh_formula_node *e);
+/* Does it begin with the name of a function, as cos x does and a square root does not? */
+bool nh_typeset_names_a_function(const nh_formula_node *e);
 /* The name of a function, without its argument. */
 void nh_typeset_function(const nh_typeset_writer *w, const char *name);
 /* Functions with letters and indices of their own (typeset_named.c): the letter with its index; returns the first of

@@ -116,6 +116,8 @@ static nh_formula_node *times(reader *r, nh_formula_node *left, nh_formula_node 
     nh_formula_node *last = left->child;
     while (last->next) last = last->next;
     last->next = right;
+    nh_formula_node *called = last->kind == NH_FORMULA_NODE_POWER ? last->child : last;
+    called->followed = !nh_typeset_names_a_function(right);
     return left;
 }
 
