@@ -250,6 +250,20 @@ Test(cli, explain_knows_its_own_topics)
     place_clear(&p);
 }
 
+Test(cli, words_and_symbols_of_the_answers_are_explained)
+{
+    static const char *const words[] = {"Gamma", "trivial", "bracket", "reaction", "chart", "ansatz", "momentum", "zeta", "mu", "pencil", "first integral"};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        char line[100];
+        snprintf(line, sizeof line, "explain %s", words[i]);
+        finished f = run_expecting(&p, line, 0);
+        cr_expect_gt(strlen(f.out), 20, "%s", words[i]);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 /* What docs/glossary.md says of each word is what `nhsym explain` says, word by word and in the same order. */
 Test(cli, the_glossary_says_what_explain_says)
 {

@@ -12,12 +12,16 @@ static const nh_glossary_entry entries[] = {
                      "leave it."},
     {"constraint semispray", "Gamma, the vector field of the equations of motion on the constraint submanifold."},
     {"Gamma", "The constraint semispray; along it a function has the rate of change Gamma(f)."},
+    {"bracket", "[X,Y], the field along which a function f has the rate of change X(Y(f)) - Y(X(f))."},
     {"equations of motion", "On the constraint submanifold: the constraints are eliminated, nothing else."},
     {"reduced equations", "The equations that remain when the group is divided out as well (nhsym reduce)."},
     {"first integral", "A function of time, coordinates and velocities that every motion keeps constant: "
                        "Gamma(Phi) = 0."},
     {"conserved quantity", "A first integral; the two mean the same."},
     {"current", "A first integral Phi, together with the field Z whose symmetry gives it: Gamma(Phi) = 0."},
+    {"trivial", "Of a current: a constant on the constraint submanifold.  Its field is a multiple of Gamma."},
+    {"momentum", "Of a coordinate x: dL/dx'.  Of a field of the group: the sum of its components times these "
+                 "(nhsym reduce)."},
     {"constraint symmetry", "A field Z in the canonical distribution with L_Z(alpha) = 0 on it; its current is "
                             "Phi = alpha(Z)."},
     {"symmetry", "The Chetaev field Z in the canonical distribution with L_Z(alpha) = 0 on it; its current is Phi "
@@ -37,6 +41,10 @@ static const nh_glossary_entry entries[] = {
                 "distribution; its rank bounds their number (--equations)."},
     {"multiplier", "Chetaev's multiplier mu_a, one for each constraint: the force that keeps constraint a is mu_a "
                    "times its derivatives by the velocities."},
+    {"reaction", "The force of the constraints along each coordinate: the sum over the constraints a of mu_a "
+                 "times the derivative of constraint a by the velocity of the coordinate."},
+    {"mu", "mu_a: Chetaev's multiplier of constraint a; in nhsym reduce the momentum of the group along its "
+           "field e_a, in the body frame."},
     {"degree", "Of a polynomial in the velocities, whatever its coefficients are."},
     {"local", "The current, field or density changes when an angle goes once around: it is defined on a part of "
               "the configuration space only."},
@@ -59,6 +67,7 @@ static const nh_glossary_entry entries[] = {
               "configuration space (nhsym reduce)."},
     {"algebra", "The infinitesimal form of a group: its fields and their brackets."},
     {"generator", "One basis element of the algebra of a group."},
+    {"zeta", "zeta_a: velocity of the group along its field e_a, in the body frame (nhsym reduce)."},
     {"shape", "Coordinates on a slice through the orbits of a group; the reduced equations are written in them."},
     {"stage of a reduction", "The division by one group: Chaplygin's, a second one by further symmetry, or by the "
                              "whole group at once (Lagrange-d'Alembert-Poincare)."},
@@ -71,6 +80,8 @@ static const nh_glossary_entry entries[] = {
     {"ansatz", "The functions that a fit combines into currents."},
     {"family", "A group of functions of an ansatz, such as the polynomials up to a degree."},
     {"column", "One function of an ansatz: one column of the matrix of the fit."},
+    {"pencil", "A matrix that depends on one unknown as a polynomial.  Where its rank falls lie the "
+               "frequencies of an ansatz, or special values of a parameter (nhsym classify)."},
     {"stage of a search", "One ansatz among those that the program tries one after another."},
     {"verdict", "How an analysis answers: FOUND, NONE or UNDECIDED."},
     {"FOUND", "Currents were found and each is proved, or certified to at least 50 digits."},
