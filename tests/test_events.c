@@ -309,6 +309,18 @@ Test(events, errors_say_where)
     place_clear(&p);
 }
 
+/* A pendulum that starts from rest at phi = 1 passes phi = 0 once, falling, until t = 2. */
+Test(events, a_direction_without_zeros_is_named)
+{
+    place p = place_make();
+    write_here(&p, "pendulum.yaml", pendulum);
+    finished f = run_shell(&p, "$N simulate pendulum.yaml --initial phi=1 --until 2 --section phi; $N simulate pendulum.yaml --initial phi=1 --until 2 --section 'phi - 2, both'");
+    cr_expect_not_null(strstr(f.err, "nhsym: phi has no rising zero along this motion\n"), "%s", f.err);
+    cr_expect_not_null(strstr(f.err, "nhsym: phi - 2 has no zero along this motion\n"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* ---- places where the equations of motion determine no acceleration ---- */
 
 typedef struct {

@@ -306,7 +306,8 @@ Test(simulate, inputs_over_time)
         const char *input, *err;
     } wrong[] = {{"w=1", "`w` is not a parameter of cart"}, {"u=2*u", "the input `u` depends on itself"}, {"u=sin(s)", "--input u:5: unknown name `s`"},
                  {"u=drive.csv:thrus", "drive.csv: there is no column `thrus`\nhint: did you mean `thrust`?"}, {"u=drive.csv", "--input u needs a column of drive.csv"},
-                 {"u=back.csv:v", "back.csv:3: the times of an input must rise, but 0 comes after 1"}, {"u", "--input needs NAME=EXPR, found `u`"}};
+                 {"u=back.csv:v", "back.csv:3: the times of an input must rise, but 0 comes after 1"}, {"u", "--input needs NAME=EXPR, found `u`\nhint: for example: --input \"u=sin(t)\""},
+                 {"drive.csv", "--input needs NAME=EXPR, found `drive.csv`\nhint: a column of a table: --input \"u=drive.csv:COLUMN\""}};
     place p = place_make();
     write_here(&p, "cart.yaml", "name: cart\nparameters: [{name: m, value: 2}, {name: u, value: 7}]\ncoordinates: [x]\nlagrangian: m*x'^2/2\nforces: [\"x = u\"]\n");
     write_here(&p, "drive.csv", "t,thrust,flat\n0.5,0,0.25\n1,2,0.25\n2,2,0.25\n4,-2,0.25\n");

@@ -245,6 +245,7 @@ Test(urdf, a_wheel_that_cannot_be_is_refused_at_its_place)
 {
     static const struct { const char *line, *what, *hint; } wrong[] = {
         {"--wheel l.weel", "--wheel:1: there is no body `l.weel`\n  l.weel\n  ^\n", "did you mean `l_wheel`?"},
+        {"--wheel r", "--wheel:1: there is no body `r`", "hint: the joint `r` turns the body `r_wheel`: name the body"},
         {"--wheel body", "--wheel:1: `body` cannot be a wheel: no joint turns it about an axis", "{type: ball, body: body, radius: ..}"},
         {"--wheel r.wheel", "the wheel `r_wheel` needs a radius: it has no cylinder or sphere", "--wheel r_wheel=0.1"},
         {"--wheel l.wheel=-1", "--wheel:9: a radius cannot be negative, but it is -1 here\n  l.wheel=-1\n          ^", NULL},

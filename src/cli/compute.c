@@ -125,7 +125,10 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     if (!one_system(cli, "nhsym simulate sleigh --initial \"omega=2\" --until 10", error)) return NH_USAGE;
     if (cli->ask.input)
         return nh_fail(error, NH_USAGE, "", "--input needs NAME=EXPR, found `%s`", cli->ask.input),
-               nh_error_hint(error, "for example: --input \"%s=sin(t)\"", cli->ask.input), NH_USAGE;
+               nh_error_hint(error, strstr(cli->ask.input, ".csv") ? "a column of a table: --input \"u=%s:COLUMN\""
+                                                                   : "for example: --input \"%s=sin(t)\"",
+                             cli->ask.input),
+               NH_USAGE;
     if (!one_table(cli, error)) return NH_USAGE;
     cli->ask.draw = nh_cli_wants_document(cli) != NULL; /* before the folder wants all of them */
     return documented(cli, error);

@@ -24,8 +24,10 @@ void nh_motion_svg(const nh_simulation *simulation, nh_text *out);
    columns. */
 void nh_events_csv(const nh_simulation *simulation, nh_text *out);
 void nh_section_csv(const nh_simulation *simulation, nh_text *out);
-/* "rising", "falling" or "both"; and how often expression number `which` was zero. */
+/* "rising", "falling" or "both"; the same before a noun, where "both" is left out; and how often expression number
+   `which` was zero. */
 const char *nh_direction_word(int direction);
+const char *nh_direction_before(int direction);
 size_t nh_events_of(const nh_simulation *simulation, size_t which);
 /* Both on a page. */
 void nh_events_write(nh_pen *pen, const nh_simulation *simulation);

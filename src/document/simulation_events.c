@@ -7,6 +7,11 @@ enum { most_rows = 40, most_columns = 8 };
 
 const char *nh_direction_word(int direction) { return direction > 0 ? "rising" : direction < 0 ? "falling" : "both"; }
 
+const char *nh_direction_before(int direction)
+{
+    return direction > 0 ? "rising " : direction < 0 ? "falling " : "";
+}
+
 size_t nh_events_of(const nh_simulation *s, size_t which)
 {
     size_t n = 0;
@@ -63,7 +68,7 @@ void nh_events_write(nh_pen *p, const nh_simulation *s)
     for (size_t i = 0; i < s->events; i++) {
         if (nh_events_of(s, i)) table(p, s, i);
         else
-            nh_pen_words(p, "%s has no zero along this motion (%s).", s->event[i].name,
-                         nh_direction_word(s->event[i].event.direction));
+            nh_pen_words(p, "%s has no %szero along this motion.", s->event[i].name,
+                         nh_direction_before(s->event[i].event.direction));
     }
 }

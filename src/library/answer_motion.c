@@ -242,8 +242,8 @@ static void put_events(const nh_simulation *s, nh_text *out)
     if (shown < all) nh_text_addf(out, "nhsym: and %zu more; --json and -o write all of them\n", all - shown);
     for (size_t i = 0; i < s->events; i++)
         if (!nh_events_of(s, i))
-            nh_text_addf(out, "nhsym: %s has no zero along this motion (%s)\n", s->event[i].name,
-                         nh_direction_word(s->event[i].event.direction));
+            nh_text_addf(out, "nhsym: %s has no %szero along this motion\n", s->event[i].name,
+                         nh_direction_before(s->event[i].event.direction));
 }
 
 static void put_notes(const nh_request *q, const nh_simulation *s, bool verbose, nh_text *out)
