@@ -75,7 +75,8 @@ static bool known_body(reader *r, const nh_deck_node *word, const char *body)
     }
     nh_deck_fail(r->deck, word, 0, r->error, "there is no body `%s`", word->text);
     const char *turned = text_of(entry(r->joints, "name", body), "child");
-    if (*turned) return nh_error_hint(r->error, "the joint `%s` turns the body `%s`: name the body", word->text, turned);
+    if (*turned)
+        return nh_error_hint(r->error, "the joint `%s` turns the body `%s`: name the body", word->text, turned);
     const char *near = nh_text_nearest(body, names, r->bodies->count);
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near)
                 : nh_error_hint(r->error, "a wheel is a body that a joint turns");
