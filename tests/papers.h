@@ -84,7 +84,7 @@ typedef struct {
 static const row ROWS[] = {
     {A, "2.1", "first prolongation of 2 t d/dt + x d/dx + y d/dy + z d/dz: along x', dZ^x/dt - x' dZ^0/dt", AT, D_SCALING, .label = "symmetry.components.x'",
         .printed = "x' - x'*2"},
-    {A, "(1)", "first variation formula", NOT, D_NONE, .printed = "an identity of integrals over sections; its consequence is (2)"},
+    {A, "(1)", "first variation formula, under the integrals: for any variation, with A and B of (3)", BY, D_PHI1, .label = "first variation"},
     {A, "(2), (3)", "E_phi: coefficient of phi''", VALUE, D_PHI1, "chetaev_equations", "#0", "phi''", "-m*a^2*k^2", .k = 0},
     {A, "(2), (3)", "A_x", VALUE, D_PHI1, "chetaev_equations", "#1", "", "m*a*phi'^2*cos(phi)", .k = 0},
     {A, "(4)", "unconstrained Noether equation: rotations of the Kepler problem", FIELD, D_NONE, .label = "kepler", .printed = "x=-y; y=x"},
@@ -92,7 +92,7 @@ static const row ROWS[] = {
     {A, "normal form, (28)", "g of the sleigh", VALUE, D_PHI1, "normal_form", "y'", "", "x'*tan(phi)", .k = 0},
     {A, "(6)", "phi^1: dx", VALUE, D_PHI1, "canonical_distribution", "phi^1", "dx", "-tan(phi)", .k = 0},
     {A, "(6)", "phi^1: dy", VALUE, D_PHI1, "canonical_distribution", "phi^1", "dy", "1", .k = 0},
-    {A, "(7)", "nonholonomic first variation", NOT, D_NONE, .printed = "an identity of integrals over sections; its consequence is (8)"},
+    {A, "(7)", "nonholonomic first variation, under the integrals: for any Z in the canonical distribution, with Abar and Bbar", BY, D_PHI1, .label = "constrained variation"},
     {A, "(8)", "eps_l(Lbar) - Lbar_a eps_l(g^a) = Abar_l + Bbar_ls q''^s", BY, D_PHI1, .label = "euler"},
     {A, "(9)", "its second form, through A and B of (3)", BY, D_PHI1, .label = "projection"},
     {A, "(10)", "Chetaev's equations with the accelerations of (21) and mu of (47)", BY, D_PHI1, .label = "chetaev"},
@@ -178,7 +178,7 @@ static const row ROWS[] = {
     {A, "4.3", "the force is not variational: 2 dF_x/dx', which Helmholtz's conditions want to be 0, is -2 (k^2 - 1)/k^2 m phi' tan(phi)", BY, D_PHI1, .label = "helmholtz"},
 
     {C, "(2.1)-(2.4)", "metric of the crane's eight coordinates, (3.22)", BY, D_NONE, .label = "crane metric"},
-    {C, "(2.5)", "cotangent lift of an action", NOT, D_NONE, .printed = "notation for (2.6); only invariance under the lift is used, which `reduce` proves by velocities"},
+    {C, "(2.5)", "fields of the action: {H, J} = 0 for the momentum J of each, at p = dL/dq'", BY, D_CRANE, .label = "lifted action"},
     {C, "(2.6)", "momentum map: p_phi1 of the group's third generator, by (3.22)", AT, D_CRANE, .label = "divided.momentum_map.2",
         .printed = "(jz3 + jx6*sin(phi2)^2 + jy6*cos(phi2)^2)*(theta' + phi1')"},
     {C, "definition 2.1", "the group: NHR1, NHR2", IS, D_CRANE, .label = "group.name", .printed = "SE(2) x SO(2)^3"},
