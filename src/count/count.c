@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "graph/diff.h"
 
-enum { most_parameters = 3000, largest_series = 20000, steps_beyond = 1 };
+enum { most_parameters = 4000, largest_series = 20000, steps_beyond = 1 };
 static const double least_share = 0.5; /* of the work, for the number of integrals where their rank is known already */
 static const double more_for_open = 5; /* times the work, for a degree whose bound still falls */
 
