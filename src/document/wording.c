@@ -90,7 +90,10 @@ static const nh_glossary_entry entries[] = {
     {"UNDECIDED", "Values between rounding and significance: take more samples or another ansatz; a current is "
                   "given with its digits."},
     {"search", "What tries one ansatz after another; it ends complete, exhausted or cut."},
-    {"complete", "A search after which there cannot be more: as many independent currents as can exist locally."},
+    {"complete",
+     "Of a search: as many independent currents are found as can exist locally, so that there cannot be more.  "
+     "\"Complete to degree 4\" says that no integral polynomial in the velocities of degree at most 4 is missing: "
+     "nhsym explain completeness."},
     {"exhausted", "A search that tried all that there was to try, but for stages that are too large: the list of "
                   "stages names the option that brings them in.  There may be currents of another kind."},
     {"cut", "A search that a limit of work or time ended before all was tried (exit code 5)."},
