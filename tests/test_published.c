@@ -369,6 +369,18 @@ static const published PUBLISHED[] = {
      "lagrangian: ((x' - y)^2 + (y' + x)^2)/2 + (1 - u)/sqrt((x + u)^2 + y^2) + u/sqrt((x - 1 + u)^2 + y^2)\ndomain: {x: [0.2, 0.5], y: [0.5, 1]}\n", 1, 6},
     {"anisotropic Kepler", "parameters: {u: 1.5}\n" PLANE "0 + 1/sqrt(x^2 + u*y^2)\n" QUADRANT, 1, 6},
     {"Yang and Mills", SPACE "(x^2*y^2 + y^2*z^2 + z^2*x^2)/2\n", 1, 4},
+    /* O. I. Bogoyavlensky, as above: chains of one root more */
+    {"Toda, A2, periodic", "parameters: {a: 0.7}\n" SPACE "a*exp(x - y) - a*exp(y - z) - a*exp(z - x)\n", 4, 4},
+    {"Toda, B2, periodic", "parameters: {a: 0.7, b: 0.4, c: 0.9}\n" PLANE "a*exp(x - y) - b*exp(y) - c*exp(-x - y)\n", 2, 6},
+    /* F. Tremblay, A. V. Turbiner and P. Winternitz, as above */
+    {"Tremblay, Turbiner and Winternitz, k = 1",
+     "parameters: {w: 0.8, a: 0.3, b: 0.5}\ncoordinates: [r, {name: th, type: angle}]\n"
+     "lagrangian: (r'^2 + r^2*th'^2 - w^2*r^2)/2 - (a/cos(th)^2 + b/sin(th)^2)/r^2\ndomain: {r: [0.5, 2], th: [0.4, 1.1]}\n", 4, 6},
+    /* A. V. Borisov and I. S. Mamaev, Regul. Chaotic Dyn. 13 (2008) 443: a ball that does not spin, its centre of mass at the distance l from its own */
+    {"rubber ball with displaced centre",
+     "parameters: {m: 1.3, A: 0.5, C: 0.7, r: 0.8, l: 0.3, g: 0.9}\n" BALL BODY
+     "lagrangian: A*(W1^2 + W2^2)/2 + C*W3^2/2 + m*((x' + l*(h'*cos(h)*sin(p) + p'*sin(h)*cos(p)))^2 + (y' - l*(h'*cos(h)*cos(p) - p'*sin(h)*sin(p)))^2 + "
+     "l^2*h'^2*sin(h)^2)/2 - m*g*l*cos(h)\nconstraints: [" ROLLS ", \"p' + s'*cos(h) = 0\"]\n" TURNED, 2, 2},
 };
 enum { PUBLISHED_COUNT = sizeof PUBLISHED / sizeof *PUBLISHED };
 
