@@ -1,4 +1,5 @@
 """Results as objects: their JSON as attributes, their pages in a notebook, their numbers as arrays."""
+import collections.abc
 import functools
 import html
 import json
@@ -242,6 +243,16 @@ class Current(Record):
 
     def __repr__(self):
         return "<%s = %s%s>" % (self.name, self.formula or "(long)", ", " + self.meaning if self.meaning else "")
+
+    def values(self):
+        return [self[key] for key in self]
+
+    def get(self, key, default=None):
+        return self[key] if key in self else default
+
+
+# So that pandas.DataFrame(analysis.currents) has a column for each key.
+collections.abc.Mapping.register(Current)
 
 
 @explains_arguments

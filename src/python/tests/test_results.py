@@ -147,6 +147,9 @@ def test_columns_have_the_kind_of_their_values(analysis):
 def test_tables_make_data_frames(analysis):
     pandas = pytest.importorskip("pandas")
     assert list(pandas.DataFrame(analysis.table).columns)[0] == "name"
+    frame = pandas.DataFrame(analysis.currents)
+    assert set(frame.columns) == set(analysis.currents[0]) and "drift" in frame
+    assert list(frame["name"]) == [current.name for current in analysis.currents]
 
 
 def test_documents(analysis, sleigh, tmp_path):
