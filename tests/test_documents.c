@@ -102,6 +102,7 @@ Test(documents, formulas_and_options_are_set_as_such)
         {"classify penning_trap --over w --degree 2",
          {"<h3><math", "<p>With <code>--option theorem=", "<p>Lagrangian and energy</p>\n<div class=\"formula\"><math displaystyle=\"true\"><mi>L</mi>", "\\subsection*{$3\\,w^{2} - 16 = 0$ ($w =  - 2.3094011$, $2.3094011$)}"},
          "<h3>3"},
+        {"classify penning_trap --over w,B --degree 1", {"\\subsection*{$w = 0$, $B = 0$ (on $w = 0$)}"}, "<h3>w"},
         {"simulate sleigh --until 0.1", {"<p>Constrained Lagrangian and energy</p>\n<div class=\"formula\"><math><mover accent=\"true\"><mrow><mi>L</mi>"}, "<mi>L</mi></math> <math><mo>=</mo></math> <math displaystyle=\"true\"><mi>E"},
     };
     place p = place_with_systems();

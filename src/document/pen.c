@@ -255,7 +255,7 @@ void nh_pen_place_card(nh_pen *p, const char *where)
     if (p->ink->brief) return;
     nh_pen_open(p, NH_PEN_NAME, NULL, NULL);
     for (const char *at = where; *at;) {
-        bool begins = at == where || strchr(" (,", at[-1]);
+        bool begins = *at != ' ' && (at == where || strchr(" (,", at[-1]));
         size_t n = begins ? formula_length(at) : 0, length = n ? n : strchr(" (,)", *at) ? 1 : strcspn(at, " (,)");
         nh_text part;
         nh_text_init(&part);
