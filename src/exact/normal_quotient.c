@@ -154,42 +154,6 @@ bool nh_quotient_has(const nh_quotient_field *field, const nh_quotient *a, size_
 
 size_t nh_quotient_terms(const nh_quotient *a) { return (size_t)(a->num->length + a->den->length); }
 
-/* p has a term of these exponents, with the coefficient c: has it also the one in which s to sin(b) stands for
- * from cos(b)? */
-static bool has_partner(const nh_quotient_field *field, const fmpz_mpoly_t p, fmpz_t c, size_t from, size_t to,
-                        const size_t b[2], int s)
-{
-    ulong *e = field->exponent;
-    if (!e[from] || !e[b[1]]) return false;
-    fmpz_t d;
-    fmpz_init(d);
-    e[from]--, e[b[1]]--, e[to]++, e[b[0]]++;
-    fmpz_mpoly_get_coeff_fmpz_ui(d, p, e, field->ctx);
-    e[from]++, e[b[1]]++, e[to]--, e[b[0]]--;
-    if (s < 0) fmpz_neg(d, d);
-    bool same = fmpz_equal(c, d);
-    fmpz_clear(d);
-    return same;
-}
-
-bool nh_quotient_has_sum_of_angles(const nh_quotient_field *field, const nh_quotient *q, const size_t a[2],
-                                   const size_t b[2], int s)
-{
-    const fmpz_mpoly_struct *part[] = {q->num, q->den};
-    bool found = false;
-    fmpz_t c;
-    fmpz_init(c);
-    for (size_t k = 0; k < 2; k++)
-        for (slong i = 0; i < part[k]->length && !found; i++) {
-            fmpz_mpoly_get_term_exp_ui(field->exponent, part[k], i, field->ctx);
-            fmpz_mpoly_get_term_coeff_fmpz(c, part[k], i, field->ctx);
-            found = has_partner(field, part[k], c, a[0], a[1], b, s) ||
-                    has_partner(field, part[k], c, a[1], a[0], b, -s);
-        }
-    fmpz_clear(c);
-    return found;
-}
-
 /* (A + B r)^-1 = (A - B r)/(A^2 - B^2 r^2), with r from the last relation to the first. */
 const nh_quotient *nh_quotient_rationalise(nh_quotient_field *field, const nh_quotient *a)
 {

@@ -48,10 +48,6 @@ bool nh_quotient_is_zero(const nh_quotient_field *field, const nh_quotient *a);
 bool nh_quotient_equal(const nh_quotient_field *field, const nh_quotient *a, const nh_quotient *b);
 bool nh_quotient_has(const nh_quotient_field *field, const nh_quotient *a, size_t generator);
 size_t nh_quotient_terms(const nh_quotient *a);
-/* Does q look like a polynomial in sin and cos of a + s b, s = 1 or -1, for two angles given by their generators
- * {sine, cosine}?  It does when it has R (sin(a) cos(b) + s cos(a) sin(b)) or R (cos(a) cos(b) - s sin(a) sin(b)). */
-bool nh_quotient_has_sum_of_angles(const nh_quotient_field *field, const nh_quotient *q, const size_t a[2],
-                                   const size_t b[2], int s);
 
 /* One factor as a list of terms: coefficient[i] * prod_g k_g^exponent[i*generators + g]. */
 typedef struct {

@@ -1,6 +1,4 @@
 /* nh_simplify: several forms of one expression compete, the shortest wins. */
-#include <string.h>
-
 #include "base/progress.h"
 #include "graph/dag_internal.h"
 #include "exact/print_quotient.h"
@@ -12,12 +10,6 @@ enum {
     flip_terms = 200,     /* of quotients in which both sin^2 and cos^2 are tried as what to eliminate, */
     most_flips = 8,       /* for this many angles */
     factor_terms = 60,    /* see normal_factor.c */
-    most_angles = 12,     /* see offer_turned */
-    most_turns = 3,       /* sums of angles that become angles at once, */
-    most_tries = 4,       /* of this many that look worth it, */
-    turned_terms = 100,   /* in quotients of at most so many terms */
-    turned_length = 400,  /* and expressions of at most this complexity */
-    short_again = 400,    /* complexity of what is simplified once more when it was too long at first */
     shortest = 4,         /* complexity below which there is nothing to gain */
     deepest = 20,         /* levels of arguments and of terms that are simplified on their own */
     longest = 3000        /* of the equations of a system, complexity beyond which they are left alone */
@@ -26,19 +18,11 @@ enum {
 /* What one call shares between the expression and its parts. */
 typedef struct {
     nh_dag *dag;
-    nh_ex turned[most_turns]; /* symbols for sums of angles; 0: not made yet */
     nh_forms literal, cut;
     nh_index done;     /* part -> simplified */
-    bool too_long;     /* some form was */
     nh_index rational; /* part -> is it a polynomial in symbols and their inverses? */
     int depth;
 } context;
-
-/* An angle u = a + b or a - b that may take the place of b. */
-typedef struct {
-    nh_ex a, b, b_atom; /* b is a rational multiple of its atom */
-    int sign;
-} turn;
 
 typedef struct {
     context *shared;
@@ -46,22 +30,12 @@ typedef struct {
     nh_ex best, last;
     size_t length;
     bool inexact; /* the source has inexact numbers, so that more of them are no sign of overflow */
-    nh_ex angle[most_angles]; /* that stand by themselves, outside of sums, below a sine or cosine */
-    size_t angles;
-    size_t fewest; /* terms of a form */
-    turn try[most_tries];
-    size_t tries;
-    nh_ex sum[most_turns]; /* what the symbols of the present source stand for */
-    size_t turns;
 } contest;
 
 static nh_ex simplify(context *shared, nh_ex e);
 
 static void offer(contest *c, nh_ex candidate)
 {
-    if (c->turns && nh_complexity(c->dag, candidate) >= c->length) return;
-    for (size_t i = c->turns; i-- > 0;)
-        candidate = nh_substitute(c->dag, candidate, 1, &c->shared->turned[i], &c->sum[i]);
     if (candidate == c->last || candidate == c->best) return;
     c->last = candidate;
     size_t length = nh_complexity(c->dag, candidate);
@@ -152,109 +126,15 @@ static bool worth_cutting(const nh_dag *dag, const nh_kernels *k)
     return false;
 }
 
-/* ---- sums of angles ---- */
-
-static void note_turn(contest *c, const nh_form *form, size_t i, size_t j, int sign)
-{
-    const nh_kernels *k = &form->kernels;
-    if (c->tries == most_tries) return;
-    c->try[c->tries++] = (turn){nh_kernel_argument(k, i), nh_kernel_argument(k, j), k->item[j].atom, sign};
-}
-
-static void note_angles(contest *c, const nh_form *form)
-{
-    c->angles = 0;
-    for (size_t i = 0; i < form->kernels.count && c->angles < most_angles; i++) {
-        const nh_kernel *k = &form->kernels.item[i];
-        if (k->kind != NH_KERNEL_SIN || nh_kind_of(c->dag, k->atom) == NH_SUM) continue;
-        if (nh_quotient_has(form->field, form->value, i) || nh_quotient_has(form->field, form->value, k->partner))
-            c->angle[c->angles++] = k->atom;
-    }
-}
-
-static bool is_angle(const contest *c, const nh_kernel *k)
-{
-    for (size_t i = 0; i < c->angles && k->kind == NH_KERNEL_SIN; i++)
-        if (c->angle[i] == k->atom) return true;
-    return false;
-}
-
-/* Which sums and differences of its angles does the form seem to be made of? */
-static void note_turns(contest *c, const nh_form *form)
-{
-    const nh_kernels *k = &form->kernels;
-    size_t terms = nh_quotient_terms(form->value);
-    if (!c->fewest || terms < c->fewest) c->fewest = terms;
-    c->tries = 0;
-    c->shared->too_long |= terms > turned_terms;
-    if (terms > turned_terms) return;
-    for (size_t j = 0; j < k->count; j++)
-        for (size_t i = 0; i < j && is_angle(c, &k->item[j]); i++) {
-            if (!is_angle(c, &k->item[i])) continue;
-            size_t angle[2] = {i, k->item[i].partner}, other[2] = {j, k->item[j].partner};
-            for (int s = -1; s <= 1; s += 2) {
-                if (!nh_quotient_has_sum_of_angles(form->field, form->value, angle, other, s)) continue;
-                note_turn(c, form, i, j, s);
-                note_turn(c, form, j, i, s);
-            }
-        }
-}
-
-/* e in terms of a and u = a + s b, in the place of b: sin(a)*cos(b) - cos(a)*sin(b) is sin(u).  True when that has a
- * shorter form; then its own turns are noted. */
-static bool takes_turn(contest *c, const turn *t, nh_ex *e)
-{
-    nh_dag *dag = c->dag;
-    nh_ex *u = &c->shared->turned[c->turns], s = nh_int(dag, t->sign);
-    if (!*u) *u = nh_symbol_fresh(dag, "u");
-    nh_ex b = nh_mul(dag, s, nh_sub(dag, *u, t->a)), b_atom = nh_mul(dag, b, nh_div(dag, t->b_atom, t->b));
-    nh_ex turned = nh_substitute(dag, *e, 1, &t->b_atom, &b_atom);
-    size_t before = c->length;
-    c->sum[c->turns++] = nh_add(dag, t->a, nh_mul(dag, s, t->b));
-    nh_form form;
-    if (nh_form_make(&c->shared->cut, turned, true, &form) == NH_FIELD_FINE &&
-        nh_quotient_terms(form.value) <= c->fewest) {
-        beautify(c, &form);
-        offer_form(c, &form);
-    }
-    bool shorter = c->length < before;
-    if (shorter) {
-        note_angles(c, &form);
-        note_turns(c, &form);
-        *e = turned;
-    } else {
-        c->turns--;
-    }
-    nh_form_clear(&form);
-    return shorter;
-}
-
-/* In terms of which angles is e shortest? */
-static void offer_turned(contest *c, nh_ex e)
-{
-    bool shorter = true;
-    while (shorter && c->turns < most_turns) {
-        turn list[most_tries];
-        size_t n = c->tries;
-        memcpy(list, c->try, sizeof list);
-        shorter = false;
-        for (size_t i = 0; i < n && !shorter; i++) shorter = takes_turn(c, &list[i], &e);
-    }
-    c->turns = 0;
-}
-
 /* Returns whether the other kind of kernels is worth a try. */
 static bool compete(contest *c, nh_ex e, bool literal)
 {
     nh_form form;
     bool fine = nh_form_make(literal ? &c->shared->literal : &c->shared->cut, e, true, &form) == NH_FIELD_FINE;
     bool more = literal && worth_cutting(c->dag, &form.kernels);
-    c->shared->too_long |= !fine;
     if (fine) {
         beautify(c, &form);
         offer_form(c, &form);
-        if (literal) note_angles(c, &form);
-        note_turns(c, &form);
     }
     nh_form_clear(&form);
     return more && !nh_is_zero(c->dag, c->best);
@@ -369,7 +249,6 @@ static nh_ex simplify(context *shared, nh_ex e)
     shared->depth++;
     c.inexact = !nh_is_short(c.dag, e);
     if (compete(&c, e, true)) compete(&c, e, false);
-    if (c.length <= turned_length) offer_turned(&c, c.best);
     if (c.best == e) offer(&c, of_parts(&c, e));
     if (c.best == e) offer(&c, apart(&c, e));
     shared->depth--;
@@ -440,8 +319,6 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_forms_init(&shared.literal, dag, true, most_terms);
     nh_forms_init(&shared.cut, dag, false, most_terms);
     nh_ex result = simplify(&shared, e);
-    if (result != e && shared.too_long && nh_complexity(dag, result) <= short_again)
-        result = simplify(&shared, result); /* what was too long before may not be so now */
     if (result != e) result = restore_roots(&shared, e, restore_calls(&shared, e, result));
     nh_forms_clear(&shared.literal);
     nh_forms_clear(&shared.cut);
