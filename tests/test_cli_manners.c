@@ -547,3 +547,21 @@ Test(cli_manners, coordinates_as_a_map)
     check_hint(&p, "analyze unit.yaml", 3, "\nhint: a unit stands beside it: {type: length, unit: m}\n");
     place_clear(&p);
 }
+
+/* What must never happen is made to: no angle is 0 to the last bit. */
+Test(cli_manners, a_search_that_disagrees_with_the_count_is_an_error)
+{
+    place p = place_make();
+    write_here(&p, "a.yaml", "name: a\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2\n");
+    write_here(&p, "b.yaml", "name: b\nsystem: a.yaml\nansatz:\n  - {basis: polynomial, in: [x, y, x', y'], degree: 2}\n");
+    finished f = run(&p, "analyze a.yaml --analysis b.yaml");
+    cr_expect_eq(f.code, 0, "%s", f.err);
+    finished_clear(&f);
+    f = run(&p, "analyze a.yaml --analysis b.yaml --option agreement=1e-30");
+    cr_expect(f.code == 4 && strstr(f.err, "the sampled problem and the count disagree") && strstr(f.out, "FOUND"), "%d %s", f.code, f.err);
+    finished_clear(&f);
+    f = run(&p, "analyze b.yaml");
+    cr_expect(f.code == 3 && strstr(f.err, "--analysis"), "%d %s", f.code, f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}

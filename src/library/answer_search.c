@@ -39,6 +39,8 @@ static int analysis_code(const nh_answer *a, nh_error *error)
     if (a->request->accuracy > 0 && !result->partial && !(v && v->accuracy.held))
         nh_fail(error, NH_NUMERIC, "", "%s",
                 v ? v->accuracy.why : "no motion was computed, so the requested accuracy was not reached");
+    if (result->counted_space.compared && !result->counted_space.agrees)
+        nh_fail(error, NH_NUMERIC, "", "the sampled problem and the count disagree: one of them is wrong");
     return nh_answer_code(result->partial, error);
 }
 

@@ -425,6 +425,7 @@ static const struct {
     {"nonholonomic", "constraints: [\"x = y\", \"y' = x*x'\"]: equations of positions and of velocities"},
     {"inputs", "an input is a parameter: {name: u, value: 0, input: true}"},
     {"quasi_velocities", "velocities: {names: [v], map: [\"x' = v\"]}"},
+    {"ansatz", "this is an analysis file: nhsym analyze SYSTEM --analysis FILE"},
     {"initial", "a motion's start is no part of the system: --initial \"x=1\", or an analysis file (`validate`)"},
 };
 
