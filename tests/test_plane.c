@@ -441,7 +441,7 @@ Test(plane, documents_show_the_plane)
         const char *name, *words;
     } parts[] = {{"figure1.svg", "<path"}, {"report.html", "with the constant 1: la^2 + mu^2 - 4 = 0: 3; elsewhere 2."}, {"report.html", "Counted modulo primes. No currents: "},
                  {"report.html", "no other pair of rational numbers"}, {"report.html", "id=\"picture\""},
-                 {"report.tex", "\\subsection*{la\\textasciicircum{}2 + mu\\textasciicircum{}2 -{} 4 = 0}"},
+                 {"report.tex", "\\subsection*{$\\mathrm{la}^{2} + \\mu ^{2} - 4 = 0$}"},
                  {"report.tex", "\\addplot"}, {"report.tex", "\\end{document}"},
                  {"result.json", "\"nowhere_else\""}};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
@@ -453,10 +453,10 @@ Test(plane, documents_show_the_plane)
     finished_clear(&f);
     f = run_expecting(&p, "classify a.yaml --over mu --set la=2 --degree 2 --quiet --html out/line.html --tex out/line.tex", 0);
     char *text = file_of(&p, "line.html");
-    cr_expect(strstr(text, "<h2>More for</h2>") && strstr(text, "mu = 0"), "a value");
+    cr_expect(strstr(text, "<h2>More for</h2>") && strstr(text, "<h3><math"), "a value");
     free(text);
     text = file_of(&p, "line.tex");
-    cr_expect(strstr(text, "\\section{More for}"));
+    cr_expect(strstr(text, "\\section{More for}") && strstr(text, "\\subsection*{$\\mu  = 0$}"));
     free(text);
     finished_clear(&f);
     place_clear(&p);
