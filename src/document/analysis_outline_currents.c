@@ -266,12 +266,11 @@ static void definitions(nh_pen *p, const nh_analysis *r, const nh_current *f, bo
 /* The energy as a function of all velocities, v^s dL/dv^s - L; of -E, or E, on the submanifold where that is long. */
 static bool energy_in_all_velocities(const nh_analysis *r, const nh_current *f, nh_ex *E)
 {
-    enum { lengthy = 200 };
     nh_dag *d = r->model->dag;
     const nh_system *s = r->system;
     bool itself = f->energy && (!strcmp(f->meaning, "energy") || !strncmp(f->meaning, "minus", 5));
     size_t length = itself ? nh_complexity(d, f->phi) : 0;
-    if (length <= lengthy) return false;
+    if (length <= NH_SYMMETRY_LENGTHY) return false;
     *E = nh_neg(d, s->lagrangian);
     for (size_t i = 0; i < r->model->m; i++) {
         nh_ex v = s->coordinate[i].v;

@@ -194,7 +194,7 @@ double nh_prove_digits(const nh_model *o, nh_ex phi, const nh_options *options)
 
 nh_proof nh_prove_claim(const nh_model *o, nh_ex phi, nh_claim claim, const nh_options *options)
 {
-    enum { lengthy = 2000 };
+    enum { long_rate = 2000 }; /* nh_complexity */
     size_t n = 1 + o->m + o->n, length = 0;
     nh_ex *term = nh_alloc_array(n, sizeof *term);
     nh_rate_terms(o, phi, term);
@@ -203,8 +203,8 @@ nh_proof nh_prove_claim(const nh_model *o, nh_ex phi, nh_claim claim, const nh_o
     claim.rounded = !nh_is_exact(o->dag, nh_exact_values(o, phi));
     if (claim.rounded) claim.related = false;
     if (claim.related) proof = holding(proof, claim.fixed);
-    else if (claim.free && length > lengthy && nh_symmetry_is_energy(o, phi)) proof = holding(proof, NULL);
-    else if (!claim.rounded && length > lengthy && proved_by_symmetry(o, phi, claim, options))
+    else if (claim.free && length > long_rate && nh_symmetry_is_energy(o, phi)) proof = holding(proof, NULL);
+    else if (!claim.rounded && length > long_rate && proved_by_symmetry(o, phi, claim, options))
         proof = claim.free ? holding(proof, claim.fixed) : (nh_proof){.proved = true};
     proof = prove_zero(o, n, term, proof, claim, options);
     nh_free(term);

@@ -6,13 +6,13 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 
-enum { lengthy = 200, large_length = 3000, many_coordinates = 12 }; /* nh_complexity */
+enum { large_length = 3000, many_coordinates = 12 }; /* nh_complexity */
 
 /* A long formula with rounded coefficients, a series, has no simpler form; a very long one none that could be found in
    reasonable time. */
 static nh_ex tidy(nh_dag *d, nh_ex e)
 {
-    return nh_complexity(d, e) > lengthy && !nh_is_short(d, e) ? e : nh_simplify_short(d, e, large_length);
+    return nh_complexity(d, e) > NH_SYMMETRY_LENGTHY && !nh_is_short(d, e) ? e : nh_simplify_short(d, e, large_length);
 }
 
 static nh_ex *take(nh_model *o, size_t n) { return nh_arena_alloc(o->arena, (n + 1) * sizeof(nh_ex)); }
@@ -175,7 +175,7 @@ bool nh_symmetry_is_energy(const nh_model *o, nh_ex phi)
 static bool is_translation(nh_model *o, nh_symmetry *z)
 {
     nh_dag *d = o->dag;
-    if (nh_complexity(d, o->E) <= lengthy || !nh_symmetry_is_energy(o, z->phi)) return false;
+    if (nh_complexity(d, o->E) <= NH_SYMMETRY_LENGTHY || !nh_symmetry_is_energy(o, z->phi)) return false;
     for (size_t s = 0; s < o->m; s++)
         if (nh_depends(d, o->rho[s], o->system->t)) return false;
     bool minus = z->phi != o->E;

@@ -14,6 +14,9 @@
 
 #include "integrals/points.h"
 
+/* An energy that is longer than this (nh_complexity) gets its symmetry, d/dt, without solving. */
+enum { NH_SYMMETRY_LENGTHY = 200 };
+
 typedef struct {
     nh_ex phi, Z0;
     nh_ex *zeta, *W;          /* n */

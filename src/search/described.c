@@ -5,9 +5,9 @@
 
 #include "exact/normal.h"
 #include "integrals/fixed.h"
+#include "integrals/symmetry.h"
 
-static const size_t lengthy = 200,  /* an energy: its symmetry needs no solving */
-    longest = 3000;                 /* of a current that is brought into a form of its own */
+static const size_t longest = 3000; /* of a current that is brought into a form of its own */
 
 /* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
 
@@ -74,7 +74,7 @@ static void put_values(nh_model *o, const nh_ex *fixed, size_t n, nh_ex *e)
 static void normalise(nh_model *o, nh_current *f)
 {
     nh_dag *d = o->dag;
-    if (nh_complexity(d, o->E) > lengthy && nh_symmetry_is_energy(o, f->phi)) {
+    if (nh_complexity(d, o->E) > NH_SYMMETRY_LENGTHY && nh_symmetry_is_energy(o, f->phi)) {
         f->phi = nh_neg(d, o->E);
         return;
     }
