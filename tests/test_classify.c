@@ -580,6 +580,26 @@ Test(classify, currents_without_a_value_there_are_left_out)
     }
 }
 
+/* Only a missing value is forgiven: a mistyped current is refused there, too. */
+Test(classify, mistyped_currents_are_refused_at_exact_values)
+{
+    static const char file[] = "name: one\ncoordinates: [x]\nparameters: {m: 1, w: 1}\nlagrangian: \"m/2*x'^2\"\n"
+                               "known: {currents: [{name: p, expr: \"x' %s\"}]}\n";
+    static const struct { const char *rest, *what; } rows[] = {
+        {"+ 1/w", NULL}, {"+ sqrt(w - 1)", NULL}, {"+ log(w)", NULL}, {"+ w^(-1/2)", NULL},
+        {"+ nothing/m", "unknown name `nothing`"}, {"+ (m", "the expression ends here"}, {"+ sin(m, w)", "`sin` takes one argument"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[sizeof file + 40];
+        nh_setting exact[] = {at("w", 0, 1)};
+        nh_error error = {0};
+        snprintf(text, sizeof text, file, rows[i].rest);
+        nh_system *s = nh_system_parse("one.yaml", text, 1, exact, &error);
+        if (rows[i].what) cr_expect(!s && strstr(error.what, rows[i].what), "%s: `%s`", rows[i].rest, error.what);
+        else cr_expect(s && s->currents == 0 && !error.what[0], "%s: `%s`", rows[i].rest, error.what);
+        nh_system_free(s);
+    }
+}
+
 Test(classify, the_command_refuses)
 {
     static const struct {

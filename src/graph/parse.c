@@ -46,6 +46,9 @@ static bool fail(parser *p, size_t offset, const char *format, ...)
     return false;
 }
 
+/* What is well written may have no value. */
+static bool has_no_value(parser *p) { return !(p->fault->undefined = true); }
+
 static bool hint(parser *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static bool hint(parser *p, const char *format, ...)
 {
@@ -154,7 +157,7 @@ static bool stays_finite(parser *p, nh_ex e, size_t at)
         lost |= vanishes(nh_coefficient_of(p->dag, e, i));
     }
     if (lost) return fail(p, at, "a number in this expression has become too small: it would be 0");
-    return isfinite(size) || fail(p, at, "a number in this expression has become too large");
+    return isfinite(size) || fail(p, at, "a number in this expression has become too large") || has_no_value(p);
 }
 
 /* ---- numbers ---- */
@@ -260,7 +263,7 @@ static bool call(parser *p, nh_function f, const char *name, size_t at, nh_ex *o
     if (!arguments(p, name, nh_function_arity(f), a)) return false;
     *out = nh_call_any(p->dag, f, a);
     if (nh_kind_of(p->dag, *out) == NH_NUMBER && !isfinite(nh_num_value(nh_number_of(p->dag, *out))))
-        return fail(p, at, "`%s` has no finite value here", name);
+        return fail(p, at, "`%s` has no finite value here", name) || has_no_value(p);
     return true;
 }
 
@@ -269,7 +272,7 @@ static bool square_root(parser *p, size_t at, nh_ex *out)
     nh_ex a;
     if (!arguments(p, "sqrt", 1, &a)) return false;
     if (nh_kind_of(p->dag, a) == NH_NUMBER && nh_num_value(nh_number_of(p->dag, a)) < 0)
-        return fail(p, at, "the square root of a negative number");
+        return fail(p, at, "the square root of a negative number") || has_no_value(p);
     *out = nh_sqrt(p->dag, a);
     return true;
 }
@@ -359,7 +362,7 @@ static bool power(parser *p, nh_ex *out)
     if (counted && !deeper(p)) return false;
     if (!unary(p, &exponent)) return false;
     p->depth -= counted;
-    if (!real_power(p->dag, base, exponent)) return fail(p, at, "this power has no finite value");
+    if (!real_power(p->dag, base, exponent)) return fail(p, at, "this power has no finite value") || has_no_value(p);
     *out = nh_pow(p->dag, base, exponent);
     return stays_finite(p, *out, at);
 }
@@ -409,7 +412,7 @@ static bool term(parser *p, nh_ex *out)
         size_t at = p->at++;
         nh_ex next;
         good = unary(p, &next);
-        if (good && c == '/' && nh_is_zero(p->dag, next)) good = fail(p, at, "division by zero");
+        if (good && c == '/' && nh_is_zero(p->dag, next)) good = fail(p, at, "division by zero") || has_no_value(p);
         if (good) chain_push(&factors, c == '/' ? nh_powi(p->dag, next, -1) : next, 1);
     }
     if (good) *out = nh_product(p->dag, factors.count, factors.operand);

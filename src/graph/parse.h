@@ -14,6 +14,7 @@
 typedef struct {
     size_t offset; /* byte in the text where the trouble is */
     char what[512], hint[256];
+    bool undefined; /* the text is right as far as it was read, but has no finite value there: 1/0, log(0) */
 } nh_parse_fault;
 
 /* What a name (with its prime, "x'") means; false when unknown, with an optional explanation in fault->what/hint. */

@@ -198,17 +198,32 @@ static bool read_text(const nh_system *y, const char *text, scope *s, nh_ex *lhs
     return false;
 }
 
+/* The same with what is wrong. */
+static bool read_node(const nh_deck *deck, const nh_deck_node *node, size_t skip, scope *s, nh_ex *lhs, nh_ex *rhs,
+                      nh_parse_fault *fault, nh_error *error)
+{
+    if (!lhs && !not_an_equation(deck, node, skip, error)) return false;
+    if (read_text(s->system, node->text + skip, s, lhs, rhs, fault)) return true;
+    nh_deck_fail(deck, node, skip + fault->offset, error, "%s", fault->what);
+    return fault->hint[0] ? nh_error_hint(error, "%s", fault->hint) : false;
+}
+
 bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip,
                                unsigned forbid, size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs,
                                nh_error *error)
 {
-    scope s = {system, extras, extra, forbid};
     nh_parse_fault fault;
-    const char *text = node->text + skip;
-    if (!lhs && !not_an_equation(deck, node, skip, error)) return false;
-    if (read_text(system, text, &s, lhs, rhs, &fault)) return true;
-    nh_deck_fail(deck, node, skip + fault.offset, error, "%s", fault.what);
-    return fault.hint[0] ? nh_error_hint(error, "%s", fault.hint) : false;
+    return read_node(deck, node, skip, &(scope){system, extras, extra, forbid}, lhs, rhs, &fault, error);
+}
+
+bool nh_system_read_defined(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, nh_ex *out,
+                            bool *undefined, nh_error *error)
+{
+    nh_parse_fault fault = {.undefined = false};
+    bool good = nh_deck_is(deck, node, NH_DECK_SCALAR, "an expression", error) &&
+                read_node(deck, node, 0, &(scope){system, 0, NULL, 0}, NULL, out, &fault, error);
+    *undefined = !good && fault.undefined;
+    return good;
 }
 
 bool nh_system_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t extras,

@@ -276,8 +276,8 @@ bool nh_system_truth_of(nh_system_reader *r, const nh_deck_node *map, const char
     return nh_error_hint(r->error, "%s", meaning);
 }
 
-/* A formula that holds for almost all values may have none at an exact value, as z'/w at w = 0: it is left out there.
-   A mistyped one was met before, when the file was read without exact values. */
+/* A formula that holds for almost all values may have none at an exact value, as z'/w at w = 0: it is left out
+   there. */
 static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, const char *key, nh_named **out,
                             size_t *count)
 {
@@ -299,8 +299,9 @@ static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, cons
         if (!nh_system_truth_of(r, item, "unwatched", "a current without a column in `simulate` and `benchmark`",
                                 &named->unwatched))
             return false;
-        if (nh_system_expression(r->system, r->deck, expr, 0, NULL, &named->value, r->error)) ++*count;
-        else if (!r->exact) return false;
+        bool undefined;
+        if (nh_system_read_defined(r->system, r->deck, expr, &named->value, &undefined, r->error)) ++*count;
+        else if (!r->exact || !undefined) return false;
         else nh_error_clear(r->error);
     }
     return true;
