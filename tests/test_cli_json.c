@@ -428,3 +428,27 @@ Test(cli_json, a_failed_question_writes_no_json)
     finished_clear(&g);
     place_clear(&p);
 }
+
+/* How far Kepler's problem is counted with so much work. */
+static double counted_degree(const place *p, const char *work, const char *asked)
+{
+    char line[200];
+    snprintf(line, sizeof line, "analyze kepler --no-analysis --until 1 --option count_work=%s %s --json -", work, asked);
+    cJSON *root = json_of(p, line, 0);
+    double degree = find(root, "completeness.degree")->valuedouble;
+    cJSON_Delete(root);
+    return degree;
+}
+
+/* --degree: a count may take ten times the work, and no more: it comes as far as another one with ten times as much. */
+Test(cli_json, a_degree_that_is_asked_for_may_cost_ten_times_the_work)
+{
+    static const char *const works[] = {"1e4", "1e5", "1e6"};
+    place p = place_with_project();
+    for (size_t i = 0; i + 1 < COUNT(works); i++) {
+        double usual = counted_degree(&p, works[i], ""), asked = counted_degree(&p, works[i], "--degree 6"),
+               tenfold = counted_degree(&p, works[i + 1], "");
+        cr_expect(usual < asked && asked == tenfold && asked < 6, "work %s: to degree %g, with --degree 6 to %g, with ten times as much to %g", works[i], usual, asked, tenfold);
+    }
+    place_clear(&p);
+}
