@@ -175,9 +175,48 @@ Test(statements, a_field_is_complete_in_every_report)
         cr_expect_eq(occurrences(r.tex, "\\nhformula{{Z}_{") + occurrences(r.tex, "\\par ${Z}_{"), components, "%s: %zu components in the text", systems[s], components);
         cr_expect_eq(occurrences(r.page, "<msub><mrow><mi>Z</mi></mrow><mrow>"), components, "%s: %zu components in the text", systems[s], components);
         cr_expect_eq(occurrences(r.tex, "\\nhformula{{i}_{[\\Gamma ,Z]}"), forms, "%s: %zu forms", systems[s], forms);
-        cr_expect_eq(occurrences(r.page, "<mi>\u03d5</mi>"), forms, "%s: %zu forms", systems[s], forms);
+        size_t defined = occurrences(r.text, "\n  phi^");
+        cr_expect(!forms == !defined && defined <= 2, "%s: the forms are defined once", systems[s]);
+        cr_expect_eq(occurrences(r.page, "<mi>\u03d5</mi>"), forms + defined, "%s: %zu forms", systems[s], forms);
         reports_clear(&r);
     }
+    place_clear(&p);
+}
+
+/* Components of [Gamma,Z] outside of the distribution belong to the forms that are printed: those of the geometry, where it is shown. */
+Test(statements, the_forms_of_the_currents_are_those_of_the_geometry)
+{
+    static const char sleigh[] = "name: own\nparameters: [{name: m, value: 2}, {name: J, value: 0.9}, {name: a, value: 0.6}]\n"
+                                 "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: phi, type: angle}]\n"
+                                 "lagrangian: m/2*((x' - a*phi'*sin(phi))^2 + (y' + a*phi'*cos(phi))^2) + J/2*phi'^2\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
+                                 "velocities: {names: [omega, v], map: [\"phi' = omega\", \"x' = v*cos(phi)\", \"y' = v*sin(phi)\"]}\n";
+    place p = place_make();
+    write_here(&p, "own.yaml", sleigh);
+    for (size_t geometry = 0; geometry < 2; geometry++) {
+        reports r = analyze(&p, geometry ? "own.yaml --equations" : "own.yaml");
+        cr_expect_eq(occurrences(r.text, "\n  phi^1 = -sin(phi) dx + cos(phi) dy\n"), !geometry, "%s", r.text);
+        cr_expect_eq(occurrences(r.text, "\n  phi^1 = -tan(phi) dx + dy\n"), 2 * geometry, "%s", r.text);
+        cr_expect_eq(occurrences(r.text, "\n  i_[Gamma,Z] phi^1 = -1/omega\n"), !geometry, "%s", r.text);
+        cr_expect_eq(occurrences(r.text, "\n  i_[Gamma,Z] phi^1 = -1/(omega*cos(phi))\n"), geometry, "%s", r.text);
+        cr_expect_eq(occurrences(r.text, "\n  i_[Gamma,Z(Phi3)]phi^1 = -1/(omega*cos(phi))\n"), geometry, "%s", r.text);
+        cr_expect_eq(occurrences(r.text, ") phi'' = 0\n") + occurrences(r.text, ") zeta^phi = 0\n"), 4 * geometry);
+        cr_expect(!strstr(r.text, "(-J - m*a^2)"), "a sum of negative terms is minus a sum");
+        reports_clear(&r);
+    }
+    place_clear(&p);
+}
+
+/* The rate of an energy that is not conserved is a formula in all velocities, without the root that one of them is. */
+Test(statements, the_rate_of_the_energy_is_a_formula)
+{
+    place p = place_make();
+    write_here(&p, "own.yaml", "name: own\nparameters: [{name: c, value: 2}, {name: g, value: 1.5}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                                "lagrangian: (x'^2 + y'^2)/2 - g*y\nconstraints: [\"x'^2 + y'^2 = c^2\"]\ndependent: [y]\n");
+    reports r = analyze(&p, "own.yaml");
+    cr_expect_not_null(strstr(r.text, "warning: the energy is not conserved: it changes at the rate g*y'\n"), "%s", r.text);
+    cr_expect_not_null(strstr(r.tex, "it changes at the rate $g\\,\\dot{y}$"));
+    cr_expect_not_null(strstr(r.page, "it changes at the rate <math"));
+    reports_clear(&r);
     place_clear(&p);
 }
 

@@ -12,6 +12,8 @@
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "graph/print.h"
+#include "integrals/real_where.h"
+#include "search/theory.h"
 
 /* ---- a current without closed form ---- */
 
@@ -100,12 +102,24 @@ static void series(nh_pen *p, const nh_analysis *r, const nh_current *f)
 
 /* ---- what is known of a current ---- */
 
+static void real_where(nh_pen *p, const nh_analysis *r, const nh_current *f)
+{
+    nh_ex positive[NH_MOST_REAL_WHERE];
+    size_t n = f->series ? 0 : nh_real_where(r->model, f->phi, positive);
+    for (size_t i = 0; i < n; i++) {
+        char *text = nh_print_string(r->model->dag, positive[i]);
+        nh_pen_say(p, i ? " and <%s> > 0" : ", real where <%s> > 0", text);
+        nh_free(text);
+    }
+}
+
 static void certificate(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
     nh_pen_fact_begin(p, "Certified");
     if (f->proof.proved) nh_pen_say(p, "proved");
     else nh_pen_say(p, "conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
-    nh_pen_say(p, "%s%s", nh_facts_holds(r->model, &f->proof, false), nh_facts_where(r, f));
+    nh_pen_say(p, "%s%s", nh_facts_holds(r->model, &f->proof, false), nh_facts_which_branch(r, f));
+    real_where(p, r, f);
     nh_pen_say(p, "; residual %.2g outside the fit", f->heldout);
     nh_pen_close(p, NH_PEN_FACT);
 }
@@ -134,6 +148,35 @@ static void tags(nh_pen *p, const nh_analysis *r, const nh_current *f)
     nh_pen_close(p, NH_PEN_TAGS);
 }
 
+/* The forms phi^a = nu^a_s (dq^s - rho^s dt) of the constraints as they were written [CechMusilova2014, eq. 6], or
+ * those of the geometry, where it is shown: once in a document, where they first stand. */
+static void forms(nh_pen *p, const nh_analysis *r, nh_sheet *sheet)
+{
+    const nh_model *o = r->model;
+    nh_dag *d = o->dag;
+    if (p->forms) return;
+    p->forms = true;
+    for (size_t a = 0; a < o->k; a++) {
+        const nh_ex *own = r->theory ? r->theory->own->form + a * (1 + o->m) : NULL, *nu = o->nu + a * o->m;
+        nh_ex along = nh_int(d, 0);
+        nh_sheet_sum(sheet, "", nh_sheet_label(sheet, "\\form^{%zu}", a + 1));
+        for (size_t s = 0; s < o->m; s++) {
+            nh_sheet_add(sheet, own ? own[1 + s] : nu[s],
+                         nh_sheet_label(sheet, "\\d<%s>", nh_name_of(d, o->system->coordinate[s].q)));
+            along = nh_sub(d, along, nh_mul(d, nu[s], o->rho[s]));
+        }
+        nh_sheet_add(sheet, own ? own[0] : nh_simplify_short(d, along, 0), "\\d t");
+    }
+}
+
+/* i_[Gamma,Z] phi^a of these forms. */
+static const nh_ex *out_of_distribution(const nh_analysis *r, const nh_current *f)
+{
+    for (size_t i = 0; r->theory && i < r->theory->brackets; i++)
+        if (!strcmp(r->theory->bracket[i].name, f->name)) return r->theory->bracket[i].bracket->form;
+    return r->theory ? NULL : f->symmetry.bracket_form;
+}
+
 /* A sum of its components, or where that is long each by itself; and by how much the bracket leaves the canonical
  * distribution. */
 static void field(nh_pen *p, const nh_analysis *r, const nh_current *f)
@@ -155,9 +198,10 @@ static void field(nh_pen *p, const nh_analysis *r, const nh_current *f)
         if (length > short_sum) nh_sheet_formula(sheet, label, term[i].coefficient);
         else nh_sheet_add(sheet, term[i].coefficient, label);
     }
-    for (size_t a = 0; a < k; a++)
-        nh_sheet_formula(sheet, nh_sheet_label(sheet, "i_{[Gamma,Z]} \\form^{%zu}", a + 1),
-                         f->symmetry.bracket_form[a]);
+    const nh_ex *out = k ? out_of_distribution(r, f) : NULL;
+    for (size_t a = 0; a < k && out; a++)
+        nh_sheet_formula(sheet, nh_sheet_label(sheet, "i_{[Gamma,Z]} \\form^{%zu}", a + 1), out[a]);
+    if (out) forms(p, r, sheet);
     nh_pen_open(p, NH_PEN_FOLD, NULL, "Its symmetry Z");
     nh_pen_sheet(p, sheet);
     nh_pen_close(p, NH_PEN_FOLD);

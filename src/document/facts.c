@@ -8,7 +8,6 @@
 #include "base/text.h"
 #include "graph/print.h"
 #include "integrals/fixed.h"
-#include "integrals/real_where.h"
 
 bool nh_facts_number(double value, int digits, nh_shown_number *out)
 {
@@ -180,19 +179,11 @@ void nh_facts_branch(const nh_analysis *r, nh_text *out)
     else nh_text_add(out, "the equations hold on this branch only");
 }
 
-const char *nh_facts_where(const nh_analysis *r, const nh_current *f)
+const char *nh_facts_which_branch(const nh_analysis *r, const nh_current *f)
 {
-    nh_ex positive[NH_MOST_REAL_WHERE];
-    size_t n = f->series ? 0 : nh_real_where(r->model, f->phi, positive);
-    const char *out = !r->model->chart->branch ? ""
-                      : f->on_both             ? ", on both branches"
-                                               : nh_arena_printf(r->arena, ", on the branch %s only", r->branch);
-    for (size_t i = 0; i < n; i++) {
-        char *text = nh_print_string(r->model->dag, positive[i]);
-        out = nh_arena_printf(r->arena, "%s%s%s > 0", out, i ? " and " : ", real where ", text);
-        nh_free(text);
-    }
-    return out;
+    return !r->model->chart->branch ? ""
+           : f->on_both             ? ", on both branches"
+                                    : nh_arena_printf(r->arena, ", on the branch %s only", r->branch);
 }
 
 /* ---- the answer ---- */

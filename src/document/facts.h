@@ -42,8 +42,8 @@ const char *nh_facts_drift(const nh_drift *drift);
 /* Of a constraint with two branches (else ""): which was computed, and whether the equations hold on the other one; and
    of a current on which it holds. */
 void nh_facts_branch(const nh_analysis *result, nh_text *out);
-/* ", on both branches", ", real where m*l^2 - I > 0", or nothing. */
-const char *nh_facts_where(const nh_analysis *result, const nh_current *found);
+/* ", on both branches", or nothing. */
+const char *nh_facts_which_branch(const nh_analysis *result, const nh_current *found);
 
 /* What is said where no current was found. */
 /* "4 independent currents on each side of x = 0, where the motion has an impulse": there is no other current. */

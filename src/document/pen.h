@@ -102,6 +102,7 @@ typedef struct {
     nh_tex_writer tex;
     nh_plain_writer plain;
     size_t names;            /* of repeated parts in sheets, so far: one sequence for the document */
+    bool forms;              /* have the forms phi^a been defined, so far? */
     bool section, card;      /* that are open */
     bool headed;             /* has this section a heading of its own, so far? */
 } nh_pen;
