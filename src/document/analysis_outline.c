@@ -17,7 +17,7 @@ void nh_analysis_write_meaning(nh_pen *p, const nh_analysis *r, const char *mean
     if (name) nh_pen_name(p, name);
 }
 
-/* "; one is minus the energy, one the momentum of x" */
+/* "; one is minus the energy, one the momentum of x"; ": minus the energy" of a single one */
 static void meanings(nh_pen *p, const nh_analysis *r)
 {
     size_t told = 0;
@@ -25,7 +25,7 @@ static void meanings(nh_pen *p, const nh_analysis *r)
         const char *meaning = r->found[k].meaning;
         if (!meaning[0] || r->found[k].independence != NH_INDEPENDENT) continue;
         bool bare = !strncmp(meaning, "energy", 6) || !strncmp(meaning, "momentum", 8);
-        nh_pen_say(p, told++ ? ", one " : "; one is ");
+        nh_pen_say(p, told++ ? ", one " : r->independent == 1 ? ": " : "; one is ");
         nh_pen_say(p, "%s", bare ? "the " : !strncmp(meaning, "integral", 8) ? "an " : "");
         nh_analysis_write_meaning(p, r, meaning);
     }
@@ -60,6 +60,19 @@ static void answer(nh_pen *p, const nh_analysis *r)
         nh_pen_words(p,
                      "The ansatz is that of the analysis file. With --no-analysis the program chooses what it tries.");
     nh_text_clear(&words);
+}
+
+/* The rate of the energy is a formula. */
+static void warning(nh_pen *p, const nh_analysis *r, const char *text)
+{
+    size_t n = strlen(text), rate = r->energy_rate ? strlen(r->energy_rate) : 0;
+    if (!rate || rate > n || strcmp(text + n - rate, r->energy_rate) != 0) {
+        nh_pen_warning(p, text);
+        return;
+    }
+    nh_pen_open(p, NH_PEN_WARNING, NULL, NULL);
+    nh_pen_say(p, "%s<%s>", nh_arena_printf(r->arena, "%.*s", (int)(n - rate), text), r->energy_rate);
+    nh_pen_close(p, NH_PEN_WARNING);
 }
 
 static void links(nh_pen *p, const nh_analysis *r)
@@ -97,7 +110,7 @@ void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
     nh_pen_begin(p, style, &subject, NULL, out);
     answer(p, r);
     links(p, r);
-    for (size_t i = 0; i < r->warnings; i++) nh_pen_warning(p, r->warning[i]);
+    for (size_t i = 0; i < r->warnings; i++) warning(p, r, r->warning[i]);
     nh_analysis_write_currents(p, r);
     nh_analysis_write_motion(p, r);
     nh_analysis_write_figures(p, r);

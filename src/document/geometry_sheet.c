@@ -95,10 +95,12 @@ static void lagrangian(const builder *b)
 {
     const nh_model *o = b->o;
     const nh_submanifold *s = b->t->submanifold;
-    nh_sheet_begin(b->s, "lagrangian", "Lagrangian on the constraint submanifold",
+    nh_sheet_begin(b->s, "lagrangian", o->k ? "Lagrangian on the constraint submanifold" : "Lagrangian and momenta",
                    s->normal ? "$\\bar{L}$ is L with the constraints inserted, $\\bar{L}_{a}$ its derivative by a "
                                "dependent velocity, before they are inserted; p are the momenta, E is the energy."
-                             : "$\\bar{L}$ is L in the velocities of the chart; p are the momenta, E is the energy.");
+                             : o->k || o->chart->quasi
+                       ? "$\\bar{L}$ is L in the velocities of the chart; p are the momenta, E is the energy."
+                       : "Without constraints $\\bar{L}$ is L itself; p are the momenta, E is the energy.");
     formula(b, o->Lbar, "\\bar{L}", NULL, NULL);
     for (size_t a = 0; a < o->k && s->normal; a++)
         formula(b, o->p[o->chart->dependent[a]], "\\bar{L}_{<%s>}", dependent(b, a), NULL);
@@ -172,8 +174,9 @@ static void field(const builder *b, const nh_model *o, nh_ex time, const nh_ex *
 
 static void semispray(const builder *b)
 {
-    nh_sheet_begin(b->s, "semispray", "Constraint semispray (21)",
-                   "The field of the equations of motion on the constraint submanifold.");
+    nh_sheet_begin(b->s, "semispray", b->o->k ? "Constraint semispray (21)" : "Semispray (21)",
+                   b->o->k ? "The field of the equations of motion on the constraint submanifold."
+                           : "The field of the equations of motion.");
     nh_sheet_sum(b->s, "", "Gamma");
     field(b, b->o, nh_int(b->d, 1), b->o->rho, b->o->a);
 }

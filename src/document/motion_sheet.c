@@ -52,7 +52,7 @@ static void at_end(nh_sheet *s, const nh_motion_series *v, size_t link, double e
 {
     const nh_motion_series_link *at = &v->link[link];
     for (size_t j = 0; j < v->integrals && link != v->first; j++)
-        nh_sheet_formula(s, nh_sheet_label(s, "%s(%.6g)", name(s, at->integral[j].symbol), end),
+        nh_sheet_formula(s, nh_sheet_label(s, "%s(<%.6g>)", name(s, at->integral[j].symbol), end),
                          nh_real(s->dag, nh_motion_series_value(at, j, end)));
 }
 
@@ -60,11 +60,11 @@ static void at_end(nh_sheet *s, const nh_motion_series *v, size_t link, double e
 static void other_series(nh_sheet *s, const nh_motion_series *v, const char *of)
 {
     double begin = nh_motion_series_begin(v), end = nh_motion_series_end(v);
-    const char *rest = nh_sheet_label(s, "; the checked motion goes from %.6g to %.6g", v->low, v->high);
+    const char *rest = nh_sheet_label(s, "; the checked motion goes from $<%.6g>$ to $<%.6g>$", v->low, v->high);
     if (begin <= v->low && end >= v->high) rest = ", where the checked motion goes";
     nh_sheet_words(s, nh_sheet_label(s,
                                      "%zu intervals beside one another, each with such series about its own centre, "
-                                     "cover $<%s>$ from %.6g to %.6g%s. The largest $\\eps$ is %.1e. "
+                                     "cover $<%s>$ from $<%.6g>$ to $<%.6g>$%s. The largest $\\eps$ is $<%.1e>$. "
                                      "The JSON has all coefficients (explicit_motion.intervals).",
                                      v->links, of, begin, end, rest, largest_bound(v)));
     at_end(s, v, 0, begin);

@@ -145,14 +145,24 @@ nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
     return c;
 }
 
+/* -J - m a^2 is -(J + m a^2); a sum that is no shorter with its signs turned stays. */
+static char *negative(const nh_sheet *s, nh_ex e, char *text, bool *minus)
+{
+    char *turned = nh_print_string(s->dag, nh_neg(s->dag, e));
+    *minus = nh_formula_is_sum(turned) && turned[0] != '-' && strlen(turned) < strlen(text);
+    nh_free(*minus ? text : turned);
+    return *minus ? turned : text;
+}
+
 char *nh_sheet_coefficient(const nh_sheet *s, const nh_sheet_term *t, bool *minus, bool *sum)
 {
     char *text = t->wanted > 0 ? NULL : nh_print_string(s->dag, t->coefficient);
     *minus = *sum = false;
     if (!text) return text;
     *sum = t->factor[0] && nh_formula_is_sum(text);
-    *minus = !*sum && text[0] == '-';
-    if (*minus) memmove(text, text + 1, strlen(text));
+    *minus = text[0] == '-';
+    if (*sum && *minus) text = negative(s, t->coefficient, text, minus);
+    else if (*minus) memmove(text, text + 1, strlen(text));
     if (t->factor[0] && !strcmp(text, "1")) text[0] = 0;
     return text;
 }

@@ -201,6 +201,7 @@ struct nh_analysis {
     nh_validation *validation; /* NULL when no motion could be computed */
     size_t warnings;
     const char **warning;
+    const char *energy_rate;  /* with which the warning ends that the energy is not conserved; NULL: none, or long */
     bool partial;             /* work or time ended the search, or the user did */
     nh_timing timing;
 };

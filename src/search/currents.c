@@ -420,8 +420,10 @@ static void miss_energy(nh_current_checker *b)
     if (!(heldout_residual(o, b->generic, o->E) > r->options.heldout)) return;
     nh_ex rate = nh_model_gamma(o, o->E);
     if (nh_complexity(o->dag, rate) < 10 * longest) rate = nh_simplify(o->dag, rate);
+    rate = nh_chart_in_velocities(o->chart, nh_chart_shown(o->chart, rate));
     char *text = nh_complexity(o->dag, rate) <= longest ? nh_print_string(o->dag, rate) : NULL;
     nh_analysis_warn(r, "the energy is not conserved%s%s", text ? ": it changes at the rate " : "", text ? text : "");
+    r->energy_rate = text ? nh_arena_printf(r->arena, "%s", text) : NULL;
     nh_free(text);
 }
 
