@@ -69,7 +69,7 @@ WITHOUT_MPI = $(and $(MPI),$(findstring :,$(call archive,sundials_core)))
 PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libexpat1-dev libcjson-dev libflint-arb-dev,libflint-dev libflint-dev libgmp-dev
 TEST_PACKAGES = $(PACKAGES) libcriterion-dev pkg-config
 BROWSER       = chromium
-PYTHON_PACKAGES = python3-numpy python3-sympy python3-pytest python3-setuptools python3-wheel
+PYTHON_PACKAGES = python3-numpy python3-sympy python3-pytest python3-setuptools python3-wheel python3-pandas
 
 MODULES = $(filter-out src/cli/%,$(wildcard src/*/*.c))
 OBJECTS = $(MODULES:%.c=$(BUILD)/%.o)
@@ -292,16 +292,17 @@ install: all library
 	install -m 644 $(BUILD)/libnhsym.a $(DESTDIR)$(LIBDIR)/
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBRARIES@|$(LDLIBS)|' src/library/nhsym.pc.in \
 	    >$(DESTDIR)$(LIBDIR)/pkgconfig/nhsym.pc
-	install -d $(addprefix $(SHARE)/nhsym/,systems/stress analyses schema) $(addprefix $(SHARE)/doc/nhsym/,pictures catalogue)
+	install -d $(addprefix $(SHARE)/nhsym/,systems/stress analyses schema) $(addprefix $(SHARE)/doc/nhsym/,pictures catalogue extend)
 	install -m 644 systems/*.yaml $(SHARE)/nhsym/systems/
 	install -m 644 systems/stress/*.yaml $(SHARE)/nhsym/systems/stress/
 	install -m 644 analyses/*.yaml $(SHARE)/nhsym/analyses/
 	install -m 644 docs/schema/*.json $(SHARE)/nhsym/schema/
 	for page in README.md docs/*.md; do \
-	    sed 's#](docs/#](#g; s#](schema/#](../../nhsym/schema/#g; s#](LICENSE)#](https://www.gnu.org/licenses/gpl-3.0.html)#' $$page >$(SHARE)/doc/nhsym/$${page##*/} || exit; done # with the links that hold there
+	    sed 's#](docs/#](#g; s#](schema/#](../../nhsym/schema/#g; s#](LICENSE)#](https://www.gnu.org/licenses/gpl-3.0.html)#; s#](\.\./tests/extend/#](extend/#g' $$page >$(SHARE)/doc/nhsym/$${page##*/} || exit; done # with the links that hold there
 	install -m 644 docs/example.c docs/nhsym.ipynb docs/CITATION.cff $(SHARE)/doc/nhsym/
 	install -m 644 docs/pictures/* $(SHARE)/doc/nhsym/pictures/
 	install -m 644 docs/catalogue/* $(SHARE)/doc/nhsym/catalogue/
+	install -m 644 tests/extend/*.txt $(SHARE)/doc/nhsym/extend/
 	install -d $(addprefix $(SHARE)/,man/man1 man/man3 bash-completion/completions zsh/site-functions fish/vendor_completions.d)
 	$(BUILD)/nhsym help man >$(SHARE)/man/man1/nhsym.1
 	awk -v version=$(VERSION) -f src/library/man.awk src/nhsym.h >$(SHARE)/man/man3/nhsym.3

@@ -19,7 +19,6 @@
 #define NHSYM_H
 #include <stdbool.h>
 #include <stddef.h>
-
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -30,7 +29,6 @@ extern "C" {
 #endif
 
 /* ---- errors ---- */
-
 /* The values are the exit codes of the command line. */
 typedef enum {
     NH_OK = 0,
@@ -56,7 +54,6 @@ NH_API void nh_error_format(const nh_error *error, char *out, size_t size);
 NH_API const char *nh_version_text(void); /* "0.1.0" */
 
 /* ---- a context: the state of one thread's computations ---- */
-
 typedef struct nh_context nh_context;
 NH_API nh_context *nh_context_create(void);
 NH_API void nh_context_free(nh_context *context);
@@ -66,7 +63,6 @@ NH_API void nh_context_on_progress(nh_context *context, void (*tell)(void *data,
 NH_API void nh_context_interrupt(nh_context *context);
 
 /* ---- a question about a system ---- */
-
 /* Members that are NULL, 0 or false are not given. */
 typedef struct {
     const char *system;        /* a name ("sleigh") or the path of a system file, */
@@ -86,6 +82,9 @@ typedef struct {
     bool        project;       /* initial velocities that violate the constraints are moved onto them */
 } nh_question;
 
+/* The systems that have a name, a line for each: name, blanks, title.  Free the string by nh_string_free. */
+NH_API char *nh_systems(nh_error *error);
+
 typedef struct nh_problem nh_problem;
 /* Reads the files.  The context must outlive the problem. */
 NH_API nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh_error *error);
@@ -98,14 +97,13 @@ NH_API size_t nh_problem_parameters(const nh_problem *problem);
 NH_API const char *nh_problem_parameter(const nh_problem *problem, size_t index, double *value); /* value may be NULL */
 
 /* ---- answers ---- */
-
 typedef struct nh_analysis     nh_analysis;     /* currents and symmetries */
 typedef struct nh_simulation   nh_simulation;   /* one motion */
 typedef struct nh_reduction    nh_reduction;    /* the symmetry group and the reduced equations */
 typedef struct nh_verification nh_verification; /* of one current or field */
 typedef struct nh_classified   nh_classified;   /* the values of one parameter at which there are more currents */
 typedef struct nh_benchmark    nh_benchmark;    /* integrators compared on one motion */
-
+typedef struct nh_export       nh_export;       /* equations, currents and reductions as code */
 NH_API nh_analysis     *nh_analyze(nh_problem *problem, nh_error *error);
 NH_API nh_simulation   *nh_simulate(nh_problem *problem, nh_error *error);
 /* The same with zeros of expressions along the motion, as --event and --section take them; both may be NULL: "y = 0, falling, stop; x' - 1", "x, rising".  They stand in its JSON. */
@@ -133,13 +131,12 @@ NH_API void nh_reduction_free(nh_reduction *reduction);
 NH_API void nh_verification_free(nh_verification *verification);
 NH_API void nh_classified_free(nh_classified *classified);
 NH_API void nh_benchmark_free(nh_benchmark *benchmark);
+NH_API void nh_export_free(nh_export *export_);
 
-/* The documents of the command line.  LaTeX of a reduction are its equations, else a document.  The text of a
- * simulation is its table.  CSV: simulation, reduction, benchmark; SVG: simulation, benchmark; of another result these
- * are NULL with an error.  Free the string by nh_string_free. */
+/* The documents of the command line.  A reduction's LaTeX are its equations; a simulation's text is its table.  CSV:
+ * simulation, reduction, benchmark; SVG: simulation, benchmark; else NULL with an error.  nh_string_free frees them. */
 typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX, NH_FORMAT_CSV,
                NH_FORMAT_SVG } nh_format;
-
 NH_API char *nh_analysis_document(const nh_analysis *analysis, nh_format format, nh_error *error);
 NH_API char *nh_simulation_document(const nh_simulation *simulation, nh_format format, nh_error *error);
 NH_API char *nh_reduction_document(const nh_reduction *reduction, nh_format format, nh_error *error);
@@ -147,9 +144,14 @@ NH_API char *nh_verification_document(const nh_verification *verification, nh_fo
 NH_API char *nh_classified_document(const nh_classified *classified, nh_format format, nh_error *error);
 NH_API char *nh_benchmark_document(const nh_benchmark *benchmark, nh_format format, nh_error *error);
 NH_API void  nh_string_free(char *string);
+/* language: "c", "python", "sympy", "matlab", "latex" or "json".  NULL, or parts: "equations, currents"; inputs:
+ * parameters, "u, tau"; prefix: what all names begin with, instead of the system's name. */
+NH_API nh_export *nh_export_functions(nh_problem *problem, const char *language, const char *parts, const char *inputs,
+                                      const char *prefix, nh_error *error);
+/* File number `file` and its name, both to be freed; NULL without an error after the last.  `name` NULL: all in one. */
+NH_API char *nh_export_code(const nh_export *export_, size_t file, char **name, nh_error *error);
 
 /* ---- an analysis ---- */
-
 NH_API const char *nh_analysis_verdict(const nh_analysis *analysis); /* "FOUND", "NONE" or "UNDECIDED" */
 NH_API const char *nh_analysis_search(const nh_analysis *analysis);  /* "complete", "exhausted" or "cut" */
 NH_API size_t nh_analysis_currents(const nh_analysis *analysis);
@@ -177,7 +179,6 @@ NH_API double nh_current_value(const nh_analysis *analysis, size_t index, double
 NH_API bool nh_current_values(const nh_analysis *analysis, size_t index, size_t count, const double *t, const double *q, const double *v, double *out);
 
 /* ---- a simulation: a table with time in column 0 ---- */
-
 NH_API size_t nh_simulation_rows(const nh_simulation *simulation);
 NH_API size_t nh_simulation_columns(const nh_simulation *simulation);
 NH_API const char *nh_simulation_column(const nh_simulation *simulation, size_t column);
@@ -187,7 +188,6 @@ NH_API void nh_simulation_read(const nh_simulation *simulation, size_t column, d
 NH_API char *nh_simulation_svg(const nh_simulation *simulation, size_t x, size_t y);
 
 /* ---- equations of motion ---- */
-
 typedef struct nh_rates nh_rates;
 NH_API nh_rates *nh_rates_create(nh_problem *problem, nh_error *error); /* remains valid without its problem */
 NH_API void nh_rates_free(nh_rates *rates);

@@ -47,6 +47,16 @@ while read -r name; do # every function has its place on the page
     grep -q "$name(" "$stage$prefix/share/man/man3/nhsym.3" || failed "nhsym.3 does not have $name"
 done <promised
 
+# ---- every page and picture that a page links to is there ----
+cd "$stage$prefix/share/doc/nhsym"
+for page in *.md; do
+    grep -oE '\]\([^):]+\)' "$page" | sed 's/^](\([^#]*\).*)$/\1/' | while read -r link; do
+        [ -z "$link" ] || [ -e "$link" ] || echo "$page links to $link"
+    done
+done >"$work/dead"
+[ ! -s "$work/dead" ] || failed "installed pages have links to nowhere: $(cat "$work/dead")"
+cd "$work"
+
 # ---- without a trace ----
 echo mine >"$stage$prefix/share/nhsym/systems/mine.txt"
 here uninstall

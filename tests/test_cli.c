@@ -46,6 +46,8 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"verify sleigh --current v --json a --html a", "nhsym: --html and --json would write one file, a\nhint: give each a file of its own\n"},
         {"analyze sleigh --seedd 3", "nhsym: there is no option `--seedd`\nhint: did you mean `--seed`?\n"},
         {"analyze sleigh --frob", "nhsym: there is no option `--frob`\nhint: `nhsym help analyze` lists them\n"},
+        {"simulate sleigh --sweep k=1:2:3", "nhsym: there is no option `--sweep`\nhint: did you mean `--over`?\n"},
+        {"reduce sleigh --sweep k=1:2:3", "nhsym: there is no option `--sweep`\nhint: `--over` belongs to: simulate benchmark classify scan\n"},
         {"analyze sleigh -z", "nhsym: there is no option `-z`\nhint: `nhsym help analyze` lists them\n"},
         {"analyze sleigh --seed", "nhsym: `--seed` needs a value\nhint: write --seed N; `nhsym help analyze` describes the option\n"},
         {"analyze sleigh --set k", "nhsym: --set needs NAME=VALUE, found `k`\n"},

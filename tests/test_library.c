@@ -294,6 +294,50 @@ Test(library, formulas_are_typeset)
     nh_string_free(mathml);
 }
 
+/* As one text, and as files with names; the names begin with what was asked for. */
+Test(library, functions_are_exported)
+{
+    opened o = open_one((nh_question){.system = "mine", .system_text = oscillator});
+    nh_export *x = nh_export_functions(o.problem, "c", "equations, currents", NULL, "spring_2", &o.error);
+    cr_assert_not_null(x, "%s", o.error.what);
+    close_one(&o);
+    char *name = NULL, *whole = nh_export_code(x, 0, NULL, &o.error);
+    cr_expect(whole && strstr(whole, "int spring_2_accelerations("), "%s", whole);
+    static const char *const files[] = {"spring_2.c", "spring_2.h"};
+    for (size_t i = 0; i < 2; i++) {
+        char *text = nh_export_code(x, i, &name, &o.error);
+        cr_expect(text && strstr(text, "spring_2_currents(") && !strcmp(name, files[i]), "%s: %s", name, text);
+        cr_expect_lt(strlen(text), strlen(whole));
+        nh_string_free(text);
+        nh_string_free(name);
+    }
+    cr_expect(!nh_export_code(x, 2, &name, &o.error) && !name && o.error.code == NH_OK);
+    nh_string_free(whole);
+    nh_export_free(x);
+}
+
+Test(library, what_cannot_be_exported_says_why)
+{
+    static const char *const wrong[][5] = {{"fortran", NULL, NULL, NULL, "no language `fortran`"}, {NULL, NULL, NULL, NULL, "no language is given"},
+                                           {"c", "equation", NULL, NULL, "no part `equation`"},    {"c", NULL, "kk", NULL, "`kk` is not a parameter"},
+                                           {"c", NULL, NULL, "2nd", "`2nd` is not a name"}};
+    opened o = open_one((nh_question){.system = "mine", .system_text = oscillator});
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        cr_expect_null(nh_export_functions(o.problem, wrong[i][0], wrong[i][1], wrong[i][2], wrong[i][3], &o.error));
+        cr_expect(o.error.code == NH_USAGE && strstr(o.error.what, wrong[i][4]) && *o.error.hint, "%s", o.error.what);
+    }
+    close_one(&o);
+}
+
+Test(library, the_systems_are_listed)
+{
+    nh_error error = {0};
+    char *list = nh_systems(&error);
+    cr_assert_not_null(list, "%s", error.what);
+    cr_expect(strstr(list, "\nsleigh ") && strstr(list, " Chaplygin sleigh\n"), "%s", list);
+    nh_string_free(list);
+}
+
 Test(library, errors_have_place_cause_and_cure)
 {
     opened o = open_one((nh_question){.system = "mine", .system_text = "name: a\ncoordinates: [x]\nlagrangian: x'^2/2 - kk*x\n"});

@@ -117,7 +117,7 @@ Test(parse, names)
 
 #define OPERAND "a number, a name or `(`"
 #define IMPLICIT "there is no implicit multiplication"
-#define LETTERS "names consist of the letters a-z, A-Z, digits and _ (write phi, not a Greek letter)"
+#define LETTERS "names consist of the letters a-z, A-Z, digits and _"
 #define EQUATION "an equation is expected only under constraints, forces, definitions and the map of velocities"
 #define FOREIGN "a character that the expression language does not have; "
 #define LATEX "formulas are no LaTeX: write x', sqrt(x), cos(phi), a/b"
@@ -147,7 +147,8 @@ static const fault_case FAULTS[] = {
     {"x $ y", 2, "`$` cannot stand here; an operator or the end of the expression was expected", ""},
     {"x, y", 1, "`,` cannot stand here; an operator or the end of the expression was expected", ""},
     {"x\001", 1, "a control character cannot stand here; an operator or the end of the expression was expected", ""},
-    {"\xcf\x86 + 1", 0, FOREIGN OPERAND " was expected", LETTERS},
+    {"\xcf\x86 + 1", 0, FOREIGN OPERAND " was expected", LETTERS ": write `phi`"},
+    {"2*\xc3\xa4", 2, FOREIGN OPERAND " was expected", LETTERS},
     {"x \xe2\x88\x92 y", 2, FOREIGN "an operator or the end of the expression was expected", "write `-`"},
     {"(x \xe2\x88\x92 y)", 3, FOREIGN "an operator or `)` was expected", "write `-`"},
     {"x\xe2\x80\x99^2", 1, FOREIGN "an operator or the end of the expression was expected", "write `'`"},

@@ -62,6 +62,15 @@ static char *classify(nh_problem *p, nh_error *error)
     return text;
 }
 
+static char *export(nh_problem *p, nh_error *error)
+{
+    nh_export *x = nh_export_functions(p, "c", "equations, submanifold", NULL, "s", error);
+    char *name = NULL, *text = x ? nh_export_code(x, 0, &name, error) : NULL;
+    nh_string_free(name);
+    nh_export_free(x);
+    return text;
+}
+
 static char *once(command *what, nh_context *context, nh_error *error)
 {
     static const nh_question of_skate = {.system_text = skate, .initial = "phi=0.3, phi'=1, x'=1, y'=0.4", .until = 1, .project = true},
@@ -115,6 +124,7 @@ static void lose(command *what, size_t trials)
 Test(recovery, an_analysis_may_lose_any_allocation) { lose(analyze, 24); }
 Test(recovery, a_simulation_may_lose_any_allocation) { lose(simulate, 60); }
 Test(recovery, a_reduction_may_lose_any_allocation) { lose(reduce, 24); }
+Test(recovery, an_export_may_lose_any_allocation) { lose(export, 24); }
 Test(recovery, a_classification_may_lose_any_allocation) { lose(classify, 16); }
 
 #ifndef __SANITIZE_ADDRESS__ /* whose own memory needs an address space without limit */

@@ -305,7 +305,8 @@ Test(simulate, inputs_over_time)
     static const struct {
         const char *input, *err;
     } wrong[] = {{"w=1", "`w` is not a parameter of cart"}, {"u=2*u", "the input `u` depends on itself"}, {"u=sin(s)", "--input u:5: unknown name `s`"},
-                 {"u=drive.csv:thrus", "drive.csv: there is no column `thrus`\nhint: did you mean `thrust`?"}, {"u=drive.csv", "--input u needs a column of drive.csv"},
+                 {"u=drive.csv:thrus", "drive.csv: there is no column `thrus`\nhint: did you mean `thrust`?"}, {"u=drive.csv:zz", "drive.csv: there is no column `zz`\nhint: its columns are t, "},
+                 {"u=drive.csv", "--input u needs a column of drive.csv\nhint: for example --input \"u=drive.csv:"}, {"u=nowhere.csv", "nowhere.csv: "},
                  {"u=back.csv:v", "back.csv:3: the times of an input must rise, but 0 comes after 1"}, {"u", "--input needs NAME=EXPR, found `u`\nhint: for example: --input \"u=sin(t)\""},
                  {"drive.csv", "--input needs NAME=EXPR, found `drive.csv`\nhint: a column of a table: --input \"u=drive.csv:COLUMN\""}};
     place p = place_make();

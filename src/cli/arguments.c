@@ -319,7 +319,7 @@ static bool takes(const nh_cli *cli, const char *option)
     return false;
 }
 
-/* What other programs call an option of this command, or NULL. */
+/* What other programs call an option of this command, or else of another one; or NULL. */
 static const char *named_elsewhere(const nh_cli *cli, const char *word)
 {
     static const char *const others[][3] = {
@@ -330,23 +330,35 @@ static const char *named_elsewhere(const nh_cli *cli, const char *word)
         {"t", "until"},              {"duration", "until"},  {"dt", "step"},            {"x0", "initial"},
         {"state", "initial"},        {"solver", "method"},   {"integrator", "method"},  {"file", "output"},
         {"dir", "output"},           {"rtol", "tolerance"},   {"eps", "tolerance"},      {"report", "html"},
-        {"timeout", "max-seconds"}};
+        {"timeout", "max-seconds"},   {"sweep", "over"},      {"vary", "over"},         {"range", "over"},
+        {"grid", "over"},             {"inputs", "input"},    {"control", "input"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         for (size_t k = 1; k < 3 && others[i][k]; k++)
             if (!strcmp(word, others[i][0]) && takes(cli, others[i][k])) return others[i][k];
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (!strcmp(word, others[i][0])) return others[i][1];
     return NULL;
+}
+
+static const char *commands_of(const char *option)
+{
+    for (size_t i = 0; i < owner_count; i++)
+        if (!strcmp(owners[i].name, option)) return owners[i].commands;
+    return "";
 }
 
 static bool unknown_option(const nh_cli *cli, const char *word, nh_error *error)
 {
     const char *names[sizeof long_options / sizeof *long_options];
     size_t n = 0;
-    for (const struct option *o = long_options; o->name; o++) names[n++] = o->name;
+    for (const struct option *o = long_options; o->name; o++)
+        if (takes(cli, name_of(o->val))) names[n++] = o->name;
     size_t length = strcspn(word, "=");
     nh_fail(error, NH_USAGE, "", "there is no option `%.*s`", (int)length, word);
     word = nh_arena_strndup(cli->arena, word, length);
     word += dashes(word);
     const char *near = named_elsewhere(cli, word);
+    if (near && !takes(cli, near)) return nh_error_hint(error, "`--%s` belongs to: %s", near, commands_of(near));
     if (!near) near = nh_text_nearest(word, names, n);
     for (const struct option *o = long_options; near && o->name; o++)
         if (!strcmp(near, o->name)) near = name_of(o->val); /* an old name: the one of today */

@@ -253,7 +253,9 @@ nh_export *nh_export_create(const nh_export_request *q, nh_error *error)
     nh_arena *arena = nh_arena_create();
     nh_export *x = nh_arena_alloc(arena, sizeof *x);
     unsigned wanted;
-    *x = (nh_export){.arena = arena, .command = q->command, .written = q->options.shown};
+    *x = (nh_export){.arena = arena, .command = q->command, .written = q->options.shown, .seed = q->options.seed};
+    if (q->to) x->to = nh_arena_strdup(arena, q->to);
+    if (q->name) x->name = nh_arena_strdup(arena, q->name);
     bool good = read_parts(x, q->of, &wanted, error);
     if (good) x->system = x->own = nh_system_read(q->system_path, q->settings, q->setting, error);
     good = good && x->own && read_inputs(x, q->input, error) && gather(x, q, wanted, error);

@@ -27,6 +27,7 @@ typedef struct {
     bool weak;
     const char *of;    /* "equations, currents", or NULL: all */
     const char *input; /* "u, tau": parameters that are inputs of a controller, or NULL */
+    const char *to, *name; /* the language and the first word of the names, for who writes it; or NULL */
     nh_options options;
 } nh_export_request;
 
@@ -61,9 +62,11 @@ typedef struct {
     nh_export_solve solve[NH_EXPORT_MOST_SOLVES];
 } nh_export_function;
 
-typedef struct {
+typedef struct nh_export {
     nh_arena *arena;
     const char *command;
+    const char *to, *name; /* of the request, or NULL */
+    double seed;
     nh_system *own;          /* read here; NULL where another result has it */
     nh_model *bare;          /* likewise */
     nh_analysis *analysis;   /* NULL unless currents are wanted */

@@ -68,14 +68,6 @@ static char peek(parser *p)
 static bool is_letter(char c) { return isalpha((unsigned char)c) || c == '_'; }
 static bool is_word(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-bool nh_is_name(const char *text)
-{
-    if (!is_letter(*text)) return false;
-    for (; *text; text++)
-        if (!is_word(*text)) return false;
-    return true;
-}
-
 static bool find_function(const char *name, nh_function *out)
 {
     for (int f = 0; f < NH_FUNCTION_COUNT; f++) {
@@ -113,10 +105,12 @@ static bool unexpected(parser *p, const char *wanted)
     char c = peek(p);
     if (!c) return fail(p, p->at, "the expression ends here, but %s was expected", wanted);
     if ((unsigned char)c >= 0x80) {
-        const char *plain = plain_sign(p->text + p->at);
+        size_t length;
+        const char *plain = plain_sign(p->text + p->at), *letter = nh_name_of_letter(p->text + p->at, &length);
         fail(p, p->at, "a character that the expression language does not have; %s was expected", wanted);
         if (plain) return hint(p, "write `%s`", plain);
-        return hint(p, "names consist of the letters a-z, A-Z, digits and _ (write phi, not a Greek letter)");
+        return hint(p, "names consist of the letters a-z, A-Z, digits and _%s%s%s", letter ? ": write `" : "",
+                    letter ? letter : "", letter ? "`" : "");
     }
     if (iscntrl((unsigned char)c))
         return fail(p, p->at, "a control character cannot stand here; %s was expected", wanted);

@@ -9,6 +9,7 @@
 #ifndef NH_PARSE_H
 #define NH_PARSE_H
 
+#include "base/error.h"
 #include "graph/dag.h"
 
 typedef struct {
@@ -29,6 +30,11 @@ bool nh_parse_equation(nh_dag *dag, const char *text, nh_resolve *resolve, void 
 
 /* Is the text a name of the language: a letter or _, then letters, digits and _? */
 bool nh_is_name(const char *text);
+/* What is written for the Greek letter or the lowered digit at this place ("phi", "1"), and how long that is; NULL: it
+   is none. */
+const char *nh_name_of_letter(const char *at, size_t *length);
+/* Adds what names are, and one that is like the text.  False. */
+bool nh_name_hint(nh_error *error, const char *text);
 /* Is the name taken by a function, `pi` or `t`? */
 bool nh_is_reserved(const char *name);
 

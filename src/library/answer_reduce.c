@@ -134,7 +134,7 @@ static bool export(nh_answer *a, nh_error *error)
     nh_export_request request = {.command = q->line, .system_path = q->system_path, .settings = q->settings,
                                  .setting = q->setting, .chart = q->velocities, .initial = q->initial,
                                  .group = q->group, .weak = q->weak, .of = q->of, .input = q->input,
-                                 .options = q->options};
+                                 .to = q->to, .name = q->name, .options = q->options};
     const char *prefix;
     nh_export *x = nh_export_create(&request, error);
     a->part[0] = x;

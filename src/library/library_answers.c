@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "commands/export.h"
 #include "commands/reduce.h"
 #include "commands/verify.h"
 #include "library/answer.h"
@@ -99,6 +100,54 @@ nh_benchmark *nh_benchmark_methods(nh_problem *p, const nh_comparison *c, nh_err
     q.robustness = c && c->robustness;
     q.over = c ? c->over : NULL;
     return result_of(p, "benchmark", &q, c ? c->methods : NULL, error);
+}
+
+/* ---- functions in other languages ---- */
+
+nh_export *nh_export_functions(nh_problem *p, const char *language, const char *parts, const char *inputs,
+                               const char *prefix, nh_error *error)
+{
+    nh_request q = p->request;
+    q.to = language;
+    q.of = parts;
+    q.input = inputs;
+    q.name = prefix;
+    return result_of(p, "export", &q, NULL, error);
+}
+
+typedef struct {
+    const nh_export *export;
+    size_t file;
+    char **name, *text;
+} coding;
+
+/* One of its files with its name, or all in one text. */
+static void write_code(void *argument)
+{
+    coding *c = argument;
+    const nh_export *x = c->export;
+    const nh_request request = {.command = "export", .to = x->to, .name = x->name};
+    const nh_answer a = {.kind = nh_answer_kind_of(request.command), .request = &request, .part = {(void *)x},
+                         .run = {.seed = x->seed, .seconds = NAN}};
+    nh_answer_file file[NH_ANSWER_FILES] = {{NULL}};
+    size_t files = 1;
+    if (c->name) files = a.kind->files(&a, file);
+    else {
+        nh_text_init(&file[0].text);
+        a.kind->print(&a, &file[0].text);
+    }
+    if (c->file < files) {
+        c->text = nh_strdup(nh_text_string(&file[c->file].text));
+        if (c->name) *c->name = nh_strdup(file[c->file].name);
+    }
+    for (size_t i = 0; i < files; i++) nh_text_clear(&file[i].text);
+}
+
+char *nh_export_code(const nh_export *x, size_t file, char **name, nh_error *error)
+{
+    coding c = {.export = x, .file = file, .name = name};
+    if (name) *name = NULL;
+    return nh_library_try(write_code, &c, error) ? c.text : NULL;
 }
 
 /* ---- documents ---- */

@@ -8,6 +8,7 @@
 #include "base/recovery.h"
 #include "base/text.h"
 #include "exact/normal.h"
+#include "library/catalogue.h"
 #include "library/library_internal.h"
 
 const char *nh_version_text(void) { return NH_VERSION; }
@@ -87,6 +88,24 @@ bool nh_library_try(void (*job)(void *), void *data, nh_error *error)
 bool nh_problem_run(nh_problem *p, void (*job)(void *), void *data, nh_error *error)
 {
     return try((task){p, job, data, false}, error);
+}
+
+/* ---- systems ---- */
+
+static void list_systems(void *argument)
+{
+    char **out = argument;
+    nh_text text;
+    nh_text_init(&text);
+    nh_catalogue_systems(&text);
+    *out = nh_strdup(nh_text_string(&text));
+    nh_text_clear(&text);
+}
+
+char *nh_systems(nh_error *error)
+{
+    char *out = NULL;
+    return nh_library_try(list_systems, &out, error) ? out : NULL;
 }
 
 /* ---- questions ---- */

@@ -183,7 +183,7 @@ static bool name_is_free(reader *r, const nh_deck_node *node, const char *name)
     nh_ex taken;
     if (!nh_is_name(name)) {
         nh_deck_fail(deck, node, 0, r->error, "`%s` is not a name", name);
-        return nh_error_hint(r->error, "a name is a letter a-z or A-Z, then letters, digits and _");
+        return nh_name_hint(r->error, name);
     }
     if (nh_is_reserved(name)) {
         nh_deck_fail(deck, node, 0, r->error, "`%s` has a meaning of its own and cannot be redefined", name);

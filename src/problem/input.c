@@ -49,16 +49,28 @@ static const char *broken_line(nh_arena *arena, size_t count, const double *x, c
     return kept;
 }
 
+/* NULL: a file alone, of which a column is the value. */
+static const char *no_column(nh_arena *arena, const char *name, const char *path, nh_error *error)
+{
+    nh_table *t = nh_table_read(arena, path, error);
+    const char *column = NULL;
+    for (size_t i = 0; t && i < t->columns; i++)
+        if (!column && strcmp(t->name[i], "t") != 0) column = t->name[i];
+    if (!t) return NULL;
+    nh_fail(error, NH_USAGE, "", "--input %s needs a column of %s", name, path);
+    if (column)
+        nh_error_hint(error, "for example --input \"%s=%s:%s\"; the file also has a column t, the time", name, path,
+                      column);
+    else nh_error_hint(error, "the file has only the column t: it needs another one with the values");
+    return NULL;
+}
+
 const char *nh_input_text(nh_arena *arena, const char *name, const char *text, nh_error *error)
 {
     static const char ending[] = ".csv";
     const char *colon = strrchr(text, ':');
     if (!colon && !strstr(text, ending)) return text;
-    if (!colon) {
-        nh_fail(error, NH_USAGE, "", "--input %s needs a column of %s", name, text);
-        nh_error_hint(error, "write --input \"%s=%s:COLUMN\"; the file also has a column t", name, text);
-        return NULL;
-    }
+    if (!colon) return no_column(arena, name, text, error);
     nh_table *t = nh_table_read(arena, nh_arena_strndup(arena, text, (size_t)(colon - text)), error);
     size_t time = t ? nh_table_column(t, "t", error) : 0,
            column = t && time < t->columns ? nh_table_column(t, colon + 1, error) : 0;

@@ -102,6 +102,15 @@ nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error)
     return good ? t : NULL;
 }
 
+static void hint_columns(const nh_table *t, nh_error *error)
+{
+    nh_text list;
+    nh_text_init(&list);
+    for (size_t i = 0; i < t->columns; i++) nh_text_addf(&list, "%s%s", i ? ", " : "", t->name[i]);
+    nh_error_hint(error, "its columns are %s", nh_text_string(&list));
+    nh_text_clear(&list);
+}
+
 size_t nh_table_column(const nh_table *t, const char *name, nh_error *error)
 {
     for (size_t i = 0; i < t->columns; i++)
@@ -109,6 +118,7 @@ size_t nh_table_column(const nh_table *t, const char *name, nh_error *error)
     const char *near = nh_text_nearest(name, t->name, t->columns);
     nh_fail(error, NH_INPUT, t->path, "there is no column `%s`", name);
     if (near) nh_error_hint(error, "did you mean `%s`?", near);
+    else hint_columns(t, error);
     return t->columns;
 }
 

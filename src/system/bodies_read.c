@@ -81,7 +81,7 @@ static bool read_body(reader *r, const nh_deck_node *item, nh_body *b)
     if (!nh_deck_is(r->deck, name, NH_DECK_SCALAR, "a name", r->error)) return false;
     if (!nh_is_name(name->text)) {
         nh_deck_fail(r->deck, name, 0, r->error, "`%s` is not a name", name->text);
-        return nh_error_hint(r->error, "a name is a letter a-z or A-Z, then letters, digits and _");
+        return nh_name_hint(r->error, name->text);
     }
     if (!strcmp(name->text, "ground"))
         return nh_deck_fail(r->deck, name, 0, r->error,

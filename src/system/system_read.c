@@ -52,7 +52,7 @@ bool nh_system_new_name(reader *r, const nh_deck_node *node)
     const char *name = node->text;
     if (!nh_is_name(name)) {
         nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not a name", name);
-        return nh_error_hint(r->error, "a name is a letter a-z or A-Z, then letters, digits and _");
+        return nh_name_hint(r->error, name);
     }
     if (nh_is_reserved(name)) {
         nh_deck_fail(r->deck, node, 0, r->error, "`%s` has a meaning of its own and cannot be redefined", name);

@@ -18,8 +18,8 @@ from ._library import Error, InputError, LimitError, NumericalError, UsageError,
 from ._calls import Interrupted
 from .formula import Formula
 from .results import Analysis, Benchmark, Classification, Current, Record, Reduction, Simulation, Verification
-from .system import System, system
+from .system import System, system, systems
 
 __version__ = "0.1.0"
 __all__ = ["Analysis", "ArgumentError", "Benchmark", "Classification", "Current", "Error", "Formula", "InputError", "Interrupted", "LimitError", "NumericalError", "Record",
-           "Reduction", "Simulation", "System", "UsageError", "Verification", "library_version", "system"]
+           "Reduction", "Simulation", "System", "UsageError", "Verification", "library_version", "system", "systems"]

@@ -32,7 +32,8 @@ _ELSEWHERE = {"t_end": "until", "tend": "until", "t_final": "until", "tf": "unti
               "t": "until", "dt": "step", "h": "step", "t_eval": "step",
               "x0": "initial", "y0": "initial", "state": "initial", "initial_state": "initial", "initial_conditions": "initial", "ics": "initial", "solver": "method",
               "integrator": "method", "observe": "watch", "outputs": "watch", "params": "parameters", "values": "parameters", "parameter": "over", "budget": "seconds",
-              "L": "lagrangian", "q": "coordinates", "callback": "progress"}
+              "L": "lagrangian", "q": "coordinates", "callback": "progress",
+              "language": "to", "inputs": "input", "parts": "of", "prefix": "name", "directory": "folder", "path": "folder", "file": "folder", "output": "folder"}
 
 
 def _unknown(name, function, names):

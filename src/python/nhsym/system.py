@@ -3,13 +3,14 @@ import ctypes
 import functools
 import json
 import os
+import pathlib
 import threading
 
 import numpy
 
 from ._arguments import entries_of, explained, explains_arguments, no_attribute, number_of, pairs_of, unfit
 from ._calls import Context, Interrupted, free_later
-from ._library import Comparison, ErrorRecord, InputError, Question, UsageError, error_of, library
+from ._library import Comparison, ErrorRecord, InputError, Question, UsageError, error_of, library, taken
 from .formula import text_of
 from .results import Analysis, Benchmark, Classification, Reduction, Simulation, Verification, _arrays, array_of
 
@@ -40,6 +41,16 @@ def system(source, *, wheels=None, base=None, set=None, velocities=None, analysi
     if "\n" in source:
         return System(_question={"system_text": source}, **settings)
     return System(_question={"system": source}, **settings)
+
+
+@explained
+def systems():
+    """The systems that `system` knows by name, the shipped ones and those on NHSYM_PATH: {name: title}."""
+    error = ErrorRecord()
+    lines = taken(library().nh_systems(error))
+    if lines is None:
+        raise error_of(error)
+    return {name: title.strip() for name, _, title in (line.partition(" ") for line in lines.splitlines())}
 
 
 # ---- system files ----
@@ -180,6 +191,39 @@ class Problem:
         return make(address)
 
 
+class Code:
+    """nh_export: functions in one language."""
+
+    def __init__(self, address):
+        self.address = address
+
+    def __del__(self):
+        free_later(library().nh_export_free, self.address)
+
+    def _file(self, number, name=None):
+        error = ErrorRecord()
+        text = taken(library().nh_export_code(self.address, number, name, error))
+        if text is None and error.code:
+            raise error_of(error)
+        return text
+
+    @property
+    def text(self):
+        """All in one text."""
+        return self._file(0)
+
+    def write(self, folder):
+        """The files, in a folder that is made where there is none; their paths."""
+        folder, paths, name = pathlib.Path(folder), [], ctypes.c_void_p()
+        folder.mkdir(parents=True, exist_ok=True)
+        while True:
+            text = self._file(len(paths), ctypes.byref(name))
+            if text is None:
+                return paths
+            paths.append(folder / taken(name))
+            paths[-1].write_text(text, encoding="utf-8")
+
+
 @explains_arguments
 class System:
     """A mechanical system and the questions about it.
@@ -293,6 +337,18 @@ class System:
         asked = Comparison(0 if seconds is None else _positive("seconds", seconds), words[0], bool(robustness), words[1])
         return p.call(lambda error: library().nh_benchmark_methods(p.address, asked, error), progress, lambda a: Benchmark(a, p))
 
+    # ---- functions in other languages ----
+
+    def export(self, to, folder=None, of=None, input=None, name=None, options=None, progress=None):
+        """Equations, currents and reductions as code that needs no nhsym: to="c", "python", "sympy", "matlab", "latex" or "json".  The text; with `folder`, files there,
+        whose paths are returned.  of: parts, ["equations", "currents"] (all); input: parameters that a controller changes, ["u"]; name: what all names begin with."""
+        if not isinstance(to, str):
+            raise unfit("to", to, "give a language: c, python, sympy, matlab, latex or json")
+        p = self._ask(dict(options=options))
+        words = [_bytes(word) for word in (to, _list("of", of), _list("input", input), None if name is None else text_of(name))]
+        code = p.call(lambda error: library().nh_export_functions(p.address, *words, error), progress, lambda a: Code(a))
+        return code.text if folder is None else code.write(folder)
+
     # ---- equations of motion on arrays ----
 
     @functools.cached_property
@@ -320,8 +376,8 @@ class System:
     def __getattr__(self, name):
         if name.startswith("_"):
             raise AttributeError(name)
-        if name in ("export", "code", "to_c", "codegen"):
-            raise AttributeError("there is no `%s` here\nhint: write `text` into a file and run `nhsym export FILE --to c`" % name)
+        if name in ("code", "to_c", "codegen", "generate_code"):
+            raise AttributeError("there is no `%s` here; did you mean `export(\"c\")`?" % name)
         raise no_attribute(self, name, [word for word in dir(self) if not word.startswith("_")])
 
     def __repr__(self):

@@ -138,10 +138,36 @@ def test_every_call_names_the_argument_that_was_meant():
         nhsym.system(OSCILLATOR).simulate(t_end=5)
     with pytest.raises(nhsym.ArgumentError, match="options={..}"):
         spring.analyze(tolerance=1e-9)
-    with pytest.raises(AttributeError, match="nhsym export FILE --to c"):
-        spring.export("c")
+    with pytest.raises(AttributeError, match=r'did you mean `export\("c"\)`'):
+        spring.to_c("c")
     with pytest.raises(AttributeError, match="did you mean `analyze`"):
         spring.analyse()
+
+
+def test_exported_code_runs_without_the_package(tmp_path):
+    """The functions in Python against the library's accelerations; C as text and as files."""
+    driven = nhsym.system("name: driven\nparameters: [{name: m, value: 2}, {name: k, value: 8}, {name: u, value: 0}]\ncoordinates: [x]\n"
+                          "lagrangian: m*x'^2/2 - k*x^2/2\nforces: [x = u]\n")
+    code = {}
+    exec(driven.export("python", of=["equations", "currents"]), code)
+    q, v = numpy.random.default_rng(1).normal(size=(2, 1, 6))
+    assert code["accelerations"](0.0, q, v) == pytest.approx(driven.accelerations(q, v), rel=1e-14)
+    assert code["currents"](0.0, q, v)[0].ravel() == pytest.approx(driven.analyze(options={"seed": 1})["Phi1"](q, v), rel=1e-14)
+    assert "const double inputs[1]" in driven.export("c", of="equations", input="u")
+    paths = driven.export("c", tmp_path / "code", name="spring_2")
+    assert [path.name for path in paths] == ["spring_2.c", "spring_2.h"] and '#include "spring_2.h"' in paths[0].read_text()
+    assert "spring_2_parameters" in paths[1].read_text()
+    for wrong, said in ((lambda: driven.export("numpy"), "did you mean `python`"), (lambda: driven.export("c", of="equation"), "did you mean `equations`"),
+                        (lambda: driven.export("c", input="uu"), "did you mean `u`"), (lambda: driven.export(3), "give a language"),
+                        (lambda: driven.export("c", inputs="u"), "did you mean `input`"), (lambda: driven.export("c", name="2nd"), "a name is a letter")):
+        with pytest.raises(nhsym.UsageError, match=said):
+            wrong()
+
+
+def test_the_shipped_systems_are_listed():
+    listed = nhsym.systems()
+    assert listed["sleigh"] == "Chaplygin sleigh" and len(listed) > 60
+    assert nhsym.system(next(iter(listed))).name == next(iter(listed))
 
 
 def test_arguments_of_another_kind_are_refused_kindly():

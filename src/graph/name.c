@@ -1,0 +1,63 @@
+/* name: names of the language, and what to write in the place of a text that is none. */
+#include <ctype.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "graph/parse.h"
+
+static bool is_letter(char c) { return isalpha((unsigned char)c) || c == '_'; }
+
+bool nh_is_name(const char *text)
+{
+    if (!is_letter(*text)) return false;
+    for (; *text; text++)
+        if (!is_letter(*text) && !isdigit((unsigned char)*text)) return false;
+    return true;
+}
+
+const char *nh_name_of_letter(const char *at, size_t *length)
+{
+    static const char *const letters[][2] = {
+        {"α", "alpha"},  {"β", "beta"},   {"γ", "gamma"}, {"δ", "delta"}, {"ε", "epsilon"}, {"ϵ", "epsilon"},
+        {"ζ", "zeta"},   {"η", "eta"},    {"θ", "theta"}, {"ϑ", "theta"}, {"ι", "iota"},    {"κ", "kappa"},
+        {"λ", "lambda"}, {"μ", "mu"},     {"µ", "mu"},    {"ν", "nu"},    {"ξ", "xi"},      {"π", "pi"},
+        {"ρ", "rho"},    {"σ", "sigma"},  {"ς", "sigma"}, {"τ", "tau"},   {"υ", "upsilon"}, {"φ", "phi"},
+        {"ϕ", "phi"},    {"χ", "chi"},    {"ψ", "psi"},   {"ω", "omega"}, {"Γ", "Gamma"},   {"Δ", "Delta"},
+        {"Θ", "Theta"},  {"Λ", "Lambda"}, {"Ξ", "Xi"},    {"Π", "Pi"},    {"Σ", "Sigma"},   {"Φ", "Phi"},
+        {"Ψ", "Psi"},    {"Ω", "Omega"},  {"₀", "0"},     {"₁", "1"},     {"₂", "2"},       {"₃", "3"},
+        {"₄", "4"},      {"₅", "5"},      {"₆", "6"},     {"₇", "7"},     {"₈", "8"},       {"₉", "9"}};
+    for (size_t i = 0; i < sizeof letters / sizeof *letters; i++) {
+        *length = strlen(letters[i][0]);
+        if (!strncmp(at, letters[i][0], *length)) return letters[i][1];
+    }
+    return NULL;
+}
+
+/* A name like the text: letters by their names, `_` for blanks and hyphens, digits of its beginning at its end; false
+   where the text is an expression or has characters without a name. */
+static bool similar_name(const char *text, nh_text *out)
+{
+    size_t digits = strspn(text, "0123456789"), length;
+    for (const char *at = text + digits; *at; at += length) {
+        const char *word = nh_name_of_letter(at, &length);
+        if (!word) length = 1;
+        if (word) nh_text_add(out, word);
+        else if (is_letter(*at) || isdigit((unsigned char)*at)) nh_text_add_n(out, at, 1);
+        else if (strchr(" -.", *at)) nh_text_add(out, "_");
+        else if (*at != '\'') return false;
+    }
+    nh_text_add_n(out, text, digits);
+    const char *name = nh_text_string(out);
+    return nh_is_name(name) && !nh_is_reserved(name);
+}
+
+bool nh_name_hint(nh_error *error, const char *text)
+{
+    static const char rule[] = "a name is a letter a-z or A-Z, then letters, digits and _";
+    nh_text name;
+    nh_text_init(&name);
+    if (similar_name(text, &name)) nh_error_hint(error, "%s: write `%s`", rule, nh_text_string(&name));
+    else nh_error_hint(error, "%s", rule);
+    nh_text_clear(&name);
+    return false;
+}
