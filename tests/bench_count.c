@@ -1,7 +1,9 @@
 /* bench_count: how many integrals polynomial in the velocities systems have, beside those that their files know.
  *
- *     bench_count [DEGREE] [time] [generic] [work N] FILE...      a line per file and degree; degree 0: as far as it goes;
- *                                                                 N: the work of one count at most, 3e9
+ *     bench_count [DEGREE] [time] [generic] [shape] [only] [work N] FILE...
+ *
+ * A line per file and degree.  Degree 0: as far as it goes; only: this degree, not those below it; N: the work of one
+ * count at most, 3e9.
  */
 #include <ctype.h>
 #include <stdio.h>
@@ -47,6 +49,8 @@ int main(int argc, char **argv)
         if (isdigit((unsigned char)argv[i][0])) q.degree = strtoul(argv[i], NULL, 10);
         else if (!strcmp(argv[i], "time")) q.time = true;
         else if (!strcmp(argv[i], "generic")) q.generic = true;
+        else if (!strcmp(argv[i], "only")) q.alone = true;
+        else if (!strcmp(argv[i], "shape")) q.shape = true;
         else if (!strcmp(argv[i], "work") && i + 1 < argc) q.work = strtod(argv[++i], NULL);
         else count_file(argv[i], &q);
     }

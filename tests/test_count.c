@@ -513,3 +513,67 @@ Test(count, a_side_has_what_holds_there)
     }
     problem_clear(&p);
 }
+
+/* The same question with so little work that series are out of reach: what frequencies alone say. */
+static nh_count without_series(const char *text, size_t degree, bool time)
+{
+    problem p = problem_of(text);
+    nh_count_question q = {.time = time, .degree = degree, .work = 7e3, .known = p.count, .current = p.known};
+    nh_count c = nh_count_integrals(p.model, &q);
+    problem_clear(&p);
+    return c;
+}
+
+static const char *const SPRINGS = "name: c\ncoordinates: [x, y]\nlagrangian: (x'^2 + x'*y' + y'^2)/2 - x^2 + x*y - 2*y^2 + x/3\n"
+                                   "known: {currents: [{name: E, expr: (x'^2 + x'*y' + y'^2)/2 + x^2 - x*y + 2*y^2 - x/3}]}\n";
+
+Test(count, linear_equations_are_counted_by_their_frequencies)
+{
+    for (int time = 0; time < 2; time++) {
+        size_t degrees = time ? 2 : 4;
+        nh_count series = count_in(SPRINGS, degrees, time, false), own = without_series(SPRINGS, degrees, time);
+        cr_assert_eq(own.linear, 1);
+        cr_assert_eq(own.rows, degrees);
+        for (size_t d = 0; d < degrees; d++) {
+            const nh_count_row *a = &series.row[d], *b = &own.row[d];
+            cr_assert(a->order > 0 && b->order == 0);
+            cr_expect_eq(a->bound, b->bound, "degree %zu: %zu, %zu", d + 1, a->bound, b->bound);
+            cr_expect_eq(a->rank, b->rank, "degree %zu: %zu, %zu", d + 1, a->rank, b->rank);
+            cr_expect_eq(a->known_rank, b->known_rank);
+            cr_expect_eq(a->complete, b->complete);
+        }
+    }
+    /* up to where no frequencies are in resonance: waves, waves and exponentials, 1 : 1, 1 : 2, 1 : 3, free motion, another force, gyroscopic forces, drag */
+    static const struct {
+        const char *text;
+        size_t last;
+    } tried[] = {{PLANAR("x^2 + 3*y^2"), 4}, {PLANAR("x^2 - 3*y^2"), 4}, {PLANAR("x^2 + y^2"), 0}, {PLANAR("x^2 + 4*y^2"), 1}, {PLANAR("x^2 + 9*y^2"), 1}, {PLANAR("x^2"), 0}, {PLANAR("x^2 + 3*y^2 + y^3"), 0},
+                 {"name: g\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + x*y' - x^2 - 5*y^2\n", 0}, {"name: d\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^2 - 5*y^2\nforces: [\"x = -x'\"]\n", 0}};
+    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
+        nh_count c = without_series(tried[i].text, 4, false), series = count_text(tried[i].text, 4);
+        size_t last = c.linear ? c.rows : 0; /* the first may have come by series */
+        cr_expect(last == tried[i].last || (last == 0 && tried[i].last == 1), "%s: to degree %zu", tried[i].text, last);
+        for (size_t d = 0; d < c.rows; d++) cr_expect_eq(c.row[d].bound, series.row[d].bound, "%s", tried[i].text);
+    }
+}
+
+/* n equal masses between springs: sin(j pi/(2 n + 2)) are linearly independent over Q where n + 1 is prime, and for n = 20 they are not. */
+Test(count, chains_of_many_masses_say_what_is_missing)
+{
+    static const size_t masses[] = {40, 20};
+    for (size_t k = 0; k < sizeof masses / sizeof *masses; k++) {
+        size_t n = masses[k];
+        nh_text text, said;
+        nh_text_init(&text);
+        nh_text_add(&text, "name: c\nparameters: [{name: k, value: 0.7}]\ncoordinates: [x1");
+        for (size_t i = 2; i <= n; i++) nh_text_addf(&text, ", x%zu", i);
+        nh_text_add(&text, "]\nlagrangian: x1'^2/2 - k*x1^2/2");
+        for (size_t i = 2; i <= n; i++) nh_text_addf(&text, " + x%zu'^2/2 - k*(x%zu - x%zu)^2/2", i, i, i - 1);
+        nh_text_addf(&text, " - k*x%zu^2/2\n", n);
+        words_of(nh_text_string(&text), false, &said);
+        bool sure = strstr(nh_text_string(&said), "At degree 2 there are 40 more independent integrals") && strstr(nh_text_string(&said), "at degree 1 there are 80 more");
+        cr_expect_eq(sure, n == 40, "%s", nh_text_string(&said));
+        nh_text_clear(&said);
+        nh_text_clear(&text);
+    }
+}

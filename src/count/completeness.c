@@ -134,6 +134,13 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
                      c->missing_at, row->order, c->missing, plural(c->missing));
         return;
     }
+    if (c->count.linear && c->missing_at >= c->count.linear) {
+        nh_text_addf(out,
+                     "%s degree %zu there are %zu more independent integrals: the equations are linear, and their "
+                     "frequencies without resonances.",
+                     c->degree ? " At" : "At", c->missing_at, c->missing);
+        return;
+    }
     if (!c->degree) nh_text_addf(out, "Not complete%s%s:", before, where);
     nh_text_addf(out, " %s degree %zu", c->degree ? "At" : "at", c->missing_at);
     if (!c->degree) nh_text_addf(out, ", with any functions of %s as coefficients,", coefficients);
@@ -162,6 +169,8 @@ void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_
     if (time->degree && !time->missing_at) nh_text_add(out, ".");
     if (!time->missing_at) return;
     nh_text_add(out, time->degree ? ";" : " With time in the coefficients:");
-    if (time->settled) nh_text_addf(out, " at degree %zu at most %zu more.", time->missing_at, time->missing);
+    if (time->count.linear && time->missing_at >= time->count.linear)
+        nh_text_addf(out, " at degree %zu there are %zu more.", time->missing_at, time->missing);
+    else if (time->settled) nh_text_addf(out, " at degree %zu at most %zu more.", time->missing_at, time->missing);
     else nh_text_addf(out, " degree %zu is not settled.", time->missing_at);
 }

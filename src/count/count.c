@@ -231,6 +231,8 @@ static void degrees(nh_counter *c, nh_count *out)
         }
         out->rows++;
     }
+    if (out->rows < last && c->frame && !c->equations->obstacle && !c->q->alone && !c->q->shape && !nh_late())
+        nh_count_linear(c, last, out);
     if (out->rows == 0) out->obstacle = c->equations->obstacle ? c->equations->obstacle : "the series are too long";
     out->step = c->frame ? c->frame->step : 0;
     out->leaf = c->frame ? c->frame->all - c->frame->kept : 0;

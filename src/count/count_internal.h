@@ -128,4 +128,8 @@ bool nh_count_known_differ(nh_counter *counter, const nh_jet_ring *ring, const n
                            nh_differentials *d);
 size_t nh_count_rank(const nh_differentials *d, nh_prime field);
 
+/* Rows of further degrees up to `last`, where the equations are linear and their frequencies have no vanishing sums;
+ * none otherwise. */
+void nh_count_linear(nh_counter *counter, size_t last, nh_count *out);
+
 #endif

@@ -9,6 +9,7 @@
 #include <flint/arb_mat.h>
 #include <flint/arb_poly.h>
 #include <flint/acb.h>
+#include <flint/acb_mat.h>
 #include <flint/acb_elliptic.h>
 #include <flint/acb_hypgeom.h>
 #include <flint/acb_poly.h>
@@ -17,6 +18,7 @@
 #include <arb_mat.h>
 #include <arb_poly.h>
 #include <acb.h>
+#include <acb_mat.h>
 #include <acb_elliptic.h>
 #include <acb_hypgeom.h>
 #include <acb_poly.h>

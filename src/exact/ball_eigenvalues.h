@@ -1,0 +1,13 @@
+/* ball_eigenvalues: eigenvalues of a matrix of constants, each enclosed. */
+#ifndef NH_BALL_EIGENVALUES_H
+#define NH_BALL_EIGENVALUES_H
+
+#include "exact/ball.h"
+
+/* The n solutions of det(K - lambda M) = 0, for n x n matrices row by row: their square roots re + i im, each with an
+ * error of `error` at most.  False unless all are proved to be different from each other and from zero, or where an
+ * entry has no value in the ball. */
+bool nh_ball_eigenvalue_roots(nh_ball *ball, size_t n, const nh_ex *M, const nh_ex *K, double *re, double *im,
+                              double *error);
+
+#endif
