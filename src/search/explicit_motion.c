@@ -133,7 +133,7 @@ static void conclude(nh_explicit_curve *c)
 
 nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o, const nh_points *points,
                                              size_t parameter, const nh_ex *fixed, size_t n, const nh_ex *current,
-                                             const nh_options *options)
+                                             bool linear, const nh_options *options)
 {
     enum { pair = 2 };
     nh_explicit_curve c = {.arena = arena, .o = o, .d = o->dag, .points = points, .options = options, .fixed = fixed};
@@ -143,10 +143,11 @@ nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o,
     if (nh_is_zero(c.d, c.rate[parameter])) return NULL;
     bool more = true;
     while (more && !nh_budget_spent())
-        more = nh_explicit_solve_first(&c, 1) || nh_explicit_solve_second(&c, 1, true) ||
-               nh_explicit_solve_rate(&c, false) || nh_explicit_solve_second(&c, 1, false) ||
-               nh_explicit_solve_first(&c, pair) || nh_explicit_solve_second(&c, pair, false) ||
-               nh_explicit_solve_rate(&c, true);
+        more = linear ? nh_explicit_solve_first(&c, 1) || nh_explicit_solve_rate(&c, false)
+                      : nh_explicit_solve_first(&c, 1) || nh_explicit_solve_second(&c, 1, true) ||
+                            nh_explicit_solve_rate(&c, false) || nh_explicit_solve_second(&c, 1, false) ||
+                            nh_explicit_solve_first(&c, pair) || nh_explicit_solve_second(&c, pair, false) ||
+                            nh_explicit_solve_rate(&c, true);
     conclude(&c);
     return c.m;
 }

@@ -56,10 +56,11 @@ typedef struct nh_explicit_motion {
     const char *region;      /* where the constants are constant (integrals/region.h); NULL: along every motion */
 } nh_explicit_motion;
 
-/* With this state as parameter; `fixed` as in the result.  n currents of the chart may be used.  Signs are those at the
- * points.  NULL where Gamma does not move the state.  In the arena. */
+/* With this state as parameter; `fixed` as in the result.  n currents of the chart may be used; `linear`: without roots
+ * and without integrals that have no closed form.  Signs are those at the points.  NULL where Gamma does not move the
+ * state.  In the arena. */
 nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *model, const nh_points *points,
                                              size_t parameter, const nh_ex *fixed, size_t n, const nh_ex *current,
-                                             const nh_options *options);
+                                             bool linear, const nh_options *options);
 
 #endif

@@ -9,7 +9,9 @@
 #include "count/construct.h"
 #include "count/construct_rates.h"
 #include "integrals/echelon.h"
+#include "search/counted.h"
 #include "search/currents.h"
+#include "search/described.h"
 #include "search/relations.h"
 #include "search/stage_solver.h"
 
@@ -92,6 +94,29 @@ static void take_back(search *s)
     }
 }
 
+/* An integral polynomial in the velocities takes the place of a current that is not, and depends on it and the others:
+   it is regular where these velocities vanish, and its field is shorter. */
+static bool take_place(search *s, const nh_current *f)
+{
+    nh_analysis *r = s->climb.r;
+    for (size_t k = r->count; k-- > 0;) {
+        nh_current old = r->found[k];
+        if (old.series || old.energy || nh_counted_degree_of(r->model, old.phi) < INFINITY) continue;
+        if (old.proof.all_parameters && !f->proof.all_parameters) continue;
+        r->found[k] = r->found[--r->count];
+        bool takes = !nh_currents_known(s->climb.bench, f->phi);
+        if (takes) nh_currents_put(s->climb.bench, f);
+        takes = takes && nh_currents_known(s->climb.bench, old.phi);
+        if (takes) {
+            nh_described_fill(s->climb.bench, &r->found[r->count - 1]);
+            return true;
+        }
+        r->count -= r->count > 0 && r->found[r->count - 1].phi == f->phi;
+        nh_currents_put(s->climb.bench, &old);
+    }
+    return false;
+}
+
 /* A function of the currents found: it is checked as any other, and set apart. */
 static bool keep_further(search *s, size_t degree, nh_candidate *candidate, const nh_points *fit)
 {
@@ -108,6 +133,9 @@ static bool keep_further(search *s, size_t degree, nh_candidate *candidate, cons
     if (open.count && nh_currents_continue(s->climb.bench, f))
         open = nh_region_open(r->model, &s->climb.bench->terrain, f->phi, &r->options, r->arena);
     f->region = nh_region_text(r->model->dag, &open, r->arena);
+    nh_current found = *f; /* in the place where the next current of the list will be */
+    if (!f->region && take_place(s, &found)) return true;
+    *f = found;
     r->further[r->furthers++] = (nh_further_integral){*f, degree};
     return true;
 }

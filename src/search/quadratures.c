@@ -236,7 +236,7 @@ static const nh_explicit_motion *try_all(nh_stage_solver *x, const nh_ex *fixed,
     size_t states = 1 + o->m + o->n;
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
         const nh_explicit_motion *m =
-            nh_explicit_motion_along(x->r->arena, o, x->ranges, i, fixed, n, current, &x->r->options);
+            nh_explicit_motion_along(x->r->arena, o, x->ranges, i, fixed, n, current, false, &x->r->options);
         if (!m) continue;
         tried[(*count)++] = m;
         if (better(m, best)) best = m;
@@ -254,6 +254,23 @@ static const char *region_of(nh_stage_solver *x, const nh_explicit_motion *m)
         if (one && !(all && strstr(all, one))) all = all ? nh_arena_printf(x->r->arena, "%s, %s", all, one) : one;
     }
     return all;
+}
+
+void nh_quadratures_complete(nh_stage_solver *x)
+{
+    nh_analysis *r = x->r;
+    const nh_model *o = r->model;
+    size_t states = 1 + o->m + o->n;
+    if (o->chart->implicit) return;
+    nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current);
+    size_t n = gather(r, true, current);
+    for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
+        const nh_explicit_motion *m =
+            nh_explicit_motion_along(r->arena, o, x->ranges, i, NULL, n, current, true, &r->options);
+        if (!m || m->known < states) continue;
+        harvest(x, 1, &m);
+        return;
+    }
 }
 
 void nh_quadratures_search(nh_stage_solver *x)

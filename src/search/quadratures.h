@@ -12,4 +12,8 @@
 
 void nh_quadratures_search(nh_stage_solver *climb);
 
+/* The constants of the whole motion where linear steps give it in closed form for all values of the parameters; else
+ * nothing.  It is the shorter way to what many stages would find one after another. */
+void nh_quadratures_complete(nh_stage_solver *climb);
+
 #endif

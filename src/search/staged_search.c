@@ -108,6 +108,7 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
         if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) nh_isometries_search(&x);
         if (i + 1 == isometries_after) function_stages(&x);
         if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) known_stage(&x);
+        if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) nh_quadratures_complete(&x);
         if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) nh_series_stages(&x);
         if (i + 1 == time_after) nh_stage_solver_series_in_time(&x);
     }
