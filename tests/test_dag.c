@@ -31,6 +31,16 @@ Test(dag, numbers_are_exact_rationals)
 }
 
 /* Rationals too long for 64 bits go on exactly: sums, products, inverses and powers lead back to short ones. */
+/* exp(u) is positive: its roots are exponentials. */
+Test(dag, roots_of_exponentials_are_exponentials)
+{
+    nh_dag *d = nh_dag_create();
+    nh_ex x = nh_symbol(d, "x"), e = nh_call(d, NH_EXP, nh_mul(d, nh_int(d, -2), x));
+    cr_expect_eq(nh_sqrt(d, e), nh_call(d, NH_EXP, nh_neg(d, x)));
+    cr_expect_eq(nh_pow(d, nh_call(d, NH_EXP, x), nh_ratio(d, 3, 2)), nh_call(d, NH_EXP, nh_mul(d, nh_ratio(d, 3, 2), x)));
+    nh_dag_free(d);
+}
+
 Test(dag, long_rationals)
 {
     nh_num a = nh_num_ratio(INT64_MAX, 3), b = nh_num_ratio(INT64_MAX - 1, 7), product = nh_num_mul(a, b), tiny = nh_num_pow(nh_num_int(10), -25);

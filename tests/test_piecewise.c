@@ -292,6 +292,43 @@ Test(piecewise, motions_go_through_where_the_chart_ends)
     }
 }
 
+/* At the top z' = 0 the root of z'^2 = v^2 - x'^2 - y'^2 changes its sign: an arctangent with z' below is constant on both branches, and jumps. */
+Test(piecewise, motions_pass_from_branch_to_branch)
+{
+    static const char projectile[] =
+        "parameters: [{name: m, value: 1}, {name: v, value: 1.5}, {name: g, value: 2}]\n"
+        "coordinates: [x, y, z]\nlagrangian: m/2*(x'^2+y'^2+z'^2) - m*g*z\nconstraints: [\"x'^2+y'^2+z'^2 = v^2\"]\n";
+    static const struct {
+        const char *current;
+        bool conserved;
+    } asked[] = {{"v^2*x'*atan(sqrt(x'^2+y'^2)/z')/sqrt(x'^2+y'^2) - g*x", false}, {"v^2*x'*atan(z'/sqrt(x'^2+y'^2))/sqrt(x'^2+y'^2) + g*x", true}};
+    nh_analysis *r = analysed(projectile);
+    size_t independent = 0;
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_current *f = &r->found[k];
+        cr_assert(f->has_in_velocities);
+        independent += f->independence == NH_INDEPENDENT;
+        double change = change_under_constraint(r->model, f->in_velocities);
+        cr_expect_lt(change, 1e-7, "%s changes by %.1e", f->name, change);
+        cr_expect(f->on_both, "%s", f->name);
+    }
+    cr_expect_eq(independent, 5);
+    nh_analysis_free(r);
+    for (size_t i = 0; i < 2; i++) {
+        nh_error error = {0};
+        nh_options options;
+        nh_options_default(&options);
+        char text[400];
+        snprintf(text, sizeof text, "name: projectile\n%s", projectile);
+        nh_verification *v = nh_verification_of_current(nh_system_parse("projectile.yaml", text, 0, NULL, &error), NH_CHART_AUTO, asked[i].current, &options, &error);
+        cr_assert_not_null(v, "%s", error.what);
+        cr_expect_eq(v->conserved, asked[i].conserved);
+        if (asked[i].conserved) cr_expect_null(v->region);
+        else cr_expect_str_eq(v->region, "on each side of z' = 0, where it jumps");
+        nh_verification_free(v);
+    }
+}
+
 /* Where L jumps, or the constraints give other velocities, the equations of motion contain an impulse: velocities that go through unchanged are no
  * motion, and what they conserve is no current.  What is left of L = d/dt (x |x|) and so on is none. */
 Test(piecewise, an_impulse_is_no_passage)

@@ -283,6 +283,9 @@ nh_ex nh_pow(nh_dag *dag, nh_ex base, nh_ex exponent)
     bool numeric = nh_kind_of(dag, exponent) == NH_NUMBER;
     if (nh_is_zero(dag, base) && numeric)
         return nh_num_value(nh_number_of(dag, exponent)) > 0 ? base : nh_real(dag, NAN);
+    bool whole = !numeric || !nh_num_short(nh_number_of(dag, exponent)) || nh_number_of(dag, exponent).q == 1;
+    if (!whole && nh_kind_of(dag, base) == NH_FUNCTION && nh_function_of(dag, base) == NH_EXP)
+        return nh_call(dag, NH_EXP, nh_mul(dag, exponent, nh_child(dag, base, 0))); /* exp(u) is positive */
     nh_term_list b = {.c = nh_num_int(1)};
     if (nh_kind_of(dag, base) == NH_PRODUCT) push_power(dag, &b, base, exponent);
     else nh_term_list_push(&b, (nh_term_list_item){.e = base, .x = exponent});

@@ -54,3 +54,18 @@ nh_ex nh_continued_roots(const nh_model *o, nh_ex phi, uint64_t seed)
         }
     return phi;
 }
+
+nh_ex nh_continued_arctangents(const nh_model *o, nh_ex phi)
+{
+    enum { most = 64 };
+    nh_dag *d = o->dag;
+    nh_ex call[most], by[most];
+    size_t n = nh_functions_in(d, phi, call, most), count = 0;
+    for (size_t i = 0; i < n && i < most; i++) {
+        if (nh_function_of(d, call[i]) != NH_ATAN) continue;
+        nh_ex turned = nh_simplify_short(d, nh_div(d, nh_int(d, 1), nh_child(d, call[i], 0)), 0);
+        by[count] = nh_neg(d, nh_call(d, NH_ATAN, turned));
+        call[count++] = call[i];
+    }
+    return nh_substitute(d, phi, count, call, by);
+}

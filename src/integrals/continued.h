@@ -13,4 +13,8 @@
    square in it. */
 nh_ex nh_continued_roots(const nh_model *model, nh_ex phi, uint64_t seed);
 
+/* phi with -atan(1/u), which is smooth where u is infinite, in the place of every atan(u): they differ by pi/2 on one
+   side and by -pi/2 on the other.  phi itself where there is no arctangent. */
+nh_ex nh_continued_arctangents(const nh_model *model, nh_ex phi);
+
 #endif

@@ -112,6 +112,7 @@ nh_terrain nh_terrain_of(const nh_model *o, const nh_options *options, nh_arena 
     for (size_t i = 0; i < o->chart->implicit; i++) nh_walls_add(&out.walls, o->dag, o->chart->residual[i]);
     out.crossings = nh_crossings_find(o, &out.walls, &state, arena);
     find_impulses(o, options, &out);
+    out.end = nh_branch_end_of(o, options, arena);
     return out;
 }
 
@@ -132,7 +133,7 @@ static nh_crossings own_crossings(const nh_model *o, const nh_terrain *terrain, 
 typedef struct {
     const nh_model *o;
     nh_ball *ball;
-    nh_ex phi, *term;
+    nh_ex phi, beyond, *term; /* beyond: phi on the side where the wall is positive; 0: the same expression */
     size_t terms, failing;
     double digits;
     nh_ex fails[NH_MOST_WALLS]; /* walls beside which it failed on both sides */
@@ -146,7 +147,8 @@ static bool jumps(judge *j, const nh_crossing *c)
     for (int side = 0; side < 2; side++)
         for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++) {
             if (!nh_exact_at(j->o, j->ball, c->point[side][k])
-                || !nh_ball_value(j->ball, j->phi, &value[side][k], &radius)) return false;
+                || !nh_ball_value(j->ball, side && j->beyond ? j->beyond : j->phi, &value[side][k], &radius))
+                return false;
             size = fmax(size, fabs(value[side][k]));
         }
     double near = fabs(value[1][2] - value[0][2]), far = fabs(value[1][1] - value[0][1]);
@@ -219,12 +221,22 @@ static void look_at_all(judge *j, const nh_crossings *c, nh_region *out)
     }
 }
 
+/* Where the chart's branch ends: the other branch holds phi with its own velocity. */
+static void look_at_the_end(judge *j, const nh_branch_end *end, nh_region *out)
+{
+    seen s = {0};
+    if (end->crossings.count) j->beyond = nh_branch_end_beyond(j->o, end, j->phi);
+    for (size_t i = 0; i < end->crossings.count; i++) s.jump |= jumps(j, &end->crossings.item[i]);
+    note(out, end->wall, &s, false);
+    j->beyond = 0;
+}
+
 nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, double digits,
     const nh_options *options, nh_arena *arena)
 {
     nh_region out = {0};
     nh_crossings own = own_crossings(o, terrain, phi, options, arena);
-    if (own.count + terrain->crossings.count == 0) return out;
+    if (own.count + terrain->crossings.count + terrain->end.crossings.count == 0) return out;
     judge j = {.o = o, .ball = nh_ball_create(o->dag, (long)options->bits), .phi = phi, .terms = 1 + o->m + o->n,
         .digits = digits};
     j.term = nh_alloc_array(j.terms, sizeof *j.term);
@@ -238,6 +250,7 @@ nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, 
        that wall does. */
     for (size_t i = 0; i < j.failing && !out.count; i++)
         out.wall[out.count] = j.fails[i], out.kind[out.count++] = NH_REGION_PARTS;
+    look_at_the_end(&j, &terrain->end, &out);
     nh_free(j.term);
     nh_ball_free(j.ball);
     return out;

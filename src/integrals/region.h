@@ -17,6 +17,7 @@
 #ifndef NH_REGION_H
 #define NH_REGION_H
 
+#include "integrals/branch_end.h"
 #include "integrals/crossings.h"
 
 typedef enum { NH_REGION_ABOVE, NH_REGION_BELOW, NH_REGION_APART, NH_REGION_PARTS, NH_REGION_IMPULSE } nh_region_kind;
@@ -36,6 +37,7 @@ typedef struct {
     nh_crossings crossings;
     size_t impulses;
     nh_ex impulse[NH_MOST_WALLS]; /* walls at which the motion is not determined */
+    nh_branch_end end;            /* where motions pass from the chart's branch to the other */
 } nh_terrain;
 nh_terrain nh_terrain_of(const nh_model *model, const nh_options *options, nh_arena *arena);
 

@@ -92,6 +92,10 @@ void nh_branch_compare(nh_analysis *r)
     r->equations_on_both = other && equations_agree(o, other);
     for (size_t k = 0; k < r->count && other && o == r->model; k++)
         r->found[k].on_both = on_both(r, other, points, &r->found[k]);
+    for (size_t k = 0; k < r->pieces && other && o == r->model; k++)
+        r->piece[k].on_both = on_both(r, other, points, &r->piece[k]);
+    for (size_t k = 0; k < r->furthers && other && o == r->model; k++)
+        r->further[k].current.on_both = on_both(r, other, points, &r->further[k].current);
     nh_points_free(points);
     nh_model_free(other);
     nh_free(here);

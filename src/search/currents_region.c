@@ -61,17 +61,23 @@ const char *nh_currents_hold(nh_current_checker *b, nh_current *f)
     return nh_region_text(o->dag, &region, b->result->arena);
 }
 
-bool nh_currents_continue(nh_current_checker *b, nh_current *f)
+/* The same current, written so that it goes through its walls?  It has to be proved again, and to hold everywhere. */
+static bool goes_through(nh_current_checker *b, nh_current *f, nh_ex phi)
 {
-    const nh_options *options = &b->result->options;
     nh_model *o = b->result->model;
-    if (!f->proof.proved) return false;
-    nh_ex phi = nh_continued_roots(o, f->phi, (uint64_t)options->seed);
     nh_claim claim = {.free = f->proof.all_parameters || f->proof.fixed, .fixed = f->proof.fixed};
     if (phi == f->phi) return false;
-    nh_proof proof = nh_prove_claim(o, phi, claim, options);
+    nh_proof proof = nh_prove_claim(o, phi, claim, &b->result->options);
     if (!proof.proved || nh_currents_region(b, phi, 0, NULL)) return false;
     f->phi = nh_simplify_short(o->dag, phi, 0);
     f->proof = proof;
     return true;
+}
+
+bool nh_currents_continue(nh_current_checker *b, nh_current *f)
+{
+    nh_model *o = b->result->model;
+    if (!f->proof.proved) return false;
+    return goes_through(b, f, nh_continued_roots(o, f->phi, (uint64_t)b->result->options.seed)) ||
+           goes_through(b, f, nh_continued_arctangents(o, f->phi));
 }
