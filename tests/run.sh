@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs Criterion programs, one per processor at a time, and adds up what they say.  Those that took longest last time go first; before the first time, those with sweeps.
+# Runs Criterion programs, one more at a time than there are processors, because some wait (for a limit of time, a browser, a server), and adds up what they say.  Those that took longest last time go first; before the first time, those with sweeps.
 # usage: run.sh BUILD|PROGRAM...          the last line is "N passed, N failed"
 if [ "$1" = --one ]; then # a program: its log, with the seconds of each test, and its line "name passed failed seconds" stay beside it
     program=$2
@@ -38,7 +38,7 @@ before=$(for program in $programs; do
     echo "${seconds:-0} $program"
     rm -f "$program.line"
 done | sort -rn | cut -d' ' -f2)
-echo "$before" | xargs -P "$(nproc 2>/dev/null || echo 2)" -n 1 sh "$0" --one
+echo "$before" | xargs -P $(($(nproc 2>/dev/null || echo 2) + 1)) -n 1 sh "$0" --one
 passed=0
 failed=0
 for program in $programs; do

@@ -571,7 +571,7 @@ Test(statements, completeness_names_the_region)
         {"coordinates: [x, y]\nlagrangian: (x'^2 + 3*y'^2)/2 - (abs(x - y) - 1)^2\ndomain: {x: [0, 0.5], y: [1, 2]}\n", "for x - y < 0", "for x - y < 0: every integral", false},
     };
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
-        if (!sweep_tries(i, 1, 3)) continue;
+        if (!sweep_tries(i + 2, 1, 3)) continue;
         place p = place_make();
         char text[400];
         snprintf(text, sizeof text, "name: s\n%s", row[i].system);

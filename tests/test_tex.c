@@ -266,7 +266,11 @@ static const char *next_number(const char *at, const char *before, double number
 Test(tex, coefficients_of_a_series_are_told)
 {
     place p = place_with_systems();
-    finished f = run_expecting(&p, "analyze rolling_disk --option named=0 --quiet --tex a.tex --json a.json --html a.html", 0);
+    bool small = SWEEP_SANITIZED && !sweep_whole(); /* then Airy's equation */
+    char line[200];
+    write_here(&p, "airy.yaml", "name: airy\ncoordinates: [x]\nlagrangian: x'^2/2 - t*x^2/2\n");
+    snprintf(line, sizeof line, "analyze %s --option named=0 --quiet --tex a.tex --json a.json --html a.html", small ? "airy.yaml" : "rolling_disk");
+    finished f = run_expecting(&p, line, 0);
     finished_clear(&f);
     char *tex = read_here(&p, "a.tex"), *page = read_here(&p, "a.html"), *text = read_here(&p, "a.json");
     cJSON *json = cJSON_Parse(text), *current;
@@ -333,7 +337,8 @@ Test(tex, a_fragment_is_read_by_another_document)
     free(body);
     write_here(&p, "paper.tex", "\\documentclass{article}\\usepackage{amsmath,amssymb,longtable,pgfplots}\\pgfplotsset{compat=1.16}\n"
                                 "\\begin{document}\\section{Ours}\\input{body}\\section{Theirs}\\input{reduced}\\end{document}\n");
-    f = run_expecting(&p, "export crane --to latex --of equations,submanifold,reduced", 0);
+    f = run_expecting(&p, SWEEP_SANITIZED && !sweep_whole() ? "export sleigh --to latex --of equations,submanifold,reduced"
+                                                            : "export crane --to latex --of equations,submanifold,reduced", 0);
     write_here(&p, "exported.tex", f.out);
     finished_clear(&f);
     bool installed = set_in_type(&p, "paper") && set_in_type(&p, "exported");
