@@ -148,9 +148,8 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row
     outcome result = totals(c, s, degree, total, &from, &all) ? COUNTED : TOO_MUCH;
     bool products =
         c->q->alone || result != COUNTED || nh_count_products(c, s->ring, s->coordinate, degree, total[order], out);
-    if (result == COUNTED && !(products && nh_count_known_differ(c, s->ring, s->coordinate, &known) &&
-                               nh_count_known_differ(c, s->ring, s->coordinate, &all)))
-        result = UNLUCKY;
+    if (result == COUNTED && !(products && nh_count_known_differ(c, s->ring, s->coordinate, &known))) result = UNLUCKY;
+    nh_count_differentials_append(&all, &known);
     out->rank = nh_count_rank(&all, s->ring->field);
     out->known_rank = nh_count_rank(&known, s->ring->field);
     out->degree = degree;

@@ -148,23 +148,46 @@ void nh_count_solutions_differ(const nh_graded_count *g, nh_prime f, nh_differen
     }
 }
 
+void nh_count_differentials_append(nh_differentials *d, const nh_differentials *more)
+{
+    nh_residue *out = nh_count_more_differentials(d, more->rows);
+    if (more->rows) memcpy(out, more->row, more->rows * (d->kept + d->n) * sizeof *out);
+}
+
+/* Series up to the largest weight have the derivatives along all coordinates. */
+static nh_jet_ring *first_jets(const nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate,
+                               nh_residue **cut)
+{
+    const nh_adapted_frame *f = c->frame;
+    size_t order = f->step < ring->order ? f->step : ring->order;
+    nh_jet_ring *first = nh_jet_ring_create(ring->field, f->kept, f->weight, order);
+    *cut = nh_alloc_array(f->all * first->size + 1, sizeof **cut);
+    for (size_t k = 0; k < f->all; k++)
+        memcpy(*cut + k * first->size, coordinate + k * ring->size, first->size * sizeof **cut);
+    return first;
+}
+
 /* The same of the known integrals, by their series and their derivatives in the velocities. */
 bool nh_count_known_differ(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, nh_differentials *d)
 {
     size_t width = d->kept + d->n;
-    nh_residue *series = nh_alloc_array(ring->size, sizeof *series);
-    nh_jet_eval *v = nh_jet_equations_eval(c->equations, ring, coordinate);
-    nh_jet_equations_velocities(c->equations, v, ring, d->w);
+    nh_residue *cut;
+    nh_jet_ring *first = first_jets(c, ring, coordinate, &cut);
+    nh_residue *series = nh_alloc_array(first->size, sizeof *series);
+    nh_jet_eval *v = nh_jet_equations_eval(c->equations, first, cut);
+    nh_jet_equations_velocities(c->equations, v, first, d->w);
     bool good = true;
     for (size_t k = 0; k < c->known && good; k++) {
         nh_residue *out = nh_count_more_differentials(d, 1);
         for (size_t j = 0; j < width && good; j++) {
             nh_ex e = j < d->kept ? c->current[k] : c->slope[k * d->n + j - d->kept];
             if (j == 0 || j >= d->kept) good = nh_jet_eval_all(v, 1, &e, series);
-            out[j] = series[j < d->kept ? ring->up[j * ring->size] : 0];
+            out[j] = series[j < d->kept ? first->up[j * first->size] : 0];
         }
     }
     nh_jet_eval_free(v);
     nh_free(series);
+    nh_free(cut);
+    nh_jet_ring_free(first);
     return good;
 }

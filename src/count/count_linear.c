@@ -235,8 +235,8 @@ static bool find_ranks(linear *l, ranks *out)
     if (!s) return false;
     nh_differentials all, known;
     nh_count_differentials(c, &all, &known);
-    bool good = nh_count_known_differ(c, s->ring, s->coordinate, &known) &&
-                nh_count_known_differ(c, s->ring, s->coordinate, &all) && add_energies(l, s, all.w, &all);
+    bool good = nh_count_known_differ(c, s->ring, s->coordinate, &known) && add_energies(l, s, all.w, &all);
+    nh_count_differentials_append(&all, &known);
     nh_prime f = s->ring->field;
     bool time = c->equations->time;
     out->of = time ? 1 : 2;

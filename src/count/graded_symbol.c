@@ -33,7 +33,8 @@ typedef struct {
     size_t rows, columns, rank;
     size_t *equation;       /* of each row */
     size_t *unknown;        /* of each column */
-    cell **cells;
+    cell **cells, *spare;   /* spare: a row that was replaced, for the next one */
+    size_t *room, spare_room; /* of each row; of the spare one */
     size_t *length, *count; /* of each row; rows that are left and have this column */
     bool *done, *pivoted;   /* rows used as pivots; columns */
     size_t *pivot_row, *pivot_column;
@@ -87,9 +88,9 @@ static size_t shortest_row(component *c)
 /* to := to + factor * from, both sorted by column */
 static void combine(nh_graded_system *s, component *c, size_t to, size_t from, nh_residue factor)
 {
-    cell *a = c->cells[to], *b = c->cells[from],
-         *out = nh_alloc_array(c->length[to] + c->length[from] + 1, sizeof *out);
     size_t x = 0, y = 0, n = 0, na = c->length[to], nb = c->length[from];
+    nh_grow(&c->spare, &c->spare_room, na + nb, sizeof *c->spare);
+    cell *a = c->cells[to], *b = c->cells[from], *out = c->spare;
     while (x < na || y < nb) {
         if (y == nb || (x < na && a[x].column < b[y].column)) {
             out[n++] = a[x++];
@@ -104,9 +105,12 @@ static void combine(nh_graded_system *s, component *c, size_t to, size_t from, n
             x++, y++;
         }
     }
-    nh_free(a);
+    size_t room = c->room[to];
+    c->room[to] = c->spare_room;
     c->cells[to] = out;
     c->length[to] = n;
+    c->spare = a;
+    c->spare_room = room;
     queue_row(c, to);
     nh_residue_add_multiple(s->f, s->before, s->known + c->equation[to] * s->before,
                             s->known + c->equation[from] * s->before, factor);
@@ -196,6 +200,7 @@ static void fill(nh_graded_system *s, component *c, const size_t *place)
     for (size_t i = 0; i < c->rows; i++) {
         size_t from = s->start[c->equation[i]], to = s->start[c->equation[i] + 1], n = 0;
         cell *x = c->cells[i] = nh_alloc_array(to - from + 1, sizeof *x);
+        c->room[i] = to - from + 1;
         for (size_t z = from; z < to; z++) x[z - from] = (cell){place[s->symbol[z].unknown], s->symbol[z].value};
         qsort(x, to - from, sizeof *x, by_column);
         for (size_t z = 0; z < to - from; z++) {
@@ -215,6 +220,7 @@ static void fill(nh_graded_system *s, component *c, const size_t *place)
 static void solve_component(nh_graded_system *s, component *c, const size_t *place)
 {
     c->cells = nh_alloc_array(c->rows + 1, sizeof *c->cells);
+    c->room = nh_alloc_array(c->rows + 1, sizeof *c->room);
     c->length = nh_alloc_array(c->rows + 1, sizeof *c->length);
     c->done = nh_alloc_array(c->rows + 1, sizeof *c->done);
     c->count = nh_alloc_array(c->columns + 1, sizeof *c->count);
@@ -230,6 +236,8 @@ static void solve_component(nh_graded_system *s, component *c, const size_t *pla
     for (size_t i = 0; i < c->rows; i++) nh_free(c->cells[i]);
     for (size_t j = 0; j < c->columns; j++) nh_free(c->member[j].item);
     nh_free(c->queue.item);
+    nh_free(c->spare);
+    nh_free(c->room);
     nh_free(c->member);
     nh_free(c->cells);
     nh_free(c->length);
