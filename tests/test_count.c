@@ -473,7 +473,7 @@ static void words_of(const char *text, bool all, nh_text *out)
 {
     problem p = problem_of(text);
     nh_completeness c[NH_COMPLETENESS_KINDS];
-    nh_completeness_of(p.model, &(nh_completeness_question){.known = p.count, .current = p.known, .general = true, .all = all, .degree = 2, .work = 1e9}, c);
+    nh_completeness_of(p.model, &(nh_completeness_question){.known = p.count, .current = p.known, .general = true, .all = all, .degree = 2, .work = 2e8}, c);
     nh_text_init(out);
     nh_completeness_words(c, 0, out);
     problem_clear(&p);
@@ -554,10 +554,15 @@ Test(count, linear_equations_are_counted_by_their_frequencies)
         size_t last = c.linear ? c.rows : 0; /* the first may have come by series */
         cr_expect(last == tried[i].last || (last == 0 && tried[i].last == 1), "%s: to degree %zu", tried[i].text, last);
         for (size_t d = 0; d < c.rows; d++) cr_expect_eq(c.row[d].bound, series.row[d].bound, "%s", tried[i].text);
+        if (tried[i].last == 0) continue;
+        c = without_series(tried[i].text, 2, true);
+        series = count_in(tried[i].text, 2, true, false);
+        cr_expect(c.rows == (tried[i].last > 1 ? 2 : 1) && c.linear == 1, "%s", tried[i].text);
+        for (size_t d = 0; d < c.rows; d++) cr_expect_eq(c.row[d].bound, series.row[d].bound, "%s", tried[i].text);
     }
 }
 
-/* n equal masses between springs: sin(j pi/(2 n + 2)) are linearly independent over Q where n + 1 is prime, and for n = 20 they are not. */
+/* n equal masses between springs: sin(j pi/(2 n + 2)) are linearly independent over Q where n + 1 is prime, and for n = 20 three of them are in resonance: then there may be more of degree 2. */
 Test(count, chains_of_many_masses_say_what_is_missing)
 {
     static const size_t masses[] = {40, 20};
@@ -571,8 +576,9 @@ Test(count, chains_of_many_masses_say_what_is_missing)
         for (size_t i = 2; i <= n; i++) nh_text_addf(&text, " + x%zu'^2/2 - k*(x%zu - x%zu)^2/2", i, i, i - 1);
         nh_text_addf(&text, " - k*x%zu^2/2\n", n);
         words_of(nh_text_string(&text), false, &said);
-        bool sure = strstr(nh_text_string(&said), "At degree 2 there are 40 more independent integrals") && strstr(nh_text_string(&said), "at degree 1 there are 80 more");
+        bool sure = strstr(nh_text_string(&said), "At degree 2 there are 40 more independent integrals");
         cr_expect_eq(sure, n == 40, "%s", nh_text_string(&said));
+        cr_expect_not_null(strstr(nh_text_string(&said), n == 40 ? "at degree 1 there are 80 more" : "at degree 1 there are 40 more"), "%s", nh_text_string(&said));
         nh_text_clear(&said);
         nh_text_clear(&text);
     }

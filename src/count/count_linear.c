@@ -7,8 +7,9 @@
  * space, the others inherit it), of degree 2 d at most together with the velocities.  With z_i, y_i = u_i.M (q' -+
  * sigma_i q), whose rates are +-sigma_i, a polynomial is conserved if all its monomials have the rate 0.  Where no sum
  * of 2 d numbers +-sigma_i vanishes but those that cancel, these are the polynomials in E_i = z_i y_i, whose leading
- * terms (u_i.M q')^2 are independent: of degree d/2 at most.  With t in the coefficients and no such sum of 4 d, they
- * are the polynomials of degree d in exp(-+sigma_i t) (z_i, y_i).  [docs/method.md, sec. 10] */
+ * terms (u_i.M q')^2 are independent: of degree d/2 at most.  With t in the coefficients all their monomials are of
+ * one rate; two of these with the same leading term would differ by such a sum: so they have the degree d at most, and
+ * the integrals are the polynomials of degree d in exp(-+sigma_i t) (z_i, y_i).  [docs/method.md, sec. 10] */
 #include "count/count_internal.h"
 
 #include <flint/nmod_mat.h>
@@ -284,10 +285,8 @@ void nh_count_linear(nh_counter *c, size_t last, nh_count *out)
     l.K = nh_alloc_array(l.n * l.n + 1, sizeof *l.K);
     l.frequency = nh_alloc_array(l.n + 1, sizeof *l.frequency);
     bool good = read_equations(&l) && read_frequencies(&l) && find_ranks(&l, &r);
-    size_t times = c->equations->time ? 2 : 1;
     while (good && out->rows < last) {
-        resonance found = find_resonance(&l, times * (out->rows + 1));
-        good = found == NONE;
+        good = find_resonance(&l, out->rows + 1) == NONE;
         if (!good) break;
         out->row[out->rows] = row_of(&l, &r, out->rows + 1);
         if (!out->linear) out->linear = out->rows + 1;
