@@ -266,6 +266,22 @@ Test(cli, words_and_symbols_of_the_answers_are_explained)
     place_clear(&p);
 }
 
+/* Words as reports have them, which are no topics: those that say or contain them. */
+Test(cli, words_in_definitions_are_found)
+{
+    static const char *const cases[][2] = {{"growth vector", "growth: Growth vector:"}, {"canonical distribution", "distribution: The canonical distribution"},
+                                           {"case 1", "case: Z is a symmetry"}, {"search exhausted", "exhausted: "}};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[100];
+        snprintf(line, sizeof line, "explain %s", cases[i][0]);
+        finished f = run_expecting(&p, line, 0);
+        cr_expect(strstr(f.out, cases[i][1]), "%s: %s", cases[i][0], f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 /* What docs/glossary.md says of each word is what `nhsym explain` says, word by word and in the same order. */
 Test(cli, the_glossary_says_what_explain_says)
 {

@@ -371,7 +371,7 @@ Test(cli_manners, a_slip_of_the_hand_is_named)
         {"--frob", "nhsym: there is no option `--frob`\nhint: `nhsym help` lists them\n"},
         {"sleigh", "nhsym: there is no command `sleigh`\nhint: the command stands first, as in `nhsym analyze sleigh`\n"},
         {"list ball", "nhsym: `nhsym list` takes no name, found `ball`\nhint: `nhsym list | grep ball` shows the systems with this word in their name or title\n"},
-        {"explain canonical distribution", "nhsym: there is no topic `canonical distribution`\nhint: did you mean `distribution`?\n"},
+        {"explain canonnical distributoin", "nhsym: there is no topic `canonnical distributoin`\nhint: did you mean `distribution`?\n"},
         {"simulate sleigh --svg a.pdf", "nhsym: --svg does not write what `a.pdf` is the name of\nhint: did you mean --pdf a.pdf?\n"},
         {"analyze sleigh --html a.json", "nhsym: --html does not write what `a.json` is the name of\nhint: did you mean --json a.json?\n"},
         {"simulate sleigh --svg a.PNG", "nhsym: --svg does not write what `a.PNG` is the name of\nhint: pictures are .svg or .pdf\n"},

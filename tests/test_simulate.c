@@ -304,7 +304,8 @@ Test(simulate, inputs_over_time)
     } cases[] = {{"u=sin(t)", 0.5 * (1 - -0.98999249660044542)}, {"u = m*t^2", 9}, {"u=drive.csv:thrust", 0.5 * (0.5 * 2 + 1 * 2 + (2 - 1) / 2.0)}, {"u=drive.csv:flat", 1.5 * 0.25}};
     static const struct {
         const char *input, *err;
-    } wrong[] = {{"w=1", "`w` is not a parameter of cart"}, {"u=2*u", "the input `u` depends on itself"}, {"u=sin(s)", "--input u:5: unknown name `s`"},
+    } wrong[] = {{"w=1", "`w` is not a parameter of cart"}, {"u=2*u", "the input `u` depends on itself"}, {"u=-3*x", "what depends on the state stands under `forces:`"},
+                 {"u=mm", "hint: did you mean `m`?"}, {"u=sin(s)", "--input u:5: unknown name `s`"},
                  {"u=drive.csv:thrus", "drive.csv: there is no column `thrus`\nhint: did you mean `thrust`?"}, {"u=drive.csv:zz", "drive.csv: there is no column `zz`\nhint: its columns are t, "},
                  {"u=drive.csv", "--input u needs a column of drive.csv\nhint: for example --input \"u=drive.csv:"}, {"u=nowhere.csv", "nowhere.csv: "},
                  {"u=back.csv:v", "back.csv:3: the times of an input must rise, but 0 comes after 1"}, {"u", "--input needs NAME=EXPR, found `u`\nhint: for example: --input \"u=sin(t)\""},

@@ -107,8 +107,8 @@ const char *nh_facts_drift(const nh_drift *d)
     double tight = d->drift[NH_DRIFT_RUNS - 1];
     if (tight == 0) return "it does not change at all";
     if (!d->falls) return "it does not fall with the tolerance";
-    return tight < d->drift[0] ? "it falls with the tolerance"
-                               : "it is of the size of rounding error at every tolerance";
+    bool less = tight < d->drift[0] / 5; /* as in nh_drift_judge: what falls by less is rounding */
+    return less ? "it falls with the tolerance" : "it is of the size of rounding error at every tolerance";
 }
 
 /* Some fixed and some not: only then there is something to say between all and none. */

@@ -99,6 +99,18 @@ static const char *plain_sign(const char *at)
     return NULL;
 }
 
+/* 9,81 for 9.81; two equations in one text; a quote at one end only. */
+static bool hint_separator(parser *p)
+{
+    const char *at = p->text + p->at;
+    if (*at == '"') return hint(p, "a value that ends with a quote begins with one, too");
+    if (*at != ',') return false;
+    if (p->at && isdigit((unsigned char)at[-1]) && isdigit((unsigned char)at[1]))
+        return hint(p, "decimals are written with a point: 9.81");
+    if (p->equation) return hint(p, "each equation is an item of its own: [\"x' = y'\", \"y' = z'\"]");
+    return false;
+}
+
 /* Name the character at fault the way a person would. */
 static bool unexpected(parser *p, const char *wanted)
 {
@@ -115,6 +127,7 @@ static bool unexpected(parser *p, const char *wanted)
     if (iscntrl((unsigned char)c))
         return fail(p, p->at, "a control character cannot stand here; %s was expected", wanted);
     fail(p, p->at, "`%c` cannot stand here; %s was expected", c, wanted);
+    if (c == ',' || c == '"') return hint_separator(p);
     if (c == '\\') return hint(p, "formulas are no LaTeX: write x', sqrt(x), cos(phi), a/b");
     if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*') return hint(p, "powers are written with ^: x^2");
     if ((c == '<' || c == '>') && p->equation)

@@ -1,5 +1,6 @@
 #include "library/catalogue.h"
 
+#include <ctype.h>
 #include <string.h>
 
 #include "base/files.h"
@@ -189,6 +190,31 @@ static bool explain_beginning(const char *word, nh_text *out)
     return found;
 }
 
+/* Does `text` have the word or words, in capitals or not, between other signs? */
+static bool has_words(const char *text, const char *words)
+{
+    size_t length = strlen(words);
+    for (const char *at = text; (at = strcasestr(at, words)); at++)
+        if ((at == text || !isalpha((unsigned char)at[-1])) && !isalpha((unsigned char)at[length])) return true;
+    return false;
+}
+
+/* "growth vector", "case 1": the topics that say these words, or where none does, those that have one of them. */
+static bool explain_mentioning(const char *words, nh_text *out)
+{
+    bool found = false;
+    for (size_t i = 0; i < nh_glossary_count(); i++) {
+        nh_glossary_entry topic = nh_glossary_at(i);
+        if (!has_words(topic.text, words)) continue;
+        nh_text_addf(out, "%s: %s\n", topic.word, topic.text);
+        found = true;
+    }
+    for (size_t i = 0; i < nh_glossary_count() && !found && strchr(words, ' '); i++)
+        if (has_words(words, nh_glossary_at(i).word))
+            nh_text_addf(out, "%s: %s\n", nh_glossary_at(i).word, nh_glossary_at(i).text);
+    return *nh_text_string(out) != 0;
+}
+
 static bool explain_all(nh_text *out)
 {
     static const char row[] = "%-22s %s\n";
@@ -213,7 +239,7 @@ bool nh_catalogue_explain(nh_arena *arena, size_t words, const char *const *give
         names[count + i] = lists[i].word;
         if (!strcmp(word, lists[i].word)) return lists[i].put(out), true;
     }
-    if (explain_beginning(word, out)) return true;
+    if (explain_beginning(word, out) || (strlen(word) > 2 && explain_mentioning(word, out))) return true;
     nh_fail(error, NH_USAGE, "", "there is no topic `%s`", word);
     const char *near = nh_text_nearest(word, names, count + list_count);
     /* "canonical distribution" */

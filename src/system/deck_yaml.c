@@ -70,6 +70,7 @@ static bool explain_bracket(const nh_deck *deck, size_t at, size_t since, nh_err
                     map ? "map" : "list", open, line);
     if (line_of(deck, at) != line)
         return nh_error_hint(error, "is the `%c` in line %zu closed?", open, line);
+    if (map && deck->source[at] == ':') return nh_error_hint(error, "is there a `,` before each key?");
     return nh_error_hint(error, NH_DECK_QUOTE_HINT);
 }
 
@@ -85,7 +86,8 @@ static bool explain_misfit(const nh_deck *deck, size_t at, const char *kind, siz
         before--;
     if (before > 0 && !nh_deck_is_break(deck->source[before - 1])) {
         nh_deck_fail_at(deck, at, error, "unexpected text after the end of the value");
-        return nh_error_hint(error, NH_DECK_QUOTE_HINT ", all of it");
+        return deck->source[at] == ',' ? nh_error_hint(error, "a list of several values stands in brackets, [ and ]")
+                                       : nh_error_hint(error, NH_DECK_QUOTE_HINT ", all of it");
     }
     nh_deck_fail_at(deck, at, error, "this line does not fit the %s that begins in line %zu", kind,
                     line_of(deck, since));

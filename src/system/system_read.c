@@ -334,6 +334,16 @@ static void remove_parameter(nh_system *s, nh_parameter *p)
     s->parameters--;
 }
 
+/* A name that is unknown here may be one of a coordinate.  False. */
+static bool hint_state(nh_error *error)
+{
+    if (strncmp(error->what, "unknown name", strlen("unknown name")) || !strncmp(error->hint, "did you mean", 12))
+        return false;
+    *error->hint = 0;
+    return nh_error_hint(error, "an input is an expression of t and parameters; what depends on the state stands under "
+                                "`forces:`");
+}
+
 /* An input over time takes the place of a parameter, as a definition.  What stands in it is known before the
    coordinates are. */
 static bool make_input(reader *r, nh_parameter *p, const nh_setting *setting)
@@ -343,7 +353,7 @@ static bool make_input(reader *r, nh_parameter *p, const nh_setting *setting)
     const char *name = p->name, *text = nh_arena_printf(s->arena, "%s = %s", name, setting->input);
     if (!nh_system_expression_text(s, nh_arena_printf(s->arena, "--input %s", name), setting->input, 0, NULL, &value,
                                    r->error))
-        return false;
+        return hint_state(r->error);
     if (nh_depends(s->dag, value, p->symbol))
         return nh_fail(r->error, NH_USAGE, "--input", "the input `%s` depends on itself", name);
     s->definition[s->definitions++] = (nh_named){.name = name, .text = text, .value = value};

@@ -197,9 +197,9 @@ class Current(Record):
         self.proved, self.for_all, self.independent = facts.proved, facts.for_all, facts.independent
         self.digits, self.drift = facts.digits, facts.drift
 
-    @property
+    @functools.cached_property
     def _content(self):
-        return self._analysis.json["currents"][self._index]
+        return dict(self._analysis.json["currents"][self._index], formula=self.formula)
 
     def _written(self, syntax):
         with self._analysis._lock:

@@ -148,6 +148,7 @@ def test_tables_make_data_frames(analysis):
     pandas = pytest.importorskip("pandas")
     assert list(pandas.DataFrame(analysis.table).columns)[0] == "name"
     frame = pandas.DataFrame(analysis.currents)
+    assert list(frame["formula"]) == [current.formula for current in analysis.currents]
     assert set(frame.columns) == set(analysis.currents[0]) and "drift" in frame
     assert list(frame["name"]) == [current.name for current in analysis.currents]
 
