@@ -120,3 +120,30 @@ Test(reduced_motion, every_stage_has_its_figures)
     finished_clear(&other);
     place_clear(&p);
 }
+
+/* Two driven wheels under a group for which the printed equations and the motion have different independent velocities: momenta of others have no column
+ * and no figure, as some of them have the name of a printed one. */
+Test(reduced_motion, momenta_are_those_of_the_printed_equations)
+{
+    place p = place_make();
+    write_here(&p, "arm.yaml", "name: arm\nparameters: [{name: m, value: 1.2}, {name: l, value: 0.5}]\n"
+               "bodies: [{name: cart, mass: m, inertia: [0.1, 0.1, 0.4]}, {name: hand, mass: 0.7, inertia: [0.1, 0.1, 0.2], center: [0.2, 0, 0]}]\n"
+               "joints:\n  - {type: planar, child: cart, coordinates: [x, y, h]}\n  - {type: revolute, parent: cart, child: hand, at: [l, 0, 0], coordinates: [p]}\n"
+               "wheels: [{type: knife-edge, body: hand, at: [0.6, 0, 0], axis: y}]\n");
+    finished f = run_expecting(&p, "reduce arm.yaml --csv a.csv", 0);
+    char *table = read_here(&p, "a.csv"), *name = strtok(table, ",\n");
+    char *end = strstr(f.out, "\nStage 2");
+    cr_assert_not_null(end, "%s", f.out);
+    *end = 0;
+    cr_expect_eq(times(f.out, "\n  p_y = "), 1);
+    for (bool line = true; name && line; name = strtok(NULL, ",")) {
+        char words[100];
+        line = !strchr(name, '\n');
+        if (strncmp(name, "stage1.p_", 9) && strncmp(name, "stage1.mu_", 10)) continue;
+        snprintf(words, sizeof words, "\n  %s = ", name + 7);
+        cr_expect_geq(times(f.out, words), 1, "%s is no momentum of the printed equations", name);
+    }
+    free(table);
+    finished_clear(&f);
+    place_clear(&p);
+}

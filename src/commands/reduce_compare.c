@@ -45,10 +45,19 @@ static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_
     s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
 }
 
+/* Does it go in the variables of the equations that are shown?  Other independent velocities have other momenta, some
+   of them under the same names. */
+static bool in_shown_momenta(const nh_reduction_stage *s, const nh_reduced *first)
+{
+    bool same = s->shown && s->shown->r == first->r;
+    for (size_t k = 0; k < first->r && same; k++) same = !strcmp(s->shown->momentum[k], first->momentum[k]);
+    return same;
+}
+
 /* What is shown of it. */
 static void keep(nh_reduction *r, nh_reduction_stage *s, const nh_reconstruction *c)
 {
-    size_t n = c->first->n, momenta = c->first->r, charted = c->first_chart < c->count ? c->first_chart : c->count;
+    size_t n = c->first->n, momenta = in_shown_momenta(s, c->first) ? c->first->r : 0, charted = c->first_chart < c->count ? c->first_chart : c->count;
     double *q = nh_arena_alloc(r->arena, (c->count * c->m + 1) * sizeof *q);
     double *p = nh_arena_alloc(r->arena, (charted * momenta + 1) * sizeof *p);
     const char **name = nh_arena_alloc(r->arena, (momenta + 1) * sizeof *name);
