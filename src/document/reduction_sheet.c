@@ -20,7 +20,7 @@ void nh_reduction_sheet_frame(const nh_reduction_builder *b, const nh_slice *s)
     nh_text_init(&where);
     for (size_t a = 0; a < s->d; a++) {
         char *value = nh_print_string(b->d, s->y[a]);
-        nh_text_addf(&where, "%s$<%s>$ = %s", a ? ", " : "", s->kinetic->name[s->along[a]], value);
+        nh_text_addf(&where, "%s$<%s>$ = $<%s>$", a ? ", " : "", s->kinetic->name[s->along[a]], value);
         nh_free(value);
     }
     nh_sheet_begin(b->s, "frame", "Slice and generators",
