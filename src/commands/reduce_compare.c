@@ -57,7 +57,8 @@ static bool in_shown_momenta(const nh_reduction_stage *s, const nh_reduced *firs
 /* What is shown of it. */
 static void keep(nh_reduction *r, nh_reduction_stage *s, const nh_reconstruction *c)
 {
-    size_t n = c->first->n, momenta = in_shown_momenta(s, c->first) ? c->first->r : 0, charted = c->first_chart < c->count ? c->first_chart : c->count;
+    size_t n = c->first->n, momenta = in_shown_momenta(s, c->first) ? c->first->r : 0;
+    size_t charted = c->first_chart < c->count ? c->first_chart : c->count;
     double *q = nh_arena_alloc(r->arena, (c->count * c->m + 1) * sizeof *q);
     double *p = nh_arena_alloc(r->arena, (charted * momenta + 1) * sizeof *p);
     const char **name = nh_arena_alloc(r->arena, (momenta + 1) * sizeof *name);
