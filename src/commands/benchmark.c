@@ -1,15 +1,13 @@
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "base/progress.h"
 #include "commands/benchmark_internal.h"
 
-enum { levels = NH_BENCHMARK_LEVELS, most_repeats = 7, most_halvings = 8 };
+enum { levels = NH_BENCHMARK_LEVELS, most_halvings = 8 };
 static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 static const double step_ratio = 4; /* of fixed steps, from level to level */
-static const double enough_seconds = 3e-3;             /* repetitions stop after this time */
 /* of a time of which no eighth was reached, that is tried next */
 static const double least_part = 1.0 / 64;
 static const double share_of_fits = 0.25;              /* of the budget, for the discrete problem, beside it */
@@ -26,164 +24,16 @@ const char *nh_run_record_status_json(nh_run_record_status status)
     return names[status];
 }
 
-static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_benchmark_work *)context)->deadline; }
-
-/* ---- one motion ---- */
-
-/* A count is the same on a busy machine. */
-static double most_steps(const nh_benchmark_work *c) { return c->once ? c->options.robustness_steps : 1e8; }
-
-static bool out_of_time(nh_benchmark_work *c, const nh_motion *motion)
-{
-    return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)) ||
-           (c->effort > 0 && motion->effort >= c->effort);
-}
-
-static nh_motion *integrate(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double step,
-                            nh_error *error)
-{
-    nh_formulation *f = &c->formulation[k->formulation];
-    nh_flow_options how = {.rtol = tolerance,
-                           .step = step,
-                           .scale = f->scale,
-                           .max_steps = most_steps(c),
-                           .effort = c->effort,
-                           .cancelled = late,
-                           .cancel_context = c};
-    const double *times = c->yard.times;
-    if (!k->method) {
-        nh_chetaev_problem problem = nh_bordered_problem(f->bordered);
-        problem.holds = k->index == 2;
-        nh_chetaev_motion *full = nh_chetaev(&problem, f->z0, NH_BENCHMARK_OUTPUTS, times, &how, error);
-        nh_motion *motion = full ? full->motion : NULL;
-        if (full) full->motion = NULL;
-        nh_chetaev_motion_free(full);
-        return motion;
-    }
-    if (k->method->order)
-        return nh_method_steps(k->method, f->programs, f->z0, NH_BENCHMARK_OUTPUTS, times, &how, error);
-    nh_projection *p = k->projected ? nh_projection_create(f->model, c->held_currents, c->held, times[0],
-                                                           times[NH_BENCHMARK_OUTPUTS - 1], f->z0)
-                                    : NULL;
-    if (p) how.after = nh_projection_apply;
-    how.after_context = p;
-    nh_motion *motion = nh_method_flow(k->method, &f->problem, f->z0, NH_BENCHMARK_OUTPUTS, times, &how, error);
-    if (motion && p) motion->evaluations += nh_projection_evaluations(p);
-    nh_projection_free(p);
-    return motion;
-}
-
-/* Does the chart end on the way?  Most integrators step over that without a word, CVODE watches the pivot. */
-static bool breaks_down(nh_formulation *f, const nh_motion *motion)
-{
-    bool any = motion->guard_hit >= 0;
-    if (f->model && !any) nh_free(nh_steep_points(f->dynamics, motion, &any));
-    return any || f->breaks;
-}
-
-static nh_run_record_status status_of(const nh_options *o, const nh_run_record *m, bool complete, bool cancelled,
-                                      bool guarded)
-{
-    if (!complete) return guarded ? NH_DETECTED : cancelled ? NH_TIMEOUT : NH_FAILED;
-    bool wrong = isnan(m->tolerance) ? !(m->error <= o->benchmark_fixed)
-                                     : !(m->error <= fmax(o->benchmark_error, o->benchmark_far * m->tolerance));
-    if (guarded) return wrong ? NH_DETECTED : NH_FLAGGED;
-    return wrong ? NH_UNDETECTED : NH_ACCURATE;
-}
-
-static void judge(nh_benchmark_work *c, const nh_candidate_run *k, nh_motion *motion, nh_run_record *m)
-{
-    nh_formulation *f = &c->formulation[k->formulation];
-    size_t n = c->yard.currents;
-    double *states = nh_alloc_array(NH_BENCHMARK_OUTPUTS * 2 * c->model->m, sizeof *states);
-    m->drift = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *m->drift);
-    m->evaluations = motion->evaluations;
-    bool good = f->reduced || nh_formulation_states(f, motion, states);
-    if (motion->complete && f->reduced) {
-        m->error = nh_reduced_error(f, motion);
-        for (size_t i = 0; i < n; i++)
-            m->drift[i] = c->yard.current[i] == c->model->E ? (m->worst_drift = nh_reduced_drift(f, motion)) : NAN;
-    } else if (motion->complete && good) {
-        m->error = nh_reference_solution_error(&c->yard, motion->count, states);
-        nh_reference_solution_drifts(&c->yard, motion->count, states, m->drift);
-        m->worst_drift = n ? 0 : NAN;
-        for (size_t i = 0; i < n; i++) m->worst_drift = fmax(m->worst_drift, m->drift[i]);
-    }
-    bool steep = breaks_down(f, motion), doubtful = c->out->doubtful && !f->reduced;
-    m->status = status_of(&c->options, m, motion->complete && good, out_of_time(c, motion), steep || doubtful);
-    m->note = nh_arena_strdup(c->out->arena, motion->note[0] ? motion->note
-                                             : steep         ? "the chart breaks down on the way"
-                                             : doubtful      ? "no two methods agree on this motion"
-                                                             : "");
-    nh_free(states);
-}
-
-/* The least time of some repetitions; everything else from the first. */
-void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double tolerance, double step,
-                               nh_run_record *m)
-{
-    nh_error error;
-    nh_error_clear(&error);
-    double begin = nh_clock(), left = c->begun + c->budget - begin;
-    c->deadline = begin + fmax(left / 4, 0.01);
-    nh_progress(k->method       ? k->method->name
-                : k->index == 2 ? "IDA, index 2"
-                                : "IDA, index 1",
-                (nh_clock() - c->begun) / c->budget);
-    *m =
-        (nh_run_record){.method = !k->method     ? k->index == 2 ? "IDA, index 2" : "IDA, index 1"
-                                  : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name)
-                                                 : k->method->name,
-                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers",
-                        .order = k->method ? k->method->order : 0,
-                        .observed_order = NAN,
-                        .tolerance = tolerance,
-                        .step = step,
-                        .reduced = c->formulation[k->formulation].reduced != NULL,
-                        .error = NAN,
-                        .worst_drift = NAN,
-                        .seconds = INFINITY,
-                        .note = "",
-                        .status = NH_FAILED};
-    for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT &&
-                                                                    nh_clock() - begin < enough_seconds));
-         i++) {
-        nh_motion *motion = integrate(c, k, tolerance, step, &error);
-        if (motion && i == 0) judge(c, k, motion, m);
-        if (motion) m->seconds = fmin(m->seconds, motion->seconds);
-        nh_motion_free(motion);
-    }
-    if (!isfinite(m->seconds)) {
-        m->seconds = NAN;
-        m->note = nh_arena_strdup(c->out->arena, error.what);
-    }
-    k->last = nh_clock() - begin;
-    k->given_up = m->status == NH_TIMEOUT; /* a smaller step or tolerance may still succeed after a failure */
-}
-
 /* ---- the reference ---- */
-
-static const double units = 1e9; /* of effort in a second */
-
-/* A motion that decides what is compared, and until when: in counted work, as much as a part of the budget is on an
- * ordinary machine.  A cell of a map counts steps, and has a deadline where the map got a budget. */
-static nh_motion *integrate_counted(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double part)
-{
-    nh_error ignored;
-    nh_error_clear(&ignored);
-    c->deadline = c->once ? nh_clock() + part * c->budget : INFINITY;
-    c->effort = c->once ? 0 : part * c->budget * units;
-    return integrate(c, k, tolerance, 0, &ignored);
-}
 
 static bool states_of(nh_benchmark_work *c, size_t formulation, const char *method, double tolerance, double *states)
 {
     nh_candidate_run k = {.method = nh_method_find(method), .formulation = formulation};
-    nh_motion *motion = integrate_counted(c, &k, tolerance, 0.25);
-    c->hurried |= motion && !motion->complete && out_of_time(c, motion);
+    nh_motion *motion = nh_benchmark_work_counted(c, &k, tolerance, 0.25);
+    c->hurried |= motion && !motion->complete && nh_benchmark_work_out_of_time(c, motion);
     c->effort = 0;
     if (motion && motion->count > c->reached) c->reached = motion->count;
-    bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) &&
+    bool good = motion && motion->complete && !nh_formulation_breaks_down(&c->formulation[formulation], motion) &&
                 nh_formulation_states(&c->formulation[formulation], motion, states);
     nh_motion_free(motion);
     return good;
@@ -442,9 +292,9 @@ static void watch_charts(nh_benchmark_work *c)
     for (k.formulation = 0; k.formulation < c->formulations; k.formulation++) {
         nh_formulation *f = &c->formulation[k.formulation];
         if (!f->problem.guards) continue;
-        nh_motion *motion = integrate_counted(c, &k, tolerances[2], 0.1);
+        nh_motion *motion = nh_benchmark_work_counted(c, &k, tolerances[2], 0.1);
         c->effort = 0;
-        f->breaks = motion && breaks_down(f, motion);
+        f->breaks = motion && nh_formulation_breaks_down(f, motion);
         nh_motion_free(motion);
     }
 }

@@ -130,6 +130,13 @@ void nh_benchmark_work_refuse(nh_benchmark_work *bench, const char *method, cons
 /* One run, with repetitions for its time unless bench->once. */
 void nh_benchmark_work_measure(nh_benchmark_work *bench, nh_candidate_run *candidate, double tolerance, double step,
                                nh_run_record *measured);
+/* One motion that decides what is compared: it ends by counted work, as much as a part of the budget is.  NULL: the
+   method refuses it. */
+nh_motion *nh_benchmark_work_counted(nh_benchmark_work *bench, const nh_candidate_run *candidate, double tolerance,
+                                     double part);
+/* Did that or any limit end this motion?  Does the chart end on its way? */
+bool nh_benchmark_work_out_of_time(nh_benchmark_work *bench, const nh_motion *motion);
+bool nh_formulation_breaks_down(nh_formulation *f, const nh_motion *motion);
 /* The discrete problem, in about so many seconds. */
 void nh_benchmark_fit(nh_benchmark_work *bench, double seconds);
 
