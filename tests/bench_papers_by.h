@@ -462,6 +462,34 @@ static void stages(bool bracket, size_t most_blocks, double *error, double *off)
     cJSON_Delete(data);
 }
 
+/* The example behind (21): in SO(3) x SO(3) x R each factor has the equations beta' = ad*_eta beta of its own. */
+static double direct_product(void)
+{
+    enum { d = 7 };
+    static const size_t size[3] = {3, 3, 1}, order[d] = {0, 1, 2, 3, 4, 5, 6};
+    static const double eta[d] = {0.3, -0.7, 1.1, 0.9, 0.2, -1.3, 0.6}, beta[d] = {1.2, 0.4, -0.5, -0.8, 1.7, 0.1, 2.3};
+    double metric[d * d] = {0}, got[d], worst = 0;
+    nh_error e = {0};
+    nh_algebra g = nh_algebra_create(d);
+    nh_ideals chain;
+    for (size_t i = 0; i < d; i++) metric[i * d + i] = 1 + (double)i / 2;
+    for (size_t f = 0; f < 6; f += 3)
+        for (size_t i = 0; i < 3; i++) {
+            size_t a = f + i, b = f + (i + 1) % 3, c = f + (i + 2) % 3;
+            g.c[(a * d + b) * d + c] = 1, g.c[(b * d + a) * d + c] = -1;
+        }
+    if (!nh_ideals_init(&chain, &g, 3, size, order, metric, &e)) stop("a chain", e.what);
+    nh_ideals_euler_poincare(&chain, eta, beta, got);
+    for (size_t f = 0; f < 6; f += 3)
+        for (size_t i = 0; i < 3; i++) {
+            size_t b = f + (i + 1) % 3, c = f + (i + 2) % 3;
+            worst = fmax(worst, fabs(got[f + i] - (beta[b] * eta[c] - beta[c] * eta[b])));
+        }
+    nh_ideals_clear(&chain);
+    nh_algebra_clear(&g);
+    return fmax(worst, fabs(got[6]));
+}
+
 /* ---- Euler's disk ---- */
 
 /* Letters T, P, S, and 1, 2 behind @: accelerations of theta, varphi, psi; rates of the two components of eta = r psi' u. */
@@ -588,6 +616,7 @@ static void by(const row *r, const document *d, double *printed, double *meant, 
     else if (!strcmp(what, "bracket")) stages(true, (size_t)atoi(r->of), printed, meant), *meant = INFINITY;
     else if (!strcmp(what, "euler-poincare") && !strcmp(r->of, "whole")) stages(false, 9, printed, meant), *meant = INFINITY;
     else if (!strcmp(what, "euler-poincare")) stages(false, 9, meant, printed);
+    else if (!strcmp(what, "direct product")) *printed = direct_product();
     else if (!strcmp(what, "solves")) *printed = solves(document_of(D_ROLLING), r->document, r->of);
     else if (!strcmp(what, "disk lagrangian")) *printed = differ(d, parsed(d, DISK_LAGRANGIAN), d->system->lagrangian);
     else if (!strcmp(what, "disk") && r->of[0] == '1') *printed = vanishes(d, FIRST("r*I3")), *meant = vanishes(d, FIRST("I3"));

@@ -228,6 +228,7 @@ static const row ROWS[] = {
     {B, "theorem 2.3", "... and the disk's equations along it", SMALL, D_SUBNORMAL, .label = "stages.last.by_stages.by_stages_vertical", .ours = true},
     {B, "(16)-(19)", "Euler-Poincare equations, full pairing", BY, D_NONE, .label = "euler-poincare", .of = "whole"},
     {B, "(20), (21)", "Euler-Poincare equations by stages as printed", BY, D_NONE, .label = "euler-poincare", .of = "printed"},
+    {B, "example of (21)", "SO(3) x SO(3) x R: each factor has the equations of its own", BY, D_NONE, .label = "direct product"},
     {B, "(22)-(32)", "Euler-d'Alembert-Poincare equations by stages (a sleigh)", SMALL, D_BODY, .label = "stages.1.by_stages.by_stages_vertical"},
     {B, "(33)-(39)", "Lagrange-Poincare equations by stages (spherical pendulum)", SMALL, D_PENDULUM, .label = "stages.0.by_stages.by_stages_horizontal"},
     {B, "(40)-(43), vertical", "Lagrange-d'Alembert-Poincare equations by stages", SMALL, D_DISK, .label = "stages.last.by_stages.by_stages_vertical"},
@@ -248,7 +249,7 @@ static const row ROWS[] = {
     {B, "solution of (51)", "Phi_2, linear in varphi', psi', with Riemann's functions riemann_c(n, kappa, 3/4, cot(theta)): its rate along (51)", BY, D_DISK_CURRENTS, .label = "solves", .of = "riemann_c(", .ours = true},
     {B, "solution of (51)", "Phi_3, likewise with riemann_s: its rate along (51)", BY, D_DISK_CURRENTS, .label = "solves", .of = "riemann_s(", .ours = true},
     {B, "appendix A", "definitions 7.1-7.5, lemmas 7.4, 7.6", NOT, D_NONE, .printed = "coordinate-free calculus on associated bundles; on a slice it is the connection and its curvature (`reduce --equations`)"},
-    {B, "appendix B", "definition 7.7, theorem 7.8", NOT, D_NONE, .printed = "coordinate-free form of (33)-(43), which are computed"},
+    {B, "appendix B", "definition 7.7, theorem 7.8, (52)-(57)", NOT, D_NONE, .printed = "coordinate-free form of (33)-(43), which are computed"},
 };
 
 #undef A
