@@ -248,8 +248,8 @@ static const row ROWS[] = {
     {B, "solution of (51)", "currents with the functions of theta that solve it, beside the energy", IS, D_DISK_CURRENTS, .label = "independent_currents", .printed = "3", .ours = true},
     {B, "solution of (51)", "Phi_2, linear in varphi', psi', with Riemann's functions riemann_c(n, kappa, 3/4, cot(theta)): its rate along (51)", BY, D_DISK_CURRENTS, .label = "solves", .of = "riemann_c(", .ours = true},
     {B, "solution of (51)", "Phi_3, likewise with riemann_s: its rate along (51)", BY, D_DISK_CURRENTS, .label = "solves", .of = "riemann_s(", .ours = true},
-    {B, "appendix A", "definitions 7.1-7.5, lemmas 7.4, 7.6", NOT, D_NONE, .printed = "coordinate-free calculus on associated bundles; on a slice it is the connection and its curvature (`reduce --equations`)"},
-    {B, "appendix B", "definition 7.7, theorem 7.8, (52)-(57)", NOT, D_NONE, .printed = "coordinate-free form of (33)-(43), which are computed"},
+    {B, "appendix A", "definitions 7.1-7.5, lemmas 7.4, 7.6, (52)", NOT, D_NONE, .printed = "coordinate-free calculus on associated bundles; on a slice it is the connection and its curvature (`reduce --equations`)"},
+    {B, "appendix B", "definition 7.7, theorem 7.8, (53)-(57)", NOT, D_NONE, .printed = "coordinate-free form of (33)-(43), which are computed"},
 };
 
 #undef A
