@@ -242,3 +242,18 @@ Test(cli_reduce, momenta_of_any_lagrangian)
     }
     place_clear(&p);
 }
+
+/* The constraint x'^2 + y'^2 = c^2 has two velocities y' for each x': the equations say for which they are. */
+Test(cli_reduce, the_branch_of_the_equations_is_named)
+{
+    place p = place_make();
+    write_here(&p, "own.yaml", "name: own\nparameters: [{name: c, value: 2}, {name: g, value: 1.5}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                               "lagrangian: (x'^2 + y'^2)/2 - g*y\nconstraints: [\"x'^2 + y'^2 = c^2\"]\ndependent: [y]\n");
+    for (int up = 0; up < 2; up++) {
+        finished f = run_expecting(&p, up ? "reduce own.yaml --initial x=0,y=0,x'=0,y'=2" : "reduce own.yaml --initial x=0,y=0,x'=0,y'=-2", 0);
+        cr_expect_not_null(strstr(f.out, up ? "\n  y' = sqrt(c^2 - x'^2)\n" : "\n  y' = -sqrt(c^2 - x'^2)\n"), "%s", f.out);
+        cr_expect_not_null(strstr(f.out, up ? "hold on the branch y' > 0," : "hold on the branch y' < 0,"), "%s", f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}

@@ -202,6 +202,11 @@ static void divided_out(nh_pen *p, const nh_reduction *r, const nh_reduction_sta
         nh_pen_say(p, i ? ", " : ""), nh_pen_name(p, nh_name_of(r->kinetic->dag, o->x[i]));
     nh_pen_say(p, "%s", o->n ? "" : "a point");
     nh_pen_close(p, NH_PEN_FACT);
+    const nh_chart *chart = s->kind == NH_STAGE_QUOTIENT && r->whole ? r->whole->chart : NULL;
+    if (!chart || !chart->branch) return;
+    char *branch = nh_chart_branch_name(chart, chart->branch);
+    nh_pen_fact(p, "Branch", "these equations hold on the branch %s, where the motion begins", branch);
+    nh_free(branch);
 }
 
 static void stage(nh_pen *p, const nh_reduction *r, size_t number)
