@@ -134,7 +134,7 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
                      c->missing_at, row->order, c->missing, plural(c->missing));
         return;
     }
-    if (c->count.linear && c->missing_at >= c->count.linear) {
+    if (!c->count.row[c->missing_at - 1].order) {
         nh_text_addf(out,
                      "%s degree %zu there are %zu more independent integrals: the equations are linear, and their "
                      "frequencies without resonances.",
@@ -169,7 +169,7 @@ void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_
     if (time->degree && !time->missing_at) nh_text_add(out, ".");
     if (!time->missing_at) return;
     nh_text_add(out, time->degree ? ";" : " With time in the coefficients:");
-    if (time->count.linear && time->missing_at >= time->count.linear)
+    if (!time->count.row[time->missing_at - 1].order)
         nh_text_addf(out, " at degree %zu there are %zu more.", time->missing_at, time->missing);
     else if (time->settled) nh_text_addf(out, " at degree %zu at most %zu more.", time->missing_at, time->missing);
     else nh_text_addf(out, " degree %zu is not settled.", time->missing_at);

@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "graph/diff.h"
 
-enum { most_parameters = 4000, largest_series = 20000, steps_beyond = 1 };
+enum { most_parameters = 4000, largest_series = 20000, steps_beyond = 1, many_coordinates = 6 };
 static const double least_share = 0.5; /* of the work, for the number of integrals where their rank is known already */
 static const double more_for_open = 5; /* times the work, for a degree whose bound still falls */
 
@@ -214,6 +214,8 @@ static void degrees(nh_counter *c, nh_count *out)
         out->obstacle = c->equations->obstacle ? c->equations->obstacle : "no regular point was found modulo a prime";
         return;
     }
+    bool linear = !c->q->alone && !c->q->shape, long_series = c->equations->m > many_coordinates;
+    if (linear && long_series) nh_count_linear(c, last, out);
     while (first + out->rows <= last && !nh_late()) {
         const nh_count_row *before = out->rows ? &out->row[out->rows - 1] : NULL;
         outcome o = count_degree(c, first + out->rows, before, &out->row[out->rows]);
@@ -230,7 +232,7 @@ static void degrees(nh_counter *c, nh_count *out)
         }
         out->rows++;
     }
-    if (out->rows < last && c->frame && !c->equations->obstacle && !c->q->alone && !c->q->shape && !nh_late())
+    if (linear && !long_series && out->rows < last && c->frame && !c->equations->obstacle && !nh_late())
         nh_count_linear(c, last, out);
     if (out->rows == 0) out->obstacle = c->equations->obstacle ? c->equations->obstacle : "the series are too long";
     out->step = c->frame ? c->frame->step : 0;

@@ -41,7 +41,7 @@ typedef struct {
     size_t rows;
     nh_count_row row[NH_COUNT_HIGHEST_DEGREE]; /* of degrees 1, 2, .. */
     size_t step;            /* the largest weight: brackets of this length span everything */
-    /* rows from this degree on are counted by the frequencies of linear equations: they are no bounds, but exact, with
+    /* the first degree that is counted by the frequencies of linear equations: such rows are no bounds, but exact, with
        order 0; 0: none */
     size_t linear;
     size_t leaf;            /* coordinates across the leaves of integrable constraints */

@@ -53,7 +53,7 @@ static bool read_equations(linear *l)
     enum { largest_entry = 1000 };
     const nh_jet_equations *x = l->c->equations;
     size_t n = x->n;
-    bool is = x->m == n && !x->point->kernels;
+    bool is = x->m == n;
     for (size_t i = 0; i < n && is; i++) is = x->rho[i] == x->w[i] && !nh_depends(x->dag, x->A[i], x->model->system->t);
     for (size_t i = 0; i < n * n && is; i++) is = is_constant(x, x->M[i]);
     for (size_t i = 0; i < n && is; i++)
