@@ -205,9 +205,13 @@ static void answer(pen *p, const nh_classified *line, const plane *x, const nh_c
     else if (x)
         nh_pen_say(p, "%zu curve%s and %zu point%s with more conservation laws than almost all", curves,
                      curves == 1 ? "" : "s", x->points, x->points == 1 ? "" : "s");
-    else
-        nh_pen_say(p, "%zu value%s of %s with %s", count_line(line), count_line(line) == 1 ? "" : "s", line->over,
-                   nh_classification_more(line));
+    else {
+        size_t n = count_line(line);
+        if (n) nh_pen_say(p, "%zu value%s of ", n, n == 1 ? "" : "s");
+        else nh_pen_say(p, "No value of ");
+        nh_pen_name(p, line->over);
+        nh_pen_say(p, " with %s", nh_classification_more(line));
+    }
     if (line && line->question) nh_pen_say(p, ".");
     else nh_pen_say(p, ", polynomial in the velocities up to degree %zu.", rows);
 }
