@@ -196,3 +196,23 @@ Test(export_cli, documents_beside_the_code)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* A constraint that is quadratic in the velocities has two branches, and code on the submanifold is on one of them. */
+Test(export_cli, the_branch_is_said)
+{
+    static const char *const cases[][2] = {{"appell_hamel", "z' < 0"}, {"upper.yaml", "z' > 0"}};
+    place p = place_make();
+    write_here(&p, "upper.yaml", "name: upper\ncoordinates: [x, y, z]\ndomain: {z': [0, 1.5]}\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - z\n"
+                                 "constraints: [\"z'^2 = 0.3*(x'^2 + y'^2)\"]\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[200], said[100];
+        snprintf(line, sizeof line, "export %s --to c --of submanifold", cases[i][0]);
+        finished f = run(&p, line);
+        snprintf(said, sizeof said, "Velocities of all coordinates.  On the branch %s.", cases[i][1]);
+        cr_expect(f.code == 0 && strstr(f.out, said), "%s: %s", line, f.out);
+        snprintf(said, sizeof said, "submanifold are those of the branch %s; ", cases[i][1]);
+        cr_expect(strstr(f.out, said) && strstr(f.out, "satisfy the constraints.  On the branch"), "%s", f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}

@@ -235,13 +235,32 @@ static nh_ex *state_of(const scope *s)
     return out;
 }
 
+/* Which branch of a quadratic constraint it is, and how one gets the other: in the function and once in the notes. */
+static const char *with_branch(const scope *s, const char *doc)
+{
+    const nh_chart *c = s->o->chart;
+    if (!c->branch) return doc;
+    char *here = nh_chart_branch_name(c, c->branch), *there = nh_chart_branch_name(c, -c->branch);
+    const char *note = nh_arena_printf(s->arena,
+                                       "the functions on the constraint submanifold are those of the branch %s; an "
+                                       "interval under `domain:` in which %s chooses the other one",
+                                       here, there);
+    bool said = false;
+    for (size_t i = 0; i < s->x->notes; i++) said = said || !strcmp(s->x->note[i], note);
+    if (!said) nh_export_note(s->x, "%s", note);
+    doc = nh_arena_printf(s->arena, "%s  On the branch %s.", doc, here);
+    nh_free(here);
+    nh_free(there);
+    return doc;
+}
+
 /* A function of the state (q, w).  Velocities that the constraints determine only implicitly come first, from a guess.
  */
 static nh_export_function *on_submanifold(const scope *s, nh_export_part part, const char *name, const char *doc)
 {
     const nh_chart *c = s->o->chart;
     size_t k = c->implicit;
-    nh_export_function *f = nh_export_add(s->x, part, s->o->system, name, doc);
+    nh_export_function *f = nh_export_add(s->x, part, s->o->system, name, with_branch(s, doc));
     nh_export_argument(s->x, f, "state", "coordinates, then the velocities of the chart", s->m + s->n, state_of(s));
     if (!k) return f;
     nh_ex *J = take(s, k * k);
@@ -299,7 +318,8 @@ static void embedding(const scope *s)
     }
     f = nh_export_add(
         s->x, NH_EXPORT_SUBMANIFOLD, o->system, "state_of",
-        "The state on the constraint submanifold from coordinates and velocities that satisfy the constraints.");
+        with_branch(s, "The state on the constraint submanifold from coordinates and velocities that satisfy the "
+                       "constraints."));
     place_and_velocity(s, f);
     nh_export_result(s->x, f, "state", "coordinates, then the velocities of the chart", s->m + s->n, 1, state,
                      names_of(s, s->m + s->n, state_of(s)));
