@@ -52,6 +52,7 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"analyze sleigh --seed", "nhsym: `--seed` needs a value\nhint: write --seed N; `nhsym help analyze` describes the option\n"},
         {"analyze sleigh --set k", "nhsym: --set needs NAME=VALUE, found `k`\n"},
         {"analyze sleigh --set =3", "nhsym: --set needs NAME=VALUE, found `=3`\n"},
+        {"analyze sleigh --set k=1/0", "nhsym: --set k needs a number, found `1/0`\n"},
         {"analyze sleigh --set k=two", "nhsym: --set k needs a number, found `two`\n"},
         {"analyze sleigh --set k=", "nhsym: --set k needs a number, found ``\n"},
         {"analyze sleigh --set k=nan", "nhsym: --set k needs a number, found `nan`\n"},

@@ -27,6 +27,10 @@ Test(dag, numbers_are_exact_rationals)
     cr_expect(nh_num_short(nh_num_real(9007199254740991.0)));
     cr_expect_not(nh_num_exact(nh_num_real(9007199254740992.0)));
     cr_expect_not(nh_num_exact(nh_num_real(0.1)));
+    for (int p = -40; p <= 40; p++)
+        for (int q = 1; q <= 1000; q += 7)
+            cr_expect(nh_num_equal(nh_num_decimal((double)p / q), nh_num_ratio(p, q)), "%d/%d", p, q);
+    cr_expect(nh_num_equal(nh_num_decimal(0.333333333333333), nh_num_mul(nh_num_int(333333333333333), nh_num_pow(nh_num_int(10), -15))));
     cr_expect(nh_num_equal(nh_num_decimal(0.1), nh_num_ratio(1, 10)) && nh_num_equal(nh_num_decimal(-1250), nh_num_int(-1250)));
 }
 

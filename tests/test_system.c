@@ -257,6 +257,21 @@ Test(system, the_whole_expression_language)
 
 /* ---- settings ---- */
 
+/* 1/3 as a value, a range's end: exact, for what needs exact values. */
+Test(system, numbers_may_be_ratios)
+{
+    nh_error error = {0};
+    nh_system *s = nh_system_parse("ratio.yaml",
+                                   "name: r\nparameters: {k: 1/3, b: -5/2}\ncoordinates: [x]\nlagrangian: x'^2/2 - k*x^2 - b*x\ndomain: {x: [1/4, 3/4]}\n",
+                                   0, NULL, &error);
+    cr_assert_not_null(s, "%s", error.what);
+    cr_expect_eq(s->parameter[0].value, 1.0 / 3);
+    cr_expect_eq(s->parameter[1].value, -2.5);
+    nh_system_free(s);
+    cr_assert_null(nh_system_parse("ratio.yaml", "name: r\nparameters: {k: 1/0}\ncoordinates: [x]\nlagrangian: x'^2/2 - k*x^2\n", 0, NULL, &error));
+    cr_expect_str_eq(error.what, "the value of a parameter must be a number, found `1/0`");
+}
+
 Test(system, settings_override_values)
 {
     nh_error error = {0};

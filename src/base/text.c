@@ -282,6 +282,22 @@ bool nh_text_to_number(const char *text, double *out)
     return true;
 }
 
+bool nh_text_to_ratio(const char *text, double *out)
+{
+    char top[64];
+    size_t length = strcspn(text, "/");
+    double a, b;
+    if (!text[length]) return nh_text_to_number(text, out);
+    if (length >= sizeof top) return false;
+    memcpy(top, text, length);
+    top[length] = 0;
+    if (!nh_text_to_number(top, &a) || !nh_text_to_number(text + length + 1, &b) || b == 0 || !isfinite(a / b) ||
+        (a != 0 && a / b == 0))
+        return false;
+    *out = a / b;
+    return true;
+}
+
 enum { WORD_MAX = 63 }; /* longer words are no typing errors of each other */
 
 static char lower(char c)

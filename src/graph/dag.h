@@ -104,7 +104,9 @@ enum { NH_LONG = -1 };
 nh_num nh_num_int(int64_t value);
 nh_num nh_num_ratio(int64_t p, int64_t q);
 nh_num nh_num_real(double value); /* exact when the double is a whole number below 2^53 */
-nh_num nh_num_decimal(double value); /* the shortest decimal that rounds to the double: 0.1 is 1/10 */
+/* The shortest decimal that rounds to the double: 0.1 is 1/10; or, where that has 14 digits or more, a ratio with a
+   denominator up to 1000 that does: 1/3. */
+nh_num nh_num_decimal(double value);
 nh_num nh_num_add(nh_num a, nh_num b);
 nh_num nh_num_mul(nh_num a, nh_num b);
 nh_num nh_num_inv(nh_num a); /* of zero: not a number */

@@ -90,14 +90,38 @@ nh_num nh_num_real(double value)
     return inexact(value);
 }
 
+/* p/q with a small q that is rounded to this double: 1/3, and not its seventeen digits.  By continued fractions. */
+static bool small_ratio(double value, nh_num *out)
+{
+    enum { most = 1000 };
+    double x = fabs(value), whole = floor(x);
+    int64_t p[2] = {1, (int64_t)whole}, q[2] = {0, 1};
+    if (!(x < 1e6)) return false;
+    while ((double)p[1] / (double)q[1] != fabs(value)) {
+        if (x == whole) return false;
+        x = 1 / (x - whole);
+        whole = floor(x);
+        if (!(whole < most)) return false;
+        int64_t next[2] = {(int64_t)whole * p[1] + p[0], (int64_t)whole * q[1] + q[0]};
+        if (next[1] > most) return false;
+        p[0] = p[1], q[0] = q[1], p[1] = next[0], q[1] = next[1];
+    }
+    *out = nh_num_ratio(value < 0 ? -p[1] : p[1], q[1]);
+    return true;
+}
+
 nh_num nh_num_decimal(double value)
 {
+    enum { many = 13 };
     char text[40];
     int precision = 15, exponent;
     if (!isfinite(value)) return inexact(value);
     do snprintf(text, sizeof text, "%.*e", precision - 1, value);
     while (strtod(text, NULL) != value && ++precision <= 17);
-    char *e = strchr(text, 'e'), *point = strchr(text, '.');
+    char *e = strchr(text, 'e'), *point = strchr(text, '.'), *last = e - 1;
+    nh_num ratio;
+    while (*last == '0') last--;
+    if (last - point >= many && small_ratio(value, &ratio)) return ratio;
     exponent = atoi(e + 1) - (int)(e - point - 1);
     *e = 0;
     memmove(point, point + 1, strlen(point));

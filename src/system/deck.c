@@ -191,6 +191,7 @@ static void hint_unquote(const nh_deck_node *node, bool fresh, nh_error *error)
 
 bool nh_deck_number(const nh_deck *deck, const nh_deck_node *node, const char *what, double *out, nh_error *error)
 {
+    if (is_plain(node) && strchr(node->text, '/') && nh_text_to_ratio(node->text, out)) return true;
     if (!is_plain(node) || !nh_text_is_number(node->text)) {
         bool fresh = error && error->code == NH_OK;
         wrong(deck, node, what, error, "a number");
