@@ -233,6 +233,23 @@ Test(quadratures, drag)
 }
 
 /* A skate with friction that a slope pulls: linear equations one after another. */
+/* The radicand x'^2 (1 + C^2) is a square times a constant: nothing is left to series, and the signs go into the roots again. */
+Test(quadratures, drag_along_the_path)
+{
+    nh_analysis *r = ask("name: drag\nparameters: [{name: m, value: 1.3}, {name: c, value: 0.2}]\n"
+                         "coordinates: [{name: x, type: length}, {name: y, type: length}]\nlagrangian: m/2*(x'^2 + y'^2)\n"
+                         "forces: [\"x = -c*x'*sqrt(x'^2 + y'^2)\", \"y = -c*y'*sqrt(x'^2 + y'^2)\"]\n");
+    cr_assert_not_null(r);
+    cr_expect_eq(r->independent, 4);
+    for (size_t k = 0; k < r->count; k++) {
+        char *phi = nh_print_string(r->model->dag, r->found[k].phi);
+        cr_expect(r->found[k].proof.all_parameters, "%s", phi);
+        cr_expect_null(strstr(phi, "sign"), "%s", phi);
+        nh_free(phi);
+    }
+    nh_analysis_free(r);
+}
+
 Test(quadratures, skate_on_slope)
 {
     sweep_plain_only();

@@ -4,6 +4,7 @@
 
 #include "exact/antiderivative.h"
 #include "exact/normal.h"
+#include "exact/square.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "search/explicit_motion_internal.h"
@@ -38,6 +39,26 @@ static void read_pieces(pieces *p, nh_ex f)
     }
 }
 
+/* sqrt(u^2 v) as |u| sqrt(v), with functions u of s: on each side of u = 0 that can be integrated. */
+static nh_ex squares_out(const nh_explicit_curve *c, nh_ex f)
+{
+    enum { most = 64 };
+    nh_dag *d = c->d;
+    nh_ex product[most], outside, inside;
+    size_t n = nh_products_in(d, f, product, most);
+    for (size_t i = 0; i < n && i < most; i++)
+        for (size_t j = 0; j < nh_arity(d, product[i]); j++) {
+            nh_ex base = nh_child(d, product[i], j), x = nh_exponent_of(d, product[i], j);
+            bool half = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 2;
+            if (!half || !nh_depends(d, base, c->s) || nh_explicit_too_long(c, base)) continue;
+            if (!nh_square_split(d, nh_simplify_short(d, base, 0), &outside, &inside) ||
+                !nh_depends(d, outside, c->s))
+                continue;
+            f = nh_substitute_root(d, f, base, nh_mul(d, nh_call(d, NH_ABS, outside), nh_sqrt(d, inside)));
+        }
+    return f;
+}
+
 static nh_ex with_sides(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->calls, p->call, p->by); }
 static nh_ex with_signs(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->sides, p->side, p->sign); }
 static int sign_on_sides(void *context, nh_ex e)
@@ -56,6 +77,7 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
         nh_ex root = nh_sqrt(d, c->radicand[i]);
         f = nh_substitute(d, f, 1, &m->root[i].symbol, &root);
     }
+    f = squares_out(c, f);
     pieces p = {.curve = c};
     read_pieces(&p, f);
     nh_ex *constant = nh_alloc_array(c->symbols + most_sides, sizeof *constant);

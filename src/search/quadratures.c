@@ -121,7 +121,8 @@ static nh_ex joined_roots(nh_dag *d, nh_ex e)
     return e;
 }
 
-/* sqrt(m^2 u) as m sqrt(u): where that changes a sign, the root does so everywhere in e. */
+/* sqrt(m^2 u) as m sqrt(u), sqrt(x^4 u) as x^2 sqrt(u): where that changes a sign, the root does so everywhere in e;
+   what comes out is proved anew. */
 static nh_ex shorter_roots(const nh_model *o, nh_ex e)
 {
     enum { most = 200 };
@@ -129,8 +130,8 @@ static nh_ex shorter_roots(const nh_model *o, nh_ex e)
     nh_ex radicand[most], outside, inside;
     size_t n = roots_in(d, 1, &e, radicand, most);
     for (size_t i = 0; i < n; i++) {
-        bool split =
-            nh_square_split(d, nh_simplify_short(d, radicand[i], 0), &outside, &inside) && is_parametric(o, outside);
+        bool split = nh_square_split(d, nh_simplify_short(d, radicand[i], 0), &outside, &inside) &&
+                     (is_parametric(o, outside) || nh_model_sign(o, outside) > 0);
         if (split) e = nh_substitute_root(d, e, radicand[i], nh_mul(d, outside, nh_sqrt(d, inside)));
     }
     return e;
@@ -195,6 +196,21 @@ static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
     return e;
 }
 
+/* sign(u) as u/sqrt(u^2): then it goes into the roots beside it. */
+static nh_ex signs_as_roots(nh_dag *d, nh_ex e)
+{
+    enum { most = 24 };
+    nh_ex call[most], by[most];
+    size_t n = nh_functions_in(d, e, call, most), signs = 0;
+    for (size_t i = 0; i < n && i < most; i++) {
+        nh_ex u = nh_child(d, call[i], 0);
+        if (nh_function_of(d, call[i]) != NH_SIGN) continue;
+        by[signs] = nh_div(d, u, nh_sqrt(d, nh_powi(d, u, 2)));
+        call[signs++] = call[i];
+    }
+    return nh_substitute(d, e, signs, call, by);
+}
+
 /* The constant's value, shorter.  A sign that this changes in its roots and not in those of the equations of motion may
    ask for values of parameters. */
 static nh_ex as_current(const nh_analysis *r, nh_ex value, bool general)
@@ -202,7 +218,8 @@ static nh_ex as_current(const nh_analysis *r, nh_ex value, bool general)
     const nh_model *o = r->model;
     nh_dag *d = o->dag;
     nh_ex e = shorter_roots(o, nh_simplify_short(d, shorter_logarithms(r, shorter_roots(o, value)), 0));
-    nh_ex rooted = nh_simplify_short(d, roots_of_the_equations(o, joined_roots(d, e)), 0);
+    nh_ex joined = shorter_roots(o, joined_roots(d, signs_as_roots(d, e)));
+    nh_ex rooted = nh_simplify_short(d, roots_of_the_equations(o, joined), 0);
     if (e == rooted || !general || nh_prove_current(o, e, true, &r->options).all_parameters) return e;
     return nh_prove_current(o, rooted, true, &r->options).all_parameters ? rooted : e;
 }
