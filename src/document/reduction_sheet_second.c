@@ -122,11 +122,12 @@ static void connection(const nh_reduction_builder *b, const nh_second *t)
 {
     size_t d = t->d;
     nh_sheet_begin(b->s, "mechanical_connection", "Locked inertia and mechanical connection",
-                   t->first->d
-                       ? "$I_{a,b}$ is the metric of the first stage on the orbits; $theta_{a}=I_{a,b} v^{b}$ with "
-                         "$v=zeta+\\breve{A} <x'>$ is the momentum, which is kept ([ChhabraEmami2014], eq. 2.14)."
-                       : "$I_{a,b}$ is the metric on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} "
-                         "<x'>$ is the momentum, which is kept ([ChhabraEmami2014], eq. 2.14).");
+                   nh_sheet_label(b->s,
+                                  "$I_{a,b}$ is the metric%s on the orbits; $theta_{a}=I_{a,b} v^{b}$ with "
+                                  "$v=zeta+\\breve{A} <x'>$ is the momentum%s ([ChhabraEmami2014], eq. 2.14).%s",
+                                  t->first->d ? " of the first stage" : "",
+                                  t->abelian ? ", which is kept" : " in the body frame",
+                                  t->n > 1 ? " hor and B are the lift and the curvature of $\\breve{A}$." : ""));
     for (size_t a = 0; a < d; a++)
         for (size_t c = a; c < d; c++)
             if (!nh_is_zero(b->d, t->inertia[a * d + c]))
