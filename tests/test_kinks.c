@@ -156,3 +156,24 @@ Test(kinks, a_motion_that_is_held_ends)
     nh_dynamics_free(d);
     mechanics_clear(&x);
 }
+
+/* What crosses a wall for a multistep method is a short motion by another one: it knows the length of the whole, and sees as soon that it is held. */
+Test(kinks, a_multistep_method_is_held_as_soon_as_others)
+{
+    mechanics x = mechanics_of_text("name: test\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 2*abs(x*y' - y*x')\n", NH_CHART_AUTO);
+    nh_dynamics *d = nh_dynamics_create(x.model);
+    nh_flow_problem problem = nh_dynamics_problem(d);
+    const double z[] = {-0.0928, -0.14235, -0.255, -0.9677}, times[] = {0, 1, 10};
+    for (int a = 0; a < 2; a++) {
+        nh_error error = {0};
+        nh_flow_options options = {.rtol = 1e-10, .absolute = 1e-3, .max_steps = 1e5};
+        const char *name = a ? "bdf" : "adams";
+        nh_motion *motion = nh_method_flow(nh_method_find(name), &problem, z, 3, times, &options, &error);
+        must(motion != NULL, &error, name);
+        cr_expect(!motion->complete && strstr(motion->note, "both sides lead back"), "%s: %s", name, motion->note);
+        cr_expect_lt(motion->evaluations, 20000, "%s: %zu evaluations", name, (size_t)motion->evaluations);
+        nh_motion_free(motion);
+    }
+    nh_dynamics_free(d);
+    mechanics_clear(&x);
+}

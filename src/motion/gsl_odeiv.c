@@ -276,6 +276,7 @@ nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *probl
     memcpy(work.state, initial, size * sizeof *initial);
     nh_guards_begin(&work.guards, problem, options, initial, count, times);
     nh_kinks_begin(&work.kinks, problem, initial, count, times);
+    work.kinks.span = fmax(work.kinks.span, options->whole);
     work.rtol = nh_motion_rtol(motion, options);
     work.each = stage_units[method] + stage_vectors[method] * (double)size;
     bool good = set_up(&work, method);

@@ -31,7 +31,8 @@ static nh_motion *by_one_step_method(const nh_kinks *k, const nh_flow_problem *p
     double *times = nh_alloc_array(l->count + 2, sizeof *times), *scale = nh_alloc_array(k->change.size, sizeof *scale);
     for (size_t i = 0; i < k->change.size; i++) scale[i] = nh_sizes_absolute(l->sizes, l->rtol, i) / l->rtol;
     nh_flow_options options = {
-        .rtol = l->rtol, .scale = scale, .watch = l->watch, .guarded = true, .cancelled = nh_interrupted_callback};
+        .rtol = l->rtol, .scale = scale, .watch = l->watch, .guarded = true, .whole = k->span,
+        .cancelled = nh_interrupted_callback};
     size_t count = times_of(l, end, times);
     /* stages that are solved for would be too inexact to come near a wall */
     nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, p, l->old, count, times, &options, &ignored);

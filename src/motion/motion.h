@@ -71,6 +71,7 @@ typedef struct {
     nh_singular_watch *singular; /* the motion ends at such a place; NULL: it is not watched for them */
     /* guards end the motions of one-step methods, too (safeguards.h); those of CVODE they always do */
     bool guarded;
+    double whole; /* the length of the motion that this is a part of; 0: it is no part */
 } nh_flow_options;
 
 typedef struct {
