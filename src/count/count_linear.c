@@ -281,7 +281,7 @@ static nh_count_row row_of(const linear *l, const ranks *r, size_t degree)
 void nh_count_linear(nh_counter *c, size_t last, nh_count *out)
 {
     linear l = {.c = c, .n = c->equations->n};
-    ranks r;
+    ranks r = {0};
     l.K = nh_alloc_array(l.n * l.n + 1, sizeof *l.K);
     l.frequency = nh_alloc_array(l.n + 1, sizeof *l.frequency);
     bool good = read_equations(&l) && read_frequencies(&l) && find_ranks(&l, &r);
