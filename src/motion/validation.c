@@ -136,7 +136,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
                      "the multiplier form was compared only up to t = %.4g, which it reaches in %.0f steps",
                      full->motion->end_time, options.max_steps);
         else if (!full->motion->complete)
-            snprintf(v->note, sizeof v->note, "the multiplier form was compared only up to t = %.4g: %.180s",
+            snprintf(v->note, sizeof v->note, "the multiplier form was compared only up to t = %.4g: %s",
                      full->motion->end_time, full->motion->note);
         else if (v->state_difference > NH_MOTIONS_APART && !v->note[0])
             snprintf(v->note, sizeof v->note,

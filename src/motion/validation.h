@@ -26,7 +26,7 @@ typedef struct {
     double *time, *state, *multiplier; /* count; count x (m + n); count x k by the formula */
     long evaluations, steps;
     bool complete;
-    char note[256];
+    char note[400]; /* room for the note of a motion and what stands before it */
     bool multiplier_form;      /* was it integrated? */
     double state_difference, multiplier_difference, violation; /* relative to sizes along the motion */
     long multiplier_evaluations;
