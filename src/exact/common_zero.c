@@ -166,6 +166,17 @@ static size_t lowest(const list *l, size_t generator)
     return best;
 }
 
+/* How many terms the resultant of a and b can have: it is of degree deg a in the coefficients of b, and deg b in those
+   of a.  Beyond the limit it takes seconds, and what comes out has no roots that can be written down. */
+static bool resultant_is_small(const list *l, const fmpz_mpoly_struct *a, const fmpz_mpoly_struct *b, size_t generator)
+{
+    static const double most = 1e7;
+    double terms = 1, in_a = (double)degree(l, a, generator), in_b = (double)degree(l, b, generator);
+    for (size_t g = 0; g < (size_t)l->field->generators; g++)
+        if (g != generator) terms *= 1 + in_a * (double)degree(l, b, g) + in_b * (double)degree(l, a, g);
+    return terms <= most;
+}
+
 static void eliminate(list *l, size_t generator)
 {
     list out;
@@ -176,7 +187,8 @@ static void eliminate(list *l, size_t generator)
     fmpz_mpoly_init(r, l->ctx);
     for (size_t i = 0; i < l->count; i++) {
         if (degree(l, &l->item[i], generator) <= 0) add(&out, &l->item[i]);
-        else if (i != pivot && fmpz_mpoly_resultant(r, &l->item[pivot], &l->item[i], (slong)generator, l->ctx))
+        else if (i != pivot && resultant_is_small(l, &l->item[pivot], &l->item[i], generator) &&
+                 fmpz_mpoly_resultant(r, &l->item[pivot], &l->item[i], (slong)generator, l->ctx))
             add(&out, r);
     }
     fmpz_mpoly_clear(r, l->ctx);

@@ -91,8 +91,7 @@ static void take_common_factor(nh_quotient_field *f, size_t n, const nh_quotient
     fmpz_mpoly_clear(g, f->ctx);
 }
 
-/* q times what makes it polynomials without common factor. */
-static bool make_primitive(nh_quotient_field *f, size_t n, const nh_quotient **q)
+bool nh_relation_make_primitive(nh_quotient_field *f, size_t n, const nh_quotient **q)
 {
     if (!nh_relation_clear_denominators(f, n, q)) return false;
     take_common_factor(f, n, q);
@@ -166,7 +165,7 @@ static bool make_sparse_primitive(nh_quotient_field *f, size_t n, const nh_quoti
     size_t count = 0, k = 0;
     for (size_t j = 0; j < n; j++)
         if (a[j]) dense[count++] = a[j];
-    bool good = make_primitive(f, count, dense);
+    bool good = nh_relation_make_primitive(f, count, dense);
     for (size_t j = 0; j < n; j++)
         if (a[j]) a[j] = dense[k++];
     nh_free(dense);
@@ -268,12 +267,13 @@ static bool polish(nh_quotient_field *f, size_t n, const nh_quotient **c)
 {
     const nh_quotient **raw = nh_alloc_array(n, sizeof *raw), **trial = nh_alloc_array(n, sizeof *trial);
     memcpy(raw, c, n * sizeof *c);
-    bool good = make_primitive(f, n, c);
+    bool good = nh_relation_make_primitive(f, n, c);
     bool hidden = good && has_relations(f, n, c);
     for (size_t pivot = 0; pivot < n && hidden && fine(f); pivot++) {
         const nh_quotient *inverse = nh_quotient_rationalise(f, nh_quotient_inv(f, raw[pivot]));
         for (size_t j = 0; j < n; j++) trial[j] = nh_quotient_rationalise(f, nh_quotient_mul(f, raw[j], inverse));
-        if (make_primitive(f, n, trial) && length_of(f, n, trial) < length_of(f, n, c)) memcpy(c, trial, n * sizeof *c);
+        if (nh_relation_make_primitive(f, n, trial) && length_of(f, n, trial) < length_of(f, n, c))
+            memcpy(c, trial, n * sizeof *c);
     }
     nh_free(raw);
     nh_free(trial);

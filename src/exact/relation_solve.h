@@ -29,6 +29,9 @@ bool nh_relation_solve_rows(struct nh_relation_rows *rows, const size_t *chosen,
  * field broken, when that is too large. */
 bool nh_relation_clear_denominators(nh_quotient_field *field, size_t n, const nh_quotient **q);
 
+/* q[j], the first not zero, times what makes them polynomials without common factor; false as above. */
+bool nh_relation_make_primitive(nh_quotient_field *field, size_t n, const nh_quotient **q);
+
 /* Is there nothing but a number below the fraction bar? */
 bool nh_relation_is_polynomial(const nh_quotient_field *field, const nh_quotient *q);
 

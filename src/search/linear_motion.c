@@ -5,17 +5,24 @@
  *                       derivatives are finitely many functions (powers, exponentials, waves and their products),
  *
  * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, with c such a sum, too (of t
- * times these functions where the drive is in resonance), and lambda = 0, where A is defective, polynomials in t. A's
- * blocks are solved one by one, so that many coordinates are no more trouble than few; the rates of a block of two come
- * as formulas, those of larger ones as numbers that are then named, and the vectors from the null space of z times the
- * waves of one rate, as everywhere. */
+ * times these functions where the drive is in resonance), and powers of t where A is defective. A's blocks are solved
+ * one by one, so that many coordinates are no more trouble than few; the rates of a block of two are formulas, those
+ * of larger ones as numbers that are then named, and the vectors from the null space of z times the waves of one rate,
+ * as everywhere.
+ *
+ * Where a rate has no name, what a pair of eigenvectors gives together needs none: the quadratic forms that A leaves
+ * invariant come first, exactly and for all parameters (exact/invariant_forms.h). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/linalg.h"
+#include "base/progress.h"
 #include "graph/diff.h"
+#include "graph/measure.h"
 #include "graph/terms.h"
+#include "exact/invariant_forms.h"
 #include "exact/normal.h"
 #include "integrals/recognise.h"
 #include "search/stage_solver.h"
@@ -33,10 +40,12 @@ typedef struct {
     nh_stage_solver *x;
     size_t size;       /* of z */
     nh_ex *z, *entry;  /* entry[i + j size]: A; 0 (the number) where there is none */
+    nh_ex *b;          /* what z' is at z = 0 */
     size_t *block;     /* per variable: the first of its block */
     size_t count, *of; /* of the block at hand: its variables */
     size_t drives;     /* 1 and the functions of t that terms of b and of its derivatives are multiples of */
     nh_ex drive[most_drives];
+    size_t forms;      /* quadratic ones of the block at hand that are invariant */
     bool turns;        /* of the rate that is followed: its imaginary part is meant */
 } linear;
 
@@ -121,6 +130,7 @@ static bool row(linear *l, size_t i, nh_ex rate)
         if (!nh_is_zero(o->dag, slope)) join(l, i, j);
         b = nh_substitute(o->dag, b, 1, &l->z[j], &zero);
     }
+    l->b[i] = b;
     return drive(l, b);
 }
 
@@ -243,6 +253,49 @@ static void stage(linear *l, const char *name, bool resonant, size_t functions, 
     if (!nh_stage_solver_done(l->x)) nh_stage_solver_stage(l->x, name, 1, all);
 }
 
+/* q'' = B q: the coordinates of the block, and in the same places their velocities; 0 where it is not so. */
+static size_t second_order(const linear *l, size_t *q, size_t *w)
+{
+    const nh_model *o = l->x->r->model;
+    size_t n = 0;
+    bool is = l->drives == 1;
+    for (size_t k = 0; k < l->count && is; k++) {
+        size_t i = l->of[k];
+        is = nh_is_zero(o->dag, l->b[i]);
+        if (i < o->m) {
+            q[n] = i;
+            w[n] = o->m;
+            for (size_t j = o->m; j < l->size; j++)
+                if (nh_is_number(o->dag, l->entry[i + j * l->size], 1) && o->rho[i] == l->z[j]) w[n] = j;
+            is = is && o->rho[i] == l->z[w[n++]];
+        }
+        for (size_t j = o->m; j < l->size && i >= o->m; j++) is = is && nh_is_zero(o->dag, l->entry[i + j * l->size]);
+    }
+    return is && 2 * n == l->count ? n : 0;
+}
+
+/* With q'' = B q and u B = -s^2 u: u . (q' cos(s t) + s q sin(s t)) is conserved, and with u B = s^2 u
+   u . (q' - s q) exp(s t).  What is a quarter of a turn later is a function of it and of the invariant forms.  Terms
+   are half as many as there are otherwise, and the work of numbers that have no name an eighth. */
+static bool wave_of_second_order(linear *l, nh_ex s, bool turns, const char *name)
+{
+    nh_analysis *r = l->x->r;
+    nh_dag *d = r->model->dag;
+    size_t *q = nh_alloc_array(2 * l->count + 1, sizeof *q), *w = q + l->count, n = second_order(l, q, w);
+    nh_ex *term = nh_arena_alloc(r->arena, (n + 1) * sizeof *term), angle = nh_mul(d, s, r->system->t);
+    for (size_t k = 0; k < n; k++) {
+        nh_ex place = nh_mul(d, s, l->z[q[k]]), velocity = l->z[w[k]];
+        term[k] = turns ? nh_add(d, nh_mul(d, velocity, nh_call(d, NH_COS, angle)),
+                                 nh_mul(d, place, nh_call(d, NH_SIN, angle)))
+                        : nh_mul(d, nh_sub(d, velocity, place), nh_call(d, NH_EXP, angle));
+    }
+    nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
+    *all = (nh_family){.kind = NH_TERMS, .terms = n, .term = term};
+    if (n) nh_stage_solver_stage(l->x, name, 1, all);
+    nh_free(q);
+    return n > 0;
+}
+
 /* Where the drive is no polynomial it may be in resonance. */
 static void both_stages(linear *l, const char *name, size_t functions, const nh_ex *function)
 {
@@ -259,28 +312,145 @@ static void polynomials(linear *l)
     stage(l, "what moves linearly, times powers of t", false, 3, f);
 }
 
+/* ---- quadratic forms of one block ---- */
+
+static void sort_simplest_first(const nh_dag *d, size_t n, nh_ex *e)
+{
+    for (size_t i = 1; i < n; i++) {
+        nh_ex one = e[i];
+        size_t j = i;
+        for (; j > 0 && nh_complexity_order(d, e[j - 1], one) > 0; j--) e[j] = e[j - 1];
+        e[j] = one;
+    }
+}
+
+/* exp(c t) times the quadratic forms that A~ leaves invariant but for this factor; z~ = (w, q), and 1 where there is a
+   constant force. */
+static void forms_with_rate(linear *l, size_t n, const nh_ex *z, const nh_ex *A, nh_ex c)
+{
+    nh_analysis *r = l->x->r;
+    nh_dag *d = r->model->dag;
+    nh_progress("quadratic forms that linear motion leaves invariant", nh_budget_part());
+    nh_invariant_question q = {d, n, r->system->parameters, z, A, c, r->model->parameter};
+    nh_invariant_forms found = nh_invariant_forms_of(r->arena, &q);
+    nh_ex factor = nh_call(d, NH_EXP, nh_mul(d, c, r->system->t));
+    for (size_t k = 0; k < found.count; k++) found.form[k] = nh_mul(d, factor, found.form[k]);
+    sort_simplest_first(d, found.count, found.form);
+    nh_stage_solver_certify_each(l->x, found.count, found.form, "quadratic forms that linear motion leaves invariant");
+    l->forms += found.count;
+}
+
+/* Velocities come first, in which forms are to be simple. */
+static void quadratic_forms(linear *l)
+{
+    const nh_model *o = l->x->r->model;
+    nh_dag *d = o->dag;
+    size_t n = l->count, *of = nh_alloc_array(n + 1, sizeof *of), at = 0;
+    bool constant_force = false;
+    for (int positions = 0; positions < 2; positions++)
+        for (size_t i = 0; i < n; i++)
+            if ((l->of[i] < o->m) == (positions == 1)) of[at++] = l->of[i];
+    for (size_t i = 0; i < n; i++) constant_force |= !nh_is_zero(d, l->b[of[i]]);
+    size_t all = n + constant_force;
+    nh_ex *z = nh_alloc_array(all + 1, sizeof *z), *A = nh_alloc_array(all * all + 1, sizeof *A), trace = nh_int(d, 0);
+    for (size_t i = 0; i < all * all; i++) A[i] = nh_int(d, 0);
+    for (size_t i = 0; i < n; i++) {
+        z[i] = l->z[of[i]];
+        for (size_t j = 0; j < n; j++) A[i * all + j] = l->entry[of[i] + of[j] * l->size];
+        if (constant_force) A[i * all + n] = l->b[of[i]];
+        trace = nh_add(d, trace, A[i * all + i]);
+    }
+    if (constant_force) z[n] = nh_int(d, 1);
+    forms_with_rate(l, all, z, A, nh_int(d, 0));
+    nh_ex c = nh_simplify_short(d, nh_mul(d, nh_ratio(d, -2, (int64_t)n), trace), 0);
+    if (!nh_is_zero(d, c) && !nh_stage_solver_done(l->x)) forms_with_rate(l, all, z, A, c);
+    nh_free(A);
+    nh_free(z);
+    nh_free(of);
+}
+
+/* Has every rate of the block a name? */
+static bool all_named(linear *l, const double *re, const double *im)
+{
+    nh_dag *d = l->x->r->model->dag;
+    bool all = true;
+    for (size_t k = 0; k < l->count && all; k++)
+        if (im[k] >= 0) all = nh_is_short(d, named(l, re[k], false)) && nh_is_short(d, named(l, im[k], true));
+    return all;
+}
+
+/* ---- the whole block ---- */
+
+/* How often this rate occurs in the block, one that came before included. */
+static size_t multiplicity(const linear *l, const double *re, const double *im, size_t k, double near, bool *old)
+{
+    size_t count = 0;
+    *old = im[k] < 0;
+    for (size_t j = 0; j < l->count; j++) {
+        bool same = hypot(re[j] - re[k], im[j] - im[k]) <= near;
+        count += same;
+        *old |= same && j < k;
+    }
+    return count;
+}
+
+/* Where a rate that occurs several times has fewer eigenvectors, as in L = x' y' - x y - y^2/2, powers of t come with
+   the waves. */
+static void powers_of_time(linear *l, size_t times, size_t count, const nh_ex *wave)
+{
+    enum { most = 6 };
+    nh_analysis *r = l->x->r;
+    nh_dag *d = r->model->dag;
+    size_t null = r->stage[r->stages - 1].dimension, n = 0;
+    if (times < 2 || null == 0 || null >= times * count || l->drives > 1 || nh_stage_solver_done(l->x)) return;
+    if (!l->forms) quadratic_forms(l);
+    nh_ex f[2 * most];
+    for (size_t k = 0; k < times && k < most; k++)
+        for (size_t i = 0; i < count; i++) f[n++] = nh_mul(d, wave[i], nh_powi(d, r->system->t, (int64_t)k));
+    stage(l, "what moves linearly, times exponentials, waves and powers of t", false, n, f);
+}
+
+/* The rates of the block, what differs from zero by rounding being zero; the largest, or false. */
+static bool rates(const linear *l, double *re, double *im, double *largest)
+{
+    bool good = eigenvalues(l, l->x->r->model, re, im);
+    *largest = 0;
+    for (size_t k = 0; k < l->count && good; k++) *largest = fmax(*largest, hypot(re[k], im[k]));
+    for (size_t k = 0; k < l->count && good; k++) {
+        if (fabs(re[k]) <= equal * fabs(im[k])) re[k] = 0;
+        if (fabs(im[k]) <= equal * fabs(re[k])) im[k] = 0;
+    }
+    return good;
+}
+
+/* The currents of one rate. */
+static void solve_rate(linear *l, double re, double im, size_t times, bool formulas)
+{
+    static const char *const name = "what moves linearly, times exponentials and waves in t";
+    nh_dag *d = l->x->r->model->dag;
+    nh_ex wave[2], decay = formulas ? 0 : named(l, re, false), turn = formulas ? 0 : named(l, im, true);
+    if (l->forms && (re == 0 || im == 0) && wave_of_second_order(l, im != 0 ? turn : decay, im != 0, name)) return;
+    size_t count = formulas ? waves_of_two(l, im != 0, wave) : waves(d, l->x->r->system->t, decay, turn, wave);
+    both_stages(l, name, count, wave);
+    powers_of_time(l, times, count, wave);
+}
+
 /* Each rate once, with its conjugate: of two values that differ by rounding the first. */
 static void solve_block(linear *l)
 {
     size_t n = l->count, done = 0;
-    double *re = nh_alloc_array(2 * n + 1, sizeof *re), *im = re + n, largest = 0;
-    bool good = eigenvalues(l, l->x->r->model, re, im), null = false, formulas = n == 2;
-    for (size_t k = 0; k < n && good; k++) largest = fmax(largest, hypot(re[k], im[k]));
+    double *re = nh_alloc_array(2 * n + 1, sizeof *re), *im = re + n, largest;
+    bool good = rates(l, re, im, &largest), null = false, formulas = n == 2;
     for (size_t k = 0; k < n && good; k++) null |= hypot(re[k], im[k]) <= defective * largest;
     if (good && null) polynomials(l);
-    for (size_t k = 0; k < n && good; k++) {
-        if (fabs(re[k]) <= equal * fabs(im[k])) re[k] = 0;
-        if (fabs(im[k]) <= equal * fabs(re[k])) im[k] = 0;
-        bool old = im[k] < 0 || hypot(re[k], im[k]) <= defective * largest || (formulas && done);
-        for (size_t j = 0; j < k && !old; j++)
-            old = im[j] >= 0 && hypot(re[j] - re[k], im[j] - im[k]) <= equal * largest;
-        if (old || nh_stage_solver_done(l->x)) continue;
-        nh_ex wave[2];
-        size_t count = formulas && !null ? waves_of_two(l, im[k] != 0, wave)
-                                         : waves(l->x->r->model->dag, l->x->r->system->t, named(l, re[k], false),
-                                                 named(l, im[k], true), wave);
-        both_stages(l, "what moves linearly, times exponentials and waves in t", count, wave);
-        done++;
+    l->forms = 0;
+    if (good && !formulas && l->drives == 1 && !nh_stage_solver_done(l->x) && !all_named(l, re, im))
+        quadratic_forms(l);
+    for (size_t k = 0; k < n && good && !nh_stage_solver_done(l->x); k++) {
+        bool old;
+        size_t times = multiplicity(l, re, im, k, equal * largest, &old);
+        if (old || hypot(re[k], im[k]) <= defective * largest || (formulas && done++)) continue;
+        solve_rate(l, re[k], im[k], times, formulas && !null);
     }
     nh_free(re);
 }
@@ -292,6 +462,7 @@ void nh_linear_motion_search(nh_stage_solver *x)
     linear l = {.x = x,
                 .size = size,
                 .z = nh_alloc_array(size + 1, sizeof *l.z),
+                .b = nh_alloc_array(size + 1, sizeof *l.b),
                 .entry = nh_alloc_array(size * size + 1, sizeof *l.entry),
                 .block = nh_alloc_array(size + 1, sizeof *l.block),
                 .of = nh_alloc_array(size + 1, sizeof *l.of)};
@@ -305,5 +476,6 @@ void nh_linear_motion_search(nh_stage_solver *x)
     nh_free(l.of);
     nh_free(l.block);
     nh_free(l.entry);
+    nh_free(l.b);
     nh_free(l.z);
 }

@@ -382,3 +382,25 @@ size_t nh_stage_solver_certify(nh_stage_solver *x, nh_ex e, const char *name)
     nh_num one = nh_num_int(1);
     return nh_stage_solver_certify_terms(x, 1, &e, &one, name);
 }
+
+void nh_stage_solver_certify_each(nh_stage_solver *x, size_t n, const nh_ex *e, const char *name)
+{
+    nh_analysis *r = x->r;
+    nh_num one = nh_num_int(1);
+    nh_progress(name, nh_budget_part());
+    double start = nh_clock();
+    nh_candidates list = {.count = n, .candidate = nh_alloc_array(n + 1, sizeof *list.candidate)};
+    nh_independence *kind = nh_alloc_array(n + 1, sizeof *kind);
+    for (size_t k = 0; k < n; k++) list.candidate[k] = *candidate_of(x, 1, &e[k], &one);
+    compare(x, &list, kind);
+    nh_stage_record note = {.name = nh_arena_strdup(r->arena, name), .columns = n, .sectors = n, .dimension = n};
+    for (size_t k = 0; k < list.count && !nh_stage_solver_done(x); k++) {
+        bool added = kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, &list.candidate[k], x->ranges, false);
+        note.found += added;
+        r->independent += added;
+    }
+    note.seconds = nh_clock() - start;
+    *nh_stage_solver_note(x, name) = note;
+    nh_free(kind);
+    nh_free(list.candidate);
+}

@@ -55,6 +55,8 @@ void nh_stage_solver_stage(nh_stage_solver *climb, const char *name, size_t fami
  * it, where determinants of the constraints are small on parts of the domain.  How many independent currents that
  * makes. */
 size_t nh_stage_solver_certify(nh_stage_solver *climb, nh_ex e, const char *name);
+/* The same of each of n, as one stage. */
+void nh_stage_solver_certify_each(nh_stage_solver *climb, size_t n, const nh_ex *e, const char *name);
 /* The same of a sum of terms with these coefficients for the given parameters; for others they are solved for. */
 size_t nh_stage_solver_certify_terms(nh_stage_solver *climb, size_t terms, const nh_ex *term, const nh_num *coefficient,
                                      const char *name);

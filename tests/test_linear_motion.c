@@ -1,0 +1,162 @@
+/* linear motion: equations q'' = -B q with constant coefficients have the quadratic integrals that Lyapunov's equation gives, exactly, for any
+ * number of coordinates, and waves, with powers of t where a rate has too few eigenvectors. */
+#include "mechanics.h"
+#include "scratch.h"
+
+#include <math.h>
+
+#include "commands/analyze.h"
+#include "exact/invariant_forms.h"
+#include "exact/normal.h"
+#include "graph/diff.h"
+#include "typed.h"
+
+/* ---- forms ---- */
+
+typedef struct {
+    nh_arena *arena;
+    nh_dag *dag;
+    size_t n;
+    nh_ex z[12], A[144], parameter[2];
+} matrix;
+
+static matrix matrix_of(size_t n)
+{
+    matrix a = {.arena = nh_arena_create(), .n = n};
+    a.dag = nh_dag_create();
+    char name[8];
+    for (size_t i = 0; i < n; i++) {
+        snprintf(name, sizeof name, "z%zu", i);
+        a.z[i] = nh_symbol(a.dag, name);
+    }
+    a.parameter[0] = nh_symbol(a.dag, "m");
+    a.parameter[1] = nh_symbol(a.dag, "k");
+    for (size_t i = 0; i < n * n; i++) a.A[i] = nh_int(a.dag, 0);
+    return a;
+}
+
+/* How many forms there are; each is put into the equations, and the last must not be a combination of the others (they have different terms). */
+static size_t forms_of(matrix *a, nh_ex c)
+{
+    nh_dag *d = a->dag;
+    nh_invariant_question q = {d, a->n, 2, a->z, a->A, c, a->parameter};
+    nh_invariant_forms found = nh_invariant_forms_of(a->arena, &q);
+    cr_assert_null(found.obstacle);
+    for (size_t k = 0; k < found.count; k++) {
+        nh_ex rate = nh_mul(d, c, found.form[k]);
+        for (size_t i = 0; i < a->n; i++)
+            for (size_t j = 0; j < a->n; j++)
+                rate = nh_add(d, rate, nh_product(d, 3, (nh_ex[]){nh_diff(d, found.form[k], a->z[i]), a->A[i * a->n + j], a->z[j]}));
+        cr_expect_eq(nh_normal_is_zero(d, rate, 0), NH_ZERO, "form %zu", k);
+        cr_expect_neq(nh_normal_is_zero(d, found.form[k], 0), NH_ZERO);
+        for (size_t j = 0; j < k; j++) cr_expect_neq(found.form[j], found.form[k]);
+    }
+    return found.count;
+}
+
+/* q' = w, w' = -B q - D w */
+static void set_second_order(matrix *a, const char *const *B, const char *const *D)
+{
+    size_t n = a->n / 2;
+    for (size_t i = 0; i < n; i++) {
+        a->A[(n + i) * a->n + i] = nh_int(a->dag, 1);
+        for (size_t j = 0; j < n; j++) {
+            a->A[i * a->n + n + j] = nh_neg(a->dag, ex(a->dag, B[i * n + j]));
+            a->A[i * a->n + j] = nh_neg(a->dag, ex(a->dag, D[i * n + j]));
+        }
+    }
+}
+
+/* The dimension is the number of pairs of eigenvalues with the sum -c, for matrices that are diagonal; Jordan's block of two pairs has two. */
+Test(linear_motion, forms_are_counted_by_eigenvalues)
+{
+    static const struct {
+        const char *B[9], *D[9];
+        size_t n, count;
+        const char *c;
+    } row[] = {
+        {{"k/m"}, {"0"}, 1, 1, "0"},                                              /* an oscillator: its energy */
+        {{"k/m"}, {"1/m"}, 1, 0, "0"},                                            /* with drag: none */
+        {{"k/m"}, {"1/m"}, 1, 1, "1/m"},                                          /* but one that decays */
+        {{"k", "0", "0", "k"}, {"0", "0", "0", "0"}, 2, 4, "0"},                  /* u(2) */
+        {{"k", "0", "0", "3*k"}, {"0", "0", "0", "0"}, 2, 2, "0"},
+        {{"k", "0", "0", "4*k"}, {"0", "0", "0", "0"}, 2, 2, "0"},                /* 1 : 2 has its third integral at degree 3 */
+        {{"k", "k", "0", "k"}, {"0", "0", "0", "0"}, 2, 2, "0"},                  /* Jordan's block */
+        {{"k", "0", "0", "k"}, {"0", "m", "-m", "0"}, 2, 2, "0"},                 /* a magnetic field */
+        {{"0", "0", "0", "0"}, {"0", "0", "0", "0"}, 2, 4, "0"},                  /* free: w w and q1 w2 - q2 w1 */
+        {{"2*k/m", "-k/m", "0", "-k/m", "2*k/m", "-k/m", "0", "-k/m", "2*k/m"}, {"0", "0", "0", "0", "0", "0", "0", "0", "0"}, 3, 3, "0"},
+        {{"k", "0", "0", "0", "k", "0", "0", "0", "k"}, {"0", "0", "0", "0", "0", "0", "0", "0", "0"}, 3, 9, "0"}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        matrix a = matrix_of(2 * row[i].n);
+        set_second_order(&a, row[i].B, row[i].D);
+        size_t count = forms_of(&a, ex(a.dag, row[i].c));
+        cr_expect_eq(count, row[i].count, "row %zu: %zu", i, count);
+        nh_dag_free(a.dag);
+        nh_arena_free(a.arena);
+    }
+}
+
+/* ---- systems ---- */
+
+static nh_analysis *ask(const char *text)
+{
+    char path[SCRATCH];
+    nh_error error = {0};
+    cr_assert(scratch_text(path, text));
+    nh_analyze_request request = {.system_path = path};
+    nh_options_default(&request.options);
+    request.options.until = 0.5; /* motions are none of the question */
+    nh_analysis *r = nh_analysis_create(&request, &error);
+    cr_assert_not_null(r, "%s", error.what);
+    remove(path);
+    return r;
+}
+
+/* Of second degree in the velocities, without t, and proved for all parameters. */
+static size_t exact_squares(const nh_analysis *r)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < r->count; k++)
+        count += r->found[k].proof.proved && r->found[k].proof.all_parameters && !nh_depends(r->model->dag, r->found[k].phi, r->system->t);
+    return count;
+}
+
+/* n equal masses between springs: frequencies 2 sqrt(k/m) sin(j pi/(2 n + 2)) have no short names, the quadratic integrals need none, a constant
+ * force included.  Drag at one end takes them all and leaves complex rates, the search for whose names ends after little work. */
+Test(linear_motion, chains_have_their_quadratic_integrals)
+{
+    static const struct {
+        const char *more, *forces;
+        size_t squares;
+    } row[] = {{" + m*g*(x1 + x2 + x3 + x4 + x5 + x6)", "", 6}, {"", "forces: [\"x1 = -c*x1'\"]\n", 0}};
+    enum { n = 6 };
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        nh_text text;
+        nh_text_init(&text);
+        nh_text_add(&text, "name: c\nparameters: [{name: k, value: 2.1}, {name: m, value: 1.3}, {name: g, value: 9.8}, {name: c, value: 0.3}]\ncoordinates: [x1");
+        for (size_t i = 2; i <= n; i++) nh_text_addf(&text, ", x%zu", i);
+        nh_text_add(&text, "]\nlagrangian: m*x1'^2/2 - k*x1^2/2");
+        for (size_t i = 2; i <= n; i++) nh_text_addf(&text, " + m*x%zu'^2/2 - k*(x%zu - x%zu)^2/2", i, i, i - 1);
+        nh_text_addf(&text, " - k*x%d^2/2%s\n%s", n, row[k].more, row[k].forces);
+        nh_analysis *r = ask(nh_text_string(&text));
+        cr_expect_eq(exact_squares(r), row[k].squares, "row %zu: %zu", k, exact_squares(r));
+        cr_expect_eq(r->independent, 2 * n, "row %zu: %zu", k, r->independent);
+        nh_analysis_free(r);
+        nh_text_clear(&text);
+    }
+}
+
+/* Two eigenvectors for four rates of two values: waves alone give half of what there is. */
+Test(linear_motion, jordan_blocks_have_powers_of_time)
+{
+    static const char *const text[] = {
+        "name: j\ncoordinates: [x, y]\nlagrangian: \"x'*y' - x*y - y^2/2\"\n",
+        "name: j\nparameters: [{name: w, value: 1.7}]\ncoordinates: [x, y]\nlagrangian: \"x'*y' - w^2*x*y - y^2/2\"\n",
+        "name: j\ncoordinates: [a, b, c, d]\nlagrangian: \"a'*b' - a*b - b^2/2 + c'*d' - c*d - d^2/2\"\n"};
+    for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
+        nh_analysis *r = ask(text[k]);
+        cr_expect_eq(r->independent, r->local_maximum, "%s: %zu", text[k], r->independent);
+        for (size_t i = 0; i < r->count; i++) cr_expect(r->found[i].proof.all_parameters);
+        nh_analysis_free(r);
+    }
+}
