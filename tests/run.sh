@@ -28,7 +28,7 @@ if [ "$1" = --one ]; then # a program: its log, with the seconds of each test, a
     exit 0
 fi
 # A fifth of the time under the address sanitizer went into call stacks of thirty frames and memory held back; what is set already has the last word.
-export ASAN_OPTIONS="malloc_context_size=6:quarantine_size_mb=32:$ASAN_OPTIONS"
+export ASAN_OPTIONS="malloc_context_size=6:quarantine_size_mb=8:$ASAN_OPTIONS"
 programs=$(for name in "$@"; do
     if [ -d "$name" ]; then ls "$name"/tests/test_*; else echo "$name"; fi
 done | grep -v '\.[a-z]*$')
