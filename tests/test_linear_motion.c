@@ -24,7 +24,7 @@ static matrix matrix_of(size_t n)
 {
     matrix a = {.arena = nh_arena_create(), .n = n};
     a.dag = nh_dag_create();
-    char name[8];
+    char name[24];
     for (size_t i = 0; i < n; i++) {
         snprintf(name, sizeof name, "z%zu", i);
         a.z[i] = nh_symbol(a.dag, name);

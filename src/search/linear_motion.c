@@ -379,6 +379,11 @@ static bool all_named(linear *l, const double *re, const double *im)
     return all;
 }
 
+static void forms_if_unnamed(linear *l, const double *re, const double *im)
+{
+    if (!l->forms && l->drives == 1 && !nh_stage_solver_done(l->x) && !all_named(l, re, im)) quadratic_forms(l);
+}
+
 /* ---- the whole block ---- */
 
 /* How often this rate occurs in the block, one that came before included. */
@@ -443,9 +448,8 @@ static void solve_block(linear *l)
     bool good = rates(l, re, im, &largest), null = false, formulas = n == 2;
     for (size_t k = 0; k < n && good; k++) null |= hypot(re[k], im[k]) <= defective * largest;
     if (good && null) polynomials(l);
-    l->forms = 0;
-    if (good && !formulas && l->drives == 1 && !nh_stage_solver_done(l->x) && !all_named(l, re, im))
-        quadratic_forms(l);
+    l->forms = n == l->size ? l->x->forms : 0;
+    if (good && !formulas) forms_if_unnamed(l, re, im);
     for (size_t k = 0; k < n && good && !nh_stage_solver_done(l->x); k++) {
         bool old;
         size_t times = multiplicity(l, re, im, k, equal * largest, &old);
@@ -455,10 +459,9 @@ static void solve_block(linear *l)
     nh_free(re);
 }
 
-void nh_linear_motion_search(nh_stage_solver *x)
+static linear linear_of(nh_stage_solver *x, bool *is)
 {
-    const nh_model *o = x->r->model;
-    size_t size = o->m + o->n;
+    size_t size = x->r->model->m + x->r->model->n;
     linear l = {.x = x,
                 .size = size,
                 .z = nh_alloc_array(size + 1, sizeof *l.z),
@@ -466,16 +469,47 @@ void nh_linear_motion_search(nh_stage_solver *x)
                 .entry = nh_alloc_array(size * size + 1, sizeof *l.entry),
                 .block = nh_alloc_array(size + 1, sizeof *l.block),
                 .of = nh_alloc_array(size + 1, sizeof *l.of)};
-    bool is = read_matrix(&l);
-    for (size_t first = 0; first < size && is && !nh_stage_solver_done(x); first++) {
-        l.count = 0;
-        for (size_t i = 0; i < size; i++)
-            if (root(&l, i) == first) l.of[l.count++] = i;
+    *is = read_matrix(&l);
+    return l;
+}
+
+static void linear_clear(linear *l)
+{
+    nh_free(l->of);
+    nh_free(l->block);
+    nh_free(l->entry);
+    nh_free(l->b);
+    nh_free(l->z);
+}
+
+static void take_block(linear *l, size_t first)
+{
+    l->count = 0;
+    for (size_t i = 0; i < l->size; i++)
+        if (root(l, i) == first) l->of[l->count++] = i;
+}
+
+void nh_linear_motion_forms(nh_stage_solver *x)
+{
+    bool is;
+    linear l = linear_of(x, &is);
+    if (is) take_block(&l, 0);
+    if (is && l.count == l.size) {
+        double *re = nh_alloc_array(2 * l.size + 1, sizeof *re), *im = re + l.size, largest;
+        if (rates(&l, re, im, &largest)) forms_if_unnamed(&l, re, im);
+        nh_free(re);
+        x->forms = l.forms;
+    }
+    linear_clear(&l);
+}
+
+void nh_linear_motion_search(nh_stage_solver *x)
+{
+    bool is;
+    linear l = linear_of(x, &is);
+    for (size_t first = 0; first < l.size && is && !nh_stage_solver_done(x); first++) {
+        take_block(&l, first);
         if (l.count) solve_block(&l);
     }
-    nh_free(l.of);
-    nh_free(l.block);
-    nh_free(l.entry);
-    nh_free(l.b);
-    nh_free(l.z);
+    linear_clear(&l);
 }

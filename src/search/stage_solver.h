@@ -19,6 +19,7 @@ typedef struct {
     size_t factors;              /* simple currents, dependent ones too: factors of later stages */
     nh_ex factor[NH_MOST_FACTORS];
     nh_counted counted;          /* stages that the count makes superfluous are left out */
+    size_t forms;                /* that linear motion leaves invariant, when all of them are known: quadratic ones */
     /* the stage at hand has few columns for what it looks for: it may have as many as any ansatz */
     bool wide;
 } nh_stage_solver;
@@ -67,6 +68,9 @@ void nh_rates_search(nh_stage_solver *climb);
 void nh_rates_search_in(nh_stage_solver *climb, const nh_family *base);
 /* Systems, or blocks of coordinates, whose equations of motion are linear with constant coefficients. */
 void nh_linear_motion_search(nh_stage_solver *climb);
+/* The quadratic forms of such a system alone, where its rates have no names: what positions turned into each other give
+   is among them, and takes more. */
+void nh_linear_motion_forms(nh_stage_solver *climb);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
 void nh_isometries_search(nh_stage_solver *climb);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */

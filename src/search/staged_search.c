@@ -65,13 +65,15 @@ static void function_stages(nh_stage_solver *x)
 /* What classical systems of many bodies have, before stages that are too large for them. */
 static void stages_of_many(nh_stage_solver *x)
 {
-    enum { few_coordinates = 6 };
+    enum { few_coordinates = 6, turns = 1 };
     nh_stage stage;
     x->wide = true;
     for (size_t i = 0; x->r->model->m > few_coordinates && !nh_stage_solver_done(x) &&
                        nh_stage_of_many(x->r->arena, x->r->model, &x->words, i, &stage);
-         i++)
-        nh_stage_solver_stage(x, stage.name, stage.families, stage.family);
+         i++) {
+        if (i == turns) nh_linear_motion_forms(x);
+        if (i != turns || !x->forms) nh_stage_solver_stage(x, stage.name, stage.families, stage.family);
+    }
     x->wide = false;
 }
 
