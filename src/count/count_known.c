@@ -55,6 +55,19 @@ static bool line_degree(nh_counter *c, const nh_jet_ring *ring, const nh_residue
     return good;
 }
 
+/* Residues stand for the values of functions, whatever their arguments: cos(w) would be a number. */
+static bool has_functions_of_velocities(const nh_jet_equations *x, nh_ex e)
+{
+    enum { most = 1000 };
+    nh_ex *call = nh_alloc_array(most, sizeof *call);
+    size_t n = nh_functions_in(x->dag, e, call, most);
+    bool found = n > most;
+    for (size_t i = 0; i < n && !found; i++)
+        for (size_t l = 0; l < x->n && !found; l++) found = nh_depends(x->dag, call[i], x->w[l]);
+    nh_free(call);
+    return found;
+}
+
 static void move_known(nh_counter *c, size_t to, size_t from)
 {
     size_t n = c->equations->n;
@@ -85,7 +98,8 @@ bool nh_count_take_known(nh_counter *c)
         if (hopeless) continue;
         bool timely = !x->time && nh_depends(x->dag, c->current[k], x->model->system->t);
         /* no product of it is of the kind that is counted */
-        if (good && (timely || degree > NH_COUNT_HIGHEST_DEGREE)) degree = 0;
+        bool polynomial = degree <= NH_COUNT_HIGHEST_DEGREE && !has_functions_of_velocities(x, c->current[k]);
+        if (good && (timely || !polynomial)) degree = 0;
         move_known(c, kept, k);
         c->degree[kept++] = degree;
         if (!good) { /* the rest as it is */

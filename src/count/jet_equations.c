@@ -23,32 +23,39 @@ static nh_ex canonical(nh_jet_equations *x, nh_ex e)
     return without == e ? e : nh_canonical(x->dag, without, largest_form);
 }
 
+static bool has_velocity(const nh_jet_equations *x, nh_ex e)
+{
+    for (size_t i = 0; i < x->n; i++)
+        if (nh_depends(x->dag, e, x->w[i])) return true;
+    return false;
+}
+
 /* Roots and functions of the velocities, and what is divided by them, are not polynomial in them. */
-static bool has_velocities_inside(const nh_jet_equations *x, size_t first_kernel, nh_ex e)
+static bool has_velocities_inside(const nh_jet_equations *x, nh_ex e)
 {
     enum { most = 1000 };
-    bool found = false;
-    nh_ex *product = nh_alloc_array(most, sizeof *product);
-    for (size_t i = 0; i < x->n && !found; i++) {
-        if (!nh_depends(x->dag, e, x->w[i])) continue;
-        for (size_t k = first_kernel; k < x->point->kernels && !found; k++)
-            found = nh_depends(x->dag, x->point->kernel[k].key, x->w[i]);
-        size_t n = nh_products_in(x->dag, e, product, most);
-        for (size_t k = 0; k < n && !found; k++)
-            for (size_t f = 0; f < nh_arity(x->dag, product[k]) && !found; f++)
-                found = nh_num_value(nh_number_of(x->dag, nh_exponent_of(x->dag, product[k], f))) < 0 &&
-                        nh_depends(x->dag, nh_child(x->dag, product[k], f), x->w[i]);
-    }
-    nh_free(product);
+    nh_ex *node = nh_alloc_array(most, sizeof *node);
+    size_t n = nh_functions_in(x->dag, e, node, most);
+    bool found = n > most;
+    for (size_t i = 0; i < n && !found; i++) found = has_velocity(x, node[i]);
+    n = nh_products_in(x->dag, e, node, most);
+    found |= n > most;
+    for (size_t k = 0; k < n && !found; k++)
+        for (size_t f = 0; f < nh_arity(x->dag, node[k]) && !found; f++) {
+            nh_ex power = nh_exponent_of(x->dag, node[k], f);
+            bool whole = nh_kind_of(x->dag, power) == NH_NUMBER && nh_number_of(x->dag, power).q == 1 &&
+                         nh_num_value(nh_number_of(x->dag, power)) > 0;
+            found = (!whole && has_velocity(x, nh_child(x->dag, node[k], f))) || has_velocity(x, power);
+        }
+    nh_free(node);
     return found;
 }
 
 bool nh_jet_equations_take(nh_jet_equations *x, bool polynomial, nh_ex *e)
 {
-    size_t kernels = x->point->kernels;
     *e = canonical(x, *e);
     if (!nh_jet_point_register(x->point, 1, e)) x->obstacle = x->point->obstacle;
-    else if (polynomial && has_velocities_inside(x, kernels, *e))
+    else if (polynomial && has_velocities_inside(x, *e))
         x->obstacle = "functions that are not polynomial in the velocities";
     return !x->obstacle;
 }
