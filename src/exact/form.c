@@ -332,11 +332,75 @@ static const nh_quotient *from_other_roots(nh_form *f, const square_root *root, 
     return NULL;
 }
 
+static bool half_of(nh_num c, nh_num *root)
+{
+    double p = sqrt((double)c.p), q = sqrt((double)c.q);
+    if (!nh_num_short(c) || c.p <= 0) return false;
+    *root = nh_num_ratio((int64_t)llround(p), (int64_t)llround(q));
+    return nh_num_is(nh_num_add(nh_num_mul(*root, *root), nh_num_mul(c, nh_num_int(-1))), 0);
+}
+
+/* Exponentials are, and what stands below a root alone. */
+static bool is_positive(nh_form *f, const square_root *root, size_t roots, size_t generator)
+{
+    bool found = f->kernels.item[generator].kind == NH_KERNEL_EXP;
+    for (size_t i = 0; i < roots && !found; i++)
+        found = nh_quotient_equal(f->field, root[i].radicand, nh_quotient_power_of(f->field, generator, 1));
+    return found;
+}
+
+/* The root of a positive square: of a number times powers of what is positive.  NULL: q is none. */
+static const nh_quotient *root_of_monomial(nh_form *f, const square_root *of, size_t roots, const nh_quotient *q)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_pieces p;
+    nh_num c;
+    bool good = nh_pieces_make(f->field, arena, q, false, &p) && p.factors == 0 && half_of(p.constant, &c);
+    const nh_quotient *root = good ? nh_quotient_number(f->field, c) : NULL;
+    for (size_t g = 0; good && g < p.generators; g++) {
+        if (p.exponent[g] == 0) continue;
+        good = p.exponent[g] % 2 == 0 && is_positive(f, of, roots, g);
+        if (good) root = nh_quotient_mul(f->field, root, nh_quotient_power_of(f->field, g, p.exponent[g] / 2));
+    }
+    nh_arena_free(arena);
+    return good ? root : NULL;
+}
+
+static bool has_exponentials(const nh_form *f)
+{
+    bool found = false;
+    for (size_t i = 0; i < f->kernels.count && !found; i++) found = f->kernels.item[i].kind == NH_KERNEL_EXP;
+    return found;
+}
+
+/* sqrt(1 + x exp(-2 u)) = exp(-u) sqrt(exp(2 u) + x), perhaps times roots of numbers or parameters: exponentials are
+   positive, and so is what stands below a root. */
+static const nh_quotient *from_shifted_root(nh_form *f, const square_root *root, size_t roots,
+                                            const nh_quotient *radicand)
+{
+    enum { most_factors = 2 };
+    if (!has_exponentials(f) || nh_quotient_terms(radicand) > longest_product) return NULL;
+    for (unsigned set = 1; set < 1u << roots; set++) {
+        const nh_quotient *ratio = radicand, *product = nh_quotient_number(f->field, nh_num_int(1));
+        size_t factors = 0;
+        for (size_t i = 0; i < roots; i++) {
+            if (!(set >> i & 1) || ++factors > most_factors || nh_quotient_terms(root[i].radicand) > longest_product)
+                continue;
+            ratio = nh_quotient_mul(f->field, ratio, nh_quotient_inv(f->field, root[i].radicand));
+            product = nh_quotient_mul(f->field, product, nh_quotient_power_of(f->field, root[i].generator, 1));
+        }
+        const nh_quotient *factor = factors > most_factors ? NULL : root_of_monomial(f, root, roots, ratio);
+        if (factor) return nh_quotient_mul(f->field, factor, product);
+    }
+    return NULL;
+}
+
 static void relate_root(nh_form *f, size_t generator, square_root *root, size_t *roots)
 {
     const nh_kernel *k = &f->kernels.item[generator];
     const nh_quotient *radicand = nh_form_eval(f, k->atom), *others = NULL;
     if (k->unit.q == 2) others = from_other_roots(f, root, *roots, radicand);
+    if (k->unit.q == 2 && !others) others = from_shifted_root(f, root, *roots, radicand);
     if (others) nh_quotient_field_relate(f->field, generator, 1, others);
     else nh_quotient_field_relate(f->field, generator, (unsigned)k->unit.q, radicand);
     if (k->unit.q == 2 && !others && *roots < most_roots) root[(*roots)++] = (square_root){generator, radicand};

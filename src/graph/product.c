@@ -224,7 +224,8 @@ static bool has_zero_cotangent(nh_dag *dag, const nh_term_list *b)
 {
     for (size_t i = 0; i < b->count; i++)
         if (is_integer(dag, b->list[i].x) && nh_number_of(dag, b->list[i].x).p < 0 &&
-            nh_is_infinite_tangent(dag, b->list[i].e)) return true;
+            nh_is_infinite_tangent(dag, b->list[i].e))
+            return true;
     return false;
 }
 
@@ -259,7 +260,49 @@ nh_ex nh_div(nh_dag *dag, nh_ex a, nh_ex b) { return nh_mul(dag, a, nh_powi(dag,
 
 /* ---- powers ---- */
 
-/* (c prod b^x)^n: for a whole n factor by factor; for others only |c| comes out. */
+static bool is_exponential(const nh_dag *dag, nh_ex e)
+{
+    return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == NH_EXP;
+}
+
+/* exp(u)^n = exp(n u), which is positive */
+static nh_ex exponential_power(nh_dag *dag, nh_ex e, nh_ex n)
+{
+    return nh_call(dag, NH_EXP, nh_mul(dag, n, nh_child(dag, e, 0)));
+}
+
+static bool has_exponentials(const nh_dag *dag, nh_ex e)
+{
+    enum { most = 16 };
+    nh_ex call[most];
+    size_t n = nh_functions_in(dag, e, call, most);
+    bool found = n > most;
+    for (size_t i = 0; i < n && !found; i++) found = is_exponential(dag, call[i]);
+    return found;
+}
+
+/* (rest exp(u)^x)^n = rest^n exp(n x u), where the rest has no exponentials: exp(-u) (a exp(u) + b) stays as it is.
+   The rest. */
+static nh_ex take_exponentials(nh_dag *dag, nh_term_list *b, nh_ex product, nh_ex n)
+{
+    nh_ex rest = product, one = nh_int(dag, 1);
+    for (size_t i = 0; nh_kind_of(dag, product) == NH_PRODUCT && i < nh_arity(dag, product); i++)
+        if (!is_exponential(dag, nh_child(dag, product, i)) && has_exponentials(dag, nh_child(dag, product, i)))
+            return product;
+    if (is_exponential(dag, product)) {
+        nh_term_list_push(b, (nh_term_list_item){.e = exponential_power(dag, product, n), .x = one});
+        return one;
+    }
+    for (size_t i = 0; nh_kind_of(dag, product) == NH_PRODUCT && i < nh_arity(dag, product); i++) {
+        nh_ex e = nh_child(dag, product, i), x = nh_exponent_of(dag, product, i);
+        if (!is_exponential(dag, e)) continue;
+        rest = nh_mul(dag, rest, nh_pow(dag, e, nh_neg(dag, x)));
+        nh_term_list_push(b, (nh_term_list_item){.e = exponential_power(dag, e, nh_mul(dag, n, x)), .x = one});
+    }
+    return rest;
+}
+
+/* (c prod b^x)^n: for a whole n factor by factor; for others |c| and exponentials come out. */
 static void push_power(nh_dag *dag, nh_term_list *b, nh_ex base, nh_ex n)
 {
     nh_num c = nh_constant_of(dag, base);
@@ -272,6 +315,7 @@ static void push_power(nh_dag *dag, nh_term_list *b, nh_ex base, nh_ex n)
     }
     bool minus = nh_num_value(c) < 0;
     nh_ex size = nh_number(dag, minus ? nh_num_mul(c, nh_num_int(-1)) : c), rest = nh_product_without_number(dag, base);
+    if (nh_kind_of(dag, n) == NH_NUMBER) rest = take_exponentials(dag, b, rest, n);
     if (!nh_is_number(dag, size, 1)) nh_term_list_push(b, (nh_term_list_item){.e = size, .x = n});
     nh_term_list_push(b, (nh_term_list_item){.e = minus ? nh_neg(dag, rest) : rest, .x = n});
 }
@@ -284,8 +328,7 @@ nh_ex nh_pow(nh_dag *dag, nh_ex base, nh_ex exponent)
     if (nh_is_zero(dag, base) && numeric)
         return nh_num_value(nh_number_of(dag, exponent)) > 0 ? base : nh_real(dag, NAN);
     bool whole = !numeric || !nh_num_short(nh_number_of(dag, exponent)) || nh_number_of(dag, exponent).q == 1;
-    if (!whole && nh_kind_of(dag, base) == NH_FUNCTION && nh_function_of(dag, base) == NH_EXP)
-        return nh_call(dag, NH_EXP, nh_mul(dag, exponent, nh_child(dag, base, 0))); /* exp(u) is positive */
+    if (!whole && is_exponential(dag, base)) return exponential_power(dag, base, exponent);
     nh_term_list b = {.c = nh_num_int(1)};
     if (nh_kind_of(dag, base) == NH_PRODUCT) push_power(dag, &b, base, exponent);
     else nh_term_list_push(&b, (nh_term_list_item){.e = base, .x = exponent});
