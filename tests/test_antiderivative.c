@@ -124,6 +124,19 @@ Test(antiderivative, roots)
     check("1/(sqrt(a + x)*sqrt(p - x))", -1, 2);
 }
 
+/* Motions in the potentials a exp(k x), a/cosh(x)^2, a tanh(x), a x^(2/3). */
+Test(antiderivative, roots_of_exponentials_and_powers)
+{
+    check("1/sqrt(a + b*exp(k*x))", -1, 1);
+    check("1/sqrt(p - b*exp(3*x))", -1, 0.3);
+    check("1/sqrt(p - a/cosh(x)^2)", -1, 1);
+    check("1/sqrt(a + b*tanh(x))", -1, 1);
+    check("1/sqrt(a + b*x^(2/3))", 0.5, 2);
+    check("1/sqrt(p - a*x^(2/3))", 0.5, 1.5);
+    check("1/(x*sqrt(a + b*x))", 0.5, 2);
+    check("1/((x + c)*sqrt(a*x + b))", 0.5, 2);
+}
+
 /* The error function, an elliptic integral, an exponential integral: none is elementary. */
 Test(antiderivative, not_elementary)
 {

@@ -13,7 +13,7 @@ static const size_t absent = SIZE_MAX; /* x itself, where f has it in functions 
 
 /* A kernel that depends on x, and the exponents that it may have in the numerator of F. */
 typedef struct {
-    size_t index;            /* among the kernels of f, or absent */
+    size_t index; /* among the kernels of f, or absent */
     nh_ex e;
     nh_kernel_kind kind;
     int64_t low, high;
@@ -22,8 +22,8 @@ typedef struct {
 /* A factor of a denominator. */
 typedef struct {
     nh_ex e;
-    int64_t power;           /* in the denominator of F */
-    const nh_factor *terms;  /* NULL: a kernel, or the radicand of a root */
+    int64_t power;          /* in the denominator of F */
+    const nh_factor *terms; /* NULL: a kernel, or the radicand of a root */
 } divisor;
 
 typedef struct {
@@ -35,8 +35,8 @@ typedef struct {
     letter letter[most_kernels];
     divisor divisor[most_factors];
     nh_ex candidate[most_candidates];
-    int64_t degree;          /* of the numerator of F, at most */
-    bool full;               /* something did not fit */
+    int64_t degree; /* of the numerator of F, at most */
+    bool full;      /* something did not fit */
 } builder;
 
 /* ---- candidates ---- */
@@ -55,6 +55,13 @@ static int sign_of(const builder *b, nh_ex e)
     if (nh_kind_of(b->d, e) != NH_NUMBER) return b->in->sign(b->in->context, e);
     double value = nh_num_value(nh_number_of(b->d, e));
     return (value > 0) - (value < 0);
+}
+
+/* The sign that decides between a real logarithm and an arctangent, which belong to the two signs of e. */
+static int mostly(const builder *b, nh_ex e)
+{
+    int sign = sign_of(b, e);
+    return sign || !b->in->mostly ? sign : b->in->mostly(b->in->context, e);
 }
 
 /* log |p| */
@@ -165,24 +172,25 @@ static void put_functions_of(builder *b, const divisor *p)
 
 /* ---- roots of quadratic polynomials ---- */
 
-/* sqrt(Q) with a polynomial Q in x, or in y = exp(lambda x), y = cos(u) or y = sin(u): then candidates are functions of
-   y. */
+/* sqrt(Q) with a polynomial Q in x, or in y = x^(1/n), exp(lambda x), cos(u) or sin(u): then candidates are functions
+   of y. */
 typedef struct {
     nh_ex x, Q, root, back; /* the variable; back: what it stands for */
+    int degree;             /* of Q */
     size_t count;           /* 0: it is x */
     nh_ex from[2], to[2];   /* what gives functions of y; of the other one of sine and cosine only squares do */
 } radical;
 
-/* Q = a x^2 + b x + c; false where it is none, or of degree one. */
-static bool quadratic(const builder *b, nh_ex x, nh_ex Q, nh_ex out[3])
+/* The degree, 1 or 2, of Q = a x^2 + b x + c; 0 where it is no such polynomial. */
+static int coefficients_of(const builder *b, nh_ex x, nh_ex Q, nh_ex out[3])
 {
     nh_dag *d = b->d;
     nh_ex zero = nh_int(d, 0), first = nh_diff(d, Q, x), second = nh_simplify_short(d, nh_diff(d, first, x), 0);
-    if (nh_depends(d, second, x) || nh_is_zero(d, second)) return false;
+    if (nh_depends(d, second, x)) return 0;
     out[0] = nh_simplify_short(d, nh_substitute(d, Q, 1, &x, &zero), 0);
     out[1] = nh_simplify_short(d, nh_substitute(d, first, 1, &x, &zero), 0);
     out[2] = nh_mul(d, nh_ratio(d, 1, 2), second);
-    return true;
+    return nh_is_zero(d, second) ? !nh_is_zero(d, out[1]) : 2;
 }
 
 static nh_ex back(const builder *b, const radical *r, nh_ex e)
@@ -190,11 +198,28 @@ static nh_ex back(const builder *b, const radical *r, nh_ex e)
     return r->count ? nh_substitute(b->d, e, 1, &r->x, &r->back) : e;
 }
 
+/* exp(k log y) as y^k */
+static nh_ex with_powers(nh_dag *d, nh_ex e, nh_ex y)
+{
+    enum { most = 32 };
+    nh_ex call[most], by[most];
+    size_t n = nh_functions_in(d, e, call, most), count = 0;
+    for (size_t i = 0; i < n && i < most; i++) {
+        if (nh_function_of(d, call[i]) != NH_EXP || !nh_depends(d, call[i], y)) continue;
+        nh_ex k = nh_simplify_short(d, nh_mul(d, y, nh_diff(d, nh_child(d, call[i], 0), y)), 0);
+        if (nh_kind_of(d, k) != NH_NUMBER) continue;
+        by[count] = nh_pow(d, y, k);
+        call[count++] = call[i];
+    }
+    return nh_substitute(d, e, count, call, by);
+}
+
 static nh_ex in_variable(const builder *b, const radical *r, nh_ex e)
 {
-    return r->count
-               ? nh_simplify_short(b->d, nh_canonical(b->d, nh_substitute(b->d, e, r->count, r->from, r->to), 0), 0)
-               : e;
+    nh_dag *d = b->d;
+    if (!r->count) return e;
+    return nh_simplify_short(d, nh_canonical(d, with_powers(d, nh_substitute(d, e, r->count, r->from, r->to), r->x), 0),
+                             0);
 }
 
 /* int dx/sqrt(Q): with a > 0 the logarithm of 2 sqrt(a Q) + Q', with a < 0 the arctangent of Q'/(2 sqrt(-a Q)). */
@@ -202,7 +227,7 @@ static void put_first_kind(builder *b, const radical *r, const nh_ex k[3])
 {
     nh_dag *d = b->d;
     nh_ex two = nh_int(d, 2), slope = back(b, r, nh_add(d, k[1], nh_product(d, 3, (nh_ex[]){two, k[2], r->x})));
-    int sign = sign_of(b, k[2]);
+    int sign = mostly(b, k[2]);
     if (sign > 0) put_logarithm(b, nh_add(d, nh_product(d, 3, (nh_ex[]){two, root_of(b, k[2]), r->root}), slope));
     if (sign < 0)
         put(b, nh_call(d, NH_ATAN,
@@ -210,17 +235,18 @@ static void put_first_kind(builder *b, const radical *r, const nh_ex k[3])
 }
 
 /* int dx/((x - p) sqrt(Q)): with T = 2 Q(p) + Q'(p) (x - p) the area function of T/(2 sqrt(Q(p) Q)), or the arctangent
-   for Q(p) < 0. */
+   for Q(p) < 0; for a Q of degree one, where T = Q(p) + Q, they are twice those of sqrt(Q/Q(p)). */
 static void put_third_kind(builder *b, const radical *r, nh_ex p)
 {
     nh_dag *d = b->d;
     nh_ex at = nh_simplify_short(d, nh_substitute(d, r->Q, 1, &r->x, &p), 0), slope = nh_diff(d, r->Q, r->x),
           two = nh_int(d, 2);
     slope = nh_simplify_short(d, nh_substitute(d, slope, 1, &r->x, &p), 0);
-    int sign = sign_of(b, at);
+    int sign = mostly(b, at);
     if (nh_is_zero(d, at) || sign == 0) return;
     nh_ex T = back(b, r, nh_add(d, nh_mul(d, two, at), nh_mul(d, slope, nh_sub(d, r->x, p))));
-    nh_ex f = nh_div(d, T, nh_product(d, 3, (nh_ex[]){two, root_of(b, sign > 0 ? at : nh_neg(d, at)), r->root}));
+    nh_ex size = root_of(b, sign > 0 ? at : nh_neg(d, at));
+    nh_ex f = r->degree == 1 ? nh_div(d, r->root, size) : nh_div(d, T, nh_product(d, 3, (nh_ex[]){two, size, r->root}));
     if (sign > 0) put_area(b, f);
     else put(b, nh_call(d, NH_ATAN, f));
 }
@@ -232,7 +258,7 @@ static void put_poles(builder *b, const radical *r, nh_ex p)
     if (nh_is_zero(d, slope)) return;
     if (!nh_depends(d, slope, r->x)) {
         put_third_kind(b, r, nh_neg(d, nh_div(d, nh_substitute(d, p, 1, &r->x, &zero), slope)));
-    } else if (quadratic(b, r->x, p, k)) {
+    } else if (coefficients_of(b, r->x, p, k) == 2) {
         nh_ex D = nh_simplify_short(
                   d, nh_sub(d, nh_powi(d, k[1], 2), nh_product(d, 3, (nh_ex[]){nh_int(d, 4), k[2], k[0]})), 0),
               two = nh_mul(d, nh_int(d, 2), k[2]);
@@ -246,10 +272,12 @@ static void put_integrals(builder *b, radical r)
 {
     nh_dag *d = b->d;
     nh_ex k[3];
-    bool is_exponential = r.count && nh_function_of(d, r.back) == NH_EXP;
+    bool is_exponential = r.count && nh_kind_of(d, r.back) == NH_FUNCTION && nh_function_of(d, r.back) == NH_EXP;
     r.Q = in_variable(b, &r, r.Q);
-    if ((r.count && nh_depends(d, r.Q, b->in->x)) || !nh_depends(d, r.Q, r.x) || !quadratic(b, r.x, r.Q, k)) return;
-    put_first_kind(b, &r, k);
+    if ((r.count && nh_depends(d, r.Q, b->in->x)) || !nh_depends(d, r.Q, r.x)) return;
+    r.degree = coefficients_of(b, r.x, r.Q, k);
+    if (!r.degree) return;
+    if (r.degree == 2) put_first_kind(b, &r, k);
     if (is_exponential) put_third_kind(b, &r, nh_int(d, 0)); /* dx = dy/(lambda y) */
     for (size_t j = 0; j < b->divisors; j++) {
         nh_ex p = in_variable(b, &r, b->divisor[j].e);
@@ -257,21 +285,22 @@ static void put_integrals(builder *b, radical r)
     }
 }
 
-/* y = exp(lambda x) and exp(-lambda x) */
+/* y = exp(lambda x), exp(-lambda x), and their powers: cosh(x) is (1 + exp(2 x))/(2 exp(x)). */
 static void put_root_of_exponentials(builder *b, nh_ex Q, nh_ex root, nh_ex exponential)
 {
+    enum { most_times = 4 };
     nh_dag *d = b->d;
     nh_ex y = nh_symbol_fresh(d, "y"),
           lambda = nh_simplify_short(d, nh_diff(d, nh_child(d, exponential, 0), b->in->x), 0);
-    for (int sign = 1; sign >= -1 && !nh_depends(d, lambda, b->in->x); sign -= 2) {
-        nh_ex turned = nh_mul(d, nh_int(d, sign), lambda);
-        put_integrals(b, (radical){y,
-                                   Q,
-                                   root,
-                                   nh_call(d, NH_EXP, nh_mul(d, turned, b->in->x)),
-                                   1,
-                                   {b->in->x},
-                                   {nh_div(d, nh_call(d, NH_LOG, y), turned)}});
+    for (int i = 0; i < 2 * most_times && !nh_depends(d, lambda, b->in->x); i++) {
+        nh_ex rate = nh_mul(d, nh_int(d, i % 2 ? -(i / 2 + 1) : i / 2 + 1), lambda);
+        put_integrals(b, (radical){.x = y,
+                                   .Q = Q,
+                                   .root = root,
+                                   .back = nh_call(d, NH_EXP, nh_mul(d, rate, b->in->x)),
+                                   .count = 1,
+                                   .from = {b->in->x},
+                                   .to = {nh_div(d, nh_call(d, NH_LOG, y), rate)}});
     }
 }
 
@@ -280,8 +309,22 @@ static void put_root_of_waves(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_
 {
     nh_dag *d = b->d;
     nh_ex y = nh_symbol_fresh(d, "y"), other = nh_sqrt(d, nh_sub(d, nh_int(d, 1), nh_powi(d, y, 2)));
-    put_integrals(b, (radical){y, Q, root, cosine, 2, {cosine, sine}, {y, other}});
-    put_integrals(b, (radical){y, Q, root, sine, 2, {sine, cosine}, {y, other}});
+    put_integrals(b, (radical){y, Q, root, cosine, 0, 2, {cosine, sine}, {y, other}});
+    put_integrals(b, (radical){y, Q, root, sine, 0, 2, {sine, cosine}, {y, other}});
+}
+
+/* y = x^(1/n) */
+static void put_root_of_powers(builder *b, nh_ex Q, nh_ex root, int64_t n)
+{
+    nh_dag *d = b->d;
+    nh_ex y = nh_symbol_fresh(d, "y"), log_y = nh_call(d, NH_LOG, y);
+    put_integrals(b, (radical){.x = y,
+                               .Q = Q,
+                               .root = root,
+                               .back = nh_pow(d, b->in->x, nh_ratio(d, 1, n)),
+                               .count = 1,
+                               .from = {b->in->x},
+                               .to = {nh_call(d, NH_EXP, nh_mul(d, nh_int(d, n), log_y))}});
 }
 
 static void put_root(builder *b, nh_ex Q, nh_ex root)
@@ -289,6 +332,8 @@ static void put_root(builder *b, nh_ex Q, nh_ex root)
     put_integrals(b, (radical){.x = b->in->x, .Q = Q, .root = root});
     for (size_t i = 0; i < b->letters; i++) {
         const letter *l = &b->letter[i];
+        const nh_kernel *k = &b->form.kernels.item[l->index];
+        if (l->kind == NH_KERNEL_ROOT && k->atom == b->in->x) put_root_of_powers(b, Q, root, k->unit.q);
         if (l->kind == NH_KERNEL_EXP) put_root_of_exponentials(b, Q, root, l->e);
         if (l->kind == NH_KERNEL_COS)
             put_root_of_waves(b, Q, root, l->e,
@@ -470,9 +515,42 @@ static bool combine(const builder *b, nh_ex f, nh_ex *F)
     return found;
 }
 
+static bool is_exponential(const nh_dag *d, nh_ex e)
+{
+    bool all = nh_kind_of(d, e) == NH_FUNCTION ? nh_function_of(d, e) == NH_EXP : nh_kind_of(d, e) == NH_PRODUCT;
+    for (size_t i = 0; nh_kind_of(d, e) == NH_PRODUCT && i < nh_arity(d, e) && all; i++)
+        all = is_exponential(d, nh_child(d, e, i));
+    return all;
+}
+
+/* sqrt(N/D) as sqrt(N D)/|D|, with squares before the root: a polynomial below it.  Exponentials stay. */
+static nh_ex without_fractions_below(const nh_integration *in, nh_ex f)
+{
+    enum { most = 64 };
+    nh_dag *d = in->dag;
+    nh_ex product[most];
+    size_t n = nh_products_in(d, f, product, most);
+    for (size_t i = 0; i < n && i < most; i++)
+        for (size_t k = 0; k < nh_arity(d, product[i]); k++) {
+            nh_ex base = nh_child(d, product[i], k), x = nh_exponent_of(d, product[i], k);
+            bool half = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 2;
+            if (!half || !nh_depends(d, base, in->x)) continue;
+            nh_ex N = nh_numerator(d, base), D = nh_simplify_short(d, nh_div(d, N, base), 0);
+            nh_ex outside, inside, both = nh_simplify_short(d, nh_mul(d, N, D), 0);
+            if (!nh_depends(d, D, in->x) || is_exponential(d, D)) continue;
+            if (!nh_square_split(d, both, &outside, &inside)) continue;
+            nh_ex factor = nh_simplify_short(d, nh_div(d, outside, D), 0);
+            int sign = in->sign(in->context, factor);
+            if (!sign) continue;
+            f = nh_substitute_root(d, f, base,
+                                   nh_product(d, 3, (nh_ex[]){nh_int(d, sign), factor, nh_sqrt(d, inside)}));
+        }
+    return f;
+}
+
 bool nh_antiderivative(const nh_integration *in, nh_ex f, nh_ex *F)
 {
-    f = nh_simplify_short(in->dag, f, 0);
+    f = nh_simplify_short(in->dag, without_fractions_below(in, f), 0);
     *F = nh_mul(in->dag, f, in->x);
     if (!nh_depends(in->dag, f, in->x)) return true;
     builder *b = nh_alloc(sizeof *b);

@@ -27,6 +27,9 @@ typedef struct {
     /* The sign of a function of x and the constants wherever F is wanted; 0: it changes, or is not known.  It chooses
      * among the forms that a real logarithm has. */
     int (*sign)(void *context, nh_ex e);
+    /* Where the sign of what stands below a root changes from motion to motion: the one for which F shall be real; 0 or
+     * NULL: none. */
+    int (*mostly)(void *context, nh_ex e);
     void *context;
 } nh_integration;
 
