@@ -686,7 +686,7 @@ Test(analyze, polar_coordinates, .timeout = 120)
         size_t independent;
         const char *one; /* one of the currents */
     } list[] = {
-        {"name: kepler\n" POLAR "lagrangian: (r'^2 + r^2*ph'^2)/2 + 1.3/r\n", 3, NULL},
+        {"name: kepler\n" POLAR "lagrangian: (r'^2 + r^2*ph'^2)/2 + 1.3/r\n", 4, NULL}, /* Kepler's equation is the fourth */
         {"name: oscillator\n" POLAR "lagrangian: (r'^2 + r^2*ph'^2)/2 - 1.7*r^2/2\n", 4, "r^2*ph'"},
         {"name: free\n" SPHERICAL "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2\n", 6, "r^2*sin(th)^2*ph'"},
         {"name: monopole\n" SPHERICAL "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + 0.6*cos(th)*ph' + 1.2/r - 0.18/r^2\n", 5, "r^2*sin(th)^2*ph' + 0.6*cos(th)"},

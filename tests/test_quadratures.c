@@ -345,6 +345,73 @@ Test(quadratures, digits_that_are_lost)
     nh_analysis_free(r);
 }
 
+/* ---- systems that are integrated to the end ---- */
+
+/* All integrals, each proved, and constant along the checked motion. */
+static void complete(const char *text, size_t independent)
+{
+    nh_analysis *r = ask(text);
+    cr_expect_eq(r->independent, independent, "%s: %zu instead of %zu", text, r->independent, independent);
+    for (size_t k = 0; k < r->count; k++) {
+        double drift = r->found[k].drift.drift[NH_DRIFT_RUNS - 1];
+        char *phi = nh_print_string(r->model->dag, r->found[k].phi);
+        cr_expect(r->found[k].proof.proved, "%s: %s", text, phi);
+        cr_expect_lt(drift, 1e-6, "%s: %s drifts by %g", text, phi, drift);
+        nh_free(phi);
+    }
+    for (size_t i = 0; i < r->warnings; i++) cr_expect(!strstr(r->warning[i], "bug"), "%s: %s", text, r->warning[i]);
+    nh_analysis_free(r);
+}
+
+/* A particle in potentials of one coordinate: the time is an elementary function of the place.  Where the motion is bound, its phase turns round and
+ * round: sin and cos of it are constants, the time from a turning point is none. */
+Test(quadratures, potentials_of_one_coordinate)
+{
+    static const char *const potential[] = {
+        "k*exp(a*x)",     "k*exp(-3*x)", "k*x^(2/3)", "k*tan(x)^2",    "k/sin(x)^2", "k*(1 - exp(-a*x))^2",
+        "k*(exp(-2*x) - 2*exp(-x))", "-k/x",        "k/x",       "k/x^2 - a/x",   "k*tanh(x)"};
+    enum { count = sizeof potential / sizeof *potential };
+    for (size_t i = 0; i < count; i++) {
+        if (!sweep_tries(i, 4, count)) continue;
+        char text[400];
+        snprintf(text, sizeof text, "name: one\nparameters: {k: 1.1, a: 0.7}\ncoordinates: [x]\ndomain: {x: [0.5, 1]}\nlagrangian: x'^2/2 - (%s)\n",
+                 potential[i]);
+        complete(text, 2);
+    }
+}
+
+/* Forces that depend on the coordinates, or on a coordinate and the time, through one sum of them. */
+Test(quadratures, combined_coordinates)
+{
+    static const struct {
+        const char *text;
+        size_t independent;
+    } row[] = {
+        {"name: two bodies\nparameters: {k: 1.1}\ncoordinates: [x, y]\ndomain: {x: [1, 2], y: [-1, 0]}\n"
+         "lagrangian: (x'^2 + 2*y'^2)/2 - k*exp(x - y)\n", 4},
+        {"name: repulsion\nparameters: {k: 1.1}\ncoordinates: [x, y]\ndomain: {x: [1, 2], y: [-1, 0]}\n"
+         "lagrangian: (x'^2 + 2*y'^2)/2 - k/(x - y)\n", 4},
+        {"name: plane wave\nparameters: {c: 1.6, k: 1.1}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - k*exp(x + y - c*t)\n", 4},
+        {"name: goldfish\ncoordinates: [u, r]\ndomain: {r: [20, 30], u': [1, 2], r': [0, 0.5]}\n"
+         "lagrangian: (u' + r')*log(u' + r') + (u' - r')*log(u' - r') - 2*u'*log(r)\n", 4},
+        {"name: cylinder\nparameters: {m: 1.1, a: 0.8, g: 9.81}\ncoordinates: [x, y, z]\nlagrangian: m/2*(x'^2 + y'^2 + z'^2) - m*g*z\n"
+         "constraints: [\"x^2 + y^2 = a^2\"]\n", 5},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        if (sweep_tries(i, 2, sizeof row / sizeof *row)) complete(row[i].text, row[i].independent);
+}
+
+/* Bound and unbound motions have different constants: the formula says for which it is real. */
+Test(quadratures, real_where_the_motion_is_bound)
+{
+    nh_analysis *r = ask("name: fall\nparameters: {k: 1.1}\ncoordinates: [x]\ndomain: {x: [0.5, 1], x': [-3, 3]}\nlagrangian: x'^2/2 + k/x\n");
+    nh_ex positive[NH_MOST_REAL_WHERE];
+    size_t bound = 0;
+    for (size_t k = 0; k < r->count; k++) bound += nh_real_where(r->model, r->found[k].phi, positive) > 0;
+    cr_expect_eq(bound, 1);
+    nh_analysis_free(r);
+}
+
 /* ---- integrals without closed form ---- */
 
 /* cos of an exponential has no elementary integral: the skate that turns ever slower keeps three currents, and no false one; its place is an integral. */

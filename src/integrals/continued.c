@@ -4,6 +4,7 @@
 
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/diff.h"
 #include "system/sample.h"
 
 /* 1 or -1: the sign of a quotient at a point of the box where it has one; 0 where none was found. */
@@ -29,8 +30,9 @@ static bool take_out(nh_dag *d, nh_ex base, nh_ex *outside, nh_ex *inside)
 {
     nh_ex out[2], in[2];
     nh_ex top = nh_numerator(d, base);
-    if (!nh_square_split(d, nh_simplify_short(d, top, 0), &out[0], &in[0])
-        || !nh_square_split(d, nh_simplify_short(d, nh_div(d, top, base), 0), &out[1], &in[1])) return false;
+    if (!nh_square_split(d, nh_simplify_short(d, top, 0), &out[0], &in[0]) ||
+        !nh_square_split(d, nh_simplify_short(d, nh_div(d, top, base), 0), &out[1], &in[1]))
+        return false;
     *outside = nh_div(d, out[0], out[1]);
     *inside = nh_simplify_short(d, nh_div(d, in[0], in[1]), 0);
     return nh_kind_of(d, *outside) != NH_NUMBER;
@@ -68,4 +70,97 @@ nh_ex nh_continued_arctangents(const nh_model *o, nh_ex phi)
         call[count++] = call[i];
     }
     return nh_substitute(d, phi, count, call, by);
+}
+
+/* The only arctangent in phi, and phi = rest + factor * atan(u) where that is so. */
+static bool only_arctangent(nh_dag *d, nh_ex phi, nh_ex *call, nh_ex *rest, nh_ex *factor)
+{
+    enum { most = 64 };
+    nh_ex all[most], zero = nh_int(d, 0), angle = nh_symbol_fresh(d, "angle");
+    size_t n = nh_functions_in(d, phi, all, most), found = 0;
+    for (size_t i = 0; i < n && i < most; i++)
+        if (nh_function_of(d, all[i]) == NH_ATAN) *call = all[i], found++;
+    if (found != 1 || n > most) return false;
+    nh_ex e = nh_substitute(d, phi, 1, call, &angle);
+    *factor = nh_diff(d, e, angle);
+    *rest = nh_substitute(d, e, 1, &angle, &zero);
+    return !nh_depends(d, *factor, angle);
+}
+
+/* u = A/B, by what it is a product of. */
+static void sides(nh_dag *d, nh_ex u, nh_ex *A, nh_ex *B)
+{
+    *A = nh_numerator(d, u);
+    *B = nh_int(d, 1);
+    if (nh_kind_of(d, u) == NH_PRODUCT) {
+        *A = nh_number(d, nh_constant_of(d, u));
+        for (size_t i = 0; i < nh_arity(d, u); i++) {
+            nh_ex base = nh_child(d, u, i), power = nh_exponent_of(d, u, i);
+            bool below = nh_kind_of(d, power) == NH_NUMBER && nh_num_value(nh_number_of(d, power)) < 0;
+            if (below) *B = nh_mul(d, *B, nh_pow(d, base, nh_neg(d, power)));
+            else *A = nh_mul(d, *A, nh_pow(d, base, power));
+        }
+    } else {
+        *B = nh_simplify_short(d, nh_div(d, *A, u), 0);
+    }
+}
+
+static bool is_constant(const nh_model *o, nh_ex e)
+{
+    return nh_normal_is_zero(o->dag, nh_model_gamma(o, e), 0) == NH_ZERO;
+}
+
+/* Coordinates, exponentials, sines and cosines in e. */
+static size_t letters_of(const nh_model *o, nh_ex e, size_t most, nh_ex *letter)
+{
+    enum { most_calls = 8 };
+    nh_dag *d = o->dag;
+    nh_ex call[most_calls];
+    size_t calls = nh_functions_in(d, e, call, most_calls), count = 0;
+    for (size_t i = 0; i < calls && calls <= most_calls && count + 1 < most; i++) {
+        nh_function f = nh_function_of(d, call[i]);
+        if (f == NH_EXP) letter[count++] = call[i];
+        if (f != NH_SIN && f != NH_COS && f != NH_TAN) continue;
+        letter[count++] = nh_call(d, NH_SIN, nh_child(d, call[i], 0));
+        letter[count++] = nh_call(d, NH_COS, nh_child(d, call[i], 0));
+    }
+    for (size_t i = 1; i <= o->m && count < most; i++)
+        if (nh_depends(d, e, o->chart->symbol[i])) letter[count++] = o->chart->symbol[i];
+    return count;
+}
+
+/* The root of what e has to be divided by to be a constant of the motion: 1, or a power of a letter, which may change
+   its sign; 0: neither. */
+static nh_ex root_of_scale(const nh_model *o, nh_ex e)
+{
+    enum { most = 24, highest = 4 };
+    nh_dag *d = o->dag;
+    nh_ex letter[most];
+    if (is_constant(o, e)) return nh_int(d, 1);
+    size_t letters = letters_of(o, e, most, letter);
+    for (int power = 1; power <= highest; power++)
+        for (size_t i = 0; i < 2 * letters; i++) {
+            int own = i % 2 ? -power : power;
+            if (!is_constant(o, nh_div(d, e, nh_powi(d, letter[i / 2], own)))) continue;
+            return nh_pow(d, letter[i / 2], nh_ratio(d, own, 2));
+        }
+    return 0;
+}
+
+nh_ex nh_continued_turns(const nh_model *o, nh_ex phi)
+{
+    nh_dag *d = o->dag;
+    nh_ex call, rest, factor, A, B, outside, inside;
+    if (!only_arctangent(d, phi, &call, &rest, &factor)) return phi;
+    sides(d, nh_child(d, call, 0), &A, &B);
+    nh_ex sum = nh_simplify_short(d, nh_add(d, nh_powi(d, A, 2), nh_powi(d, B, 2)), 0);
+    if (!nh_square_split(d, sum, &outside, &inside)) return phi;
+    nh_ex angle = nh_simplify_short(d, nh_div(d, rest, factor), 0), S = nh_int(d, 1);
+    if (!is_constant(o, sum)) {
+        nh_ex root = root_of_scale(o, inside);
+        S = nh_mul(d, outside, root ? root : nh_sqrt(d, inside));
+    }
+    A = nh_simplify_short(d, nh_div(d, A, S), 0);
+    B = nh_simplify_short(d, nh_div(d, B, S), 0);
+    return nh_add(d, nh_mul(d, A, nh_call(d, NH_COS, angle)), nh_mul(d, B, nh_call(d, NH_SIN, angle)));
 }

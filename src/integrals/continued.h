@@ -17,4 +17,9 @@ nh_ex nh_continued_roots(const nh_model *model, nh_ex phi, uint64_t seed);
    side and by -pi/2 on the other.  phi itself where there is no arctangent. */
 nh_ex nh_continued_arctangents(const nh_model *model, nh_ex phi);
 
+/* phi = r + c atan(A/B), where c is a constant of the motion, as sin(r/c + atan(A/B)) times S, or alone where S is not
+   constant: A cos(r/c) + B sin(r/c), which goes on however often the angle turns round.  S^2 = A^2 + B^2; phi itself
+   where it has another number of arctangents. */
+nh_ex nh_continued_turns(const nh_model *model, nh_ex phi);
+
 #endif

@@ -37,6 +37,24 @@ static int certain_sign(const nh_model *o, nh_ex e)
     return sign;
 }
 
+/* Does it depend on the state, and have either sign in the sampling box? */
+static bool has_both_signs(const nh_model *o, nh_ex e)
+{
+    bool of_state = false;
+    size_t above = 0, below = 0;
+    for (size_t j = 0; j < o->width; j++) of_state |= nh_depends(o->dag, e, o->chart->symbol[j]);
+    if (of_state) nh_model_signs(o, e, &above, &below);
+    return above > 0 && below > 0;
+}
+
+/* e without a positive number before it. */
+static nh_ex without_number(nh_dag *d, nh_ex e)
+{
+    if (nh_kind_of(d, e) != NH_PRODUCT) return e;
+    nh_num c = nh_constant_of(d, e), one = nh_num_int(nh_num_value(c) < 0 ? -1 : 1);
+    return nh_mul(d, nh_number(d, nh_num_mul(one, nh_num_inv(c))), e);
+}
+
 static bool is_parametric(const nh_model *o, nh_ex e)
 {
     bool parametric = false;
@@ -45,29 +63,31 @@ static bool is_parametric(const nh_model *o, nh_ex e)
     return parametric;
 }
 
+static bool may_be_negative(const nh_model *o, nh_ex e)
+{
+    return (is_parametric(o, e) && certain_sign(o, e) == 0) || has_both_signs(o, e);
+}
+
 size_t nh_real_where(const nh_model *o, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE])
 {
     enum { most = 400 };
-    const nh_dag *d = o->dag;
+    nh_dag *d = o->dag;
     nh_ex node[most];
     size_t count = 0, n = nh_products_in(d, e, node, most);
     for (size_t i = 0; i < n && i < most; i++)
         for (size_t k = 0; k < nh_arity(d, node[i]); k++) {
-            nh_ex base = nh_child(d, node[i], k), x = nh_exponent_of(d, node[i], k);
+            nh_ex base = without_number(d, nh_child(d, node[i], k)), x = nh_exponent_of(d, node[i], k);
             bool even_root = nh_exponent_kind_of(d, x) == NH_EXPONENT_ROOT && nh_number_of(d, x).q % 2 == 0,
                  known = false;
             for (size_t j = 0; j < count; j++) known |= out[j] == base;
-            if (even_root && !known && count < NH_MOST_REAL_WHERE && is_parametric(o, base) &&
-                certain_sign(o, base) == 0)
-                out[count++] = base;
+            if (even_root && !known && count < NH_MOST_REAL_WHERE && may_be_negative(o, base)) out[count++] = base;
         }
     n = nh_functions_in(d, e, node, most);
     for (size_t i = 0; i < n && i < most; i++) {
         nh_ex argument = nh_function_of(d, node[i]) == NH_LOG ? nh_child(d, node[i], 0) : 0;
         bool known = argument == 0;
         for (size_t j = 0; j < count; j++) known |= out[j] == argument;
-        if (!known && count < NH_MOST_REAL_WHERE && is_parametric(o, argument) && certain_sign(o, argument) == 0)
-            out[count++] = argument;
+        if (!known && count < NH_MOST_REAL_WHERE && may_be_negative(o, argument)) out[count++] = argument;
     }
     return count;
 }

@@ -1,7 +1,7 @@
-/* real_where: for which values of the parameters a formula is real.
+/* real_where: for which values of the parameters, and for which motions, a formula is real.
  *
  * A formula that is proved for all parameters is so as an identity of analytic functions; sqrt(m l^2 - I) in it is real
- * for some of their values only. */
+ * for some of their values only, and sqrt(-E) for bound motions only. */
 #ifndef NH_REAL_WHERE_H
 #define NH_REAL_WHERE_H
 
@@ -9,8 +9,9 @@
 
 enum { NH_MOST_REAL_WHERE = 8 };
 
-/* What stands in e below an even root or in a logarithm, depends on parameters alone, and has no certain sign as long
- * as every parameter keeps its own: all of it has to be positive.  Into out; returns how many. */
+/* What stands in e below an even root or in a logarithm and has to be positive: depends on parameters alone, and has no
+ * certain sign as long as every parameter keeps its own; or depends on the state, and has either sign in the sampling
+ * box.  Into out; returns how many. */
 size_t nh_real_where(const nh_model *model, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE]);
 
 #endif

@@ -79,5 +79,5 @@ bool nh_currents_continue(nh_current_checker *b, nh_current *f)
     nh_model *o = b->result->model;
     if (!f->proof.proved) return false;
     return goes_through(b, f, nh_continued_roots(o, f->phi, (uint64_t)b->result->options.seed)) ||
-           goes_through(b, f, nh_continued_arctangents(o, f->phi));
+           goes_through(b, f, nh_continued_arctangents(o, f->phi)) || goes_through(b, f, nh_continued_turns(o, f->phi));
 }

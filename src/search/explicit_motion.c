@@ -5,19 +5,19 @@
 
 #include "base/budget.h"
 #include "exact/normal.h"
-#include "exact/normal.h"
 #include "graph/diff.h"
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"
 #include "integrals/prove.h"
 #include "search/explicit_motion_internal.h"
 
-static void start(nh_explicit_curve *c, size_t n, const nh_ex *current)
+/* False: no combined coordinates, which were asked for. */
+static bool start(nh_explicit_curve *c, const nh_explicit_request *request)
 {
     const nh_model *o = c->o;
     nh_dag *d = c->d;
     nh_explicit_motion *m = c->m;
-    size_t states = m->states;
+    size_t states = m->states, n = request->currents;
     nh_ex *state = nh_arena_alloc(c->arena, states * sizeof *state);
     memcpy(state, o->chart->symbol, states * sizeof *state);
     m->state = state;
@@ -35,20 +35,29 @@ static void start(nh_explicit_curve *c, size_t n, const nh_ex *current)
         c->rate[i] = c->fixed ? nh_fixed_values(o, c->fixed, rate) : rate;
         c->value[i] = nh_int(d, 0);
     }
+    if (request->combined) {
+        c->combined = nh_combined_coordinates_of(c->arena, o, c->rate);
+        if (!c->combined) return false;
+        memcpy(c->rate, c->combined->rate, states * sizeof *c->rate);
+    }
     c->currents = n;
-    for (size_t j = 0; j < n; j++) c->current[j] = c->fixed ? nh_fixed_values(o, c->fixed, current[j]) : current[j];
+    for (size_t j = 0; j < n; j++) {
+        nh_ex e = request->current[j];
+        c->current[j] = nh_combined_coordinates_in(c->combined, d, c->fixed ? nh_fixed_values(o, c->fixed, e) : e);
+    }
     for (size_t i = 0; i < o->system->parameters && c->symbols < most_symbols - most_constants; i++)
         c->symbol[c->symbols++] = o->parameter[i];
     c->s = state[m->parameter];
     c->solved[m->parameter] = true;
     c->value[m->parameter] = c->s;
+    return true;
 }
 
 /* With the constants that the state has, is the formula the state itself? */
 static bool agrees(const nh_explicit_curve *c, size_t i)
 {
     static const double rounding = 1e-6;
-    nh_ex pair[2] = {nh_explicit_in_states(c, c->value[i]), c->m->state[i]};
+    nh_ex pair[2] = {nh_explicit_at_points(c, c->value[i]), nh_explicit_at_points(c, c->m->state[i])};
     size_t count = c->points->count, compared = 0;
     double *value = nh_alloc_array(2 * count + 1, sizeof *value), off = 0, size = 0;
     nh_points_evaluate(c->points, c->o, 2, pair, value);
@@ -111,12 +120,16 @@ static void conclude(nh_explicit_curve *c)
     nh_explicit_motion *m = c->m;
     bool *known = nh_arena_alloc(c->arena, m->states * sizeof *known), constant = true;
     for (size_t j = 0; j < m->constants && constant; j++) {
+        nh_ex value = m->constant[j].value = nh_combined_coordinates_out(c->combined, c->d, m->constant[j].value);
         if (m->constant[j].at_start) continue;
-        nh_ex rate = nh_model_gamma(c->o, m->constant[j].value);
-        constant = nh_is_zero(c->d, rate) ||
-                   nh_prove_digits(c->o, m->constant[j].value, c->options) >= c->options->digits ||
+        nh_ex rate = nh_model_gamma(c->o, value);
+        constant = nh_is_zero(c->d, rate) || nh_prove_digits(c->o, value, c->options) >= c->options->digits ||
                    nh_explicit_vanishes(c, nh_exact_values(c->o, rate));
     }
+    m->is_known = known;
+    m->value = c->value;
+    if (!constant) m->constants = 0;
+    if (c->combined) return;
     for (size_t i = 0; i < m->states; i++)
         if (c->solved[i] && c->value[i]) c->value[i] = without_poles(c, c->value[i]);
     for (size_t i = 0; i < m->states; i++) {
@@ -125,22 +138,23 @@ static void conclude(nh_explicit_curve *c)
                    (constant && c->solved[i] && nh_explicit_unknowns(c, c->value[i], &last) == 0 && agrees(c, i));
         m->known += known[i];
     }
-    if (!constant) m->constants = 0;
-    m->is_known = known;
     m->proved = constant && satisfied(c, known);
-    m->value = c->value;
 }
 
-nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o, const nh_points *points,
-                                             size_t parameter, const nh_ex *fixed, size_t n, const nh_ex *current,
-                                             bool linear, const nh_options *options)
+nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o, const nh_explicit_request *request,
+                                             size_t parameter)
 {
     enum { pair = 2 };
-    nh_explicit_curve c = {.arena = arena, .o = o, .d = o->dag, .points = points, .options = options, .fixed = fixed};
+    nh_explicit_curve c = {.arena = arena,
+                           .o = o,
+                           .d = o->dag,
+                           .points = request->points,
+                           .options = request->options,
+                           .fixed = request->fixed};
+    bool linear = request->linear;
     c.m = nh_arena_alloc(arena, sizeof *c.m);
-    *c.m = (nh_explicit_motion){.states = 1 + o->m + o->n, .parameter = parameter, .fixed = fixed};
-    start(&c, n, current);
-    if (nh_is_zero(c.d, c.rate[parameter])) return NULL;
+    *c.m = (nh_explicit_motion){.states = 1 + o->m + o->n, .parameter = parameter, .fixed = request->fixed};
+    if (!start(&c, request) || nh_is_zero(c.d, c.rate[parameter])) return NULL;
     bool more = true;
     while (more && !nh_budget_spent())
         more = linear ? nh_explicit_solve_first(&c, 1) || nh_explicit_solve_rate(&c, false)

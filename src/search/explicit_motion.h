@@ -20,10 +20,10 @@
 #include "integrals/points.h"
 
 typedef struct {
-    nh_ex symbol, value;     /* C1; its value in the states */
+    nh_ex symbol, value; /* C1; its value in the states */
     /* by an integration; else it is a current that was known, or one that a known current determines */
     bool integrated;
-    bool at_start;           /* its value is that of the state where the integrals are 0 */
+    bool at_start; /* its value is that of the state where the integrals are 0 */
 } nh_motion_constant;
 
 /* A root of a function of the parameter and constants: symbol^2 = square; the symbol's value in the states has the
@@ -42,7 +42,7 @@ struct nh_motion_series;
 
 typedef struct nh_explicit_motion {
     size_t states, parameter, known; /* known: how many states are, with the parameter */
-    const nh_ex *state;      /* t, q, w */
+    const nh_ex *state;              /* t, q, w */
     /* in the parameter, the constants, the roots and the integrals; 0, the number, for those that are not known */
     const nh_ex *value;
     const bool *is_known;
@@ -50,17 +50,26 @@ typedef struct nh_explicit_motion {
     nh_motion_constant *constant;
     nh_motion_root *root;
     nh_motion_integral *integral;
-    bool proved;             /* the known values satisfy the equations of motion, by differentiation and normal forms */
+    bool proved; /* the known values satisfy the equations of motion, by differentiation and normal forms */
     const struct nh_motion_series *series; /* of the integrals, along the checked motion; NULL: none */
-    const nh_ex *fixed;       /* which parameters have their values (integrals/fixed.h); NULL: none */
-    const char *region;      /* where the constants are constant (integrals/region.h); NULL: along every motion */
+    const nh_ex *fixed;                    /* which parameters have their values (integrals/fixed.h); NULL: none */
+    const char *region; /* where the constants are constant (integrals/region.h); NULL: along every motion */
 } nh_explicit_motion;
 
-/* With this state as parameter; `fixed` as in the result.  n currents of the chart may be used; `linear`: without roots
- * and without integrals that have no closed form.  Signs are those at the points.  NULL where Gamma does not move the
- * state.  In the arena. */
-nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *model, const nh_points *points,
-                                             size_t parameter, const nh_ex *fixed, size_t n, const nh_ex *current,
-                                             bool linear, const nh_options *options);
+/* What the motions are solved from. */
+typedef struct {
+    const nh_points *points; /* signs are those there */
+    const nh_ex *fixed;      /* as in the result */
+    size_t currents;         /* of the chart, that may be used */
+    const nh_ex *current;
+    bool linear;   /* without roots and without integrals that have no closed form */
+    bool combined; /* with combined coordinates (search/combined_coordinates.h), NULL where there are none */
+    const nh_options *options;
+} nh_explicit_request;
+
+/* With this state as parameter.  With combined coordinates the constants alone are of use: `value` is in them.  NULL
+ * where Gamma does not move the state.  In the arena. */
+nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *model, const nh_explicit_request *request,
+                                             size_t parameter);
 
 #endif

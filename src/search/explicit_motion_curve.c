@@ -43,6 +43,11 @@ nh_ex nh_explicit_in_states(const nh_explicit_curve *c, nh_ex e)
     return e;
 }
 
+nh_ex nh_explicit_at_points(const nh_explicit_curve *c, nh_ex e)
+{
+    return nh_combined_coordinates_out(c->combined, c->d, nh_explicit_in_states(c, e));
+}
+
 bool nh_explicit_has_integral(const nh_explicit_curve *c, nh_ex e)
 {
     for (size_t i = 0; i < c->m->integrals; i++)
@@ -50,22 +55,35 @@ bool nh_explicit_has_integral(const nh_explicit_curve *c, nh_ex e)
     return false;
 }
 
-int nh_explicit_sign(void *context, nh_ex e)
+/* At how many points it is above zero, and at how many below. */
+static void count_signs(const nh_explicit_curve *c, nh_ex e, size_t *above, size_t *below)
 {
-    const nh_explicit_curve *c = context;
-    if (nh_explicit_has_integral(c, e)) return 0;
+    *above = *below = 0;
+    if (nh_explicit_has_integral(c, e)) return;
     double *value = nh_alloc_array(c->points->count + 1, sizeof *value);
     nh_ex here = e;
     for (size_t i = c->m->roots; i-- > 0;) here = nh_substitute_root(c->d, here, c->radicand[i], c->m->root[i].symbol);
-    here = nh_explicit_in_states(c, here);
-    bool above = false, below = false;
+    here = nh_explicit_at_points(c, here);
     nh_points_evaluate(c->points, c->o, 1, &here, value);
     for (size_t p = 0; p < c->points->count; p++) {
-        above |= value[p] > 0;
-        below |= value[p] < 0;
+        *above += value[p] > 0;
+        *below += value[p] < 0;
     }
     nh_free(value);
-    return above == below ? 0 : above ? 1 : -1;
+}
+
+int nh_explicit_sign(void *curve, nh_ex e)
+{
+    size_t above, below;
+    count_signs(curve, e, &above, &below);
+    return (above > 0) - (below > 0);
+}
+
+int nh_explicit_mostly(void *curve, nh_ex e)
+{
+    size_t above, below;
+    count_signs(curve, e, &above, &below);
+    return (above > below) - (below > above);
 }
 
 size_t nh_explicit_unknowns(const nh_explicit_curve *c, nh_ex e, size_t *last)

@@ -3,6 +3,7 @@
 #define NH_EXPLICIT_MOTION_INTERNAL_H
 
 #include "search/explicit_motion.h"
+#include "search/combined_coordinates.h"
 
 enum { most_constants = 24, most_roots = 4, most_integrals = 8, most_symbols = 60 };
 
@@ -13,16 +14,17 @@ typedef struct {
     const nh_points *points;
     const nh_options *options;
     const nh_ex *fixed;
+    const nh_combined_coordinates *combined; /* all expressions are in them; NULL: none */
     nh_explicit_motion *m;
     /* of every state: its rate; its value in s, the constants, the roots, the integrals and the states that are not
        solved */
     nh_ex s, *rate, *value;
     bool *solved;
-    nh_ex *refused;             /* per state: du/ds that could not be integrated; 0: none */
+    nh_ex *refused; /* per state: du/ds that could not be integrated; 0: none */
     size_t currents;
     nh_ex *current;
     bool *used;
-    size_t symbols;             /* parameters of the system, then the constants */
+    size_t symbols; /* parameters of the system, then the constants */
     nh_ex symbol[most_symbols];
     nh_ex radicand[most_roots]; /* of the roots, with the earlier ones written as such */
 } nh_explicit_curve;
@@ -35,8 +37,12 @@ bool nh_explicit_too_long(const nh_explicit_curve *c, nh_ex e);
 nh_ex nh_explicit_along(const nh_explicit_curve *c, nh_ex e);
 /* In the states alone; integrals are 0. */
 nh_ex nh_explicit_in_states(const nh_explicit_curve *c, nh_ex e);
+/* The same without combined coordinates: what has a value at a point of the model. */
+nh_ex nh_explicit_at_points(const nh_explicit_curve *c, nh_ex e);
 /* The same sign at all points?  0: no, or not known. */
 int nh_explicit_sign(void *curve, nh_ex e);
+/* The sign at more points than the other; 0: neither. */
+int nh_explicit_mostly(void *curve, nh_ex e);
 /* Does an integral without closed form stand in e? */
 bool nh_explicit_has_integral(const nh_explicit_curve *c, nh_ex e);
 /* How many states that are not solved e depends on; the last of them. */

@@ -67,6 +67,12 @@ static int sign_on_sides(void *context, nh_ex e)
     return nh_explicit_sign(p->curve, with_signs(p, e));
 }
 
+static int most_on_sides(void *context, nh_ex e)
+{
+    const pieces *p = context;
+    return nh_explicit_mostly(p->curve, with_signs(p, e));
+}
+
 /* int f ds, in which roots are written as such; its constant may be another one on either side of a zero of u. */
 static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
 {
@@ -89,6 +95,7 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
                          .constant = constant,
                          .max_terms = (size_t)c->options->proof_terms,
                          .sign = sign_on_sides,
+                         .mostly = most_on_sides,
                          .context = &p};
     bool found = nh_antiderivative(&in, with_sides(&p, f), F);
     nh_free(constant);
@@ -193,13 +200,20 @@ static int by_length(const void *left, const void *right)
     return a->length != b->length ? (a->length < b->length ? -1 : 1) : a->state < b->state ? -1 : a->state > b->state;
 }
 
+/* The time first, along combined coordinates: it makes the other states known that a current gives with it. */
+static int time_first(const void *left, const void *right)
+{
+    const equation *a = left, *b = right;
+    return !a->state != !b->state ? (a->state ? 1 : -1) : by_length(left, right);
+}
+
 /* The shortest first. */
 bool nh_explicit_solve_rate(nh_explicit_curve *c, bool named)
 {
     equation *list = nh_alloc_array(c->m->states + 1, sizeof *list);
     size_t count = equations(c, named, list);
     bool solved = false;
-    qsort(list, count, sizeof *list, by_length);
+    qsort(list, count, sizeof *list, c->combined ? time_first : by_length);
     for (size_t i = 0; i < count && !solved && nh_explicit_room(c); i++) {
         solved = solve_linear(c, list[i].state, list[i].A, list[i].B, named);
         if (!solved) c->refused[list[i].state] = list[i].r;

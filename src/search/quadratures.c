@@ -160,6 +160,37 @@ static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
     return nh_substitute(d, e, logs, call, by);
 }
 
+static bool has_roots_of_states(const nh_model *o, nh_ex e)
+{
+    enum { most = 24 };
+    nh_ex radicand[most];
+    size_t n = roots_in(o->dag, 1, &e, radicand, most);
+    bool found = n == most;
+    for (size_t i = 0; i < n && !found; i++) found = !is_parametric(o, radicand[i]);
+    return found;
+}
+
+/* atanh(a/sqrt(a^2 + b^2)) as asinh(a/b), where that is not much longer: it keeps its digits where b is small. */
+static nh_ex better_area_functions(const nh_model *o, nh_ex e)
+{
+    enum { most = 24, a_few = 4 };
+    nh_dag *d = o->dag;
+    nh_ex call[most], outside, inside, one = nh_int(d, 1);
+    size_t n = nh_functions_in(d, e, call, most);
+    for (size_t i = 0; i < n && n <= most; i++) {
+        if (nh_function_of(d, call[i]) != NH_ATANH) continue;
+        nh_ex f = nh_child(d, call[i], 0), square = nh_simplify_short(d, nh_powi(d, f, 2), 0);
+        nh_ex other = nh_simplify_short(d, nh_div(d, square, nh_sub(d, one, square)), 0);
+        if (!nh_square_split(d, other, &outside, &inside)) continue;
+        nh_ex u = nh_simplify_short(d, nh_mul(d, outside, nh_sqrt(d, inside)), 0);
+        int sign = has_roots_of_states(o, u) ? 0 : nh_model_sign(o, nh_div(d, f, u));
+        if (!sign || nh_complexity(d, u) > nh_complexity(d, f) + a_few) continue;
+        nh_ex area = nh_mul(d, nh_int(d, sign), nh_call(d, NH_ASINH, u));
+        e = nh_substitute(d, e, 1, &call[i], &area);
+    }
+    return e;
+}
+
 typedef struct {
     nh_ex e;
     bool fixed;
@@ -218,6 +249,8 @@ static nh_ex as_current(const nh_analysis *r, nh_ex value, bool general)
     const nh_model *o = r->model;
     nh_dag *d = o->dag;
     nh_ex e = shorter_roots(o, nh_simplify_short(d, shorter_logarithms(r, shorter_roots(o, value)), 0));
+    nh_ex stable = better_area_functions(o, e);
+    if (stable != e && nh_prove_current(o, stable, true, &r->options).all_parameters) e = stable;
     nh_ex joined = shorter_roots(o, joined_roots(d, signs_as_roots(d, e)));
     nh_ex rooted = nh_simplify_short(d, roots_of_the_equations(o, joined), 0);
     if (e == rooted || !general || nh_prove_current(o, e, true, &r->options).all_parameters) return e;
@@ -244,16 +277,17 @@ static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *
 
 /* ---- the whole ---- */
 
-/* With every state as the parameter; the best one. */
-static const nh_explicit_motion *try_all(nh_stage_solver *x, const nh_ex *fixed, size_t n, const nh_ex *current,
-                                         size_t *count, const nh_explicit_motion **tried)
+/* With every state as the parameter; the best one.  NULL where combined coordinates were asked for and there are
+   none. */
+static const nh_explicit_motion *try_all(nh_stage_solver *x, const nh_explicit_request *request, size_t *count,
+                                         const nh_explicit_motion **tried)
 {
     const nh_model *o = x->r->model;
     const nh_explicit_motion *best = NULL;
     size_t states = 1 + o->m + o->n;
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
-        const nh_explicit_motion *m =
-            nh_explicit_motion_along(x->r->arena, o, x->ranges, i, fixed, n, current, false, &x->r->options);
+        const nh_explicit_motion *m = nh_explicit_motion_along(x->r->arena, o, request, i);
+        if (!m && request->combined && i == 0) return NULL;
         if (!m) continue;
         tried[(*count)++] = m;
         if (better(m, best)) best = m;
@@ -281,9 +315,10 @@ void nh_quadratures_complete(nh_stage_solver *x)
     if (o->chart->implicit) return;
     nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current);
     size_t n = gather(r, true, current);
+    nh_explicit_request request = {
+        .points = x->ranges, .currents = n, .current = current, .linear = true, .options = &r->options};
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
-        const nh_explicit_motion *m =
-            nh_explicit_motion_along(r->arena, o, x->ranges, i, NULL, n, current, true, &r->options);
+        const nh_explicit_motion *m = nh_explicit_motion_along(r->arena, o, &request, i);
         if (!m || m->known < states) continue;
         harvest(x, 1, &m);
         return;
@@ -297,14 +332,25 @@ void nh_quadratures_search(nh_stage_solver *x)
     size_t states = 1 + o->m + o->n, count = 0;
     if (o->chart->implicit || nh_budget_spent()) return;
     nh_progress("integration of one equation after another", nh_budget_part());
-    nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current);
+    nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current),
+          *special = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *special);
+    nh_explicit_request request = {.points = x->ranges, .current = current, .options = &r->options}, valued = request;
+    request.currents = gather(r, true, current);
+    valued.current = special;
+    valued.currents = gather(r, false, special);
+    valued.fixed = special_values(r);
     const nh_explicit_motion **tried = nh_arena_alloc(r->arena, 2 * states * sizeof *tried),
-                             *best = try_all(x, NULL, gather(r, true, current), current, &count, tried);
-    const nh_ex *fixed = special_values(r);
-    if (fixed && !(best && best->known == states && !best->integrals)) {
-        const nh_explicit_motion *special = try_all(x, fixed, gather(r, false, current), current, &count, tried);
-        if (special && better(special, best)) best = special;
+                             *best = try_all(x, &request, &count, tried);
+    if (valued.fixed && !(best && best->known == states && !best->integrals)) {
+        const nh_explicit_motion *other = try_all(x, &valued, &count, tried);
+        if (other && better(other, best)) best = other;
     }
+    harvest(x, count, tried);
+    /* the formulas of motions in combined coordinates are not shown: their constants are currents */
+    request.combined = valued.combined = true;
+    count = 0;
+    if (!nh_stage_solver_done(x)) try_all(x, &request, &count, tried);
+    if (!nh_stage_solver_done(x) && valued.fixed) try_all(x, &valued, &count, tried);
     harvest(x, count, tried);
     if (!best || best->known <= 1) return;
     nh_explicit_motion *m = nh_arena_alloc(r->arena, sizeof *m);
