@@ -60,6 +60,47 @@ static void expect(const char *text, size_t degrees, const size_t *bound)
 #define EXPECT(text, ...) expect(text, sizeof((size_t[]){__VA_ARGS__}) / sizeof(size_t), (size_t[]){__VA_ARGS__})
 #define PLANE(potential) "name: p\ncoordinates: [x, y]\ndomain: {x: [0.5, 1.5], y: [0.5, 1.5]}\nlagrangian: (x'^2 + y'^2)/2 - (" potential ")\n"
 
+/* ---- from one order to the next ---- */
+
+/* Series of order 5, then 6 and 9, against order 9 at once: brackets of weight 1, 2 and 3, and conditions that are kept or substituted. */
+Test(breaks, a_lower_order_is_a_beginning)
+{
+    enum { orders = 3, degree = 3 };
+    static const size_t ORDER[orders] = {5, 6, 9};
+    static const char *const TEXT[] = {PLANE("x^2*y + y^3/3 + (x^2 + y^2)/2"), PLANE("1/sqrt(x^2 + y^2)"),
+                                       "name: c\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - y^2/2\nconstraints: [\"z' = y*x'\"]\n",
+                                       "name: e\ncoordinates: [x, y, z, u]\nlagrangian: (x'^2 + y'^2 + z'^2 + u'^2)/2\nconstraints: [\"z' = y*x'\", \"u' = z*x'\"]\n"};
+    for (size_t i = 0; i < sizeof TEXT / sizeof *TEXT; i++) {
+        nh_system *y = system_of(TEXT[i]);
+        nh_model *o = model_of(y);
+        nh_count_question q = {.degree = degree, .work = 1e12};
+        nh_counter c;
+        nh_counter_open(&c, o, &q);
+        bool regular = false;
+        for (size_t attempt = 0; !regular; attempt++)
+            if (nh_count_regular_point(&c, attempt)) nh_count_series_free(nh_count_series_create(&c, 1, INFINITY, &regular));
+        nh_graded_state *state = NULL;
+        for (size_t k = 0; k < orders; k++) {
+            nh_count_series *s = nh_count_series_create(&c, ORDER[k], INFINITY, &regular);
+            nh_graded_problem p = nh_count_problem(&c, s, degree, NH_ALL_DEGREES);
+            nh_graded_count *whole = nh_graded_solve(&p), *rest = nh_graded_continue(&p, &state);
+            cr_assert(whole->solved && rest->solved && state);
+            size_t N = whole->total[ORDER[k]];
+            cr_expect_arr_eq(rest->total, whole->total, (ORDER[k] + 1) * sizeof *whole->total, "%s", TEXT[i]);
+            cr_expect(rest->injective == whole->injective && rest->injective_at == whole->injective_at);
+            cr_expect(rest->most == whole->most && rest->alphas == whole->alphas);
+            cr_expect_arr_eq(rest->jet, whole->jet, whole->alphas * (1 + s->ring->variables) * N * sizeof *whole->jet, "%s", TEXT[i]);
+            nh_graded_count_clear(rest);
+            nh_graded_count_clear(whole);
+            nh_count_series_free(s);
+        }
+        nh_graded_state_free(state);
+        nh_counter_close(&c);
+        nh_model_free(o);
+        nh_system_free(y);
+    }
+}
+
 /* ---- points and primes ---- */
 
 Test(breaks, all_points_and_primes_give_the_same_number)

@@ -76,8 +76,8 @@ nh_graded_problem nh_count_problem(const nh_counter *c, const nh_count_series *s
 
 /* N for each order, the sum over both parities where they separate; injective_at: the larger.  False: beyond the
    limits. */
-static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, size_t *total, size_t *injective_at,
-                   nh_differentials *d)
+static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, nh_graded_state *state[2], size_t *total,
+                   size_t *injective_at, nh_differentials *d)
 {
     size_t order = s->ring->order;
     bool good = true;
@@ -89,7 +89,7 @@ static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, size_
                                                : part    ? NH_ODD_DEGREES
                                                          : NH_EVEN_DEGREES);
         size_t from;
-        good = nh_count_solve(c, &p, total, &from, d);
+        good = nh_count_solve(c, &p, &state[part], total, &from, d);
         if (*injective_at < from) *injective_at = from;
     }
     return good;
@@ -136,8 +136,8 @@ static void read_totals(const nh_counter *c, const size_t *total, size_t from, n
     out->settled = out->bounded && order - same >= c->frame->step + steps_beyond;
 }
 
-/* One degree at one order. */
-static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row *out)
+/* One degree at one order; `state` of both parities, from the order before. */
+static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_graded_state *state[2], nh_count_row *out)
 {
     bool regular;
     nh_count_series *s = nh_count_series_create(c, order, c->most, &regular);
@@ -145,7 +145,7 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row
     size_t *total = nh_alloc_array(order + 1, sizeof *total), from;
     nh_differentials all, known;
     nh_count_differentials(c, &all, &known);
-    outcome result = totals(c, s, degree, total, &from, &all) ? COUNTED : TOO_MUCH;
+    outcome result = totals(c, s, degree, state, total, &from, &all) ? COUNTED : TOO_MUCH;
     bool products =
         c->q->alone || result != COUNTED || nh_count_products(c, s->ring, s->coordinate, degree, total[order], out);
     if (result == COUNTED && !(products && nh_count_known_differ(c, s->ring, s->coordinate, &known))) result = UNLUCKY;
@@ -178,12 +178,13 @@ static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *be
 {
     size_t step = c->frame->step, order = first_order(c, degree, before);
     nh_count_row row = {0};
+    nh_graded_state *state[2] = {NULL, NULL};
+    outcome o = COUNTED;
     bool any = false;
     c->most = c->q->work;
     while (c->work < c->most && !nh_late()) {
-        outcome o = count_at(c, degree, order, &row);
-        if (o == UNLUCKY) return o;
-        if (o == TOO_MUCH) break;
+        o = count_at(c, degree, order, state, &row);
+        if (o != COUNTED) break;
         *out = row;
         any = row.bounded;
         if (row.complete || row.settled || (row.functions && c->q->alone) ||
@@ -192,7 +193,9 @@ static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *be
         if (row.bounded && !row.functions && c->q->known) c->most = more_for_open * c->q->work;
         order = (row.bounded ? row.reached : order) + step + steps_beyond;
     }
-    return any ? COUNTED : TOO_MUCH;
+    nh_graded_state_free(state[0]);
+    nh_graded_state_free(state[1]);
+    return o == UNLUCKY ? UNLUCKY : any ? COUNTED : TOO_MUCH;
 }
 
 /* ---- points ---- */

@@ -52,9 +52,10 @@ void nh_count_differentials(const nh_counter *counter, nh_differentials *all, nh
 void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known);
 
 /* The solutions of a problem, or what is remembered of them: N for each order is added to `total`; `injective_at`:
- * SIZE_MAX: the symbol was not; their differentials are added.  False: beyond the limits. */
-bool nh_count_solve(nh_counter *counter, const nh_graded_problem *problem, size_t *total, size_t *injective_at,
-                    nh_differentials *differentials);
+ * SIZE_MAX: the symbol was not; their differentials are added.  *state: of a lower order, or NULL; of this one then.
+ * False: beyond the limits. */
+bool nh_count_solve(nh_counter *counter, const nh_graded_problem *problem, nh_graded_state **state, size_t *total,
+                    size_t *injective_at, nh_differentials *differentials);
 void nh_count_differentials_append(nh_differentials *differentials, const nh_differentials *more);
 /* Room for more rows, all zero. */
 nh_residue *nh_count_more_differentials(nh_differentials *differentials, size_t count);

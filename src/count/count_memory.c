@@ -87,7 +87,8 @@ static void remember(nh_count_memory *m, uint64_t key, const nh_graded_count *g,
     m->item[m->count++] = a;
 }
 
-bool nh_count_solve(nh_counter *c, const nh_graded_problem *p, size_t *total, size_t *injective_at, nh_differentials *d)
+bool nh_count_solve(nh_counter *c, const nh_graded_problem *p, nh_graded_state **state, size_t *total,
+                    size_t *injective_at, nh_differentials *d)
 {
     uint64_t key = key_of(p, d);
     const answer *a = recall(c->q->memory, key);
@@ -100,7 +101,7 @@ bool nh_count_solve(nh_counter *c, const nh_graded_problem *p, size_t *total, si
         c->work += a->work;
         return true;
     }
-    nh_graded_count *g = nh_graded_solve(p);
+    nh_graded_count *g = nh_graded_continue(p, state);
     bool solved = g->solved;
     c->work += g->work;
     *injective_at = g->injective ? g->injective_at : SIZE_MAX;

@@ -119,7 +119,9 @@ static void more_room(nh_graded_system *s)
     }
     nh_residue *wider = nh_alloc_array(rows * stride, sizeof *wider),
                *conditions = nh_alloc_array(s->conditions * stride + 1, sizeof *conditions);
-    for (size_t i = 0; old && i < rows; i++) memcpy(wider + i * stride, s->row + i * old, s->N * sizeof *wider);
+    for (size_t i = 0; old && i < rows; i++) /* higher weights are zero yet, and take no memory */
+        if (i % s->r->size < s->r->first[s->k + 2])
+            memcpy(wider + i * stride, s->row + i * old, s->N * sizeof *wider);
     for (size_t i = 0; old && i < s->conditions; i++)
         memcpy(conditions + i * stride, s->condition + i * old, s->reached * sizeof *conditions);
     nh_free(s->row);
@@ -338,7 +340,8 @@ static bool may_substitute(nh_graded_system *s, size_t rank)
 {
     double work =
         (double)s->alphas * (double)coefficients_left(s, NULL) * (double)rank * (double)(s->reached - rank + 1);
-    s->over |= s->work + work > s->p->most_work;
+    s->planned = fmax(s->planned, s->work + work);
+    s->over |= s->planned > s->p->most_work;
     return !s->over;
 }
 
@@ -349,7 +352,8 @@ static void use_conditions(nh_graded_system *s)
     size_t columns = s->before;
     if (!s->fresh_count || !columns) return;
     double rows = (double)s->conditions + fmin((double)s->fresh_count, (double)(columns - s->conditions + spare_rows));
-    s->over |= s->work + rows * (double)columns * (double)columns > s->p->most_work;
+    s->planned = fmax(s->planned, s->work + rows * (double)columns * (double)columns);
+    s->over |= s->planned > s->p->most_work;
     if (s->over) return;
     nh_residue *all = nh_alloc_array((s->conditions + s->fresh_count + 1) * columns, sizeof *all);
     for (size_t q = 0; q < s->conditions; q++)
@@ -411,9 +415,25 @@ static void start(nh_graded_system *s)
 static void keep_series(nh_graded_system *s, nh_graded_count *out)
 {
     size_t rows = s->alphas * s->r->size;
-    out->series = nh_arena_alloc(s->arena, rows * s->N * sizeof *out->series + 1);
+    out->series = nh_arena_alloc(out->arena, rows * s->N * sizeof *out->series + 1);
     for (size_t i = 0; i < rows; i++)
         memcpy(out->series + i * s->N, s->row + i * s->stride, s->N * sizeof *out->series);
+}
+
+static void substitute_all(nh_graded_system *s)
+{
+    if (!s->conditions || !may_substitute(s, s->conditions)) return;
+    size_t *pivot = nh_alloc_array(s->conditions, sizeof *pivot);
+    nh_residue *all = nh_alloc_array(s->conditions * s->reached, sizeof *all);
+    for (size_t q = 0; q < s->conditions; q++) {
+        for (size_t j = 0; j < s->reached; j++)
+            all[q * s->reached + s->reached - 1 - j] = s->condition[q * s->stride + j];
+        while (!all[q * s->reached + pivot[q]]) pivot[q]++;
+    }
+    substitute(s, all, s->conditions, pivot);
+    nh_free(all);
+    nh_free(pivot);
+    s->conditions = 0;
 }
 
 /* What is left of the conditions is used, and the first jets of the solutions are kept, or all of them. */
@@ -421,23 +441,13 @@ static void finish(nh_graded_system *s, nh_graded_count *out)
 {
     size_t m = s->r->variables;
     s->k = out->order ? out->order - 1 : 0;
-    if (s->conditions && may_substitute(s, s->conditions)) {
-        size_t *pivot = nh_alloc_array(s->conditions, sizeof *pivot);
-        nh_residue *all = nh_alloc_array(s->conditions * s->reached, sizeof *all);
-        for (size_t q = 0; q < s->conditions; q++) {
-            for (size_t j = 0; j < s->reached; j++)
-                all[q * s->reached + s->reached - 1 - j] = s->condition[q * s->stride + j];
-            while (!all[q * s->reached + pivot[q]]) pivot[q]++;
-        }
-        substitute(s, all, s->conditions, pivot);
-        nh_free(all);
-        nh_free(pivot);
-        s->conditions = 0;
-    }
+    substitute_all(s);
     if (s->over) return;
     out->alphas = s->alphas;
-    out->alpha = s->alpha;
-    out->jet = nh_arena_alloc(s->arena, s->alphas * (1 + m) * s->N * sizeof *out->jet + 1);
+    uint8_t *alpha = nh_arena_alloc(out->arena, s->alphas * s->p->n + 1);
+    memcpy(alpha, s->alpha, s->alphas * s->p->n);
+    out->alpha = alpha;
+    out->jet = nh_arena_alloc(out->arena, s->alphas * (1 + m) * s->N * sizeof *out->jet + 1);
     for (size_t a = 0; a < s->alphas; a++)
         for (size_t k = 0; k <= m; k++) {
             size_t e = k ? s->r->up[(k - 1) * s->r->size] : 0;
@@ -447,25 +457,142 @@ static void finish(nh_graded_system *s, nh_graded_count *out)
     if (s->p->keep) keep_series(s, out);
 }
 
-nh_graded_count *nh_graded_solve(const nh_graded_problem *p)
+/* ---- from one order to the next ---- */
+
+struct nh_graded_state {
+    nh_graded_system s;
+    size_t order, size, *total, injective_at, most; /* of what was solved; size: of its ring, which is gone */
+    bool injective;
+};
+
+static void system_clear(nh_graded_system *s)
+{
+    nh_free(s->symbol);
+    nh_free(s->condition);
+    nh_free(s->row);
+    nh_arena_free(s->arena);
+}
+
+void nh_graded_state_free(nh_graded_state *state)
+{
+    if (!state) return;
+    system_clear(&state->s);
+    nh_free(state->total);
+    nh_free(state);
+}
+
+/* What finish() changes, which is not what the next weight starts from: the coefficients of the first jets and the
+   numbers. */
+typedef struct {
+    size_t N, conditions, count;
+    double work;
+    uint32_t *exponent;
+    nh_residue *row;
+} saved;
+
+static saved save(nh_graded_system *s)
+{
+    saved kept = {.N = s->N, .conditions = s->conditions, .work = s->work};
+    s->k = s->r->order - 1;
+    kept.count = coefficients_left(s, NULL);
+    kept.exponent = nh_alloc_array(kept.count + 1, sizeof *kept.exponent);
+    kept.row = nh_alloc_array(s->alphas * kept.count * s->N + 1, sizeof *kept.row);
+    coefficients_left(s, kept.exponent);
+    for (size_t i = 0; i < s->alphas * kept.count; i++)
+        memcpy(kept.row + i * s->N, nh_graded_row(s, i / kept.count, kept.exponent[i % kept.count]),
+               s->N * sizeof *kept.row);
+    return kept;
+}
+
+static void restore(nh_graded_system *s, saved *kept)
+{
+    s->N = kept->N;
+    s->conditions = kept->conditions;
+    s->work = kept->work;
+    for (size_t i = 0; i < s->alphas * kept->count; i++)
+        memcpy(nh_graded_row(s, i / kept->count, kept->exponent[i % kept->count]), kept->row + i * s->N,
+               s->N * sizeof *kept->row);
+    nh_free(kept->row);
+    nh_free(kept->exponent);
+}
+
+/* The coefficients of the longer series, those of higher weights zero.  What the last weight left to finish() is
+   substituted now, as it is in a long series. */
+static void lengthen(nh_graded_state *state, const nh_graded_problem *p)
+{
+    nh_graded_system *s = &state->s;
+    size_t old = state->size, size = p->ring->size;
+    nh_residue *row = nh_alloc_array(s->alphas * size * s->stride, sizeof *row);
+    for (size_t a = 0; a < s->alphas; a++)
+        memcpy(row + a * size * s->stride, s->row + a * old * s->stride, old * s->stride * sizeof *row);
+    nh_free(s->row);
+    s->row = row;
+    s->p = p;
+    s->r = p->ring;
+    s->terms = 0;
+    list_terms(s);
+    s->over |= s->planned > p->most_work || s->work >= p->most_work;
+    s->k = state->order - 1;
+    if (!s->over && 4 * (s->N - s->conditions) <= s->N) substitute_all(s);
+}
+
+/* The system at its first weight, or at the first that was not solved yet. */
+static nh_graded_state *open_state(const nh_graded_problem *p, nh_graded_state *old, nh_graded_count *out)
+{
+    if (old && (p->keep || old->order == 0 || old->order >= p->ring->order)) {
+        nh_graded_state_free(old);
+        old = NULL;
+    }
+    nh_graded_state *state = old ? old : nh_alloc(sizeof *state);
+    if (old) {
+        lengthen(state, p);
+        memcpy(out->total, state->total, (state->order + 1) * sizeof *out->total);
+        out->injective = state->injective;
+        out->injective_at = state->injective_at;
+        out->most = state->most;
+        return state;
+    }
+    state->s = (nh_graded_system){.p = p, .r = p->ring, .f = p->ring->field, .arena = nh_arena_create()};
+    start(&state->s);
+    out->total[0] = out->most = state->s.N;
+    return state;
+}
+
+nh_graded_count *nh_graded_continue(const nh_graded_problem *p, nh_graded_state **kept)
 {
     nh_arena *arena = nh_arena_create();
     nh_graded_count *out = nh_arena_alloc(arena, sizeof *out);
     *out = (nh_graded_count){.order = p->ring->order, .arena = arena};
     out->total = nh_arena_alloc(arena, (out->order + 1) * sizeof *out->total);
-    nh_graded_system s = {.p = p, .r = p->ring, .f = p->ring->field, .arena = arena};
-    start(&s);
-    out->unknowns = s.alphas * s.r->size;
-    out->total[0] = out->most = s.N;
-    for (s.k = 0; s.k < out->order && !s.over; s.k++) solve_weight(&s, out);
-    if (!s.over) finish(&s, out);
-    out->solved = !s.over;
-    out->work = s.work;
-    nh_free(s.symbol);
-    nh_free(s.condition);
-    nh_free(s.row);
+    nh_graded_state *state = open_state(p, kept ? *kept : NULL, out);
+    nh_graded_system *s = &state->s;
+    out->unknowns = s->alphas * s->r->size;
+    for (s->k = state->order; s->k < out->order && !s->over; s->k++) solve_weight(s, out);
+    saved before = {0};
+    bool again = kept && !p->keep && !s->over && out->order > 0;
+    if (again) before = save(s);
+    if (!s->over) finish(s, out);
+    out->solved = !s->over;
+    out->work = s->work;
+    if (again) restore(s, &before);
+    if (kept) *kept = again ? state : NULL;
+    if (!again) {
+        nh_graded_state_free(state);
+        return out;
+    }
+    s->over = false; /* of the limits of this order: those of the next are looked at then */
+    state->order = out->order;
+    state->size = s->r->size;
+    nh_free(state->total);
+    state->total = nh_alloc_array(out->order + 1, sizeof *state->total);
+    memcpy(state->total, out->total, (out->order + 1) * sizeof *state->total);
+    state->injective = out->injective;
+    state->injective_at = out->injective_at;
+    state->most = out->most;
     return out;
 }
+
+nh_graded_count *nh_graded_solve(const nh_graded_problem *p) { return nh_graded_continue(p, NULL); }
 
 void nh_graded_count_clear(nh_graded_count *count)
 {

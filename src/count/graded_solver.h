@@ -45,6 +45,14 @@ typedef struct {
 /* Weight after weight until the symbol is injective, or to a limit (`solved` is false).  Never NULL; the caller clears
  * it.  [docs/method.md, eqs. 29 and 30] */
 nh_graded_count *nh_graded_solve(const nh_graded_problem *problem);
+
+/* The same, going on where the solution of a lower order ended: *state is NULL, or comes from the same problem with
+ * shorter series; it is kept for the next order, and the caller frees it.  Nothing is kept where coefficients are
+ * (`keep`), or beyond the limits.  `work` is what the solution takes from the beginning. */
+typedef struct nh_graded_state nh_graded_state;
+nh_graded_count *nh_graded_continue(const nh_graded_problem *problem, nh_graded_state **state);
+void nh_graded_state_free(nh_graded_state *state);
+
 void nh_graded_count_clear(nh_graded_count *count);
 
 #endif

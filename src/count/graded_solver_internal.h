@@ -24,6 +24,7 @@ typedef struct {
     size_t conditions, reached;
     double work;
     bool over;              /* a limit was met */
+    double planned;         /* the most work that was ever planned, before it was begun */
     /* of the weight k that is being solved: */
     /* exponents of weight k + 1: their number and the first; equations of weight k */
     size_t k, unknowns_of, first, equations;
