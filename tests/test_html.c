@@ -637,3 +637,31 @@ Test(html, words_and_columns_that_are_needed)
     free(page);
     place_clear(&p);
 }
+
+/* Letters of the theory are set as formulas wherever they stand; no line begins with the sign behind a formula; a heading has something below it. */
+Test(html, letters_in_sentences_are_formulas)
+{
+    sweep_plain_only();
+    place p = place_with_systems();
+    write_here(&p, "slope.yaml", "name: slope\nparameters: [{name: r, value: 0.5}, {name: g, value: 2.1}]\ncoordinates: [x, y, {name: p, type: angle}, {name: h, type: angle}]\n"
+                                 "lagrangian: (x'^2 + y'^2)/2 + 3/10*h'^2 + p'^2/5 + g*x\nconstraints: [\"x' = r*h'*cos(p)\", \"y' = r*h'*sin(p)\"]\n");
+    cJSON *json;
+    char *page = both(&p, "analyze slope.yaml --equations --degree 2", NULL, &json), *text = page;
+    cr_expect_not_null(strstr(page, "one the momentum of <span class=\"word\"><math><mi>p</mi></math>.</span>"));
+    for (; (text = strstr(text, "</math>")); text += strlen("</math>")) {
+        size_t signs = strspn(text + strlen("</math>"), ".,;:)");
+        cr_expect(!signs || !strncmp(text + strlen("</math>") + signs, "</span>", strlen("</span>")), "%.60s", text);
+    }
+    static const char *const plain[] = {"on Phi1 to Phi", "= a \u0393", "L_Z(", "near 10^-16", ">Z is ", "p are the momenta", "is L with", "Fields S with"};
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) cr_expect_null(strstr(page, plain[i]), "%s", plain[i]);
+    cJSON_Delete(json);
+    free(page);
+    write_here(&p, "pendulum.yaml", "name: pendulum\ncoordinates: [{name: p, type: angle}, {name: h, type: angle}]\nlagrangian: (h'^2 + sin(h)^2*p'^2)/2 + cos(h)\ndomain: {h: [0.5, 1.4]}\n");
+    page = both(&p, "reduce pendulum.yaml --equations", NULL, &json);
+    cr_expect_not_null(strstr(page, "Vertical equations by stages"));
+    cr_expect_not_null(strstr(page, "All parts vanish."));
+    cr_expect_null(strstr(page, "2014]"), "a key of a bibliography that the page has not");
+    cJSON_Delete(json);
+    free(page);
+    place_clear(&p);
+}

@@ -28,6 +28,13 @@ const char *nh_text_string(const nh_text *text)
     return text->data ? text->data : "";
 }
 
+void nh_text_cut(nh_text *text, size_t length)
+{
+    if (length >= text->length) return;
+    text->length = length;
+    text->data[length] = 0;
+}
+
 void nh_text_add_n(nh_text *text, const char *string, size_t length)
 {
     nh_grow(&text->data, &text->capacity, text->length + length + 1, 1);

@@ -17,6 +17,7 @@ void nh_text_add(nh_text *text, const char *string);
 void nh_text_add_n(nh_text *text, const char *string, size_t length);
 void nh_text_addf(nh_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *nh_text_string(const nh_text *text); /* "" when empty */
+void nh_text_cut(nh_text *text, size_t length);  /* what stands behind the first `length` characters goes */
 
 /* The shortest decimal that reads back as exactly `value`, into `out` (32 bytes are enough). */
 void nh_text_number(double value, char *out, size_t size);

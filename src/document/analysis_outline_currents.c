@@ -374,7 +374,9 @@ static void uncounted(nh_pen *p, const nh_analysis *r, const nh_current *f, cons
     nh_pen_card(p, NULL);
     nh_pen_name_heading(p, f->name);
     nh_pen_open(p, NH_PEN_TAGS, NULL, NULL);
-    tag(p, true, property);
+    nh_pen_open(p, NH_PEN_TAG, NULL, NULL);
+    nh_pen_theory(p, property);
+    nh_pen_close(p, NH_PEN_TAG);
     nh_pen_close(p, NH_PEN_TAGS);
     nh_pen_formula(p, f->name, f->phi);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
@@ -385,16 +387,18 @@ static void uncounted(nh_pen *p, const nh_analysis *r, const nh_current *f, cons
 
 static void furthers(nh_pen *p, const nh_analysis *r)
 {
+    const char *those = "";
     if (r->furthers) {
         nh_pen_heading(p, "Further integrals");
         nh_pen_words(p, "These integrals are polynomial in the velocities. They are functions of the currents above: "
                         "they are not counted.");
+        those = nh_arena_printf(r->arena, "$<%s>$", r->found[0].name);
+        if (r->count > 1) those = nh_arena_printf(r->arena, "%s to $<%s>$", those, r->found[r->count - 1].name);
     }
     for (size_t k = 0; k < r->furthers; k++) {
         const char *where = r->further[k].current.region;
         uncounted(p, r, &r->further[k].current,
-                  nh_arena_printf(r->arena, "degree %zu; depends on %s%s%s%s%s", r->further[k].degree, r->found[0].name,
-                                  r->count > 1 ? " to " : "", r->count > 1 ? r->found[r->count - 1].name : "",
+                  nh_arena_printf(r->arena, "degree %zu; depends on %s%s%s", r->further[k].degree, those,
                                   where ? "; " : "", where ? where : ""));
     }
     if (r->relations) nh_pen_heading(p, "Relations");

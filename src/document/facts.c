@@ -71,13 +71,13 @@ void nh_facts_constraint(const nh_analysis *r, nh_text *out)
 
 /* The signs of one kind of report. */
 typedef struct {
-    const char *the_case, *Z, *Gamma, *bracket; /* the first may begin a sentence */
+    const char *the_case, *Z, *bracket, *combination; /* the first may begin a sentence */
 } signs;
 
 static const signs signs_of[] = {
-    [NH_FACTS_TEXT] = {"the case", "Z", "Gamma", "[Gamma,Z]"},
-    [NH_FACTS_PAGE] = {"the case", "Z", "\u0393", "[\u0393,\u2009Z]"},
-    [NH_FACTS_TEX] = {"The case", "$Z$", "$\\Gamma$", "$[\\Gamma, Z]$"},
+    [NH_FACTS_TEXT] = {"the case", "Z", "[Gamma,Z]", "[Gamma,Z] = a Gamma + b Z"},
+    [NH_FACTS_PAGE] = {"the case", "$Z$", "$[Gamma,Z]$", "$[Gamma,Z]=a Gamma+b Z$"},
+    [NH_FACTS_TEX] = {"The case", "$Z$", "$[\\Gamma, Z]$", "$[\\Gamma, Z] = a \\Gamma + b Z$"},
 };
 
 void nh_facts_symmetry(const nh_symmetry *z, nh_facts_form form, const char *between, nh_text *out)
@@ -85,10 +85,9 @@ void nh_facts_symmetry(const nh_symmetry *z, nh_facts_form form, const char *bet
     const signs *s = &signs_of[form];
     switch (z->kase) {
     case 1: nh_text_addf(out, "%s is a symmetry of the equations of motion (case 1)", s->Z); break;
-    case 2: nh_text_addf(out, "%s = a %s + b %s (case 2)", s->bracket, s->Gamma, s->Z); break;
+    case 2: nh_text_addf(out, "%s (case 2)", s->combination); break;
     case 3:
-        nh_text_addf(out, "%s is not a symmetry of the equations of motion, nor is %s = a %s + b %s (case 3)", s->Z,
-                     s->bracket, s->Gamma, s->Z);
+        nh_text_addf(out, "%s is not a symmetry of the equations of motion, nor is %s (case 3)", s->Z, s->combination);
         break;
     default: nh_text_addf(out, "%s (1, 2 or 3) could not be decided", s->the_case);
     }

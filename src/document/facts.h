@@ -25,7 +25,8 @@ bool nh_facts_next(const char **list, char *name, size_t size);
 void nh_facts_constraint(const nh_analysis *result, nh_text *out);
 
 /* What kind of symmetry Z is: its case, whether [Gamma,Z] lies in the canonical distribution, whether Z is projectable.
- * `between`: what stands between the case and the rest. */
+ * `between`: what stands between the case and the rest.  PAGE: with formulas in the language of notation.h between
+ * dollar signs. */
 typedef enum { NH_FACTS_TEXT, NH_FACTS_PAGE, NH_FACTS_TEX } nh_facts_form;
 void nh_facts_symmetry(const nh_symmetry *symmetry, nh_facts_form form, const char *between, nh_text *out);
 

@@ -41,7 +41,7 @@ static void normal_form(const builder *b)
     nh_sheet_begin(
         b->s, "normal_form", "Normal form of the constraints",
         branch ? nh_sheet_label(b->s, "Dependent velocities as functions of the others, on the branch %s.", branch)
-               : "Dependent velocities as functions g of the others.");
+               : "Dependent velocities as functions $g$ of the others.");
     nh_free(branch);
     /* a root stands for itself here, not for the velocity that it is */
     b->s->section[b->s->sections - 1].literal = true;
@@ -96,11 +96,11 @@ static void lagrangian(const builder *b)
     const nh_model *o = b->o;
     const nh_submanifold *s = b->t->submanifold;
     nh_sheet_begin(b->s, "lagrangian", o->k ? "Lagrangian on the constraint submanifold" : "Lagrangian and momenta",
-                   s->normal ? "$\\bar{L}$ is L with the constraints inserted, $\\bar{L}_{a}$ its derivative by a "
-                               "dependent velocity, before they are inserted; p are the momenta, E is the energy."
+                   s->normal ? "$\\bar{L}$ is $L$ with the constraints inserted, $\\bar{L}_{a}$ its derivative by a "
+                               "dependent velocity, before they are inserted; $p$ are the momenta, $E$ is the energy."
                              : o->k || o->chart->quasi
-                       ? "$\\bar{L}$ is L in the velocities of the chart; p are the momenta, E is the energy."
-                       : "Without constraints $\\bar{L}$ is L itself; p are the momenta, E is the energy.");
+                       ? "$\\bar{L}$ is $L$ in the velocities of the chart; $p$ are the momenta, $E$ is the energy."
+                       : "Without constraints $\\bar{L}$ is $L$ itself; $p$ are the momenta, $E$ is the energy.");
     formula(b, o->Lbar, "\\bar{L}", NULL, NULL);
     for (size_t a = 0; a < o->k && s->normal; a++)
         formula(b, o->p[o->chart->dependent[a]], "\\bar{L}_{<%s>}", dependent(b, a), NULL);
@@ -119,9 +119,9 @@ static void euler(const builder *b)
     if (o->chart->quasi) return; /* a frame of velocities that is no chart of positions has more terms: Abar has them */
     nh_sheet_begin(
         b->s, "euler_expressions", "Euler expressions",
-        !o->k ? "The derivative by $q^{l}$, less the rate of the derivative by the velocity l."
-              : "Of a function f: its constraint derivative by $q^{l}$, less the rate of its derivative by the "
-                "velocity l. The reduced equations are $\\eps_{l}(\\bar{L})-\\bar{L}_{a} \\eps_{l}(g^{a})=0$.");
+        !o->k ? "The derivative by $q^{l}$, less the rate of the derivative by the velocity $l$."
+              : "Of a function $f$: its constraint derivative by $q^{l}$, less the rate of its derivative by the "
+                "velocity $l$. The reduced equations are $\\eps_{l}(\\bar{L})-\\bar{L}_{a} \\eps_{l}(g^{a})=0$.");
     for (size_t l = 0; l < o->n; l++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\eps_{<%s>}(\\bar{L})", index_of(b, l)));
         nh_sheet_add(b->s, s->force[l], "");
@@ -152,8 +152,8 @@ static void reduced(const builder *b)
     const nh_model *o = b->o;
     nh_sheet_begin(
         b->s, "reduced_equations", "Reduced equations (9)",
-        "$\\bar{A}_{l}+\\bar{B}_{l,s} <w'>^{s}=0$ for the independent velocities w. $\\bar{B}$ and its inverse are "
-        "symmetric; G, the braces of (18) and (20), is antisymmetric. Entries that are not listed vanish.");
+        "$\\bar{A}_{l}+\\bar{B}_{l,s} <w'>^{s}=0$ for the independent velocities $w$. $\\bar{B}$ and its inverse are "
+        "symmetric; $G$, the braces of (18) and (20), is antisymmetric. Entries that are not listed vanish.");
     for (size_t l = 0; l < o->n; l++) formula(b, o->A[l], "\\bar{A}_{<%s>}", index_of(b, l), NULL);
     matrix(b, o->M, true, "\\bar{B}_{<%s>,<%s>}", true);
     matrix(b, b->t->submanifold->inverse, false, "(\\bar{B}^{-1})_{<%s>,<%s>}", true);
@@ -317,7 +317,7 @@ static void currents(const builder *b)
     if (!t->brackets) return;
     nh_sheet_begin(b->s, "currents", "Brackets of the currents' fields",
                    "The Lie derivative of the constraint form along Z is $F_{a} \\form^{a}$ (12); $[Gamma,Z]=a Gamma+b "
-                   "Z$ in case 1, with b = 0, and in case 2. $i_{[Gamma,Z]}\\form^{a}$ is what the bracket has outside "
+                   "Z$ in case 1, with $b=0$, and in case 2. $i_{[Gamma,Z]}\\form^{a}$ is what the bracket has outside "
                    "of the canonical distribution (22).");
     for (size_t i = 0; i < t->brackets; i++) {
         const struct nh_theory_bracket *c = &t->bracket[i];

@@ -64,7 +64,7 @@ void nh_html_chart_name(nh_html_writer *w, const char *name)
     if (!list) return;
     nh_html_add(w, "<span class=\"word\">(");
     for (bool first = true; nh_facts_next(&list, one, sizeof one); first = false) {
-        nh_html_add(w, first ? "" : ", ");
+        nh_html_text(w, first ? "" : ", ");
         nh_html_name(w, one);
     }
     nh_html_add(w, ")</span>");

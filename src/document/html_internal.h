@@ -28,6 +28,8 @@ typedef struct {
 void nh_html_add(nh_html_writer *w, const char *markup);
 void nh_html_text(nh_html_writer *w, const char *text);                 /* escaped */
 void nh_html_prose(nh_html_writer *w, const char *text);                /* the same, with m^2 as people write it */
+void nh_html_letters(nh_html_writer *w, const char *label); /* in the language of notation.h */
+void nh_html_theory(nh_html_writer *w, const char *words);  /* words with labels between dollar signs */
 void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text); /* <tag>text</tag> */
 /* A number with so many significant digits; a dash when it is not finite. */
 void nh_html_number(nh_html_writer *w, double value, int digits);

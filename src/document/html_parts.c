@@ -1,3 +1,4 @@
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,13 +8,30 @@
 #include "base/memory.h"
 #include "base/versions.h"
 #include "document/facts.h"
-#include "document/wording.h"
 #include "document/html_internal.h"
+#include "document/notation.h"
+#include "document/wording.h"
 
 enum { FIGURE_ID = 40 };
 
 void nh_html_add(nh_html_writer *w, const char *markup) { nh_text_add(w->out, markup); }
-void nh_html_text(nh_html_writer *w, const char *text) { nh_escape_xml(text, w->out); }
+
+/* No line begins with the sign that ends a sentence: the last formula and the sign behind it stay together. */
+static size_t punctuation(nh_html_writer *w, const char *text)
+{
+    static const char end[] = "</math>";
+    const char *written = nh_text_string(w->out);
+    size_t signs = strspn(text, ".,;:)"), length = w->out->length, from = length;
+    if (!signs || length < strlen(end) || strcmp(written + length - strlen(end), end)) return 0;
+    while (from && strncmp(written + from, "<math", strlen("<math"))) from--;
+    char *formula = nh_strdup(written + from);
+    nh_text_cut(w->out, from);
+    nh_text_addf(w->out, "<span class=\"word\">%s%.*s</span>", formula, (int)signs, text);
+    nh_free(formula);
+    return signs;
+}
+
+void nh_html_text(nh_html_writer *w, const char *text) { nh_escape_xml(text + punctuation(w, text), w->out); }
 
 void nh_html_prose(nh_html_writer *w, const char *text)
 {
@@ -44,6 +62,23 @@ void nh_html_prose(nh_html_writer *w, const char *text)
         if (c[1] == '-') nh_html_add(w, "\u207b");
         for (; digit[0] >= '0' && digit[0] <= '9'; digit++) nh_html_add(w, raised[*digit - '0']);
         c = digit;
+    }
+}
+
+void nh_html_letters(nh_html_writer *w, const char *label)
+{
+    nh_html_add(w, "<math>");
+    nh_notation_write(label, NH_NOTATION_MATHML, w->out);
+    nh_html_add(w, "</math>");
+}
+
+void nh_html_theory(nh_html_writer *w, const char *words)
+{
+    nh_text part;
+    bool label;
+    for (; nh_notation_next(&words, &part, &label); nh_text_clear(&part)) {
+        if (label) nh_html_letters(w, nh_text_string(&part));
+        else nh_html_text(w, nh_text_string(&part));
     }
 }
 
@@ -183,18 +218,50 @@ void nh_html_end(nh_html_writer *w)
 
 /* ---- words ---- */
 
-/* The text of the glossary with letters for their names. */
+/* Is text[0..length-1] a word, or words, by itself? */
+static bool stands_alone(const char *text, size_t length, char before)
+{
+    bool name = isalpha((unsigned char)text[0]) && (isalpha((unsigned char)before) || before == '_');
+    return !name && !isalpha((unsigned char)text[length]) && text[length] != '_';
+}
+
+/* The text of the glossary with its formulas set as such. */
 static void with_letters(nh_html_writer *w, const char *text)
 {
-    static const char *const letter[][2] = {
-        {"Gamma", "\u0393"}, {"Phi", "\u03a6"}, {"alpha", "\u03b1"}, {"mu_a", "\u03bc\u2090"}};
-    while (*text) {
+    static const char *const formula[][2] = {{"[Gamma,Z] = a Gamma + b Z", "[Gamma,Z]=a Gamma+b Z"},
+                                             {"[Gamma,Z] = a Gamma", "[Gamma,Z]=a Gamma"},
+                                             {"[Gamma,Z]", "[Gamma,Z]"},
+                                             {"L_Z(alpha) = 0", "L_{Z}(alpha)=0"},
+                                             {"Gamma(Phi) = 0", "Gamma(Phi)=0"},
+                                             {"Phi = alpha(Z)", "Phi=alpha(Z)"},
+                                             {"D + [D,D]", "D+[D,D]"},
+                                             {"10^-16", "10^{-16}"},
+                                             {"mu_a", "mu_{a}"},
+                                             {"Gamma", "Gamma"},
+                                             {"Phi", "Phi"},
+                                             {"D", "D"},
+                                             {"Z", "Z"}};
+    enum { formulas = sizeof formula / sizeof *formula };
+    nh_text words;
+    nh_text_init(&words);
+    for (char before = 0; *text;) {
         size_t k = 0, length = 1;
-        while (k < 4 && strncmp(text, letter[k][0], strlen(letter[k][0]))) k++;
-        if (k < 4) length = strlen(letter[k][0]);
-        nh_html_text(w, k < 4 ? letter[k][1] : (const char[]){*text, 0});
+        while (k < formulas && (strncmp(text, formula[k][0], strlen(formula[k][0])) ||
+                                !stands_alone(text, strlen(formula[k][0]), before)))
+            k++;
+        if (k < formulas) {
+            length = strlen(formula[k][0]);
+            nh_html_text(w, nh_text_string(&words));
+            nh_text_cut(&words, 0);
+            nh_html_letters(w, formula[k][1]);
+        } else {
+            nh_text_add_n(&words, text, 1);
+        }
+        before = text[length - 1];
         text += length;
     }
+    nh_html_text(w, nh_text_string(&words));
+    nh_text_clear(&words);
 }
 
 /* Does the page say it, or the first word of it? */

@@ -109,6 +109,8 @@ static void plain(nh_pen *p, const char *from, const char *to)
     nh_text_clear(&text);
 }
 
+void nh_pen_theory(nh_pen *p, const char *words) { plain(p, words, words + strlen(words)); }
+
 /* One argument; *at stands on its %, and then behind it.  The list is passed as a pointer, so that what is read is
    read. */
 static void argument(nh_pen *p, const char **at, char before, va_list *list)

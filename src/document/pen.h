@@ -134,6 +134,7 @@ void nh_pen_table_end(nh_pen *pen);
 void nh_pen_open(nh_pen *pen, nh_pen_part part, const char *id, const char *title);
 void nh_pen_close(nh_pen *pen, nh_pen_part part);
 void nh_pen_say(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));    /* into the open part */
+void nh_pen_theory(nh_pen *pen, const char *words); /* with $..$, into the open part */
 void nh_pen_words(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));  /* a paragraph */
 /* of a list of facts */
 void nh_pen_fact(nh_pen *pen, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4)));

@@ -62,13 +62,7 @@ static void names(void *to, const char *text) { nh_html_chart_name(to, text); }
 
 static void source(void *to, const char *formula) { nh_html_source(to, formula); }
 
-static void letters(void *to, const char *label)
-{
-    nh_html_writer *w = to;
-    nh_html_add(w, "<math>");
-    nh_notation_write(label, NH_NOTATION_MATHML, w->out);
-    nh_html_add(w, "</math>");
-}
+static void letters(void *to, const char *label) { nh_html_letters(to, label); }
 
 static void equation(void *to, const char *label, const char *formula)
 {
@@ -110,8 +104,11 @@ static void series(void *to, const nh_time_series *motion) { nh_html_time_series
 
 static void symmetry(void *to, const nh_symmetry *z)
 {
-    nh_html_writer *w = to;
-    nh_facts_symmetry(z, NH_FACTS_PAGE, "; ", w->out);
+    nh_text text;
+    nh_text_init(&text);
+    nh_facts_symmetry(z, NH_FACTS_PAGE, "; ", &text);
+    nh_html_theory(to, nh_text_string(&text));
+    nh_text_clear(&text);
 }
 
 static void glossary(void *to, const char *list) { nh_html_words(to, list); }

@@ -75,7 +75,7 @@ static void algebra(nh_pen *p, const nh_reduction *r, const nh_group *g)
     nh_pen_fact(p, "Action", "%s, with orbits of dimension %zu", a->free ? "free" : "not free", a->orbit);
     if (!r->kinetic->affine || !r->kinetic->f) return;
     nh_pen_fact(p, "Constraints",
-                "the directions V of the group and the allowed directions D together %s; they have %zu in common%s",
+                "the directions $V$ of the group and the allowed directions $D$ together %s; they have %zu in common%s",
                 a->dimension_assumption ? "span the tangent space" : "do not span the tangent space", a->intersection,
                 a->chaplygin ? ": a Chaplygin system" : "");
 }

@@ -25,7 +25,7 @@ void nh_reduction_sheet_frame(const nh_reduction_builder *b, const nh_slice *s)
     }
     nh_sheet_begin(b->s, "frame", "Slice and generators",
                    nh_sheet_label(b->s,
-                                  "On the slice %s. The $e_{a}$ span V, the directions of the orbits; $zeta^{a}$ is "
+                                  "On the slice %s. The $e_{a}$ span $V$, the directions of the orbits; $zeta^{a}$ is "
                                   "the group's velocity in the body frame.",
                                   nh_text_string(&where)));
     nh_text_clear(&where);
@@ -162,15 +162,15 @@ static void chaplygin(nh_reduction_builder *b, const nh_chaplygin *c, const nh_r
     b->slice = c->slice;
     nh_reduction_sheet_frame(b, c->slice);
     nh_sheet_begin(b->s, "connection", "Connection, horizontal lift and curvature",
-                   "$zeta=-\\hat{A} <x'>$ where the constraints hold ([ChhabraEmami2014], eq. 2.8). The lifts span the "
-                   "constraint distribution D, which meets V in 0 only: S = 0. "
+                   "$zeta=-\\hat{A} <x'>$ where the constraints hold (Chhabra and Emami 2014, eq. 2.8). The lifts span "
+                   "the constraint distribution $D$, which meets $V$ in $0$ only: $S=0$. "
                    "$B^{a}_{i,j}=\\p_{i} A^{a}_{j}-\\p_{j} A^{a}_{i}-C^{a}_{b,c} A^{b}_{i} A^{c}_{j}$. Entries that "
                    "are not listed vanish.");
     nh_reduction_sheet_lift(b, c->slice, c->A, "\\hat{A}");
     nh_reduction_sheet_curvature(b, c->slice, c->B, "B");
     nh_sheet_begin(b->s, "hamiltonian", "Reduced Lagrangian and Hamiltonian",
-                   "$\\hat{K}=H^{T} K H$ with the metric K of the kinetic energy and the lift H; $p_{i}=\\hat{K}_{i,j} "
-                   "<x'>^{j}$ (eq. 2.10).");
+                   "$\\hat{K}=H^{T} K H$ with the metric $K$ of the kinetic energy and the lift $H$; "
+                   "$p_{i}=\\hat{K}_{i,j} <x'>^{j}$ (eq. 2.10).");
     nh_reduction_sheet_symmetric(b, c->slice, c->K, "\\hat{K}");
     nh_sheet_sum(b->s, "", "\\hat{L}");
     nh_reduction_sheet_kinetic(b, c->K);

@@ -17,13 +17,13 @@ static void distribution(const nh_reduction_builder *b, const nh_lagrange_poinca
 {
     static const char rest[] = "Entries that are not listed vanish.";
     const char *orthogonal = l->lifts ? "the inner product of the generators" : "the kinetic energy",
-               *what = !l->slice->f ? "Without constraints S is the whole algebra"
-                                    : "S is what V and the constraint distribution D have in common. The $chi_{a}$ "
-                                      "span S, with the lifts they span D";
+               *what = !l->slice->f ? "Without constraints $S$ is the whole algebra"
+                                    : "$S$ is what $V$ and the constraint distribution $D$ have in common. The "
+                                      "$chi_{a}$ span $S$, with the lifts they span $D$";
     nh_sheet_begin(
         b->s, "connection", "Nonholonomic connection and curvature",
         l->slice->f || l->lifts
-            ? nh_sheet_label(b->s, "%s. The lifts are orthogonal to S for %s. %s", what, orthogonal, rest)
+            ? nh_sheet_label(b->s, "%s. The lifts are orthogonal to $S$ for %s. %s", what, orthogonal, rest)
             : nh_sheet_label(b->s, "%s and the connection the mechanical one. %s", what, rest));
     for (size_t p = 0; p < l->r; p++) {
         nh_sheet_sum(b->s, "", number(b, "chi", p));
@@ -37,7 +37,7 @@ static void lagrangian(const nh_reduction_builder *b, const nh_lagrange_poincare
 {
     const nh_slice *s = l->slice;
     nh_sheet_begin(b->s, "lagrangian", "Reduced Lagrangian and momenta",
-                   "$v=zeta+A <x'>=nu_{a} chi_{a}$ lies in S; $omega=v-A <x'>$ is the body velocity; $mu=\\frac{\\p "
+                   "$v=zeta+A <x'>=nu_{a} chi_{a}$ lies in $S$; $omega=v-A <x'>$ is the body velocity; $mu=\\frac{\\p "
                    "l}{\\p v}$, $pi_{i}=\\frac{\\p l}{\\p<x'>^{i}}$.");
     nh_sheet_sum(b->s, "", "l");
     for (size_t i = 0; i < l->n; i++)
@@ -78,8 +78,8 @@ static void equations(const nh_reduction_builder *b, const nh_lagrange_poincare 
 {
     nh_ex *chi = nh_alloc_array(3 * l->d + 1, sizeof *chi), *out = chi + l->d, *A = out + l->d;
     nh_sheet_begin(b->s, "equations", "Vertical and horizontal equations",
-                   "$mu'(chi)=mu([omega,chi])$ for each chi of S, which is not differentiated ([CendraDiaz2018], sec. "
-                   "5); $\\pidot_{i}=\\frac{\\p l}{\\p x^{i}}+mu_{a} B^{a}_{i,j} <x'>^{j}+mu([A_{i},v])$.");
+                   "$mu'(chi)=mu([omega,chi])$ for each $chi$ of $S$, which is not differentiated (Cendra and Diaz "
+                   "2018, sec. 5); $\\pidot_{i}=\\frac{\\p l}{\\p x^{i}}+mu_{a} B^{a}_{i,j} <x'>^{j}+mu([A_{i},v])$.");
     for (size_t p = 0; p < l->r; p++) {
         column(l, l->chi, l->r, p, chi);
         nh_lagrange_poincare_bracket(l, l->omega, chi, out);

@@ -98,13 +98,13 @@ static void magnetic(const nh_reduction_builder *b, const nh_second *t)
         t->abelian
             ? "$N_{theta}=N$: the level set is divided by the whole group. $Xi_{theta}=\\d alpha_{theta}$, "
               "$alpha_{theta}=theta_{a} (zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is the magnetic form "
-              "([ChhabraEmami2014], eq. 2.20)."
+              "(Chhabra and Emami 2014, eq. 2.20)."
             : nh_sheet_label(b->s,
                              "$theta$ is the momentum in the body frame, which moves on a coadjoint orbit of dimension "
                              "%zu. The $xi$ span the algebra of $N_{theta}$, of dimension %zu, for a generic $theta$: "
                              "$theta([xi,e_{a}])=0$. $Xi_{theta}=\\d alpha_{theta}$, $alpha_{theta}=theta_{a} "
                              "(zeta^{a}+\\breve{A}^{a}_{i} \\d x^{i})$, is $theta_{a} B^{a}_{i,j}$ on lifts and "
-                             "$theta([e_{a},e_{b}])$ on orbits ([ChhabraEmami2014], eq. 2.17); "
+                             "$theta([e_{a},e_{b}])$ on orbits (Chhabra and Emami 2014, eq. 2.17); "
                              "on one of each it vanishes.",
                              t->orbit, d - t->orbit));
     on_lifts(b, t);
@@ -124,10 +124,10 @@ static void connection(const nh_reduction_builder *b, const nh_second *t)
     nh_sheet_begin(b->s, "mechanical_connection", "Locked inertia and mechanical connection",
                    nh_sheet_label(b->s,
                                   "$I_{a,b}$ is the metric%s on the orbits; $theta_{a}=I_{a,b} v^{b}$ with "
-                                  "$v=zeta+\\breve{A} <x'>$ is the momentum%s ([ChhabraEmami2014], eq. 2.14).%s",
+                                  "$v=zeta+\\breve{A} <x'>$ is the momentum%s (Chhabra and Emami 2014, eq. 2.14).%s",
                                   t->first->d ? " of the first stage" : "",
                                   t->abelian ? ", which is kept" : " in the body frame",
-                                  t->n > 1 ? " hor and B are the lift and the curvature of $\\breve{A}$." : ""));
+                                  t->n > 1 ? " $hor$ and $B$ are the lift and the curvature of $\\breve{A}$." : ""));
     for (size_t a = 0; a < d; a++)
         for (size_t c = a; c < d; c++)
             if (!nh_is_zero(b->d, t->inertia[a * d + c]))
@@ -160,10 +160,11 @@ void nh_reduction_sheet_second(nh_reduction_builder *b, const nh_second *t, cons
     magnetic(b, t);
     nh_sheet_begin(b->s, "hamiltonian", "Momentum level set, reduced Lagrangian and Hamiltonian",
                    t->first->d
-                       ? "$\\hat{p}$ are the momenta of the first stage, p those that remain. $R_{theta}$ is Routh's "
-                         "function: with the forces of $Xi_{theta}$ and $Upsilon$ its equations are those of the stage."
-                       : "$\\hat{p}$ are the momenta before the reduction, p those that remain. $R_{theta}$ is Routh's "
-                         "function: with the force of $Xi_{theta}$ its equations are those of the stage.");
+                       ? "$\\hat{p}$ are the momenta of the first stage, $p$ those that remain. $R_{theta}$ is "
+                         "Routh's function: with the forces of $Xi_{theta}$ and $Upsilon$ its equations are those of "
+                         "the stage."
+                       : "$\\hat{p}$ are the momenta before the reduction, $p$ those that remain. $R_{theta}$ is "
+                         "Routh's function: with the force of $Xi_{theta}$ its equations are those of the stage.");
     for (size_t i = 0; i < t->n; i++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\hat{p}_{<%s>}", nh_reduction_sheet_x(b, &t->slice, i)));
         nh_sheet_add(b->s, nh_int(b->d, 1), nh_sheet_label(b->s, "p_{<%s>}", nh_reduction_sheet_x(b, &t->slice, i)));

@@ -107,9 +107,9 @@ static void heading(const stages *s, bool given)
         s->b->s, "chain", "Chain of subgroups",
         nh_sheet_label(
             s->b->s,
-            "%s. $n_{j}$ is spanned by block j and those behind it, an ideal of $n_{j-1}$ ([CendraDiaz2018], theorem "
-            "2.3). $g_{0}$: %s. $a_{j}(x,y)$ is minus the part of $[H_{j} x,H_{j} y]$ in $n_{j+1}$, "
-            "$b_{j}(x,N)=[H_{j} x,N]$; those not listed vanish.",
+            "%s. $n_{j}$ is spanned by block $j$ and those behind it, an ideal of $n_{j-1}$ (Cendra and Diaz 2018, "
+            "theorem 2.3). $g_{0}$: %s. $a_{j}(x,y)$ is minus the part of $[H_{j} x,H_{j} y]$ in $n_{j+1}$, "
+            "$b_{j}(x,N)=[H_{j} x,N]$; those that are not listed vanish.",
             nh_text_string(&words),
             given ? "the inner product that was given; the lifts $H_{j}$ are orthogonal to $n_{j+1}$ in it"
                   : "the inner product in which the generators are orthonormal, so that each is its own lift $H_{j}$"));
@@ -198,21 +198,28 @@ static void vertical(const stages *s, size_t p)
     nh_free(omega);
 }
 
+/* Of the section that is being written. */
+static size_t lines(const nh_reduction_builder *b) { return b->s->section[b->s->sections - 1].lines; }
+
 void nh_reduction_sheet_stages(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *c,
                                const nh_ex *inner)
 {
     stages s = stages_of(b, l, c, inner);
     heading(&s, inner != NULL);
+    size_t before = lines(b);
     for (size_t x = 0; x < s.d; x++)
         for (size_t y = 0; y < s.d; y++)
             if (s.block[y] > s.block[x] || (s.block[y] == s.block[x] && y > x)) map(&s, x, y);
+    if (lines(b) == before) nh_sheet_words(b->s, "All $a_{j}$ and $b_{j}$ vanish.");
     /* sum_j beta_j'(chi_j) = sum_i <beta_i, [omega, chi]_i>, with the bracket in parts [CendraDiaz2018, eq. 14] */
     nh_sheet_begin(b->s, "by_stages", "Vertical equations by stages, block by block",
-                   "$beta_{j}=mu H_{j}$ is the part of $mu$ on block j, $omega=\\Sigma_{j} H_{j} omega_{j}$ and "
-                   "$chi=\\Sigma_{j} H_{j} chi_{j}$. For each chi the sum of the parts below is "
-                   "$\\Sigma_{j} beta'_{j}(chi_{j})$ ([CendraDiaz2018], eq. 14); the sum over all blocks is needed, "
-                   "since chi need not lie in one of them.");
+                   "$beta_{j}=mu H_{j}$ is the part of $mu$ on block $j$, $omega=\\Sigma_{j} H_{j} omega_{j}$ and "
+                   "$chi_{a}=\\Sigma_{j} H_{j} chi_{a;j}$; $chi_{a;>j}$ and $omega_{>j}$ are the parts behind block "
+                   "$j$. For each $chi$ the sum of the parts below is $\\Sigma_{j} beta'_{j}(chi_{j})$ (Cendra "
+                   "and Diaz 2018, eq. 14); the sum over all blocks is needed, since $chi$ need not lie in one of "
+                   "them.");
     for (size_t p = 0; p < l->r; p++) vertical(&s, p);
+    if (!lines(b)) nh_sheet_words(b->s, "All parts vanish.");
     nh_free(s.block);
     nh_free(s.lift);
 }

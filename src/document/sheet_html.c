@@ -16,15 +16,8 @@ static void notation(nh_html_writer *w, const char *label)
 
 static void put_words(nh_html_writer *w, const char *words)
 {
-    nh_text part;
-    bool label;
     nh_html_add(w, "<p>");
-    for (; nh_notation_next(&words, &part, &label); nh_text_clear(&part)) {
-        if (label)
-            nh_html_add(w, "<math>"), nh_notation_write(nh_text_string(&part), NH_NOTATION_MATHML, w->out),
-                nh_html_add(w, "</math>");
-        else nh_html_text(w, nh_text_string(&part));
-    }
+    nh_html_theory(w, words);
     nh_html_add(w, "</p>\n");
 }
 

@@ -158,19 +158,19 @@ static void bounds(nh_sheet *s, const nh_theory *t)
     const nh_model *o = t->model;
     const nh_bracket_fields *f = t->fields;
     nh_sheet_begin(s, "bracket_bounds", "Which currents can have better symmetries",
-                   o->k ? "Vertical fields with $i_{[Gamma,Z]}\\form^{a}=U_{a}(Phi)$ for every current, and fields V "
+                   o->k ? "Vertical fields with $i_{[Gamma,Z]}\\form^{a}=U_{a}(Phi)$ for every current, and fields $V$ "
                           "with which $[Gamma,Z-Z^{0} Gamma]$ has the components $V(Phi)$: a function of one current "
                           "has the case of the current."
-                        : "Fields V with which $[Gamma,Z-Z^{0} Gamma]$ has the components $V(Phi)$ for every current: "
-                          "a function of one current has the case of the current.");
+                        : "Fields $V$ with which $[Gamma,Z-Z^{0} Gamma]$ has the components $V(Phi)$ for every "
+                          "current: a function of one current has the case of the current.");
     for (size_t a = 0; a < o->k && !t->space->all_inside; a++) show_across(s, o, a, f->U + a * f->width + 1 + o->m);
     if (o->k && t->space->all_inside)
         nh_sheet_words(s, "All $U_{a}$ vanish: $[Gamma,Z]$ lies in the canonical distribution for every current.");
     else if (o->k)
         conclude(s, &t->space->inside, "f", o->k == 1 ? "$U_{1}$" : "the $U_{a}$",
                  "$[Gamma,Z]$ in the canonical distribution");
-    if (t->space->all_case1) nh_sheet_words(s, "All V vanish: every current has a field of case 1.");
-    else conclude(s, &t->space->case1, "g", "all V", "a field of case 1");
+    if (t->space->all_case1) nh_sheet_words(s, "All $V$ vanish: every current has a field of case 1.");
+    else conclude(s, &t->space->case1, "g", "all $V$", "a field of case 1");
 }
 
 /* ---- symmetries of the equations of motion ---- */
@@ -205,9 +205,9 @@ static void equations(nh_sheet *s, const nh_theory *t)
     const nh_model *o = t->own->model;
     nh_sheet_begin(
         s, "equation_symmetries", "Symmetries of the equations of motion",
-        "Fields S with $[Gamma,S]=a Gamma$, which need not be constraint symmetries: point symmetries on time and "
+        "Fields $S$ with $[Gamma,S]=a Gamma$, which need not be constraint symmetries: point symmetries on time and "
         "positions, prolonged to velocities; and dynamical ones, whose components along positions "
-        "depend on velocities, up to multiples of $Gamma$. The derivative of a current along S is a current.");
+        "depend on velocities, up to multiples of $Gamma$. The derivative of a current along $S$ is a current.");
     if (e->obstacle) {
         nh_sheet_words(s, nh_sheet_label(s, "None were looked for, because of %s.", e->obstacle));
         return;

@@ -109,7 +109,7 @@ static const nh_glossary_entry entries[] = {
     {"proved", "The rate of change is zero as an exact expression."},
     {"certified", "The rate of change is zero to at least 50 digits in ball arithmetic."},
     {"residual", "The rate of change of a current at points that were not used to find it, relative to the size "
-                 "of its terms: rounding is near 1e-16."},
+                 "of its terms: rounding is near 10^-16."},
     {"gap", "The smallest nonzero singular value over the largest vanishing one.  Below 1000 nothing is decided."},
     {"formulation", "The equations that an integrator solves: on the constraint submanifold, or in all "
                     "coordinates with multipliers."},
