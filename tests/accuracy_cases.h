@@ -35,7 +35,7 @@ static inline nh_trajectory *accuracy_run(const accuracy_case *c, const char *me
     for (int i = 0; i < accuracy_outputs; i++) times[i] = c->initial.t + c->until * i / (accuracy_outputs - 1);
     nh_trajectory_request q = {.model = c->model, .initial = &c->initial, .count = accuracy_outputs, .times = times, .options = &options, .n = c->model->m, .e = c->model->rho,
                                .max_seconds = 3, .method = search ? NULL : nh_method_find(method)};
-    nh_integration_plans ways = {.survey = true};
+    nh_integration_plans ways = {.pilot = true};
     return search ? nh_trajectory_accurate(&q, c->eps, &ways, a, &error) : nh_trajectory_create(&q, &error);
 }
 

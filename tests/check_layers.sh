@@ -126,6 +126,10 @@ awk '
     /^ *else/ && closed == FNR - 1 { print FILENAME ":" FNR ": else stands behind the brace" }
     /^ *[}] *$/ { closed = FNR }' src/*/*.c src/*/*.h >>"$offences"
 
+# ---- words that docs/glossary.md has replaced: names of variables, comments and texts ----
+grep -nwiE 'climb|ladder|shelf|workbench|yardstick|contender|hasten|bystages|survey' src/*/*.[ch] docs/*.md README.md analyses/*.yaml systems/*.yaml tests/*.[ch] |
+    sed 's/^\([^:]*:[0-9]*\):.*/\1: a word that the glossary has replaced (climb, ladder, shelf, yardstick, survey, ..)/' >>"$offences"
+
 # ---- no system is known to the code; src/cli may name one in an example ----
 for file in $(grep -liE 'sleigh|disk|crane' src/*/*.[ch] | grep -v '^src/cli/'); do # in code, not in a comment
     ${CC:-gcc} -fpreprocessed -dD -E -P -x c "$file" 2>/dev/null | grep -niE 'sleigh|disk|crane' | sed "s|^|$file: code that knows a system: |"

@@ -194,7 +194,7 @@ Test(accuracy, what_was_measured_is_not_the_last_word)
 
 /* ---- what is measured on the way ---- */
 
-static nh_trajectory *surveyed(const nh_model *o, const nh_state *initial, double until, double eps, size_t n, const nh_ex *e, nh_accuracy *a)
+static nh_trajectory *by_pilot_runs(const nh_model *o, const nh_state *initial, double until, double eps, size_t n, const nh_ex *e, nh_accuracy *a)
 {
     double times[COUNT];
     nh_options options;
@@ -203,7 +203,7 @@ static nh_trajectory *surveyed(const nh_model *o, const nh_state *initial, doubl
     options.steps = 1e8;
     for (int i = 0; i < COUNT; i++) times[i] = initial->t + until * i / (COUNT - 1);
     nh_trajectory_request q = {.model = o, .initial = initial, .count = COUNT, .times = times, .options = &options, .n = n, .e = e};
-    return nh_trajectory_accurate(&q, eps, &(nh_integration_plans){.survey = true}, a, &error);
+    return nh_trajectory_accurate(&q, eps, &(nh_integration_plans){.pilot = true}, a, &error);
 }
 
 /* Many thousands of periods of a driven oscillator, x = 2 sin(t): others are measured, the result is right whatever is chosen.  A tenth of one period: nothing is measured. */
@@ -215,12 +215,12 @@ Test(accuracy, a_long_motion_is_measured_and_a_short_one_is_not)
     nh_state initial = {.q = q, .v = v};
     nh_accuracy a;
     nh_ex e = formula(x.model, "x");
-    nh_trajectory *t = surveyed(x.model, &initial, until, 1e-5, 1, &e, &a);
+    nh_trajectory *t = by_pilot_runs(x.model, &initial, until, 1e-5, 1, &e, &a);
     cr_assert(t && a.held, "%s", a.why);
-    cr_expect(a.choice == NH_CHOICE_SURVEY && strstr(a.why, "of the motion"), "%s", a.why);
+    cr_expect(a.choice == NH_CHOICE_PILOT && strstr(a.why, "of the motion"), "%s", a.why);
     for (int i = 0; i < COUNT; i++) cr_expect_float_eq(t->value[i], 2 * sin(until * i / (COUNT - 1)), 2e-5);
     nh_trajectory_free(t);
-    t = surveyed(x.model, &initial, 0.6, 1e-6, 1, &e, &a);
+    t = by_pilot_runs(x.model, &initial, 0.6, 1e-6, 1, &e, &a);
     cr_expect(t && a.held && a.choice == NH_CHOICE_SHORT && strstr(a.why, "would need more"), "%s", a.why);
     nh_trajectory_free(t);
     mechanics_clear(&x);
@@ -301,15 +301,15 @@ Test(accuracy, members_of_a_stiff_ensemble_are_computed_alone)
     sweep_plain_only();
     static const char *const stiff = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2\nforces: [\"x = 1000*(1 - x^2)*x'\"]\n";
     const double start[4] = {2, 0.5, 0, 0};
-    nh_integration_plans survey = {.survey = true};
+    nh_integration_plans pilot = {.pilot = true};
     nh_ensemble_accuracy a;
-    nh_ensemble *e = stiff_ensemble(stiff, start, 100, 1, &survey, &a);
+    nh_ensemble *e = stiff_ensemble(stiff, start, 100, 1, &pilot, &a);
     cr_expect(a.held && a.all_alone && a.alone == STIFF_MEMBERS && e->alone == STIFF_MEMBERS && e->incomplete == 0, "%s", a.why);
     cr_expect(a.way.method && (a.way.method == nh_method_find("CVODE BDF") || a.way.method == nh_method_find("ARKODE ESDIRK")) && strstr(a.why, "each alone by") && strstr(a.why, "in batches they would need"), "%s", a.why);
     cr_expect_lt(e->evaluations, 5000 * 1000, "%ld", e->evaluations); /* in batches more than a million steps of 13 */
     nh_ensemble_free(e);
     nh_integration_plan bdf = {nh_method_find("CVODE BDF"), NH_OWN_VELOCITIES, 1e-8, NAN, 1e-7, 1e6};
-    nh_integration_plans given = {.count = 1, .way = &bdf}, *const ways[] = {&given, &survey};
+    nh_integration_plans given = {.count = 1, .way = &bdf}, *const ways[] = {&given, &pilot};
     for (int i = 0; i < 2; i++) {
         nh_ensemble *one = stiff_ensemble(stiff, start, 100, 1, ways[i], &a), *two = stiff_ensemble(stiff, start, 100, 2, ways[i], &a);
         cr_expect(a.all_alone && (i || a.choice == NH_CHOICE_GIVEN), "%s", a.why);

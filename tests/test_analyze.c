@@ -371,7 +371,7 @@ Test(analyze, nearly_is_not_conserved)
     nh_analysis_free(r);
 }
 
-/* The ladder's own words may be undefined somewhere (here the root of 3 - 8 x^2 + ...): they go, the energy stays. */
+/* Functions that the search makes may be undefined somewhere (here the root of 3 - 8 x^2 + ...): they go, the energy stays. */
 Test(analyze, words_that_are_not_finite_do_not_hide_the_energy)
 {
     sweep_plain_only();

@@ -113,10 +113,10 @@ Test(choice, what_does_not_do_is_replaced)
     mechanics_clear(&x);
 }
 
-/* ---- surveys ---- */
+/* ---- pilot runs ---- */
 
 /* Another way has to save three tenths beside what remains of the best so far; where that is done with its first run it goes on without being measured again. */
-Test(choice, a_survey_changes_only_what_pays)
+Test(choice, pilot_runs_change_only_what_pays)
 {
     nh_pilot_runs v = {.count = 3, .way = {run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-8, 1e-9, 3), run_of("ARKODE Verner", NH_OWN_VELOCITIES, 1e-8, 1e-9, 2.7), run_of("GSL rkf45", NH_OWN_VELOCITIES, 1e-8, 1e-7, 0.1)}};
     const nh_method *best = v.way[0].method;

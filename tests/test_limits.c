@@ -1,4 +1,4 @@
-/* The time limit is an emergency brake: what a run says after it is marked as partial, and is never a refutation; nothing stays behind.  How late a run may end is
+/* The time limit is a safety limit: what a run says after it is marked as partial, and is never a refutation; nothing stays behind.  How late a run may end is
  * measured by tests/limits.sh, not here. */
 #include "program.h"
 #include "sweep.h"
@@ -19,7 +19,7 @@ static place place_with_nasty(void)
 }
 
 /* A system that takes minutes: exit code 5, with a partial result or with none. */
-static void brake(const place *p, const char *arguments)
+static void limited(const place *p, const char *arguments)
 {
     finished f = run_expecting(p, arguments, 5);
     cJSON *root = *f.out ? cJSON_Parse(f.out) : NULL;
@@ -42,7 +42,7 @@ Test(limits, every_command_has_the_brake)
     char line[300];
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         snprintf(line, sizeof line, "%s --max-seconds 0.1 --json -", lines[i]);
-        brake(&p, line);
+        limited(&p, line);
     }
     place_clear(&p);
 }

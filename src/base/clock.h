@@ -13,13 +13,13 @@ double nh_clock_of_process(void);
 /* Seconds for which this thread has computed: other programs do not count. */
 double nh_clock_of_thread(void);
 
-/* An emergency brake: it is reached when `seconds` have passed both by the clock and in the processor time of this
+/* A time limit: it is reached when `seconds` have passed both by the clock and in the processor time of this
  * process.  Other programs that share the processor do not bring it nearer, so that they change no answer; threads do
  * not, either.  Never reached when the seconds are not finite. */
 typedef struct {
     double clock, processor; /* moments of both */
-} nh_clock_brake;
-nh_clock_brake nh_clock_brake_in(double seconds);
-bool nh_clock_brake_reached(nh_clock_brake brake);
+} nh_clock_limit;
+nh_clock_limit nh_clock_limit_in(double seconds);
+bool nh_clock_limit_reached(nh_clock_limit time_limit);
 
 #endif

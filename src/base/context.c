@@ -12,7 +12,7 @@ static nh_context of_process = {
     .limit = INFINITY,
     .limit_seconds = INFINITY,
     .deadline = INFINITY,
-    .brake = {INFINITY, INFINITY},
+    .time_limit = {INFINITY, INFINITY},
     .files_lock = PTHREAD_MUTEX_INITIALIZER,
 };
 
@@ -22,7 +22,7 @@ static void create(void *out)
 {
     nh_context *c = nh_alloc(sizeof *c);
     c->most = c->limit = c->limit_seconds = c->deadline = INFINITY;
-    c->brake = (nh_clock_brake){INFINITY, INFINITY};
+    c->time_limit = (nh_clock_limit){INFINITY, INFINITY};
     pthread_mutex_init(&c->saying_lock, NULL);
     pthread_mutex_init(&c->files_lock, NULL);
     *(nh_context **)out = c;

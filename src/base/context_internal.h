@@ -32,7 +32,7 @@ struct nh_context {
     atomic_bool          interrupted, reached;
     /* by the monotonic clock; set between computations, read by all of their threads */
     double               limit, limit_seconds, deadline;
-    nh_clock_brake       brake;
+    nh_clock_limit       time_limit;
     double               most_memory; /* bytes; likewise; 0: no limit */
     _Atomic double       next_look;   /* at the memory, by the same clock */
     atomic_bool          filled;      /* it was the memory that ended it */

@@ -67,7 +67,7 @@ void nh_deadline_set(double seconds)
     nh_context *c = nh_context_here();
     double now = nh_clock();
     c->deadline = isfinite(seconds) ? now + part * fmax(0, c->limit - now) : INFINITY;
-    c->brake = nh_clock_brake_in(seconds);
+    c->time_limit = nh_clock_limit_in(seconds);
 }
 
 void nh_interrupt(void) { nh_interrupt_context(nh_context_here()); }
@@ -105,7 +105,8 @@ bool nh_interrupted(void)
 bool nh_late(void)
 {
     const nh_context *c = nh_context_here();
-    return nh_interrupted() || (isfinite(c->deadline) && nh_clock() > c->deadline) || nh_clock_brake_reached(c->brake);
+    return nh_interrupted() || (isfinite(c->deadline) && nh_clock() > c->deadline) ||
+           nh_clock_limit_reached(c->time_limit);
 }
 
 bool nh_limit_reached(void)

@@ -1,10 +1,9 @@
 /* progress: progress reports of a long computation, and its early end by a signal, or by the limit of time or memory of
  * the run. One per context (base/context.h).
  *
- * All ends are one thing to whoever computes: nh_interrupted() is true from then on for ever, and the computation
- * returns soon, with what it has.  What it says then is partial: nothing that was computed afterwards is a proof or a
- * refutation.  The limits are emergency brakes.  How much is computed in a run that they do not end is decided by
- * counted work, not by time. */
+ * The computation sees all ends in the same way: nh_interrupted() is true from then on, and the computation returns
+ * soon, with partial results: nothing that was computed afterwards is a proof or a refutation.  Counted work decides
+ * how much is computed in a run that no limit ends, not time. */
 #ifndef NH_PROGRESS_H
 #define NH_PROGRESS_H
 
@@ -14,7 +13,7 @@
 #include "base/context.h"
 #include "base/error.h"
 
-/* NULL: nobody wants to know.  Called from the thread that computes. */
+/* NULL: no reports.  Called from the thread that computes. */
 void nh_progress_set(nh_progress_handler *handler, void *context);
 void nh_progress(const char *doing, double part);
 /* What was said last, from any thread. */
@@ -26,7 +25,7 @@ void nh_interrupt(void);
 void nh_interrupt_context(nh_context *context);
 /* What comes from here on was not interrupted. */
 void nh_interrupt_clear(void);
-/* The time limit of the run: `seconds` from now, as the user feels them (not of the processor); none when they are not
+/* The time limit of the run: `seconds` from now, by the clock (not of the processor); none when they are not
    finite. */
 void nh_limit_set(double seconds);
 /* The same for the memory of the process, in bytes; none when 0.  It is looked at now and then: a hundred times a
@@ -50,7 +49,7 @@ const char *nh_ended_option(void);
 /* Records that it was ended, while doing that, with the cure; returns false. */
 bool nh_fail_ended(nh_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A moment after which no new part is begun, so that time is left for what follows: a brake of so many seconds, and
+/* A moment after which no new part is begun, so that time is left for what follows: after so many seconds, and
  * earlier where the limit is near; none when they are not finite. */
 void nh_deadline_set(double seconds);
 /* Ended, or behind that moment. */

@@ -72,7 +72,7 @@ double nh_reduced_drift(nh_formulation *f, const nh_motion *motion);
 typedef struct {
     const nh_known_motion *motion;
     bool whole;    /* of all coordinates */
-    double *state; /* outputs x 2m, as a yardstick's; only coordinates that it gives, and their velocities */
+    double *state; /* outputs x 2m, as of a reference solution; only coordinates that it gives, and their velocities */
 } nh_known_motions;
 
 /* ---- one motion, ready to be computed by any method ---- */

@@ -14,7 +14,7 @@ static const nh_model *derive(void *context, double effort)
 
 void nh_choice_open(nh_choice *c, bool plain)
 {
-    c->ways = (nh_integration_plans){.survey = true, .plain = plain, .context = c, .derive = derive};
+    c->ways = (nh_integration_plans){.pilot = true, .plain = plain, .context = c, .derive = derive};
 }
 
 void nh_choice_close(nh_choice *c)

@@ -96,7 +96,7 @@ static bool attempts(nh_reduction_bench *b, const nh_trajectory_request *request
     nh_reduction *r = b->r;
     double eps = share * r->wanted;
     bool some = false;
-    nh_integration_plans ways = {.survey = true};
+    nh_integration_plans ways = {.pilot = true};
     for (int i = 0; i < most_attempts && !r->full.held && !nh_interrupted(); i++) {
         nh_error trouble = {0};
         nh_accuracy a;

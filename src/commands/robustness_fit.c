@@ -247,7 +247,7 @@ static nh_robustness_map *open_map(fit *f, const char *name, const char *axis, c
 
 static bool late(const fit *f) { return nh_robustness_late(f->w); }
 
-/* The cloud shrunk to this part about one of its points; equations hold there as everywhere. */
+/* The sample points, moved towards one of them until this part of their distance is left; equations hold there, too. */
 static nh_points *crowded(const fit *f, double part)
 {
     nh_error ignored;

@@ -163,7 +163,7 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
 /* Where a method was chosen from. */
 static const char *const choices[] = {[NH_CHOICE_RACE] = "race",
                                       [NH_CHOICE_GIVEN] = "given",
-                                      [NH_CHOICE_SURVEY] = "measured",
+                                      [NH_CHOICE_PILOT] = "measured",
                                       [NH_CHOICE_SHORT] = "short"};
 
 void nh_accuracy_json(const nh_accuracy *a, nh_json *root)

@@ -108,33 +108,33 @@ struct nh_machine {
 };
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static nh_machine shelf[most_machines];
-static size_t shelved;
+static nh_machine machine[most_machines];
+static size_t machines;
 
 void nh_machine_cleanup(void)
 {
-    for (size_t i = 0; i < shelved; i++) {
-        nh_compile_free(shelf[i].compilation);
-        nh_text_clear(&shelf[i].text);
+    for (size_t i = 0; i < machines; i++) {
+        nh_compile_free(machine[i].compilation);
+        nh_text_clear(&machine[i].text);
     }
-    shelved = 0;
+    machines = 0;
 }
 
 static nh_machine *look_up(const nh_text *text)
 {
-    for (size_t i = 0; i < shelved; i++)
-        if (shelf[i].text.length == text->length && !memcmp(shelf[i].text.data, text->data, text->length))
-            return &shelf[i];
+    for (size_t i = 0; i < machines; i++)
+        if (machine[i].text.length == text->length && !memcmp(machine[i].text.data, text->data, text->length))
+            return &machine[i];
     return NULL;
 }
 
-static nh_machine *put_on_shelf(nh_text *text)
+static nh_machine *put_into_list(nh_text *text)
 {
-    if (shelved == most_machines || (!shelved && atexit(nh_machine_cleanup))) return NULL;
-    nh_machine *m = &shelf[shelved];
+    if (machines == most_machines || (!machines && atexit(nh_machine_cleanup))) return NULL;
+    nh_machine *m = &machine[machines];
     *m = (nh_machine){.text = *text, .compilation = nh_compile(nh_text_string(text)), .busy = true};
     nh_text_init(text);
-    shelved++;
+    machines++;
     return m;
 }
 
@@ -149,7 +149,7 @@ static nh_machine *machine_of(const nh_tape *tape, bool start)
     nh_held held;
     nh_hold(&held, &lock);
     nh_machine *m = look_up(&text);
-    if (!m && start) m = put_on_shelf(&text);
+    if (!m && start) m = put_into_list(&text);
     nh_release(&held);
     nh_text_clear(&text);
     return m;

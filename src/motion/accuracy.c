@@ -17,7 +17,7 @@ static const double quick = 1e8, faster = 20;
 static const double patience = 10;        /* times what was measured: the first run may need so much, or `quick` */
 /* other ways are measured for a motion that needs so much by the winner of the race, */
 static const double worthwhile = 5e7;
-static const double survey_share = 0.25;  /* with such a part of it; */
+static const double pilot_share = 0.25;  /* with such a part of it; */
 /* where there are more motions like it: what one needs at least, and how many of them count */
 static const double shortest = 5e5, most_times = 16;
 static const double more_steps = 0.8;     /* (n1/n2)^order at most, from one number of fixed steps to the next */
@@ -29,8 +29,8 @@ typedef struct {
     nh_accuracy *out;
     /* the one that was given, or measured and chosen; NULL: none was, or it did not do here */
     const nh_integration_plan *way;
-    nh_pilot_runs survey;
-    nh_trajectory_request own; /* with the model that a survey had derived */
+    nh_pilot_runs pilot;
+    nh_trajectory_request own; /* with the model that pilot runs had derived */
     double first;          /* units of the whole motion by the winner of the race */
     nh_programs *programs; /* for methods with a fixed step */
     double *floor;         /* least scales of what is wanted */
@@ -239,7 +239,7 @@ static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double
    work, or NULL. */
 static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *tolerance)
 {
-    if (!s->ways->survey || !t || !(complete(t) || s->stopped)) return NULL;
+    if (!s->ways->pilot || !t || !(complete(t) || s->stopped)) return NULL;
     s->first = whole(s->request, t);
     if (s->first * (1 + s->ways->more) < worthwhile || s->first < shortest)
         return s->out->choice = NH_CHOICE_SHORT, NULL;
@@ -248,22 +248,22 @@ static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *t
     nh_pilot_runs_terms terms = {.eps = s->eps,
                                  .best = s->method[0],
                                  .effort = s->first,
-                                 .budget = survey_share * s->first * between(s->ways->more, 1, most_times),
+                                 .budget = pilot_share * s->first * between(s->ways->more, 1, most_times),
                                  .plain = s->ways->plain,
                                  .floor = s->floor};
     const nh_model *other = s->ways->derive && !s->ways->plain && !s->request->smallest
                                 ? s->ways->derive(s->ways->context, terms.budget)
                                 : NULL;
     if (other) s->own.other = other;
-    nh_pilot_runs_make(s->request, &at, &terms, &s->survey);
+    nh_pilot_runs_make(s->request, &at, &terms, &s->pilot);
     nh_free(work);
-    s->out->choice = NH_CHOICE_SURVEY;
-    s->out->evaluations += s->survey.evaluations;
-    s->out->effort += s->survey.effort;
-    s->out->seconds += s->survey.seconds;
+    s->out->choice = NH_CHOICE_PILOT;
+    s->out->evaluations += s->pilot.evaluations;
+    s->out->effort += s->pilot.effort;
+    s->out->seconds += s->pilot.seconds;
     nh_integration_plan_limits limits = limits_of(s);
     nh_integration_plan_choice choice =
-        nh_pilot_runs_choose(&s->survey, s->method[0], s->eps, &limits, complete(t) && !(s->ways->more > 0));
+        nh_pilot_runs_choose(&s->pilot, s->method[0], s->eps, &limits, complete(t) && !(s->ways->more > 0));
     if (!choice.way || nh_interrupted()) return NULL;
     const nh_method *winner[2] = {s->method[0], s->method[1]};
     nh_trajectory *found = take_way(
@@ -391,25 +391,25 @@ static void explain_choice(const search *s)
     nh_accuracy *a = s->out;
     char *end = a->why + strlen(a->why);
     size_t left = sizeof a->why - strlen(a->why);
-    double part = 100 * s->survey.part;
+    double part = 100 * s->pilot.part;
     if (a->choice == NH_CHOICE_SHORT)
         snprintf(end, left,
                  "; the motion needs %.2g million counted operations: measuring other methods would need more",
                  s->first / 1e6);
-    if (a->choice != NH_CHOICE_SURVEY) return;
+    if (a->choice != NH_CHOICE_PILOT) return;
     if (!a->measured)
         snprintf(end, left, "; %zu methods were measured on %.2g %% of the motion: none would save work",
-                 s->survey.tried, part);
+                 s->pilot.tried, part);
     else if (a->other)
         snprintf(end, left,
                  "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); "
                  "the next, %s, needs %.2g times as much counted work",
-                 s->eps, s->survey.tried, part, a->other->name, a->next);
+                 s->eps, s->pilot.tried, part, a->other->name, a->next);
     else
         snprintf(end, left,
                  "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); "
                  "every other needs at least twice as much counted work",
-                 s->eps, s->survey.tried, part);
+                 s->eps, s->pilot.tried, part);
 }
 
 static const char *words_of_size(const search *s, const nh_trajectory *t)

@@ -25,16 +25,16 @@
 
 /* Origin of the method: the race of two methods; the caller; what was measured for this motion; the race, because the
  * motion is too short to measure anything. */
-typedef enum { NH_CHOICE_RACE, NH_CHOICE_GIVEN, NH_CHOICE_SURVEY, NH_CHOICE_SHORT } nh_accuracy_choice;
+typedef enum { NH_CHOICE_RACE, NH_CHOICE_GIVEN, NH_CHOICE_PILOT, NH_CHOICE_SHORT } nh_accuracy_choice;
 
 /* What may be chosen from. */
 typedef struct {
     size_t count;                       /* ways that a motion like this one was computed by */
     const nh_integration_plan *way;
-    bool survey;                        /* others may be measured where none of these does */
+    bool pilot;                         /* others may be measured where none of these does */
     /* motions like this one are to be computed as this one was: measuring pays so much more */
     double more;
-    /* only the model's own velocities and methods with error control, in a survey */
+    /* only the model's own velocities and methods with error control, in pilot runs */
     bool plain;
     void *context;
     /* The model in other velocities, where deriving it costs no more than so many units of effort; else NULL.  May be
@@ -55,7 +55,7 @@ typedef struct {
     size_t quantity;                    /* the wanted expression that is least certain */
     double size;                        /* of it, along the motion */
     int runs;
-    long evaluations;                   /* of all runs, those of a survey included */
+    long evaluations;                   /* of all runs, pilot runs included */
     double effort;                      /* units of base/effort.h of all runs, */
     double seconds;                     /* and their time, which decides nothing */
     /* how the motion that is returned was computed, with what it cost and its estimated error */

@@ -61,12 +61,12 @@ static bool rows_at_zero(const nh_closed_subsystem *s, nh_ex *e)
     nh_ex *symbol = nh_alloc_array(count + 1, sizeof *symbol), *zero = nh_alloc_array(count + 1, sizeof *zero);
     for (size_t i = 0; i < count; i++) symbol[i] = symbol_of(o, s->state[from + i]), zero[i] = nh_int(o->dag, 0);
     for (size_t i = 0; i < n; i++) {
-        e[i] = nh_substitute(o->dag, s->network.row[s->state[i]], count, symbol, zero);
-        e[n + i] = s->network.row[s->state[i]];
+        e[i] = nh_substitute(o->dag, s->graph.row[s->state[i]], count, symbol, zero);
+        e[n + i] = s->graph.row[s->state[i]];
     }
     double *value = nh_alloc_array(4 * n + 1, sizeof *value), *off = value + 2 * n, *size = off + n,
            *point = nh_alloc_array(width + 1, sizeof *point);
-    nh_tape *tape = nh_dependency_graph_tape(&s->network, 2 * n, e, 0, NULL, NULL);
+    nh_tape *tape = nh_dependency_graph_tape(&s->graph, 2 * n, e, 0, NULL, NULL);
     nh_tape_work *work = nh_tape_work_create(tape);
     bool good = !s->implicit && o->chart->probes > 0;
     for (size_t p = 0; p < o->chart->probes && good; p++) {
@@ -100,7 +100,7 @@ static nh_tape *frozen_tape(const nh_closed_subsystem *s, size_t n, const nh_ex 
         symbol[i] = symbol_of(o, s->state[from + i]);
         value[i] = o->chart->probe[1 + s->state[from + i]];
     }
-    nh_tape *tape = nh_dependency_graph_tape(&s->network, n, e, s->implicit ? 0 : count, symbol, value);
+    nh_tape *tape = nh_dependency_graph_tape(&s->graph, n, e, s->implicit ? 0 : count, symbol, value);
     nh_free(value);
     nh_free(symbol);
     return tape;
@@ -142,7 +142,7 @@ static void make_tapes(nh_closed_subsystem *s)
     s->rate_of_all = nh_model_tape(o, s->states, e);
     s->instructions_of_all = nh_tape_length(s->rate_of_all);
     bool zero = rows_at_zero(s, e);
-    for (size_t i = 0; i < n && !zero; i++) e[i] = s->network.row[s->state[i]];
+    for (size_t i = 0; i < n && !zero; i++) e[i] = s->graph.row[s->state[i]];
     for (size_t i = 0; i < n; i++) s->smooth = s->smooth && is_smooth(o, e[i]);
     s->rate = n ? frozen_tape(s, n, e) : NULL;
     nh_ex wall[NH_MOST_WALLS];
@@ -154,11 +154,11 @@ static void make_tapes(nh_closed_subsystem *s)
         for (size_t i = 0; i < n; i++) e[n + i + j * n] = nh_diff(o->dag, e[i], symbol_of(o, s->state[j]));
     s->jacobian = exact ? frozen_tape(s, n * n, e + n) : NULL;
     for (size_t k = 0; k < levels; k++) {
-        e[k] = s->network.level[k].value;
-        e[levels + k] = s->network.level[k].slope;
+        e[k] = s->graph.level[k].value;
+        e[levels + k] = s->graph.level[k].slope;
     }
-    s->removed = nh_dependency_graph_tape(&s->network, 2 * levels, e, 0, NULL, NULL);
-    for (size_t k = 0; k < levels; k++) e[k] = s->network.level[k].current;
+    s->removed = nh_dependency_graph_tape(&s->graph, 2 * levels, e, 0, NULL, NULL);
+    for (size_t k = 0; k < levels; k++) e[k] = s->graph.level[k].current;
     s->currents = nh_model_tape(o, levels, e);
     nh_free(e);
 }
@@ -170,13 +170,13 @@ nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *o, size_t n, con
     nh_closed_subsystem *s = nh_arena_alloc(arena, sizeof *s);
     *s = (nh_closed_subsystem){.model = o, .arena = arena, .states = o->m + o->n};
     s->state = nh_arena_alloc(arena, (s->states + 1) * sizeof *s->state);
-    nh_dependency_graph_init(&s->network, o, n, watched, currents, current);
-    s->implicit = s->network.implicit;
-    s->kept = s->network.count;
-    s->levels = s->network.levels;
+    nh_dependency_graph_init(&s->graph, o, n, watched, currents, current);
+    s->implicit = s->graph.implicit;
+    s->kept = s->graph.count;
+    s->levels = s->graph.levels;
     s->smooth = !s->implicit && !s->levels && !o->chart->branch;
     for (size_t i = 0; i < n; i++) s->smooth = s->smooth && is_smooth(o, watched[i]);
-    sort_states(s, &s->network);
+    sort_states(s, &s->graph);
     make_tapes(s);
     return s;
 }
@@ -190,7 +190,7 @@ void nh_closed_subsystem_free(nh_closed_subsystem *s)
     nh_tape_free(s->rate_of_all);
     nh_tape_free(s->removed);
     nh_tape_free(s->currents);
-    nh_dependency_graph_clear(&s->network);
+    nh_dependency_graph_clear(&s->graph);
     nh_arena_free(s->arena);
 }
 

@@ -24,7 +24,7 @@ typedef struct {
     bool implicit;                  /* implicit velocities are needed */
     /* equations and what is watched are analytic for all kept states: the end of a chart is none for them */
     bool smooth;
-    nh_dependency_graph network;
+    nh_dependency_graph graph;
     /* of the kept states, over points (t, q, w, u, c); NULL when nothing is kept; no Jacobian where it is long */
     nh_tape *rate, *jacobian;
     /* values and slopes of the levels over the same points; the currents over (t, q, w, u) */

@@ -1,4 +1,4 @@
-/* closed_subsystem_idle: what has no influence on a scene: parameters, and bodies.
+/* closed_subsystem_idle: what has no influence on the observables: parameters, and bodies.
  *
  * The Lagrangian of a body b may be given a weight 1 + eps.  M and A are linear in the Lagrangian, so that M a = A
  * gives
@@ -168,7 +168,7 @@ void nh_closed_subsystem_idle_words(const nh_closed_subsystem *s, nh_text *out)
     bool *idle = nh_alloc_array(n + 1, sizeof *idle);
     const char **name = nh_alloc_array(total + 1, sizeof *name);
     for (size_t i = 0; i < n; i++)
-        if ((idle[i] = nh_dependency_graph_ignores(&s->network, o->parameter[i])))
+        if ((idle[i] = nh_dependency_graph_ignores(&s->graph, o->parameter[i])))
             name[names++] = nh_name_of(o->dag, o->parameter[i]);
     if (names) {
         nh_text_add(out, names == 1 ? "the parameter " : "the parameters ");

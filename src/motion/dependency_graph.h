@@ -32,12 +32,12 @@ typedef struct {
 
 /* The closed system of what is watched.  n currents of the chart, conserved: each may remove one state if fewer states
  * are left then, and it costs less. */
-void nh_dependency_graph_init(nh_dependency_graph *network, const nh_model *model, size_t watches, const nh_ex *watched,
+void nh_dependency_graph_init(nh_dependency_graph *graph, const nh_model *model, size_t watches, const nh_ex *watched,
                               size_t n, const nh_ex *current);
-void nh_dependency_graph_clear(nh_dependency_graph *network);
+void nh_dependency_graph_clear(nh_dependency_graph *graph);
 
 /* Is nothing that is watched, no equation of a kept state and no current that is used a function of this symbol? */
-bool nh_dependency_graph_ignores(const nh_dependency_graph *network, nh_ex symbol);
+bool nh_dependency_graph_ignores(const nh_dependency_graph *graph, nh_ex symbol);
 
 /* Does Gamma(Phi) vanish identically, by the same test? */
 bool nh_dependency_graph_conserved(const nh_model *model, nh_ex current);
@@ -47,7 +47,7 @@ bool nh_dependency_graph_conserved(const nh_model *model, nh_ex current);
 size_t nh_dependency_graph_cyclic(const nh_model *model, nh_ex *out);
 
 /* Points (t, q, w, u, c): the inputs of tapes over rows. */
-nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *network, size_t n, const nh_ex *e, size_t fixed,
+nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *graph, size_t n, const nh_ex *e, size_t fixed,
                                   const nh_ex *symbol, const double *value);
 
 #endif

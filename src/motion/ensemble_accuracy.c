@@ -30,7 +30,7 @@ typedef struct {
 
 typedef struct {
     const nh_trajectory_request *request;
-    nh_trajectory_request own;     /* with the model that a survey had derived */
+    nh_trajectory_request own;     /* with the model that pilot runs had derived */
     size_t members, threads, size; /* size: of a state (q, w) */
     const double *initial;
     double eps;

@@ -52,11 +52,11 @@ typedef struct {
     double begun, length, whole, aim; /* aim: error on the piece that becomes eps on the whole */
     double best;                      /* units for the piece, of what reached the aim */
     long steps;                       /* of the reference */
-} survey;
+} pilot;
 
-static double left(const survey *s) { return s->begun + s->terms->budget - nh_effort(); }
+static double left(const pilot *s) { return s->begun + s->terms->budget - nh_effort(); }
 
-static nh_trajectory *run(survey *s, const nh_method *method, nh_velocities velocities, double setting, double effort)
+static nh_trajectory *run(pilot *s, const nh_method *method, nh_velocities velocities, double setting, double effort)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -76,14 +76,14 @@ static nh_trajectory *run(survey *s, const nh_method *method, nh_velocities velo
 }
 
 /* Of a run against the reference. */
-static double error_of(const survey *s, const nh_trajectory *t)
+static double error_of(const pilot *s, const nh_trajectory *t)
 {
     size_t which;
     return nh_accuracy_difference(s->piece.count, s->piece.n, s->reference->value, t->value, s->terms->floor, &which);
 }
 
 /* One method in some velocities, at the setting that its first run asks for. */
-static void try_way(survey *s, const nh_method *method, nh_velocities velocities)
+static void try_way(pilot *s, const nh_method *method, nh_velocities velocities)
 {
     nh_integration_plan w = {.method = method, .velocities = velocities, .tolerance = NAN, .step = NAN};
     double setting = method->order ? s->length / (double)(s->steps + 1) : fmin(s->aim, nh_accuracy_loosest);
@@ -107,7 +107,7 @@ static void try_way(survey *s, const nh_method *method, nh_velocities velocities
     }
 }
 
-static bool open_piece(survey *s, const nh_state *from, double **times)
+static bool open_piece(pilot *s, const nh_state *from, double **times)
 {
     const nh_trajectory_request *q = s->request;
     double begin = q->times[0], end = q->times[q->count - 1],
@@ -132,7 +132,7 @@ static bool open_piece(survey *s, const nh_state *from, double **times)
     return true;
 }
 
-static bool usable(survey *s, const candidate *c, const nh_method *method)
+static bool usable(pilot *s, const candidate *c, const nh_method *method)
 {
     bool plain = s->terms->plain || s->request->smallest;
     if (plain && (method->order || c->velocities != NH_OWN_VELOCITIES)) return false;
@@ -144,7 +144,7 @@ static bool usable(survey *s, const candidate *c, const nh_method *method)
     return !nh_method_refused(method, s->programs);
 }
 
-static void try_all(survey *s)
+static void try_all(pilot *s)
 {
     const nh_method *best = s->terms->best;
     double finest = best->family == NH_METHOD_CVODE ? finest_stiff : nh_accuracy_tightest;
@@ -167,7 +167,7 @@ static void try_all(survey *s)
 void nh_pilot_runs_make(const nh_trajectory_request *request, const nh_state *from, const nh_pilot_runs_terms *terms,
                         nh_pilot_runs *out)
 {
-    survey s = {.request = request, .terms = terms, .out = out, .begun = nh_effort()};
+    pilot s = {.request = request, .terms = terms, .out = out, .begun = nh_effort()};
     double begun = nh_clock();
     double *times = NULL;
     *out = (nh_pilot_runs){.count = 0};

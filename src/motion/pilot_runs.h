@@ -37,7 +37,7 @@ void nh_pilot_runs_make(const nh_trajectory_request *request, const nh_state *fr
 
 /* The cheapest below eps, if it saves work beside the best that was known, which has done one of its runs when `done`:
  * then NULL where nothing does, else that one itself. */
-nh_integration_plan_choice nh_pilot_runs_choose(const nh_pilot_runs *survey, const nh_method *best, double eps,
+nh_integration_plan_choice nh_pilot_runs_choose(const nh_pilot_runs *runs, const nh_method *best, double eps,
                                                 const nh_integration_plan_limits *limits, bool done);
 
 #endif

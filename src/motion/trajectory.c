@@ -165,7 +165,7 @@ typedef struct {
     const nh_method *method; /* NULL: automatic */
     const nh_method *used;   /* of the last motion */
     double *z0;
-    nh_clock_brake brake;
+    nh_clock_limit time_limit;
     nh_flow_options how;
     bool leave; /* the chart ends on the way */
     nh_event_watch watch;
@@ -175,7 +175,7 @@ typedef struct {
     nh_singular_of_model *singular;
 } job;
 
-static bool late(void *context) { return nh_interrupted() || nh_clock_brake_reached(*(const nh_clock_brake *)context); }
+static bool late(void *context) { return nh_interrupted() || nh_clock_limit_reached(*(const nh_clock_limit *)context); }
 
 bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2],
                     const nh_flow_options *options)
@@ -330,7 +330,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
         long level = nh_closed_subsystem_run_failed(run);
         if (level < 0) level = (long)s->levels - 1;
         for (size_t k = 0; k < currents; k++)
-            if (current[k] == s->network.level[level].current) *failed = (long)k;
+            if (current[k] == s->graph.level[level].current) *failed = (long)k;
     }
     j->out->motion = motion;
     watch(j, NULL);
@@ -428,7 +428,7 @@ static void in_all_states(job *j, nh_error *error)
     say_machine(nh_dynamics_words(j->dynamics), j->out->machine);
     bool any = j->leave;
     if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
-    bool out_of_time = late(&j->brake) || (motion && spent_all(q, motion));
+    bool out_of_time = late(&j->time_limit) || (motion && spent_all(q, motion));
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         if (q->events) watch(j, nh_along_values_of(j->dynamics, true, 2 * q->events, j->watched));
@@ -493,7 +493,7 @@ static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error)
              .z0 = nh_alloc_array(size + 1, sizeof *j.z0),
              .method = q->method,
              .used = q->method,
-             .brake = nh_clock_brake_in(q->max_seconds > 0 ? q->max_seconds : INFINITY)};
+             .time_limit = nh_clock_limit_in(q->max_seconds > 0 ? q->max_seconds : INFINITY)};
     nh_dynamics_jit(j.dynamics, q->options->compile);
     j.how = (nh_flow_options){.method = NH_ADAMS,
                               .rtol = q->options->tolerance,
@@ -502,7 +502,7 @@ static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error)
                               .effort = q->max_effort};
     j.how.step = q->step;
     j.how.cancelled = late;
-    j.how.cancel_context = &j.brake;
+    j.how.cancel_context = &j.time_limit;
     open_watch(&j);
     nh_error ignored;
     nh_error_clear(&ignored);

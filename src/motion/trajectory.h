@@ -1,4 +1,4 @@
-/* trajectory: one motion of a model, in whichever formulation carries it to the end, with the values of expressions
+/* trajectory: one motion of a model, in a formulation that reaches the end, with the values of expressions
    along it. */
 #ifndef NH_TRAJECTORY_H
 #define NH_TRAJECTORY_H
@@ -52,7 +52,7 @@ typedef struct {
     nh_programs *programs;    /* of the model, for them; NULL: made for this motion */
     nh_velocities velocities;   /* where they can be used; the model's own otherwise */
     const nh_model *other;    /* for NH_OTHER_VELOCITIES */
-    double max_seconds;       /* a brake (base/clock.h); 0: none; a motion that takes longer is not complete */
+    double max_seconds;       /* time limit (base/clock.h); 0: none; a motion that takes longer is not complete */
     double max_effort;        /* the same in units of base/effort.h, of each attempt at the motion; 0: none */
 } nh_trajectory_request;
 

@@ -122,16 +122,16 @@ static bool spectrum(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, con
 }
 
 /* The rank that K has in most places: inertia may be missing where constraints bind. */
-static size_t usual_rank(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const nh_constraint_samples *cloud,
+static size_t usual_rank(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const nh_constraint_samples *sample,
                          double *K)
 {
     enum { trials = 8 };
     static const double rounding = 1e-14; /* times m */
     size_t most = 0;
     double *s;
-    for (size_t p = 0; p < trials && p < cloud->count && k->quadratic && k->autonomous; p++) {
+    for (size_t p = 0; p < trials && p < sample->count && k->quadratic && k->autonomous; p++) {
         size_t rank = 0;
-        if (!spectrum(k, tape, work, cloud->point + p * cloud->width + 1, K, &s)) continue;
+        if (!spectrum(k, tape, work, sample->point + p * sample->width + 1, K, &s)) continue;
         while (rank < k->m && s[rank] > rounding * (double)k->m * s[0]) rank++;
         if (rank > most) most = rank;
     }
@@ -147,7 +147,7 @@ static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, 
 }
 
 /* A Lagrangian that is not quadratic may be undefined for velocities of the box: good[i] = 0 for such states. */
-static void leave_out_undefined(const nh_kinetic *k, size_t rounds, const nh_constraint_samples *cloud, double *good)
+static void leave_out_undefined(const nh_kinetic *k, size_t rounds, const nh_constraint_samples *sample, double *good)
 {
     const nh_system *y = k->model->system;
     size_t m = k->m, width = 1 + 2 * m;
@@ -161,8 +161,8 @@ static void leave_out_undefined(const nh_kinetic *k, size_t rounds, const nh_con
                                        k->model->parameter_value);
         nh_tape_work *work = nh_tape_work_create(tape);
         for (size_t r = 0; r < rounds; r++)
-            for (size_t p = 0; p < cloud[r].count; p++, good++) {
-                nh_tape_eval(tape, work, cloud[r].point + p * cloud[r].width, &L);
+            for (size_t p = 0; p < sample[r].count; p++, good++) {
+                nh_tape_eval(tape, work, sample[r].point + p * sample[r].width, &L);
                 if (!isfinite(L)) *good = 0;
             }
         nh_tape_work_free(work);
@@ -178,7 +178,7 @@ static void take_places(nh_kinetic *k, uint64_t seed)
     enum { rounds = 4 };
     static const double usable = 1e-3; /* part of the best condition */
     size_t m = k->m, most = 0, total = m * m + k->f * m + 1;
-    nh_constraint_samples cloud[rounds];
+    nh_constraint_samples sample[rounds];
     nh_ex *e = nh_alloc_array(total, sizeof *e);
     memcpy(e, k->K, m * m * sizeof *e);
     memcpy(e + m * m, k->omega, k->f * m * sizeof *e);
@@ -186,21 +186,22 @@ static void take_places(nh_kinetic *k, uint64_t seed)
     nh_tape *tape = nh_kinetic_tape(k, total, e);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (int r = 0; r < rounds; r++) {
-        nh_constraint_samples_init(&cloud[r], k->model->system, k->f, seed + 1000 * (uint64_t)r);
-        most += cloud[r].count;
+        nh_constraint_samples_init(&sample[r], k->model->system, k->f, seed + 1000 * (uint64_t)r);
+        most += sample[r].count;
     }
     double *K = nh_alloc_array(total + 2 * m, sizeof *K), *good = nh_alloc_array(most + 1, sizeof *good), best = 0;
-    size_t rank = usual_rank(k, tape, work, &cloud[0], K);
+    size_t rank = usual_rank(k, tape, work, &sample[0], K);
     k->place = nh_arena_alloc(k->arena, (most + 1) * m * sizeof *k->place);
     k->speed = nh_arena_alloc(k->arena, (most + 1) * m * sizeof *k->speed);
     k->time = nh_arena_alloc(k->arena, (most + 1) * sizeof *k->time);
     for (size_t r = 0, at = 0; r < rounds; r++)
-        for (size_t p = 0; p < cloud[r].count; p++)
-            best = fmax(best, good[at++] = condition(k, tape, work, cloud[r].point + p * cloud[r].width + 1, rank, K));
-    leave_out_undefined(k, rounds, cloud, good);
+        for (size_t p = 0; p < sample[r].count; p++)
+            best =
+                fmax(best, good[at++] = condition(k, tape, work, sample[r].point + p * sample[r].width + 1, rank, K));
+    leave_out_undefined(k, rounds, sample, good);
     for (size_t r = 0, at = 0; r < rounds; r++) {
-        for (size_t p = 0; p < cloud[r].count; p++, at++) {
-            const double *z = cloud[r].point + p * cloud[r].width;
+        for (size_t p = 0; p < sample[r].count; p++, at++) {
+            const double *z = sample[r].point + p * sample[r].width;
             size_t n = k->places;
             if (!(good[at] > 0) || good[at] < usable * best) continue;
             k->time[n] = z[0];
@@ -214,7 +215,7 @@ static void take_places(nh_kinetic *k, uint64_t seed)
                 k->speed[s] = k->speed[n * m + s], k->speed[n * m + s] = v;
             }
         }
-        nh_constraint_samples_clear(&cloud[r]);
+        nh_constraint_samples_clear(&sample[r]);
     }
     nh_tape_work_free(work);
     nh_tape_free(tape);

@@ -111,7 +111,7 @@ typedef struct {
    work, size or time). */
 typedef enum { NH_SEARCH_COMPLETE, NH_SEARCH_EXHAUSTED, NH_SEARCH_CUT } nh_search;
 
-/* A stage of the ladder. */
+/* A stage of the search. */
 typedef struct {
     const char *name;
     /* sectors: parts that were solved apart; found: new independent currents */
@@ -163,7 +163,7 @@ struct nh_analysis {
     const char *ansatz_note;  /* what was tried, in words */
     size_t samples, beyond, rejected; /* beyond: where the chart's pivot is near zero, from the multiplier form */
     size_t stages, stage_capacity;
-    nh_stage_record *stage;          /* the ladder's; empty with an analysis file */
+    nh_stage_record *stage;          /* of the staged search; empty with an analysis file */
     nh_spectrum current, symmetry;
     bool routes_compared, routes_agree;
     double routes_angle;

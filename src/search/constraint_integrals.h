@@ -9,9 +9,9 @@
 
 #include "search/stage_solver.h"
 
-/* The first stages of a climb, where functions are known to exist: polynomials, waves of the angles and the system's
+/* The first stages of a search, where functions are known to exist: polynomials, waves of the angles and the system's
    own functions, times positions. */
-void nh_integrals_find(nh_stage_solver *climb);
+void nh_integrals_find(nh_stage_solver *solver);
 
 /* After the search: fills result->integral, and the meaning of the currents concerned. */
 void nh_integrals_of_constraints(nh_analysis *result);

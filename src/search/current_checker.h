@@ -10,7 +10,7 @@ typedef struct {
     nh_analysis *result;
     nh_points *heldout, *generic; /* points that no fit has seen */
     nh_terrain terrain;           /* where motions cross walls; of the first current on */
-    bool surveyed;
+    bool searched;
     nh_ex *inverse;               /* the chart's velocities in coordinate velocities */
     bool invertible;
     bool brief;                   /* the fields of what comes next are not wanted */

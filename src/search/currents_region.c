@@ -9,8 +9,8 @@
 static nh_region region_of(nh_current_checker *b, nh_ex phi, double digits)
 {
     nh_analysis *r = b->result;
-    if (!b->surveyed) b->terrain = nh_terrain_of(r->model, &r->options, r->arena);
-    b->surveyed = true;
+    if (!b->searched) b->terrain = nh_terrain_of(r->model, &r->options, r->arena);
+    b->searched = true;
     return nh_region_of(r->model, &b->terrain, phi, digits, &r->options, r->arena);
 }
 

@@ -1,6 +1,6 @@
-/* The ladder's stage of symmetries without an ansatz: isometries of the kinetic energy, counted by the transport of
- * their 1-jets and written in closed form (reduction/jets.h, generators.h), however the coordinates disguise them.
- * With xi such a field,
+/* A stage of the search, for symmetries without an ansatz: isometries of the kinetic energy, counted by the transport
+ * of their 1-jets and written in closed form (reduction/jets.h, generators.h), whatever the coordinates are.  With xi
+ * such a field,
  *
  *     P = xi^s K_sr v^r
  *
@@ -135,20 +135,20 @@ static void cartesian(nh_stage_solver *x, size_t n, const nh_ex *P)
 {
     enum { few = 3 };
     nh_analysis *r = x->r;
-    nh_family_list shelf = {r->arena, r->model, &x->words, NULL, 0};
-    nh_expr_set all = {0}, functions = nh_expr_set_one_coordinate(&shelf), plain = {0};
+    nh_family_list families = {r->arena, r->model, &x->words, NULL, 0};
+    nh_expr_set all = {0}, functions = nh_expr_set_one_coordinate(&families), plain = {0};
     for (size_t s = 0; s < r->model->m; s++)
         if (r->system->coordinate[s].type != NH_ANGLE) nh_expr_set_put(&plain, r->system->coordinate[s].q);
-    nh_expr_set squares = nh_expr_set_squares(&shelf, &plain);
+    nh_expr_set squares = nh_expr_set_squares(&families, &plain);
     nh_expr_set_put_all(&all, n, P);
     for (size_t i = 0; i < functions.n; i++)
         if (nh_kind_of(r->model->dag, functions.e[i]) != NH_NUMBER) nh_expr_set_put(&all, functions.e[i]);
     nh_expr_set_put_all(&all, plain.n, plain.e);
     if (plain.n <= few) nh_expr_set_put_all(&all, squares.n, squares.e);
-    nh_family base = nh_family_list_terms(&shelf, &all), grown;
+    nh_family base = nh_family_list_terms(&families, &all), grown;
     nh_rates_search_in(x, &base);
     for (size_t i = 0; i < n; i++) nh_expr_set_put(&all, nh_mul(r->model->dag, r->model->system->t, P[i]));
-    grown = nh_family_list_terms(&shelf, &all);
+    grown = nh_family_list_terms(&families, &all);
     if (!nh_stage_solver_done(x))
         nh_stage_solver_stage(x, "these momenta times 1 and t, and products of functions of one coordinate", 1, &grown);
 }

@@ -1,4 +1,4 @@
-/* The ladder's stage for what moves linearly: where the equations of motion are, for all coordinates or for some that
+/* A stage of the search, for linear equations: where the equations of motion are, for all coordinates or for some that
  * depend on no others,
  *
  *     z' = A z + b,     z = (q, w) of one block, A of numbers or parameters, b a sum of functions of t whose
@@ -309,7 +309,7 @@ static void polynomials(linear *l)
 {
     nh_dag *d = l->x->r->model->dag;
     nh_ex t = l->x->r->system->t, f[3] = {nh_int(d, 1), t, nh_mul(d, t, t)};
-    stage(l, "what moves linearly, times powers of t", false, 3, f);
+    stage(l, "states with linear equations, times powers of t", false, 3, f);
 }
 
 /* ---- quadratic forms of one block ---- */
@@ -412,7 +412,7 @@ static void powers_of_time(linear *l, size_t times, size_t count, const nh_ex *w
     nh_ex f[2 * most];
     for (size_t k = 0; k < times && k < most; k++)
         for (size_t i = 0; i < count; i++) f[n++] = nh_mul(d, wave[i], nh_powi(d, r->system->t, (int64_t)k));
-    stage(l, "what moves linearly, times exponentials, waves and powers of t", false, n, f);
+    stage(l, "states with linear equations, times exponentials, waves and powers of t", false, n, f);
 }
 
 /* The rates of the block, what differs from zero by rounding being zero; the largest, or false. */
@@ -431,7 +431,7 @@ static bool rates(const linear *l, double *re, double *im, double *largest)
 /* The currents of one rate. */
 static void solve_rate(linear *l, double re, double im, size_t times, bool formulas)
 {
-    static const char *const name = "what moves linearly, times exponentials and waves in t";
+    static const char *const name = "states with linear equations, times exponentials and waves in t";
     nh_dag *d = l->x->r->model->dag;
     nh_ex wave[2], decay = formulas ? 0 : named(l, re, false), turn = formulas ? 0 : named(l, im, true);
     if (l->forms && (re == 0 || im == 0) && wave_of_second_order(l, im != 0 ? turn : decay, im != 0, name)) return;

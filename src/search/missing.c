@@ -58,7 +58,7 @@ static void check(nh_analysis *r)
 /* ---- the construction ---- */
 
 typedef struct {
-    nh_stage_solver climb;
+    nh_stage_solver solver;
     bool cyclic;            /* there are cyclic coordinates */
     double work;            /* that is left for this count */
     size_t aside;           /* currents that are certified only */
@@ -67,7 +67,7 @@ typedef struct {
 
 static void set_aside(search *s)
 {
-    nh_analysis *r = s->climb.r;
+    nh_analysis *r = s->solver.r;
     size_t kept = 0;
     s->set_aside = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *s->set_aside);
     for (size_t k = 0; k < r->count; k++) {
@@ -85,12 +85,12 @@ static void set_aside(search *s)
 /* Those that do not depend on what was proved in the meantime. */
 static void take_back(search *s)
 {
-    nh_analysis *r = s->climb.r;
+    nh_analysis *r = s->solver.r;
     for (size_t k = 0; k < s->aside; k++) {
         nh_current *f = &s->set_aside[k];
-        if (f->independence == NH_INDEPENDENT && nh_currents_known(s->climb.bench, f->phi)) continue;
+        if (f->independence == NH_INDEPENDENT && nh_currents_known(s->solver.bench, f->phi)) continue;
         r->independent += f->independence == NH_INDEPENDENT;
-        nh_currents_put(s->climb.bench, f);
+        nh_currents_put(s->solver.bench, f);
     }
 }
 
@@ -98,21 +98,21 @@ static void take_back(search *s)
    it is regular where these velocities vanish, and its field is shorter. */
 static bool take_place(search *s, const nh_current *f)
 {
-    nh_analysis *r = s->climb.r;
+    nh_analysis *r = s->solver.r;
     for (size_t k = r->count; k-- > 0;) {
         nh_current old = r->found[k];
         if (old.series || old.energy || nh_counted_degree_of(r->model, old.phi) < INFINITY) continue;
         if (old.proof.all_parameters && !f->proof.all_parameters) continue;
         r->found[k] = r->found[--r->count];
-        bool takes = !nh_currents_known(s->climb.bench, f->phi);
-        if (takes) nh_currents_put(s->climb.bench, f);
-        takes = takes && nh_currents_known(s->climb.bench, old.phi);
+        bool takes = !nh_currents_known(s->solver.bench, f->phi);
+        if (takes) nh_currents_put(s->solver.bench, f);
+        takes = takes && nh_currents_known(s->solver.bench, old.phi);
         if (takes) {
-            nh_described_fill(s->climb.bench, &r->found[r->count - 1]);
+            nh_described_fill(s->solver.bench, &r->found[r->count - 1]);
             return true;
         }
         r->count -= r->count > 0 && r->found[r->count - 1].phi == f->phi;
-        nh_currents_put(s->climb.bench, &old);
+        nh_currents_put(s->solver.bench, &old);
     }
     return false;
 }
@@ -120,18 +120,18 @@ static bool take_place(search *s, const nh_current *f)
 /* A function of the currents found: it is checked as any other, and set apart. */
 static bool keep_further(search *s, size_t degree, nh_candidate *candidate, const nh_points *fit)
 {
-    nh_analysis *r = s->climb.r;
-    s->climb.bench->brief = true;
-    bool conserved = nh_currents_add(s->climb.bench, candidate, fit, true);
-    s->climb.bench->brief = false;
+    nh_analysis *r = s->solver.r;
+    s->solver.bench->brief = true;
+    bool conserved = nh_currents_add(s->solver.bench, candidate, fit, true);
+    s->solver.bench->brief = false;
     if (!conserved) return false;
     nh_current *f = &r->found[--r->count];
     if (!f->proof.proved || r->furthers == NH_MOST_FURTHER) return false;
     if (!r->further) r->further = nh_arena_alloc(r->arena, NH_MOST_FURTHER * sizeof *r->further);
     f->independence = NH_DEPENDENT;
-    nh_region open = nh_region_open(r->model, &s->climb.bench->terrain, f->phi, &r->options, r->arena);
-    if (open.count && nh_currents_continue(s->climb.bench, f))
-        open = nh_region_open(r->model, &s->climb.bench->terrain, f->phi, &r->options, r->arena);
+    nh_region open = nh_region_open(r->model, &s->solver.bench->terrain, f->phi, &r->options, r->arena);
+    if (open.count && nh_currents_continue(s->solver.bench, f))
+        open = nh_region_open(r->model, &s->solver.bench->terrain, f->phi, &r->options, r->arena);
     f->region = nh_region_text(r->model->dag, &open, r->arena);
     nh_current found = *f; /* in the place where the next current of the list will be */
     if (!f->region && take_place(s, &found)) return true;
@@ -143,9 +143,9 @@ static bool keep_further(search *s, size_t degree, nh_candidate *candidate, cons
 /* Of the null vectors the one with the most complex term: what the others are made of is known. */
 static bool lift_further(search *s, size_t degree, const nh_family *all)
 {
-    nh_analysis *r = s->climb.r;
+    nh_analysis *r = s->solver.r;
     bool found = false;
-    nh_solved x = nh_stage_solver_solve(&s->climb, 1, all);
+    nh_solved x = nh_stage_solver_solve(&s->solver, 1, all);
     if (x.nullspace && x.nullspace->dimension) {
         nh_candidates *list = nh_echelon(r->model, x.fit, x.ansatz, x.nullspace, x.nullspace->dimension, &r->options);
         for (size_t k = 0; k < list->count && !found; k++) {
@@ -153,7 +153,7 @@ static bool lift_further(search *s, size_t degree, const nh_family *all)
             for (size_t j = 0; j < list->candidate[k].count; j++) leads |= list->candidate[k].term[j] == all->term[0];
             found = leads && keep_further(s, degree, &list->candidate[k], x.fit);
         }
-        s->climb.bench->nears = 0; /* they are of the list */
+        s->solver.bench->nears = 0; /* they are of the list */
         nh_candidates_free(list);
     }
     nh_solved_clear(&x);
@@ -193,7 +193,7 @@ static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
 static bool lift(search *s, size_t degree, const nh_constructed *c, bool further)
 {
     enum { most_terms = 300 };
-    nh_analysis *r = s->climb.r;
+    nh_analysis *r = s->solver.r;
     nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
     nh_ex constant[most_constants];
     size_t before = r->count, constants = constants_of_leaf(r, constant), terms = 0;
@@ -201,20 +201,20 @@ static bool lift(search *s, size_t degree, const nh_constructed *c, bool further
     for (size_t j = 0; j < c->terms; j++)
         for (size_t k = 0; k < constants; k++) term[terms++] = nh_mul(r->model->dag, c->term[j], constant[k]);
     *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
-    s->climb.wide = true;
+    s->solver.wide = true;
     const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
     bool solvable = terms <= most_terms;
-    if (solvable) nh_stage_solver_stage(&s->climb, name, 1, all);
+    if (solvable) nh_stage_solver_stage(&s->solver, name, 1, all);
     /* doubles lose it where poles make the terms nearly dependent on each other */
     if (r->count == before && !further && constants == 1 && c->coefficient)
-        nh_stage_solver_certify_terms(&s->climb, c->terms, c->term, c->coefficient, name);
+        nh_stage_solver_certify_terms(&s->solver, c->terms, c->term, c->coefficient, name);
     return r->count > before || (further && solvable && lift_further(s, degree, all));
 }
 
 static bool is_over(const search *s, bool further)
 {
-    return further ? nh_budget_spent() || nh_late() || s->climb.r->furthers == NH_MOST_FURTHER
-                   : nh_stage_solver_done(&s->climb);
+    return further ? nh_budget_spent() || nh_late() || s->solver.r->furthers == NH_MOST_FURTHER
+                   : nh_stage_solver_done(&s->solver);
 }
 
 /* What is looked for: functions of the currents found too; in the shape alone; with words that are many-valued. */
@@ -226,7 +226,7 @@ typedef struct {
 /* Words of one price. */
 static bool construct_at(search *s, const nh_completeness *c, manner how, double price, bool *more)
 {
-    nh_analysis *r = s->climb.r;
+    nh_analysis *r = s->solver.r;
     bool further = how.further;
     size_t degree = further ? c->incomplete_at : c->missing_at;
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
@@ -288,7 +288,7 @@ static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
 static bool integrate(search *s, const nh_completeness *c)
 {
     enum { most_primitives = 12, most_factors = 12 };
-    nh_analysis *r = s->climb.r;
+    nh_analysis *r = s->solver.r;
     const nh_model *o = r->model;
     nh_dag *d = o->dag;
     size_t words = most_primitives + o->m + 2, factors = 1, n = 0, before = r->count;
@@ -308,8 +308,8 @@ static bool integrate(search *s, const nh_completeness *c)
     for (size_t i = 0; i < factors; i++)
         for (size_t j = 0; j < words; j++) term[n++] = nh_mul(d, factor[i], word[j]);
     nh_family all = {.kind = NH_TERMS, .terms = n, .term = term};
-    s->climb.wide = true;
-    nh_stage_solver_stage(&s->climb, "currents found so far times coordinates and antiderivatives", 1, &all);
+    s->solver.wide = true;
+    nh_stage_solver_stage(&s->solver, "currents found so far times coordinates and antiderivatives", 1, &all);
     return r->count > before;
 }
 
@@ -320,12 +320,12 @@ static bool construct(search *s, const nh_completeness *c, bool further)
     /* of the work, for what the currents found determine, and for functions that are rare */
     static const double part = 0.25;
     double dearest = c->count.time ? 6 : 16, dearest_secular = 6,
-           work = s->climb.r->options.construct * (further ? part : 1);
+           work = s->solver.r->options.construct * (further ? part : 1);
     bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) &&
-                              !adds_nothing(s->climb.r, c));
+                              !adds_nothing(s->solver.r, c));
     if (!wanted) return false;
     size_t degree = further ? c->incomplete_at : c->missing_at;
-    nh_construct_rates rates = nh_construct_rates_of(s->climb.r->model, degree, c->count.time, part * work);
+    nh_construct_rates rates = nh_construct_rates_of(s->solver.r->model, degree, c->count.time, part * work);
     manner any = {.further = further, .rates = &rates}, shape = {.further = further, .shape = true}, secular = any;
     secular.secular = true;
     work = fmax(work - rates.work, 0);
@@ -347,7 +347,7 @@ static void look(nh_analysis *r)
     search s = {0};
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!nh_stage_solver_begin(&s.climb, r, &ignored)) return;
+    if (!nh_stage_solver_begin(&s.solver, r, &ignored)) return;
     nh_progress("integrals that the count misses", -1);
     nh_budget_begin(r->options.work);
     set_aside(&s);
@@ -364,11 +364,11 @@ static void look(nh_analysis *r)
     if (stale && !nh_late()) count(r, false);
     take_back(&s);
     nh_budget_begin(INFINITY);
-    nh_currents_finish(s.climb.bench);
+    nh_currents_finish(s.solver.bench);
     for (size_t k = 0; k < r->furthers; k++)
         r->further[k].current.name = nh_currents_name(r, r->count + r->pieces + k + 1);
     if (r->furthers) nh_relations_find(r);
-    nh_stage_solver_end(&s.climb);
+    nh_stage_solver_end(&s.solver);
     bool all = r->independent >= r->local_maximum;
     if (all || r->search == NH_SEARCH_COMPLETE) r->search = all ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
 }

@@ -10,10 +10,10 @@
 
 #include "search/stage_solver.h"
 
-void nh_quadratures_search(nh_stage_solver *climb);
+void nh_quadratures_search(nh_stage_solver *solver);
 
 /* The constants of the whole motion where linear steps give it in closed form for all values of the parameters; else
  * nothing.  It is the shorter way to what many stages would find one after another. */
-void nh_quadratures_complete(nh_stage_solver *climb);
+void nh_quadratures_complete(nh_stage_solver *solver);
 
 #endif

@@ -1,4 +1,4 @@
-/* The ladder's search for unknown rates. */
+/* A stage of the search: unknown rates. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,4 +1,4 @@
-/* The ladder's search for coefficient functions without closed form: integrals/function_series.h, for the words and the
+/* The staged search for coefficient functions without closed form: integrals/function_series.h, for the words and the
  * variables that make sense. */
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* staged_search: an ansatz that grows in stages, for systems without an analysis file.
  *
  * Each stage is a list of families made of the system's own dictionary; its null space is searched for currents that do
- * not depend on those found before.  The ladder ends when as many independent currents are known as can exist locally,
+ * not depend on those found before.  The search ends when as many independent currents are known as can exist locally,
  * when the stages are used up, or when the budget is. */
 #ifndef NH_STAGED_SEARCH_H
 #define NH_STAGED_SEARCH_H

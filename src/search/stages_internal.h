@@ -25,61 +25,61 @@ typedef struct {
 /* The first adds one expression, the second n; the third returns the products of two of `a`, squares included. */
 void nh_expr_set_put(nh_expr_set *list, nh_ex e);
 void nh_expr_set_put_all(nh_expr_set *list, size_t n, const nh_ex *e);
-nh_expr_set nh_expr_set_squares(const nh_family_list *shelf, const nh_expr_set *a);
+nh_expr_set nh_expr_set_squares(const nh_family_list *families, const nh_expr_set *a);
 /* The coordinates, with 1, with t. */
-nh_expr_set nh_expr_set_positions(const nh_family_list *shelf, bool one, bool time);
+nh_expr_set nh_expr_set_positions(const nh_family_list *families, bool one, bool time);
 /* 1, the coordinates that are not only in sines and cosines, their squares, t. */
-nh_expr_set nh_expr_set_lengths(const nh_family_list *shelf, bool squares_too, bool time);
+nh_expr_set nh_expr_set_lengths(const nh_family_list *families, bool squares_too, bool time);
 /* The system's own functions of position, with 1. */
-nh_expr_set nh_expr_set_functions(const nh_family_list *shelf, bool one);
+nh_expr_set nh_expr_set_functions(const nh_family_list *families, bool one);
 
 /* Families in the arena of the list: these terms; products of one function of each part; all monomials up to the
  * degree. Then added to the list: one; the products of the terms of two sets.  Beyond NH_MOST_FAMILIES none is
  * added. */
-nh_family nh_family_list_terms(nh_family_list *shelf, const nh_expr_set *list);
-nh_family nh_family_list_product(nh_family_list *shelf, size_t n, const nh_family *part);
-nh_family nh_family_list_polynomial(nh_family_list *shelf, const nh_expr_set *list, size_t degree);
-void nh_family_list_add(nh_family_list *shelf, nh_family family);
-void nh_family_list_product_of_sets(nh_family_list *shelf, const nh_expr_set *a, const nh_expr_set *b);
+nh_family nh_family_list_terms(nh_family_list *families, const nh_expr_set *list);
+nh_family nh_family_list_product(nh_family_list *families, size_t n, const nh_family *part);
+nh_family nh_family_list_polynomial(nh_family_list *families, const nh_expr_set *list, size_t degree);
+void nh_family_list_add(nh_family_list *families, nh_family family);
+void nh_family_list_product_of_sets(nh_family_list *families, const nh_expr_set *a, const nh_expr_set *b);
 
 /* ---- stages_time.c ---- */
 
 /* Does the Lagrangian, a force or a constraint depend on time? */
-bool nh_family_list_timely(const nh_family_list *shelf);
+bool nh_family_list_timely(const nh_family_list *families);
 /* Functions of t alone, with their derivatives. */
-void nh_expr_set_put_time(const nh_family_list *shelf, nh_expr_set *list);
+void nh_expr_set_put_time(const nh_family_list *families, nh_expr_set *list);
 /* What a force that depends on t alone adds to momenta and centres of mass. */
-void nh_family_list_drive(nh_family_list *shelf);
+void nh_family_list_drive(nh_family_list *families);
 /* Momenta, positions, powers and logarithms of t, and no more. */
-void nh_stage_drive(nh_family_list *shelf);
+void nh_stage_drive(nh_family_list *families);
 /* Squares of positions and velocities with coefficients that depend on time: Ermakov and Lewis. */
-void nh_stage_time(nh_family_list *shelf);
+void nh_stage_time(nh_family_list *families);
 
 /* ---- stages_many.c ---- */
 
 /* Momenta times 1 and t, positions, t; then q_i v_j - q_j v_i. */
-void nh_stage_centres(nh_family_list *shelf);
-void nh_stage_turns(nh_family_list *shelf);
+void nh_stage_centres(nh_family_list *families);
+void nh_stage_turns(nh_family_list *families);
 
 /* ---- stages_weighted.c ---- */
 
 /* Degree four with weights, in the frame of the kinetic energy. */
-void nh_stage_weight_4(nh_family_list *shelf);
+void nh_stage_weight_4(nh_family_list *families);
 
 /* ---- stages_separation.c ---- */
 
 /* Squares of velocities with coefficients of higher degree in the positions; the energy and functions with lower
  * ones. */
-void nh_stage_separation(nh_family_list *shelf);
+void nh_stage_separation(nh_family_list *families);
 /* Squares of single momenta, and the energy, with coefficients that are functions of one coordinate each, and these. */
-void nh_stage_separated(nh_family_list *shelf);
+void nh_stage_separated(nh_family_list *families);
 /* Quasi-homogeneous polynomials of degree four in the velocities, for polynomial potentials. */
-void nh_stage_homogeneous(nh_family_list *shelf);
+void nh_stage_homogeneous(nh_family_list *families);
 /* Cubic in the velocities times positions, the system's functions with one velocity (Holt, Fokas and Lagerstrom). */
-void nh_stage_cubic(nh_family_list *shelf);
+void nh_stage_cubic(nh_family_list *families);
 /* Half angles: parabolic coordinates seen from polar ones. */
-void nh_stage_half_angles(nh_family_list *shelf);
+void nh_stage_half_angles(nh_family_list *families);
 /* 1 and products of functions of one coordinate. */
-nh_expr_set nh_expr_set_one_coordinate(const nh_family_list *shelf);
+nh_expr_set nh_expr_set_one_coordinate(const nh_family_list *families);
 
 #endif

@@ -270,9 +270,9 @@ static int branch_of(const nh_constraint_samples *c, size_t which, nh_ex linear)
 
 /* f = a u^2 + b u + c with u the velocity `which`: u = (-b + s sqrt(b^2 - 4 a c)) / (2 a), so that everything that
    follows is explicit. */
-static bool quadratic_root(const nh_constraint_samples *cloud, size_t which, nh_ex f, nh_quadratic *q)
+static bool quadratic_root(const nh_constraint_samples *sample, size_t which, nh_ex f, nh_quadratic *q)
 {
-    const nh_system *s = cloud->system;
+    const nh_system *s = sample->system;
     nh_dag *d = s->dag;
     nh_ex u = s->coordinate[which].v, zero = nh_int(d, 0), slope = nh_diff(d, f, u);
     q->a = nh_simplify(d, nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, u)));
@@ -281,7 +281,7 @@ static bool quadratic_root(const nh_constraint_samples *cloud, size_t which, nh_
     q->c = nh_substitute(d, f, 1, &u, &zero);
     q->radicand = nh_simplify(d, nh_sub(d, nh_powi(d, q->b, 2), nh_mul(d, nh_int(d, 4), nh_mul(d, q->a, q->c))));
     q->linear = nh_add(d, nh_mul(d, nh_int(d, 2), nh_mul(d, q->a, u)), q->b); /* = branch * sqrt(radicand) */
-    q->branch = branch_of(cloud, which, q->linear);
+    q->branch = branch_of(sample, which, q->linear);
     nh_ex root = nh_mul(d, nh_int(d, q->branch), nh_sqrt(d, q->radicand));
     q->u = nh_simplify(d, nh_div(d, nh_sub(d, root, q->b), nh_mul(d, nh_int(d, 2), q->a)));
     return true;
