@@ -319,7 +319,7 @@ Test(cli_manners, an_interrupted_ensemble_says_that_it_is_written)
              "until [ -s err ] || ! kill -0 $p; do sleep 0.02; done\nsleep 0.5\nfor i in 1 2 3; do kill -INT $p; sleep 0.01; done\n"
              "until grep -q 'writing the results so far' err || ! kill -0 $p; do sleep 0.02; done\nkill -INT $p || exit 93\n"
              "for i in $(seq 100); do kill -0 $p || break; sleep 0.02; done\n! kill -0 $p || { kill -9 $p; exit 94; }\n"
-             "[ -z \"$(ls *.json .e* 2>/dev/null)\" ] || exit 95\ngrep -q 'were being written, and are not' err || exit 96\nwait $p", p.program);
+             "[ -z \"$(ls *.json .e* 2>/dev/null)\" ] || exit 95\ngrep -q 'were not written completely' err || exit 96\nwait $p", p.program);
     char *argument[] = {"sh", "-c", command, NULL};
     finished f = run_vector(&p, &(manner){0}, argument);
     cr_expect_eq(f.code, 130, "exit code %d: %s", f.code, f.err);
@@ -417,7 +417,7 @@ static void check_hint(const place *p, const char *line, int code, const char *h
 Test(cli_manners, a_file_of_another_name_is_found)
 {
     place p = place_make();
-    check_hint(&p, "analyze sleigh.yaml", 3, "\nhint: the one that nhsym brings along is called by its name: `sleigh`\n");
+    check_hint(&p, "analyze sleigh.yaml", 3, "\nhint: nhsym has a file of this name: write `sleigh`\n");
     write_here(&p, "bike.yaml", "name: bike\ncoordinates: [x]\nlagrangian: x'^2\n");
     write_here(&p, "bike.txt", "name: bike\n");
     check_hint(&p, "analyze bkie.yaml", 3, "\nhint: did you mean `bike.yaml`?\n");

@@ -17,12 +17,12 @@
     X(split_columns,    90,      1,      20000, whole, "columns",  "a stage with more columns than this is split by discrete symmetries")    \
     X(threads,          0,       0,      64,    whole, "threads",  "that share the work; 0: one per processor; the result does not depend on it") \
     X(work,             1e4,     0,      1e9,   real,  "millions", "of units of work (about a nanosecond each) after which the search by stages ends") \
-    X(max_seconds,      120,     0,      1e7,   real,  "s",        "time after which the search ends, whatever was counted: a brake for slow machines") \
-    X(max_memory,       0,       0,      1e9,   real,  "MB",       "memory of the process at which a run ends, with what it has; 0: no limit") \
+    X(max_seconds,      120,     0,      1e7,   real,  "s",        "time after which the search ends, even if work is left: a limit for slow machines") \
+    X(max_memory,       0,       0,      1e9,   real,  "MB",       "memory of the process at which a run ends, with partial results; 0: no limit") \
     X(rank,             1e-9,    0,      1,     real,  "",         "columns whose pivot is below this part of the first are dependent")      \
     X(zero,             100,     1,      1e6,   real,  "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \
     X(undecided,        1e5,     1,      1e10,  real,  "",         "up to this many times the null bound a value is undecided")              \
-    X(gap,              1e3,     1,      1e15,  real,  "",         "ratio of the first non-null to the last null value that is demanded")    \
+    X(gap,              1e3,     1,      1e15,  real,  "",         "least ratio of the smallest nonzero to the largest vanishing singular value") \
     X(steepest,         1e6,    1,      1e15,  real,  "",         "largest singular value that may raise the null bound")                    \
     X(likely,           1e-7,    0,      1,     real,  "",         "values up to this, before the widest gap, are tried for a certificate")  \
     X(trivial,          1e-11,   0,      1,     real,  "",         "a column that varies by less than this part of its size is constant")    \
@@ -39,7 +39,7 @@
     X(bits,             256,     64,     4096,  whole, "bits",     "working precision of ball arithmetic")                                   \
     X(digits,           50,      10,     1000,  whole, "digits",   "digits to which a residual must vanish to be certified")                 \
     X(proof_terms,      20000,   100,    1e7,   whole, "terms",    "largest polynomial that an exact proof may use; five times as large for what balls certify") \
-    X(named,            1,      0,      1,     whole, "",         "coefficients without elementary form: 1, named functions (Legendre, Gauss, Bessel, ..) are tried before a series; 0, not") \
+    X(named,            1,      0,      1,     whole, "",         "coefficients without elementary form: 1, named functions (Legendre, Gauss, Bessel, ..) are tried before a series; 0, they are not") \
     X(series_degree,    256,     8,      4096,  whole, "",         "largest degree of a Chebyshev series of a coefficient without closed form; where it needs more, its interval is shorter") \
     X(degree,           0,       0,      12,    whole, "",         "integrals polynomial in the velocities are counted up to this degree; 0: 6 for two coordinates, 4 up to four, 2 for more") \
     X(count_work,       2e8,     0,      1e15,  real,  "products", "of residues that one count may take; where a bound still falls, five times as many; for --degree, ten times") \
@@ -51,14 +51,14 @@
     X(lines,            10,      0,      1000,  whole, "",         "classify over two parameters: beyond `plane` the first one takes all ratios up to this height; 0: none") \
     X(planes,           4,      0,      100,   whole, "",         "classify over three parameters: the first one takes all ratios up to this height; 0: none")                \
     X(staircase,        5e10,   1e6,    1e15,  real,  "products", "classify: of residues that looking for the values of one degree may take")  \
-    X(theorem,          150,    0,      1e5,   whole, "primes",   "classify: so many at most for a proof that leaves out no number; 0: none") \
-    X(lifts,            0,      0,      1,    whole, "",     "1: lifts orthogonal for --inner, 0: for the energy") \
-    X(shown,            600,     10,     1e9,   whole, "symbols",  "documents leave out what is four times as long") \
+    X(theorem,          150,    0,      1e5,   whole, "primes",   "classify: the largest number for a proof about every real and complex number; 0: no such proof") \
+    X(lifts,            0,      0,      1,    whole, "",     "1: lifts orthogonal by --inner, 0: by kinetic energy") \
+    X(shown,            600,     10,     1e9,   whole, "symbols",  "documents omit formulas four times as long") \
     X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \
     X(tolerance,        1e-10,   1e-14,  1e-2,  real,  "",         "relative tolerance of the motions")                                      \
     X(absolute,         1e-3,    0,      1e6,   real,  "",         "part of a state's largest size so far below which errors are absolute; benchmark: the size")       \
     X(drift,            100,     1,      1e6,   real,  "tolerance", "a current that drifts by more tolerances must drift less at smaller ones")               \
-    X(steps,            2e5,     10,     1e9,   whole, "steps",    "a motion that needs more steps than this is ended and said to be so")    \
+    X(steps,            2e5,     10,     1e9,   whole, "steps",    "a motion that needs more steps than this ends with a message")           \
     X(fixed_steps,      10,      1,      1e6,   whole, "steps",    "simulate --method: of a method with fixed steps, from one output to the next") \
     X(group,            1e-7,   0,      1,     real,  "",         "equations of a symmetry group, scaled to size one: what is below this vanishes") \
     X(transversal,      5e-3,   0,      1,     real,  "",         "a group is divided out by Chaplygin reduction when its orbits stay so far from the distribution") \
@@ -76,8 +76,8 @@
     X(benchmark_far,    1e4,     1,      1e15,  real,  "tolerance", "benchmark: how far above its tolerance an error may be")                \
     X(benchmark_fixed,  0.1,     1e-12,  1e6,   real,  "",         "benchmark: with a fixed step, an error above this is not accurate")      \
     X(benchmark_trusted, 1e-4,   1e-14,  1,     real,  "",         "benchmark: the search for a reference stops when its two methods agree to this") \
-    X(benchmark_closed, 100,     1,      1e15,  real,  "",         "benchmark: how many times what two methods agree to a closed form may be off") \
-    X(benchmark_steps,  32,      1,      1e6,   whole, "steps",    "benchmark: of the longest fixed step; then four times as many at each level") \
+    X(benchmark_closed, 100,     1,      1e15,  real,  "",         "benchmark: largest error of a closed form, in multiples of the difference of two methods") \
+    X(benchmark_steps,  32,      1,      1e6,   whole, "steps",    "benchmark: their number with the longest fixed step; four times as many at each further level") \
     X(benchmark_columns, 220,    2,      5000,  whole, "columns",  "benchmark: largest ansatz of the discrete problem")                      \
     X(check_work,       4000,    1,      1e9,   real,  "millions", "of units of work that the motions of the check may take together")       \
     X(scan_columns,     120,     2,      5000,  whole, "columns",  "scan: largest ansatz space whose smallest singular value is followed")   \

@@ -32,11 +32,12 @@ static void end_at_once(int code, const char *reached, const char *option)
     nh_progress_last(doing, sizeof doing);
     if (code == NH_INTERRUPTED)
         dprintf(STDERR_FILENO, "nhsym: interrupted%s\n",
-                atomic_load(&writing) ? ": the results were being written, and are not" : "");
+                atomic_load(&writing) ? ": the results were not written completely, and files remain as they were"
+                                      : "");
     else
         dprintf(STDERR_FILENO, "nhsym: %s%sthe %s limit was reached%s\nhint: raise it by %s\n", doing,
                 *doing ? ": " : "", reached,
-                atomic_load(&writing) ? ", and writing the results takes longer: they are not written"
+                atomic_load(&writing) ? ", and the results could not be written in time"
                                       : " before any result could be written",
                 option);
     _exit(code);

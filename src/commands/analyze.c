@@ -396,7 +396,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     size_t families = r->analysis ? r->analysis->families : 0;
     nh_family *family = r->analysis ? r->analysis->family : NULL;
     if (families == 0) {
-        r->ansatz_note = "chosen: a ladder of stages made of the system's own functions";
+        r->ansatz_note = "chosen by the program: stages made of the system's own functions";
         if (!nh_staged_search_run(r, error)) return false;
         r->timing.nullspace = lap(&clock);
     } else {

@@ -15,8 +15,8 @@ typedef struct {
     nh_options options;
     double accuracy;             /* of the motions; 0: that of options.tolerance, unchecked */
     bool equations;              /* with the geometry written out */
-    bool no_figures;             /* skip the figures of the analysis file, which nobody reads */
-    bool model_only;             /* no search: nobody asks for currents */
+    bool no_figures;             /* skip the figures of the analysis file: no output shows them */
+    bool model_only;             /* no search: no output needs currents */
     bool seed_given, samples_given, tolerance_given, until_given; /* these options outrank the analysis file's values */
 } nh_analyze_request;
 

@@ -198,7 +198,7 @@ static bool analyse(nh_export *x, const nh_export_request *q, nh_error *error)
     if (!x->analysis) return false;
     x->model = x->analysis->model;
     x->partial |= x->analysis->partial;
-    if (x->analysis->partial) nh_export_note(x, "the search for currents was ended before it was through");
+    if (x->analysis->partial) nh_export_note(x, "a limit ended the search for currents");
     return true;
 }
 

@@ -137,7 +137,7 @@ void nh_export_equations(nh_export *x, const nh_model *model)
         for (size_t i = 0; i < m; i++) rows[a * m + i] = F[a + i * k];
     const char **label = names_of(&s, m, s.q);
     nh_export_result(x, e, "mass", "d2L/dv dv", m, m, K, label);
-    nh_export_result(x, e, "bias", "what the rest of Lagrange's equations amounts to", m, 1, h, label);
+    nh_export_result(x, e, "bias", "the terms of Lagrange's equations without accelerations", m, 1, h, label);
     nh_export_result(x, e, "jacobian", "derivatives of the constraints by the velocities", k, m, rows, s.constraint);
     nh_export_result(x, e, "drift", "derivatives of the constraints along the motion, without the accelerations", k, 1,
                      g, s.constraint);

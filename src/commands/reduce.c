@@ -189,8 +189,9 @@ static void keep_within_walls(nh_reduction *r)
     r->all->global_name = nh_strdup(r->group->name);
     nh_reduction_warn(r,
                       "%zu of the %zu local symmetries move%s places where the Lagrangian or a force jumps or has a "
-                      "kink: %s left out, because motions that come there are not taken to motions",
-                      lost, r->all->action.d, lost == 1 ? "s" : "", lost == 1 ? "it is" : "they are");
+                      "kink: %s left out, because %s motions that reach these places to no motions",
+                      lost, r->all->action.d, lost == 1 ? "s" : "", lost == 1 ? "it is" : "they are",
+                      lost == 1 ? "it takes" : "they take");
 }
 
 /* What the user named leaves the walls alone, too. */

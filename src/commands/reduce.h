@@ -78,7 +78,7 @@ typedef struct {
 /* The motion of a stage's equations, at the first `count` of the reduction's times. */
 typedef struct {
     size_t count, m;          /* 0: there is none; coordinates of the action's kinetic */
-    const double *q;          /* count x m: places, the group's motion found again */
+    const double *q;          /* count x m: places, after reconstruction */
     size_t charted, momenta;  /* outputs before the slice or the velocities change for the first time; momenta */
     const double *p;          /* charted x momenta */
     const char **name;        /* of the momenta */

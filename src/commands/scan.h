@@ -33,7 +33,7 @@ typedef struct {
 /* "k=1:4:61" or "k=1,2,5/2"; whether there is something of this name is for the caller to say. */
 bool nh_scan_read_axis(nh_arena *arena, const char *text, nh_scan_axis *out, nh_error *error);
 
-/* What is computed at a point, by whoever can. */
+/* The numbers that a scan computes at a point. */
 typedef struct {
     const char *of;        /* "count", "analyze", "reduce" */
     size_t count;
@@ -42,7 +42,7 @@ typedef struct {
     bool spectra;          /* the ansatz spaces are looked at as well */
     /* The numbers with these settings, exact ones for the parameters of the grid; a number that is not there is NAN,
      * and *why is the reason, in the arena. `generic`: for almost all values of the parameters instead; the settings
-     * are no more than starting values then. False: interrupted. */
+     * are only starting values then. False: interrupted. */
     bool (*at)(void *context, nh_arena *arena, size_t settings, const nh_setting *setting, bool generic, double *number,
                const char **why);
     void *context;

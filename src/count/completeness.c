@@ -129,7 +129,7 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
     const nh_count_row *row = &c->count.row[c->missing_at - 1];
     if (c->degree && !c->settled) {
         nh_text_addf(out,
-                     " Degree %zu is not settled: series up to order %zu, as far as the work for a count goes, still "
+                     " Degree %zu is not settled: series up to order %zu, the highest within the limit of work, still "
                      "allow %zu more independent integral%s.",
                      c->missing_at, row->order, c->missing, plural(c->missing));
         return;
@@ -137,7 +137,7 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
     if (!c->count.row[c->missing_at - 1].order) {
         nh_text_addf(out,
                      "%s degree %zu there are %zu more independent integrals: the equations are linear, and their "
-                     "frequencies without resonances.",
+                     "frequencies have no resonances.",
                      c->degree ? " At" : "At", c->missing_at, c->missing);
         return;
     }

@@ -335,8 +335,8 @@ static void closed_form(nh_pen *p, const nh_analysis *r, const nh_current *f)
         p->ink->formulas(p->to, 2, (const char *[]){f->name, "E"}, (nh_ex[]){minus ? nh_neg(d, symbol) : symbol, E});
     else nh_pen_formula(p, f->name, f->phi);
     if (all && r->model->k)
-        nh_pen_words(p, "E is written in all velocities, between which the constraints hold: in those of the chart it "
-                        "is longer.");
+        nh_pen_words(p, "E is written in all velocities, which satisfy the constraints: it is longer in those of the "
+                        "chart.");
 }
 
 static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *told)
@@ -411,8 +411,8 @@ static void pieces(nh_pen *p, const nh_analysis *r)
     nh_pen_heading(p, "Constant only in a region");
     nh_pen_words(p, "These functions are constant while a motion stays in the given region. %s",
                  nh_analysis_to_the_end(r)
-                     ? "At a wall where a motion has an impulse it ends: the equations of motion do not determine how "
-                       "it goes on."
+                     ? "A motion ends at a wall where it has an impulse: the equations of motion do not determine how "
+                       "it continues."
                      : "They are not counted.");
     for (size_t k = 0; k < r->pieces; k++) uncounted(p, r, &r->piece[k], r->piece[k].region);
 }

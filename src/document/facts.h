@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "search/analysis.h"
 
-/* A number for people: all its digits; then the shown ones, as [minus] mantissa [times 10^power], without a mantissa
+/* A number in a report: all its digits; then the shown ones, as [minus] mantissa [times 10^power], without a mantissa
    where that is 1.  False: not finite. */
 typedef struct {
     char all[40], mantissa[60];

@@ -99,14 +99,14 @@ nh_sheet *nh_motion_sheet(const nh_analysis *r)
     nh_sheet_begin(s, "states", "Explicit motion", words_of(s, r));
     for (size_t i = 0; i < m->states; i++)
         if (m->is_known[i] && i != m->parameter) nh_sheet_formula(s, name(s, m->state[i]), m->value[i]);
-    if (m->roots) nh_sheet_begin(s, "roots", "Roots in it", "Each has its sign from the state.");
+    if (m->roots) nh_sheet_begin(s, "roots", "Roots in these formulas", "The state determines the sign of each.");
     for (size_t i = 0; i < m->roots; i++) {
         nh_sheet_formula(s, nh_sheet_label(s, "<%s>^{2}", nh_name_of(s->dag, m->root[i].symbol)), m->root[i].square);
         nh_sheet_formula(s, name(s, m->root[i].symbol), m->root[i].value);
     }
     if (m->integrals)
-        nh_sheet_begin(s, "integrals", "Integrals in it",
-                       "For these no closed form was found. Each is 0 at the start of the motion.");
+        nh_sheet_begin(s, "integrals", "Integrals in these formulas",
+                       "No closed form was found for these. Each is 0 at the start of the motion.");
     for (size_t i = 0; i < m->integrals; i++)
         nh_sheet_formula(s,
                          nh_sheet_label(s, "d<%s>/d<%s>", nh_name_of(s->dag, m->integral[i].symbol),
@@ -115,7 +115,7 @@ nh_sheet *nh_motion_sheet(const nh_analysis *r)
     series(s, r);
     nh_sheet_begin(
         s, "constants",
-        m->integrals ? "Its constants, from the state at the start" : "Its constants, from the state at any time", "");
+        m->integrals ? "The constants, from the state at the start" : "The constants, from the state at any time", "");
     for (size_t j = 0; j < m->constants; j++) nh_sheet_formula(s, name(s, m->constant[j].symbol), m->constant[j].value);
     return s;
 }

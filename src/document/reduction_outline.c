@@ -239,7 +239,7 @@ static void full_motion(nh_pen *p, const nh_reduction *r)
 static void unused(nh_pen *p, const nh_reduction *r)
 {
     if (!r->unused_count) return;
-    nh_pen_open(p, NH_PEN_HEADING, NULL, "What the stages do without, and why");
+    nh_pen_open(p, NH_PEN_HEADING, NULL, "What the stages do not use, and why");
     nh_pen_close(p, NH_PEN_HEADING);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     for (size_t i = 0; i < r->unused_count; i++) nh_pen_fact(p, r->unused[i].what, "%s", r->unused[i].why);

@@ -50,17 +50,17 @@ static void conditions(const nh_reduction *r, const nh_reduction_stage *s, nh_pe
 {
     const nh_measure_conditions *c = &s->conditions;
     size_t count = 0;
-    if (c->never) nh_pen_say(p, "; for no positive values of the parameters one exists (proved)");
+    if (c->never) nh_pen_say(p, "; none exists for positive values of the parameters (proved)");
     for (size_t i = 0; i < c->count && !c->never; i++) {
         if (c->condition[i].factor) continue;
         if (!count)
             nh_pen_say(p, "; an invariant measure exists for %s", c->condition[i].where.ways ? "parameters with " : "");
-        else nh_pen_say(p, "; and besides ");
+        else nh_pen_say(p, "; and also ");
         put_ways(r, &c->condition[i].where, p);
         count++;
     }
     if (!c->known && r->system->parameters)
-        nh_pen_say(p, "; %sfor which parameters one exists is not known: the conditions are too large",
+        nh_pen_say(p, "; %sit is not known for which parameters one exists: the conditions are too large",
                    c->rare ? "for almost all parameters none exists (proved); " : "");
 }
 
@@ -105,7 +105,7 @@ static void factor(const nh_reduction_stage *s, nh_pen *p)
         nh_pen_say(p, m->simple ? "; no conformal factor makes it Hamiltonian"
                                 : "; no conformal factor makes it Hamiltonian ($Upsilon$ is not $phi$-simple)");
     if (!m->factor && n > 2 && s->conditions.never_hamiltonian)
-        nh_pen_say(p, ", for no positive values of the parameters (proved)");
+        nh_pen_say(p, ", whatever positive values the parameters have (proved)");
 }
 
 static void measure(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *p)

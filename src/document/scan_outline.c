@@ -9,7 +9,8 @@
 enum { most_classes = 6 };
 
 static const char caution[] =
-    "A scan is a search by numbers: it misses special values between points whose dip is narrower than the grid, and "
+    "A scan is a search by numbers: it misses special values whose dip is narrower than the distance of two points, "
+    "and "
     "those of integrals "
     "outside of its ansatz spaces. nhsym classify excludes values by proof where the parameter allows it.";
 
@@ -357,7 +358,7 @@ static void figures(nh_pen *p, const nh_scan *x)
 static void spaces(nh_pen *p, const nh_scan *x)
 {
     nh_pen_section(p, "spaces", "Ansatz spaces");
-    nh_pen_table(p, "Whose smallest singular values were followed", "number|functions|space");
+    nh_pen_table(p, "Ansatz spaces whose smallest singular values were followed", "number|functions|space");
     for (size_t k = 0; k < x->spaces; k++)
         if (x->columns[k]) nh_pen_row(p, "%zu|%zu|%s", k + 1, x->columns[k], x->space[k]);
     nh_pen_table_end(p);

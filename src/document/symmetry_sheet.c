@@ -209,11 +209,11 @@ static void equations(nh_sheet *s, const nh_theory *t)
         "positions, prolonged to velocities; and dynamical ones, whose components along positions "
         "depend on velocities, up to multiples of $Gamma$. The derivative of a current along $S$ is a current.");
     if (e->obstacle) {
-        nh_sheet_words(s, nh_sheet_label(s, "None were looked for, because of %s.", e->obstacle));
+        nh_sheet_words(s, nh_sheet_label(s, "The search for them was not possible, because of %s.", e->obstacle));
         return;
     }
     nh_sheet_words(
-        s, nh_sheet_label(s, "Looked for with components of degree %zu at most in %s. %s", e->degree, letters_of(s, e),
+        s, nh_sheet_label(s, "The search used components of degree %zu at most in %s. %s", e->degree, letters_of(s, e),
                           e->sure ? "The point symmetries are all that there are of this form: proved."
                                   : "There may be more of this form: some relations are too long to be proved."));
     number(s, "dim_{point}", e->points);

@@ -49,7 +49,7 @@ static void counterexample(nh_pen *p, const nh_verification *v)
                    v->counterexample[j]);
     nh_pen_say(p, ".");
     if (of_field(v) && v->equation_number > 6 && !v->theory)
-        nh_pen_say(p, " With --equations the letters are defined.");
+        nh_pen_say(p, " The option --equations defines the letters.");
     nh_pen_close(p, NH_PEN_WORDS);
 }
 
@@ -76,7 +76,7 @@ static void components(nh_pen *p, const nh_verification *v)
 /* What a symmetry of the equations of motion makes of the currents that the system file knows. */
 static void made(nh_pen *p, const nh_verification *v)
 {
-    if (v->made) nh_pen_words(p, "It makes of known currents:");
+    if (v->made) nh_pen_words(p, "It maps known currents to these:");
     for (size_t i = 0; i < v->made; i++)
         nh_pen_formula(p, nh_arena_printf(v->arena, "Z(<%s>)", v->make[i].name), v->make[i].value);
 }

@@ -105,7 +105,7 @@ static const nh_glossary_entry entries[] = {
      "coefficients are, is a polynomial in the currents found.  It is proved by counting: an upper bound (power "
      "series modulo a prime) and a lower one (products of the currents) agree.  Integrals of other kinds, and "
      "those of higher degree, are not excluded.  Equations that are defined piece by piece are counted where the "
-     "domain lies, which is said."},
+     "domain lies, and the report says where."},
     {"proved", "The rate of change is zero as an exact expression."},
     {"certified", "The rate of change is zero to at least 50 digits in ball arithmetic."},
     {"residual", "The rate of change of a current at points that were not used to find it, relative to the size "
@@ -122,7 +122,7 @@ static const nh_glossary_entry entries[] = {
     {"benchmark", "Integrators compared on one motion: error against cost (nhsym benchmark)."},
     {"robustness map", "Where in a plane of parameters integrators are accurate, flagged, detected or undetected "
                        "(nhsym benchmark --robustness)."},
-    {"accurate", "Of a measured motion: the error is as small as its tolerance or step lets expect, and no "
+    {"accurate", "Of a measured motion: the error is as small as expected for its tolerance or step, and no "
                  "safeguard triggered.  In JSON: right."},
     {"flagged", "Accurate, and a safeguard triggered: the pivot of the chart; in maps also the drift of a "
                 "current, or a run at a tenth of the tolerance.  In JSON: warned."},

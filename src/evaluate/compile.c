@@ -201,7 +201,7 @@ static void load(nh_compilation *c)
         snprintf(c->words, sizeof c->words, "compiled by %.100s in %.2f s", c->program, nh_clock() - c->begun);
     else
         snprintf(c->words, sizeof c->words, "not compiled: the code cannot be loaded: %.200s",
-                 reason ? reason : "its folder is not ours any more");
+                 reason ? reason : "its folder no longer belongs to this user");
 }
 
 static void explain(nh_compilation *c, int status)

@@ -163,7 +163,7 @@ static const char *no_such_file(nh_arena *arena, const char *kind, const char *p
     nh_fail(error, NH_INPUT, path, "there is no such file");
     const char *near = file_near(arena, path), *name = near ? NULL : shipped(arena, kind, path);
     if (near) nh_error_hint(error, "did you mean `%s`?", near);
-    else if (name) nh_error_hint(error, "the one that nhsym brings along is called by its name: `%s`", name);
+    else if (name) nh_error_hint(error, "nhsym has a file of this name: write `%s`", name);
     else if (!strcmp(kind, "systems"))
         nh_error_hint(error, "`nhsym list` lists the available systems; `nhsym new skate` writes an example");
     return NULL;

@@ -147,7 +147,7 @@ static const nh_deck_node *root_body(reader *r, size_t *count)
         if (++*count == 1) found = nh_deck_get(r->bodies->item[i], "name");
         else if (*count == 2 && found)
             nh_deck_fail(r->deck, nh_deck_get(r->bodies->item[i], "name"), 0, r->error,
-                         "no joint has `%s` as its child, and neither `%s`", text_of(r->bodies->item[i], "name"),
+                         "no joint has `%s` as its child, and none has `%s`", text_of(r->bodies->item[i], "name"),
                          found->text);
     }
     if (*count > 1) nh_error_hint(r->error, "one body carries all others: connect them by joints");

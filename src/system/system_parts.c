@@ -57,7 +57,7 @@ bool nh_system_read_chart(nh_system_reader *r)
         for (size_t j = 0; j < s->coordinates; j++) /* through a definition */
             if (nh_depends(s->dag, s->quasi_map[index], s->coordinate[j].v))
                 return nh_deck_fail(r->deck, map->item[i], 0, r->error,
-                                    "the velocity `%s` is not allowed here; a definition brings it in",
+                                    "the velocity `%s` is not allowed here; a definition contains it",
                                     nh_name_of(s->dag, s->coordinate[j].v));
     }
     for (size_t i = 0; i < s->coordinates; i++)

@@ -254,7 +254,7 @@ static bool check_inertia(nh_urdf_reader *u, const nh_xml *inertia, const double
                 xx * zz - xz * xz >= least * size && yy * zz - yz * yz >= least * size &&
                 determinant >= least * size * size;
     if (!good) {
-        nh_urdf_fail(u, inertia->begin, "this is the inertia of no body: a principal moment is negative");
+        nh_urdf_fail(u, inertia->begin, "no body has this inertia: a principal moment is negative");
         return nh_error_hint(u->error, "ixx, iyy and izz are positive, and products such as ixy smaller than these");
     }
     /* of trace/2 - I, which must not be negative either */
