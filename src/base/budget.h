@@ -1,7 +1,7 @@
 /* budget: counted work of a computation, in units that do not depend on the clock, the load or the number of threads.
  *
  * A search ends when its budget is spent, so that the same question has the same answer on every machine; the deadline
- * of base/progress.h is the emergency brake behind it.  Any thread may add work; whether the budget is spent, or how
+ * of base/progress.h is a second limit.  Any thread may add work; whether the budget is spent, or how
  * much of it is left, is asked only where no other thread is working, or the answer would depend on which of them came
  * first.  One per context (base/context.h), as the deadline is. */
 #ifndef NH_BUDGET_H

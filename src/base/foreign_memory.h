@@ -2,7 +2,7 @@
 #ifndef NH_FOREIGN_MEMORY_H
 #define NH_FOREIGN_MEMORY_H
 
-/* Once for the process, the first time; GMP keeps functions that somebody else has set. */
+/* Once for the process, the first time; functions that another program has given to GMP remain. */
 void nh_foreign_memory_begin(void);
 
 #endif

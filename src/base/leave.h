@@ -2,7 +2,7 @@
 #ifndef NH_LEAVE_H
 #define NH_LEAVE_H
 
-/* Part of whatever would stay behind. */
+/* One temporary thing: embed it in the record of the file, folder or process. */
 typedef struct nh_leaving {
     void (*undo)(struct nh_leaving *leaving); /* called from any thread; works without memory */
     struct nh_leaving *next, **link;
@@ -12,11 +12,11 @@ typedef struct nh_leaving {
 void nh_leave_hold(void);
 void nh_leave_release(void);
 
-/* Between those: when the thing comes into being, and when it is gone or has its place. */
+/* Between a hold and its release: add when the thing is made, remove when it is gone or has its place. */
 void nh_leave_add(nh_leaving *leaving);
 void nh_leave_remove(nh_leaving *leaving);
 
-/* Undo everything; the caller ends the process then.  Whoever wants to hold waits for ever. */
+/* Undo everything; the caller ends the process then.  Other threads that call nh_leave_hold wait until it ends. */
 void nh_leave_now(void);
 
 #endif

@@ -15,7 +15,7 @@ void nh_linalg_threads(int count);
 bool nh_all_finite(size_t count, const double *x);
 
 /* Streaming QR: feed blocks of rows, keep only the triangle.  Memory O(columns^2).  With more than one thread it is
- * computed beside the caller, who goes on to the next rows; the triangle is the same to the last bit. */
+ * computed while the caller continues with the next rows; the triangle is the same to the last bit. */
 typedef struct nh_qr nh_qr;
 nh_qr *nh_qr_create(size_t columns, size_t threads);
 void nh_qr_free(nh_qr *qr);

@@ -1,4 +1,4 @@
-/* recovery: where a thread goes on when memory ends.
+/* recovery: where a thread continues after an allocation has failed.
  *
  * A function of nhsym.h runs its work by nh_recovery_run.  When an allocation of that thread fails, the work is given
  * up and the run returns false.  What the work had allocated is lost; but what it had noted by nh_undo_add is undone

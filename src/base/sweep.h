@@ -14,8 +14,8 @@
 #include "base/text.h"
 #include "base/error.h"
 
-/* Processes of one run on many machines: who this is among how many, the next number that nobody has had yet since
- * the last meeting, and a meeting of all. */
+/* Processes of one run on many machines: the number of this process, how many there are, the next number that no
+ * process has taken since the last meeting, and a meeting of all. */
 typedef struct {
     size_t rank, size;
     size_t (*next)(void *context);

@@ -1,4 +1,4 @@
-/* text: growing strings, numbers as people write them, and "did you mean". */
+/* text: growing strings, numbers in their shortest form, and "did you mean". */
 #ifndef NH_TEXT_H
 #define NH_TEXT_H
 

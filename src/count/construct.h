@@ -7,7 +7,7 @@
  * each row is a simple representative; rows whose differentials do not depend on those of the known integrals are new.
  *
  * All this holds modulo one prime and at one point.  It says of which terms an integral consists, and is no proof:
- * whoever asks has to solve for the coefficients of these terms and to prove what comes out. */
+ * the caller has to solve for the coefficients of these terms and to prove the result. */
 #ifndef NH_CONSTRUCT_H
 #define NH_CONSTRUCT_H
 

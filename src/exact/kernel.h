@@ -4,7 +4,7 @@
  *
  * An argument a = sum_i c_i t_i (rational c_i, "atoms" t_i) of sin, cos, exp is cut into its atoms, and the rational
  * multiples of one atom share a kernel: sin(t/2) and cos(t/3) are polynomials in sin(t/6), cos(t/6).  "Literal" tables
- * do not cut: they keep sin(a + b) and sinh as they are, for forms that people want to read.
+ * do not cut: they keep sin(a + b) and sinh as they are, for forms that are printed.
  *
  * Arguments must be canonical already (form.h): equal ones must have equal indices. */
 #ifndef NH_KERNEL_H

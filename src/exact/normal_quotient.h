@@ -2,9 +2,9 @@
  *
  *     q = num / den,   num, den in Z[k1, ..., kn],   k_g^m = value  (sin^2 = 1 - cos^2, r^m = radicand)
  *
- * Every operation reduces by the relations and cancels the gcd.  Quotients belong to their field and go with it.  When
- * a polynomial or the work done exceeds the limits the field says so and the operations return anything: ask at the
- * end.  FLINT is behind this header and nowhere else. */
+ * Every operation reduces by the relations and cancels the gcd.  Quotients belong to their field and are freed with
+ * it.  When a polynomial or the work done exceeds the limits the field records it and results mean nothing: check at
+ * the end.  Only the sources behind this header use FLINT. */
 #ifndef NH_NORMAL_QUOTIENT_H
 #define NH_NORMAL_QUOTIENT_H
 

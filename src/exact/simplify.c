@@ -1,4 +1,4 @@
-/* nh_simplify: several forms of one expression compete, the shortest wins. */
+/* nh_simplify: the shortest of several forms of one expression. */
 #include "base/progress.h"
 #include "graph/dag_internal.h"
 #include "exact/print_quotient.h"

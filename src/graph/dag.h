@@ -169,7 +169,7 @@ const char *nh_function_elsewhere(const char *name);
 bool nh_is_named_function(nh_function f);
 /* What the arguments of a named function are called, each by one letter: "n, x"; NULL for the others. */
 const char *nh_function_arguments(nh_function f);
-/* How many of its first arguments must be constant: nobody knows a closed form of the derivatives with respect to
+/* How many of its first arguments must be constant: there is no known closed form of the derivatives with respect to
    orders. */
 size_t nh_function_constants(nh_function f);
 bool nh_is_zero(const nh_dag *dag, nh_ex e);

@@ -1,6 +1,6 @@
 /* dictionary: what a system itself is made of.
  *
- * Harvested from the expressions of L, of the forces, of the constraints and of the embedding, parameters left
+ * Collected from the expressions of L, of the forces, of the constraints and of the embedding, parameters left
  * symbolic:
  *
  *     velocities   the chart's and the dependent ones

@@ -7,7 +7,7 @@
  *     R = A + B/x + C/x^2, A x^2 + B x + C,
  *     A x^2 + C + D/x^2                       Kummer's functions [DLMF 13.14, 12.7]
  *
- * where u = g v with g'/g = P/2 and v'' = R v.  What comes out is a proposal: whoever uses it proves it. */
+ * where u = g v with g'/g = P/2 and v'' = R v.  The result is a proposal: the caller proves it. */
 #ifndef NH_NAMED_MATCH_H
 #define NH_NAMED_MATCH_H
 

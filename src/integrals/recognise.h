@@ -1,4 +1,4 @@
-/* recognise: numbers as people write them.
+/* recognise: exact forms of numbers.
  *
  * A ratio of small whole numbers; or, from values at several parameter sets, a product of powers of parameters with a
  * rational factor: log|c| is linear in the exponents, so that a least-squares fit finds them and further sets confirm

@@ -150,7 +150,7 @@ static nh_step end_at_guard(double t, nh_motion *motion, cvode_work *work)
     if (guard == work->problem->guards)
         return NH_STEP_ON;
     motion->guard_hit = (long)guard;
-    nh_motion_note(motion, "guard %zu %s through zero at t = %.10g", guard + 1,
+    nh_motion_note(motion, "safeguard %zu %s through zero at t = %.10g", guard + 1,
                    work->root[guard] > 0 ? "rises" : "falls", t);
     return NH_STEP_LAST;
 }

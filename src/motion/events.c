@@ -208,17 +208,14 @@ void nh_event_search_end(const nh_event_search *c, nh_motion *motion)
         nh_motion_note(motion,
                        "an expression is zero along the whole motion, within the tolerance: it has no single zeros");
     if (!isnan(c->jumped))
-        nh_motion_note(motion,
-                       "what is watched for a zero jumps from one sign to the other at t = %.10g: that is no event",
+        nh_motion_note(motion, "an expression jumps from one sign to the other at t = %.10g: this is no event",
                        c->jumped);
     if (!isnan(c->lost))
         nh_motion_note(motion,
-                       "what is watched for a zero changes too fast near t = %.10g: events may be missing; use a "
-                       "smaller tolerance",
+                       "an expression changes too fast near t = %.10g: events may be missing; use a smaller tolerance",
                        c->lost);
     if (!isnan(c->unknown))
-        nh_motion_note(motion, "what is watched for a zero has no value near t = %.10g: events may be missing",
-                       c->unknown);
+        nh_motion_note(motion, "an expression has no value near t = %.10g: events may be missing", c->unknown);
 }
 
 nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_options *options,

@@ -51,6 +51,6 @@ nh_guard_verdict nh_guards_judge(nh_guards *g, double before, double now, const 
     g->longest = way / 2;
     if (way > g->least) return NH_GUARD_BACK;
     motion->guard_hit = guard;
-    nh_motion_note(motion, "guard %ld goes through zero at t = %.10g", guard + 1, now);
+    nh_motion_note(motion, "safeguard %ld goes through zero at t = %.10g", guard + 1, now);
     return NH_GUARD_END;
 }

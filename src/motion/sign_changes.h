@@ -1,7 +1,7 @@
 /* sign_changes: the first change of sign of functions within a step of a motion.
  *
- * The functions are sampled along the states inside of the step, more densely until each sample is foretold by its
- * neighbours, so that two changes of one function within a step are found, too.  Kinks of the equations of motion
+ * The functions are sampled along the states inside of the step, more densely until its neighbours predict each
+ * sample, so that two changes of one function within a step are found, too.  Kinks of the equations of motion
  * (kinks.h) and events (events.h) are such changes. */
 #ifndef NH_SIGN_CHANGES_H
 #define NH_SIGN_CHANGES_H

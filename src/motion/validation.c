@@ -140,7 +140,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
                      full->motion->end_time, full->motion->note);
         else if (v->state_difference > NH_MOTIONS_APART && !v->note[0])
             snprintf(v->note, sizeof v->note,
-                     "in the multiplier form the motion is another one: states differ by %.2g; errors grow along this "
+                     "the multiplier form gives a different motion: states differ by %.2g; errors grow along this "
                      "motion, or it passes a state at which the equations do not determine it",
                      v->state_difference);
     } else {

@@ -14,7 +14,7 @@
 
 typedef enum { NH_CHART_AUTO, NH_CHART_QUASI, NH_CHART_COORDINATES } nh_chart_choice;
 
-/* A dependent velocity that is a root: v^s = alpha sqrt(base) + beta.  In formulas for people it stands for itself, as
+/* A dependent velocity that is a root: v^s = alpha sqrt(base) + beta.  In printed formulas it stands for itself, as
    a symbol of its own. */
 typedef struct {
     size_t coordinate;
@@ -81,8 +81,8 @@ bool nh_chart_inverse(const nh_chart *chart, nh_ex *w_of_v);
  * again: it then holds on both branches. */
 nh_ex nh_chart_both_branches(const nh_chart *chart, nh_ex e);
 
-/* For people: no root where a dependent velocity is equal to it.  With the symbols of the chart's roots, reduced by
-   what they satisfy. */
+/* For printed formulas: no root where a dependent velocity is equal to it.  With the symbols of the chart's roots,
+   reduced by what they satisfy. */
 nh_ex nh_chart_shown(const nh_chart *chart, nh_ex e);
 /* Such an expression in t, q, q'. */
 nh_ex nh_chart_in_velocities(const nh_chart *chart, nh_ex shown);

@@ -1,6 +1,6 @@
 /* reach: default sampling intervals that reach beyond the walls of functions of one symbol.
  *
- * |t - 2| is 2 - t all over 0 < t < 1: who samples only there takes what holds for t < 2 for what holds.  So where a
+ * |t - 2| is 2 - t all over 0 < t < 1: samples from there alone would show what holds for t < 2 only.  So where a
  * wall (exact/walls.h) of the Lagrangian, a force or a constraint depends on one symbol alone, and the default
  * interval lies on one side of it, the interval is widened to half of its width beyond. */
 #ifndef NH_REACH_H

@@ -27,7 +27,7 @@ typedef enum {
 
 typedef struct {
     nh_shape_kind kind;
-    const char *name;              /* for people, or NULL */
+    const char *name;              /* for the legend, or NULL */
     bool flat;                     /* stands for what is drawn in space, too */
     nh_ex value[NH_SHAPE_NUMBERS]; /* as many as nh_shape_numbers says */
 } nh_shape;
