@@ -146,6 +146,16 @@ Test(linear_motion, chains_have_their_quadratic_integrals)
     }
 }
 
+/* Of three masses the frequencies are roots, sqrt((2 + sqrt(2)) k/m): waves are proved for all parameters, beside the quadratic integrals. */
+Test(linear_motion, waves_of_few_masses_have_roots_as_rates)
+{
+    nh_analysis *r = ask("name: c\nparameters: [{name: m, value: 1.3}, {name: k, value: 2.1}]\ncoordinates: [x, y, z]\n"
+                         "lagrangian: m/2*(x'^2 + y'^2 + z'^2) - k/2*(x^2 + (y - x)^2 + (z - y)^2 + z^2)\n");
+    cr_expect_eq(r->independent, 6);
+    for (size_t i = 0; i < r->count; i++) cr_expect(r->found[i].proof.proved && r->found[i].proof.all_parameters, "%zu", i);
+    nh_analysis_free(r);
+}
+
 /* Two eigenvectors for four rates of two values: waves alone give half of what there is. */
 Test(linear_motion, jordan_blocks_have_powers_of_time)
 {

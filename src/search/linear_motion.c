@@ -30,6 +30,7 @@
 
 enum {
     longest = 2000,  /* symbols of an equation of motion */
+    most_letters = 12, /* variables of a block whose rates without a name may still be roots (integrals/letters.h) */
     most_drives = 12 /* functions of t in b and its derivatives */
 };
 /* of the largest rate: a rate below it is zero, whose double eigenvalue is split by the root of rounding */
@@ -434,7 +435,8 @@ static void solve_rate(linear *l, double re, double im, size_t times, bool formu
     static const char *const name = "states with linear equations, times exponentials and waves in t";
     nh_dag *d = l->x->r->model->dag;
     nh_ex wave[2], decay = formulas ? 0 : named(l, re, false), turn = formulas ? 0 : named(l, im, true);
-    if (l->forms && (re == 0 || im == 0) && wave_of_second_order(l, im != 0 ? turn : decay, im != 0, name)) return;
+    bool many = l->forms && l->count > most_letters && (re == 0 || im == 0);
+    if (many && wave_of_second_order(l, im != 0 ? turn : decay, im != 0, name)) return;
     size_t count = formulas ? waves_of_two(l, im != 0, wave) : waves(d, l->x->r->system->t, decay, turn, wave);
     both_stages(l, name, count, wave);
     powers_of_time(l, times, count, wave);
