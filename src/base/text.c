@@ -289,18 +289,22 @@ bool nh_text_to_number(const char *text, double *out)
     return true;
 }
 
+bool nh_text_to_parts(const char *text, double *top, double *bottom)
+{
+    char word[64];
+    size_t length = strcspn(text, "/");
+    *bottom = 1;
+    if (!text[length]) return nh_text_to_number(text, top);
+    if (length >= sizeof word) return false;
+    memcpy(word, text, length);
+    word[length] = 0;
+    return nh_text_to_number(word, top) && nh_text_to_number(text + length + 1, bottom) && *bottom != 0;
+}
+
 bool nh_text_to_ratio(const char *text, double *out)
 {
-    char top[64];
-    size_t length = strcspn(text, "/");
     double a, b;
-    if (!text[length]) return nh_text_to_number(text, out);
-    if (length >= sizeof top) return false;
-    memcpy(top, text, length);
-    top[length] = 0;
-    if (!nh_text_to_number(top, &a) || !nh_text_to_number(text + length + 1, &b) || b == 0 || !isfinite(a / b) ||
-        (a != 0 && a / b == 0))
-        return false;
+    if (!nh_text_to_parts(text, &a, &b) || !isfinite(a / b) || (a != 0 && a / b == 0)) return false;
     *out = a / b;
     return true;
 }

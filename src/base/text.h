@@ -27,7 +27,9 @@ bool nh_text_is_number(const char *text);
 /* Its value; false, and *out as it was, when it is none, or one that no double holds: too large, or so small that it
    would become 0. */
 bool nh_text_to_number(const char *text, double *out);
-/* The same for a number or a ratio of two: 5/2. */
+/* The two numbers of a ratio as 5/2, or a number and 1. */
+bool nh_text_to_parts(const char *text, double *top, double *bottom);
+/* Its value, as of a number. */
 bool nh_text_to_ratio(const char *text, double *out);
 
 /* The candidate nearest to `word` (Damerau-Levenshtein, case ignored), or NULL when none is near enough to be

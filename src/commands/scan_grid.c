@@ -19,13 +19,12 @@ static bool unreadable(const char *text, nh_error *error)
 /* A decimal number or a ratio of two, as they are written. */
 static bool read_exact(const char *text, size_t length, nh_num *out)
 {
-    char top[64], *slash;
-    double a, b = 1;
-    if (length == 0 || length >= sizeof top) return false;
-    memcpy(top, text, length);
-    top[length] = 0;
-    if ((slash = strchr(top, '/'))) *slash = 0;
-    if (!nh_text_to_number(top, &a) || (slash && (!nh_text_to_number(slash + 1, &b) || b == 0))) return false;
+    char word[64];
+    double a, b;
+    if (length >= sizeof word) return false;
+    memcpy(word, text, length);
+    word[length] = 0;
+    if (!nh_text_to_parts(word, &a, &b)) return false;
     nh_num p = nh_num_decimal(a), q = nh_num_decimal(b);
     if (!nh_num_short(p) || !nh_num_short(q)) return false;
     *out = nh_num_mul(p, nh_num_inv(q));

@@ -52,20 +52,15 @@ nh_ex nh_one_side_of_roots(const nh_model *o, nh_ex e, nh_region *side)
 {
     enum { most = 200 };
     nh_dag *d = o->dag;
-    nh_ex product[most], outside, inside;
-    size_t n = o->chart->probes ? nh_products_in(d, e, product, most) : 0;
-    for (size_t i = 0; i < n && i < most; i++)
-        for (size_t k = 0; k < nh_arity(d, product[i]); k++) {
-            nh_ex base = nh_child(d, product[i], k), exponent = nh_exponent_of(d, product[i], k);
-            bool root = nh_kind_of(d, exponent) == NH_NUMBER && nh_num_short(nh_number_of(d, exponent)) &&
-                        nh_number_of(d, exponent).q == 2;
-            if (!root || !nh_square_split(d, nh_simplify_short(d, base, 0), &outside, &inside) ||
-                nh_kind_of(d, outside) == NH_NUMBER)
-                continue;
-            int sign = side_of(o, outside, side);
-            nh_ex value = nh_mul(d, nh_int(d, sign), nh_mul(d, outside, nh_sqrt(d, inside)));
-            if (sign) e = nh_substitute_root(d, e, base, value);
-        }
+    nh_ex base[most], outside, inside;
+    size_t n = o->chart->probes ? nh_radicands_in(d, e, base, most) : 0;
+    for (size_t i = 0; i < n; i++) {
+        bool square = nh_square_split(d, nh_simplify_short(d, base[i], 0), &outside, &inside);
+        if (!square || nh_kind_of(d, outside) == NH_NUMBER) continue;
+        int sign = side_of(o, outside, side);
+        nh_ex value = nh_mul(d, nh_int(d, sign), nh_mul(d, outside, nh_sqrt(d, inside)));
+        if (sign) e = nh_substitute_root(d, e, base[i], value);
+    }
     return e;
 }
 

@@ -308,6 +308,22 @@ size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
     return of_kind(dag, e, NH_PRODUCT, out, max);
 }
 
+size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
+{
+    uint32_t *node;
+    size_t count = reach(dag, e, &node), found = 0;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; dag->node[node[i]].kind == NH_PRODUCT && k < nh_arity(dag, node[i]); k++) {
+            nh_ex base = nh_child(dag, node[i], k), power = nh_exponent_of(dag, node[i], k);
+            bool half = nh_kind_of(dag, power) == NH_NUMBER && nh_num_short(nh_number_of(dag, power)) &&
+                        nh_number_of(dag, power).q == 2;
+            for (size_t j = 0; j < found && half; j++) half = out[j] != base;
+            if (half && found < max) out[found++] = base;
+        }
+    nh_free(node);
+    return found;
+}
+
 size_t nh_node_count(const nh_dag *dag, nh_ex e)
 {
     uint32_t *node;

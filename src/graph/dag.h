@@ -182,6 +182,8 @@ size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 /* Products; powers are products as well. */
 size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
+/* The bases of half powers likewise, each once: u of sqrt(u), of u^(-1/2), of u^(3/2); at most `max` are counted. */
+size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 /* Number of distinct nodes reachable from e. */
 size_t nh_node_count(const nh_dag *dag, nh_ex e);
 

@@ -42,18 +42,14 @@ nh_ex nh_continued_roots(const nh_model *o, nh_ex phi, uint64_t seed)
 {
     enum { most = 64 };
     nh_dag *d = o->dag;
-    nh_ex product[most], outside, inside;
-    size_t n = nh_products_in(d, phi, product, most);
-    for (size_t i = 0; i < n && i < most; i++)
-        for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
-            nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
-            bool half = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 2;
-            if (!half || nh_kind_of(d, base) == NH_NUMBER || nh_kind_of(d, base) == NH_SYMBOL) continue;
-            if (!take_out(d, base, &outside, &inside)) continue;
-            nh_ex root = nh_mul(d, outside, nh_sqrt(d, inside));
-            int sign = sign_in_box(o, nh_div(d, root, nh_sqrt(d, base)), seed);
-            if (sign) phi = nh_substitute_root(d, phi, base, sign > 0 ? root : nh_neg(d, root));
-        }
+    nh_ex base[most], outside, inside;
+    size_t n = nh_radicands_in(d, phi, base, most);
+    for (size_t i = 0; i < n; i++) {
+        if (nh_kind_of(d, base[i]) <= NH_SYMBOL || !take_out(d, base[i], &outside, &inside)) continue;
+        nh_ex root = nh_mul(d, outside, nh_sqrt(d, inside));
+        int sign = sign_in_box(o, nh_div(d, root, nh_sqrt(d, base[i])), seed);
+        if (sign) phi = nh_substitute_root(d, phi, base[i], sign > 0 ? root : nh_neg(d, root));
+    }
     return phi;
 }
 

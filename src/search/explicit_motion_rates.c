@@ -44,18 +44,14 @@ static nh_ex squares_out(const nh_explicit_curve *c, nh_ex f)
 {
     enum { most = 64 };
     nh_dag *d = c->d;
-    nh_ex product[most], outside, inside;
-    size_t n = nh_products_in(d, f, product, most);
-    for (size_t i = 0; i < n && i < most; i++)
-        for (size_t j = 0; j < nh_arity(d, product[i]); j++) {
-            nh_ex base = nh_child(d, product[i], j), x = nh_exponent_of(d, product[i], j);
-            bool half = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 2;
-            if (!half || !nh_depends(d, base, c->s) || nh_explicit_too_long(c, base)) continue;
-            if (!nh_square_split(d, nh_simplify_short(d, base, 0), &outside, &inside) ||
-                !nh_depends(d, outside, c->s))
-                continue;
-            f = nh_substitute_root(d, f, base, nh_mul(d, nh_call(d, NH_ABS, outside), nh_sqrt(d, inside)));
-        }
+    nh_ex base[most], outside, inside;
+    size_t n = nh_radicands_in(d, f, base, most);
+    for (size_t i = 0; i < n; i++) {
+        if (!nh_depends(d, base[i], c->s) || nh_explicit_too_long(c, base[i])) continue;
+        bool square = nh_square_split(d, nh_simplify_short(d, base[i], 0), &outside, &inside);
+        if (!square || !nh_depends(d, outside, c->s)) continue;
+        f = nh_substitute_root(d, f, base[i], nh_mul(d, nh_call(d, NH_ABS, outside), nh_sqrt(d, inside)));
+    }
     return f;
 }
 

@@ -73,23 +73,6 @@ static bool is_parametric(const nh_model *o, nh_ex e)
     return true;
 }
 
-/* The radicands of the square roots in these expressions; their number, at most so many. */
-static size_t roots_in(nh_dag *d, size_t n, const nh_ex *e, nh_ex *radicand, size_t most)
-{
-    enum { most_products = 200 };
-    nh_ex product[most_products], half = nh_ratio(d, 1, 2);
-    size_t count = 0;
-    for (size_t k = 0; k < n; k++) {
-        size_t products = nh_products_in(d, e[k], product, most_products);
-        for (size_t i = 0; i < products && i < most_products; i++)
-            for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
-                nh_ex x = nh_exponent_of(d, product[i], f);
-                if ((x == half || x == nh_neg(d, half)) && count < most) radicand[count++] = nh_child(d, product[i], f);
-            }
-    }
-    return count;
-}
-
 /* sqrt(u) sqrt(v) as sqrt(u v), also below other roots: what is integrated is factored, and so hides that the states
    cancel in 1 - C^2. */
 static nh_ex joined_roots(nh_dag *d, nh_ex e)
@@ -128,7 +111,7 @@ static nh_ex shorter_roots(const nh_model *o, nh_ex e)
     enum { most = 200 };
     nh_dag *d = o->dag;
     nh_ex radicand[most], outside, inside;
-    size_t n = roots_in(d, 1, &e, radicand, most);
+    size_t n = nh_radicands_in(d, e, radicand, most);
     for (size_t i = 0; i < n; i++) {
         bool split = nh_square_split(d, nh_simplify_short(d, radicand[i], 0), &outside, &inside) &&
                      (is_parametric(o, outside) || nh_model_sign(o, outside) > 0);
@@ -164,7 +147,7 @@ static bool has_roots_of_states(const nh_model *o, nh_ex e)
 {
     enum { most = 24 };
     nh_ex radicand[most];
-    size_t n = roots_in(o->dag, 1, &e, radicand, most);
+    size_t n = nh_radicands_in(o->dag, e, radicand, most);
     bool found = n == most;
     for (size_t i = 0; i < n && !found; i++) found = !is_parametric(o, radicand[i]);
     return found;
@@ -213,7 +196,8 @@ static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
     enum { most = 200 };
     nh_dag *d = o->dag;
     nh_ex own[most], theirs[most], half = nh_ratio(d, 1, 2), s, rest;
-    size_t roots = roots_in(d, 1, &e, own, most), known = roots_in(d, o->n, o->a, theirs, most);
+    size_t roots = nh_radicands_in(d, e, own, most), known = 0;
+    for (size_t k = 0; k < o->n; k++) known += nh_radicands_in(d, o->a[k], theirs + known, most - known);
     for (size_t i = 0; i < roots; i++)
         for (size_t j = 0; j < known; j++) {
             nh_ex ratio = nh_simplify_short(d, nh_div(d, own[i], theirs[j]), 0);

@@ -45,26 +45,14 @@ static bool depends_on_velocities(const nh_chart *c, nh_ex e)
     return false;
 }
 
-static bool is_half_power(const nh_dag *d, nh_ex product, size_t i)
-{
-    nh_ex x = nh_exponent_of(d, product, i);
-    return nh_kind_of(d, x) == NH_NUMBER && nh_num_short(nh_number_of(d, x)) && nh_number_of(d, x).q == 2;
-}
-
 /* The bases of half powers in e that depend on velocities, each once. */
 static size_t bases_in(const nh_chart *c, nh_ex e, nh_ex *base, size_t most)
 {
-    enum { most_products = 400 };
-    const nh_dag *d = c->system->dag;
-    nh_ex product[most_products];
-    size_t products = nh_products_in(d, e, product, most_products), n = 0;
-    for (size_t i = 0; i < products && i < most_products; i++)
-        for (size_t j = 0; j < nh_arity(d, product[i]) && n < most; j++) {
-            nh_ex b = nh_child(d, product[i], j);
-            bool known = !is_half_power(d, product[i], j) || !depends_on_velocities(c, b);
-            for (size_t k = 0; k < n && !known; k++) known = base[k] == b;
-            if (!known) base[n++] = b;
-        }
+    enum { most_bases = 100 };
+    nh_ex all[most_bases];
+    size_t bases = nh_radicands_in(c->system->dag, e, all, most_bases), n = 0;
+    for (size_t i = 0; i < bases && n < most; i++)
+        if (depends_on_velocities(c, all[i])) base[n++] = all[i];
     return n;
 }
 
