@@ -1,4 +1,5 @@
 /* The canonical form: what is equal has one index, whatever the order of construction. */
+#include <signal.h>
 #include <criterion/criterion.h>
 #include <math.h>
 #include <stdint.h>
@@ -6,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/print.h"
@@ -379,4 +381,32 @@ Test(dag, long_sums_take_linear_time, .timeout = 20)
     nh_free(term);
     nh_free(c);
     nh_dag_free(d);
+}
+
+Test(dag, radicands_are_bases_of_half_powers)
+{
+    nh_dag *d = nh_dag_create();
+    nh_ex base[4], x = nh_symbol(d, "x"), y = nh_symbol(d, "y"), u = parsed(d, "1 + x^2");
+    cr_expect_eq(nh_radicands_in(d, parsed(d, "y*sqrt(1 + x^2) + cos(x)/sqrt(1 + x^2) + (1 + x^2)^(3/2) + x^(1/3)*y^2"), base, 4), 1);
+    cr_expect_eq(base[0], u);
+    nh_ex below = nh_sqrt(d, nh_add(d, y, nh_sqrt(d, x)));
+    cr_expect_eq(nh_radicands_in(d, below, base, 4), 2, "also below another root");
+    cr_expect_eq(nh_radicands_in(d, below, base, 1), 1);
+    nh_dag_free(d);
+}
+
+static void make_one(size_t index, void *dag) { nh_int(dag, 1000 + (int)index); }
+
+Test(dag, is_made_in_turns)
+{
+    nh_dag *d = nh_dag_create();
+    nh_parallel_in_turns(3, 2, make_one, d);
+    nh_parallel_in_turns(2, 1, make_one, d);
+    cr_expect_not(nh_frozen());
+    nh_dag_free(d);
+}
+
+Test(dag, is_frozen_while_others_may_read, .signal = SIGABRT)
+{
+    nh_parallel(1, 1, make_one, nh_dag_create());
 }

@@ -42,6 +42,10 @@ static void end_rescue(rescue *r)
 
 /* ---- a queue of jobs ---- */
 
+static _Thread_local bool frozen;
+
+bool nh_frozen(void) { return frozen; }
+
 typedef struct {
     size_t jobs;
     atomic_size_t next;
@@ -60,8 +64,11 @@ static void do_jobs(void *argument)
 static void *work(void *argument)
 {
     queue *q = argument;
+    bool before = frozen;
     nh_context_enter(q->here);
+    frozen = true;
     if (!do_rescued(&q->rescue, do_jobs, q)) atomic_store(&q->next, q->jobs);
+    frozen = before;
     return NULL;
 }
 
@@ -101,6 +108,7 @@ bool nh_turn_give(void)
 {
     if (!turn || !has_turn) return false;
     has_turn = false;
+    frozen = true;
     pthread_mutex_unlock(turn);
     return true;
 }
@@ -109,6 +117,7 @@ bool nh_turn_take(void)
 {
     if (!turn || has_turn) return false;
     pthread_mutex_lock(turn);
+    frozen = false;
     return has_turn = true;
 }
 

@@ -19,6 +19,9 @@ bool nh_turn_give(void);
 bool nh_turn_take(void);
 /* Is this thread inside of such a job? */
 bool nh_in_turns(void);
+/* Does this thread make no expressions now: in a job of nh_parallel, also where the caller does it himself, and in one
+ * in turns whose turn is given?  To make one there ends the process: other threads read or change the graph. */
+bool nh_frozen(void);
 
 /* As many as are wanted; 0: one for each processor that the process may use. */
 size_t nh_threads(double wanted);

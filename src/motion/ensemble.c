@@ -272,6 +272,7 @@ static void do_batch(size_t index, void *context)
         for (size_t l = 0; l < lanes; l++) b.pivot[l] = 0;
         watch_pivots(&b);
     }
+    nh_turn_give(); /* its programs are compiled: what follows evaluates them */
     b.h = span / 1000;
     nh_flow_problem all = {.size = b.kept * lanes, .context = &b, .rate = rates_of_all};
     /* a member is not defined, and will be left out */
@@ -414,7 +415,7 @@ nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, 
     bool together = open_plan(&p, q, e, initial);
     double begin = nh_clock();
     size_t batches = (members + lanes - 1) / lanes;
-    if (together) nh_parallel(batches, threads, do_batch, &p);
+    if (together) nh_parallel_in_turns(batches, threads, do_batch, &p);
     for (size_t i = 0; i < batches; i++) e->evaluations += p.evaluations[i] * lanes;
     go_alone(&p, !together, threads);
     if (nh_interrupted()) count_interrupted(e);
