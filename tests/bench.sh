@@ -76,8 +76,8 @@ echo "  bench: accuracy" >&2
 # ---- the page ----
 model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1)
 say "# Performance" "" \
-    "Written by \`make bench\`; every table names the command that made it. Times are of the machine below while it may have had" \
-    "other work to do: run it again before you rely on a number, the ratios within one table vary less than the times." "" \
+    "Written by \`make bench\`; every table names the command that made it. Times are those of the machine below, which may have had" \
+    "other work: measure again before you rely on a number. Ratios within a table vary less than times." "" \
     "Machine: ${model:-unknown processor}, $(nproc 2>/dev/null || echo '?') cores; $(${CC:-gcc} --version | head -n 1); optimisation -O2." ""
 
 say "## A whole run" "" \
