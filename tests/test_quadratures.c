@@ -401,6 +401,15 @@ Test(quadratures, combined_coordinates)
         if (sweep_tries(i, 2, sizeof row / sizeof *row)) complete(row[i].text, row[i].independent);
 }
 
+/* A potential that is an angle: the energy stays as it is, a polynomial in the velocities, and is counted as such. */
+Test(quadratures, an_energy_that_jumps_stays_one)
+{
+    nh_analysis *r = ask("name: angle\nparameters: {a: 2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + a*atan(y/x)\n");
+    cr_expect_eq(r->independent, 1);
+    cr_expect_geq(r->completeness[NH_COMPLETE_IN_COORDINATES].degree, 4);
+    nh_analysis_free(r);
+}
+
 /* Bound and unbound motions have different constants: the formula says for which it is real. */
 Test(quadratures, real_where_the_motion_is_bound)
 {

@@ -4,6 +4,7 @@
 #include "count/one_side.h"
 #include "exact/normal.h"
 #include "integrals/continued.h"
+#include "search/counted.h"
 #include "search/currents.h"
 
 static nh_region region_of(nh_current_checker *b, nh_ex phi, double digits)
@@ -78,6 +79,9 @@ bool nh_currents_continue(nh_current_checker *b, nh_current *f)
 {
     nh_model *o = b->result->model;
     if (!f->proof.proved) return false;
-    return goes_through(b, f, nh_continued_roots(o, f->phi, (uint64_t)b->result->options.seed)) ||
-           goes_through(b, f, nh_continued_arctangents(o, f->phi)) || goes_through(b, f, nh_continued_turns(o, f->phi));
+    if (goes_through(b, f, nh_continued_roots(o, f->phi, (uint64_t)b->result->options.seed)) ||
+        goes_through(b, f, nh_continued_arctangents(o, f->phi)))
+        return true;
+    /* a polynomial in the velocities, like the energy in a potential atan(y/x), is counted as such */
+    return isinf(nh_counted_degree_of(o, f->phi)) && goes_through(b, f, nh_continued_turns(o, f->phi));
 }
