@@ -20,8 +20,15 @@ bool nh_turn_take(void);
 /* Is this thread inside of such a job? */
 bool nh_in_turns(void);
 /* Does this thread make no expressions now: in a job of nh_parallel, also where the caller does it himself, and in one
- * in turns whose turn is given?  To make one there ends the process: other threads read or change the graph. */
+ * in turns whose turn is given?  To make one there ends the process in a sanitized build, with one thread as with many:
+ * other threads read or change the graph. */
 bool nh_frozen(void);
+/* Is this a sanitized build? */
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+enum { NH_CHECKED = 1 };
+#else
+enum { NH_CHECKED = 0 };
+#endif
 
 /* As many as are wanted; 0: one for each processor that the process may use. */
 size_t nh_threads(double wanted);

@@ -401,25 +401,19 @@ void nh_model_free(nh_model *model)
     nh_arena_free(model->arena);
 }
 
-void nh_model_signs(const nh_model *o, nh_ex e, size_t *above, size_t *below)
+int nh_model_sign(const nh_model *o, nh_ex e)
 {
     const nh_chart *c = o->chart;
     nh_tape *tape = nh_model_tape(o, 1, &e);
     nh_tape_work *work = nh_tape_work_create(tape);
-    *above = *below = 0;
+    size_t above = 0, below = 0;
     for (size_t p = 0; p < c->probes; p++) {
         double value;
         nh_tape_eval(tape, work, c->probe + p * c->width, &value);
-        *above += value > 0;
-        *below += value < 0;
+        above += value > 0;
+        below += value < 0;
     }
     nh_tape_work_free(work);
     nh_tape_free(tape);
-}
-
-int nh_model_sign(const nh_model *o, nh_ex e)
-{
-    size_t above, below;
-    nh_model_signs(o, e, &above, &below);
-    return above == o->chart->probes ? 1 : below == o->chart->probes ? -1 : 0;
+    return above == c->probes ? 1 : below == c->probes ? -1 : 0;
 }

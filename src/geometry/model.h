@@ -72,8 +72,6 @@ nh_ex nh_model_omega(const nh_model *model, const nh_field *a, const nh_field *b
 nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);
 /* 1 or -1 where e, a function on the submanifold, has one sign at all probes of the chart; else 0. */
 int nh_model_sign(const nh_model *model, nh_ex e);
-/* At how many probes it is above zero, and at how many below. */
-void nh_model_signs(const nh_model *model, nh_ex e, size_t *above, size_t *below);
 
 /* The value of an expression of the parameters. */
 double nh_model_number(const nh_model *model, nh_ex e);

@@ -77,7 +77,7 @@ static uint64_t mask_of(const nh_dag *dag, unsigned kind, size_t count, const ui
 
 nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg)
 {
-    if (nh_frozen()) abort(); /* a mistake of the program, whatever the number of threads */
+    if (NH_CHECKED && nh_frozen()) abort(); /* a mistake of the program, whatever the number of threads */
     nh_work_add(NH_WORK_NODE, 1);
     uint64_t hash = hash_of(kind, op, count, arg);
     for (uint32_t i = dag->bucket[hash & (dag->bucket_count - 1)]; i; i = dag->node[i - 1].next) {

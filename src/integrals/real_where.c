@@ -1,6 +1,7 @@
 #include "integrals/real_where.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "exact/kernel.h"
 
@@ -37,14 +38,33 @@ static int certain_sign(const nh_model *o, nh_ex e)
     return sign;
 }
 
-/* Does it depend on the state, and have either sign in the sampling box? */
+/* Does it depend on the state, and have either sign in the sampling box, where the system itself is real? */
 static bool has_both_signs(const nh_model *o, nh_ex e)
 {
-    bool of_state = false;
-    size_t above = 0, below = 0;
-    for (size_t j = 0; j < o->width; j++) of_state |= nh_depends(o->dag, e, o->chart->symbol[j]);
-    if (of_state) nh_model_signs(o, e, &above, &below);
-    return above > 0 && below > 0;
+    const nh_chart *c = o->chart;
+    bool of_state = false, above = false, below = false;
+    for (size_t j = 0; j < o->width; j++) of_state |= nh_depends(o->dag, e, c->symbol[j]);
+    if (!of_state) return false;
+    size_t count = 2 + o->n;
+    nh_ex *all = nh_alloc_array(count, sizeof *all);
+    double *value = nh_alloc_array(count, sizeof *value);
+    all[0] = e;
+    all[1] = o->Lbar;
+    memcpy(all + 2, o->a, o->n * sizeof *all);
+    nh_tape *tape = nh_model_tape(o, count, all);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t p = 0; p < c->probes; p++) {
+        bool real = true;
+        nh_tape_eval(tape, work, c->probe + p * c->width, value);
+        for (size_t i = 1; i < count; i++) real &= isfinite(value[i]);
+        above |= real && value[0] > 0;
+        below |= real && value[0] < 0;
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(value);
+    nh_free(all);
+    return above && below;
 }
 
 /* e without a positive number before it. */
