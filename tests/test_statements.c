@@ -486,6 +486,18 @@ Test(statements, a_proved_current_does_not_drift_by_itself)
     place_clear(&p);
 }
 
+/* A field of many lines is left out of the text, which says how to see it. */
+Test(statements, a_long_field_is_on_the_page)
+{
+    place p = place_make();
+    reports r = analyze(&p, "rolling_ball"), all = analyze(&p, "rolling_ball --option shown=4000");
+    cr_expect(strstr(r.text, " symbols: the page shows it, and so does --option shown=") && !strstr(r.text, "Z_psi"), "%s", r.text);
+    cr_expect(!strstr(all.text, " symbols: the page shows it") && occurrences(all.text, "Z_x = ") > occurrences(r.text, "Z_x = "), "%s", all.text);
+    reports_clear(&r);
+    reports_clear(&all);
+    place_clear(&p);
+}
+
 /* The multiplier of z'^2 = a^2 (x'^2 + y'^2) depends on the direction of the velocity, however small that is: nothing is fast here. */
 Test(statements, a_direction_is_no_rate)
 {

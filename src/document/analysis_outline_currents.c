@@ -181,7 +181,7 @@ static const nh_ex *out_of_distribution(const nh_analysis *r, const nh_current *
  * distribution. */
 static void field(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
-    enum { short_sum = 100 };
+    enum { short_sum = 100, in_text = 2 };
     nh_field_term *term;
     double length = 0;
     size_t n = nh_formula_field(r, &f->symmetry, &term), k = f->symmetry.bracket_in_distribution ? 0 : r->model->k;
@@ -191,6 +191,11 @@ static void field(nh_pen *p, const nh_analysis *r, const nh_current *f)
     sheet->shown = r->options.shown;
     nh_sheet_begin(sheet, "", "", "");
     for (size_t i = 0; i < n; i++) length += (double)nh_complexity(sheet->dag, term[i].coefficient);
+    if (p->ink->brief && length > in_text * r->options.shown) {
+        nh_pen_words(p, "Z has %zu symbols: the page shows it, and so does --option shown=%zu here", (size_t)length,
+                     (size_t)ceil(length / in_text));
+        return;
+    }
     if (length <= short_sum) nh_sheet_sum(sheet, "", "Z");
     for (size_t i = 0; i < n; i++) {
         const char *label = length > short_sum ? "Z_{<%s>}" : "\\frac{\\p}{\\p<%s>}", *along = term[i].along;
