@@ -207,6 +207,25 @@ Test(reduce_statements, symmetries_that_are_local)
     done(&t);
 }
 
+/* The turns of a screw count: each ends a pitch further, so that nothing is many-valued there.  Without a pitch a rotation
+ * beside a translation of the same body stays at its place. */
+Test(reduce_statements, turns_of_a_screw_count)
+{
+    static const char *const text = "name: screw\nparameters: [{name: c, value: 0.3}]\nbodies: [{name: a, mass: 1.2, inertia: [0.3, 0.4, 0.5]}]\n"
+                                    "joints: [{type: translating-screw, pitch: %s, axis: z, child: a, coordinates: [x, y, p]}]\n";
+    for (int flat = 0; flat < 2; flat++) {
+        char file[SCRATCH];
+        snprintf(file, sizeof file, text, flat ? "0" : "c");
+        told t = tell(file);
+        size_t local = 0;
+        for (size_t a = 0; a < t.r->all->action.d; a++) local += t.r->all->action.generator[a].local;
+        cr_expect_eq(t.r->all->action.d, 6, "%zu", t.r->all->action.d);
+        cr_expect_eq(local, flat ? 2 : 0, "%zu", local); /* the rotations that take p into a length */
+        cr_expect_eq(t.r->all->local, flat == 1);
+        done(&t);
+    }
+}
+
 /* The stages as C. */
 static void export_c(const nh_reduction *r, nh_text *out)
 {

@@ -411,8 +411,8 @@ static bool returns(nh_flows *f, const double *c, double time, const double *sta
     closed = closed && nh_flows_move(f, c, (1 - before) * time, q);
     for (size_t s = 0; s < m && closed; s++) {
         double way = q[s] - start[s];
-        if (k->angle[s]) way -= turn * round(way / turn);
-        closed = fabs(way) <= same * (k->angle[s] ? fmax(1, away[s]) : away[s]) + rounding * fabs(start[s]);
+        if (k->periodic[s]) way -= turn * round(way / turn);
+        closed = fabs(way) <= same * (k->periodic[s] ? fmax(1, away[s]) : away[s]) + rounding * fabs(start[s]);
     }
     nh_free(q);
     return closed;

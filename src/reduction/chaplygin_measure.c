@@ -136,7 +136,7 @@ static bool many_valued(const nh_slice *s, const nh_ex *K, const nh_ex *U, doubl
     nh_tape *tape = nh_kinetic_tape(k, n * n + cube, e);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t j = 0; j < n; j++)
-        for (size_t p = 0; p < places && k->angle[s->shape[j]] && !many; p++) {
+        for (size_t p = 0; p < places && k->periodic[s->shape[j]] && !many; p++) {
             /* per radian: a number beside 1, whatever the other shape coordinates are measured in */
             double mean, largest;
             many = period(s, tape, work, j, k->place + p * k->m, small, &mean, &largest) &&

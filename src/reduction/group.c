@@ -68,7 +68,7 @@ static size_t single_valued(const nh_action *g, const nh_options *options, doubl
         nh_action_values(g, q, before);
         for (size_t i = 0; i < m * d; i++) size[i / m] = fmax(size[i / m], fabs(before[i]) / unit[i % m]);
         for (size_t s = 0; s < m; s++) {
-            if (!k->angle[s]) continue;
+            if (!k->periodic[s]) continue;
             q[s] += turn;
             nh_action_values(g, q, after);
             q[s] -= turn;

@@ -261,12 +261,14 @@ nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *er
     k->force = k->b + f;
     k->Q = model->system->force;
     k->name = nh_arena_alloc(arena, m * sizeof *k->name);
-    k->angle = nh_arena_alloc(arena, 2 * m * sizeof *k->angle);
+    k->angle = nh_arena_alloc(arena, 3 * m * sizeof *k->angle);
     k->dependent = k->angle + m;
+    k->periodic = k->dependent + m;
     for (size_t j = 0; j < model->system->dependents; j++) k->dependent[model->system->dependent[j]] = true;
     for (size_t s = 0; s < m; s++) {
         k->name[s] = model->system->coordinate[s].name;
         k->angle[s] = model->system->coordinate[s].type == NH_ANGLE;
+        k->periodic[s] = k->angle[s] && !model->system->coordinate[s].counted;
         k->q[s] = model->system->coordinate[s].q;
         k->v[s] = model->system->coordinate[s].v;
     }
@@ -363,7 +365,7 @@ bool nh_kinetic_many_valued(const nh_kinetic *k, size_t count, const nh_ex *e)
         memcpy(q, k->place + p * k->m, k->m * sizeof *q);
         nh_tape_eval(tape, work, q, before);
         for (size_t s = 0; s < k->m && !many; s++) {
-            if (!k->angle[s]) continue;
+            if (!k->periodic[s]) continue;
             q[s] += turn;
             nh_tape_eval(tape, work, q, after);
             q[s] -= turn;

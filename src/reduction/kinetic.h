@@ -17,7 +17,8 @@ typedef struct {
     size_t m, f;           /* coordinates, constraints */
     nh_ex *q, *v;          /* m symbols each */
     const char **name;     /* m, of the coordinates */
-    bool *angle, *dependent; /* m: an angle; named under `dependent:` */
+    bool *angle, *periodic;  /* m: an angle; one that is at the same place after a turn */
+    bool *dependent;         /* m: named under `dependent:` */
     nh_ex *K, V, *a;       /* m x m (row-major), m; zeros unless quadratic */
     nh_ex *force;          /* f: the constraints without poles */
     nh_ex *omega, *b;      /* f x m (row-major), f; zeros unless affine */

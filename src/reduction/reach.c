@@ -54,7 +54,7 @@ static double newton(const nh_slice *s, const double *q, double *size, double *d
     nh_action_values(s->action, q, E);
     for (size_t i = 0; i < d; i++) {
         dt[i] = s->y0[i] - q[s->along[i]];
-        if (s->kinetic->angle[s->along[i]]) dt[i] -= turn * round(dt[i] / turn);
+        if (s->kinetic->periodic[s->along[i]]) dt[i] -= turn * round(dt[i] / turn);
         size[i] = fmax(size[i], fabs(q[s->along[i]]));
         if (dt[i] != 0) off = fmax(off, fabs(dt[i]) / (size[i] + (s->kinetic->angle[s->along[i]] ? 1 : 0)));
         for (size_t a = 0; a < d; a++) minor[i + a * d] = E[s->along[i] + a * m];

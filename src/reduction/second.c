@@ -217,8 +217,9 @@ static nh_kinetic *hat_system(const nh_chaplygin *f)
     h->K = f->K;
     h->omega = h->b = h->force = h->a; /* none */
     h->name = nh_arena_alloc(arena, (n + 1) * sizeof *h->name);
-    h->angle = nh_arena_alloc(arena, (2 * n + 1) * sizeof *h->angle);
+    h->angle = nh_arena_alloc(arena, (3 * n + 1) * sizeof *h->angle);
     h->dependent = h->angle + n;
+    h->periodic = h->dependent + n;
     h->place = nh_arena_alloc(arena, (2 * k->places * n + 1) * sizeof *h->place);
     h->speed = h->place + k->places * n;
     for (size_t i = 0; i < n; i++) {
@@ -228,6 +229,7 @@ static nh_kinetic *hat_system(const nh_chaplygin *f)
         h->a[i] = nh_int(k->dag, 0);
         h->name[i] = k->name[s];
         h->angle[i] = k->angle[s];
+        h->periodic[i] = k->periodic[s];
         for (size_t p = 0; p < k->places; p++) {
             h->place[p * n + i] = k->place[p * k->m + s];
             h->speed[p * n + i] = k->speed[p * k->m + s];

@@ -121,7 +121,8 @@ static bool with_symmetry(nh_analysis *r, const nh_points *points, nh_current *f
 
 /* ---- what it is ---- */
 
-/* Does the current change when an angle goes once around?  Then it is defined only locally.  A series in the angle is
+/* Does the current change when an angle goes once around?  Then it is defined only locally: not where turns count, so
+ * that the system is at another place behind each.  A series in the angle is
  * compared half a turn before and behind the middle of its interval: shorter than a turn it says nothing. */
 static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, const nh_series *series)
 {
@@ -129,7 +130,7 @@ static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, cons
     nh_ex turn = nh_mul(d, nh_int(d, 2), nh_pi(d));
     for (size_t s = 0; s < o->m; s++) {
         const nh_coordinate *c = &o->system->coordinate[s];
-        if (c->type != NH_ANGLE || !nh_depends(d, phi, c->q)) continue;
+        if (c->type != NH_ANGLE || c->counted || !nh_depends(d, phi, c->q)) continue;
         bool own = series && series->variable == c->q;
         nh_ex here = own ? nh_real(d, (series->low + series->high) / 2 - M_PI) : c->q, around = nh_add(d, here, turn);
         nh_ex pair[2] = {nh_substitute(d, phi, 1, &c->q, &here), nh_substitute(d, phi, 1, &c->q, &around)};

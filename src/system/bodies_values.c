@@ -246,6 +246,7 @@ static bool joint_values(reader *r, nh_joint *j)
     for (size_t k = 0; k < j->screws; k++) {
         screw[k].turns = nh_joint_turns(j, k);
         screw[k].pitch = pitch;
+        if (!values) s->coordinate[screw[k].coordinate].counted |= screw[k].turns && !nh_is_zero(s->dag, pitch);
         if (values && !value_of(r, values->item[k], &screw[k].s)) return false;
         if (!values) screw[k].s = s->coordinate[screw[k].coordinate].q;
     }

@@ -22,7 +22,8 @@ typedef struct {
 typedef struct {
     const char *name, *unit, *doc; /* unit, for labels: "" when it is not told */
     nh_coordinate_type type;
-    nh_ex q, v; /* the coordinate and its velocity "name'" */
+    bool counted; /* an angle whose turns count: a turn of a joint with a pitch ends at another place */
+    nh_ex q, v;   /* the coordinate and its velocity "name'" */
 } nh_coordinate;
 
 typedef struct {
