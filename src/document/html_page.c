@@ -33,6 +33,7 @@ const char *const nh_html_style =
     "pre{margin:.4rem "
     "0}.along{color:var(--soft);font-size:.9rem}dl{display:grid;align-items:baseline;grid-template-columns:7rem "
     "1fr;gap:.2rem .6rem;margin:.6rem 0}dt{color:var(--soft);font-size:.88rem}dd{margin:0}\n"
+    "dd:has(mfrac){padding:.18rem 0}"
     "summary{cursor:pointer;font-size:.92rem;color:var(--link);padding:.2rem "
     "0}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.88rem;margin:.8rem "
     "0}caption{text-align:left;font-weight:600;padding:.2rem 0;white-space:nowrap}.where{margin-left:1.2rem}.where "

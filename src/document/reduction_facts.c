@@ -71,8 +71,8 @@ const char *nh_reduction_letters(const nh_reduction *r, const nh_reduction_stage
                                s->shown->d ? p : "$p_{i}$: momenta of the shape", group);
     case NH_STAGE_SECOND:
         return nh_arena_printf(arena,
-                               "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$, written v1, .., the "
-                               "velocity %s; $eta_{a}$: %s",
+                               "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ (v1, .. in text and "
+                               "code), the velocity %s; $eta_{a}$: %s",
                                p,
                                shape ? "$eta_{a} + \\breve{A} <x'>$ that belongs to it by the mechanical connection"
                                      : "that belongs to it",
@@ -81,7 +81,8 @@ const char *nh_reduction_letters(const nh_reduction *r, const nh_reduction_stage
     default:
         return nh_arena_printf(
             arena,
-            "%s$zeta_{a}$, written zeta1, .. where it is one of the independent velocities: %s; $mu_{a}$: its momentum",
+            "%s$zeta_{a}$ (zeta1, .. in text and code where it is one of the independent velocities): %s; "
+            "$mu_{a}$: its momentum",
             p, group);
     }
 }
