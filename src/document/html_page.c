@@ -70,7 +70,8 @@ const char *const nh_html_style =
        row. */
     "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player,.screen{display:none}\n"
     "html{font-size:13.5px}body{font-size:9pt;line-height:1.3}main{max-width:none;padding:0}section{columns:2;column-"
-    "gap:7mm}#repeat{columns:auto}#repeat .wide{break-inside:auto}#repeat code{font-size:.7rem}#repeat td,#repeat "
+    "gap:7mm}#words,#repeat{break-inside:avoid}#repeat{columns:auto}#repeat .wide{break-inside:auto}#repeat "
+    "code{font-size:.7rem}#repeat td,#repeat "
     "th{padding-top:.02rem;padding-bottom:.02rem;line-height:1.2}\n"
     "h1{font-size:1.6rem}h2{column-span:all;break-inside:avoid;margin:1.1rem 0 "
     ".3rem;font-size:1.2rem}h2::after{content:'';display:block;height:4cm;margin-bottom:-4cm}"
