@@ -82,7 +82,7 @@ const char *const nh_html_style =
     "section:has(>.still,>#player,>figure) h2::after{height:9cm;margin-bottom:-9cm}h3{margin:.7rem 0 "
     ".2rem;font-size:1rem}h4{margin:.5rem 0 .1rem}p{margin:.35rem 0}\n"
     "h2,h3,h4,summary,h2+p,h3+p,p:has(+.formula),p:has(+figure),p:has(+dl),p:has(+.wide){break-after:avoid}figure,"
-    "dt,dd,tr,.tags,.wide{break-inside:avoid}caption{break-after:avoid}.formula{orphans:4;widows:4}\n"
+    "h3,h4,dt,dd,tr,.tags,.wide{break-inside:avoid}caption{break-after:avoid}.formula{orphans:4;widows:4}\n"
     "summary{list-style:none;color:var(--soft)}details::details-content{content-visibility:visible}dl{grid-template-"
     "columns:5.2rem 1fr;gap:.1rem .4rem;margin:.3rem 0}dt{font-size:.76rem}\n"
     ".card{padding:.1rem .5rem .3rem;margin:.4rem 0}.formula{overflow:visible;padding:.1rem 0 .1rem "
