@@ -418,6 +418,8 @@ Test(quadratures, real_where_the_motion_is_bound)
     size_t bound = 0;
     for (size_t k = 0; k < r->count; k++) bound += nh_real_where(r->model, r->found[k].phi, positive) > 0;
     cr_expect_eq(bound, 1);
+    cr_assert_not_null(r->motion);
+    cr_expect(r->motion->region && strstr(r->motion->region, "where ") && strstr(r->motion->region, " > 0"), "%s", r->motion->region);
     nh_analysis_free(r);
 }
 

@@ -8,7 +8,9 @@
 #include "exact/normal.h"
 #include "exact/square.h"
 #include "graph/measure.h"
+#include "graph/print.h"
 #include "integrals/exact_points.h"
+#include "integrals/real_where.h"
 #include "search/currents.h"
 #include "search/explicit_motion.h"
 
@@ -280,13 +282,27 @@ static const nh_explicit_motion *try_all(nh_stage_solver *x, const nh_explicit_r
     return best;
 }
 
-/* Where its constants do not jump; NULL: everywhere. */
+static const char *joined(nh_arena *arena, const char *all, const char *one)
+{
+    if (!one || (all && strstr(all, one))) return all;
+    return all ? nh_arena_printf(arena, "%s, %s", all, one) : one;
+}
+
+/* Where its constants do not jump, and are real, which may be so for bound motions only; NULL: everywhere. */
 static const char *region_of(nh_stage_solver *x, const nh_explicit_motion *m)
 {
+    const nh_model *o = x->r->model;
+    nh_arena *arena = x->r->arena;
     const char *all = NULL;
     for (size_t j = 0; j < m->constants; j++) {
-        const char *one = nh_currents_region(x->bench, m->constant[j].value, 0, NULL);
-        if (one && !(all && strstr(all, one))) all = all ? nh_arena_printf(x->r->arena, "%s, %s", all, one) : one;
+        nh_ex positive[NH_MOST_REAL_WHERE], value = m->constant[j].value;
+        size_t n = nh_real_where(o, value, positive);
+        all = joined(arena, all, nh_currents_region(x->bench, value, 0, NULL));
+        for (size_t i = 0; i < n; i++) {
+            char *text = is_parametric(o, positive[i]) ? NULL : nh_print_string(o->dag, positive[i]);
+            if (text) all = joined(arena, all, nh_arena_printf(arena, "where %s > 0", text));
+            nh_free(text);
+        }
     }
     return all;
 }
