@@ -13,7 +13,8 @@
  * A fallible function takes an nh_error last, returns NULL or false on failure and fills the error.  No function prints
  * or ends the process.  Where an allocation fails the error is NH_LIMIT (without an nh_error: NULL, false or NAN), memory
  * of this call is lost, and its objects remain usable; nh_context_create sets the allocators of FLINT and GMP for it.
- * The caller owns a result, which remains valid without its problem and context.  Threads with separate contexts are
+ * The caller owns a result, which remains valid without its problem and context; a const char * lives as long as the
+ * object that gave it.  An nh_error may be NULL, and so may what is freed.  Threads with separate contexts are
  * independent; one thread at a time may use a context's objects.  Angles: radians, all else: as in the system file. */
 #ifndef NHSYM_H
 #define NHSYM_H
@@ -28,8 +29,7 @@ extern "C" {
 #define NH_API
 #endif
 
-/* ---- errors ---- */
-/* The values are the exit codes of the command line. */
+/* ---- errors; the values of nh_code are the exit codes of the command line ---- */
 typedef enum {
     NH_OK = 0,
     NH_REFUTED = 1,  /* the answer to the question is "no" */

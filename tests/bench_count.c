@@ -1,6 +1,6 @@
 /* bench_count: how many integrals polynomial in the velocities systems have, beside those that their files know.
  *
- *     bench_count [DEGREE] [time] [generic] [shape] [only] [work N] FILE...
+ *     bench_count [DEGREE] [time] [generic] [shape|closed] [only] [work N] FILE...
  *
  * A line per file and degree.  Degree 0: as far as it goes; only: this degree, not those below it; N: the work of one
  * count at most, 3e9.

@@ -1,7 +1,8 @@
 /* bench_series: how long the count's linear systems take, for growing numbers of coordinates and degrees.
  *
- * Of a natural system with a polynomial potential that has no integral but the energy: the even part of the given degree, of series up to two orders above the degree.  The
- * aims are half of what a first version of the solver took. */
+ * Of a natural system with a polynomial potential that has no integral but the energy: the even part of the given degree, of series up to two orders above the degree.  And
+ * of shipped systems: the whole count of one degree, all orders of series that it takes, with coefficients in t, in all coordinates or in the shape alone.  The aims are half of
+ * what a first version of the solver took. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* families: the sleigh at given parameters, and ansatz families of every kind on it, for the tests of src/noether. */
+/* families: the sleigh at given parameters, and ansatz families of every kind on it, for the tests of src/integrals. */
 #ifndef NH_TESTS_FAMILIES_H
 #define NH_TESTS_FAMILIES_H
 

@@ -4,7 +4,7 @@
 
 #include "base/context_internal.h"
 
-static const double most_at_once = 1e15; /* of one addition: 2^64 is never reached */
+static const double most_at_once = 1e15; /* the sum stops here and never reaches 2^64 */
 
 static const double units[] = {
 #define X(name, units, doc) units,

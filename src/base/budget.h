@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-/*    name      units  of what; a unit is about a nanosecond on an ordinary machine of today */
+/* name, units, of what; a unit takes about a nanosecond on a machine of 2026 */
 #define NH_WORK_TABLE(X)                                                                        \
     X(DENSE,    0.2, "a multiplication and an addition of dense linear algebra, in doubles")    \
     X(VALUE,    3,   "an instruction of a straight-line program at one point")                  \
@@ -24,17 +24,18 @@ typedef enum {
 #undef X
 } nh_work;
 
-/* What comes from here on may take so many millions of units; none when that is not finite. */
+/* Starts a budget of so many millions of units; no limit when `millions` is not finite. nh_work_add counts `count`
+ * operations of a kind; nh_budget_spent says whether the limit is reached. */
 void nh_budget_begin(double millions);
 void nh_work_add(nh_work kind, double count);
 bool nh_budget_spent(void);
-/* Would so much more be too much? */
+/* Does the rest of the budget suffice for `count` more operations of this kind? */
 bool nh_budget_allows(nh_work kind, double count);
-/* Of so much of it. */
+/* Millions of units that `count` operations of this kind take. */
 double nh_work_millions(nh_work kind, double count);
-/* What part of it is spent, from 0 on; 0 when there is no limit. */
+/* The part of the budget that is spent: 0 at the beginning, above 1 beyond the limit; 0 when there is no limit. */
 double nh_budget_part(void);
-/* Millions of units since it began. */
+/* Millions of units spent since nh_budget_begin. */
 double nh_budget_used(void);
 
 #endif

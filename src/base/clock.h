@@ -17,7 +17,7 @@ double nh_clock_of_thread(void);
  * process.  Other programs that share the processor do not bring it nearer, so that they change no answer; threads do
  * not, either.  Never reached when the seconds are not finite. */
 typedef struct {
-    double clock, processor; /* moments of both */
+    double clock, processor; /* when both clocks reach the limit, in seconds */
 } nh_clock_limit;
 nh_clock_limit nh_clock_limit_in(double seconds);
 bool nh_clock_limit_reached(nh_clock_limit time_limit);

@@ -1,5 +1,5 @@
-/* clones: loops compiled for several processors; the loader takes the one that suits.  Not under sanitizers, which are
-   not ready when it does. */
+/* clones: a loop marked by NH_CLONES is compiled for several instruction sets; the loader chooses the one that the
+ * processor has.  Not in sanitized builds: the sanitizer is not initialised yet when the loader chooses. */
 #ifndef NH_CLONES_H
 #define NH_CLONES_H
 

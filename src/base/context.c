@@ -16,7 +16,7 @@ static nh_context of_process = {
     .files_lock = PTHREAD_MUTEX_INITIALIZER,
 };
 
-static _Thread_local nh_context *entered; /* NULL: that of the process */
+static _Thread_local nh_context *entered; /* NULL: the context of the process */
 
 static void create(void *out)
 {

@@ -9,12 +9,13 @@
 
 #include "nhsym.h"
 
-/* part: of the time or work that it may take, in [0, 1]; below 0: not known. */
+/* Reports progress: what is being done, and which part of its time or work is over, in [0, 1]; below 0 when unknown. */
 typedef void nh_progress_handler(void *context, const char *doing, double part);
 
-/* The one that this thread works for. */
+/* The context of this thread; never NULL. */
 nh_context *nh_context_here(void);
-/* From now on this thread works for that one; NULL: for that of the process.  Returns the one before. */
+/* Makes `context` the context of this thread; NULL: that of the process.  Returns the previous one (NULL: that of the
+ * process). */
 nh_context *nh_context_enter(nh_context *context);
 
 #endif

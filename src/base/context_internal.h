@@ -22,20 +22,20 @@ void nh_known_files_free(nh_known_file *first);
 
 struct nh_context {
     /* base/budget.c */
-    atomic_uint_fast64_t used; /* whole units: their sum does not depend on the order in which threads add them */
-    double               most; /* units; set between computations, read by all of their threads */
+    atomic_uint_fast64_t used; /* whole units: a sum of integers does not depend on the order in which threads add */
+    double               most; /* units; written between computations, read by all of their threads */
     /* base/progress.c */
     nh_progress_handler *handler;
     void                *handler_context;
     pthread_mutex_t      saying_lock;
     char                 saying[nh_context_longest_saying];
     atomic_bool          interrupted, reached;
-    /* by the monotonic clock; set between computations, read by all of their threads */
+    /* seconds of the monotonic clock; written between computations, read by all of their threads */
     double               limit, limit_seconds, deadline;
     nh_clock_limit       time_limit;
-    double               most_memory; /* bytes; likewise; 0: no limit */
-    _Atomic double       next_look;   /* at the memory, by the same clock */
-    atomic_bool          filled;      /* it was the memory that ended it */
+    double               most_memory; /* bytes, 0: no limit; written and read likewise */
+    _Atomic double       next_look;   /* when the memory is measured next, on the same clock */
+    atomic_bool          filled;      /* the limit of memory ended the computation */
     /* base/files.c */
     pthread_mutex_t files_lock;
     bool            files_kept;

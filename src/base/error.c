@@ -37,7 +37,7 @@ static void fill(char *out, size_t size, const char *format, va_list arguments)
         mend_tail(out);
 }
 
-/* Of a place that is too long the tail is kept: it holds the line and the column. */
+/* A place that is too long loses its beginning: its end holds the line and the column. */
 static void fill_where(char *out, size_t size, const char *where)
 {
     static const char dots[] = "...";

@@ -18,11 +18,11 @@ bool nh_fail(nh_error *error, nh_code code, const char *where, const char *forma
 
 /* Add what the user can do about it; ignored when a hint is there already.  Returns false. */
 bool nh_error_hint(nh_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* "did you mean `..`?" where one of the words is near to what was written, else the other hint. */
+/* Adds the hint "did you mean `..`?" where one of the words is near to `written`, otherwise the other hint.  Returns
+ * false. */
 bool nh_error_hint_near(nh_error *error, const char *written, const char *const *words, size_t count,
                         const char *otherwise);
-/* What keeps `written` from being a number, where it is a comma for the decimal point, or a unit behind it.  Returns
-   false. */
+/* Adds a hint that says why `written` is not a number: a decimal comma, or a unit behind the number.  Returns false. */
 bool nh_error_hint_number(nh_error *error, const char *written);
 
 #endif

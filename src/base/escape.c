@@ -29,7 +29,7 @@ bool nh_is_invisible(uint32_t code)
            code == 0xFFFE || code == 0xFFFF;
 }
 
-/* The next character of the text, which has `*bytes`: itself, or '?' where it is invisible or not UTF-8. */
+/* Reads the next character of the text, whose length goes to *bytes; '?' where it is invisible or not UTF-8. */
 static const char *next(const char *text, size_t *bytes, size_t *written)
 {
     uint32_t code = 0;
@@ -61,7 +61,8 @@ void nh_escape_c_comment(const char *text, nh_text *out)
         nh_text_add_n(out, is_space(*c) ? " " : c, written);
         last = now;
     }
-    if (last == '*' || last == '/' || last == '?' || last == '\\') nh_text_add(out, " "); /* whatever follows */
+    /* whatever character follows */
+    if (last == '*' || last == '/' || last == '?' || last == '\\') nh_text_add(out, " ");
 }
 
 void nh_escape_xml(const char *text, nh_text *out)
@@ -83,7 +84,7 @@ void nh_escape_terminal(const char *text, nh_text *out)
 {
     for (size_t bytes, written; *text; text += bytes) {
         const char *c = next(text, &bytes, &written);
-        /* alone it goes back over what was written */
+        /* a carriage return alone would overwrite the line */
         nh_text_add_n(out, *c == '\r' && text[1] != '\n' ? "?" : c, written);
     }
 }

@@ -7,24 +7,25 @@
 
 #include "base/text.h"
 
-/* One character of UTF-8: its length and *code; 0 when it is none (overlong, surrogate, cut off). */
+/* Decodes one character of UTF-8 to *code and returns its length in bytes; 0 when the bytes are no character (overlong,
+ * surrogate, cut off). */
 size_t nh_utf8_decode(const char *text, size_t left, uint32_t *code);
 
-/* Control characters, separators that editors do not show, and those that turn the direction of text (U+061C, U+200E,
- * U+200F, U+202A to U+202E, U+2066 to U+2069), by which a line can read otherwise than it is; not tabs and ends of
+/* Control characters, separators that editors do not show, and characters that change the direction of text (U+061C,
+ * U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069), so that a line reads otherwise than it is; not tabs and ends of
  * lines. */
 bool nh_is_invisible(uint32_t code);
 
-/* One line: ends of lines and tabs are blanks, what is invisible is a question mark.  The text of a comment that ends
-   with its line (LaTeX). */
+/* Text on one line: ends of lines and tabs become blanks, invisible characters question marks.  For comments that end
+ * with their line (LaTeX). */
 void nh_escape_line(const char *text, nh_text *out);
-/* Between the signs of a comment in C: one line that neither ends it, opens another nor has trigraphs. */
+/* Text inside a comment of C: one line that does not end the comment, does not open another and has no trigraphs. */
 void nh_escape_c_comment(const char *text, nh_text *out);
 /* A field of a table of comma-separated values (RFC 4180), always in quotation marks. */
 void nh_escape_csv(const char *text, nh_text *out);
 /* XML: SVG, MathML, HTML, in text and in attributes. */
 void nh_escape_xml(const char *text, nh_text *out);
-/* Lines for a terminal: what could command it is a question mark. */
+/* Lines for a terminal: control characters, which a terminal would obey, become question marks. */
 void nh_escape_terminal(const char *text, nh_text *out);
 
 #endif

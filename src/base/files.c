@@ -30,7 +30,7 @@ void nh_files_swap(nh_file_store *store)
 
 void nh_files_free(nh_file_store store) { nh_known_files_free(store); }
 
-/* The whole stream, or one byte more than is allowed. */
+/* Reads the whole stream, or one byte more than is allowed. */
 static char *slurp(FILE *file, size_t limit, size_t *length)
 {
     char *text = NULL;
@@ -116,7 +116,8 @@ char *nh_files_read(const char *path, size_t limit, size_t *length, nh_error *er
     nh_context *c = nh_context_here();
     nh_held held;
     if (!c->files_kept) return from_file(path, limit, length, error);
-    nh_hold(&held, &c->files_lock); /* also while a file is read: two that want it at once get one text */
+    /* held also while a file is read: two threads that want the same file get one text */
+    nh_hold(&held, &c->files_lock);
     const nh_known_file *f = c->file;
     while (f && strcmp(f->path, path)) f = f->next;
     char *text = f ? copy_of(f->text, f->length) : from_file(path, limit, length, error);

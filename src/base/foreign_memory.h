@@ -1,8 +1,9 @@
-/* foreign_memory: GMP and FLINT, which end the process when an allocation fails, allocate as this program does. */
+/* foreign_memory: makes GMP and FLINT, which end the process when an allocation fails, allocate through
+ * base/memory.h. */
 #ifndef NH_FOREIGN_MEMORY_H
 #define NH_FOREIGN_MEMORY_H
 
-/* Once for the process, the first time; functions that another program has given to GMP remain. */
+/* Takes effect at the first call in the process.  Functions that another program has already given to GMP remain. */
 void nh_foreign_memory_begin(void);
 
 #endif

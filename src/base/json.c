@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-/* cJSON itself gives up the last digit. */
+/* cJSON itself drops the last digit. */
 static cJSON *number(double value)
 {
     char text[40];
@@ -30,8 +30,8 @@ static nh_json *add(nh_json *array, cJSON *item)
 
 static cJSON *text_or_null(const char *text) { return text ? cJSON_CreateString(text) : cJSON_CreateNull(); }
 
-/* Without memory cJSON would leave out what does not fit: it allocates as everything here does, which does not return
-   then. */
+/* Without memory cJSON would silently leave members out.  It allocates through base/memory.h, where a failed allocation
+ * does not return. */
 nh_json *nh_json_object(void)
 {
     static cJSON_Hooks hooks = {nh_alloc, nh_free};

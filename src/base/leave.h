@@ -8,15 +8,17 @@ typedef struct nh_leaving {
     struct nh_leaving *next, **link;
 } nh_leaving;
 
-/* Between these the process does not end at once: files take their places together.  Short, and not nested. */
+/* Between hold and release the process does not end at once, so that several files take their places together.  Keep it
+ * short; holds do not nest. */
 void nh_leave_hold(void);
 void nh_leave_release(void);
 
-/* Between a hold and its release: add when the thing is made, remove when it is gone or has its place. */
+/* Call these between a hold and its release: add when the temporary thing is made, remove when it is gone or has its
+ * place. */
 void nh_leave_add(nh_leaving *leaving);
 void nh_leave_remove(nh_leaving *leaving);
 
-/* Undo everything; the caller ends the process then.  Other threads that call nh_leave_hold wait until it ends. */
+/* Undoes everything; the caller then ends the process.  Other threads that call nh_leave_hold wait until it ends. */
 void nh_leave_now(void);
 
 #endif

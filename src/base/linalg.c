@@ -29,7 +29,7 @@ enum {
 /* bytes of the buffer that OpenBLAS maps for every thread that calls it */
 static const size_t BUFFER = (size_t)128 << 20;
 
-/* units of effort: of LAPACK, per row, and per multiplication in small matrices */
+/* units of effort: per call of LAPACK, per row, and per multiplication in small matrices */
 static const double CALL = 350, ROW = 50, FLOP = 0.4;
 
 void nh_linalg_threads(int count)
@@ -38,8 +38,8 @@ void nh_linalg_threads(int count)
         openblas_set_num_threads(count);
 }
 
-/* Where the address space has no room for its buffer OpenBLAS tries for ever to map it: before the first call of a
-   thread, room is looked for in the same way. */
+/* OpenBLAS tries for ever to map its buffer where the address space has no room.  So before the first call of a thread
+ * we map and unmap a buffer of the same size ourselves. */
 static void look_for_room(void)
 {
     static _Thread_local bool found;
@@ -94,7 +94,7 @@ struct nh_qr {
     /* the same: rows that are on their way into the triangle; where nothing is done aside it is the same memory */
     double *full;
     size_t filled;   /* rows in `full` */
-    nh_aside *aside; /* what is on its way */
+    nh_aside *aside; /* the job that factorises `full` */
     double *t;       /* PANEL x PANEL */
     double *work;    /* PANEL x columns */
 };
@@ -195,8 +195,7 @@ static void absorb(void *context)
     }
 }
 
-/* The rows that wait go into the triangle; with a second block they are exchanged for it, and the caller need not
-   wait. */
+/* Factorises the waiting rows; with a second block they are exchanged for it, and the caller need not wait. */
 static void flush(nh_qr *qr)
 {
     await(qr);
@@ -244,7 +243,7 @@ size_t nh_qr_rows(const nh_qr *qr)
 
 /* ---- decompositions ---- */
 
-/* One decomposition with memory of its own, so that it can be left alone. */
+/* One decomposition with its own memory, so that an interrupted caller can leave it to itself. */
 typedef struct {
     size_t m, n;
     double *a, *s, *u, *vt;
@@ -273,7 +272,7 @@ static void give(size_t count, const double *from, double *to)
     if (to) memcpy(to, from, count * sizeof *to);
 }
 
-/* Did LAPACK do it?  It says apart that it had no memory. */
+/* Did LAPACK succeed?  It reports missing memory by a code of its own. */
 static bool worked(lapack_int info)
 {
     if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR)
@@ -298,7 +297,8 @@ static void compute_svd(void *context)
     nh_free(superdiagonal);
 }
 
-/* False when it was left alone; then it is no longer the caller's. */
+/* False when the caller was interrupted and left the decomposition to itself; then it no longer belongs to the
+ * caller. */
 static bool run(void (*compute)(void *), decomposition *d)
 {
     if (smaller(d->m, d->n) >= PATIENT)

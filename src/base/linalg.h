@@ -1,17 +1,16 @@
-/* linalg: the dense linear algebra that the rest needs, over LAPACK.  Matrices are column-major (LAPACK's order):
- * a[i + j*ld] is row i, column j. */
+/* linalg: dense linear algebra, over LAPACK.  Matrices are column-major (LAPACK's order): a[i + j*ld] is row i, column
+ * j. */
 #ifndef NH_LINALG_H
 #define NH_LINALG_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Threads of BLAS.  One is best: starting its own costs more than most problems are worth, and ours (base/parallel.h)
-   do not change results. */
+/* Sets the number of BLAS threads.  One is best: starting BLAS threads costs more than most of our matrices take, and
+ * our own threads (base/parallel.h) do not change results. */
 void nh_linalg_threads(int count);
 
-/* Whether there is neither NaN nor infinity in x (count).  LAPACK's iterations may not end on a NaN: nothing below lets
-   one in. */
+/* Are all `count` numbers x finite?  LAPACK's iterations may not end on a NaN: all functions below refuse one. */
 bool nh_all_finite(size_t count, const double *x);
 
 /* Streaming QR: feed blocks of rows, keep only the triangle.  Memory O(columns^2).  With more than one thread it is

@@ -42,7 +42,7 @@ size_t nh_memory_fail_after(size_t allocations)
     return atomic_exchange(&before_failure, allocations);
 }
 
-/* Is it the one that a test wants to fail? */
+/* Is this the allocation that a test wants to fail? */
 static bool to_fail(void)
 {
     if (atomic_load_explicit(&before_failure, memory_order_relaxed) == SIZE_MAX)
@@ -100,7 +100,7 @@ char *nh_strdup(const char *text)
     return memcpy(nh_alloc(size), text, size);
 }
 
-/* The second number of this file counts pages (proc(5)). */
+/* The second number of /proc/self/statm counts resident pages (proc(5)). */
 double nh_memory_in_use(void)
 {
     char text[100];
@@ -180,7 +180,7 @@ static void *alloc_large(nh_arena *arena, size_t size)
         own->next = arena->first->next;
         arena->first->next = own;
     } else {
-        arena->first = own; /* used == capacity == 0: nothing more goes into it */
+        arena->first = own; /* used == capacity == 0: the block is full from the start */
     }
     return own->memory;
 }

@@ -1,8 +1,9 @@
 /* memory: allocation that either succeeds or does not return, and arenas.
  *
  * A library that checks every small allocation by hand has mostly untested branches.  Here an allocation that fails
- * gives up the run of this thread (base/recovery.h), as the functions of nhsym.h want it; outside of a run it calls the
- * handler of the program (that of the command line ends the process with exit code 5); without one it aborts. */
+ * gives up the run of this thread (base/recovery.h), so that the functions of nhsym.h can report it; outside of a run
+ * it calls the handler of the program (that of the command line ends the process with exit code 5); without a handler
+ * it aborts. */
 #ifndef NH_MEMORY_H
 #define NH_MEMORY_H
 
@@ -14,11 +15,12 @@ typedef void nh_memory_handler(size_t wanted);
 
 /* Called when memory runs out outside of every run; must not return. */
 void nh_memory_set_handler(nh_memory_handler *handler);
-/* What an allocation that fails does. */
+/* Called after a failed allocation of `wanted` bytes; does not return. */
 _Noreturn void nh_memory_ended(size_t wanted);
-/* What another library has allocated; where it is NULL, memory has ended. */
+/* Passes on what another library has allocated; NULL is treated as a failed allocation. */
 void *nh_memory_got(void *pointer);
-/* For tests: the allocation after so many more fails, once; SIZE_MAX: none.  What was left of the number before. */
+/* For tests: lets the allocation after `allocations` more allocations fail, once; SIZE_MAX: none.  Returns what was
+ * left of the number before. */
 size_t nh_memory_fail_after(size_t allocations);
 
 void *nh_alloc(size_t size);                 /* zeroed; size 0 gives a valid pointer */

@@ -86,7 +86,7 @@
 
 typedef enum { NH_OPTION_real, NH_OPTION_whole } nh_option_kind;
 
-/* Old names: still read, and shown nowhere. */
+/* Old names: still read, but not shown. */
 #define NH_OPTION_OLD_TABLE(X)                       \
     X(stress_tolerance, robustness_tolerance)        \
     X(stress_error,     robustness_error)            \
@@ -106,13 +106,14 @@ typedef struct {
 #undef X
 } nh_options;
 
+/* Every option at its default. */
 void nh_options_default(nh_options *options);
 
 /* "name=value" or a name and a value; unknown names, values out of range and fractions of what is whole are refused
    with a suggestion. */
 bool nh_options_set(nh_options *options, const char *name, const char *value, nh_error *error);
 
-/* The name of an option that may be given by its old one; any other word as it is. */
+/* Today's name of an option that is given by an old name; any other word unchanged. */
 const char *nh_option_name(const char *word);
 
 /* For documentation and help. */

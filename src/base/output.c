@@ -41,7 +41,7 @@ static bool write_directly(const char *path, const char *text, size_t length, nh
 
 static void forget(nh_leaving *leaving) { unlink(((nh_output_file *)leaving)->temporary); }
 
-/* The temporary file, open; it does not stay behind when the process ends at once. */
+/* The temporary file, opened; it is removed when the process ends early. */
 static int open_beside(const char *path, nh_output_file *out)
 {
     nh_leave_hold();
@@ -53,8 +53,8 @@ static int open_beside(const char *path, nh_output_file *out)
     return file;
 }
 
-/* A temporary file beside `path` with the whole text on the disk; *direct: it was written to `path` itself, which is no
-   regular file. */
+/* Writes the whole text to a temporary file beside `path` and to the disk. *direct: `path` is no regular file, and the
+ * text was written to it directly. */
 static bool write_beside(const char *path, const char *text, size_t length, nh_output_file *out, bool *direct,
                          nh_error *error)
 {

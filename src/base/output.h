@@ -5,28 +5,31 @@
 #include "base/error.h"
 #include "base/leave.h"
 
-/* Write to a temporary file beside `path`, flush it to the disk, then rename.  On any failure an old file stays. */
+/* Writes to a temporary file beside `path`, flushes it to the disk, then renames it.  After any failure an old file is
+ * unchanged. */
 bool nh_output_write(const char *path, const char *text, size_t length, nh_error *error);
 
 /* Files that belong together: all are on the disk, beside their places, before the first is renamed, so that a full
    disk leaves all old ones. */
 enum { NH_OUTPUT_LONGEST = 4200 };
 typedef struct nh_output_file {
-    nh_leaving leaving; /* first: the temporary file does not stay behind */
+    nh_leaving leaving; /* first member: the temporary file is removed when the process ends early */
     struct nh_output_file *next;
     char path[NH_OUTPUT_LONGEST], temporary[NH_OUTPUT_LONGEST];
 } nh_output_file;
 typedef struct {
     nh_output_file *first, *dropped;
 } nh_output_set;
+/* Writes the text beside `path` and adds it to the set, which begins as {0}.  False when it could not be written; the
+ * set stays valid, and nh_output_end is called in any case. */
 bool nh_output_add(nh_output_set *set, const char *path, const char *text, size_t length, nh_error *error);
 /* An old file that the new ones make wrong: it is removed after they have taken their places. */
 void nh_output_drop(nh_output_set *set, const char *path);
-/* With `keep` the new files take the places of the old ones; else they are removed.  False when it did not, or one
-   could not. */
+/* With `keep` the new files take the places of the old ones; otherwise they are removed.  False when the new files did
+ * not take their places, or when a file could not be removed. */
 bool nh_output_end(nh_output_set *set, bool keep, nh_error *error);
 
-/* Could `path` be written, so far as this can be known before there is anything to write? */
+/* Can `path` be written, so far as this can be known before there is anything to write? */
 bool nh_output_possible(const char *path, nh_error *error);
 
 #endif

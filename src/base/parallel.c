@@ -14,17 +14,17 @@ enum { most_threads = 64 };
 
 /* ---- without memory ----
  *
- * A thread that works for another one, which is within a run (base/recovery.h), does so in a run of its own; where that
- * is given up the other thread gives up its run, too, when it has no thread any more that works for it. */
+ * A thread that works for another thread's run (base/recovery.h) has a run of its own.  When that is given up, the
+ * other thread gives up its run, too, as soon as no thread works for it any more. */
 
 typedef struct {
-    bool recovers; /* the other thread is within a run */
-    atomic_size_t wanted; /* bytes, by a run that was given up; 0: none was */
+    bool recovers; /* the thread that asked for the work is within a run */
+    atomic_size_t wanted; /* bytes wanted by a run that was given up; 0: none was */
 } rescue;
 
 static rescue rescue_here(void) { return (rescue){.recovers = nh_recovery_here()}; }
 
-/* False: it was given up. */
+/* False: the run was given up. */
 static bool do_rescued(rescue *r, void (*job)(void *), void *data)
 {
     if (!r->recovers) return job(data), true;
@@ -257,7 +257,7 @@ bool nh_interruptible(void (*job)(void *), void (*release)(void *), void *contex
                   .lock = PTHREAD_MUTEX_INITIALIZER,
                   .ended = PTHREAD_COND_INITIALIZER};
     pthread_t thread;
-    if (pthread_create(&thread, NULL, go, e)) { /* then it cannot be left */
+    if (pthread_create(&thread, NULL, go, e)) { /* then it cannot be left alone */
         errand_free(e);
         job(context);
         return true;

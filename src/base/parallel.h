@@ -30,11 +30,12 @@ enum { NH_CHECKED = 1 };
 enum { NH_CHECKED = 0 };
 #endif
 
-/* As many as are wanted; 0: one for each processor that the process may use. */
+/* The number of threads for an option of this value: the value itself, or, for 0, one for each processor that the
+ * process may use. */
 size_t nh_threads(double wanted);
 
-/* job(context) beside the caller, who must wait for its end and release it by nh_aside_end (NULL: nothing to wait for).
- * When no thread can be started it is done at once. */
+/* Runs job(context) beside the caller, who waits for its end and releases it by nh_aside_end (which accepts NULL).
+ * When no thread can be started the job is done at once, and NULL is returned. */
 typedef struct nh_aside nh_aside;
 nh_aside *nh_aside_begin(void (*job)(void *context), void *context);
 void nh_aside_end(nh_aside *aside);
@@ -45,8 +46,8 @@ void nh_aside_end(nh_aside *aside);
  * context is still the caller's. */
 bool nh_interruptible(void (*job)(void *context), void (*release)(void *context), void *context);
 
-/* How many of them still run without a caller.  While there are any the process must not end by exit(): OpenBLAS then
- * waits for its own threads for ever.  _exit() is safe. */
+/* How many abandoned jobs still run.  While there are any the process must not end by exit(), because OpenBLAS then
+ * waits for its own threads for ever; _exit() is safe. */
 size_t nh_jobs_left(void);
 
 #endif

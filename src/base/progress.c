@@ -63,7 +63,7 @@ void nh_limit_pass(void)
 
 void nh_deadline_set(double seconds)
 {
-    static const double part = 0.6; /* the rest is for certificates, a motion and what is written */
+    static const double part = 0.6; /* the rest of the time is for certificates, a motion and the output */
     nh_context *c = nh_context_here();
     double now = nh_clock();
     c->deadline = isfinite(seconds) ? now + part * fmax(0, c->limit - now) : INFINITY;

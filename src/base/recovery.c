@@ -6,7 +6,7 @@ typedef struct recovery recovery;
 struct recovery {
     jmp_buf   at;
     recovery *around;
-    uint64_t  number; /* of the last undo before it */
+    uint64_t  number; /* number of the last undo that was added before the run */
 };
 
 static _Thread_local recovery *innermost;

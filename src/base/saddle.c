@@ -5,7 +5,7 @@
 
 #include "base/linalg.h"
 
-/* The power of two nearest to 1/sqrt(x) or below; 1 where x gives none. */
+/* The power of two nearest to 1/sqrt(x) or below; 1 where x is not positive and finite. */
 static double root_scale(double x) { return x > 0 && isfinite(x) ? ldexp(1, -(int)ceil(log2(x) / 2)) : 1; }
 static double scale(double x) { return x > 0 && isfinite(x) ? ldexp(1, -ilogb(x)) : 1; }
 

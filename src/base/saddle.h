@@ -5,15 +5,15 @@
  *
  * such as accelerations and multipliers come from.  Rows and columns are scaled first: K_ij/(K_ii K_jj)^(1/2), whose
  * condition number no other scaling makes smaller by more than the factor m when K is positive [VanDerSluis1969], and
- * rows of F of size one.  So a light body beside a heavy one, or a unit, is no singularity.  The factors are powers of
- * two: scaling rounds nothing. */
+ * rows of F of size one.  So a light body beside a heavy one, or another unit of length, does not make the matrix look
+ * singular.  The factors are powers of two: scaling rounds nothing. */
 #ifndef NH_SADDLE_H
 #define NH_SADDLE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Length of the work memory. */
+/* Length of the work memory, in doubles. */
 size_t nh_saddle_work(size_t m, size_t k);
 
 /* a (m) and mu (k; may be NULL); *rcond gets the reciprocal condition number of the scaled matrix (may be NULL).  False

@@ -50,8 +50,8 @@ static char *read_file(const char *path)
     return out;
 }
 
-/* The lines behind the head, each ended by 0, and how many there are: at most as many as the unit has items. Their
- * start, or NULL where the file is none of this sweep. */
+/* The lines behind the head, each ended by 0; *count: how many, at most as many as the unit has items.  Returns the
+ * first one, or NULL where the file is not of this sweep. */
 static char *cut_lines(const nh_sweep *s, size_t unit, char *text, size_t *lines, bool *finished)
 {
     nh_text head;
@@ -68,7 +68,7 @@ static char *cut_lines(const nh_sweep *s, size_t unit, char *text, size_t *lines
     return start;
 }
 
-/* The lines of the unit's file, which the caller frees by *text; NULL: there is none, or none that is finished. */
+/* The lines of the unit's file; the caller frees *text.  NULL: there is no file, or no finished one. */
 static char *finished_lines(const nh_sweep *s, size_t unit, char **text)
 {
     nh_text path;
@@ -125,7 +125,7 @@ static bool write_unit(const nh_sweep *s, size_t unit, const char *ending, const
     return good;
 }
 
-/* What an interrupted run left of this unit. */
+/* Reads what an interrupted run left of this unit. */
 static size_t take_part(const nh_sweep *s, size_t unit, nh_text *lines)
 {
     nh_text path;
@@ -183,13 +183,13 @@ static size_t missing(const nh_sweep *s, size_t *unit)
     return n;
 }
 
-/* The same words from first to last: a log has a line now and then, not one for every item. */
+/* The same words from first to last: a log then has a line now and then, and not one for every item. */
 void nh_sweep_say(const nh_sweep *s, size_t done, size_t all)
 {
     nh_progress(s->doing, all ? (double)done / (double)all : 1);
 }
 
-/* What an item says of itself would hide how far the whole has come. */
+/* An item's own reports would hide how far the whole sweep is. */
 static nh_progress_handler *be_quiet(void **context)
 {
     nh_context *c = nh_context_here();
@@ -215,7 +215,7 @@ static bool do_here(const nh_sweep *s, size_t n, const size_t *unit, nh_error *e
     return good;
 }
 
-/* Numbers from the team are units, whoever finished them before. */
+/* The team gives out numbers of units, including those that were finished before. */
 static bool do_in_team(const nh_sweep *s, nh_error *error)
 {
     atomic_size_t done = 0;
@@ -239,7 +239,7 @@ bool nh_sweep_run(const nh_sweep *s, nh_sweep_state *state, nh_error *error)
     *state = (nh_sweep_state){0};
     if (s->team && s->team->size > 1) good = do_in_team(s, error);
     if (s->team && s->team->size > 1) s->team->meet(s->team->context);
-    bool whole = !s->team || s->team->rank == 0; /* what was lost in a team is done by its first */
+    bool whole = !s->team || s->team->rank == 0; /* the first process of a team computes what others lost */
     for (int round = 0; good && whole && round < rounds && !nh_interrupted(); round++) {
         if (!(n = missing(s, unit))) break;
         good = s->workers > 1 && n > 1 ? nh_sweep_do_in_workers(s, n, unit, state, error) : do_here(s, n, unit, error);

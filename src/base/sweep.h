@@ -5,8 +5,8 @@
  * can be ended at any moment and continued, on any number of processes and machines that share the folder: the lines
  * are the same. What a unit is depends on `per_unit` alone, and the lines do not depend on it.
  *
- * A unit file begins with the fingerprint of the sweep and ends with a line that says so. A unit that was interrupted
- * leaves the lines that it has in a file that ends in `.part`. */
+ * A unit file begins with the fingerprint of the sweep and ends with a line that says that it is complete.  A unit that
+ * was interrupted leaves the lines that it has in a file that ends in `.part`. */
 #ifndef NH_SWEEP_H
 #define NH_SWEEP_H
 
@@ -14,8 +14,8 @@
 #include "base/text.h"
 #include "base/error.h"
 
-/* Processes of one run on many machines: the number of this process, how many there are, the next number that no
- * process has taken since the last meeting, and a meeting of all. */
+/* Processes of one run on many machines: the rank of this process, how many there are, next() returns the next number
+ * that no process has taken since the last meeting, and meet() waits until all processes call it. */
 typedef struct {
     size_t rank, size;
     size_t (*next)(void *context);
@@ -24,8 +24,8 @@ typedef struct {
 } nh_team;
 
 typedef struct {
-    const char *folder;       /* of the unit files; it exists */
-    const char *name;         /* with which their names begin */
+    const char *folder;       /* folder of the unit files; it exists */
+    const char *name;         /* the beginning of their names */
     const char *fingerprint;  /* one line: what the answers depend on */
     const char *doing;        /* for progress reports */
     size_t items, per_unit;
@@ -38,20 +38,21 @@ typedef struct {
     void *context;
 } nh_sweep;
 
-/* What is there afterwards, of the chunk. */
+/* The state of the chunk afterwards. */
 typedef struct {
-    size_t units, finished;   /* their number, and of those that are finished */
+    size_t units, finished;   /* number of units, and how many are finished */
     size_t deaths;            /* workers that ended before their work did */
-    char death[120];          /* how the last one did */
+    char death[120];          /* how the last of them ended */
 } nh_sweep_state;
 
-/* Computes what is missing. False: a file could not be written; what is finished is kept. */
+/* Computes the units that are missing.  False: a file could not be written; finished units are kept. */
 bool nh_sweep_run(const nh_sweep *sweep, nh_sweep_state *state, nh_error *error);
-/* The lines of all items of the chunk, in the arena; NULL where there is none yet. Returns how many there are. */
+/* The lines of all items of the chunk, in the arena; NULL where there is none yet.  Returns the number of items. */
 size_t nh_sweep_read(const nh_sweep *sweep, nh_arena *arena, const char **line);
 
-/* Processes that work in a folder hold it; -1 where this cannot be known. Whoever is alone there may remove files that
- * were never finished, of processes that are no more, whose names begin with `name`. */
+/* nh_sweep_hold marks that this process works in the folder, and returns a handle (-1 where the file system cannot
+ * tell).  A process that is alone there (nh_sweep_is_alone) may remove unfinished files of ended processes whose names
+ * begin with `name` (nh_sweep_tidy). */
 int nh_sweep_hold(const char *folder);
 bool nh_sweep_is_alone(int hold);
 void nh_sweep_tidy(const char *folder, const char *name);

@@ -1,8 +1,8 @@
 /* sweep_workers: the units of a sweep shared by processes of one machine.
  *
- * A worker is a copy of this process. It takes the next unit from memory that all share, until there are no more. One
- * that dies costs the unit it was at: another takes its place, and the unit is done in the next round. Workers notice
- * that the process that began them is gone, and end. */
+ * A worker is a copy of this process.  It takes the next unit from memory that all share, until there are no more.
+ * When one dies, another takes its place, and the unit that it was computing is repeated in the next round.  Workers
+ * end when the process that started them has ended. */
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -64,7 +64,7 @@ static bool start(pool *p)
     return pid > 0;
 }
 
-/* A worker that has ended takes leave of the list: was it before its time? */
+/* Removes a worker that has ended from the list; returns whether it ended before its work was done. */
 static bool died(pool *p, size_t k, int status, nh_sweep_state *state)
 {
     p->worker[k] = p->worker[--p->running];
@@ -88,7 +88,7 @@ static void pause_shortly(void)
     nanosleep(&moment, NULL);
 }
 
-/* Until all have ended. */
+/* Waits until all workers have ended. */
 static void attend(pool *p, nh_sweep_state *state)
 {
     size_t spare = 2 * p->running; /* workers that may be replaced in this round */

@@ -68,8 +68,8 @@ void nh_text_addf(nh_text *text, const char *format, ...)
 /* ---- numbers ----
  *
  * 15 digits are what a decimal survives, 17 what a double needs; the first that reads back is the shortest.  Output is
- * mostly numbers, and printf takes longest: so digits of usual sizes come from integers of 128 bits, and of others
- * it is asked once, for 17 digits, and fewer are found by rounding those. */
+ * mostly numbers, and printf takes longest: so the digits of numbers of usual size come from integers of 128 bits.  For
+ * other numbers printf is asked once, for 17 digits, and those are rounded to fewer. */
 
 enum { most_digits = 17, least_digits = 15 };
 __extension__ typedef unsigned __int128 nh_wide;
@@ -81,7 +81,7 @@ typedef struct {
     char digit[most_digits];
 } decimal;
 
-/* A number whose decimals need no more than 128 bits: mantissa / 2^shift, both exact. */
+/* A number whose decimals need at most 128 bits: mantissa / 2^shift, both exact. */
 typedef struct {
     uint64_t mantissa;
     int shift;
@@ -148,7 +148,7 @@ static decimal decimal_of(double value, int count)
     return d;
 }
 
-/* As many of its digits; a tie of what is left over is the value's own matter. */
+/* Rounds to so many of its digits; the value itself decides a tie. */
 static decimal rounded(const decimal *d, int count, double value)
 {
     decimal out = *d;
@@ -186,7 +186,7 @@ static void put_exponential(char *out, const decimal *d, int count)
     *out = '\0';
 }
 
-/* As printf's %g. */
+/* The layout of printf's %g. */
 static void put_decimal(char *out, const decimal *d)
 {
     int count = d->count, whole = d->exponent + 1;
@@ -221,7 +221,8 @@ static bool reads_back(const decimal *d, double value)
 {
     char text[32];
     binary b;
-    bool even_steps = short_enough(value, &b) && b.mantissa != (uint64_t)1 << 52; /* below a power of 2 they halve */
+    /* the neighbour below a power of 2 is half as far */
+    bool even_steps = short_enough(value, &b) && b.mantissa != (uint64_t)1 << 52;
     if (even_steps) return nearest(&b, d);
     put_exponential(text, d, d->count);
     return strtod(text, NULL) == value;
@@ -309,7 +310,7 @@ bool nh_text_to_ratio(const char *text, double *out)
     return true;
 }
 
-enum { WORD_MAX = 63 }; /* longer words are no typing errors of each other */
+enum { WORD_MAX = 63 }; /* longer words are not compared */
 
 static char lower(char c)
 {
@@ -345,7 +346,7 @@ static size_t distance(const char *a, size_t na, const char *b, size_t nb)
     return row[na % 3][nb];
 }
 
-/* How many letters both begin with. */
+/* How many first letters both have in common. */
 static size_t common_start(const char *a, const char *b)
 {
     size_t n = 0;
@@ -353,8 +354,8 @@ static size_t common_start(const char *a, const char *b)
     return n;
 }
 
-/* Could `candidate` have been meant?  Not if every letter differs: `q` is no misspelt `y`.  A beginning, as `coord`,
- * and a longer one with another last letter, as `coords`, are taken for the word. */
+/* Can `candidate` have been meant?  Not if every letter differs: `q` is no misspelt `y`.  A beginning of it, as
+ * `coord`, and a longer word with another last letter, as `coords`, are taken for it. */
 static bool near_enough(const char *word, size_t nw, const char *candidate, size_t nc, size_t apart)
 {
     size_t allowed = nw <= 4 ? 1 : nw <= 8 ? 2 : 3;

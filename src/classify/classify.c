@@ -1,4 +1,5 @@
-/* Special values of one parameter: chi at two points modulo several primes, lifted, and every root counted. */
+/* Special values of one parameter: chi is computed at two points modulo several primes and lifted to the rationals;
+ * integrals are counted at every root. */
 #include <math.h>
 #include <string.h>
 
@@ -72,7 +73,7 @@ bool nh_classify_roots(search *s, size_t degree, size_t prime, nh_classify_row *
     return good;
 }
 
-/* Residues modulo the primes so far, for those of one degree and one nullity. */
+/* Residues modulo the primes so far: one list for each degree and nullity. */
 typedef struct {
     size_t count, nullity;
     nh_prime prime[NH_CLASSIFY_MOST_PRIMES];
@@ -85,8 +86,8 @@ static void clear(residues *r)
     r->count = 0;
 }
 
-/* A prime at which the degree or the nullity is another is unlucky: the first one, when the second disagrees, otherwise
- * the new one. */
+/* A prime at which the degree or the nullity differs is unlucky: the first one, when the second disagrees with it,
+ * otherwise the new one. */
 static void add(residues *r, nh_prime prime, nh_residue_polynomial p, size_t nullity)
 {
     bool other = r->count && (r->residue[0].degree != p.degree || r->nullity != nullity);
@@ -100,7 +101,7 @@ static void add(residues *r, nh_prime prime, nh_residue_polynomial p, size_t nul
     r->residue[r->count++] = p;
 }
 
-/* Modulo these the roots of both are numbers. */
+/* Modulo these primes the roots of both are numbers. */
 static bool in_both(const residues *a, const residues *b, size_t i)
 {
     bool both = false;
@@ -143,7 +144,7 @@ static void take_values(search *s, const nh_special_factors *factors, bool degen
     for (size_t k = 0; k < factors->factors; k++) value_of(s, &factors->factor[k])->degenerate |= degenerate;
 }
 
-/* The integrals of this degree at every value that was found so far. */
+/* Counts the integrals of this degree at every value that was found so far. */
 static void count_values(search *s, size_t degree)
 {
     const nh_classify_row *row = &s->out->row[degree - 1];
@@ -179,8 +180,8 @@ static void choose_angle(nh_jet_point *point, nh_ex coordinate, int64_t q0)
     }
 }
 
-/* Whole coordinates at which the nullity modulo a prime is that of the random points, and how long special values can
-   be. */
+/* Searches whole coordinates at which the nullity modulo a prime is that of the random points, and bounds the length of
+ * special values. */
 static bool bound_at(search *s, size_t degree, const nh_classify_row *row, int64_t *q0, nh_special_bound *out)
 {
     nh_jet_equations *x = s->family.counter.equations;
@@ -209,7 +210,7 @@ static bool bound_at(search *s, size_t degree, const nh_classify_row *row, int64
     return found;
 }
 
-/* The nullities of both parities are the number of integrals: degree - 1 has the other one. */
+/* The numbers for both parities add up to the number of integrals; degree - 1 has the other parity. */
 static bool is_number(const search *s, size_t degree, const nh_classify_row *row)
 {
     size_t other = !row->split ? 0 : degree == 1 ? 1 : s->out->row[degree - 2].nullity;
@@ -248,7 +249,7 @@ static void exclude_all(search *s, size_t degree, const residues *excluded, cons
     row->theorem = have > need && (degree == 1 || !row->split || s->out->row[degree - 2].theorem);
 }
 
-/* Modulo more and more primes, until they are numbers. */
+/* Takes more primes until the values are known as rational or algebraic numbers. */
 static bool find_values(search *s, size_t degree, nh_classify_row *row)
 {
     residues excluded = {0}, degenerate = {0};
@@ -299,7 +300,7 @@ static void run(search *s)
         s->products = s->q->products;
         good = good && find_values(s, degree, &row) && !nh_late();
         if (s->q->linear && row.number.bound == 0) row.known = 0;
-        /* the other parity was looked at one degree lower */
+        /* the other parity was examined one degree lower */
         if (c->rows) row.height = fmin(row.height, c->row[c->rows - 1].height);
         if (!good) {
             c->end = s->family.obstacle ? s->family.obstacle : nh_late() ? "time" : !row.number.bounded ? "work"

@@ -1,5 +1,4 @@
-/* How many integrals there are at one value of the parameters: as in the count of one system, at one point modulo one
- * prime. */
+/* The number of integrals at one value of the parameters, counted as for one system, at one point modulo one prime. */
 #include <string.h>
 
 #include "base/progress.h"
@@ -43,7 +42,7 @@ nh_parametric_series *nh_classify_series(search *s, nh_prime f, uint64_t seed, s
 
 /* ---- how many integrals at one value ---- */
 
-/* The residues of the values modulo this prime; false: they have none. */
+/* The residues of the values modulo this prime; false where a value has none. */
 static bool residue_of(search *s, const place *p, nh_prime f, nh_residue *out)
 {
     uint64_t random = f.p;
@@ -62,7 +61,7 @@ static bool residue_of(search *s, const place *p, nh_prime f, nh_residue *out)
     return p->kind != NH_CLASSIFY_ROOT || nh_special_root(p->root, f, out);
 }
 
-/* N for each order, as in the count of one system. */
+/* N for each order. */
 static bool totals(search *s, const nh_parametric_series *x, const nh_residue *values, size_t degree, size_t *total,
                    nh_classify_number *out)
 {
@@ -97,7 +96,7 @@ static bool totals(search *s, const nh_parametric_series *x, const nh_residue *v
     return good;
 }
 
-/* P at one value, of one order. */
+/* P at one value, for series of one order. */
 static bool dimension_at(search *s, nh_prime f, size_t level, size_t order, const place *p, nh_residue lambda,
                          size_t *out)
 {
@@ -111,7 +110,7 @@ static bool dimension_at(search *s, nh_prime f, size_t level, size_t order, cons
     return good;
 }
 
-/* The same for orders that grow, as below. What brackets of fields say is seen one order later than they are long. */
+/* P for growing orders.  Brackets of length k take effect one order above k. */
 static void dimension(search *s, nh_prime f, size_t level, const place *p, nh_residue lambda, size_t least,
                       nh_classify_number *out)
 {
@@ -127,7 +126,8 @@ static void dimension(search *s, nh_prime f, size_t level, const place *p, nh_re
     out->settled |= out->bounded && out->bound == 0;
 }
 
-/* The first prime modulo which the values have residues; of the other primes too, where the equations have no roots. */
+/* The first prime modulo which the values, and those of the other parameters, have residues, where the equations have
+ * no roots. */
 static bool prime_of(search *s, const place *p, nh_prime *f, nh_residue *lambda)
 {
     const nh_jet_point *point = s->family.counter.equations->point;
@@ -160,7 +160,7 @@ bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, s
          && !nh_late(); order += step + 1) {
         nh_parametric_series *x = nh_classify_series(s, f, 7 + degree, order);
         if (!x) break;
-        if (step != nh_parametric_step(&s->family)) { /* only now it is known */
+        if (step != nh_parametric_step(&s->family)) { /* the order is known only now */
             step = nh_parametric_step(&s->family);
             order = degree * step - step + first_beyond - 1;
             nh_parametric_series_free(x);

@@ -1,4 +1,5 @@
-/* Common zeros modulo a prime with FLINT's polynomials in two variables; resultants from their values. */
+/* Common zeros modulo a prime, by FLINT's polynomials in two variables; resultants are interpolated from their
+ * values. */
 #include "classify/common_curves.h"
 
 #include <flint/nmod_mpoly.h>
@@ -53,14 +54,14 @@ nh_residue_surface nh_residue_surface_times(nh_prime f, const nh_residue_surface
 
 /* ---- common factors ---- */
 
-/* The greatest common factor of all. */
+/* The greatest common divisor of all of them. */
 static void common(nmod_mpoly_t out, size_t count, nmod_mpoly_t *p, const nmod_mpoly_ctx_t ctx)
 {
     nmod_mpoly_zero(out, ctx);
     for (size_t k = 0; k < count && !nmod_mpoly_is_one(out, ctx); k++) nmod_mpoly_gcd(out, out, p[k], ctx);
 }
 
-/* Every factor once. */
+/* The squarefree part. */
 static void without_multiplicity(nmod_mpoly_t p, const nmod_mpoly_ctx_t ctx)
 {
     nmod_mpoly_factor_t factors;

@@ -1,4 +1,4 @@
-/* Determinants of compressions: at values of mu as polynomials in lambda, and interpolated. */
+/* Determinants of compressions: polynomials in lambda at values of mu, interpolated to polynomials in both. */
 #include "classify/compression.h"
 
 #include <flint/nmod_mat.h>
@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 
-/* The coefficients of lambda^i at one mu, compressed: degree + 1 matrices. */
+/* The compressed coefficients of lambda^i at one mu: degree + 1 matrices. */
 typedef struct {
     size_t degree;
     slong size;
@@ -56,7 +56,7 @@ static void at_lambda(const square *s, nh_residue lambda, nmod_mat_t out)
     }
 }
 
-/* From values: degree x size + 1 determinants. */
+/* Interpolates from degree x size + 1 determinants. */
 static void by_values(const square *s, nh_prime f, nmod_poly_t out)
 {
     size_t count = s->degree * (size_t)s->size + 1;

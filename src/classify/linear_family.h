@@ -23,7 +23,8 @@ enum { NH_LINEAR_MOST_LEVELS = 8 };
 
 typedef struct {
     size_t unknowns;
-    size_t levels, equations[NH_LINEAR_MOST_LEVELS]; /* the first so many of the equations are those of a level */
+    /* the equations of each level: the first level[i].equations of all */
+    size_t levels, equations[NH_LINEAR_MOST_LEVELS];
     size_t known;            /* independent solutions for every value; SIZE_MAX: unknown */
     size_t low;              /* s */
     size_t step;             /* brackets of this length of fields in the equations span everything */

@@ -2,8 +2,8 @@
 
 #include "base/progress.h"
 
-/* Which Taylor coefficients are unknown, of each function: where no derivative occurs those of the highest order are
- * in no equation. */
+/* Which Taylor coefficients of each function are unknown: where no derivative occurs, those of the highest order are in
+ * no equation. */
 typedef struct {
     const nh_jet_ring *r;
     size_t kept, unknowns, rows, columns;
@@ -28,7 +28,7 @@ static layout layout_of(const nh_parametric *f, const nh_parametric_series *s, s
     return y;
 }
 
-/* What a series in front of d_k u_a (k = kept: of u_a) does: every entry goes to `put`. */
+/* The entries that a series in front of d_k u_a contributes (k = kept: in front of u_a); each goes to `put`. */
 typedef void entry_function(void *to, size_t row, size_t column, nh_residue value);
 
 static void add_series(const layout *y, size_t equation, size_t unknown, size_t k, const nh_residue *series,
@@ -85,7 +85,7 @@ bool nh_linear_pencil(const nh_parametric *f, const nh_parametric_series *s, siz
 
 /* ---- at one value ---- */
 
-/* The rank of a matrix without parameters, of the columns whose Taylor coefficient is one of order above s alone. */
+/* The rank of a matrix without parameters, restricted to the columns of Taylor coefficients of order above s. */
 static size_t rank_of(const nh_sparse_pencil *p, const layout *y, size_t low, double most, bool *good)
 {
     nh_sparse_pencil part = *p;

@@ -1,4 +1,4 @@
-/* Equations of motion as series at a point and at values of the parameters. */
+/* The equations of motion as series at a point, at values of the parameters. */
 #include <flint/nmod_mat.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@ enum { most_factors = 16, most_degree = 12, largest_series = 20000, most_paramet
 
 static nh_ex symbol_of(const nh_parametric *f) { return f->counter.equations->model->parameter[f->parameter]; }
 
-/* On one of the parameters. */
+/* Does e depend on one of the parameters? */
 static bool depends(const nh_parametric *f, nh_ex e)
 {
     const nh_jet_equations *x = f->counter.equations;
@@ -102,7 +102,8 @@ static bool in_equations(const nh_parametric *f, nh_ex symbol)
     return among(f, x->m, x->rho, symbol) || among(f, x->n * x->n, x->M, symbol) || among(f, x->n, x->A, symbol);
 }
 
-/* A density that is one function of a cyclic angle does not depend on it: the logarithm's derivative is constant. */
+/* A density that is a function of a cyclic angle alone does not depend on it: its logarithm has a constant
+ * derivative. */
 static bool is_kept(const nh_parametric *f, size_t k)
 {
     const nh_jet_equations *x = f->counter.equations;
@@ -111,8 +112,8 @@ static bool is_kept(const nh_parametric *f, size_t k)
     return !f->shape && !(f->linear && angle);
 }
 
-/* The coordinates of the series are those of the file: without constraints, and for the shape alone where there are no
- * fewer velocities than coordinates left. */
+/* The coordinates of the series are those of the file in systems without constraints, and of the shape alone where
+ * there are as many velocities as coordinates left. */
 static bool plain(const nh_parametric *f)
 {
     return f->linear || f->counter.equations->n == f->counter.equations->m ||
@@ -133,7 +134,7 @@ static void look(nh_parametric *f)
     nh_parametric_denominators(f, x->n * x->n, x->M, f->of_mass);
     nh_parametric_denominators(f, x->n, x->A, f->of_rest);
     nh_parametric_denominators(f, x->m, x->rho, of_rest);
-    for (size_t i = 0; i < f->factors; i++) { /* adj(q M) q A is free of what clears M already */
+    for (size_t i = 0; i < f->factors; i++) { /* adj(q M) q A is already free of the denominators of M */
         size_t more = f->of_rest[i] > f->of_mass[i] ? f->of_rest[i] - f->of_mass[i] : 0;
         f->of_rest[i] = more > of_rest[i] ? more : of_rest[i];
     }
@@ -227,7 +228,7 @@ static void times(const nh_jet_ring *r, nh_residue *sum, const nh_residue *facto
     memcpy(sum, work, r->size * sizeof *sum);
 }
 
-/* Q = (what clears M)^n det M (what else is needed) */
+/* Q = (denominator of M)^n det M (the other denominators) */
 static bool multiplier(nh_parametric *f, const nh_jet_ring *r, const nh_residue *coordinate, nh_residue *out)
 {
     nh_jet_equations *x = f->counter.equations;
@@ -245,7 +246,7 @@ static bool multiplier(nh_parametric *f, const nh_jet_ring *r, const nh_residue 
     return good && out[0];
 }
 
-/* Have the fields all directions of the coordinates that are kept? */
+/* Do the fields span the directions of all coordinates that are kept? */
 static bool spanned(const nh_parametric *f, const nh_jet_ring *r, const nh_residue *field)
 {
     const nh_jet_equations *x = f->counter.equations;
@@ -260,7 +261,7 @@ static bool spanned(const nh_parametric *f, const nh_jet_ring *r, const nh_resid
     return all;
 }
 
-/* The coordinates themselves, those that are left out at their values. */
+/* The series of the coordinates themselves; those that are left out keep their values. */
 static bool plain_series(nh_parametric *f, const nh_jet_ring *r, nh_residue *coordinate, nh_residue *field)
 {
     nh_jet_equations *x = f->counter.equations;

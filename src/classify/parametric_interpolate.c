@@ -9,8 +9,7 @@
 
 enum { most_values = 32 };
 
-/* Coefficients from values at distinct places (Newton's divided differences), in place: value[k] is that at
- * place[k]. */
+/* Newton's divided differences, in place: value[k] at place[k] become coefficients. */
 static void interpolate(nh_prime p, size_t count, const nh_residue *place, size_t length, nh_residue *value)
 {
     for (size_t step = 1; step < count; step++)
@@ -21,7 +20,7 @@ static void interpolate(nh_prime p, size_t count, const nh_residue *place, size_
                                                        nh_residue_sub(p, value[k * length + z],
                                                            value[(k - 1) * length + z]));
         }
-    for (size_t step = count - 1; step-- > 0;) /* Horner: (x - place[step]) times what is behind */
+    for (size_t step = count - 1; step-- > 0;) /* Horner: multiply the higher part by (x - place[step]) */
         for (size_t k = step; k + 1 < count; k++)
             nh_residue_add_multiple(p, length, value + k * length, value + (k + 1) * length,
                                     nh_residue_negative(p, place[step]));
@@ -38,7 +37,7 @@ static size_t highest(size_t count, size_t length, const nh_residue *value)
     return 0;
 }
 
-/* In lambda, at one value of mu: values at more and more places, until one of them is not needed. */
+/* Interpolates in lambda, at one value of mu: adds values until the last one changes nothing. */
 static bool in_lambda(nh_parametric *f, nh_parametric_series *s, nh_residue mu)
 {
     nh_prime p = s->ring->field;
@@ -76,7 +75,7 @@ static void entry(nmod_poly_t out, const nh_parametric_series *s, size_t z)
     for (size_t j = 0; j <= s->degree; j++) nmod_poly_set_coeff_ui(out, (slong)j, s->coefficient[j * s->length + z]);
 }
 
-/* Divide by the greatest common factor of all coefficients. */
+/* Divides by the greatest common divisor of all coefficients. */
 static void divide_content(nh_parametric_series *s)
 {
     nmod_poly_t content, e;
@@ -109,7 +108,7 @@ static void entry_of_two(nmod_mpoly_t out, const nh_parametric_series *s, size_t
         }
 }
 
-/* The same in as few powers as there are. */
+/* Drops the powers that are zero. */
 static void shrink(nh_parametric_series *s, size_t degree, size_t second)
 {
     size_t length = s->length;
@@ -158,7 +157,7 @@ static void divide_content_of_two(nh_parametric_series *s)
     nmod_mpoly_ctx_clear(ctx);
 }
 
-/* The coefficients in lambda at these values of mu, one after the other, as many as at the first. */
+/* The coefficients in lambda at these values of mu, one after the other, as many for each as at the first. */
 static bool columns(nh_parametric *f, nh_parametric_series *s, size_t count, const nh_residue *place, nh_residue **out)
 {
     bool good = in_lambda(f, s, place[0]);
@@ -172,7 +171,7 @@ static bool columns(nh_parametric *f, nh_parametric_series *s, size_t count, con
     return good;
 }
 
-/* At twice as many values of mu, until one of them is not needed. */
+/* Doubles the number of values of mu until the last one changes nothing. */
 static bool in_both(nh_parametric *f, nh_parametric_series *s)
 {
     uint64_t random = f->counter.equations->point->random + 177;

@@ -32,7 +32,7 @@ static bool any_depends(const nh_parametric *f, size_t n, const nh_ex *e)
     return any;
 }
 
-/* The equations of the motion are there, but nothing is asked of them. */
+/* The family's equations take the place of the equations of motion, which are open already. */
 void nh_parametric_linear_open(nh_parametric *f)
 {
     nh_jet_equations *x = f->counter.equations;
@@ -81,7 +81,7 @@ static void times(const nh_jet_ring *r, nh_residue *a, const nh_residue *b, nh_r
     memcpy(a, work, r->size * sizeof *a);
 }
 
-/* What clears the coefficients into `clear`, and its product with det M, cleared too, into Q. */
+/* The common denominator of the coefficients goes to `clear`; its product with det M, without denominators, to Q. */
 static bool multipliers(nh_parametric *f, nh_jet_eval *v, const nh_jet_ring *r, nh_residue *clear, nh_residue *Q)
 {
     size_t n = f->linear->n, e = r->size;

@@ -32,7 +32,7 @@ static monomials list(size_t n, size_t degree, nh_parity parity)
     return m;
 }
 
-/* The place of alpha = beta - shift, or SIZE_MAX. */
+/* The index of alpha = beta - shift, or SIZE_MAX. */
 static size_t find(const monomials *m, const uint8_t *beta, const int *shift)
 {
     for (size_t a = 0; a < m->count; a++) {
@@ -47,22 +47,22 @@ typedef struct {
     const nh_parametric_series *s;
     const nh_jet_ring *r;
     size_t n, fields;
-    size_t degree[2];        /* of the coefficients in lambda, in mu */
+    size_t degree[2];        /* degree of the coefficients in lambda, in mu */
     nh_residue *coefficient; /* in powers of lambda - origin, mu - origin */
     monomials alpha, beta;
     nh_parametric_variable variable[2];
-    int low[2], high[2];     /* powers that occur, after scaling */
-    size_t poles;            /* the degree of the scalar that everything is divided by; 0: it is not */
+    int low[2], high[2];     /* lowest and highest power that occur, after scaling */
+    size_t poles;            /* degree of the scalar that everything is divided by; 0: there is none */
     nh_residue *scalar;      /* poles + 1: monic */
-    size_t *slot, slots;     /* per row of the system: which auxiliary equations it has */
+    size_t *slot, slots;     /* per row of the system: the index of its auxiliary equations */
     nh_sparse_pencil *out;
 } assembly;
 
-/* A term of Gamma, of all powers: `at` is where its series begin among the coefficients. */
+/* A term of Gamma with all powers of the parameters: its series begin at `at` among the coefficients. */
 typedef struct {
     bool derivative;
     size_t index, at;
-    int shift[16];           /* what it adds to alpha */
+    int shift[16];           /* the exponent that it adds to alpha */
     int low[2], high[2];     /* powers that occur in it; low > high: none */
 } term;
 
@@ -116,7 +116,7 @@ static size_t list_terms(const assembly *x, term *out)
 
 /* ---- the variables ---- */
 
-/* Coefficients in powers of lambda - origin, or of mu - origin: Horner's scheme. */
+/* Rewrites coefficients in powers of lambda - origin, or of mu - origin, by Horner's scheme. */
 static void move_origin(assembly *x, int v, nh_residue origin)
 {
     size_t D = x->degree[v], others = x->degree[1 - v];
@@ -143,7 +143,7 @@ static int scaled_by(const assembly *x, const int *scale, const term *t)
 
 typedef struct {
     int low, high;
-    size_t constants[2];     /* terms of the lowest power alone, of the highest alone */
+    size_t constants[2];     /* terms that have the lowest power only, and the highest power only */
 } spread;
 
 static spread spread_of(const assembly *x, int v, size_t terms, const term *t, const int *scale)
@@ -164,8 +164,8 @@ static spread spread_of(const assembly *x, int v, size_t terms, const term *t, c
     return s;
 }
 
-/* Scales -1, 0, 1 of the velocities, and the variable or its reciprocal: the least degree, then the most constant
- * terms. */
+/* Chooses scales -1, 0, 1 of the velocities, and the variable or its reciprocal: the least degree, then the most
+ * constant terms. */
 static void choose_scale(assembly *x, int v, nh_residue origin, size_t terms, const term *t, bool *any, size_t *best)
 {
     size_t choices = 1;
@@ -197,8 +197,8 @@ static nh_residue root_of(nh_prime f, const nmod_poly_t p)
     return nh_residue_negative(f, nh_residue_mul(f, top, nh_residue_inverse(f, bottom)));
 }
 
-/* Where Q vanishes the equations mean nothing anyway: roots common to all of its coefficients are good origins.
- * Otherwise it is 0. `scalar`: Q is that common factor, times a function of the coordinates. */
+/* Chooses the origin.  Where Q vanishes the equations are singular anyway, so roots common to all coefficients of Q are
+ * good origins; otherwise 0.  `scalar`: Q is that common factor times a function of the coordinates. */
 static nh_residue singular_origin(assembly *x, int v, bool *scalar)
 {
     nmod_poly_t common, e;
@@ -226,7 +226,8 @@ static nh_residue singular_origin(assembly *x, int v, bool *scalar)
     return origin;
 }
 
-/* Everything divided by the scalar: what is whole stands behind the remainder, of lower powers than its degree. */
+/* Divides everything by the scalar: the quotient stands behind the remainder, whose powers are below the scalar's
+ * degree. */
 static void divide_by_scalar(assembly *x)
 {
     size_t length = x->s->length, D = x->s->degree;
@@ -240,7 +241,7 @@ static void divide_by_scalar(assembly *x)
     x->high[0] = (int)(D - x->poles);
 }
 
-/* One parameter after the other: what is chosen for one does not matter for the other. */
+/* Chooses the variables one after the other: the choice for one does not affect the other. */
 static void choose_variable(assembly *x, int v, size_t terms, term *t)
 {
     bool scalar;
@@ -321,7 +322,7 @@ static void close_auxiliary(assembly *x)
     if (x->slots && !x->out->degree) x->out->degree = 1;
 }
 
-/* `series` times x^power d/dz_index (derivative) or d/dw^index; `rest`: divided by the scalar. */
+/* Adds the entries of `series` times x^power d/dz_index (derivative) or d/dw^index; `rest`: divided by the scalar. */
 static void add_term(assembly *x, size_t power, bool rest, const term *t, const nh_residue *series)
 {
     const nh_jet_ring *r = x->r;
@@ -345,7 +346,7 @@ static void add_term(assembly *x, size_t power, bool rest, const term *t, const 
     }
 }
 
-/* The power of a variable in the pencil. */
+/* The power of a variable that stands for this power of the parameter in the pencil. */
 static size_t power_of(const assembly *x, int v, const term *t, int power)
 {
     power += scaled_by(x, x->variable[v].scale, t);

@@ -1,4 +1,5 @@
-/* Special curves and points of two parameters: determinants at three points modulo several primes, lifted. */
+/* Special curves and points of two parameters: determinants at three points modulo several primes, lifted to the
+ * rationals. */
 #include "classify/plane.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ typedef struct {
 
 /* ---- determinants ---- */
 
-/* x^low times the polynomial in the parameters, of which one in the pencil's variables is given; in place. */
+/* Multiplies by x^low and rewrites a polynomial in the pencil's variables as one in the parameters; in place. */
 static void back(nh_residue_surface *x, int v, const nh_parametric_variable *variable, nh_prime f)
 {
     size_t root = variable->reciprocal || variable->scaled, D = x->degree[v], width = x->degree[0] + 1;
@@ -49,7 +50,7 @@ static nh_residue_surface singular(const nh_parametric_series *x)
     return out;
 }
 
-/* A determinant at one point, times Q. */
+/* One determinant at one point, times Q. */
 static bool determinants(nh_classify_search *s, const nh_parametric_series *x, size_t degree, uint64_t seed,
                          nh_plane_row *row,
                          nh_residue_surface *out, nh_residue_surface *Q)
@@ -121,7 +122,7 @@ static bool alike(const residues *r, const nh_common_curves *c)
         && r->across[0].degree == c->across.degree;
 }
 
-/* A prime at which the degrees are others is unlucky: the first one, when the second disagrees, otherwise the new
+/* A prime at which the degrees differ is unlucky: the first one, when the second disagrees with it, otherwise the new
  * one. */
 static void add(residues *r, nh_prime prime, nh_common_curves *c)
 {
@@ -165,7 +166,7 @@ static void take_lines(nh_plane *o, size_t count, const nh_special_factor *facto
     }
 }
 
-/* As for one parameter: every prime divides the value of the product of all polynomials, times the denominators. */
+/* As for one parameter: every prime divides the value of the product of all polynomials times their denominators. */
 static double height(const residues *r, double norm)
 {
     double logarithm = -log(norm > 1 ? norm : 1);
@@ -194,7 +195,7 @@ static bool lift(search *s, const residues *r, nh_plane_row *row)
     return lifted;
 }
 
-/* Modulo more and more primes, until they are known. */
+/* Takes more primes until the curves and lines are known over the rationals. */
 static bool find_zeros(search *s, size_t degree, nh_plane_row *row)
 {
     residues r = {.count = 0};
@@ -233,7 +234,7 @@ void nh_plane_count_curves(nh_classify_search *s, nh_classify_kind kind, size_t 
     }
 }
 
-/* Is mu = top/bottom itself a curve? */
+/* Is the line mu = top/bottom itself one of the curves? */
 static bool is_curve(const nh_plane *o, int64_t top, int64_t bottom)
 {
     for (size_t k = 0; k < o->curves; k++) {
@@ -244,7 +245,7 @@ static bool is_curve(const nh_plane *o, int64_t top, int64_t bottom)
     return false;
 }
 
-/* Points that lie on a curve have to have more than it has. */
+/* A point on a curve is special only if it has more integrals than the curve. */
 static bool beyond_curves(const nh_plane *o, const nh_classify_value *v, int64_t top, int64_t bottom)
 {
     for (size_t k = 0; k < o->curves; k++) {
@@ -279,7 +280,7 @@ static void classify_line(search *s, size_t index)
 
 /* ---- degrees ---- */
 
-/* Beyond the largest determinant, by lines. */
+/* Beyond the largest determinant, lines are examined. */
 static bool sweep(search *s, size_t degree, nh_plane_row *row)
 {
     nh_plane_sweep x;

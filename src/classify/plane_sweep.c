@@ -1,4 +1,4 @@
-/* Lines mu = a/b on which more than the known curves is special. */
+/* Lines mu = a/b on which more than the points of known curves is special. */
 #include "classify/plane_sweep.h"
 
 #include <flint/nmod_poly.h>
@@ -11,7 +11,7 @@ typedef nh_classify_search search;
 
 /* ---- what is known on a line ---- */
 
-/* The known curves at this mu, as one polynomial in lambda modulo the prime. */
+/* The product of the known curves at this mu, as a polynomial in lambda modulo the prime. */
 static void known_at(const nh_plane_known *o, nh_residue mu, nh_prime f, nmod_poly_t out)
 {
     nmod_poly_t p;
@@ -32,7 +32,8 @@ static void known_at(const nh_plane_known *o, nh_residue mu, nh_prime f, nmod_po
     nmod_poly_clear(p);
 }
 
-/* |.|_1 of the same polynomial over the integers, at mu = top/bottom, without denominators; its degree is added. */
+/* The norm |.|_1 of the same polynomial over the integers, at mu = top/bottom, without denominators; its degree is
+ * added. */
 static double known_norm(const nh_plane_known *o, int64_t top, int64_t bottom, size_t *degree)
 {
     double norm = 1;
@@ -62,7 +63,7 @@ static void multiply(nmod_poly_t out, const nh_residue_polynomial *p)
 
 typedef enum { NOTHING, SOMETHING, ENDED } outcome;
 
-/* At the value of mu that the search holds: is anything special but points of known curves? */
+/* At the value of mu that the search holds: is anything special besides points of known curves? */
 static outcome look(search *s, const nh_plane_known *o, size_t degree, const nh_classify_number *number)
 {
     enum { prime = 0 };
@@ -113,7 +114,7 @@ static void add_line(nh_plane_sweep *out, int64_t top, int64_t bottom)
     f->coefficient[1] = bottom;
 }
 
-/* Every prime divides the value of the known polynomial times a denominator: as for one parameter. */
+/* Every prime divides the value of the known polynomial times a denominator, as for one parameter. */
 static void take_height(nh_plane_sweep *out, double p, const nh_plane_known *o, int64_t top, int64_t bottom)
 {
     size_t degree = 0;
@@ -138,7 +139,7 @@ static bool examine(search *s, nh_classify_question *q, const nh_plane_known *o,
 
 /* ---- all of them ---- */
 
-/* At a mu that is no number of importance. */
+/* Works at a mu that has no special meaning. */
 static bool curves_are_known(search *s, nh_classify_question *q, const nh_plane_known *o, size_t degree,
                              const nh_classify_number *number)
 {

@@ -1,4 +1,4 @@
-/* Special surfaces of three parameters, and where their curves and points can be: planes modulo primes, lifted. */
+/* Special surfaces of three parameters, and where special curves and points can lie: planes modulo primes, lifted. */
 #include "classify/space.h"
 
 #include <math.h>
@@ -11,18 +11,18 @@ enum { least_primes = 4, first_sections = 4, most_sections = 20, most_unlucky = 
 
 typedef struct {
     nh_classify_search s;
-    nh_classify_question question; /* whose nu moves */
+    nh_classify_question question; /* the question, of which nu is varied */
     nh_space *out;
 } search;
 
-/* The index-th nu, of no importance. */
+/* The index-th of some values of nu that have no special meaning. */
 static int64_t nu_at(size_t index) { return 7919 + 1009 * (int64_t)index; }
 
 /* ---- one prime ---- */
 
-/* Sections at several nu, of the same degrees. */
+/* Sections at several values of nu, all of the same degrees. */
 typedef struct {
-    size_t count, used;      /* used: of nu, the unlucky ones too */
+    size_t count, used;      /* used: number of values of nu taken, unlucky ones included */
     nh_residue nu[most_sections];
     nh_common_curves at[most_sections];
 } sections;
@@ -34,8 +34,8 @@ static bool alike(const nh_common_curves *a, const nh_common_curves *b)
         && a->across.degree == b->across.degree;
 }
 
-/* At a nu at which the degrees are others the section is an unlucky one: the first, when the second disagrees,
- * otherwise the new one. */
+/* A section whose degrees differ is unlucky: the first one, when the second disagrees with it, otherwise the new
+ * one. */
 static void add_section(sections *x, nh_residue nu, nh_common_curves *c)
 {
     if (x->count == 1 && !alike(&x->at[0], c)) nh_common_curves_clear(&x->at[--x->count]);
@@ -94,7 +94,7 @@ static bool interpolate(const sections *x, nh_prime f, volumes *out)
     return good;
 }
 
-/* More and more sections, until they are enough. */
+/* Takes more sections until they suffice. */
 static bool volumes_modulo(search *s, size_t degree, size_t prime, nh_plane_row *row, size_t *count, volumes *out)
 {
     sections x = {.count = 0};
@@ -131,7 +131,7 @@ static bool same_degrees(const residues *r, const volumes *v)
     return same;
 }
 
-/* Unlucky primes as in a plane. */
+/* Unlucky primes are treated as in a plane. */
 static void add(residues *r, nh_prime prime, volumes *v)
 {
     if (r->count == 1 && !same_degrees(r, v)) clear(r);
@@ -204,7 +204,7 @@ static nh_special_surface *known_of(const nh_space *o, bool walls, size_t *count
     return known;
 }
 
-/* Is anything special in the plane of the question but sections of what is known? */
+/* Is anything special in the plane of the question besides sections of known surfaces and walls? */
 static outcome look(search *s, size_t degree, const nh_plane_row *row, size_t prime)
 {
     nh_prime f = nh_classify_prime(&s->s, prime);
@@ -229,8 +229,8 @@ static outcome look(search *s, size_t degree, const nh_plane_row *row, size_t pr
     return nh_late() || s->s.products < 0 ? ENDED : covered ? NOTHING : SOMETHING;
 }
 
-/* The primes divide the value of the product of all polynomials, times the denominators, where a pair of rationals up
- * to the height is on none of them: as in a plane. */
+/* The primes divide the value of the product of all polynomials times their denominators, where a pair of rationals up
+ * to the height lies on none of them: as in a plane. */
 static double height_at(const nh_space *o, double logarithm, int64_t top, int64_t bottom)
 {
     static const double rounding = 1e-9;
@@ -259,7 +259,7 @@ static bool examine(search *s, size_t degree, nh_plane_row *row, int64_t top, in
     s->question.third_bottom = bottom;
     nh_progress("planes in the space of the parameters", -1);
     for (size_t k = 0; k < o->planes; k++)
-        if (nh_special_surface_same(&o->plane[k], &plane)) return true; /* it will be classified anyway */
+        if (nh_special_surface_same(&o->plane[k], &plane)) return true; /* this plane will be classified anyway */
     for (size_t prime = 0; prime < primes && found == NOTHING; prime++) {
         found = look(s, degree, row, prime);
         logarithm += log((double)nh_classify_prime(&s->s, prime).p);

@@ -6,9 +6,9 @@
  * *wall*, a cylinder over a curve in mu and nu. Both are polynomials in nu too, found from sections at several nu
  * (special_surfaces.h), lifted from several primes and factored. The integrals are counted on each surface.
  *
- * Curves and points of three parameters lie on surfaces, on walls, or in planes nu = constant. Planes in which more is
- * special than the sections of surfaces and walls are looked for among those with nu = a/b up to a height. What is
- * special inside of a surface, a wall or a plane is a question of two parameters.
+ * Curves and points of three parameters lie on surfaces, on walls, or in planes nu = constant.  Planes nu = a/b up to a
+ * height are examined for anything special besides sections of surfaces and walls.  Inside of a surface, a wall or a
+ * plane the question has two parameters.
  *
  * What is proved: in a plane that was looked at, a point that is special has, modulo each of the primes, residues on
  * one of the surfaces or walls, or no residues. A pair of rationals up to a `height` lies on one of them then. Nothing
@@ -25,8 +25,8 @@ typedef struct {
     nh_plane_curve *surface; /* special and degenerate ones, and ones on which A loses rank although there are not
                               * more integrals */
     nh_special_surface *wall;
-    nh_special_surface *plane; /* nu = a/b, in which something else may be special */
-    const char *obstacle, *end; /* as of a classification */
+    nh_special_surface *plane; /* planes nu = a/b in which something else may be special */
+    const char *obstacle, *end; /* as in nh_classification */
 } nh_space;
 
 /* `parameter` is lambda, `second` mu, `third` nu. */

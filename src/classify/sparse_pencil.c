@@ -16,14 +16,15 @@ typedef struct {
 } sparse_row;
 
 typedef struct {
-    size_t count, slopes;    /* rows with a term here; with one that depends on the parameters */
+    /* number of rows that have a term in this column, and of those whose term depends on the parameters */
+    size_t count, slopes;
     size_t rows, capacity;   /* the list may hold rows that have no term here any more */
     uint32_t *row;
 } sparse_column;
 
 typedef struct {
     nh_prime f;
-    size_t rows, columns, powers, stride; /* stride = 1 + powers: of a term */
+    size_t rows, columns, powers, stride; /* length of a term: 1 + powers */
     sparse_row *row;
     sparse_column *column;
     sparse_row work;
@@ -47,7 +48,7 @@ static int by_place(const void *a, const void *b)
     return (x->column > y->column) - (x->column < y->column);
 }
 
-/* Every entry as one of power 0 or 1, and the rows  y_i - lambda y_(i-1). */
+/* Writes every entry with power 0 or 1, and adds the rows y_i - lambda y_(i-1). */
 static size_t linear_entries(const nh_sparse_pencil *p, nh_prime f, nh_sparse_entry **out)
 {
     size_t D = p->degree ? p->degree : 1, count = 0;
@@ -91,7 +92,7 @@ static void leave_column(sparse *s, const uint32_t *t)
     s->column[t[0]].slopes -= moves(s, t);
 }
 
-/* Room for one more term, which is not counted before it is known to be there. */
+/* Makes room for one more term, which is counted later, when it is known to be nonzero. */
 static uint32_t *next(const sparse *s, sparse_row *r)
 {
     nh_grow(&r->term, &r->capacity, (r->count + 1) * s->stride, sizeof *r->term);
@@ -153,7 +154,7 @@ static const uint32_t *term_at(const sparse *s, const sparse_row *r, uint32_t co
     return low < r->count && *at(s, r, low) == column ? at(s, r, low) : NULL;
 }
 
-/* t -= factor times the term x of the pivot row, of which one depends on no parameter. */
+/* t -= factor times the term x of the pivot row; one of the two does not depend on the parameters. */
 static void subtract_term(const sparse *s, uint32_t *t, const nh_residue *factor, const uint32_t *x)
 {
     nh_prime f = s->f;
@@ -212,7 +213,7 @@ static void eliminate(sparse *s, uint32_t index, uint32_t column)
     nh_free(c.row);
 }
 
-/* The cheapest pivot of a row, its column; SIZE_MAX: none costs so little. */
+/* The column of the cheapest pivot of a row; SIZE_MAX: none is as cheap as allowed. */
 static size_t pivot_of(const sparse *s, const sparse_row *r, size_t most)
 {
     size_t best = SIZE_MAX;
@@ -227,7 +228,7 @@ static size_t pivot_of(const sparse *s, const sparse_row *r, size_t most)
     return best;
 }
 
-/* How many pivots there were. */
+/* Eliminates; returns the number of pivots. */
 static size_t eliminate_all(sparse *s)
 {
     size_t pivots = 0;
@@ -254,7 +255,7 @@ nh_sparse_pencil nh_sparse_pencil_reduce(const nh_sparse_pencil *p, nh_prime f)
     nh_sparse_pencil out = {.degree = p->second ? p->degree : 1, .second = p->second};
     out.pivots = eliminate_all(&s);
     uint32_t *to = nh_alloc_array(s.columns + 1, sizeof *to);
-    for (size_t j = 0; j < s.columns; j++) { /* columns without rows stay free for every value: they do not matter */
+    for (size_t j = 0; j < s.columns; j++) { /* columns without rows are free for every value and do not matter */
         to[j] = (uint32_t)out.columns;
         out.columns += s.column[j].count > 0;
     }

@@ -1,4 +1,4 @@
-/* The sizes of rows, from the terms of the equations of motion as polynomials. */
+/* Bounds for the sizes of rows, from the terms of the equations of motion as polynomials. */
 #include "classify/special_bound.h"
 
 #include <math.h>
@@ -32,7 +32,7 @@ typedef struct {
 
 /* ---- terms ---- */
 
-/* Exponents of one kernel: false where it is no coordinate, its sine or cosine, velocity or the parameter. */
+/* The exponents of one kernel: false where it is no coordinate, sine or cosine of one, velocity, or the parameter. */
 static bool put_exponent(const bound *b, nh_ex kernel, int64_t exponent, term *t)
 {
     const nh_jet_equations *x = b->x;
@@ -86,7 +86,7 @@ static double common_multiple(double a, int64_t b)
     return a / (double)x * (double)b;
 }
 
-/* The terms of one component; what it is divided by goes to D. False: more than whole numbers and monomials. */
+/* The terms of one component; its denominators join D.  False: it is not made of whole numbers and monomials. */
 static bool add_component(bound *b, nh_forms *forms, nh_arena *arena, nh_ex e, bool derivative, size_t index)
 {
     nh_form form;
@@ -116,7 +116,7 @@ static bool add_component(bound *b, nh_forms *forms, nh_arena *arena, nh_ex e, b
     return good;
 }
 
-/* D Gamma, only with derivatives along coordinates of the series. */
+/* D Gamma, with derivatives along coordinates of the series only. */
 static bool read(bound *b)
 {
     const nh_jet_equations *x = b->x;
@@ -156,14 +156,14 @@ static bool next(size_t n, size_t degree, size_t *e)
     return i < n;
 }
 
-/* Of the sine and cosine where the tangent of half the angle is u. */
+/* The size of sine and cosine where the tangent of half the angle is u. */
 static double denominator(int64_t q0)
 {
     double u = (double)nh_special_bound_tangent(q0);
     return 1 + u * u;
 }
 
-/* What one term adds to the row of w^beta and the derivative e. */
+/* The contribution of one term to the row of w^beta and the derivative e. */
 static double entry(const bound *b, const term *t, size_t degree, const size_t *beta, const size_t *e,
                     const int64_t *q0)
 {
@@ -193,7 +193,7 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Bits of the largest rows. */
+/* The number of bits of the largest rows. */
 static double largest(const bound *b, size_t degree, nh_parity parity, size_t order, const int64_t *q0, size_t rank)
 {
     size_t n = b->x->n, kept = b->family->kept, rows = 0, capacity = 0, beta[most_variables] = {0};

@@ -22,17 +22,17 @@
 #include "classify/parametric.h"
 
 typedef struct {
-    /* log2 of what leading coefficient and Mahler's measure of D(q0, lambda) m(lambda) are at most */
+    /* log2 of an upper bound for the leading coefficient and Mahler's measure of D(q0, lambda) m(lambda) */
     double bits;
-    double degree;           /* its degree is at most this */
+    double degree;           /* an upper bound for its degree */
 } nh_special_bound;
 
-/* Of the equations of this degree and parity up to the weight order - 1, at these coordinates, which are not zero.
- * False: D Gamma is not of this kind. */
+/* The bound for the equations of this degree and parity up to the weight order - 1, at these whole coordinates, none of
+ * them zero.  False: D Gamma is not of this kind. */
 bool nh_special_bound_find(const nh_parametric *family, size_t degree, nh_parity parity, size_t order,
                            const int64_t *coordinate, size_t rank, nh_special_bound *out);
 
-/* The tangent of half an angle where this coordinate is chosen. */
+/* The tangent of half the angle that is taken where this whole coordinate is chosen. */
 int64_t nh_special_bound_tangent(int64_t coordinate);
 
 #endif

@@ -121,7 +121,7 @@ void nh_special_surfaces_clear(nh_special_surfaces *s)
 
 /* ---- points ---- */
 
-/* At one value of a variable, as a polynomial in the other, modulo the prime. */
+/* The polynomial at one value of a variable, as a polynomial in the other variable, modulo the prime. */
 static nh_residue_polynomial restricted(const nh_special_curve *c, nh_prime f, int fixed, nh_residue value)
 {
     nh_residue_polynomial out = {.degree = c->degree[1 - fixed]};

@@ -6,7 +6,7 @@
 
 #include "classify/special_curves.h"
 
-/* From a polynomial in three variables.  False: it is too long for 64 bits. */
+/* Converts a polynomial in three variables.  False: a coefficient is too long for 64 bits. */
 bool nh_special_surface_take(nh_special_surface *out, const fmpz_mpoly_struct *p, const fmpz_mpoly_ctx_t ctx);
 
 #endif

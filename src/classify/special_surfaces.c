@@ -12,8 +12,8 @@
 
 /* ---- from sections to one polynomial ---- */
 
-/* The rational function with these values, as top/bottom with a monic bottom; false: they are too few. The remainders
- * of the extended Euclidean algorithm are bottom times the interpolating polynomial. */
+/* The rational function top/bottom with these values, bottom monic; false: there are too few values.  The remainders of
+ * the extended Euclidean algorithm are bottom times the interpolating polynomial. */
 static bool rational_function(nh_prime f, size_t count, const ulong *nu, const ulong *value, nmod_poly_t top,
                               nmod_poly_t bottom)
 {
@@ -38,7 +38,7 @@ static bool rational_function(nh_prime f, size_t count, const ulong *nu, const u
         nmod_poly_swap(t, bottom);
         nmod_poly_swap(bottom, r);
     }
-    if (!found && nmod_poly_degree(bottom) == 0) found = true; /* it is zero */
+    if (!found && nmod_poly_degree(bottom) == 0) found = true; /* the function is zero */
     if (found && !nmod_poly_is_zero(bottom)) {
         ulong scale = nmod_inv(nmod_poly_get_coeff_ui(bottom, nmod_poly_degree(bottom)), bottom->mod);
         nmod_poly_scalar_mul_nmod(top, top, scale);

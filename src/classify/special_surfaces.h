@@ -2,28 +2,28 @@
  * lies on them.
  *
  * At nu = nu_1, nu_2, .. and modulo a prime the section is a monic polynomial in lambda and mu, whose coefficients are
- * rational functions of nu: found from their values by the extended Euclidean algorithm, where one value more than is
- * needed has to agree. Then as special_curves.h: Chinese remainder theorem, rational reconstruction, factors. */
+ * rational functions of nu: found from their values by the extended Euclidean algorithm, which one more value has to
+ * confirm.  The rest is done as in special_curves.h. */
 #ifndef NH_SPECIAL_SURFACES_H
 #define NH_SPECIAL_SURFACES_H
 
 #include "classify/special_curves.h"
 
-/* From sections of the same degrees at different nu, without factors that depend on nu alone. False: they are too
- * few. */
+/* The surfaces from sections of the same degrees at different nu; factors that depend on nu alone are left out.  False:
+ * there are too few sections. */
 bool nh_residue_surface_from(nh_prime field, size_t count, const nh_residue *nu, const nh_residue_surface *section,
                              nh_residue_surface *out);
 
-/* A point (lambda, mu, nu) of it modulo the prime, which follows from the number; false: none was found. */
+/* A point (lambda, mu, nu) of the surface modulo the prime, chosen by the number; false: none was found. */
 bool nh_special_surface_point(const nh_special_surface *surface, nh_prime field, uint64_t seed, nh_residue at[3]);
 
-/* Modulo the prime, does the curve in the plane of this nu lie on the surfaces? It is without multiplicity. */
+/* Modulo the prime: does the squarefree curve in the plane of this nu lie on the surfaces? */
 bool nh_special_surfaces_cover(size_t surfaces, const nh_special_surface *surface, nh_prime field, nh_residue nu,
                                const nh_residue_surface *curve);
 
-/* The section of a surface with `with`, whose equation is linear in the variable v (0: lambda, 1: mu, 2: nu), in the
- * other two, the first one of them first; zero where it contains `with`. False: too long for 64 bits. The coefficients
- * are on the heap. */
+/* The intersection of a surface with the surface `with`, whose equation is linear in the variable v (0: lambda, 1: mu,
+ * 2: nu), as a curve in the other two variables in their order; zero where the surface contains `with`.  False: a
+ * coefficient is too long for 64 bits.  The coefficients are on the heap. */
 bool nh_special_surface_section(const nh_special_surface *surface, const nh_special_surface *with, int v,
                                 nh_special_curve *out);
 /* Do all points of the irreducible curve `part` lie on `whole`? */

@@ -74,7 +74,7 @@ void nh_special_roots_clear(nh_special_roots *r)
 
 /* ---- over the integers ---- */
 
-/* Residues of one number. */
+/* The residues of one number. */
 static bool reconstruct(size_t primes, const nh_prime *prime, const nh_residue *residue, fmpq_t out)
 {
     fmpz_t x, m;
@@ -123,7 +123,7 @@ fmpz *nh_special_lift_numbers(size_t primes, const nh_prime *prime, size_t count
     return NULL;
 }
 
-/* False: too long for 64 bits. */
+/* False: a coefficient is too long for 64 bits. */
 static bool take_factor(nh_special_factor *out, const fmpz_poly_struct *p)
 {
     bool good = true;

@@ -10,9 +10,9 @@
 #include "base/progress.h"
 #include "classify/sparse_pencil.h"
 
-/* The coefficients of the powers; the first one is constant. */
+/* The coefficients of the powers of the parameter, the constant one first. */
 typedef struct {
-    size_t count, used;      /* used: rank that is no longer in them */
+    size_t count, used;      /* used: rank that was eliminated from them */
     nmod_mat_t *m;
 } matrices;
 
@@ -64,7 +64,8 @@ static bool row_is_zero(const nmod_mat_t m, slong row, slong from, slong to)
     return true;
 }
 
-/* M := the columns `open` of M without what the constant equations C (reduced, with these pivots) replace. */
+/* M := the columns `open` of M, with the eliminated columns replaced by the constant equations C (reduced, with these
+ * pivots). */
 static void substitute_in(nmod_mat_t M, const nmod_mat_t C, slong pivots, const slong *pivot, slong opens,
                           const slong *open)
 {
@@ -92,7 +93,7 @@ static void substitute_in(nmod_mat_t M, const nmod_mat_t C, slong pivots, const 
     nmod_mat_clear(out);
 }
 
-/* C y = 0, in reduced echelon form with `rank` rows: its pivots leave the pencil. */
+/* Eliminates by the equations C y = 0, in reduced echelon form with `rank` rows: their pivots leave the pencil. */
 static void use_constants(matrices *x, const nmod_mat_t C, slong rank)
 {
     slong columns = nmod_mat_ncols(C), opens = 0;
@@ -127,7 +128,8 @@ static void copy_row(nmod_mat_t to, slong row, const nmod_mat_t from, slong sour
     for (slong j = 0; j < nmod_mat_ncols(from); j++) nmod_mat_entry(to, row, j) = nmod_mat_entry(from, source, j);
 }
 
-/* Equations without a parameter as they stand: most of them, and sparse matrices stay small. */
+/* Eliminates by those equations that contain no parameter from the start: they are most equations, and sparse matrices
+ * stay small. */
 static void constant_rows(matrices *x)
 {
     slong rows = rows_of(x), columns = columns_of(x), constants = 0, constant = 0, other = 0;
@@ -149,7 +151,7 @@ static void constant_rows(matrices *x)
     nmod_mat_clear(C);
 }
 
-/* Echelon form of [.. | A_1 | A_0]: independent rows, and constant equations, whose number is returned. */
+/* The echelon form of [.. | A_1 | A_0]: independent rows, and constant equations, whose number is returned. */
 static slong row_step(matrices *x, double *products)
 {
     slong rows = rows_of(x), columns = columns_of(x), rank, moving = 0, last = (slong)(x->count - 1) * columns;

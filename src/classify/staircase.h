@@ -22,12 +22,13 @@ typedef struct {
     nh_residue *coefficient;
 } nh_residue_polynomial;
 
-/* chi, monic, and the columns less the rank for almost all values. `products` of residues may be taken and becomes what
- * is left of them, negative when it was too little. False then, and behind the deadline (base/progress.h). */
+/* chi, monic, and the generic nullity: the columns less the rank for almost all values.  Takes at most `products`
+ * products of residues, which becomes what is left, negative when it did not suffice.  Returns false then, and after
+ * the deadline (base/progress.h). */
 bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, double *products, nh_residue_polynomial *chi,
                   size_t *nullity);
 
-/* With two parameters: what is left, by powers, then rows, then columns; on the heap. */
+/* For two parameters: the remaining matrices, by powers, then rows, then columns; on the heap. */
 typedef struct {
     size_t degree, second, rows, columns; /* degrees in lambda and in mu */
     nh_residue *entry;

@@ -1,14 +1,14 @@
-/* archives: what libraries need that are linked into the program, before it starts. */
+/* archives: settings for libraries that are linked into the program, made before these start. */
 #include <stdlib.h>
 
-/* OpenBLAS starts a thread per core when it is loaded, and each of them asks for work for 25 ms: it is to have none,
- * because blocks of work are shared out above it (base/parallel.h), with results that do not depend on the number of
- * threads.  Must run before the constructors of the libraries, which have no priority. */
+/* OpenBLAS starts a thread per core when it is loaded, and each of them spins for 25 ms waiting for work.  It is told
+ * to start none: blocks of work are shared out above it (base/parallel.h), with results that do not depend on the
+ * number of threads.  Must run before the constructors of the libraries, which have no priority. */
 __attribute__((constructor(101))) static void keep_blas_single(void) { setenv("OPENBLAS_NUM_THREADS", "1", 0); }
 
-/* OpenBLAS has kernels for every kind of processor, which add in different orders: last digits, and whatever a machine
- * decides by them, would depend on which one it is. These run on all that have AVX2 and FMA, and are nearly as fast as
- * those for newer ones on matrices of our sizes. */
+/* OpenBLAS has kernels for every kind of processor, which add in different orders: the last digits, and decisions that
+ * depend on them, would differ between machines.  The Haswell kernels run on all processors with AVX2 and FMA, and are
+ * nearly as fast as those for newer ones on matrices of our sizes. */
 #if defined __x86_64__ && defined __GNUC__
 __attribute__((constructor(101))) static void keep_blas_the_same(void)
 {
@@ -17,9 +17,9 @@ __attribute__((constructor(101))) static void keep_blas_the_same(void)
 }
 #endif
 
-/* SUNDIALS 7 as Debian builds it refers to MPI, of which a single process needs nothing but the address that stands for
- * "no processes".  These take the place of MPI's library: where that is loaded it may measure the processor's clock,
- * which takes longer than a short command. */
+/* SUNDIALS 7 as Debian builds it refers to MPI; a single process needs nothing of it but the address that stands for
+ * "no processes".  The definitions here take the place of MPI's library, which may measure the processor's clock when
+ * it is loaded: that takes longer than a short command. */
 #ifdef NH_WITHOUT_MPI
 extern char ompi_mpi_comm_null[1];
 int MPI_Comm_dup(void), MPI_Comm_free(void), MPI_Comm_rank(void);

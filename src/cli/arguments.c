@@ -110,7 +110,7 @@ static bool assignment(nh_cli *cli, const char *text, const char *option, char *
     return true;
 }
 
-/* A list may stand in one option, or in several: with semicolons or commas between. */
+/* A list may be given by one option or by several, separated by semicolons or commas. */
 static const char *also(nh_cli *cli, const char *before, const char *more)
 {
     return before ? nh_arena_printf(cli->arena, "%s; %s", before, more) : more;
@@ -120,7 +120,7 @@ static const char *joined(nh_cli *cli, const char *before, const char *more)
     return before ? nh_arena_printf(cli->arena, "%s, %s", before, more) : more;
 }
 
-/* Every entry of a list, without the blanks around it. */
+/* Reads every entry of a list, without the blanks around it. */
 static bool each(nh_cli *cli, const char *list, const char *option, bool (*take)(nh_cli *, const char *, nh_error *),
                  nh_error *error)
 {
@@ -152,7 +152,7 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     return true;
 }
 
-/* "u = sin(t)", or "u = FILE.csv:COLUMN"; for an export the name alone. */
+/* Reads "u = sin(t)" or "u = FILE.csv:COLUMN"; for an export the name alone. */
 static bool set_input(nh_cli *cli, const char *text, nh_error *error)
 {
     char *name;
@@ -175,7 +175,7 @@ static bool add_number(nh_cli *cli, const char *text, nh_error *error)
     return (void)error, cli->ask.number[cli->ask.numbers++] = text, true;
 }
 
-/* "k=1:2:11", "k=1", "B"; what follows a comma and has no name is one more value: k=1,2,5/2. */
+/* Reads "k=1:2:11", "k=1" or "B"; an entry without a name, behind a comma, is one more value: k=1,2,5/2. */
 static bool add_range(nh_cli *cli, const char *text, nh_error *error)
 {
     (void)error;
@@ -258,7 +258,7 @@ static bool set_chunk(nh_cli *cli, const char *text, nh_error *error)
     return nh_error_hint(error, "--chunk 3/40 is the third of forty parts");
 }
 
-/* A word that ends as the files of other options do is one of those, unless there is a folder of this name. */
+/* A word with the file ending of another option is a file for that option, unless there is a folder of this name. */
 static bool set_folder(nh_cli *cli, const char *text, nh_error *error)
 {
     static const char *const endings[] = {"csv", "json", "html", "tex", "svg", "pdf"};
@@ -285,8 +285,8 @@ static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
                               "--progress takes auto, always or never");
 }
 
-/* The bytes of the dashes that a word begins with, also of those that word processors put for `--`: U+2013, U+2014,
-   U+2212. */
+/* How many bytes of dashes a word begins with, including those that word processors put for `--`: U+2013, U+2014,
+ * U+2212. */
 static size_t dashes(const char *word)
 {
     static const char *const typeset[] = {"\xe2\x80\x93", "\xe2\x80\x94", "\xe2\x88\x92"};
@@ -296,7 +296,7 @@ static size_t dashes(const char *word)
     return n;
 }
 
-/* The name that is shown for an option: the first of its code. */
+/* The name under which help shows an option: the first with its code. */
 static const char *name_of(int code)
 {
     const struct option *o = long_options;
@@ -304,7 +304,7 @@ static const char *name_of(int code)
     return o->name;
 }
 
-/* Where to read on: the help of the command, as far as the line names one. */
+/* Where the user can read on: the help of the command, if the line names one. */
 static const char *help_of(const nh_cli *cli)
 {
     bool known = cli->command && nh_word_among(all_commands, cli->command);
@@ -319,7 +319,8 @@ static bool takes(const nh_cli *cli, const char *option)
     return false;
 }
 
-/* What other programs call an option of this command, or else of another one; or NULL. */
+/* The option that does here what other programs call `name`: one of this command, otherwise one of another command; or
+ * NULL. */
 static const char *named_elsewhere(const nh_cli *cli, const char *word)
 {
     static const char *const others[][3] = {
@@ -374,8 +375,8 @@ static bool is_option(const char *name)
     return false;
 }
 
-/* getopt takes any beginning of a name that is not ambiguous: a script that uses one breaks with the next option that
-   begins like it, so they are refused. */
+/* getopt accepts any unambiguous beginning of a name.  A script that uses one breaks with the next option that begins
+ * likewise, so they are refused. */
 static bool in_full(const nh_cli *cli, const char *word, int code, nh_error *error)
 {
     size_t length = strcspn(word, "=");
@@ -401,10 +402,10 @@ static bool missing_value(const nh_cli *cli, const char *word, int code, nh_erro
     return nh_error_hint(error, "write %s %s; `%s` describes the option", word, shown, help_of(cli));
 }
 
-/* "--html --quiet": a name is missing here.  "--html=--quiet" would be a file. */
+/* "--html --quiet": the file's name is missing.  "--html=--quiet" would be a file. */
 static bool swallows_option(const char *value) { return value && !strncmp(value, "--", 2) && is_option(value + 2); }
 
-/* `-` is a file, too: what is read is kept, so a pipe will do. */
+/* `-` is a file, too: texts that were read are kept, so a pipe will do. */
 static const char *file_of(const char *word) { return strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
 
 static const char **output_of(nh_cli *cli, int code)
@@ -475,7 +476,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 }
 #undef X
 
-/* Numbers of any computation, and how much is said, may stand behind every command: scripts give them to all. */
+/* Numerical options, and options about how much is printed, are accepted by every command, because scripts give them to
+ * all. */
 static bool for_all(int code)
 {
     static const int codes[] = {'q',           'v',           'h',       opt_no_color, opt_progress,
@@ -487,7 +489,7 @@ static bool for_all(int code)
     return false;
 }
 
-/* Every other option that the command does not know is refused: one that is silently without effect misleads. */
+/* Any other option that the command does not know is refused: an option that silently has no effect misleads. */
 static bool all_belong(const nh_cli *cli, const bool *given, nh_error *error)
 {
     if (cli->help || !cli->command || !nh_word_among(all_commands, cli->command)) return true;

@@ -5,7 +5,8 @@
 
 #include <stdbool.h>
 
-/* Is it one of the words, which single blanks separate?  So the tables name the commands of an option. */
+/* Is `word` one of the words in `words`, which are separated by single blanks?  The tables name the commands of an
+ * option so. */
 bool nh_word_among(const char *words, const char *word);
 
 /*    code           name           argument            shown as             of the commands      meaning */
@@ -98,7 +99,7 @@ bool nh_word_among(const char *words, const char *word);
     X("input", "simulate", "a parameter over time: an expression of t, or FILE.csv:COLUMN")                       \
     X("input", "export", "parameters that are arguments of the code: \"u, v\"")
 
-/* Old names: still read, and shown nowhere.  Of options: code, old name, argument; of commands: old name, name. */
+/* Old names: still read, but not shown.  Options: code, old name, argument; commands: old name, name. */
 #define NH_CLI_OLD_OPTION_TABLE(X)                    \
     X(opt_velocities, "chart",  required_argument)    \
     X(opt_robustness, "stress", no_argument)

@@ -10,7 +10,7 @@ static bool lacks(nh_error *error, const char *what, const char *example)
     return nh_error_hint(error, "%s", example);
 }
 
-/* Is one system named?  Else an error, with an example of the command. */
+/* Is exactly one system named?  Otherwise an error, with an example of the command. */
 static bool one_system(const nh_cli *cli, const char *example, nh_error *error)
 {
     if (cli->operands == 1) return true;
@@ -45,7 +45,7 @@ static bool begin(nh_cli *cli, nh_error *error)
     return (!kind->check || kind->check(&cli->ask, error)) && open_files(cli, error);
 }
 
-/* The answer, with what is written of it; `write` says which that is. */
+/* The answer and the outputs that are made of it; `write` says which. */
 static int answer(nh_cli *cli, bool (*write)(nh_cli *, const nh_answer *, nh_error *), nh_error *error)
 {
     nh_answer a;
@@ -61,7 +61,7 @@ static int answer(nh_cli *cli, bool (*write)(nh_cli *, const nh_answer *, nh_err
     return code;
 }
 
-/* Into a folder, or printed. */
+/* Writes to the folder, or prints. */
 static int documented(nh_cli *cli, nh_error *error)
 {
     if (!begin(cli, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
@@ -136,14 +136,14 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
 
 /* ---- a scan: its folder holds the work, too ---- */
 
-/* Of a part only words; of a member of a team that another speaks for, nothing. */
+/* Of a part of the grid only words are written; a member of a team that another speaks for writes nothing. */
 static bool write_scan(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
     if (!cli->json) cli->json = nh_cli_in_folder(cli, "scan.json");
     if (a->silent) return true;
     if (!a->words_only) {
         bool good = nh_cli_use_folder(cli, error) && nh_cli_write_answer(cli, a, error);
-        if (!good) a->kind->code(a, error); /* it says what is kept */
+        if (!good) a->kind->code(a, error); /* the message says what is kept */
         return good;
     }
     nh_text text;
@@ -168,7 +168,7 @@ int nh_cli_scan(nh_cli *cli, nh_error *error)
     return answer(cli, write_scan, error);
 }
 
-/* Notes of the file: an analysis has warnings of its own. */
+/* Notes of the reader of the file: an analysis has warnings of its own. */
 bool nh_cli_system(nh_cli *cli, const char *word, nh_error *error)
 {
     nh_text text;
@@ -183,7 +183,7 @@ bool nh_cli_system(nh_cli *cli, const char *word, nh_error *error)
 
 /* ---- an export: code into files, or printed ---- */
 
-/* The summary of a folder says what there is. */
+/* For a folder the summary says which files it has. */
 static bool write_code(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
     if (!nh_cli_make_folder(cli, error) || !nh_cli_write_answer(cli, a, error)) return false;

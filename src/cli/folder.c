@@ -47,7 +47,7 @@ static size_t figure_number(nh_cli *cli, const char *name)
     return strcmp(name, figure_name(cli, number)) ? 0 : number;
 }
 
-/* Is it a regular file that begins as this program begins the figure of that number? */
+/* Is it a regular file that begins as this program's figure of that number does? */
 static bool is_ours(const char *path, size_t number)
 {
     char text[400] = "";
@@ -59,7 +59,7 @@ static bool is_ours(const char *path, size_t number)
     return begun && nh_answer_is_figure(text, number);
 }
 
-/* Figures beyond the last one are of an older run, and would be taken for this one's. */
+/* Figures with higher numbers are of an older run, and would be taken for this run's. */
 static void drop_older(nh_cli *cli, size_t last)
 {
     DIR *folder = opendir(cli->folder);

@@ -3,7 +3,7 @@
  * One thread waits for all of them.  The first signal, and a limit, end the computation by base/progress.h: it returns
  * soon, with what it has.  The same signal again within `same_press` is still the first one: `timeout` sends it to the
  * process and to its group.  A second signal, one that comes while results are written, and a computation that has
- * still not come back when it has used `grace` more of the processor, or `more` of the memory, end the process at once:
+ * still not come back when it has used `grace` more of the processor, or of `more` memory, end the process at once:
  * without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that
  * comes while results are written takes nothing away from them, nor does the first signal: where writing takes longer
  * than `patience_of_user` (the tables of many motions take minutes), a line says what a second one does. */
@@ -21,9 +21,9 @@
 
 static atomic_bool writing, standing;
 static pthread_t guard;
-static double limit, end; /* seconds; by the monotonic clock */
-static double most;       /* bytes; 0: any */
-static bool stopped;      /* by a signal */
+static double limit, end; /* seconds of the monotonic clock */
+static double most;       /* bytes; 0: no limit */
+static bool stopped;      /* ended by a signal */
 
 static void end_at_once(int code, const char *reached, const char *option)
 {
@@ -52,7 +52,7 @@ static sigset_t signals(void)
     return set;
 }
 
-/* The next signal; 0: it is time to look at the clocks. */
+/* Waits for the next signal; 0: it is time to look at the clocks. */
 static int next_signal(const sigset_t *set)
 {
     static const double shortest = 0.01;
@@ -63,9 +63,9 @@ static int next_signal(const sigset_t *set)
     return number > 0 ? number : 0;
 }
 
-/* What a computation may take to come back: of the processor, so that a busy machine does not take a result away.  What
- * is known is then written, which ends by itself: it may take `patience` times as long, as may whoever waits for
- * something else than the processor. */
+/* How long a computation may take to come back, in processor time, so that a busy machine does not take a result away.
+ * The partial result is then written, which may take `patience` times as long by the clock, as may a wait for something
+ * other than the processor. */
 static bool past_grace(void)
 {
     static const double part = 0.12, more = 0.12, patience = 10;
@@ -77,7 +77,8 @@ static bool past_grace(void)
            now - end > patience * grace;
 }
 
-/* What was interrupted and has come back is written.  Where that takes long it is said, once. */
+/* An interrupted computation has come back, and its result is written.  Where writing takes long a line says so,
+ * once. */
 static void tell_of_writing(void)
 {
     static const double patience_of_user = 0.3;
@@ -90,7 +91,7 @@ static void tell_of_writing(void)
     dprintf(STDERR_FILENO, "nhsym: interrupted; writing the results so far: interrupt again to end without them\n");
 }
 
-/* So much more than the limit is left for what a computation needs to come back, and to write what there is. */
+/* How much memory beyond the limit a computation may use to come back and to write its result. */
 static bool past_memory(void)
 {
     static const double part = 0.25, more = 64 * NH_MEGABYTE;
@@ -101,7 +102,7 @@ static bool past_memory(void)
 static void take_signal(int number)
 {
     static const double same_press = 0.3;
-    static int first; /* that was taken */
+    static int first; /* the thread took a signal */
     static double taken;
     if (number == first && nh_clock() - taken < same_press) return;
     if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED, NULL, NULL);
@@ -129,8 +130,8 @@ static void *stand(void *unused)
     return unused;
 }
 
-/* A thread that a library began before main takes signals that all of ours leave to the guard: they are passed on.
- * Where no guard could be had the first ends the computation, and the second the process. */
+/* A thread that a library began before main receives the signals that our threads block: they are passed on to the
+ * guard.  Where the guard could not be started the first one ends the computation, and the second the process. */
 static void on_signal(int number)
 {
     if (atomic_load(&standing)) {

@@ -47,7 +47,7 @@ static bool takes(const command_word *c, const option_word *o) { return nh_word_
 
 /* ---- screens ---- */
 
-/* Two columns on a screen of 80; what is too long for the first one has a line of its own. */
+/* Two columns on a screen of 80; an entry too long for the first column has a line of its own. */
 static void put_row(const char *head, const char *text)
 {
     enum { indent = 2, second = 34, screen = 80 };
@@ -151,8 +151,8 @@ static void manual_page(void)
 
 /* ---- completions ---- */
 
-/* Options whose values are, or begin with, names of the system: which names, as `nhsym show --of` takes them, and what
-   follows one. */
+/* Options whose values are names of the system, or begin with one: which names, as `nhsym show --of` takes them, and
+ * what follows the name. */
 static const struct {
     const char *option, *commands, *of, *behind;
 } named[] = {
@@ -180,8 +180,8 @@ static size_t names_for(const char *option, const char *command)
     return i;
 }
 
-/* The words that an option of a command, or a command, takes, with `between`; nothing where these are not a fixed
-   list. */
+/* The words that an option of a command, or a command, takes, separated by `between`; nothing where there is no fixed
+ * list. */
 static void put_values(const char *name, const char *shown, const char *command, const char *between)
 {
     if (strchr(shown, '|') && shown[0] != '[') {
@@ -208,8 +208,8 @@ static bool is_file(const option_word *o)
     return !strcmp(o->shown, "FILE") || !strcmp(o->shown, "DIR") || strstr(o->shown, "FILE|-");
 }
 
-/* The names of the system that stands on the line, behind the last comma of the word; in a word without quotes a prime
-   needs a backslash. */
+/* The names of the system on the command line, for the part of the word behind its last comma; outside of quotes a
+ * prime needs a backslash. */
 static const char bash_names[] = "# bash completion for nhsym; written by `nhsym help bash`\n"
     "_nhsym_names() {\n"
     "    local word=${COMP_WORDS[COMP_CWORD]} each name names=\"\" begin end\n"

@@ -1,8 +1,8 @@
 /* mpi_main: nhsym-mpi, whose processes share the units of one scan; the only file that knows MPI.
  *
- * A thread of rank 0 gives out numbers of units, so that no rank waits while another computes. Results go through the
- * folder, which all ranks see; nothing else is sent. Meetings and the thread sleep instead of spinning. Where MPI does
- * not allow threads every rank takes each size-th unit. */
+ * A thread of rank 0 gives out numbers of units, so that no rank waits while another computes.  Results go through the
+ * folder, which all ranks see; nothing else is sent.  Waiting processes and the thread sleep instead of spinning.
+ * Where MPI does not allow threads every rank takes each size-th unit. */
 #include <mpi.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -93,7 +93,7 @@ int main(int argc, char **argv)
     nh_team shared = {.rank = (size_t)t.rank, .size = (size_t)t.size, .next = next_unit, .meet = meet, .context = &t};
     code = nh_cli_main(argc, argv, &shared);
     failure = code == NH_USAGE || code == NH_INPUT || code == NH_NUMERIC;
-    if (failure && t.size > 1) MPI_Abort(MPI_COMM_WORLD, code); /* the others may wait for this one */
+    if (failure && t.size > 1) MPI_Abort(MPI_COMM_WORLD, code); /* other ranks may wait for this one */
     if (t.size > 1) wait_for_all();
     atomic_store(&t.done, true);
     if (server) pthread_join(t.server, NULL);

@@ -22,7 +22,7 @@ int nh_cli_new(nh_cli *cli, nh_error *error)
         return NH_USAGE;
     }
     const char *path = nh_arena_printf(cli->arena, "%s.yaml", name);
-    int file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666); /* never over a file that is there */
+    int file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666); /* never overwrites a file */
     FILE *stream = file < 0 ? NULL : fdopen(file, "w");
     if (!stream) {
         nh_text_clear(&text);

@@ -1,7 +1,7 @@
 /* pdf: a picture as PDF, by the program rsvg-convert of librsvg.
  *
- * A program instead of the library: its two dozen libraries would have to be loaded by every short command, and nobody
- * who wants no PDF needs it. */
+ * The program, and not the library itself, because every short command would have to load the library's two dozen
+ * dependencies. */
 #include <errno.h>
 #include <limits.h>
 #include <signal.h>
@@ -27,8 +27,8 @@ static int convert(FILE *svg, FILE *pdf)
     sigset_t none;
     pid_t child;
     int status = 0;
-    setenv("SOURCE_DATE_EPOCH", "0", 0); /* no clock in the file */
-    sigemptyset(&none); /* this thread may leave signals to another */
+    setenv("SOURCE_DATE_EPOCH", "0", 0); /* no date of today in the file */
+    sigemptyset(&none); /* this thread may block signals that another one handles */
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     posix_spawnattr_setsigmask(&attributes, &none);

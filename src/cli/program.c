@@ -59,7 +59,7 @@ static int run(nh_cli *cli, nh_error *error)
     return NH_USAGE;
 }
 
-/* The command as one line; words with other characters than a shell passes on are quoted. */
+/* The command as one line; words with characters that a shell interprets are quoted. */
 static const char *line_of(nh_cli *cli, int argc, char **argv)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
@@ -92,7 +92,8 @@ int nh_cli_main(int argc, char **argv, const nh_team *team)
     int code = nh_cli_parse(&cli, argc, argv, &error) ? run(&cli, &error) : (int)error.code;
     nh_request_blame(&cli.ask, &error);
     if (error.code == NH_USAGE) code = NH_USAGE;
-    bool said = team && team->rank && (error.code == NH_USAGE || error.code == NH_INPUT); /* by the first, too */
+    /* by the first process, too */
+    bool said = team && team->rank && (error.code == NH_USAGE || error.code == NH_INPUT);
     if (error.code != NH_OK && !said) {
         char text[4096];
         nh_error_format(&error, text, sizeof text);
@@ -109,6 +110,6 @@ int nh_cli_main(int argc, char **argv, const nh_team *team)
         fprintf(stderr, "nhsym: standard output could not be written\n");
         code = code ? code : NH_NUMERIC;
     }
-    if (nh_interrupted()) _exit(code); /* a decomposition that was left alone may still run */
+    if (nh_interrupted()) _exit(code); /* an abandoned decomposition may still run */
     return code;
 }

@@ -9,11 +9,11 @@
 
 enum { widest = 60 };
 
-static bool live; /* a line that is rewritten, on a terminal */
+static bool live; /* one line that is rewritten, on a terminal */
 static double begun, told; /* seconds */
 static char last[widest + 1];
 
-/* "42 %, 7 s left: ": as if it went on as before. */
+/* "42 %, 7 s left: ": the rest at the rate so far. */
 static void put_part(double part)
 {
     double left = part > 0 ? (nh_clock() - begun) * (1 - part) / part : -1;
@@ -23,7 +23,7 @@ static void put_part(double part)
     fputs(": ", stderr);
 }
 
-/* A line for every thing that is done, and now and then how far it has come: ten times a second on a terminal. */
+/* Prints a line for every step, and now and then how far it is: ten times a second on a terminal. */
 static void show(void *context, const char *doing, double part)
 {
     (void)context;

@@ -1,4 +1,4 @@
-/* write: what every command that reports needs. */
+/* write: the output that all commands share. */
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -42,7 +42,7 @@ bool nh_cli_delivers(const nh_cli *cli)
 
 bool nh_cli_speaks(const nh_cli *cli) { return !cli->quiet && nh_cli_delivers(cli); }
 
-/* Two names of one regular file. */
+/* Do two names stand for one regular file? */
 static bool same_file(const char *a, const char *b)
 {
     struct stat one, other;
@@ -50,7 +50,7 @@ static bool same_file(const char *a, const char *b)
            one.st_ino == other.st_ino;
 }
 
-/* Does it replace what this run reads? */
+/* Would the output overwrite a file that this run reads? */
 static bool is_read(const nh_cli *cli, const char *path)
 {
     bool read = same_file(path, cli->analysis) || same_file(path, cli->ask.table);
@@ -58,7 +58,8 @@ static bool is_read(const nh_cli *cli, const char *path)
     return read;
 }
 
-/* A file of one option must not have the ending of another: who opens it would find something else. */
+/* A file of one option must not have the ending of another: its reader would find something else than the ending
+ * says. */
 static bool ending_fits(const destination *to, nh_error *error)
 {
     static const char *const ending[][2] = {{"html", "html"}, {"tex", "tex"}, {"json", "json"}, {"svg", "svg"},
@@ -151,14 +152,14 @@ static bool put_words(nh_cli *cli, const nh_answer *a, nh_error *error)
     return nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), &text, error);
 }
 
-/* Where the table stands; NULL: in no file. */
+/* The file that holds the table; NULL: none does. */
 static const char *table_path(nh_cli *cli, const nh_answer *a)
 {
     const char *name = a->kind->table_name;
     return cli->csv && a->kind->table ? cli->csv : cli->folder && name ? nh_cli_in_folder(cli, name) : NULL;
 }
 
-/* What is printed: a table or code, unless a file has it, or else the document in words.  Then the notes. */
+/* Prints a table or code, unless a file has it, otherwise the document in words; then the notes. */
 static bool put_answer(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
     const nh_answer_kind *k = a->kind;
@@ -176,7 +177,7 @@ static bool put_answer(nh_cli *cli, const nh_answer *a, nh_error *error)
     return good;
 }
 
-/* The table, and what else stands in the folder. */
+/* Writes the table and the other files to the folder. */
 static bool put_files(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
     nh_answer_file file[NH_ANSWER_FILES];
@@ -220,7 +221,7 @@ static bool put_documents(nh_cli *cli, const nh_answer *a, nh_error *error)
     return good;
 }
 
-/* To where --svg and --pdf want it. */
+/* Writes the picture to where --svg and --pdf want it. */
 static bool put_picture(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
     nh_text svg, pdf;

@@ -59,7 +59,7 @@ static bool read_files(nh_analysis *r, const nh_analyze_request *q, nh_error *er
     return r->system != NULL;
 }
 
-/* An initial state on the other branch of a quadratic constraint chooses that. */
+/* An initial state on the other branch of a quadratic constraint chooses that branch. */
 static bool turn_to_initial(nh_analysis *r, nh_chart_choice choice, const nh_analyze_request *q, nh_error *error)
 {
     if (!r->analysis || !nh_analysis_file_resolve(r->analysis, r->model, error)) return !r->analysis;
@@ -75,7 +75,7 @@ static bool turn_to_initial(nh_analysis *r, nh_chart_choice choice, const nh_ana
     return r->model && nh_analysis_file_resolve(r->analysis, r->model, error);
 }
 
-/* A system that is much faster than its units is sampled, and followed, at its own pace. */
+/* A system that moves much faster than its units suggest is sampled and followed on its own time scale. */
 static bool set_pace(nh_analysis *r, nh_chart_choice choice, nh_error *error)
 {
     double Omega = nh_time_scale_set(r->system, r->model);
@@ -136,8 +136,7 @@ static nh_nullspace *current_route(nh_analysis *r, const nh_ansatz *a, const nh_
     return s;
 }
 
-/* The null vectors; then, where the spectrum is in doubt, those that are only likely, of which a certificate
-   decides. */
+/* Takes the null vectors; where the spectrum is in doubt also the likely ones, about which a certificate decides. */
 static void collect(nh_analysis *r, nh_current_checker *bench, const nh_ansatz *a, const nh_points *points,
                     const nh_nullspace *s)
 {
@@ -179,7 +178,7 @@ static bool linear_problem(nh_analysis *r, size_t families, const nh_family *fam
     return good;
 }
 
-/* What is behind the deadline may be missing anywhere. */
+/* After the deadline anything may be missing. */
 static void watch_deadline(nh_analysis *r)
 {
     bool late = nh_late() && r->search != NH_SEARCH_COMPLETE;
@@ -192,7 +191,7 @@ static void watch_deadline(nh_analysis *r)
     nh_deadline_set(INFINITY);
 }
 
-/* FOUND needs a certificate for every current; NONE needs a spectrum without a gap at rounding. */
+/* FOUND needs a certificate for every current; NONE needs that no null vector and no omitted stage is left open. */
 static void conclude(nh_analysis *r)
 {
     bool kept_out = r->search == NH_SEARCH_CUT || (r->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(r)),
@@ -228,8 +227,9 @@ static const nh_observable *list_tracks(nh_analysis *r)
     return watch;
 }
 
-/* A drift that does not fall with the tolerance.  What is proved is constant: then it is the motion that the formula
-   magnifies (x exp(t) along x = exp(-t), whose error is absolute), or a value that no double holds. */
+/* A drift that does not fall with the tolerance.  A current that is proved is constant: then its formula magnifies the
+ * error of the motion (x exp(t) along x = exp(-t), whose error is absolute), or its value does not fit into a
+ * double. */
 static void say_drift(nh_analysis *r, const nh_current *f)
 {
     double drift = f->drift.drift[NH_DRIFT_RUNS - 1];
@@ -248,11 +248,10 @@ static void say_drift(nh_analysis *r, const nh_current *f)
                          f->name, drift, r->options.drift);
 }
 
-/* When the test motion ends: at the latest where it reaches a place at which it has an impulse, of which a warning
-   tells. */
+/* The end of the test motion: at the latest the place where it has an impulse, which a warning names. */
 static double end_of_motion(nh_analysis *r, const nh_state *initial)
 {
-    static const double before = 1e-9; /* of the time to it */
+    static const double before = 1e-9; /* part of the time to the impulse */
     double end = r->options.until, times[2] = {initial->t, end};
     nh_terrain terrain = nh_terrain_of(r->model, &r->options, r->arena);
     nh_error ignored;
@@ -329,8 +328,8 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
     if (r->validation->checked && !r->validation->accuracy.held) nh_analysis_warn(r, "%s", r->validation->accuracy.why);
 }
 
-/* An upper bound for the dimension of the space of currents polynomial in the velocities of degree two, functions of t
-   as coefficients where these were counted. */
+/* An upper bound for the dimension of the space of currents polynomial in the velocities of degree two, with functions
+ * of t as coefficients where these were counted. */
 static size_t counted_currents(const nh_analysis *r)
 {
     for (size_t k = NH_COMPLETENESS_KINDS; k-- > 0;) {
@@ -359,7 +358,7 @@ static void write_out(nh_analysis *r)
     if (!nh_late()) nh_theory_space(r->arena, r->theory, count, list, counted_currents(r), &r->options);
 }
 
-/* ---- the pipeline ---- */
+/* ---- the steps of an analysis ---- */
 
 static void say_what_ended_it(nh_analysis *r)
 {
@@ -390,7 +389,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     nh_budget_begin(INFINITY);
     if (!made) return false;
     nh_deadline_set(r->options.max_seconds);
-    merge_options(r, q); /* now the analysis' motion is known too */
+    merge_options(r, q); /* now the motion of the analysis is known, too */
     r->timing.geometry = lap(&clock);
     if (q->model_only) return true;
     size_t families = r->analysis ? r->analysis->families : 0;

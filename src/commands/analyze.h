@@ -6,7 +6,8 @@
 
 #include "commands/analyze_request.h"
 
-/* NULL when nothing can be said; otherwise a result, perhaps partial, with warnings. */
+/* Runs an analysis; the caller frees the result.  NULL with a message when nothing can be said; otherwise a result,
+ * perhaps partial, with warnings. */
 nh_analysis *nh_analysis_create(const nh_analyze_request *request, nh_error *error);
 
 #endif

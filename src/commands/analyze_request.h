@@ -6,18 +6,19 @@
 #include "search/analysis.h"
 
 typedef struct {
-    const char *command;         /* as it was typed, for reports; may be NULL */
+    const char *command;         /* as the user typed it, for reports; may be NULL */
     const char *system_path;     /* a file */
     const char *analysis_path;   /* or NULL: the program chooses */
-    size_t settings;             /* --set, after the analysis' own */
+    size_t settings;             /* --set, applied after the settings of the analysis file */
     const nh_setting *setting;
-    nh_chart_choice chart;       /* NH_CHART_AUTO: the analysis' choice */
+    nh_chart_choice chart;       /* NH_CHART_AUTO: that of the analysis file */
     nh_options options;
-    double accuracy;             /* of the motions; 0: that of options.tolerance, unchecked */
-    bool equations;              /* with the geometry written out */
-    bool no_figures;             /* skip the figures of the analysis file: no output shows them */
-    bool model_only;             /* no search: no output needs currents */
-    bool seed_given, samples_given, tolerance_given, until_given; /* these options outrank the analysis file's values */
+    double accuracy;             /* accuracy of motions; 0: options.tolerance, unchecked */
+    bool equations;              /* writes the geometry out */
+    bool no_figures;             /* skips the figures of the analysis file: no output shows them */
+    bool model_only;             /* does not search: no output needs currents */
+    /* these options take precedence over the analysis file's values */
+    bool seed_given, samples_given, tolerance_given, until_given;
 } nh_analyze_request;
 
 #endif

@@ -7,10 +7,10 @@
 
 enum { levels = NH_BENCHMARK_LEVELS, most_halvings = 8 };
 static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-static const double step_ratio = 4; /* of fixed steps, from level to level */
-/* of a time of which no eighth was reached, that is tried next */
+static const double step_ratio = 4; /* factor between fixed steps of consecutive levels */
+/* part of a final time, no eighth of which was reached, that is tried next */
 static const double least_part = 1.0 / 64;
-static const double share_of_fits = 0.25;              /* of the budget, for the discrete problem, beside it */
+static const double share_of_fits = 0.25;              /* part of the budget for the discrete problem */
 
 const char *nh_run_record_status_name(nh_run_record_status status)
 {
@@ -39,13 +39,13 @@ static bool states_of(nh_benchmark_work *c, size_t formulation, const char *meth
     return good;
 }
 
-/* Two methods, the first of which is the reference when they agree. */
+/* Computes two motions by different methods; the first is the reference when they agree. */
 typedef struct {
     const char *first, *second;
     double first_tolerance, second_tolerance;
 } pair;
 
-/* These states become the reference, if what says how far they can be trusted says that it is further. */
+/* Takes these states as the reference if they are known more accurately than the present one. */
 static void prefer(nh_benchmark_work *c, double agreement, const double *states, const char *reference,
                    const char *second)
 {
@@ -66,8 +66,8 @@ static double agreement_of(nh_benchmark_work *c, double *states, const double *o
     return agreement;
 }
 
-/* In one formulation; taken when they agree better than what there is.  `states` and `other` are work space.  False:
-   the first had no time. */
+/* Tries one formulation; its reference is taken when it is more accurate than the present one.  `states` and `other`
+ * are work memory.  False: the first motion had no time. */
 static bool try_pair(nh_benchmark_work *c, const pair *p, size_t f, double *states, double *other)
 {
     nh_arena *arena = c->out->arena;
@@ -93,7 +93,7 @@ static bool try_pair(nh_benchmark_work *c, const pair *p, size_t f, double *stat
 }
 
 /* In the chart; in all coordinates where the chart breaks down or the two methods disagree; by implicit methods where
-   the motion is too stiff for the explicit one. */
+ * the motion is too stiff for explicit ones. */
 bool nh_benchmark_work_reference(nh_benchmark_work *c, nh_error *error)
 {
     static const pair pairs[] = {{"GSL rk8pd", "CVODE Adams", 1e-14, 1e-13},
@@ -102,7 +102,7 @@ bool nh_benchmark_work_reference(nh_benchmark_work *c, nh_error *error)
     double *states = nh_alloc_array(size, sizeof *states), *other = nh_alloc_array(size, sizeof *other);
     c->out->agreement = INFINITY;
     for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
-        bool time = true; /* where there is none in one formulation there is none in the next, which takes longer */
+        bool time = true; /* when one formulation has no time the next one, which takes longer, has none either */
         for (size_t f = 0;
              f < c->formulations && (time || c->once) && !(c->out->agreement < c->options.benchmark_trusted); f++)
             if (!c->formulation[f].breaks) time = try_pair(c, &pairs[p], f, states, other);
@@ -146,7 +146,7 @@ void nh_benchmark_work_add(nh_benchmark_work *c, const nh_method *method, size_t
 void nh_benchmark_work_refuse(nh_benchmark_work *c, const char *method, const char *why)
 {
     nh_benchmark *out = c->out;
-    if (out->refused == c->refusals) { /* there is no room for more */
+    if (out->refused == c->refusals) { /* the list is full */
         const char **more = nh_arena_alloc(out->arena, (2 * c->refusals + 8) * sizeof *more);
         if (out->refused) memcpy(more, out->refusal, out->refused * sizeof *more);
         out->refusal = more;
@@ -155,7 +155,7 @@ void nh_benchmark_work_refuse(nh_benchmark_work *c, const char *method, const ch
     out->refusal[out->refused++] = nh_arena_printf(c->out->arena, "%s: %s", method, why);
 }
 
-/* The currents that a projection holds; the others with the reason. */
+/* The currents that a projection preserves; the others with the reason. */
 static void choose_currents(nh_benchmark_work *c)
 {
     size_t n = c->yard.currents;
@@ -192,7 +192,7 @@ static void list_candidates(nh_benchmark_work *c)
     }
 }
 
-/* The chart comes first: every method is tried there. */
+/* The chart comes first: every method is tried in it. */
 static void list_elsewhere(nh_benchmark_work *c)
 {
     /* where no method is named */
@@ -211,7 +211,7 @@ static void list_elsewhere(nh_benchmark_work *c)
     }
 }
 
-/* Level by level, so that a short budget still gives every method its loose runs. */
+/* Goes level by level, so that a short budget still gives every method its runs at loose tolerances. */
 static void measure_all(nh_benchmark_work *c)
 {
     double span = fabs(c->out->end - c->out->begin);
@@ -231,11 +231,10 @@ static void measure_all(nh_benchmark_work *c)
         }
 }
 
-/* From errors of two steps: log(e/e') / log(h/h').  Nothing where an error is not above what the reference is known
-   to. */
+/* From errors of two steps: log(e/e') / log(h/h').  NAN where an error is not above the error of the reference. */
 static double observed_order(const nh_run_record *larger, const nh_run_record *m, double known)
 {
-    const double least = 3; /* times what the reference is known to */
+    const double least = 3; /* times the error of the reference */
     bool tells = larger->method && m->order && fmin(m->error, larger->error) > least * known;
     return tells ? log(larger->error / m->error) / log(larger->step / m->step) : NAN;
 }
@@ -252,10 +251,10 @@ static void collect(nh_benchmark_work *c)
     }
     for (size_t i = 0; i < out->count; i++) {
         nh_run_record *m = &out->item[i];
-        m->front = m->status == NH_ACCURATE && !m->reduced; /* what is flagged is no advice */
+        m->front = m->status == NH_ACCURATE && !m->reduced; /* a flagged run is no recommendation */
         for (size_t j = 0; j < out->count && m->front; j++) {
             const nh_run_record *o = &out->item[j];
-            /* smaller ones cannot be told apart */
+            /* smaller times cannot be distinguished */
             double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement);
             if (o->status == NH_ACCURATE && !o->reduced && o->seconds <= m->seconds && other <= mine &&
                 (o->seconds < m->seconds || other < mine))
@@ -315,7 +314,7 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
     out->methods = request->methods;
     const nh_method **only = nh_arena_alloc(arena, request->methods * sizeof *only);
     for (size_t i = 0; i < request->methods; i++) only[i] = request->only[i];
-    out->only = only; /* the caller's list may end before the result */
+    out->only = only; /* the caller's list may not outlive the result */
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
     if (!nh_simulate_read(out->question, request, &c->initial, &out->end, error)) return false;
@@ -377,8 +376,8 @@ static void end_bench(nh_benchmark_work *c)
     nh_benchmark_free(c->out);
 }
 
-/* A final time that nobody chose may lie behind a singularity, or be a million periods: it is halved, or divided by
-   more where not even a part was reached, until there is a motion. */
+/* A default final time may lie beyond a singularity, or be a million periods: it is halved, or divided by more where
+ * not even an eighth was reached, until there is a motion. */
 static bool open_somewhere(nh_benchmark_work *c, const nh_simulate_request *request, double budget, nh_error *error)
 {
     nh_simulate_request q = *request;
@@ -412,10 +411,10 @@ nh_benchmark *nh_benchmark_run(const nh_simulate_request *request, double budget
     list_candidates(&c);
     list_elsewhere(&c);
     nh_benchmark_reduced(&c, request);
-    c.begun = nh_clock(); /* the budget is for measuring: what came before is needed in any case */
+    c.begun = nh_clock(); /* the budget is for measurements: the work before them is needed in any case */
     measure_all(&c);
     collect(&c);
-    if (!c.out->methods) { /* these concern no integrator */
+    if (!c.out->methods) { /* these warnings concern no integrator */
         nh_benchmark_derivatives(&c.formulation[0], c.out);
         nh_benchmark_fit(&c, budget * share_of_fits);
     }

@@ -15,73 +15,77 @@ typedef enum { NH_ACCURATE, NH_FLAGGED, NH_DETECTED, NH_FAILED, NH_TIMEOUT, NH_U
 typedef struct {
     const char *method, *formulation;
     double tolerance, step;      /* one of them is NAN */
-    double error, worst_drift;   /* NAN where there is none */
-    double *drift;               /* per current */
-    double seconds;              /* the least of some repetitions, without preparations */
+    double error, worst_drift;   /* NAN where they are not known */
+    double *drift;               /* drift of each current */
+    double seconds;              /* the least time of some repetitions, without preparation */
     long evaluations;
-    /* of a method with a fixed step: its order by theory, else 0; and as observed between this step and the larger one
-       before, NAN where the errors do not tell */
+    /* for a method with fixed step: its theoretical order, else 0; and the order observed between this step and the
+     * larger one before, NAN where the errors do not show it */
     int order;
     double observed_order;
     nh_run_record_status status;
-    /* of reduced equations, which compute less: errors are of their own states, and it does not count below */
+    /* a run of reduced equations, which compute less: the error is that of its own states, and it does not count for
+     * `front` */
     bool reduced;
-    bool front;                  /* nothing measured is both faster and more accurate */
+    bool front;                  /* no measured run is both faster and more accurate */
     const char *note;            /* why it failed, or empty */
 } nh_run_record;
 
 /* The Jacobian of the equations of motion at the chart's probes. */
 typedef struct {
     const char *method;
-    /* the largest difference from the exact one, relative to its largest entry (or 1); NAN where none could be
-       computed */
+    /* the largest difference from the exact Jacobian, relative to its largest entry (or 1); NAN where none could be
+     * computed */
     double error;
-    double seconds;   /* of one Jacobian */
-    long evaluations; /* of the right-hand side (of the exact derivatives: 1) */
+    double seconds;   /* seconds of one Jacobian */
+    long evaluations; /* evaluations of the right-hand side (of the exact derivatives: 1) */
 } nh_derivative;
 
-/* The null space of the sampled equations, solved in one way. */
+/* The null space of the sampled equations, computed by one method. */
 typedef struct {
-    size_t functions, columns, samples; /* of the ansatz; of the matrix (the symmetry route has more); points */
+    /* number of functions of the ansatz; of columns of the matrix (more in the symmetry route); of points */
+    size_t functions, columns, samples;
     const char *basis, *route, *solver;
-    size_t rank, dimension, wanted; /* independent columns; of the null space; the same by the most careful way */
-    double gap;                  /* of the spectrum after the null values */
-    /* distance of the known currents from the space, at points not used; NAN: none is in the span */
+    /* number of independent columns; dimension of the null space; the same by the most careful method */
+    size_t rank, dimension, wanted;
+    double gap;                  /* gap of the spectrum above the null values */
+    /* distance of the known currents from the null space, at points that were not used; NAN: none is in the span */
     double error;
-    double seconds;              /* rows and solution, without sampling */
+    double seconds;              /* seconds for rows and solution, without sampling */
     bool good, undecided, right, front;
 } nh_fitted;
 
 struct nh_benchmark {
     nh_arena *arena;
-    nh_simulation *question;     /* system, model, analysis */
-    size_t methods;              /* only these were wanted; 0: all */
+    nh_simulation *question;     /* owns system, model and analysis file */
+    size_t methods;              /* limits the comparison to these methods; 0: all */
     const nh_method *const *only;
-    /* of where methods fail, or NULL; in an arena of its own, which nh_benchmark_free frees */
+    /* robustness maps, or NULL; in an arena of their own, which nh_benchmark_free frees */
     const struct nh_robustness *maps;
     nh_arena *of_maps;
     double begin, end;
     const char *reference, *second;
-    double agreement;            /* of these two: smaller errors mean nothing */
+    double agreement;            /* largest difference of the two references: smaller errors mean nothing */
     size_t currents;
     const char **current;        /* names */
     size_t count, capacity;
-    nh_run_record *item;           /* by method and formulation, loosest first */
+    nh_run_record *item;           /* ordered by method and formulation, the loosest tolerance first */
     size_t derivatives;
     nh_derivative *derivative;
     size_t fits;
-    nh_fitted *fit;              /* by functions and samples */
-    bool fits_partial;           /* there was no time for more of them */
+    nh_fitted *fit;              /* ordered by number of functions and of samples */
+    bool fits_partial;           /* there was no time for all of them */
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
     bool partial;                /* the budget ended it */
-    /* they do not agree well enough for it to be a reference (options.benchmark_trusted): errors then say little, and
-       nothing is accurate */
+    /* the two references do not agree well enough (options.benchmark_trusted): errors then say little, and no run
+     * counts as accurate */
     bool doubtful;
-    bool shortened;              /* the motion did not reach the time that was meant, and nobody had chosen that */
+    bool shortened;              /* the motion did not reach the default final time, and a shorter one was taken */
 };
 
-/* `budget`: seconds for the measurements.  NULL with a message when no motion can be computed at all. */
+/* Compares the integrators; the caller frees the result.  `budget`: seconds for the measurements.  NULL with a message
+ * when no motion can be computed. */
 nh_benchmark *nh_benchmark_run(const nh_simulate_request *request, double budget, nh_error *error);
 void nh_benchmark_free(nh_benchmark *comparison);
 

@@ -28,15 +28,15 @@ typedef struct {
     nh_options options;
     nh_points *ranges, *heldout;
     nh_ansatz *cheb, *raw;
-    size_t known;      /* currents in the span of the ansatz */
-    double *value;     /* theirs at the held-out points, heldout x known */
+    size_t known;      /* known currents in the span of the ansatz */
+    double *value;     /* their values at the held-out points, heldout x known */
     double deadline;
-    size_t wanted[2];  /* dimension, by route: the symmetry route's columns span more */
+    size_t wanted[2];  /* dimension by route: the columns of the symmetry route span more */
 } fit;
 
 /* ---- one ansatz, in two bases ---- */
 
-/* The terms that are printed, each as a column of its own: monomials, without any scaling. */
+/* The printed terms, one column for each: monomials, without scaling. */
 static nh_ansatz *raw_ansatz(fit *f, nh_error *error)
 {
     nh_family terms = {.kind = NH_TERMS, .terms = f->cheb->terms, .term = f->cheb->term};
@@ -71,7 +71,7 @@ static void find_known(fit *f)
     nh_free(e);
 }
 
-/* ---- one way to solve it ---- */
+/* ---- one method ---- */
 
 typedef struct {
     nh_nullspace *space;
@@ -160,7 +160,7 @@ static void measure(fit *f, size_t points_wanted, bool chebyshev, bool symmetry,
 
 /* ---- all of it ---- */
 
-/* The most careful way of each route decides what the dimension is: Chebyshev polynomials, generalized, most points. */
+/* The most careful method of each route gives the dimension: Chebyshev polynomials, generalized, most points. */
 static bool past(const fit *f) { return nh_interrupted() || nh_clock() >= f->deadline; }
 
 static void measure_level(fit *f)

@@ -1,4 +1,4 @@
-/* benchmark_internal: formulations of one motion, and how a computed motion is judged. */
+/* benchmark_internal: formulations of one motion, and the judgement of a computed motion. */
 #ifndef NH_BENCHMARK_INTERNAL_H
 #define NH_BENCHMARK_INTERNAL_H
 
@@ -21,16 +21,16 @@ typedef struct {
     nh_model *model;        /* NULL: all coordinates (q, v) */
     nh_dynamics *dynamics;
     nh_bordered *bordered;
-    nh_programs *programs;  /* of the model: for methods with a fixed step, compiled once for all their runs */
+    nh_programs *programs;  /* of the model: for methods with a fixed step, compiled once for all runs */
     size_t size;
     double *z0, *scale;
     nh_flow_problem problem;
     bool breaks;            /* the chart ends on the way */
-    nh_reduced_flow *reduced; /* reduced equations in (x, p); NULL: not reduced.  With a reference of their own: */
-    double *reference, *reference_scale, agreement; /* outputs x size; size; of two methods */
+    nh_reduced_flow *reduced; /* reduced equations in (x, p), which have a reference of their own; NULL: not reduced */
+    double *reference, *reference_scale, agreement; /* outputs x size; size; error of the reference, by two methods */
 } nh_formulation;
 
-/* What every run is compared with: (q, v) at the output times, scales, and the currents as functions of (t, q, v). */
+/* The reference of every run: (q, v) at the output times, scales, and the currents as functions of (t, q, v). */
 typedef struct {
     const nh_model *model;
     double times[NH_BENCHMARK_OUTPUTS], *state, *scale; /* outputs x 2m; 2m */
@@ -41,14 +41,15 @@ typedef struct {
     double *current_scale, *current_start;
 } nh_reference_solution;
 
-/* In a model's chart.  False when the initial state is refused. */
+/* The formulation in a model's chart.  False when the initial state is refused. */
 bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute,
                          nh_arena *arena, nh_error *error);
-/* In all coordinates, from the initial state of a formulation in a chart. */
+/* The formulation in all coordinates, from the initial state of a formulation in a chart. */
 bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t, nh_arena *arena, nh_error *error);
 void nh_formulation_close(nh_formulation *f);
 
-/* (q, v) of a motion of this formulation at its outputs into y (count x 2m); false where they cannot be computed. */
+/* Writes (q, v) of a motion of this formulation at its outputs into y (count x 2m); false where they cannot be
+ * computed. */
 bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y);
 
 /* Known currents of the system file that are conserved, and the energy if it is.  The names of those that are not, as
@@ -57,36 +58,37 @@ size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena,
 /* After the reference states are there. */
 void nh_reference_solution_scales(nh_reference_solution *y, nh_arena *arena, double least);
 void nh_reference_solution_close(nh_reference_solution *y);
-/* Largest error over the first `count` outputs, and the drifts (currents values). */
+/* The largest error over the first `count` outputs, and the drift of each current. */
 double nh_reference_solution_error(const nh_reference_solution *y, size_t count, const double *states);
 void nh_reference_solution_drifts(const nh_reference_solution *y, size_t count, const double *states, double *drift);
 
-/* Exact derivatives and differences, in a chart. */
+/* Compares exact derivatives and differences, in a chart. */
 void nh_benchmark_derivatives(const nh_formulation *f, nh_benchmark *out);
 
-/* Of a motion in reduced equations: the largest error in (x, p), and the drift of the energy. */
+/* For a motion in reduced equations: the largest error in (x, p), and the drift of the energy. */
 double nh_reduced_error(const nh_formulation *f, const nh_motion *motion);
 double nh_reduced_drift(nh_formulation *f, const nh_motion *motion);
 
 /* A closed form of the system file at the output times. */
 typedef struct {
     const nh_known_motion *motion;
-    bool whole;    /* of all coordinates */
-    double *state; /* outputs x 2m, as of a reference solution; only coordinates that it gives, and their velocities */
+    bool whole;    /* it gives all coordinates */
+    /* outputs x 2m, as in a reference solution; only the coordinates that it gives, and their velocities */
+    double *state;
 } nh_known_motions;
 
 /* ---- one motion, ready to be computed by any method ---- */
 
 typedef struct {
     const nh_method *method; /* NULL: multipliers by IDA */
-    int index;               /* of that: 1 or 2 */
+    int index;               /* of the equations that IDA solves: 1 or 2 */
     size_t formulation;
     bool projected;
     double last;             /* seconds of its last run with all repetitions */
     bool given_up;
 } nh_candidate_run;
 
-/* `out` is owned until it is handed over. */
+/* A comparison of methods in progress; it owns `out` until that is handed over. */
 typedef struct {
     nh_benchmark *out;
     const nh_model *model;
@@ -94,7 +96,8 @@ typedef struct {
     nh_state initial;
     nh_reference_solution yard;
     size_t formulations, candidates, refusals; /* refusals: room for so many */
-    nh_formulation formulation[NH_BENCHMARK_FORMULATIONS + NH_CHART_REDUCED]; /* the reduced ones last */
+    /* formulations; the reduced ones come last */
+    nh_formulation formulation[NH_BENCHMARK_FORMULATIONS + NH_CHART_REDUCED];
     nh_reduction *reduction;
     size_t closeds;
     nh_known_motions *closed;      /* those that hold for this initial state, if they are true */
@@ -103,51 +106,51 @@ typedef struct {
     nh_candidate_run candidate[NH_BENCHMARK_CANDIDATES];
     nh_run_record *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
-    /* of a motion that decides what is compared, in place of the deadline: the same on every machine; 0: the
-       deadline */
+    /* limit of effort of a motion that decides what is compared, in place of the deadline: the same on every machine;
+     * 0: the deadline */
     double effort;
     nh_options options;
-    bool project, once; /* once: no repetitions, the time does not matter; steps are limited instead */
-    size_t reached;     /* outputs of the reference's longest run */
+    bool project, once; /* runs once: no repetitions, because the time does not matter; steps are limited instead */
+    size_t reached;     /* outputs of the longest run of the reference */
     bool hurried;       /* the reference ran out of time */
 } nh_benchmark_work;
 
-/* System, formulations and charts of a request; close it also on failure (and free `out`). */
+/* Opens the system, formulations and charts of a request; close it also on failure (and free `out`). */
 bool nh_benchmark_work_open(nh_benchmark_work *bench, const nh_simulate_request *request, double budget,
                             nh_error *error);
 /* The same without repetitions, with at most options.robustness_steps steps per motion, one coordinate of the initial
- * state moved, and velocities that the constraints allow there. */
+ * state changed, and velocities that satisfy the constraints there. */
 bool nh_benchmark_work_open_once(nh_benchmark_work *bench, const nh_simulate_request *request, size_t coordinate,
                                  double turn, double budget, nh_error *error);
 void nh_benchmark_work_close(nh_benchmark_work *bench);
 /* The reference: in the chart; in all coordinates where the chart breaks down or the two methods disagree. */
 bool nh_benchmark_work_reference(nh_benchmark_work *bench, nh_error *error);
-/* Where there is none: errors are then infinite, drifts those from the initial state. */
+/* Goes on without a reference: errors are then infinite, drifts those from the initial state. */
 void nh_benchmark_work_no_reference(nh_benchmark_work *bench);
-/* Another candidate; a method that is not used, with the reason. */
+/* Adds a candidate; or a method that is not used, with the reason. */
 void nh_benchmark_work_add(nh_benchmark_work *bench, const nh_method *method, size_t formulation);
 void nh_benchmark_work_refuse(nh_benchmark_work *bench, const char *method, const char *why);
-/* One run, with repetitions for its time unless bench->once. */
+/* Runs one motion, with repetitions for its time unless bench->once. */
 void nh_benchmark_work_measure(nh_benchmark_work *bench, nh_candidate_run *candidate, double tolerance, double step,
                                nh_run_record *measured);
-/* One motion that decides what is compared: it ends by counted work, as much as a part of the budget is.  NULL: the
-   method refuses it. */
+/* Runs one motion that decides what is compared: it is limited by counted work, which corresponds to a part of the
+ * budget.  NULL: the method refuses it. */
 nh_motion *nh_benchmark_work_counted(nh_benchmark_work *bench, const nh_candidate_run *candidate, double tolerance,
                                      double part);
-/* Did that or any limit end this motion?  Does the chart end on its way? */
+/* Did this or another limit end the motion?  The other one: does the chart end along it? */
 bool nh_benchmark_work_out_of_time(nh_benchmark_work *bench, const nh_motion *motion);
 bool nh_formulation_breaks_down(nh_formulation *f, const nh_motion *motion);
-/* The discrete problem, in about so many seconds. */
+/* Runs the discrete problem, in about so many seconds. */
 void nh_benchmark_fit(nh_benchmark_work *bench, double seconds);
 
-/* The closed forms of the system file that hold for the initial state. */
+/* Reads the closed forms of the system file that apply to the initial state. */
 void nh_known_motions_open(nh_benchmark_work *bench);
-/* How far one is off these states, relative to their scales, and where (an index into them). */
+/* The largest difference of one from these states, relative to their scales, and where it is (an index into them). */
 double nh_closed_off(nh_benchmark_work *bench, const nh_known_motions *closed, double *states, size_t *worst);
-/* As the reference, where the one that is there agrees; the others are refused. */
+/* Takes a closed form as the reference where it agrees with the present one; the others are refused. */
 void nh_known_motions_use(nh_benchmark_work *bench);
 
-/* The stages of the system's reduction as further formulations, where there is time for it. */
+/* Adds the stages of the system's reduction as further formulations, where there is time for it. */
 void nh_benchmark_reduced(nh_benchmark_work *bench, const nh_simulate_request *request);
 
 #endif

@@ -6,11 +6,11 @@
 #include "commands/benchmark_internal.h"
 
 enum { most_repeats = 7 };
-static const double enough_seconds = 3e-3; /* repetitions stop after this time */
+static const double enough_seconds = 3e-3; /* repetitions stop after so many seconds */
 
 static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_benchmark_work *)context)->deadline; }
 
-/* A count is the same on a busy machine. */
+/* A limit of steps gives the same result on a busy machine. */
 static double most_steps(const nh_benchmark_work *c) { return c->once ? c->options.robustness_steps : 1e8; }
 
 bool nh_benchmark_work_out_of_time(nh_benchmark_work *c, const nh_motion *motion)
@@ -53,7 +53,7 @@ static nh_motion *integrate(nh_benchmark_work *c, const nh_candidate_run *k, dou
     return motion;
 }
 
-/* Does the chart end on the way?  Most integrators step over that without a word, CVODE watches the pivot. */
+/* Does the chart end on the way?  Most integrators step across its end unnoticed; CVODE watches the pivot. */
 bool nh_formulation_breaks_down(nh_formulation *f, const nh_motion *motion)
 {
     bool any = motion->guard_hit >= 0;
@@ -99,7 +99,7 @@ static void judge(nh_benchmark_work *c, const nh_candidate_run *k, nh_motion *mo
     nh_free(states);
 }
 
-/* The least time of some repetitions; everything else from the first. */
+/* The least time of some repetitions; all other results are those of the first run. */
 void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double tolerance, double step,
                                nh_run_record *m)
 {
@@ -142,10 +142,10 @@ void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double
     k->given_up = m->status == NH_TIMEOUT; /* a smaller step or tolerance may still succeed after a failure */
 }
 
-static const double units = 1e9; /* of effort in a second */
+static const double units = 1e9; /* units of effort per second */
 
-/* A motion that decides what is compared, and until when: in counted work, as much as a part of the budget is on an
- * ordinary machine.  A cell of a map counts steps, and has a deadline where the map got a budget. */
+/* A motion that decides what is compared is limited by counted work, which corresponds to a part of the budget on an
+ * ordinary machine.  A cell of a map is limited by steps, and by a deadline where the maps have a budget. */
 nh_motion *nh_benchmark_work_counted(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double part)
 {
     nh_error ignored;

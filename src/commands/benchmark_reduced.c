@@ -2,8 +2,8 @@
  * (reduce.h): z = (x, p).
  *
  * Reduced states are not functions of the full ones where the slice's coordinates are not invariant, so that errors are
- * those of (x, p), against a reference of their own; the reduction itself has compared the motion that is found again
- * from it with the full one. */
+ * those of (x, p), against a reference of their own.  The reduction itself has compared the reconstructed motion with
+ * the full one. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -16,7 +16,7 @@ enum { least_budget = 1 }; /* seconds: finding the group may take as long */
 static const double same_motion = 1e-6;
 static const char *const methods[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF"};
 
-/* "q1=..., q1'=..., " of the chart's initial state. */
+/* "q1=..., q1'=..., ": the chart's initial state as text. */
 static const char *initial_words(const nh_benchmark_work *c)
 {
     const nh_system *s = c->model->system;
@@ -53,7 +53,7 @@ static nh_reduction *reduce(const nh_benchmark_work *c, const nh_simulate_reques
     return out;
 }
 
-/* Two methods in (x, p); why they are no reference, or NULL. */
+/* Computes a reference by two methods in (x, p); returns why they are no reference, or NULL. */
 static const char *own_reference(nh_benchmark_work *c, nh_formulation *f)
 {
     static const struct {
@@ -115,8 +115,8 @@ double nh_reduced_drift(nh_formulation *f, const nh_motion *motion)
     return worst / size;
 }
 
-/* "reduced by SE(2), 2 states", "reduced again by R, 3 states", "reduced on momentum levels by R, 4 states".  Why it
-   cannot be used, or NULL. */
+/* Names the formulation: "reduced by SE(2), 2 states", "reduced again by R, 3 states", "reduced on momentum levels by
+ * R, 4 states".  Returns why the stage cannot be used, or NULL. */
 static const char *open_stage(nh_benchmark_work *c, const nh_reduction_stage *s)
 {
     nh_formulation *f = &c->formulation[c->formulations];

@@ -1,6 +1,6 @@
 #include "commands/choice.h"
 
-/* The model in coordinate velocities, derived when that was not done before. */
+/* The model in coordinate velocities, which is derived if it is not there yet. */
 static const nh_model *derive(void *context, double effort)
 {
     nh_choice *c = context;

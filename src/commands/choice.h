@@ -8,14 +8,16 @@ typedef struct {
     nh_system *system;
     const nh_model *model;
     uint64_t seed;
-    bool may_derive;  /* the model in coordinate velocities, too: the chart was not chosen by the user */
-    double deriving;  /* units of effort that the model took */
-    nh_model *other;    /* that was derived; or NULL */
-    nh_integration_plans ways;       /* to be given to nh_trajectory_accurate while this stays where it is */
+    /* whether the model in coordinate velocities may be used, too: the user did not choose the chart */
+    bool may_derive;
+    double deriving;  /* units of effort for the derivation of the model */
+    nh_model *other;    /* the model that was derived; or NULL */
+    /* an argument of nh_trajectory_accurate; it points into this record, which must not move */
+    nh_integration_plans ways;
 } nh_choice;
 
-/* `plain`: only the model's own velocities and methods with error control can be used.  The fields up to `deriving` are
-   filled in.  nh_choice_close. */
+/* Fills in the other fields; those up to `deriving` are the caller's.  `plain`: only the model's own velocities and
+ * methods with error control can be used. nh_choice_close. */
 void nh_choice_open(nh_choice *choice, bool plain);
 void nh_choice_close(nh_choice *choice);
 

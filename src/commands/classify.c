@@ -18,7 +18,7 @@ bool nh_classified_parameter(const nh_system *s, const char *name, size_t *out, 
     return nh_system_hint_parameters(s, name, error);
 }
 
-/* All other parameters at the ratios that their decimals are; settings of the caller that are exact stay. */
+/* Holds all other parameters at the ratios that their decimals denote; exact settings of the caller stay. */
 static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_system *s, nh_error *error)
 {
     x->other = nh_arena_alloc(x->arena, (s->parameters + q->settings + 1) * sizeof *x->other);
@@ -39,12 +39,12 @@ static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_
                                              .top = value.p, .bottom = value.q};
     }
     x->fixed = x->others;
-    for (size_t k = 0; k < q->settings; k++) /* functions of what is set before */
+    for (size_t k = 0; k < q->settings; k++) /* functions of parameters that are set before them */
         if (q->setting[k].formula) x->other[x->others++] = q->setting[k];
     return true;
 }
 
-/* A value near the file's, which is special by no design. */
+/* A value near the file's value that has no special meaning. */
 static double unimportant(double value) { return round((value * 1.0871 + (value == 0 ? 0.3187 : 0)) * 1e6) / 1e6; }
 
 nh_setting *nh_classified_settings(const nh_classified *x, size_t count, const nh_setting *at, size_t *all)

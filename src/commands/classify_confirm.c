@@ -1,6 +1,5 @@
-/* What the program finds at a special value of a question that is not about currents, by ways of its own: the group in
- * closed form, the growth of brackets, the measure and the factor of a Chaplygin reduction with a density in closed
- * form. */
+/* Finds by other methods what holds at a special value of a question that is not about currents: the group in closed
+ * form, the growth of brackets, the measure, and the factor of a Chaplygin reduction with a density in closed form. */
 #include <math.h>
 #include <string.h>
 

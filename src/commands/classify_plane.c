@@ -11,7 +11,7 @@ typedef nh_classified_plane plane;
 
 /* ---- words ---- */
 
-/* The coefficient of v^power; v < 0: the whole polynomial. Highest powers first. */
+/* The coefficient of v^power as text, or, for v < 0, the whole polynomial; highest powers first. */
 static void put_polynomial(const nh_classified *x, const nh_special_surface *s, int v, size_t power, bool negative,
                            nh_text *out)
 {
@@ -66,8 +66,7 @@ const char *nh_classified_graph(const nh_classified *x, const nh_special_surface
 
 /* ---- curves ---- */
 
-/* The degree up to which products of currents that are proved for all points of the curve are as many as were
- * counted. */
+/* The degree up to which the products of currents that are proved on the whole curve are as many as were counted. */
 static size_t complete_along(const plane *x, const nh_plane_curve *c, const nh_classified *along)
 {
     const nh_classification *of = along->classification;
@@ -93,7 +92,8 @@ static void classify_curve(plane *x, const nh_classify_request *q, const nh_plan
     const char *bound = x->over[out->upright], *free = x->over[!out->upright];
     size_t count = x->family->others;
     nh_setting *setting = nh_arena_alloc(x->family->arena, (count + 1) * sizeof *setting);
-    memcpy(setting + 1, x->family->other, count * sizeof *setting); /* of which some may depend on this one */
+    /* some of these may depend on the curve's parameter */
+    memcpy(setting + 1, x->family->other, count * sizeof *setting);
     setting[0] = (nh_setting){.name = bound, .formula = formula};
     nh_classify_request request = *q;
     request.over = free;
@@ -170,7 +170,7 @@ static bool have_point(const plane *x, const nh_classified_point *p)
     return false;
 }
 
-/* Special values of the classification along a curve. */
+/* The special values of the classification along a curve. */
 static void points_on_curve(plane *x, size_t index, size_t *capacity)
 {
     const nh_classified_curve *c = &x->curve[index];
@@ -191,7 +191,7 @@ static void points_on_curve(plane *x, size_t index, size_t *capacity)
     }
 }
 
-/* ---- all ---- */
+/* ---- the whole plane ---- */
 
 nh_classified_plane *nh_classify_plane_system(const nh_classify_request *request, nh_error *error)
 {

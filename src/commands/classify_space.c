@@ -38,7 +38,8 @@ static void classify_part(space *x, const nh_classify_request *q, part *p)
     const char *formula = nh_classified_graph(x->family, s, p->v);
     size_t count = x->family->others;
     nh_setting *setting = nh_arena_alloc(x->family->arena, (count + 1) * sizeof *setting);
-    memcpy(setting + 1, x->family->other, count * sizeof *setting); /* of which some may depend on this one */
+    /* some of these may depend on the surface's parameter */
+    memcpy(setting + 1, x->family->other, count * sizeof *setting);
     setting[0] = (nh_setting){.name = x->over[p->v], .formula = formula};
     if (s->degree[0] + s->degree[1] == 0) { /* a number */
         int64_t top = -s->coefficient[0], bottom = s->coefficient[1];
@@ -75,9 +76,9 @@ static void classify_parts(space *x, const nh_classify_request *q)
     }
 }
 
-/* ---- what is special only as a part of something else ---- */
+/* ---- which special curves and points are new ---- */
 
-/* Is there a degree with more integrals than there? */
+/* Is there a degree with more integrals here than there? */
 static bool more(const space *x, const nh_classify_number *here, const nh_classify_number *there)
 {
     bool any = false;
@@ -108,7 +109,7 @@ static bool lies_on(const nh_special_surface *s, const part *p, const nh_special
     return inside;
 }
 
-/* The surface over the curve, whatever the parameter is that its part is a function for; in the arena. */
+/* The cylinder over the curve along the parameter for which the part was solved; in the arena. */
 static nh_special_surface cylinder(const space *x, const part *p, const nh_special_curve *c)
 {
     nh_special_surface out = {.degree = {0}};
@@ -207,12 +208,12 @@ static void collect(space *x)
         if (x->part[k].within) collect_points(x, k);
 }
 
-/* ---- all ---- */
+/* ---- the whole space ---- */
 
 nh_classified_space *nh_classify_space_system(const nh_classify_request *request, nh_error *error)
 {
     nh_classify_request q = *request;
-    q.over = request->third; /* as of two: lambda is the last name */
+    q.over = request->third; /* as with two parameters: lambda is the last name */
     q.third = request->over;
     nh_classified *family = nh_classified_open(&q, error);
     if (!family) return NULL;

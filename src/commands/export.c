@@ -23,7 +23,7 @@ const char *nh_export_part_name(nh_export_part part)
     return "";
 }
 
-/* ---- for those who fill it ---- */
+/* ---- how functions are added ---- */
 
 void nh_export_note(nh_export *x, const char *format, ...)
 {
@@ -102,7 +102,7 @@ nh_ex *nh_export_symbols(nh_export *x, nh_dag *dag, const char *base, size_t n)
 
 /* ---- the question ---- */
 
-/* The next word of a list with commas or blanks; NULL at its end. */
+/* The next word of a list separated by commas or blanks; NULL at its end. */
 static const char *next_word(nh_arena *arena, const char **list)
 {
     *list += strspn(*list, ",; \t");
@@ -134,7 +134,7 @@ static bool read_parts(nh_export *x, const char *list, unsigned *out, nh_error *
     return nh_error_hint(error, "--of takes equations, momenta, submanifold, currents, reduced, or all");
 }
 
-/* An input may change with time at will: its derivative must not occur in the equations of motion. */
+/* An input may be any function of time: its derivative must not occur in the equations of motion. */
 static bool may_change(const nh_system *s, size_t parameter, nh_error *error)
 {
     nh_dag *d = s->dag;
@@ -202,7 +202,7 @@ static bool analyse(nh_export *x, const nh_export_request *q, nh_error *error)
     return true;
 }
 
-/* Without a group there is nothing to reduce by: a remark, unless the user asks for a group. */
+/* Without a group there is nothing to reduce by: this is a remark, unless the user asked for a group. */
 static bool reduce(nh_export *x, const nh_export_request *q, nh_error *error)
 {
     nh_error trouble = {0};

@@ -18,7 +18,7 @@ typedef struct {
     size_t m, k, n;
     nh_ex *q, *v;            /* m each */
     const char **rate;       /* m: x'' */
-    const char **constraint; /* k: c1, c2, .. */
+    const char **constraint; /* k: the names c1, c2, .. */
 } scope;
 
 static scope scope_of(nh_export *x, const nh_model *o)
@@ -52,7 +52,7 @@ static void place_and_velocity(const scope *s, nh_export_function *f)
     nh_export_argument(s->x, f, "v", "their velocities", s->m, s->v);
 }
 
-/* Where that is quick. */
+/* Simplified, where that is quick. */
 static void simplify(const scope *s, size_t n, nh_ex *e)
 {
     for (size_t i = 0; i < n && !nh_interrupted(); i++) e[i] = nh_simplify_short(s->d, e[i], 0);
@@ -60,8 +60,8 @@ static void simplify(const scope *s, size_t n, nh_ex *e)
 
 /* ---- all coordinates, with multipliers ---- */
 
-/* A multiplier of f without poles, F = df/dv, as one of the constraint as it was written, nu = df/dv: mu_a = mu F.nu /
- * nu.nu, on the constraint. */
+/* From the multiplier mu of f without poles, F = df/dv, to that of the constraint as it was written, nu = df/dv: mu_a =
+ * mu F.nu / nu.nu, on the constraint. */
 static nh_ex of_written(const scope *s, size_t a, nh_ex mu, const nh_ex *F)
 {
     nh_dag *d = s->d;
@@ -154,8 +154,8 @@ void nh_export_equations(nh_export *x, const nh_model *model)
 
 /* ---- momenta ---- */
 
-/* Unknown velocities from momenta p = value(w), whose Jacobian is M: linear where M does not depend on w, else from a
- * guess. */
+/* Solves momenta p = value(w) for velocities, with the Jacobian M: a linear system where M does not depend on w,
+ * otherwise an iteration from a guess. */
 static void invert(const scope *s, nh_export_function *f, size_t n, const nh_ex *w, const nh_ex *value, const nh_ex *M,
                    const nh_ex *p)
 {
@@ -235,7 +235,8 @@ static nh_ex *state_of(const scope *s)
     return out;
 }
 
-/* Which branch of a quadratic constraint it is, and how one gets the other: in the function and once in the notes. */
+/* Says which branch of a quadratic constraint it is, and how to get the other: in the function, and once in the
+ * notes. */
 static const char *with_branch(const scope *s, const char *doc)
 {
     const nh_chart *c = s->o->chart;
@@ -254,8 +255,8 @@ static const char *with_branch(const scope *s, const char *doc)
     return doc;
 }
 
-/* A function of the state (q, w).  Velocities that the constraints determine only implicitly come first, from a guess.
- */
+/* A function of the state (q, w).  Velocities that the constraints determine only implicitly are solved for first, from
+ * a guess. */
 static nh_export_function *on_submanifold(const scope *s, nh_export_part part, const char *name, const char *doc)
 {
     const nh_chart *c = s->o->chart;
@@ -271,7 +272,7 @@ static nh_export_function *on_submanifold(const scope *s, nh_export_part part, c
     return f;
 }
 
-/* How many operations n expressions are, about. */
+/* The number of operations of n expressions, about. */
 static size_t operations(const scope *s, size_t n, const nh_ex *e)
 {
     nh_ex sum = nh_int(s->d, 0);
@@ -304,7 +305,7 @@ static void rates(const scope *s)
                          o->chart->u, names_of(s, o->chart->implicit, o->chart->u));
 }
 
-/* v = rho(t, q, w), and back. */
+/* v = rho(t, q, w), and its inverse. */
 static void embedding(const scope *s)
 {
     const nh_model *o = s->o;

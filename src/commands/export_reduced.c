@@ -1,5 +1,5 @@
-/* export_reduced: the stages of a reduction as functions: reduced equations, the motion in the group, and the place
- * that both stand for.
+/* export_reduced: the stages of a reduction as functions: reduced equations, the motion in the group, and the place q
+ * that both determine.
  *
  *     g = exp(t_1 e_1) ... exp(t_d e_d),    M(t) t' = Ad_g zeta,    q = flow_1(t_1) o ... o flow_d(t_d) (sigma(x))
  *
@@ -51,7 +51,7 @@ static scope scope_of(nh_export *x, const nh_reduction *r, size_t i)
     return s;
 }
 
-/* With the velocities from the momenta, M w = p. */
+/* In velocities from the momenta: M w = p. */
 static nh_export_function *add(const scope *s, const char *suffix, const char *doc)
 {
     nh_export_function *f = nh_export_add(s->x, NH_EXPORT_REDUCED, s->r->system,
@@ -114,7 +114,7 @@ static void multiply(const scope *s, size_t n, const nh_ex *a, const nh_ex *b, n
     memcpy(out, c, n * n * sizeof *c);
 }
 
-/* lambda with N^4 = lambda N^2; false where there is none. */
+/* The lambda with N^4 = lambda N^2; false where there is none. */
 static bool quartic(const scope *s, size_t n, const nh_ex *square, const nh_ex *fourth, nh_ex *lambda)
 {
     nh_dag *d = s->d;
@@ -237,7 +237,7 @@ static bool place_rate(const scope *s, const nh_ex *t, const nh_ex *spatial)
                 if (nh_depends(s->d, e, s->o->x[i])) return false;
             rate[r] = nh_add(s->d, rate[r], nh_mul(s->d, spatial[a], e));
         }
-    nh_ex *q = take(s, k->m); /* the place has coordinates of its own: those of the shape stand in the state already */
+    nh_ex *q = take(s, k->m); /* the place has coordinates of its own: those of the shape are in the state already */
     nh_ex *along = nh_export_symbols(s->x, s->d, "q", k->m);
     for (size_t i = 0; i < k->m; i++) q[i] = along[i];
     for (size_t r = 0; r < k->m; r++) {
@@ -288,7 +288,7 @@ static void reconstruction(const scope *s)
 void nh_export_stages(nh_export *x, const nh_reduction *r)
 {
     for (size_t i = 0; i < r->stages; i++) {
-        if (r->stage[i].shown->force) { /* computed, without a formula */
+        if (r->stage[i].shown->force) { /* it is computed, and has no formula */
             nh_export_note(x, "stage %zu has no formula", i + 1);
             continue;
         }

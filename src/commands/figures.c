@@ -10,7 +10,8 @@ enum { outputs = 601, scan_points = 128, scan_values = 401 };
 
 /* ---- one motion ---- */
 
-/* A motion with one parameter changed, read anew: initial values and expressions may depend on it. */
+/* Computes a motion with one parameter changed, for which the files are read anew: initial values and expressions may
+ * depend on it. */
 static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q, const nh_figure_request *f,
                         double value, nh_state *initial, double *until, nh_error *error)
 {
@@ -30,8 +31,8 @@ static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_analyze
     return nh_simulate_read(s, &motion, initial, until, error);
 }
 
-/* From the initial time to `end`, which may lie before it: quantity k at value[i * n + k], i counted from the initial
-   time. */
+/* Follows a motion from the initial time to `end`, which may be earlier: quantity k at value[i * n + k], i counted from
+ * the initial time. */
 static nh_trajectory *integrate(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q,
                                 const nh_figure_request *f, const nh_state *initial, double end, size_t count,
                                 double *times, nh_error *error)
@@ -172,7 +173,7 @@ static void scan(nh_analysis *r, nh_figure *figure)
         (nh_figure_curve){nh_name_of(r->model->dag, u->symbol), 0, NAN, scan_values, x, y, NULL};
 }
 
-/* The two sides of the gap for one number of samples; NAN where there is no such value. */
+/* The two values beside the gap for one number of samples; NAN where there is no such value. */
 static bool gap_at(const nh_analysis *r, const nh_ansatz *a, size_t count, double out[2], nh_error *error)
 {
     nh_points *points = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed, error);

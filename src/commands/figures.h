@@ -5,8 +5,8 @@
 
 #include "commands/analyze_request.h"
 
-/* Fills result->figure.  A curve that cannot be computed is left out with a warning.  The families are those of the
- * ansatz with the unknowns' values in place; 0 where the program chose it. */
+/* Fills result->figure.  A curve that cannot be computed is left out with a warning.  `family`: those of the ansatz
+ * with the values of the unknowns; none where the program chose the ansatz. */
 void nh_figures_compute(nh_analysis *result, const nh_analyze_request *request, size_t families,
                         const nh_family *family);
 

@@ -10,12 +10,13 @@
 #include "commands/benchmark_internal.h"
 
 static const double least_off = 1e-11; /* rounding of a closed form and of the motion that it is compared with */
-static const double fits = 1e-9;       /* a condition on the initial state holds when left and right differ by less */
+/* a condition on the initial state is satisfied when left and right side differ by less */
+static const double fits = 1e-9;
 
-/* ---- what it says ---- */
+/* ---- reading a closed form ---- */
 
-/* The numbers that the initial state gives, then the conditions: false where they cannot be had or a condition
-   fails. */
+/* Takes the numbers that the initial state determines, and tests the conditions: false where a number has no value or a
+ * condition fails. */
 static bool at_the_start(const nh_benchmark_work *c, const nh_known_motion *k, double *value)
 {
     const nh_model *o = c->model;
@@ -41,7 +42,7 @@ static bool at_the_start(const nh_benchmark_work *c, const nh_known_motion *k, d
     return good;
 }
 
-/* Its coordinates and, as their derivatives by t, velocities at the output times, into rows of 2m. */
+/* Its coordinates, and as their derivatives by t the velocities, at the output times, into rows of 2m. */
 static bool along(const nh_benchmark_work *c, const nh_known_motion *k, const double *start, double *state)
 {
     const nh_model *o = c->model;
@@ -103,7 +104,7 @@ void nh_known_motions_open(nh_benchmark_work *c)
     }
 }
 
-/* ---- whether it is so ---- */
+/* ---- confirming it ---- */
 
 double nh_closed_off(nh_benchmark_work *c, const nh_known_motions *f, double *states, size_t *worst)
 {

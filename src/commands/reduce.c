@@ -33,7 +33,8 @@ void nh_reduction_warn(nh_reduction *r, const char *format, ...)
 bool nh_reduction_late(nh_reduction *r, const char *what)
 {
     if (!nh_late()) return false;
-    const char *option = nh_ended_option() ? nh_ended_option() : "--max-seconds"; /* late, not ended */
+    /* the deadline is past, but nothing ended the run */
+    const char *option = nh_ended_option() ? nh_ended_option() : "--max-seconds";
     nh_reduction_warn(r, "a limit prevented %s; raise it by %s", what, option);
     return r->partial = true;
 }
@@ -133,7 +134,7 @@ static bool group_of_file(nh_reduction *r, nh_error *error)
     return nh_action_check(&r->group->action, &r->options, error);
 }
 
-/* "1, 2, 5": generators of the group that was found. */
+/* "1, 2, 5": numbers of generators of the group that was found. */
 static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
 {
     size_t d = r->all->action.d, n = 0;
@@ -159,7 +160,7 @@ static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
     return good && nh_action_check(&r->group->action, &r->options, error);
 }
 
-/* How many more symmetries the equations have than L. */
+/* The number of symmetries of the equations beyond those of L. */
 static void count_weaker(nh_reduction *r)
 {
     nh_error trouble = {0};
@@ -194,7 +195,7 @@ static void keep_within_walls(nh_reduction *r)
                       lost == 1 ? "it takes" : "they take");
 }
 
-/* What the user named leaves the walls alone, too. */
+/* Fields that the user named must leave the walls invariant, too. */
 static bool named_within_walls(nh_reduction *r, nh_error *error)
 {
     nh_group *within = r->group ? nh_group_within_walls(r->group, &r->options) : NULL;
@@ -226,8 +227,8 @@ static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     return true;
 }
 
-/* At a place that the group does not move as it moves others there is nothing to divide out: an error where the group
-   was given, else a warning. */
+/* At a place where the group's orbit has a lower dimension there is nothing to divide out: an error where the user gave
+ * the group, otherwise a warning. */
 static bool starts_well(nh_reduction *r, nh_error *error)
 {
     nh_error trouble = {0};
@@ -239,7 +240,8 @@ static bool starts_well(nh_reduction *r, nh_error *error)
     return true;
 }
 
-/* Of a system of bodies: which displacements of its joints leave the kinetic energy alone, and what else they do. */
+/* For a system of bodies: which displacements of its joints leave the kinetic energy invariant, and what else these
+ * leave invariant. */
 static bool joint_by_joint(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
     if (!r->system->chain || nh_reduction_late(r, "the symmetries joint by joint")) return true;
@@ -251,10 +253,10 @@ static bool joint_by_joint(nh_reduction *r, const nh_reduce_request *q, nh_error
     return true;
 }
 
-/* ---- all of it ---- */
+/* ---- the whole reduction ---- */
 
-/* Where the metric and the constraints say little about what is wrong, the equations of motion say it with its place in
-   the file. */
+/* Where metric and constraints give only a vague reason for a failure, the equations of motion give it with its place
+ * in the file. */
 static void explain_failure(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
     nh_error better = {0};
@@ -284,7 +286,7 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     return true;
 }
 
-/* Of a system that is divided as it is, or by symmetries of its equations. */
+/* For a system that is reduced directly, or by symmetries of its equations. */
 static bool conserved(nh_reduction *r)
 {
     nh_error trouble = {0};
@@ -295,7 +297,7 @@ static bool conserved(nh_reduction *r)
     return true;
 }
 
-/* Where there are no accelerations, a momentum that is not proved remains one "to rounding". */
+/* Where there are no accelerations, a momentum without proof remains one "to rounding". */
 static void confirm(nh_reduction *r)
 {
     nh_error trouble = {0};
@@ -318,7 +320,7 @@ static void clear_stages(nh_reduction *r)
     r->stages = r->unused_count = 0;
 }
 
-/* The stages.  Where they were interrupted there are none, and the group is kept. */
+/* Carries out the stages.  When the run was interrupted there are none, and the group is kept. */
 static bool divide_by_group(nh_reduction *r, nh_error *error)
 {
     if (nh_interrupted() || nh_reduction_stages(r, error)) return true;

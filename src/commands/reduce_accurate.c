@@ -1,8 +1,8 @@
-/* reduce_accurate: the full motion that reduced ones are compared with, where an accuracy is wanted.
+/* reduce_accurate: the full motion with which reduced ones are compared, where an accuracy is requested.
  *
- * accuracy.h chooses its method, equations and tolerance.  What counts here is the distance of places
- * (reduce_full.c), which is another norm: so the motion is computed once more with a much smaller tolerance, and is
- * accepted where that moves it by less than a quarter of what is wanted.  The finer of the two is the reference. */
+ * accuracy.h chooses its method, equations and tolerance.  Here the distance of places decides (reduce_full.c), which
+ * is another norm: so the motion is computed once more with a much smaller tolerance, and is accepted where that moves
+ * it by less than a quarter of the requested accuracy.  The finer of the two is the reference. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,11 +12,11 @@
 #include "commands/reduce_internal.h"
 
 enum { most_attempts = 4 };
-/* of what is wanted: the full motion's; tolerance of the check */
+/* parts of the requested accuracy: for the full motion; for the tolerance of the check */
 static const double share = 0.25, finer = 0.03, tightest = 1e-14;
 
-/* A run by the method and equations of another, at a tolerance so many times as large, or with steps that have an error
-   so many times as large. */
+/* A run by the method and equations of another one, with a tolerance so many times as large, or with steps whose error
+ * is so many times as large. */
 static nh_trajectory *once_more(const nh_trajectory_request *request, const nh_trajectory *t, const nh_accuracy *a,
                                 double part)
 {
@@ -33,10 +33,10 @@ static nh_trajectory *once_more(const nh_trajectory_request *request, const nh_t
     return out;
 }
 
-/* Where the tolerance cannot be smaller a larger one measures the error, too. */
+/* Where the tolerance cannot be smaller, a larger one measures the error, too. */
 static double part_of(const nh_accuracy *a) { return isnan(a->step) && a->tolerance * finer < tightest ? 3 : finer; }
 
-/* The time of a quick motion is that of the quicker of two. */
+/* A quick motion is timed twice, and the smaller time is taken. */
 static void time_again(const nh_trajectory_request *request, const nh_trajectory *t, const nh_accuracy *a,
                        nh_reduction_choice *c)
 {
@@ -63,7 +63,7 @@ static void explain(nh_reduction *r, const nh_accuracy *a)
                  share * r->wanted, c->method, setting, c->error);
 }
 
-/* What one attempt gave, as reference: the finer of the two motions. */
+/* Takes the finer of the two motions of one attempt as the reference. */
 static void take(nh_reduction_bench *b, const nh_trajectory_request *request, const nh_trajectory *t,
                  const nh_trajectory *other, const nh_accuracy *a)
 {
@@ -90,7 +90,7 @@ static void take(nh_reduction_bench *b, const nh_trajectory_request *request, co
 
 static bool complete(const nh_trajectory *t) { return t && t->motion->complete; }
 
-/* At ever smaller errors until the distance is small enough; false when there is no motion to its end. */
+/* Reduces the error until the distance is small enough; false when there is no motion to the end. */
 static bool attempts(nh_reduction_bench *b, const nh_trajectory_request *request)
 {
     nh_reduction *r = b->r;
@@ -123,7 +123,7 @@ static bool attempts(nh_reduction_bench *b, const nh_trajectory_request *request
 
 bool nh_reduction_full_accurate(nh_reduction_bench *b)
 {
-    /* of what is wanted: the tolerance of motions that nothing is chosen for */
+    /* part of the requested accuracy: the tolerance of motions without a choice of method */
     static const double part = 1e-3, least = 5e-14;
     nh_reduction *r = b->r;
     nh_error trouble = {0};
@@ -136,7 +136,7 @@ bool nh_reduction_full_accurate(nh_reduction_bench *b)
     size_t m = r->kinetic->m;
     nh_options options = r->options;
     options.steps = fmin(options.steps, NH_REDUCTION_STEPS);
-    options.compile = 0; /* reduced motions are interpreted: so their times compare */
+    options.compile = 0; /* reduced motions are interpreted: so their times are comparable */
     nh_ex *place = nh_arena_alloc(r->arena, m * sizeof *place);
     for (size_t s = 0; s < m; s++) place[s] = r->whole->system->coordinate[s].q;
     nh_trajectory_request request = {.model = r->whole,

@@ -1,26 +1,27 @@
-/* reduce_choose: by which method a reduced motion is computed that is to agree with the full one to a wanted accuracy.
+/* reduce_choose: chooses the method of a reduced motion that has to agree with the full one to a requested accuracy.
  *
  * A race in counted work (base/effort.h): each method with error control runs, with the group's motion, at ever smaller
  * tolerances until its places are near enough to the full motion's; no run may need more than twice the cheapest that
- * was.  At first none may need more than a quarter of a second's work, so that a method that is no good for these
- * equations (an explicit one on stiff ones) does not hold up the others; that grows until one gets through.  Nothing is
- * estimated: the comparison is the one that is wanted. */
+ * was.  At first none may need more than a quarter of a second's work, so that a method that is unsuitable for these
+ * equations (an explicit one on stiff ones) does not delay the others; this limit grows until a method succeeds.
+ * Nothing is estimated: each run is compared with the full motion itself. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/progress.h"
 #include "commands/reduce_internal.h"
 
-enum { most_runs = 7 };       /* of one method */
-static const double aim = 0.5, loosest = 1e-5, tightest = 1e-14; /* aim: in what is wanted; tolerances */
-/* units of effort: the first limit; times that the next; what no limit is above; or below */
+enum { most_runs = 7 };       /* runs of one method */
+/* aim: as a part of the requested accuracy; tolerances */
+static const double aim = 0.5, loosest = 1e-5, tightest = 1e-14;
+/* units of effort: the first limit; factor to the next; limits are neither above nor below these */
 static const double patient = 2.5e8, more = 16, longest = 2e12, least_limit = 1e7;
-static const double quick = 0.01; /* seconds: the time of a run so short is taken twice, to be shown */
+static const double quick = 0.01; /* seconds: a run that is as short is timed twice, for display */
 
 typedef struct {
     const nh_method *method;
-    bool out;                 /* it fails, or did not get near enough at the smallest tolerance */
-    double effort;            /* of the run that reached it; INFINITY */
+    bool out;                 /* the method fails, or was not near enough at the smallest tolerance */
+    double effort;            /* effort of the run that was near enough; INFINITY */
 } runner;
 
 typedef struct {
@@ -29,9 +30,9 @@ typedef struct {
     const nh_reduction_time_series *course;
     double wanted, limit;     /* units that a run may need */
     int runs;
-    nh_reconstruction *best;  /* the cheapest that is near enough, or while none is the nearest */
+    nh_reconstruction *best;  /* the cheapest run that is near enough, or, while there is none, the nearest one */
     nh_reconstruct_how how;   /* it was computed */
-    double distance, effort;  /* of it; effort: INFINITY while none is near enough */
+    double distance, effort;  /* its distance, and its effort: INFINITY while none is near enough */
 } race;
 
 static nh_reconstruction *run(race *q, const nh_method *method, double tolerance, double effort)
@@ -45,7 +46,7 @@ static nh_reconstruction *run(race *q, const nh_method *method, double tolerance
     return c;
 }
 
-/* As far as what it is compared with goes, or as there are equations. */
+/* The end of a run: as far as its reference goes, and the equations are regular. */
 static bool goes_far_enough(const race *q, const nh_reconstruction *c)
 {
     return c->count >= q->course->reached || c->dependent;
@@ -61,7 +62,7 @@ static void keep(race *q, nh_reconstruction *c, const nh_method *method, double 
     q->effort = effort;
 }
 
-/* A run that is near enough: is it the cheapest? */
+/* A run that is near enough: is it the cheapest one? */
 static void arrive(race *q, runner *m, nh_reconstruction *c, double tolerance, double distance)
 {
     m->effort = c->effort;
@@ -69,7 +70,7 @@ static void arrive(race *q, runner *m, nh_reconstruction *c, double tolerance, d
     else nh_reconstruction_free(c);
 }
 
-/* The time of a quick motion is that of the quicker of two. */
+/* A quick motion is timed twice, and the smaller time is taken. */
 static double time_of(race *q)
 {
     double seconds = q->best->seconds;
@@ -80,12 +81,12 @@ static double time_of(race *q)
     return seconds;
 }
 
-/* One method, at ever smaller tolerances. */
+/* Tries one method at smaller and smaller tolerances. */
 static void enter(race *q, runner *m)
 {
     double tolerance = fmin(loosest, q->wanted);
     for (int i = 0; i < most_runs && !m->out && !nh_interrupted(); i++) {
-        double limit = fmin(q->limit, fmax(2 * q->effort, least_limit)); /* the second cheapest is named, too */
+        double limit = fmin(q->limit, fmax(2 * q->effort, least_limit)); /* the second cheapest is reported, too */
         nh_reconstruction *c = run(q, m->method, tolerance, limit);
         bool far = c && goes_far_enough(q, c), late = c && !far && c->effort >= limit;
         double distance = far ? nh_reduction_farthest(q->s, q->course, c) : INFINITY;
@@ -104,7 +105,7 @@ static void enter(race *q, runner *m)
     m->out |= !(m->effort < INFINITY);
 }
 
-/* The second cheapest, and the words. */
+/* Finds the second cheapest, and writes the choice in words. */
 static void explain(race *q, size_t n, const runner *m)
 {
     nh_reduction_choice *c = &q->s->choice;

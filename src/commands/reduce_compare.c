@@ -1,4 +1,4 @@
-/* reduce_compare: the motion of a stage, with the group's found again, against the full one. */
+/* reduce_compare: the reconstructed motion of a stage, compared with the full one. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -30,7 +30,8 @@ double nh_reduction_farthest(const nh_reduction_stage *s, const nh_reduction_tim
     return worst;
 }
 
-/* Time, energy and what is conserved, of the reduced motion (on one slice alone the group's motion belongs to it). */
+/* The time, the drift of the energy and of conserved quantities, from the reduced motion (on one slice alone it
+ * includes the group's motion). */
 static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reconstruction *c)
 {
     if (c->count > 1 && s->reduced->conservative) s->energy_drift = 0;
@@ -45,8 +46,8 @@ static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_
     s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
 }
 
-/* Does it go in the variables of the equations that are shown?  Other independent velocities have other momenta, some
-   of them under the same names. */
+/* Is the motion computed in the variables of the equations that are shown?  Other independent velocities have other
+ * momenta, some of them with the same names. */
 static bool in_shown_momenta(const nh_reduction_stage *s, const nh_reduced *first)
 {
     bool same = s->shown && s->shown->r == first->r;
@@ -54,7 +55,7 @@ static bool in_shown_momenta(const nh_reduction_stage *s, const nh_reduced *firs
     return same;
 }
 
-/* What is shown of it. */
+/* The part of the motion that is shown. */
 static void keep(nh_reduction *r, nh_reduction_stage *s, const nh_reconstruction *c)
 {
     size_t n = c->first->n, momenta = in_shown_momenta(s, c->first) ? c->first->r : 0;
@@ -69,7 +70,7 @@ static void keep(nh_reduction *r, nh_reduction_stage *s, const nh_reconstruction
         .count = c->count, .m = c->m, .q = q, .charted = charted, .momenta = momenta, .p = p, .name = name};
 }
 
-/* How far it goes and how near it comes. */
+/* How far the motion goes, and how near it comes to the full one. */
 static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course,
                        const nh_reconstruction *c)
 {
@@ -96,7 +97,7 @@ static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, const nh
     nh_reconstruction_free(c);
 }
 
-/* With the group's motion; false when it cannot be started. */
+/* The motion with reconstruction; false when it cannot be started. */
 static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course,
                               const nh_reconstruct_how *how, bool first)
 {
@@ -111,11 +112,11 @@ static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, cons
     return true;
 }
 
-/* Where the two are apart the reduced motion is computed again with a smaller tolerance: it may be the more sensitive
-   one. */
+/* Where the two differ the reduced motion is computed again with a smaller tolerance, as it may be the more sensitive
+ * one. */
 static bool nearer(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course)
 {
-    static const double apart = 50, finer = 0.02, least = 2e-14; /* apart in tolerances */
+    static const double apart = 50, finer = 0.02, least = 2e-14; /* a difference, in tolerances */
     const nh_reduction *r = b->r;
     nh_reconstruct_how how[] = {{.tolerance = b->rtol}, {.tolerance = fmax(b->rtol * finer, least)}};
     for (size_t i = 0; i < sizeof how / sizeof *how; i++) {
@@ -129,7 +130,7 @@ static bool nearer(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduct
     return true;
 }
 
-/* By the method that is chosen for the wanted accuracy. */
+/* By the method that is chosen for the requested accuracy. */
 static void chosen(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course)
 {
     nh_reduction *r = b->r;

@@ -1,4 +1,4 @@
-/* reduce_full: the full motion that reduced ones are compared with, and how well it is known. */
+/* reduce_full: the full motion with which reduced ones are compared, and its error. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,10 +6,10 @@
 #include "commands/reduce_internal.h"
 #include "motion/automatic.h"
 
-/* What differences count beside: angles have one size together, and so have other coordinates, of which rotations mix
- * the errors: the largest of them, or the largest as the metric compares them, sqrt(K_rr / K_ss) size_r, where that is
- * smaller (a light body beside a heavy one).  Lengths that are zero but for rounding are compared with a part of the
- * radius of gyration, sqrt(K_aa / K_ss). */
+/* The sizes to which differences are relative.  All angles have one size together, and so have the other coordinates,
+ * whose errors rotations mix: the largest of them, or the largest as the metric compares them, sqrt(K_rr / K_ss)
+ * size_r, where that is smaller (a light body beside a heavy one).  Lengths that are zero up to rounding are compared
+ * with a part of the radius of gyration, sqrt(K_aa / K_ss). */
 typedef struct {
     double angles, lengths, metric, gyration;
 } yardsticks;
@@ -32,8 +32,8 @@ static yardsticks yardsticks_of(const nh_kinetic *k, const double *K, const doub
 
 static double beside(const yardsticks *y, bool angle, double unit)
 {
-    if (!(unit > 0)) return y->lengths > 0 ? y->lengths : 1; /* without inertia */
-    /* of the radius of gyration: below it differences of 1e-13 of that radius would count */
+    if (!(unit > 0)) return y->lengths > 0 ? y->lengths : 1; /* it has no inertia */
+    /* part of the radius of gyration: for smaller sizes, differences of 1e-13 of that radius would count */
     static const double rounding = 1e-6;
     double size = angle ? y->angles : fmax(fmin(y->lengths, y->metric / unit), rounding * y->gyration / unit);
     return size > 0 ? size : 1; /* all is zero: there is no size */
@@ -54,7 +54,7 @@ static void grow(const nh_kinetic *k, const double *q, double *size)
     for (size_t s = 0; s < k->m; s++) size[s] = fmax(size[s], fabs(q[s]));
 }
 
-/* How far two places are apart: angles modulo 2 pi, relative to the sizes that coordinates have had, measured by the
+/* The distance of two places: angles modulo 2 pi, relative to the sizes that coordinates have had, measured by the
  * metric with unit diagonal.  Near a pole of the coordinates large differences of two angles may mean nearly the same
  * place, and only the metric tells. */
 static double distance(const nh_kinetic *k, const double *a, const double *b, const double *size)
@@ -96,7 +96,8 @@ void nh_reduction_first_sizes(const nh_kinetic *k, size_t count, const double *a
 {
     size_t m = k->m;
     double *K = metric_at(k, a), *so_far = nh_alloc_array(m + 1, sizeof *so_far);
-    for (size_t i = 0; i < count && i < 2; i++) grow(k, a + i * stride, so_far); /* as nh_reduction_reliable */
+    /* the same condition as in nh_reduction_reliable */
+    for (size_t i = 0; i < count && i < 2; i++) grow(k, a + i * stride, so_far);
     yardsticks y = yardsticks_of(k, K, so_far);
     for (size_t s = 0; s < m; s++) size[s] = beside(&y, k->angle[s], sqrt(fmax(K[s * (m + 1)], 0)));
     nh_free(so_far);
@@ -111,7 +112,7 @@ static size_t reliable(const nh_kinetic *k, const nh_motion *a, const nh_motion 
 
 /* ---- the full motion ---- */
 
-/* By a method, or by the one that suits (NULL). */
+/* By the given method, or by a suitable one (NULL). */
 static nh_motion *full_by(nh_reduction_bench *b, const nh_method *method, double rtol, size_t outputs,
                           const nh_method **used, nh_error *error)
 {
@@ -132,7 +133,7 @@ static nh_motion *full_by(nh_reduction_bench *b, const nh_method *method, double
     return motion;
 }
 
-/* Two motions of different tolerances, which agree at the first `reached` outputs. */
+/* Two motions with different tolerances; they agree at the first `reached` outputs. */
 typedef struct {
     const nh_method *method;
     nh_motion *coarse, *fine;
@@ -166,7 +167,7 @@ static void take_usual(nh_reduction *r, const pair *p, bool held)
              reason);
 }
 
-/* The motion and how far it is known, into the reduction. */
+/* Stores the motion and its error in the reduction. */
 static void take(nh_reduction_bench *b, const pair *p)
 {
     nh_reduction *r = b->r;
@@ -187,8 +188,8 @@ static void take(nh_reduction_bench *b, const pair *p)
 }
 
 /* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up
- * along a motion: the tolerance with which all are computed is a hundredth of the one that is asked for, or less where
- * the full motion shows that this would not do. */
+ * along a motion: all motions are computed with a hundredth of the requested tolerance, or less where the full motion
+ * shows that this does not suffice. */
 static bool full_motion(nh_reduction_bench *b, nh_error *error)
 {
     static const double part = 0.01, least = 3e-13, aim = 10; /* aim: in tolerances */
@@ -197,7 +198,7 @@ static bool full_motion(nh_reduction_bench *b, nh_error *error)
     pair p = {.finest = 1e-13};
     p.coarse = full_by(b, NULL, b->rtol, NH_REDUCTION_OUTPUTS, &p.method, error);
     const nh_motion *coarse = p.coarse;
-    /* one that ends early, with steps that become smaller and smaller, is not brought to its end a second time */
+    /* a motion that ends early, with smaller and smaller steps, is not followed to its end a second time */
     size_t outputs = coarse && !coarse->complete && coarse->guard_hit < 0 && coarse->count > 1 ? coarse->count
                                                                                                : NH_REDUCTION_OUTPUTS;
     const char *ended =
@@ -230,8 +231,8 @@ bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
     return (b->r->wanted > 0 && nh_reduction_full_accurate(b)) || full_motion(b, error);
 }
 
-/* Errors of one size, made at other places of the motion: what remains of them at the outputs is how well a motion in
-   all coordinates is known, whatever its sensitivity. */
+/* The same errors made at other places of the motion: their effect at the outputs shows how accurately a motion in all
+ * coordinates is known, whatever its sensitivity. */
 double nh_reduction_unsure(nh_reduction_bench *b)
 {
     static const double finest = 1e-13, coarser[] = {2, 5};

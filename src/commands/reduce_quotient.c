@@ -1,5 +1,5 @@
-/* reduce_quotient: systems that have neither connection nor momenta to reduce with (nonlinear constraints, Lagrangians
- * that are not quadratic, explicit time): their equations on the quotient, whenever a group leaves them invariant. */
+/* reduce_quotient: systems without connection and momenta (nonlinear constraints, Lagrangians that are not quadratic,
+ * explicit time): their equations on the quotient, whenever a group leaves them invariant. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

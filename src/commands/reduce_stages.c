@@ -67,19 +67,19 @@ static const nh_chaplygin *chaplygin_on(nh_reduction *r, const nh_slice *slice, 
     return nh_chaplygin_init(c, slice, error) ? c : NULL;
 }
 
-/* Existence on the slice through the initial state, the closed form on the one that is shown. */
+/* Existence is tested on the slice through the initial state, the closed form found on the one that is shown. */
 static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *slice, const nh_ex *K, const nh_ex *U,
                                        const nh_slice *shown, const nh_ex *Ks, const nh_ex *Us)
 {
     nh_chaplygin_measure m = nh_chaplygin_measure_of(slice, K, U, &r->options);
     if (m.tested && m.measure && m.size > r->options.group)
         m.closed = nh_density_find(shown, Ks, Us, &r->options, &m.density, &m.proof);
-    nh_ex size = m.closed ? nh_call(shown->dag, NH_ABS, m.density) : 0; /* its sign is no matter */
+    nh_ex size = m.closed ? nh_call(shown->dag, NH_ABS, m.density) : 0; /* its sign does not matter */
     if (m.closed) m.local = nh_kinetic_many_valued(shown->kinetic, 1, &size);
     return m;
 }
 
-/* Where the numbers say no: for which parameters the answer would be yes. */
+/* Where the values show that there is none: for which parameters there would be one. */
 static void conditions_of(nh_reduction *r, nh_reduction_stage *s, const nh_slice *shown, const nh_ex *K, const nh_ex *U)
 {
     const nh_chaplygin_measure *m = &s->measure;
@@ -149,8 +149,7 @@ static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t r
 }
 
 /* The largest |e_a^s (p_s + ahat_s)| that momenta of this energy can have (Cauchy and Schwarz): sqrt(e_a K e_a) sqrt(p
- * K^-1 p) + |e_a^s ahat_s|.  The momentum itself may be zero but for rounding, which is no larger than a part of
- * this. */
+ * K^-1 p) + |e_a^s ahat_s|.  The momentum itself may be zero up to rounding, which is a small part of this. */
 static double largest_momentum(size_t n, const double *K, const double *e, const double *p, const double *magnetic)
 {
     double *factor = nh_alloc_array(n * n + n, sizeof *factor), *v = factor + n * n, length = 0, twice = 0,
@@ -167,7 +166,7 @@ static double largest_momentum(size_t n, const double *K, const double *e, const
     return sqrt(fmax(length, 0)) * sqrt(fmax(twice, 0)) + fabs(of_magnetic);
 }
 
-/* Drift of e_a^s (p_s + ahat_s) along the once reduced motion, and that motion's positions. */
+/* The drift of e_a^s (p_s + ahat_s) along the motion that is reduced once, and that motion's positions. */
 static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, const nh_second *t, const double *z,
                             double *drift, size_t *reached)
 {
@@ -206,7 +205,7 @@ static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, co
     return out;
 }
 
-/* The full motion's shape coordinates, where the first group leaves these alone; NULL where it does not. */
+/* The full motion's shape coordinates, where the first group leaves these invariant; NULL where it does not. */
 static double *full_shape(const nh_reduction_bench *b, const nh_slice *s)
 {
     const nh_action *g = s->action;
@@ -251,7 +250,8 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         good = nh_second_equations(t, shape, along, y0, error) && nh_slice_components(s1, q, v, u) &&
                nh_reduced_start(&first->reduced, x, u, z);
     }
-    if (good && (simple != first || nh_largest(d, y0) > 0) && !r->brief) { /* the same on slices at simple places */
+    /* the same stage on slices at simple places */
+    if (good && (simple != first || nh_largest(d, y0) > 0) && !r->brief) {
         nh_error trouble = {0};
         if (nh_slice_nice(&t->action, along, y0) &&
             nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) &&
@@ -336,8 +336,8 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
     return good;
 }
 
-/* Without constraints the first stage divides out nothing, G = {e}, Upsilon = 0, and the second one is the reduction on
- * the level sets of the momentum: Routh's, or of the cotangent bundle [ChhabraEmami2014, sec. 2.3]. */
+/* Without constraints the first stage divides out nothing, G = {e}, Upsilon = 0, and the second one is the reduction to
+ * the level sets of the momentum: Routh's, or that of the cotangent bundle [ChhabraEmami2014, sec. 2.3]. */
 static bool momentum_levels(nh_reduction_bench *b, nh_error *error)
 {
     nh_reduction *r = b->r;
@@ -374,7 +374,7 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     const nh_action *g = &r->group->action;
     bool quotient = !r->kinetic->general;
     if (nh_interrupted()) return true;
-    if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
+    if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides the whole group out */
     if (nh_reduction_late(r, "the reduction by the whole group at once")) return true;
     if (!nh_reduction_free_subgroup(r, &r->action[1])) {
         nh_reduction_warn(r, "no subgroup acts freely on the sample points");

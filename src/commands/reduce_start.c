@@ -18,7 +18,7 @@ static void metric_units(const nh_kinetic *k, const double *q, double *unit)
     nh_free(K);
 }
 
-/* How large omega(v) + b can be for velocities of this size: |b| + |omega| |v|, lengths by the metric's diagonal
+/* An upper bound of omega(v) + b for velocities of this size: |b| + |omega| |v|, lengths by the metric's diagonal
  * (Cauchy and Schwarz). */
 static double largest_value(size_t m, const double *unit, const double *omega, double b, const double *v)
 {
@@ -28,7 +28,7 @@ static double largest_value(size_t m, const double *unit, const double *omega, d
 }
 
 /* Change the velocities that are not `fixed` (NULL: none is) as little as possible, by the metric's diagonal, so that
- * they satisfy the constraints; returns the largest omega^A(v) + b^A that is left, relative to what it can be for
+ * they satisfy the constraints; returns the largest remaining omega^A(v) + b^A, relative to its upper bound for
  * velocities of this size. */
 static double satisfy(const nh_kinetic *k, const double *q, const bool *fixed, double *v)
 {
@@ -82,8 +82,8 @@ static bool velocities(nh_reduction *r, const nh_reduce_request *q, const bool *
                                 "which takes the nearest allowed velocities");
 }
 
-/* Velocities that were not given, for constraints of any kind: those that the chart calls dependent follow from the
- * constraints, on its branch, the others are zero, as in `simulate`; where that is not possible, all of them are
+/* Completes velocities that were not given, for constraints of any kind: dependent velocities of the chart follow from
+ * the constraints, on its branch, the others are zero, as in `simulate`; where that is not possible, all of them are
  * changed as little as possible from those of a sample point. */
 static void fill(nh_reduction *r, nh_bordered *b, const bool *given)
 {
@@ -105,8 +105,8 @@ static void fill(nh_reduction *r, nh_bordered *b, const bool *given)
     nh_free(fixed);
 }
 
-/* The same for constraints of any kind: to the nearest velocities that satisfy them, which those that are given must
- * not notice. */
+/* The same for constraints of any kind: moves to the nearest velocities that satisfy them, without changing given ones
+ * noticeably. */
 static bool project(nh_reduction *r, const nh_reduce_request *q, const bool *given, nh_error *error)
 {
     static const double allowed = 1e-9;

@@ -1,5 +1,5 @@
-/* What --equations shows of the stages beside what they are computed with: inverse metrics, and the whole group's
-   bundle. */
+/* The objects of the stages that --equations shows beside the equations: inverse metrics, and the whole group's
+ * bundle. */
 #include "commands/reduce_internal.h"
 
 #include "base/progress.h"
@@ -7,7 +7,7 @@
 
 enum { large_length = 3000 };
 
-/* K^-1 of an n x n metric on a slice; NULL where it cannot be eliminated. */
+/* K^-1 of an n x n metric on a slice; NULL where the elimination fails. */
 static nh_ex *inverse_of(nh_arena *arena, const nh_slice *s, size_t n, const nh_ex *K)
 {
     nh_ex *inverse = nh_arena_alloc(arena, (n * n + n + 1) * sizeof *inverse), *column = inverse + n * n;
@@ -22,7 +22,8 @@ static nh_ex *inverse_of(nh_arena *arena, const nh_slice *s, size_t n, const nh_
     return good ? inverse : NULL;
 }
 
-/* The inner product to which the lifts are orthogonal: NULL, or that of the generators: orthonormal unless given. */
+/* The inner product to which the lifts are orthogonal: NULL, or that of the generators, which are orthonormal by
+ * default. */
 static const nh_ex *lifts_of(const nh_reduction *r, const nh_slice *s)
 {
     if (!(r->options.lifts > 0)) return NULL;

@@ -5,7 +5,7 @@
 
 #include "commands/reduce_internal.h"
 
-/* "3; 1, 2" as blocks; numbers are those of the generators of the action, from 1. */
+/* Reads "3; 1, 2" as blocks; the numbers are those of the generators of the action, from 1. */
 static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order, nh_error *error)
 {
     size_t blocks = 0, n = 0;
@@ -44,7 +44,7 @@ static bool bad_inner(size_t d, const char *typed, size_t at, nh_error *error)
                          d, d, d);
 }
 
-/* "1,4=1/2; 4,4=3" as expressions of the parameters. */
+/* Reads "1,4=1/2; 4,4=3" as expressions of the parameters. */
 static bool read_inner(nh_reduction *r, size_t d, nh_error *error)
 {
     nh_dag *dag = r->kinetic->dag;
@@ -86,7 +86,7 @@ static bool positive(size_t d, const double *metric)
     return good;
 }
 
-/* g0 where it is given; else the locked inertia at a sample point, for numbers as generic as can be. */
+/* g0 where it is given; otherwise the locked inertia at a sample point, whose numbers are generic. */
 static bool inner_product(nh_reduction *r, const nh_slice *slice, double *metric, nh_error *error)
 {
     size_t d = slice->d, m = slice->m;

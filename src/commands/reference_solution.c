@@ -1,4 +1,4 @@
-/* reference_solution: what a computed motion is compared with. */
+/* reference_solution: the motion and the currents with which a computed motion is compared. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "graph/terms.h"
 #include "commands/benchmark_internal.h"
 
-/* relative rate at the probes below which a known current is taken for conserved with these parameters */
+/* relative rate at the probes below which a known current counts as conserved with these parameters */
 static const double conserved = 1e-9;
 
 /* ---- formulations ---- */
@@ -53,15 +53,15 @@ void nh_formulation_close(nh_formulation *f)
 bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y)
 {
     if (f->model) return nh_states_in_coordinates(f->dynamics, motion, y);
-    size_t m2 = f->size; /* multipliers may follow */
+    size_t m2 = f->size; /* in each state multipliers may follow */
     for (size_t i = 0; i < motion->count; i++) memcpy(y + i * m2, motion->state + i * motion->size, m2 * sizeof *y);
     return true;
 }
 
 /* ---- currents ---- */
 
-/* Is dPhi/dt = sum_j dPhi/dz_j z_j' zero at the probes, beside the terms of the sum?  Near the end of a chart these are
-   large. */
+/* Is dPhi/dt = sum_j dPhi/dz_j z_j' zero at the probes, relative to the terms of the sum?  Near the end of a chart
+ * these are large. */
 static bool is_conserved(const nh_model *o, nh_ex phi)
 {
     size_t size = o->m + o->n, n = 3 * size + 2;
@@ -93,7 +93,7 @@ static bool is_conserved(const nh_model *o, nh_ex phi)
     return good;
 }
 
-/* The chart's velocities, implicit ones too, replaced by those of the coordinates. */
+/* Replaces the chart's velocities, implicit ones too, by those of the coordinates. */
 static bool to_coordinates(const nh_model *o, size_t n, const nh_ex *e, nh_ex *out)
 {
     const nh_chart *c = o->chart;
@@ -187,15 +187,15 @@ size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena,
     return others;
 }
 
-/* The size of a coordinate or velocity in a current.  An angle that winds up is no larger for it: with its whole value
-   a drift would look ever smaller. */
+/* The size of a coordinate or velocity in a current.  An angle that grows by full turns does not count as larger:
+ * otherwise its drift would appear smaller and smaller. */
 static double size_of(const nh_model *o, size_t j, double y, double least)
 {
     double size = fmax(fabs(y), least);
     return j < o->m && o->system->coordinate[j].type == NH_ANGLE ? fmin(size, 1) : size;
 }
 
-/* The size of a current is that of what it is made of: |Phi| and |dPhi/dy_j y_j|, y_j not below its least size. */
+/* The size of a current is that of its parts: |Phi| and |dPhi/dy_j y_j|, y_j not below its least size. */
 void nh_reference_solution_scales(nh_reference_solution *y, nh_arena *arena, double least)
 {
     size_t m2 = 2 * y->model->m, n = y->currents;
@@ -219,7 +219,7 @@ void nh_reference_solution_scales(nh_reference_solution *y, nh_arena *arena, dou
             if (i == 0) y->current_start[k] = out[k];
         }
     }
-    /* zero, with all that it is made of */
+    /* zero, with all its parts */
     for (size_t k = 0; k < n; k++) y->current_scale[k] = y->current_scale[k] > 0 ? y->current_scale[k] : 1;
     nh_tape_work_free(work);
     nh_free(in);

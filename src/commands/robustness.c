@@ -13,10 +13,10 @@ static const char *const stepping[] = {"midpoint", "Lagrange-d'Alembert", "Lagra
                                        "energy-preserving", "relaxation, order 4"};
 _Static_assert(sizeof methods / sizeof *methods == method_count && sizeof stepping / sizeof *stepping == method_count,
                "as many of both");
-enum { longer_times = 4, longer_by_steps = 3 }; /* the first of these: */
+enum { longer_times = 4, longer_by_steps = 3 }; /* entries of `longer`; the first ones, for fixed steps */
 static const double longer[longer_times] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6},
                     parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
-static const double least_cell = 0.02; /* seconds that a value has at least */
+static const double least_cell = 0.02; /* least number of seconds for a value */
 
 bool nh_robustness_late(const nh_robustness_work *w) { return nh_interrupted() || nh_clock() > w->begun + w->budget; }
 
@@ -24,7 +24,7 @@ bool nh_robustness_late(const nh_robustness_work *w) { return nh_interrupted() |
 
 static double drift_of(const nh_run_record *m) { return isnan(m->worst_drift) ? 0 : m->worst_drift; }
 
-/* Which safeguard triggered for a run that ended?  NULL: none. */
+/* Which safeguard triggered in a run that ended?  NULL: none. */
 static const char *guard_of(nh_benchmark_work *b, const nh_candidate_run *k, const nh_run_record *m, double step,
                             const nh_options *o)
 {
@@ -35,11 +35,12 @@ static const char *guard_of(nh_benchmark_work *b, const nh_candidate_run *k, con
     if (drift_of(m) > o->robustness_error) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
     nh_benchmark_work_measure(b, &again, step > 0 ? NAN : o->robustness_tolerance / 10, step > 0 ? step / 2 : NAN,
                               &tight);
-    if (tight.status == NH_TIMEOUT) b->hurried = true; /* it says nothing */
+    if (tight.status == NH_TIMEOUT) b->hurried = true; /* it has no significance */
     if (tight.status == NH_TIMEOUT) return NULL;
     if (tight.status == NH_FAILED)
         return step > 0 ? "half the step does not reach the end" : "a tighter tolerance does not reach the end";
-    /* both against the same reference, so that the difference of the errors bounds that of the states from below */
+    /* both are compared with the same reference, so that the difference of their errors is a lower bound for that of
+     * their states */
     if (fabs(tight.error - m->error) > o->robustness_error / 4)
         return step > 0 ? "half the step gives another motion" : "a tighter tolerance gives another motion";
     return NULL;
@@ -75,7 +76,7 @@ static void try_method(nh_benchmark_work *b, const char *name, bool in_coordinat
         cell->note = refused;
         return;
     }
-    b->hurried &= !reference; /* what one method had no time for does not concern the next */
+    b->hurried &= !reference; /* a lack of time of one method does not affect the next */
     nh_benchmark_work_measure(b, &k, step > 0 ? NAN : o->robustness_tolerance, step > 0 ? step : NAN, &m);
     decide(b, &k, &m, reference, step, o, cell);
 }
@@ -89,7 +90,7 @@ void nh_robustness_try(nh_robustness_work *w, const nh_simulate_request *request
            budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
     nh_benchmark_work b;
     bool opened = nh_benchmark_work_open_once(&b, request, coordinate, turn, budget, &error);
-    /* else the two say nothing about what is accurate */
+    /* otherwise the two references say little about which runs are accurate */
     bool reference =
         opened && nh_benchmark_work_reference(&b, &error) && b.out->agreement <= request->options.robustness_error;
     if (opened && !reference) nh_benchmark_work_no_reference(&b);
@@ -126,7 +127,7 @@ static void set_at(nh_robustness_map *map, size_t value, double at)
     for (size_t i = 0; i < map->methods; i++) map->cell[value * map->methods + i].at = at;
 }
 
-/* `step` above 0: by methods with this fixed step, which shows the ones that gain energy [ModinVerdier2020]. */
+/* `step` above 0: methods with this fixed step, which shows those whose energy grows [ModinVerdier2020]. */
 static void map_time(nh_robustness_work *w, const char *name, size_t count, double step, double begin, double end)
 {
     nh_robustness_map *map = nh_robustness_add_map(w, name, "end of the motion", count, method_count);
@@ -214,7 +215,7 @@ static bool all_maps(nh_robustness_work *w, const nh_benchmark_work *plain, nh_e
     return true;
 }
 
-/* "samples": those of the discrete problem; a map that the system file names; or the ranges themselves. */
+/* "samples": the maps of the discrete problem; otherwise the name of a map of the system file, or ranges. */
 static bool one_map(nh_robustness_work *w, const nh_benchmark_work *plain, const char *over, nh_error *error)
 {
     const nh_system *s = plain->out->question->system;
@@ -258,7 +259,7 @@ void nh_robustness_free(nh_robustness *maps)
 nh_benchmark *nh_robustness_benchmark(const nh_simulate_request *request, const char *over, double seconds,
                                       nh_error *error)
 {
-    static const double usual = 5, longest = 300; /* seconds: of runs; of maps, which count steps */
+    static const double usual = 5, longest = 300; /* seconds: of runs; of maps, which are limited by steps */
     nh_benchmark *b = nh_benchmark_run(request, seconds > 0 ? seconds / 2 : usual, error);
     if (!b || nh_interrupted()) return b;
     nh_robustness *maps = nh_robustness_create(request, over, seconds > 0 ? seconds / 2 : longest, error);

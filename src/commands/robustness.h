@@ -22,29 +22,29 @@
 #include "commands/benchmark.h"
 
 typedef struct {
-    double at, second_at; /* on the axes; the second 0 where there is none */
+    double at, second_at; /* values on the axes; the second is 0 where there is none */
     const char *method;
     nh_run_record_status status;
-    /* NAN where there is no reference or no result.  Of the discrete problem: rate of what was found, and distance of
-       known currents from it, at other points. */
+    /* error: NAN where there is no reference or no result.  For the discrete problem: rate of the null vectors, and
+     * distance of known currents from their span, at other points. */
     double error;
     /* largest drift of a known current, NAN where none is known */
     double drift;
-    const char *note;  /* which guard, or why it failed */
+    const char *note;  /* which safeguard triggered, or why the run failed */
 } nh_robustness_cell;
 
 typedef struct {
-    const char *name, *axis, *second_axis; /* second_axis: NULL when there is one only */
+    const char *name, *axis, *second_axis; /* second_axis: NULL when there is only one */
     size_t methods, cells; /* cells: value by value, `methods` each */
     nh_robustness_cell *cell;
 } nh_robustness_map;
 
 typedef struct nh_robustness {
     nh_arena *arena;
-    double tolerance, accuracy; /* of every run; what counts as accurate */
+    double tolerance, accuracy; /* of every run; and the error that counts as accurate */
     size_t maps;
     nh_robustness_map *map;
-    size_t count[NH_UNDETECTED + 1]; /* cells per status */
+    size_t count[NH_UNDETECTED + 1]; /* number of cells per status */
 } nh_robustness;
 
 /* `over`: "NAME=LOW:HIGH" or "NAME=LOW:HIGH:VALUES", or two of them with a comma between: one map over these
@@ -56,8 +56,8 @@ nh_robustness *nh_robustness_create(const nh_simulate_request *request, const ch
                                     nh_error *error);
 void nh_robustness_free(nh_robustness *maps);
 
-/* A comparison of methods with these maps in it, each for half of the seconds; 0: 5 for the methods, and the maps count
- * steps, so that they are the same on a busy machine.  After an interruption there may be no maps. */
+/* A comparison of methods that includes these maps, each for half of the seconds; 0: 5 s for the methods, and the maps
+ * are limited by steps, so that they are the same on a busy machine.  After an interruption there may be no maps. */
 nh_benchmark *nh_robustness_benchmark(const nh_simulate_request *request, const char *over, double seconds,
                                       nh_error *error);
 

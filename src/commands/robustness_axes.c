@@ -1,4 +1,4 @@
-/* robustness_axes: a map over one or two things that the user names. */
+/* robustness_axes: a map over one or two quantities that the user names. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "commands/robustness_internal.h"
 
 enum { most_axes = 2, values_of_one = 10, values_of_two = 6, most_values = 100 };
-static const double decades = 100; /* a range from x to 100 x or more is divided by ratios */
+static const double decades = 100; /* a range from x to 100 x or more is divided in equal ratios */
 
 typedef enum { AXIS_PARAMETER, AXIS_INITIAL, AXIS_OPTION } axis_kind;
 
@@ -72,7 +72,7 @@ static bool know(const nh_benchmark_work *plain, const nh_simulate_request *requ
         "`nhsym show` prints the system; options are those of `nhsym explain options`, such as until or absolute");
 }
 
-/* Up to two; 0 with a message when something is wrong. */
+/* Reads up to two axes; returns their number, or 0 with a message. */
 static size_t read_axes(nh_arena *arena, const nh_benchmark_work *plain, const nh_simulate_request *request,
                         const char *over, axis *a, nh_error *error)
 {
@@ -120,7 +120,7 @@ static bool change(nh_arena *arena, const axis *a, double value, nh_simulate_req
 {
     if (a->kind == AXIS_INITIAL) {
         q->initial = with_initial(arena, q->initial, a->name, value);
-        q->project = true; /* velocities that are given may no longer fit */
+        q->project = true; /* velocities that are given may no longer satisfy the constraints */
         return true;
     }
     if (a->kind == AXIS_OPTION) {

@@ -2,10 +2,10 @@
  * samples with noise, a column that nearly depends on others, and two frequencies that nearly coincide; by both routes
  * and by both solvers.
  *
- * The truth is the dimension by the generalized solver from many points of the whole domain, with the column far from
- * the others and the frequencies far apart. Guards: the spectrum's own verdict (undecided, a gap above rounding, a rank
- * in doubt), fewer independent columns than elsewhere, a null vector that is not conserved at points over the whole
- * domain, and a known current that is missing. */
+ * The correct dimension is that of the generalized solver from many points of the whole domain, with the column far
+ * from the others and the frequencies far apart.  Safeguards: the spectrum's own verdict (undecided, a gap above
+ * rounding, a rank in doubt), fewer independent columns than elsewhere, a null vector that is not conserved at points
+ * over the whole domain, and a known current that is missing. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,8 +22,8 @@ static const double radius[levels] = {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5},
                     noise[levels] = {0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3},
                     apart[levels] = {0.1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15};
 static const double far_apart = 0.37;
-/* rate at held-out points, relative to the variation, of what is conserved as far as coefficients of about ten digits
-   tell */
+/* largest rate at held-out points, relative to the variation, of a conserved function whose coefficients have about ten
+ * digits */
 static const double conserved = 1e-6;
 static const double in_span = 1e-10, constant = 1e-9;
 static const char *const way_name[most_ways] = {"current, generalized", "current, plain SVD", "symmetry, generalized",
@@ -37,15 +37,15 @@ typedef struct {
     nh_points *points, *many, *heldout; /* of the whole domain */
     size_t letters, columns;
     nh_ex *letter, *e;                  /* the polynomials */
-    uint64_t state;                     /* of the noise */
+    uint64_t state;                     /* state of the random numbers of the noise */
 } fit;
 
-/* One way to solve one ansatz. */
+/* One method for one ansatz. */
 typedef struct {
     size_t columns;
     nh_ex *e;        /* the current of each column */
     nh_nullspace *space;
-    char why[120];   /* there is no space */
+    char why[120];   /* the reason why there is no null space */
 } solved;
 
 static double chance(fit *f)
@@ -118,10 +118,10 @@ static bool solve(fit *f, const nh_points *points, size_t n, const nh_ex *e, int
     return s->space != NULL;
 }
 
-/* ---- guards ---- */
+/* ---- safeguards ---- */
 
-/* How many null vectors are not conserved, or are constant, at points that the fit has not seen; the largest rate
-   relative to the variation. */
+/* The number of null vectors that are not conserved, or are constant, at points that the fit has not used; and the
+ * largest rate relative to the variation. */
 static size_t refuted(const fit *f, const solved *s, double *worst)
 {
     size_t rows = f->heldout->count, n = s->columns, k = s->space->dimension, bad = 0;
@@ -146,8 +146,8 @@ static size_t refuted(const fit *f, const solved *s, double *worst)
     return bad;
 }
 
-/* Is some combination of the null vectors as good as constant elsewhere?  Then one of them is no current but a
-   dependence of the columns. */
+/* Is a combination of the null vectors nearly constant elsewhere?  Then one of them is no current but a linear
+ * dependence of the columns. */
 static bool hardly_vary(const fit *f, const solved *s)
 {
     size_t rows = f->heldout->count, k = s->space->dimension;
@@ -159,7 +159,7 @@ static bool hardly_vary(const fit *f, const solved *s)
     return bad;
 }
 
-/* The largest distance of a known current that the columns span from the null space; NAN: there is none. */
+/* The largest distance from the null space of a known current that the columns span; NAN: there is none. */
 static double missing(const fit *f, const solved *s)
 {
     size_t n = s->columns, rows = f->heldout->count;
@@ -247,7 +247,8 @@ static nh_robustness_map *open_map(fit *f, const char *name, const char *axis, c
 
 static bool late(const fit *f) { return nh_robustness_late(f->w); }
 
-/* The sample points, moved towards one of them until this part of their distance is left; equations hold there, too. */
+/* Moves the sample points towards one of them until this part of their distance is left; the equations hold at the new
+ * points, too. */
 static nh_points *crowded(const fit *f, double part)
 {
     nh_error ignored;
@@ -286,7 +287,7 @@ static void map_noisy(fit *f)
     }
 }
 
-/* The polynomials, and one of them plus a little of a function that is none. */
+/* The polynomials, and one of them plus a small multiple of a function that is no polynomial. */
 static size_t with_neighbour(fit *f, double part, nh_ex *e)
 {
     nh_dag *d = f->model->dag;
@@ -330,7 +331,7 @@ static void map_apart(fit *f, const char *name, const char *axis, size_t (*ansat
     nh_free(e);
 }
 
-/* The polynomials of the highest degree that are not too many. */
+/* The polynomials of the highest degree of which there are not too many. */
 static bool choose_polynomials(fit *f, nh_error *error)
 {
     size_t most = (size_t)f->w->request->options.robustness_columns;

@@ -6,24 +6,24 @@
 #include "commands/benchmark_internal.h"
 #include "commands/robustness.h"
 
-enum { NH_ROBUSTNESS_METHODS = 5 }; /* of a map of motions */
+enum { NH_ROBUSTNESS_METHODS = 5 }; /* for a map of motions */
 
 typedef struct {
     nh_robustness *out;
     const nh_simulate_request *request;
     double begun, budget;
-    size_t values_left; /* that share what is left of the budget */
-    double step;        /* methods with this fixed step instead of those with error control; 0: the latter */
+    size_t values_left; /* number of values that share the rest of the budget */
+    double step;        /* methods with this fixed step; 0: those with error control */
 } nh_robustness_work;
 
-/* All methods on one motion, in the first formulation or in coordinate velocities; `turn` is added to one coordinate of
-   the initial state. */
+/* Runs all methods on one motion, in the first formulation or in coordinate velocities; `turn` is added to one
+ * coordinate of the initial state. */
 void nh_robustness_try(nh_robustness_work *work, const nh_simulate_request *request, double turn, size_t coordinate,
                        bool in_coordinates, nh_robustness_cell *cell);
-/* out->map must have room. */
+/* Adds a map; out->map must have room. */
 nh_robustness_map *nh_robustness_add_map(nh_robustness_work *work, const char *name, const char *axis, size_t values,
                                          size_t methods);
-/* The map of NAME=LOW:HIGH or two of them; name NULL: it is called what it goes over. */
+/* The map of one or two entries NAME=LOW:HIGH; without a name (NULL) it is named after its axes. */
 bool nh_robustness_axes(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_simulate_request *request,
                         const char *name, const char *over, nh_error *error);
 /* A map that the system file names. */

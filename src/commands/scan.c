@@ -19,7 +19,7 @@ typedef struct {
 
 /* ---- the question ---- */
 
-/* Numbers that change how an answer is found, and not which. */
+/* Options that change how an answer is found, and not the answer. */
 static bool without_effect(const char *option) { return !strcmp(option, "threads") || !strncmp(option, "max_", 4); }
 
 static void put_options(const nh_options *options, nh_text *out)
@@ -35,7 +35,7 @@ static void put_options(const nh_options *options, nh_text *out)
     }
 }
 
-/* As a command line that gives the same answer. */
+/* The question as a command line that gives the same answer. */
 static const char *question_of(const nh_scan *x, const nh_scan_request *q)
 {
     nh_text text;
@@ -63,7 +63,7 @@ static const char *question_of(const nh_scan *x, const nh_scan_request *q)
 static double rounded(double value)
 {
     char text[40];
-    snprintf(text, sizeof text, "%.6g", value); /* more digits may differ between processors */
+    snprintf(text, sizeof text, "%.6g", value); /* further digits may differ between processors */
     return strtod(text, NULL);
 }
 
@@ -145,7 +145,7 @@ static double coordinate(const nh_scan *x, const nh_scan_special *s, size_t axis
 
 static const double one_place = 1e-9;
 
-/* The largest value along an axis, beside which two places are one or not. */
+/* The largest modulus of the values on an axis, to which the distance of two places is relative. */
 static double size_along(const nh_scan_axis *a)
 {
     double size = 0;
@@ -153,7 +153,7 @@ static double size_along(const nh_scan_axis *a)
     return size;
 }
 
-/* The same place, found twice: by two dips, or along two axes. */
+/* Is it the same place, found by two dips or along two axes? */
 static bool known(const nh_scan *x, const nh_scan_special *s)
 {
     for (size_t i = 0; i < x->specials; i++) {
@@ -190,7 +190,7 @@ static bool run_sweep(nh_scan *x, const nh_sweep *s, nh_sweep_state *state, cons
     return good;
 }
 
-/* At most points. */
+/* The value at most points. */
 static size_t most_common(const nh_scan *x, size_t space)
 {
     size_t best = 0, times = 0;
@@ -262,7 +262,7 @@ static bool compute(nh_scan *x, const nh_scan_request *q, nh_error *error)
     size_t per_unit;
     const char *fingerprint;
     bool first = !q->team || q->team->rank == 0, alone = !q->team || q->team->size < 2;
-    if (!first) q->team->meet(q->team->context); /* the first writes the manifest */
+    if (!first) q->team->meet(q->team->context); /* the first process writes the manifest */
     bool good = nh_scan_manifest(x, q, seconds_of_a_point, &w, &per_unit, &fingerprint, error);
     if (first && !alone) q->team->meet(q->team->context);
     if (!good) return false;
@@ -275,7 +275,8 @@ static bool compute(nh_scan *x, const nh_scan_request *q, nh_error *error)
         w.jumps = nh_scan_jumps(x, &w.jump);
         good = scan_jumps(&w, s, error);
     }
-    if (!alone && !w.jumps) q->team->meet(q->team->context); /* as often as those that have jumps to look at */
+    /* all processes meet as often as those that have jumps to examine */
+    if (!alone && !w.jumps) q->team->meet(q->team->context);
     x->silent = !first;
     if (nh_sweep_is_alone(hold)) nh_sweep_tidy(s.folder, "");
     nh_sweep_release(hold);

@@ -30,7 +30,7 @@ typedef struct {
     bool ascending;        /* then jumps and dips are looked for along it */
 } nh_scan_axis;
 
-/* "k=1:4:61" or "k=1,2,5/2"; whether there is something of this name is for the caller to say. */
+/* Reads "k=1:4:61" or "k=1,2,5/2"; the caller checks whether the system has such a parameter. */
 bool nh_scan_read_axis(nh_arena *arena, const char *text, nh_scan_axis *out, nh_error *error);
 
 /* The numbers that a scan computes at a point. */
@@ -38,8 +38,8 @@ typedef struct {
     const char *of;        /* "count", "analyze", "reduce" */
     size_t count;
     const char *const *name; /* the first leads */
-    bool usual;            /* they are those that `of` has by itself */
-    bool spectra;          /* the ansatz spaces are looked at as well */
+    bool usual;            /* these are the numbers that `of` has by default */
+    bool spectra;          /* the ansatz spaces are computed, too */
     /* The numbers with these settings, exact ones for the parameters of the grid; a number that is not there is NAN,
      * and *why is the reason, in the arena. `generic`: for almost all values of the parameters instead; the settings
      * are only starting values then. False: interrupted. */
@@ -58,16 +58,17 @@ typedef struct {
     nh_options options;
     const char *program;     /* which program answers: version and build */
     const char *folder;
-    size_t chunk, chunks;    /* part of the points only, as in base/sweep.h */
+    size_t chunk, chunks;    /* a part of the points, as in base/sweep.h */
     size_t workers;
     void (*begin_worker)(void);
     const nh_team *team;
 } nh_scan_request;
 
 typedef struct {
-    double *number;          /* of the source */
-    double *smallest;        /* per ansatz space the smallest generalized singular value that does not vanish; NAN */
-    size_t *vanishing;       /* per ansatz space: how many do */
+    double *number;          /* numbers of the source */
+    /* for each ansatz space the smallest generalized singular value that does not vanish; NAN */
+    double *smallest;
+    size_t *vanishing;       /* for each ansatz space the number of those that vanish */
     const char *why;         /* why numbers are missing; or NULL */
     bool done;
 } nh_scan_row;
@@ -76,17 +77,17 @@ typedef enum { NH_SCAN_HIT, NH_SCAN_STEP, NH_SCAN_DIP } nh_scan_kind;
 
 /* A value at which something jumps. */
 typedef struct {
-    nh_scan_kind kind;       /* a point of the grid; an end of a region; between points */
-    size_t axis, place;      /* along which; the point at it, or below it */
+    nh_scan_kind kind;       /* at a point of the grid; at an end of a region; between points */
+    size_t axis, place;      /* the axis; the index of the point, or of the one below */
     double value;
     const char *exact;       /* "1/3", "pi/6", or NULL: not recognised */
-    double *number;          /* there, where it was recognised; else NAN */
+    double *number;          /* the numbers of the source there, where the value is confirmed; else NAN */
     double generic;          /* the leading number around it; for a step NAN */
     double below, above;     /* the leading number at the points beside it */
-    double smallest;         /* a dip: the singular value there, relative to those at the points beside it */
-    const char *space;       /* a dip: the ansatz space that holds one more current there */
-    bool confirmed;          /* the source gives another leading number there, with the exact value */
-    const char *why;         /* where it does not: why; or NULL */
+    double smallest;         /* of a dip: the singular value there, relative to those at the points beside it */
+    const char *space;       /* of a dip: the ansatz space that contains one more current there */
+    bool confirmed;          /* with the exact value the source gives another leading number */
+    const char *why;         /* why it does not; or NULL */
 } nh_scan_special;
 
 typedef struct {
@@ -95,29 +96,30 @@ typedef struct {
     const nh_scan_source *source;
     size_t axes, points, spaces;
     nh_scan_axis axis[NH_SCAN_MOST_AXES];
-    const char *question;    /* all that the answer depends on, as a command line */
+    const char *question;    /* everything on which the answer depends, as a command line */
     const char **space;      /* names of the ansatz spaces */
-    size_t *columns;         /* how many functions they are made of */
-    size_t *usual;           /* how many singular values vanish at most points */
+    size_t *columns;         /* number of their functions */
+    size_t *usual;           /* number of singular values that vanish at most points */
     nh_scan_row *row;
-    size_t specials, unrefined; /* unrefined: jumps that were not looked at yet */
+    size_t specials, unrefined; /* unrefined: jumps that were not examined yet */
     nh_scan_special *special;
     size_t units, finished;  /* of the chunk */
-    double unit_seconds;     /* what a unit was estimated to take */
+    double unit_seconds;     /* seconds that a unit was estimated to take */
     size_t deaths;
     const char *death;
     bool partial, chunked;   /* something is missing; only a chunk was computed */
-    bool silent;             /* another member of the team speaks */
+    bool silent;             /* another member of the team prints the result */
 } nh_scan;
 
-/* NULL: bad input, a folder that holds another scan, or one that cannot be written. */
+/* Scans; the caller frees the result.  NULL: bad input, a folder that contains another scan, or one that cannot be
+ * written. */
 nh_scan *nh_scan_create(const nh_scan_request *request, nh_error *error);
 void nh_scan_free(nh_scan *scan);
 
 /* The value of an axis at a point of the grid; the last axis varies fastest. */
 const nh_scan_value *nh_scan_at(const nh_scan *scan, size_t point, size_t axis);
 
-/* The singular value of a space that does not vanish at most points: 0 where it does; or NAN. */
+/* The smallest singular value of a space that does not vanish at most points: 0 where it vanishes; or NAN. */
 double nh_scan_sigma(const nh_scan *scan, size_t point, size_t space);
 
 #endif

@@ -9,7 +9,7 @@
 
 #include "commands/scan_internal.h"
 
-static const double depth = 0.5; /* of a dip: m^2 at most so much of the smallest square */
+static const double depth = 0.5; /* of a dip: largest m^2, as a part of the smallest square */
 
 typedef struct {
     const nh_scan *scan;
@@ -80,7 +80,7 @@ static void find_steps(line *l)
 
 /* ---- singular values ---- */
 
-/* Of a space at a point: 0 where one more vanishes, NAN where this cannot be told. */
+/* The singular value of a space at a point: 0 where one more vanishes, NAN where this is not known. */
 static double sigma(const line *l, size_t i, size_t space, double generic)
 {
     double n = vanishing_of(l, i, space);
@@ -98,7 +98,7 @@ static double bottom_of(const line *l, size_t i, size_t space, double generic)
     return fmax(0, 1 - slope * slope / (4 * curvature) / (b * b));
 }
 
-/* The spaces that dip at this point, the deepest first. */
+/* The spaces with a dip at this point, the deepest first. */
 static void find_dip(line *l, size_t i, const double *generic)
 {
     double bottom[3] = {INFINITY, INFINITY, INFINITY};

@@ -1,8 +1,8 @@
-/* scan_manifest: what a folder holds the scan of.
+/* scan_manifest: the record of which scan a folder holds.
  *
- * The manifest is written once, by whoever comes first: a link is made or is there already. Who comes later computes
- * only if program, files and question are the same. Of the time that a point takes only the size of a unit depends,
- * and of that no answer. */
+ * The first process writes the manifest, once: it makes a link, which fails if the manifest exists.  Later processes
+ * compute only if program, files and question are the same.  The time that a point takes affects the size of a unit,
+ * and no answer depends on that. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -95,7 +95,7 @@ static char *manifest_text(const nh_scan *x, const char *program, const char *fi
     return nh_json_finish(m);
 }
 
-/* Beside its place, then linked to it: the first one stays. */
+/* Written beside its place, then linked to it: the first one stays. */
 static bool write_first(const char *path, const char *text, nh_error *error)
 {
     char beside[NH_OUTPUT_LONGEST];

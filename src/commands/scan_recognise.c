@@ -1,7 +1,7 @@
-/* scan_recognise: what a number may be that is known to ten digits or so.
+/* scan_recognise: guesses the exact value of a number that is known to about ten digits.
  *
  * A ratio, or one times a power of ten; a root of a quadratic equation with small whole coefficients, found as a short
- * vector of a lattice; a ratio times pi; a logarithm of a ratio. These are guesses: whoever asks must check them. */
+ * vector of a lattice; a ratio times pi; a logarithm of a ratio.  The caller must check them. */
 #include <flint/fmpz.h>
 #include <flint/fmpz_lll.h>
 #include <flint/fmpz_mat.h>
@@ -11,7 +11,7 @@
 #include "commands/scan_internal.h"
 #include "integrals/recognise.h"
 
-/* so few that one of them is near a random number in a thousand */
+/* a random number is near one of so few with probability 1/1000 */
 enum { largest_denominator = 1000, largest_factor = 60 };
 
 static void put(nh_setting *out, size_t *n, double value, const char *formula)
@@ -35,7 +35,7 @@ static const char *times_pi(nh_arena *arena, nh_num r)
                     : nh_arena_printf(arena, "%s%s/%" PRId64, sign, top, r.q);
 }
 
-/* value = r pi with at most 60 parts, or value = log r. */
+/* value = r pi, or value = log r, with a ratio r of small numbers. */
 static void guess_transcendental(nh_arena *arena, double value, double tolerance, nh_setting *out, size_t *n)
 {
     nh_num r;
@@ -91,7 +91,7 @@ static void guess_quadratic(nh_arena *arena, double value, double tolerance, nh_
     if (!relation(value, tolerance, c)) return;
     int64_t b = c[1], square = b * b - 4 * c[0] * c[2];
     double root = square > 0 ? sqrt((double)square) : 0, bottom = 2 * (double)c[2];
-    if (square <= 0 || root == floor(root)) return; /* rational ones are guessed already */
+    if (square <= 0 || root == floor(root)) return; /* rational values are guessed elsewhere */
     double plus = (-(double)b + root) / bottom, minus = (-(double)b - root) / bottom,
            exact = fabs(plus - value) <= fabs(minus - value) ? plus : minus;
     if (fabs(exact - value) > 10 * tolerance * fabs(value)) return;
@@ -113,7 +113,7 @@ static void guess_power_of_ten(nh_arena *arena, double value, double tolerance, 
 
 size_t nh_scan_guess(nh_arena *arena, double value, double error, nh_setting *out)
 {
-    static const double coarsest = 1e-6; /* what is known to fewer digits looks like many things */
+    static const double coarsest = 1e-6; /* a number known to fewer digits is near many simple ones */
     size_t n = 0;
     nh_num r;
     if (fabs(value) <= error) out[n++] = (nh_setting){.value = 0, .top = 0, .bottom = 1};

@@ -1,8 +1,8 @@
 /* scan_refine: a jump of a scan, located, recognised and confirmed.
  *
  * A step is located by bisection of the leading number, a dip by Brent's minimisation of the square of its singular
- * value, which near a root is a parabola. The located number is recognised (scan_recognise.c), and what the source says
- * with the exact value in the parameter's place confirms it: a guess that gives the number of the points around it is
+ * value, which near a root is a parabola.  The located number is recognised (scan_recognise.c), and confirmed by the
+ * source with the exact value as the parameter: a guess at which the number is that of the points around it is
  * discarded. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
@@ -23,14 +23,14 @@ typedef struct {
     const nh_scan_jump *jump;
     nh_arena *arena;
     size_t settings;
-    nh_setting *exact, *plain; /* of the jump's point; the value along the axis changes */
+    nh_setting *exact, *plain; /* settings of the jump's point; the value along the axis is changed */
     nh_setting *along, *along_plain;
-    size_t space;            /* of `jump->space`: at which dip */
-    double from, to;         /* between the points beside it */
-    double value, error;     /* located */
-    double *number;          /* the source's */
+    size_t space;            /* of a dip: index of the space in `jump->space` */
+    double from, to;         /* interval between the points beside it */
+    double value, error;     /* the located value */
+    double *number;          /* the numbers of the source */
     double generic, below, above, smallest;
-    const char *name, *why;  /* of the exact value; why it is not confirmed */
+    const char *name, *why;  /* the exact value as text; why it is not confirmed */
     nh_scan_kind kind;
     bool confirmed, ended;
 } task;
@@ -45,7 +45,7 @@ static double leading_at(const task *t, ptrdiff_t offset)
     return row->done ? row->number[0] : NAN;
 }
 
-/* The numbers with this setting in the axis' place; the leading one. */
+/* The numbers with this value along the axis; returns the leading one. */
 static double ask(task *t, const nh_setting *setting, bool generic)
 {
     const char *why = NULL, *name = t->along->name;
@@ -64,7 +64,7 @@ static double ask(task *t, const nh_setting *setting, bool generic)
 
 /* ---- location ---- */
 
-/* Between decimals, which are exact settings, of twelve digits of `size`. */
+/* Rounds to a decimal, which is an exact setting, with twelve digits of `size`. */
 static nh_setting decimal(double value, double size)
 {
     double digits = pow(10, 12 - ceil(log10(size))), rounded = round(value * digits) / digits;
@@ -87,7 +87,7 @@ static bool bisect(task *t)
     return !t->ended && t->error <= coarsest * size;
 }
 
-/* sigma^2 of the space, as large as can be where it cannot be computed. */
+/* sigma^2 of the space; as large as possible where it cannot be computed. */
 static double square_at(double value, void *context)
 {
     task *t = context;
@@ -101,8 +101,8 @@ static double square_at(double value, void *context)
     return isfinite(smallest[space]) ? smallest[space] * smallest[space] : 1e100;
 }
 
-/* Near a root sigma = c |lambda - lambda0|: two values, one on each side, give lambda0 better than a minimum can be
-   told. */
+/* Near a root sigma = c |lambda - lambda0|: two values, one on each side, give lambda0 more accurately than a minimum
+ * does. */
 static void polish(task *t, double scale)
 {
     static const double steps[] = {1e-4, 1e-6};
@@ -118,7 +118,7 @@ static void polish(task *t, double scale)
     }
 }
 
-/* Where it is smallest, until it is no root or cannot be located better. */
+/* Minimises, until it is no root or cannot be located better. */
 static bool minimise(task *t, gsl_min_fminimizer *m)
 {
     enum { most = 80, tried = 6 };
@@ -173,7 +173,7 @@ static const char *name_of(task *t, const nh_setting *s)
     return nh_arena_printf(t->arena, s->bottom == 1 ? "%lld" : "%lld/%lld", (long long)s->top, (long long)s->bottom);
 }
 
-/* Does the source say something else there than around it? */
+/* Does the source give another number there than around it? */
 static bool confirms(task *t, const nh_setting *guess)
 {
     double n = ask(t, guess, false);
@@ -182,7 +182,7 @@ static bool confirms(task *t, const nh_setting *guess)
     return isfinite(t->generic) && n != t->generic;
 }
 
-/* A step at an end of the grid is a single value, as far as the grid tells. */
+/* A step at an end of the grid is a single value, as far as the grid shows. */
 static void look_at_ends(task *t)
 {
     size_t last = t->scan->axis[t->jump->axis].count - 1;

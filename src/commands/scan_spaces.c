@@ -11,7 +11,7 @@
 
 enum { least_samples = 256, samples_per_column = 4 };
 
-/* A system at some place, with what its spaces are made of. */
+/* A system at some place, with the functions of its spaces. */
 typedef struct {
     nh_system *system;
     nh_model *model;

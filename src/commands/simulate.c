@@ -10,11 +10,11 @@
 #include "graph/terms.h"
 
 enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
-/* units of effort: a motion that needs less is compared with the whole model's, which may need so much */
+/* units of effort: a motion that needs less is compared with that of the whole model, which may need as much */
 static const double small_motion = 1e8, most_whole = 1e9;
-static const double repeated = 0.1;                      /* seconds: shorter comparisons are timed again */
+static const double repeated = 0.1;                      /* seconds: shorter comparisons are repeated */
 
-/* ---- what is wanted along the motion ---- */
+/* ---- which quantities are wanted along the motion ---- */
 
 /* "y, T = m/2*v^2" */
 static bool read_watch(nh_simulation *s, const char *typed, nh_error *error)
@@ -99,7 +99,7 @@ static bool choose_columns(nh_simulation *s, const nh_simulate_request *q, nh_er
     return true;
 }
 
-/* How far what is watched is off, relative to the size that it has along the motion. */
+/* The largest error of the observables, relative to the size that they have along the motion. */
 static double difference_from(const nh_simulation *s, const nh_trajectory_request *q, const nh_trajectory *t)
 {
     nh_dynamics *d = nh_dynamics_create(s->model);
@@ -114,7 +114,8 @@ static double difference_from(const nh_simulation *s, const nh_trajectory_reques
     return worst;
 }
 
-/* What the smallest model saves, and whether it is right: the whole model beside it, while that costs little. */
+/* How much the smallest model saves, and whether it is right: the whole model is integrated, too, where that costs
+ * little. */
 static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
 {
     nh_trajectory_request whole = *q;
@@ -140,8 +141,8 @@ static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
     s->whole_seconds = all;
 }
 
-/* What the system file knows, in the model's chart: currents, and the momenta p_s xi^s of its symmetries (which the
-   scene tests). */
+/* The currents that the system file knows, in the model's chart, and the momenta p_s xi^s of its symmetries: the
+ * smallest model may use those that are conserved. */
 static size_t known_currents(nh_simulation *s, nh_ex **out)
 {
     nh_error ignored;
@@ -162,7 +163,7 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
     return n;
 }
 
-/* From what the method is chosen. */
+/* The candidates from which the method is chosen. */
 static void open_choice(nh_simulation *s, const nh_simulate_request *q, bool plain)
 {
     s->ways = (nh_choice){.system = s->system,
@@ -231,7 +232,8 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
-    if (!s->trajectory->scene && request.smallest && !(q->method && q->method->order)) /* it was tried */
+    /* the smallest model was tried */
+    if (!s->trajectory->scene && request.smallest && !(q->method && q->method->order))
         s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller subsystem reaches the end",
                                    s->motion->size,
                                    strstr(s->formulation, "all coordinates") ? "in all coordinates" : "in the chart");
@@ -298,8 +300,8 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
 
 /* ---- in which velocities? ---- */
 
-/* How many states the smallest model for what is watched keeps in this chart; SIZE_MAX: it cannot be told.  *quasi: is
-   it a chart of quasi-velocities? */
+/* The number of states that the smallest model for the observables keeps in this chart; SIZE_MAX: not known. *quasi: is
+ * it a chart of quasi-velocities? */
 static size_t states_kept(const nh_simulate_request *q, bool *quasi)
 {
     nh_error ignored;
@@ -327,7 +329,7 @@ static size_t states_kept(const nh_simulate_request *q, bool *quasi)
     return kept;
 }
 
-/* Quasi-velocities may mix what coordinate velocities keep apart. */
+/* Quasi-velocities may couple quantities that are separate in coordinate velocities. */
 static bool coordinates_keep_fewer(const nh_simulate_request *q)
 {
     nh_simulate_request other = *q;
@@ -352,7 +354,7 @@ nh_simulation *nh_simulation_create(const nh_simulate_request *q, nh_error *erro
     return simulate_in_chart(q, error);
 }
 
-/* A coordinate that is no angle. */
+/* Is it a coordinate that is no angle? */
 static bool is_position(const nh_simulation *s, size_t column)
 {
     const nh_system *system = s->system;

@@ -3,7 +3,7 @@
 
 #include "commands/simulate_internal.h"
 
-/* A piece of what was typed, without blanks around it. */
+/* A part of what the user typed, without blanks around it. */
 typedef struct {
     const char *from;
     size_t length;
@@ -97,7 +97,7 @@ static size_t entries(const char *typed)
     return n;
 }
 
-/* What cannot be asked for together with events. */
+/* Refuses options that cannot be combined with events. */
 static bool allowed(const nh_simulate_request *q, nh_simulation *s, nh_error *error)
 {
     bool stop = false;
@@ -146,8 +146,8 @@ static bool is_column_of(const nh_simulation *s, size_t k, nh_ex e)
     return k < s->columns.count && s->columns.track[k].value == e;
 }
 
-/* Over time the first quantity.  Of a section the first two watched quantities; else the first coordinate that the
-   section leaves free, and its velocity. */
+/* The default columns: over time the first quantity; of a section the first two observables, or else the first
+ * coordinate that the section leaves free, and its velocity. */
 static void choose_axes(nh_simulation *s, const nh_simulate_request *q)
 {
     const nh_model *o = s->model;

@@ -1,5 +1,6 @@
-/* Impulses on the way: where the Lagrangian jumps, or the constraints begin to allow other velocities, a motion has an
- * impulse.  The equations of motion on both sides do not hold it: motions end there. */
+/* Impulses during a motion: where the Lagrangian jumps, or the constraints begin to allow other velocities, the
+ * velocities of a motion jump.  The equations of motion on the two sides do not determine the jump, so motions end
+ * there. */
 #include "commands/simulate_internal.h"
 
 #include "integrals/region.h"

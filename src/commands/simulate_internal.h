@@ -4,17 +4,18 @@
 
 #include "commands/simulate.h"
 
-/* What `write` says of a scene, in the simulation's memory. */
+/* The text that `write` makes of a closed subsystem, in the simulation's memory. */
 const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene,
                               void (*write)(const nh_closed_subsystem *scene, nh_text *out));
 
-/* --event, --section and --axes, after the columns. */
+/* Adds --event, --section and --axes, after the columns. */
 bool nh_simulate_events(nh_simulation *s, const nh_simulate_request *request, nh_error *error);
 
-/* Functions at whose zeros motions have an impulse (integrals/region.h), in the simulation's memory: how many. */
+/* Functions at whose zeros motions have an impulse (integrals/region.h), in the simulation's memory; returns their
+ * number. */
 size_t nh_simulate_impulses(nh_simulation *s, const nh_options *options, const nh_ex **impulse);
 
-/* An ensemble instead of the one motion that `motion` asks for. */
+/* Computes an ensemble instead of the one motion that `motion` describes. */
 bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *request, const nh_trajectory_request *motion,
                       nh_error *error);
 

@@ -32,7 +32,7 @@ static bool initial_states(nh_simulation *s, const nh_simulate_request *q, const
     return good;
 }
 
-/* Values of doubles, and each again as text of up to 24 characters where the table is written. */
+/* Memory for doubles, and for each again as text of up to 24 characters where the table is written. */
 static bool fits(const nh_simulate_request *q, const nh_trajectory_request *motion, nh_error *error)
 {
     enum { bytes = sizeof(double) + 24 };

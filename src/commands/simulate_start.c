@@ -1,5 +1,5 @@
-/* simulate_start: the system, the analysis file and the initial state of a motion: the one that is given, or one on the
-   constraints. */
+/* simulate_start: the system, the analysis file and the initial state of a motion: the given one, or one that satisfies
+ * the constraints. */
 #include "commands/simulate_internal.h"
 
 #include <math.h>
@@ -29,8 +29,8 @@ static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_
                            nh_analysis_file_resolve(*own, s->model, error));
 }
 
-/* The initial state chooses the branch of a quadratic constraint, and, where those of the chart do not follow from the
-   constraints there, the dependent velocities. */
+/* Chooses, by the initial state, the branch of a quadratic constraint, and the dependent velocities, where those of the
+ * chart do not follow from the constraints there. */
 static bool needs_other_chart(nh_simulation *s, const nh_state *at)
 {
     size_t *dependent = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof *dependent);
@@ -65,7 +65,7 @@ static bool depends_on_time(const nh_model *o)
     return any;
 }
 
-/* A point of the chart with few digits, where positions are free.  False: it is not in the chart any more. */
+/* Rounds a point of the chart to few digits, where positions are free.  False: it is no longer in the chart. */
 static bool round_point(const nh_model *o, double *z)
 {
     enum { digits = 2 };
@@ -90,7 +90,7 @@ static bool velocities_at(const nh_model *o, const double *z, double *v)
     return nh_all_finite(o->m, v);
 }
 
-/* The state as it is written behind --initial: coordinates and the independent velocities. */
+/* The state as text after --initial: coordinates and the independent velocities. */
 static const char *words_of_point(const nh_simulation *s, const double *z)
 {
     const nh_chart *c = s->model->chart;
@@ -106,7 +106,8 @@ static const char *words_of_point(const nh_simulation *s, const double *z)
     return out;
 }
 
-/* A state on the constraints where none is given: the chart's first probe, rounded where that is possible. */
+/* A state that satisfies the constraints where none is given: the chart's first probe, rounded where that is
+ * possible. */
 static bool choose_initial(nh_simulation *s, nh_state *initial)
 {
     const nh_model *o = s->model;

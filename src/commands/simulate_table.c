@@ -35,7 +35,7 @@ static const char *names_of(nh_arena *arena, const char *const *names, size_t n)
     return out;
 }
 
-/* A coordinate, a velocity or the time; else a suggestion. */
+/* Is it a coordinate, a velocity or the time?  Otherwise an error with a suggestion. */
 static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, const char *name, nh_error *error)
 {
     size_t n = 0;
@@ -56,7 +56,7 @@ static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, con
                 : nh_error_hint(error, "it has %s", names_of(arena, names, n));
 }
 
-/* What the request's initial state says of names that the table has no column for. */
+/* The entries of the request's initial state for names that have no column in the table. */
 static void keep_given(const char *given, size_t columns, const char *const *name, nh_text *words)
 {
     for (const char *at = given; at && *at; at += *at == ',') {
@@ -70,7 +70,7 @@ static void keep_given(const char *given, size_t columns, const char *const *nam
     }
 }
 
-/* The row as words behind --initial and as settings, after those of the request. */
+/* Writes the row as text after --initial and as settings, after those of the request. */
 static bool read_row(nh_arena *arena, const char *given, const nh_table *t, size_t row, const char *const *name,
                      const column_kind *kind, nh_simulate_row *out, nh_error *error)
 {

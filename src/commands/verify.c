@@ -57,7 +57,7 @@ static nh_verification *start(nh_system *system, nh_chart_choice chart, const nh
     return v;
 }
 
-/* The verdict; of an ended run neither "yes" nor "no" is known. */
+/* The verdict; for a run that was ended neither "yes" nor "no" is known. */
 static nh_verification *complete(nh_verification *v, bool good, nh_error *error)
 {
     if (good && nh_interrupted()) good = nh_fail_ended(error, "before this was decided");
@@ -79,8 +79,8 @@ void nh_verification_free(nh_verification *v)
 
 static const double rounding = 64 * DBL_EPSILON;
 
-/* |e| / sum of |terms|: where it is largest the point is kept.  What is no more than the rounding of what cancels
-   within the terms is relative to that. */
+/* Finds the point where |e| / sum of |terms| is largest.  A value that is no more than rounding of what cancels within
+ * the terms is taken relative to that. */
 static bool worst_point(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term, double *residual)
 {
     size_t count = points->count, worst = count;
@@ -118,8 +118,8 @@ static bool accepts(const nh_proof *proof, double residual, const nh_options *op
     return proof->proved || (proof->digits >= enough && residual <= options->heldout);
 }
 
-/* Constant on the submanifold: all derivatives vanish there, by normal form; or wherever it is smooth, however it is
-   written. */
+/* Is it constant on the submanifold?  All derivatives vanish there, by normal form; or wherever it is smooth, however
+ * it is written. */
 static bool is_constant(const nh_model *o, const nh_points *generic, nh_ex phi, const nh_options *options)
 {
     nh_independence kind;
@@ -132,7 +132,7 @@ static bool is_constant(const nh_model *o, const nh_points *generic, nh_ex phi, 
     return kind == NH_CONSTANT;
 }
 
-/* The symmetry of what is conserved, and whether that is trivial. */
+/* The symmetry of a conserved quantity, and whether it is trivial. */
 static bool describe(nh_verification *v, const nh_options *options, nh_error *error)
 {
     nh_points *generic = nh_points_create(v->model, generic_points, 1, (uint64_t)options->seed + 8, error);
@@ -145,7 +145,7 @@ static bool describe(nh_verification *v, const nh_options *options, nh_error *er
     return true;
 }
 
-/* Conserved wherever it is smooth: all along the motions, too, which end at walls where they have an impulse? */
+/* It is conserved wherever it is smooth.  Also along whole motions, which end at walls where they have an impulse? */
 static void delimit(nh_verification *v, const nh_options *options)
 {
     nh_terrain terrain = nh_terrain_of(v->model, options, v->arena);
@@ -189,7 +189,7 @@ nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice c
 
 /* ---- fields ---- */
 
-/* What the user gave: along t, the coordinates and, optionally, the velocities of the chart. */
+/* The components that the user gave: along t, the coordinates and, optionally, the velocities of the chart. */
 typedef struct {
     nh_ex time, *space, *zeta, *W;
     bool has_W;
@@ -227,8 +227,8 @@ static bool component(nh_verification *v, const char *typed, size_t begin, size_
            nh_analysis_file_to_chart(v->model, e, to, error);
 }
 
-/* zeta with Z^s = zeta^i R^s_i + rho^s Z^0, from n rows of R: those of the free coordinates, or least squares for
-   quasi-velocities. */
+/* Solves Z^s = zeta^i R^s_i + rho^s Z^0 for zeta, from n rows of R: those of the free coordinates, or by least squares
+ * for quasi-velocities. */
 static bool solve_zeta(nh_verification *v, nh_ex time, const nh_ex *space, nh_ex *zeta, nh_error *error)
 {
     const nh_model *o = v->model;
@@ -273,7 +273,7 @@ static void outside(nh_verification *v, const given *g)
     }
 }
 
-/* What has to vanish, as --equations writes it, and its number in [CechMusilova2014]. */
+/* The expression that has to vanish, as --equations writes it, and its number in [CechMusilova2014]. */
 static void name_condition(nh_verification *v, size_t number, const char *in_chart, const char *in_quasi, size_t j)
 {
     const nh_model *o = v->model;

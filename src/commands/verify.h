@@ -12,52 +12,54 @@ struct nh_verification {
     nh_arena *arena;
     nh_system *system;
     nh_model *model;
-    /* in the chart; of a field: its current alpha(Z), if it lies in the canonical distribution */
+    /* in the chart; for a field: its current alpha(Z), if it lies in the canonical distribution */
     nh_ex current;
-    nh_ex *form;              /* of a field: i_Z phi^a, one for each constraint; else NULL */
-    bool outside;             /* of a field: they do not vanish, Z is not in the canonical distribution */
-    /* of a field: is it a symmetry of the equations of motion, [Gamma,Z] = f Gamma, and no constraint symmetry is asked
-       for */
+    nh_ex *form;              /* for a field: i_Z phi^a, one for each constraint; else NULL */
+    bool outside;             /* for a field: these do not vanish, so Z is not in the canonical distribution */
+    /* for a field: the question is whether it is a symmetry of the equations of motion, [Gamma,Z] = f Gamma, and not a
+     * constraint symmetry */
     bool of_equations;
-    nh_ex factor;             /* then: f = Gamma(Z^0); `current` means nothing */
-    /* then: known currents of the system file, and what Z makes of them: currents too [CechMusilova2014, sec. 3.3] */
+    nh_ex factor;             /* then: f = Gamma(Z^0); `current` has no meaning */
+    /* then: known currents of the system file, and Z(Phi) of each, which is a current, too [CechMusilova2014, sec.
+     * 3.3] */
     size_t made;
     nh_named *make;
-    bool conserved;           /* or: is a symmetry */
-    /* a current is conserved in a part of the motions only: where (integrals/region.h); then `conserved` is false, but
-       where motions end with that part */
+    bool conserved;           /* or: it is a symmetry */
+    /* where a current is conserved in a part of the motions only (integrals/region.h); then `conserved` is false,
+     * unless motions end with that part */
     const char *region;
     bool trivial;             /* the current is constant */
-    /* of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */
+    /* branch of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */
     const char *branch, *other_branch;
-    bool on_both;             /* a current, as it was asked for, is conserved on the other branch too */
+    bool on_both;             /* the current is conserved on the other branch, too */
     bool has_symmetry;
     nh_symmetry symmetry;
-    struct nh_theory *theory; /* the geometry, where it was asked for; else NULL */
-    nh_model *other;          /* then: the chart of coordinate velocities beside a quasi one; or NULL */
+    struct nh_theory *theory; /* the geometry, if it was requested; else NULL */
+    nh_model *other;          /* then: the chart of coordinate velocities, for a chart of quasi-velocities; or NULL */
     nh_proof proof;
-    double residual;          /* largest relative rate on random points */
+    double residual;          /* largest relative rate at random points */
     bool has_counterexample;
     double *counterexample;   /* model->width values (t, q, w, u) */
     double rate;              /* Gamma(Phi), or the violated equation, there */
-    /* of a field: what does not vanish, as a label of document/notation.h, and the equation's number in
-       [CechMusilova2014], or 0 */
+    /* for a field: which expression does not vanish, as a label of document/notation.h, and the equation's number in
+     * [CechMusilova2014], or 0 */
     const char *equation;
     size_t equation_number;
 };
 
-/* NULL for bad input. */
+/* Tests a function.  These three take the system: the caller frees it with the result, and it is freed already on
+ * failure.  NULL with a message for bad input. */
 nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *current,
                                             const nh_options *options, nh_error *error);
-/* "Z0=..; phi=..; x=..": components along t and the coordinates, those not named are 0. */
+/* Tests a field "Z0=..; phi=..; x=..": components along t and the coordinates; those that are not named are 0. */
 nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *field,
                                           const nh_options *options, nh_error *error);
 
-/* Is it a symmetry of the equations of motion?  Components along velocities that are not named follow from the others:
-   Z is prolonged. */
+/* Is the field a symmetry of the equations of motion?  Components along velocities that are not named follow from the
+ * others: Z is prolonged. */
 nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *field,
                                             const nh_options *options, nh_error *error);
-/* The geometry written out, with the bracket of the field where there is one. */
+/* The geometry written out, with the bracket of the field, if there is one. */
 void nh_verification_write_out(nh_verification *verification, const nh_options *options);
 
 #endif

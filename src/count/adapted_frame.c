@@ -1,4 +1,4 @@
-/* Weights by iterated brackets of power series at one point, then privileged coordinates and the fields in them. */
+/* Weights by iterated brackets of power series at one point; then privileged coordinates, and the fields in them. */
 #include "count/adapted_frame.h"
 
 #include <flint/nmod_mat.h>
@@ -12,7 +12,8 @@ enum { largest_ring = 4000, highest_order = 7 };
 
 typedef struct {
     const nh_jet_ring *r;
-    size_t all, wanted, count; /* wanted: as many as there are, or as were found before */
+    /* rank at which the search stops: the number of coordinates, or the rank that was found before */
+    size_t all, wanted, count;
     size_t *weight;
     nh_residue *field;         /* wanted x all series */
     nmod_mat_t rows;           /* their values at the point, in echelon form */
@@ -33,7 +34,7 @@ static void bracket(const nh_jet_ring *r, size_t all, const nh_residue *X, const
     nh_free(slope);
 }
 
-/* Is this direction new?  `rows` holds the directions so far with a pivot each. */
+/* Is this direction new?  `rows` holds the independent directions so far, each with a pivot. */
 static bool is_new(frame_list *l, const nh_residue *value)
 {
     nh_prime f = l->r->field;
@@ -69,9 +70,9 @@ static bool add_direction(frame_list *l, const nh_residue *X, size_t weight)
     return fresh;
 }
 
-/* The fields, their brackets with each other, with what is new among these, .. until nothing is.  At a generic point
- * what depends on the others there does so around it, and its brackets give nothing that theirs do not.  False: the
- * series are too short to see the end. */
+/* The fields, their brackets with each other, with the new ones among these, .. until there are no new ones.  At a
+ * generic point a bracket that depends on the others at the point depends on them around it, and its brackets give
+ * nothing new.  False: the series are too short to see where this ends. */
 static bool grow(frame_list *l, size_t fields, const nh_residue *X)
 {
     size_t block = l->all * l->r->size, from = 0;
@@ -118,7 +119,7 @@ static nh_jet_ring *plain_ring(nh_prime field, size_t variables, size_t order)
 
 /* ---- the frame ---- */
 
-/* q0 + to y, for y the coordinates of the ring. */
+/* The coordinates q0 + to y, for y the coordinates of the ring. */
 static void linear_coordinates(const nh_adapted_frame *x, const nh_jet_ring *r, const nh_residue *y, nh_residue *out)
 {
     for (size_t k = 0; k < x->all; k++) {
@@ -134,7 +135,7 @@ static void variable(const nh_jet_ring *r, size_t k, nh_residue *out)
     if (r->up[k * r->size] != UINT32_MAX) out[r->up[k * r->size]] = 1;
 }
 
-/* Components along y of a field given along q. */
+/* The components along y of a field given along q. */
 static void along_frame(const nh_adapted_frame *x, const nh_jet_ring *r, const nh_residue *X, nh_residue *out)
 {
     memset(out, 0, x->all * r->size * sizeof *out);
@@ -258,8 +259,8 @@ static bool correct(nh_adapted_frame *x, const nh_jet_ring *r)
 /* ---- creation ---- */
 
 /* Directions, weights and corrections by series up to this order: brackets of weight w are exact at the point up to
- * order + 1, and h_j,alpha, which takes at most w_j - 2 derivatives of what enters it, is when w_j is.  `settled`:
- * there are no more directions, or none can be seen.  False: another point. */
+ * order + 1, and h_j,alpha, which takes at most w_j - 2 derivatives of what enters it, is when w_j is.  `settled`: all
+ * directions are found, or series of this order show no more.  False: another point is needed. */
 static bool grow_to(nh_adapted_frame *x, size_t order, bool *settled)
 {
     nh_jet_equations *o = x->equations;
@@ -279,7 +280,7 @@ static bool grow_to(nh_adapted_frame *x, size_t order, bool *settled)
     x->kept = l.count;
     x->step = l.count ? l.weight[l.count - 1] : 0;
     memcpy(x->weight, l.weight, l.count * sizeof *x->weight);
-    for (size_t k = 0; k < all && good; k++) { /* across the leaves */
+    for (size_t k = 0; k < all && good; k++) { /* directions across the leaves */
         memset(unit, 0, all * r->size * sizeof *unit);
         unit[k * r->size] = 1;
         add_direction(&l, unit, 0);
@@ -415,7 +416,7 @@ static bool bend(const nh_adapted_frame *x, const nh_jet_ring *r, nh_residue *y,
                 nh_jet_derivative(r, phi + l * e, j, slope);
                 nh_jet_sub_product(r, d, Z + i * along + j * e, slope);
             }
-            /* the highest weight needs one more of phi */
+            /* for the highest weight phi needs one more order */
             for (size_t c = 0; c < r->first[r->order]; c++) *flat = *flat && d[c] == 0;
         }
     }

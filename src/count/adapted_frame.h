@@ -21,7 +21,7 @@ typedef struct {
 typedef struct {
     nh_jet_equations *equations;
     nh_arena *arena;
-    size_t all, kept;         /* coordinates; those along the leaf, which come first */
+    size_t all, kept;         /* number of coordinates; of those along the leaf, which come first */
     size_t *weight;           /* kept */
     size_t step;              /* the largest weight */
     nh_residue *to, *from;    /* all x all: q - q0 = to y, and its inverse */
@@ -29,12 +29,12 @@ typedef struct {
     nh_frame_correction *correction;
 } nh_adapted_frame;
 
-/* At the chosen point of the equations.  NULL: another point is needed, or the equations have an obstacle. */
+/* The frame at the chosen point of the equations.  NULL: another point is needed, or the equations have an obstacle. */
 nh_adapted_frame *nh_adapted_frame_create(nh_jet_equations *equations);
 void nh_adapted_frame_free(nh_adapted_frame *frame);
 
-/* In a ring with the frame's weights: the coordinates q as series in z (`all` of them), and the fields along z (fields
-   x kept). */
+/* Writes, in a ring with the frame's weights, the coordinates q as series in z (`all` of them) and the fields along z
+ * (fields x kept). */
 bool nh_adapted_frame_series(const nh_adapted_frame *frame, const nh_jet_ring *ring, nh_residue *coordinate,
                              nh_residue *field);
 

@@ -1,5 +1,5 @@
-/* What occurs in the Lagrangian, the equations of motion and the determinant of the inertia: bases of powers with their
-   exponents, angles, exponents. */
+/* The letters of a system: bases of powers with their exponents, angles and exponents of the Lagrangian, the equations
+ * of motion and the determinant of the inertia. */
 #include "count/closed_letters.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ static bool is_coordinate(const nh_jet_equations *x, nh_ex symbol)
     return found;
 }
 
-/* Does it depend on coordinates of the equations, on no others, and on no velocity? */
+/* Does it depend on coordinates of the equations, on nothing else, and on no velocity? */
 static bool of_position(const nh_jet_equations *x, nh_ex e)
 {
     bool position = false, velocity = false;
@@ -44,14 +44,14 @@ static bool of_position(const nh_jet_equations *x, nh_ex e)
 
 /* ---- sines, cosines, exponentials ---- */
 
-/* A unit of which both are multiples. */
+/* A unit of which both numbers are multiples. */
 static nh_num common(nh_num a, nh_num b)
 {
     int64_t q = a.q / nh_gcd(a.q, b.q) * b.q;
     return nh_num_ratio(nh_gcd(a.p * (q / a.q), b.p * (q / b.q)), q);
 }
 
-/* The letter of an argument's direction: one that is there already is made finer. */
+/* The letter for an argument: an existing letter of a rational multiple is given a smaller unit. */
 static nh_letter *direction(nh_dag *d, nh_letters *l, nh_letter_kind kind, nh_ex argument, double *sign)
 {
     nh_parts whole;
@@ -107,7 +107,7 @@ static void take_function(const nh_jet_equations *x, nh_letters *l, nh_ex e)
 
 /* ---- powers ---- */
 
-/* `less`: what the lowest exponent of an integral is expected above this one. */
+/* `less`: by how much the lowest exponent of an integral is expected above this one. */
 static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_num exponent, double less)
 {
     nh_dag *d = x->dag;
@@ -122,7 +122,7 @@ static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_
         return;
     }
     if (function && f == NH_EXP) return;
-    if (exponent.q == 1 && value > 0) return; /* whole powers are polynomials in what the base is made of */
+    if (exponent.q == 1 && value > 0) return; /* whole powers are polynomials in the letters of the base */
     nh_letter *found = letter_of(l, NH_LETTER_POWER, base);
     found->root = found->root / nh_gcd(found->root, exponent.q) * exponent.q;
     if (value < 0) found->down = fmax(found->down, fmax(-value - less, 1 / (double)found->root));
@@ -147,7 +147,7 @@ static void take_expression(const nh_jet_equations *x, nh_letters *l, nh_ex e, d
 
 /* ---- the determinant of the inertia ---- */
 
-/* Of the rows `row` .. and the columns that are not used yet. */
+/* The determinant of the rows from `row` on and the columns that are not used yet. */
 static nh_ex minor_of(const nh_model *o, size_t row, uint32_t used)
 {
     if (row == o->n) return nh_int(o->dag, 1);
@@ -165,8 +165,8 @@ static nh_ex minor_of(const nh_model *o, size_t row, uint32_t used)
     return sum;
 }
 
-/* The factors of an expression with half powers; sums without what their terms have in common, unless `plain`: the
-   quotient may be written with it again. */
+/* The factors of an expression, as bases with half powers.  Common factors of a sum's terms are divided out, unless
+ * `plain`: the quotient may be written with them again. */
 static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool plain)
 {
     nh_dag *d = x->dag;
@@ -189,7 +189,7 @@ static void take_determinant(const nh_jet_equations *x, nh_letters *l)
     if (o->n <= largest_inertia) take_factors(x, l, nh_simplify_short(x->dag, minor_of(o, 0, 0), largest_form), false);
 }
 
-/* A frame in which the inertia is 1 has the roots of what the momenta have: exp(u/2) where the inertia has exp(u). */
+/* The momenta of a frame in which the inertia is 1 have roots of the inertia: exp(u/2) where the inertia has exp(u). */
 static void take_roots(const nh_jet_equations *x, nh_letters *l)
 {
     nh_dag *d = x->dag;
@@ -210,7 +210,7 @@ static void take_roots(const nh_jet_equations *x, nh_letters *l)
 
 /* ---- the coordinates ---- */
 
-/* In coordinates that are letters. */
+/* Is `base` linear, in coordinates that are letters? */
 static bool is_linear(const nh_jet_equations *x, const nh_letters *l, size_t coordinates, nh_ex base)
 {
     bool linear = true;
@@ -223,7 +223,7 @@ static bool is_linear(const nh_jet_equations *x, const nh_letters *l, size_t coo
     return linear;
 }
 
-/* Where a coordinate is seen only inside of functions its powers are unlikely. */
+/* Powers of a coordinate that occurs only inside of functions are unlikely. */
 static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_ex q)
 {
     enum { most = 64 };
@@ -242,8 +242,8 @@ static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_
     return inside && !plain;
 }
 
-/* The highest powers of coordinates in the potential: so far, at most twice, a power costs no more than a
-   coordinate. */
+/* The highest powers of coordinates in the potential: up to these, at most doubled, a power is as cheap as a
+ * coordinate. */
 static void take_potential(const nh_jet_equations *x, nh_letters *l)
 {
     static const double most = 2;
@@ -266,7 +266,7 @@ static void take_potential(const nh_jet_equations *x, nh_letters *l)
     nh_free(zero);
 }
 
-/* Those in coordinates of the equations: the shape alone has none. */
+/* The rates in coordinates of the equations: those of the shape have no cyclic coordinates. */
 static void take_rates(const nh_jet_equations *x, nh_letters *l, const nh_construct_rates *rates)
 {
     nh_dag *d = x->dag;
@@ -293,7 +293,8 @@ nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_r
     for (size_t k = 0; k < x->coordinates; k++)
         if (secular || !only_inside(x, n, e, x->coordinate[k])) letter_of(&l, NH_LETTER_POWER, x->coordinate[k]);
     size_t coordinates = l.count;
-    for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1); /* forces are derivatives */
+    /* the last are forces: derivatives, whose exponents are one lower */
+    for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1);
     take_determinant(x, &l);
     take_roots(x, &l);
     take_rates(x, &l, rates);

@@ -9,12 +9,13 @@ typedef enum { NH_LETTER_POWER, NH_LETTER_CIRCLE, NH_LETTER_EXPONENTIAL } nh_let
 
 typedef struct {
     nh_letter_kind kind;
-    nh_ex base;           /* what is taken to a power; the argument of sin, cos, exp */
+    nh_ex base;           /* what is taken to a power; or the argument of sin, cos, exp */
     int64_t root;         /* exponents are multiples of 1/root */
-    /* how far the system goes up and down: an exponent costs its part of that, or more; 0: not at all */
+    /* lowest and highest exponent in the system: an exponent is priced relative to these, or higher; 0: it does not
+     * occur */
     double up, down;
-    double down_sine;     /* of the sine: `down` is of the cosine */
-    bool linear;          /* the whole powers are polynomials in the coordinates, which are letters as well */
+    double down_sine;     /* of the sine; of cosines `down` holds the lowest exponent */
+    bool linear;          /* its whole powers are polynomials in the coordinates, which are letters themselves */
 } nh_letter;
 
 typedef struct {
@@ -22,8 +23,8 @@ typedef struct {
     nh_letter *item;
 } nh_letters;
 
-/* With `secular` ones also coordinates that are seen only inside of functions: what has them is many-valued on an
-   angle.  `rates`: exponentials and waves in cyclic coordinates, or NULL.  The caller frees letters->item. */
+/* Finds the letters; the caller frees letters->item.  `secular`: also coordinates that occur only inside of functions,
+ * whose polynomials are many-valued on an angle.  `rates`: exponentials and waves in cyclic coordinates, or NULL. */
 nh_letters nh_letters_of(nh_jet_equations *equations, bool secular, const nh_construct_rates *rates);
 
 #endif

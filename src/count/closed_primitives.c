@@ -1,5 +1,5 @@
-/* Polynomials of a coordinate, a sine or a cosine under roots, and what has their roots as derivatives: elementary ones
-   of quadratic polynomials, elliptic integrals, incomplete beta functions of two powers. */
+/* Polynomials of a coordinate, a sine or a cosine under roots, and functions whose derivatives have these roots:
+ * elementary ones for quadratic polynomials, elliptic integrals, incomplete beta functions for two powers. */
 #include "count/closed_primitives.h"
 
 #include "exact/normal.h"
@@ -43,7 +43,7 @@ static bool read_quadratic(nh_dag *d, nh_ex e, nh_ex z, quadratic *q)
     return !nh_is_zero(d, q->c) && !nh_depends(d, q->c, z);
 }
 
-/* asinh, asin or a logarithm, up to a constant factor; 0: it is not real, or not of one sign. */
+/* asinh, asin or a logarithm, up to a constant factor; 0: it is not real, or its sign is not known. */
 static nh_ex primitive_of_root(const nh_jet_equations *x, const quadratic *q, nh_ex z, nh_ex root)
 {
     nh_dag *d = x->dag;
@@ -61,7 +61,7 @@ static nh_ex primitive_of_root(const nh_jet_equations *x, const quadratic *q, nh
     return sign > 0 && nh_model_sign(o, inside) > 0 ? nh_call(d, NH_LOG, inside) : 0;
 }
 
-/* Of a root of `base`, by a coordinate. */
+/* The primitives of a root of `base` by one coordinate. */
 static void along_coordinates(list *l, nh_ex base)
 {
     const nh_jet_equations *x = l->equations;
@@ -75,7 +75,7 @@ static void along_coordinates(list *l, nh_ex base)
 
 /* ---- two powers ---- */
 
-/* base = a + b q^n, a and b without coordinates: b q^n is read from q base', and a from what is left. */
+/* base = a + b q^n with a and b free of coordinates: b q^n is read from q base', and a is the rest. */
 static bool read_binomial(const nh_jet_equations *x, nh_ex base, nh_ex q, int64_t *n, nh_ex *a, nh_ex *b)
 {
     enum { least = 3, most = 8 };
@@ -90,8 +90,8 @@ static bool read_binomial(const nh_jet_equations *x, nh_ex base, nh_ex q, int64_
     return false;
 }
 
-/* Of q^(k - 1)/sqrt(a + b q^n), up to a factor: q^k 2F1(k/n, 1/2; 1 + k/n; -b q^n/a) [DLMF 8.17.7], elementary where
-   2 k = n.  The others are sums of these and of q^k sqrt(a + b q^n). */
+/* The primitive of q^(k - 1)/sqrt(a + b q^n), up to a factor: q^k 2F1(k/n, 1/2; 1 + k/n; -b q^n/a) [DLMF 8.17.7],
+ * elementary where 2 k = n.  The others are sums of these and of q^k sqrt(a + b q^n). */
 static void along_binomials(list *l, nh_ex base)
 {
     const nh_jet_equations *x = l->equations;
@@ -113,7 +113,7 @@ static void along_binomials(list *l, nh_ex base)
 
 /* ---- angles ---- */
 
-/* Of 1/sqrt(a - a m sin(u)^2) and of the root itself: incomplete elliptic integrals, up to factors. */
+/* The primitives of 1/sqrt(a - a m sin(u)^2) and of the root itself: incomplete elliptic integrals, up to factors. */
 static void append_elliptic(list *l, nh_ex angle, nh_ex a, nh_ex product)
 {
     const nh_jet_equations *x = l->equations;
@@ -134,7 +134,8 @@ static power power_of_wave(const nh_jet_equations *x, nh_ex base, nh_ex wave, qu
     return read_quadratic(x->dag, e, z, p) ? SQUARE : nh_is_zero(x->dag, p->c) ? LINEAR : NEITHER;
 }
 
-/* Roots of a + c sin(u)^2, a + c cos(u)^2 = (a + c) - c sin(u)^2, a + b cos(u) = (a + b) - 2 b sin(u/2)^2. */
+/* The primitives for roots of a + c sin(u)^2, a + c cos(u)^2 = (a + c) - c sin(u)^2, a + b cos(u) = (a + b) - 2 b
+ * sin(u/2)^2. */
 static void along_angle(list *l, nh_ex base, nh_ex angle)
 {
     nh_dag *d = l->dag;
@@ -151,7 +152,8 @@ static void along_angle(list *l, nh_ex base, nh_ex angle)
     }
 }
 
-/* By the sine and the cosine of an angle: the square of one of them is in `base`, and nothing else of a coordinate. */
+/* The primitives by the sine and the cosine of an angle: the square of one of them is in `base`, and no other function
+ * of a coordinate. */
 static void along_circle(list *l, nh_ex base, nh_ex angle)
 {
     const nh_jet_equations *x = l->equations;
@@ -185,7 +187,7 @@ static void of_letters(list *l, const nh_letters *letters)
         append(l, nh_call(l->dag, NH_COS, letters->item[i].base));
         append(l, nh_call(l->dag, NH_SIN, letters->item[i].base));
     }
-    for (size_t i = 0; i < letters->count; i++) { /* those that are not elementary come last */
+    for (size_t i = 0; i < letters->count; i++) { /* the ones that are not elementary come last */
         const nh_letter *a = &letters->item[i];
         if (a->kind != NH_LETTER_POWER || a->root != 2) continue;
         along_binomials(l, nh_numerator(l->dag, a->base)); /* 1 + 1/y^4 */

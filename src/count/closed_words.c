@@ -20,7 +20,7 @@ static uint32_t coordinates_in(const nh_jet_equations *x, nh_ex e)
     return mask;
 }
 
-/* A product of whole positive powers of coordinates, sines and cosines? */
+/* Is it a product of whole positive powers of coordinates, sines and cosines? */
 static bool is_plain(const nh_jet_equations *x, nh_ex e)
 {
     const nh_dag *d = x->dag;
@@ -56,8 +56,8 @@ static void put_power(nh_known_motions_words *w, nh_known_motions_letter *l, nh_
     l->power[at] = p;
 }
 
-/* Exponents k/root; downwards an exponent costs its part of the lowest that the system has.  Whole powers of what is
-   linear are sums of other words. */
+/* The exponents k/root of a letter.  A negative exponent is priced relative to the lowest that the system has.  Whole
+ * powers of a linear base are sums of other words. */
 static void put_powers(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
@@ -79,7 +79,7 @@ static void put_exponentials(nh_known_motions_words *w, nh_known_motions_letter 
 }
 
 /* cos^i sin^j without those that sin^2 + cos^2 = 1 makes of others: of the products of negative powers, 1/(cos sin)
-   alone. */
+ * alone. */
 static void put_circle(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
@@ -109,7 +109,7 @@ static void put_letter(nh_known_motions_words *w, const nh_letter *a)
 
 /* ---- words ---- */
 
-/* The choice after `at`, whose price is `sum` and of whose factors `factors` are not plain.  False: it was the last. */
+/* The choice after `at`, with price `sum` and `factors` factors that are not plain.  False: it was the last. */
 static bool next_choice(const nh_known_motions_words *w, size_t most_factors, size_t *at, double *sum, size_t *factors)
 {
     for (size_t i = 0; i < w->letters; i++) {
@@ -126,8 +126,8 @@ static bool next_choice(const nh_known_motions_words *w, size_t most_factors, si
     return false;
 }
 
-/* All choices whose prices do not exceed the largest, with so many factors at most that are not plain, counted, and
-   written where there is room. */
+/* Counts all choices whose price is at most `largest` and that have at most so many factors that are not plain, and
+ * writes them where there is room. */
 static size_t choices(const nh_known_motions_words *w, size_t most_factors, size_t most, uint16_t *choice,
                       double *price)
 {
@@ -142,7 +142,8 @@ static size_t choices(const nh_known_motions_words *w, size_t most_factors, size
     return count;
 }
 
-/* How many factors that are not plain leave no more than `most` words; 0: not even one. */
+/* The largest number of factors that are not plain with which there are at most `most` words; 0: even one gives
+ * more. */
 static size_t factors_that_fit(const nh_known_motions_words *w, size_t most)
 {
     size_t factors = w->letters;
@@ -234,7 +235,7 @@ nh_ex nh_known_motions_word(const nh_known_motions_words *w, size_t word)
 
 /* ---- independent words ---- */
 
-/* Values of all words at the point of the equations.  False: it is no regular one. */
+/* The values of all words at the point of the equations.  False: the point is not regular. */
 static bool values_at(const nh_known_motions_words *w, const nh_jet_ring *point, nh_residue *value,
                       nh_residue *out)
 {
@@ -265,7 +266,7 @@ static void keep_words(nh_known_motions_words *w, size_t count, const size_t *ch
     w->words = count;
 }
 
-/* Values of all words at so many points, in echelon form.  Returns the rank; `chosen`: its columns. */
+/* Values of all words at so many points, in echelon form.  Returns the rank; `chosen`: the pivot columns. */
 static size_t independent_at(const nh_known_motions_words *w, nh_prime field, size_t rows, size_t *chosen, bool *enough)
 {
     enum { most_tries = 64 };
@@ -287,10 +288,11 @@ static size_t independent_at(const nh_known_motions_words *w, nh_prime field, si
     return independent;
 }
 
-/* Points are taken until they are more than the rank: words are often many more than are independent. */
+/* Points are added until there are more than the rank: often only few of the words are independent. */
 double nh_known_motions_words_reduce(nh_known_motions_words *w)
 {
-    enum { spare = 8, first = 64, rows_together = 4 }; /* rows_together: dense algebra, in the time of a product */
+    /* rows_together: rows that dense algebra treats in the time of one product */
+    enum { spare = 8, first = 64, rows_together = 4 };
     nh_prime field = nh_jet_point_prime(w->equations->point, 0);
     size_t n = w->words, kept = 0, *chosen = nh_alloc_array(n + 1, sizeof *chosen), rows = first;
     double work = 0;

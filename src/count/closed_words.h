@@ -24,7 +24,7 @@
 typedef struct {
     nh_ex shown, value;   /* with parameters as symbols; as it is evaluated */
     double price;
-    uint32_t coordinates; /* on which it depends: a bit each */
+    uint32_t coordinates; /* a set of bits: the coordinates on which it depends */
     bool plain;           /* a polynomial in coordinates, sines and cosines */
 } nh_known_motions_power;
 
@@ -39,26 +39,26 @@ typedef struct {
     size_t letters, capacity;
     nh_known_motions_letter *letter;
     size_t words;
-    uint16_t *choice;     /* words x letters: which power of each */
-    double *price;        /* per word */
+    uint16_t *choice;     /* words x letters: the index of the power of each letter */
+    double *price;        /* price per word */
 } nh_known_motions_words;
 
-/* Words up to a price; `secular`, `rates`: closed_letters.h.  All letters are registered for evaluation: choose a point
-   afterwards.  NULL: there would be more words than `most_words`, even with one such factor in each. */
+/* The words up to a price; `secular`, `rates`: closed_letters.h.  All letters are registered for evaluation, so a point
+ * must be chosen afterwards.  NULL: there are more words than `most_words`, even with one such factor in each. */
 nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words,
                                                       bool secular, const nh_construct_rates *rates);
 void nh_known_motions_words_free(nh_known_motions_words *words);
 
-/* Leave out words that are linear combinations of cheaper ones (partial fractions, sines and cosines in denominators),
- * by values at random points; returns products of residues.  The equations stand at another point afterwards.  Roots
- * that are related may have other signs at other points: their words stay. */
+/* Leaves out words that are linear combinations of cheaper ones (partial fractions, sines and cosines in denominators),
+ * by their values at random points; returns the work in products of residues.  The equations stand at another point
+ * afterwards.  Related roots may have other signs at other points, so their words stay. */
 double nh_known_motions_words_reduce(nh_known_motions_words *words);
 
 /* The coordinates that a word depends on, and the word with parameters as symbols. */
 uint32_t nh_known_motions_word_coordinates(const nh_known_motions_words *words, size_t word);
 nh_ex nh_known_motions_word(const nh_known_motions_words *words, size_t word);
 
-/* Series of all words, one after another.  False: another point is needed.  `work` counts products of residues. */
+/* The series of all words, one after another.  False: another point is needed.  `work` counts products of residues. */
 bool nh_known_motions_words_evaluate(const nh_known_motions_words *words, const nh_jet_ring *ring,
                                      const nh_residue *coordinate, nh_residue *out, double *work);
 

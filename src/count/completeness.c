@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* The highest degree that is settled by the rows; what is missing at the next. */
+/* The highest degree that the rows settle, and what is missing at the next one. */
 static void read_rows(nh_completeness *c, bool all)
 {
     c->degree = c->missing_at = c->missing = c->incomplete_at = 0;
@@ -20,7 +20,7 @@ static void read_rows(nh_completeness *c, bool all)
     c->missing = row->rank > row->known_rank ? row->rank - row->known_rank : 0;
 }
 
-/* For generic parameters the bound can only be lower: the same products have to meet it. */
+/* For generic parameters the bound can only be lower: the same products have to reach it. */
 static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
 {
     if (!model->system->parameters || !q->general || !c->degree || (c->regional && !q->regional_general)) return false;
@@ -37,7 +37,7 @@ static bool holds_generically(const nh_model *model, const nh_completeness_quest
     return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
 }
 
-/* With what is constant in a region only, where the others are not all. */
+/* The same with the currents of a region, where the others do not suffice. */
 static nh_completeness completeness(const nh_model *model, const nh_completeness_question *q,
                                     nh_count_question question)
 {
@@ -90,7 +90,7 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
 
-/* A degree that was asked for and not counted, because of the work. */
+/* The sentence about a degree that was asked for and not counted, because of the limit of work. */
 static bool ended_by_work(const nh_completeness *c)
 {
     return c->asked > c->count.rows && c->count.end && !strcmp(c->count.end, "work");

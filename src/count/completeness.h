@@ -1,8 +1,8 @@
-/* completeness: are the currents that were found all that there are, among those polynomial in the velocities?
+/* completeness: have all integrals polynomial in the velocities been found?
  *
- * Two kinds are counted: with functions of the coordinates as coefficients, and with functions of time and the
- * coordinates; of a system that depends on time only the latter.  Products of the currents that are proved are compared
- * with the bound, degree by degree (count/count.h). */
+ * Two kinds are counted: those whose coefficients are functions of the coordinates, and those whose coefficients are
+ * functions of time and the coordinates; for a system that depends on time only the latter.  Products of the proved
+ * currents are compared with the upper bound, degree by degree (count/count.h). */
 #ifndef NH_COMPLETENESS_H
 #define NH_COMPLETENESS_H
 
@@ -12,41 +12,43 @@
 enum { NH_COMPLETE_IN_COORDINATES, NH_COMPLETE_IN_TIME, NH_COMPLETENESS_KINDS };
 
 typedef struct {
-    bool counted;           /* this kind was looked at */
-    nh_count count;         /* for the parameters' values */
+    bool counted;           /* this kind was counted */
+    nh_count count;         /* count for the parameters' values */
     size_t asked;           /* the degree that the user chose, or 0 */
-    size_t degree;          /* complete up to this degree; 0: not even to the first */
-    /* up to there all are polynomials in the known ones, which is proved; otherwise functions of them, tested at a
-       point */
+    size_t degree;          /* complete up to this degree; 0: not even for the first */
+    /* true: it is proved that all integrals up to this degree are polynomials in the known ones; false: a rank at one
+     * point shows that they are functions of them */
     bool linear;
-    /* of those, too, that are constant in a region only; there are no others */
+    /* the currents that are constant in a region only are needed for this */
     bool regional, only_regional;
-    bool all;               /* functions of them in any case: there can be no more functionally independent ones */
-    bool generic;           /* and so for algebraically independent parameters */
-    size_t missing_at;      /* the least degree at which the bound is not reached, or 0 */
-    size_t missing;         /* how many functionally independent ones are missing there at most */
-    /* the least degree at which the known ones, their products included, are fewer than the bound, or 0 */
+    /* there can be no other functionally independent integrals: all are functions of the known ones */
+    bool all;
+    bool generic;           /* completeness also for algebraically independent parameters */
+    size_t missing_at;      /* the lowest degree at which the bound is not reached, or 0 */
+    size_t missing;         /* at most so many functionally independent integrals are missing there */
+    /* the lowest degree at which the known integrals and their products are fewer than the bound, or 0 */
     size_t incomplete_at;
-    /* that number did not change over the last orders: with more work it would hardly be lower */
+    /* that bound did not change over the last orders: more work would hardly lower it */
     bool settled;
 } nh_completeness;
 
-/* The known currents hold for the parameters' values, those of `general` for all. */
+/* The known currents: all hold for the parameters' values, those of `general` for all values. */
 typedef struct {
     size_t known;
     const nh_ex *current;
-    size_t independent;     /* of these */
+    size_t independent;     /* how many of these */
     size_t regional;        /* the last so many are constant in a region only, and independent */
-    bool general;           /* all others hold for all parameters; all of these */
+    bool general;           /* their number without those of a region; all of them hold for all parameters */
     bool regional_general;
-    bool all;               /* there can be no more functionally independent ones */
-    bool again;             /* only the kind that comes first, for the parameters' values: the rest is as it was */
-    size_t degree;          /* 0: chosen */
+    bool all;               /* it is known that there are no more functionally independent ones */
+    /* counts only the kind that comes first, for the parameters' values, and leaves the rest unchanged */
+    bool again;
+    size_t degree;          /* highest degree; 0: chosen here */
     double work;
-    nh_count_memory *memory; /* NULL: none */
+    nh_count_memory *memory; /* keeps counts for the next call; NULL: nothing is kept */
 } nh_completeness_question;
 
-/* The degree up to which a kind is counted unless the user chooses another. */
+/* The degree up to which a kind is counted by default. */
 size_t nh_completeness_degree(const nh_model *model, bool time);
 
 /* Counts every kind.  A kind that cannot be counted, or whose work does not suffice, says so in its entry; there is no
@@ -54,8 +56,8 @@ size_t nh_completeness_degree(const nh_model *model, bool time);
 void nh_completeness_of(const nh_model *model, const nh_completeness_question *question,
                         nh_completeness out[NH_COMPLETENESS_KINDS]);
 
-/* What is proved, in sentences; nothing when nothing was counted.  `uncertain`: how many currents are certified
-   numerically and not proved. */
+/* Writes what is proved, in sentences; nothing when nothing was counted.  `uncertain`: the number of currents that are
+ * certified numerically and not proved. */
 void nh_completeness_words(const nh_completeness completeness[NH_COMPLETENESS_KINDS], size_t uncertain, nh_text *out);
 
 #endif

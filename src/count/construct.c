@@ -11,7 +11,7 @@ enum { spare = 24, spare_few = 8, beyond_degree = 4, most_points = 60 };
 
 /* ---- which combinations of solutions are recognised ---- */
 
-/* The combinations x of rows with x m = 0 (m: n x columns, destroyed), as rows of out. */
+/* The combinations x of the rows with x m = 0 (m: n x columns, destroyed), as rows of out. */
 static size_t left_kernel(nh_prime field, size_t n, size_t columns, const nh_residue *m, nh_residue *out)
 {
     size_t width = columns + n, *pivot = nh_alloc_array(n + 1, sizeof *pivot), count = 0;
@@ -28,7 +28,8 @@ static size_t left_kernel(nh_prime field, size_t n, size_t columns, const nh_res
     return count;
 }
 
-/* Combinations (rows) whose coefficients are combinations of words: no remainders, at random combinations of them. */
+/* Writes the combinations of solutions (as rows) whose coefficients are combinations of words: random combinations of
+ * their remainders vanish. */
 static size_t recognised(nh_construct_attempt *a, size_t part, nh_residue *out)
 {
     const nh_graded_count *g = a->solution[part];
@@ -56,8 +57,8 @@ static size_t recognised(nh_construct_attempt *a, size_t part, nh_residue *out)
 
 /* ---- simple representatives ---- */
 
-/* Terms (alpha, word), the most complex first: of the highest degree in the velocities; then with the dearest word, or
- * monomial by monomial; monomials from either end. */
+/* Orders the terms (alpha, word), the most complex first: by degree in the velocities; then by the price of the word,
+ * or monomial by monomial, from either end. */
 static size_t *order_terms(const nh_construct_attempt *a, const nh_graded_count *g, size_t n, size_t way)
 {
     size_t terms = g->alphas * a->kept, *order = nh_alloc_array(terms + 1, sizeof *order), count = 0, highest = 0,
@@ -76,8 +77,8 @@ static size_t *order_terms(const nh_construct_attempt *a, const nh_graded_count 
     return order;
 }
 
-/* The reduced echelon form of the recognised combinations: their terms in this order, then the combination itself;
-   `coefficient`: of the words, for each alpha rows x kept. */
+/* The reduced echelon form of the recognised combinations: the coefficients of their terms in this order, then the
+ * combination itself.  `coefficient`: the coefficients of the words, rows x kept for each alpha. */
 static nh_residue *simplest(const nh_construct_attempt *a, const nh_graded_count *g, size_t rows,
                             const nh_residue *combination, const nh_residue *coefficient, const size_t *order)
 {
@@ -94,7 +95,7 @@ static nh_residue *simplest(const nh_construct_attempt *a, const nh_graded_count
     return out;
 }
 
-/* Of the recognised combinations, in terms of words. */
+/* The coefficients of the recognised combinations, in terms of words. */
 static nh_residue *in_words(const nh_construct_attempt *a, size_t part, size_t rows, const nh_residue *combination)
 {
     const nh_graded_count *g = a->solution[part];
@@ -115,10 +116,11 @@ static nh_residue *in_words(const nh_construct_attempt *a, size_t part, size_t r
 /* The rows of one echelon form that are new. */
 typedef struct {
     nh_residue *row;      /* rows x (terms + N) */
-    size_t width, *order, *fresh, count, length; /* of the terms; which rows; how many; their terms together */
+    /* index of the terms; which rows; how many; the number of their terms together */
+    size_t width, *order, *fresh, count, length;
 } representatives;
 
-/* The row's entry as a fraction; false: there is none. */
+/* The row's entry as a fraction; false: none is short enough. */
 static bool read_coefficient(const nh_construct_attempt *a, nh_residue value, nh_num *out)
 {
     int64_t top, bottom;
@@ -145,11 +147,11 @@ static void add_constructed(nh_construction *out, const nh_construct_attempt *a,
     }
 }
 
-/* What is known, as vectors: differentials at one point, or values of products under random functionals; and the same
-   of the solutions. */
+/* The known integrals as vectors: differentials at one point, or values of products under random functionals; and the
+ * solutions likewise. */
 typedef struct {
     nh_count_space known;
-    const nh_residue *solution; /* of the parity at hand: N x known.width */
+    const nh_residue *solution; /* of the current parity: N x known.width */
 } news;
 
 static bool known_differentials(news *x, nh_construct_attempt *a)
@@ -175,7 +177,7 @@ static nh_residue *solution_differentials(const news *x, const nh_construct_atte
     return out;
 }
 
-/* Products are compared with solutions to an order that determines them. */
+/* Products are compared with solutions of an order that determines them. */
 static nh_count_series *short_series(nh_construct_attempt *a, size_t degree)
 {
     bool regular;
@@ -231,7 +233,7 @@ static void representatives_clear(representatives *r)
     nh_free(r->fresh);
 }
 
-/* How many of the combinations are new; they are not kept. */
+/* The number of combinations that are new; they are not kept. */
 static size_t count_new(const nh_construct_attempt *a, news *x, size_t rows, const nh_residue *combination, size_t N)
 {
     size_t before = x->known.rows, count = 0;
@@ -240,7 +242,7 @@ static size_t count_new(const nh_construct_attempt *a, news *x, size_t rows, con
     return count;
 }
 
-/* Of one parity: the shortest representatives of several echelon forms. */
+/* For one parity: the shortest representatives from several echelon forms. */
 static void recognise(nh_construction *out, nh_construct_attempt *a, size_t part, news *x)
 {
     enum { ways = 4 };
@@ -290,7 +292,7 @@ static outcome solve(nh_construction *out, nh_construct_attempt *a, size_t degre
     return DONE;
 }
 
-/* The solutions as vectors, by their coefficients of w^alpha; afterwards these are in the frame's velocities. */
+/* The solutions as vectors, from their coefficients of w^alpha; afterwards these are in the frame's velocities. */
 static bool solution_news(nh_construct_attempt *a, news *x, const nh_count_series *s, const nh_count_functionals *f,
                           nh_residue **solution)
 {
@@ -310,7 +312,7 @@ static bool solution_news(nh_construct_attempt *a, news *x, const nh_count_serie
     return good;
 }
 
-/* One parity after another: what is new is added to what is known. */
+/* Handles one parity after another: each new integral joins the known ones. */
 static outcome recognise_all(nh_construction *out, nh_construct_attempt *a, const nh_construct_question *question)
 {
     nh_counter *c = a->counter;

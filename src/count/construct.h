@@ -22,10 +22,10 @@ typedef struct {
     size_t degree;          /* in the velocities, at most */
     double price;           /* of the dearest words */
     size_t most_words;
-    double work;            /* products of residues */
+    double work;            /* limit, in products of residues */
     size_t known;
     const nh_ex *current;
-    size_t independent;      /* of these */
+    size_t independent;      /* number of `current` */
 } nh_construct_question;
 
 typedef struct {
@@ -35,17 +35,17 @@ typedef struct {
 } nh_constructed;
 
 typedef struct {
-    size_t words, order, dimension, recognised; /* N at this order; how much of it is recognised */
+    size_t words, order, dimension, recognised; /* N at this order; how many of them are recognised */
     size_t count;
     nh_constructed *item;   /* simplest first */
-    bool limited;           /* there are too many words, or the work is not enough */
+    bool limited;           /* stopped: there are too many words, or the work does not suffice */
     double work;
     nh_arena *arena;
 } nh_construction;
 
-/* What the count allows beyond the known ones, as lists of terms: proposals, whose coefficients and proofs are still to
- * be found.  Never NULL; empty where the count cannot be made.  The caller frees it.  [docs/method.md, sec. 10,
- * "Construction"] */
+/* Proposes the integrals that the count allows beyond the known ones, as lists of terms whose coefficients and proofs
+ * are still to be found.  Never NULL; empty where the count cannot be made.  The caller frees it.  [docs/method.md,
+ * sec. 10, "Construction"] */
 nh_construction *nh_construct(const nh_model *model, const nh_construct_question *question);
 void nh_construction_free(nh_construction *construction);
 

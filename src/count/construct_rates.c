@@ -1,4 +1,4 @@
-/* Eigenvalues of the derivative along cyclic coordinates on the space of solutions. */
+/* Eigenvalues of the derivative along a cyclic coordinate on the space of solutions. */
 #include "count/construct_rates.h"
 
 #include <flint/fmpq.h>
@@ -14,8 +14,8 @@ enum { beyond_degree = 3, spare = 4, most_points = 20, most_coefficients = 4000,
 
 /* ---- the field of a cyclic coordinate ---- */
 
-/* d/dq_k = sum_j b_j d/dz_j: (dy/dz) b = dy/dq_k, where y are the linear coordinates of the frame.
-   Right up to order - step. */
+/* d/dq_k = sum_j b_j d/dz_j: (dy/dz) b = dy/dq_k, where y are the linear coordinates of the frame.  Exact up to order -
+ * step. */
 static bool cyclic_field(const nh_adapted_frame *f, const nh_count_series *s, size_t k, nh_residue *b)
 {
     const nh_jet_ring *ring = s->ring;
@@ -76,8 +76,9 @@ static void functionals(const nh_graded_count *g, const nh_jet_ring *ring, const
     nh_free(weight);
 }
 
-/* Left: the solutions have these derivatives.  False where the series are too short to tell solutions apart,
-   or not closed. */
+/* A := the matrix of the derivative on the solutions, from the values of solutions (left half of `both`) and of their
+ * derivatives (right half).  False where the series are too short to tell solutions apart, or the span is not closed
+ * under the derivative. */
 static bool matrix_of(nmod_mat_t both, size_t N, nmod_mat_t A)
 {
     if ((size_t)nmod_mat_rref(both) != N || (N && nmod_mat_entry(both, N - 1, N - 1) != 1)) return false;
@@ -88,7 +89,7 @@ static bool matrix_of(nmod_mat_t both, size_t N, nmod_mat_t A)
 
 /* ---- its eigenvalues ---- */
 
-/* A short fraction with this residue. */
+/* The short fraction with this residue. */
 static bool fraction(nh_residue value, uint64_t p, nh_num *out)
 {
     enum { longest = 1000 };
@@ -116,7 +117,7 @@ static void put(nh_construct_rates *out, nh_construct_rate r)
     if (out->count < NH_MOST_CONSTRUCT_RATES) out->item[out->count++] = r;
 }
 
-/* The root of a whole number, or 0. */
+/* The square root of a square number, otherwise 0. */
 static int64_t root_of(int64_t square)
 {
     int64_t root = 0;
@@ -124,7 +125,7 @@ static int64_t root_of(int64_t square)
     return root * root == square ? root : 0;
 }
 
-/* A linear factor x - lambda, or x^2 + omega^2: no prime here has a root of -1. */
+/* Reads a linear factor x - lambda, or x^2 + omega^2: no prime here has a root of -1. */
 static void read_factor(const nmod_poly_t f, uint64_t p, nh_ex coordinate, nh_construct_rates *out)
 {
     nh_residue last = (nh_residue)nmod_poly_get_coeff_ui(f, 0);
@@ -153,14 +154,14 @@ static void read_eigenvalues(const nmod_mat_t A, uint64_t p, nh_ex coordinate, n
 
 /* ---- a point ---- */
 
-/* False where the series are too short: there are more of them than solutions. */
+/* False where the series are too short: more truncated series than solutions satisfy the equations. */
 static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_graded_count *g, size_t k,
                      nh_construct_rates *out)
 {
     bool closed = true;
     const nh_jet_ring *ring = s->ring;
     size_t N = g->total[g->order], m = c->frame->all;
-    size_t end = ring->first[ring->order - c->frame->step + 1]; /* derivatives are right up to there */
+    size_t end = ring->first[ring->order - c->frame->step + 1]; /* derivatives are exact up to this order */
     nh_residue *b = nh_alloc_array(m * ring->size, sizeof *b);
     nmod_mat_t both, A;
     nmod_mat_init(both, (slong)(N + spare), (slong)(2 * N), ring->field.p);
@@ -178,7 +179,7 @@ static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_gra
     return closed;
 }
 
-/* False: another point is needed.  `closed`: the order tells all solutions apart. */
+/* False: another point is needed.  `closed`: series of this order tell all solutions apart. */
 static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, nh_construct_rates *out)
 {
     const nh_adapted_frame *f = c->frame;

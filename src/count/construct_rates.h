@@ -24,11 +24,11 @@ typedef struct {
 typedef struct nh_construct_rates {
     size_t count;
     nh_construct_rate item[NH_MOST_CONSTRUCT_RATES];
-    double work; /* products of residues that it took */
+    double work; /* products of residues that were used */
 } nh_construct_rates;
 
-/* Of the integrals of a degree, with coefficients in t too where `time`; none where there is no cyclic coordinate, on
-   leaves, or where the work is not enough. */
+/* The rates of the integrals of a degree, with coefficients in t, too, where `time`.  There are none without a cyclic
+ * coordinate, on leaves, or where the work does not suffice. */
 nh_construct_rates nh_construct_rates_of(const nh_model *model, size_t degree, bool time, double work);
 
 #endif

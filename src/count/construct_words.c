@@ -1,5 +1,5 @@
-/* Words under random functionals: a basis of their span, its echelon form, and orders at which they are no more than
-   what can be told apart. */
+/* Words under random functionals: a basis of their span and its echelon form, and orders at which there are enough
+ * coefficients to tell them apart. */
 #include "count/construct_internal.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@
 
 enum { spare = 24, spare_few = 2, beyond_degree = 4, most_order = 120, most_coefficients = 20000 };
 
-/* The pivots of the words' columns are a basis of their span, cheapest first. */
+/* The pivots of the words' columns are a basis of their span, the cheapest words first. */
 void nh_construct_words_choose(nh_construct_attempt *a)
 {
     size_t words = a->words->words;
@@ -18,8 +18,8 @@ void nh_construct_words_choose(nh_construct_attempt *a)
     a->counter->work += (double)a->width * (double)a->kept * (double)a->lines.count / NH_CONSTRUCT_ROWS_TOGETHER;
 }
 
-/* Of every coordinate the least weight of a variable in it: functions of it have a coefficient for each multiple up to
-   the order. */
+/* For each coordinate the least weight of a variable in it: a function of it has a coefficient for each multiple up to
+ * the order. */
 static void least_weights(const nh_adapted_frame *f, size_t *weight)
 {
     for (size_t k = 0; k < f->all; k++) {
@@ -29,8 +29,8 @@ static void least_weights(const nh_adapted_frame *f, size_t *weight)
     }
 }
 
-/* Functions of some of the coordinates must be fewer than their coefficients, or any function would be one of them.
-   `word`: which words; NULL: all. */
+/* There must be fewer functions of some of the coordinates than coefficients, or every function would be a combination
+ * of them.  `word`: which words; NULL: all. */
 bool nh_construct_words_scarce(const nh_construct_attempt *a, size_t order, size_t words, const size_t *word)
 {
     const nh_adapted_frame *f = a->counter->frame;
@@ -44,7 +44,7 @@ bool nh_construct_words_scarce(const nh_construct_attempt *a, size_t order, size
             if (set >> k & 1) own[variables++] = weight[k];
         for (size_t k = 0; k < words; k++)
             among += !(nh_known_motions_word_coordinates(a->words, word ? word[k] : k) & ~set);
-        bool all = variables >= leaf; /* so many coordinates have any values on the leaf */
+        bool all = variables >= leaf; /* on a leaf only so many coordinates vary independently */
         room = nh_jet_ring_size(all ? leaf : variables, all ? f->weight : own, order, most_coefficients);
         good = among + (all ? spare : spare_few) <= room;
     }
@@ -95,7 +95,7 @@ bool nh_construct_values(nh_construct_attempt *a)
     return true;
 }
 
-/* 0: none is high enough. */
+/* 0: no order is high enough. */
 size_t nh_construct_order(const nh_construct_attempt *a, size_t degree)
 {
     const nh_adapted_frame *f = a->counter->frame;

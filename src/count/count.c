@@ -1,5 +1,5 @@
-/* The count: points modulo primes, weights, series of growing order until the number of integrals is met or does not
-   change. */
+/* The count: points modulo primes, weights, and series of growing order until the number of integrals reaches the
+ * number of known ones or no longer changes. */
 #include "count/count_internal.h"
 
 #include <string.h>
@@ -8,12 +8,14 @@
 #include "graph/diff.h"
 
 enum { most_parameters = 4000, largest_series = 20000, steps_beyond = 1, many_coordinates = 6 };
-static const double least_share = 0.5; /* of the work, for the number of integrals where their rank is known already */
+/* part of the work for the number of integrals of a degree whose rank is known already */
+static const double least_share = 0.5;
 static const double more_for_open = 5; /* times the work, for a degree whose bound still falls */
 
 /* ---- the number ---- */
 
-/* Every term of Gamma changes the parity of |alpha|: no X_0, and no rates linear in the velocities. */
+/* Does every term of Gamma change the parity of |alpha|?  So without X_0, and without rates linear in the
+ * velocities. */
 static bool has_parity(const nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *rate)
 {
     size_t n = x->n, count = nh_jet_equations_monomials(n);
@@ -24,8 +26,8 @@ static bool has_parity(const nh_jet_equations *x, const nh_jet_ring *ring, const
     return true;
 }
 
-/* The ring of an order, and in it the coordinates, the fields and the rates.  What alone takes more than `most` work is
-   not begun: 40 coordinates would take gigabytes. */
+/* The ring of an order, and in it the coordinates, the fields and the rates.  Rings that alone take more than `most`
+ * work are not begun: 40 coordinates would take gigabytes. */
 nh_count_series *nh_count_series_create(nh_counter *c, size_t order, double most, bool *regular)
 {
     nh_jet_equations *x = c->equations;
@@ -74,8 +76,8 @@ nh_graded_problem nh_count_problem(const nh_counter *c, const nh_count_series *s
                                .most_work = c->most - c->work};
 }
 
-/* N for each order, the sum over both parities where they separate; injective_at: the larger.  False: beyond the
-   limits. */
+/* N for each order, the sum over both parities where they separate; injective_at: the larger of theirs.  False: beyond
+ * the limits. */
 static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, nh_graded_state *state[2], size_t *total,
                    size_t *injective_at, nh_differentials *d)
 {
@@ -95,7 +97,7 @@ static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, nh_gr
     return good;
 }
 
-/* Both at the same random velocities. */
+/* The ranks of both at the same random velocities. */
 void nh_count_differentials(const nh_counter *c, nh_differentials *all, nh_differentials *known)
 {
     size_t n = c->equations->n;
@@ -114,8 +116,8 @@ void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known
 
 typedef enum { COUNTED, UNLUCKY, TOO_MUCH } outcome;
 
-/* Residues stand for any solutions of the equations of named functions.  Where they show more independent functions
- * than there are, the functions meant are related in ways that other solutions are not. */
+/* Residues stand for any solutions of the equations of named functions.  If they give more independent functions than
+ * the bound allows, the functions themselves are related in ways that other solutions are not. */
 static bool shows_too_many(const nh_counter *c, const nh_count_row *row)
 {
     bool named = false;
@@ -136,7 +138,7 @@ static void read_totals(const nh_counter *c, const size_t *total, size_t from, n
     out->settled = out->bounded && order - same >= c->frame->step + steps_beyond;
 }
 
-/* One degree at one order; `state` of both parities, from the order before. */
+/* Counts one degree at one order; `state` of both parities is that of the order before. */
 static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_graded_state *state[2], nh_count_row *out)
 {
     bool regular;
@@ -154,7 +156,7 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_graded_st
     out->known_rank = nh_count_rank(&known, s->ring->field);
     out->degree = degree;
     out->order = order;
-    /* another point, without them */
+    /* another point is needed, without these currents */
     if (result == COUNTED && shows_too_many(c, out)) c->unnamed = true, result = UNLUCKY;
     read_totals(c, total, from, out);
     nh_count_differentials_clear(&all, &known);
@@ -163,8 +165,8 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_graded_st
     return result;
 }
 
-/* The order to begin with.  Series of lower order bound nothing where brackets of fields have weights; the order at
-   which a degree reaches its number was found to grow by step + 1 with the degree there. */
+/* The first order.  Series of lower order give no bound where brackets of fields have weights; the order at which a
+ * degree reaches its number was observed to grow by step + 1 with the degree. */
 static size_t first_order(const nh_counter *c, size_t degree, const nh_count_row *before)
 {
     enum { first_beyond = 2 };
@@ -173,7 +175,8 @@ static size_t first_order(const nh_counter *c, size_t degree, const nh_count_row
     return least > expected ? least : expected;
 }
 
-/* Orders grow until all are known, or the number does not change. `before`: the row of the degree before, or NULL. */
+/* Increases the order until all integrals are known, or the number no longer changes.  `before`: the row of the degree
+ * before, or NULL. */
 static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *before, nh_count_row *out)
 {
     size_t step = c->frame->step, order = first_order(c, degree, before);
@@ -243,7 +246,7 @@ static void degrees(nh_counter *c, nh_count *out)
     out->prime = c->equations->point->field.p;
 }
 
-/* Is it a function of time, the coordinates, the velocities and the parameters alone? */
+/* Is it a function of time, coordinates, velocities and parameters alone? */
 static bool is_current(const nh_jet_equations *x, nh_ex e)
 {
     enum { most = 256 };
@@ -269,7 +272,7 @@ static bool has_named(const nh_dag *dag, nh_ex e)
     return found;
 }
 
-/* Those that can be followed; what one of them stumbles over is no obstacle for the equations. */
+/* The known integrals that can be followed; an obstacle in one of them is no obstacle for the equations. */
 static void register_known(nh_counter *c)
 {
     nh_jet_equations *x = c->equations;

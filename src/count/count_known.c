@@ -8,8 +8,8 @@ enum { most_failures = 80 };
 
 /* ---- known integrals ---- */
 
-/* Is a current with named functions one for every solution of their equations?  Relations between two functions may be
-   in the formula that was proved. */
+/* Is a current with named functions a current for every solution of their equations?  The proof of its formula may have
+ * used a relation between two functions. */
 static bool is_kept(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t k, bool *good)
 {
     nh_jet_equations *x = c->equations;
@@ -26,7 +26,8 @@ static bool is_kept(nh_counter *c, const nh_jet_ring *ring, const nh_residue *co
     return kept;
 }
 
-/* Values along the line w = a + s b for s = 0 .. count - 1, as differences: the degree is the last that is not zero. */
+/* Differences of the values along the line w = a + s b, s = 0 .. count - 1: the degree is that of the last one that is
+ * not zero. */
 static bool line_degree(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, nh_ex e, size_t *degree)
 {
     enum { values = NH_COUNT_HIGHEST_DEGREE + 4 };
@@ -79,8 +80,8 @@ static void move_known(nh_counter *c, size_t to, size_t from)
     memmove(c->slope + to * n, c->slope + from * n, n * sizeof *c->slope);
 }
 
-/* The degrees of those of the kind that is counted, 0 for others: they count for functional dependence only.  A current
- * that cannot be evaluated makes the point a bad one, and one that never can is left out. */
+/* The degrees of the currents of the kind that is counted, 0 for others, which count for functional dependence only.  A
+ * current that cannot be evaluated here makes the point a bad one; one that never can be is left out. */
 bool nh_count_take_known(nh_counter *c)
 {
     nh_jet_equations *x = c->equations;
@@ -102,7 +103,7 @@ bool nh_count_take_known(nh_counter *c)
         if (good && (timely || !polynomial)) degree = 0;
         move_known(c, kept, k);
         c->degree[kept++] = degree;
-        if (!good) { /* the rest as it is */
+        if (!good) { /* the other currents are unchanged */
             for (k++; k < c->known; k++) move_known(c, kept++, k);
         }
     }
@@ -133,7 +134,7 @@ size_t nh_count_rank(const nh_differentials *d, nh_prime f)
     return rank;
 }
 
-/* w^alpha without one factor w_l (l = n: all of it) */
+/* w^alpha without one factor w_l (l = n: all factors) */
 static nh_residue velocity_power(const nh_differentials *d, nh_prime f, const uint8_t *alpha, size_t l)
 {
     nh_residue r = 1;
@@ -142,7 +143,7 @@ static nh_residue velocity_power(const nh_differentials *d, nh_prime f, const ui
     return r;
 }
 
-/* d Phi = sum of d c_alpha w^alpha + c_alpha alpha_l w^(alpha - 1_l) dw^l, of every solution */
+/* d Phi = sum of d c_alpha w^alpha + c_alpha alpha_l w^(alpha - 1_l) dw^l, for every solution */
 void nh_count_solutions_differ(const nh_graded_count *g, nh_prime f, nh_differentials *d)
 {
     size_t N = g->total[g->order], width = d->kept + d->n;
@@ -152,7 +153,7 @@ void nh_count_solutions_differ(const nh_graded_count *g, nh_prime f, nh_differen
         const nh_residue *jet = g->jet + a * (1 + d->kept) * N;
         nh_residue power = velocity_power(d, f, alpha, d->n);
         for (size_t k = 0; k < width; k++) {
-            size_t l = k - d->kept; /* when not along a coordinate */
+            size_t l = k - d->kept; /* when this is no direction of a coordinate */
             if (k >= d->kept && !alpha[l]) continue;
             nh_residue factor = k < d->kept ? power : nh_residue_mul(f, alpha[l], velocity_power(d, f, alpha, l));
             const nh_residue *c = jet + (k < d->kept ? 1 + k : 0) * N;
@@ -181,7 +182,7 @@ static nh_jet_ring *first_jets(const nh_counter *c, const nh_jet_ring *ring, con
     return first;
 }
 
-/* The same of the known integrals, by their series and their derivatives in the velocities. */
+/* The same for the known integrals, by their series and their derivatives in the velocities. */
 bool nh_count_known_differ(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, nh_differentials *d)
 {
     size_t width = d->kept + d->n;

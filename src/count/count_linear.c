@@ -26,7 +26,7 @@ typedef struct {
     nh_counter *c;
     size_t n;
     nh_ex *K;               /* n x n, row by row */
-    double *frequency, error; /* of sigma_i a number that is linear in it, and its error */
+    double *frequency, error; /* values of a linear function at sigma_i, and their error */
     double work;            /* products */
 } linear;
 
@@ -89,7 +89,8 @@ static bool read_frequencies(linear *l)
     return good;
 }
 
-/* Sums of `left` more at most, of frequencies from i on, of either sign: how many, and into out unless that is NULL. */
+/* The sums of at most `left` further frequencies of index i and above, of either sign: returns their number, and writes
+ * them into out unless that is NULL. */
 static size_t list_sums(const linear *l, size_t i, size_t left, double sum, size_t most, double *out)
 {
     size_t count = 1;
@@ -110,8 +111,8 @@ static int by_size(const void *a, const void *b)
 
 typedef enum { NONE, PERHAPS, TOO_MANY } resonance;
 
-/* Is there a sum of 2 `half` frequencies, of either sign, that vanishes and does not cancel?  Where no two sums of
-   `half` are equal there is none. */
+/* Does a sum of 2 `half` frequencies, of either sign, vanish without cancelling in pairs?  Not where no two sums of
+ * `half` frequencies are equal. */
 static resonance find_resonance(linear *l, size_t half)
 {
     enum { most_sums = 2000000, each = 30 };
@@ -185,7 +186,7 @@ static bool from_equilibrium(const linear *l, const nh_count_series *s, nh_jet_e
     return good;
 }
 
-/* False: another point. */
+/* False: another point is needed. */
 static bool add_energies(const linear *l, const nh_count_series *s, const nh_residue *w, nh_differentials *out)
 {
     nh_jet_equations *x = l->c->equations;
@@ -211,7 +212,7 @@ static bool add_energies(const linear *l, const nh_count_series *s, const nh_res
     return good;
 }
 
-/* The rank of the known integrals of degree 1 .. `degree` at most. */
+/* The rank of the known integrals of degree 1 ..  `degree`. */
 static size_t rank_of_degree(const nh_counter *c, const nh_differentials *known, size_t degree)
 {
     nh_differentials some = {.n = known->n, .kept = known->kept};
@@ -225,7 +226,7 @@ static size_t rank_of_degree(const nh_counter *c, const nh_differentials *known,
 }
 
 typedef struct {
-    size_t all, known, generators, of; /* ranks; of the known ones, those of the degree `of` that generate all */
+    size_t all, known, generators, of; /* ranks of all; of the known ones, those of the degree `of` that generate all */
 } ranks;
 
 static bool find_ranks(linear *l, ranks *out)
@@ -253,7 +254,7 @@ static bool find_ranks(linear *l, ranks *out)
 
 /* ---- the rows ---- */
 
-/* Monomials of degree d at most in n letters: (n + d)!/(n! d!). */
+/* The number of monomials of degree at most d in n variables: (n + d)!/(n! d!). */
 static size_t monomials(size_t n, size_t d)
 {
     double count = 1;

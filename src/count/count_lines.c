@@ -1,4 +1,4 @@
-/* Random linear functionals of series, several on each of some curves z_k = v_k s^(weight_k). */
+/* Random linear functionals of series, several on each of a few curves z_k = v_k s^(weight_k). */
 #include "count/count_internal.h"
 
 #include <string.h>
@@ -73,7 +73,7 @@ void nh_count_line_values(const nh_count_lines *l, size_t j, nh_prime field, con
     }
 }
 
-/* By degree along each curve first. */
+/* Sums by degree along each curve first. */
 void nh_count_lines_values(const nh_count_lines *l, const nh_jet_ring *ring, size_t N, const nh_residue *series,
                            nh_residue *out, size_t stride)
 {

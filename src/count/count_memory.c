@@ -1,4 +1,4 @@
-/* Solutions that were counted before: the same equations are solved again whenever more integrals are known. */
+/* Keeps the solutions of a count: the same equations are asked again whenever more integrals are known. */
 #include <string.h>
 
 #include "count/count_internal.h"
@@ -48,7 +48,7 @@ static uint64_t mix_residues(uint64_t key, size_t count, const nh_residue *x)
     return key;
 }
 
-/* All that the number of solutions and their differentials follow from. */
+/* A fingerprint of everything that the number of solutions and their differentials depend on. */
 static uint64_t key_of(const nh_graded_problem *p, const nh_differentials *d)
 {
     const nh_jet_ring *r = p->ring;
@@ -92,7 +92,7 @@ bool nh_count_solve(nh_counter *c, const nh_graded_problem *p, nh_graded_state *
 {
     uint64_t key = key_of(p, d);
     const answer *a = recall(c->q->memory, key);
-    if (a && a->work >= p->most_work) a = NULL; /* there would not be work for it */
+    if (a && a->work >= p->most_work) a = NULL; /* the limit of work would not suffice for it */
     size_t before = d->rows, order = p->ring->order;
     if (a) {
         memcpy(nh_count_more_differentials(d, a->rows), a->row, a->rows * (d->kept + d->n) * sizeof *a->row);

@@ -1,5 +1,5 @@
-/* Products of known integrals as vectors modulo the prime: values of random linear functionals, the same ones for
-   products and for solutions of the count. */
+/* Products of known integrals as vectors modulo the prime: the values of random linear functionals, which are the same
+ * for products and for solutions of the count. */
 #include <string.h>
 
 #include "base/progress.h"
@@ -8,7 +8,8 @@
 
 enum { most_products = 3000, spare_columns = 8 };
 
-/* Exponents of all products up to a degree, the empty one first: `known` numbers each; 0 when they are too many. */
+/* Exponents of all products up to a degree, the empty one first, `known` numbers each; returns 0 when there are too
+ * many. */
 static size_t list(const nh_counter *c, size_t degree, uint8_t *out)
 {
     uint8_t *e = nh_alloc(c->known + 1);
@@ -26,7 +27,7 @@ static size_t list(const nh_counter *c, size_t degree, uint8_t *out)
     return count <= most_products ? count : 0;
 }
 
-/* Every product but 1 is one that came before times a factor. */
+/* Every product but 1 is an earlier one times a factor. */
 static void find_factors(nh_count_monomials *p, size_t known)
 {
     uint8_t *less = nh_alloc(known + 1);
@@ -60,7 +61,7 @@ void nh_count_monomials_clear(nh_count_monomials *p)
     nh_free(p->exponent);
 }
 
-/* All products at one choice of velocities, each from one that came before by a factor. */
+/* All products at one choice of velocities. */
 static void multiply_products(const nh_jet_ring *ring, const nh_count_monomials *p, const nh_residue *phi,
                               nh_residue *out)
 {
@@ -132,7 +133,7 @@ bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_re
     return good;
 }
 
-/* sum over alpha of c_alpha w^alpha, of which the first coefficients count. */
+/* sum over alpha of c_alpha w^alpha, with the first coefficients of the series only. */
 void nh_count_solution_values(const nh_graded_count *g, const nh_jet_ring *ring, const nh_count_functionals *f,
                               nh_residue *out)
 {
@@ -155,7 +156,7 @@ void nh_count_solution_values(const nh_graded_count *g, const nh_jet_ring *ring,
 
 /* ---- how many are independent ---- */
 
-/* Is a current of this degree by itself among the factors? */
+/* Is a single current of this degree among the factors? */
 static bool has_own_degree(const nh_counter *c, const uint8_t *exponent, size_t degree)
 {
     bool own = false;
@@ -163,7 +164,7 @@ static bool has_own_degree(const nh_counter *c, const uint8_t *exponent, size_t 
     return own;
 }
 
-/* The rank of the first rows: of products of lower degree alone, or of all. */
+/* The rank of the first rows: those of products of lower degree, or all. */
 static size_t rank_of(const nh_counter *c, nh_prime field, const nh_count_monomials *p, size_t columns,
                       const nh_residue *value, size_t degree, bool lower)
 {
@@ -211,7 +212,7 @@ bool nh_count_space_add(nh_count_space *x, nh_prime field, const nh_residue *row
     for (size_t i = 0; i < x->rows; i++) {
         const nh_residue *other = x->row + i * x->width;
         size_t at = 0;
-        while (!other[at]) at++; /* one there */
+        while (!other[at]) at++; /* the entry there is 1 */
         if (own[at]) nh_residue_add_multiple(field, x->width, own, other, nh_residue_sub(field, 0, own[at]));
     }
     size_t at = 0;

@@ -1,5 +1,5 @@
-/* Polynomial relations among integrals, modulo the prime: a product that is a combination of those before it is the
-   leading one of a relation. */
+/* Polynomial relations among integrals modulo the prime: a product that is a combination of products before it is the
+ * leading product of a relation. */
 #include <stdlib.h>
 #include <math.h>
 #include <string.h>
@@ -18,7 +18,7 @@ static int by_degree(const void *a, const void *b)
 {
     const monomial *x = a, *y = b;
     if (x->degree != y->degree) return x->degree < y->degree ? -1 : 1;
-    for (size_t k = x->counter->known; k-- > 0;) /* later integrals are dearer */
+    for (size_t k = x->counter->known; k-- > 0;) /* later integrals have higher prices */
         if (x->exponent[k] != y->exponent[k]) return x->exponent[k] < y->exponent[k] ? -1 : 1;
     return 0;
 }
@@ -34,7 +34,7 @@ static monomial *sorted(const nh_counter *c, const nh_count_monomials *p)
     return m;
 }
 
-/* Does a leading product of before divide it? */
+/* Does the leading product of an earlier relation divide it? */
 static bool follows(const nh_counter *c, const uint8_t *exponent, size_t relations, const nh_count_relation *relation)
 {
     bool divides = false;
@@ -46,8 +46,8 @@ static bool follows(const nh_counter *c, const uint8_t *exponent, size_t relatio
     return divides;
 }
 
-/* The row of the echelon that has no values left says which products it combines: in terms of the question's integrals,
-   the leading one last. */
+/* The row of the echelon form whose values are all zero: its other part says which products it combines, in the
+ * question's integrals, the leading one last. */
 static nh_count_relation read_relation(const nh_counter *c, const nh_residue *combination, size_t count,
                                        const monomial *m, const size_t *standard, nh_arena *arena)
 {
@@ -61,7 +61,7 @@ static nh_count_relation read_relation(const nh_counter *c, const nh_residue *co
     return r;
 }
 
-/* Rows: values, then which products they are of. */
+/* Rows: values, then a unit vector that says of which product. */
 static size_t eliminate(const nh_counter *c, nh_prime field, const nh_count_monomials *p, const monomial *m,
                         size_t values, const nh_residue *value, nh_arena *arena, size_t most, nh_count_relation *out)
 {

@@ -1,5 +1,5 @@
-/* The linear system Gamma(Phi) = 0 weight by weight, with sparse elimination of the symbol, component by component, and
- * a dense echelon form for the conditions on the parameters. */
+/* Solves the linear system Gamma(Phi) = 0 weight by weight: sparse elimination of the symbol, component by component,
+ * and a dense echelon form for the conditions on the parameters. */
 #include "count/graded_solver_internal.h"
 
 #include <math.h>
@@ -63,7 +63,7 @@ static int find_alpha(const nh_graded_system *s, const int *e)
     return no_alpha;
 }
 
-/* Where alpha = beta - shift. */
+/* The index of alpha = beta - shift. */
 static void add_term(nh_graded_system *s, bool derivative, size_t index, const nh_residue *series, const int *shift)
 {
     size_t n = s->p->n;
@@ -119,7 +119,7 @@ static void more_room(nh_graded_system *s)
     }
     nh_residue *wider = nh_alloc_array(rows * stride, sizeof *wider),
                *conditions = nh_alloc_array(s->conditions * stride + 1, sizeof *conditions);
-    for (size_t i = 0; old && i < rows; i++) /* higher weights are zero yet, and take no memory */
+    for (size_t i = 0; old && i < rows; i++) /* coefficients of higher weights are zero so far and take no memory */
         if (i % s->r->size < s->r->first[s->k + 2])
             memcpy(wider + i * stride, s->row + i * old, s->N * sizeof *wider);
     for (size_t i = 0; old && i < s->conditions; i++)
@@ -139,7 +139,7 @@ void nh_graded_parameter(nh_graded_system *s, size_t alpha, size_t exponent)
 
 /* ---- the equations of weight k ---- */
 
-/* What is known of an equation: coefficients that are known, each times a residue. */
+/* The known part of an equation: known coefficients, each times a residue. */
 typedef struct {
     size_t count, factors, rows; /* factors, rows: room */
     nh_residue *factor;
@@ -154,19 +154,19 @@ static void put_row(sum_of_rows *sum, nh_residue factor, const nh_residue *row)
     sum->row[sum->count++] = row;
 }
 
-/* The products of a term at the exponents of one weight that are not 0, the same for all beta: `value` times the
-   coefficient of `exponent`. */
+/* The products of a term at the exponents of one weight, without those that are 0, the same for all beta: `value` times
+ * the coefficient of `exponent`. */
 typedef struct {
     uint32_t exponent;
     nh_residue value;
 } product;
 
 typedef struct {
-    size_t count, capacity, *start; /* start[i x (exponents + 1) + e]: of term i and the e-th exponent */
+    size_t count, capacity, *start; /* start[i x (exponents + 1) + e]: first product of term i and the e-th exponent */
     product *item;
 } products;
 
-/* False: it takes exponents beyond weight k + 1, which the coordinates do not have. */
+/* False: it has exponents beyond weight k + 1, which the coordinates do not have. */
 static bool list_products_of(nh_graded_system *s, const term *t, size_t e, products *out)
 {
     const nh_jet_ring *r = s->r;
@@ -197,7 +197,7 @@ static void list_products(nh_graded_system *s, size_t from, size_t exponents, pr
     }
 }
 
-/* The equation of beta and the e-th exponent of the weight: what is known, and the symbol. */
+/* The equation of beta and the e-th exponent of the weight: its known part, and its entries of the symbol. */
 static void equation(nh_graded_system *s, size_t beta, const size_t *start, const products *all, size_t number,
                      sum_of_rows *sum)
 {
@@ -254,12 +254,12 @@ static void equations(nh_graded_system *s)
 
 static bool is_last(const nh_graded_system *s) { return s->k + 1 >= s->r->order; }
 
-/* The new conditions, as few random combinations as can have their rank (fewer conditions can only leave more
-   parameters), into out; how many. */
+/* Writes the new conditions into out, as few random combinations of them as can have their rank (fewer conditions only
+ * leave more parameters); returns how many. */
 static size_t compress(nh_graded_system *s, nh_residue *out)
 {
     size_t columns = s->before, wanted = columns - s->conditions + spare_rows;
-    for (size_t q = 0; q < s->fresh_count; q++) /* the latest parameters first: these are eliminated */
+    for (size_t q = 0; q < s->fresh_count; q++) /* the latest parameters first: they are eliminated */
         for (size_t j = 0; j < columns / 2; j++) {
             nh_residue *row = s->fresh + q * columns, kept = row[j];
             row[j] = row[columns - 1 - j];
@@ -296,8 +296,8 @@ static size_t coefficients_left(const nh_graded_system *s, uint32_t *out)
     return jets ? count : last;
 }
 
-/* The parameters that are no pivots take over: each coefficient keeps its entries there, and what its entries at the
- * pivots bring.  Echelon: of the parameters, the latest first. */
+/* Eliminates the parameters that are pivots: each coefficient keeps its entries at the others, plus what its entries at
+ * the pivots contribute.  Echelon form in the parameters, the latest first. */
 static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t rank, const size_t *pivots)
 {
     size_t columns = s->reached, kept = 0, among = 0, left = coefficients_left(s, NULL),
@@ -335,7 +335,7 @@ static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t ra
     nh_free(from);
 }
 
-/* Is there work left for it? */
+/* Does the limit of work allow it? */
 static bool may_substitute(nh_graded_system *s, size_t rank)
 {
     double work =
@@ -345,8 +345,8 @@ static bool may_substitute(nh_graded_system *s, size_t rank)
     return !s->over;
 }
 
-/* All conditions in echelon form; before the end they are substituted where few parameters survive, and always in a
-   long series, which has few of them. */
+/* Brings all conditions to echelon form.  Before the end they are substituted only where few parameters survive, and
+ * always in a long series, which has few of them. */
 static void use_conditions(nh_graded_system *s)
 {
     size_t columns = s->before;

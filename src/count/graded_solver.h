@@ -3,8 +3,8 @@
  *     Phi = sum over |alpha| <= d of c_alpha(z) w^alpha,      Gamma(Phi) = 0
  *
  * is a linear system of first order for the c_alpha, solved weight by weight: the coefficients of weight k + 1 enter
- * the equations of weight k through the symbol, which has constant coefficients; what it leaves free becomes a
- * parameter, what it cannot meet a condition on the parameters of before.
+ * the equations of weight k through the symbol, which has constant coefficients.  Unknowns that the symbol leaves free
+ * become parameters; equations that it cannot solve become conditions on earlier parameters.
  *
  * N(r), the parameters that are free after the equations of weights 0 .. r - 1, bounds the number of integrals of
  * degree d from above, once the symbol is injective at some weight below r + 1 (docs/method.md, sec. 10). */
@@ -21,38 +21,39 @@ typedef struct {
     const nh_residue *field;    /* fields x variables series */
     const nh_residue *rate;     /* n x monomials series: w^l' (jet_equations.h) */
     size_t degree;
-    nh_parity parity;           /* of |alpha|; it may be split where every term of Gamma changes it */
-    size_t most_parameters;     /* beyond this many at a time, or this work, the system is given up */
-    double most_work;           /* products of residues */
-    bool keep;                  /* all coefficients of the solutions are wanted, not only the first */
+    nh_parity parity;           /* parity of |alpha|; a system splits where every term of Gamma changes it */
+    size_t most_parameters;     /* beyond so many parameters at a time, or so much work, the solver gives up */
+    double most_work;           /* limit in products of residues */
+    bool keep;                  /* all coefficients of the solutions are wanted, not only their first jets */
 } nh_graded_problem;
 
 typedef struct {
-    bool solved;                /* false: beyond the limits */
+    bool solved;                /* false: a limit was reached */
     size_t order, *total;       /* order + 1: N(r) for r = 0 .. order */
-    bool injective;             /* the symbol was, from this weight on: */
-    size_t injective_at;        /* k0 + 1: N(r) is a bound for r >= this */
-    size_t unknowns, most;      /* coefficients; the largest number of parameters */
-    size_t alphas;              /* monomials in the velocities */
+    bool injective;             /* the symbol was injective, from this weight on: */
+    size_t injective_at;        /* k0 + 1: N(r) is an upper bound for r >= this */
+    size_t unknowns, most;      /* number of coefficients; the largest number of parameters */
+    size_t alphas;              /* number of monomials in the velocities */
     const uint8_t *alpha;       /* alphas x n: their exponents */
-    /* alphas x (1 + variables) x N(order): c_alpha(0) and its derivatives along the coordinates, of every solution */
+    /* alphas x (1 + variables) x N(order): c_alpha(0) and its derivatives along the coordinates, for every solution */
     nh_residue *jet;
     nh_residue *series;         /* alphas x size x N(order), when they are kept: c_alpha */
     double work;
     nh_arena *arena;
 } nh_graded_count;
 
-/* Weight after weight until the symbol is injective, or to a limit (`solved` is false).  Never NULL; the caller clears
- * it.  [docs/method.md, eqs. 29 and 30] */
+/* Solves weight after weight until the symbol is injective, or to a limit (`solved` is false).  Never NULL; the caller
+ * clears it.  [docs/method.md, eqs. 29 and 30] */
 nh_graded_count *nh_graded_solve(const nh_graded_problem *problem);
 
-/* The same, going on where the solution of a lower order ended: *state is NULL, or comes from the same problem with
- * shorter series; it is kept for the next order, and the caller frees it.  Nothing is kept where coefficients are
- * (`keep`), or beyond the limits.  `work` is what the solution takes from the beginning. */
+/* The same, continued from the solution of a lower order: *state is NULL, or comes from the same problem with shorter
+ * series; it is updated for the next order, and the caller frees it.  Nothing is kept with `keep`, or beyond the
+ * limits.  `work` is the whole work of the solution. */
 typedef struct nh_graded_state nh_graded_state;
 nh_graded_count *nh_graded_continue(const nh_graded_problem *problem, nh_graded_state **state);
 void nh_graded_state_free(nh_graded_state *state);
 
+/* Frees what the count holds. */
 void nh_graded_count_clear(nh_graded_count *count);
 
 #endif

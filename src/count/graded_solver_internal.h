@@ -18,19 +18,19 @@ typedef struct {
     size_t alphas, betas, terms;
     uint8_t *alpha, *beta;  /* exponents of w */
     struct nh_graded_term *t;
-    size_t N, before, stride; /* parameters now, and before this weight; room for them in a row */
+    size_t N, before, stride; /* number of parameters now, and before this weight; room for them in a row */
     nh_residue *row;        /* alphas x size x stride: every coefficient in terms of the parameters */
-    nh_residue *condition;  /* conditions x stride: on the first `reached` parameters, not used yet */
+    nh_residue *condition;  /* conditions x stride: on the first `reached` parameters; not used yet */
     size_t conditions, reached;
     double work;
-    bool over;              /* a limit was met */
-    double planned;         /* the most work that was ever planned, before it was begun */
+    bool over;              /* a limit was reached */
+    double planned;         /* the most work that was planned for a weight before it was begun */
     /* of the weight k that is being solved: */
     /* exponents of weight k + 1: their number and the first; equations of weight k */
     size_t k, unknowns_of, first, equations;
     nh_residue *known;      /* equations x N */
-    nh_graded_entry *symbol;          /* by equation */
-    size_t *start;          /* equations + 1: entries of each */
+    nh_graded_entry *symbol;          /* entries by equation */
+    size_t *start;          /* equations + 1: index of the first entry of each */
     size_t entries, capacity;
     nh_residue *fresh;      /* conditions found at this weight */
     size_t fresh_count;
@@ -42,11 +42,11 @@ static inline nh_residue *nh_graded_row(const nh_graded_system *s, size_t alpha,
     return s->row + (alpha * s->r->size + exponent) * s->stride;
 }
 
-/* This coefficient is free. */
+/* Makes this coefficient a new parameter. */
 void nh_graded_parameter(nh_graded_system *system, size_t alpha, size_t exponent);
 
-/* The equations of weight k, for the unknowns of weight k + 1: what cannot be met becomes a condition on the parameters
-   of before. */
+/* Solves the equations of weight k for the unknowns of weight k + 1; an equation that the unknowns cannot satisfy
+ * becomes a condition on earlier parameters. */
 void nh_graded_solve_symbol(nh_graded_system *system);
 
 #endif

@@ -1,5 +1,5 @@
-/* The symbol of one weight: its components, each by sparse elimination with the shortest row and its rarest column
-   first. */
+/* The symbol of one weight: its components, each by sparse elimination that takes the shortest row and its rarest
+ * column first. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 enum { inverse_work = 40 }; /* an inverse modulo the prime takes as long as this many products */
 
-/* A condition on the parameters, unless it is empty. */
+/* Adds a condition on the parameters, unless it is empty. */
 static void add_condition(nh_graded_system *s, const nh_residue *known)
 {
     for (size_t j = 0; j < s->before; j++)
@@ -33,16 +33,16 @@ typedef struct {
     size_t rows, columns, rank;
     size_t *equation;       /* of each row */
     size_t *unknown;        /* of each column */
-    cell **cells, *spare;   /* spare: a row that was replaced, for the next one */
-    size_t *room, spare_room; /* of each row; of the spare one */
-    size_t *length, *count; /* of each row; rows that are left and have this column */
+    cell **cells, *spare;   /* spare: a replaced row whose memory serves the next one */
+    size_t *room, spare_room; /* length of each row; room of the spare one */
+    size_t *length, *count; /* number of entries of each row; number of remaining rows that have this column */
     bool *done, *pivoted;   /* rows used as pivots; columns */
     size_t *pivot_row, *pivot_column;
-    row_list *member;       /* of each column: the rows that have it or had it, some of them more than once */
-    row_list queue;         /* a heap of length x rows + row, with what the rows were before beside what they are */
+    row_list *member;       /* for each column: the rows that have it or had it, some more than once */
+    row_list queue;         /* a heap of length x rows + row, which also holds outdated entries of rows that changed */
 } component;
 
-/* ---- the shortest row that is left: a binary heap, from which nothing is taken but its least number ---- */
+/* ---- the shortest remaining row: a binary heap whose least entry is taken ---- */
 
 static void append(row_list *l, size_t x)
 {
@@ -73,7 +73,7 @@ static size_t least_of_queue(row_list *q)
     return least;
 }
 
-/* SIZE_MAX: none has entries. */
+/* SIZE_MAX: no row has entries. */
 static size_t shortest_row(component *c)
 {
     while (c->queue.count) {
@@ -114,7 +114,7 @@ static void combine(nh_graded_system *s, component *c, size_t to, size_t from, n
     queue_row(c, to);
     nh_residue_add_multiple(s->f, s->before, s->known + c->equation[to] * s->before,
                             s->known + c->equation[from] * s->before, factor);
-    s->work += (double)(s->before + 8 * n); /* an entry costs more than a product: its row is made anew */
+    s->work += (double)(s->before + 8 * n); /* an entry costs more than a product, because its row is made anew */
 }
 
 static const cell *find_cell(const component *c, size_t i, size_t column)
@@ -128,7 +128,7 @@ static const cell *find_cell(const component *c, size_t i, size_t column)
     return low < c->length[i] && c->cells[i][low].column == column ? &c->cells[i][low] : NULL;
 }
 
-/* Divide the row by its entry in the rarest column, and take it as a pivot. */
+/* Divides the row by its entry in the rarest column, and takes it as a pivot row. */
 static void take_pivot(nh_graded_system *s, component *c, size_t i)
 {
     size_t at = 0;
@@ -158,7 +158,7 @@ static void eliminate(nh_graded_system *s, component *c)
     for (size_t best; (best = shortest_row(c)) != SIZE_MAX && !nh_late();) take_pivot(s, c, best);
 }
 
-/* Columns without a pivot become parameters, the others follow, last pivot first. */
+/* Columns without a pivot become parameters; the others follow from them, last pivot first. */
 static void back_substitute(nh_graded_system *s, component *c)
 {
     for (size_t j = 0; j < c->columns && !s->over; j++)
@@ -194,7 +194,7 @@ static int by_column(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Rows are filled with the entries of their equations, equal columns added. */
+/* Fills the rows with the entries of their equations; entries in one column are added. */
 static void fill(nh_graded_system *s, component *c, const size_t *place)
 {
     for (size_t i = 0; i < c->rows; i++) {
@@ -248,7 +248,7 @@ static void solve_component(nh_graded_system *s, component *c, const size_t *pla
     nh_free(c->pivot_column);
 }
 
-/* Positions sorted by `key` in [0, keys): start[key] is the first. */
+/* Sorts positions by `key` in [0, keys): those of a key begin at start[key]. */
 static void group(size_t count, const size_t *key, size_t keys, size_t *start, size_t *out)
 {
     memset(start, 0, (keys + 2) * sizeof *start);
@@ -257,7 +257,7 @@ static void group(size_t count, const size_t *key, size_t keys, size_t *start, s
     for (size_t i = 0; i < count; i++) out[start[key[i] + 1]++] = i;
 }
 
-/* Components of unknowns that occur together, each solved for itself. */
+/* Finds the components of unknowns that occur together, and solves each for itself. */
 void nh_graded_solve_symbol(nh_graded_system *s)
 {
     size_t unknowns = s->alphas * s->unknowns_of, components = 0, connected = 0;
@@ -273,7 +273,7 @@ void nh_graded_solve_symbol(nh_graded_system *s)
             parent[root_of(parent, s->symbol[z].unknown)] = root_of(parent, s->symbol[z - 1].unknown);
     for (size_t i = 0; i < unknowns; i++)
         if (root_of(parent, i) == i) number[i] = components++;
-    for (size_t i = 0; i < unknowns; i++) number[i] = number[root_of(parent, i)]; /* roots keep theirs */
+    for (size_t i = 0; i < unknowns; i++) number[i] = number[root_of(parent, i)]; /* a root keeps its number */
     for (size_t q = 0; q < s->equations; q++) {
         if (s->start[q] == s->start[q + 1]) {
             add_condition(s, s->known + q * s->before);

@@ -1,5 +1,5 @@
-/* The equations of motion as power series: values at a few velocities give the coefficients of the polynomials in the
-   velocities. */
+/* The equations of motion as power series: their values at a few velocities give the coefficients of the polynomials in
+ * the velocities. */
 #include "count/jet_equations.h"
 
 #include <flint/nmod_mat.h>
@@ -80,7 +80,7 @@ static bool depends_on_time(const nh_jet_equations *x)
     return found;
 }
 
-/* Is there a part of rho without velocities? */
+/* Has rho a part without velocities? */
 static bool affine(nh_jet_equations *x)
 {
     nh_ex *zero = nh_alloc_array(x->n + 1, sizeof *zero);
@@ -99,7 +99,8 @@ static double nodes(const nh_jet_equations *x, size_t n, const nh_ex *e)
     return (double)count;
 }
 
-/* Every node is about a product, at each choice of velocities; and the accelerations are solved for. */
+/* The cost of the equations: about a product per node, at each choice of velocities, and the solution for the
+ * accelerations. */
 static double products(const nh_jet_equations *x)
 {
     double n = (double)x->n, monomials = (double)nh_jet_equations_monomials(x->n);
@@ -281,7 +282,7 @@ bool nh_jet_equations_fields(nh_jet_equations *x, const nh_jet_ring *ring, const
 
 size_t nh_jet_equations_monomials(size_t n) { return 1 + n + n * (n + 1) / 2; }
 
-/* The place of w^i w^j, i <= j. */
+/* The index of w^i w^j, i <= j. */
 static size_t quadratic(size_t n, size_t i, size_t j) { return 1 + n + i * n - i * (i - 1) / 2 - i + j; }
 
 /* The coefficients of A in w: polynomial + l per component, monomials in between: [mu][l]. */
@@ -317,7 +318,7 @@ static bool polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *r
     return good;
 }
 
-/* At random velocities A and M have to be what the polynomials say. */
+/* At random velocities A and M must agree with the polynomials. */
 static bool is_polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, const nh_residue *part,
                           const nh_residue *M)
 {
@@ -363,8 +364,8 @@ bool nh_jet_equations_accelerations(nh_jet_equations *x, const nh_jet_ring *ring
 
 /* ---- relations between kernels ---- */
 
-/* Series of low order in time and the coordinates, at one point, for all atoms of a kind, into columns from `first` on.
-   False: another point. */
+/* Series of low order in time and the coordinates, at one point, of all atoms of a kind, into columns from `first` on.
+ * False: another point is needed. */
 static bool atoms_at(nh_jet_equations *x, const nh_jet_ring *ring, bool real, nmod_mat_t rows, size_t first)
 {
     nh_residue *q = nh_alloc_array(ring->variables * ring->size + 1, sizeof *q);
@@ -386,7 +387,7 @@ static bool atoms_at(nh_jet_equations *x, const nh_jet_ring *ring, bool real, nm
     return good;
 }
 
-/* The root of an expression that has roots itself. */
+/* Is it a root of an expression that has roots itself? */
 static bool is_nested(nh_dag *d, const nh_jet_kernel *k)
 {
     enum { most = 64 };
@@ -401,8 +402,8 @@ static bool is_nested(nh_dag *d, const nh_jet_kernel *k)
     return nested;
 }
 
-/* Where all roots of sums without roots have values: has such a sum of roots one, and is it a square?  False: no point
-   to ask. */
+/* At a point where all roots of sums without roots have values: *square says whether the nested root number `at` exists
+ * there.  False: this is no such point. */
 static bool asks(nh_jet_equations *x, const nh_jet_ring *ring, size_t at, bool *square)
 {
     nh_jet_point *p = x->point;

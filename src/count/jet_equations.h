@@ -2,9 +2,9 @@
  *
  *     q^s' = b^s + R^s_i w^i,    M_ij w^j' = A_i,    A_i polynomial in w of degree two      [docs/method.md, sec. 2]
  *
- * The coefficients in w are found from values at w = 0, +-e_i, e_i + e_j, and one more value, at random velocities, has
- * to agree.  Time is the first coordinate where it is asked for, or occurs.  Where |u| and sign(u) stand in the
- * equations they hold on one side of every u = 0. */
+ * The coefficients in w are found from values at w = 0, +-e_i, e_i + e_j, and checked at random velocities.  Time is
+ * the first coordinate where it is asked for, or occurs.  Equations with |u| and sign(u) are taken on one side of every
+ * u = 0. */
 #ifndef NH_JET_EQUATIONS_H
 #define NH_JET_EQUATIONS_H
 
@@ -17,50 +17,53 @@ typedef struct {
     nh_dag *dag;
     nh_arena *arena;
     nh_jet_point *point;
-    bool time;               /* it is the first of the coordinates */
+    bool time;               /* time is the first of the coordinates */
     bool generic;            /* parameters are indeterminates */
-    size_t coordinates, n, m; /* m: without time */
+    size_t coordinates, n, m; /* m coordinates: without time */
     const nh_ex *coordinate, *w;
-    nh_ex *rho, *M, *A;      /* m, n x n, n: canonical, with parameters at their values unless generic */
-    double products;         /* of series, about, that they take at a point */
+    /* rho (m), M (n x n), A (n), in canonical form, with parameters at their values unless generic */
+    nh_ex *rho, *M, *A;
+    double products;         /* products of series, about, that they take at a point */
     size_t fields;           /* n, and one more when b is not zero or time is a coordinate */
-    /* the point, and after the coordinates the parameters, which matter when they are indeterminates, and t when it is
-       no coordinate */
+    /* the values of the coordinates at the point, then those of the parameters, which matter when these are
+     * indeterminates, and of t when it is no coordinate */
     nh_residue *at;
-    bool complete;           /* what is taken from now on is none of the equations */
+    bool complete;           /* expressions registered from now on are not part of the equations */
     nh_region side;
     const char *obstacle;    /* why nothing can be counted; NULL */
 } nh_jet_equations;
 
-/* Obstacles are found here as far as they do not depend on the point. */
+/* Opens the equations; obstacles that do not depend on the point are found here. */
 nh_jet_equations *nh_jet_equations_create(const nh_model *model, bool time, bool generic);
-/* From now on those of the shape alone, which are closed: cyclic coordinates are none of theirs.  Are there any? */
+/* Is the coordinate cyclic: does no equation depend on it? */
 bool nh_jet_equations_is_cyclic(const nh_jet_equations *equations, nh_ex coordinate);
+/* Drops the rates of cyclic coordinates: the equations that are left are closed.  False where no coordinate is
+ * cyclic. */
 bool nh_jet_equations_drop_cyclic(nh_jet_equations *equations);
 bool nh_jet_equations_have_cyclic(const nh_model *model);
 void nh_jet_equations_free(nh_jet_equations *equations);
 
-/* Another point, which follows from prime and seed. */
+/* Moves to another point, which follows from prime and seed; false: it is singular. */
 void nh_jet_equations_choose(nh_jet_equations *equations, nh_prime field, uint64_t seed);
 
-/* An evaluator with the coordinates at these series, and all velocities zero. */
+/* An evaluator with the coordinates set to these series and all velocities to zero; the caller frees it. */
 nh_jet_eval *nh_jet_equations_eval(nh_jet_equations *equations, const nh_jet_ring *ring, const nh_residue *coordinate);
 
-/* An expression in t, q, w as the equations have theirs: registered, so that it can be evaluated.  False with an
- * obstacle, which is also that it is not `polynomial` in the velocities. */
+/* Registers an expression in t, q, w so that it can be evaluated, and returns it in the form of the equations.  False
+ * with an obstacle, one of which is that it is not `polynomial` in the velocities. */
 bool nh_jet_equations_take(nh_jet_equations *equations, bool polynomial, nh_ex *e);
 
-/* May there be relations between kernels that the point does not keep?  False proves that there are none: the atoms of
- * either kind, as series at several points together, with roots of numbers of any sign, are linearly independent modulo
- * the prime, hence over Q: sqrt(2) f is no rational multiple of f.  True also when no such points were found. */
+/* Can there be relations between kernels that the point does not satisfy?  False proves that there are none: the atoms
+ * of either kind, as series at several points together, with roots of numbers of any sign, are linearly independent
+ * modulo the prime, hence over Q: sqrt(2) f is no rational multiple of f.  True also when no such points were found. */
 bool nh_jet_equations_related(nh_jet_equations *equations, nh_prime field);
 
-/* Set the velocities to numbers. */
+/* Sets the velocities to numbers. */
 void nh_jet_equations_velocities(nh_jet_equations *equations, nh_jet_eval *eval, const nh_jet_ring *ring,
                                  const nh_residue *w);
 
-/* The fields X_1..X_n, then X_0 = d/dt + b when fields > n, `coordinates` components each, into out.  False: another
-   point, or an obstacle. */
+/* Writes the fields X_1..X_n, then X_0 = d/dt + b when fields > n, `coordinates` components each, into out.  False:
+ * another point is needed, or there is an obstacle. */
 bool nh_jet_equations_fields(nh_jet_equations *equations, const nh_jet_ring *ring, const nh_residue *coordinate,
                              nh_residue *out);
 

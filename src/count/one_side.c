@@ -12,7 +12,7 @@ static void keep(nh_region *r, nh_ex u, bool above)
     r->kind[r->count++] = above ? NH_REGION_ABOVE : NH_REGION_BELOW;
 }
 
-/* The sign of u at the first probe of the chart: 1, -1, or 0 where it has none. */
+/* The sign of u at the first probe of the chart: 1, -1, or 0 where u vanishes or has no value. */
 static int side_of(const nh_model *o, nh_ex u, nh_region *side)
 {
     nh_tape *tape = nh_model_tape(o, 1, &u);

@@ -6,15 +6,15 @@
 #include "geometry/model.h"
 #include "integrals/region.h"
 
-/* e with |u| as u or -u and sign(u) as 1 or -1.  The walls u = 0 are added to `side` with the sides taken, unless it is
- * NULL; what vanishes at the probe stays. */
+/* Replaces |u| in e by u or -u, and sign(u) by 1 or -1, as at the probe.  The walls u = 0 are added to `side` with the
+ * chosen sides, unless `side` is NULL; a u that vanishes at the probe stays. */
 nh_ex nh_one_side(const nh_model *model, nh_ex e, nh_region *side);
 
-/* sqrt(u^2 v) as u sqrt(v) or -u sqrt(v), likewise: modulo a prime the root of a square would be either of both,
- * although it has its values among the other functions.  */
+/* Likewise sqrt(u^2 v) by u sqrt(v) or -u sqrt(v): modulo a prime the root of a square has two values, both among those
+ * of the other functions. */
 nh_ex nh_one_side_of_roots(const nh_model *model, nh_ex e, nh_region *side);
 
-/* Does what holds in this region hold on the sides that are taken?  Not where it holds in some parts only. */
+/* Does a result for this region hold on the chosen sides?  Not where it holds in some parts only. */
 bool nh_one_side_within(const nh_model *model, const nh_region *region);
 
 #endif

@@ -8,7 +8,7 @@
 
 enum { largest_form = 2000 };
 
-/* Its sums divided by what their terms have in common, which stands before them. */
+/* e with its sums divided by the common factor of their terms, which stands before them. */
 static nh_ex factored(nh_dag *d, nh_ex e)
 {
     nh_ex out = e;
@@ -22,7 +22,7 @@ static nh_ex factored(nh_dag *d, nh_ex e)
     return nh_is_number(d, common, 1) ? e : nh_mul(d, common, nh_simplify_short(d, nh_div(d, e, common), largest_form));
 }
 
-/* What of e is a square of functions of the coordinates, its root. */
+/* The root of the part of e that is a square of functions of the coordinates. */
 static nh_ex root_of(nh_jet_equations *x, nh_ex e)
 {
     nh_dag *d = x->dag;

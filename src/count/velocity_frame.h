@@ -12,20 +12,20 @@
 
 typedef struct {
     size_t n;
-    bool trivial;        /* all are 1 */
-    nh_ex *shown, *value; /* f_i, with parameters as symbols; as it is evaluated */
+    bool trivial;        /* all factors are 1 */
+    nh_ex *shown, *value; /* f_i: with parameters as symbols, and as it is evaluated */
 } nh_velocity_frame;
 
-/* They are registered for evaluation: choose a point afterwards. */
+/* The factors are registered for evaluation: choose a point afterwards. */
 nh_velocity_frame nh_velocity_frame_of(nh_jet_equations *equations);
 void nh_velocity_frame_clear(nh_velocity_frame *frame);
 
-/* w^alpha in these velocities. */
+/* The product w^alpha in these velocities. */
 nh_ex nh_velocity_frame_monomial(const nh_velocity_frame *frame, const nh_jet_equations *equations,
                                  const uint8_t *alpha);
 
-/* The series of solutions, from coefficients of w^alpha to coefficients in the frame.  False: another point is
-   needed. */
+/* Rewrites the series of solutions from coefficients of w^alpha to coefficients in the frame.  False: another point is
+ * needed. */
 bool nh_velocity_frame_apply(const nh_velocity_frame *frame, nh_jet_equations *equations, const nh_jet_ring *ring,
                              const nh_residue *coordinate, nh_graded_count *solutions, double *work);
 

@@ -21,7 +21,7 @@ typedef struct {
     size_t *left_out; /* formulas that are too long */
 } writer;
 
-/* NULL, counted, when it is too long. */
+/* NULL, and counted, when it is too long. */
 static char *text_of(const writer *w, nh_ex e)
 {
     char *text = nh_print_short(w->dag, nh_formula_shown(w->r, e), w->r->options.written);
@@ -92,7 +92,7 @@ static void put_constraint(const writer *w, nh_json *to)
     nh_json *item = nh_json_put_object(to, "constraint");
     nh_json_put_text(item, "type", nh_constraint_type_name(d->type));
     nh_json_put_bool(item, "homogeneous", d->homogeneous);
-    /* defined for linear and affine constraints */
+    /* defined for linear and affine constraints only */
     if (d->type == NH_NONLINEAR) nh_json_put_null(item, "semiholonomic");
     else nh_json_put_bool(item, "semiholonomic", d->holonomic);
     nh_json_put_bool(item, "holonomic", d->holonomic);
@@ -306,7 +306,7 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
     }
 }
 
-/* As LaTeX; null when it is too long to be shown. */
+/* The formula in LaTeX; null when it is too long to be shown. */
 static void put_latex(const writer *w, nh_json *to, nh_ex e)
 {
     char *text = nh_print_short(w->dag, nh_formula_shown(w->r, e), w->r->options.shown);
@@ -318,7 +318,7 @@ static void put_latex(const writer *w, nh_json *to, nh_ex e)
     nh_free(text);
 }
 
-/* What every integral has, counted or not. */
+/* The members of every integral, whether it is counted or not. */
 static void put_briefly(const writer *w, nh_json *item, const nh_current *f)
 {
     nh_json_put_text(item, "name", f->name);
@@ -367,7 +367,7 @@ static void put_current(const writer *w, nh_json *currents, const nh_current *f)
     nh_json_put_bool(item, "projectable", f->symmetry.projectable);
 }
 
-/* What holds in a part of the motions only, and what is a function of the currents. */
+/* Currents of a part of the motions, and integrals that are functions of the currents. */
 static void put_others(const writer *w, nh_json *root)
 {
     nh_json *list = nh_json_put_array(root, "currents_in_regions");
@@ -403,7 +403,7 @@ static void put_almost(const writer *w, nh_json *root)
     }
 }
 
-/* ---- all of it ---- */
+/* ---- the whole document ---- */
 
 static void put_timing(const nh_timing *t, nh_json *to)
 {

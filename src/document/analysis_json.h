@@ -4,7 +4,7 @@
 
 #include "search/analysis.h"
 
-/* A heap string (nh_free), ending in a newline. */
+/* A heap string that ends in a newline; the caller frees it by nh_free. */
 char *nh_analysis_json(const nh_analysis *result);
 
 #endif

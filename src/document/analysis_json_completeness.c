@@ -1,5 +1,5 @@
-/* The count of the integrals as JSON: "completeness", for the coordinates alone or, of a system that depends on time,
-   with it; "in_time" inside of the former. */
+/* The count of the integrals as JSON: "completeness", for the coordinates alone or, for a system that depends on time,
+ * with time; "in_time" is a member of the former. */
 #include <stdio.h>
 
 #include "document/analysis_json_internal.h"

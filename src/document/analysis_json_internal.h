@@ -5,12 +5,12 @@
 #include "base/json.h"
 #include "document/analysis_json.h"
 
-/* the motion, and what stayed constant on it */
+/* the motion, and the largest changes of the currents along it */
 void nh_analysis_json_validation(const nh_analysis *result, nh_json *to);
 void nh_analysis_json_figures(const nh_analysis *result, nh_json *to);    /* those of the analysis file */
-/* How many values along the motion have no value. */
+/* How many numbers along the motion are not finite. */
 size_t nh_analysis_json_holes(const nh_analysis *result);
 void nh_analysis_json_completeness(const nh_analysis *result, nh_json *to); /* how many integrals there are */
-void nh_analysis_json_stages(const nh_analysis *result, nh_json *to);     /* what was tried */
+void nh_analysis_json_stages(const nh_analysis *result, nh_json *to);     /* which stages were tried */
 
 #endif

@@ -99,7 +99,7 @@ size_t nh_analysis_json_holes(const nh_analysis *r)
     const nh_validation *v = r->validation;
     size_t holes = 0, k = r->model->k;
     for (size_t j = 0; v && j < v->watches; j++) {
-        bool series = false; /* it ends with its interval */
+        bool series = false; /* is it a series?  Its values end with its interval */
         for (size_t c = 0; c < r->count; c++)
             series |= r->found[c].series && r->tracks.track[j].value == r->found[c].phi;
         for (size_t i = 0; i < v->count && !series; i++) holes += !isfinite(v->watch[i * v->watches + j]);
@@ -108,7 +108,7 @@ size_t nh_analysis_json_holes(const nh_analysis *r)
     return holes;
 }
 
-/* ---- what was tried ---- */
+/* ---- the stages of the search ---- */
 
 void nh_analysis_json_stages(const nh_analysis *r, nh_json *to)
 {

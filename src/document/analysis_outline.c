@@ -17,7 +17,7 @@ void nh_analysis_write_meaning(nh_pen *p, const nh_analysis *r, const char *mean
     if (name) nh_pen_name(p, name);
 }
 
-/* "; one is minus the energy, one the momentum of x"; ": minus the energy" of a single one */
+/* "; one is minus the energy, one the momentum of x"; ": minus the energy" for a single current */
 static void meanings(nh_pen *p, const nh_analysis *r)
 {
     size_t told = 0;
@@ -91,7 +91,7 @@ static void explicit_motion(nh_pen *p, const nh_analysis *r)
 {
     nh_sheet *sheet = nh_motion_sheet(r);
     if (!sheet) return;
-    sheet->section->title = ""; /* that of the section */
+    sheet->section->title = ""; /* the section of the document has one */
     nh_pen_section(p, "explicit", "Explicit motion");
     nh_pen_sheet(p, sheet);
 }

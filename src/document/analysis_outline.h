@@ -4,8 +4,8 @@
 
 #include "document/pen.h"
 
-/* fragment: LaTeX without the lines before and after the body, to be read into another document by \input; its head
-   says what that must load. */
+/* fragment: LaTeX without preamble and end, to be read into another document by \input; its first lines say which
+ * packages that document must load. */
 void nh_analysis_write(const nh_analysis *result, nh_pen_style style, nh_text *out);
 
 #endif

@@ -45,7 +45,8 @@ static void series_plot(nh_pen *p, const nh_analysis *r, const nh_current *f)
         snprintf(name[i], sizeof *name, "f_%zu", i + 1);
         curve[i] = (nh_curve){.name = name[i], .count = points, .x = x, .x_stride = 1, .y = y, .y_stride = 1};
     }
-    snprintf(title, sizeof title, "Coefficient functions of %.100s", f->name);
+    snprintf(title, sizeof title,
+             "Coefficient functions of %.100s", f->name);
     nh_plot plot = {.title = title,
                     .description = "The coefficient functions over their variable",
                     .x_label = nh_name_of(r->model->dag, s->variable),
@@ -79,7 +80,7 @@ static void coefficients(nh_pen *p, const nh_series *s, size_t from, size_t to)
 /* Phi = f_1(q) word_1 + ... */
 static void series(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
-    enum { beside = 4 }; /* functions that a page is wide enough for */
+    enum { beside = 4 }; /* as many functions as a page is wide enough for */
     const nh_series *s = f->series;
     const char *q = nh_name_of(r->model->dag, s->variable);
     nh_sheet *sheet = nh_sheet_create(r->arena, r->model->dag);
@@ -94,13 +95,13 @@ static void series(nh_pen *p, const nh_analysis *r, const nh_current *f)
                  "search, on [%.6g, %.6g].",
                  s->degree, q, s->low, s->high);
     series_plot(p, r, f);
-    if (p->ink->brief) return; /* the JSON has them */
+    if (p->ink->brief) return; /* the JSON has all of them */
     nh_pen_open(p, NH_PEN_FOLD, NULL, "Chebyshev coefficients");
     for (size_t i = 0; i < s->words; i += beside) coefficients(p, s, i, i + beside < s->words ? i + beside : s->words);
     nh_pen_close(p, NH_PEN_FOLD);
 }
 
-/* ---- what is known of a current ---- */
+/* ---- properties of a current ---- */
 
 static void real_where(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
@@ -149,7 +150,7 @@ static void tags(nh_pen *p, const nh_analysis *r, const nh_current *f)
 }
 
 /* The forms phi^a = nu^a_s (dq^s - rho^s dt) of the constraints as they were written [CechMusilova2014, eq. 6], or
- * those of the geometry, where it is shown: once in a document, where they first stand. */
+ * those of the geometry, where it is shown; defined once in a document, where they first occur. */
 static void forms(nh_pen *p, const nh_analysis *r, nh_sheet *sheet)
 {
     const nh_model *o = r->model;
@@ -169,7 +170,7 @@ static void forms(nh_pen *p, const nh_analysis *r, nh_sheet *sheet)
     }
 }
 
-/* i_[Gamma,Z] phi^a of these forms. */
+/* i_[Gamma,Z] phi^a for these forms. */
 static const nh_ex *out_of_distribution(const nh_analysis *r, const nh_current *f)
 {
     for (size_t i = 0; r->theory && i < r->theory->brackets; i++)
@@ -177,8 +178,8 @@ static const nh_ex *out_of_distribution(const nh_analysis *r, const nh_current *
     return r->theory ? NULL : f->symmetry.bracket_form;
 }
 
-/* A sum of its components, or where that is long each by itself; and by how much the bracket leaves the canonical
- * distribution. */
+/* The bracket as a sum of its components, or, where that is long, component by component; and its part outside of the
+ * canonical distribution. */
 static void field(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
     enum { short_sum = 100, in_text = 2 };
@@ -268,7 +269,7 @@ static void as_text(nh_pen *p, const nh_analysis *r, const nh_current *f)
 
 /* ---- definitions of the analysis file ---- */
 
-/* Does the name stand in the current, or in its field, as they are shown? */
+/* Does the name occur in the current, or in its field, as they are shown? */
 static bool stands_in(const nh_analysis *r, const nh_current *f, const char *name)
 {
     nh_dag *d = r->model->dag;
@@ -291,7 +292,8 @@ static bool has_word(const char *text, const char *word)
     return false;
 }
 
-/* Those that the current needs, or all (NULL), and that have not been told: with those that stand in them. */
+/* Writes the definitions that the current needs, or all (NULL), unless they were written before; with the definitions
+ * that these need. */
 static void definitions(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *told)
 {
     const nh_analysis_file *a = r->analysis;
@@ -312,7 +314,8 @@ static void definitions(nh_pen *p, const nh_analysis *r, const nh_current *f, bo
 
 /* ---- a current ---- */
 
-/* The energy as a function of all velocities, v^s dL/dv^s - L; of -E, or E, on the submanifold where that is long. */
+/* The energy as a function of all velocities, v^s dL/dv^s - L; or, where that is long, Phi = -E or E on the
+ * submanifold. */
 static bool energy_in_all_velocities(const nh_analysis *r, const nh_current *f, nh_ex *E)
 {
     nh_dag *d = r->model->dag;
@@ -329,7 +332,7 @@ static bool energy_in_all_velocities(const nh_analysis *r, const nh_current *f, 
     return nh_complexity(d, *E) < length / 2;
 }
 
-/* The field d/dt belongs to minus the energy: with it E, which the reader knows, and not only its negative. */
+/* The field d/dt belongs to minus the energy: E is written beside it, because readers know E rather than -E. */
 static void closed_form(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
     nh_dag *d = r->model->dag;
@@ -371,9 +374,9 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *
     if (!f->series) as_text(p, r, f);
 }
 
-/* ---- what is not counted ---- */
+/* ---- integrals that are not counted ---- */
 
-/* A function with a property that other currents do not have. */
+/* A function with a property that the currents do not have. */
 static void uncounted(nh_pen *p, const nh_analysis *r, const nh_current *f, const char *property)
 {
     nh_pen_card(p, NULL);
@@ -424,7 +427,7 @@ static void pieces(nh_pen *p, const nh_analysis *r)
 
 static void almost(nh_pen *p, const nh_analysis *r)
 {
-    enum { first_ones = 2 }; /* on a terminal */
+    enum { first_ones = 2 }; /* for a terminal */
     if (!r->almosts) return;
     nh_pen_heading(p, "Almost conserved, not currents");
     nh_pen_words(p, "In double precision these functions look constant. With more digits they change, or they have no "

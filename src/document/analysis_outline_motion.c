@@ -74,7 +74,7 @@ static nh_curve curve_of(const nh_figure_curve *c)
         .name = c->name, .count = c->count, .x = c->x, .x_stride = 1, .y = c->y, .y_stride = 1, .heading = c->heading};
 }
 
-/* Side by side, one per value of the parameter. */
+/* Figures side by side, one per value of the parameter. */
 static void paths(nh_pen *p, const nh_figure *f)
 {
     const nh_named *q = f->request->quantity;
@@ -110,7 +110,7 @@ static void over_time(nh_pen *p, const nh_figure *f)
     nh_free(curve);
 }
 
-/* With the values that were found as points. */
+/* The curve, with the values that were found as points. */
 static void scan(nh_pen *p, const nh_analysis *r, const nh_figure *f)
 {
     size_t n = r->hits ? r->hits->count : 0, u = f->request->unknown;

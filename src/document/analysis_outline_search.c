@@ -8,7 +8,7 @@
 #include "document/facts.h"
 #include "graph/print.h"
 
-/* Both routes: their spectra over the index, with null values on the floor. */
+/* The spectra of both routes over the index; null values are drawn at the bottom. */
 static void spectrum_plot(nh_pen *p, const nh_analysis *r)
 {
     const nh_spectrum *s[] = {&r->current, &r->symmetry};
@@ -17,7 +17,7 @@ static void spectrum_plot(nh_pen *p, const nh_analysis *r)
     size_t most = 0, curves = 0;
     for (int i = 0; i < 2; i++)
         if (s[i]->done && s[i]->rank > most) most = s[i]->rank;
-    if (most < 3) return; /* the table says as much */
+    if (most < 3) return; /* the table says the same */
     double *index = nh_alloc_array(most, sizeof *index);
     for (size_t i = 0; i < most; i++) index[i] = (double)(i + 1);
     for (int i = 0; i < 2; i++)

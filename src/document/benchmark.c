@@ -166,7 +166,7 @@ char *nh_benchmark_json(const nh_benchmark *c, const nh_robustness *s, const nh_
         nh_json_put_number(robustness, "tolerance", s->tolerance);
         nh_json_put_number(robustness, "accuracy", s->accuracy);
     }
-    nh_json *maps = nh_json_put_array(root, "stress"); /* the older word, for the scripts that read it */
+    nh_json *maps = nh_json_put_array(root, "stress"); /* the older word, for scripts that read it */
     for (size_t i = 0; s && i < s->maps; i++) put_map(&s->map[i], maps);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     const char *warning[NH_BENCHMARK_WARNINGS];

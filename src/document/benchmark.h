@@ -10,14 +10,14 @@
 char *nh_benchmark_json(const nh_benchmark *comparison, const nh_robustness *maps, const nh_run *run);
 void nh_benchmark_write(const nh_benchmark *comparison, const nh_robustness *maps, const nh_run *run,
                         nh_pen_style style, nh_text *out);
-/* Every run as a row of comma-separated values; what is not there is empty. */
+/* Every run as a row of comma-separated values; a missing value is an empty field. */
 void nh_benchmark_csv(const nh_benchmark *comparison, nh_text *out);
-/* The fastest of the runs from..to-1 whose error is below the goal, or NULL; `reduced`: runs in the equations of a
- * reduction count too, and those that are flagged. */
+/* The fastest of the runs from..to-1 whose error is below the goal, or NULL; `reduced`: runs of reduced equations count
+ * too, and flagged ones. */
 const nh_run_record *nh_benchmark_fastest(const nh_benchmark *comparison, size_t from, size_t to, double below,
                                           bool reduced);
-/* Time against error of every run, one line per method and formulation, with the front of the best: an SVG file on its
-   own. */
+/* A stand-alone SVG file: time against error of every run, one line per method and formulation, with the front of the
+ * best runs. */
 void nh_benchmark_svg(const nh_benchmark *comparison, nh_text *out);
 
 #endif

@@ -4,15 +4,15 @@
 
 #include "commands/benchmark.h"
 
-/* What has to be said of the reference, at most so many sentences. */
+/* The remarks about the reference, at most so many sentences. */
 enum { NH_BENCHMARK_WARNINGS = 2 };
 size_t nh_benchmark_warnings(const nh_benchmark *comparison, const char *out[NH_BENCHMARK_WARNINGS]);
 
-/* Errors below which the fastest run is named. */
+/* For each of these errors the fastest run with a smaller error is named. */
 enum { NH_BENCHMARK_GOALS = 4 };
 extern const double nh_benchmark_goal[NH_BENCHMARK_GOALS];
 
-/* Of the discrete problem: */
+/* For the discrete problem: */
 const char *nh_fitted_word(const nh_fitted *fitted); /* "accurate", "too few", ...; in JSON the first is "right" */
 
 #endif

@@ -7,7 +7,7 @@
 #include "document/benchmark.h"
 #include "document/benchmark_internal.h"
 
-enum { most_lines = 35 }; /* colours times dashes */
+enum { most_lines = 35 }; /* colours, times dashes */
 
 static bool same_line(const nh_run_record *a, const nh_run_record *b)
 {
@@ -38,7 +38,7 @@ static void answer(nh_pen *p, const nh_benchmark *c)
     if (c->partial) nh_pen_warning(p, "the budget ended before every method had all its runs; --budget allows more");
 }
 
-/* How long a run took, and how far it is off; `each`: with the drift of every current. */
+/* The time and the error of a run; `each`: with the drift of every current. */
 static void put_run(nh_pen *p, const nh_benchmark *c, const nh_run_record *m, bool each)
 {
     nh_pen_say(p, "%s %.3g: error %.1g", set_by(m), set_to(m), m->error);
@@ -78,7 +78,7 @@ static void fastest(nh_pen *p, const nh_benchmark *c)
     for (size_t i = 0; i < c->refused; i++) nh_pen_words(p, "Not used, %s.", c->refusal[i]);
 }
 
-/* The run after the last one of this method and formulation. */
+/* The index behind the last run of this method and formulation. */
 static size_t line_end(const nh_benchmark *c, size_t from)
 {
     size_t next = from + 1;
@@ -86,7 +86,7 @@ static size_t line_end(const nh_benchmark *c, size_t from)
     return next;
 }
 
-/* A method: what it takes to each error; the worst that happened to its runs. */
+/* A method: its times for each error, and the worst status of its runs. */
 static void put_times(nh_pen *p, const nh_benchmark *c, size_t from, size_t to)
 {
     const nh_run_record *last = NULL;
@@ -152,7 +152,7 @@ static void put_orders(nh_pen *p, const nh_benchmark *c, size_t from, size_t to)
     nh_pen_close(p, NH_PEN_ROW);
 }
 
-/* Of the methods with a fixed step, some errors of which are above what the reference is known to. */
+/* For methods with a fixed step, some of whose errors are above the error of the reference. */
 static void orders(nh_pen *p, const nh_benchmark *c)
 {
     bool begun = false;
@@ -172,7 +172,7 @@ static void orders(nh_pen *p, const nh_benchmark *c)
 
 /* ---- time against error ---- */
 
-/* Plots that are compared have the same axes. */
+/* Plots that are compared get the same axes. */
 typedef struct {
     double x[2], y[2];
 } ranges;
@@ -208,7 +208,7 @@ static void flush(nh_pen *p, const char *formulation, size_t n, const nh_curve *
     nh_pen_plot(p, &plot, caption);
 }
 
-/* A motion is not known better than two references agree. */
+/* A motion is not known more accurately than two references agree. */
 static double known_error(const nh_benchmark *c, const nh_run_record *m)
 {
     static const double least = 1e-16;
@@ -314,7 +314,7 @@ static const double least_distance = 1e-17;
 
 static bool solved(const nh_fitted *m) { return m->right && isfinite(m->error); }
 
-/* One plot per size of the ansatz; one line per way to solve it, over the samples. */
+/* One plot per size of the ansatz, with one line per method, over the number of samples. */
 static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last, const ranges *all)
 {
     enum { most = 12 };
@@ -353,8 +353,8 @@ static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last
     nh_free(x);
 }
 
-/* Of each number of functions the way that is tried first, those that no other one beats, and the most samples of the
-   most functions. */
+/* For each number of functions: the method that is tried first, those that no other one beats, and the most samples of
+ * the most functions. */
 static void fits_brief(nh_pen *p, const nh_benchmark *c)
 {
     size_t most = c->fit[c->fits - 1].functions, first = 0;
@@ -407,7 +407,7 @@ static void discrete(nh_pen *p, const nh_benchmark *c)
     nh_pen_close(p, NH_PEN_FOLD);
 }
 
-/* ---- where methods fail ---- */
+/* ---- robustness maps ---- */
 
 /* A table: the first quantity downwards, across it the methods, or for one method the second quantity. */
 static void map_of(nh_pen *p, const nh_robustness_map *map, size_t first, size_t step, size_t across,
@@ -456,7 +456,7 @@ static void map_table(nh_pen *p, const nh_robustness_map *map)
     }
 }
 
-/* What a terminal's cells do not show: why. */
+/* The notes of cells, which a terminal's table does not show. */
 static void put_notes(nh_pen *p, const nh_robustness_map *map)
 {
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
@@ -485,7 +485,7 @@ static void robustness(nh_pen *p, const nh_robustness *s)
         map_table(p, &s->map[i]);
         if (p->ink->brief && p->style.verbose) put_notes(p, &s->map[i]);
     }
-    if (!p->ink->brief) return; /* a page has each cell in its colour */
+    if (!p->ink->brief) return; /* on a page each cell has its colour */
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     nh_pen_say(p, "In all:");
     for (int k = 0; k <= NH_UNDETECTED; k++)

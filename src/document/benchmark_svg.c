@@ -1,6 +1,7 @@
 /* benchmark_svg: the comparison as a drawing, logarithmic on both axes: error to the left is better, time below is
- * better.  One panel for the motions, one for the discrete problem; beside each its series by group, and under the
- * points the front of the best (in the second one for each number of functions). */
+ * better.  One panel for the motions, one for the discrete problem; a list of its series by group stands beside each,
+ * and a line under the points shows the front of the best runs (in the second panel one for each number of
+ * functions). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -41,11 +42,11 @@ typedef struct {
 typedef struct {
     nh_text *out;
     nh_arena *arena;
-    const char *title, *across, *key; /* key: what its signs mean */
+    const char *title, *across, *key; /* key: the meaning of its signs */
     size_t count;
     series *series;
-    bool by_group;         /* a front for each group */
-    int y, tall;           /* of the panel */
+    bool by_group;         /* one front for each group */
+    int y, tall;           /* upper edge and height of the panel */
     double x0, x1, y0, y1; /* decades */
 } panel;
 
@@ -61,7 +62,7 @@ static double y_of(const panel *d, double decade)
 static double across(const panel *d, const mark *m) { return x_of(d, log10(m->error)); }
 static double up(const panel *d, const mark *m) { return y_of(d, log10(m->seconds)); }
 
-/* At most so many characters, the last of them points. */
+/* Shortens a text to so many characters, the last of them points. */
 static void escaped(nh_text *out, const char *text, size_t most)
 {
     size_t letters = 0, bytes = 0, all = nh_text_width(text);
@@ -126,7 +127,7 @@ static void axes(panel *d)
                  d->y + (top + d->tall - bottom) / 2);
 }
 
-/* A line with points, and its name at the right. */
+/* A line with points, and its name at the right end. */
 static void put_series(panel *d, const series *s, const char *shade, const char *dashed, double y)
 {
     nh_text_addf(
@@ -155,7 +156,7 @@ static void put_series(panel *d, const series *s, const char *shade, const char 
     nh_text_add(d->out, "</text>\n");
 }
 
-/* Stairs under which nothing was measured, over the series from..to-1: from the smallest error to the largest. */
+/* The front as stairs over the series from..to-1, from the smallest error to the largest: no run lies below it. */
 static void put_front(panel *d, size_t from, size_t to)
 {
     nh_text_add(d->out, "<polyline class=\"front\" points=\"");
@@ -181,7 +182,7 @@ static void put_fronts(panel *d)
     }
 }
 
-/* Lines of the list beside it: one per series and one per group. */
+/* The number of lines of the list beside it: one per series and one per group. */
 static size_t lines_of(const panel *d)
 {
     size_t lines = d->count;
@@ -205,7 +206,8 @@ static void put_panel(panel *d)
             escaped(d->out, k->group, most_letters);
             nh_text_add(d->out, "</text>\n");
         }
-        for (size_t i = 0; strcmp(d->series[i].name, k->name); i++) { /* names before this one's first */
+        /* number of names before this one's first occurrence */
+        for (size_t i = 0; strcmp(d->series[i].name, k->name); i++) {
             bool first = true;
             for (size_t j = 0; j < i; j++) first &= strcmp(d->series[j].name, d->series[i].name) != 0;
             seen += first;
@@ -215,9 +217,9 @@ static void put_panel(panel *d)
     }
 }
 
-/* ---- what is drawn ---- */
+/* ---- the two panels ---- */
 
-/* Runs of one method in one formulation; an error below the reference's own is drawn at it. */
+/* The runs of one method in one formulation; an error below that of the reference is drawn at the latter. */
 static void motions(panel *d, const nh_benchmark *c)
 {
     d->series = nh_arena_alloc(d->arena, (c->count + 1) * sizeof *d->series);
@@ -238,7 +240,7 @@ static void motions(panel *d, const nh_benchmark *c)
     }
 }
 
-/* Per number of functions the ways to solve for them. */
+/* For each number of functions the methods for them. */
 static void fits(panel *d, const nh_benchmark *c)
 {
     d->series = nh_arena_alloc(d->arena, (c->fits + 1) * sizeof *d->series);

@@ -62,7 +62,7 @@ void nh_classification_head(const nh_classified *x, nh_text *out)
     nh_text_addf(out, "%s%s.\n", where ? ", " : "", where ? where : "");
 }
 
-/* Where the integrals for almost all values are known and proved, more is more. */
+/* Where the integrals for almost all values are known and proved, a larger number means more integrals. */
 void nh_classification_almost_all(const nh_classified *x, size_t degree, const nh_classify_number *n, size_t known,
                                   nh_text *out)
 {
@@ -120,7 +120,7 @@ void nh_classification_left(const nh_classified *x, nh_text *out)
                      c->row[first - 1].infinite.bound, c->row[first - 1].number.bound, first);
 }
 
-/* What one degree excludes. */
+/* The sentence about one degree: which values are excluded. */
 static void put_excluded(const nh_classified *x, size_t degree, bool verbose, nh_text *out)
 {
     const nh_classify_row *row = &of(x)->row[degree - 1];

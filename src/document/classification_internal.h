@@ -11,10 +11,10 @@ char *nh_classification_current(const nh_analysis *result, const nh_current *cur
 /* ---- words ---- */
 
 const char *nh_classification_end(const char *end, char *room, size_t size);
-extern const char *const nh_classification_decide; /* what may decide an open number */
+extern const char *const nh_classification_decide; /* options that may decide an open number */
 
 /* classification_wording.c: "integrals polynomial in the velocities", "More for", "more conservation laws than almost
- * all", "degree 2"; a number, of brackets the rank instead of what it lacks. */
+ * all", "degree 2"; a number; for brackets the rank instead of the codimension. */
 const char *nh_classification_subject(const nh_classified *classified);
 const char *nh_classification_where(const nh_classified *classified);
 const char *nh_classification_side(const nh_classified *classified); /* "for x > 0"; NULL: everywhere */
@@ -32,7 +32,7 @@ void nh_classification_almost_all(const nh_classified *classified, size_t degree
 void nh_classification_counted(const nh_classified *classified, size_t degree, bool first,
                                const nh_classify_number *number, size_t almost_all, bool complete, nh_text *out);
 
-/* What was not looked at, or not decided; what is proved where there are not more. */
+/* What was not examined or not decided, and what is proved where there are not more integrals. */
 void nh_classification_left(const nh_classified *classified, nh_text *out);
 void nh_classification_excluded(const nh_classified *classified, bool verbose, nh_text *out);
 /* Curves or surfaces that are degenerate or undecided. */
@@ -43,10 +43,10 @@ void nh_classification_plane_excluded(const nh_classified_plane *classified, boo
 
 /* ---- outlines: classification_outline.c ---- */
 
-/* Every line as words; the text is cleared. */
+/* Writes every line of the text as words; the text is cleared. */
 void nh_classification_write_lines(nh_pen *pen, nh_text *text);
 void nh_classification_write_currents(nh_pen *pen, const nh_analysis *result, size_t count, const size_t *index);
-/* Numbers by degree, from the first one that is another than for almost all values. */
+/* Numbers by degree, from the first degree at which the number differs from that for almost all values. */
 void nh_classification_write_numbers(const nh_classified *classified, nh_pen *pen, size_t rows,
                                      const nh_classify_number *number,
                                      size_t first, size_t complete, const size_t *almost_all);
@@ -76,12 +76,12 @@ void nh_classification_put_here(nh_json *to, size_t rows, const nh_classify_numb
 
 /* ---- JSON of two and three parameters ---- */
 
-/* All before the special values. */
+/* All members before the special values. */
 nh_json *nh_classification_begin(const nh_classified *family, const char *obstacle, const char *end, size_t rows,
                                  const nh_plane_row *row);
-/* What is proved where one parameter less varies; NULL: nothing. */
+/* What is proved for the classification with one parameter less; NULL: nothing. */
 void nh_classification_put_along(const nh_classified *along, nh_json *to);
-/* One degree; `height` may be NaN. */
+/* One degree; `height` may be NAN. */
 nh_json *nh_classification_add_degree(nh_json *list, size_t degree, const nh_plane_row *row, double height);
 /* The numbers on a curve or surface, or at a point. */
 void nh_classification_put_found(nh_json *item, size_t rows, size_t first, const nh_classify_number *number,

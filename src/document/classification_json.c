@@ -11,7 +11,7 @@ static bool exact(const nh_classify_row *row) { return row->number.bound == row-
 
 static bool special(const nh_classify_value *v) { return v->first > 0 && !v->degenerate; }
 
-/* ---- parts that both kinds share ---- */
+/* ---- parts shared with two and three parameters ---- */
 
 void nh_classification_put_number(nh_json *to, const char *key, const nh_classify_number *n)
 {
@@ -193,7 +193,7 @@ static void put_special(const nh_classified *x, size_t index, nh_json *list)
     nh_classification_put_currents(at->result, at->result ? at->result->count : 0, NULL, item);
 }
 
-/* Values at which the equations mean nothing, and values at which the number was not decided. */
+/* Values at which the equations are singular, and values at which the number was not decided. */
 static bool put_others(const nh_classified *x, nh_json *root)
 {
     bool open = false;

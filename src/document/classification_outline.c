@@ -8,7 +8,7 @@ typedef nh_pen pen;
 
 /* ---- pieces ---- */
 
-/* Every line as words; blanks before it are left out. */
+/* Writes every line as words, without leading blanks. */
 void nh_classification_write_lines(pen *p, nh_text *text)
 {
     char *line = nh_strdup(nh_text_string(text));
@@ -111,7 +111,7 @@ static void outline_line(const nh_classified *x, pen *p)
                      nh_classification_end(c->end, words, sizeof words));
 }
 
-/* ---- two ---- */
+/* ---- two parameters ---- */
 
 static void outline_curve(const plane *x, pen *p, size_t k, const size_t *almost_all)
 {

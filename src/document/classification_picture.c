@@ -1,4 +1,4 @@
-/* The plane of two parameters as a plot: special curves, and points where there are more than on curves. */
+/* The plane of two parameters as a plot: special curves, and points with more integrals than the curves. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ typedef struct {
     nh_arena *arena;
     size_t count, capacity;
     nh_curve *curve;
-    double low[2], high[2];  /* of lambda, mu */
+    double low[2], high[2];  /* ranges of lambda and mu */
 } drawing;
 
 /* ---- the window ---- */
@@ -24,7 +24,8 @@ static void see(drawing *d, int v, double value)
     if (value > d->high[v]) d->high[v] = value;
 }
 
-/* All points, the value that the family was analysed at, and zero; and curves where they cross the middle of that. */
+/* Contains all points, the value at which the family was analysed, and zero; and the points of curves over the middle
+ * of that. */
 static void window(drawing *d, const plane *x)
 {
     for (int v = 0; v < 2; v++) d->low[v] = 0, d->high[v] = 0;
@@ -63,11 +64,11 @@ static nh_curve *new_curve(drawing *d, const char *name, size_t count, double **
     return &d->curve[d->count++];
 }
 
-/* Branch after branch, between them a gap; lambda over mu, or mu over lambda for a line that is upright. */
+/* Branch after branch with gaps between them; lambda over mu, or mu over lambda for a vertical line. */
 static void draw_curve(drawing *d, const plane *x, size_t index, const char *name)
 {
     const nh_special_curve *c = &x->plane->curve[index].polynomial;
-    int fixed = c->degree[0] > 0; /* mu runs */
+    int fixed = c->degree[0] > 0; /* mu is the variable */
     size_t branches = c->degree[1 - fixed];
     double *to[2], *root = nh_alloc_array(branches + 1, sizeof *root);
     new_curve(d, name, branches * (steps + 1), &to[1], &to[0]);
@@ -82,7 +83,7 @@ static void draw_curve(drawing *d, const plane *x, size_t index, const char *nam
     nh_free(root);
 }
 
-/* Points with so many integrals. */
+/* The points with so many integrals. */
 static void draw_points(drawing *d, const plane *x, size_t number, const char *name)
 {
     double *mu, *lambda;
@@ -101,7 +102,7 @@ static void draw_points(drawing *d, const plane *x, size_t number, const char *n
 static void all_points(drawing *d, const plane *x)
 {
     size_t rows = x->plane->rows, last = 0;
-    for (size_t next = 0; next != SIZE_MAX; last = next) { /* ascending */
+    for (size_t next = 0; next != SIZE_MAX; last = next) { /* in ascending order */
         next = SIZE_MAX;
         for (size_t k = 0; k < x->points; k++) {
             size_t n = x->point[k].number[rows].bound;
@@ -125,7 +126,7 @@ void nh_classification_picture(const plane *x, nh_pen *pen)
                    : nh_arena_printf(d.arena, "%s: %zu", words, c->number[rows].bound));
     }
     all_points(&d, x);
-    const char *only = d.count == 1 ? d.curve[0].name : NULL; /* it has no legend */
+    const char *only = d.count == 1 ? d.curve[0].name : NULL; /* the plot has no legend */
     const char *caption =
         nh_arena_printf(d.arena, "Numbers of integrals of degree %zu, with the constant 1%s%s; elsewhere %zu.", rows,
                         only ? ": " : "", only ? only : "", x->plane->row[rows - 1].number.bound);

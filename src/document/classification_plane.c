@@ -1,4 +1,4 @@
-/* The classification over two parameters: what is not among its values, in words; and as JSON. */
+/* The classification over two parameters: what is not covered, in words; and the JSON. */
 #include <inttypes.h>
 #include <math.h>
 
@@ -12,14 +12,14 @@ static bool exact(const nh_plane_row *row) { return row->number.bound == row->kn
 
 static bool special(const nh_plane_curve *c) { return c->first > 0 && !c->degenerate; }
 
-/* mu is a root of a polynomial that has no rational one, or the line was not reached, or not up to the highest
-   degree. */
+/* Lines that were not classified: mu is a root of a polynomial without rational roots, or the line was not reached, or
+ * not up to the highest degree. */
 static bool unexamined(const plane *x, const nh_plane_line *l)
 {
     return l->across.degree > 1 || (!l->line && x->partial) || (l->line && l->line->rows < x->plane->rows);
 }
 
-/* Nothing is open: up to the height of the last degree there is nothing else. */
+/* Nothing is open: up to the height of the last degree there are no other special points. */
 static bool closed(const plane *x)
 {
     const nh_plane *o = x->plane;
@@ -56,7 +56,7 @@ void nh_classification_plane_left(const plane *x, nh_text *out)
 {
     const nh_plane *o = x->plane;
     nh_classification_open_words(x->family, o->curves, o->curve, out);
-    for (size_t k = 0; k < o->curves; k++) /* on which there are not more */
+    for (size_t k = 0; k < o->curves; k++) /* curves without more integrals */
         if (!o->curve[k].first && !o->curve[k].degenerate && !x->curve[k].along)
             nh_text_addf(out, "Not examined: points on %s.\n",
                          nh_classified_surface_words(x->family, &o->curve[k].polynomial));

@@ -10,14 +10,14 @@ typedef nh_classified_space space;
 
 typedef struct {
     nh_arena *arena;
-    double nu, low[2], high[2]; /* of lambda, mu */
+    double nu, low[2], high[2]; /* ranges of lambda and mu */
     size_t count, capacity;
     nh_curve *curve;
 } drawing;
 
 /* ---- values ---- */
 
-/* The polynomial in v where the other parameters have these values; how many real roots. */
+/* The real roots of the polynomial in v where the other parameters have these values; returns their number. */
 static size_t roots_of(const nh_special_surface *s, int v, const double at[3], double *root)
 {
     size_t width = s->degree[0] + 1, each = width * (s->degree[1] + 1), total = each * (s->degree[2] + 1);
@@ -41,7 +41,7 @@ static void see(drawing *d, int v, double value)
     d->high[v] = fmax(d->high[v], value);
 }
 
-/* Where a curve of the space meets the slice: at so many points. */
+/* Where a curve of the space meets the slice; returns the number of points. */
 static size_t crossings(const space *x, size_t index, double nu, size_t most, double (*out)[2])
 {
     const nh_classified_part *p = &x->part[x->curve[index].part];
@@ -70,7 +70,7 @@ static nh_curve *new_curve(drawing *d, const char *name, size_t count, double **
     return &d->curve[d->count++];
 }
 
-/* Branch after branch, between them a gap; lambda over mu, or mu over lambda where lambda does not occur. */
+/* Branch after branch with gaps between them; lambda over mu, or mu over lambda where lambda does not occur. */
 static void draw_surface(drawing *d, const nh_special_surface *s, const char *name)
 {
     int v = s->degree[0] ? 0 : 1;
@@ -169,7 +169,7 @@ static void draw_slice(const space *x, double nu, nh_pen *pen)
             memcpy(at[points++], x->point[k].about, sizeof *at);
     draw_dots(&d, points, at, "points");
     nh_text_number(nu, digits, sizeof digits);
-    const char *only = d.count == 1 ? d.curve[0].name : NULL; /* it has no legend */
+    const char *only = d.count == 1 ? d.curve[0].name : NULL; /* the plot has no legend */
     const char *caption = nh_arena_printf(d.arena, "%s = %s. Numbers of integrals of degree %zu, with the constant "
                                           "1%s%s; elsewhere %zu.",
                                           x->over[2], digits, rows, only ? ": " : "", only ? only : "",
@@ -182,7 +182,7 @@ static void draw_slice(const space *x, double nu, nh_pen *pen)
     nh_free(d.curve);
 }
 
-/* ---- all ---- */
+/* ---- all slices ---- */
 
 static void add_slice(double *nu, size_t *count, double value)
 {
@@ -191,7 +191,7 @@ static void add_slice(double *nu, size_t *count, double value)
     if (*count < most_slices && isfinite(value)) nu[(*count)++] = value;
 }
 
-/* Planes in which something is, then on both sides of the file's value. */
+/* Planes that contain something special; then planes on both sides of the file's value. */
 void nh_classification_slices(const space *x, nh_pen *pen)
 {
     double nu[most_slices], own = 1;

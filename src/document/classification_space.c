@@ -93,7 +93,7 @@ static void put_points(const space *x, pen *p, const size_t *almost_all)
 
 /* ---- what is excluded ---- */
 
-/* Every line of what was left in this part, with its name. */
+/* Writes every line about what is open in this part, with the part's name. */
 static void put_left_within(const nh_classified_plane *within, const char *words, nh_text *out)
 {
     nh_text lines;
@@ -242,7 +242,7 @@ char *nh_classification_space_json(const space *x, const nh_run *run)
     for (size_t k = 0; k < x->parts; k++)
         if (!x->part[k].within)
             nh_json_add_text(list, nh_classified_surface_words(x->family, x->part[k].polynomial));
-    nh_json_put_bool(root, "nowhere_else", false); /* other values of the first parameter are not looked at */
+    nh_json_put_bool(root, "nowhere_else", false); /* other values of the first parameter are not covered */
     nh_json_put_bool(root, "partial", x->partial);
     nh_run_json(run, x->family->almost_all->system, root);
     return nh_json_finish(root);

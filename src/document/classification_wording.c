@@ -1,10 +1,10 @@
-/* What a classification counts, in words: by question. */
+/* The words of a classification for each question. */
 #include "document/classification_internal.h"
 
 #include "count/count.h"
 
 static const struct {
-    const char *subject;     /* of the whole */
+    const char *subject;     /* the subject of the whole classification */
     const char *where;       /* heading of the special values, and of sentences about them */
     const char *more;        /* "more ..." */
 } WORDS[NH_LINEAR_QUESTIONS] = {

@@ -1,4 +1,4 @@
-/* What is written about a function, whatever the language; which files there are. */
+/* The descriptions of functions for all languages, and the list of files. */
 #include "document/export.h"
 
 #include <ctype.h>
@@ -26,7 +26,7 @@ bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *erro
         nh_fail(error, NH_USAGE, "--to", "there is no language `%.100s`", name);
     else
         nh_fail(error, NH_USAGE, "--to", "no language is given");
-    /* names of the same in other programs */
+    /* other names of languages, and formats of their files */
     static const char *const others[][2] = {{"tex", "latex"}, {"numpy", "python"}, {"scipy", "python"},
                                             {"cpp", "c"},     {"c++", "c"},        {"m", "matlab"}};
     for (size_t i = 0; name && i < sizeof others / sizeof *others; i++)

@@ -15,16 +15,17 @@ typedef enum {
     NH_EXPORT_JSON
 } nh_export_target;
 
-/* "c", "python", ..; false with a suggestion. */
+/* Reads "c", "python", ..; false with a suggestion. */
 bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *error);
 
-/* A name that files and functions may begin with, from that of the system, or from `wish`; false where that is none. */
+/* A name with which files and functions may begin, from the name of the system, or from `wish`; false where that gives
+ * none. */
 bool nh_export_prefix(const nh_export *x, const char *wish, const char **out, nh_error *error);
 
-/* Has the language all functions that occur? */
+/* Can the language express all functions that occur? */
 bool nh_export_possible(const nh_export *x, nh_export_target target, nh_error *error);
 
-/* What is written for a target: as files with these names, or all in one text. */
+/* The output for a target: as files with these names, or all in one text. */
 typedef struct {
     const char *name; /* "sleigh.h" */
     nh_text text;
@@ -34,7 +35,7 @@ size_t nh_export_files(const nh_export *x, nh_export_target target, const char *
                        nh_export_file out[NH_EXPORT_MOST_FILES]);
 void nh_export_text(const nh_export *x, nh_export_target target, const char *prefix, const nh_run *run, nh_text *out);
 
-/* What there is, in a few lines. */
+/* A summary of the functions, in a few lines. */
 void nh_export_summary(const nh_export *x, nh_text *out);
 
 #endif

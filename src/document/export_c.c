@@ -75,7 +75,7 @@ static void put_comment_line(const char *before, const char *text, nh_text *out)
     nh_text_add(out, "\n");
 }
 
-/* The words of a function or an array, made safe. */
+/* The description of a function or an array, escaped for a comment. */
 static void put_comment(const nh_export *x, const nh_export_function *f, nh_text *out)
 {
     nh_text words, line;
@@ -206,7 +206,7 @@ static void solve(nh_export_body *b, size_t i)
     b->unknown[i] = b->right[i];
 }
 
-/* The loop is that of nh_chart_complete: relative to the velocities, until rounding ends it. */
+/* The same loop as in nh_chart_complete: relative to the velocities, until rounding ends it. */
 static void newton(nh_export_body *b, size_t i)
 {
     const nh_export_solve *s = &b->f->solve[i];

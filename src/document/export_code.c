@@ -1,4 +1,4 @@
-/* export_code: the body of a function in any language: names, then what is solved for, then results. */
+/* export_code: the body of a function in any language: names, then the unknowns, then the results. */
 #include <string.h>
 
 #include "document/export_internal.h"
@@ -33,7 +33,7 @@ size_t nh_export_expressions(const nh_export_function *f, nh_arena *arena, nh_ex
     return n;
 }
 
-/* Every node that the function needs. */
+/* Counts every node that the function needs. */
 static bool *used_nodes(const nh_export_function *f, nh_arena *arena)
 {
     const nh_dag *d = f->dag;
@@ -53,7 +53,7 @@ static bool *used_nodes(const nh_export_function *f, nh_arena *arena)
     return used;
 }
 
-/* The function's own names first, so that no symbol takes one of them. */
+/* Reserves the function's own names first, so that no symbol gets one of them. */
 static void name_arrays(nh_export_body *b)
 {
     const nh_export_function *f = b->f;
@@ -147,7 +147,7 @@ bool nh_export_put_body(const nh_export_form *form, const nh_export *x, const nh
     form->begin(&b);
     unpack(form, &b, used);
     size_t n = nh_export_expressions(f, arena, &e), skip = 0;
-    for (size_t i = 0; i < f->solves; i++) /* iterations come first, and are planned by themselves */
+    for (size_t i = 0; i < f->solves; i++) /* iterations come first, and each has a plan of its own */
         if (f->solve[i].newton) skip += f->solve[i].n * (f->solve[i].n + 1);
     nh_source_plan(b.code, n - skip, e + skip);
     for (size_t i = 0; i < f->solves; i++) {

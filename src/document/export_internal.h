@@ -6,20 +6,20 @@
 #include "document/source.h"
 #include "document/export.h"
 
-/* A function while it is written. */
+/* A function while it is being written. */
 typedef struct nh_export_body {
     const nh_export *x;
     const nh_export_function *f;
     const char *prefix;
-    const char *const *member; /* of the parameters, in the language's words */
+    const char *const *member; /* names of the parameters in the language */
     nh_source *code;
     nh_text *out;
-    const char *indent; /* of a statement */
+    const char *indent; /* blanks before a statement */
     const char *time, *argument[NH_EXPORT_MOST_ARRAYS], *result[NH_EXPORT_MOST_ARRAYS], *inputs, *parameters;
     const char *unknown[NH_EXPORT_MOST_SOLVES], *matrix[NH_EXPORT_MOST_SOLVES], *right[NH_EXPORT_MOST_SOLVES];
 } nh_export_body;
 
-/* How a language writes the statements of a body; a name that is not used is not unpacked. */
+/* How a language writes the statements of a body; names that are not used are not unpacked. */
 typedef struct {
     const nh_source_language *language;
     void (*begin)(nh_export_body *b);
@@ -28,29 +28,29 @@ typedef struct {
     void (*fill)(nh_export_body *b, const char *array, size_t rows, size_t columns,
                  const nh_ex *e);                    /* a new array; columns 0: a vector */
     void (*solve)(nh_export_body *b, size_t i);      /* unknown[i] = matrix[i]^-1 right[i] */
-    void (*newton)(nh_export_body *b, size_t i);     /* a loop begins, with unknown[i] as the guess */
-    void (*newton_end)(nh_export_body *b, size_t i); /* it ends, after one step */
-    void (*end)(nh_export_body *b);                  /* results */
+    void (*newton)(nh_export_body *b, size_t i);     /* begins a loop, with unknown[i] as the guess */
+    void (*newton_end)(nh_export_body *b, size_t i); /* ends it, after one step */
+    void (*end)(nh_export_body *b);                  /* the results */
 } nh_export_form;
 
-/* member[i] of parameter i, in the arena of the code's language. */
+/* The name of parameter i as a member, in the arena of the code's language. */
 const char *const *nh_export_members(const nh_export *x, const nh_source_language *language, nh_arena *arena);
-/* Statements are indented so from now on: within a loop, behind it. */
+/* Sets the indentation of the statements that follow: within a loop, behind it. */
 void nh_export_indent(nh_export_body *b, const char *indent);
-/* The body of a function, between form->begin and form->end; the code has the sign function or not. */
+/* Writes the body of a function, between form->begin and form->end; returns whether the code has the sign function. */
 bool nh_export_put_body(const nh_export_form *form, const nh_export *x, const nh_export_function *f, const char *prefix,
                         const char *const *member, nh_text *out);
 /* Arguments whose symbols occur in the body are unpacked; is this one used at all? */
 bool nh_export_uses(const nh_export_function *f, nh_ex symbol);
 size_t nh_export_expressions(const nh_export_function *f, nh_arena *arena, nh_ex **out);
 
-/* What a function is, line by line, each after `before`: its purpose, where currents hold, which stage it is. */
+/* The description of a function, each line after `before`: its purpose, the region of currents, the stage. */
 void nh_export_words(const nh_export *x, const nh_export_function *f, const char *before, nh_text *out);
-/* "name: what it is (x, y, phi)" of an array. */
+/* "name: description (x, y, phi)" of an array. */
 void nh_export_array_words(const nh_export_function *f, const nh_export_array *a, nh_text *out);
 /* The names of an array's rows. */
 const char *nh_export_label(const nh_export_function *f, const nh_export_array *a, size_t row);
-/* "title: exported by nhsym", the notes: the head of a file, each line after `before`. */
+/* The head of a file, each line after `before`: "title: exported by nhsym", and the notes. */
 void nh_export_head(const nh_export *x, const char *before, nh_text *out);
 
 void nh_export_c_header(const nh_export *x, const char *prefix, nh_text *out);

@@ -22,7 +22,7 @@ static void put_expressions(writer *w, nh_json *to, const char *key, size_t n, c
     for (size_t i = 0; i < n; i++) add_expression(w, list, e[i]);
 }
 
-/* Statements that the code has written. */
+/* The statements that the code has written. */
 static void add_statements(writer *w, nh_json *list)
 {
     for (char *line = w->lines.data; line && *line;) {
@@ -38,7 +38,7 @@ static void add_statements(writer *w, nh_json *list)
     nh_text_clear(&w->lines);
 }
 
-/* The statements of an iteration are its own: they hold for the unknowns of one step. */
+/* The statements of an iteration are kept apart: they hold for the unknowns of one step. */
 static void add_solve(writer *w, const nh_export_function *f, const nh_export_solve *s, nh_json *list)
 {
     nh_json *item = s->newton ? nh_json_add_object(list) : NULL;

@@ -1,5 +1,5 @@
-/* export_latex: a document to edit: a paragraph for each function, formulas aligned where they fit on a line, with
- * names for parts of long ones. */
+/* export_latex: a document that the user can edit: a paragraph for each function, with formulas aligned where they fit
+ * on a line and names for parts of long ones. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "document/typeset.h"
 #include "graph/measure.h"
 
-enum { widest_row = 60, longest_whole = 150 }; /* letters of a line; length of a formula that needs no names */
+enum { widest_row = 60, longest_whole = 150 }; /* letters of a line; the longest formula without names for its parts */
 
 /* The letter of an array; NULL: its entries have names of their own. */
 static const char *letter_of(const char *name)
@@ -99,7 +99,7 @@ static void put_piece(void *context, const char *piece, nh_typeset_follows follo
     nh_text_add(context, piece);
 }
 
-/* Short ones in a row are aligned; a long one is a paragraph that TeX breaks. */
+/* Aligns several short formulas; a long one becomes a paragraph that TeX breaks. */
 static void put_rows(rows *r, nh_text *out)
 {
     bool aligned = false;
@@ -123,7 +123,7 @@ static void put_rows(rows *r, nh_text *out)
     *r = (rows){0};
 }
 
-/* Statements `name = expression`, one in each line. */
+/* Statements `name = expression`, one on each line. */
 static void add_statements(rows *r, nh_text *lines)
 {
     for (char *line = lines->data; line && *line;) {
@@ -145,7 +145,7 @@ static void add_statements(rows *r, nh_text *lines)
 typedef struct {
     const nh_export_function *f;
     nh_source *code;
-    nh_text lines; /* what the code writes */
+    nh_text lines; /* the statements of the code */
     nh_text *out;
 } writer;
 
@@ -176,7 +176,7 @@ static void add_array(writer *w, rows *r, const nh_export_array *a)
         }
 }
 
-/* The rows of matrix unknown = right as equations; of an iteration right = 0. */
+/* The rows of matrix unknown = right as equations; for an iteration, right = 0. */
 static void put_solve(writer *w, const nh_export_solve *s)
 {
     nh_dag *d = w->f->dag;

@@ -4,7 +4,7 @@
 #include "base/escape.h"
 #include "document/export_internal.h"
 
-/* Comments end with their line. */
+/* A comment ends with its line. */
 static void put_comment(const char *indent, const char *text, nh_text *out)
 {
     for (const char *line = text; *line;) {

@@ -1,4 +1,4 @@
-/* export_python: a module for NumPy, whose functions take arrays of many states, too, or one for SymPy, whose functions
+/* export_python: a module for NumPy, whose functions also take arrays of many states, or one for SymPy, whose functions
  * take symbols and numbers. */
 #include <ctype.h>
 #include <string.h>
@@ -59,7 +59,7 @@ typedef struct {
 
 /* ---- bodies ---- */
 
-/* A text within three quotes, on lines of its own. */
+/* A text between triple quotes, on lines of its own. */
 static void put_quoted(const char *indent, const char *text, nh_text *out)
 {
     for (const char *line = text; *line;) {
@@ -211,7 +211,7 @@ static void put_symbol_list(const module *p, const char *name, size_t n, const c
     nh_text_add(p->out, "])\n");
 }
 
-/* Symbols to call the functions with. */
+/* The symbols with which to call the functions. */
 static void put_symbols(const module *p)
 {
     const nh_system *s = p->x->system;
@@ -229,7 +229,7 @@ static void put_symbols(const module *p)
     nh_arena_free(arena);
 }
 
-/* What only an iteration determines is given by the caller: `guess` is the solution itself. */
+/* An unknown of an iteration is given by the caller: `guess` is the solution itself. */
 static void given(nh_export_body *b, size_t i)
 {
     nh_text_addf(b->out, "    %s = %s  # the solution itself: %s below vanishes\n", b->unknown[i],

@@ -69,9 +69,9 @@ void nh_facts_constraint(const nh_analysis *r, nh_text *out)
     nh_text_addf(out, ")%s", g->proved ? "" : " (by numbers)");
 }
 
-/* The signs of one kind of report. */
+/* The signs of one form of report. */
 typedef struct {
-    const char *the_case, *Z, *bracket, *combination; /* the first may begin a sentence */
+    const char *the_case, *Z, *bracket, *combination; /* the first one may begin a sentence */
 } signs;
 
 static const signs signs_of[] = {
@@ -106,11 +106,11 @@ const char *nh_facts_drift(const nh_drift *d)
     double tight = d->drift[NH_DRIFT_RUNS - 1];
     if (tight == 0) return "it does not change at all";
     if (!d->falls) return "it does not fall with the tolerance";
-    bool less = tight < d->drift[0] / 5; /* as in nh_drift_judge: what falls by less is rounding */
+    bool less = tight < d->drift[0] / 5; /* as in nh_drift_judge: a smaller decrease is rounding */
     return less ? "it falls with the tolerance" : "it is of the size of rounding error at every tolerance";
 }
 
-/* Some fixed and some not: only then there is something to say between all and none. */
+/* Only where some parameters are fixed and some are not is there something to say. */
 static bool some_fixed(const nh_model *o, const nh_proof *p)
 {
     return p->proved && p->fixed && !nh_fixed_all(o, p->fixed);
@@ -137,7 +137,7 @@ static const char *all_or_these(const nh_model *o, const nh_proof *p)
     return p->all_parameters || !o->system->parameters ? "all parameters" : "these values";
 }
 
-/* A value, or in terms of which parameters. */
+/* A value, or its formula in terms of parameters. */
 static void put_fixed_one(nh_json *object, const nh_model *o, size_t i, nh_ex e)
 {
     const char *name = o->system->parameter[i].name;
@@ -210,7 +210,7 @@ bool nh_facts_given(const nh_analysis *r) { return r->analysis && r->analysis->f
 const char *nh_facts_search(const nh_analysis *r)
 {
     size_t left_out = nh_analysis_left_out(r);
-    bool counted = false; /* what else there can be is said by the count */
+    bool counted = false; /* the count says what other integrals there can be */
     for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++)
         counted |= r->completeness[i].counted && !r->completeness[i].count.obstacle;
     if (r->search == NH_SEARCH_COMPLETE)
@@ -234,7 +234,7 @@ void nh_facts_completeness(const nh_analysis *r, nh_text *out)
     const nh_completeness *first = &r->completeness[r->completeness[0].counted ? 0 : 1];
     bool all = r->search == NH_SEARCH_COMPLETE && r->independent >= r->local_maximum;
     size_t uncertain = 0;
-    if (all && first->counted && first->count.obstacle) return; /* there are no more to be counted */
+    if (all && first->counted && first->count.obstacle) return; /* there are no more integrals that could be counted */
     for (size_t k = 0; k < r->count; k++)
         uncertain += r->found[k].independence == NH_INDEPENDENT && (!r->found[k].proof.proved || r->found[k].series);
     nh_completeness_words(r->completeness, uncertain, out);

@@ -6,8 +6,8 @@
 #include "base/text.h"
 #include "search/analysis.h"
 
-/* A number in a report: all its digits; then the shown ones, as [minus] mantissa [times 10^power], without a mantissa
-   where that is 1.  False: not finite. */
+/* A number in a report: all its digits; then the shown ones, as [minus] mantissa [times 10^power], without the mantissa
+ * where that is 1.  False: not finite. */
 typedef struct {
     char all[40], mantissa[60];
     bool minus, has_power;
@@ -15,8 +15,8 @@ typedef struct {
 } nh_shown_number;
 bool nh_facts_number(double value, int digits, nh_shown_number *out);
 
-/* Words with a list of names in parentheses at their end, such as a chart has: "coordinate velocities (x', y')".  The
- * words before the parenthesis, and the list; NULL without such a list. */
+/* Splits words that end in a list of names in parentheses, such as "coordinate velocities (x', y')": the words before
+ * the parenthesis, and the list; NULL without such a list. */
 const char *nh_facts_list(const char *text, char *words, size_t size);
 /* The next name of a list; false after the last. */
 bool nh_facts_next(const char **list, char *name, size_t size);
@@ -25,34 +25,35 @@ bool nh_facts_next(const char **list, char *name, size_t size);
 void nh_facts_constraint(const nh_analysis *result, nh_text *out);
 
 /* What kind of symmetry Z is: its case, whether [Gamma,Z] lies in the canonical distribution, whether Z is projectable.
- * `between`: what stands between the case and the rest.  PAGE: with formulas in the language of notation.h between
- * dollar signs. */
+ * `between`: the text between the case and the rest.  PAGE: with formulas in the language of notation.h between dollar
+ * signs. */
 typedef enum { NH_FACTS_TEXT, NH_FACTS_PAGE, NH_FACTS_TEX } nh_facts_form;
 void nh_facts_symmetry(const nh_symmetry *symmetry, nh_facts_form form, const char *between, nh_text *out);
 
-/* The heading of w' = a(t, q, w), from which the constraints are eliminated and nothing else. */
+/* The heading of w' = a(t, q, w), the equations of motion on the constraint submanifold. */
 const char *nh_facts_equations(const nh_model *model);
 
-/* Whether the currents found are all that are polynomial in the velocities, in sentences; "" when this was not
-   counted. */
+/* Sentences that say whether the currents found are all that are polynomial in the velocities; "" when this was not
+ * counted. */
 void nh_facts_completeness(const nh_analysis *result, nh_text *out);
 
-/* How the drift of a current behaves when the tolerance of the integration falls. */
+/* How the drift of a current changes when the tolerance of the integration is reduced. */
 const char *nh_facts_drift(const nh_drift *drift);
 
-/* Of a constraint with two branches (else ""): which was computed, and whether the equations hold on the other one; and
-   of a current on which it holds. */
+/* For a constraint with two branches (otherwise ""): which branch was computed, and whether the equations hold on the
+ * other one; and, for a current, on which branch it holds. */
 void nh_facts_branch(const nh_analysis *result, nh_text *out);
 /* ", on both branches", or nothing. */
 const char *nh_facts_which_branch(const nh_analysis *result, const nh_current *found);
 
-/* What is said where no current was found. */
-/* "4 independent currents on each side of x = 0, where the motion has an impulse": there is no other current. */
+/* "4 independent currents on each side of x = 0, where the motion has an impulse": only where there is no other
+ * current. */
 const char *nh_facts_between_walls(const nh_analysis *result);
+/* The sentences when no current was found. */
 const char *nh_facts_nothing(const nh_analysis *result);
-/* The ansatz is the analysis file's: nothing else was tried. */
+/* The ansatz is that of the analysis file: nothing else was tried. */
 bool nh_facts_given(const nh_analysis *result);
-/* How the search ended: whole sentences. */
+/* How the search ended, in whole sentences. */
 const char *nh_facts_search(const nh_analysis *result);
 
 /* For which parameters a statement holds: " for all m, a, k" (with `names`; else " for all parameter values"), " for k

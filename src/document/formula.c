@@ -26,7 +26,7 @@ nh_ex nh_formula_shown(const nh_analysis *r, nh_ex e)
     return nh_chart_shown(r->other && r->other->chart->roots ? r->other->chart : r->model->chart, e);
 }
 
-/* ---- names for what is repeated ---- */
+/* ---- names for repeated parts ---- */
 
 enum {
     most_names = 120,
@@ -37,8 +37,7 @@ enum {
     page_room = 4
 };
 
-/* How often does each node below n stand in the text of the formulas?  A child has a smaller index than what it stands
-   in. */
+/* How often does each node below n occur in the text of the formulas?  A node has a larger index than its children. */
 static void occurrences(const nh_dag *d, size_t n, double *times)
 {
     for (size_t e = n; e-- > 0;) {
@@ -52,7 +51,7 @@ static void occurrences(const nh_dag *d, size_t n, double *times)
     }
 }
 
-/* The node whose name saves the most; false when nothing saves enough.  What stands alone on a line needs no name. */
+/* The node whose name saves the most; false when no name saves enough.  What stands alone on a line needs no name. */
 static bool most_repeated(const nh_dag *d, size_t formulas, const nh_ex *e, size_t parts, const nh_formula_part *part,
                           nh_ex *best)
 {
@@ -74,7 +73,7 @@ static bool most_repeated(const nh_dag *d, size_t formulas, const nh_ex *e, size
     return found;
 }
 
-/* A letter that no name of the graph begins with, so far as A_1, A_2, ... go. */
+/* A letter with which no name of the graph begins, for names A_1, A_2, ... */
 static char free_letter(const nh_dag *d)
 {
     static const char letters[] = "ABCDGHKNPQSUVWXY";
@@ -91,7 +90,7 @@ static char free_letter(const nh_dag *d)
     return 'Z';
 }
 
-/* Beside others, or where nothing folds. */
+/* The room of a formula beside others, or where nothing folds. */
 static nh_formula_room block(double shown) { return (nh_formula_room){shown, formulas_per_block * shown, 1}; }
 
 nh_formula_room nh_formula_page(double shown)
@@ -99,7 +98,7 @@ nh_formula_room nh_formula_page(double shown)
     return (nh_formula_room){page_room * shown, formulas_per_block * page_room * shown, page_room};
 }
 
-/* Does a document leave something out, for it is too long? */
+/* Is a formula left out of the document because it is too long? */
 static bool too_long(const nh_dag *d, size_t n, const nh_ex *e, size_t parts, const nh_formula_part *part,
                      nh_formula_room room)
 {
@@ -137,7 +136,7 @@ size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_room room, nh_
     return count;
 }
 
-/* The parts that e needs, itself or through another one; values use later names only. */
+/* Marks the parts that e needs, directly or through others; values use later names only. */
 static void need(nh_dag *d, nh_ex e, size_t parts, const nh_formula_part *part, bool *needed)
 {
     nh_ex symbol[200];

@@ -10,10 +10,10 @@
 #include "exact/normal.h"
 
 enum {
-    least_sum = 5, /* symbols: what is shorter gets no name */
+    least_sum = 5, /* symbols: a shorter sum gets no name */
     most_sums = 2000,
     most_terms = 2000, /* of a normal form */
-    most_rounds = 4    /* a sum that stands for another one has sums inside */
+    most_rounds = 4    /* sums inside a sum may be replaced, too */
 };
 
 static const double closeness = 1e-10, nothing = 1e-8;
@@ -31,7 +31,7 @@ static int by_size(const void *a, const void *b)
     return (x->sum > y->sum) - (x->sum < y->sum);
 }
 
-/* Shorter, or as long and older. */
+/* Is it shorter, or of the same length and older? */
 static bool simpler(const valued *x, const valued *y)
 {
     return x->length != y->length ? x->length < y->length : x->sum < y->sum;
@@ -42,7 +42,7 @@ typedef struct {
     nh_ex *symbol, *sum;
 } found;
 
-/* The symbols and the long sums that the formulas are made of; a child has a smaller index than what it stands in. */
+/* The symbols, and the long sums in the formulas; a node has a larger index than its children. */
 static found parts_of(const nh_dag *d, size_t n, const nh_ex *e)
 {
     size_t nodes = nh_dag_size(d);
@@ -64,7 +64,7 @@ static found parts_of(const nh_dag *d, size_t n, const nh_ex *e)
     return f;
 }
 
-/* The sums with their values at a point, in the order of these. */
+/* The sums sorted by their values at a point. */
 static valued *in_order(nh_dag *d, const found *f)
 {
     const double golden = 0.6180339887498949;
@@ -84,7 +84,7 @@ static valued *in_order(nh_dag *d, const found *f)
     return list;
 }
 
-/* The simplest of a group, or minus it, for each other one that is proved equal to it. */
+/* Replaces each sum of a group by the simplest one, or minus it, if the two are proved equal. */
 static size_t replacements(nh_dag *d, size_t n, const valued *group, nh_ex *from, nh_ex *to)
 {
     const valued *best = group;

@@ -10,7 +10,7 @@ typedef struct {
     nh_dag *d;
 } builder;
 
-/* The index l of a velocity: its coordinate, or the quasi-velocity. */
+/* The index l of a velocity: the name of its coordinate, or of the quasi-velocity. */
 static const char *index_of(const builder *b, size_t l)
 {
     const nh_chart *c = b->o->chart;
@@ -43,7 +43,7 @@ static void normal_form(const builder *b)
         branch ? nh_sheet_label(b->s, "Dependent velocities as functions of the others, on the branch %s.", branch)
                : "Dependent velocities as functions $g$ of the others.");
     nh_free(branch);
-    /* a root stands for itself here, not for the velocity that it is */
+    /* here a root is shown as a root, and not as the velocity that it is equal to */
     b->s->section[b->s->sections - 1].literal = true;
     for (size_t a = 0; a < o->k; a++) {
         nh_ex g = o->rho[o->chart->dependent[a]];
@@ -109,14 +109,14 @@ static void lagrangian(const builder *b)
     formula(b, o->E, "E", NULL, NULL);
 }
 
-/* Rate of a velocity: x'' or omega'. */
+/* The rate of a velocity: x'' or omega'. */
 static const char *rate(const builder *b, size_t l) { return nh_sheet_label(b->s, "<%s'>", velocity(b, l)); }
 
 static void euler(const builder *b)
 {
     const nh_model *o = b->o;
     const nh_submanifold *s = b->t->submanifold;
-    if (o->chart->quasi) return; /* a frame of velocities that is no chart of positions has more terms: Abar has them */
+    if (o->chart->quasi) return; /* in quasi-velocities there are more terms: Abar contains them */
     nh_sheet_begin(
         b->s, "euler_expressions", "Euler expressions",
         !o->k ? "The derivative by $q^{l}$, less the rate of the derivative by the velocity $l$."
@@ -204,7 +204,7 @@ static void chetaev(const builder *b)
     for (size_t i = 0; i < o->m && o->k; i++) formula(b, o->reaction[i], "F_{<%s>}", coordinate(b, i), NULL);
 }
 
-/* (46): mu_a df^a/dq'^s by parts. */
+/* (46): mu_a df^a/dq'^s as a sum of inertial forces. */
 static void inertial(const builder *b)
 {
     static const char *const names[] = {"F^{centrifugal}_{<%s>}", "F^{Coriolis}_{<%s>}", "F^{further}_{<%s>}",
@@ -295,7 +295,7 @@ static void determining(const builder *b)
 
 /* ---- currents ---- */
 
-/* [Gamma, Z] along coordinate velocities where the geometry is shown in them. */
+/* [Gamma, Z] along coordinate velocities, where the geometry is shown in them. */
 static void bracket_field(const builder *b, const struct nh_theory_bracket *c)
 {
     const nh_bracket *k = c->bracket;

@@ -1,8 +1,8 @@
 /* The font of formulas on the pages: without one that has a MATH table browsers neither stretch parentheses and roots
  * nor place indices, and many machines have none.
  *
- * TeX Gyre Pagella Math 1.632 by the GUST e-foundry (GUST Font License, which is the LaTeX Project Public License), cut
- * down to the letters and signs of src/document/typeset.c, in base 64.  Made by Debian's fonttools from
+ * TeX Gyre Pagella Math 1.632 by the GUST e-foundry (GUST Font License, which is the LaTeX Project Public License),
+ * reduced to the letters and signs of src/document/typeset.c, in base 64.  Made by Debian's fonttools from
  * fonts-texgyre-math:
  *     pyftsubset texgyrepagella-math.otf --flavor=woff2 --layout-features= --no-hinting --desubroutinize --name-IDs=
  *         --unicodes=20-7e,a8,ac,b1,b7,d7,2d9,391-3a9,3b1-3c9,3d1,3d5,3d6,3f0,3f1,3f5,2026,2032,2033,2061,2062,210e,2113,2190-2192,2202,2207,2212,221a,221e,2248,

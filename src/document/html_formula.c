@@ -10,9 +10,9 @@
 #include "document/formula.h"
 #include "document/html_internal.h"
 
-enum { widest = 30 }; /* symbols of a piece: about what a phone holds; what is wider there scrolls by itself */
+enum { widest = 30 }; /* symbols of a piece: about the width of a phone; a wider piece scrolls by itself */
 
-/* Without rows of a single symbol, which are most of a formula's text. */
+/* Without the <mrow> around single symbols, which would be most of a formula's text. */
 static void add_compact(nh_text *out, const char *piece)
 {
     static const char row[] = "<mrow>", end[] = "</mrow>";
@@ -32,7 +32,7 @@ static void add_compact(nh_text *out, const char *piece)
     }
 }
 
-/* Where a line ends between factors, the page shows a dot: the sign of a soft hyphen (html_page.c). */
+/* Where a line breaks between factors the page shows a dot: the sign of a soft hyphen (html_page.c). */
 static void write_piece(void *context, const char *piece, nh_typeset_follows follows)
 {
     nh_html_writer *w = context;
@@ -102,7 +102,7 @@ static void too_long(nh_html_writer *w, const char *label, nh_ex e, double wante
     nh_text_clear(&words);
 }
 
-/* Those that are short enough, or the others, with the names that only they need. */
+/* The formulas that are short enough, or the others, with the names that only they need. */
 static void put_list(nh_html_writer *w, const nh_formula_list *l, size_t n, const char *const *label, bool beside)
 {
     bool any = false;

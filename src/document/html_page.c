@@ -66,8 +66,7 @@ const char *const nh_html_style =
     "left:.7rem;padding-right:.5rem}.beside{grid-template-columns:1fr}.beside "
     "figure{grid-column:1}dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}body{font-size:16px}svg .tick,svg "
     ".label{font-size:18px}svg .legend{font-size:17px}figure svg.plot:not(#scene) path[fill=none]{stroke-width:2.8}}\n"
-    /* On paper: two columns; no heading is left behind at the end of one, and no part of a figure, a formula or a
-       row. */
+    /* On paper: two columns; no heading stands at the end of a column, and no figure, formula or row is split. */
     "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player,.screen{display:none}\n"
     "html{font-size:13.5px}body{font-size:9pt;line-height:1.3}main{max-width:none;padding:0}section{columns:2;column-"
     "gap:7mm}#words,#repeat{break-inside:avoid}#repeat{columns:auto}#repeat .wide{break-inside:auto}#repeat "
@@ -75,7 +74,7 @@ const char *const nh_html_style =
     "th{padding-top:.02rem;padding-bottom:.02rem;line-height:1.2}\n"
     "h1{font-size:1.6rem}h2{column-span:all;break-inside:avoid;margin:1.1rem 0 "
     ".3rem;font-size:1.2rem}h2::after{content:'';display:block;height:4cm;margin-bottom:-4cm}"
-    /* a wide table goes across both columns, and over pages */
+    /* a wide table spans both columns, and continues on the next page */
     "details:has(th:nth-child(7)){column-span:all;margin:.4rem 0}details:has(th:nth-child(7)) .wide{break-inside:auto}"
     "details:has(th:nth-child(7)) table{width:100%}details:has(th:nth-child(7)) td:not(:last-child){white-space:nowrap}"
     "details:has(th:nth-child(7)) td:last-child{width:24%}"
@@ -96,7 +95,7 @@ const char *const nh_html_script =
     "function "
     "reach(){document.querySelectorAll('.formula,pre').forEach(function(e){if(e.scrollWidth>e.clientWidth)e.tabIndex=0;"
     "});}\n"
-    /* what scrolls is reached by the keyboard */
+    /* scrolling parts can be reached by the keyboard */
     "reach();window.addEventListener('resize',reach);document.addEventListener('toggle',reach,true);\n"
     "var el=document.getElementById('motion-data');if(!el)return;\n"
     "var "
@@ -117,7 +116,7 @@ const char *const nh_html_script =
     "S.forEach(function(s){if(s.kind==='disc'||s.kind==='wheel'){var "
     "r=s.v[s.kind==='disc'?2:3];T.forEach(function(t,i){var "
     "x=s.v[0][i],y=s.v[1][i],a=r[i];if(x!==null){see(x-a,y-a);see(x+a,y+a);}});}});\n"
-    /* as high as what is drawn */
+    /* as high as its content */
     "H=Math.max(200,Math.min(420,rim+(W-rim)*(hi[1]-lo[1])/Math.max(hi[0]-lo[0],span/"
     "50)));if(svg)if(!space){svg.setAttribute('viewBox','0 0 '+W+' "
     "'+H.toFixed(0));svg.setAttribute('height',H.toFixed(0));}\n"
@@ -178,7 +177,7 @@ const char *const nh_html_script =
     "timer=null,seconds=8,loop=document.getElementById('loop'),speed=document.getElementById('speed'),full=document."
     "getElementById('full');\n"
     "function stop(){if(timer!==null)cancelAnimationFrame(timer);timer=null;play.textContent='Play';}\n"
-    /* Each frame goes on from the one before, so that the speed may change in between. */
+    /* Each frame continues from the one before, so that the speed may change in between. */
     "function start(){var at=+bar.value,before=null;if(at>=last)at=0;play.textContent='Pause';\n"
     " function "
     "step(now){if(before!==null)at+=(now-before)/1000/"
@@ -186,7 +185,7 @@ const char *const nh_html_script =
     "round(at));timer=requestAnimationFrame(step);}\n"
     " timer=requestAnimationFrame(step);}\n"
     "play.addEventListener('click',function(){if(timer!==null)stop();else start();});\n"
-    /* On a whole screen, such as a projector, the motion begins again and again. */
+    /* On a full screen, such as a projector's, the motion is repeated. */
     "if(full){if(!box.requestFullscreen)full.remove();full.addEventListener('click',function(){if(document."
     "fullscreenElement)document.exitFullscreen();else{loop.checked=true;box.requestFullscreen();if(timer===null)start()"
     ";}});\n"

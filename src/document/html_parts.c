@@ -218,14 +218,14 @@ void nh_html_end(nh_html_writer *w)
 
 /* ---- words ---- */
 
-/* Is text[0..length-1] a word, or words, by itself? */
+/* Is text[0..length-1] one or more whole words? */
 static bool stands_alone(const char *text, size_t length, char before)
 {
     bool name = isalpha((unsigned char)text[0]) && (isalpha((unsigned char)before) || before == '_');
     return !name && !isalpha((unsigned char)text[length]) && text[length] != '_';
 }
 
-/* The text of the glossary with its formulas set as such. */
+/* The text of the glossary with formulas typeset. */
 static void with_letters(nh_html_writer *w, const char *text)
 {
     static const char *const formula[][2] = {{"[Gamma,Z] = a Gamma + b Z", "[Gamma,Z]=a Gamma+b Z"},
@@ -264,7 +264,7 @@ static void with_letters(nh_html_writer *w, const char *text)
     nh_text_clear(&words);
 }
 
-/* Does the page say it, or the first word of it? */
+/* Does the page contain the words, or the first of them? */
 static bool said(const nh_html_writer *w, const char *word)
 {
     const char *page = strstr(nh_text_string(w->out), "<main");
@@ -288,14 +288,14 @@ void nh_html_words(nh_html_writer *w, const char *words)
     nh_html_add(w, "</dl>\n</section>\n");
 }
 
-/* ---- to repeat it ---- */
+/* ---- how to repeat the run ---- */
 
 static void row(nh_html_writer *w, const char *what, const char *value)
 {
     if (!value) return;
     nh_html_add(w, "<tr>");
     nh_text_addf(w->out, "<th scope=\"row\">%s</th><td><code>", what);
-    while (*value) { /* a line ends between words only: what is copied from it must be a command */
+    while (*value) { /* a line breaks between words only: what is copied from it must be a command */
         size_t length = strcspn(value, " ");
         char *word = nh_alloc_array(length + 1, 1);
         memcpy(word, value, length);

@@ -1,5 +1,5 @@
-/* The script that draws bodies in space: in perspective, the far ones first, hidden sides as faint outlines.  It
- * contains neither < nor &, so that a page is well-formed XML. */
+/* The script that draws bodies in space: in perspective, far ones first, hidden sides as faint outlines.  It contains
+ * neither < nor &, so that a page is well-formed XML. */
 #include "document/html_internal.h"
 
 const char *const nh_html_space =

@@ -16,7 +16,7 @@ static void flush(nh_html_writer *w, const nh_time_series *c, const char *what, 
     char title[200], alone[160];
     if (n == 0) return;
     snprintf(title, sizeof title, "%s over time", what);
-    /* no legend names it */
+    /* no legend contains its name */
     if (n == 1)
         snprintf(alone, sizeof alone, "%.80s%.60s", curve[0].name, strchr(axis, '/') ? strchr(axis, '/') - 1 : "");
     nh_plot plot = {.title = title,
@@ -35,8 +35,8 @@ static nh_curve curve_of(const nh_time_series *c, const nh_line *line)
         .name = line->name, .count = c->count, .x = c->time, .x_stride = 1, .y = line->value, .y_stride = line->stride};
 }
 
-/* Lines of one kind in plots of at most so many curves.  `skip` of the kind are left out at the front, `take` are
-   shown. */
+/* Lines of one kind, in plots of at most so many curves.  Without the first `skip` lines of the kind, `take` are
+ * shown. */
 static void lines(nh_html_writer *w, const nh_time_series *c, nh_track_kind kind, size_t skip, size_t take,
                   const char *what, const char *axis, const char *caption)
 {
@@ -47,7 +47,7 @@ static void lines(nh_html_writer *w, const nh_time_series *c, nh_track_kind kind
         if (c->line[j].kind != kind || seen++ < skip || seen > skip + take) continue;
         curve[n] = curve_of(c, &c->line[j]);
         snprintf(letter[n], sizeof *letter, c->model->k == 1 ? "mu" : "mu_%zu", seen);
-        if (kind == NH_TRACK_MULTIPLIER) curve[n].name = letter[n]; /* as in the formulas */
+        if (kind == NH_TRACK_MULTIPLIER) curve[n].name = letter[n]; /* names as in the formulas */
         if (++n < most_curves) continue;
         flush(w, c, what, axis, caption, n, curve);
         n = 0;
@@ -94,7 +94,7 @@ static void positions(nh_html_writer *w, const nh_time_series *c)
     }
 }
 
-/* |Phi - Phi(0)| of what should be constant. */
+/* |Phi - Phi(0)| of quantities that should be constant. */
 static void constancy(nh_html_writer *w, const nh_time_series *c)
 {
     nh_curve curve[most_curves];
@@ -134,7 +134,7 @@ static void velocities(nh_html_writer *w, const nh_time_series *c)
 
 /* ---- the drawing ---- */
 
-/* Its own name; else its kind, with a number when there are several of it. */
+/* The name of a shape, or its kind, with a number when there are several. */
 static void shape_name(const nh_time_series *c, size_t i, char *out, size_t size)
 {
     size_t before = 0, all = 0;
@@ -194,7 +194,7 @@ static void number(nh_html_writer *w, double value, int digits)
     else nh_html_add(w, "null");
 }
 
-/* `once`: a constant is written once. */
+/* `once`: constants are written once. */
 static void frames(nh_html_writer *w, const char *before, size_t count, const nh_line *line, size_t step, bool once)
 {
     enum { digits = 6, in_space = 5 };
@@ -237,7 +237,7 @@ static void eye(nh_html_writer *w, const nh_view *v, size_t step)
     nh_html_add(w, "]}");
 }
 
-/* The numbers for the script; there is no text of the user in it. */
+/* The numbers for the script; they contain no text of the user. */
 static void data(nh_html_writer *w, const nh_time_series *c, const nh_view *view)
 {
     size_t step = (c->count + most_frames - 2) / most_frames, shown = 0;
@@ -281,7 +281,7 @@ static void player(nh_html_writer *w, const nh_time_series *c, const nh_view *vi
     data(w, c, view);
 }
 
-/* For paper, for files, and where no script runs. */
+/* A still picture for paper, for files, and where no script runs. */
 static void still(nh_html_writer *w, const nh_time_series *c, const nh_view *view)
 {
     nh_plot plot = {.title = "Bodies in space",

@@ -6,7 +6,7 @@
 #include "search/explicit_motion.h"
 #include "search/motion_series.h"
 
-/* The parameter, what the letters are, and for which values it holds. */
+/* The parameter, the meaning of the letters, and the values for which it holds. */
 static const char *words_of(nh_sheet *s, const nh_analysis *r)
 {
     const nh_explicit_motion *m = r->motion;
@@ -23,7 +23,7 @@ static const char *words_of(nh_sheet *s, const nh_analysis *r)
 
 static const char *name(nh_sheet *s, nh_ex symbol) { return nh_sheet_label(s, "<%s>", nh_name_of(s->dag, symbol)); }
 
-/* The interval about the start, in full. */
+/* The interval around the start, with all coefficients. */
 static void first_series(nh_sheet *s, const nh_motion_series *v, const char *of)
 {
     const nh_motion_series_link *first = &v->link[v->first];
@@ -56,7 +56,7 @@ static void at_end(nh_sheet *s, const nh_motion_series *v, size_t link, double e
                          nh_real(s->dag, nh_motion_series_value(at, j, end)));
 }
 
-/* The chain of all intervals: how far it goes, and the integrals at its ends. */
+/* The chain of all intervals: how far it extends, and the integrals at its ends. */
 static void other_series(nh_sheet *s, const nh_motion_series *v, const char *of)
 {
     double begin = nh_motion_series_begin(v), end = nh_motion_series_end(v);

@@ -4,7 +4,7 @@
 
 #include "document/sheet.h"
 
-/* NULL where no motion is known. */
+/* NULL where no such motion is known. */
 nh_sheet *nh_motion_sheet(const nh_analysis *result);
 /* The member `explicit_motion` of a result: null where none is known. */
 void nh_motion_sheet_json(const nh_analysis *result, nh_json *to);

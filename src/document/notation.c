@@ -1,4 +1,5 @@
-/* notation: read from left to right; what may carry scripts is written into a text of its own first. */
+/* notation: labels are read from left to right; a letter that may carry scripts is written to a text of its own
+ * first. */
 #include "document/notation.h"
 
 #include <ctype.h>
@@ -13,7 +14,7 @@ typedef struct {
 
 static void sequence(reader *r, char end, nh_text *out);
 
-/* A name as formulas have it. */
+/* A name as in formulas. */
 static void name(nh_notation_form form, const char *text, size_t length, nh_text *out)
 {
     nh_text plain;
@@ -36,7 +37,7 @@ static void group(reader *r, nh_text *out)
     if (r->form == NH_NOTATION_MATHML) nh_text_add(out, "</mrow>");
 }
 
-/* What has no argument: text, MathML, LaTeX. */
+/* Signs without argument: text, MathML, LaTeX. */
 static const struct {
     const char *name, *form[3];
 } signs[] = {
@@ -107,7 +108,7 @@ static void sign(nh_notation_form form, char c, nh_text *out)
                      minus ? minus : &c);
 }
 
-/* What scripts may follow, and these. */
+/* A letter that scripts may follow, and these. */
 static void atom(reader *r, nh_text *out)
 {
     nh_text base, script[2];

@@ -1,4 +1,4 @@
-/* notation: the letters of the theory, for labels and for what stands behind coefficients.
+/* notation: the letters of the theory, for labels and for the factors behind coefficients.
  *
  * A label is written once, in a small language, and shown as text (Abar_phi), MathML or LaTeX:
  *
@@ -15,10 +15,11 @@
 
 typedef enum { NH_NOTATION_TEXT, NH_NOTATION_MATHML, NH_NOTATION_LATEX } nh_notation_form;
 
+/* Adds the label in one of its forms. */
 void nh_notation_write(const char *label, nh_notation_form form, nh_text *out);
 
-/* Words with labels between dollar signs: the next part of them, which is written into `part` (to be cleared), and
- * whether it is a label; false after the last. */
+/* For words with labels between dollar signs: writes the next part into `part` (the caller clears it), and says whether
+ * it is a label; false after the last. */
 bool nh_notation_next(const char **words, nh_text *part, bool *label);
 
 #endif

@@ -111,8 +111,8 @@ static void plain(nh_pen *p, const char *from, const char *to)
 
 void nh_pen_theory(nh_pen *p, const char *words) { plain(p, words, words + strlen(words)); }
 
-/* One argument; *at stands on its %, and then behind it.  The list is passed as a pointer, so that what is read is
-   read. */
+/* One argument; *at points to its %, and afterwards behind it.  The list is passed as a pointer, so that the caller
+ * continues behind what was read. */
 static void argument(nh_pen *p, const char **at, char before, va_list *list)
 {
     const char *c = *at + 1;
@@ -134,7 +134,7 @@ static void argument(nh_pen *p, const char **at, char before, va_list *list)
     *at = c + 1;
 }
 
-/* Until the end of the format, or of its cell. */
+/* Up to the end of the format, or of its cell. */
 static const char *write_format(nh_pen *p, const char *format, bool cells, va_list *list)
 {
     const char *from = format, *at = format;
@@ -233,8 +233,8 @@ void nh_pen_name_heading(nh_pen *p, const char *name)
     nh_pen_close(p, NH_PEN_NAME);
 }
 
-/* How many letters of `text` are a formula: the longest of its beginnings, up to a comma or a parenthesis, that has an
-   equals sign or is a number, and is one of the language. */
+/* The number of letters of `text` that are a formula: its longest beginning, up to a comma or a parenthesis, that has
+ * an equals sign or is a number, and belongs to the language. */
 static size_t formula_length(const char *text)
 {
     nh_text one;

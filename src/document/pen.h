@@ -3,9 +3,9 @@
  * A document is a sequence of parts, which may hold parts; a part of words holds words, numbers, names and formulas.  A
  * form of output is one nh_pen_ink.  In formats, as of printf:  %s words; %zu and %ld a count; %.3g a number with so
  * many digits; {%s} words with names in parentheses, such as a chart has; <%s> a formula of the expression language;
- * $..$ letters of the theory, as notation.h has them. In rows | ends a cell, and a cell that begins with # heads its
- * row; one that begins with ! has its words as its kind, by which a page colours it.  A head of a column that begins
- * with # is a number. */
+ * $..$ letters of the theory, in the language of notation.h.  In rows | ends a cell, and a cell that begins with # is
+ * the heading of its row; the words of a cell that begins with ! are also its kind, which gives it a colour on a page.
+ * A column whose head begins with # holds numbers. */
 #ifndef NH_PEN_H
 #define NH_PEN_H
 
@@ -14,8 +14,8 @@
 #include "document/sheet.h"
 #include "document/tex_internal.h"
 
-/* SCREEN: folded, on pages only, and not on their print.  NAME: of a card, as a formula.  TAGS: the properties of a
- * card, one TAG each. BESIDE: figures that stand side by side where there is room. */
+/* SCREEN: folded, on pages only, and not when they are printed.  NAME: the title of a card, as a formula.  TAGS: the
+ * properties of a card, one TAG each.  BESIDE: figures that stand side by side where there is room. */
 typedef enum {
     NH_PEN_SECTION,
     NH_PEN_CARD,
@@ -42,12 +42,12 @@ typedef enum {
 
 typedef struct {
     bool screen;                                     /* has it parts for the screen? */
-    /* a terminal's: without what the user wrote, and without long explanations */
+    /* it is for a terminal: without the user's own text, and without long explanations */
     bool brief;
     void (*begin)(void *to, const char *what);
     void (*links)(void *to, const char *sections);
-    /* `id`: of a section; the class of an answer and the kind of a cell.  `title` may be NULL; of a kind it is a
-       remark. */
+    /* `id`: of a section; the class of an answer; the kind of a cell.  `title` may be NULL; for a kind it is a
+     * remark. */
     void (*open)(void *to, nh_pen_part part, const char *id, const char *title);
     void (*close)(void *to, nh_pen_part part);
     void (*words)(void *to, const char *words);
@@ -57,40 +57,41 @@ typedef struct {
     void (*source)(void *to, const char *formula);
     void (*letters)(void *to, const char *label);    /* in the language of notation.h */
     void (*equation)(void *to, const char *label, const char *formula); /* label = formula, as texts; label may be "" */
-    void (*code)(void *to, const char *text);        /* as it is, on lines of its own */
-    /* What belongs together; labels are names, or in the language of notation.h. */
+    void (*code)(void *to, const char *text);        /* text as it is, on lines of its own */
+    /* Formulas that belong together; labels are names, or in the language of notation.h. */
     void (*formulas)(void *to, size_t n, const char *const *label, const nh_ex *e);
     void (*sheet)(void *to, nh_sheet *sheet, bool headed); /* headed: it stands below a heading of its section */
     void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
     void (*table_end)(void *to);
     void (*plot)(void *to, nh_plot *plot, const char *caption);
     void (*series)(void *to, const nh_time_series *series); /* a motion: the drawing, and plots over time */
-    void (*symmetry)(void *to, const nh_symmetry *symmetry); /* in words: its case, its bracket */
-    void (*glossary)(void *to, const char *words);   /* what these words mean; on pages only */
+    void (*symmetry)(void *to, const nh_symmetry *symmetry); /* the symmetry in words: its case, its bracket */
+    void (*glossary)(void *to, const char *words);   /* the meaning of these words; on pages only */
     void (*end)(void *to, const nh_run *run);
 } nh_pen_ink;
 
-/* What a document is about; formulas longer than `shown` are left out of it, those longer than `written` (0: none) of
-   the JSON. */
+/* The subject of a document.  Formulas longer than `shown` are left out of the document, those longer than `written`
+ * (0: none) out of the JSON. */
 typedef struct {
     const nh_system *system;
     const nh_analysis_file *analysis;
     nh_dag *dag;
     const nh_chart *chart;
     double shown, written;
-    const char *open[3]; /* parameters that have no value here, from the first on; NULL: no more */
+    const char *open[3]; /* names of parameters that have no value here, from the first one; NULL: there are no more */
 } nh_pen_subject;
 
 bool nh_pen_is_open(const nh_pen_subject *subject, const char *parameter);
 
-/* Of a text for a terminal. */
+/* For a text on a terminal. */
 typedef struct {
-    nh_text *out, *folded;   /* until the end, and then with its lines folded */
-    nh_text text;            /* what `out` is until the end */
+    /* the buffer to which parts are written; the output, which receives it at the end with its lines folded */
+    nh_text *out, *folded;
+    nh_text text;            /* the buffer that `out` points to until the end */
     nh_pen_subject of;
     bool colour;
-    nh_text rows;            /* what `out` is within a table: cells end by tabs */
-    size_t cells;            /* of the row, and tags of the card, so far */
+    nh_text rows;            /* the buffer that `out` points to within a table; its cells end by tabs */
+    size_t cells;            /* cells of the row, and tags of the card, so far */
 } nh_plain_writer;
 
 typedef struct {
@@ -101,10 +102,10 @@ typedef struct {
     nh_html_writer page;
     nh_tex_writer tex;
     nh_plain_writer plain;
-    size_t names;            /* of repeated parts in sheets, so far: one sequence for the document */
-    bool forms;              /* have the forms phi^a been defined, so far? */
-    bool section, card;      /* that are open */
-    bool headed;             /* has this section a heading of its own, so far? */
+    size_t names;            /* number of names of repeated parts in sheets so far: one sequence for the document */
+    bool forms;              /* have the forms phi^a been defined? */
+    bool section, card;      /* parts that are open */
+    bool headed;             /* has this section a heading of its own? */
 } nh_pen;
 
 #define X(name, form, writer) extern const nh_pen_ink nh_pen_##name;
@@ -112,18 +113,19 @@ NH_PEN_FORM_TABLE(X)
 #undef X
 extern const nh_pen_ink nh_pen_plain;
 
-/* `pen` must stay where it is. */
+/* Begins a document; `pen` must not move until its end. */
 void nh_pen_begin(nh_pen *pen, nh_pen_style style, const nh_pen_subject *subject, const char *what, nh_text *out);
 void nh_pen_end(nh_pen *pen, const nh_run *run);
 
-/* A section, and a card in it, end where the next one begins, and before the system and the glossary. */
+/* Begins a section, or a card in it; it ends where the next one begins, and before the system and the glossary. */
 void nh_pen_section(nh_pen *pen, const char *id, const char *title);
 void nh_pen_card(nh_pen *pen, const char *title);
-/* Its title is a place in the space of the parameters: equations between commas, with remarks in parentheses. */
+/* A card whose title is a place in the space of the parameters: equations separated by commas, with remarks in
+ * parentheses. */
 void nh_pen_place_card(nh_pen *pen, const char *where);
 void nh_pen_card_end(nh_pen *pen);
-/* The system as it was written; with a model its equations, with an analysis the kind of its constraints.  Then its
-   geometry, if there is one. */
+/* The system as it was written; with a model its equations, with an analysis the kind of its constraints; then its
+ * geometry, if there is one. */
 void nh_pen_system(nh_pen *pen, const nh_model *model, const nh_analysis *analysis);
 void nh_pen_geometry(nh_pen *pen, nh_arena *arena, const struct nh_theory *theory);
 void nh_pen_glossary(nh_pen *pen, const char *words);
@@ -133,26 +135,27 @@ void nh_pen_table_end(nh_pen *pen);
 
 void nh_pen_open(nh_pen *pen, nh_pen_part part, const char *id, const char *title);
 void nh_pen_close(nh_pen *pen, nh_pen_part part);
-void nh_pen_say(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));    /* into the open part */
-void nh_pen_theory(nh_pen *pen, const char *words); /* with $..$, into the open part */
+/* adds words to the open part */
+void nh_pen_say(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void nh_pen_theory(nh_pen *pen, const char *words); /* the same with $..$ */
 void nh_pen_words(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));  /* a paragraph */
-/* of a list of facts */
+/* an item of a list of facts */
 void nh_pen_fact(nh_pen *pen, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* it ends by nh_pen_close */
+/* nh_pen_close ends it */
 void nh_pen_fact_begin(nh_pen *pen, const char *name);
-void nh_pen_name(nh_pen *pen, const char *name); /* of a coordinate, a velocity, .., within words */
-/* A field: the sum of its components times d/d(coordinate), within words. */
+void nh_pen_name(nh_pen *pen, const char *name); /* the name of a coordinate, a velocity, .., within words */
+/* A field as the sum of its components times d/d(coordinate), within words. */
 void nh_pen_field(nh_pen *pen, nh_dag *dag, size_t n, const char *const *coordinate, const nh_ex *component);
-void nh_pen_sheet(nh_pen *pen, nh_sheet *sheet); /* NULL: nothing */
+void nh_pen_sheet(nh_pen *pen, nh_sheet *sheet); /* NULL: writes nothing */
 void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* of an open row */
+/* a cell of an open row */
 void nh_pen_cell(nh_pen *pen, nh_pen_part part, const char *format, ...) __attribute__((format(printf, 3, 4)));
-void nh_pen_heading(nh_pen *pen, const char *title);             /* of a section: it ends the card */
-void nh_pen_name_heading(nh_pen *pen, const char *name);         /* of a card */
+void nh_pen_heading(nh_pen *pen, const char *title);             /* a heading within a section: it ends the card */
+void nh_pen_name_heading(nh_pen *pen, const char *name);         /* a heading within a card */
 void nh_pen_code(nh_pen *pen, const char *text);
 void nh_pen_warning(nh_pen *pen, const char *text);
 void nh_pen_plot(nh_pen *pen, nh_plot *plot, const char *caption);
-/* label = e; its label is no name, but in the language of notation.h. */
+/* label = e; the label is no name, but in the language of notation.h. */
 void nh_pen_formula(nh_pen *pen, const char *label, nh_ex e);
 bool nh_pen_is_name(const char *label);
 

@@ -5,7 +5,7 @@
 #include "document/pen.h"
 
 static const struct {
-    /* before the id or the title; before the title of a part that has one; at its end */
+    /* text before the id or the title; before the title of a part that has one; at its end */
     const char *open, *titled, *close;
 } markup[NH_PEN_PARTS] = {
     [NH_PEN_SECTION] = {"<section id=\"", "<h2>", "</section>\n"},
@@ -39,7 +39,7 @@ static void open(void *to, nh_pen_part part, const char *id, const char *title)
     if (part == NH_PEN_CARD || part == NH_PEN_SECTION) ((nh_html_writer *)to)->names = 0;
     nh_html_add(to, markup[part].open);
     if (id) nh_html_text(to, id);
-    /* where the pointer rests on it */
+    /* shown when the pointer rests on it */
     if (part == NH_PEN_KIND && title && *title) nh_html_add(to, "\" title=\""), nh_html_text(to, title);
     if (id) nh_html_add(to, "\">");
     if (!title || !markup[part].titled) return;

@@ -1,5 +1,4 @@
-/* The parts of a document as text for a terminal, which has neither figures, nor links, nor what others say already:
-   the glossary, the system's file. */
+/* The parts of a document as text for a terminal: without figures, links, the glossary and the system's file. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +10,7 @@
 #include "document/pen.h"
 
 static const struct {
-    const char *open, *close; /* before the title, or the part; at its end */
+    const char *open, *close; /* text before the title, or the part; at its end */
     bool titled;
 } markup[NH_PEN_PARTS] = {
     [NH_PEN_SECTION] = {"\n", "", true}, [NH_PEN_CARD] = {"\n", "", true},
@@ -39,7 +38,7 @@ static void bold(nh_plain_writer *w, const char *text)
     nh_text_addf(w->out, w->colour ? "\033[1m%s\033[0m" : "%s", text);
 }
 
-/* The title with the values of the parameters, of which none is broken. */
+/* The title with the values of the parameters, none of which is split between lines. */
 static void begin(void *to, const char *what)
 {
     nh_plain_writer *w = to;
@@ -144,7 +143,7 @@ typedef struct {
     const char *cell[most_columns];
 } row_cells;
 
-/* A row of the buffer; what follows it. */
+/* A row of the buffer, and the rest behind it. */
 static const char *read_row(const char *at, row_cells *row)
 {
     *row = (row_cells){0};
@@ -164,7 +163,7 @@ static size_t width_of(const char *text, size_t length)
     return width;
 }
 
-/* The first column, and the columns from..to-1; `moved`: the first column stands behind them. */
+/* The first column, and the columns from..to-1; `moved`: the first column is the last. */
 static void put_columns(nh_plain_writer *w, const char *rows, const size_t *width, size_t from, size_t to, bool moved)
 {
     row_cells row;
@@ -181,8 +180,8 @@ static void put_columns(nh_plain_writer *w, const char *rows, const size_t *widt
     }
 }
 
-/* In columns.  Where they are too wide for the line, a first one that is the widest has words, and stands last; else
- * those that have no room stand below, each time with the first one. */
+/* The table in columns.  Where it is too wide for the line: a first column that is the widest holds words, and is moved
+ * to the end; otherwise the columns that have no room stand below, each group with the first column. */
 static void put_rows(nh_plain_writer *w, const char *rows)
 {
     size_t width[most_columns] = {0}, all = 0, widest = 0, columns = 0, to;
@@ -274,7 +273,7 @@ static void put_number(void *to, double value, int digits)
     number(to, value, digits);
 }
 
-/* What is watched, at a few times. */
+/* The observables at a few times. */
 static void series(void *to, const nh_time_series *c)
 {
     enum { rows = 5, digits = 8 };

@@ -1,4 +1,4 @@
-/* The system of a document: as it was written, and as it was understood; and its geometry. */
+/* The system of a document: as it was written, and as the program understood it; and its geometry. */
 #include <stdio.h>
 
 #include "base/memory.h"
@@ -14,7 +14,7 @@ static const char *or_nothing(const char *text) { return text ? text : ""; }
 static void parameters(nh_pen *p, const nh_system *s)
 {
     if (!s->parameters) return;
-    bool said = false; /* a column of meanings only where there are any */
+    bool said = false; /* a column of meanings only where a meaning is given */
     for (size_t i = 0; i < s->parameters; i++) said |= *or_nothing(s->parameter[i].doc) != 0;
     nh_pen_table(p, "Parameters", said ? "name|value|meaning" : "name|value");
     for (size_t i = 0; i < s->parameters; i++) {
@@ -70,9 +70,9 @@ static void written(nh_pen *p, const nh_system *s)
     forces(p, s);
 }
 
-/* ---- as it was understood ---- */
+/* ---- as the program understood it ---- */
 
-/* Which functions the constraints alone keep constant. */
+/* The functions that the constraints alone keep constant. */
 static void integrals(nh_pen *p, const nh_analysis *r)
 {
     size_t hidden = r->constraint.hidden, left = hidden - r->integrals;
@@ -111,7 +111,7 @@ static void kind(nh_pen *p, const nh_analysis *r)
     integrals(p, r);
 }
 
-/* Formulas under a heading; folded away where they are many lines long: then they are there to be looked up. */
+/* Formulas under a heading; folded where they take many lines, as readers only look things up in them. */
 static void block(nh_pen *p, nh_dag *d, const char *heading, size_t n, const char *const *label, const nh_ex *e)
 {
     enum { long_block = 400 };

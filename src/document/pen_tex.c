@@ -9,7 +9,7 @@
 #include "document/typeset.h"
 
 static const struct {
-    const char *open, *titled, *close; /* before the title; before it where there is one; at the end of the part */
+    const char *open, *titled, *close; /* text before the title; before it where there is one; at the end of the part */
 } markup[NH_PEN_PARTS] = {
     [NH_PEN_SECTION] = {"", "\\section{", "\n"},
     [NH_PEN_CARD] = {"", "\\subsection*{", "\n"},
@@ -39,7 +39,7 @@ static void begin(void *to, const char *what)
     nh_tex_add(to, "\\begingroup\\parindent=0pt\\emergencystretch=3em\n");
 }
 
-/* Where the page has its links the system's source stands. */
+/* The source of the system stands where a page has its links. */
 static void links(void *to, const char *sections)
 {
     nh_tex_writer *w = to;
@@ -48,7 +48,7 @@ static void links(void *to, const char *sections)
     if (source && source[0]) nh_tex_add(w, "\\textit{System:} "), nh_tex_words(w, source), nh_tex_add(w, "\n\n");
 }
 
-/* Cells are separated by &: before every cell but the first of its row. */
+/* Cells are separated by &, which is written before every cell but the first of its row. */
 static void open(void *to, nh_pen_part part, const char *id, const char *title)
 {
     nh_tex_writer *w = to;
@@ -129,7 +129,7 @@ static void sheet(void *to, nh_sheet *formulas_of, bool headed)
     nh_sheet_tex(formulas_of, headed ? "subsubsection" : "subsection", to);
 }
 
-/* The heads of the columns, under a line of their own on every page. */
+/* The heads of the columns, under a line, on every page. */
 static void put_heads(nh_tex_writer *w, size_t n, const char *heads)
 {
     for (size_t length; n-- > 0; heads += length + (heads[length] == '|')) {
@@ -143,8 +143,8 @@ static void put_heads(nh_tex_writer *w, size_t n, const char *heads)
     }
 }
 
-/* Columns of equal width that fill the line, smaller and closer where there are many.  The caption is a part of the
-   first head, which no page separates from its rows. */
+/* Columns of equal width that fill the line, smaller and closer where there are many.  The caption is part of the first
+ * head, so that no page break separates it from the rows. */
 static void table(void *to, const char *caption, const char *heads)
 {
     enum { many = 7 };
@@ -168,7 +168,7 @@ static void plot(void *to, nh_plot *figure, const char *caption) { nh_tex_plot(t
 
 static void draw(void *to, const nh_plot *figure, const char *caption) { nh_tex_plot(to, figure, caption); }
 
-/* The plots of the page; what else it has is for a screen. */
+/* The plots of the page; its other contents are for a screen. */
 static void series(void *to, const nh_time_series *motion)
 {
     nh_tex_writer *w = to;

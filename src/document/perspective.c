@@ -10,7 +10,7 @@ static double number(const nh_time_series *c, size_t s, size_t j, size_t i)
     return line->value[i * line->stride];
 }
 
-/* Against gravity; the third axis where there is none. */
+/* The direction against gravity; the third axis where there is none. */
 static int upwards(const nh_time_series *c)
 {
     const nh_chain *chain = c->model->system->chain;
@@ -33,7 +33,8 @@ static void normalise(double a[3])
     for (size_t j = 0; j < 3 && length > 0; j++) a[j] /= length;
 }
 
-/* From the front, from above and a little from the right; the lamp is above the eye and to its left. */
+/* The view is from the front, from above and a little from the right; the light comes from above the eye and its
+ * left. */
 static void directions(nh_view *v)
 {
     static const double beside = 0.35 * 0.92, before = 0.94 * 0.92, above = 0.4, lamp_up = 0.8, lamp_right = -0.4;
@@ -65,8 +66,8 @@ static double reach(const nh_time_series *c, size_t s, size_t i)
     }
 }
 
-/* The points of a shape at a time, and the radius about each: one, or the two ends of a rod.  A shape in the plane lies
-   on the ground. */
+/* The points of a shape at a time, and the radius about each: one point, or the two ends of a rod.  A shape in the
+ * plane lies on the ground. */
 static size_t places(const nh_time_series *c, size_t s, size_t i, double point[2][3], double *radius)
 {
     nh_shape_kind kind = c->shape[s].kind;
@@ -99,8 +100,7 @@ static double half_diagonal(const box *b)
     return hypot(hypot(b->high[0] - b->low[0], b->high[1] - b->low[1]), b->high[2] - b->low[2]) / 2;
 }
 
-/* What the picture holds: all of the motion; else it goes along with the bodies.  Returns the radius about the target.
- */
+/* What the picture contains: the whole motion; or it follows the bodies.  Returns the radius about the target. */
 static double targets(nh_view *v)
 {
     static const double far = 5, around = 2.2; /* in radii of the bodies together */
@@ -129,7 +129,7 @@ static double targets(nh_view *v)
 
 void nh_view_see(const nh_view *v, size_t i, const double point[3], double out[4])
 {
-    static const double nearest = 8; /* of the distance: nothing is seen from nearer */
+    static const double nearest = 8; /* nothing is seen from nearer than 1/8 of the distance */
     double q[3];
     for (size_t j = 0; j < 3; j++) q[j] = point[j] - v->middle[3 * i + j];
     out[2] = dot(q, v->towards);
@@ -138,7 +138,7 @@ void nh_view_see(const nh_view *v, size_t i, const double point[3], double out[4
     out[1] = v->y - out[3] * dot(q, v->top);
 }
 
-/* As large as there is room. */
+/* As large as there is room for. */
 static void fill(nh_view *v)
 {
     static const double across = 0.92, upright = 0.88, most = 3, raised = 0.48;

@@ -9,14 +9,14 @@ enum { sides = NH_VIEW_SIDES, arcs = NH_VIEW_ARCS, grey = 0x808080, rods = 0x7A7
 
 static const int colour[] = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0xE69F00, 0x56B4E9};
 
-/* What lies below everything: the ground, then the paths. */
+/* The ground, which lies below everything, then the paths. */
 static const double ground_depth = -INFINITY, path_depth = -1e299;
 
 typedef struct {
     const nh_view *view;
-    size_t i; /* the time */
+    size_t i; /* index of the time */
     nh_picture *out;
-    double width; /* of a line of one pixel on a page */
+    double width; /* width of a line that has one pixel on a page */
 } painter;
 
 /* ---- vectors ---- */
@@ -42,7 +42,7 @@ static double depth(const painter *w, const double p[3])
     return q[2];
 }
 
-/* From a point to the eye. */
+/* The vector from a point to the eye. */
 static void to_eye(const painter *w, const double p[3], double out[3])
 {
     const nh_view *v = w->view;
@@ -84,7 +84,7 @@ static void add_point(painter *w, const double point[3])
     add_pixel(w, q[0], q[1]);
 }
 
-/* Points are added to the newest one. */
+/* Adds points to the last piece. */
 static nh_piece *begin(painter *w, double at, int stroke, double opacity, double width)
 {
     nh_picture *p = w->out;
@@ -98,7 +98,7 @@ static nh_piece *begin(painter *w, double at, int stroke, double opacity, double
     return &p->piece[p->count++];
 }
 
-/* A face with this normal as the lamp shows it. */
+/* The colour of a face with this normal in the light. */
 static int lit(const painter *w, int base, const double normal[3])
 {
     const nh_view *v = w->view;
@@ -111,7 +111,7 @@ static int lit(const painter *w, int base, const double normal[3])
     return out;
 }
 
-/* A face, with or without edges: is its outer side seen? A hidden one is a faint outline. */
+/* A face, with or without edges, if its outer side is seen; otherwise a faint outline. */
 static bool face(painter *w, size_t n, double (*corner)[3], const double normal[3], int base, bool edged)
 {
     static const double edge = 1.4, seam = 0.5;
@@ -153,7 +153,7 @@ static void great_circle(painter *w, const double p[3], const double a[3], const
 
 static void ball(painter *w, const double p[3], double r, double (*axis)[3], int base)
 {
-    static const double edge = 1.4, seen = 1.2; /* great circles are drawn on a ball that is larger than a dot */
+    static const double edge = 1.4, seen = 1.2; /* great circles are drawn on a ball that is larger than a point */
     double q[4];
     nh_view_see(w->view, w->i, p, q);
     double radius = fmax(w->view->dot, q[3] * r);
@@ -167,7 +167,7 @@ static void ball(painter *w, const double p[3], double r, double (*axis)[3], int
         great_circle(w, p, axis[k], axis[(k + 1) % 3], r, base);
 }
 
-/* Each end with two radii, so that its turning is seen. */
+/* Each end with two radii, so that its rotation is seen. */
 static void cylinder(painter *w, const double p[3], double r, double half, double (*axis)[3], int base)
 {
     static const double lifted = 0.01, mark = 3, counter_mark = 0.5;
@@ -238,7 +238,7 @@ static void rod(painter *w, size_t s)
 
 /* ---- the ground and the paths ---- */
 
-/* Squares of a round number. */
+/* Squares whose side is a round number. */
 static void ground(painter *w)
 {
     enum { half = 4 };
@@ -287,7 +287,7 @@ static void bow(painter *w, double (*q)[2])
 
 static void path(painter *w, size_t s, int base)
 {
-    static const double opacity = 0.4, width = 1.2, nearest = 1; /* pixel between two points */
+    static const double opacity = 0.4, width = 1.2, nearest = 1; /* pixels between two points */
     size_t count = w->view->count;
     bool on = false;
     double last[2] = {0, 0};

@@ -1,5 +1,5 @@
-/* polyline: a line through very many points as the data of an SVG path, without those that lie on it: no point left out
-   is farther than a quarter of a pixel from the line drawn. */
+/* polyline: writes a line through very many points as the data of an SVG path, without points that are nearly on it: no
+ * point left out is farther than a quarter of a pixel from the drawn line. */
 #ifndef NH_POLYLINE_H
 #define NH_POLYLINE_H
 
@@ -11,15 +11,15 @@
 typedef struct {
     nh_text *out;
     bool on;
-    size_t held;                              /* points since the last one written */
-    /* the last written; the newest; the directions that pass all between, about `turn` */
+    size_t held;                              /* number of points since the last one written */
+    /* the last point written; the newest; the range of directions, about `turn`, that pass all points between */
     double last[2], next[2], low, high, turn;
 } nh_polyline;
 
-/* The next point, kept for certain; or kept where the line bends. */
+/* Adds a point that is certainly kept; or one that is kept where the line bends. */
 void nh_polyline_write(nh_polyline *line, double x, double y);
 void nh_polyline_to(nh_polyline *line, double x, double y);
-/* The line ends here; the next point begins another one. */
+/* Ends the line; the next point begins another one. */
 void nh_polyline_end(nh_polyline *line);
 
 #endif

@@ -9,10 +9,10 @@
 typedef struct {
     const char *command, *system_path, *analysis_path; /* NULL: not known, or none */
     double seed, shown;                                /* the option `shown`: the longest formula of a page */
-    double seconds;                                    /* NAN where the report tells it elsewhere, or not */
+    double seconds;                                    /* NAN where the report gives it elsewhere, or not at all */
 } nh_run;
 
-/* Adds `title`, `parameters` (unless they are there) and `run`. */
+/* Adds `title`, `parameters` (unless they exist) and `run`. */
 void nh_run_json(const nh_run *run, const nh_system *system, nh_json *to);
 
 #endif

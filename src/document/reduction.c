@@ -11,7 +11,7 @@
 #include "document/formula.h"
 #include "document/reduction_sheet.h"
 
-/* Simplified unless it is so large that nobody would read it. */
+/* Simplified, unless it is so large that nobody would read it. */
 static nh_ex shortened(const nh_reduction *r, nh_ex e)
 {
     enum { largest = 4000 };

@@ -58,8 +58,8 @@ static nh_json *pair_of(nh_json *list, size_t a, size_t b)
     return item;
 }
 
-/* What is not zero of the same, with the parameters: {"of": [1, 4], "is": {"2": "(a + b)/a"}}; null for a bracket that
- * is no combination of the generators. */
+/* The structure constants that are not zero, with the parameters: {"of": [1, 4], "is": {"2": "(a + b)/a"}}; null for a
+ * bracket that is no combination of the generators. */
 static void put_brackets(nh_json *to, const nh_action *g)
 {
     nh_json *list = nh_json_put_array(to, "brackets");
@@ -175,7 +175,7 @@ static void put_matrix(nh_json *to, const char *key, nh_dag *d, size_t rows, siz
     }
 }
 
-/* A condition is a list of ways to satisfy it, a way a list of polynomials that vanish. */
+/* A condition is a list of ways to satisfy it; a way is a list of polynomials that vanish. */
 static void put_conditions(nh_json *to, const nh_reduction *r, const nh_measure_conditions *c)
 {
     nh_json *list[2] = {nh_json_put_array(to, "measure_where"), nh_json_put_array(to, "factor_where")};
@@ -292,7 +292,7 @@ static void put_locked_inertia(nh_json *to, const nh_slice *s)
     nh_free(e);
 }
 
-/* How a motion is computed where an accuracy is wanted. */
+/* The method of a motion, where an accuracy is requested. */
 static nh_json *put_choice(nh_json *to, const nh_reduction_choice *c)
 {
     if (!c->method) return NULL;

@@ -10,8 +10,8 @@
 
 enum { together = 3, every = 4 }; /* coordinates in one figure: each has a line, and a point at every fourth time */
 
-/* The full motion of the coordinate of that name; NULL where the stage's coordinates are not the system's: they move
-   under the first group. */
+/* The full motion of the coordinate of that name; NULL where the stage has other coordinates than the system, which
+ * move under the first group. */
 static const double *full_of(const nh_reduction *r, const nh_reduction_stage *s, const char *name)
 {
     if (!s->against_full) return NULL;

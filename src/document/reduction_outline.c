@@ -8,7 +8,7 @@
 #include "document/reduction_internal.h"
 #include "document/reduction_sheet.h"
 
-/* "SE(2) x SO(2)^3" as it is printed in type. */
+/* "SE(2) x SO(2)^3" as it is typeset. */
 static const char *group_name(const nh_reduction *r, const nh_pen *p, const char *name)
 {
     nh_text text;
@@ -35,7 +35,7 @@ static const char *how(const nh_condition *c)
     return !c->holds ? "no" : c->all_parameters ? "proved" : c->proved ? "proved here" : "to rounding";
 }
 
-/* What a generator leaves invariant: in a word where all is proved. */
+/* What a generator leaves invariant: in one word where all is proved. */
 static void invariance(nh_pen *p, const nh_reduction *r, const nh_generator *g)
 {
     const nh_condition *const c[] = {&g->metric, &g->potential, &g->constraints, &g->forces};
@@ -107,7 +107,7 @@ static const char *title(nh_pen *p, const nh_reduction *r, const nh_group *g)
 
 static void group(nh_pen *p, const nh_reduction *r, const nh_group *g)
 {
-    if (r->all && r->group != r->all) { /* otherwise the answer has named it */
+    if (r->all && r->group != r->all) { /* otherwise the answer has named the group */
         nh_pen_open(p, NH_PEN_HEADING, NULL, title(p, r, g));
         nh_pen_close(p, NH_PEN_HEADING);
     }
@@ -127,7 +127,7 @@ static bool same_field(const nh_reduction *r, size_t i, size_t j)
     return a->joint == b->joint && !memcmp(a->component, b->component, r->kinetic->m * sizeof *a->component);
 }
 
-/* By another rule. */
+/* The same by another momentum rule. */
 static bool same_before(const nh_reduction *r, size_t i)
 {
     for (size_t j = 0; j < i; j++)
@@ -135,7 +135,7 @@ static bool same_before(const nh_reduction *r, size_t i)
     return false;
 }
 
-/* What the rules' names mean: those that stand there. */
+/* The meaning of the rules' names that occur. */
 static void rules(nh_pen *p, const nh_chain_symmetries *c)
 {
     static const char *const meaning[NH_CHAIN_RULES] = {
@@ -157,7 +157,7 @@ static void rules(nh_pen *p, const nh_chain_symmetries *c)
     nh_pen_close(p, NH_PEN_WORDS);
 }
 
-/* Of a chain of bodies: [ChhabraEmami2014, sec. 4]. */
+/* For a chain of bodies: [ChhabraEmami2014, sec. 4]. */
 static void joints(nh_pen *p, const nh_reduction *r)
 {
     const nh_chain_symmetries *c = r->joints;
@@ -227,7 +227,7 @@ static void stage(nh_pen *p, const nh_reduction *r, size_t number)
     nh_pen_card_end(p);
 }
 
-/* Where an accuracy is wanted: what the stages are compared with. */
+/* Where an accuracy is requested: the full motion with which the stages are compared. */
 static void full_motion(nh_pen *p, const nh_reduction *r)
 {
     const nh_reduction_choice *c = &r->full;

@@ -1,4 +1,4 @@
-/* reduction_remarks: what is said of a stage beside its equations. */
+/* reduction_remarks: the remarks on a stage besides its equations. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -45,7 +45,7 @@ static void put_ways(const nh_reduction *r, const nh_parameter_zeros *v, nh_pen 
     if (!v->ways) nh_pen_say(p, "no parameters");
 }
 
-/* The conditions for a measure; those for a factor are more than one reads, and stand in the JSON. */
+/* The conditions for a measure; those for a factor are too long to be read, and only in the JSON. */
 static void conditions(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *p)
 {
     const nh_measure_conditions *c = &s->conditions;
@@ -64,7 +64,7 @@ static void conditions(const nh_reduction *r, const nh_reduction_stage *s, nh_pe
                    c->rare ? "for almost all parameters none exists (proved); " : "");
 }
 
-/* A parameter of the conditions; else any. */
+/* A parameter of the conditions, otherwise any. */
 static const char *one_parameter(const nh_reduction *r, const nh_measure_conditions *c)
 {
     nh_dag *d = r->kinetic->dag;
@@ -76,7 +76,7 @@ static const char *one_parameter(const nh_reduction *r, const nh_measure_conditi
     return all[0].name;
 }
 
-/* What is not decided for all parameters, classify answers for the values of one. */
+/* For a question that is not decided for all parameters: classify answers it for the values of one parameter. */
 static void pointer(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *p)
 {
     const nh_chaplygin_measure *m = &s->measure;
@@ -93,7 +93,7 @@ static void factor(const nh_reduction_stage *s, nh_pen *p)
     const nh_chaplygin_measure *m = &s->measure;
     size_t n = s->shown->n;
     if (s->kind == NH_STAGE_SECOND && n > 2)
-        return; /* what the momentum adds to the form would have to be closed, too */
+        return; /* the term that the momentum adds to the form would have to be closed, too */
     if (m->factor && m->closed && n == 2)
         nh_pen_say(
             p,
@@ -171,7 +171,7 @@ static void chain(const nh_reduction_stage *s, nh_pen *p)
 
 /* ---- the motions ---- */
 
-/* By which method, at which cost, and why. */
+/* The method of the motion, its cost, and the reason for the choice. */
 static void choice(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *p)
 {
     const nh_reduction_choice *c = &s->choice;

@@ -10,10 +10,10 @@
 nh_sheet *nh_reduction_brackets_sheet(const nh_reduction *reduction, const nh_action *group);
 /* The equations of a stage: one section without a heading. */
 nh_sheet *nh_reduction_equations_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
-/* Formulas that the remarks on a stage refer to, the density of its measure and the matrix of its linear momenta; NULL
-   where there are none. */
+/* Formulas to which the remarks on a stage refer: the density of its measure and the matrix of its linear momenta; NULL
+ * where there are none. */
 nh_sheet *nh_reduction_remarks_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
-/* NULL for stages without such objects, and where they were not asked for. */
+/* NULL for stages without such objects, and where they were not requested. */
 nh_sheet *nh_reduction_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
 
 #endif

@@ -1,4 +1,5 @@
-/* What every reduction has, with or without its geometry: the brackets of the group, the equations of a stage. */
+/* The sections that every reduction has, with or without its geometry: the brackets of the group, the equations of a
+ * stage. */
 #include "document/reduction.h"
 #include "document/reduction_sheet.h"
 

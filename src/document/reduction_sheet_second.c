@@ -45,7 +45,8 @@ static void pairing(const nh_second *t, const nh_ex *theta, nh_ex *out)
 
 static double any_pivot(void *dag, nh_ex e) { return !nh_is_zero(dag, nh_simplify(dag, e)); }
 
-/* The indices of a regular block as large as the rank: of an alternating matrix a set of independent rows does. */
+/* The indices of a regular block as large as the rank: for an alternating matrix, those of a set of independent
+ * rows. */
 static size_t regular_block(nh_dag *g, size_t d, const nh_ex *form, size_t *index)
 {
     size_t n = 0;

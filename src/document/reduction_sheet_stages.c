@@ -1,5 +1,5 @@
 /* The whole group block by block, along a chain g = n_0 > n_1 > ..., each an ideal of the one before [CendraDiaz2018,
- * sec. 2 to 5]; the same numbers: reduction/ideal_chain.h.
+ * sec. 2 to 5]; the same in numbers: reduction/ideal_chain.h.
  *
  *     H_j x = x - (its part in n_(j+1), by g0),        xi = sum_j H_j xi_j
  *     a_j(x, y) = -([H_j x, H_j y] - H_j [H_j x, H_j y]_j),      b_j(x, N) = [H_j x, N],      beta_j = H_j^T mu */
@@ -25,7 +25,7 @@ static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
 
 static double any_pivot(void *dag, nh_ex e) { return !nh_is_zero(dag, nh_simplify(dag, e)); }
 
-/* e_i less its g0-projection on the generators behind its block. */
+/* e_i minus its g0-projection to the generators behind its block. */
 static void lift_one(const stages *s, const nh_ex *inner, size_t i)
 {
     size_t d = s->d, n = 0;
@@ -168,7 +168,7 @@ static void contribution(const stages *s, size_t i, const nh_ex *x, const nh_ex 
     nh_free(out);
 }
 
-/* The terms of one chi: p. */
+/* The terms of one chi, as text. */
 static void vertical(const stages *s, size_t p)
 {
     nh_sheet *o = s->b->s;

@@ -69,7 +69,7 @@ static char *count_document(const nh_scan_numbers_request *q, size_t settings, c
     return text;
 }
 
-/* Counted work ends it, and not the clock. */
+/* Counted work ends the computation, and not the clock. */
 static nh_options unhurried(const nh_scan_numbers_request *q)
 {
     nh_options options = q->options;
@@ -101,7 +101,7 @@ static char *reduction_document(const nh_scan_numbers_request *q, size_t setting
     return text;
 }
 
-/* The first name leads; then those that are shown when none is given. */
+/* The first name is the leading number; the others are shown when the user names none. */
 static const struct {
     const char *of, *name[3];
     char *(*document)(const nh_scan_numbers_request *, size_t, const nh_setting *, bool, nh_error *);
@@ -115,7 +115,7 @@ enum { command_count = sizeof commands / sizeof *commands };
 
 /* ---- paths ---- */
 
-/* The entry of that name, or of that number; *last: its name. */
+/* The entry with that name or number; *last: its name. */
 static const nh_json *step(const nh_json *from, const char *word, size_t length)
 {
     char key[200];
@@ -177,7 +177,7 @@ static bool choose(const nh_scan_numbers_request *q, size_t *command, nh_error *
     return nh_error_hint_near(error, q->of, names, command_count, "--of takes count, analyze or reduce");
 }
 
-/* Where a path leaves the document: nearest of the names that are there. */
+/* Where a path leaves the document: an error with the nearest of the existing names. */
 static bool no_number(const nh_json *root, const char *path, const char *of, nh_error *error)
 {
     const nh_json *at = root;
@@ -196,7 +196,7 @@ static bool no_number(const nh_json *root, const char *path, const char *of, nh_
     return nh_error_hint(error, "a number is named by its path, as in group.dimension or currents.0.drift");
 }
 
-/* Does the document have the names, for the values of the file? Entries of lists may be missing. */
+/* Does the document have the names, for the values of the file?  Entries of lists may be missing. */
 static bool are_there(const numbers *x, const char *of, nh_error *error)
 {
     nh_error failure;

@@ -1,7 +1,7 @@
 /* scan_numbers: any number that analyze, reduce or the count of integrals can give, as a source of a scan.
  *
- * A number is named by its path in the command's JSON, as in group.dimension or currents.0.drift; that of a list is how
- * many entries it has, of a truth value 1 or 0. Times are refused: they are not the same twice. */
+ * A number is named by its path in the command's JSON, as in group.dimension or currents.0.drift; for a list it is the
+ * number of its entries, for a truth value 1 or 0.  Times are refused: they differ from run to run. */
 #ifndef NH_SCAN_NUMBERS_H
 #define NH_SCAN_NUMBERS_H
 
@@ -10,14 +10,14 @@
 typedef struct {
     const char *of;        /* "count", "analyze", "reduce"; NULL: count */
     size_t names;
-    const char *const *name; /* numbers besides the leading one; none: a few that fit */
+    const char *const *name; /* numbers besides the leading one; none: a few suitable ones */
     const char *system_path;
     size_t settings;
     const nh_setting *setting;
     nh_options options;
 } nh_scan_numbers_request;
 
-/* The source lives in the arena. False with a message: there is no such command or number. */
+/* Makes a source, which lives in the arena.  False with a message: there is no such command or number. */
 bool nh_scan_numbers(nh_arena *arena, const nh_scan_numbers_request *request, nh_scan_source *out, nh_error *error);
 
 #endif

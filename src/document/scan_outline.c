@@ -1,4 +1,4 @@
-/* A scan as a document: what jumps, and where; curves over one parameter, maps over two. */
+/* A scan as a document: the special values; curves over one parameter, maps over two. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,8 +22,8 @@ static bool alike(const nh_scan_special *a, const nh_scan_special *b)
            a->generic == b->generic && a->number[0] == b->number[0];
 }
 
-/* How many special values with this one's exact value, numbers and direction are listed, if it is the first of them;
-   else 0. */
+/* If this is the first special value with its exact value, numbers and direction: how many such are listed; otherwise
+ * 0. */
 static size_t count_alike(const nh_scan *x, size_t special)
 {
     size_t n = 0;
@@ -55,7 +55,7 @@ static const char *where(const nh_scan *x, size_t special)
     return out;
 }
 
-/* What happens there, in a sentence. */
+/* What changes at a special value, in a sentence. */
 static const char *what(const nh_scan *x, const nh_scan_special *s)
 {
     const char *name = x->source->name[0];
@@ -152,7 +152,7 @@ static void answer(nh_pen *p, const nh_scan *x)
     nh_pen_close(p, NH_PEN_ANSWER);
 }
 
-/* Those that are sure, or the others. */
+/* The confirmed special values, or the others. */
 static void list(nh_pen *p, const nh_scan *x, bool sure)
 {
     bool begun = false;
@@ -185,7 +185,7 @@ static double *along(const nh_scan *x, size_t axis)
     return out;
 }
 
-/* Number k of every point; from NH_SCAN_MOST_NUMBERS on the singular values. */
+/* Number k at every point; from NH_SCAN_MOST_NUMBERS on, the singular values. */
 static double *column(const nh_scan *x, size_t k)
 {
     double *out = nh_arena_alloc(x->arena, (x->points + 1) * sizeof *out);
@@ -244,7 +244,7 @@ static void curves(nh_pen *p, const nh_scan *x)
 
 /* ---- over two ---- */
 
-/* The points of special values that are sure, or the others. */
+/* The places of confirmed special values, or of the others. */
 static size_t marks(const nh_scan *x, bool sure, double *at, double *up)
 {
     size_t n = 0;
@@ -270,7 +270,7 @@ static void put_map(nh_pen *p, const nh_scan *x, const nh_cells *cells, size_t c
 {
     double *at = nh_arena_alloc(x->arena, 4 * (x->specials + 1) * sizeof *at), *up = at + x->specials + 1;
     size_t n = curves_before, sure = marks(x, true, at, up);
-    if (n % 2 && sure) n++, curve[n - 1] = (nh_curve){.name = ""}; /* an even one is filled */
+    if (n % 2 && sure) n++, curve[n - 1] = (nh_curve){.name = ""}; /* a marker with an even index is filled */
     if (sure)
         curve[n++] = (nh_curve){
             .name = "special values", .count = sure, .x = at, .y = up, .x_stride = 1, .y_stride = 1, .dots = true};
@@ -301,7 +301,7 @@ static void map_of_leading(nh_pen *p, const nh_scan *x, nh_cells *cells)
             "The leading number over both parameters; special values as points.");
 }
 
-/* Of all spaces; INFINITY: not known. */
+/* The smallest of all spaces; INFINITY: not known. */
 static double smallest_at(const nh_scan *x, size_t point)
 {
     double least = INFINITY;
@@ -310,7 +310,7 @@ static double smallest_at(const nh_scan *x, size_t point)
     return least;
 }
 
-/* Dark where it is small, black where one more vanishes. */
+/* Dark where it is small, black where one more singular value vanishes. */
 static void map_of_singular_values(nh_pen *p, const nh_scan *x, nh_cells *cells)
 {
     double low = INFINITY, high = 0;

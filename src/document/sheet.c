@@ -1,4 +1,4 @@
-/* sheet: lines grow in an arena; JSON. */
+/* sheet: collects lines in an arena, and writes them as JSON. */
 #include "document/sheet.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "document/formula.h"
 #include "document/notation.h"
 
-/* Room for one more in a list of the arena: the list is copied when it doubles. */
+/* Makes room for one more entry of a list in the arena: the list is copied when it doubles. */
 static void *grown(nh_arena *arena, void *list, size_t count, size_t *room, size_t size)
 {
     if (count < *room) return list;
@@ -80,7 +80,7 @@ void nh_sheet_add(nh_sheet *s, nh_ex coefficient, const char *factor)
     if (!nh_is_zero(s->dag, coefficient)) put_term(s->arena, last(s), coefficient, factor);
 }
 
-/* The terms so far are the left side. */
+/* The terms so far become the left side. */
 void nh_sheet_equals(nh_sheet *s)
 {
     nh_sheet_line *line = last(s);
@@ -126,7 +126,7 @@ nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
     bool needed[NH_FORMULA_PARTS], *stands = nh_alloc_array(n + 1, sizeof *stands);
     size_t parts = nh_formula_parts(s->dag, n, e, least, part);
     double wanted = nh_formula_fit(s->dag, n, e, parts, part, room, stands, needed);
-    nh_formula_number(s->dag, n, e, parts, part, needed, 'S', &s->names); /* one sequence for the sheet */
+    nh_formula_number(s->dag, n, e, parts, part, needed, 'S', &s->names); /* one sequence of names for the sheet */
     for (size_t i = at = 0; i < c.lines; i++)
         for (size_t j = 0; j < line[i].left + line[i].right; j++, at++) {
             line[i].term[j].coefficient = e[at];
@@ -145,7 +145,7 @@ nh_sheet_section nh_sheet_brief(nh_sheet *s, size_t section, size_t *own)
     return c;
 }
 
-/* -J - m a^2 is -(J + m a^2); a sum that is no shorter with its signs turned stays. */
+/* -J - m a^2 is written -(J + m a^2); a sum that is no shorter with opposite signs stays. */
 static char *negative(const nh_sheet *s, nh_ex e, char *text, bool *minus)
 {
     char *turned = nh_print_string(s->dag, nh_neg(s->dag, e));

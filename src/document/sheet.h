@@ -1,8 +1,7 @@
 /* sheet: formulas under headings, written once for text, JSON, page and LaTeX.
  *
  * A line is   label = c_1 f_1 + c_2 f_2 + ...   with expressions c and letters f of the theory (notation.h), or an
- *             equation, with such a sum on both
- * sides; or words.  Lines belong to sections. */
+ *             equation, with such a sum on both sides; or words.  Lines belong to sections. */
 #ifndef NH_SHEET_H
 #define NH_SHEET_H
 
@@ -13,21 +12,21 @@
 typedef struct {
     nh_ex coefficient;
     const char *factor; /* notation; "": none */
-    double wanted;      /* 0: it is shown; else it is left out, and the option shown that shows it */
+    double wanted;      /* 0: it is shown; otherwise it is left out, and the option `shown` that would show it */
 } nh_sheet_term;
 
 typedef struct {
     const char *tag;   /* notation: the number of an equation, "(17)"; "" */
     const char *label; /* notation; "": an equation, whose left side is a sum */
-    const char *words; /* instead of a formula; else NULL */
+    const char *words; /* words instead of a formula; else NULL */
     size_t left, right, room;
-    nh_sheet_term *term; /* the left side's, then the right side's */
+    nh_sheet_term *term; /* the terms of the left side, then those of the right side */
 } nh_sheet_line;
 
 typedef struct {
-    const char *key, *title; /* of the JSON; of the heading */
-    const char *words;       /* what the letters mean; "" */
-    bool literal;            /* roots are shown as they are */
+    const char *key, *title; /* name in the JSON; heading */
+    const char *words;       /* the meaning of the letters; "" */
+    bool literal;            /* roots are shown as roots */
     size_t lines, room;
     nh_sheet_line *line;
 } nh_sheet_section;
@@ -35,45 +34,47 @@ typedef struct {
 typedef struct {
     nh_arena *arena;
     nh_dag *dag;
-    const nh_analysis_file *analysis; /* whose abbreviations text and page use; or NULL */
-    const nh_chart *chart;            /* whose roots are shown as velocities; or NULL */
-    double shown, written;            /* options: longer formulas are left out of text and page; of the JSON */
+    const nh_analysis_file *analysis; /* analysis file whose abbreviations text and page use; or NULL */
+    const nh_chart *chart;            /* chart whose dependent velocities replace roots; or NULL */
+    double shown, written;            /* options: longest formula in text and page; in the JSON */
     size_t sections, room;
     nh_sheet_section *section;
-    size_t names; /* of repeated parts, so far */
+    size_t names; /* number of names of repeated parts so far */
 } nh_sheet;
 
-/* ---- writing it: into the last section, the last line ---- */
+/* ---- writing: to the last section, or its last line ---- */
 
+/* An empty sheet, which lives in the arena; begin a section before adding lines. */
 nh_sheet *nh_sheet_create(nh_arena *arena, nh_dag *dag);
 void nh_sheet_begin(nh_sheet *sheet, const char *key, const char *title, const char *words);
 /* label = e */
 void nh_sheet_formula(nh_sheet *sheet, const char *label, nh_ex e);
-/* label = the terms that follow; with a tag and without a label: an equation, (tag) terms = 0, or = what follows
-   nh_sheet_equals. */
+/* label = the terms that follow.  With a tag and without a label: an equation, (tag) terms = 0, or, after
+ * nh_sheet_equals, terms = terms. */
 void nh_sheet_sum(nh_sheet *sheet, const char *tag, const char *label);
-void nh_sheet_add(nh_sheet *sheet, nh_ex coefficient, const char *factor); /* nothing where the coefficient is 0 */
+/* writes nothing where the coefficient is 0 */
+void nh_sheet_add(nh_sheet *sheet, nh_ex coefficient, const char *factor);
 void nh_sheet_equals(nh_sheet *sheet);
 void nh_sheet_words(nh_sheet *sheet, const char *words);
 /* A label in the arena. */
 const char *nh_sheet_label(nh_sheet *sheet, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* ---- reading it ---- */
+/* ---- reading ---- */
 
-/* The section as text and page show it: with the user's abbreviations, and with names for what is repeated in long
- * formulas, which are defined in lines after the `own` first ones. */
+/* The section as text and page show it: with the user's abbreviations, and with names for repeated parts of long
+ * formulas, which are defined in lines after the first `own` ones. */
 nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, size_t *own);
 /* A coefficient before its factor: its sign, and the rest, which needs parentheses where it is a sum; "" for 1.  NULL:
-   too long.  To be freed. */
+ * too long.  The caller frees it. */
 char *nh_sheet_coefficient(const nh_sheet *sheet, const nh_sheet_term *term, bool *minus, bool *sum);
 
 /* Words with labels between dollar signs, as text. */
 void nh_sheet_plain(const char *words, nh_text *out);
 void nh_sheet_text(nh_sheet *sheet, bool colour, nh_text *out);
-/* Any text, its lines broken at blanks so that they have at most 80 columns. */
+/* Any text, with lines of at most 80 columns, broken at blanks. */
 void nh_sheet_fold(const char *text, nh_text *out);
-/* Formulas without a sheet as text of 80 columns: label = value, with names for what is repeated in long ones, which
-   follow. */
+/* Formulas without a sheet as text of 80 columns: label = value, with names for repeated parts of long ones, which
+ * follow. */
 void nh_sheet_formulas(nh_dag *dag, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown,
                        nh_text *out);
 void nh_sheet_json(nh_sheet *sheet, nh_json *to);                            /* a member of `to` for each section */

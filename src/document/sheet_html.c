@@ -4,7 +4,7 @@
 #include "document/sheet.h"
 #include "document/typeset.h"
 
-enum { widest = 30 }; /* letters of a piece: about what a phone holds */
+enum { widest = 30 }; /* letters of a piece: about the width of a phone */
 
 static void notation(nh_html_writer *w, const char *label)
 {
@@ -28,7 +28,7 @@ static void put_piece(void *context, const char *piece, nh_typeset_follows follo
         nh_text_addf(context, "</math>%s<math displaystyle=\"true\">", follows == NH_FOLLOWS_FACTOR ? "\u00ad" : " ");
 }
 
-/* A line may end between the pieces of a coefficient, but neither behind a sign nor before the factor. */
+/* A line may break between the pieces of a coefficient, but neither behind a sign nor before the factor. */
 static void put_term(const nh_sheet *s, const nh_sheet_term *term, bool first, nh_html_writer *w)
 {
     bool minus, sum;

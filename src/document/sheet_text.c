@@ -10,8 +10,8 @@
 
 enum { line_width = 80, line_indent = 2 };
 
-/* Where a line that may have `room` characters is best broken: before a + or - with few parentheses open; else after a
-   factor; 0: nowhere. */
+/* Where a line of at most `room` characters is best broken: before a + or - with few open parentheses, otherwise after
+ * a factor; 0: nowhere. */
 static size_t break_at(const char *text, size_t room)
 {
     size_t best = 0;
@@ -30,7 +30,7 @@ static size_t break_at(const char *text, size_t room)
     return best;
 }
 
-/* Where words are: at the last blank that leaves at most `room` columns before it, or at the first one. */
+/* The break between words: at the last blank with at most `room` columns before it, or at the first one. */
 static size_t blank_at(const char *text, size_t room)
 {
     size_t cut = 0, column = 0;
@@ -41,7 +41,7 @@ static size_t blank_at(const char *text, size_t room)
     return cut;
 }
 
-/* Broken so that nothing runs beyond the last column; `hang`: of all lines but the first. */
+/* Breaks the text so that nothing extends beyond the last column; `hang`: indentation of all lines but the first. */
 static void put_broken(nh_text *out, size_t indent, size_t hang, const char *text,
                        size_t (*where)(const char *, size_t))
 {

@@ -11,16 +11,16 @@
 static void put(nh_text *out, double x)
 {
     char text[40];
-    if (!isfinite(x)) return; /* an empty field: it has no value there */
+    if (!isfinite(x)) return; /* an empty field: there is no value */
     nh_text_number(x, text, sizeof text);
     nh_text_add(out, text);
 }
 
 /* ---- column names ----
  *
- * Of letters, digits and underscores, as gnuplot, R and pandas take them without quotes: x' is x_dot, and what an
- * expression holds besides them is an underscore.  All are different: a second column of one name (a known current that
- * is called E, as the energy is) also says what it is. */
+ * Of letters, digits and underscores, as gnuplot, R and pandas take them without quotes: x' is x_dot, and other
+ * characters of an expression become underscores.  All names are different: a second column with the same name (a known
+ * current called E, like the energy) also gets its kind. */
 
 static const char *plain_name(nh_arena *arena, const char *name)
 {
@@ -62,7 +62,7 @@ static const char **column_names(const nh_simulation *s)
     return out;
 }
 
-/* The columns of a table; without the drawing, which is at the end. */
+/* The columns of a table, without those of the drawing, which come last. */
 static size_t shown_of(const nh_simulation *s)
 {
     size_t shown = 0;
@@ -92,7 +92,7 @@ static void put_rows(const nh_simulation *s, const char *first, nh_text *out)
     }
 }
 
-/* Of the zeros number `which`, or of all with their names in front. */
+/* The zeros of expression number `which`, or of all, with their names in front. */
 static void put_events(const nh_simulation *s, const char *first, bool all, size_t which, nh_text *out)
 {
     size_t shown = shown_of(s);
@@ -160,7 +160,7 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
     }
 }
 
-/* Where a method was chosen from. */
+/* The candidates from which a method was chosen. */
 static const char *const choices[] = {[NH_CHOICE_RACE] = "race",
                                       [NH_CHOICE_GIVEN] = "given",
                                       [NH_CHOICE_PILOT] = "measured",
@@ -210,7 +210,7 @@ static void put_accuracy_of_all(const nh_simulation *s, nh_json *root)
     nh_json_put_text(item, "why", a->why);
 }
 
-/* What every document begins with. */
+/* The beginning of every document. */
 static void put_head(const nh_system *system, nh_json *root)
 {
     nh_json_put_number(root, "schema", 1);
@@ -248,7 +248,7 @@ char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
     return nh_json_finish(root);
 }
 
-/* One expression and where it is zero: times, directions and the columns there. */
+/* One expression and its zeros: times, directions and the columns there. */
 static void put_zeros(const nh_simulation *s, size_t which, nh_json *item)
 {
     const nh_simulated_event *event = &s->event[which];

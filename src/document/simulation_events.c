@@ -21,7 +21,7 @@ size_t nh_events_of(const nh_simulation *s, size_t which)
 
 /* ---- the page ---- */
 
-/* "y = 0, falling: 12 times" and its first rows, with as many columns as are read easily. */
+/* "y = 0, falling: 12 times" and its first rows, with as many columns as are easy to read. */
 static void table(nh_pen *p, const nh_simulation *s, size_t which)
 {
     const nh_simulated_event *event = &s->event[which];

@@ -22,7 +22,7 @@ static void answer(nh_pen *p, const nh_simulation *s)
     nh_pen_close(p, NH_PEN_ANSWER);
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     nh_pen_say(p, "%s in {%s}", s->method, s->formulation);
-    if (!isnan(s->tolerance)) nh_pen_say(p, ", tolerance %.2g", s->tolerance); /* a fixed step is part of the method */
+    if (!isnan(s->tolerance)) nh_pen_say(p, ", tolerance %.2g", s->tolerance); /* a fixed step belongs to the method */
     nh_pen_say(p, ".");
     if (s->checked) nh_pen_say(p, " Accuracy: %s.", s->why);
     nh_pen_close(p, NH_PEN_WORDS);
@@ -63,7 +63,7 @@ static void fans(nh_pen *p, const nh_simulation *s)
     }
 }
 
-/* What --axes asks for; a section has its own place. */
+/* The picture of --axes; that of a section is shown elsewhere. */
 static void columns_against_one_another(nh_pen *p, const nh_simulation *s)
 {
     if (!s->has_axes || s->has_section) return;

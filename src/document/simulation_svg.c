@@ -6,11 +6,11 @@
 #include "document/simulation.h"
 #include "document/svg.h"
 
-enum { most_curves = 7, most_members = 60 }; /* as on the page */
+enum { most_curves = 7, most_members = 60 }; /* as many as on the page */
 
 /* ---- two columns of one motion or of several ---- */
 
-/* The values of one column along the motion, of a member of an ensemble, or at the points of the section. */
+/* The values of one column along the motion, along that of a member of an ensemble, or at the points of the section. */
 static double *values_of(const nh_simulation *s, int column, size_t member, size_t *count)
 {
     const nh_ensemble *e = s->ensemble;
@@ -107,7 +107,7 @@ void nh_motion_plot_clear(nh_motion_plot *plot)
 
 /* ---- one motion over time ---- */
 
-/* What is watched; where nothing is, the coordinates, which come first. */
+/* The observables; if there are none, the coordinates, which come first. */
 static size_t curves_of_motion(const nh_simulation *s, nh_curve curve[most_curves])
 {
     const nh_observables *t = &s->columns;

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "document/source_internal.h"
 
-enum { most_nodes = 60, most_terms = 24 }; /* of an expression in one statement; of a sum */
+enum { most_nodes = 60, most_terms = 24 }; /* longest expression in one statement; most terms of a sum */
 
 /* ---- names ---- */
 
@@ -25,7 +25,7 @@ void nh_source_identifier(const nh_source_language *l, const char *text, nh_text
     if (dashes) nh_text_addf(out, "_%.*s%s", (int)(dashes - 1 < 4 ? dashes - 1 : 4), "dddd", "dot");
 }
 
-/* Is it one of the words between blanks? */
+/* Is it one of the words, which blanks separate? */
 static bool among(const char *words, const char *word)
 {
     size_t n = strlen(word);
@@ -129,7 +129,7 @@ static bool is_leaf(const nh_source *w, nh_ex e)
            (nh_kind_of(w->dag, e) == NH_FUNCTION && nh_arity(w->dag, e) == 0);
 }
 
-/* Children of a node that are printed, and how often: x^3 as a product thrice. */
+/* The children of a node that are printed, and how often: x^3 as a product has its base three times. */
 static size_t children(const nh_source *w, nh_ex e, size_t i, nh_ex out[2], uint32_t times[2])
 {
     const nh_dag *d = w->dag;
@@ -145,7 +145,7 @@ static size_t children(const nh_source *w, nh_ex e, size_t i, nh_ex out[2], uint
     return 1;
 }
 
-/* Parents have larger numbers than their children. */
+/* Parents have larger indices than their children. */
 void nh_source_plan(nh_source *w, size_t n, const nh_ex *e)
 {
     nh_ex child[2];
@@ -182,7 +182,7 @@ static void begin(nh_source *w, const char *name)
 }
 static void end(nh_source *w) { nh_text_addf(w->out, "%s\n", w->language->end); }
 
-/* A sum of many terms in several statements. */
+/* Writes a sum of many terms in several statements. */
 static void state_sum(nh_source *w, nh_ex e)
 {
     const char *so_far = NULL;
@@ -216,7 +216,7 @@ static void state(nh_source *w, nh_ex e)
     w->name[e] = name;
 }
 
-/* What is needed for e and not written yet. */
+/* Marks the nodes that e needs and that are not written yet; returns one more than the largest index in e. */
 static size_t reach(nh_source *w, size_t n, const nh_ex *e)
 {
     nh_ex child[2];
@@ -235,14 +235,14 @@ static size_t reach(nh_source *w, size_t n, const nh_ex *e)
     return top;
 }
 
-/* -x, 2*x: shorter than any name. */
+/* -x, 2*x: a name would be longer. */
 static bool light(const nh_source *w, nh_ex e)
 {
     return nh_kind_of(w->dag, e) == NH_PRODUCT && nh_arity(w->dag, e) == 1 &&
            nh_is_number(w->dag, nh_exponent_of(w->dag, e, 0), 1) && nh_source_simple(w, nh_child(w->dag, e, 0));
 }
 
-/* Symbols get their names here, too, in the order of their declaration. */
+/* Counts; symbols get their names here, too, in the order of their declaration. */
 void nh_source_parts(nh_source *w, size_t n, const nh_ex *e)
 {
     nh_ex child[2];
@@ -279,7 +279,7 @@ void nh_source_open(nh_source *w)
 
 void nh_source_close(nh_source *w)
 {
-    for (size_t i = 0; i < w->size; i++) /* names of symbols stay */
+    for (size_t i = 0; i < w->size; i++) /* names of symbols are kept */
         if (w->name[i] && nh_kind_of(w->dag, (nh_ex)i) == NH_SYMBOL) w->outer.name[i] = w->name[i];
     nh_free(w->uses);
     nh_free(w->name);

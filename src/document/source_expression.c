@@ -1,4 +1,4 @@
-/* source_expression: one expression as a language writes it, with what has names. */
+/* source_expression: writes one expression in a language, with the names of its parts. */
 #include <string.h>
 
 #include "document/source_internal.h"
@@ -16,7 +16,7 @@ static void put_double(nh_source *w, double x)
     if (w->language->point && !text[strcspn(text, ".en")]) nh_text_add(w->out, ".0");
 }
 
-/* A whole number, or one that is no ratio. */
+/* A whole number, or a number that is no ratio. */
 static void put_piece(nh_source *w, nh_num x)
 {
     if (!w->language->exact) {
@@ -128,7 +128,7 @@ static size_t put_side(nh_source *w, nh_ex e, bool below, size_t written)
     return written;
 }
 
-/* c times the factors of a product, c > 0 where the sign stands before it already. */
+/* c times the factors of a product, c > 0 where the sign has been written already. */
 static void put_factors(nh_source *w, nh_ex e, nh_num c)
 {
     nh_num top, bottom;
@@ -192,7 +192,7 @@ void nh_source_put_terms(nh_source *w, nh_ex e, size_t begin, size_t end)
     }
 }
 
-/* "$1/$2*jv($1, $2)" with the arguments in the places. */
+/* "$1/$2*jv($1, $2)" with the arguments inserted. */
 static void put_template(nh_source *w, nh_ex e, const char *form)
 {
     for (; *form; form++) {

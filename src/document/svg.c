@@ -25,7 +25,7 @@ static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#C
                                             "#E69F00", "#56B4E9", "#7A7A7A"};
 static const char *const dashes[] = {"none", "7 3", "2 3", "9 3 2 3", "14 4"};
 
-/* One axis: value -> pixel. */
+/* One axis: maps values to pixels. */
 typedef struct {
     double low, high, from, to;
     bool logarithmic;
@@ -59,7 +59,7 @@ static double place(const axis *a, double v)
 
 /* ---- ranges and ticks ---- */
 
-/* 1, 2 or 5 times a power of ten, so that there are at most so many ticks. */
+/* A step of 1, 2 or 5 times a power of ten that gives at most so many ticks. */
 static double tick_step(double span, int most)
 {
     double raw = span / most, power = pow(10, floor(log10(raw))), part = raw / power;
@@ -120,7 +120,7 @@ static void ranges(canvas *c)
     else widen(&c->y);
 }
 
-/* One scale for both: the tighter axis gives way. */
+/* Gives both axes one scale: the range of one of them is enlarged. */
 static void equalise(canvas *c)
 {
     double sx = (c->x.high - c->x.low) / (c->x.to - c->x.from), sy = (c->y.high - c->y.low) / (c->y.from - c->y.to),
@@ -133,7 +133,7 @@ static void equalise(canvas *c)
     c->y.high = y + half_y;
 }
 
-/* How high a plot of equal scales must be: as what is drawn, within bounds. */
+/* The height of a plot with equal scales: that of its content, within bounds. */
 static double tall(const canvas *c)
 {
     double wide = width - left - right, wanted = wide * (c->y.high - c->y.low) / (c->x.high - c->x.low);
@@ -149,7 +149,7 @@ static void part(const canvas *c, const char *text, size_t length)
     nh_text_clear(&piece);
 }
 
-/* Of p_phi as a letter, too. */
+/* The index of p_phi as a letter, too. */
 static void subscript(const canvas *c, const char *text, size_t length)
 {
     nh_text name, plain;
@@ -162,7 +162,7 @@ static void subscript(const canvas *c, const char *text, size_t length)
     nh_text_clear(&name);
 }
 
-/* E_T gets an index. */
+/* In E_T the T becomes an index. */
 static void label(const canvas *c, double x, double y, const char *anchor, const char *class, const char *text)
 {
     static const char alphanumeric[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
@@ -276,7 +276,7 @@ static void dots(const canvas *c, const nh_curve *f, size_t k)
                          y, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
 }
 
-/* Triangles that point where the body heads. */
+/* Triangles that point along the heading. */
 static void headings(const canvas *c, const nh_curve *f, size_t k)
 {
     enum { marks = 16, size = 9 };
@@ -290,8 +290,8 @@ static void headings(const canvas *c, const nh_curve *f, size_t k)
     }
 }
 
-/* A path in the plane, whose points are equally far apart in time: a cubic in time between them (Catmull and Rom's),
-   for corners would be of the drawing's making. */
+/* A path in the plane through points at equal time steps: a cubic in time between them (Catmull and Rom's), because
+ * corners would be an artefact of the drawing. */
 static void smooth(const canvas *c, const nh_curve *f)
 {
     double p[4][2] = {{0}};
@@ -337,7 +337,7 @@ static void curve(const canvas *c, const nh_curve *f, size_t k)
     if (f->marks) dots(c, f, k);
 }
 
-/* From halfway to the point before to halfway to the next one. */
+/* A cell extends from halfway to the point before to halfway to the next one. */
 static double edge(const double *at, size_t n, size_t i, double low, double high)
 {
     return i == 0 ? low : i == n ? high : 0.5 * (at[i - 1] + at[i]);
@@ -362,7 +362,7 @@ static void cells(const canvas *c, const nh_cells *g)
 
 const char *nh_svg_colour(size_t k) { return colour[k % colours]; }
 
-/* Room for a name at 17 pixels, as on a phone. */
+/* Room for a name in letters of 17 pixels, as on a phone. */
 static double written(const char *name)
 {
     static const double letter = 9.2, capital = 3.2; /* how much wider that is */
@@ -372,7 +372,7 @@ static double written(const char *name)
     return wide;
 }
 
-/* Rows of names above the plot; returns the height that they take.  With `draw` false only that. */
+/* Rows of names above the plot; returns their height.  With `draw` false nothing is drawn. */
 static double legend(const canvas *c, bool draw)
 {
     double x = left, y = legend_row;

@@ -12,7 +12,7 @@ static const char *const kind_title[NH_SPACES] = {[NH_SPACE_BEST] = "Projectable
 
 /* ---- the space ---- */
 
-/* The first of the kinds that it is of; NH_SPACES: none. */
+/* The first of the kinds to which it belongs; NH_SPACES: none. */
 static nh_space_kind kind_of(const nh_space_member *m)
 {
     nh_space_kind k = 0;
@@ -20,7 +20,7 @@ static nh_space_kind kind_of(const nh_space_member *m)
     return k;
 }
 
-/* A product of whole powers of names; NULL: something else. */
+/* A product of whole powers of names; NULL: it is none. */
 static const char *monomial(nh_sheet *s, nh_ex e)
 {
     nh_dag *d = s->dag;
@@ -38,7 +38,7 @@ static const char *monomial(nh_sheet *s, nh_ex e)
     return label;
 }
 
-/* How a current is called: a product, or Psi_i for a combination, which is defined in a line of its own. */
+/* The name of a current: a product, or Psi_i for a combination, which is defined in a line of its own. */
 static const char *called(nh_sheet *s, const nh_space_member *m, size_t i)
 {
     const char *label = monomial(s, m->combination);
@@ -53,7 +53,7 @@ static void show_field(nh_sheet *s, const nh_model *o, const char *name, const n
         nh_sheet_add(s, z->space[i], nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", o->system->coordinate[i].name));
 }
 
-/* The members of one kind: their names in a row, combinations and fields below. */
+/* The members of one kind: their names in a row; combinations and fields below. */
 static void show_kind(nh_sheet *s, const nh_theory *t, nh_space_kind kind)
 {
     const nh_symmetry_space *x = t->space;
@@ -107,7 +107,7 @@ static void space(nh_sheet *s, const nh_theory *t)
 
 /* ---- bounds ---- */
 
-/* A function of currents that is no product of them is called after the letter, and defined in a line of its own. */
+/* A function of currents that is no product of them is denoted by the letter, and defined in a line of its own. */
 static const char *names_of(nh_sheet *s, const nh_space_bound *b, const char *letter)
 {
     const char *list = "";
@@ -119,7 +119,7 @@ static const char *names_of(nh_sheet *s, const nh_space_bound *b, const char *le
     return list;
 }
 
-/* What the rank says about the currents that `have` such a field. */
+/* The conclusion from the rank about the currents that `have` such a field. */
 static void conclude(nh_sheet *s, const nh_space_bound *b, const char *letter, const char *fields, const char *have)
 {
     const nh_closure *c = &b->closure;
@@ -186,7 +186,7 @@ static const char *letters_of(nh_sheet *s, const nh_equation_symmetries *e)
     return list;
 }
 
-/* S_i(Phi) = .. in terms of currents, or as it is. */
+/* S_i(Phi) = .. in terms of currents, or as a formula. */
 static void show_action(nh_sheet *s, const nh_theory *t, const nh_symmetry_action *a)
 {
     const char *label = nh_sheet_label(s, "S_{%zu}(<%s>)", a->symmetry + 1, t->current[a->current].name);

@@ -1,4 +1,4 @@
-/* What every LaTeX document has: its head, and how to repeat the run. */
+/* The beginning and the end of every LaTeX document, and how to repeat the run. */
 #include "base/versions.h"
 #include "document/tex_internal.h"
 

@@ -35,7 +35,7 @@ static const struct {
     {0x3a8, "$\\Psi$"},      {0x3a9, "$\\Omega$"},
 };
 
-/* The code point at c, and how many bytes it takes; 0 for what is no UTF-8. */
+/* The code point at c, and its length in bytes; 0 where the text is not UTF-8. */
 static unsigned decode(const unsigned char *c, size_t *bytes)
 {
     size_t n = *c < 0x80 ? 1 : *c >= 0xf0 ? 4 : *c >= 0xe0 ? 3 : *c >= 0xc0 ? 2 : 0;
@@ -48,8 +48,8 @@ static unsigned decode(const unsigned char *c, size_t *bytes)
     return n ? code : 0;
 }
 
-/* Letters with accents that every LaTeX has in its first encoding: not those with an ogonek, nor eth, thorn, eng, nor a
-   ligature of the old Dutch. */
+/* Letters with accents that every LaTeX has in its default encoding: not those with an ogonek, nor eth, thorn, eng, nor
+ * a ligature of the old Dutch. */
 static bool accented(unsigned code)
 {
     static const unsigned missing[] = {0xd0,  0xd7,  0xde,  0xf0,  0xf7,  0xfe,  0x104, 0x105, 0x110, 0x111,
@@ -81,7 +81,7 @@ static void letter(nh_tex_writer *w, unsigned char c)
     else if (c == '>') nh_tex_add(w, "\\textgreater{}");
     else if (c == '|') nh_tex_add(w, "\\textbar{}");
     else if (c == '"') nh_tex_add(w, "\\char34{}");
-    else if (c == '\'') nh_tex_add(w, "'{}"); /* two of them are no quotation mark */
+    else if (c == '\'') nh_tex_add(w, "'{}"); /* two of them do not mean quotation marks here */
     else if (c == '`') nh_tex_add(w, "`{}");
     else if (c == '-') nh_tex_add(w, "-{}");
     else nh_text_addf(w->out, "%c", c >= 0x20 && c != 0x7f ? c : ' ');
@@ -166,15 +166,15 @@ static void put_piece(void *context, const char *piece, nh_typeset_follows follo
     nh_text_addf(context, "%s\n", piece);
 }
 
-/* `latex`: what stands before it, in LaTeX and followed by its sign; `plain`: the same where it is no formula of the
-   language. */
+/* `latex`: the text before it, in LaTeX and followed by its sign; `plain`: the same where the text is no formula of the
+ * language. */
 static void display(nh_tex_writer *w, const char *latex, const char *plain, const char *text)
 {
     nh_text formula;
     nh_text_init(&formula);
     if (nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, &formula)) {
         nh_text_addf(w->out, "\\nhformula{%s%s}\n", latex, nh_text_string(&formula));
-    } else { /* such as one that is nested too deep */
+    } else { /* such as a formula that is nested too deep */
         nh_tex_add(w, "\\par{\\footnotesize\\raggedright ");
         nh_tex_code(w, plain);
         nh_tex_add(w, plain[0] ? " = " : "");

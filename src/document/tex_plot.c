@@ -1,4 +1,4 @@
-/* Plots for pgfplots: the data stand in the document, and TeX draws them. */
+/* Plots for pgfplots: the document contains the data, and TeX draws them. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -42,10 +42,10 @@ static void legend(nh_tex_writer *w, const nh_plot *p, const nh_curve *f)
     nh_tex_add(w, "}\n");
 }
 
-/* Names in one row (-1), or as many in each as the width of a page has room for. */
+/* Names in one row (-1), or as many in each row as the width of a page has room for. */
 static int legend_columns(const nh_plot *p)
 {
-    enum { letters = 95, sign = 6 }; /* in a row of \footnotesize; what stands for a line before its name */
+    enum { letters = 95, sign = 6 }; /* letters in a row of \footnotesize; width of the line before a name */
     size_t all = 0, longest = 0;
     for (size_t k = 0; k < p->curves; k++) {
         size_t length = strlen(p->curve[k].name) + sign;
@@ -55,7 +55,7 @@ static int legend_columns(const nh_plot *p)
     return all <= letters ? -1 : longest < letters ? (int)(letters / longest) : 1;
 }
 
-/* Between this point of a grid and the one before, or beside its ends. */
+/* The middle between this point of a grid and the one before, or the same distance beyond its ends. */
 static double edge(const double *at, size_t count, size_t i)
 {
     if (count < 2) return at[0] + (i ? 0.5 : -0.5);
@@ -63,7 +63,7 @@ static double edge(const double *at, size_t count, size_t i)
     return i == count ? at[i - 1] + (at[i - 1] - at[i - 2]) / 2 : (at[i - 1] + at[i]) / 2;
 }
 
-/* Colours are those of the page, #rrggbb. */
+/* The colours of the page, #rrggbb. */
 static void cells(nh_tex_writer *w, const nh_cells *c)
 {
     for (size_t i = 0; i < c->across; i++)
@@ -96,7 +96,7 @@ static void curve(nh_tex_writer *w, const nh_plot *p, size_t k)
                  f->dots    ? k % 2 ? "o" : "*"
                  : p->equal ? ", smooth"
                             : "");
-    for (size_t n = 0; f->count && n <= (f->count - 2 + step) / step; n++) { /* the last one, too */
+    for (size_t n = 0; f->count && n <= (f->count - 2 + step) / step; n++) { /* the last point, too */
         size_t i = n * step < f->count ? n * step : f->count - 1;
         double y = f->y[i * f->y_stride];
         nh_tex_add(w, n % 8 ? " (" : "\n(");
@@ -110,7 +110,7 @@ static void curve(nh_tex_writer *w, const nh_plot *p, size_t k)
     if (f->heading) headings(w, f);
 }
 
-/* What is constant but for rounding needs a range around it. */
+/* A quantity that is constant up to rounding needs a wider range. */
 static void range(nh_tex_writer *w, const nh_plot *p, bool vertical)
 {
     double low = INFINITY, high = -INFINITY;
@@ -160,7 +160,7 @@ static void piece(nh_tex_writer *w, const nh_picture *picture, const nh_piece *e
     nh_tex_add(w, e->closed ? "--cycle;\n" : ";\n");
 }
 
-/* As wide as the text; pixels of the picture go down. */
+/* As wide as the text; the pixels of the picture go down. */
 static void bodies(nh_tex_writer *w, const nh_plot *p, const char *caption)
 {
     nh_picture picture = {0};

@@ -6,7 +6,7 @@
 
 enum { longest_name = 24 };
 
-/* With room for the multipliers and their names. */
+/* Includes room for the multipliers and their names. */
 static nh_time_series *make(const nh_model *model, const nh_observables *t, size_t count, const double *time,
                             const double *value, size_t stride)
 {

@@ -1,4 +1,4 @@
-/* time_series: one motion of an analysis or a simulation for reports: quantities over common times, and a picture. */
+/* time_series: one motion of an analysis or a simulation for documents: quantities over common times, and a drawing. */
 #ifndef NH_TIME_SERIES_H
 #define NH_TIME_SERIES_H
 
@@ -20,12 +20,12 @@ typedef struct {
     size_t lines;
     nh_line *line;
     size_t shapes;
-    const nh_shape *shape; /* its numbers are the lines of that kind, in order */
-    const char *drawing;   /* whose drawing, in words */
+    const nh_shape *shape; /* the numbers of a shape are the lines of its kind, in order */
+    const char *drawing;   /* the subject of the drawing, in words */
     bool drifts_elsewhere; /* the document says beside each current how far it drifts */
 } nh_time_series;
 
-/* NULL when there is no motion.  The numbers stay with the result or simulation. */
+/* NULL when there is no motion.  The result or the simulation keeps the numbers. */
 nh_time_series *nh_time_series_of_analysis(const nh_analysis *result);
 nh_time_series *nh_time_series_of_simulation(const nh_simulation *simulation);
 void nh_time_series_free(nh_time_series *course);

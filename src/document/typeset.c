@@ -106,7 +106,7 @@ static const struct {
     {"varphi", "φ", "\\varphi "},
     {"Pi", "Π", "\\Pi "},
     {"upsilon", "υ", "\\upsilon "},
-    {"Upsilon", "ϒ", "\\Upsilon "}, /* with hooks: the other letter looks like an italic Y */
+    {"Upsilon", "ϒ", "\\Upsilon "}, /* the letter with hooks: the other one looks like an italic Y */
     {"vartheta", "ϑ", "\\vartheta "},
 };
 
@@ -156,7 +156,7 @@ bool nh_typeset_is_greek(const char *text, size_t length)
     return greek_letter(text, length) < sizeof greek / sizeof *greek;
 }
 
-/* A letter, or a word set upright.  Names are made of letters, digits and _ only. */
+/* A letter, or a word set upright.  Names consist of letters, digits and _ only. */
 static void word(const writer *w, const char *text, size_t length)
 {
     if (nh_typeset_is_greek(text, length)) {
@@ -185,8 +185,8 @@ static void accented(const writer *w, const char *text, size_t length, const cha
     if (accent) add(w, accent[1]);
 }
 
-/* A stem, and as its index the digits at the end or what follows an underscore, which may have an index too; the
-   accent, if any, is the stem's. */
+/* A stem, with the digits at the end, or the part behind an underscore, as its index, which may have an index too; an
+ * accent belongs to the stem. */
 static void name(const writer *w, const char *text, const char *const accent[2])
 {
     size_t length = strlen(text), base = length ? strcspn(text + 1, "_") + 1 : 0, below;
@@ -320,7 +320,7 @@ static void call(const writer *w, const nh_formula_node *e)
     arguments(w, e);
 }
 
-/* sin(x)^2 carries its power on the function. */
+/* sin(x)^2 has its power at the name of the function. */
 static void power(const writer *w, const nh_formula_node *e)
 {
     const nh_formula_node *base = e->child, *exponent = base->next;

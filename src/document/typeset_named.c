@@ -10,7 +10,7 @@ static const char prime[] = "_prime";
 static const struct {
     const char *name, *letter;
     const char *left, *right; /* numbers below the letter, on both sides */
-    size_t index;             /* so many arguments are an index */
+    size_t index;             /* number of arguments that form the index */
     const char *between;      /* the others */
 } table[] = {
     {"legendre_p", "P", NULL, NULL, 1, ","}, {"legendre_q", "Q", NULL, NULL, 1, ","},

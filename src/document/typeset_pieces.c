@@ -1,13 +1,13 @@
-/* Formulas in pieces, so that a line may end between them.  What is wide is opened until no piece is: a wide sum gets
- * parentheses that do not stretch, a wide numerator stands beside its fraction, a wide denominator after a slash, a
- * wide root becomes a power. */
+/* Formulas in pieces, so that a line may end between them.  A wide part is split until no piece is wide: a wide sum
+ * gets parentheses that do not stretch, a wide numerator stands beside its fraction, a wide denominator after a slash,
+ * a wide root becomes a power. */
 #include <string.h>
 
 #include "document/typeset_internal.h"
 
 typedef struct {
     double widest;        /* width of a piece, in letters */
-    nh_typeset_writer w;  /* into the piece at hand */
+    nh_typeset_writer w;  /* writes to the present piece */
     nh_text text;
     nh_typeset_piece *piece;
     void *context;
@@ -35,7 +35,7 @@ static double widths(const nh_formula_node *first, double between)
     return sum;
 }
 
-/* In letters, about. */
+/* The width in letters, about. */
 static double width(const nh_formula_node *e)
 {
     double above, below;
@@ -58,7 +58,7 @@ static double width(const nh_formula_node *e)
 
 static bool wide(const flow *f, const nh_formula_node *e) { return width(e) > f->widest; }
 
-/* Does a fraction stand in it when it is opened up?  One with a wide denominator becomes a slash. */
+/* Does it contain a fraction when it is split?  A fraction with a wide denominator becomes a slash. */
 static bool tall(const flow *f, const nh_formula_node *e)
 {
     if (!wide(f, e)) return nh_typeset_tall(e);
@@ -70,7 +70,7 @@ static bool tall(const flow *f, const nh_formula_node *e)
 
 /* ---- breaks ---- */
 
-/* A line may end here; the dearer, the deeper inside the formula. */
+/* Allows a break here; its penalty grows with the depth inside the formula. */
 static void may_break(flow *f, int penalty, nh_typeset_follows follows)
 {
     f->piece(f->context, nh_text_string(&f->text), follows);
@@ -90,7 +90,7 @@ static void bracketed(flow *f, const nh_formula_node *e, int depth)
     add(f, high ? f->w.s->tall_close : f->w.s->wide_close);
 }
 
-/* Beside other factors or a sign; a slash beside others would be misread. */
+/* It stands beside other factors or a sign; a slash would be misread there. */
 static void factor(flow *f, const nh_formula_node *e, bool alone, int depth)
 {
     bool sum = e->kind == NH_FORMULA_NODE_SUM || e->kind == NH_FORMULA_NODE_MINUS,
@@ -114,7 +114,7 @@ static void sum(flow *f, const nh_formula_node *e, int depth)
     }
 }
 
-/* Does the factor stand beside the fraction?  Those that are wide do; where none is, those that are not short. */
+/* Does the factor stand beside the fraction?  Wide factors do; where there are none, those that are not short. */
 static bool apart(const flow *f, const nh_formula_node *first, const nh_formula_node *c)
 {
     bool any = false;

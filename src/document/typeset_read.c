@@ -132,7 +132,7 @@ static nh_formula_node *over(reader *r, nh_formula_node *left, nh_formula_node *
     return make(r, NH_FORMULA_NODE_FRACTION, left);
 }
 
-/* A parenthesis that holds a product or a fraction stays one factor. */
+/* A parenthesis around a product or a fraction remains one factor. */
 static nh_formula_node *factor(reader *r)
 {
     nh_formula_node *s = unary(r);

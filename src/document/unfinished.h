@@ -9,7 +9,7 @@ typedef struct {
     const nh_system *system;
     const char *doing; /* or "" */
     const char *why;   /* "the time limit of 1 s was reached" */
-    bool search;       /* of `analyze`: it has a verdict */
+    bool search;       /* the run of `analyze`, which has a verdict */
 } nh_unfinished;
 
 /* A heap string (nh_free). */

@@ -57,7 +57,7 @@ static void put_symmetry(const nh_verification *v, nh_json *to)
     nh_json_put_bool(item, "projectable", v->symmetry.projectable);
 }
 
-/* Of a field: does it lie in the canonical distribution, and what it has outside of it. */
+/* For a field: whether it lies in the canonical distribution, and its part outside of it. */
 static void put_forms(const nh_verification *v, nh_json *to)
 {
     if (!v->form) {

@@ -6,17 +6,17 @@
 #include "document/pen.h"
 #include "commands/verify.h"
 
-/* "a constraint symmetry", "conserved", or what else was in question. */
+/* "a constraint symmetry", "conserved", or another property that was tested. */
 const char *nh_verification_noun(const nh_verification *verdict);
-/* A heap string (nh_free), ending in a newline; `run` may be NULL. */
+/* A heap string (nh_free) that ends in a newline; `run` may be NULL. */
 char *nh_verification_json(const nh_verification *verdict, const nh_run *run);
 
 void nh_verification_write(const nh_verification *verdict, const nh_run *run, nh_pen_style style, nh_text *out);
 
-/* Whose roots are shown as the velocities that they are; NULL where the answer holds on one branch only, and would not
-   with the velocity. */
+/* The chart whose velocities replace roots; NULL where the answer holds on one branch only, and would not hold with the
+ * velocity. */
 const nh_chart *nh_verification_chart(const nh_verification *verdict);
-/* On which branches of a quadratic constraint the answer holds: ", on both branches"; "" without any. */
+/* The branches of a quadratic constraint on which the answer holds: ", on both branches"; "" without branches. */
 const char *nh_verification_branches(const nh_verification *verdict);
 
 #endif

@@ -73,7 +73,7 @@ static void components(nh_pen *p, const nh_verification *v)
     nh_free(label);
 }
 
-/* What a symmetry of the equations of motion makes of the currents that the system file knows. */
+/* The result of a symmetry of the equations of motion on the currents that the system file knows. */
 static void made(nh_pen *p, const nh_verification *v)
 {
     if (v->made) nh_pen_words(p, "It maps known currents to these:");
@@ -94,7 +94,7 @@ static void symmetry(nh_pen *p, const nh_verification *v)
     nh_pen_close(p, NH_PEN_FACTS);
 }
 
-/* By how much a field leaves the canonical distribution: its current is defined for fields in it only. */
+/* The part of a field outside of the canonical distribution: a current is defined only for fields in it. */
 static void outside(nh_pen *p, const nh_verification *v)
 {
     nh_pen_words(p, "Z is not in the canonical distribution:");
@@ -118,7 +118,7 @@ static void question(nh_pen *p, const nh_verification *v)
     if (!field) nh_pen_words(p, "Does this stay constant along every motion?");
     nh_pen_card(p, NULL);
     if (v->of_equations) nh_pen_formula(p, "[Gamma,Z] = f Gamma,\\quad f", v->factor);
-    else if (v->outside) outside(p, v); /* it has no current */
+    else if (v->outside) outside(p, v); /* the field has no current */
     else nh_pen_formula(p, "Phi", v->current);
     made(p, v);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);

@@ -11,7 +11,7 @@ typedef struct {
 size_t nh_glossary_count(void);
 nh_glossary_entry nh_glossary_at(size_t i);
 
-/* The functions without elementary form, each with its arguments, and what they are. */
+/* The functions without elementary form, each with its arguments and its meaning. */
 size_t nh_glossary_functions(void);
 nh_glossary_entry nh_glossary_function_at(size_t i);
 

@@ -24,11 +24,11 @@ enum { longest_path = 512 };
 static const double most_seconds = 60;
 
 struct nh_compilation {
-    nh_leaving leaving; /* first; while there is a folder */
-    /* folder: empty when it is gone */
+    nh_leaving leaving; /* first member; used while there is a folder */
+    /* folder: empty when it is removed */
     char folder[longest_path], source[longest_path + 16], object[longest_path + 16], message[longest_path + 16];
     const char *program;
-    pid_t child;  /* 0: none runs */
+    pid_t child;  /* process number; 0: no compiler runs */
     void *handle; /* of the loaded code */
     double begun;
     char words[320];
@@ -55,7 +55,7 @@ static void remove_folder(nh_compilation *c)
     nh_leave_release();
 }
 
-/* The process ends at once: without the compiler and its folder. */
+/* The process ends early: ends the compiler and removes its folder. */
 static void forget(nh_leaving *leaving)
 {
     nh_compilation *c = (nh_compilation *)leaving;
@@ -63,7 +63,7 @@ static void forget(nh_leaving *leaving)
     empty_folder(c);
 }
 
-/* Nobody else may be able to rename what lies in there: the folder above is not writable to others, or it is sticky. */
+/* Can nobody else rename the folder's files?  The folder above is not writable to others, or it is sticky. */
 static bool trustworthy(const char *path)
 {
     struct stat info;
@@ -124,7 +124,7 @@ static bool write_source(nh_compilation *c, const char *text)
 
 /* ---- the compiler ---- */
 
-/* The environment, with the compiler's own temporary files in our folder; free it and its first entry. */
+/* The environment, with the compiler's own temporary files in our folder; the caller frees it and its first entry. */
 static char **surroundings(const nh_compilation *c)
 {
     size_t n = 0, kept = 1;
@@ -146,10 +146,10 @@ static bool start(nh_compilation *c)
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
-    /* its own group: it has children, which are to be ended with it */
+    /* a process group of its own, so that the compiler's children are ended with it */
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
     sigset_t none;
-    sigemptyset(&none); /* this thread may leave signals to another */
+    sigemptyset(&none); /* this thread may block signals that another one handles */
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
@@ -227,7 +227,7 @@ static bool ended(nh_compilation *c)
     bool runs = who == 0 || (who < 0 && errno == EINTR);
     if (!runs) c->child = 0;
     nh_leave_release();
-    if (runs) return false; /* who < 0: somebody else has waited for it, so that its status is lost */
+    if (runs) return false; /* who < 0: another part of the program has waited for it, and its status is lost */
     if (status == 0) load(c);
     else explain(c, status);
     remove_folder(c);

@@ -12,8 +12,8 @@ typedef struct nh_compilation nh_compilation;
 
 /* Starts the compiler; never NULL. */
 nh_compilation *nh_compile(const char *text);
-/* The address of `function` when the code is there; else NULL, and *busy says whether it may still come.  `wait`: until
-   it is decided (at most a minute). */
+/* The address of `function` when the code is there; otherwise NULL, and *busy says whether it may still come.  `wait`:
+ * waits until this is decided, at most a minute. */
 void *nh_compile_result(nh_compilation *compilation, const char *function, bool wait, bool *busy);
 /* How it went: "compiled by cc in 0.07 s", or why there is no code. */
 const char *nh_compile_words(const nh_compilation *compilation);

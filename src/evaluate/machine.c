@@ -35,7 +35,8 @@ static void put_register(const nh_tape *t, const uint32_t *writer, uint32_t r, n
     }
 }
 
-/* What stands around the operands; `between` NULL: there is one only.  The same operations as op_value of tape.c. */
+/* The text before, between and after the operands; `between` NULL: there is one operand.  The same operations as
+ * op_value of tape.c. */
 typedef struct {
     const char *before, *between, *after;
 } notation;
@@ -75,7 +76,7 @@ static void put_prototypes(nh_text *out)
                      "static double sign(double a) { return a > 0 ? 1 : a < 0 ? -1 : a; }\n\n");
 }
 
-/* All inputs are read before the first output is written: they may be the same memory. */
+/* Reads all inputs before the first output is written: they may share memory. */
 static void machine_text(const nh_tape *t, nh_text *out)
 {
     /* 1 + instruction that wrote a register last; 0: none yet */
@@ -142,7 +143,8 @@ static nh_machine *machine_of(const nh_tape *tape, bool start)
 {
     if (tape->length > most_instructions) return NULL;
     for (size_t i = 0; i < tape->length; i++)
-        if (nh_op_is_named(tape->code[i].op)) return NULL; /* no C library has them; they take the time */
+        /* the C library does not have these; they take most of the time */
+        if (nh_op_is_named(tape->code[i].op)) return NULL;
     nh_text text;
     nh_text_init(&text);
     machine_text(tape, &text);

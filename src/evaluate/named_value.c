@@ -19,7 +19,7 @@ static void legendre(acb_t out, bool second, acb_srcptr x, which part, slong bit
     acb_init(zero);
     acb_set(value, x + 1);
     double place = fabs(arf_get_d(arb_midref(acb_realref(value)), ARF_RND_NEAR));
-    int type = second && place > 1; /* Q beyond 1 is another branch, real as well */
+    int type = second && place > 1; /* beyond 1, Q is another branch, which is real as well */
     (second ? acb_hypgeom_legendre_q : acb_hypgeom_legendre_p)(value, x, zero, x + 1, type, bits);
     if (part == PRIME) {
         add_integer(order, x, -1, bits);
@@ -115,11 +115,12 @@ static void confluent(acb_t out, bool second, acb_srcptr x, which part, slong bi
 
 /* ---- Riemann's equation (1 + z^2)^2 y'' = (a + b z + c z^2) y, singular at i, -i and infinity [DLMF 15.11] ---- */
 
-/* Its solutions are products of powers and 2F1 of (1 + i z)/2.  They are computed by Taylor series along the way from 0
- * to z, because 2F1 is slow there, where c = 3/4 most of all, and needs other formulas where exponents differ by whole
+/* Its solutions are products of powers and 2F1 of (1 + i z)/2.  They are computed by Taylor series on a path from 0 to
+ * z, because 2F1 is slow there, slowest where c = 3/4, and needs other formulas where exponents differ by whole
  * numbers. */
 enum { A, B, C };
-static const double disc = 0.6, stride = 0.25; /* of the distance from i and -i; of the disc */
+/* radius of the disc over the distance from i and -i; step over that radius */
+static const double disc = 0.6, stride = 0.25;
 static const double nearly = 0.999, rounding = 1e-12;
 
 static double distance_below(const acb_t z, int sign)
@@ -376,7 +377,7 @@ void nh_named_value_ball(nh_function f, arb_srcptr argument, arb_t out, slong bi
     acb_clear(all);
 }
 
-/* As a double: to all its digits, or to below the smallest. */
+/* Rounds to a double: to all its digits, or to an absolute error below the smallest double. */
 static bool precise(const arb_t x)
 {
     return arb_is_finite(x) &&

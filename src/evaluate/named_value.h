@@ -8,11 +8,11 @@
 #include "evaluate/arb.h"
 #include "graph/dag.h"
 
-/* f of as many arguments as it takes.  Not finite where it is not real. */
+/* f of the arguments that it takes.  Not finite where it is not real. */
 void nh_named_value_ball(nh_function f, arb_srcptr argument, arb_t out, slong bits);
 
-/* Right to the last digits of a double, however many digits that needs; not a
- * number where f is not real or too hard. */
+/* Correct to the last digits of a double, however many digits that needs; not-a-number where f is not real or too
+ * hard. */
 double nh_named_value(nh_function f, const double *argument);
 
 /* At a complex point near the real axis. */

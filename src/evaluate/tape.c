@@ -9,7 +9,7 @@
 #include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
 
-/* units of an evaluation beside its instructions: at all, and per input and output */
+/* units of an evaluation beside its instructions: per call, per input and output */
 static const double call = 8, each_value = 0.3;
 
 /* ---- values of single operations ---- */
@@ -28,7 +28,7 @@ static double call_value(unsigned f, double a, double b)
 }
 #undef X
 
-/* Of a named function; `more` may be NULL where it takes no more than two arguments. */
+/* The value of a named function; `more` may be NULL where it takes at most two arguments. */
 static double named_value(unsigned op, double a, double b, const nh_more_arguments *more, const double *r)
 {
     const double argument[NH_MOST_ARGUMENTS] = {a, b, more ? r[more->c] : 0, more ? r[more->d] : 0};
@@ -133,7 +133,7 @@ static bool is_constant(const compiler *c, uint32_t r, double value)
     return c->kind[r] == 'c' && c->constant[r] == value;
 }
 
-/* The register of this operation, known or new. */
+/* The register of this operation, an existing one or a new one. */
 static uint32_t operation(compiler *c, unsigned op, uint32_t more, uint32_t a, uint32_t b)
 {
     known_value *k = find_known(c, op | more << 16, a, b);
@@ -152,7 +152,7 @@ static bool all_constant(const compiler *c, size_t n, const uint32_t *r)
     return true;
 }
 
-/* The third and the fourth argument: which entry, + 1; 0: there are too many. */
+/* The third and the fourth argument: index of the entry + 1; 0: there are too many. */
 static uint32_t more_of(compiler *c, uint32_t third, uint32_t fourth)
 {
     for (size_t i = 0; i < c->mores; i++)
@@ -203,7 +203,7 @@ static uint32_t positive_power(compiler *c, uint32_t b, nh_num x, uint32_t expon
     return emit(c, NH_OP_POW, b, exponent);
 }
 
-/* The i-th factor without the sign of its exponent; `below`: it divides. */
+/* The i-th factor, with the absolute value of its exponent; `below`: it is in the denominator. */
 static uint32_t compile_factor(compiler *c, nh_ex e, size_t i, bool *below)
 {
     uint32_t b = c->value[nh_child(c->dag, e, i)] - 1;
@@ -294,7 +294,7 @@ static void compile_nodes(compiler *c, size_t n_out, const nh_ex *out)
     char *needed = nh_alloc((size_t)top + 1);
     for (size_t i = 0; i < n_out; i++) needed[out[i]] = 1;
     for (nh_ex e = top + 1; e-- > 0;) {
-        if (!needed[e] || c->value[e]) continue; /* an input may be an expression: nothing below it is needed */
+        if (!needed[e] || c->value[e]) continue; /* an input may be an expression: its operands are not needed */
         nh_kind kind = nh_kind_of(dag, e);
         for (size_t i = 0; i < nh_arity(dag, e); i++) {
             needed[nh_child(dag, e, i)] = 1;
@@ -351,7 +351,7 @@ static void assign(compiler *c, nh_tape *tape, const uint32_t *out)
     size_t depth = 0;
     for (size_t i = 0; i < c->length; i++) {
         nh_instruction x = c->code[i], y = {x.op, x.more, 0, place[x.a], place[x.b]};
-        /* before the operands are freed: kernels must not alias */
+        /* before the operands are freed: the kernels need separate input and output rows */
         y.to = place[x.to] = depth ? stack[--depth] : next++;
         size_t n = operands(c, &x, operand);
         for (size_t k = 0; k < n; k++)
@@ -396,7 +396,7 @@ nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out,
 }
 
 /* Every instruction jumps to the next one by itself (GCC's labels as values): the processor then predicts each jump by
- * where it stands, which makes long tapes about twice, short ones up to four times as fast as one switch in a loop
+ * its address, which makes long tapes about twice and short ones up to four times as fast as one switch in a loop
  * (docs/performance.md). */
 void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, double *out)
 {

@@ -3,9 +3,9 @@
  * glibc's libmvec has vector versions of the elementary functions.  GCC uses them when the prototypes carry the `simd`
  * attribute, which avoids -ffast-math (that would also remove nan and inf from this file).
  *
- * Arithmetic is compiled for several instruction sets, and rounded alike by all of them.  Functions are not: libmvec's
- * versions for vectors of two, four and eight differ in last digits.  So they are computed four at a time wherever that
- * is possible, in every build: what a program answers must not depend on the machine that it runs on. */
+ * Arithmetic is compiled for several instruction sets, all of which round alike.  For functions this is not so:
+ * libmvec's versions for vectors of two, four and eight differ in the last digits.  So functions are computed four at a
+ * time wherever possible, in every build: an answer must not depend on the machine. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@
 #define HAS_FOURS false
 #endif
 
-/* The loops touch what they are given, and a check of every access would keep them from being vectorised. */
+/* A sanitizer's check of every access would keep the loops from being vectorised. */
 #if defined __GNUC__ && !defined __clang__
 #define UNCHECKED __attribute__((no_sanitize("address", "undefined")))
 #else
@@ -51,7 +51,7 @@ extern VECTOR double pow(double, double);
 extern VECTOR double atan2(double, double);
 #endif
 
-static const double in_batch = 0.25; /* of the units of an evaluation by itself */
+static const double in_batch = 0.25; /* effort of a batch per point, as a part of that of a single evaluation */
 
 /* Points are computed in whole blocks, the widest vector of doubles: no loop has a remainder. */
 enum { BLOCK = 8 };
@@ -99,8 +99,8 @@ static kernel *const table[] = {
 };
 #undef X
 
-/* Rows of this work memory: inputs are copied in, so that a short batch can be padded with its first point to whole
-   blocks. */
+/* Rows of this work memory: inputs are copied there, so that a short batch can be padded to whole blocks with copies of
+ * its first point. */
 static void prepare(const nh_tape *tape, nh_tape_work *work)
 {
     size_t bytes = (tape->registers + 1) * NH_BATCH * sizeof(double);
@@ -111,7 +111,7 @@ static void prepare(const nh_tape *tape, nh_tape_work *work)
         for (size_t p = 0; p < NH_BATCH; p++) work->row[tape->inputs + i][p] = tape->constant[i];
 }
 
-/* The points of padding have the value of the first. */
+/* Points of padding get the value of the first point. */
 static void named(const nh_tape *tape, const nh_instruction *x, double **row, size_t count, size_t padded)
 {
     const double *third = x->more ? row[tape->more[x->more - 1].c] : row[x->a],

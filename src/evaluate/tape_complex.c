@@ -7,7 +7,7 @@
 #include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
 
-/* Written out: the operators of C check every product for infinities. */
+/* Written out: C's operators check every product for infinities. */
 static double complex times(double complex a, double complex b)
 {
     return CMPLX(creal(a) * creal(b) - cimag(a) * cimag(b), creal(a) * cimag(b) + cimag(a) * creal(b));

@@ -1,8 +1,8 @@
 /* tape_complex: a tape at a complex point, for derivatives by a complex step: Im f(x + i h)/h has no cancellation, so
  * that h may be 1e-100 [MartinsSturdzaAlonso2003].
  *
- * Functions are continued from the real axis: what is undefined at the real part is not a number here too, abs z is z
- * or -z, sign is constant, and a real exponent and atan2 are taken to first order in the imaginary part. */
+ * Functions are continued from the real axis: a function that is undefined at the real part is not-a-number here, too;
+ * abs z is z or -z, sign is constant, and a real exponent and atan2 are taken to first order in the imaginary part. */
 #ifndef NH_TAPE_COMPLEX_H
 #define NH_TAPE_COMPLEX_H
 
@@ -11,7 +11,7 @@
 #ifndef CMPLX /* clang before 15 with the C library's header */
 #define CMPLX(x, y) __builtin_complex((double)(x), (double)(y))
 #endif
-#undef I /* the inertia has this name elsewhere */
+#undef I /* the macro is removed: elsewhere the inertia is called I */
 
 #include "evaluate/tape.h"
 

@@ -4,7 +4,7 @@
 
 #include "evaluate/tape.h"
 
-/* Of machine.h. */
+/* see machine.h */
 typedef struct nh_machine nh_machine;
 typedef void nh_machine_code(const double *in, double *out);
 
@@ -14,7 +14,7 @@ typedef enum {
 } nh_op;
 
 typedef struct {
-    uint16_t op, more; /* more: of functions of three and four arguments the rest, nh_tape.more[more - 1]; else 0 */
+    uint16_t op, more; /* for functions of three and four arguments: the others are nh_tape.more[more - 1]; else 0 */
     uint32_t to, a, b;
 } nh_instruction;
 
@@ -39,18 +39,18 @@ struct nh_tape_work {
     double *scalar;  /* registers, for one point */
     double *batch;   /* (registers - inputs) rows of NH_BATCH */
     double **row;    /* registers: pointers into batch or to the inputs */
-    nh_machine_code *code; /* instead of the instructions; NULL: these are interpreted */
-    nh_machine *machine;   /* where the code comes from, or will */
-    double patience;       /* it is compiled after so many times what compiling costs */
-    uint64_t left;         /* evaluations until the next look at it; 0: never */
-    bool looked;           /* there was a first look at whether another motion has paid for it */
-    const char *words;     /* why there is no machine; or NULL */
+    nh_machine_code *code; /* runs instead of the instructions; NULL: the instructions are interpreted */
+    nh_machine *machine;   /* where the code comes from, now or later */
+    double patience;       /* the tape is compiled when it has cost so many times what compiling costs */
+    uint64_t left;         /* evaluations until nh_tape_look is called; 0: never */
+    bool looked;           /* it was already asked whether another motion has started the compiler for this tape */
+    const char *words;     /* why the tape is not compiled; or NULL */
 };
 
 /* One look: has another motion paid for the code, start the compiler, or see whether it is ready (tape_jit.c). */
 void nh_tape_look(const nh_tape *tape, nh_tape_work *work);
 
-/* Units of one instruction, interpreted. */
+/* Units of effort of one interpreted instruction. */
 double nh_op_effort(unsigned op);
 
 /* Is it a function that only named_value.h computes? */

@@ -1,14 +1,14 @@
-/* tape_jit: when is a tape worth compiling?  Counted, not timed: the same evaluation of every run starts the compiler.
- * From when the code is used depends on when the compiler is ready; it computes the same bits. */
+/* tape_jit: decides when a tape is compiled.  The decision is counted, not timed: the same evaluation of every run
+ * starts the compiler.  The code is used as soon as it is ready, which varies, but it computes the same bits. */
 
 #include "base/memory.h"
 #include "evaluate/machine.h"
 #include "evaluate/tape_internal.h"
 
 enum { first_look = 500 };
-/* units that compiling costs: at all, and per instruction (docs/performance.md) */
+/* units of effort that compiling costs: per tape, and per instruction (docs/performance.md) */
 static const double price = 5e7, price_each = 2e5;
-static const double between_looks = 2e6;           /* units, while the compiler runs */
+static const double between_looks = 2e6;           /* units of effort between two looks while the compiler runs */
 
 double nh_op_effort(unsigned op)
 {
@@ -46,7 +46,7 @@ void nh_tape_look(const nh_tape *tape, nh_tape_work *work)
         work->looked = true;
         work->left = evaluations_in(tape, work->patience * (price + price_each * (double)tape->length));
         work->machine = nh_machine_known(tape);
-        if (!work->machine) return; /* otherwise another motion has paid for it */
+        if (!work->machine) return; /* otherwise another motion has already started the compiler */
     }
     if (!work->machine) start(tape, work);
     if (work->machine) work->code = nh_machine_get(work->machine, false, &busy);

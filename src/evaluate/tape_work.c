@@ -1,4 +1,4 @@
-/* tape_work: a tape's memory, and that of those who run it. */
+/* tape_work: the memory of a tape, and the work memory of its callers. */
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -29,7 +29,7 @@ nh_tape_work *nh_tape_work_create(const nh_tape *tape)
     work->scalar = nh_alloc_array(tape->registers + 1, sizeof(double));
     work->row = nh_alloc_array(tape->registers + 1, sizeof *work->row);
     for (size_t i = 0; i < tape->constants; i++) work->scalar[tape->inputs + i] = tape->constant[i];
-    work->batch = NULL; /* made at the first batch: many tapes only ever run at single points */
+    work->batch = NULL; /* allocated at the first batch: many tapes are only evaluated at single points */
     return work;
 }
 

@@ -9,11 +9,11 @@
 
 enum { default_terms = 20000, most_candidates = 140, most_kernels = 12, most_factors = 24, highest = 12 };
 
-static const size_t absent = SIZE_MAX; /* x itself, where f has it in functions only */
+static const size_t absent = SIZE_MAX; /* x itself, where f contains x in functions only */
 
 /* A kernel that depends on x, and the exponents that it may have in the numerator of F. */
 typedef struct {
-    size_t index; /* among the kernels of f, or absent */
+    size_t index; /* index among the kernels of f, or absent */
     nh_ex e;
     nh_kernel_kind kind;
     int64_t low, high;
@@ -22,8 +22,8 @@ typedef struct {
 /* A factor of a denominator. */
 typedef struct {
     nh_ex e;
-    int64_t power;          /* in the denominator of F */
-    const nh_factor *terms; /* NULL: a kernel, or the radicand of a root */
+    int64_t power;          /* its exponent in the denominator of F */
+    const nh_factor *terms; /* NULL: the factor is a kernel, or the radicand of a root */
 } divisor;
 
 typedef struct {
@@ -35,8 +35,8 @@ typedef struct {
     letter letter[most_kernels];
     divisor divisor[most_factors];
     nh_ex candidate[most_candidates];
-    int64_t degree; /* of the numerator of F, at most */
-    bool full;      /* something did not fit */
+    int64_t degree; /* largest degree of the numerator of F */
+    bool full;      /* a list was full */
 } builder;
 
 /* ---- candidates ---- */
@@ -57,7 +57,8 @@ static int sign_of(const builder *b, nh_ex e)
     return (value > 0) - (value < 0);
 }
 
-/* The sign that decides between a real logarithm and an arctangent, which belong to the two signs of e. */
+/* The sign that decides between a real logarithm and an arctangent, where both are candidates for the two signs of
+ * e. */
 static int mostly(const builder *b, nh_ex e)
 {
     int sign = sign_of(b, e);
@@ -83,7 +84,7 @@ static void put_area(builder *b, nh_ex f)
     else put(b, nh_call(d, NH_LOG, nh_powi(d, nh_div(d, nh_add(d, one, f), nh_sub(d, one, f)), 2)));
 }
 
-/* Square factors go before the root, whatever their signs: that of a root does not matter here. */
+/* Square factors are taken out of the root, whatever their signs: a candidate may have either sign. */
 static nh_ex root_of(const builder *b, nh_ex D)
 {
     nh_dag *d = b->d;
@@ -178,7 +179,8 @@ typedef struct {
     nh_ex x, Q, root, back; /* the variable; back: what it stands for */
     int degree;             /* of Q */
     size_t count;           /* 0: it is x */
-    nh_ex from[2], to[2];   /* what gives functions of y; of the other one of sine and cosine only squares do */
+    /* from[i] becomes to[i], a function of y; of the other one of sine and cosine only squares are functions of y */
+    nh_ex from[2], to[2];
 } radical;
 
 /* The degree, 1 or 2, of Q = a x^2 + b x + c; 0 where it is no such polynomial. */
@@ -341,7 +343,7 @@ static void put_root(builder *b, nh_ex Q, nh_ex root)
     }
 }
 
-/* Those of one polynomial, and products of two roots. */
+/* The candidates of one polynomial, and of products of two roots. */
 static void put_roots(builder *b)
 {
     const nh_kernel *k = b->form.kernels.item;
@@ -483,7 +485,7 @@ static bool is_logarithm(const builder *b, nh_ex g)
     return nh_kind_of(b->d, g) == NH_FUNCTION && nh_function_of(b->d, g) == NH_LOG;
 }
 
-/* k (log p - log q) = 2 k atanh((p - q)/(p + q)), where one of sum and difference is constant: it is shorter. */
+/* k (log p - log q) = 2 k atanh((p - q)/(p + q)), which is shorter where one of sum and difference is constant. */
 static void join(const builder *b, size_t i, size_t j, nh_ex *c, nh_ex *F)
 {
     nh_dag *d = b->d;
@@ -523,7 +525,8 @@ static bool is_exponential(const nh_dag *d, nh_ex e)
     return all;
 }
 
-/* sqrt(N/D) as sqrt(N D)/|D|, with squares before the root: a polynomial below it.  Exponentials stay. */
+/* sqrt(N/D) as sqrt(N D)/|D|, with squares taken out, so that a polynomial stands below the root.  Exponentials
+ * stay. */
 static nh_ex without_fractions_below(const nh_integration *in, nh_ex f)
 {
     enum { most = 64 };

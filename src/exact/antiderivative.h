@@ -23,12 +23,12 @@ typedef struct {
     nh_ex x;
     size_t constants;
     const nh_ex *constant;   /* symbols: parameters, and constants of earlier integrations */
-    size_t max_terms;        /* of polynomials; 0: the default of relation.h */
-    /* The sign of a function of x and the constants wherever F is wanted; 0: it changes, or is not known.  It chooses
-     * among the forms that a real logarithm has. */
+    size_t max_terms;        /* largest number of terms of polynomials; 0: the default of relation.h */
+    /* The sign of a function of x and the constants wherever F is needed; 0: it changes, or is not known.  It chooses
+     * among the forms of a real logarithm. */
     int (*sign)(void *context, nh_ex e);
-    /* Where the sign of what stands below a root changes from motion to motion: the one for which F shall be real; 0 or
-     * NULL: none. */
+    /* Where the sign of a radicand changes from motion to motion: the sign for which F shall be real; 0 or NULL: none
+     * is chosen. */
     int (*mostly)(void *context, nh_ex e);
     void *context;
 } nh_integration;

@@ -9,7 +9,7 @@
 #include "exact/ball_internal.h"
 #include "graph/num_long.h"
 
-enum { deepest = 3000 }; /* nesting that the stack surely bears */
+enum { deepest = 3000 }; /* depth of nesting that the stack bears */
 
 /* One node's value: present when its epoch is the ball's. */
 typedef struct {
@@ -24,7 +24,7 @@ typedef struct {
 } setting;
 
 struct nh_ball {
-    const nh_dag *dag; /* borrows */
+    const nh_dag *dag; /* borrowed */
     long bits;
     uint32_t epoch;
     int depth;
@@ -63,7 +63,7 @@ static setting *find_setting(nh_ball *ball, nh_ex symbol)
     return NULL;
 }
 
-/* Where a symbol's value goes; whatever has been evaluated is forgotten. */
+/* Where a symbol's value is stored; forgets everything that has been evaluated. */
 static arb_ptr place(nh_ball *ball, nh_ex symbol)
 {
     ball->epoch++;
@@ -148,7 +148,7 @@ static bool eval_power(nh_ball *ball, arb_t base, nh_ex exponent)
     if (numeric && x.q == 1) {
         fmpz_t n;
         fmpz_init(n);
-        fmpz_set_d(n, (double)(x.p >> 32)); /* in halves: doubles hold 53 bits exactly */
+        fmpz_set_d(n, (double)(x.p >> 32)); /* exponent in halves: doubles hold 53 bits exactly */
         fmpz_mul_2exp(n, n, 32);
         fmpz_add_ui(n, n, (ulong)(x.p & 0xffffffff));
         arb_pow_fmpz(base, base, n, ball->bits);
@@ -242,7 +242,7 @@ double nh_ball_products(long bits)
 
 static bool eval_node(nh_ball *ball, nh_ex e, arb_t out)
 {
-    enum { function = 20 }; /* as dear as so many products */
+    enum { function = 20 }; /* cost in products */
     double each = nh_kind_of(ball->dag, e) == NH_FUNCTION ? function : (double)nh_arity(ball->dag, e) + 1;
     nh_work_add(NH_WORK_BALL, each * nh_ball_products(ball->bits));
     switch (nh_kind_of(ball->dag, e)) {
@@ -305,7 +305,7 @@ void nh_ball_set_middle(nh_ball *ball, nh_ex symbol, nh_ex value)
     set_to(ball, symbol, value, true);
 }
 
-/* A double and how far from it anything in the ball can be. */
+/* A double, and an upper bound for its distance from any point of the ball. */
 static void round_ball(const arb_t v, double *mid, double *radius)
 {
     arf_t far;

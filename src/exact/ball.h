@@ -1,24 +1,26 @@
 /* ball: rigorous evaluation of expressions (Arb).
  *
- * Values are mid-points with rigorous radii; what a ball excludes is excluded by proof, what it contains to 60 digits
- * is zero to 60 digits. */
+ * Values are mid-points with rigorous radii.  A number outside of a ball is proved to differ from the value; a ball of
+ * radius 1e-60 around zero proves that the value vanishes to 60 digits. */
 #ifndef NH_BALL_H
 #define NH_BALL_H
 
 #include "graph/dag.h"
 
-typedef struct nh_ball nh_ball; /* values of some symbols, at some precision, and a memo of every node evaluated */
+/* Values of some symbols, at some precision, and a memo of every evaluated node.  The ball borrows the graph;
+ * nh_ball_free. */
+typedef struct nh_ball nh_ball;
 
 nh_ball *nh_ball_create(const nh_dag *dag, long bits);
 void nh_ball_free(nh_ball *ball);
 long nh_ball_bits(const nh_ball *ball);
 
-/* Set a symbol to the exact rational p/q, or to an exact double; forgets values that depended on it. */
+/* Sets a symbol to the exact rational p/q, or to an exact double; forgets values that depended on it. */
 void nh_ball_set_ratio(nh_ball *ball, nh_ex symbol, int64_t p, int64_t q);
 void nh_ball_set_double(nh_ball *ball, nh_ex symbol, double value);
 /* Set a symbol to the value of an expression in symbols set before. */
 void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value);
-/* To its mid-point: for iterations that correct themselves, whose radii would only grow. */
+/* The same, rounded to the mid-point: for iterations that correct themselves, whose radii would only grow. */
 void nh_ball_set_middle(nh_ball *ball, nh_ex symbol, nh_ex value);
 
 /* The value of e.  False when it is not finite there, or a symbol has no value. */

@@ -29,7 +29,7 @@ static bool quotient(nh_ball *ball, size_t n, const nh_ex *M, const nh_ex *K, ac
     return good;
 }
 
-/* With a bound of what the middle leaves out, the rounding to a double included. */
+/* As a double, with a bound of its error, the rounding included. */
 static double middle(const arb_t x, double *error)
 {
     double value = arf_get_d(arb_midref(x), ARF_RND_NEAR), radius = mag_get_d(arb_radref(x));
@@ -51,7 +51,7 @@ bool nh_ball_eigenvalue_roots(nh_ball *ball, size_t n, const nh_ex *M, const nh_
     *error = 0;
     for (size_t i = 0; i < n && good; i++) {
         good = !acb_contains_zero(value + i);
-        bool left = arf_sgn(arb_midref(acb_realref(value + i))) < 0; /* away from the cut of the root */
+        bool left = arf_sgn(arb_midref(acb_realref(value + i))) < 0; /* away from the branch cut of the root */
         if (left) acb_neg(value + i, value + i);
         acb_sqrt(value + i, value + i, bits);
         if (left) acb_mul_onei(value + i, value + i);

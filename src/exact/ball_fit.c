@@ -7,17 +7,17 @@
 #include "exact/ball_internal.h"
 
 struct nh_ball_fit {
-    nh_ball *ball; /* borrows */
+    nh_ball *ball; /* borrowed */
     size_t n, leading, solutions;
     long bits;
     nh_ex *e;         /* n */
-    size_t *column;   /* leading ones first, then the following ones */
+    size_t *column;   /* indices of the columns: leading ones first, then the following ones */
     arb_ptr row;      /* n, in the order of `column` */
     arb_mat_t normal; /* A^T A, upper triangle, in that order */
     arb_mat_t c;      /* n x solutions */
 };
 
-/* Products of words in one of numbers. */
+/* Products of words in a product of two numbers. */
 static double products(const nh_ball_fit *f) { return nh_ball_products(f->bits); }
 
 /* ---- making and filling rows ---- */
@@ -65,8 +65,8 @@ static bool evaluate(nh_ball_fit *f)
     return true;
 }
 
-/* The row relative to its largest entry.  Only mid-points count for the fit: what it is worth is seen from residuals,
-   which are rigorous. */
+/* Divides the row by its largest entry.  Only mid-points count for the fit: its quality is judged by residuals, which
+ * are rigorous. */
 static void scale_row(nh_ball_fit *f)
 {
     arb_t largest, size;
@@ -152,7 +152,7 @@ static void schur(const nh_ball_fit *f, const arb_mat_t X, arb_mat_t G, arb_ptr 
     drop_radii(G);
 }
 
-/* The largest entry in what is left, by which to eliminate; false when it is below the bound. */
+/* The largest remaining entry, as pivot; false when it is below the bound. */
 static bool find_pivot(const arb_mat_t G, const bool *used, double bound_log10, size_t *row, size_t *column)
 {
     double best = -INFINITY;
@@ -191,8 +191,8 @@ static size_t eliminate(arb_mat_t G, bool *used, size_t *at, double bound_log10,
     return rank;
 }
 
-/* Solution k: leading value 1 for the free column, -G_row,free / G_row,column (in their scales) for those with a pivot;
-   then the following ones. */
+/* Solution k: the leading value 1 for the free column, -G_row,free / G_row,column (in their scales) for columns with a
+ * pivot; then the following values. */
 static void write_solution(nh_ball_fit *f, const arb_mat_t G, const bool *used, const size_t *at, size_t open,
                            const arb_mat_t X, arb_srcptr scale)
 {
@@ -227,7 +227,7 @@ size_t nh_ball_fit_solve(nh_ball_fit *f, double digits, bool nearest)
     if (d > 0 && follow(f, X)) {
         drop_radii(X);
         schur(f, X, G, scale);
-        size_t most = nearest ? d - 1 : d; /* the last pivot is left out: what it belongs to is nearest to a relation */
+        size_t most = nearest ? d - 1 : d; /* the last pivot is left out: its column is nearest to a relation */
         eliminate(G, used, at, -2 * digits, most, f->bits);
         for (size_t j = 0; j < d; j++)
             if (!used[d + j]) write_solution(f, G, used, at, j, X, scale);

@@ -10,11 +10,11 @@ bool nh_ball_eval(nh_ball *ball, nh_ex e, arb_t out);
 
 void nh_ball_set_arb(nh_ball *ball, nh_ex symbol, const arb_t value);
 
-/* A number of the graph, to the ball's bits. */
+/* Converts a number of the graph, to the ball's bits. */
 void nh_ball_set_number(const nh_ball *ball, arb_t out, nh_num c);
 
-/* Products of words in a product of two numbers of so many bits; what else is done with them counts as if they were
-   longer. */
+/* Products of words in a product of two numbers of so many bits; numbers count as longer, for the other operations on
+ * them. */
 double nh_ball_products(long bits);
 
 /* log10 of rigorous bounds of |v|. */

@@ -10,7 +10,8 @@
 enum { nodes = 56, terms = NH_ODE_TERMS, most_tries = 10, rejected_each = 8 };
 static const double guard_digits = 6, condition_digits = 24,
                     lost_each =
-                        0.39, /* digits that a power more of a polynomial through points loses: log10(1 + sqrt 2) */
+                        /* digits that each further power of an interpolating polynomial loses: log10(1 + sqrt 2) */
+                        0.39,
     same_word = 20;
 
 long nh_ball_ode_bits(double digits)
@@ -83,7 +84,7 @@ double nh_ode_largest(const arb_mat_t a)
     return size;
 }
 
-/* Row `row` of B and R = c/r.  Only mid-points count: what the solutions are worth is seen from their residuals, which
+/* Row `row` of B and R = c/r.  Only mid-points count: the quality of the solutions is judged by their residuals, which
  * are rigorous. */
 static bool fill_row(nh_ball_ode *o, double s, size_t sample, slong row, arb_mat_t B, arb_mat_t R, arb_t r)
 {
@@ -155,8 +156,8 @@ bool nh_ode_equation(nh_ball_ode *o, double s, arb_mat_t M, arb_mat_t *C)
 
 /* ---- samples and words ---- */
 
-/* Samples at which the words and their rates have values and s moves: where it hardly does, 1/r is near a pole for
- * other s. */
+/* Chooses samples at which the words and their rates have values and s changes: where it hardly does, 1/r is near a
+ * pole for other s. */
 static bool choose_samples(nh_ball_ode *o, double s)
 {
     static const double slow = 0.1;
@@ -179,7 +180,7 @@ static bool choose_samples(nh_ball_ode *o, double s)
     return o->samples == wanted;
 }
 
-/* By elimination, column after column: a word that the earlier ones leave nothing of is one of their combinations. */
+/* Elimination, column after column: a word whose column vanishes then is a combination of earlier words. */
 static bool choose_words(nh_ball_ode *o, double s)
 {
     slong P = (slong)o->samples;
@@ -194,7 +195,7 @@ static bool choose_words(nh_ball_ode *o, double s)
     for (size_t j = 0; j < o->words && fine; j++) {
         double before = -INFINITY, after = -INFINITY;
         for (slong p = 0; p < P; p++) before = fmax(before, nh_ode_size(arb_mat_entry(B, p, j)));
-        for (size_t i = 0; i < kept; i++) { /* columns before are orthonormal and stand in R */
+        for (size_t i = 0; i < kept; i++) { /* the columns before it are orthonormal and are stored in R */
             arb_zero(dot);
             for (slong p = 0; p < P; p++)
                 nh_ode_add_product(dot, arb_mat_entry(R, p, i), arb_mat_entry(B, p, j), o->bits);
@@ -273,7 +274,7 @@ static bool interpolate(nh_ball_ode *o, double centre, double half, arb_mat_t X,
     double size = nh_ode_largest(values);
     if (isfinite(size))
         *error -= fmax(
-            size, -log10(half)); /* where s hardly changes anything, f' = M f with a small M needs no relative digits */
+            size, -log10(half)); /* where f hardly depends on s, f' = M f with a small M needs few relative digits */
     arb_clear(x);
     arb_mat_clear(V);
     arb_mat_clear(values);

@@ -71,7 +71,7 @@ static void add_square(arb_mat_t G, const arb_mat_t C, const arb_mat_t F, long b
     arb_mat_clear(S);
 }
 
-/* F = (W x dimension) at s. */
+/* F (W x dimension): the solutions at s. */
 static void functions(const nh_ball_ode *o, const nh_ode_piece *p, double s, arb_mat_t F)
 {
     size_t step = o->words * o->dimension;
@@ -81,7 +81,7 @@ static void functions(const nh_ball_ode *o, const nh_ode_piece *p, double s, arb
     _arb_vec_clear(f, (slong)step);
 }
 
-/* All solutions become combinations of themselves: the columns of K. */
+/* Replaces the solutions by combinations of them: the columns of K. */
 static void combine(nh_ball_ode *o, const arb_mat_t K, size_t count)
 {
     size_t before = o->dimension, rows = NH_ODE_TERMS * o->words;
@@ -98,7 +98,7 @@ static void combine(nh_ball_ode *o, const arb_mat_t K, size_t count)
     o->dimension = count;
 }
 
-/* What the conditions at one s leave, as the values of f there: W x W, the first `count` columns. */
+/* The values of f at one s that its conditions allow: W x W, the first `count` columns. */
 static size_t allowed(nh_ball_ode *o, double s, arb_mat_t K)
 {
     slong W = (slong)o->words;
@@ -120,7 +120,7 @@ static size_t allowed(nh_ball_ode *o, double s, arb_mat_t K)
     return count;
 }
 
-/* The same all over the first interval, of what its solutions are there. */
+/* Applies the conditions in the whole first interval to the solutions found so far. */
 static size_t allowed_along(nh_ball_ode *o, arb_mat_t K)
 {
     slong W = (slong)o->words, d = (slong)o->dimension;
@@ -168,7 +168,7 @@ size_t nh_ball_ode_start(nh_ball_ode *o, double centre, double half)
     }
     _arb_vec_clear(start, W * W);
     arb_mat_clear(K);
-    o->samples = o->words + NH_ODE_SPARE; /* for true solutions any points will do */
+    o->samples = o->words + NH_ODE_SPARE; /* if the solutions are true ones any points will do */
     return count;
 }
 
@@ -205,14 +205,14 @@ static const nh_ode_piece *piece_at(const nh_ball_ode *o, double s)
     return best;
 }
 
-/* ---- which solutions ---- */
+/* ---- a basis of the solutions ---- */
 
 static void swap_columns(arb_mat_t A, slong i, slong j)
 {
     for (slong k = 0; k < arb_mat_nrows(A); k++) arb_swap(arb_mat_entry(A, k, i), arb_mat_entry(A, k, j));
 }
 
-/* Column `at` gets 1 in the row, the others 0. */
+/* Makes the entry of column `at` in this row 1, and that of the others 0. */
 static void clear_row(arb_mat_t A, slong row, slong at, long scale, long bits)
 {
     arb_t factor;
@@ -239,7 +239,7 @@ void nh_ball_ode_normalise(nh_ball_ode *o, double s)
     slong W = (slong)o->words, d = (slong)o->dimension, done = 0;
     arb_mat_t F, A, T;
     arb_mat_init(F, W, d);
-    arb_mat_init(A, W + d, d); /* F, and what it was multiplied by */
+    arb_mat_init(A, W + d, d); /* F, and the matrix by which it was multiplied */
     arb_mat_init(T, d, d);
     functions(o, piece_at(o, s), s, F);
     for (slong i = 0; i < W + d; i++)

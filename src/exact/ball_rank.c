@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "exact/ball_internal.h"
 
-/* The entry of a row that is farthest from zero for certain; `width` where none is. */
+/* The entry of a row whose distance from zero is certainly the largest; `width` where none is certainly nonzero. */
 static size_t pivot_of(size_t width, arb_srcptr row)
 {
     size_t best = width;

@@ -7,8 +7,8 @@
 #include "exact/ball_series_internal.h"
 
 /* Pieces of the interval on either side of the centre, and of a step of a move: balls around short pieces are small.
- * Terms beyond the degree that are bounded at the centre, where balls are points: only the one after them is bounded on
- * pieces.  The terms of a step, and the bits of bounds. */
+ * beyond: terms after the degree that are bounded at the centre, where balls are points; only the term after them is
+ * bounded on pieces.  Then the terms of a step, and the bits of bounds. */
 enum { pieces = 4, pieces_of_step = 2, beyond = 4, far = 20, few_bits = 64 };
 
 typedef struct {
@@ -23,12 +23,12 @@ struct nh_ball_series {
     size_t defined;
     const nh_ball_defined *define;
     long bits;
-    slong terms;          /* of the series that are computed now */
-    arb_t from, interval; /* a place, and a ball around all that follows it until the next */
-    arb_ptr at_from, at_centre; /* per defined symbol: an integral's value there */
+    slong terms;          /* number of terms of the series at present */
+    arb_t from, interval; /* a place, and a ball that contains everything from it to the next place */
+    arb_ptr at_from, at_centre; /* per defined symbol: the value of an integral at the place */
     size_t nodes, used;
     memo *of;   /* per node */
-    nh_ex *use; /* those that are known */
+    nh_ex *use; /* the nodes that are known */
 };
 
 nh_ball_series *nh_ball_series_create(const nh_dag *dag, nh_ball *ball, nh_ex variable, size_t defined,
@@ -93,7 +93,7 @@ static bool moves(const nh_ball_series *s, nh_ex e)
     return any;
 }
 
-/* The integral of f: what it is at the place, and f on the interval times the way. */
+/* The integral of f: its value at the place, plus f on the interval times the distance. */
 static void integrate(const nh_ball_series *s, arb_srcptr at_from, arb_poly_t f)
 {
     arb_t first, way;
@@ -110,7 +110,7 @@ static void integrate(const nh_ball_series *s, arb_srcptr at_from, arb_poly_t f)
     arb_clear(first);
 }
 
-/* A root of f with the sign that the symbol has in the ball. */
+/* The root of f with the sign that the symbol has in the ball. */
 static bool root(const nh_ball_series *s, nh_ex symbol, arb_poly_t f)
 {
     arb_t value;
@@ -199,7 +199,7 @@ static bool eval_function(nh_ball_series *s, nh_ex e, arb_poly_t out)
     return fine;
 }
 
-/* Finite in all its coefficients; else nothing. */
+/* Keeps a series if all its coefficients are finite; otherwise nothing. */
 static bool all_finite(const arb_poly_t p)
 {
     bool fine = true;
@@ -224,7 +224,7 @@ static bool eval(nh_ball_series *s, nh_ex e, arb_poly_t out)
     if (e >= s->nodes) return false;
     memo *m = &s->of[e];
     if (!m->known) {
-        m->known = true; /* the table does not move */
+        m->known = true; /* the table does not move meanwhile */
         s->use[s->used++] = e;
         arb_poly_init(m->value);
         m->fine = eval_node(s, e, m->value) && all_finite(m->value);
@@ -245,7 +245,7 @@ static double upper(const arb_t v)
     return out;
 }
 
-/* The coefficient as a double, and what it is off by at most. */
+/* The coefficient as a double, and a bound of its error. */
 static double rounded(const nh_ball_series *s, const arb_poly_t p, slong k, double *off)
 {
     arb_t c, d;
@@ -261,7 +261,7 @@ static double rounded(const nh_ball_series *s, const arb_poly_t p, slong k, doub
     return out;
 }
 
-/* The terms of each e about the centre, and what those that are left out and rounding add at a distance of half. */
+/* The terms of each e about the centre, and a bound, at the distance half, of the terms left out and of rounding. */
 static bool take_terms(nh_ball_series *s, size_t count, const nh_ex *e, size_t degree, double half, double *coefficient,
                        double *bound)
 {
@@ -286,7 +286,7 @@ static bool take_terms(nh_ball_series *s, size_t count, const nh_ex *e, size_t d
     return fine;
 }
 
-/* The variable at its centre, and the integrals there. */
+/* Sets the variable to its centre, and the integrals to their values there. */
 static bool stand_at_centre(nh_ball_series *s, arb_t centre)
 {
     bool fine = nh_ball_eval(s->ball, s->variable, centre);
@@ -318,7 +318,7 @@ static bool go_on(nh_ball_series *s, const arb_t w)
     return fine;
 }
 
-/* The largest |a_N| of each e on one side of the centre.  They are bounds: few bits do. */
+/* The largest |a_N| of each e on one side of the centre; for a bound few bits suffice. */
 static bool largest_last(nh_ball_series *s, size_t count, const nh_ex *e, const arb_t centre, slong degree, int parts,
                          double reach, arb_ptr largest)
 {
@@ -371,7 +371,8 @@ bool nh_ball_series_take(nh_ball_series *s, size_t count, const nh_ex *e, size_t
     return fine;
 }
 
-/* The symbols' values at a distance from the centre: the terms there, and the last one's bound on the way. */
+/* The symbols' values at a distance from the centre: the terms there, and a bound of the last one on the interval
+ * between. */
 static bool values_at(nh_ball_series *s, const nh_ex *symbol, const arb_t centre, const arb_t distance, double reach,
                       arb_ptr out)
 {
@@ -400,7 +401,7 @@ static bool values_at(nh_ball_series *s, const nh_ex *symbol, const arb_t centre
     return fine;
 }
 
-/* The variable goes to a place so near that the terms there fall quickly. */
+/* Moves the variable to a place so near that the terms there fall quickly. */
 static bool step_to(nh_ball_series *s, const arb_t to)
 {
     static const double upwards = 1 + 1e-12;

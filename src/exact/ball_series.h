@@ -17,14 +17,14 @@ typedef struct {
     bool integral;
 } nh_ball_defined;
 
-/* About the value that the variable has in the ball, which is borrowed like the rest. */
+/* About the value that the variable has in the ball.  The ball and everything else are borrowed. */
 nh_ball_series *nh_ball_series_create(const nh_dag *dag, nh_ball *ball, nh_ex variable, size_t defined,
                                       const nh_ball_defined *define);
 void nh_ball_series_free(nh_ball_series *series);
 
 /* The terms below x^degree of each of `count` expressions, one row of `degree` after the other, and bounds of |R| for
- * |x| <= half with what rounding the coefficients to doubles adds.  False where a series does not reach so far, or
- * where an e has functions without series. */
+ * |x| <= half, which include the rounding of the coefficients to doubles.  False where a bound is not finite, or
+ * an e has functions without series. */
 bool nh_ball_series_take(nh_ball_series *series, size_t count, const nh_ex *e, size_t degree, double half,
                          double *coefficient, double *bound);
 

@@ -45,7 +45,7 @@ static void area_function(nh_function f, arb_poly_t p, slong terms, slong bits)
     arb_poly_clear(rate);
 }
 
-/* On the side of 0 where all of p_0 is. */
+/* On the side of 0 on which all of p_0 lies. */
 static bool sided(nh_function f, arb_poly_t p)
 {
     arb_t first;

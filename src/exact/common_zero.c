@@ -6,7 +6,8 @@
 
 enum { most_terms = 400, most_degree = 60, most_bits = 400, most_list = 16, most_square = 1000 };
 static const double vanishing = 1e-8,
-                    same = 1e-6; /* of a polynomial relative to its terms; of two values of the unknown */
+                    /* bounds: of a polynomial relative to its terms; of the difference of two values of the unknown */
+                    same = 1e-6;
 
 typedef struct {
     const nh_zero_point *at;
@@ -36,7 +37,7 @@ static void list_remove(list *l, size_t i)
 
 /* ---- values ---- */
 
-/* p at the point; `size`: the sum of the moduli of its terms. */
+/* The value of p at the point; `size`: the sum of the absolute values of its terms. */
 static double value_of(const list *l, const fmpz_mpoly_struct *p, double *size)
 {
     double sum = 0;
@@ -83,7 +84,7 @@ static bool has_unknown(const list *l, const fmpz_mpoly_struct *p)
     return false;
 }
 
-/* The roots of other things that p has are eliminated: r^m = a/b. */
+/* Eliminates the roots in p of expressions without unknowns: r^m = a/b. */
 static bool without_roots(const list *l, fmpz_mpoly_struct *p)
 {
     nh_quotient_field *f = l->field;
@@ -104,7 +105,7 @@ static bool without_roots(const list *l, fmpz_mpoly_struct *p)
     return good;
 }
 
-/* p := its simplest irreducible factor with an unknown that vanishes at the point. */
+/* p := its simplest irreducible factor that contains an unknown and vanishes at the point. */
 static bool pick(const list *l, fmpz_mpoly_struct *p)
 {
     fmpz_mpoly_factor_t f;
@@ -124,7 +125,7 @@ static bool pick(const list *l, fmpz_mpoly_struct *p)
     return good && best >= 0;
 }
 
-/* Its irreducible part joins the list, unless it is there. */
+/* Adds its irreducible part to the list, unless it is there. */
 static void add(list *l, const fmpz_mpoly_struct *p)
 {
     fmpz_mpoly_t q;
@@ -139,7 +140,7 @@ static void add(list *l, const fmpz_mpoly_struct *p)
     fmpz_mpoly_clear(q, l->ctx);
 }
 
-/* u^2 + v^2 has isolated zeros, where its derivatives vanish as well. */
+/* the zeros of u^2 + v^2 are isolated; there its derivatives vanish as well */
 static void add_derivatives(list *l)
 {
     size_t count = l->count;
@@ -166,8 +167,8 @@ static size_t lowest(const list *l, size_t generator)
     return best;
 }
 
-/* How many terms the resultant of a and b can have: it is of degree deg a in the coefficients of b, and deg b in those
-   of a.  Beyond the limit it takes seconds, and what comes out has no roots that can be written down. */
+/* A bound for the number of terms of the resultant of a and b: it has degree deg a in the coefficients of b, and deg b
+ * in those of a.  Beyond the limit it takes seconds, and its roots cannot be written in closed form. */
 static bool resultant_is_small(const list *l, const fmpz_mpoly_struct *a, const fmpz_mpoly_struct *b, size_t generator)
 {
     static const double most = 1e7;

@@ -2,10 +2,9 @@
  *
  *     P_1(x, p) = P_2(x, p) = .. = 0,    x: a few unknowns,   p: everything else
  *
- * What an irreducible factor does not share with the zero at the point is left out; the other unknowns, and roots of p
- * that the field knows, are eliminated by resultants; the irreducible polynomial G(x_k, p) that remains is solved where
- * it is of degree one or two in x_k or in x_k^2. What comes out is a proposal: factors are chosen by their values at
- * one point. */
+ * Irreducible factors that do not vanish at the point are left out; the other unknowns, and roots of p that the field
+ * knows, are eliminated by resultants; the irreducible polynomial G(x_k, p) that remains is solved where it is of
+ * degree one or two in x_k or in x_k^2.  The result is a proposal: factors are chosen by their values at one point. */
 #ifndef NH_COMMON_ZERO_H
 #define NH_COMMON_ZERO_H
 
@@ -13,9 +12,9 @@
 
 typedef struct {
     nh_quotient_field *field;
-    const double *value; /* of every generator at the point */
+    const double *value; /* values of every generator at the point */
     size_t unknowns;
-    const size_t *unknown; /* generators */
+    const size_t *unknown; /* generators that are unknowns */
 } nh_zero_point;
 
 enum { NH_MOST_ROOTS = 12 };
@@ -30,8 +29,8 @@ typedef struct {
     unsigned outer; /* 1 or 2 */
 } nh_zero_root;
 
-/* The unknown number k of the point, which satisfies all equations (quotients without denominators).  False: there is
- * no such form, or it is too large. */
+/* Finds the unknown number k of the point, which satisfies all equations (quotients without denominators).  False: it
+ * has no such form, or the form is too large. */
 bool nh_common_zero(const nh_zero_point *point, size_t equations, const nh_quotient *const *equation, size_t k,
                     nh_zero_root *out);
 

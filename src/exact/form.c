@@ -8,7 +8,7 @@
 #include "graph/measure.h"
 
 enum {
-    deepest = 300,        /* nodes above each other that are rewritten: what the stack surely bears */
+    deepest = 300,        /* depth of nesting that is rewritten: what the stack bears */
     argument_terms = 300, /* an argument whose canonical form is longer stays as it is */
     most_kernels = 300
 };
@@ -26,7 +26,7 @@ void nh_forms_clear(nh_forms *forms)
 
 /* ---- canonical arguments ---- */
 
-/* A symbol that satisfies nothing. */
+/* Is it a symbol without relation? */
 static bool free_symbol(const nh_dag *dag, nh_ex e)
 {
     return nh_kind_of(dag, e) == NH_SYMBOL && !nh_dag_power_rule(dag, e);
@@ -70,7 +70,7 @@ static bool make_argument(nh_forms *s, nh_ex e, nh_form *form)
     return fine && nh_quotient_field_state_of(form->field) == NH_FIELD_FINE;
 }
 
-/* Inexact numbers that the source has not are a sign of overflow. */
+/* Inexact numbers that the source does not have are a sign of overflow. */
 static bool is_sound(const nh_dag *dag, nh_ex result, nh_ex source)
 {
     if (nh_kind_of(dag, result) == NH_NUMBER && isnan(nh_num_value(nh_number_of(dag, result)))) return false;
@@ -100,7 +100,7 @@ static nh_ex canonical_parts(nh_forms *s, nh_ex e, nh_num *content)
     return rest;
 }
 
-/* num/den = whole + rest/den: sin(y + 1/(1 + x)) is to be cut at the + */
+/* num/den = whole + rest/den: the argument of sin(y + 1/(1 + x)) is split at the + */
 static nh_ex emit_mixed(nh_form *form)
 {
     const nh_quotient *side[2];
@@ -115,7 +115,7 @@ static nh_ex emit_mixed(nh_form *form)
         if (fits) sum = nh_add(dag, sum, nh_print_quotient_terms(&form->kernels, &pieces));
     }
     nh_arena_free(arena);
-    return fits ? sum : nh_real(dag, NAN); /* inexact: the caller takes the overflow as such */
+    return fits ? sum : nh_real(dag, NAN); /* inexact: the caller treats it as an overflow */
 }
 
 static nh_ex canonical(nh_forms *s, nh_ex e)
@@ -224,7 +224,7 @@ static bool rewrite_turn(nh_forms *s, nh_function f, nh_ex a, nh_ex *out)
     return true;
 }
 
-/* In functions of fewer orders; not where they are to be shown. */
+/* By functions of orders in a standard interval; not where the expression is to be shown. */
 static nh_ex related(nh_forms *s, nh_ex e)
 {
     nh_ex next;
@@ -300,7 +300,7 @@ static nh_ex rewrite(nh_forms *s, nh_ex e)
 
 /* ---- the whole ---- */
 
-/* The square roots that were related so far. */
+/* The square roots that are related so far. */
 typedef struct {
     size_t generator;
     const nh_quotient *radicand;
@@ -315,8 +315,8 @@ static bool is_product(nh_form *f, const nh_quotient *whole, const nh_quotient *
     return nh_quotient_equal(f->field, whole, nh_quotient_mul(f->field, a, b));
 }
 
-/* sqrt(a b) = sqrt(a) sqrt(b) where all three stand in one expression, so that a and b are not negative wherever it
-   means something. */
+/* sqrt(a b) = sqrt(a) sqrt(b) where all three occur in one expression: a and b are then not negative wherever it is
+ * defined. */
 static const nh_quotient *from_other_roots(nh_form *f, const square_root *root, size_t roots,
                                            const nh_quotient *radicand)
 {
@@ -340,7 +340,7 @@ static bool half_of(nh_num c, nh_num *root)
     return nh_num_is(nh_num_add(nh_num_mul(*root, *root), nh_num_mul(c, nh_num_int(-1))), 0);
 }
 
-/* Exponentials are, and what stands below a root alone. */
+/* Is the generator positive?  Exponentials are, and a generator that is itself a radicand. */
 static bool is_positive(nh_form *f, const square_root *root, size_t roots, size_t generator)
 {
     bool found = f->kernels.item[generator].kind == NH_KERNEL_EXP;
@@ -349,7 +349,7 @@ static bool is_positive(nh_form *f, const square_root *root, size_t roots, size_
     return found;
 }
 
-/* The root of a positive square: of a number times powers of what is positive.  NULL: q is none. */
+/* The root of a positive square: of a number times powers of positive expressions.  NULL: q is no such square. */
 static const nh_quotient *root_of_monomial(nh_form *f, const square_root *of, size_t roots, const nh_quotient *q)
 {
     nh_arena *arena = nh_arena_create();
@@ -374,7 +374,7 @@ static bool has_exponentials(const nh_form *f)
 }
 
 /* sqrt(1 + x exp(-2 u)) = exp(-u) sqrt(exp(2 u) + x), perhaps times roots of numbers or parameters: exponentials are
-   positive, and so is what stands below a root. */
+ * positive, and so is a radicand. */
 static const nh_quotient *from_shifted_root(nh_form *f, const square_root *root, size_t roots,
                                             const nh_quotient *radicand)
 {
@@ -430,8 +430,8 @@ void nh_form_relate_abs(nh_form *f, size_t generator)
     else nh_quotient_field_relate(f->field, generator, 2, nh_quotient_pow(f->field, u, 2));
 }
 
-/* Radicands come before their roots, and what a symbol satisfies before it, so that every relation is known before it
-   is needed. */
+/* Orders kernels: radicands before their roots, and the expressions in a symbol's relation before the symbol, so that
+ * every relation is known before it is needed. */
 static void relate(nh_form *f)
 {
     square_root root[most_roots];

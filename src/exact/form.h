@@ -1,17 +1,16 @@
 /* form: expressions as quotients of polynomials in kernels.
  *
- * First everything below a function or a root is made canonical (the same question, one level down), so that equal
- * arguments are the same node; then the kernels are collected, related to each other, and the expression is evaluated
- * in their field. */
+ * First the arguments of functions and roots are made canonical, by the same method, so that equal arguments are the
+ * same node; then the kernels are collected, related to each other, and the expression is evaluated in their field. */
 #ifndef NH_FORM_H
 #define NH_FORM_H
 
 #include "exact/kernel.h"
 #include "exact/normal_quotient.h"
 
-/* What all normal forms of one question share. */
+/* The state that all normal forms of one computation share. */
 typedef struct {
-    nh_dag *dag;             /* borrows */
+    nh_dag *dag;             /* borrowed */
     bool literal;            /* see kernel.h */
     size_t max_terms;
     int depth;
@@ -30,7 +29,7 @@ typedef struct {
 void nh_forms_init(nh_forms *forms, nh_dag *dag, bool literal, size_t max_terms);
 void nh_forms_clear(nh_forms *forms);
 
-/* The form of e; inexact numbers are kernels of their own when `opaque`.  The state says whether there is a value;
+/* The form of e; with `opaque` inexact numbers are kernels of their own.  The state says whether there is a value;
  * clear the form in any case. */
 nh_quotient_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form);
 void nh_form_clear(nh_form *form);
@@ -39,8 +38,8 @@ void nh_form_clear(nh_form *form);
    field. */
 nh_ex nh_form_rewrite(nh_forms *forms, nh_ex e);
 
-/* What |u| and sign(u) satisfy, their kernels collected: sign(u)^2 = 1 but where u = 0; |u| = sign(u) u where both
-   stand in one field, else |u|^2 = u^2. */
+/* Declares the relations of |u| and sign(u), whose kernels are collected: sign(u)^2 = 1 except where u = 0; |u| =
+ * sign(u) u where both are in one field, otherwise |u|^2 = u^2. */
 void nh_form_relate_signs(nh_form *form);
 void nh_form_relate_abs(nh_form *form, size_t kernel);
 

@@ -1,4 +1,4 @@
-/* Expressions with canonical arguments, evaluated in the field of their kernels. */
+/* Evaluates expressions with canonical arguments in the field of their kernels. */
 #include "exact/form.h"
 
 typedef const nh_quotient *quotient;

@@ -54,7 +54,7 @@ static nh_jet_eval *at_point(problem *x, uint64_t seed)
     return v;
 }
 
-/* Atoms that are linearly independent: kernels satisfy nothing else [jet_point.h]. */
+/* Are the atoms linearly independent?  Then the kernels satisfy no other relations [jet_point.h]. */
 static bool unrelated(const problem *x, nh_jet_eval *v)
 {
     bool good = true;
@@ -95,7 +95,7 @@ bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables,
     for (size_t i = 0; i < n; i++) own[i] = nh_form_rewrite(&forms, e[i]);
     nh_forms_clear(&forms);
     bool found = variables && list_constants(&x, dag) && nh_jet_point_register(x.point, n, own);
-    /* a prime that has the roots of numbers */
+    /* a prime modulo which the numbers have their roots */
     nh_jet_ring *ring = nh_jet_ring_create(nh_jet_point_prime(x.point, 0), variables, one, order);
     x.ring = ring;
     found = found && solve(&x);

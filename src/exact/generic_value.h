@@ -1,8 +1,8 @@
 /* generic_value: does an expression vanish identically?  For expressions that are too long for a normal form.
  *
- * At a point modulo a prime (jet_point.h), with all symbols at random residues: where the value is not zero, the
- * expression is not zero for almost all values of its symbols, parameters among them; a proof, provided that functions
- * satisfy no other relations than those that the point keeps, which is looked at. */
+ * It is evaluated at a point modulo a prime (jet_point.h), with all symbols at random residues.  If the value is not
+ * zero, the expression is not zero for almost all values of its symbols, parameters among them.  This is a proof,
+ * because it is checked that functions satisfy no other relations than those that the point satisfies. */
 #ifndef NH_GENERIC_VALUE_H
 #define NH_GENERIC_VALUE_H
 

@@ -5,7 +5,7 @@
 #include "base/budget.h"
 #include "exact/relation_internal.h"
 
-/* A linear combination of unknowns: those with an entry, in ascending order. */
+/* A linear combination of unknowns: its nonzero entries, in ascending order. */
 typedef struct {
     size_t count;
     size_t *unknown;
@@ -18,9 +18,9 @@ typedef struct {
     nh_quotient_field *field;
     nh_arena *arena, *scratch;
     size_t unknowns;         /* S_ij, i <= j, row by row */
-    combination *solved;     /* per unknown that is not free: what it is in those before it */
+    combination *solved;     /* per solved unknown: its value in terms of those before it */
     bool *is_solved;
-    const nh_quotient **sum; /* per unknown: the equation at hand */
+    const nh_quotient **sum; /* per unknown: its coefficient in the present equation */
     const nh_quotient *minus;
 } problem;
 
@@ -59,7 +59,7 @@ static void set_equation(problem *p, size_t i, size_t j)
     if (!nh_quotient_is_zero(p->field, c)) add(p, unknown_at(p, i, j), c);
 }
 
-/* What is solved is replaced by what it is in free unknowns; the last of these, or the number of unknowns. */
+/* Replaces solved unknowns by their values; returns the index of the last free unknown, or the number of unknowns. */
 static size_t reduce(problem *p, size_t last)
 {
     size_t highest = p->unknowns;
@@ -78,7 +78,7 @@ static size_t reduce(problem *p, size_t last)
     return highest;
 }
 
-/* The unknowns before `unknown`, times `factor`; the sum is cleared. */
+/* Writes the coefficients of the unknowns before `unknown`, times `factor`, and clears the sum. */
 static void keep(problem *p, size_t unknown, const nh_quotient *factor)
 {
     combination *s = &p->solved[unknown];
@@ -96,7 +96,7 @@ static void keep(problem *p, size_t unknown, const nh_quotient *factor)
     p->is_solved[unknown] = true;
 }
 
-/* Each equation for the last of its unknowns: for what comes first the forms are simplest. */
+/* Solves each equation for the last of its unknowns: the forms are then simplest in the first ones. */
 static void eliminate(problem *p)
 {
     size_t n = p->q->n;
@@ -107,7 +107,7 @@ static void eliminate(problem *p)
             if (u < p->unknowns && fine(p))
                 keep(p, u, nh_quotient_mul(p->field, p->minus, nh_quotient_inv(p->field, p->sum[u])));
         }
-    /* what was solved for by an unknown that was free then */
+    /* it was solved in terms of an unknown that was free then */
     for (size_t u = 0; u < p->unknowns && fine(p); u++) {
         if (!p->is_solved[u]) continue;
         const combination *s = &p->solved[u];
@@ -160,8 +160,8 @@ static size_t subtract(const problem *p, const combination *a, const combination
     return count;
 }
 
-/* a without another vector where that has fewer entries: of a chain's powers of A, which fill the matrix, what is left
-   are bands. */
+/* Subtracts another vector from a where the difference has fewer entries: powers of A for a chain fill the matrix, and
+ * their differences are bands. */
 static void shorten(problem *p, size_t dimension, combination *v, size_t a)
 {
     size_t best = dimension, fewest = v[a].count;
@@ -190,7 +190,7 @@ static void shorten_all(problem *p, size_t dimension, combination *v)
 
 /* ---- forms ---- */
 
-/* Terms with the same coefficient, but for a number. */
+/* Terms with the same coefficient up to a rational factor. */
 typedef struct {
     nh_ex coefficient, sum;
 } bunch;
@@ -207,7 +207,7 @@ static void put(nh_dag *d, bunch *list, size_t *count, nh_ex coefficient, nh_ex 
     list[at].sum = nh_add(d, list[at].sum, nh_mul(d, nh_number(d, number), term));
 }
 
-/* Neighbours are often equal: what was written once is not written again. */
+/* Neighbours are often equal: an expression that was converted is not converted again. */
 typedef struct {
     const nh_quotient *value;
     nh_ex written;
@@ -273,7 +273,7 @@ static bool read_question(problem *p)
     nh_ex *e = nh_alloc_array(n * n + 1, sizeof *e);
     memcpy(e, q->A, n * n * sizeof *e);
     e[n * n] = q->c;
-    /* a common denominator is of no account: the equations are homogeneous in A and c */
+    /* a common denominator does not matter: the equations are homogeneous in A and c */
     nh_relation_question_init(&p->relation, q->dag, n * n + 1, q->parameters, q->parameter, 0);
     bool good = nh_relation_question_read(&p->relation, e);
     nh_free(e);

@@ -10,7 +10,8 @@ struct nh_jet_eval {
     size_t nodes;
     nh_residue **value;   /* per node; NULL: not known */
     bool *varies;
-    nh_ex *known, *changing, *stack; /* with a value, now or before; computed and varying; to be computed */
+    /* nodes with a value, now or before; those computed that vary; those to be computed */
+    nh_ex *known, *changing, *stack;
     size_t knowns, known_capacity, changes, change_capacity, stack_capacity;
     bool unlucky;
 };
@@ -39,7 +40,7 @@ void nh_jet_eval_free(nh_jet_eval *v)
     nh_free(v);
 }
 
-/* Room for the value of a node: few of a large graph have one. */
+/* Makes room for the value of a node: only a few nodes of a large graph have one. */
 static nh_residue *room(nh_jet_eval *v, nh_ex e)
 {
     nh_grow(&v->known, &v->known_capacity, v->knowns + 1, sizeof *v->known);
@@ -178,8 +179,8 @@ static void exponential(nh_jet_eval *v, nh_ex e, nh_residue *out)
     nh_free(up);
 }
 
-/* f'(u) of the inverse functions and the logarithm: (+-1) (c + s u^2)^(-1/2) or 1/(c + s u^2), or 1/u.  The root gets a
- * value of its own: it is no node of the graph. */
+/* f'(u) of the inverse functions and the logarithm: (+-1) (c + s u^2)^(-1/2) or 1/(c + s u^2), or 1/u.  The root has a
+ * value of its own, because it is no node of the graph. */
 static bool slope(nh_jet_eval *v, nh_function f, const nh_residue *u, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
@@ -232,7 +233,7 @@ static void primitive(nh_jet_eval *v, nh_ex e, nh_residue *out)
         return;
     }
     const nh_residue *u = v->value[nh_child(v->dag, e, 0)];
-    if (f == NH_ABS || f == NH_SIGN) { /* the sign with which it is a square */
+    if (f == NH_ABS || f == NH_SIGN) { /* the sign for which it is a square */
         nh_residue sign = u[0] && nh_residue_root(r->field, u[0], 2, &root) ? 1 : (nh_residue)(r->field.p - 1);
         v->unlucky |= !u[0];
         nh_jet_constant(r, f == NH_SIGN ? sign : 0, out);
@@ -247,7 +248,7 @@ static void primitive(nh_jet_eval *v, nh_ex e, nh_residue *out)
     }
 }
 
-/* f' = P + Q f, right to one order more each time; of the arguments one moves. */
+/* Solves f' = P + Q f, exact to one order more at each step; one of the arguments varies. */
 static void first_order(nh_jet_eval *v, const nh_jet_kernel *k, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
@@ -264,7 +265,7 @@ static void first_order(nh_jet_eval *v, const nh_jet_kernel *k, nh_residue *out)
     nh_free(prime);
 }
 
-/* f'' = P f' + Q f: E(f) = f' E(u) and E(f') = f'' E(u), which are right to one order more each time. */
+/* Solves f'' = P f' + Q f: E(f) = f' E(u) and E(f') = f'' E(u), exact to one order more at each step. */
 static void solution(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
@@ -299,7 +300,7 @@ static void compute(nh_jet_eval *v, nh_ex e)
     nh_residue *out = room(v, e);
     switch (nh_kind_of(v->dag, e)) {
     case NH_NUMBER: nh_jet_constant(v->ring, number(v, nh_number_of(v->dag, e)), out); return;
-    case NH_SYMBOL: v->unlucky = true; return; /* not set */
+    case NH_SYMBOL: v->unlucky = true; return; /* the symbol is not set */
     case NH_SUM: sum(v, e, out); break;
     case NH_PRODUCT: product(v, e, out); break;
     default:
@@ -318,7 +319,7 @@ static void compute(nh_jet_eval *v, nh_ex e)
     v->changing[v->changes++] = e;
 }
 
-/* What has to be known before e, one after another; false behind the last. */
+/* The i-th expression that must be known before e; false behind the last. */
 static bool operand(nh_jet_eval *v, nh_ex e, size_t i, nh_ex *out)
 {
     nh_kind kind = nh_kind_of(v->dag, e);
@@ -330,7 +331,7 @@ static bool operand(nh_jet_eval *v, nh_ex e, size_t i, nh_ex *out)
     return true;
 }
 
-/* e and what it is made of, operands first. */
+/* Evaluates e and what it is made of, operands first. */
 static void compute_all(nh_jet_eval *v, nh_ex e)
 {
     size_t depth = 0;
@@ -350,7 +351,7 @@ static void compute_all(nh_jet_eval *v, nh_ex e)
     }
 }
 
-/* ---- many ---- */
+/* ---- several expressions ---- */
 
 bool nh_jet_eval_all(nh_jet_eval *v, size_t n, const nh_ex *e, nh_residue *out)
 {

@@ -10,7 +10,7 @@
 #include "graph/named_function.h"
 #include "graph/num_long.h"
 
-static const uint64_t most_order = (uint64_t)1 << 40; /* of the common denominator of the multiples of one atom */
+static const uint64_t most_order = (uint64_t)1 << 40; /* largest common denominator of the multiples of one atom */
 
 nh_jet_point *nh_jet_point_create(nh_dag *dag)
 {
@@ -26,7 +26,7 @@ void nh_jet_point_free(nh_jet_point *x)
     nh_free(x);
 }
 
-/* Mark what is reachable from these expressions. */
+/* Marks what is reachable from these expressions. */
 static void reach(const nh_dag *d, size_t n, const nh_ex *e, bool *wanted)
 {
     nh_ex top = 0;
@@ -41,7 +41,7 @@ static void reach(const nh_dag *d, size_t n, const nh_ex *e, bool *wanted)
     }
 }
 
-/* ---- which kernels there are ---- */
+/* ---- collecting the kernels ---- */
 
 static nh_jet_kernel *find(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex key)
 {
@@ -79,7 +79,7 @@ static bool note_parts(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex argument)
     return !x->obstacle;
 }
 
-/* f of f and of f' */
+/* f, for f and for f' */
 static nh_ex base_of(nh_dag *dag, nh_ex e)
 {
     nh_ex argument[NH_MOST_ARGUMENTS];
@@ -97,7 +97,7 @@ static bool note_equation(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex f, siz
     return nh_jet_point_register(x, 2, (nh_ex[]){P, Q});
 }
 
-/* f' = P + Q f.  False: it has no such equation. */
+/* Reads f' = P + Q f.  False: f has no such equation. */
 static bool note_first_order(nh_jet_point *x, nh_ex f)
 {
     size_t place;
@@ -108,7 +108,7 @@ static bool note_first_order(nh_jet_point *x, nh_ex f)
     return true;
 }
 
-/* The right side of f'' = P f' + Q f is linear in f and f'. */
+/* Splits the right side of f'' = P f' + Q f, which is linear in f and f'. */
 static bool note_solution(nh_jet_point *x, nh_ex e)
 {
     nh_dag *dag = x->dag;
@@ -186,7 +186,7 @@ bool nh_jet_point_register(nh_jet_point *x, size_t n, const nh_ex *e)
 
 /* ---- values ---- */
 
-/* Have the numbers their roots? */
+/* Do the numbers below roots have their roots? */
 static bool has_roots(const nh_jet_point *x, nh_prime field)
 {
     const nh_jet_point there = {.dag = x->dag, .field = field};

@@ -1,5 +1,5 @@
-/* Truncated power series modulo a prime: products by lists of pairs grouped by their sum, everything else by
-   recurrences of the Euler field. */
+/* Truncated power series modulo a prime: products by lists of pairs of exponents grouped by their sum, all other
+ * operations by recurrences of the Euler field. */
 #include "exact/jet_ring.h"
 
 #include <stdlib.h>
@@ -72,7 +72,8 @@ static void list_exponents(nh_jet_ring *r)
     nh_free(current);
 }
 
-/* Indices by code: sum of e_k stride_k, where stride_k is the number of codes of the variables before. */
+/* Codes of exponents: the sum of e_k stride_k, where stride_k is the number of codes of the variables before; and a
+ * table of their indices. */
 typedef struct {
     size_t *stride;
     uint32_t *index; /* NULL: there are too many codes */
@@ -100,7 +101,7 @@ static codes number_codes(const nh_jet_ring *r)
     return c;
 }
 
-/* How many left exponents are nowhere larger than the sums. */
+/* The number of left exponents that are nowhere larger than the sums. */
 static size_t count_pairs(const nh_jet_ring *r)
 {
     size_t count = 0;
@@ -112,7 +113,7 @@ static size_t count_pairs(const nh_jet_ring *r)
     return count;
 }
 
-/* Of one sum, as an odometer; the code of the right one is the difference of codes. */
+/* Lists the pairs of one sum, counting up the left exponent; the code of the right one is the difference of codes. */
 static size_t list_pairs_of(nh_jet_ring *r, const codes *c, const uint8_t *sum, uint8_t *left, uint8_t *right,
                             size_t count)
 {

@@ -26,17 +26,17 @@ typedef struct {
     nh_arena *arena;
 } nh_jet_ring;
 
-/* How many coefficients a series has; SIZE_MAX when there are more than `most`. */
+/* The number of coefficients of a series; SIZE_MAX when there are more than `most`. */
 size_t nh_jet_ring_size(size_t variables, const size_t *weight, size_t order, size_t most);
 
-/* At most 255 for the order; the weights are copied. */
+/* The ring of series up to the order, at most 255; the weights are copied. nh_jet_ring_free. */
 nh_jet_ring *nh_jet_ring_create(nh_prime field, size_t variables, const size_t *weight, size_t order);
 void nh_jet_ring_free(nh_jet_ring *ring);
 
 /* The index of an exponent, which must be in the ring. */
 size_t nh_jet_ring_find(const nh_jet_ring *ring, const uint8_t *exponent);
 
-/* `out` is no operand unless this is said. */
+/* In the operations below `out` must not be an operand unless this is allowed. */
 bool nh_jet_is_constant(const nh_jet_ring *ring, const nh_residue *a);
 bool nh_jet_is_zero(const nh_jet_ring *ring, const nh_residue *a);
 void nh_jet_constant(const nh_jet_ring *ring, nh_residue c, nh_residue *out);
@@ -47,7 +47,7 @@ void nh_jet_mul(const nh_jet_ring *ring, const nh_residue *a, const nh_residue *
 void nh_jet_add_product(const nh_jet_ring *ring, nh_residue *sum, const nh_residue *a, const nh_residue *b);
 /* sum -= a b */
 void nh_jet_sub_product(const nh_jet_ring *ring, nh_residue *sum, const nh_residue *a, const nh_residue *b);
-/* right up to order - weight_k */
+/* out = da/dz_k, exact up to order - weight_k */
 void nh_jet_derivative(const nh_jet_ring *ring, const nh_residue *a, size_t k, nh_residue *out);
 
 /* Solve M x = b in place, M n x n and b n x count series, row by row: Gauss and Jordan.  M is destroyed.  False where
@@ -66,7 +66,7 @@ void nh_jet_integral(const nh_jet_ring *ring, const nh_residue *u, const nh_resi
                      nh_residue *out);
 /* The Euler field: (E a)_e = |e| a_e. */
 void nh_jet_euler(const nh_jet_ring *ring, const nh_residue *a, nh_residue *out);
-/* Its inverse, with this constant term. */
+/* Its inverse on series without constant term, with this constant term added. */
 void nh_jet_euler_inverse(const nh_jet_ring *ring, const nh_residue *a, nh_residue at, nh_residue *out);
 
 #endif

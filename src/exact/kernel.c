@@ -22,7 +22,7 @@ static void add_part(nh_parts *parts, nh_ex atom, nh_num c)
     parts->item[parts->count++] = (nh_part){atom, c};
 }
 
-/* scale * c * atom.  An inexact c belongs to the atom: 0.3 x is no rational multiple of x that is of any use. */
+/* scale * c * atom.  An inexact c belongs to the atom: 0.3 x is not treated as a rational multiple of x. */
 static void add_scaled(nh_dag *dag, nh_parts *parts, nh_ex atom, nh_num c, nh_num scale)
 {
     nh_num product = nh_num_mul(scale, c);
@@ -215,7 +215,7 @@ const nh_power_rule *nh_dag_power_rule(const nh_dag *dag, nh_ex symbol)
     return NULL;
 }
 
-/* What a symbol satisfies comes before it. */
+/* The expressions in a symbol's relation come before it. */
 static void collect_symbol(nh_kernels *k, nh_ex e, int depth)
 {
     const nh_power_rule *rule = nh_dag_power_rule(k->dag, e);
@@ -256,8 +256,8 @@ static int64_t most_multiple(const nh_kernels *k, nh_kernel_kind family)
     return most_power;
 }
 
-/* The least common denominator of the group's coefficients, 0 when some multiple of 1/lcd is too large; *worst gets
- * the unsettled member with the largest numerator or denominator. */
+/* The least common denominator of the group's coefficients, 0 when some multiple of 1/lcd is too large; *worst gets the
+ * member, among those not yet settled, with the largest numerator or denominator. */
 static int64_t common_denominator(const nh_kernels *k, const nh_kernel_use *group, size_t *worst)
 {
     int64_t lcd = 1, height = -1;
@@ -329,7 +329,7 @@ static int by_identity(const void *left, const void *right)
     return c ? c : compare((uint64_t)a->unit.p, (uint64_t)b->unit.p);
 }
 
-/* Leading terms, and with them canonical forms, must not depend on the order of discovery. */
+/* Leading terms, and with them canonical forms, must not depend on the order in which kernels are found. */
 static void sort_kernels(nh_kernels *k)
 {
     size_t *place = nh_alloc_array(k->count, sizeof *place);

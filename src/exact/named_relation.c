@@ -45,8 +45,8 @@ static const struct {
     {NH_AIRY_BI, NH_AIRY_AI, "(G*f + 1/pi)/F"},
 };
 
-/* How far a number lies beyond (0, 1], or the constant part of another order
- * beyond (-1, 0], in steps of one; 0 also where that is too far. */
+/* The number of steps of one by which a number lies beyond (0, 1], or the constant part of another order beyond (-1,
+ * 0]; 0 also where that is too far. */
 static long steps_beyond(nh_dag *dag, nh_ex order)
 {
     nh_parts parts;
@@ -60,7 +60,7 @@ static long steps_beyond(nh_dag *dag, nh_ex order)
     return fabs(steps) <= most_steps ? (long)steps : 0;
 }
 
-/* The derivative of a row with respect to x: x is a symbol first. */
+/* The derivative of a row with respect to x, which is replaced by a symbol first. */
 static bool read_row(nh_dag *dag, const char *text, nh_function f, bool prime, nh_ex *argument, nh_ex *out)
 {
     size_t last = nh_function_arity(f) - 1;
@@ -88,8 +88,7 @@ static bool next_order(nh_dag *dag, nh_ex e, nh_function f, nh_ex *argument, nh_
     return false;
 }
 
-/* 2F1(a, b; a + 1; x): which of the first two arguments is the other that is smaller than the third by one?  False:
-   none is. */
+/* 2F1(a, b; a + 1; x): which of the first two arguments is smaller than the third by one?  False: none is. */
 static bool is_beta(nh_dag *dag, nh_ex f, size_t *which)
 {
     enum { first_two = 2, third = 2 };
@@ -99,7 +98,7 @@ static bool is_beta(nh_dag *dag, nh_ex f, size_t *which)
     return false;
 }
 
-/* x f' = a ((1 - x)^(-b) - f): a constant part and a factor of f. */
+/* x f' = a ((1 - x)^(-b) - f): the part without f, and the factor of f. */
 static void beta_equation(nh_dag *dag, nh_ex f, size_t which, nh_ex *constant, nh_ex *factor)
 {
     enum { last = 3 };

@@ -14,13 +14,12 @@
 
 #include "graph/dag.h"
 
-/* One step: e, a call with canonical arguments, by functions whose orders are
- * nearer to that interval, or by the first of two solutions.  False: there is
- * no step. */
+/* One step: expresses e, a call with canonical arguments, by functions whose orders are nearer to that interval, or by
+ * the first of two solutions.  False: there is no step. */
 bool nh_named_relation_step(nh_dag *dag, nh_ex e, nh_ex *out);
 
-/* f' = *constant + *factor f by the argument *place, for incomplete beta
- * functions and incomplete elliptic integrals.  False: f is none. */
+/* f' = *constant + *factor f by the argument *place, for incomplete beta functions and incomplete elliptic integrals.
+ * False: f is no such function. */
 bool nh_named_relation_first_order(nh_dag *dag, nh_ex f, size_t *place, nh_ex *constant, nh_ex *factor);
 
 #endif

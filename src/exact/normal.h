@@ -17,41 +17,41 @@ typedef enum { NH_ZERO, NH_NONZERO, NH_TOO_LARGE } nh_zero_verdict;
 /* Is e identically zero?  `max_terms` bounds the size of intermediate polynomials (0: the default of 20000). */
 nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms);
 
-/* An equal expression that is the simplest found: the reduced quotient, with sin^2 or cos^2 eliminated, numerator
- * and denominator factored where that is shorter; e itself when nothing is simpler or the size bound is met.
- * Never larger, by nh_complexity, than e. */
+/* The simplest equal expression that was found: the reduced quotient, with sin^2 or cos^2 eliminated, numerator and
+ * denominator factored where that is shorter; e itself when nothing is simpler or the size bound is reached.  Never
+ * longer than e, by nh_complexity. */
 nh_ex nh_simplify(nh_dag *dag, nh_ex e);
 
-/* How long an entry of n equations may be to be simplified: entries of many equations are many, and zeros among them
-   are short.  0: as nh_simplify_short has it. */
+/* The length up to which entries of n equations are simplified: many equations have many entries, and zeros among them
+ * are short. 0: the limit of nh_simplify_short. */
 size_t nh_simplify_longest(size_t n);
-/* The same, but e itself when it is longer than `most` (nh_complexity): what is large is often small as a shared graph,
- * like the equations of a chain of bodies, and what comes out of the normal form shares nothing.  0: the limit for the
- * equations of a system. */
+/* The same, but e itself when it is longer than `most` (nh_complexity): a long expression is often small as a shared
+ * graph, like the equations of a chain of bodies, and a normal form shares nothing. 0: the limit for the equations of a
+ * system. */
 nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most);
 
-/* A polynomial in kernels with the zeros of e and no poles: the numerator of its normal form (tan(x) - y gives
- * sin(x) - y*cos(x)); e itself when the size bound is met. */
+/* A polynomial in kernels with the zeros of e and without poles: the numerator of its normal form (tan(x) - y gives
+ * sin(x) - y*cos(x)); e itself when the size bound is reached. */
 nh_ex nh_numerator(nh_dag *dag, nh_ex e);
 
-/* The reduced quotient written out as a sum: the same for all expressions that are equal by what kernels are known to
- * satisfy, however they were written; e itself when the size bound is met. */
+/* The reduced quotient written out as a sum: the same for all expressions that are equal by the known relations of
+ * kernels, however they were written; e itself when the size bound is reached. */
 nh_ex nh_canonical_sum(nh_dag *dag, nh_ex e);
 
-/* The sign of its leading coefficient, which distinguishes e from -e; 1 when the size bound is met. */
+/* The sign of its leading coefficient, which distinguishes e from -e; 1 when the size bound is reached. */
 int nh_canonical_sign(nh_dag *dag, nh_ex e);
 
 /* An equal expression with canonical arguments of functions, radicands and exponents, so that equal ones are the same
    node. */
 nh_ex nh_canonical(nh_dag *dag, nh_ex e, size_t max_terms);
 
-/* From now on normal forms reduce by symbol^order = value.  The value is a quotient of polynomials in symbols, sines
- * and the like, and in lower powers of the symbol itself; its other symbols satisfy nothing, or something that was said
- * before.  A zero normal form is then a proof wherever this relation holds: on all branches of a constraint that is a
- * polynomial in the symbol.  Say it before the symbol is used. */
+/* Declares symbol^order = value, by which normal forms reduce from then on.  The value is a quotient of polynomials in
+ * symbols, sines and the like, and in lower powers of the symbol itself; its other symbols have no relations, or
+ * relations that were declared before.  A zero normal form is then a proof wherever this relation holds: on all
+ * branches of a constraint that is a polynomial in the symbol.  Declare it before the symbol is used. */
 void nh_relate(nh_dag *dag, nh_ex symbol, unsigned order, nh_ex value);
 
-/* Give back what FLINT and Arb keep for their next use; call it last. */
+/* Frees the caches of FLINT and Arb; call it last. */
 void nh_normal_cleanup(void);
 
 #endif

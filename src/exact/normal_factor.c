@@ -1,9 +1,9 @@
-/* Quotients taken to pieces for display. */
+/* Quotients split into content, monomial and factors, for display. */
 #include <string.h>
 
 #include "exact/normal_quotient_internal.h"
 
-/* Factoring is for display: beyond these sizes the expanded form has to do. */
+/* Factoring is for display: beyond these sizes the expanded form is shown. */
 enum { factor_terms = 60, factor_degree = 24 };
 
 typedef struct {
@@ -31,7 +31,7 @@ static void add_exponents(breaker *b, const fmpz_mpoly_t monomial, int64_t power
     for (slong g = 0; g < b->field->generators; g++) b->out->exponent[g] += power * (int64_t)b->field->exponent[g];
 }
 
-/* a = (integer content) * (monomial) * (what is left of a), with the first two taken into account. */
+/* Splits off the integer content and the monomial of a, which are added to the result; leaves the rest in a. */
 static void take_content(breaker *b, fmpz_mpoly_t a, int64_t power)
 {
     fmpz_mpoly_t m;
@@ -52,7 +52,7 @@ static void take_content(breaker *b, fmpz_mpoly_t a, int64_t power)
     fmpz_mpoly_clear(m, b->field->ctx);
 }
 
-/* a = value^n * (what is left); the power goes to the generator. */
+/* Splits off value^n from a; the power goes to the generator. */
 static void absorb(breaker *b, const nh_relation *r, fmpz_mpoly_t a, int64_t side, bool needs_root)
 {
     const fmpz_mpoly_ctx_struct *ctx = b->field->ctx;
@@ -116,7 +116,7 @@ static bool cheap_to_factor(const nh_quotient_field *f, const fmpz_mpoly_t a)
     return fmpz_mpoly_max_bits(a) < 256 && fmpz_mpoly_max_bits(a) > -256;
 }
 
-/* a = A x + B is gcd(A, B) times something irreducible: takes the latter off a.  Mechanics is linear in masses. */
+/* a = A x + B is gcd(A, B) times an irreducible polynomial, which is split off.  Mechanics is linear in masses. */
 static bool take_linear(breaker *b, fmpz_mpoly_t a, int64_t sign)
 {
     const fmpz_mpoly_ctx_struct *ctx = b->field->ctx;

@@ -7,14 +7,14 @@
 #include "exact/normal.h"
 #include "exact/normal_quotient_internal.h"
 
-/* Products are refused when they need more than this many term products per admitted term; a whole computation may
- * do `patience` times that. */
+/* A product is refused when it needs more than this many term products per admitted term; a whole computation may use
+ * `patience` times as many. */
 enum { slack = 50, patience = 20, highest_degree = 1 << 30 };
-/* Behind a budget or a deadline so much of a computation is still done: what was found by then is to be shown in short
-   form. */
+/* After the budget is spent or the deadline is over, this part of the usual limit is still allowed, so that the results
+ * so far are shown in short form. */
 static const double hurried = 0.02;
 /* A gcd is tried below this many pairs of terms and below this degree: a fraction that is not cancelled is still
-   right. */
+ * correct. */
 static const double gcd_pairs = 2e4;
 static const slong gcd_degree = 60;
 
@@ -76,7 +76,7 @@ bool nh_quotient_field_spend(nh_quotient_field *f, double work)
     if (f->work > f->max_work || (f->work > hurried * f->max_work && (nh_budget_spent() || nh_late())) ||
         nh_interrupted())
         nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
-    if (f->state == NH_FIELD_FINE) nh_work_add(NH_WORK_TERM, work); /* what is refused is not done */
+    if (f->state == NH_FIELD_FINE) nh_work_add(NH_WORK_TERM, work); /* what is refused is not computed */
     return f->state == NH_FIELD_FINE;
 }
 
@@ -289,5 +289,5 @@ void nh_quotient_field_flip_pair(nh_quotient_field *field, size_t pair)
     }
 }
 
-/* Declared in normal.h, which knows nothing of FLINT. */
+/* Declared in normal.h, which does not include FLINT. */
 void nh_normal_cleanup(void) { flint_cleanup(); }

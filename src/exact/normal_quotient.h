@@ -15,22 +15,23 @@ typedef struct nh_quotient_field nh_quotient_field;
 typedef struct nh_quotient nh_quotient;
 typedef enum { NH_FIELD_FINE, NH_FIELD_TOO_LARGE, NH_FIELD_UNDEFINED } nh_quotient_field_state;
 
+/* A field with so many generators and without relations, whose polynomials have at most max_terms terms. */
 nh_quotient_field *nh_quotient_field_create(size_t generators, size_t max_terms);
 void nh_quotient_field_free(nh_quotient_field *field);
 nh_quotient_field_state nh_quotient_field_state_of(const nh_quotient_field *field);
 void nh_quotient_field_break(nh_quotient_field *field, nh_quotient_field_state why);
 
-/* From now on generator^order = value, a quotient in generators without relation or with an earlier one, and in lower
-   powers of the generator. */
+/* Declares generator^order = value: a quotient in generators without relation or with an earlier one, and in lower
+ * powers of the generator itself. */
 void nh_quotient_field_relate(nh_quotient_field *field, size_t generator, unsigned order, const nh_quotient *value);
-/* The value of a relation may need later relations: they are all applied twice. */
+/* The value of a relation may need later relations: all relations are applied twice. */
 void nh_quotient_field_repeat(nh_quotient_field *field);
 /* s^2 = 1 - c^2 or, hyperbolic, s^2 = c^2 - 1.  Flipping eliminates even powers of c instead of s. */
 void nh_quotient_field_relate_pair(nh_quotient_field *field, size_t s, size_t c, bool hyperbolic);
 size_t nh_quotient_field_pairs(const nh_quotient_field *field);
 void nh_quotient_field_flip_pair(nh_quotient_field *field, size_t pair);
 
-const nh_quotient *nh_quotient_number(nh_quotient_field *field, nh_num value); /* doubles exactly */
+const nh_quotient *nh_quotient_number(nh_quotient_field *field, nh_num value); /* also a double exactly */
 const nh_quotient *nh_quotient_power_of(nh_quotient_field *field, size_t generator, int64_t power);
 const nh_quotient *nh_quotient_add(nh_quotient_field *field, const nh_quotient *a, const nh_quotient *b);
 const nh_quotient *nh_quotient_mul(nh_quotient_field *field, const nh_quotient *a, const nh_quotient *b);
@@ -65,8 +66,8 @@ typedef struct {
     nh_factor *factor;
 } nh_pieces;
 
-/* Content and monomials apart; with `factored`, numerator and denominator are factored as well when that is cheap.
- * False when a coefficient does not fit into 64 bits. */
+/* Splits q into content, monomial and the rest; with `factored`, numerator and denominator are factored as well when
+ * that is cheap.  False when a coefficient does not fit into 64 bits. */
 bool nh_pieces_make(nh_quotient_field *field, nh_arena *arena, const nh_quotient *q, bool factored, nh_pieces *out);
 
 #endif

@@ -34,18 +34,19 @@ struct nh_quotient_field {
     nh_quotient *all;
     ulong *exponent; /* scratch, one per generator */
     double max_terms, work, max_work;
-    bool repeat; /* the relations once more, after the last: values may need later ones */
+    bool repeat; /* the relations a second time, after the last: values may need later ones */
     nh_quotient_field_state state;
 };
 
-/* The quotient 0/1, to be filled. */
+/* A new quotient 0/1. */
 nh_quotient *nh_quotient_fresh(nh_quotient_field *field);
-/* Reduced by the relations, and cancelled. */
+/* Reduces by the relations, and cancels. */
 const nh_quotient *nh_quotient_normalise(nh_quotient_field *field, nh_quotient *q);
-/* Without the gcd where that is cheap, and with a positive denominator; enough where the relations change nothing. */
+/* Cancels the gcd where that is cheap, and makes the denominator positive; enough where the relations change
+ * nothing. */
 void nh_quotient_cancel(nh_quotient_field *field, nh_quotient *q);
 
-/* Work is about to be done, or a polynomial came out: when it is too much the field breaks. */
+/* Counts work before it is done, or the size of a polynomial; when it is too much the field is marked as broken. */
 bool nh_quotient_field_spend(nh_quotient_field *field, double work);
 void nh_quotient_field_check_size(nh_quotient_field *field, const fmpz_mpoly_t a);
 /* out = a b, unless that is too much. */

@@ -1,11 +1,11 @@
-/* numerator: expressions from the pieces of their normal form: without poles, written out as a sum, their sign. */
+/* numerator: expressions from the parts of their normal form: without poles, written out as a sum, and their sign. */
 #include "exact/print_quotient.h"
 #include "exact/form.h"
 #include "exact/normal.h"
 
 enum { most_terms = 2000 };
 
-/* A normal form in pieces. */
+/* A normal form split into parts. */
 typedef struct {
     nh_forms forms;
     nh_form form;
@@ -13,7 +13,7 @@ typedef struct {
     nh_arena *arena;
 } taken;
 
-/* False: it is too long; to be closed all the same. */
+/* False: it is too long; close it in any case. */
 static bool take_apart(nh_dag *dag, nh_ex e, taken *x)
 {
     x->arena = nh_arena_create();
@@ -29,7 +29,7 @@ static void close_pieces(taken *x)
     nh_arena_free(x->arena);
 }
 
-/* Everything below the fraction bar is dropped. */
+/* Drops everything below the fraction bar. */
 static void keep_numerator(nh_pieces *pieces)
 {
     for (size_t g = 0; g < pieces->generators; g++)
@@ -53,7 +53,7 @@ nh_ex nh_numerator(nh_dag *dag, nh_ex e)
     return result;
 }
 
-/* ---- the same for equal expressions ---- */
+/* ---- the sum that equal expressions share ---- */
 
 nh_ex nh_canonical_sum(nh_dag *dag, nh_ex e)
 {

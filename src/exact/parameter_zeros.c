@@ -69,7 +69,7 @@ static nh_ex coefficient(work *w, const nh_pieces *p, const nh_factor *f, size_t
     return product_of(w, &all);
 }
 
-/* One factor: the coefficients of its monomials; no way where one of them is a number. */
+/* One factor: the coefficients of its monomials; it vanishes nowhere where one of them is a number. */
 static bool add_factor(work *w, const nh_pieces *p, const nh_factor *f)
 {
     nh_ex polynomial[most_polynomials];
@@ -90,7 +90,7 @@ static bool add_factor(work *w, const nh_pieces *p, const nh_factor *f)
     return true;
 }
 
-/* A power of one constant kernel: a way of its own. */
+/* A power of one constant kernel: another way. */
 static void add_monomial(work *w, const nh_pieces *p)
 {
     for (size_t g = 0; g < p->generators; g++) {
@@ -130,7 +130,7 @@ bool nh_parameter_zeros_find(nh_arena *arena, nh_dag *dag, nh_ex e, size_t param
     return good;
 }
 
-/* Does it vanish for no positive values of its symbols: a sum of monomials in these with coefficients of one sign? */
+/* Is it nonzero for all positive values of its symbols: a sum of monomials in these with coefficients of one sign? */
 static bool of_one_sign(nh_dag *dag, nh_ex e)
 {
     enum { most_terms = 4000 };

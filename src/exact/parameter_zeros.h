@@ -17,7 +17,7 @@ typedef struct {
 } nh_parameter_zeros_way;
 
 typedef struct {
-    size_t ways;             /* 0: never */
+    size_t ways;             /* 0: e never vanishes */
     nh_parameter_zeros_way *way;
 } nh_parameter_zeros;
 
@@ -28,7 +28,8 @@ bool nh_parameter_zeros_find(nh_arena *arena, nh_dag *dag, nh_ex e, size_t param
 
 /* A polynomial without a numerical factor and sign, simplified. */
 nh_ex nh_parameter_zeros_polynomial(nh_dag *dag, nh_ex e);
-/* Is there a way that positive parameters may go?  Not one with a polynomial whose coefficients all have one sign. */
+/* Can positive parameters satisfy one of the ways?  Not a way with a polynomial whose coefficients all have one
+ * sign. */
 bool nh_parameter_zeros_may_be_positive(nh_dag *dag, const nh_parameter_zeros *zeros);
 
 #endif

@@ -77,7 +77,8 @@ static int64_t least_exponent(const nh_factor *f, size_t width, size_t g, size_t
     return least;
 }
 
-/* The power of a kernel that saves most when it is taken out of the terms that have it; `width` when there is none. */
+/* The power of a kernel that shortens the sum most when it is taken out of the terms that have it; `width` when there
+ * is none. */
 static size_t most_shared(const nh_kernels *k, const nh_factor *f, size_t width, int64_t *power)
 {
     size_t best = width, most = 0, count;

@@ -1,4 +1,4 @@
-/* print_quotient: expressions from quotients in pieces (normal_quotient.h). */
+/* print_quotient: expressions from the parts of quotients (normal_quotient.h). */
 #ifndef NH_PRINT_QUOTIENT_H
 #define NH_PRINT_QUOTIENT_H
 
@@ -9,7 +9,7 @@
  * `collect` the factors are written as x*(a + b) + c instead of a*x + b*x + c; that needs the kernels' lengths. */
 nh_ex nh_print_quotient_product(const nh_kernels *kernels, const nh_pieces *pieces, bool collect);
 
-/* The numerator's terms, each over the denominator: for pieces that are not factored. */
+/* The terms of the numerator, each over the denominator: for quotients that are not factored. */
 nh_ex nh_print_quotient_terms(const nh_kernels *kernels, const nh_pieces *pieces);
 
 #endif

@@ -41,7 +41,7 @@ static bool constant_quotient(const question *q, const nh_quotient *a)
     return true;
 }
 
-/* A kernel for radicand^(1/order), for which the field has room. */
+/* A kernel for radicand^(1/order); the field has spare ones. */
 static size_t add_root(question *q, nh_ex radicand, const nh_quotient *value, nh_num unit)
 {
     nh_kernels *k = &q->form.kernels;
@@ -53,8 +53,8 @@ static size_t add_root(question *q, nh_ex radicand, const nh_quotient *value, nh
     return kernel;
 }
 
-/* value^(1/order) for a constant value: a power of a kernel there is, or a new one; NULL when it cannot be written
-   down. */
+/* value^(1/order) for a constant value: a power of an existing kernel, or a new kernel; NULL when it cannot be
+ * expressed. */
 static const nh_quotient *root_of(question *q, const nh_quotient *value, nh_num unit)
 {
     nh_kernels *k = &q->form.kernels;
@@ -70,7 +70,7 @@ static const nh_quotient *root_of(question *q, const nh_quotient *value, nh_num 
     return nh_quotient_power_of(q->form.field, add_root(q, radicand, value, unit), 1);
 }
 
-/* (A/B)^(1/n) as such or as 1/(B/A)^(1/n), whichever has no denominator; NULL when A/B is not constant. */
+/* (A/B)^(1/n) as it is or as 1/(B/A)^(1/n), whichever has no denominator; NULL when A/B is not constant. */
 static const nh_quotient *constant_root(question *q, const nh_quotient *a, const nh_quotient *b, nh_num unit)
 {
     nh_quotient_field *field = q->form.field;
@@ -82,8 +82,8 @@ static const nh_quotient *constant_root(question *q, const nh_quotient *a, const
     return root && upside_down ? nh_quotient_inv(field, root) : root;
 }
 
-/* r = A^(1/n), and there is s = B^(1/n) with a constant A/B: then r = (A/B)^(1/n) s.  The roots being positive where
- * they are real, this needs no assumption on the sign of anything. */
+/* Where there are r = A^(1/n) and s = B^(1/n) with a constant A/B: r = (A/B)^(1/n) s.  As roots are positive where they
+ * are real, this needs no assumption on signs. */
 static bool relate_to_earlier(question *q, size_t root, const nh_quotient *radicand, const size_t *earlier,
                               size_t count)
 {
@@ -101,7 +101,7 @@ static bool relate_to_earlier(question *q, size_t root, const nh_quotient *radic
     return false;
 }
 
-/* Is the kernel a sine that is written in exponentials? */
+/* Is the kernel a sine that is replaced by exponentials? */
 static bool in_exponentials(const question *q, size_t kernel)
 {
     return q->exponentials && !q->constant[kernel] && q->form.kernels.item[kernel].kind == NH_KERNEL_SIN;
@@ -126,7 +126,8 @@ static void relate_to_exponentials(question *q, size_t first)
     }
 }
 
-/* Radicands come before their roots.  Returns whether the kernel is a root of variables that stands for itself. */
+/* Adds the kernels in order, radicands before their roots.  Returns whether the kernel is a root of variables that is
+ * not expressed by another. */
 static bool relate_kernel(question *q, size_t kernel, const size_t *earlier, size_t count)
 {
     nh_form *f = &q->form;
@@ -141,8 +142,7 @@ static bool relate_kernel(question *q, size_t kernel, const size_t *earlier, siz
     return !q->constant[kernel];
 }
 
-/* Which kernels are coefficients; spare ones, for which there is room, will be.  Returns the number of roots of
-   variables. */
+/* Marks the kernels that are coefficients, spare ones included.  Returns the number of roots of variables. */
 static size_t sort_out(question *q)
 {
     const nh_kernels *k = &q->form.kernels;
@@ -157,7 +157,7 @@ static size_t sort_out(question *q)
     return roots;
 }
 
-/* The kernels of all expressions, and what they satisfy. */
+/* The kernels of all expressions, and their relations. */
 static bool collect_kernels(question *q)
 {
     nh_kernels *k = &q->form.kernels;
@@ -222,7 +222,7 @@ static bool emit_all(question *q, nh_ex *coefficient)
 
 /* ---- the whole ---- */
 
-/* False when inexact numbers occur, or come up as arguments are made canonical. */
+/* False when inexact numbers occur, or arise when arguments are made canonical. */
 static bool rewrite_all(question *q, const nh_ex *e)
 {
     for (size_t j = 0; j < q->n; j++) {
@@ -273,7 +273,8 @@ nh_relation_system nh_relation_question_system(const question *q)
 
 bool nh_relation_question_emit(question *q, const nh_quotient *value, nh_ex *out)
 {
-    for (size_t i = 0; i < q->form.kernels.count; i++) q->form.kernels.item[i].length = 1; /* they are symbols mostly */
+    /* most kernels are symbols */
+    for (size_t i = 0; i < q->form.kernels.count; i++) q->form.kernels.item[i].length = 1;
     return emit(q, value, out);
 }
 
@@ -327,7 +328,7 @@ nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size
     return verdict;
 }
 
-/* What the last expression needs, modulo a prime. */
+/* Which columns the last expression needs, found modulo a prime. */
 static bool find_support(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
                          size_t max_terms, bool *support)
 {

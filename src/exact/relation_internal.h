@@ -15,8 +15,8 @@ typedef struct {
     nh_ex *e; /* with canonical arguments */
     bool *constant; /* kernel -> does it depend on parameters only? */
     const nh_quotient **value, **c;
-    /* sin u = (z - 1/z)/(2 i), cos u = (z + 1/z)/2 for variable u, z = exp(i u): sin(u - v) has factors there, and
-       common denominators are short */
+    /* sin u = (z - 1/z)/(2 i), cos u = (z + 1/z)/2 with z = exp(i u) for a variable u: sin(u - v) has factors then, and
+     * common denominators are short */
     bool exponentials;
 } nh_relation_question;
 

@@ -12,7 +12,7 @@
 #include <flint/nmod_vec.h>
 #include <flint/ulong_extras.h>
 
-/* Roots of random values exist with probability 1/2 or so each: enough attempts for a dozen of them. */
+/* Random values have their roots with probability about 1/2 each: enough attempts for a dozen roots. */
 enum { most_attempts = 20000 };
 
 /* ---- equations ---- */
@@ -69,7 +69,7 @@ void nh_relation_rows_clear(nh_relation_rows *rows)
     *rows = (nh_relation_rows){0};
 }
 
-/* The terms are in the order of the polynomial, and remain so without the variables that they share. */
+/* The terms are in the order of the polynomial, and stay so when the variables that they share are dropped. */
 const nh_quotient *nh_relation_rows_entry(const nh_relation_rows *rows, size_t row, size_t column)
 {
     nh_quotient_field *f = rows->system->field;
@@ -79,7 +79,7 @@ const nh_quotient *nh_relation_rows_entry(const nh_relation_rows *rows, size_t r
     for (size_t i = rows->row[row].first; i < rows->row[row].last; i++) {
         const nh_relation_term *t = &rows->term[i];
         if (t->column != column) continue;
-        if (!q) q = (nh_quotient *)nh_quotient_number(f, nh_num_int(0)); /* new, and nobody else's yet */
+        if (!q) q = (nh_quotient *)nh_quotient_number(f, nh_num_int(0)); /* new, and not shared yet */
         const fmpz_mpoly_struct *p = rows->system->value[column]->num;
         fmpz_mpoly_get_term_exp_ui(f->exponent, p, t->index, f->ctx);
         fmpz_mpoly_get_term_coeff_fmpz(c, p, t->index, f->ctx);
@@ -115,7 +115,7 @@ static ulong residue(nh_relation_rows *r, nmod_t mod, const fmpz_mpoly_struct *p
     return v;
 }
 
-/* x with x^order = a, if there is one. */
+/* An x with x^order = a, if there is one. */
 static bool modular_root(ulong a, ulong order, nmod_t mod, ulong *x)
 {
     *x = a;
@@ -135,7 +135,7 @@ static bool modular_root(ulong a, ulong order, nmod_t mod, ulong *x)
     return found;
 }
 
-/* Relations hold earlier generators only. */
+/* The values of relations contain earlier generators only. */
 static bool satisfy(nh_relation_rows *r, nmod_t mod)
 {
     const nh_quotient_field *f = r->system->field;
@@ -151,7 +151,7 @@ static bool satisfy(nh_relation_rows *r, nmod_t mod)
     return true;
 }
 
-/* SplitMix64: the same numbers for the same question. */
+/* SplitMix64: the same numbers for the same system. */
 static uint64_t next_random(nh_relation_rows *r)
 {
     uint64_t z = r->random += 0x9e3779b97f4a7c15u;
@@ -246,8 +246,8 @@ static size_t count_columns(size_t n, const bool *support)
     return count;
 }
 
-/* The rows from the sparsest on, until there are as many as columns; which ones, and per column whether it has a
-   pivot. */
+/* Takes the rows from the sparsest on, until there are as many as columns: which ones, and for each column whether it
+ * has a pivot. */
 static echelon reduce(nh_relation_rows *rows, const bool *support, size_t *chosen, bool *pivots)
 {
     size_t n = rows->system->n, wanted = count_columns(n, support);

@@ -4,10 +4,11 @@
 
 #include "exact/normal_quotient.h"
 
-/* What the unknowns belong to. */
+/* The field and the expressions of the unknowns. */
 typedef struct {
     nh_quotient_field *field;
-    const bool *constant; /* generator -> is it a coefficient?  What a constant is related to must be constant */
+    /* generator -> is it a coefficient?  The expressions in a constant's relation must be constant */
+    const bool *constant;
     size_t n;
     const nh_quotient **value; /* N_j, without denominators */
 } nh_relation_system;
@@ -17,13 +18,13 @@ typedef struct {
     size_t column;
     long index;
     const uint32_t *monomial; /* exponents of the variable generators */
-    uint64_t residue;         /* of the constant part at the point */
+    uint64_t residue;         /* value of the constant part at the point */
 } nh_relation_term;
 
 /* The terms with one monomial. */
 typedef struct {
     size_t first, last;
-    size_t columns, terms; /* within the support that was weighed */
+    size_t columns, terms; /* within the support, at the last ordering */
 } nh_relation_row;
 
 typedef struct nh_relation_rows {
@@ -32,23 +33,23 @@ typedef struct nh_relation_rows {
     uint32_t *exponent;
     nh_relation_term *term;
     nh_relation_row *row;
-    uint64_t *value; /* of the constant generators at the point */
+    uint64_t *value; /* values of the constant generators at the point */
     uint64_t prime, random;
 } nh_relation_rows;
 
 void nh_relation_rows_init(nh_relation_rows *rows, const nh_relation_system *system);
 void nh_relation_rows_clear(nh_relation_rows *rows);
 
-/* Random values for the constants, modulo a prime after rows->prime, such that their relations hold.  False: none
-   found. */
+/* Chooses random values for the constants, modulo a prime after rows->prime, that satisfy their relations.  False: none
+ * were found. */
 bool nh_relation_rows_choose_point(nh_relation_rows *rows);
 
 /* The rank of the columns in `support` at the point; `chosen` gets that many independent rows, the sparsest.  With rank
- * one less than the columns, `support` is narrowed to what the null vector needs. */
+ * one less than the columns, `support` is restricted to the nonzero entries of the null vector. */
 size_t nh_relation_rows_rank(nh_relation_rows *rows, bool *support, size_t *chosen);
 
-/* Is the last column a combination of those before it?  Then `support` holds it and those that it needs, the first ones
-   possible. */
+/* Is the last column a combination of those before it?  Then `support` becomes that column and those that the
+ * combination needs, the first ones possible. */
 bool nh_relation_rows_last(nh_relation_rows *rows, bool *support);
 
 /* The coefficient of an unknown in an equation, NULL when there is none. */

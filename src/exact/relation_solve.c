@@ -10,7 +10,7 @@ static const double gcd_pairs = 1e6;
 
 /* ---- polynomials as quotients ---- */
 
-/* A new quotient that is still ours to change. */
+/* A new quotient, which is not shared yet. */
 static nh_quotient *polynomial(nh_quotient_field *f, const fmpz_mpoly_t p)
 {
     nh_quotient *q = (nh_quotient *)nh_quotient_number(f, nh_num_int(0));
@@ -30,7 +30,7 @@ static void check(nh_quotient_field *f, const fmpz_mpoly_t p)
     if ((double)p->length > f->max_terms) nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
 }
 
-/* g = gcd(a, b), or 1 where that is long: what is not cancelled is still right. */
+/* g = gcd(a, b), or 1 where that is long: a fraction that is not cancelled is still correct. */
 static void gcd(nh_quotient_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
 {
     double pairs = (double)a->length * (double)b->length;
@@ -55,7 +55,7 @@ static bool common_denominator(nh_quotient_field *f, size_t n, const nh_quotient
     return fmpz_mpoly_is_one(l, f->ctx);
 }
 
-/* Reducing a product by r^2 = a/b brings denominators back, but only in what came before r. */
+/* Reducing a product by r^2 = a/b brings back denominators, but only in generators before r. */
 bool nh_relation_clear_denominators(nh_quotient_field *field, size_t n, const nh_quotient **q)
 {
     fmpz_mpoly_t l, factor;
@@ -75,7 +75,7 @@ bool nh_relation_clear_denominators(nh_quotient_field *field, size_t n, const nh
     return done && fine(field);
 }
 
-/* q without the polynomial factor that all have in common; q has no denominators. */
+/* Divides q by the polynomial factor that all have in common; q has no denominators. */
 static void take_common_factor(nh_quotient_field *f, size_t n, const nh_quotient **q)
 {
     fmpz_mpoly_t g;
@@ -100,12 +100,12 @@ bool nh_relation_make_primitive(nh_quotient_field *f, size_t n, const nh_quotien
 
 /* ---- elimination over K ---- */
 
-/* `rows` equations, as far as they are not used up, in n unknowns; NULL is zero. */
+/* The equations that are not used yet, `rows` of them, in n unknowns; NULL is zero. */
 typedef struct {
     nh_quotient_field *field;
     size_t n, rows;
     const nh_quotient **entry;
-    size_t *pivot; /* of each row that is used up, in the order of use: the first `used` */
+    size_t *pivot; /* pivot columns of the used rows, in the order of use: the first `used` */
     size_t used;
 } matrix;
 
@@ -122,7 +122,7 @@ static void weight_of(matrix *m, size_t i, size_t *columns, size_t *terms)
     }
 }
 
-/* The sparsest row that is left comes next. */
+/* Moves the sparsest remaining row to the next place. */
 static void select_row(matrix *m)
 {
     size_t best = m->used, fewest = SIZE_MAX, shortest = SIZE_MAX;
@@ -141,7 +141,8 @@ static void select_row(matrix *m)
     }
 }
 
-/* Its column that fills in least: in few other rows, then short; the width when the row is zero. */
+/* The column of a row that fills in least: it is in few other rows, then its entry is short; the width when the row is
+ * zero. */
 static size_t select_column(matrix *m)
 {
     size_t best = m->n, fewest = SIZE_MAX, shortest = SIZE_MAX;
@@ -200,8 +201,8 @@ static void balance(nh_quotient_field *f, const nh_quotient *a, const nh_quotien
     *v = right;
 }
 
-/* The pivot's column disappears from the later rows, by cross multiplication; what a row gathers as common factor goes
- * at once, so that its entries never get longer than minors of the matrix. */
+/* Eliminates the pivot's column from the later rows by cross multiplication; the common factor of a row is divided out
+ * at once, so that entries are never longer than minors of the matrix. */
 static bool eliminate_next(matrix *m)
 {
     nh_quotient_field *f = m->field;
@@ -220,7 +221,7 @@ static bool eliminate_next(matrix *m)
     return fine(f);
 }
 
-/* row_p c_p = -sum_j row_j c_j from the last row to the first; the column that is no pivot begins with c = 1. */
+/* Solves row_p c_p = -sum_j row_j c_j from the last row to the first; the column without pivot starts with c = 1. */
 static bool substitute_back(matrix *m, const nh_quotient **c)
 {
     nh_quotient_field *f = m->field;
@@ -232,7 +233,7 @@ static bool substitute_back(matrix *m, const nh_quotient **c)
         const nh_quotient **row = row_of(m, i), *sum = NULL, *one = nh_quotient_number(f, nh_num_int(1)), *scale, *own;
         size_t p = m->pivot[i];
         for (size_t j = 0; j < m->n; j++) sum = combine(f, sum, one, row[j], c[j]); /* c_p is still NULL */
-        if (!sum || !fine(f)) return false; /* the support holds what is not zero only */
+        if (!sum || !fine(f)) return false; /* the support holds only the nonzero entries */
         const nh_quotient *both[2] = {sum, row[p]};
         if (!nh_relation_clear_denominators(f, 2, both)) return false;
         balance(f, both[0], both[1], &scale, &own);
@@ -244,7 +245,7 @@ static bool substitute_back(matrix *m, const nh_quotient **c)
     return fine(f);
 }
 
-/* ---- the vector for people ---- */
+/* ---- the simplest multiple of the vector ---- */
 
 static double length_of(const nh_quotient_field *f, size_t n, const nh_quotient *const *q)
 {
@@ -262,7 +263,8 @@ static bool has_relations(const nh_quotient_field *f, size_t n, const nh_quotien
     return false;
 }
 
-/* (r, r^2) is (1, r): with roots a common factor may hide, and dividing by one after the other finds it. */
+/* (r, r^2) is (1, r): with roots a common factor may be hidden, and is found by dividing by one entry after the
+ * other. */
 static bool polish(nh_quotient_field *f, size_t n, const nh_quotient **c)
 {
     const nh_quotient **raw = nh_alloc_array(n, sizeof *raw), **trial = nh_alloc_array(n, sizeof *trial);
@@ -282,7 +284,7 @@ static bool polish(nh_quotient_field *f, size_t n, const nh_quotient **c)
 
 /* ---- the whole ---- */
 
-/* The vector of the support, compact. */
+/* The vector on the support, compact. */
 static bool solve_support(nh_relation_rows *rows, const size_t *column, size_t n, const size_t *chosen,
                           const nh_quotient **c)
 {
@@ -319,7 +321,7 @@ static bool verify(const nh_relation_system *s, const nh_quotient *const *c)
     return fine(f) && nh_quotient_is_zero(f, sum);
 }
 
-/* The rank is one less than the unknowns at some point: if a relation is found it is the only one. */
+/* At some point the rank is one less than the unknowns: a relation that is found is the only one. */
 static bool solve_unique(nh_relation_rows *rows, bool *support, size_t *chosen, const nh_quotient **c)
 {
     const nh_relation_system *s = rows->system;
@@ -336,8 +338,8 @@ static bool solve_unique(nh_relation_rows *rows, bool *support, size_t *chosen, 
     return good && verify(s, c);
 }
 
-/* The rank at a point is never above the true one: full rank and, once there is a relation, one less are certain.  Less
- * than that is believed when two points agree. */
+/* The rank at a point is never above the true one: full rank and, once there is a relation, one less are certain.  A
+ * lower rank is accepted when two points agree. */
 nh_relation_verdict nh_relation_solve(const nh_relation_system *system, const nh_quotient **c)
 {
     size_t n = system->n, several = 0, *chosen = nh_alloc_array(n + 1, sizeof *chosen);

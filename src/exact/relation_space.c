@@ -102,7 +102,7 @@ static bool find_rank(problem *x)
 
 /* ---- one relation ---- */
 
-/* The fraction of small numbers that a residue is, as a continued fraction. */
+/* The fraction of small numbers with this residue, by a continued fraction. */
 static bool fraction(nh_prime f, nh_residue a, int64_t *num, int64_t *den)
 {
     int64_t r0 = (int64_t)f.p, r1 = a, t0 = 0, t1 = 1;
@@ -126,7 +126,7 @@ static bool holds(const problem *x, const nh_ex *c)
     return true;
 }
 
-/* As fractions, where all of them are small ones. */
+/* The coefficients as fractions, where all of them are small. */
 static bool by_fractions(const problem *x, size_t n, const size_t *column, const nh_residue *value, nh_ex *c)
 {
     int64_t num, den;
@@ -137,7 +137,8 @@ static bool by_fractions(const problem *x, size_t n, const size_t *column, const
     return holds(x, c);
 }
 
-/* As functions of the parameters: all rows at once, each with a factor of its own that satisfies nothing. */
+/* The coefficients as functions of the parameters: from all rows at once, each multiplied by a factor of its own that
+ * has no relations. */
 static bool by_parameters(const problem *x, size_t n, const size_t *column, nh_ex *c)
 {
     size_t rows = x->q->rows;

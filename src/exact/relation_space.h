@@ -3,10 +3,10 @@
  *     sum_j c_j e_ij = 0    identically, for every row i,   c_j in Q(parameters)
  *
  * Along a curve whose power series are random modulo a prime, the constants being random residues, the columns become
- * columns of residues, whose rank is a lower bound: so `bound`, what is missing to the number of columns, is an upper
- * one for the dimension of the relations.  Each vector of the reduced echelon form says which columns a relation
- * consists of; its coefficients are found exactly, and the relation is then an identity of normal forms.  Where
- * `proved` is equal to `bound` there are no other relations. */
+ * columns of residues, whose rank is a lower bound: so `bound`, the number of columns less this rank, is an upper bound
+ * for the dimension of the relations.  Each vector of the reduced echelon form says which columns a relation consists
+ * of; its coefficients are found exactly, and the relation is then an identity of normal forms.  Where `proved` is
+ * equal to `bound` there are no other relations. */
 #ifndef NH_RELATION_SPACE_H
 #define NH_RELATION_SPACE_H
 
@@ -21,13 +21,14 @@ typedef struct {
     const nh_ex *variable;     /* all other symbols are constants */
     size_t parameters;
     const nh_ex *parameter;
-    size_t max_terms;          /* of normal forms; 0: their default */
+    size_t max_terms;          /* largest number of terms of normal forms; 0: their default */
 } nh_relation_columns;
 
 typedef struct {
     const char *obstacle;      /* why nothing is known, or NULL */
     size_t bound, proved;
-    nh_ex *coefficient;        /* proved x columns: the last column of each has 1, and is in no other */
+    /* proved x columns: the last column of each relation has the coefficient 1, and is in no other relation */
+    nh_ex *coefficient;
 } nh_relation_space;
 
 /* In the arena; expressions belong to the graph. */

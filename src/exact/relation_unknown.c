@@ -10,21 +10,22 @@
 #include "evaluate/tape.h"
 
 enum { most_columns = 40, most_equations = 8 };
-static const double independent = 1e-5, related = 1e-6; /* what is left of a row; of the relation at the point */
+/* bounds for the remainder of a row, and of the relation at the point */
+static const double independent = 1e-5, related = 1e-6;
 
 typedef struct {
     const nh_unknown_numbers *numbers;
     nh_relation_question question;
     nh_relation_system system;
     nh_relation_rows rows;
-    double *value; /* of the generators at the point */
+    double *value; /* values of the generators at the point */
     const double *c;
     size_t n;
 } problem;
 
 /* ---- the point ---- */
 
-/* Constant kernels at the point; the others, and spare ones, are zero and do not occur. */
+/* The values of the constant kernels at the point; the others, and spare ones, are zero and do not occur. */
 static void values_of_kernels(problem *p)
 {
     const nh_unknown_numbers *s = p->numbers;
@@ -61,7 +62,8 @@ static double term_value(const problem *p, const nh_relation_term *t)
     return v;
 }
 
-/* a_ij c_j relative to the terms that they are sums of; returns their sum, which vanishes where there is a relation. */
+/* a_ij c_j, relative to the terms that they are sums of; returns their sum, which vanishes where there is a
+ * relation. */
 static double row_at_point(const problem *p, size_t i, double *v)
 {
     const nh_relation_row *row = &p->rows.row[i];
@@ -78,8 +80,8 @@ static double row_at_point(const problem *p, size_t i, double *v)
 
 /* ---- independent rows ---- */
 
-/* v without the rows in `reduced`, each with 1 at its pivot; whether something is left, which becomes the next of them.
- */
+/* Eliminates v by the rows in `reduced`, each with 1 at its pivot; if something remains, it becomes the next of
+ * them. */
 static bool insert(size_t n, double *reduced, size_t *pivot, size_t rank, double *v)
 {
     size_t best = 0;
@@ -95,7 +97,7 @@ static bool insert(size_t n, double *reduced, size_t *pivot, size_t rank, double
     return true;
 }
 
-/* n - 1 rows that are independent at the point, sparse ones first; the relation holds in all. */
+/* Chooses n - 1 rows that are independent at the point, sparse ones first; the relation must hold in all rows. */
 static bool choose_rows(problem *p, size_t *chosen)
 {
     size_t n = p->n, rank = 0;
@@ -144,7 +146,7 @@ static bool root_product(problem *p, const nh_zero_root *root, nh_ex *out)
 {
     nh_dag *d = p->numbers->dag;
     nh_ex e, product = nh_int(d, 1), under_one = product;
-    /* sums under one root, or each under its own; symbols always, as in monomials */
+    /* sums under one root, or each under its own; symbols under their own, as in monomials */
     bool joint = !nh_quotient_is_zero(p->system.field, root->rational);
     for (size_t i = 0; i < root->roots; i++) {
         if (!nh_relation_question_emit(&p->question, root->root[i], &e)) return false;

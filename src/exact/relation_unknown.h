@@ -18,7 +18,7 @@ typedef struct {
     size_t parameters;
     const nh_ex *parameter;
     const double *parameter_value;
-    size_t unknowns; /* at most NH_MOST_UNKNOWN, positive */
+    size_t unknowns; /* 1 to NH_MOST_UNKNOWN */
     const nh_ex *unknown;
     const double *value;
     size_t max_terms;

@@ -81,7 +81,7 @@ bool nh_residue_fraction(nh_prime f, nh_residue a, int64_t *top, int64_t *bottom
 
 bool nh_residue_root(nh_prime f, nh_residue a, uint64_t order, nh_residue *root)
 {
-    for (; order % 2 == 0; order /= 2) { /* p = 3 modulo 4: of two roots one is a square again */
+    for (; order % 2 == 0; order /= 2) { /* p = 3 modulo 4: exactly one of the two roots is a square again */
         nh_residue r = nh_residue_power(f, a, (f.p + 1) / 4);
         if (nh_residue_mul(f, r, r) != a) return false;
         a = r;

@@ -56,7 +56,7 @@ static inline nh_residue nh_residue_mul(nh_prime f, nh_residue a, nh_residue b)
     return nh_residue_reduce(f, (uint64_t)a * b);
 }
 
-/* sum + a b, for a sum below the bound; reduce it by `% p` in the end. */
+/* sum + a b, for a sum below the bound; the caller reduces it by `% p` at the end. */
 static inline uint64_t nh_residue_gather(nh_prime f, uint64_t sum, nh_residue a, nh_residue b)
 {
     sum += (uint64_t)a * b;
@@ -69,14 +69,14 @@ void nh_residue_add_multiple(nh_prime f, size_t n, nh_residue *restrict y, const
 nh_residue nh_residue_of(nh_prime f, int64_t value);
 nh_residue nh_residue_power(nh_prime f, nh_residue a, uint64_t exponent);
 nh_residue nh_residue_inverse(nh_prime f, nh_residue a); /* of a residue that is not 0 */
-/* False: the prime divides the bottom. */
+/* False: the prime divides the denominator. */
 bool nh_residue_ratio(nh_prime f, int64_t top, int64_t bottom, nh_residue *out);
 
 /* a = top/bottom modulo the prime with |top| and bottom below sqrt(p/2), if there is such a fraction: there is no
  * second one (Wang, Guy and Davenport 1982). */
 bool nh_residue_fraction(nh_prime f, nh_residue a, int64_t *top, int64_t *bottom);
 
-/* The root of this order, for whole orders whose odd part is prime to p - 1: of a square root the one that is a square
+/* The root of this order, for orders whose odd part is prime to p - 1: for square roots the one that is a square
  * itself.  False when there is none, or a is 0. */
 bool nh_residue_root(nh_prime f, nh_residue a, uint64_t order, nh_residue *root);
 

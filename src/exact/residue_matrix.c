@@ -4,7 +4,7 @@
  *
  *     A[R] by B^-1 A[R],      A[i] by A[i] - A[i, C] A[R]   for the other rows i
  *
- * so that most of the work is sums of many rows. */
+ * so that most of the work consists of sums of many rows. */
 #include "base/clones.h"
 #include "exact/residue_matrix.h"
 
@@ -40,7 +40,7 @@ NH_CLONES static void fold(nh_prime field, size_t n, const uint64_t *restrict lo
         y[j] = nh_residue_reduce(field, nh_residue_reduce(field, low[j]) + nh_residue_reduce(field, high[j]) * carry);
 }
 
-/* Columns from `from` on, at most a block of them. */
+/* Sums the columns from `from` on, at most a block of them. */
 static void gather_block(nh_prime field, size_t from, size_t n, nh_residue *y, size_t count, const nh_residue *factor,
                          const nh_residue *const *row)
 {
@@ -90,8 +90,8 @@ typedef struct {
     nh_prime field;
     size_t rows, columns, rank;
     nh_residue *a;
-    size_t first, width;               /* of the panel at hand */
-    size_t found, *pivot;              /* pivots in it; their columns, of the matrix */
+    size_t first, width;               /* the columns of the present panel */
+    size_t found, *pivot;              /* number of pivots in it; their columns in the matrix */
     nh_residue *panel, *pivots, *part; /* rows x width; found x 2 found; found x columns */
 } elimination;
 
@@ -104,8 +104,8 @@ static void swap_rows(nh_residue *a, size_t n, size_t i, size_t k)
     }
 }
 
-/* Rows of the panel that are linearly independent, and their pivots: the rows are brought to the head of the rest of
-   the matrix. */
+/* Finds linearly independent rows of the panel and their pivots, and moves these rows to the beginning of the remaining
+ * matrix. */
 static void find_pivots(elimination *x)
 {
     size_t rest = x->rows - x->rank, w = x->width;
@@ -151,7 +151,7 @@ static void invert_pivots(elimination *x)
     }
 }
 
-/* The rows with pivots, and then the others: all, or those below. */
+/* Updates the rows with pivots, and then the others: all, or those below. */
 static void apply_pivots(elimination *x, bool above)
 {
     size_t k = x->found, n = x->columns - x->first;

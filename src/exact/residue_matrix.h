@@ -15,13 +15,13 @@ void nh_residue_matrix_gather(nh_prime field, size_t n, nh_residue *y, size_t co
 void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, const nh_residue *a, const nh_residue *b,
                                 nh_residue *out);
 
-/* The reduced echelon form in place of the first columns, `within` of them, by operations on whole rows: rows with a
- * pivot first; pivot[i] is the column of the leading 1 of row i.  Returns how many there are; `pivot` has room for the
- * least of both sizes. */
+/* Brings the first `within` columns to reduced echelon form in place, by operations on whole rows: rows with a pivot
+ * first; pivot[i] is the column of the leading 1 of row i.  Returns how many there are; `pivot` has room for the least
+ * of both sizes. */
 size_t nh_residue_matrix_echelon(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a,
                                  size_t *pivot);
 
-/* The matrix is destroyed. */
+/* The rank; the matrix is destroyed. */
 size_t nh_residue_matrix_rank(nh_prime field, size_t rows, size_t columns, nh_residue *a);
 
 #endif

@@ -6,16 +6,16 @@
 #include "exact/normal.h"
 
 enum {
-    most_terms = 1000,    /* of intermediate polynomials */
-    flip_terms = 200,     /* of quotients in which both sin^2 and cos^2 are tried as what to eliminate, */
-    most_flips = 8,       /* for this many angles */
+    most_terms = 1000,    /* largest number of terms of intermediate polynomials */
+    flip_terms = 200,     /* terms of quotients for which elimination of both sin^2 and cos^2 is tried */
+    most_flips = 8,       /* for at most this many angles */
     factor_terms = 60,    /* see normal_factor.c */
-    shortest = 4,         /* complexity below which there is nothing to gain */
-    deepest = 20,         /* levels of arguments and of terms that are simplified on their own */
-    longest = 3000        /* of the equations of a system, complexity beyond which they are left alone */
+    shortest = 4,         /* complexity below which an expression is already simple */
+    deepest = 20,         /* nesting of arguments and terms that are simplified by themselves */
+    longest = 3000        /* for the equations of a system: complexity beyond which expressions are not simplified */
 };
 
-/* What one call shares between the expression and its parts. */
+/* State that one call shares between the expression and its parts. */
 typedef struct {
     nh_dag *dag;
     nh_forms literal, cut;
@@ -29,7 +29,7 @@ typedef struct {
     nh_dag *dag;
     nh_ex best, last;
     size_t length;
-    bool inexact; /* the source has inexact numbers, so that more of them are no sign of overflow */
+    bool inexact; /* the source has inexact numbers: more of them are no sign of overflow */
 } contest;
 
 static nh_ex simplify(context *shared, nh_ex e);
@@ -54,11 +54,11 @@ static size_t most_terms_of(const nh_pieces *p)
 static void offer_products(contest *c, const nh_form *form, const nh_pieces *pieces)
 {
     offer(c, nh_print_quotient_product(&form->kernels, pieces, false));
-    /* two terms have nothing in common: it is in the monomial already */
+    /* two terms have no common factors: these are in the monomial already */
     if (most_terms_of(pieces) > 2) offer(c, nh_print_quotient_product(&form->kernels, pieces, true));
 }
 
-/* All ways to write one quotient.  Of n terms nothing shorter than n comes unless they have factors. */
+/* All ways to write one quotient.  A quotient of n terms has no shorter form than n unless they have factors. */
 static void offer_quotient(contest *c, const nh_form *form, const nh_quotient *q)
 {
     size_t terms = nh_quotient_terms(q);
@@ -97,7 +97,7 @@ static void offer_form(contest *c, nh_form *form)
     }
 }
 
-/* What stands inside kernels is shown in its shortest form. */
+/* Arguments and radicands of kernels are shown in their shortest form. */
 static void beautify(contest *c, nh_form *form)
 {
     for (size_t i = 0; i < form->kernels.count; i++) {
@@ -113,7 +113,7 @@ static void beautify(contest *c, nh_form *form)
     }
 }
 
-/* Would cutting the arguments into atoms show more relations? */
+/* Would splitting the arguments into atoms show more relations? */
 static bool worth_cutting(const nh_dag *dag, const nh_kernels *k)
 {
     for (size_t i = 0; i < k->count; i++) {
@@ -126,7 +126,7 @@ static bool worth_cutting(const nh_dag *dag, const nh_kernels *k)
     return false;
 }
 
-/* Returns whether the other kind of kernels is worth a try. */
+/* Returns whether the other kind of kernels is worth trying. */
 static bool compete(contest *c, nh_ex e, bool literal)
 {
     nh_form form;
@@ -211,7 +211,8 @@ static bool polynomial_parts(context *shared, nh_ex e)
     return true;
 }
 
-/* A polynomial in symbols and their inverses?  Each part is asked once: a shared graph has exponentially many paths. */
+/* Is it a polynomial in symbols and their inverses?  Each part is examined once: a shared graph has exponentially many
+ * paths. */
 static bool polynomial(context *shared, nh_ex e)
 {
     nh_kind kind = nh_kind_of(shared->dag, e);
@@ -223,8 +224,8 @@ static bool polynomial(context *shared, nh_ex e)
     return result;
 }
 
-/* A sum's polynomial terms by themselves: with k/sqrt(..) beside them the common denominator makes everything
-   longer. */
+/* Simplifies the polynomial terms of a sum by themselves: with a term like k/sqrt(..) the common denominator makes
+ * everything longer. */
 static nh_ex apart(contest *c, nh_ex e)
 {
     nh_ex plain = nh_int(c->dag, 0), rest = nh_int(c->dag, 0);
@@ -256,7 +257,7 @@ static nh_ex simplify(context *shared, nh_ex e)
     return c.best;
 }
 
-/* ---- the user's own arguments ---- */
+/* ---- arguments as the user wrote them ---- */
 
 /* log((R + v)/(R - v)) comes back with a canonical argument, which may be longer than what was written: then the
  * source's call is put back.  Both stand for the same value: one is the rewriting of the other. */
@@ -289,7 +290,7 @@ static nh_ex canonical_base(context *shared, nh_ex base, nh_ex exponent)
     return plain && nh_exponent_of(dag, power, 0) == exponent ? nh_child(dag, power, 0) : 0;
 }
 
-/* So do roots: sqrt((x - a)^2 + y^2), and not sqrt(a^2 + y^2 + x*(x - 2*a)). */
+/* The same for roots: sqrt((x - a)^2 + y^2), and not sqrt(a^2 + y^2 + x*(x - 2*a)). */
 static nh_ex restore_roots(context *shared, nh_ex source, nh_ex result)
 {
     enum { most_products = 200, most_roots = 16 };
@@ -310,7 +311,7 @@ static nh_ex restore_roots(context *shared, nh_ex source, nh_ex result)
     return kept ? nh_substitute(dag, result, kept, shown, written) : result;
 }
 
-/* Asked again and again for the same components: the graph remembers. */
+/* The same components are simplified again and again: the graph keeps the results. */
 nh_ex nh_simplify(nh_dag *dag, nh_ex e)
 {
     nh_ex known;
@@ -324,7 +325,7 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_forms_clear(&shared.cut);
     nh_index_clear(&shared.done);
     nh_index_clear(&shared.rational);
-    if (nh_interrupted()) return result; /* not the shortest that there is */
+    if (nh_interrupted()) return result; /* this result may not be the shortest */
     nh_dag_set_simplified(dag, e, result);
     nh_dag_set_simplified(dag, result, result);
     return result;

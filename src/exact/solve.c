@@ -11,7 +11,7 @@ struct nh_lu {
     size_t n;
     nh_ex *a;      /* L below the diagonal (unit), U on and above it */
     size_t *row;   /* row[i]: which original row came i-th */
-    size_t longest; /* of what is simplified; 0: nh_simplify_short's own */
+    size_t longest; /* limit of nh_simplify_short; 0: its own */
 };
 
 static void swap_rows(nh_lu *lu, size_t i, size_t j)
@@ -27,9 +27,9 @@ static void swap_rows(nh_lu *lu, size_t i, size_t j)
     lu->row[j] = t;
 }
 
-/* The best pivot for row r in column k; the row in its own place wins unless another is clearly safer. Of many
- * equations it is taken at once where elimination has left a good part of `before`, what stood there: so in mass
- * matrices, and a look at all is long. */
+/* The best pivot for row r in column k; the row in its own place wins unless another is clearly safer.  For many
+ * equations it is taken at once where elimination has left a good part of the original entry `before`, as in mass
+ * matrices, because comparing all rows takes long. */
 static double choose_pivot(nh_lu *lu, size_t r, size_t k, nh_ex before, nh_pivot_score *score, void *context,
                            size_t *best)
 {
@@ -52,7 +52,7 @@ static double choose_pivot(nh_lu *lu, size_t r, size_t k, nh_ex before, nh_pivot
     return value;
 }
 
-/* Column k below row r, by row r. */
+/* Eliminates column k below row r. */
 static void eliminate(nh_lu *lu, size_t r, size_t k)
 {
     nh_dag *d = lu->dag;
@@ -79,7 +79,7 @@ nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score
                   .row = nh_alloc_array(n + 1, sizeof *lu->row)};
     if (n) memcpy(lu->a, a, n * n * sizeof *a);
     for (size_t i = 0; i < n; i++) lu->row[i] = i;
-    size_t r = 0; /* = k until a column has no pivot; from then on only the rank is of interest */
+    size_t r = 0; /* = k until a column has no pivot; from then on only the rank is computed */
     for (size_t k = 0; k < n && !nh_interrupted(); k++) {
         size_t best;
         if (choose_pivot(lu, r, k, a[k * n + k], score, context, &best) == 0) continue;

@@ -1,19 +1,19 @@
 /* solve: linear systems whose entries are expressions, by LU factorization in the graph.
  *
- * Only n^3/3 nodes are made, whatever the entries are.  Rows are exchanged so that no pivot vanishes where the caller
- * looks: a pivot's score is, for instance, its least absolute value over sample points. */
+ * Only n^3/3 nodes are made, whatever the entries are.  Rows are exchanged by the caller's score of a pivot: for
+ * instance its least absolute value over sample points. */
 #ifndef NH_SOLVE_H
 #define NH_SOLVE_H
 
 #include "graph/dag.h"
 
-/* How safe it is to divide by e: 0 means it vanishes (somewhere, or identically). */
+/* The score of a pivot: how safe it is to divide by e; 0: e vanishes (somewhere, or identically). */
 typedef double nh_pivot_score(void *context, nh_ex e);
 
 typedef struct nh_lu nh_lu;
 
-/* Factor the n x n matrix a (row-major: a[i*n + j]).  NULL when some column has no usable pivot; *rank (may be NULL) is
- * the number of columns that have one. */
+/* Factors the n x n matrix a (row-major: a[i*n + j]).  NULL when some column has no usable pivot; *rank (may be NULL)
+ * is the number of columns that have one.  The caller frees the factors. */
 nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score, void *context, size_t *rank);
 void nh_lu_free(nh_lu *lu);
 

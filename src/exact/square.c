@@ -30,7 +30,7 @@ typedef struct {
     void *context;
 } splitter;
 
-/* sqrt(u^2 v w) as u sqrt(v) sqrt(w), with the signs that these have. */
+/* sqrt(u^2 v w) as u sqrt(v) sqrt(w), with the signs of the factors. */
 static bool split_root(const splitter *c, nh_ex base, nh_ex *root)
 {
     nh_dag *d = c->d;

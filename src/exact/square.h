@@ -4,8 +4,8 @@
 
 #include "graph/dag.h"
 
-/* e = outside^2 * inside, the inside a polynomial without square factors, as far as the factors that e is written in
-   show.  False: it has roots already. */
+/* Splits e = outside^2 * inside, where `inside` is a polynomial without square factors, as far as its written factors
+ * show.  False: e has roots as factors, or a number that is not a rational of 64 bits. */
 bool nh_square_split(nh_dag *dag, nh_ex e, nh_ex *outside, nh_ex *inside);
 
 /* e with sqrt(u^2 v w) as u sqrt(v) sqrt(w), wherever the signs of the factors are known: `sign` gives 1, -1, or 0

@@ -18,7 +18,7 @@ static bool is_in(size_t n, const nh_ex *list, nh_ex e)
     return found;
 }
 
-/* A sum of symbols times numbers; without a factor in front of it. */
+/* Adds e, without a number in front of it, to the sums if it is a sum of symbols times numbers. */
 static void take_sum(lines *l, nh_ex e)
 {
     nh_dag *d = l->dag;

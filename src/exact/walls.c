@@ -27,7 +27,7 @@ static bool is_even(const nh_dag *d, nh_ex exponent)
 
 static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth);
 
-/* base^exponent, a factor of a term below a root or a sign: its pole. */
+/* base^exponent, a factor of a term below a root or a sign: adds its pole. */
 static void put_pole(nh_walls *w, nh_dag *d, nh_ex base, nh_ex exponent, bool edge, int depth)
 {
     bool number = nh_kind_of(d, exponent) == NH_NUMBER, even = is_even(d, exponent);
@@ -50,7 +50,7 @@ static void put_poles_of_terms(nh_walls *w, nh_dag *d, nh_ex sum, bool edge, int
     }
 }
 
-/* The factors of something that vanishes on a wall: of a product all bases, since a quotient changes its sign at a
+/* The factors of an expression that vanishes on a wall: for a product all bases, since a quotient changes its sign at a
  * pole, too.  `edge`: under a root. */
 static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth)
 {
@@ -72,7 +72,7 @@ static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth)
     }
 }
 
-/* Where v is infinite: the bases of its negative powers, the cosines of its tangents. */
+/* Where v is infinite: the bases of its negative powers, and the cosines of its tangents. */
 static void put_poles(nh_walls *w, nh_dag *d, nh_ex v, int depth)
 {
     nh_kind kind = nh_kind_of(d, v);
@@ -101,7 +101,7 @@ static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
     w->cutting = false;
 }
 
-/* Operands stand before what is made of them: from e downwards each node is met once. */
+/* Operands have smaller indices: going downwards from e, each node is visited once. */
 void nh_walls_add(nh_walls *w, nh_dag *d, nh_ex top)
 {
     bool *wanted = nh_alloc_array((size_t)top + 1, sizeof *wanted);

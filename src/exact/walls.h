@@ -3,13 +3,13 @@
  * Sums, products, whole powers, sin, exp, ... are analytic wherever they are finite: quotients of them have poles,
  * and no jumps.  What is left are the zero sets of
  *
- *     u, 1/u     of |u|, sign(u) and u^x with a broken exponent x
+ *     u, 1/u     of |u|, sign(u) and u^x with a fractional exponent x
  *     y          of atan2(y, x), whose cut is y = 0, x < 0
  *     1/v        of atan(v): where v is infinite
  *     1 - v^2    of asin(v), acos(v);  v - 1 of acosh(v)
  *
- * each cut into its factors, so that sqrt((x - y)^2) gives x - y.  These are candidates: whether something happens
- * there is for whoever evaluates. */
+ * each cut into its factors, so that sqrt((x - y)^2) gives x - y.  These are candidates: an evaluation must show
+ * whether the expression jumps there. */
 #ifndef NH_WALLS_H
 #define NH_WALLS_H
 
@@ -19,18 +19,18 @@ enum { NH_MOST_WALLS = 24 };
 
 typedef struct {
     size_t count;
-    nh_ex e[NH_MOST_WALLS];     /* expressions that are zero on a wall; each once */
+    nh_ex e[NH_MOST_WALLS];     /* expressions that vanish on a wall; each once */
     bool edge[NH_MOST_WALLS];   /* the base of a root, and no square: where it changes its sign the root ends */
-    /* of atan2, atan, asin or acos alone: on the other side another branch continues the function */
+    /* wall of atan2, atan, asin or acos alone: on the other side another branch continues the function */
     bool cut[NH_MOST_WALLS];
-    bool cutting;               /* what is being added */
+    bool cutting;               /* the walls that are added now are cuts */
 } nh_walls;
 
-/* Add the walls of e; more than fit are left out. */
+/* Adds the walls of e; those beyond the room are left out. */
 void nh_walls_add(nh_walls *walls, nh_dag *dag, nh_ex e);
 
-/* The walls of n expressions that something can pass when the `in` change: no ends of roots, no constants.  Into wall
-   (room for NH_MOST_WALLS); how many. */
+/* The walls of n expressions that can be crossed when the symbols `in` change: no ends of roots, no constants.  Writes
+ * them into wall (room for NH_MOST_WALLS) and returns their number. */
 size_t nh_walls_between(nh_dag *dag, size_t n, const nh_ex *e, size_t inputs, const nh_ex *in, nh_ex *wall);
 
 #endif

@@ -9,7 +9,7 @@
 #include "exact/normal.h"
 #include "exact/walls.h"
 
-/* A formula that becomes much longer is left as it is: it is evaluated at every step. */
+/* A simplified formula that would be much longer is not used: it is evaluated at every step. */
 nh_ex nh_constraint_without_poles(const nh_model *o, size_t a)
 {
     enum { short_enough = 300, growth = 2 };
@@ -27,8 +27,8 @@ struct nh_bordered {
     nh_tape *wall; /* NULL: there are none */
     nh_tape_work *wall_work;
     double *in, *out;
-    double *terms, *saddle, *right; /* for the accelerations, and for their solution */
-    double *unit;                   /* m: of each velocity, so that those of lengths and angles compare */
+    double *terms, *saddle, *right; /* values of the tape; work memory and right-hand side of the solution */
+    double *unit;                   /* m: size of each velocity, so that those of lengths and angles compare */
 };
 
 void nh_bordered_expressions(const nh_model *o, nh_ex *K, nh_ex *h, nh_ex *F, nh_ex *g, nh_ex *f)
@@ -38,7 +38,7 @@ void nh_bordered_expressions(const nh_model *o, nh_ex *K, nh_ex *h, nh_ex *F, nh
     size_t m = o->m, k = o->k;
     nh_ex *q = nh_alloc_array(2 * m, sizeof *q), *v = q + m;
     for (size_t s = 0; s < m; s++) q[s] = y->coordinate[s].q, v[s] = y->coordinate[s].v;
-    nh_ex rest = y->lagrangian; /* what is not known of bodies and joints */
+    nh_ex rest = y->lagrangian; /* the part of L that does not come from bodies and joints */
     const nh_chain *chain = nh_model_chain(o, &rest);
     if (chain)
         nh_chain_bias(chain, &(nh_chain_scope){.dag = d, .arena = o->arena, .t = y->t, .m = m, .q = q, .v = v}, h);
@@ -111,8 +111,8 @@ void nh_bordered_free(nh_bordered *b)
     nh_free(b);
 }
 
-/* Every constraint divided by |df/dv|, in units of the velocities: the multiplier has the size of the reaction in all
-   units of length. */
+/* Divides every constraint by |df/dv|, in units of the velocities, so that its multiplier has the size of the reaction
+ * in all units of length. */
 static void normalise(size_t m, size_t k, const double *unit, double *F)
 {
     double *g = F + k * m, *f = g + k;
@@ -199,7 +199,7 @@ bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *
 bool nh_bordered_project(nh_bordered *b, double t, const double *q, const bool *fixed, double *v)
 {
     enum { most_steps = 60 };
-    /* the last step, and what is left, beside the velocities */
+    /* largest last step, and largest remainder of the constraints, relative to the velocities */
     static const double converged = 1e-12, satisfied = 1e-9;
     size_t m = b->m, k = b->k;
     double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;

@@ -15,9 +15,11 @@
 #include "geometry/model.h"
 
 typedef struct nh_bordered nh_bordered;
+/* The equations of a model, which they borrow; nh_bordered_free. */
 nh_bordered *nh_bordered_create(const nh_model *model);
 void nh_bordered_free(nh_bordered *bordered);
-/* Long motions pass to machine code (nh_tape_jit); the words say whether they have, NULL: nothing was tried. */
+/* Lets long motions pass to machine code (nh_tape_jit). nh_bordered_words says whether they have; NULL: nothing was
+ * tried. */
 void nh_bordered_jit(nh_bordered *bordered, double patience);
 const char *nh_bordered_words(const nh_bordered *bordered);
 size_t nh_bordered_coordinates(const nh_bordered *bordered); /* m */
@@ -34,17 +36,17 @@ bool nh_bordered_terms(nh_bordered *bordered, double t, const double *q, const d
 /* v' (m values).  False when not finite or the bordered matrix is singular. */
 bool nh_bordered_accelerations(nh_bordered *bordered, double t, const double *q, const double *v, double *acceleration);
 
-/* The same at count <= NH_BATCH states: in[j] is input j of t, q, v at each of them (1 + 2m); v' of coordinate s at
-   state j is to[s*stride + j], NAN where there is none. */
+/* The accelerations at count <= NH_BATCH states: in[j] is input j of t, q, v at each of them (1 + 2m inputs); v' of
+ * coordinate s at state j goes to to[s*stride + j], NAN where there is none. */
 void nh_bordered_accelerations_batch(nh_bordered *bordered, size_t count, const double *const *in, size_t stride,
                                      double *to);
 
-/* force[s] = mu_a df^a/dv^s at (t, q, v), m values.  False when not finite. */
+/* The reaction force[s] = mu_a df^a/dv^s at (t, q, v), m values.  False when not finite. */
 bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const double *v, const double *mu,
                        double *force);
 
-/* The velocities on the constraints that are nearest to v, in the units of their coordinates, by Gauss-Newton; v is
- * overwritten, but where it is `fixed` (m entries; NULL: nowhere).  False when that does not converge. */
+/* Moves v to the nearest velocities that satisfy the constraints, in the units of their coordinates, by Gauss-Newton;
+ * entries that are `fixed` (m flags; NULL: none) are not changed.  False when the iteration does not converge. */
 bool nh_bordered_project(nh_bordered *bordered, double t, const double *q, const bool *fixed, double *v);
 
 /* The entries as expressions of t, q, q': K (m x m, column-major), h (m), F (k x m, column-major), g (k), f (k);

@@ -54,6 +54,7 @@ typedef struct {
     nh_determining_equation *equation;
 } nh_determining;
 
+/* The equations of a model, in the arena. */
 nh_determining *nh_determining_of(nh_arena *arena, const nh_model *model);
 
 #endif

@@ -32,7 +32,8 @@ static nh_ex across(const nh_model *o, size_t a, const nh_ex *x)
     return e;
 }
 
-/* The velocities allowed at a place do not turn away from their tangent space. */
+/* Do the allowed velocities at a place form an affine space?  Then the derivatives of the directions R_i are tangent to
+ * it. */
 static bool is_affine(const nh_model *o)
 {
     nh_ex *x = nh_alloc_array(o->m + 1, sizeof *x);
@@ -53,7 +54,7 @@ static bool is_homogeneous(const nh_model *o)
     return true;
 }
 
-/* Of f(t, q) = 0 the rate f_t + f_q v is what is stored; at rest it is f_t. */
+/* For f(t, q) = 0 the stored constraint is the rate f_t + f_q v; at rest it is f_t. */
 static nh_ex time_part(const nh_model *o, size_t a)
 {
     const nh_system *y = o->system;
@@ -81,7 +82,7 @@ static bool any_depends(const nh_model *o, size_t n, const nh_ex *e, size_t symb
     return false;
 }
 
-/* X_i on the coordinates. */
+/* The fields X_i on the coordinates. */
 static nh_distribution_fields displacements(const nh_model *o)
 {
     nh_distribution_fields f = {o->n, o->m, o->chart->symbol + 1, nh_alloc_array(o->n * o->m + 1, sizeof *f.field)};
@@ -90,7 +91,7 @@ static nh_distribution_fields displacements(const nh_model *o)
     return f;
 }
 
-/* X_0 at w = 0 and X_i on (t, q), for rho affine in w. */
+/* X_0 at w = 0, and X_i, on (t, q), for rho affine in w. */
 static nh_distribution_fields events(const nh_model *o)
 {
     size_t N = 1 + o->m;
@@ -115,7 +116,7 @@ static nh_growth growth_of(const nh_model *o, nh_distribution_fields f, nh_growt
     return g;
 }
 
-/* X_0, X_i, Y_i on the submanifold; `shift` of the directions are not counted. */
+/* X_0, X_i and Y_i on the submanifold; `shift` directions are not counted in the ranks. */
 static nh_growth growth_of_states(const nh_model *o, size_t shift)
 {
     size_t n = o->n, N = 1 + o->m + n;
@@ -144,9 +145,9 @@ nh_distribution_fields nh_distribution_fields_of(const nh_model *o)
     return is_homogeneous(o) && !is_rheonomic(o) && !timed(o) ? displacements(o) : events(o);
 }
 
-/* The smallest space that tells it.  Where the chart bends although the constraints do not, the canonical distribution
- * contains the n directions Y_i, and d/dt when neither velocity at rest nor t has a part in it; they add to every rank
- * alike. */
+/* The smallest space on which the growth can be computed.  Where the chart is nonlinear although the constraints are
+ * not, the canonical distribution contains the n directions Y_i, and d/dt when neither velocity at rest nor t has a
+ * part in it; they add to every rank alike. */
 static nh_growth growth(const nh_model *o, const nh_distribution *out)
 {
     bool at_rest = out->type == NH_LINEAR && !out->rheonomic;

@@ -28,13 +28,13 @@ typedef struct {
     bool homogeneous, rheonomic, holonomic;
     size_t positions;   /* constraints that were given between positions */
     nh_growth growth;   /* length 0 without constraints */
-    size_t integrals;   /* functions of (t, q) that stay constant: dimension minus last rank */
-    size_t hidden;      /* of them, those that are not given as constraints between positions */
+    size_t integrals;   /* number of functions of (t, q) that stay constant: dimension minus last rank */
+    size_t hidden;      /* how many of them are not given as constraints between positions */
 } nh_distribution;
 
-/* Fields that span the distribution of virtual displacements, or of those in space and time, of constraints that are at
- * most affine: `count` of them with components field[i * dimension + j] along symbol[j], on the heap. None
- * otherwise. */
+/* Fields that span the distribution of virtual displacements (in space and time, where the constraints are affine or
+ * depend on t), for constraints that are at most affine: `count` of them with components field[i * dimension + j] along
+ * symbol[j], on the heap.  None otherwise. */
 typedef struct {
     size_t count, dimension;
     const nh_ex *symbol;
@@ -42,6 +42,7 @@ typedef struct {
 } nh_distribution_fields;
 nh_distribution_fields nh_distribution_fields_of(const nh_model *model);
 
+/* What the constraints of the model are. */
 nh_distribution nh_distribution_of(const nh_model *model);
 const char *nh_constraint_type_name(nh_constraint_type type);
 

@@ -15,9 +15,9 @@ typedef struct {
     nh_dag *d;
     size_t N;
     const nh_ex *symbol;
-    double *unit; /* N: of each component */
+    double *unit; /* N: the unit of each component */
     bool proved, too_large;
-    size_t end; /* size of the graph at which brackets are given up */
+    size_t end; /* size of the graph at which brackets are no longer formed */
 } space;
 
 void nh_growth_bracket(nh_dag *d, size_t N, const nh_ex *symbol, const nh_ex *a, const nh_ex *b, nh_ex *out)
@@ -33,7 +33,7 @@ void nh_growth_bracket(nh_dag *d, size_t N, const nh_ex *symbol, const nh_ex *a,
 
 /* ---- elimination over the field of functions ---- */
 
-/* Fields in reduced form: E_i has 1 in component pivot[i], where all others have 0. */
+/* Fields in reduced form: E_i has the component 1 at pivot[i], where all others have 0. */
 typedef struct {
     size_t count, *pivot;
     nh_ex *field; /* count x N */
@@ -50,7 +50,7 @@ static void frame_clear(frame *f)
     nh_free(f->field);
 }
 
-/* Simplified, and the number 0 where it vanishes identically. */
+/* The simplified entry, and the number 0 where it vanishes identically. */
 static nh_ex tidy(space *x, nh_ex e)
 {
     nh_dag *d = x->d;
@@ -61,7 +61,7 @@ static nh_ex tidy(space *x, nh_ex e)
     if (nh_kind_of(d, e) == NH_NUMBER || nh_kind_of(d, e) == NH_SYMBOL) return e;
     if (nh_normal_is_zero(d, e, zero_terms) == NH_ZERO) return nh_int(d, 0);
     if (nh_chart_pivot_score(x->o->chart, e) > 0) return e;
-    x->proved = false; /* zero at the probes only */
+    x->proved = false; /* it vanishes at the probes, without proof */
     return nh_int(d, 0);
 }
 
@@ -132,8 +132,8 @@ static void next_stage(const space *x, brackets *b, size_t generators)
     nh_free(out);
 }
 
-/* Rank of the first `count` columns; what is rounding beside the largest column counts as zero, the others by their
-   directions. */
+/* The rank of the first `count` columns: a column that is rounding beside the largest one counts as zero, the others
+ * enter by their directions. */
 static size_t rank_of(size_t N, size_t count, const double *value, double *work)
 {
     double largest = 0, *s = work + N * count;
@@ -152,7 +152,7 @@ static size_t rank_of(size_t N, size_t count, const double *value, double *work)
     return rank;
 }
 
-/* Components of lengths and angles compare. */
+/* Scales components, so that lengths and angles compare. */
 static void without_units(const space *x, size_t n, double *value)
 {
     for (size_t i = 0; i < n; i++) value[i] /= x->unit[i % x->N];
@@ -174,7 +174,7 @@ static bool ranks_at(const space *x, const brackets *b, const nh_tape *tape, con
     return good;
 }
 
-/* Of the last stage keep the fields that raise the rank at z: with the others [X_i, .] gives nothing new. */
+/* Keeps those fields of the last stage that raise the rank at z: brackets of the others give nothing new. */
 static void prune(const space *x, brackets *b, const nh_tape *tape, const double *z)
 {
     size_t N = x->N, from = b->first[b->stages - 1], kept = from, n = b->count * N;
@@ -195,7 +195,7 @@ static void prune(const space *x, brackets *b, const nh_tape *tape, const double
     nh_tape_work_free(scratch);
 }
 
-/* Stage by stage, the largest rank over the probes, until it stays the same. */
+/* Adds stages, each with the largest rank over the probes, until the rank stays the same. */
 static void generic_ranks(const space *x, size_t generators, const nh_ex *field, nh_growth *g)
 {
     size_t rank[NH_MOST_GROWTH + 1];
@@ -227,7 +227,7 @@ static bool differs(const nh_growth *g, const brackets *b, const size_t *rank)
     return false;
 }
 
-/* Ranks with repetitions at a special point, up to the generic final one. */
+/* Ranks, with repetitions, at a special point, up to the final generic one. */
 static void keep_there(nh_growth *g, const brackets *b, const size_t *rank, nh_ex where)
 {
     g->drops = true;
@@ -253,7 +253,7 @@ static bool special_point(const nh_model *o, size_t probe, size_t s, double *z)
     return c->implicit == 0 || nh_chart_complete(c, z);
 }
 
-/* With all brackets, to two stages more than grow at generic points; their number doubles at least with every stage. */
+/* All brackets, up to two stages beyond the generic growth; their number at least doubles with every stage. */
 static void look_for_drops(const space *x, size_t generators, const nh_ex *field, nh_growth *g)
 {
     const nh_model *o = x->o;
@@ -268,7 +268,7 @@ static void look_for_drops(const space *x, size_t generators, const nh_ex *field
            (!ranks_at(x, &b, tape, o->chart->probe + probe * o->width, rank) || differs(g, &b, rank)))
         probe++;
     double *z = nh_alloc_array(o->width + 1, sizeof *z);
-    /* else rounding: nothing can be said */
+    /* otherwise it is rounding, and the rank is unknown */
     for (size_t s = 0; s <= o->m && !g->drops && probe < o->chart->probes; s++) {
         if (!special_point(o, probe, s, z) || !ranks_at(x, &b, tape, z, rank)) continue;
         if (rank[0] == g->rank[0] && differs(g, &b, rank))
@@ -281,7 +281,7 @@ static void look_for_drops(const space *x, size_t generators, const nh_ex *field
 
 /* ---- a proof that nothing is missing ---- */
 
-/* Brackets of the fields with those before them, in reduced form all along, until `count` are there. */
+/* Adds brackets of the fields with those before them, in reduced form, until there are `count` fields. */
 static void grow_to(space *x, frame *f, size_t count)
 {
     size_t N = x->N;
@@ -294,8 +294,7 @@ static void grow_to(space *x, frame *f, size_t count)
     nh_free(field);
 }
 
-/* Brackets fill `count` directions, and those are involutive: their brackets, whose components along the pivots vanish,
-   vanish. */
+/* Is the span involutive?  The brackets of `count` reduced fields have components 0 at the pivots, and must vanish. */
 static bool prove_involutive(space *x, size_t generators, const nh_ex *generator, size_t count)
 {
     size_t N = x->N;

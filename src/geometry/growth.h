@@ -1,14 +1,14 @@
-/* growth: how brackets fill the space that a distribution is given on.
+/* growth: the ranks of a distribution and its iterated brackets.
  *
  *     D^1 = D,   D^(j+1) = D^j + [D, D^j],   r_j = rank D^j            [BellaicheRisler1996, ch. 1]
  *
  * The ranks at generic points are the growth vector.  Where they stop growing D^j is involutive; it is the smallest
- * involutive distribution that contains D, and the functions that D leaves constant number N - r_j (Frobenius).
+ * involutive distribution that contains D, and N - r_j independent functions are constant along D (Frobenius).
  *
  * A rank at a point, where the smallest singular value that counts is far above rounding, is a lower bound; the largest
- * over the model's probes is taken for the generic one.  Where the last rank r is below N, that nothing was missed is
- * proved by exact elimination: r of the brackets span an involutive distribution that contains D, every entry that must
- * vanish being zero by normal form.  Where a normal form is too large the values at the probes decide, and `proved` is
+ * over the model's probes is taken as the generic rank.  Where the last rank r is below N, exact elimination proves
+ * that nothing was missed: r of the brackets span an involutive distribution that contains D, and every entry that must
+ * vanish is zero by normal form.  Where a normal form is too large the values at the probes decide, and `proved` is
  * false. */
 #ifndef NH_GROWTH_H
 #define NH_GROWTH_H
@@ -25,20 +25,20 @@ typedef struct {
     size_t dimension;                         /* N */
     size_t length, rank[NH_MOST_GROWTH];      /* generic ranks, strictly increasing */
     bool proved;
-    bool cut;                                 /* formulas became too large on the way: the ranks may grow further */
-    /* at some place of the sampling domain that was looked at the ranks grow differently */
+    bool cut;                                 /* formulas became too large: the ranks may grow further */
+    /* at an examined place of the sampling domain the ranks grow differently */
     bool drops;
-    nh_ex where;                              /* the coordinate that vanishes there; 0: all of them do */
+    nh_ex where;                              /* the coordinate that vanishes there; 0: all of them vanish */
     size_t length_there, rank_there[NH_MOST_GROWTH];
 } nh_growth;
 
-/* Of `count` fields with components field[i*N + j] along symbol[j].  `shift` is subtracted from all ranks and N
- * (directions that the user does not count).  Other places than generic ones: each coordinate, and all, at zero, where
- * the domain contains it. */
+/* The growth of `count` fields with components field[i*N + j] along symbol[j].  `shift` is subtracted from all ranks
+ * and N (directions that the user does not count).  Also examines special places: each coordinate, and all of them, at
+ * zero, where the domain contains such places. */
 nh_growth nh_growth_of(const nh_model *model, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field,
                        size_t shift);
 
-/* [a, b] of two fields on these symbols. */
+/* The bracket [a, b] of two fields on these symbols. */
 void nh_growth_bracket(nh_dag *dag, size_t N, const nh_ex *symbol, const nh_ex *a, const nh_ex *b, nh_ex *out);
 
 #endif

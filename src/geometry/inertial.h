@@ -27,10 +27,12 @@ typedef enum {
 
 typedef struct {
     const nh_submanifold *of;
-    nh_ex *part;         /* m x NH_INERTIAL_PARTS; of angles nothing; the first two kinds are B of the submanifold */
+    /* m x NH_INERTIAL_PARTS, nothing for angles; the first two kinds hold the coefficients B of the submanifold */
+    nh_ex *part;
 } nh_inertial;
 
-/* NULL: it does not split, or there are no constraints, or no length. */
+/* NULL: the force does not split or is too long, there are no constraints or no lengths, or a coordinate is neither a
+ * length nor an angle. */
 nh_inertial *nh_inertial_of(nh_arena *arena, const nh_submanifold *submanifold);
 
 #endif

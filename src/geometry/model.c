@@ -13,7 +13,8 @@ static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, 
 
 enum { large_length = 3000 }; /* nh_complexity of a Lagrangian */
 
-/* Behind a budget longer formulas are better than none; of an ended run nothing is kept: see nh_model_create. */
+/* After the budget is spent longer formulas are better than none; after an interruption nothing is kept: see
+ * nh_model_create. */
 static nh_ex simple(const nh_model *o, nh_ex e)
 {
     return nh_budget_spent() || nh_interrupted() ? e : nh_simplify_short(o->dag, e, nh_simplify_longest(o->n));
@@ -95,12 +96,12 @@ double nh_model_number(const nh_model *o, nh_ex e)
 
 /* ---- construction ---- */
 
-/* A large Lagrangian, such as that of a chain of bodies, is differentiated with respect to everything at once, and
-   along X_0 in one go (tau). */
+/* Differentiates a large Lagrangian, such as that of a chain of bodies, with respect to all symbols at once, and along
+ * X_0 by one more accumulation (tau). */
 typedef struct {
     bool large;
     nh_ex *dq, *dv; /* m: dL/dq^s, dL/dv^s */
-    nh_ex *inertial; /* m: dL/dq^s - X_0(p_s), of bodies and joints; NULL */
+    nh_ex *inertial; /* m: dL/dq^s - X_0(p_s) for bodies and joints; otherwise NULL */
     nh_ex tau;
 } slopes;
 
@@ -136,8 +137,8 @@ static slopes slopes_of(const nh_model *o)
     return s;
 }
 
-/* dL/dq^s - X_0(p_s) of a chain of bodies, by recursion: -(c_s + K_sr X_0(rho^r)), and the same of what the file adds
-   to its Lagrangian. */
+/* dL/dq^s - X_0(p_s) for a chain of bodies, by recursion: -(c_s + K_sr X_0(rho^r)), and the same for the terms that the
+ * file adds to its Lagrangian. */
 static void inertial_forces(nh_model *o, slopes *slope)
 {
     nh_dag *d = o->dag;
@@ -191,7 +192,7 @@ static nh_ex rate_of_momentum(const nh_model *o, const slopes *slope, size_t s)
     return slope->large ? nh_diff(o->dag, o->p[s], slope->tau) : nh_model_X0(o, o->p[s]);
 }
 
-/* M_ij = Y_i(p_s) R^s_j, as it comes. */
+/* M_ij = Y_i(p_s) R^s_j, not simplified. */
 static void mass_matrix(nh_model *o)
 {
     nh_dag *d = o->dag;
@@ -204,7 +205,7 @@ static void mass_matrix(nh_model *o)
         }
 }
 
-/* X_i(p_s), once. */
+/* All X_i(p_s), computed once. */
 static nh_ex along(const nh_model *o, nh_ex *known, size_t i, size_t s)
 {
     nh_ex *e = &known[i * o->m + s];
@@ -226,7 +227,7 @@ static nh_ex force_along(const nh_model *o, const slopes *slope, size_t i)
     return simple(o, A);
 }
 
-/* G_ij as it comes; X has room for all X_i(p_s). */
+/* G_ij, not simplified; X has room for all X_i(p_s). */
 static nh_ex gyroscopic(const nh_model *o, nh_ex *X, size_t i, size_t j)
 {
     nh_dag *d = o->dag;
@@ -291,8 +292,7 @@ static nh_ex unbalanced(const nh_model *o, const slopes *slope, size_t s)
     return c;
 }
 
-/* c_s = mu_a df^a/dv^s: solved in the rows of the most independent velocities (all of them for coordinate charts: the
-   dependent ones). */
+/* Solves c_s = mu_a df^a/dv^s for the multipliers mu_a, by its normal equations. */
 static bool multipliers(nh_model *o, const slopes *slope, nh_error *error)
 {
     nh_dag *d = o->dag;
@@ -347,7 +347,7 @@ nh_model *nh_model_bare(nh_system *system, nh_chart *chart)
     return o;
 }
 
-/* On invariant levels of a system no force is needed to stay there. */
+/* On invariant levels of a system the constraints need no force. */
 static bool levels_kept(const nh_model *o, nh_error *error)
 {
     enum { terms = 20000 };

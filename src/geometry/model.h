@@ -12,7 +12,8 @@
  *     Gamma = X_0 + a^i Y_i,  M a = A                        constraint semispray [CechMusilova2014, eq. 21]
  *     c_s  = dL/dq^s + Q_s - Gamma(p_s) = mu_a df^a/dv^s     Chetaev multipliers   [CechMusilova2014, eq. 10]
  *
- * A model is constant after creation and may be shared by threads. */
+ * A model is constant after creation, but for G.  Threads share it: one that needs further expressions makes them in a
+ * copy (nh_model_copy). */
 #ifndef NH_MODEL_H
 #define NH_MODEL_H
 
@@ -24,23 +25,24 @@ typedef struct {
     nh_chart *chart;
     nh_dag *dag;
     nh_arena *arena;
-    size_t m, n, k;
-    nh_ex *rho, *R;         /* m; m x n, R[s*n + i] */
-    nh_ex *p, E, Lbar;      /* m; */
-    nh_ex *pbar;            /* n: dLbar/dw^i-like momenta p_s R^s_i, so that alpha(Z) = Lbar Z^0 + pbar_i zeta^i */
-    nh_ex *M, *A;           /* n x n (row-major), n */
-    nh_ex *G;               /* n x n, by nh_model_G */
-    nh_ex *a;               /* n: rates of the velocities */
+    size_t m, n, k;         /* coordinates, independent velocities, constraints */
+    nh_ex *rho, *R;         /* m velocities; m x n, R[s*n + i] = d rho^s/dw^i */
+    nh_ex *p, E, Lbar;      /* m momenta; energy; constrained Lagrangian */
+    nh_ex *pbar;            /* n: p_s R^s_i, so that alpha(Z) = Lbar Z^0 + pbar_i zeta^i */
+    nh_ex *M, *A;           /* mass matrix, n x n (row-major); forces, n: M w' = A */
+    nh_ex *G;               /* n x n; call nh_model_G */
+    nh_ex *a;               /* n: w' */
     nh_ex *mu;              /* k multipliers, of f^a = lhs - rhs as the user wrote them */
     nh_ex *nu;              /* k x m: df^a/dv^s composed; annihilates R */
     nh_ex *reaction;        /* m: generalized force of the constraints on the bodies, -c_s */
     nh_lu *M_lu;
     size_t width;           /* chart->width; points are (t, q, w, u) */
-    const nh_ex *parameter; /* symbols and values, system->parameters of them */
+    const nh_ex *parameter; /* system->parameters symbols and values */
     const double *parameter_value;
 } nh_model;
 
-/* Takes the chart over (also on failure).  NULL with a message when M is singular on the submanifold. */
+/* The geometry of a system in a chart.  The model owns the chart (the chart is freed on failure, too) and borrows the
+ * system.  NULL with a message when M is singular on the submanifold. */
 nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error);
 /* Only system, chart, rho and parameters, without any geometry: enough for motions with multipliers (nh_bordered). */
 nh_model *nh_model_bare(nh_system *system, nh_chart *chart);
@@ -50,7 +52,8 @@ void nh_model_free(nh_model *model);
    model, and no motion needs them. */
 const nh_ex *nh_model_G(const nh_model *model);
 
-/* The bodies and joints of a long Lagrangian, whose equations are known by recursion, and the rest of it; else NULL. */
+/* The bodies and joints of a long Lagrangian, whose equations are computed by recursion, and the rest of the
+ * Lagrangian; NULL for any other system. */
 const nh_chain *nh_model_chain(const nh_model *model, nh_ex *rest);
 
 /* Derivatives along the basis fields. */
@@ -65,10 +68,11 @@ nh_ex nh_model_gamma(const nh_model *model, nh_ex e);
 typedef struct {
     nh_ex time, *space, *velocity; /* dt(Z), dq^s(Z), dw^i(Z) */
 } nh_field;
+/* The derivative of e along the field. */
 nh_ex nh_model_along(const nh_model *model, const nh_field *field, nh_ex e);
 nh_ex nh_model_omega(const nh_model *model, const nh_field *a, const nh_field *b);
 
-/* A tape of expressions over the points (t, q, w, u), parameters bound. */
+/* A tape that evaluates expressions at points (t, q, w, u), with the parameters bound; the caller frees it. */
 nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);
 /* 1 or -1 where e, a function on the submanifold, has one sign at all probes of the chart; else 0. */
 int nh_model_sign(const nh_model *model, nh_ex e);
@@ -76,15 +80,15 @@ int nh_model_sign(const nh_model *model, nh_ex e);
 /* The value of an expression of the parameters. */
 double nh_model_number(const nh_model *model, nh_ex e);
 
-/* The energy of the system as an expression of the chart, and an expression of coordinate velocities brought to the
-   chart. */
+/* An expression in coordinate velocities, rewritten in the velocities of the chart. */
 nh_ex nh_model_compose(const nh_model *model, nh_ex e);
 
 /* ---- has every independent velocity inertia? (model_regular.c) ---- */
 
-/* Of a model, bare or not: false, with the directions that have no inertia, where M is singular at every probe. */
+/* For a model, bare or not: false where M is singular at every probe, with an error that names the directions without
+ * inertia. */
 bool nh_model_regular(const nh_model *model, nh_error *error);
-/* Says so; returns false. */
+/* Records that M is singular, with the directions without inertia; returns false. */
 bool nh_model_singular(const nh_model *model, nh_error *error);
 
 #endif

@@ -17,7 +17,7 @@
 #include "base/text.h"
 #include "graph/diff.h"
 
-/* The mass matrix at the probes where it is finite. */
+/* The mass matrix at those probes where it is finite. */
 typedef struct {
     size_t n, count;
     double *M;           /* count x n x n */
@@ -47,7 +47,7 @@ static nh_tape *factors(const nh_model *o)
     return tape;
 }
 
-/* R^T K R of what the tape of `factors` gave. */
+/* R^T K R from the values of the tape of `factors`. */
 static void multiply(const nh_model *o, const double *value, double *M)
 {
     size_t m = o->m, n = o->n;
@@ -86,7 +86,7 @@ static masses masses_of(const nh_model *o)
     return a;
 }
 
-/* By the first velocity in which a direction has a component. */
+/* Orders directions by the first velocity in which they have a component. */
 static int earlier(const void *a, const void *b, void *context)
 {
     const double *x = a, *y = b;
@@ -95,8 +95,8 @@ static int earlier(const void *a, const void *b, void *context)
     return i == n ? 0 : x[i] == 0 ? 1 : -1;
 }
 
-/* Vectors (rows of `null`, count x n) of the same span that are as short as can be: each has a component 1 where the
-   others have 0, its largest. */
+/* Replaces vectors (rows of `null`, count x n) by a basis of their span with few components: each has a component 1,
+ * its largest, where the others have 0. */
 static void shorten(size_t count, size_t n, double *null)
 {
     static const double tie = 1 + 1e-9, nothing = 1e-9;
@@ -118,8 +118,8 @@ static void shorten(size_t count, size_t n, double *null)
     qsort_r(null, count, n * sizeof *null, earlier, &n);
 }
 
-/* The rank of M at one probe, and the directions that have no inertia there (n - rank rows of n; the one with the least
-   where the rank is n). */
+/* The rank of M at one probe, and the directions without inertia there (n - rank rows of n; where the rank is n, the
+ * direction with the least inertia). */
 static size_t rank_at(const masses *a, size_t probe, double *null)
 {
     static const double least = 1e-11; /* part of the largest singular value */
@@ -170,7 +170,8 @@ static void print_directions(const nh_model *o, size_t count, const double *null
     if (place) nh_text_addf(out, ")");
 }
 
-/* The probe with the largest rank; whether the same directions have no inertia at all of those with that rank. */
+/* The probe with the largest rank, and whether the directions without inertia are the same at all probes with that
+ * rank. */
 static size_t typical(const masses *a, size_t *rank, double *null, bool *everywhere)
 {
     static const double apart = 1e-6;
@@ -227,7 +228,7 @@ bool nh_model_singular(const nh_model *o, nh_error *error)
             : "keep `domain:` away from there");
 }
 
-/* In units in which its diagonal is one the mass matrix has a singular value of the size of rounding at every probe. */
+/* Where M is singular at every probe: scaled to a unit diagonal, it has a singular value of the size of rounding. */
 bool nh_model_regular(const nh_model *o, nh_error *error)
 {
     static const double rounding = 1e-14; /* times n */

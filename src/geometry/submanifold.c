@@ -4,7 +4,7 @@
 #include "exact/normal.h"
 #include "graph/diff.h"
 
-enum { large_length = 3000 }; /* nh_complexity: what is longer stays as it comes */
+enum { large_length = 3000 }; /* nh_complexity: longer formulas are not simplified */
 
 static nh_ex tidy(const nh_model *o, nh_ex e) { return nh_simplify_short(o->dag, e, large_length); }
 static nh_ex *take(nh_arena *arena, size_t n) { return nh_arena_alloc(arena, (n + 1) * sizeof(nh_ex)); }
@@ -96,7 +96,7 @@ static void inverse(nh_arena *arena, nh_submanifold *s)
     }
 }
 
-/* In all velocities, before the constraints are imposed. */
+/* The matrices in all velocities, before the constraints are imposed. */
 static void unconstrained(nh_arena *arena, nh_submanifold *s)
 {
     const nh_model *o = s->model;

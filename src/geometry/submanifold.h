@@ -1,4 +1,4 @@
-/* submanifold: what the geometry of a constrained system is made of, beside what its model holds.
+/* submanifold: the forms and matrices of a constrained system that its model does not hold.
  *
  * In a chart of coordinate velocities, with the dependent velocities y'^a = g^a(t, q, w) [CechMusilova2014, sec. 2.3]:
  *
@@ -32,8 +32,8 @@ typedef struct {
     nh_ex *f_v;          /* k x m: df^a/dv^s of the constraints as they were written, in all velocities */
 } nh_submanifold;
 
-/* In the arena; `dependent`: the k coordinates whose velocities the forms are normalised by, NULL: those of the chart,
-   or none. */
+/* All of them, in the arena.  `dependent`: the k coordinates whose velocities normalise the forms; NULL: those of the
+ * chart, or none. */
 nh_submanifold *nh_submanifold_of(nh_arena *arena, const nh_model *model, const size_t *dependent);
 
 #endif

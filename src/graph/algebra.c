@@ -51,8 +51,8 @@ static void gather_terms(nh_dag *dag, nh_term_list *b, nh_ex e, nh_num scale)
     }
 }
 
-/* The number by which the sum is divided to have content 1 and a positive first coefficient; where a coefficient is
- * or would become inexact, only the sign. */
+/* The content of the sum with the sign of its first coefficient, by which the sum is divided; where a coefficient is or
+ * would become inexact, only the sign. */
 static nh_num content_of(const nh_term_list *b)
 {
     nh_num sign = nh_num_int(nh_num_value(b->list[0].c) < 0 ? -1 : 1);

@@ -65,7 +65,7 @@ static void rehash(nh_dag *dag)
     }
 }
 
-/* Which symbols occur, folded to 64 bits: a clear bit proves absence. */
+/* Which symbols occur, as 64 bits of a hash: a clear bit proves absence. */
 static uint64_t mask_of(const nh_dag *dag, unsigned kind, size_t count, const uint32_t *arg)
 {
     if (kind == NH_NUMBER) return 0;
@@ -220,7 +220,7 @@ bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value)
 /* The indices of all nodes below `e`, each once, children first. */
 typedef struct {
     size_t count, capacity, slots;
-    uint32_t *node, *slot; /* found, in order of discovery; hash table of index + 1 */
+    uint32_t *node, *slot; /* found so far, in order of discovery; hash table of index + 1 */
 } found_nodes;
 
 static bool discover(found_nodes *f, uint32_t e)
@@ -252,7 +252,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Time grows with what is below e, not with the graph: a search among all nodes would be quadratic in large systems. */
+/* The cost depends on what is below e and not on the size of the graph: a search through all nodes would be quadratic
+ * in large systems. */
 static size_t reach(const nh_dag *dag, nh_ex e, uint32_t **out)
 {
     found_nodes f = {0};
@@ -267,7 +268,7 @@ static size_t reach(const nh_dag *dag, nh_ex e, uint32_t **out)
     return f.count;
 }
 
-/* The mask tells everything while there are no more symbols than bits. */
+/* The mask alone decides as long as there are at most as many symbols as bits. */
 bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol)
 {
     if (e == symbol) return true;

@@ -25,8 +25,8 @@ typedef struct nh_dag nh_dag;
 typedef enum { NH_NUMBER, NH_SYMBOL, NH_SUM, NH_PRODUCT, NH_FUNCTION } nh_kind;
 
 /* Elementary functions of one argument, which have the names of the C library: identifier, name, parity (-1 odd, 1
- * even, 0 neither), values at 0 and at 1 where these are whole numbers (-1: no such rule).  Values of a point and of a
- * batch, their declarations in machine code, and what messages list are made of these rows. */
+ * even, 0 neither), values at 0 and at 1 where these are whole numbers (-1: no such rule).  Their evaluation at a point
+ * and in a batch, their declarations in machine code and the lists in messages are made from these rows. */
 #define NH_ELEMENTARY_TABLE(X)   \
     X(SIN, sin, -1, 0, -1)       \
     X(COS, cos, 1, 1, -1)        \
@@ -92,8 +92,8 @@ typedef enum {
 
 enum { NH_MOST_ARGUMENTS = 4 }; /* of a function */
 
-/* An exact rational p/q with q > 0 in lowest terms; or (q == NH_LONG) one too long for 64 bits, which expr/num_long
- * keeps under the index p, with d the nearest double; or (q == 0) the double d. */
+/* An exact rational p/q with q > 0 in lowest terms; or (q == NH_LONG) one too long for 64 bits, which num_long.h keeps
+ * under the index p, with d the nearest double; or (q == 0) the double d. */
 typedef struct {
     int64_t p, q;
     double d;
@@ -109,20 +109,21 @@ nh_num nh_num_real(double value); /* exact when the double is a whole number bel
 nh_num nh_num_decimal(double value);
 nh_num nh_num_add(nh_num a, nh_num b);
 nh_num nh_num_mul(nh_num a, nh_num b);
-nh_num nh_num_inv(nh_num a); /* of zero: not a number */
+nh_num nh_num_inv(nh_num a); /* of the rational 0: not-a-number */
 nh_num nh_num_pow(nh_num a, int64_t n);
 double nh_num_value(nh_num a);
 bool nh_num_is(nh_num a, int64_t p);
-bool nh_num_exact(nh_num a); /* a rational */
-bool nh_num_short(nh_num a); /* one of 64 bits: p and q can be used */
+bool nh_num_exact(nh_num a); /* is it a rational? */
+bool nh_num_short(nh_num a); /* is it a rational of 64 bits?  Then p and q can be used */
 bool nh_num_equal(nh_num a, nh_num b);
-int64_t nh_gcd(int64_t a, int64_t b); /* not negative; neither is INT64_MIN, as no p or q of a number is */
+int64_t nh_gcd(int64_t a, int64_t b); /* not negative; the arguments are not INT64_MIN, as no p or q of a number is */
 
+/* A graph with the numbers 0 and 1; nh_dag_free frees it with all its nodes. */
 nh_dag *nh_dag_create(void);
 void nh_dag_free(nh_dag *dag);
 size_t nh_dag_size(const nh_dag *dag); /* number of nodes made so far; indices are below it */
 
-/* Constructors.  Equal results have equal indices. */
+/* Constructors.  Equal results have equal indices; the graph owns all nodes until nh_dag_free. */
 nh_ex nh_number(nh_dag *dag, nh_num value);
 nh_ex nh_int(nh_dag *dag, int64_t value);
 nh_ex nh_ratio(nh_dag *dag, int64_t p, int64_t q);
@@ -141,17 +142,17 @@ nh_ex nh_powi(nh_dag *dag, nh_ex base, int64_t exponent);
 nh_ex nh_sqrt(nh_dag *dag, nh_ex a);
 nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a);
 nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b);
-nh_ex nh_call_any(nh_dag *dag, nh_function f, const nh_ex *argument); /* as many as it takes */
+nh_ex nh_call_any(nh_dag *dag, nh_function f, const nh_ex *argument); /* with nh_function_arity(f) arguments */
 nh_ex nh_pi(nh_dag *dag);
-/* tan((2 k + 1) pi/2), which has no value; its inverse is 0. */
+/* Is it tan((2 k + 1) pi/2), which has no value, but whose reciprocal is 0? */
 bool nh_is_infinite_tangent(nh_dag *dag, nh_ex e);
-/* a = rest + c pi with sin(c pi), cos(c pi) that are numbers or half a root? */
+/* Is a = rest + c pi, where sin(c pi) and cos(c pi) are numbers or half a root? */
 bool nh_split_turn(nh_dag *dag, nh_ex a, nh_ex *rest, nh_ex *sine, nh_ex *cosine);
 /* sum_i coefficient[i] * term[i] */
 nh_ex nh_linear(nh_dag *dag, size_t n, const nh_num *coefficient, const nh_ex *term);
 nh_ex nh_product(nh_dag *dag, size_t n, const nh_ex *factor);
 
-/* Looking at a node. */
+/* Properties of a node. */
 nh_kind nh_kind_of(const nh_dag *dag, nh_ex e);
 nh_num nh_number_of(const nh_dag *dag, nh_ex e);        /* of a number */
 const char *nh_name_of(const nh_dag *dag, nh_ex e);     /* of a symbol */
@@ -164,13 +165,12 @@ nh_num nh_coefficient_of(const nh_dag *dag, nh_ex e, size_t i); /* of the i-th t
 nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i);     /* of the i-th factor of a product */
 const char *nh_function_name(nh_function f);
 size_t nh_function_arity(nh_function f);
-/* what is written here for a name that other languages have; or NULL */
+/* what to write in place of a function's name in other languages: "write 1/tan(...)"; or NULL */
 const char *nh_function_elsewhere(const char *name);
 bool nh_is_named_function(nh_function f);
-/* What the arguments of a named function are called, each by one letter: "n, x"; NULL for the others. */
+/* The letters that stand for the arguments of a named function: "n, x"; NULL for the others. */
 const char *nh_function_arguments(nh_function f);
-/* How many of its first arguments must be constant: there is no known closed form of the derivatives with respect to
-   orders. */
+/* How many of its first arguments must be constant: derivatives with respect to orders have no closed form. */
 size_t nh_function_constants(nh_function f);
 bool nh_is_zero(const nh_dag *dag, nh_ex e);
 bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value);
@@ -178,9 +178,9 @@ bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value);
 bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol);
 /* The symbols that occur in e, ascending, into `out` (at most `max`); returns their number. */
 size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
-/* The function calls that occur in e likewise. */
+/* The function calls that occur in e, likewise. */
 size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
-/* Products; powers are products as well. */
+/* The products that occur in e, likewise; powers are products as well. */
 size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 /* The bases of half powers likewise, each once: u of sqrt(u), of u^(-1/2), of u^(3/2); at most `max` are counted. */
 size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);

@@ -54,16 +54,17 @@ struct nh_dag {
     size_t power_count, power_capacity;
 };
 
-/* What a symbol satisfies, or NULL. */
+/* The relation that a symbol satisfies, or NULL. */
 const nh_power_rule *nh_dag_power_rule(const nh_dag *dag, nh_ex symbol);
 
-/* The memo of nh_simplify: *out when known. */
+/* The memo of nh_simplify; false where e is not there, otherwise *out. */
 bool nh_dag_simplified(const nh_dag *dag, nh_ex e, nh_ex *out);
 void nh_dag_set_simplified(nh_dag *dag, nh_ex e, nh_ex simple);
 
 /* The derivative of the function e with respect to its argument i. */
 nh_ex nh_diff_argument(nh_dag *dag, nh_ex e, size_t i);
 
+/* The node with this kind, function and arguments: the existing one, or a new one. */
 nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg);
 
 #endif

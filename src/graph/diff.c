@@ -173,7 +173,7 @@ static bool constant_in(const nh_dag *d, nh_ex e, nh_ex x)
     return true;
 }
 
-/* Without looking below e: false when the derivative of e has yet to be computed. */
+/* The derivative, if it is known without computing that of a child; otherwise false. */
 static bool known(const nh_dag *dag, nh_ex e, nh_ex x, nh_ex *out)
 {
     *out = e == x; /* the nodes 0 and 1 are the numbers 0 and 1 */
@@ -188,7 +188,7 @@ typedef struct {
     size_t count, capacity;
 } todo;
 
-/* The nodes that e needs and that are not known yet; returns whether there are any. */
+/* Adds the nodes that e needs and that are not known yet; returns whether there are any. */
 static bool push_needed(const nh_dag *dag, todo *t, nh_ex e, nh_ex x)
 {
     size_t before = t->count;
@@ -212,7 +212,7 @@ static nh_ex diff_node(nh_dag *dag, nh_ex e, nh_ex x)
     }
 }
 
-/* A stack of its own: expressions may be deeper than that of the machine. */
+/* With a stack of its own: expressions may be deeper than the machine's stack. */
 nh_ex nh_diff(nh_dag *dag, nh_ex e, nh_ex x)
 {
     nh_ex result;

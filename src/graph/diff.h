@@ -10,11 +10,11 @@
 /* d e / d x for a symbol x. */
 nh_ex nh_diff(nh_dag *dag, nh_ex e, nh_ex x);
 
-/* From now on d u / d x = value for the symbols u and x.  Must precede any derivative of an expression in u. */
+/* Defines d u / d x = value for the symbols u and x.  Must precede any derivative of an expression in u. */
 void nh_diff_rule(nh_dag *dag, nh_ex u, nh_ex x, nh_ex value);
 
-/* All d e / d symbol[i] at once, by accumulation from e downwards: together no more than a few times as large as e,
- * where n calls of nh_diff may be n times as large.  For symbols without rules. */
+/* All derivatives d e / d symbol[i] at once, by accumulation from e downwards: together they are only a few times as
+ * large as e, where n calls of nh_diff may give n times as much.  For symbols without rules. */
 void nh_gradient(nh_dag *dag, nh_ex e, size_t n, const nh_ex *symbol, nh_ex *out);
 
 /* sum_i component[i] d e / d symbol[i]: the derivative of e along a field. */

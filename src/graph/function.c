@@ -53,7 +53,7 @@ size_t nh_function_constants(nh_function f)
     return table[f].arguments && f < NH_ELLIPTIC_K ? (size_t)table[f].arity - 1 : 0;
 }
 
-/* What functions are called elsewhere, and what there is instead. */
+/* Names of functions in other languages, and what to write instead. */
 const char *nh_function_elsewhere(const char *name)
 {
     static const char *const other[][2] = {
@@ -125,7 +125,7 @@ static bool is_pi(const nh_dag *dag, nh_ex e)
     return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == NH_PI;
 }
 
-/* sin(c pi), cos(c pi) where these are known: wheels at angles of 2 pi/3. */
+/* The sine and the cosine of c pi, where they are known: wheels stand at angles of 2 pi/3. */
 static bool known_turn(nh_dag *dag, nh_num c, nh_ex *sine, nh_ex *cosine)
 {
     if (c.q < 1 || c.q > 6 || 12 % c.q != 0) return false;

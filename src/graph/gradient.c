@@ -12,7 +12,7 @@ typedef struct {
 typedef struct {
     nh_dag *dag;
     bool *needed;       /* on the way from e to a symbol */
-    size_t *first;      /* per node: its shares, + 1 */
+    size_t *first;      /* per node: index of the first part of its adjoint, + 1 */
     share *list;
     size_t count, capacity;
 } sweep;
@@ -74,7 +74,7 @@ static void spread(sweep *s, nh_ex node)
             give(s, nh_child(d, node, i), nh_mul(d, a, nh_number(d, nh_coefficient_of(d, node, i))));
 }
 
-/* Which nodes at or below e contain one of the symbols; by index, children first. */
+/* The nodes at or below e that contain one of the symbols; by index, children first. */
 static void mark(const sweep *s, nh_ex e, size_t n, const nh_ex *symbol)
 {
     const nh_dag *d = s->dag;

@@ -9,6 +9,7 @@ typedef struct {
     size_t count, capacity;
 } nh_index;
 
+/* The word of the key; false where it has none. */
 bool nh_index_get(const nh_index *index, nh_ex key, uint32_t *value);
 void nh_index_put(nh_index *index, nh_ex key, uint32_t value); /* a key that is not there yet */
 void nh_index_clear(nh_index *index);

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "graph/index.h"
 
-/* ---- how long it looks ---- */
+/* ---- the length of a printed expression ---- */
 
 static const size_t endless = SIZE_MAX / 4; /* a shared graph can be exponentially long on paper */
 
@@ -16,7 +16,7 @@ static size_t length_of(const nh_dag *dag, nh_ex e, nh_index *known);
 
 static size_t number_length(nh_num c) { return (c.q > 1 ? 3 : 1) + (nh_num_value(c) < 0); }
 
-/* A number in front of something: what it adds, with its operators. */
+/* The length that a number in front of something adds, with its operators. */
 static size_t coefficient_length(nh_num c)
 {
     if (!nh_num_short(c)) return 2;
@@ -93,8 +93,7 @@ size_t nh_complexity(const nh_dag *dag, nh_ex e)
     return length;
 }
 
-/* What is left of `room` behind the symbols and numbers of e, as they stand on paper; 0 where there is no room for
-   all. */
+/* What is left of `room` after the symbols and numbers of e, as they are printed; 0 where there is no room for all. */
 static size_t room_behind(const nh_dag *dag, nh_ex e, size_t room)
 {
     nh_kind kind = nh_kind_of(dag, e);
@@ -108,7 +107,7 @@ bool nh_complexity_within(const nh_dag *dag, nh_ex e, size_t most)
     return room_behind(dag, e, most + 1) && nh_complexity(dag, e) <= most;
 }
 
-/* ---- which comes first ---- */
+/* ---- the order of expressions ---- */
 
 /* A term with its coefficient, or a base with its exponent. */
 typedef struct {
@@ -142,8 +141,7 @@ static piece *pieces_of(const nh_dag *dag, nh_ex e)
     return list;
 }
 
-/* Term by term, each at its place in the order; coefficients decide between sums of the same terms, the larger
-   first. */
+/* Compares term by term in their order; coefficients decide between sums of the same terms, the larger first. */
 static int by_pieces(const nh_dag *dag, nh_ex a, nh_ex b)
 {
     size_t n = nh_arity(dag, a);
@@ -170,7 +168,7 @@ static int structure(const nh_dag *dag, nh_ex a, nh_ex b)
     return by_pieces(dag, a, b);
 }
 
-/* The one with the earlier symbol, where they have not the same. */
+/* The one with the earlier symbol comes first, where their symbols differ. */
 static int by_symbols(const nh_dag *dag, nh_ex a, nh_ex b)
 {
     size_t n = nh_symbols_in(dag, a, NULL, 0), m = nh_symbols_in(dag, b, NULL, 0), i = 0;
@@ -192,7 +190,7 @@ int nh_complexity_order(const nh_dag *dag, nh_ex a, nh_ex b)
     return order || x > longest ? order : structure(dag, a, b);
 }
 
-/* ---- how deep it is ---- */
+/* ---- depth ---- */
 
 static size_t nesting(const nh_dag *dag, nh_ex e, nh_index *known)
 {
@@ -222,9 +220,9 @@ size_t nh_nesting(const nh_dag *dag, nh_ex e)
     return most;
 }
 
-/* ---- its numbers ---- */
+/* ---- numbers ---- */
 
-/* Some number in e is not good. */
+/* Is there a number in e for which `good` is false? */
 static bool has_bad_number(const nh_dag *dag, nh_ex e, bool (*good)(nh_num), nh_index *seen)
 {
     uint32_t known;

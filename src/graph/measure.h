@@ -1,26 +1,26 @@
-/* measure: how long an expression looks, how deep it is, which numbers it holds, which of two comes first. */
+/* measure: the printed length of an expression, its depth, the kinds of its numbers, and an order of expressions. */
 #ifndef NH_MEASURE_H
 #define NH_MEASURE_H
 
 #include "graph/dag.h"
 
-/* How long e looks on paper: about the number of symbols, numbers and operators when it is printed. */
+/* The printed length of e: about the number of symbols, numbers and operators. */
 size_t nh_complexity(const nh_dag *dag, nh_ex e);
 
-/* Is that at most `most`?  Without a look at the rest of what is longer. */
+/* Is that at most `most`?  Stops as soon as e is known to be longer. */
 bool nh_complexity_within(const nh_dag *dag, nh_ex e, size_t most);
 
-/* An order of expressions that depends on what they are and on the order of their symbols' declaration, not on which
+/* An order of expressions that depends on their content and on the order of declaration of their symbols, not on which
  * was made first: negative where a comes before b, 0 for equal ones.  Short ones come first, then those with earlier
- * symbols; of long ones no more is compared. */
+ * symbols; long ones are not compared further. */
 int nh_complexity_order(const nh_dag *dag, nh_ex a, nh_ex b);
 
-/* How many functions, and powers of sums, stand inside of each other at most; whatever was named by a definition
-   counts. */
+/* The largest number of functions, and powers of sums, inside of each other; definitions count as if they were written
+ * out. */
 size_t nh_nesting(const nh_dag *dag, nh_ex e);
 
-/* Is every number in e a rational?  Is it one of 64 bits, which can be printed as such?  Where an expression has longer
- * ones while its source has none, it is no simpler form. */
+/* nh_is_exact: is every number in e a rational? nh_is_short: is every number a rational of 64 bits, which can be
+ * printed as such?  An expression with longer numbers than its source is no simpler form of it. */
 bool nh_is_exact(const nh_dag *dag, nh_ex e);
 bool nh_is_short(const nh_dag *dag, nh_ex e);
 

@@ -1,4 +1,4 @@
-/* name: names of the language, and what to write in the place of a text that is none. */
+/* name: names of the language, and the name that is suggested for a text that is no name. */
 #include <ctype.h>
 #include <string.h>
 
@@ -33,8 +33,8 @@ const char *nh_name_of_letter(const char *at, size_t *length)
     return NULL;
 }
 
-/* A name like the text: letters by their names, `_` for blanks and hyphens, digits of its beginning at its end; false
-   where the text is an expression or has characters without a name. */
+/* A name similar to the text: letters by their names, `_` for blanks and hyphens, leading digits moved to the end.
+ * False where the text is an expression or has characters without a name. */
 static bool similar_name(const char *text, nh_text *out)
 {
     size_t digits = strspn(text, "0123456789"), length;

@@ -70,7 +70,7 @@ bool nh_named_function_read(nh_dag *dag, const char *text, nh_function f, nh_fun
     return nh_parse(dag, text, resolve, &x, out, &fault);
 }
 
-/* What cannot be written is not a number. */
+/* What cannot be written becomes not-a-number. */
 static nh_ex read_or_nan(nh_dag *dag, const char *text, nh_function f, const nh_ex *argument)
 {
     nh_ex out;

@@ -90,7 +90,8 @@ nh_num nh_num_real(double value)
     return inexact(value);
 }
 
-/* p/q with a small q that is rounded to this double: 1/3, and not its seventeen digits.  By continued fractions. */
+/* The ratio p/q with a small q that rounds to this double, by continued fractions: 1/3, and not its seventeen
+ * digits. */
 static bool small_ratio(double value, nh_num *out)
 {
     enum { most = 1000 };
@@ -132,7 +133,7 @@ bool nh_num_exact(nh_num a) { return a.q != 0; }
 
 bool nh_num_short(nh_num a) { return a.q > 0; }
 
-/* Rounded once: a decimal of 17 digits is the double it was printed from. */
+/* Rounded once: a decimal of 17 digits gives back the double that it was printed from. */
 double nh_num_value(nh_num a)
 {
     if (a.q <= 0) return a.d;

@@ -15,7 +15,7 @@ enum { most_bits = 4096, most_kept = 1 << 20 };
 static struct {
     pthread_mutex_t lock;
     size_t count, capacity, slots;
-    mpq_t *value;    /* count, from 1 */
+    mpq_t *value;    /* `count` numbers; indices begin at 1 */
     size_t *slot;    /* open addressing, a power of two; 0: free */
 } table = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
@@ -57,7 +57,7 @@ static void grow(void)
     for (size_t i = 1; i <= table.count; i++) table.slot[place_of(table.value[i])] = i;
 }
 
-/* The index of the number, a new one if need be; 0 when there are too many. */
+/* The index of the number, which is added if it is new; 0 when there are too many. */
 static size_t keep(const mpq_t v)
 {
     nh_held held;
@@ -66,7 +66,7 @@ static size_t keep(const mpq_t v)
     size_t at = place_of(v);
     if (!table.slot[at] && table.count < most_kept) {
         nh_grow(&table.value, &table.capacity, table.count + 2, sizeof *table.value);
-        mpq_t *kept = &table.value[table.count + 1]; /* counted when it is whole */
+        mpq_t *kept = &table.value[table.count + 1]; /* it is counted once it is completely written */
         mpq_init(*kept);
         mpq_set(*kept, v);
         table.slot[at] = ++table.count;
@@ -76,7 +76,7 @@ static size_t keep(const mpq_t v)
     return index;
 }
 
-/* GMP truncates: of the two neighbours the nearer one. */
+/* GMP truncates: takes the nearer one of the two neighbours. */
 static double nearest(const mpq_t v)
 {
     double low = mpq_get_d(v), high = nextafter(low, mpq_sgn(v) * INFINITY);

@@ -14,7 +14,7 @@
 enum {
     max_depth = 200,
     max_name = 63,
-    max_power = 18 /* of ten, that is exact */,
+    max_power = 18 /* power of ten up to which a double is exact */,
     max_typed_power = 310,
     max_digits = 80
 };
@@ -46,7 +46,7 @@ static bool fail(parser *p, size_t offset, const char *format, ...)
     return false;
 }
 
-/* What is well written may have no value. */
+/* A correct text may have no value. */
 static bool has_no_value(parser *p) { return !(p->fault->undefined = true); }
 
 static bool hint(parser *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -87,7 +87,7 @@ bool nh_is_reserved(const char *name)
 static bool expression(parser *p, nh_ex *out);
 static bool unary(parser *p, nh_ex *out);
 
-/* Typeset signs, as word processors and books put them, and what is written for each. */
+/* Typographic signs, as word processors and books use them, and the ASCII text for each. */
 static const char *plain_sign(const char *at)
 {
     static const char *const signs[][2] = {
@@ -99,7 +99,7 @@ static const char *plain_sign(const char *at)
     return NULL;
 }
 
-/* 9,81 for 9.81; two equations in one text; a quote at one end only. */
+/* A hint for common mistakes: 9,81 for 9.81; two equations in one text; a quote at one end only. */
 static bool hint_separator(parser *p)
 {
     const char *at = p->text + p->at;
@@ -111,7 +111,7 @@ static bool hint_separator(parser *p)
     return false;
 }
 
-/* Name the character at fault the way a person would. */
+/* Names the wrong character in words. */
 static bool unexpected(parser *p, const char *wanted)
 {
     char c = peek(p);
@@ -138,7 +138,7 @@ static bool unexpected(parser *p, const char *wanted)
     return false;
 }
 
-/* What stands after a complete operand, where an operator or `closing` could stand. */
+/* The text behind a complete operand, where an operator or `closing` is expected. */
 static bool no_operator(parser *p, const char *closing)
 {
     char c = peek(p);
@@ -149,8 +149,8 @@ static bool no_operator(parser *p, const char *closing)
 
 static bool vanishes(nh_num x) { return !nh_num_is(x, 0) && nh_num_value(x) == 0; }
 
-/* Is every coefficient a double that is neither infinite nor 0?  Products and sums of large and small numbers need not
-   be. */
+/* Is every coefficient a rational or a double that is neither infinite nor 0?  Products and sums of large and small
+ * numbers may overflow or vanish. */
 static bool stays_finite(parser *p, nh_ex e, size_t at)
 {
     nh_kind kind = nh_kind_of(p->dag, e);
@@ -169,7 +169,8 @@ static bool stays_finite(parser *p, nh_ex e, size_t at)
 
 /* ---- numbers ---- */
 
-/* Digits with an optional point: their whole value, if it fits, and the power of ten it is multiplied with. */
+/* Reads digits with an optional point: their value as a whole number, if it fits, and the power of ten by which it is
+ * multiplied. */
 static const char *mantissa(const char *s, int64_t *digits, long *scale, bool *exact)
 {
     bool point = false;
@@ -188,7 +189,7 @@ static const char *mantissa(const char *s, int64_t *digits, long *scale, bool *e
     return s;
 }
 
-/* Digits with an optional point and exponent; exact when they fit. */
+/* Reads digits with an optional point and exponent; the result is exact when they fit. */
 static bool number(parser *p, nh_ex *out)
 {
     const char *start = p->text + p->at, *s;
@@ -206,7 +207,7 @@ static bool number(parser *p, nh_ex *out)
     if (value == 0 && digits) return fail(p, p->at, "this number is too small: it would become 0");
     p->at = (size_t)(s - p->text);
     bool moderate = exponent > -1000 && exponent < 1000; /* so that the sum below cannot overflow */
-    /* 16 digits or more are what some double was rounded to */
+    /* a decimal of 16 digits or more was printed from some double */
     bool typed = llabs(digits) < typed_digits && labs(exponent + scale) <= max_typed_power;
     size_t length = (size_t)(s - start);
     if (!exact && strspn(start, DIGITS) == length && length <= max_digits) {
@@ -243,7 +244,7 @@ static bool wrong_number(parser *p, const char *name, const char *amount)
            hint(p, "write %s(%s)", name, nh_function_arguments(f));
 }
 
-/* The arguments of `name`, after it. */
+/* Reads the arguments of `name`, behind it. */
 static bool arguments(parser *p, const char *name, size_t count, nh_ex *argument)
 {
     static const char *const amount[] = {"no", "one argument", "two arguments", "three arguments", "four arguments"};
@@ -263,7 +264,7 @@ static bool arguments(parser *p, const char *name, size_t count, nh_ex *argument
     return close_parenthesis(p);
 }
 
-/* f(a) or f(a, b); the name has been read, `at` is its offset. */
+/* Reads f(a) or f(a, b) behind the name, which stands at offset `at`. */
 static bool call(parser *p, nh_function f, const char *name, size_t at, nh_ex *out)
 {
     nh_ex a[NH_MOST_ARGUMENTS];
@@ -284,7 +285,7 @@ static bool square_root(parser *p, size_t at, nh_ex *out)
     return true;
 }
 
-/* The caller does not know the name, or explained why it cannot stand here. */
+/* The caller does not know the name, or has explained why it cannot stand here. */
 static bool unresolved(parser *p, const char *word, size_t at)
 {
     nh_parse_fault *fault = p->fault;
@@ -298,7 +299,7 @@ static bool unresolved(parser *p, const char *word, size_t at)
     return hint(p, "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs and those of `nhsym explain functions`");
 }
 
-/* A name that is not the language's own: the caller knows it. */
+/* Reads a name that is not the language's own: the caller resolves it. */
 static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
 {
     nh_parse_fault *fault = p->fault;
@@ -351,7 +352,7 @@ static bool atom(parser *p, nh_ex *out)
     return expression(p, out) && close_parenthesis(p);
 }
 
-/* A number to the power of a number must be a number. */
+/* A number to the power of a number must be a finite number. */
 static bool real_power(const nh_dag *dag, nh_ex base, nh_ex exponent)
 {
     if (nh_kind_of(dag, base) != NH_NUMBER || nh_kind_of(dag, exponent) != NH_NUMBER) return true;
@@ -365,7 +366,8 @@ static bool power(parser *p, nh_ex *out)
     size_t at = p->at;
     nh_ex base = *out, exponent;
     p->at++;
-    bool counted = peek(p) != '('; /* which counts itself: a^b^c is no deeper than a^(b^c), as which it is printed */
+    /* a parenthesis counts its own depth; a^b^c is no deeper than a^(b^c), as which it is printed */
+    bool counted = peek(p) != '(';
     if (counted && !deeper(p)) return false;
     if (!unary(p, &exponent)) return false;
     p->depth -= counted;
@@ -386,7 +388,7 @@ static bool unary(parser *p, nh_ex *out)
     return true;
 }
 
-/* Operands are collected and combined at once: one by one, n of them would cost n^2. */
+/* Operands are collected and combined at once: adding n of them one by one would take time n^2. */
 typedef struct {
     nh_ex *operand;
     nh_num *sign; /* in sums */

@@ -13,27 +13,28 @@
 #include "graph/dag.h"
 
 typedef struct {
-    size_t offset; /* byte in the text where the trouble is */
+    size_t offset; /* offset of the error in the text, in bytes */
     char what[512], hint[256];
-    bool undefined; /* the text is right as far as it was read, but has no finite value there: 1/0, log(0) */
+    bool undefined; /* the text is correct as far as it was read, but has no finite value there: 1/0, log(0) */
 } nh_parse_fault;
 
-/* What a name (with its prime, "x'") means; false when unknown, with an optional explanation in fault->what/hint. */
+/* Resolves a name (with its prime, "x'"); false when it is unknown, with an optional explanation in
+ * fault->what/hint. */
 typedef bool nh_resolve(void *context, const char *name, nh_ex *out, nh_parse_fault *fault);
 
-/* Parse a whole text as one expression. */
+/* Parses a whole text as one expression.  False with a fault. */
 bool nh_parse(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *out, nh_parse_fault *fault);
 
-/* "lhs = rhs"; a text without "=" is refused. */
+/* Parses "lhs = rhs"; a text without "=" is refused. */
 bool nh_parse_equation(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *lhs, nh_ex *rhs,
                        nh_parse_fault *fault);
 
 /* Is the text a name of the language: a letter or _, then letters, digits and _? */
 bool nh_is_name(const char *text);
-/* What is written for the Greek letter or the lowered digit at this place ("phi", "1"), and how long that is; NULL: it
-   is none. */
+/* The ASCII text for the Greek letter or subscript digit at this place ("phi", "1"), and its length in bytes there;
+ * NULL: there is none. */
 const char *nh_name_of_letter(const char *at, size_t *length);
-/* Adds what names are, and one that is like the text.  False. */
+/* Adds to the fault what a name is made of, and a name similar to the text.  Returns false. */
 bool nh_name_hint(nh_error *error, const char *text);
 /* Is the name taken by a function, `pi` or `t`? */
 bool nh_is_reserved(const char *name);

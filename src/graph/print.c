@@ -9,13 +9,13 @@
 #include "graph/measure.h"
 #include "graph/num_long.h"
 
-/* Binding strength of what surrounds an expression. */
+/* Binding strength of the operator around an expression. */
 enum { in_sum = 0, in_product = 1, in_power = 2 };
 
 enum { max_depth = 1000 }; /* far more than anyone reads */
 
 typedef struct {
-    nh_dag *dag; /* printing may intern a scaled term; it changes no existing node */
+    nh_dag *dag; /* printing may add a scaled term to the graph; existing nodes do not change */
     nh_text *out;
     int depth;
 } printer;
@@ -54,8 +54,8 @@ static bool negative(const nh_dag *dag, nh_ex e)
 typedef struct {
     nh_ex base, exponent;
     int rank;
-    bool below;   /* under the fraction bar */
-    nh_num power; /* numeric exponent, made positive when below */
+    bool below;   /* it stands under the fraction bar */
+    nh_num power; /* numeric exponent, its sign changed when it is below */
     bool numeric;
 } factor;
 
@@ -95,7 +95,7 @@ static factor *sorted_factors(const nh_dag *dag, nh_ex e, size_t *count)
     return f;
 }
 
-/* n^(p/q) of a whole n > 0? */
+/* Is it n^(p/q) with a whole n > 0? */
 static bool is_root(const nh_dag *dag, const factor *f)
 {
     if (nh_kind_of(dag, f->base) != NH_NUMBER || !f->numeric || f->power.q < 2) return false;
@@ -103,7 +103,7 @@ static bool is_root(const nh_dag *dag, const factor *f)
     return n.q == 1 && n.p > 0;
 }
 
-/* The first factor after i, above or below, with the same power; n if there is none. */
+/* The first factor after i, on the same side of the fraction bar, with the same power; n if there is none. */
 static size_t same_power(const factor *f, size_t n, size_t i, nh_num power, bool below)
 {
     size_t j = i + 1;
@@ -161,7 +161,8 @@ static size_t put_factors(printer *p, const factor *f, size_t n, bool below, siz
     return written;
 }
 
-/* A sum with a negative term, above or below: -z*(x - y) reads better as z*(y - x).  The arity when there is none. */
+/* The index of a factor that is a sum with a negative term: -z*(x - y) reads better as z*(y - x).  The arity when there
+ * is none. */
 static size_t find_mixed_sum(const nh_dag *dag, nh_ex e)
 {
     size_t n = nh_arity(dag, e);
@@ -176,7 +177,7 @@ static size_t find_mixed_sum(const nh_dag *dag, nh_ex e)
     return n;
 }
 
-/* A product e without its sign; `negated` (0: none) is a factor that is written with the opposite sign. */
+/* Prints a product e without its sign; `negated` (0: none) is a factor that is printed with the opposite sign. */
 static void put_product(printer *p, nh_ex e, nh_ex negated)
 {
     size_t n, below = 0;
@@ -209,7 +210,7 @@ static void put_product(printer *p, nh_ex e, nh_ex negated)
 
 /* ---- sums ---- */
 
-/* One term c * e with its sign: "+ ", "- ", or a bare minus at the front. */
+/* Prints one term c * e with its sign: "+ ", "- ", or a bare minus at the front. */
 static void put_term(printer *p, nh_num c, nh_ex e, bool first)
 {
     nh_dag *dag = p->dag;
@@ -230,7 +231,7 @@ static void put_sum(printer *p, nh_ex e, nh_num scale)
     bool constant_first = lead == n && nh_num_value(constant) > 0;
     if (constant_first) put_number(p, constant);
     if (lead == n) lead = 0;
-    for (size_t k = 0; k < n; k++) { /* a positive term leads, if there is one */
+    for (size_t k = 0; k < n; k++) { /* a positive term comes first, if there is one */
         size_t i = k == 0 ? lead : k <= lead ? k - 1 : k;
         put_term(p, nh_num_mul(scale, nh_coefficient_of(dag, e, i)), nh_child(dag, e, i), k == 0 && !constant_first);
     }
@@ -247,7 +248,7 @@ static size_t digits_of(int64_t n)
     return count;
 }
 
-/* The characters of a coefficient, about; 1 is not written. */
+/* The printed length of a coefficient, about; 1 is not printed. */
 static size_t width_of(nh_num c)
 {
     if (!nh_num_short(c)) return 20;
@@ -255,10 +256,11 @@ static size_t width_of(nh_num c)
     return above + (c.q == 1 ? 0 : 1 + digits_of(c.q));
 }
 
-/* Can c be multiplied into a sum, and taken out again when the text is read, without a number too long to be exact? */
+/* Can c be multiplied into a sum, and divided out again when the text is read, without numbers that are too long to be
+ * exact? */
 static bool scales_exactly(const nh_dag *dag, nh_num c, nh_ex sum)
 {
-    static const double longest = 4e18; /* of the numbers in a 64-bit rational */
+    static const double longest = 4e18; /* of the numbers of a 64-bit rational */
     nh_num first = nh_constant_of(dag, sum);
     double size = fabs((double)first.p) * (double)first.q;
     if (!nh_num_short(c)) return true;
@@ -310,7 +312,7 @@ static void put_real(printer *p, nh_num x, int context)
     close_if(p, wrap);
 }
 
-/* A sum, or a number times a sum. */
+/* Prints a sum, or a number times a sum. */
 static void put_scaled_sum(printer *p, nh_ex e, int context)
 {
     bool scaled = nh_kind_of(p->dag, e) == NH_PRODUCT;

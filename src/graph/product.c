@@ -89,7 +89,7 @@ static int64_t prime_in(int64_t n, int64_t *times)
 
 static int64_t floor_of(nh_num x) { return x.p / x.q - (x.p % x.q < 0); }
 
-/* n^x, as whole powers and roots of primes. */
+/* n^x as whole powers and roots of primes. */
 static void push_roots(nh_dag *dag, nh_term_list *b, int64_t n, nh_num x)
 {
     while (n > 1) {
@@ -103,7 +103,7 @@ static void push_roots(nh_dag *dag, nh_term_list *b, int64_t n, nh_num x)
     }
 }
 
-/* A power of numbers into the coefficient and roots of primes; false if it must stay as it is. */
+/* Splits a power of numbers into a coefficient and roots of primes; false if it must stay as it is. */
 static bool split_number(nh_dag *dag, nh_term_list *b, nh_term_list_item power)
 {
     if (nh_kind_of(dag, power.e) != NH_NUMBER || nh_kind_of(dag, power.x) != NH_NUMBER) return false;
@@ -138,7 +138,7 @@ static nh_ex relation_of(nh_dag *dag, nh_ex base)
     return is_abs(dag, base) ? nh_powi(dag, nh_child(dag, base, 0), 2) : base;
 }
 
-/* How many whole steps s are in the constant of an exponent. */
+/* The number of whole steps s in the constant of an exponent. */
 static int64_t steps_in(const nh_dag *dag, nh_ex x, int64_t s)
 {
     nh_kind kind = nh_kind_of(dag, x);
@@ -156,7 +156,7 @@ static int64_t steps_in(const nh_dag *dag, nh_ex x, int64_t s)
     return floor_of(c);
 }
 
-/* Whole steps of the exponents go to the atoms; true when that changed something. */
+/* Moves whole steps of the exponents to the atoms; true when that changed something. */
 static bool expand_factors(nh_dag *dag, nh_term_list *b)
 {
     bool changed = false;
@@ -281,8 +281,8 @@ static bool has_exponentials(const nh_dag *dag, nh_ex e)
     return found;
 }
 
-/* (rest exp(u)^x)^n = rest^n exp(n x u), where the rest has no exponentials: exp(-u) (a exp(u) + b) stays as it is.
-   The rest. */
+/* (rest exp(u)^x)^n = rest^n exp(n x u) where the rest has no exponentials; exp(-u) (a exp(u) + b) stays as it is.
+ * Returns the rest. */
 static nh_ex take_exponentials(nh_dag *dag, nh_term_list *b, nh_ex product, nh_ex n)
 {
     nh_ex rest = product, one = nh_int(dag, 1);
@@ -302,7 +302,7 @@ static nh_ex take_exponentials(nh_dag *dag, nh_term_list *b, nh_ex product, nh_e
     return rest;
 }
 
-/* (c prod b^x)^n: for a whole n factor by factor; for others |c| and exponentials come out. */
+/* (c prod b^x)^n: for a whole n factor by factor; for other n, |c| and exponentials are taken out. */
 static void push_power(nh_dag *dag, nh_term_list *b, nh_ex base, nh_ex n)
 {
     nh_num c = nh_constant_of(dag, base);

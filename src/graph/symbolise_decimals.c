@@ -4,8 +4,8 @@
 
 #include "base/memory.h"
 
-/* The symbol of |value|, with its sign; `exact` is the same number.  The exponent 1/2 of a root and a rate 1/2 have
- * nothing to do with each other. */
+/* The symbol of |value|, with its sign; `exact` is the same number.  The exponent 1/2 of a root and a rate 1/2 get
+ * different symbols. */
 static nh_ex symbol_of(nh_dag *d, double value, nh_ex exact, bool exponent, nh_lifted *table)
 {
     double size = fabs(value);
@@ -78,7 +78,7 @@ static nh_ex factor(const inside *s, double value, nh_ex exact, bool exponent)
     return meant && value != 0 && isfinite(value) ? symbol_of(s->dag, value, exact, exponent, s->table) : exact;
 }
 
-/* Nothing but constants, and numbers. */
+/* Is it made of constants and numbers alone? */
 static bool is_constant(const inside *s, nh_ex e)
 {
     enum { most = 64 };
@@ -94,7 +94,7 @@ static bool is_constant(const inside *s, nh_ex e)
 
 static nh_ex lift_inside(const inside *s, nh_ex e);
 
-/* c sqrt(5) t: the number and the rest. */
+/* Splits c sqrt(5) t into the number and the rest. */
 static nh_ex lift_product(const inside *s, nh_ex e)
 {
     nh_dag *d = s->dag;

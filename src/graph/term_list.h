@@ -1,5 +1,5 @@
-/* term_list: the terms of a sum or the factors of a product while they are put in order, shared by algebra.c and
-   product.c. */
+/* term_list: the terms of a sum or the factors of a product while they are being sorted, shared by algebra.c and
+ * product.c. */
 #ifndef NH_TERM_LIST_H
 #define NH_TERM_LIST_H
 

@@ -78,7 +78,7 @@ nh_ex nh_terms_uncancelled(nh_dag *d, nh_ex e)
     return size;
 }
 
-/* The exponent of a base in a term; whole and not negative, otherwise 0. */
+/* The exponent of a base in a term, if it is whole and not negative; otherwise 0. */
 static int64_t exponent_in(const nh_dag *d, nh_ex term, nh_ex base)
 {
     if (term == base) return 1;

@@ -169,9 +169,9 @@ static bool build_fourier(builder *b, const nh_family *f, part *p)
     return build_terms(b, n, term, p);
 }
 
-/* The columns T_k in their stable recurrence, the terms as powers while these are readable, beyond that by halving,
- * which is short on paper and holds outside of [-1, 1] too (as cos(k acos s) does not):  T_2j = 2 T_j^2 - 1,  T_2j+1 =
- * 2 T_j T_j+1 - s. */
+/* The columns are T_k by their stable recurrence.  The terms are powers while these are readable; for higher degrees
+ * T_2j = 2 T_j^2 - 1 and T_2j+1 = 2 T_j T_j+1 - s, which are short in print and hold outside of [-1, 1] as well (cos(k
+ * acos s) does not). */
 static bool build_chebyshev(builder *b, const nh_family *f, part *p)
 {
     enum { readable = 8 };
@@ -242,7 +242,7 @@ static bool same_column(const nh_column *x, const nh_column *y)
     return x->count == y->count && !memcmp(x->factor, y->factor, x->count * sizeof *x->factor);
 }
 
-/* Concatenate; a term or column that two families share enters once. */
+/* Concatenates families; a term or column that two families share is taken once. */
 static void join(builder *b, size_t n, const part *p)
 {
     nh_ansatz *a = b->a;
@@ -305,7 +305,7 @@ static void order_columns(builder *b)
     nh_free(r);
 }
 
-/* Of n variables to a degree: n + degree over degree. */
+/* The number of monomials of n variables up to a degree: n + degree over degree. */
 static double monomials(size_t n, size_t degree)
 {
     double size = 1;

@@ -14,8 +14,8 @@
 
 #include "integrals/points.h"
 
-/* The families with a name: kind; name; keys in analysis files; is it in one variable?; how many columns a family f
- * has. For each ansatz.c has a function build_NAME. */
+/* The named families: kind; name; keys in analysis files; is it in one variable?; number of columns of a family f.  For
+ * each of them ansatz.c has a function build_NAME. */
 #define NH_FAMILY_TABLE(X)                                                                                       \
     X(NH_POLYNOMIAL, polynomial, "basis, in, degree", false, monomials(f->in_count, f->degree))                  \
     X(NH_FOURIER, fourier, "basis, in, harmonics, frequency, constant", false, 2 * f->in_count * f->degree + f->constant) \
@@ -59,8 +59,7 @@ typedef struct {
 nh_ansatz *nh_ansatz_create(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
                             size_t most, nh_error *error);
 void nh_ansatz_free(nh_ansatz *ansatz);
-/* How many columns the families have, those that they share counted several times: not fewer than the ansatz would
-   have. */
+/* The number of columns of the families, shared ones counted several times: at least as many as the ansatz has. */
 double nh_ansatz_size(size_t families, const nh_family *family);
 
 /* A column as an expression. */

@@ -22,8 +22,8 @@ static size_t equilibrate(nh_basis *basis, size_t rows, size_t columns, const do
     return count;
 }
 
-/* Column `kept` of R has come: with it the distance of each column from the span of all others, 1 / |row i of R^-1|,
- * falls.  (A slowly growing dependence, cos x = T_0 + T_2 + ..., leaves no small pivot.)  square[i]: |row i of R^-1|^2;
+/* Adds column `kept` of R.  The distance of each column from the span of all others, 1 / |row i of R^-1|, falls with
+ * it.  (A slowly growing dependence, cos x = T_0 + T_2 + ..., leaves no small pivot.) square[i]: |row i of R^-1|^2;
  * returns the column with the largest. */
 static size_t watch_rows(size_t kept, const double *r, size_t ld, double *square, double *y)
 {
@@ -39,11 +39,11 @@ static size_t watch_rows(size_t kept, const double *r, size_t ld, double *square
     return worst;
 }
 
-/* Gram-Schmidt, twice for round-off, in the given order: a column that depends on those before it is dropped, so that
- * the caller's order (simplest first) decides which of dependent columns stay.  q: rows x available, unit columns;
- * overwritten by the orthonormal ones that are kept.  r gets the triangle with leading dimension `available`.  Returns
- * a column that must go first because, much more than any later one, it depends on the others; `available` when there
- * is none. */
+/* Gram-Schmidt, twice because of rounding, in the given order: a column that depends on those before it is dropped, so
+ * that the caller's order (simplest first) decides which of dependent columns stay. q: rows x available, unit columns;
+ * overwritten by the orthonormal ones that are kept. r receives the triangle with leading dimension `available`.
+ * Returns a column that must be dropped first because it depends on the others far more than any later one does;
+ * `available` when there is none. */
 static size_t keep_independent(nh_basis *basis, size_t rows, size_t available, double *q, double *r, double rank)
 {
     double *h = nh_alloc_array(2 * available, sizeof *h), *square = h + available,
@@ -82,8 +82,8 @@ static size_t keep_independent(nh_basis *basis, size_t rows, size_t available, d
     return intruder;
 }
 
-/* b is a triangle, and every column keeps a good part of itself apart from all others (1/|row i of R^-1|): then it is
- * the answer, and Gram-Schmidt, which is slower than the whole QR at a thousand columns, has nothing to add. */
+/* b is a triangle, and every column has a large distance from the span of the others (1/|row i of R^-1|): then it is
+ * the answer.  Gram-Schmidt, which is slower than the whole QR at a thousand columns, would change nothing. */
 static bool already_independent(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, double rank)
 {
     size_t n = basis->count;

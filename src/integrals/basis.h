@@ -10,12 +10,12 @@
 
 /* All tolerances, from the option table. */
 typedef struct {
-    /* a column of B of which less than this part is left by the columns before it is dependent (1e-9) */
+    /* a column of B is dependent when less than this part of it is independent of the columns before it (1e-9) */
     double rank;
     double zero;      /* null: sigma <= zero * eps * max(1, sigma_max)  (100) */
     double undecided; /* undecided up to this many times the null bound (1e5) */
-    double gap;       /* required ratio of the first non-null to the last null value (1e3) */
-    /* sigma_max counts up to this in the null bound: a singular column must not make everything null (1e6) */
+    double gap;       /* least ratio of the first non-null to the last null value (1e3) */
+    /* sigma_max enters the null bound up to this value: a singular column must not make everything null (1e6) */
     double steepest;
     double likely;    /* values up to this one, before the widest gap, are likely null (1e-7) */
     double trivial;   /* a column whose variation is below trivial * its size is constant (1e-11) */

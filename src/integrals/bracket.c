@@ -1,4 +1,5 @@
-/* bracket: its components simplified; a and b from the shortest component, and then checked on all. */
+/* bracket: the components of [Gamma, Z], simplified.  The shortest component gives a and b, which are then checked on
+ * all of them. */
 #include "integrals/bracket.h"
 
 #include <string.h>

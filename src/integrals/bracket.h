@@ -1,4 +1,4 @@
-/* bracket: what [Gamma, Z] of a constraint symmetry is made of.
+/* bracket: [Gamma, Z] of a constraint symmetry as a combination of Gamma and Z.
  *
  *     L_Z alpha = F_a phi^a,   F_a = V_a(Phi) + Omega(Z, V_a),   phi^b(V_a) = delta^b_a          [CechMusilova2014, eq.
  *     12]
@@ -16,7 +16,7 @@ typedef struct {
     nh_ex motion;
     nh_field field;         /* simplified */
     nh_ex *rate;            /* m: its components along the velocities of the coordinates */
-    bool decided;           /* a and b are there, and the relation is an identity of expressions */
+    bool decided;           /* a and b exist, and the relation is an identity of expressions */
     nh_ex a, b;             /* b is 0 in case 1 */
 } nh_bracket;
 

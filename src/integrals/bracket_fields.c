@@ -12,7 +12,7 @@ typedef struct {
 
 static nh_ex product(nh_dag *d, nh_ex a, nh_ex b) { return nh_mul(d, a, b); }
 
-/* out (rows x columns) = a (rows x inner) b (inner x columns), b transposed where it is said. */
+/* out (rows x columns) = a (rows x inner) b (inner x columns); `transposed`: by the transpose of b. */
 static void multiply(nh_dag *d, size_t rows, size_t inner, size_t columns, const nh_ex *a, const nh_ex *b,
                      bool transposed, nh_ex *out)
 {

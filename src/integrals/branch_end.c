@@ -23,7 +23,7 @@ static double radicand_at(line *l, double s)
     return R;
 }
 
-/* Where the radicand falls to zero along the line; 0: nowhere. */
+/* Where the radicand vanishes along the line; 0: nowhere. */
 static double end_of(line *l)
 {
     double here = 0, there = 1.0 / steps;
@@ -36,7 +36,7 @@ static double end_of(line *l)
     return here;
 }
 
-/* The rate of sqrt(R) has a limit there that is not zero: nearer and nearer it stays what it is. */
+/* Does the rate of sqrt(R) have a nonzero limit there?  It does not change nearer and nearer to the end. */
 static bool passes(line *l, nh_ball *ball, nh_ex rate, double *const point[NH_CROSSING_DEPTHS])
 {
     static const double same = 0.2;
@@ -68,7 +68,7 @@ static void draw(line *l, uint64_t *state)
     }
 }
 
-/* 2 a u + b, or u alone where b = 0; on the other branch it has the other sign: u is -u - b/a there. */
+/* 2 a u + b, or u alone where b = 0.  It has the other sign on the other branch: u is -u - b/a there. */
 static void describe(const nh_model *o, nh_branch_end *end)
 {
     nh_dag *d = o->dag;

@@ -19,7 +19,7 @@ typedef struct {
 /* No crossings where the chart has one branch, and where no motion was seen to change it.  Belongs to the arena. */
 nh_branch_end nh_branch_end_of(const nh_model *model, const nh_options *options, nh_arena *arena);
 
-/* phi as it is printed, with u in the place of the root, on the other branch. */
+/* phi as it is printed, on the other branch: the symbol of u stands for the root. */
 nh_ex nh_branch_end_beyond(const nh_model *model, const nh_branch_end *end, nh_ex phi);
 
 #endif

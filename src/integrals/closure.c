@@ -14,12 +14,13 @@ typedef struct {
     const nh_model *o;
     nh_dag *d;
     size_t N, count, functions;
-    nh_ex *e;                  /* the fields' components, then the functions: canonical, with the parameters' values */
+    /* the components of the fields, then the functions: in canonical form, with the parameters' values */
+    nh_ex *e;
     nh_prime field;
     nh_jet_point *point;
     nh_jet_ring *ring;
     nh_residue *value;         /* of e */
-    /* fields that are independent at the point, and up to which order their series are right */
+    /* number of fields that are independent at the point, and the order up to which their series are right */
     size_t kept, *order;
     nh_residue *frame;         /* N x N series */
 } space;
@@ -45,8 +46,8 @@ static bool evaluate(space *x, uint64_t seed)
     return good;
 }
 
-/* Are the atoms of exp, and those of sin and cos, linearly independent?  Then kernels satisfy nothing else than what
-   the point keeps [jet_point.h]. */
+/* Are the arguments of exp, and those of sin and cos, linearly independent?  Then the only relations of the kernels are
+ * those that the point satisfies [jet_point.h]. */
 static bool unrelated(space *x)
 {
     nh_jet_eval *v = nh_jet_eval_create(x->point, x->ring);
@@ -73,7 +74,7 @@ static bool unrelated(space *x)
 
 /* ---- the closure ---- */
 
-/* Does the field raise the rank at the point?  Then it is kept. */
+/* Keeps the field if it raises the rank at the point; returns whether it does. */
 static bool keep(space *x, const nh_residue *field, size_t order)
 {
     size_t N = x->N, size = x->ring->size;
@@ -108,8 +109,8 @@ static void bracket(const space *x, const nh_residue *a, const nh_residue *b, nh
     nh_free(slope);
 }
 
-/* Brackets of the generators with every field that is kept, until nothing is new; those that need orders that are not
-   there are left out. */
+/* Brackets of the generators with every kept field, until there is no new one.  Brackets that need higher orders than
+ * the series have are left out. */
 static void close_up(space *x, size_t enough)
 {
     nh_residue *out = nh_alloc_array(x->N * x->ring->size, sizeof *out);
@@ -170,7 +171,7 @@ static nh_jet_ring *ring_of(const space *x)
 static void solve(space *x, nh_closure *out)
 {
     bool good = false;
-    x->field = nh_jet_point_prime(x->point, 0); /* known once the roots of numbers are */
+    x->field = nh_jet_point_prime(x->point, 0); /* they are known after the roots of numbers */
     x->ring = ring_of(x);
     x->value = nh_alloc_array((x->count * x->N + x->functions) * x->ring->size + 1, sizeof *x->value);
     x->frame = nh_alloc_array(x->N * x->N * x->ring->size, sizeof *x->frame);

@@ -9,9 +9,10 @@
 #include "exact/solve.h"
 #include "graph/terms.h"
 
-enum { most_functions = 40, longest = 3000, widest = 120 }; /* of a field: terms; of a component before and after */
+/* most terms of a field; largest complexity of a component before and after simplification */
+enum { most_functions = 40, longest = 3000, widest = 120 };
 
-/* What the field's components consist of: number z times w in component i. */
+/* The terms of the field's components: number z times w in component i. */
 typedef struct {
     size_t count, component[most_functions];
     nh_ex w[most_functions];
@@ -69,7 +70,7 @@ static void identities(const nh_model *o, size_t n, const nh_ex *term, const fun
     nh_free(y);
 }
 
-/* c without the factor that all have in common: the relation of -sum_k (c_k/c_p) y_k and the y_k. */
+/* The coefficients c without their common factor: the relation of -sum_k (c_k/c_p) y_k and the y_k. */
 static void without_common_factor(const nh_model *o, size_t n, nh_ex *c, const nh_options *options)
 {
     nh_dag *d = o->dag;
@@ -119,7 +120,7 @@ nh_fixed nh_companion_relation(const nh_model *o, size_t n, const nh_ex *term, c
 
 /* ---- at other values ---- */
 
-/* Two digits of each value; what differs goes on to differ. */
+/* Replaces each value by one of two digits; different values stay different. */
 static void shorten(size_t n, const double *value, double *out)
 {
     for (size_t i = 0; i < n; i++) {
@@ -130,7 +131,7 @@ static void shorten(size_t n, const double *value, double *out)
             out[i] = place < 0 ? digits / unit : digits * unit;
             if (j == i || out[j] != out[i] || value[j] == value[i]) continue;
             digits++;
-            j = SIZE_MAX; /* from the first again */
+            j = SIZE_MAX; /* start again from the first parameter */
         }
     }
 }

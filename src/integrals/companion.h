@@ -10,13 +10,13 @@
 
 #include "integrals/fixed.h"
 
-/* The relation of n terms, which is known at the given values: `coefficient` there, numbers; on success those for all
- * values, or for as many as possible. */
+/* The relation of n terms, known at the given values of the parameters.  `coefficient`: numbers at these values; on
+ * success the coefficients for all values, or for as many as possible. */
 nh_fixed nh_companion_relation(const nh_model *model, size_t n, const nh_ex *term, const nh_options *options,
                                nh_ex *coefficient);
 
-/* The same where numbers of many digits make even the relation at the given values too long: at values near them of two
- * digits.  It must hold for all values, and be `like` at the given ones. */
+/* The same at values of two digits near the given ones, where numbers of many digits make even the relation at the
+ * given values too long.  It must hold for all values, and be `like` at the given ones. */
 nh_fixed nh_companion_relation_nearby(const nh_model *model, size_t n, const nh_ex *term, const nh_ex *rate,
                                       const double *like, const nh_options *options, nh_ex *coefficient);
 

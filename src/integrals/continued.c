@@ -7,7 +7,7 @@
 #include "graph/diff.h"
 #include "system/sample.h"
 
-/* 1 or -1: the sign of a quotient at a point of the box where it has one; 0 where none was found. */
+/* The sign of a quotient at a point of the box where it has one: 1 or -1; 0 where none was found. */
 static int sign_in_box(const nh_model *o, nh_ex quotient, uint64_t state)
 {
     enum { tries = 20 };
@@ -25,7 +25,7 @@ static int sign_in_box(const nh_model *o, nh_ex quotient, uint64_t state)
     return !isfinite(value) || value == 0 ? 0 : value > 0 ? 1 : -1;
 }
 
-/* base = outside^2 inside, by its numerator and what stands below it; false where there is no square. */
+/* base = outside^2 inside, from its numerator and denominator; false where there is no square. */
 static bool take_out(nh_dag *d, nh_ex base, nh_ex *outside, nh_ex *inside)
 {
     nh_ex out[2], in[2];
@@ -68,7 +68,7 @@ nh_ex nh_continued_arctangents(const nh_model *o, nh_ex phi)
     return nh_substitute(d, phi, count, call, by);
 }
 
-/* The only arctangent in phi, and phi = rest + factor * atan(u) where that is so. */
+/* Is there one arctangent in phi only, and is phi = rest + factor * atan(u)? */
 static bool only_arctangent(nh_dag *d, nh_ex phi, nh_ex *call, nh_ex *rest, nh_ex *factor)
 {
     enum { most = 64 };
@@ -83,7 +83,7 @@ static bool only_arctangent(nh_dag *d, nh_ex phi, nh_ex *call, nh_ex *rest, nh_e
     return !nh_depends(d, *factor, angle);
 }
 
-/* u = A/B, by what it is a product of. */
+/* u = A/B, from the factors of u. */
 static void sides(nh_dag *d, nh_ex u, nh_ex *A, nh_ex *B)
 {
     *A = nh_numerator(d, u);
@@ -125,8 +125,8 @@ static size_t letters_of(const nh_model *o, nh_ex e, size_t most, nh_ex *letter)
     return count;
 }
 
-/* The root of what e has to be divided by to be a constant of the motion: 1, or a power of a letter, which may change
-   its sign; 0: neither. */
+/* The root of the factor by which e must be divided to be a constant of the motion: 1, or a power of a letter, which
+ * may change its sign; 0: there is none. */
 static nh_ex root_of_scale(const nh_model *o, nh_ex e)
 {
     enum { most = 24, highest = 4 };

@@ -9,7 +9,8 @@
 #include "system/sample.h"
 
 enum { lines = 16, wanted = 6, steps_out = 31, grid = 2 * steps_out + 1, halvings = 80, bits = 192 };
-static const double first_step = 0.08, ratio = 1.25; /* in half widths of the box: out to 0.08 * 1.25^30 = 65 of them */
+/* in half widths of the box: the lines reach 0.08 * 1.25^30 = 65 of them */
+static const double first_step = 0.08, ratio = 1.25;
 static const double depth[NH_CROSSING_DEPTHS] = {1.0 / (1 << 12), 1.0 / (1 << 24), 1.0 / (1LL << 36)};
 
 /* One line, and the walls' functions along it: z = origin + s direction, or the same for (t, q, v), with v projected
@@ -42,8 +43,8 @@ static bool point_at(finder *x, double s, bool exact)
                  : nh_projected_point(x->projector, x->position, x->position + 1 + m, x->z);
 }
 
-/* The functions of all walls at z into f, their derivatives along the line into slope, 0 where they would have to know
- * how the velocities change on it. */
+/* Writes the functions of all walls at z to f, and their derivatives along the line to slope; 0 where these depend on
+ * the change of the velocities along the line, which is unknown. */
 static void evaluate(finder *x, double *f, double *slope)
 {
     size_t known = x->projector ? 1 + x->o->m : x->explicit_width;
@@ -112,7 +113,7 @@ static bool passage_at(finder *x, nh_ex g, double *z, passage *p)
     return size > 0 && isfinite(p->speed);
 }
 
-/* From one side at least motions arrive. */
+/* Do motions arrive from at least one side? */
 static bool is_reached(finder *x, nh_crossing *c)
 {
     passage far[2], near[2];
@@ -140,7 +141,7 @@ static void keep(finder *x, size_t i, double s, bool touches)
         }
     for (int side = 0; side < 2; side++)
         for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++)
-            if (!c.point[side][k]) return; /* the function has one sign so near to where it seemed to change it */
+            if (!c.point[side][k]) return; /* nearer to the supposed change the function has one sign */
     if (!is_reached(x, &c)) return;
     x->list.item[x->list.count++] = c;
     x->found[i]++;

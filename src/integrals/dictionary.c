@@ -11,11 +11,12 @@ enum { least_entries = 24, entries_each = 3, seen_each = 512, least_seen = 4096,
 typedef struct {
     nh_model *o;
     nh_dictionary *out;
-    size_t most, most_seen; /* entries of each list, and nodes that are looked at: they grow with the coordinates */
+    /* largest number of entries of each list, and of visited nodes: they grow with the coordinates */
+    size_t most, most_seen;
     size_t seen_count, all_waves;
-    nh_ex *seen;        /* nodes already looked at */
+    nh_ex *seen;        /* visited nodes */
     nh_ex *all_wave;    /* every coordinate inside a sine or cosine */
-    /* in forces and constraints: of 1/(b + c q) the integral is wanted, too; in the Lagrangian that of 1/(b + c t) */
+    /* in forces and constraints: the integral of 1/(b + c q) is added, too; in the Lagrangian that of 1/(b + c t) */
     bool integrate;
 } harvester;
 
@@ -26,7 +27,7 @@ static bool is_in(size_t n, const nh_ex *list, nh_ex e)
     return false;
 }
 
-/* Up to a constant factor an expression enters once. */
+/* Adds an expression once, whatever its constant factor is. */
 static void add(harvester *h, size_t *n, nh_ex *list, nh_ex e)
 {
     nh_dag *d = h->o->dag;
@@ -73,7 +74,7 @@ static bool is_form(const nh_model *o, nh_ex e)
     return form;
 }
 
-/* A momentum is a word whatever it looks like, as the energy is. */
+/* A momentum is added in whatever form it has, as the energy is. */
 static void add_momentum(harvester *h, nh_ex p)
 {
     nh_dictionary *out = h->out;
@@ -82,7 +83,7 @@ static void add_momentum(harvester *h, nh_ex p)
     else if (out->momenta < h->most && !is_in(out->momenta, out->momentum, e)) out->momentum[out->momenta++] = e;
 }
 
-/* A function of position that no polynomial and no plain sine or cosine of a coordinate is. */
+/* A function of position other than a polynomial and a plain sine or cosine of a coordinate. */
 static void add_atom(harvester *h, nh_ex e)
 {
     nh_dag *d = h->o->dag;
@@ -93,10 +94,11 @@ static void add_atom(harvester *h, nh_ex e)
     bool power = kind == NH_PRODUCT && nh_arity(d, e) == 1 && nh_num_is(nh_constant_of(d, e), 1);
     nh_ex x = power ? nh_exponent_of(d, e, 0) : 0;
     if (!power || nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || llabs(nh_number_of(d, x).p) < 2) return;
-    add(h, &h->out->atoms, h->out->atom, nh_powi(d, nh_child(d, e, 0), -1)); /* of a higher power the first one too */
+    /* the first power as well as a higher one */
+    add(h, &h->out->atoms, h->out->atom, nh_powi(d, nh_child(d, e, 0), -1));
 }
 
-/* With 1/sqrt(b + c q^2) goes its integral, asinh of the same argument. */
+/* Adds the integral of 1/sqrt(b + c q^2) with it: asinh of the same argument. */
 static void add_integral(harvester *h, nh_ex base)
 {
     nh_dag *d = h->o->dag;
@@ -131,7 +133,7 @@ static void add_logarithm(harvester *h, nh_ex base, bool of_time_alone)
     }
 }
 
-/* Of a coordinate: the stages have those.  What cos t drives is no wave of theirs. */
+/* Is the frequency that of a coordinate?  The stages have such waves already.  A force with cos t adds none. */
 static bool plain_wave(const nh_model *o, nh_ex e)
 {
     nh_function f = nh_function_of(o->dag, e);
@@ -170,8 +172,8 @@ static nh_ex inside_of_absolute(const nh_model *o, nh_ex e)
     return u;
 }
 
-/* With |u| go its integrals u |u|/2 and |u|^3/6, and with sign(u) those and |u|: what forces that change their
-   direction leave in momenta and centres of mass. */
+/* Adds with |u| its integrals u |u|/2 and |u|^3/6, and with sign(u) those and |u|: forces that change their direction
+ * give such terms in momenta and centres of mass. */
 static void add_absolutes(harvester *h, nh_ex e)
 {
     nh_dag *d = h->o->dag;
@@ -211,7 +213,7 @@ static void walk(harvester *h, nh_ex e)
     }
 }
 
-/* Has what depends on position even powers only? */
+/* Does the part that depends on position have even powers only? */
 static bool is_square(const nh_model *o, nh_ex product)
 {
     nh_dag *d = o->dag;
@@ -229,7 +231,7 @@ static void add_root(harvester *h, nh_ex e)
     nh_model *o = h->o;
     if (nh_kind_of(o->dag, e) != NH_SUM || !has_position(o, e) || has_velocity(o, e)) return;
     nh_ex factored = nh_simplify_short(o->dag, e, 0);
-    if (nh_kind_of(o->dag, factored) == NH_PRODUCT && is_square(o, factored)) return; /* no root */
+    if (nh_kind_of(o->dag, factored) == NH_PRODUCT && is_square(o, factored)) return; /* there is no root */
     add_atom(h, nh_sqrt(o->dag, e));
     add_integral(h, e);
 }
@@ -253,7 +255,7 @@ static nh_ex determinant(const nh_model *o)
 
 /* ---- the frame ---- */
 
-/* The root of what depends on position in e, where that has even powers only: sin(h)^2 -> sin(h). */
+/* The root of the factor of e that depends on position, where it has even powers only: sin(h)^2 -> sin(h). */
 static nh_ex even_root(const nh_model *o, nh_ex e)
 {
     nh_dag *d = o->dag;
@@ -313,8 +315,8 @@ static void frame(harvester *h)
     }
 }
 
-/* The root of the whole and of its factors; those of the numerator too: which velocities are independent, hence whether
- * 1 + y^2 or 1 + 1/y^2 is the mass, must not matter. */
+/* Adds the root of the whole and of its factors, numerator and denominator alike: the choice of the independent
+ * velocities, which decides whether the mass is 1 + y^2 or 1 + 1/y^2, must not matter. */
 static void add_roots_of(harvester *h, nh_ex e)
 {
     nh_dag *d = h->o->dag;
@@ -352,7 +354,7 @@ static void potential_term(harvester *h, nh_ex term)
     }
 }
 
-/* Sums are taken apart, also b*(e1 + e2) and e1*(1 + e2): how L is written must not matter. */
+/* Takes sums apart, b*(e1 + e2) and e1*(1 + e2) as well: the form in which L is written must not matter. */
 static void potential_terms(harvester *h, nh_ex e, int depth)
 {
     nh_dag *d = h->o->dag;
@@ -385,7 +387,8 @@ static void potentials(harvester *h)
     nh_free(zero);
 }
 
-/* Outside sines and cosines; `seen`: per node, looked at already (a shared graph has exponentially many paths). */
+/* Coordinates outside of sines and cosines.  `seen`: nodes that were visited already (a shared graph has exponentially
+ * many paths). */
 static bool plainly(const nh_dag *d, nh_ex e, nh_ex q, bool *seen)
 {
     nh_kind kind = nh_kind_of(d, e);
@@ -409,7 +412,7 @@ static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)
 static void shapes(harvester *h)
 {
     nh_model *o = h->o;
-    /* only angles that the equations of motion contain: harmonics of cyclic ones come out of the pencil */
+    /* only angles that occur in the equations of motion: the pencil finds the harmonics of cyclic ones */
     h->out->waves = 0;
     for (size_t s = 0; s < o->m; s++) {
         nh_ex q = o->system->coordinate[s].q;
@@ -456,7 +459,7 @@ nh_dictionary nh_dictionary_of(nh_model *o)
     for (size_t a = 0; a < o->k; a++) walk(&h, nh_chart_constraint(o->chart, a));
     h.integrate = false;
     walk(&h, o->system->lagrangian);
-    /* velocities of masses that change: the integral of 1/M */
+    /* velocities of variable masses: the integral of 1/M */
     for (size_t i = 0; i < o->n; i++) add_logarithm(&h, o->M[i * o->n + i], true);
     for (size_t s = 0; s < o->m; s++) walk(&h, o->rho[s]);
     for (size_t s = 0; s < o->m; s++)

@@ -1,6 +1,6 @@
-/* dictionary: what a system itself is made of.
+/* dictionary: the functions that occur in a system.
  *
- * Collected from the expressions of L, of the forces, of the constraints and of the embedding, parameters left
+ * They are collected from the expressions of L, of the forces, of the constraints and of the embedding, parameters left
  * symbolic:
  *
  *     velocities   the chart's and the dependent ones
@@ -11,7 +11,7 @@
  *     potential    the additive terms of L without velocities, and for angles their first derivatives
  *     frame        M = L D L^T: the forms (L^T w)_i, with the root of D_i's position factor where it is rational (p, q,
  *                  r of a top)
- *     energy       as one column, whatever it looks like
+ *     energy       as one column, in whatever form it has
  *
  * [docs/method.md, sec. 4] */
 #ifndef NH_DICTIONARY_H
@@ -25,8 +25,8 @@ typedef struct {
     size_t positions;
     nh_ex *position;    /* the coordinates */
     size_t frames;
-    /* forms in which the kinetic energy is a sum of squares, each with a factor of position; none when they are
-       velocities */
+    /* forms in which the kinetic energy is a sum of squares, each with a factor that depends on position; none when the
+     * velocities themselves are such forms */
     nh_ex *frame;
     size_t waves;
     nh_ex *wave;        /* angles that occur in sines and cosines of the system, or are declared so */

@@ -73,7 +73,7 @@ static bool is_among(size_t n, const nh_ex *e, nh_ex x)
     return false;
 }
 
-/* Wanted pivots come before all others. */
+/* Chooses the wanted pivots before all others. */
 static void order_terms(const nh_ansatz *a, size_t pivots, const nh_ex *pivot, size_t *order)
 {
     enum { before_all = 1 << 30 };
@@ -120,7 +120,7 @@ static void clear_row(table *t, size_t term, size_t pivot_vector)
     }
 }
 
-/* Vectors are normalised to largest entry 1, so that a pivot is compared with its own vector. */
+/* Vectors are normalised to largest entry 1, so that a pivot is compared with the entries of its own vector. */
 static void normalise(table *t, size_t from)
 {
     for (size_t k = from; k < t->dimension; k++) {
@@ -138,7 +138,7 @@ static void reduce(table *t, double small)
         size_t term = t->order[i];
         normalise(t, done);
         size_t k = best_vector(t, term, done, &largest);
-        /* no pivot, but it stays: the last coefficients of a Chebyshev series are small */
+        /* no pivot, but the entry stays: the last coefficients of a Chebyshev series are small */
         if (largest < small) continue;
         swap_vectors(t, done, k);
         clear_row(t, term, done);

@@ -16,9 +16,9 @@ typedef struct {
     size_t pivot;        /* the most complex term */
     double quotient;     /* |A c| / |B c| of the final coefficients */
     bool refitted;       /* the support alone has a one-dimensional null space */
-    double accepted;     /* quotient that the null space itself reached: what a smaller support must reach too */
-    /* where it needs values of several parameters, relations among these are not looked for: a current for all values
-       may take its place */
+    double accepted;     /* quotient of the null space itself: a smaller support must reach it, too */
+    /* where the relation needs values of several parameters, no relations among these are sought: a current for all
+     * values may replace it */
     bool by_values;
     size_t all;          /* every term of the echelon vector, before small ones were dropped */
     nh_ex *all_term;
@@ -36,7 +36,7 @@ nh_nullspace_options nh_nullspace_options_from(const nh_options *options);
 /* Echelon form of the first `count` vectors (nullspace->dimension, or ->likely): coefficients to about seven digits. */
 nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz,
                           const nh_nullspace *nullspace, size_t count, const nh_options *options);
-/* The same with these terms as pivots, as far as some vector has a part in them. */
+/* The same with these terms as pivots, as far as some vector contains them. */
 nh_candidates *nh_echelon_with_pivots(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz,
                                       const nh_nullspace *nullspace, size_t count, size_t pivots, const nh_ex *pivot,
                                       const nh_options *options);

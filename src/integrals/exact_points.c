@@ -15,8 +15,8 @@ nh_ex nh_exact_values(const nh_model *o, nh_ex e)
     return e;
 }
 
-/* The implicit velocities to the ball's precision: chord iteration u := u - J^-1 f(u) with J^-1 from doubles gains
-   about 15 digits a step. */
+/* Solves for the implicit velocities to the ball's precision: the chord iteration u := u - J^-1 f(u) with J^-1 from
+ * doubles gains about 15 digits a step. */
 static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
 {
     nh_dag *d = o->dag;
@@ -67,7 +67,7 @@ static double set_near(nh_ball *ball, nh_ex symbol, double x, double span)
     return x;
 }
 
-/* The explicit symbols are set; the implicit velocities are solved for. */
+/* Solves for the implicit velocities; the explicit symbols are set. */
 static bool complete(const nh_model *o, nh_ball *ball, double *z)
 {
     bool usable = nh_chart_complete(o->chart, z);

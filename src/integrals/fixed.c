@@ -104,7 +104,7 @@ typedef struct {
     nh_ex *coefficient;
 } problem;
 
-/* `fixed` NULL: none is. */
+/* `fixed` NULL: no parameter is fixed. */
 static nh_relation_verdict relation(const problem *p, const nh_ex *fixed, nh_ex *out)
 {
     const nh_model *o = p->o;
@@ -120,7 +120,7 @@ static nh_relation_verdict relation(const problem *p, const nh_ex *fixed, nh_ex 
 
 /* ---- which parameters ---- */
 
-/* How special a value looks: short ones are set free last, and what the user set after all others. */
+/* How special a value is: short values are set free late, and values that the user set last. */
 static double special(const nh_system *s, size_t i)
 {
     nh_num x = nh_num_decimal(s->parameter[i].value);
@@ -144,7 +144,7 @@ static bool occurs(const nh_model *o, size_t n, const nh_ex *e, nh_ex symbol)
     return false;
 }
 
-/* One after the other of those that have their values is set free. */
+/* Sets one fixed parameter free after the other. */
 static void set_free(const nh_model *o, nh_ex *fixed, nh_fixed_test *holds, void *context)
 {
     size_t all = o->system->parameters, *order = nh_alloc_array(all + 1, sizeof *order);
@@ -159,7 +159,7 @@ static void set_free(const nh_model *o, nh_ex *fixed, nh_fixed_test *holds, void
     nh_free(order);
 }
 
-/* Several that must have their values may have to be related only. */
+/* Several parameters that must be fixed may only have to be related. */
 static void with_ties(const nh_model *o, nh_ex *fixed, nh_fixed_test *holds, void *context)
 {
     size_t all = o->system->parameters, n = 0, *which = nh_alloc_array(all + 1, sizeof *which);
@@ -192,7 +192,8 @@ const nh_ex *nh_fixed_least(const nh_model *o, size_t n, const nh_ex *occurring,
     return least(o, n, occurring, true, holds, context);
 }
 
-/* Values, where what one is replaced by has a value for the other. */
+/* Where the lists disagree, or a replacement contains a parameter that is replaced itself, the parameters concerned get
+ * their values. */
 const nh_ex *nh_fixed_both(const nh_model *o, const nh_ex *a, const nh_ex *b)
 {
     if (!a || !b) return a ? a : b;

@@ -19,11 +19,11 @@ typedef struct {
     bool found;
     bool all_parameters; /* none is fixed */
     const nh_ex *fixed;  /* in the model's arena; NULL with all_parameters */
-    bool too_large;      /* what holds for other values than the given ones could not be decided */
+    bool too_large;      /* whether it holds for other values than the given ones could not be decided */
 } nh_fixed;
 
-/* The coefficients of the only relation among e (n of them); `like`: it must be this vector at the parameters' values,
-   up to a factor (NULL: any). */
+/* The coefficients of the only relation among e (n entries).  `like`: at the parameters' values it must be this vector
+ * up to a factor (NULL: any).  `found` is false where there is none. */
 nh_fixed nh_fixed_relation(const nh_model *model, size_t n, const nh_ex *e, const double *like,
                            const nh_options *options, nh_ex *coefficient);
 
@@ -39,31 +39,31 @@ bool nh_fixed_relation_of_symbols(const nh_model *model, size_t n, const nh_ex *
    not the one that was fitted.) */
 bool nh_fixed_is_like(const nh_model *model, size_t n, const nh_ex *exact, const double *like);
 
-/* Which parameters must have their values for something to hold that holds with all of them fixed: `occurring` are
-   expressions with those that matter. */
+/* Which parameters must keep their values so that a statement holds that is true with all of them fixed?  `occurring`:
+ * expressions that contain the relevant parameters. */
 typedef bool nh_fixed_test(const nh_ex *fixed, void *context);
 const nh_ex *nh_fixed_least(const nh_model *model, size_t n, const nh_ex *occurring, nh_fixed_test *holds,
                            void *context);
 
-/* What must be fixed for two statements: NULL as well as an empty list means nothing. */
+/* The parameters that two statements together fix: NULL as well as an empty list means none. */
 const nh_ex *nh_fixed_both(const nh_model *model, const nh_ex *a, const nh_ex *b);
 
 /* e with the fixed parameters at their exact values; all of them with `fixed` NULL. */
 nh_ex nh_fixed_values(const nh_model *model, const nh_ex *fixed, nh_ex e);
 
-/* Is the parameter replaced?  (None is for NULL.) */
+/* Is the parameter replaced?  (With NULL none is.) */
 bool nh_fixed_has(const nh_model *model, const nh_ex *fixed, size_t parameter);
 
-/* These have their values, per parameter; in the model's arena. */
+/* A list in which these parameters (a flag for each) have their values; in the model's arena. */
 const nh_ex *nh_fixed_those(const nh_model *model, const bool *which);
 
-/* A list of all. */
+/* A list in which all parameters have their values. */
 const nh_ex *nh_fixed_every(const nh_model *model);
 
 /* Have all parameters their values?  (True for NULL.) */
 bool nh_fixed_all(const nh_model *model, const nh_ex *fixed);
 
-/* "k = 1, a = 2*b" of those that are replaced, in the model's arena. */
+/* "k = 1, a = 2*b": the replaced parameters, in the model's arena. */
 const char *nh_fixed_text(const nh_model *model, const nh_ex *fixed);
 
 #endif

@@ -19,7 +19,7 @@ static nh_ex symbol(const list *l, size_t k) { return l->o->parameter[l->fixed[k
 
 static bool is_zero(nh_num x) { return nh_num_is(x, 0); }
 
-/* All fixed ones by their values, the others free. */
+/* All fixed parameters by their values, the others free. */
 static nh_ex *by_values(const list *l)
 {
     size_t all = l->o->system->parameters;
@@ -87,7 +87,7 @@ typedef struct {
     const nh_ex *e;
 } monomial;
 
-/* The least first; of the same the one that came first. */
+/* Sorts the least first; equal ones keep their order. */
 static void keep(monomial *best, size_t *count, int cost, const nh_ex *e)
 {
     size_t at = *count;

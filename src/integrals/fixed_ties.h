@@ -12,8 +12,8 @@
 
 enum { NH_MOST_TIES = 24 };
 
-/* Each a list of what the parameters are replaced by (as nh_fixed, integrals/fixed.h), in the model's arena: those of
-   the n `fixed` ones that occur in no relation by their values.  Returns how many. */
+/* Each result is a list of what the parameters are replaced by (as nh_fixed, integrals/fixed.h), in the model's arena;
+ * those of the n `fixed` ones that occur in no relation have their values.  Returns how many there are. */
 size_t nh_fixed_ties(const nh_model *model, size_t n, const size_t *fixed, const nh_ex *out[NH_MOST_TIES]);
 
 #endif

@@ -9,17 +9,19 @@
 #include "integrals/exact_points.h"
 
 enum { near_terms = 8, first_degree = 16, heldout = 4, heldout_tries = 60, heldout_from = 100000 };
-static const double near_part = 1e-3, /* of the first interval: its Taylor polynomials are exact to rounding there */
-    least_step = 1e-4,                /* of the interval of s */
-    room = 0.04,                      /* beyond the sampling interval, where that is possible */
-    cut = 0.9;                        /* of the interval, when the series there would be too long */
+/* part of the first interval: its Taylor polynomials are exact to rounding there */
+static const double near_part = 1e-3,
+    least_step = 1e-4,                /* part of the interval of s */
+    /* part of the sampling interval by which the series extend beyond it, where that is possible */
+    room = 0.04,
+    cut = 0.9;                        /* factor by which the interval shrinks when the series there would be too long */
 
 struct nh_series_search {
     const nh_model *o; /* borrows */
     const nh_options *options;
     nh_ex variable;
     size_t at;      /* the variable among the chart's symbols */
-    nh_chart chart; /* a copy whose box is thin: the variable stands still */
+    nh_chart chart; /* a copy whose box has no width along the variable */
     nh_model thin;
     double *low, *high;
     double begin, end, middle;
@@ -154,7 +156,7 @@ static void transform(const nh_series_search *x, double low, double high, size_t
     nh_free(value);
 }
 
-/* The last quarter of every current's coefficients is rounding. */
+/* Is the last quarter of every current's coefficients at rounding? */
 static bool converged(const nh_series_search *x, size_t degree, const double *c)
 {
     static const double rounding = 4e-15;
@@ -172,7 +174,7 @@ static bool converged(const nh_series_search *x, size_t degree, const double *c)
     return true;
 }
 
-/* What is as small against its largest values as this has lost so many digits there. */
+/* Does no current become much smaller than it is elsewhere on the interval?  Small values have lost as many digits. */
 static bool even(const nh_series_search *x, double low, double high)
 {
     enum { places = 65 };
@@ -197,7 +199,7 @@ static bool even(const nh_series_search *x, double low, double high)
     return good;
 }
 
-/* The lowest degree, doubled and doubled again, that is enough on this interval. */
+/* The degree, doubled until it is enough on this interval. */
 static double *fit(const nh_series_search *x, double low, double high, size_t *degree)
 {
     size_t most = (size_t)x->options->series_degree, functions = nh_series_words(x) * x->count;
@@ -211,7 +213,7 @@ static double *fit(const nh_series_search *x, double low, double high, size_t *d
     }
 }
 
-/* Each current's rate at points that nothing was fitted to. */
+/* Each current's rate at points that were not used in the fit. */
 static bool hold_out(nh_series_search *x, double low, double high, double *digits)
 {
     size_t seen = 0;
@@ -227,7 +229,7 @@ static bool hold_out(nh_series_search *x, double low, double high, double *digit
     return seen == heldout;
 }
 
-/* With some room, for motions that begin at the edge, where the functions go on. */
+/* The interval with a margin, for motions that begin at its edge. */
 static void reach(nh_series_search *x, double beyond, double *low, double *high)
 {
     double end = fmax(x->end, beyond), width = end - x->begin, least = least_step * width;
@@ -238,7 +240,7 @@ static void reach(nh_series_search *x, double beyond, double *low, double *high)
     if (right < *high) *high = fmin(shortened(right, width, floor), end);
 }
 
-/* Of which word current k is the value there. */
+/* The word whose coefficient is 1 for current k and 0 for the others at that point. */
 static void find_alone(const nh_series_search *x, nh_series_space *out)
 {
     static const double nothing = 1e-12;

@@ -14,11 +14,11 @@
 
 typedef struct nh_series_search nh_series_search;
 
-/* The space near the middle of the sampling interval of `variable`. */
+/* The space of such currents near the middle of the sampling interval of `variable`. */
 nh_series_search *nh_series_open(const nh_model *model, nh_ex variable, size_t words, const nh_ex *word,
                                  const nh_options *options);
 void nh_series_close(nh_series_search *search);
-/* Its dimension, and the words that take part. */
+/* Its dimension, and the words that occur in it. */
 size_t nh_series_count(const nh_series_search *search);
 size_t nh_series_words(const nh_series_search *search);
 
@@ -27,7 +27,8 @@ size_t nh_series_words(const nh_series_search *search);
 nh_ex nh_series_near(const nh_series_search *search, size_t k);
 nh_points *nh_series_points(const nh_series_search *search, size_t count);
 
-/* The same space on the sampling interval, or on as much of it as series up to the option `series_degree` bear. */
+/* The same space on the sampling interval, or on the largest part of it for which series up to the option
+ * `series_degree` suffice. */
 typedef struct {
     double low, high;
     size_t words, count, degree;
@@ -35,10 +36,12 @@ typedef struct {
     double *size;        /* of each word: coefficients are compared after multiplication by it */
     double *coefficient; /* of T_j((2 s - low - high)/(high - low)) in f_i of current k: [(k * words + i) * (degree + 1)
                             + j] */
-    double at; /* where the functions of each are as simple as they can be: there, of those that are 1 for one current
-                  and 0 for the others, ... */
-    size_t *alone;  /* ... per current: the word of which it is the value there; `words`: of none */
-    double *digits; /* per current: to which its rate cancels, with more digits in the coefficients than doubles have */
+    /* the point at which the functions are simplest: there each of certain words has coefficient 1 in one current and 0
+     * in the others */
+    double at;
+    size_t *alone;  /* per current: this word; `words` where there is none */
+    /* per current: the digits to which its rate cancels, with more digits in the coefficients than doubles have */
+    double *digits;
 } nh_series_space;
 
 /* As far as `beyond` where that is more.  In the arena.  False when the space could not be continued. */

@@ -9,7 +9,7 @@
 
 enum { bits = 320, wanted = 3, most_tries = 12, digits_of_nothing = 30, own_seed = 909 };
 
-/* The rank cannot depend on the scale, but fractions do: half widths of the sampling box. */
+/* The rank does not depend on the scale, but the remaining parts do: half widths of the sampling box. */
 static nh_ex *gradients(const nh_model *o, size_t n, const nh_ex *phi, size_t width, double *scale, bool *exact)
 {
     nh_ex *e = nh_alloc_array(n * width + 1, sizeof *e);

@@ -15,8 +15,8 @@ typedef enum { NH_RANK_UNDECIDED, NH_RANK_GROWS, NH_RANK_STAYS } nh_rank_answer;
 
 typedef struct {
     nh_rank_answer answer;
-    bool proved;   /* it grows, by a ball that excludes zero, and the currents are exact */
-    double digits; /* it stays: to which nothing is left, least over the points */
+    bool proved;   /* the rank grows, by a ball that excludes zero, and the currents are exact */
+    double digits; /* the rank stays: digits to which nothing is left, least over the points */
 } nh_rank;
 
 /* phi[0..n-1] are independent (or n is 0): is phi[n] independent of them?  `doubt`: with fitted numbers, what is

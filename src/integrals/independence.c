@@ -23,8 +23,7 @@ static double median(size_t n, double *x)
     return x[n / 2];
 }
 
-/* The size of what e is summed from, to first order in the rounding of its parts: a sum of sizes, and b^x with size(b)
-   |b|^(x-1). */
+/* The size of the terms of e, to first order in their rounding: a sum of sizes, and b^x with size(b) |b|^(x-1). */
 static nh_ex size_of(nh_dag *d, nh_ex e, int depth)
 {
     nh_kind kind = nh_kind_of(d, e);
@@ -66,8 +65,8 @@ typedef struct {
     double *basis; /* per point: accepted orthonormal gradients */
 } frame;
 
-/* Remove the accepted directions (twice, for round-off); returns what is left of |g|, -1 when g is not finite or not
-   above `noise`. */
+/* Removes the accepted directions (twice, because of rounding); returns the remaining part of |g|, or -1 when g is not
+ * finite or not above `noise`. */
 static double remaining(const frame *f, size_t point, double *g, double noise)
 {
     double before = 0, after = 0;
@@ -96,7 +95,7 @@ static void accept(frame *f, const double *rest)
     f->accepted++;
 }
 
-/* phi[k] against the accepted ones before it, where doubles leave a doubt. */
+/* Decides about phi[k] against the accepted ones before it in ball arithmetic, where doubles leave it open. */
 static nh_independence decide(const nh_model *o, size_t k, const nh_ex *phi, const nh_independence *kind, double doubt)
 {
     nh_ex *list = nh_alloc_array(k + 1, sizeof *list);

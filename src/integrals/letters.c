@@ -56,7 +56,7 @@ static bool lift(problem *p, nh_symbolise_decimals_kind kind, size_t only, nh_li
     return true;
 }
 
-/* All numbers of a kind at once, then each by itself: the others may be no more than numbers. */
+/* Tries all numbers of a kind at once, then each by itself: only one of them may depend on parameters. */
 static nh_fixed try_kind(problem *p, nh_symbolise_decimals_kind kind)
 {
     nh_lifted numbers;

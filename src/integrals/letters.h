@@ -11,7 +11,7 @@
 #include "graph/symbolise_decimals.h"
 #include "integrals/fixed.h"
 
-/* Numbers, positive, and what they are called. */
+/* Positive numbers, and the names for them. */
 typedef struct {
     size_t count;
     double value[NH_MOST_LIFTED];

@@ -14,7 +14,7 @@ enum {
     longest = 3000,
     longest_form = 60,
     longest_shown = 250
-}; /* longest: nodes of a rate that is looked at */
+}; /* longest: largest complexity of a rate */
 
 typedef struct {
     const nh_model *o;
@@ -78,7 +78,7 @@ static bool row(seeker *x, size_t i)
     return nh_normal_is_zero(d, rest, 0) == NH_ZERO;
 }
 
-/* Gamma of words i and j is made of these two, and mixes them. */
+/* Are the rates of words i and j combinations of these two, at least one of them with the other word? */
 static bool is_pair(const seeker *x, size_t i, size_t j)
 {
     const nh_dag *d = x->o->dag;
@@ -132,7 +132,7 @@ typedef struct {
     const linear_form *first, *second;
 } elimination;
 
-/* False where f is alone. */
+/* False where f satisfies an equation of first order alone. */
 static bool eliminate(const seeker *x, size_t i, size_t j, elimination *out)
 {
     nh_dag *d = x->o->dag;
@@ -155,11 +155,11 @@ static bool eliminate(const seeker *x, size_t i, size_t j, elimination *out)
 
 /* Currents of one equation. */
 typedef struct {
-    size_t count, length; /* of their formulas together */
+    size_t count, length; /* complexity of their formulas together */
     nh_ex phi[2];
 } found;
 
-/* Kept when it is conserved, proved. */
+/* Keeps a current when it is proved. */
 static void keep(const seeker *x, found *f, nh_ex phi)
 {
     nh_dag *d = x->o->dag;
@@ -196,7 +196,7 @@ static size_t length_of(const seeker *x, const elimination *e)
            nh_complexity(x->o->dag, e->first->whole);
 }
 
-/* What is known where no name is; NULL where that is too long. */
+/* The equation in words where no name is known; NULL where that is too long. */
 static const char *text_of(const seeker *x, const elimination *e)
 {
     nh_dag *d = x->o->dag;
@@ -214,8 +214,7 @@ static const char *text_of(const seeker *x, const elimination *e)
     return out;
 }
 
-/* The words i and j themselves and the given forms of these alone, none a
- * multiple of another. */
+/* The words i and j, and the given forms of these two words, none a multiple of another. */
 static size_t forms_of(const seeker *x, size_t i, size_t j, linear_form *out)
 {
     nh_dag *d = x->o->dag;
@@ -238,8 +237,7 @@ static size_t forms_of(const seeker *x, size_t i, size_t j, linear_form *out)
     return n;
 }
 
-/* Of the equations for the coefficients of all forms the one with more, then
- * with shorter currents. */
+/* Takes the form whose equation gives more currents, or as many with shorter formulas. */
 static void seek(seeker *x, size_t i, size_t j)
 {
     linear_form list[most_forms];

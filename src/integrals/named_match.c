@@ -25,7 +25,7 @@ static nh_ex shifted(matcher *m, nh_ex a, int64_t top, int64_t bottom)
     return nh_add(m->d, a, number(m, top, bottom));
 }
 
-/* With the variable put back. */
+/* The expression with the meaning of the variable substituted. */
 static double value_of(matcher *m, nh_ex e)
 {
     return m->value(m->context, nh_substitute(m->d, e, 1, &m->x, &m->meaning));
@@ -33,8 +33,7 @@ static double value_of(matcher *m, nh_ex e)
 static bool is_zero(matcher *m, nh_ex e) { return nh_normal_is_zero(m->d, e, 0) == NH_ZERO; }
 static nh_ex put_in(matcher *m, nh_ex e, nh_ex place) { return simple(m->d, nh_substitute(m->d, e, 1, &m->x, &place)); }
 
-/* sqrt(e) without roots of squares: of b^2 it is the sign of b that is positive
- * here. */
+/* sqrt(e) without roots of squares: the root of b^2 is b or -b, whichever is positive here. */
 static nh_ex root(matcher *m, nh_ex e)
 {
     nh_dag *d = m->d;
@@ -210,7 +209,7 @@ static size_t three_points(matcher *m, points *s, nh_ex out[2])
     for (size_t i = 0; i <= s->count; i++)
         if (!exponents(m, &s->of[i])) return 0;
     size_t n = s->count + 1;
-    if (n == 4) { /* infinity has to be regular: exponents 0 and 1 */
+    if (n == 4) { /* infinity must be a regular point: exponents 0 and 1 */
         n = 3;
         if (!nh_is_zero(m->d, s->of[3].product)) return 0;
     }
@@ -385,7 +384,8 @@ static size_t confluent(matcher *m, const points *s, nh_ex out[2])
 
 /* ---- Riemann ---- */
 
-/* (1 + x^2)^exponent with the variable put in: of a square, 1/sin(s)^2, the power of what is positive here. */
+/* (1 + x^2)^exponent with the meaning of the variable substituted: where it is a square, such as 1/sin(s)^2, the power
+ * of the root that is positive here. */
 static nh_ex positive_power(matcher *m, nh_ex base, nh_ex exponent)
 {
     nh_dag *d = m->d;

@@ -17,8 +17,7 @@
  * which real solution is meant. */
 typedef double nh_named_value_of(void *context, nh_ex e);
 
-/* Up to two solutions in the variable, which stands for `meaning`: that is put
- * in.  Their number. */
+/* Up to two solutions, with `meaning` substituted for the variable.  Returns their number. */
 size_t nh_named_match(nh_dag *dag, const nh_named_equation *equation, nh_named_value_of *value, void *context,
                       nh_ex out[2]);
 

@@ -11,14 +11,14 @@
 
 enum {
     most = 32,
-    longest = 3000, /* of a rate */
+    longest = 3000, /* largest complexity of a rate */
     longest_entry = 300,
     longest_shown = 250,
     three = 3
 };
 
 typedef struct {
-    nh_ex product;          /* of states */
+    nh_ex product;          /* a product of states */
     nh_ex P[most], Q[most]; /* sum_i P_i g_i' + Q_i g_i = 0 */
     bool used;
     size_t pivot;
@@ -32,7 +32,7 @@ typedef struct {
     const nh_ex *word;
     size_t rows, capacity;
     row *row;
-    bool live[most];        /* unknowns that are left */
+    bool live[most];        /* is the unknown still to be found? */
     nh_ex T[most][most];    /* f_i = sum_j T_ij g_j */
     bool good;
     nh_arena *arena;
@@ -69,7 +69,7 @@ static row *row_of(seeker *x, nh_ex product)
     return out;
 }
 
-/* c times e: a product of states times something in s. */
+/* Splits c times e into a product of states and a function of s. */
 static void add_term(seeker *x, size_t i, bool rate, nh_num c, nh_ex e)
 {
     nh_dag *d = x->d;
@@ -133,7 +133,7 @@ static size_t entries(const seeker *x, const nh_ex *e)
     return n;
 }
 
-/* The shortest entry, which is divided by: one that depends on s only where there is no other. */
+/* The shortest entry as a divisor; one that depends on s only if all do. */
 static size_t pivot_in(const seeker *x, const nh_ex *e)
 {
     size_t best = most, cost = 0;
@@ -220,7 +220,7 @@ static bool use_derivative(seeker *x)
     return true;
 }
 
-/* Words that depend on each other leave an unknown without an equation: it is 0. */
+/* Words that depend on each other leave an unknown without an equation: it is set to 0. */
 static bool drop_free(seeker *x)
 {
     bool found[most] = {false};
@@ -267,7 +267,7 @@ static const row *row_for(const seeker *x, size_t p)
     return NULL;
 }
 
-/* The unknowns that belong together with p: their number; `seen` grows. */
+/* The unknowns that are coupled with p; returns their number, and marks them in `seen`. */
 static size_t connected(const seeker *x, size_t p, bool *seen, size_t *out)
 {
     size_t n = 1;
@@ -330,7 +330,7 @@ static double value_of(void *context, nh_ex e)
     return nh_named_typical(x->o, x->s, e);
 }
 
-/* The current in which y is this; kept when that is proved. */
+/* The current in which this unknown is y; kept when it is proved. */
 static void keep(seeker *x, const block *b, nh_ex y)
 {
     nh_dag *d = x->d;

@@ -13,12 +13,12 @@ typedef struct {
 
 enum { NH_MOST_EQUATIONS = 12 };
 
-/* e in cot s where that is possible and shorter: common factors that have both
- * sines and cosines cancel there. */
+/* e as a function of cot s where that is possible and shorter: common factors that have both sines and cosines cancel
+ * there. */
 nh_ex nh_named_tidy(nh_dag *dag, nh_ex e, nh_ex s);
 
-/* The same equation in s, cos s, sin s, cot s, exp(k s) and the squares of
- * these, as far as it is free of roots and of s there: how many. */
+/* The same equation in the variables s, cos s, sin s, cot s, exp(k s) and their squares, as far as it is free of roots
+ * and of s there.  Returns how many. */
 size_t nh_named_variables(nh_dag *dag, const nh_named_equation *in_s, nh_named_equation out[NH_MOST_EQUATIONS]);
 
 #endif

@@ -1,4 +1,3 @@
-/* nullspace: see the header. */
 #include "integrals/nullspace.h"
 
 #include <float.h>
@@ -9,7 +8,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 
-enum { CHUNK = 64 }; /* rows of B that get their leading 1 at a time */
+enum { CHUNK = 64 }; /* rows of B that receive their leading 1 together */
 
 /* ---- collecting rows ---- */
 
@@ -18,7 +17,7 @@ struct nh_equations {
     nh_qr *residuals; /* A */
     nh_qr *values;    /* [1 B] */
     double *chunk;    /* CHUNK x (1 + columns) */
-    const char *bad;  /* what was not finite, or NULL */
+    const char *bad;  /* name of the values that were not finite, or NULL */
     size_t bad_column;
     bool *left_out;   /* per column that was not finite somewhere; NULL: such a column is an error */
 };
@@ -129,7 +128,7 @@ static bool independent_values(nh_basis *basis, nh_equations *equations, const n
 static bool check_input(const nh_equations *equations, nh_error *error)
 {
     size_t n = equations->columns, of_a = nh_qr_rows(equations->residuals), of_b = nh_qr_rows(equations->values);
-    if (nh_late()) /* rows are missing then */
+    if (nh_late()) /* some rows are missing */
         return nh_fail_ended(error, "while %zu columns were compared", n);
     if (equations->bad)
         return nh_fail(error, NH_NUMERIC, "", "column %zu of the ansatz is not finite in %s at some sample point",

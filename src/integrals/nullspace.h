@@ -23,15 +23,15 @@
 
 typedef enum { NH_FOUND, NH_NONE, NH_UNDECIDED } nh_verdict;
 
-/* Collects rows.  With more than one thread what they are condensed to is computed beside the caller, of A and B at
-   once; the result does not depend on it. */
+/* Collects rows.  With more than one thread the triangles of A and B are computed beside the caller; the result does
+ * not depend on it. */
 typedef struct nh_equations nh_equations;
 /* For rows of so many columns.  The caller frees it. */
 nh_equations *nh_equations_create(size_t columns, size_t threads);
 void nh_equations_free(nh_equations *equations);
-void nh_equations_reset(nh_equations *equations); /* forget all rows */
-/* From now on a column that is not finite at some point is dropped, as dependent ones are, instead of an error: for an
- * ansatz that the program made itself (the root of a function of both signs). */
+void nh_equations_reset(nh_equations *equations); /* Forgets all rows. */
+/* From now on a column that is not finite at some point is dropped, as dependent ones are, instead of being an error:
+ * for an ansatz of the program (which may contain the root of a function of both signs). */
 void nh_equations_leave_out(nh_equations *equations);
 /* Rows of A: residuals of the equations per column (column-major, overwritten). */
 void nh_equations_add(nh_equations *equations, size_t rows, double *a, size_t ld);
@@ -41,12 +41,13 @@ void nh_equations_add_values(nh_equations *equations, size_t rows, double *b, si
 
 typedef struct {
     nh_verdict verdict;
-    size_t columns, rows;  /* of A as fed */
+    size_t columns, rows;  /* of A as given */
     size_t rank;           /* independent, non-constant columns kept; length of the spectrum */
     double *spectrum;      /* generalized singular values, ascending, `rank` of them */
     size_t dimension;      /* of the null space */
-    size_t likely; /* >= dimension: values before the widest gap; near-dependent columns lift true null values above
-                              rounding, so that these are worth a certificate, and nothing without one */
+    /* >= dimension: number of values before the widest gap; nearly dependent columns lift true null values above
+     * rounding, so that these vectors deserve a certificate, and mean nothing without one */
+    size_t likely;
     /* spectrum[dimension] / max(spectrum[dimension-1], eps); INFINITY when nothing is above or below */
     double gap;
     double *vector;        /* columns x likely, in the columns' own units, |B c| = 1; dropped columns have 0 */
@@ -60,8 +61,8 @@ typedef struct {
 /* Minimises |A c| / |B c| over the rows collected so far.  The caller frees the result.  NULL with an error where
  * no row was given, a value is not finite, or a decomposition fails.  [docs/method.md, eq. 13] */
 nh_nullspace *nh_nullspace_solve(nh_equations *equations, const nh_nullspace_options *options, nh_error *error);
-/* The same without the quotient: a plain SVD of A with columns of norm one, which takes a combination that vanishes, or
- * nearly, for a current.  To be compared with. */
+/* The same without the quotient: a plain SVD of A with columns of norm one, for comparisons.  It takes a combination
+ * that vanishes, or nearly does, for a current. */
 nh_nullspace *nh_nullspace_plain(nh_equations *equations, const nh_nullspace_options *options, nh_error *error);
 void nh_nullspace_free(nh_nullspace *nullspace);
 

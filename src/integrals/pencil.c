@@ -114,8 +114,9 @@ static bool spectral_norm(size_t rows, size_t columns, const double *m, double *
     return ok;
 }
 
-/* K and rest, and from |A R^-1| what counts as zero.  The upper end of the undecided band is taken: errors of K grow
- * along the way to V, and a frequency found here is only proposed, an ordinary null space decides about it. */
+/* K and rest, and from |A R^-1| the bound below which a value counts as zero.  It is the upper end of the undecided
+ * band: errors of K grow on the way to V, and a frequency found here is only proposed; an ordinary null space
+ * decides. */
 static bool reduce(work *w, const nh_nullspace_options *options, nh_error *error)
 {
     double *t = new_matrix(2 * w->columns, 2 * w->columns), *s = NULL, *quotient = NULL;
@@ -188,7 +189,7 @@ static void multiply_transposed(size_t n, size_t p, size_t q, const double *x, c
     nh_free(xt);
 }
 
-/* h := V^T K V and leak := K V - V h, what K takes out of V. */
+/* h := V^T K V and leak := K V - V h, the part of K V outside of V. */
 static void project(work *w, double *leak)
 {
     size_t n = w->n, d = w->dimension;
@@ -223,8 +224,8 @@ static bool invariant_subspace(work *w)
     return ok;
 }
 
-/* Eigenvalue 0 with all its Jordan blocks (integrals, and polynomials in t or q that an ordinary stage finds) is taken
- * out by rank decisions, V := V range(H) until the rank is full: a block of size m would split into eigenvalues of size
+/* Takes out eigenvalue 0 with all its Jordan blocks (integrals, and polynomials in t or q that an ordinary stage finds)
+ * by rank decisions, V := V range(H) until the rank is full: a block of size m would split into eigenvalues of size
  * eps^(1/m), which no threshold tells from a frequency. */
 static bool remove_zero(work *w)
 {

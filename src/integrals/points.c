@@ -65,10 +65,11 @@ void nh_points_evaluate(const nh_points *points, const nh_model *model, size_t n
     nh_tape_free(tape);
 }
 
-/* Nearer to a singularity than doubles can use: velocities and accelerations so much larger than those of the box. */
+/* A point is too near a singularity for doubles where velocities or accelerations are so many times larger than in the
+ * box. */
 static const double too_fast = 1e8, usual = 1.5;
 
-/* What the author of the system lets a velocity reach, in units of what it reaches by default; 0: nothing is said. */
+/* The range of a velocity that the system's author gives, relative to its default range; 0: none is given. */
 static double given_speed(const nh_model *o, nh_ex symbol)
 {
     const nh_system *s = o->system;
@@ -78,9 +79,9 @@ static double given_speed(const nh_model *o, nh_ex symbol)
     return isfinite(reach) ? reach : 0;
 }
 
-/* What velocities are measured in: speed[s] for v^s, then for w_i; the returned rate for what they change by per unit
- * of time.  Where the author says nothing of a velocity, it is that in which the coordinate crosses its interval as
- * fast as the fastest one does its own. */
+/* The units of velocities: speed[s] for v^s, then for w_i; the returned rate is that of their changes per unit of time.
+ * Where the author gives no range of a velocity, its unit is the one in which the coordinate crosses its interval as
+ * fast as the fastest one crosses its own. */
 static double speeds_of(const nh_model *o, double *speed)
 {
     const nh_chart *c = o->chart;
@@ -100,15 +101,15 @@ static double speeds_of(const nh_model *o, double *speed)
     return rate;
 }
 
-/* The accelerations and velocities decide what is usable: everything else is made of the same parts. */
+/* Accelerations and velocities decide whether a point is usable: everything else consists of the same parts. */
 typedef struct {
     const nh_model *o;
     nh_tape *tape;  /* rho (m), R (m x n, column-major), a (n), Lbar */
     nh_tape_work *work;
     double *out, *dense, *slope; /* slope: m x n, by which R is a number without units */
     double *speed, rate; /* speeds_of */
-    /* Of time, about 1/rate: so that what is a small rate does not depend on it.  A power of 1024, by which no digit
-     * is lost. */
+    /* Unit of time, about 1/rate, so that a small rate is small in any unit.  A power of 1024, by which no digit is
+     * lost. */
     double unit;
     double steepest; /* largest |R| that is accepted in a chart of coordinate velocities: 1 / pivot */
 } guard;
@@ -209,9 +210,9 @@ static void stretched_box(const nh_model *o, bool natural, double stretch, doubl
 
 /* ---- beyond the chart ---- */
 
-/* A point (t, q, v) near a zero of the chart's pivot: v is moved onto the constraints, v' solved from the multiplier
- * form.  A function of the chart may have poles of the pivot there, whose rates cancel to pivot^2 times what doubles
- * hold: the weight allows for it. */
+/* A point (t, q, v) near a zero of the chart's pivot: v is moved onto the constraints, and the multiplier form gives
+ * v'.  A function of the chart may have poles of the pivot there, whose rates cancel and leave errors of 1/pivot^2
+ * roundings: the weight allows for it. */
 static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t, const double *q, double *v,
                        double steepness, const guard *g)
 {
@@ -235,20 +236,20 @@ static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t
 
 /* ---- sampling ---- */
 
-/* Velocities in the box are moved onto the constraints, where the chart leaves them a choice. */
+/* Moves velocities in the box onto the constraints, where the chart leaves them a choice. */
 static bool is_natural(const nh_model *o) { return !o->chart->quasi && o->k > 0 && o->chart->implicit == 0; }
 
 typedef struct {
     const nh_model *o;
     bool natural;
     guard guard;
-    nh_bordered *bordered; /* NULL: points beyond the chart are not wanted, or none was met yet */
+    nh_bordered *bordered; /* NULL: points beyond the chart are not wanted, or none was found yet */
     bool cover;      /* not of one branch of a quadratic constraint: all coordinates do not tell it from the other */
-    size_t count; /* points wanted, and room for those beyond */
+    size_t count; /* wanted number of points, and room for points beyond the chart */
     double *z, *v, *low, *high;
 } sampling;
 
-/* The point in z into the list; in a natural sampling z is (t, q, v). */
+/* Appends the point in z to the list; in a natural sampling z is (t, q, v). */
 static void take(sampling *s, nh_points *p)
 {
     const nh_model *o = s->o;

@@ -89,7 +89,7 @@ static bool invert(nh_projector *p, newton *s)
     return good && nh_all_finite(n * r, s->inverse);
 }
 
-/* From the values x, which stand in p->at. */
+/* Iterates from the values x, which are also in p->at. */
 static bool solve(nh_projector *p, newton *s, double *x)
 {
     for (int step = 0; step < most_steps; step++) {
@@ -107,7 +107,7 @@ static bool solve(nh_projector *p, newton *s, double *x)
     return false;
 }
 
-/* On with J as it stands, in the ball.  Steps shrink by the digits that J has. */
+/* Continues in balls with the same J: each step gains the digits that J has. */
 static bool refine(nh_projector *p, newton *s)
 {
     double largest = 0, moved = 0, value, radius;
@@ -176,7 +176,7 @@ bool nh_projected_point(nh_projector *p, const double *position, const double *v
     return true;
 }
 
-/* The velocities of z are those that were asked for, and not those of another branch. */
+/* Are the velocities of z the given ones, and not those of another branch? */
 static bool gives_velocity(nh_projector *p, double *z)
 {
     const double *velocity = p->at + 1 + p->m;

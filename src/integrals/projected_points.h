@@ -12,16 +12,16 @@
 
 typedef struct nh_projector nh_projector;
 
-/* The ball knows the parameters; it and the model outlive the projector.  NULL where the chart's velocities are the
-   coordinates' own, and no constraint binds them. */
+/* For points in balls.  The ball has the parameters; it and the model must outlive the projector, which the caller
+ * frees.  NULL where the chart's velocities are the coordinates' own, and no constraint binds them. */
 nh_projector *nh_projector_create(const nh_model *model, nh_ball *ball);
 void nh_projector_free(nh_projector *projector);
 
 /* z = (t, q, w, u) at the position (t, q) that `position` begins with, with the allowed velocity nearest to v (m), in
  * doubles.  False where the iteration fails. */
 bool nh_projected_point(nh_projector *projector, const double *position, const double *v, double *z);
-/* The same with the digits of the ball before w and u are rounded: small velocities keep their digits.  False, too,
- * where v is not of the chart's branch. */
+/* The same, with the digits of the ball until w and u are rounded: small velocities keep their digits.  False also
+ * where v is not on the chart's branch. */
 bool nh_projected_exact_point(nh_projector *projector, const double *position, const double *v, double *z);
 
 #endif

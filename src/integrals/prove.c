@@ -9,10 +9,11 @@
 #include "integrals/fixed.h"
 #include "integrals/symmetry.h"
 
-enum { wanted_points = 4, most_tries = 40, double_digits = 8, patience = 5 }; /* longer proofs of what is certified */
+/* patience: so many times longer may the proof of a certified current be */
+enum { wanted_points = 4, most_tries = 40, double_digits = 8, patience = 5 };
 
-/* The digits to which the terms cancel against each other; where each cancels in itself already, relative to all that
-   cancels in them. */
+/* The digits to which the terms cancel against each other; where each term cancels in itself already, relative to the
+ * parts of the terms. */
 static bool cancels(nh_ball *ball, size_t n, const nh_ex *term, nh_ex sum, nh_ex size, double *log10_ratio)
 {
     double bound, scale;
@@ -96,7 +97,7 @@ static bool prove_sum(const nh_model *o, nh_ex sum, nh_claim claim, size_t limit
     return !claim.rounded && ((claim.free && symbols == NH_TOO_LARGE) || values == NH_TOO_LARGE);
 }
 
-/* `proof`: what is known already. */
+/* `proof`: known results of earlier steps. */
 static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_proof proof, nh_claim claim,
                            const nh_options *options)
 {

@@ -13,12 +13,12 @@
 typedef struct {
     bool proved;          /* exactly zero, at least for the given parameters */
     bool all_parameters;  /* for all parameter values */
-    /* else, where it is proved for all values of some: the others, which must have theirs; NULL: for the given values
-       only */
+    /* not for all values: the parameters that must have their values, where the others are free; NULL: proved for the
+     * given values only */
     const nh_ex *fixed;
     double digits;        /* of cancellation, least over the points; 0 when it could not be evaluated */
-    size_t points;        /* that could be evaluated */
-    /* numbers in it were too long for exact rationals: more than a double's digits cannot be asked for */
+    size_t points;        /* number of points at which it could be evaluated */
+    /* its numbers were too long for exact rationals: only a double's digits can be expected */
     bool rounded;
     bool refuted;         /* a ball excludes zero: Phi with these coefficients is not conserved */
 } nh_proof;
@@ -28,16 +28,17 @@ void nh_rate_terms(const nh_model *model, nh_ex phi, nh_ex *term);
 
 /* What is known of a current. */
 typedef struct {
-    /* its coefficients hold for all parameter values, so that step 1 makes sense; but for those fixed: */
+    /* its coefficients hold for all parameter values, except for the fixed ones, so that step 1 makes sense */
     bool free;
-    const nh_ex *fixed; /* what must have its value, or be related to others (integrals/fixed.h); NULL: none must */
+    /* parameters that must have their values, or be related to others (integrals/fixed.h); NULL: none */
+    const nh_ex *fixed;
     bool related;      /* an exact relation of its terms' rates is the proof */
-    /* set by the proof: Phi holds numbers that are no rationals, whose sums may come out whole; nothing is proved of
-       it */
+    /* set by the proof: Phi contains numbers that are no rationals, whose sums may be whole numbers by rounding;
+     * nothing is proved of it */
     bool rounded;
 } nh_claim;
 /* The three steps of docs/method.md, sec. 4, "Proof", on Gamma(phi): for all parameter values, for the given ones, in
- * balls.  What the claim leaves out is not tried. */
+ * balls.  Steps that the claim excludes are left out. */
 nh_proof nh_prove_claim(const nh_model *model, nh_ex phi, nh_claim claim, const nh_options *options);
 
 /* `parameters_free`: the claim's `free`, with nothing fixed. */
@@ -47,7 +48,7 @@ nh_proof nh_prove_current(const nh_model *model, nh_ex phi, bool parameters_free
 nh_proof nh_prove_zero(const nh_model *model, size_t terms, const nh_ex *term, bool parameters_free,
                        const nh_options *options);
 
-/* Of two statements together. */
+/* The weaker of two statements: what holds of both. */
 nh_proof nh_proof_both(const nh_model *model, nh_proof a, nh_proof b);
 
 /* Only the digits of step 3: a few evaluations. */

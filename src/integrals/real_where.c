@@ -12,7 +12,7 @@ static int sign_of_symbol(const nh_model *o, nh_ex e)
     return 0;
 }
 
-/* By the signs of the parameters; 0: it may be either. */
+/* The sign of e by the signs of the parameters; 0: either is possible. */
 static int certain_sign(const nh_model *o, nh_ex e)
 {
     const nh_dag *d = o->dag;

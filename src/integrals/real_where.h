@@ -9,9 +9,9 @@
 
 enum { NH_MOST_REAL_WHERE = 8 };
 
-/* What stands in e below an even root or in a logarithm and has to be positive: depends on parameters alone, and has no
- * certain sign as long as every parameter keeps its own; or depends on the state, and has either sign in the sampling
- * box.  Into out; returns how many. */
+/* The expressions below even roots and in logarithms of e that must be positive and need not be: they depend on
+ * parameters alone, and have either sign although every parameter keeps its own; or they depend on the state, and have
+ * either sign in the sampling box.  Writes them to out; returns how many. */
 size_t nh_real_where(const nh_model *model, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE]);
 
 #endif

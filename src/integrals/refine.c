@@ -9,7 +9,7 @@
 
 enum { spare_rows = 8, heldout_points = 4, most_tries = 4 };
 
-/* of the digits to which a rate cancels: a smaller coefficient is what rounding made of zero */
+/* as a part of the digits to which a rate cancels: a smaller coefficient is zero up to rounding */
 static const double believed = 0.75;
 
 /* The normal equations halve the digits: twice the bits. */
@@ -26,7 +26,7 @@ static bool feed(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t rows
     return added == rows;
 }
 
-/* digits[k] of every vector; false when there were no points for it. */
+/* Writes digits[k] of every vector; false when it has no points. */
 static bool check(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, uint64_t *state, const nh_options *options,
                   nh_refined *out)
 {
@@ -44,8 +44,8 @@ static bool check(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, uint64_t *
     return seen == heldout_points;
 }
 
-/* The terms' rates; false when one contains rounded numbers: they bound the digits from the start, and nothing would be
-   decided. */
+/* The terms' rates; false when one contains rounded numbers: these limit the digits from the start, so that nothing
+ * could be decided. */
 static bool rates(const nh_model *o, size_t n, const nh_ex *term, nh_ex *rate)
 {
     bool exact = true;

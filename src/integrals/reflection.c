@@ -129,8 +129,8 @@ static nh_reflection empty(nh_arena *arena, size_t width)
     return r;
 }
 
-/* Reduce by what is known, keep what is left: Gaussian elimination over GF(2), each row with a leading bit of its
-   own. */
+/* Reduces by the known generators, and keeps the rest: Gaussian elimination over GF(2), each row with its own leading
+ * bit. */
 static void enter(uint32_t bits, uint32_t *basis, size_t *count)
 {
     for (size_t i = 0; i < *count; i++)

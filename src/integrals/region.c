@@ -14,7 +14,7 @@ enum { seed_offset = 505 };
 
 enum { most_directions = 64 };
 
-/* rho^s, and I_s R^s_i: what must not jump, and what must vanish; their sizes. */
+/* rho^s, which must not jump, and I_s R^s_i, which must vanish; their sizes. */
 typedef struct {
     double rho[most_directions], impulse[most_directions], speed, size;
 } passage;
@@ -42,7 +42,7 @@ static bool side_at(const nh_model *o, nh_ball *ball, nh_ex g, double *z, sides 
     return true;
 }
 
-/* At one distance from the wall. */
+/* The values at one distance from the wall. */
 static bool passage_at(const nh_model *o, nh_ball *ball, const nh_crossing *c, size_t depth, passage *out)
 {
     sides below, above;
@@ -64,7 +64,7 @@ static bool passage_at(const nh_model *o, nh_ball *ball, const nh_crossing *c, s
     return true;
 }
 
-/* Neither falls towards the wall nor is it rounding. */
+/* Does the value neither fall towards the wall nor count as rounding? */
 static bool stays(size_t n, const double *far, const double *near, double size)
 {
     static const double rounding = 1e-8;
@@ -73,7 +73,7 @@ static bool stays(size_t n, const double *far, const double *near, double size)
     return most[1] > most[0] / 2 && most[1] > rounding * size;
 }
 
-/* A function of (t, q), and no cut: there L is taken for one of the branches of a function that goes on. */
+/* Is it a function of (t, q), and no cut?  At a cut L is one of the branches of a function that continues. */
 static bool may_kick(const nh_model *o, const nh_walls *walls, nh_ex g)
 {
     for (size_t i = 0; i < walls->count; i++)
@@ -116,14 +116,14 @@ nh_terrain nh_terrain_of(const nh_model *o, const nh_options *options, nh_arena 
     return out;
 }
 
-/* Those of phi that the equations of motion do not have. */
+/* The walls of phi that the equations of motion do not have. */
 static nh_crossings own_crossings(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
     nh_arena *arena)
 {
     nh_walls all = terrain->walls, own = {0};
     uint64_t state = (uint64_t)options->seed + 2 * seed_offset;
     nh_walls_add(&all, o->dag, phi);
-    /* ends of roots are not crossed, and are found out */
+    /* ends of roots are not crossed; the lines show that */
     for (size_t i = terrain->walls.count; i < all.count; i++) own.e[own.count++] = all.e[i];
     return nh_crossings_find(o, &own, &state, arena);
 }
@@ -136,10 +136,11 @@ typedef struct {
     nh_ex phi, beyond, *term; /* beyond: phi on the side where the wall is positive; 0: the same expression */
     size_t terms, failing;
     double digits;
-    nh_ex fails[NH_MOST_WALLS]; /* walls beside which it failed on both sides */
+    nh_ex fails[NH_MOST_WALLS]; /* the walls at which it failed on both sides */
 } judge;
 
-/* Phi - Phi on the other side neither falls towards the wall nor is it rounding, and Phi stays finite. */
+/* Does Phi jump: is the difference of its values on the two sides neither falling towards the wall nor rounding, while
+ * Phi stays finite? */
 static bool jumps(judge *j, const nh_crossing *c)
 {
     static const double rounding = 1e-8, growth = 1.3;
@@ -178,7 +179,7 @@ static int holds(judge *j, double *z)
 
 /* What was seen at the crossings of one wall. */
 typedef struct {
-    /* it failed below while it held above; the other way; it failed on neither side, and jumped */
+    /* counts: Gamma(Phi) failed below and held above; the other way; it failed on neither side, and Phi jumped */
     bool below, above, jump;
 } seen;
 
@@ -189,7 +190,7 @@ static void look(judge *j, const nh_crossing *c, seen *s)
         j->fails[j->failing++] = c->wall;
     s->below |= below == 0 && above == 1;
     s->above |= above == 0 && below == 1;
-    /* where Phi is zero to the last digit its rate tells nothing */
+    /* where Phi is zero to the last digit, its rate says nothing */
     s->jump |= below != 0 && above != 0 && (below == 1 || above == 1) && jumps(j, c);
 }
 
@@ -205,7 +206,7 @@ static void note(nh_region *r, nh_ex wall, const seen *s, bool touches)
                                                  : NH_REGION_APART;
 }
 
-/* Crossings of one wall need not follow each other. */
+/* Joins the crossings of one wall, which may lie apart in the list. */
 static void look_at_all(judge *j, const nh_crossings *c, nh_region *out)
 {
     for (size_t i = 0; i < c->count; i++) {
@@ -221,7 +222,7 @@ static void look_at_all(judge *j, const nh_crossings *c, nh_region *out)
     }
 }
 
-/* Where the chart's branch ends: the other branch holds phi with its own velocity. */
+/* At the end of the chart's branch: the other branch has phi with its own velocity. */
 static void look_at_the_end(judge *j, const nh_branch_end *end, nh_region *out)
 {
     seen s = {0};
@@ -246,8 +247,8 @@ nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, 
         out.wall[out.count] = terrain->impulse[i], out.kind[out.count++] = NH_REGION_IMPULSE;
     look_at_all(&j, &terrain->crossings, &out);
     look_at_all(&j, &own, &out);
-    /* Far from the sampling box it fails on both sides of a wall, and nothing else was seen to end it: another sheet of
-       that wall does. */
+    /* Far from the sampling box it fails on both sides of a wall, and no other wall ends it: another sheet of this wall
+     * does. */
     for (size_t i = 0; i < j.failing && !out.count; i++)
         out.wall[out.count] = j.fails[i], out.kind[out.count++] = NH_REGION_PARTS;
     look_at_the_end(&j, &terrain->end, &out);

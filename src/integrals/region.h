@@ -26,7 +26,8 @@ typedef enum { NH_REGION_ABOVE, NH_REGION_BELOW, NH_REGION_APART, NH_REGION_PART
 typedef struct {
     size_t count;
     nh_ex wall[NH_MOST_WALLS];
-    /* holds where wall > 0, wall < 0; on both sides, but jumps; in some parts of both; on both sides of an impulse */
+    /* holds where wall > 0; where wall < 0; on both sides, but jumps; in some parts of both sides; on both sides of an
+     * impulse */
     nh_region_kind kind[NH_MOST_WALLS];
 } nh_region;
 
@@ -46,8 +47,8 @@ nh_terrain nh_terrain_of(const nh_model *model, const nh_options *options, nh_ar
 nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits,
     const nh_options *options, nh_arena *arena);
 
-/* The walls of phi, but ends of roots, at which nothing could be decided: no motion of this chart was seen to cross,
- * perhaps because the chart's velocities end there.  phi is one function on each side. */
+/* The walls of phi, without ends of roots, at which nothing could be decided: no motion of this chart was seen to cross
+ * them, perhaps because the chart's velocities end there. phi is one function on each side. */
 nh_region nh_region_open(const nh_model *model, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
     nh_arena *arena);
 

@@ -8,8 +8,8 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 
-/* The derivative of log(R - s), with a difference that cancels, is often a quotient in which nothing cancels: worth the
- * simplification, which otherwise would cost more than the whole search. */
+/* The derivative of log(R - s), a difference that cancels, is often a quotient in which nothing cancels: then the
+ * simplification pays.  For all rates it would cost more than the whole search. */
 static nh_ex without_logarithms(nh_dag *d, nh_ex of, nh_ex derivative)
 {
     enum { most = 64 };
@@ -150,7 +150,7 @@ static size_t run(nh_rows *r, const nh_tape *tape, nh_tape_work *work, const nh_
     return count;
 }
 
-/* Rates at the points beyond the chart; a point where a factor of the ansatz has no value says nothing. */
+/* Rates at the points beyond the chart; points at which a factor of the ansatz is undefined are left out. */
 static size_t run_beyond(nh_rows *r, const nh_points *points, size_t start)
 {
     if (!r->beyond) {
@@ -266,8 +266,8 @@ nh_ex nh_rows_field_current(const nh_model *o, const nh_field_column *c)
     return c->slot == 0 ? c->function : nh_mul(o->dag, o->pbar[c->slot - 1], c->function);
 }
 
-/* How much the field varies: its own part of Phi, slot by slot.  (Phi alone would not do: z0 = g and zeta = g/pbar have
- * the same Phi and are different fields.)  Centred per slot, so that Phi = const stays trivial. */
+/* The variation of the field: its own part of Phi, slot by slot.  (Phi alone would not do: z0 = g and zeta = g/pbar
+ * have the same Phi and are different fields.) Centred per slot, so that Phi = const is trivial. */
 static void field_values(size_t n, const nh_field_column *column, size_t slot, size_t per, size_t count,
                          const double *value, double *block)
 {

@@ -17,7 +17,7 @@ typedef struct {
     size_t *first;
 } nh_sectors;
 
-/* Sort the ansatz by sector. */
+/* Sorts the ansatz by sector. */
 nh_sectors nh_sectors_split(const nh_model *model, const nh_reflections *reflections, const nh_points *points,
                             nh_ansatz *ansatz);
 void nh_sectors_clear(nh_sectors *sectors);

@@ -10,7 +10,8 @@
 #include "integrals/exact_points.h"
 
 enum { most_steps = 16, spare_rows = 8, most_tries = 4 };
-static const double first_step = 1e-6, spare_digits = 20; /* of what doubles gave; beyond those that are asked for */
+/* largest relative change of a number that doubles gave; digits beyond the wanted ones */
+static const double first_step = 1e-6, spare_digits = 20;
 
 typedef struct {
     const nh_model *o;
@@ -22,7 +23,7 @@ typedef struct {
     nh_num value[NH_MOST_LIFTED];
 } problem;
 
-/* Gamma(b_j), then what they change by with each number. */
+/* Gamma(b_j), then its derivatives by each number. */
 static void columns(const problem *p, nh_ex *e)
 {
     nh_dag *d = p->o->dag;

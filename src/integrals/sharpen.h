@@ -13,8 +13,8 @@
 #include "base/option.h"
 #include "geometry/model.h"
 
-/* Inexact numbers in term[0..n-1] are replaced by long rationals; pivot: the term whose coefficient is not zero.
- * False, and nothing changed, where there are none, too many, or the steps do not become smaller. */
+/* Replaces inexact numbers in term[0..n-1] by long rationals; pivot: a term whose coefficient is not zero.  False, and
+ * nothing is changed, where there are none, too many, or the steps do not become smaller. */
 bool nh_sharpen(const nh_model *model, size_t n, nh_ex *term, const double *coefficient, size_t pivot,
                 const nh_options *options);
 

@@ -8,8 +8,8 @@
 
 enum { large_length = 3000, many_coordinates = 12 }; /* nh_complexity */
 
-/* A long formula with rounded coefficients, a series, has no simpler form; a very long one none that could be found in
-   reasonable time. */
+/* A long formula with rounded coefficients, a series, has no simpler form; for a very long one none could be found in
+ * reasonable time. */
 static nh_ex tidy(nh_dag *d, nh_ex e)
 {
     return nh_complexity(d, e) > NH_SYMMETRY_LENGTHY && !nh_is_short(d, e) ? e : nh_simplify_short(d, e, large_length);
@@ -73,8 +73,8 @@ static nh_ex recognised(const nh_model *o, nh_ex z, size_t i)
     return found;
 }
 
-/* x = M^-1 b (n).  Where that is long, and perhaps too long to be simplified: the fields of energies and momenta have
- * simple components.  What is recognised is proved, M x = b. */
+/* x = M^-1 b (n).  Where that is long, and perhaps too long to be simplified, simple components are tried first, as the
+ * fields of energies and momenta have them; M x = b proves them. */
 static void solve(const nh_model *o, const nh_ex *b, nh_ex *x)
 {
     enum { short_enough = 80 };
@@ -144,7 +144,7 @@ static void solve_directly(nh_model *o, nh_symmetry *z)
     for (size_t j = 0; j < n; j++) {
         nh_ex b = nh_sub(d, nh_mul(d, o->A[j], z->Z0), nh_model_X(o, j, z->phi));
         for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, nh_model_G(o)[i * n + j], z->zeta[i]));
-        /* zero for an energy; told before M^-1 lengthens it */
+        /* zero for an energy: this is decided before M^-1 makes it long */
         z->W[j] = nh_normal_is_zero(d, b, 0) == NH_ZERO ? nh_int(d, 0) : b;
     }
     solve(o, z->W, z->W);
@@ -222,9 +222,8 @@ static size_t total_complexity(const nh_model *o, const nh_field *f, const nh_ex
     return sum;
 }
 
-/* Z^0 = (Phi - pbar zeta)/Lbar is a long quotient as soon as Phi is no energy, and every component has it as a factor
- * of Gamma's: what is left when Z^0 Gamma is taken away is often the field that one knows, t d/dy + d/dy' of a
- * boost. */
+/* Z^0 = (Phi - pbar zeta)/Lbar is a long quotient unless Phi is an energy, and every component contains it as a factor
+ * of Gamma's.  Without Z^0 Gamma the field is often the familiar one, t d/dy + d/dy' of a boost. */
 static void take_motion_away(nh_model *o, nh_symmetry *z)
 {
     enum { short_enough = 120 };
@@ -237,7 +236,8 @@ static void take_motion_away(nh_model *o, nh_symmetry *z)
     z->along_motion = nh_complexity(d, z->Z0) + total_complexity(o, &z->relative, z->relative_rate) < 3 * length / 4;
 }
 
-/* The two halves of each component of [Gamma, Z]: what is differentiated along Gamma, and what along Z. */
+/* The two parts of each component of [Gamma, Z]: the function whose derivative along Gamma is taken, and the one whose
+ * derivative along Z is. */
 static void bracket_halves(const nh_model *o, const nh_field *Z, nh_ex *first, nh_ex *second)
 {
     size_t k = 0;
@@ -253,9 +253,9 @@ static void bracket_halves(const nh_model *o, const nh_field *Z, nh_ex *first, n
     }
 }
 
-/* From the halves for Z - c Gamma, with rate = Gamma(c): [Gamma, Z] = [Gamma, Z - c Gamma] + rate Gamma.  The
- * components are left as they come: they are evaluated, not printed.  With nu R = 0 the form needs no derivative of Z:
- *     i_[Gamma,Z] phi^a = nu^a_s (Gamma(R^s_i) - X_i(rho^s)) zeta^i. */
+/* From the parts for Z - c Gamma, with rate = Gamma(c): [Gamma, Z] = [Gamma, Z - c Gamma] + rate Gamma.  The components
+ * are not simplified: they are evaluated, not printed.  With nu R = 0 the form needs no derivative of Z: i_[Gamma,Z]
+ * phi^a = nu^a_s (Gamma(R^s_i) - X_i(rho^s)) zeta^i. */
 static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex *second, nh_ex rate)
 {
     nh_dag *d = o->dag;
@@ -280,13 +280,13 @@ static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex
 
 typedef struct {
     size_t width, forms;  /* 1 + m + n; k */
-    double *gamma, *z, *first, *second, *form, *nu; /* at one point: as they are evaluated */
+    double *gamma, *z, *first, *second, *form, *nu; /* values at one point */
     double *b, *scale;    /* [Gamma, Z], and what its components are made of */
     const double *unit;   /* of (t, q, w): components without units compare */
     double pace;          /* how fast the state moves there, in those of the chart's box per unit of time */
 } local;
 
-/* What differs from the bracket only by rounding, and by a rate Z changes with, is made of these. */
+/* The size of the terms of the bracket, and of the rate with which Z changes: a smaller difference is rounding. */
 static void measure(const nh_model *o, local *l)
 {
     l->pace = 0;
@@ -308,7 +308,7 @@ static int case_at(const local *l, double same)
         r2 += r * r;
         z2 += z * z;
         rz += r * z;
-        /* a bracket of order |Z| is not small */
+        /* a bracket of the size of Z is not small */
         scale = fmax(scale, fmax(l->scale[j] + fabs(l->b[0] * l->gamma[j]), l->pace * fabs(l->z[j])) / l->unit[j]);
         zscale = fmax(zscale, (fabs(l->z[j]) + fabs(l->z[0] * l->gamma[j])) / l->unit[j]);
     }
@@ -319,7 +319,7 @@ static int case_at(const local *l, double same)
     return across <= sqrt(same) * 1e-3 * sqrt(r2) ? 2 : 3;
 }
 
-/* i_[Gamma,Z] phi^a = nu^a_s [Gamma,Z]^s beside the terms of this sum. */
+/* i_[Gamma,Z] phi^a = nu^a_s [Gamma,Z]^s relative to the terms of this sum. */
 static bool is_inside(const nh_model *o, const local *l, double same)
 {
     bool inside = true;
@@ -332,7 +332,7 @@ static bool is_inside(const nh_model *o, const local *l, double same)
     return inside;
 }
 
-/* By Z, or by Z - Z^0 Gamma: the case is the same. */
+/* The case by Z, or by Z - Z^0 Gamma: it is the same. */
 static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const nh_field *Z, const nh_ex *first,
                    const nh_ex *second, double same)
 {
@@ -375,15 +375,15 @@ static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const n
         inside &= is_inside(o, &l, same);
     }
     z->kase = decided ? worst : 0;
-    /* Gamma and Z lie in it; the form of a long formula is the less certain of both */
+    /* Gamma and Z lie in the distribution; for a long formula the form is the less certain criterion */
     z->bracket_in_distribution = inside || z->kase == 1 || z->kase == 2;
     nh_free(at);
     nh_free(value);
     nh_free(e);
 }
 
-/* The largest residual of the constraint Noether equations, relative to the largest of their terms.  Of an integral of
- * the constraints all terms may vanish: rounding has no size there to be compared with, and the normal form decides. */
+/* The largest residual of the constraint Noether equations, relative to the largest of their terms.  For an integral of
+ * the constraints all terms may vanish: there is nothing to compare rounding with, and the normal form decides. */
 double nh_symmetry_residual(const nh_model *o, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
                             const nh_ex *W)
 {
@@ -413,8 +413,7 @@ double nh_symmetry_residual(const nh_model *o, const nh_points *points, nh_ex ph
     return worst;
 }
 
-/* dc/dw = e, exactly; or, where rounded coefficients leave nothing exact, beside c at the points, with w in its
-   unit. */
+/* Is dc/dw = e exactly?  With rounded coefficients: relative to c at the points, with w in its unit. */
 static bool vanishes(const nh_model *o, const nh_points *points, nh_ex e, nh_ex c, double unit, double same)
 {
     if (nh_is_exact(o->dag, e)) return nh_normal_is_zero(o->dag, e, 0) == NH_ZERO;

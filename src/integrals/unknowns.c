@@ -114,7 +114,7 @@ typedef struct {
     size_t seen_capacity;
 } objective;
 
-/* log10 would be smooth nowhere near a hit; sigma itself has a V there, which simplex methods follow to rounding. */
+/* log10 would not be smooth near a hit; sigma itself has a V there, which simplex methods follow down to rounding. */
 static double sigma_at(objective *o, const double *theta, size_t index, size_t *dimension)
 {
     nh_error ignored;
@@ -206,8 +206,8 @@ static void search(objective *o, const nh_options *options)
     nh_free(theta);
 }
 
-/* One basin to round-off, or until it turns out to be none: near a hit sigma falls in proportion to the distance.
- * NLopt's return codes are not trusted: the point is evaluated again. */
+/* Follows one minimum down to rounding, or until it proves to be none: near a hit sigma falls in proportion to the
+ * distance.  NLopt's return codes are not trusted: the point is evaluated again. */
 static double polish(objective *o, double *theta, double width)
 {
     static const double progress = 0.1;
@@ -357,7 +357,8 @@ nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t
                    .unknowns = unknowns,
                    .hit = nh_arena_alloc(arena, (most_basins + 1) * sizeof *h->hit),
                    .best = INFINITY};
-    nh_points few = *points; /* a search looks thousands of times: three rows per column are enough to see a minimum */
+    /* a search evaluates the ansatz thousands of times: three rows per column are enough to see a minimum */
+    nh_points few = *points;
     if (few.count > search_rows && few.count > 3 * o.ansatz->columns)
         few.count = 3 * o.ansatz->columns > search_rows ? 3 * o.ansatz->columns : search_rows;
     few.beyond = NULL;

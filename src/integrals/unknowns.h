@@ -16,8 +16,8 @@ typedef struct {
 
 typedef struct {
     double *value;      /* one per unknown */
-    double quotient;    /* generalized singular value there */
-    size_t dimension;   /* of the null space there */
+    double quotient;    /* generalized singular value at the hit */
+    size_t dimension;   /* dimension of the null space at the hit */
     bool by_pencil, by_search;
     double difference;  /* |pencil - search| / |value| when both found it */
 } nh_hit;
@@ -27,12 +27,12 @@ typedef struct {
     size_t unknowns, count;
     nh_hit *hit;            /* ascending in the first unknown */
     size_t generic;         /* null dimension for generic theta */
-    long evaluations;       /* of the search's objective */
-    double best;            /* smallest objective seen */
+    long evaluations;       /* number of evaluations of the search's objective */
+    double best;            /* the smallest value of the objective */
     bool pencil_applied;    /* the ansatz has the form that the pencil needs */
 } nh_hits;
 
-/* NULL on failure. */
+/* All hits in the intervals of the unknowns.  The caller frees the result.  NULL with an error. */
 nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
                           size_t unknowns, const nh_unknown *unknown, const nh_options *options, nh_error *error);
 void nh_hits_free(nh_hits *hits);

@@ -44,7 +44,7 @@ void nh_answer_cleanup(void)
     nh_normal_cleanup();
 }
 
-/* ---- of a run that has no result ---- */
+/* ---- a run that was ended before it had a result ---- */
 
 /* Parts: what is known, in the arena of the request; the system. */
 static void unfinished_free(nh_answer *a) { nh_system_free(a->part[1]); }

@@ -16,11 +16,11 @@ typedef struct {
 } nh_answer_file;
 enum { NH_ANSWER_FILES = 2, NH_ANSWER_PARTS = 3 };
 
-/* A row; what a command does not have is NULL. */
+/* A row of the table; members that a command does not have are NULL. */
 typedef struct {
     const char *name;
     bool analysis; /* it reads an analysis file */
-    /* Are the words of the request known?  Before anything is written. */
+    /* Are the words of the request valid?  Called before anything is written. */
     bool (*check)(const nh_request *request, nh_error *error);
     /* Fills the parts.  False with a message: there is no answer. */
     bool (*create)(nh_answer *answer, nh_error *error);
@@ -29,14 +29,14 @@ typedef struct {
     char *(*json)(const nh_answer *answer);                                   /* a heap string (nh_free) */
     /* A table or code, which is printed in the place of the document; false: this request wants the document. */
     bool (*print)(const nh_answer *answer, nh_text *out);
-    /* Comma-separated values; their name in the folder of -o, where they always stand. */
+    /* Comma-separated values, and their file name in the folder of -o, where they are always written. */
     void (*table)(const nh_answer *answer, nh_text *csv);
     const char *table_name;
     size_t (*files)(const nh_answer *answer, nh_answer_file file[NH_ANSWER_FILES]); /* further ones of the folder */
     void (*picture)(const nh_answer *answer, nh_text *svg);
-    /* Lines for standard error; printed: the table is printed or stands in a file. */
+    /* Writes lines to standard error; printed: the table is printed or written to a file. */
     void (*notes)(const nh_answer *answer, bool verbose, bool printed, nh_text *out);
-    /* The exit code, with a message where the answer is not all that was asked for. */
+    /* The exit code, with a message where the answer is incomplete or negative. */
     int (*code)(const nh_answer *answer, nh_error *error);
 } nh_answer_kind;
 
@@ -45,8 +45,8 @@ struct nh_answer {
     const nh_request *request;
     nh_run run;                  /* for its documents */
     void *part[NH_ANSWER_PARTS]; /* results of src/commands, or NULL */
-    bool failed;                 /* a message says why it ends early: its files do not take their places */
-    /* of a scan that several processes share: only words are written of a chunk, and nothing by other processes */
+    bool failed;                 /* a message says why it ended early: its files do not replace earlier ones */
+    /* of a scan that several processes share: a chunk has only words, and other processes write nothing */
     bool words_only, silent;
 };
 
@@ -54,11 +54,11 @@ struct nh_answer {
 const nh_answer_kind *nh_answer_kind_of(const char *command);
 /* The answer to a request whose files are found; the request must outlive it. */
 bool nh_answer_create(nh_answer *answer, const nh_request *request, nh_error *error);
-/* That the computation was ended before there was an answer: the system, and the step at which that was.  False: not
-   even the system is known. */
+/* Says that the computation was ended before there was an answer: the system, and the step that was interrupted.
+ * False: not even the system is known. */
 bool nh_answer_unfinished(nh_answer *answer, const nh_request *request);
 void nh_answer_free(nh_answer *answer);
-/* What the algebra keeps for this thread is given back. */
+/* Frees compiled machine code, and the memory that FLINT keeps for this thread. */
 void nh_answer_cleanup(void);
 
 /* The next figure of a page, a file of its own; false after the last.  Does a text begin as the figure of that number

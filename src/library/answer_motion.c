@@ -7,7 +7,7 @@
 #include "document/simulation.h"
 #include "library/answer_internal.h"
 
-/* Motions that are computed one by one: a table or a JSON, and their picture. */
+/* Motions that are computed one by one: a table or a JSON document, and their picture. */
 typedef struct {
     nh_text table;
     nh_json *root; /* or NULL */
@@ -214,7 +214,8 @@ static void simulation_picture(const nh_answer *a, nh_text *svg)
     nh_svg_plot(&plot, svg);
 }
 
-/* The model that was chosen, what never matters, and the measured cost against the whole model. */
+/* Writes the chosen model, the parameters and bodies without influence, and the measured cost relative to the whole
+ * model. */
 static void put_scene(const nh_simulation *s, nh_text *out)
 {
     nh_text_addf(out, "nhsym: %s\n", s->scene);
@@ -226,7 +227,7 @@ static void put_scene(const nh_simulation *s, nh_text *out)
             s->whole_difference);
 }
 
-/* What happened when, the first few of it. */
+/* Writes the first few events. */
 static void put_events(const nh_simulation *s, nh_text *out)
 {
     enum { most = 20 };

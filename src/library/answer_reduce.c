@@ -67,7 +67,7 @@ static bool reduction_print(const nh_answer *a, nh_text *out)
     return true;
 }
 
-/* All stages were to be compared with the full motion, to the end, and to agree. */
+/* Gives an error unless all stages were compared with the full motion, to the end, and agree. */
 static void complain(const nh_reduction *r, double accuracy, nh_error *error)
 {
     for (size_t i = 0; i < r->stages && error->code == NH_OK; i++) {
@@ -101,7 +101,7 @@ const nh_answer_kind nh_answer_reduce = {
 
 /* ---- export ---- */
 
-/* Documents may be all that is wanted. */
+/* The documents of an export are optional. */
 static bool target_given(const nh_request *q) { return q->to || q->folder || !q->documents; }
 
 static bool export_check(const nh_request *q, nh_error *error)
@@ -150,7 +150,7 @@ static void put_target(const nh_answer *a, nh_export_target target, nh_text *out
     nh_export_text(a->part[0], target, prefix_of(a), &a->run, out);
 }
 
-/* As a text what there is, in a few lines; there is no page. */
+/* The text of an export: a list of its functions in a few lines.  It has no page. */
 static void export_write(const nh_answer *a, nh_pen_style style, nh_text *out)
 {
     if (style.form == NH_PEN_LATEX) put_target(a, NH_EXPORT_LATEX, out);

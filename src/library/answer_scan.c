@@ -30,7 +30,7 @@ static bool scan(nh_answer *a, nh_error *error)
         return false;
     }
     a->part[0] = x;
-    a->run.command = x->question; /* who computed it, and where to, is no part of the answer */
+    a->run.command = x->question; /* the process and the folder are no part of the answer */
     a->words_only = x->chunked;
     a->silent = x->silent;
     return true;

@@ -27,7 +27,7 @@ static void analysis_free(nh_answer *a) { nh_analysis_free(a->part[0]); }
 
 static void analysis_write(const nh_answer *a, nh_pen_style style, nh_text *out)
 {
-    nh_analysis_write(a->part[0], style, out); /* it has a run of its own */
+    nh_analysis_write(a->part[0], style, out); /* an analysis has a run of its own */
 }
 
 static char *analysis_json(const nh_answer *a) { return nh_analysis_json(a->part[0]); }

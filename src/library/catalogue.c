@@ -91,7 +91,7 @@ bool nh_catalogue_names(const char *path, const char *of, nh_text *out, nh_error
     return true;
 }
 
-/* %s: the name, twice. */
+/* The text of a new system file; %s: the name, twice. */
 static const char pattern[] =
     "# A system for nhsym.  `nhsym analyze %s.yaml` analyses it; change it line by line.\n"
     "name: %s\n"
@@ -190,7 +190,7 @@ static bool explain_beginning(const char *word, nh_text *out)
     return found;
 }
 
-/* Does `text` have the word or words, in capitals or not, between other signs? */
+/* Does `text` contain the word or words, in capitals or not, between other characters? */
 static bool has_words(const char *text, const char *words)
 {
     size_t length = strlen(words);
@@ -248,7 +248,7 @@ bool nh_catalogue_explain(nh_arena *arena, size_t words, const char *const *give
                 : nh_error_hint(error, "`nhsym explain` lists the topics");
 }
 
-/* What --of takes in a command. */
+/* The words that --of accepts in a command. */
 static void values_of(const char *command, const char *between, nh_text *out)
 {
     static const char *const fixed[][4] = {{"verify", "constraint", "equations"},

@@ -1,4 +1,4 @@
-/* library_answers: the commands of the public interface, and what they found as documents. */
+/* library_answers: the commands of the public interface, and their results as documents. */
 #include <math.h>
 #include <string.h>
 
@@ -84,7 +84,7 @@ nh_classified *nh_classify_over(nh_problem *p, const char *parameter, bool shape
 {
     nh_request q = p->request;
     nh_error_clear(error);
-    if (strchr(parameter, ',')) /* several have an answer of another kind */
+    if (strchr(parameter, ',')) /* several systems have an answer of another kind */
         return nh_fail(error, NH_USAGE, "", "over: expected the name of one parameter, found `%s`", parameter), NULL;
     q.over = parameter;
     q.shape = shape;

@@ -15,8 +15,8 @@ struct nh_problem {
     nh_system   *system;
 };
 
-/* False: memory ended before the job did (base/recovery.h).  A thread in which that has happened once does further jobs
-   on a thread of their own, because what FLINT keeps for this one may be in disorder. */
+/* False: memory ended before the job did (base/recovery.h).  After that has happened once in a thread, it does further
+ * jobs on a new thread, because FLINT's memory for the old one may be inconsistent. */
 bool nh_library_run(void (*job)(void *), void *data);
 /* The same, with a message. */
 bool nh_library_try(void (*job)(void *), void *data, nh_error *error);

@@ -158,7 +158,7 @@ static bool read_options(nh_request *r, const nh_question *q, nh_error *error)
     return error->code == NH_OK;
 }
 
-/* A text is from now on what its name stands for. */
+/* From now on the name stands for this text. */
 static const char *named_text(nh_arena *arena, const char *name, const char *usual, const char *text)
 {
     name = nh_arena_strdup(arena, name ? name : usual);

@@ -1,4 +1,4 @@
-/* library_results: what a caller reads of results, number by number. */
+/* library_results: access to results, number by number. */
 #include <math.h>
 #include <string.h>
 

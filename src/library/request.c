@@ -151,7 +151,7 @@ bool nh_request_system(nh_request *q, const char *word, nh_error *error)
 
 void nh_request_remarks(const nh_request *q, const char *head, nh_text *out)
 {
-    nh_error ignored; /* whoever reads it says what is wrong */
+    nh_error ignored; /* the reader of the file says what is wrong */
     nh_error_clear(&ignored);
     nh_system *system = nh_system_read(q->system_path, q->settings, q->setting, &ignored);
     for (size_t i = 0; system && i < system->notes; i++) nh_text_addf(out, "%s%s\n", head, system->note[i]);

@@ -1,5 +1,5 @@
 /* request: all that can be asked of one system: the command line and the questions of nhsym.h fill it, and the rows of
- * library/answer.h read it.  Members that are NULL, 0 or false are not given. */
+ * library/answer.h read it.  Members that are NULL, 0 or false were not given. */
 #ifndef NH_LIBRARY_REQUEST_H
 #define NH_LIBRARY_REQUEST_H
 
@@ -10,8 +10,8 @@
 #include "motion/method.h"
 #include "system/embedding.h"
 
-/* A value of an option in the text that completes a system file: there from byte `begin` on, in what was typed from
-   byte `offset` on. */
+/* A value of an option in the text that completes a system file: it begins at byte `begin` there, and at byte `offset`
+ * of the option's value. */
 typedef struct {
     size_t begin, offset;
     const char *option, *typed;
@@ -74,9 +74,9 @@ bool nh_request_input(nh_request *request, const char *name, const char *text, n
 
 /* The file of a system by name or path, with the additions. */
 bool nh_request_system(nh_request *request, const char *word, nh_error *error);
-/* What the system file makes its reader notice: lines that begin with `head`. */
+/* Writes the notes about the system file: lines that begin with `head`. */
 void nh_request_remarks(const nh_request *request, const char *head, nh_text *out);
-/* An error in an addition is one of the command line: the message shows the option and its value as it was typed. */
+/* An error in an addition is an error of the command line: the message shows the option and its value. */
 void nh_request_blame(const nh_request *request, nh_error *error);
 
 /* The file of an analysis by name or path; the one that has the name of the system, if there is one: a system by path

@@ -10,34 +10,36 @@ enum { most_confirmations = 5 };
 static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const implicit_pair[2] = {
                                                                                   "CVODE BDF", "ARKODE ESDIRK"};
 static const double loosest = nh_accuracy_loosest, tightest = nh_accuracy_tightest, step = nh_accuracy_step;
-static const double least_exponent = 0.2, most_exponent = 0.9; /* with which differences fall */
-/* In units of base/effort.h. */
-/* a first run that needs more than this is compared with CVODE BDF, which must need so many times less */
+/* range of the measured exponent with which the differences of runs fall */
+static const double least_exponent = 0.2, most_exponent = 0.9;
+/* Units of base/effort.h.  A first run above `quick` is compared with CVODE BDF, which takes over where it needs
+ * `faster` times less work. */
 static const double quick = 1e8, faster = 20;
-static const double patience = 10;        /* times what was measured: the first run may need so much, or `quick` */
-/* other ways are measured for a motion that needs so much by the winner of the race, */
+/* the work of a first run, as a multiple of the measured work; `quick` is always allowed */
+static const double patience = 10;
+/* other methods are measured for a motion that needs so much work by the method of the first run, */
 static const double worthwhile = 5e7;
-static const double pilot_share = 0.25;  /* with such a part of it; */
-/* where there are more motions like it: what one needs at least, and how many of them count */
+static const double pilot_share = 0.25;  /* and they may take so large a part of that work */
+/* with more motions like this one: the least work of one motion that is worth measuring, and how many of them count */
 static const double shortest = 5e5, most_times = 16;
-static const double more_steps = 0.8;     /* (n1/n2)^order at most, from one number of fixed steps to the next */
+static const double more_steps = 0.8;     /* greatest (n1/n2)^order from one number n1 of fixed steps to the next, n2 */
 
 typedef struct {
     const nh_trajectory_request *request;
     const nh_integration_plans *ways;
     double eps;
     nh_accuracy *out;
-    /* the one that was given, or measured and chosen; NULL: none was, or it did not do here */
+    /* the plan that was given, or measured and chosen; NULL: there is none, or it failed for this motion */
     const nh_integration_plan *way;
     nh_pilot_runs pilot;
-    nh_trajectory_request own; /* with the model that pilot runs had derived */
-    double first;          /* units of the whole motion by the winner of the race */
+    nh_trajectory_request own; /* with the model that the pilot runs derived */
+    double first;          /* units of the whole motion by the method of the first run */
     nh_programs *programs; /* for methods with a fixed step */
-    double *floor;         /* least scales of what is wanted */
-    bool measured_terms;   /* they are among them */
+    double *floor;         /* least scales of the wanted expressions */
+    bool measured_terms;   /* `floor` contains the terms of sums that may cancel */
     const nh_method *method[2];
-    bool doubtful; /* another method is to confirm */
-    bool stopped;  /* the first run of the race, by its limit */
+    bool doubtful; /* another method must confirm the result */
+    bool stopped;  /* the first run ended at its limit of work */
 } search;
 
 static double span_of(const nh_trajectory_request *q) { return fabs(q->times[q->count - 1] - q->times[0]); }
@@ -52,20 +54,20 @@ static double spacing_of(const nh_trajectory_request *q)
 
 static bool fixed(const search *s) { return s->way && s->way->method->order; }
 
-/* Of a method with fixed steps, which end at the outputs: how many there are from one to the next. */
+/* The number of steps between two outputs, of a method with fixed steps, whose steps end at the outputs. */
 static double steps_at(const search *s, double tolerance)
 {
     return fmax(1, ceil(spacing_of(s->request) / nh_integration_plan_setting(s->way, tolerance) * (1 - 1e-9)));
 }
 
-/* By how much the errors of a run fall: the ratio of the tolerances, or that of the steps to the order of the
-   method. */
+/* The factor by which the errors of a run fall: the ratio of the tolerances, or that of the steps to the order of the
+ * method. */
 static double ratio_of(const search *s, double coarse, double fine)
 {
     return fixed(s) ? pow(steps_at(s, coarse) / steps_at(s, fine), s->way->method->order) : fine / coarse;
 }
 
-/* From one tolerance to the next, at least to more steps. */
+/* The next tolerance; of a method with fixed steps one that gives more steps. */
 static double tighter(const search *s, double coarse, double part)
 {
     double fine = fmax(tightest, coarse * part);
@@ -73,7 +75,7 @@ static double tighter(const search *s, double coarse, double part)
     return fine;
 }
 
-/* The start, beside itself. */
+/* The initial state, slightly perturbed. */
 static nh_state disturbed(const nh_trajectory_request *q, double *q_and_v)
 {
     size_t m = q->model->m;
@@ -116,7 +118,7 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
     return t;
 }
 
-/* Infinity when one motion did not reach its end. */
+/* The difference of two motions; INFINITY when one of them did not reach its end. */
 static double difference(const search *s, const nh_trajectory *a, const nh_trajectory *b)
 {
     if (!a || !b || !a->motion->complete || !b->motion->complete) return INFINITY;
@@ -132,14 +134,14 @@ static void take(search *s, const char *const pair[2])
 
 static bool complete(const nh_trajectory *t) { return t && t->motion->complete; }
 
-/* Units that a run would have needed to its end. */
+/* Units that a run would have needed to reach its end. */
 static double whole(const nh_trajectory_request *q, const nh_trajectory *t)
 {
     double begin = q->times[0], done = t ? (t->motion->end_time - begin) / (q->times[q->count - 1] - begin) : 0;
     return t ? t->motion->effort / fmax(done, 1e-6) : INFINITY;
 }
 
-/* After an interruption: the one that came farther. */
+/* After an interruption: the run that came farther. */
 static nh_trajectory *farther(nh_trajectory *a, nh_trajectory *b)
 {
     bool first = a && (!b || a->motion->count >= b->motion->count);
@@ -147,8 +149,8 @@ static nh_trajectory *farther(nh_trajectory *a, nh_trajectory *b)
     return first ? a : b;
 }
 
-/* The method that confirms one when no second was measured: of the same kind, because what is stiff for one is so for
-   all explicit ones. */
+/* The method that confirms another one when no second one was measured.  It is of the same kind, because a motion that
+ * is stiff for one explicit method is stiff for all. */
 static const nh_method *other_of(const nh_method *method)
 {
     bool implicit = method->family == NH_METHOD_CVODE || method == nh_method_find(implicit_pair[1]);
@@ -156,7 +158,7 @@ static const nh_method *other_of(const nh_method *method)
     return nh_method_find(pair[method == nh_method_find(pair[0])]);
 }
 
-/* The first run of a way; NULL when it does not reach the end with so much effort. */
+/* The first run of an integration plan; NULL when it does not reach the end with so much effort. */
 static nh_trajectory *take_way(search *s, const nh_integration_plan_choice *choice, double effort, double *tolerance)
 {
     nh_error ignored;
@@ -186,7 +188,8 @@ static nh_integration_plan_limits limits_of(const search *s)
         .scene = s->request->smallest, .other = s->request->other != NULL, .spacing = spacing_of(s->request)};
 }
 
-/* What was given; NULL when nothing was, or it does not reach the end with about the work that it needed then. */
+/* The run of a given plan; NULL when none was given, or it does not reach the end with about the work that it needed
+ * when it was measured. */
 static nh_trajectory *take_given(search *s, double *tolerance)
 {
     nh_integration_plan_limits limits = limits_of(s);
@@ -196,7 +199,8 @@ static nh_trajectory *take_given(search *s, double *tolerance)
     return take_way(s, &choice, fmax(quick, patience * choice.way->effort * span_of(s->request)), tolerance);
 }
 
-/* The pair of methods, and its first run: not to its end where it needs much work, then with the explicit pair. */
+/* Chooses the pair of methods, and makes the first run: by the explicit pair, and where that does not reach the end
+ * within `quick`, by the implicit pair with far less work.  Where neither reaches the end the explicit pair is used. */
 static nh_trajectory *race(search *s, double tolerance)
 {
     nh_error ignored;
@@ -208,15 +212,14 @@ static nh_trajectory *race(search *s, double tolerance)
     take(s, implicit_pair);
     nh_trajectory *other =
         run(s, s->method[0], tolerance, true, between(whole(s->request, t) / faster, 1e6, 1e15), &ignored);
-    s->doubtful = complete(other); /* implicit methods can damp what grows: always confirmed */
+    s->doubtful = complete(other); /* implicit methods can damp what grows: another method always confirms them */
     if (s->doubtful || nh_interrupted()) return farther(other, t);
     nh_trajectory_free(other);
     take(s, explicit_pair);
     return t;
 }
 
-/* A state on the way, at which a piece is like the whole: the middle of what there is, or as far as it came.  q_and_v:
-   2m values. */
+/* A state in the middle of the computed part, from which a piece is typical of the whole motion. q_and_v: 2m values. */
 static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double *q_and_v)
 {
     const nh_model *o = s->request->model;
@@ -235,8 +238,8 @@ static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double
     return good ? (nh_state){.t = one.time[0], .q = q_and_v, .v = q_and_v + o->m} : at;
 }
 
-/* Other ways on a piece of the motion, whose first run by the winner of the race is t; the first run of one that saves
-   work, or NULL. */
+/* Measures other methods on a piece of the motion of the first run, t; returns the first run of one that saves work, or
+ * NULL. */
 static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *tolerance)
 {
     if (!s->ways->pilot || !t || !(complete(t) || s->stopped)) return NULL;
@@ -272,7 +275,7 @@ static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *t
     return found;
 }
 
-/* Where nothing was given: the pair of methods, and the first run. */
+/* Where no plan was given: chooses the pair of methods, and returns the first run. */
 static nh_trajectory *choose(search *s, double *tolerance, nh_error *error)
 {
     nh_error ignored;
@@ -291,7 +294,7 @@ static nh_trajectory *choose(search *s, double *tolerance, nh_error *error)
     return farther(other, t);
 }
 
-/* The motion from the start itself, if it can be had. */
+/* The motion from the unperturbed initial state, where it can be computed. */
 static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
 {
     nh_error ignored;
@@ -303,7 +306,7 @@ static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
     return b;
 }
 
-/* Tighten until the estimate is below eps/2; the last trajectory. */
+/* Tightens the tolerance until the estimate is below eps/2; returns the last trajectory. */
 static nh_trajectory *tighten(search *s, nh_error *error)
 {
     double eps = s->eps, coarse = between(nh_accuracy_first * eps, 10 * tightest, loosest), last_difference = 0,
@@ -339,7 +342,7 @@ static nh_trajectory *tighten(search *s, nh_error *error)
         last_ratio = ratio;
         coarse = fine;
         fine = tighter(s, coarse, between(pow(eps / (4 * s->out->estimate), 1.25), 1e-5, step));
-        /* than at the first tolerance */
+        /* at this tolerance the motion is long enough for measurements, as it was not at the first one */
         bool longer = s->out->choice == NH_CHOICE_SHORT && complete(a) && a->motion->effort > worthwhile;
         nh_trajectory *other = longer ? take_surveyed(s, a, &coarse) : NULL;
         if (!other) continue;
@@ -353,7 +356,7 @@ static nh_trajectory *tighten(search *s, nh_error *error)
     return a && !clean && !nh_interrupted() ? undisturbed(s, a) : a;
 }
 
-/* The other method at ever tighter tolerances until it agrees. */
+/* Runs the other method at tighter and tighter tolerances until it agrees. */
 static void confirm(search *s, const nh_trajectory *t)
 {
     nh_error ignored;
@@ -361,7 +364,7 @@ static void confirm(search *s, const nh_trajectory *t)
     double tolerance = s->out->tolerance;
     s->out->second = s->method[1]->name;
     for (int i = 0; i < most_confirmations && (i == 0 || tolerance > tightest) && !(s->out->difference < s->eps); i++) {
-        /* one that agrees is tight enough, whatever the first needed */
+        /* a run that agrees is tight enough, whatever the first method needed */
         tolerance = i == 0 ? fmax(tolerance / 3, s->eps / 100) : fmax(tolerance / 30, tightest);
         nh_trajectory *other = run(s, s->method[1], tolerance, true, 0, &ignored);
         s->out->difference = fmin(s->out->difference, difference(s, t, other));
@@ -385,7 +388,7 @@ static void put_setting(const search *s, const nh_trajectory *t, char *out, size
     else snprintf(out, size, "%s with steps of %.2g", t->method, a->step);
 }
 
-/* Where the choice comes from. */
+/* Where the choice of the method comes from, in words. */
 static void explain_choice(const search *s)
 {
     nh_accuracy *a = s->out;
@@ -452,7 +455,7 @@ static void explain(search *s, const nh_trajectory *t)
                  t->method, a->estimate, a->second, a->difference);
 }
 
-/* How the motion was computed, so that others like it can be. */
+/* Records how the motion was computed, so that others like it can be computed in the same way. */
 static nh_integration_plan way_of(const search *s, const nh_trajectory *t)
 {
     const nh_accuracy *a = s->out;
@@ -491,8 +494,8 @@ static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, 
     return t;
 }
 
-/* What was given or measured tells of another motion, or of a piece of this one: where it does not do here, without
-   it. */
+/* A plan that was given or measured comes from another motion, or from a piece of this one: where it fails here, the
+ * motion is computed without it. */
 nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps,
                                       const nh_integration_plans *ways, nh_accuracy *accuracy, nh_error *error)
 {

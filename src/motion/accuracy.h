@@ -23,44 +23,45 @@
 #include "motion/accuracy_measure.h"
 #include "motion/pilot_runs.h"
 
-/* Origin of the method: the race of two methods; the caller; what was measured for this motion; the race, because the
- * motion is too short to measure anything. */
+/* Origin of the method: a first run chose between an explicit and an implicit pair of methods; the caller gave it; it
+ * was measured for this motion; the first run chose it, because the motion is too short to measure anything. */
 typedef enum { NH_CHOICE_RACE, NH_CHOICE_GIVEN, NH_CHOICE_PILOT, NH_CHOICE_SHORT } nh_accuracy_choice;
 
-/* What may be chosen from. */
+/* The integration plans that may be used. */
 typedef struct {
-    size_t count;                       /* ways that a motion like this one was computed by */
+    size_t count;                       /* plans by which a motion like this one was computed */
     const nh_integration_plan *way;
-    bool pilot;                         /* others may be measured where none of these does */
-    /* motions like this one are to be computed as this one was: measuring pays so much more */
+    bool pilot;                         /* where none of these is good enough, other methods may be measured */
+    /* number of further motions that will use the plan of this one: measuring then saves so many times more */
     double more;
-    /* only the model's own velocities and methods with error control, in pilot runs */
+    /* pilot runs measure only methods with error control, in the model's own velocities */
     bool plain;
     void *context;
-    /* The model in other velocities, where deriving it costs no more than so many units of effort; else NULL.  May be
-       NULL. */
+    /* Derives the model in other velocities, where that costs at most so many units of effort; else NULL. May be
+     * NULL. */
     const nh_model *(*derive)(void *context, double effort);
 } nh_integration_plans;
 
 typedef struct {
     bool held;
-    /* of the motion that is returned: it has a tolerance or a fixed step; the other is NAN */
+    /* tolerance and step of the returned motion: one of them is NAN */
     double wanted, estimate, tolerance, step;
     nh_accuracy_choice choice;
-    bool measured;                      /* the method is the cheapest of those that were measured */
-    const nh_method *other;             /* then: the method of the next, NULL: there is none; */
-    double next;                        /* how many times as much work that one needs; NAN */
-    const char *second;                 /* the method that confirms; NULL: there was no doubt */
-    double difference;                  /* from it; INFINITY when there was none, or it could not compute the motion */
-    size_t quantity;                    /* the wanted expression that is least certain */
-    double size;                        /* of it, along the motion */
+    bool measured;                      /* the method is the cheapest of the measured ones */
+    const nh_method *other;             /* if measured: the method of the second cheapest; NULL: there is none */
+    double next;                        /* and its work relative to that of the cheapest; NAN */
+    const char *second;                 /* the method that confirms the result; NULL: there was no doubt */
+    /* of the confirming run; INFINITY when there was none, or it could not compute the motion */
+    double difference;
+    size_t quantity;                    /* index of the wanted expression with the largest estimated error */
+    double size;                        /* the largest value of this expression along the motion */
     int runs;
     long evaluations;                   /* of all runs, pilot runs included */
-    double effort;                      /* units of base/effort.h of all runs, */
-    double seconds;                     /* and their time, which decides nothing */
-    /* how the motion that is returned was computed, with what it cost and its estimated error */
+    double effort;                      /* units of base/effort.h of all runs */
+    double seconds;                     /* of all runs, by the clock: for reports only */
+    /* the plan of the returned motion, with its measured cost and its estimated error */
     nh_integration_plan way;
-    char why[512];                      /* the choice, or what failed, in words */
+    char why[512];                      /* the choice, or what failed, as a sentence */
 } nh_accuracy;
 
 /* The trajectory of the tightest run, also when the accuracy was not reached (held == false).  request->n must not be

@@ -69,8 +69,8 @@ void nh_accuracy_terms(const nh_trajectory_request *q, const nh_trajectory *t, d
     nh_dynamics_free(d);
 }
 
-/* The largest of the terms of one expression, along a motion of their own that need not be exact: the given one may
-   have left out what they need. */
+/* The largest of the terms of one expression, along a motion that is computed for it at low accuracy: the given motion
+ * may lack states on which the terms depend. */
 static double terms_alone(const nh_trajectory_request *request, nh_ex one)
 {
     static const double loose = 1e-6;

@@ -10,8 +10,8 @@ struct nh_along_values {
     nh_tape *tape;
     nh_tape_work *work;
     double *point;
-    nh_dynamics *other;          /* of a model in other velocities, */
-    nh_along_values *velocities; /* and the coordinate velocities there */
+    nh_dynamics *other;          /* the model in other velocities, and */
+    nh_along_values *velocities; /* its coordinate velocities */
 };
 
 /* ---- in the chart ---- */
@@ -51,7 +51,7 @@ static nh_ex everywhere(const nh_model *o, const nh_ex *inverse, nh_ex e)
     return c->branch ? nh_chart_both_branches(c, e) : e;
 }
 
-/* (t, q, v), of a state (q, v) */
+/* The point (t, q, v) of a state (q, v). */
 static bool point_everywhere(void *context, double t, const double *z, double *point)
 {
     const nh_along_values *v = context;
@@ -60,7 +60,7 @@ static bool point_everywhere(void *context, double t, const double *z, double *p
     return true;
 }
 
-/* The same of a state of another model. */
+/* The point (t, q, v) of a state of another model. */
 static bool point_by_other(void *context, double t, const double *z, double *point)
 {
     nh_along_values *v = context;

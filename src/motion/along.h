@@ -10,10 +10,10 @@ typedef bool nh_to_point(void *context, double t, const double *z, double *point
 
 /* n expressions, compiled for states of one kind. */
 typedef struct nh_along_values nh_along_values;
-/* `place` gives points (t, q, w, u) of the model's chart; `context` must live as long. */
+/* `place` gives points (t, q, w, u) of the model's chart; `context` must outlive the result. */
 nh_along_values *nh_along_values_create(const nh_model *model, nh_to_point *place, void *context, size_t n,
                                         const nh_ex *e);
-/* Of states (q, w), or with `everywhere` (q, v), of the dynamics' model. */
+/* For states (q, w), or with `everywhere` (q, v), of the dynamics' model. */
 nh_along_values *nh_along_values_of(nh_dynamics *dynamics, bool everywhere, size_t n, const nh_ex *e);
 /* Expressions of `model` at states (q, w) of the other dynamics' model of the same system. */
 nh_along_values *nh_along_values_by_other(const nh_model *model, nh_dynamics *other, size_t n, const nh_ex *e);
@@ -22,7 +22,7 @@ void nh_along_values_free(nh_along_values *values);
 bool nh_along_values_at(nh_along_values *values, double t, const double *z, double *value);
 /* value[i * n + k]: expression k at output i; false as above. */
 bool nh_along_values_outputs(nh_along_values *values, const nh_motion *motion, double *value);
-/* The same at the zeros that were watched for. */
+/* The same at the recorded zeros of the motion. */
 bool nh_along_values_events(nh_along_values *values, const nh_motion *motion, double *value);
 
 /* value[i * n + k]: expression k of the chart at output i of a motion in (q, w) or in (q, v).  False where implicit
@@ -33,7 +33,7 @@ bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh
    cannot be found. */
 bool nh_states_in_coordinates(nh_dynamics *dynamics, const nh_motion *motion, double *states);
 
-/* The whole motion, with its zeros and its end, in (q, v) instead of (q, w). */
+/* The whole motion with its zeros and its end state, in (q, v) instead of (q, w). */
 bool nh_motion_to_coordinates(nh_dynamics *dynamics, nh_motion *motion);
 
 #endif

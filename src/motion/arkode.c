@@ -20,7 +20,7 @@
 #include "motion/sundials.h"
 #include "motion/stepping.h"
 
-/* ARKODE 6.1, which comes with SUNDIALS 7.1, has these in common for all its steppers. */
+/* These functions are common to all steppers since ARKODE 6.1, which comes with SUNDIALS 7.1. */
 #if NH_SUNDIALS_SINCE(7, 1)
 #define set_stop_time ARKodeSetStopTime
 #define evolve        ARKodeEvolve
@@ -53,10 +53,10 @@
 #define jacobian_of_every ARKStepSetJacEvalFrequency
 #endif
 
-/* of the error test, in one step: at the edge of its stability a pair shortens the step often, by little */
+/* failures of the error test in one step: at the edge of its stability a pair shortens its step often and by little */
 enum { most_fails = 100 };
-static const double newton = 0.01; /* of the tolerance: how well the equations of a step are solved */
-/* of the tolerance: what a step across a kink may spoil; more than what solving leaves */
+static const double newton = 0.01; /* how exactly the equations of a step are solved, as a part of the tolerance */
+/* the error that a step across a kink may have, as a part of the tolerance: above the error of the solver */
 static const double part_across = 1e-3, part_across_implicit = 0.1;
 
 typedef struct {
@@ -74,13 +74,13 @@ typedef struct {
     size_t count;
     nh_guards guards;
     nh_kinks kinks;
-    double *old;       /* before the last step, where guards are watched */
-    double each;       /* units of effort of a right-hand side, with what is done for it */
+    double *old;       /* the state before the last step, where guards are watched */
+    double each;       /* units of effort of a right-hand side, with the sums that belong to it */
     long evaluations;
 } pairs_work;
 
-/* Units of effort (base/effort.h): of a step, of a stage, and of a stage per number of the state; the same of implicit
- * ones, with the linear equations, whose factors are computed once per step. */
+/* Units of effort (base/effort.h) of a step, of a stage, and of a stage per number of the state; then the same of
+ * implicit methods with their linear equations, whose matrix is factored once per step. */
 static const double step_units[] = {600, 3400}, stage_units[] = {100, 150}, stage_vectors[] = {10, 40}, flop = 1.4;
 
 static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
@@ -88,11 +88,11 @@ static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
     pairs_work *work = user;
     work->evaluations++;
     nh_effort_add(work->each);
-    /* not where derivatives are formed as differences across it */
+    /* not where differences across a wall form derivatives */
     if (!work->solver || work->problem->jacobian) nh_kinks_see(&work->kinks, t, NV_DATA_S(state));
     bool good = work->problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), work->problem->context);
     for (size_t i = 0; i < work->problem->size && good; i++) good = isfinite(NV_DATA_S(rate)[i]);
-    return good ? 0 : 1; /* "recoverable": a smaller step is tried */
+    return good ? 0 : 1; /* "recoverable": ARKODE tries a smaller step */
 }
 
 static int call_weight(N_Vector state, N_Vector weight, void *user)
@@ -191,9 +191,9 @@ static void pairs_stuck(nh_motion *motion, void *context)
     nh_motion_note(motion, "the steps vanish near t = %.10g: the solution is singular there", motion->end_time);
 }
 
-/* Newton's iteration with a dense matrix, made anew for every step: with an old one the steps after a short one, as
- * those that end at the output times, passed unsolved (tests/test_method.c, stiff motion: off by 0.2 at 1e-6).  Rates
- * are deduced from the solution: evaluated there they would have its error times the stiffness. */
+/* Newton's iteration with a dense matrix, made anew for every step.  With an old matrix the steps after a short one,
+ * such as those that end at the output times, passed unsolved (tests/test_method.c, stiff motion: off by 0.2 at 1e-6).
+ * Rates are deduced from the solution: evaluated there they would have its error times the stiffness. */
 static bool set_up_implicit(pairs_work *work)
 {
     sunindextype size = (sunindextype)work->problem->size;

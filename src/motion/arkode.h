@@ -8,7 +8,7 @@
 
 typedef enum { NH_DORMAND_PRINCE_5, NH_VERNER_6, NH_FEHLBERG_8, NH_ESDIRK_5 } nh_arkode_method;
 
-/* As nh_flow. */
+/* Integrates as nh_flow does, by the pair of this name. */
 nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, const double *initial, size_t count,
                      const double *times, const nh_flow_options *options, nh_error *error);
 

@@ -11,7 +11,7 @@
 #include "base/clock.h"
 #include "base/effort.h"
 
-/* that BDF may need where the pair fails; part of the time after which work is extrapolated */
+/* work that BDF may always do where the pair fails; part of the time after which the pair's work is extrapolated */
 static const double least_effort = 1e6, least_done = 1e-6;
 
 typedef struct {
@@ -21,7 +21,8 @@ typedef struct {
     size_t count;
     double begin, now;    /* units at the start; time of the last evaluation */
     bool tried;
-    nh_motion *stiff;     /* by BDF, complete or ended by a guard or at a singular place; NULL: not stiff */
+    /* the motion by BDF, complete or ended by a guard or at a singular place; NULL: BDF does not take over */
+    nh_motion *stiff;
 } attempt;
 
 static bool rate(double t, const double *z, double *out, void *context)
@@ -45,7 +46,7 @@ static bool cancelled(const attempt *a)
     return a->options->cancelled && a->options->cancelled(a->options->cancel_context);
 }
 
-/* BDF with so much work. */
+/* Runs BDF with at most so much work. */
 static void try_stiff(attempt *a, double effort)
 {
     nh_flow_options options = *a->options;
@@ -59,14 +60,14 @@ static void try_stiff(attempt *a, double effort)
     else nh_motion_free(motion);
 }
 
-/* Units that the pair would need to the end. */
+/* Units that the pair would need to reach the end. */
 static double whole(const attempt *a, double time, double effort)
 {
     double span = a->times[a->count - 1] - a->times[0], done = span != 0 ? (time - a->times[0]) / span : 1;
     return effort / fmax(done, least_done);
 }
 
-/* Polled between steps of the pair: does BDF take over? */
+/* Called between the steps of the pair: does BDF take over? */
 static bool give_up(void *context)
 {
     attempt *a = context;
@@ -75,7 +76,7 @@ static bool give_up(void *context)
     return a->stiff || cancelled(a);
 }
 
-/* A motion of the pair that ended by itself before its work reached the limit: short of steps, or of digits. */
+/* A motion of the pair that ended before its work reached the limit: the steps or the digits did not suffice. */
 static bool may_be_stiff(const attempt *a, const nh_motion *motion)
 {
     return motion && !a->tried && !motion->complete && motion->guard_hit < 0 && !motion->singular &&

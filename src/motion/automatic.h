@@ -13,11 +13,12 @@
    must need. */
 static const double nh_automatic_quick = 1e8, nh_automatic_faster = 20;
 
-/* As nh_method_flow.  Guards end the motion.  *used: the method of the motion that is returned; may be NULL. */
+/* Integrates as nh_method_flow does; guards end the motion.  Writes the method of the returned motion to *used unless
+ * that is NULL. */
 nh_motion *nh_automatic(const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
                         const nh_flow_options *options, const nh_method **used, nh_error *error);
 
-/* By the given method, or as above where it is NULL. */
+/* The same by the given method, or by the automatic choice where it is NULL. */
 nh_motion *nh_automatic_or(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count,
                            const double *times, const nh_flow_options *options, const nh_method **used,
                            nh_error *error);

@@ -7,17 +7,20 @@
 #include "graph/diff.h"
 #include "exact/walls.h"
 
-static const double smallest_slope = 0.03; /* of a current, relative to the start, below which its state loses digits */
+/* least slope of a current relative to its slope at the start: below it the state that it determines loses digits */
+static const double smallest_slope = 0.03;
 
-static const double same_rows = 1e-9;      /* relative difference of two forms of one row that is rounding */
+static const double same_rows = 1e-9;      /* relative difference of two forms of one row that counts as rounding */
 
-static const double rounding = 1e-13;      /* of a current beside its slope, where its state is zero */
+/* error of a state that is zero at the start, as a part of the current over its slope, that counts as rounding */
+static const double rounding = 1e-13;
 
 static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 + j]; }
 
 /* ---- core, quadratures, rest ---- */
 
-/* Peel off, layer by layer, what no remaining state reads; the layer that goes last can be integrated first. */
+/* Removes, layer by layer, the states that no remaining state depends on.  The layer that is removed last can be
+ * integrated first. */
 static void sort_states(nh_closed_subsystem *s, const nh_dependency_graph *w)
 {
     bool *left = nh_alloc_array(w->states, sizeof *left), *layer = nh_alloc_array(w->states, sizeof *layer);
@@ -89,7 +92,8 @@ static bool rows_at_zero(const nh_closed_subsystem *s, nh_ex *e)
     return good;
 }
 
-/* Dropped states feed nothing: any regular values will do for them, and what is then constant need not be computed. */
+/* Compiles expressions with regular values for the dropped states, on which they do not depend: constants need not be
+ * computed then. */
 static nh_tape *frozen_tape(const nh_closed_subsystem *s, size_t n, const nh_ex *e)
 {
     const nh_model *o = s->model;
@@ -201,8 +205,8 @@ struct nh_closed_subsystem_run {
     nh_tape_work *rate, *jacobian, *removed, *wall;
     const nh_flow_problem *whole;
     double *point; /* (t, q, w, u, c): dropped states at their initial values, implicit velocities at their last ones */
-    long failed;           /* the level that does not determine its state; -1 */
-    double *level, *slope; /* states that currents determine, and the slopes after them; the slopes at the start */
+    long failed;           /* the level that does not determine its state; -1: none */
+    double *level, *slope; /* the states that currents determine, then the slopes; the slopes at the start */
 };
 
 nh_closed_subsystem_run *nh_closed_subsystem_run_create(const nh_closed_subsystem *s, double t, const double *z0)
@@ -226,7 +230,7 @@ nh_closed_subsystem_run *nh_closed_subsystem_run_create(const nh_closed_subsyste
     nh_tape_work_free(work);
     nh_tape_eval(s->removed, run->removed, run->point, run->level);
     memcpy(run->slope, run->level + s->levels, s->levels * sizeof *run->slope);
-    for (size_t k = 0; k < s->levels && run->failed < 0; k++) { /* does it give back what was there? */
+    for (size_t k = 0; k < s->levels && run->failed < 0; k++) { /* does the inverse return the value that was there? */
         double at = z0[s->state[s->kept + k]];
         double allowed = at != 0 ? same_rows * fabs(at) : rounding * fabs(run->point[width + k] / run->slope[k]);
         if (!(fabs(run->level[k] - at) <= allowed)) run->failed = (long)k;

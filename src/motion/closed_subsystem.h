@@ -21,38 +21,40 @@ typedef struct {
     size_t levels;                  /* states that conserved currents determine */
     size_t *state; /* states, as indices into (q, w): the core, then the quadratures in an order in which they can be
                                        integrated, then those that currents determine, then those dropped */
-    bool implicit;                  /* implicit velocities are needed */
-    /* equations and what is watched are analytic for all kept states: the end of a chart is none for them */
+    bool implicit;                  /* the equations contain implicit velocities */
+    /* equations and watched expressions are analytic in all kept states: the end of a chart does not end the motion */
     bool smooth;
     nh_dependency_graph graph;
-    /* of the kept states, over points (t, q, w, u, c); NULL when nothing is kept; no Jacobian where it is long */
+    /* rates of the kept states over points (t, q, w, u, c), NULL when nothing is kept; the Jacobian is NULL where it is
+     * long */
     nh_tape *rate, *jacobian;
     /* values and slopes of the levels over the same points; the currents over (t, q, w, u) */
     nh_tape *removed, *currents;
-    size_t walls;                   /* of the rates of the kept states (exact/walls.h) */
+    size_t walls;                   /* walls of the rates of the kept states (exact/walls.h) */
     nh_tape *wall;                  /* over the same points as rate; NULL: there are none */
-    nh_tape *rate_of_all;           /* of all states, over (t, q, w, u) */
+    nh_tape *rate_of_all;           /* rates of all states, over (t, q, w, u) */
     size_t instructions, instructions_of_all; /* of the right-hand sides */
 } nh_closed_subsystem;
 
-/* n watched expressions of the chart, and conserved currents that may be used (there may be none).  Never fails: the
-   whole model is a scene of itself. */
+/* The subsystem for n watched expressions of the chart; conserved currents (there may be none) may determine states.
+ * Never fails: the whole model is a closed subsystem of itself.  Keeps the model, which has to outlive it; the caller
+ * frees it. */
 nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *model, size_t n, const nh_ex *watched, size_t currents,
                                                 const nh_ex *current);
 void nh_closed_subsystem_free(nh_closed_subsystem *scene);
 
-/* The equations of the kept states.  z0: m + n values at time t; those of the dropped states stay what they are,
- * currents have the values that they have there.  Free what comes back last. */
+/* The equations of the kept states, from z0 (m + n values) at time t.  Dropped states keep their initial values, and
+ * currents the values that they have there.  The caller frees the result before the subsystem. */
 typedef struct nh_closed_subsystem_run nh_closed_subsystem_run;
 nh_closed_subsystem_run *nh_closed_subsystem_run_create(const nh_closed_subsystem *scene, double t, const double *z0);
 void nh_closed_subsystem_run_free(nh_closed_subsystem_run *run);
-/* As nh_dynamics_jit. */
+/* As nh_dynamics_jit and nh_dynamics_words. */
 void nh_closed_subsystem_run_jit(nh_closed_subsystem_run *run, double patience);
 const char *nh_closed_subsystem_run_words(const nh_closed_subsystem_run *run);
 /* The level whose current does not determine its state, at the start or at the last evaluated point; -1: none. */
 long nh_closed_subsystem_run_failed(const nh_closed_subsystem_run *run);
-/* `whole`: the problem of the whole model, whose guards are watched unless the scene is smooth; it must live as long as
-   the run.  May be NULL. */
+/* The problem for the integrators.  `whole`: the problem of the whole model, whose guards are watched unless the
+ * subsystem is smooth; it must outlive the run.  May be NULL. */
 nh_flow_problem nh_closed_subsystem_problem(nh_closed_subsystem_run *run, const nh_flow_problem *whole);
 /* The point (t, q, w, u) that belongs to the kept states z; width entries.  False when the implicit velocities cannot
  * be found, or a current no longer determines its state. */

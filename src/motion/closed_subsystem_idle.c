@@ -64,7 +64,7 @@ static void influence_of(const nh_model *o, nh_ex L, nh_ex *influence, nh_ex *mo
     nh_free(p);
 }
 
-/* Does the sum of the terms of factor[i] e[i] vanish, to many digits more than its terms have in common by chance? */
+/* Does the sum of factor[i] e[i] vanish to more digits than its terms cancel by chance? */
 static bool cancels(const nh_model *o, nh_ball *ball, size_t n, const nh_ex *factor, const nh_ex *e)
 {
     nh_dag *d = o->dag;
@@ -105,8 +105,8 @@ static bool vanishes_for_kept(const nh_closed_subsystem *s, nh_ball *ball, const
     return good;
 }
 
-/* With currents: are those states a closed system without them, too?  Then their rates do not depend on what is
-   dropped. */
+/* With currents: are those states a closed subsystem without the currents as well?  Then their rates do not depend on
+ * dropped states. */
 static bool closed_without_currents(const nh_closed_subsystem *s, nh_ball *ball)
 {
     const nh_model *o = s->model;
@@ -120,8 +120,8 @@ static bool closed_without_currents(const nh_closed_subsystem *s, nh_ball *ball)
     return good;
 }
 
-/* A body whose weight changes nothing at random points, and that moves with something dropped (else what is watched may
-   be its energy). */
+/* A body whose weight changes nothing at random points, and that moves with a dropped state (otherwise its energy may
+ * be watched). */
 static bool body_has_no_influence(const nh_closed_subsystem *s, size_t body)
 {
     const nh_model *o = s->model;
@@ -145,7 +145,8 @@ static bool body_has_no_influence(const nh_closed_subsystem *s, size_t body)
     return good && moves;
 }
 
-/* By the parameters of its mass and inertia, where it has some; else by what its weight changes. */
+/* Has the body no influence?  Judged by the parameters of its mass and inertia where it has some; otherwise by its
+ * weight. */
 static bool body_is_idle(const nh_closed_subsystem *s, size_t body, const bool *idle)
 {
     const nh_model *o = s->model;

@@ -20,7 +20,7 @@
 #include "motion/sundials.h"
 #include "motion/stepping.h"
 
-enum { most_fails = 40 }; /* of the error test in one step: at a jump it is shortened many times */
+enum { most_fails = 40 }; /* failures of the error test in one step: at a jump the step is shortened many times */
 
 /* ---- CVODE ----
  *
@@ -30,8 +30,8 @@ enum { most_fails = 40 }; /* of the error test in one step: at a jump it is shor
  *     T = 1000    1.1 ms, 820 rates, 2e-9       51 ms, 37577 rates, 9e-11
  * because the fixed-point iteration limits the steps once the motion has become steady. */
 
-/* Units of effort: of a step; of a right-hand side with its iteration, and the same per number of the state; of the
-   factors of the linear equations. */
+/* Units of effort: of a step; of a right-hand side with its iteration, and the same per number of the state; of
+ * factoring the matrix of the linear equations. */
 static const double cvode_step = 800, cvode_rate = 80, cvode_vectors = 90, cvode_flop = 0.3, cvode_factor = 100;
 
 typedef struct {
@@ -39,10 +39,12 @@ typedef struct {
     const nh_flow_options *options;
     nh_sundials sundials;
     void *cvode;
-    N_Vector state, inside; /* now; at a time in the last step, whose end the next one begins from */
+    /* the current state; the state at a time in the last step, from whose end the next one begins */
+    N_Vector state, inside;
     nh_sizes sizes;
     nh_kinks kinks;
-    /* a wall: what a one-step method made of the last step, behind which the next one starts anew; NULL: it goes on */
+    /* across a wall: the motion of the last step by a one-step method, behind which the next step starts anew; else
+     * NULL */
     nh_motion *across;
     double *old;       /* the state before a step */
     size_t count;
@@ -54,7 +56,7 @@ typedef struct {
     double rtol;
     double each; /* units of effort of a right-hand side, with the solution of the linear equations */
     long evaluations, jacobians, set_ups;
-    const char *failed; /* what the callbacks could not compute in the last steps, or NULL; at which time and step */
+    const char *failed; /* the function that could not be computed in the last steps, or NULL; at which time and step */
     double failed_at;
     long step, failed_step;
 } cvode_work;
@@ -110,7 +112,7 @@ static int call_guard(sunrealtype t, N_Vector state, sunrealtype *value, void *u
     return not_computed(work, "guard", t);
 }
 
-/* CVODE prints unless it has a handler; warnings (positive codes) tell nothing that the note needs. */
+/* CVODE prints its messages unless it has a handler; warnings (positive codes) are left out of the note. */
 static void explain(int flag, const cvode_work *work, nh_motion *motion)
 {
     double t = motion->end_time;
@@ -155,7 +157,7 @@ static nh_step end_at_guard(double t, nh_motion *motion, cvode_work *work)
     return NH_STEP_LAST;
 }
 
-/* The factorisations since the last look. */
+/* The number of factorisations since the last call. */
 static void count_set_ups(cvode_work *work)
 {
     long now = 0;
@@ -176,7 +178,7 @@ static bool cvode_state(double time, double *state, void *context)
     return true;
 }
 
-/* Behind a wall, of whose other side the last steps know nothing. */
+/* Starts anew behind a wall: the last steps do not describe the motion there. */
 static bool start_anew(cvode_work *work)
 {
     double t = work->across->end_time;
@@ -198,7 +200,7 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
     }
     memcpy(work->old, NV_DATA_S(work->state), work->problem->size * sizeof *work->old);
     work->step = motion->steps;
-    if (work->step > work->failed_step + NH_STUCK_AFTER) /* so many good steps since: no longer of interest */
+    if (work->step > work->failed_step + NH_STUCK_AFTER) /* after so many good steps the message is outdated */
         work->failed = NULL;
     int flag = CVode(work->cvode, work->stop, work->state, time, CV_ONE_STEP);
     motion->evaluations = work->evaluations;

@@ -8,8 +8,8 @@
 #include "exact/normal.h"
 
 static const double seems_zero = 1e-11; /* relative size below which a derivative may be identically zero */
-static const double ball_digits = 40;   /* to which it must vanish when its normal form is too large */
-/* least ratio of |A| at the probes to its largest: a state is determined everywhere */
+static const double ball_digits = 40;   /* digits to which it must vanish when its normal form is too large */
+/* least ratio of |A| at the probes to its largest value: above it a current determines its state everywhere */
 static const double steady = 0.02;
 enum { ball_bits = 256, ball_points = 4, most_terms = 4000, cost_of_state = 10 };
 
@@ -34,7 +34,7 @@ nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *w, size_t n, const 
     return tape;
 }
 
-/* n expressions at all probes, constants as they are there: out[p * n + i]. */
+/* n expressions at all probes, with the constants of these points: out[p * n + i]. */
 static double *at_probes(const nh_dependency_graph *w, size_t n, const nh_ex *e)
 {
     const nh_model *o = w->model;
@@ -89,7 +89,7 @@ static bool is_zero(const nh_dependency_graph *w, nh_ex d)
            vanishes_in_balls(w, d);
 }
 
-/* ---- who feeds whom ---- */
+/* ---- which state feeds which ---- */
 
 static bool removed(const nh_dependency_graph *w, size_t j)
 {
@@ -98,8 +98,8 @@ static bool removed(const nh_dependency_graph *w, size_t j)
     return false;
 }
 
-/* The rows listed: their feeds, through the implicit velocities too (derivatives follow their rules).  All derivatives
-   in one tape. */
+/* The feeds of the listed rows, also through the implicit velocities (derivatives follow their rules).  One tape has
+ * all derivatives. */
 static void feed_rows(nh_dependency_graph *w, size_t rows, const size_t *row, bool proved)
 {
     const nh_model *o = w->model;
@@ -119,7 +119,7 @@ static void feed_rows(nh_dependency_graph *w, size_t rows, const size_t *row, bo
     for (size_t c = 0; c < count; c++) {
         size_t r = from[c] / n, j = from[c] % n;
         bool zero = probes > 0;
-        for (size_t p = 0; p < probes && zero; p++) { /* what is undefined somewhere does not vanish */
+        for (size_t p = 0; p < probes && zero; p++) { /* an undefined value does not vanish */
             const double *at = value + p * (count + rows);
             zero = fabs(at[c]) <= seems_zero * (1 + fabs(at[count + r]));
         }
@@ -137,7 +137,7 @@ static bool reads_implicit(const nh_model *o, nh_ex e)
     return false;
 }
 
-/* Implicit velocities are found together, so whatever their equations read is needed. */
+/* Implicit velocities are found together: every state in their equations is needed. */
 static void keep_implicit(nh_dependency_graph *w)
 {
     const nh_model *o = w->model;
@@ -149,7 +149,7 @@ static void keep_implicit(nh_dependency_graph *w)
     w->implicit = needed;
 }
 
-/* From what is watched downwards: rows whose feeds are not known yet, until there are none. */
+/* Follows the feeds from the watched expressions: asks rows whose feeds are not known yet, until there are none. */
 static void close_network(nh_dependency_graph *w, bool proved)
 {
     size_t n = w->states, total = n + w->watches, *row = nh_alloc_array(total + 1, sizeof *row), rows = 0;
@@ -209,7 +209,7 @@ void nh_dependency_graph_clear(nh_dependency_graph *w)
     nh_free(w->kept);
 }
 
-/* A at the probes: of one sign, never small. */
+/* Does A have one sign at the probes, and is it never small? */
 static bool determines(const nh_dependency_graph *w, nh_ex slope, nh_ex curvature)
 {
     const nh_model *o = w->model;
@@ -226,7 +226,7 @@ static bool determines(const nh_dependency_graph *w, nh_ex slope, nh_ex curvatur
     return good && least > steady * most && is_zero(w, curvature);
 }
 
-/* Remove state j by this current; false when it does not determine it, or not at every time. */
+/* Removes state j by this current; false when the current does not determine it, or not at every time. */
 static bool remove_state(nh_dependency_graph *w, nh_ex current, size_t j)
 {
     const nh_model *o = w->model;
@@ -252,7 +252,7 @@ static bool remove_state(nh_dependency_graph *w, nh_ex current, size_t j)
     return true;
 }
 
-/* The best single removal, by values at the probes alone; false when none leaves fewer states. */
+/* The best single removal, judged by values at the probes; false when none leaves fewer states. */
 static bool improve(nh_dependency_graph *w, size_t n, const nh_ex *current)
 {
     nh_dependency_graph best = {0};

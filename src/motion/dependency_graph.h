@@ -15,28 +15,29 @@
 typedef struct {
     nh_ex current, constant;  /* Phi, and the symbol of its value */
     size_t state;             /* of (q, w): the one that it determines */
-    nh_ex value, slope;       /* of that state: (c - B)/A, and A; functions of what is left and of the constants */
+    /* of that state: (c - B)/A, and A; functions of the remaining states and of the constants */
+    nh_ex value, slope;
 } nh_level;
 
 typedef struct {
     const nh_model *model;
     size_t states, watches, levels;
-    nh_ex *row;     /* rates of the states, then what is watched, without the states of the levels */
+    nh_ex *row;     /* rates of the states, then the watched expressions, without the states of the levels */
     nh_level *level; 
     bool *feeds;    /* [i * states + j]: j feeds row i; only of rows that are needed */
     bool *kept;     /* states with an equation */
-    bool implicit;  /* implicit velocities are needed */
-    size_t count;   /* of those kept */
-    size_t cost;    /* instructions of their equations, and ten for each state that an integrator carries along */
+    bool implicit;  /* the equations contain implicit velocities */
+    size_t count;   /* number of kept states */
+    size_t cost;    /* instructions of their equations, and ten for each state that is integrated */
 } nh_dependency_graph;
 
-/* The closed system of what is watched.  n currents of the chart, conserved: each may remove one state if fewer states
- * are left then, and it costs less. */
+/* The closed system of the watched expressions. n conserved currents of the chart: each removes a state if fewer states
+ * are left then, and the equations cost less. */
 void nh_dependency_graph_init(nh_dependency_graph *graph, const nh_model *model, size_t watches, const nh_ex *watched,
                               size_t n, const nh_ex *current);
 void nh_dependency_graph_clear(nh_dependency_graph *graph);
 
-/* Is nothing that is watched, no equation of a kept state and no current that is used a function of this symbol? */
+/* Is no watched expression, no equation of a kept state and no current in use a function of this symbol? */
 bool nh_dependency_graph_ignores(const nh_dependency_graph *graph, nh_ex symbol);
 
 /* Does Gamma(Phi) vanish identically, by the same test? */

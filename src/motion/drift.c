@@ -45,8 +45,7 @@ static double change_by_balls(const nh_model *o, const nh_motion *motion, const 
     return worst;
 }
 
-/* A change that is larger than the motion's error explains may be rounding within the formula, such as atanh of nearly
-   1. */
+/* A change larger than the error of the motion explains may be rounding within the formula, as of atanh near 1. */
 static void look_closer(const nh_drift_question *q, const nh_motion *motion, const bool *steep, size_t inside, size_t k,
                         size_t which, nh_drift *d)
 {
@@ -88,8 +87,8 @@ void nh_drift_measure(const nh_drift_question *q, const nh_motion *motion, size_
     nh_free(steep);
 }
 
-/* The tolerance bounds the error of a step.  What the steps of a motion add up to, and what the motion makes of it, may
- * be hundreds of tolerances.  That error falls with the tolerance, and what a current changes by itself does not. */
+/* The tolerance bounds the error of one step.  The sum over all steps, and its growth along the motion, may be hundreds
+ * of tolerances.  That error falls with the tolerance; a change of the current itself does not. */
 void nh_drift_judge(size_t count, const double *tolerance, const nh_options *options, nh_drift *drift)
 {
     for (size_t k = 0; k < count; k++) {

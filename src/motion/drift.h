@@ -10,17 +10,18 @@ enum { NH_DRIFT_RUNS = 3 };
 typedef struct {
     double drift[NH_DRIFT_RUNS]; /* max |Phi - Phi(0)| / scale, loosest tolerance first */
     double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
-    /* time to which it was measured: before the end where the motion leaves the current's interval */
+    /* time up to which it was measured: earlier than the end where the motion leaves the current's interval */
     double until;
-    /* the drift of the tightest motion where its values in doubles lose digits, and `drift` is by balls; else 0 */
+    /* the drift of the tightest motion in doubles, where these lose digits and `drift` is computed in ball arithmetic;
+     * else 0 */
     double in_doubles;
-    bool small, falls;           /* below options->drift tolerances; falls with the tolerance (or is at rounding) */
-    /* by the error of the motion itself: small, or it falls from the second tolerance to the third as that error
-       does */
+    bool small, falls;           /* below options->drift tolerances; falls with the tolerance, or is at rounding */
+    /* the error of the motion explains it: it is small, or it falls from the second tolerance to the third as that
+     * error does */
     bool explained;
 } nh_drift;
 
-/* Where a current makes sense: while `variable` lies between low and high. */
+/* Where a current is defined: while each of these variables lies between its low and high. */
 typedef struct {
     nh_ex variable; /* a coordinate or t; 0: it holds everywhere */
     double low, high;
@@ -33,13 +34,13 @@ typedef struct {
     const double *tolerance;     /* NH_DRIFT_RUNS */
     size_t currents;
     const nh_ex *current;        /* of the chart */
-    const nh_valid *valid;       /* `currents` intervals, or NULL */
+    const nh_valid *valid;       /* `currents` boxes, or NULL */
 } nh_drift_question;
 
-/* Along the motion of tolerance[which], into out: one for each current. */
+/* Measures the drift along the motion of tolerance[which]; out has one entry for each current. */
 void nh_drift_measure(const nh_drift_question *question, const nh_motion *motion, size_t which, nh_drift *out);
 
-/* After the last: small, falls, explained. */
+/* Call after the last motion: sets small, falls and explained. */
 void nh_drift_judge(size_t count, const double *tolerance, const nh_options *options, nh_drift *drift);
 
 #endif

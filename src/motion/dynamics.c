@@ -17,9 +17,9 @@ struct nh_dynamics {
     double *point, *out, *dense;
     nh_tape *constraint; /* df^a/dv^s (k x m, row-major), of constraints without poles; NULL: no pivot to watch */
     nh_tape_work *constraint_work;
-    double *slope;       /* its values, and the k x k part of the dependent velocities */
-    double least;        /* the pivot at which the chart ends, of the sign that the pivot has at the start */
-    size_t walls;        /* of the rates (exact/walls.h) */
+    double *slope;       /* values of these derivatives, and the k x k part of the dependent velocities */
+    double least;        /* the pivot at which the chart ends; it has the sign of the pivot at the start */
+    size_t walls;        /* number of walls of the rates (exact/walls.h) */
     nh_tape *wall;       /* NULL: there are none */
     nh_tape_work *wall_work;
     double patience;
@@ -244,7 +244,7 @@ static double fit_step(nh_dynamics *d, const nh_state *state, double *w)
     return step > 0 ? step / fmax(step, size) : 0;
 }
 
-/* The largest of v_s and the terms of rho_s = R_si w_i + b_s. */
+/* The largest of |v_s| and the terms of rho_s = R_si w_i + b_s. */
 static double size_of_velocity(const nh_dynamics *d, const nh_state *state, const double *w, size_t s)
 {
     const double *R = d->out + d->m;
@@ -381,7 +381,7 @@ bool nh_dynamics_other_dependents(const nh_model *o, const nh_state *state, size
         own[o->chart->dependent[a]] = true;
     }
     values_at(o, state, k * m, e, F);
-    for (size_t a = 0; a < k; a++) { /* rows of one size */
+    for (size_t a = 0; a < k; a++) { /* scale the rows to one size */
         double size = 0;
         for (size_t s = 0; s < m; s++) size = fmax(size, fabs(F[a * m + s]));
         for (size_t s = 0; s < m && size > 0; s++) F[a * m + s] /= size;

@@ -5,11 +5,11 @@
 #include "geometry/bordered.h"
 #include "motion/chetaev.h"
 
-/* A place and velocity in coordinates. */
+/* A position and velocity in coordinates. */
 typedef struct {
     double t;
-    double *q, *v; /* m each */
-    bool *given;   /* per velocity: it was named; the others follow from the constraints.  NULL: all were */
+    double *q, *v; /* m entries each */
+    bool *given;   /* of each velocity: was it given?  The constraints determine the others.  NULL: all were given */
 } nh_state;
 
 /* Equations of motion on the constraint submanifold: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot
@@ -18,18 +18,19 @@ typedef struct nh_dynamics nh_dynamics;
 /* Keeps the model, which has to outlive it.  The caller frees it. */
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
-/* As integrators take it; its context is the nh_dynamics, which one thread uses at a time. */
+/* The problem for the integrators; its context is the nh_dynamics, which one thread uses at a time. */
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
-/* Are differences better than an exact Jacobian, for rates of so many instructions in so many states? */
+/* Are differences cheaper than an exact Jacobian, for rates of so many instructions in so many states? */
 bool nh_dynamics_differences(size_t length, size_t size);
-/* Long motions pass to machine code (nh_tape_jit).  The words say whether they have; NULL: nothing was tried. */
+/* Long motions are continued in machine code (nh_tape_jit).  The words say whether they are; NULL: nothing was
+ * tried. */
 void nh_dynamics_jit(nh_dynamics *dynamics, double patience);
 double nh_dynamics_patience(const nh_dynamics *dynamics);
 const char *nh_dynamics_words(const nh_dynamics *dynamics);
 /* Instructions of one evaluation of the equations of motion. */
 size_t nh_dynamics_length(const nh_dynamics *dynamics);
-/* From now on the chart ends where its pivot is a small part of what it is at (t, z): close to a zero errors of the
-   states may turn a motion back. */
+/* From now on the chart ends where its pivot falls to a small part of its value at (t, z): near a zero of the pivot
+ * errors of the states may reverse a motion. */
 void nh_dynamics_end_early(nh_dynamics *dynamics, double t, const double *z);
 /* Does the model's chart have a pivot to watch? */
 bool nh_dynamics_watched(const nh_model *model);
@@ -44,7 +45,8 @@ bool nh_dynamics_start(nh_dynamics *dynamics, const nh_state *state, bool projec
    so. */
 bool nh_dynamics_other_branch(const nh_model *model, const nh_state *state);
 
-/* Do the chart's dependent velocities not follow from the constraints there, but others do?  Which (k coordinates). */
+/* Do the constraints leave the chart's dependent velocities undetermined there, but determine others?  Writes which (k
+ * coordinates). */
 bool nh_dynamics_other_dependents(const nh_model *model, const nh_state *state, size_t *dependent);
 
 /* The point (t, q, w, u) that belongs to (t, z); width entries.  False when the implicit velocities cannot be found. */

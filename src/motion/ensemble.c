@@ -14,12 +14,12 @@
 #include "motion/tableau.h"
 #include "system/sample.h"
 
-enum { lanes = NH_ENSEMBLE_BATCH, first_steps = 20 }; /* that say nothing of what the others need */
-static const double safety = 0.9, most_growth = 5, least_growth = 0.2;    /* of the step */
-/* of effort: of a step, and of a sum with one number of one member */
+enum { lanes = NH_ENSEMBLE_BATCH, first_steps = 20 }; /* first_steps: too few to extrapolate the work of the others */
+static const double safety = 0.9, most_growth = 5, least_growth = 0.2;    /* factors of the step */
+/* units of effort of a step, and of a sum with one number of one member */
 static const double step_units = 500, sum_units = 0.3;
 static const double order = 8;
-/* a member that needs so much smaller steps than its batch goes alone */
+/* a member that needs so many times smaller steps than its batch is computed alone */
 static const double too_slow = 20;
 
 typedef struct {
@@ -30,8 +30,8 @@ typedef struct {
     nh_tape *values;
     bool *alone;
     long *evaluations; /* per batch */
-    double begun, limit; /* units of effort of the thread; INFINITY: any number */
-    double *reached;   /* times to which batches came; NULL: nobody asks */
+    double begun, limit; /* units of effort of this thread; the limit may be INFINITY */
+    double *reached;   /* per batch, the time that it reached; NULL: not wanted */
 } plan;
 
 /* One batch: arrays of `lanes` values, state after state. */
@@ -45,9 +45,9 @@ typedef struct {
     double *lane_error;
     bool *alive;
     double t, h;
-    nh_sizes sizes;    /* of all states in all lanes, as of one large motion */
-    double *allowed;   /* errors, whatever the states are now: kept x lanes */
-    nh_dynamics *dynamics; /* of a chart whose pivot is watched; else NULL */
+    nh_sizes sizes;    /* sizes of all states in all lanes, as of one large motion */
+    double *allowed;   /* allowed absolute errors: kept x lanes */
+    nh_dynamics *dynamics; /* shares plan.watched */
     double *pivot, *whole;
 } batch;
 
@@ -62,7 +62,7 @@ static void rates(batch *b, double t, const double *z, double *k)
     nh_tape_eval_batch(s->rate, b->rate, lanes, b->in, b->out);
 }
 
-/* Try a step; the largest lane error of those alive. */
+/* Tries a step; returns the largest error of the members that are still in the batch. */
 static double try_step(batch *b)
 {
     const nh_tableau *r = &b->p->tableau;
@@ -87,11 +87,11 @@ static void leave_out(batch *b, size_t lane)
 {
     b->alive[lane] = false;
     b->p->alone[b->first + lane] = true;
-    /* any values that can be computed with */
+    /* any values at which the equations can be evaluated */
     for (size_t i = 0; i < b->kept; i++) b->z[i * lanes + lane] = b->z[i * lanes];
 }
 
-/* Members whose error is so far above the middle one that they would hold up the others. */
+/* Leaves out members whose error is so far above the median that they would delay the others. */
 static bool leave_out_the_slow(batch *b)
 {
     double sorted[lanes];
@@ -153,7 +153,7 @@ static void store(batch *b, size_t output)
     nh_free(buffer);
 }
 
-/* Is the limit passed, or plainly will be? */
+/* Has the work passed its limit, or will it clearly? */
 static bool late(const batch *b, long steps)
 {
     const plan *p = b->p;
@@ -165,7 +165,7 @@ static bool late(const batch *b, long steps)
            (spent > p->limit / 16 && spent > 4 * part * p->limit);
 }
 
-/* Up to `target`; false when no step is small enough. */
+/* Integrates to `target`; false when no step is small enough. */
 static bool go_to(batch *b, double target, long *steps)
 {
     const nh_options *o = b->p->request->options;
@@ -253,7 +253,7 @@ static void close_batch(batch *b, double *block)
     nh_dynamics_free(b->dynamics);
 }
 
-/* Nothing is known of the member from this output on. */
+/* The values of the member are unknown from this output on. */
 static void unknown_from(const plan *p, size_t member, size_t output)
 {
     const nh_ensemble *e = p->out;
@@ -275,7 +275,7 @@ static void do_batch(size_t index, void *context)
     nh_turn_give(); /* its programs are compiled: what follows evaluates them */
     b.h = span / 1000;
     nh_flow_problem all = {.size = b.kept * lanes, .context = &b, .rate = rates_of_all};
-    /* a member is not defined, and will be left out */
+    /* a member has no rates there, and will be left out */
     if (!nh_sizes_begin(&b.sizes, &all, fmax(p->request->options->absolute, DBL_MIN), b.z, b.t, b.t + span)) {
         nh_sizes_clear(&b.sizes);
         nh_sizes_given(&b.sizes, &all, NULL);
@@ -297,7 +297,7 @@ static void do_batch(size_t index, void *context)
 
 /* ---- members alone ---- */
 
-/* Each has a place of its own, so that nothing depends on which thread was where. */
+/* Each member writes to its own place: the result does not depend on the assignment to threads. */
 typedef struct {
     size_t member, reached;
     bool done;
@@ -331,7 +331,7 @@ static void do_alone(size_t index, void *context)
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
     q.method = NULL;
-    /* to find the smallest model again takes longer than the motion, and most members are here because a chart ends */
+    /* finding the smallest model again takes longer than the motion, and most members are here because a chart ends */
     q.smallest = false;
     nh_trajectory *t = nh_along(d, &start, o->m, o->rho, v) ? nh_trajectory_create(&q, &error) : NULL;
     l->done = true;
@@ -352,7 +352,7 @@ static void count_interrupted(nh_ensemble *e)
     nh_ended_words(e->note, sizeof e->note);
 }
 
-/* All that were left out, or all. */
+/* Computes alone the members that were left out, or all members. */
 static void go_alone(plan *p, bool all, size_t threads)
 {
     nh_ensemble *e = p->out;

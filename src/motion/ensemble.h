@@ -19,32 +19,32 @@ typedef struct {
     double *time;            /* count */
     /* value[(member * count + i) * n + k]: expression k at output i; NAN where a member did not come so far */
     double *value;
-    nh_closed_subsystem *scene;         /* what was integrated; owned */
+    nh_closed_subsystem *scene;         /* the closed subsystem that was integrated; owned */
     size_t alone, incomplete; /* members that were computed alone; that did not reach the end */
     long evaluations;        /* of the right-hand side, per member and stage */
     double seconds;          /* of the integration, without preparations */
-    char note[256];          /* why the first incomplete member ended */
+    char note[256];          /* reason why the first incomplete member ended */
 } nh_ensemble;
 
-/* `request`: as for one trajectory (method and smallest do not matter).  initial: members x (m + n) values (q, w) at
-   times[0]. */
+/* `request`: as for one trajectory; method and smallest are ignored. initial: members x (m + n) values (q, w) at
+ * times[0].  The caller frees the result.  NULL with an error where there is no member or no output. */
 nh_ensemble *nh_ensemble_create(const nh_trajectory_request *request, size_t members, const double *initial,
                                 size_t threads, nh_error *error);
 void nh_ensemble_free(nh_ensemble *ensemble);
-/* The same before anything is computed: all values are NAN. */
+/* An ensemble whose values are all NAN, to be filled by the caller. */
 nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *request, size_t members, nh_error *error);
 
 /* What a batch costs. */
 typedef struct {
-    size_t members, left; /* of the first batch; of these, such as would have to be computed alone */
-    /* units of base/effort.h for `part` of the motion; INFINITY: there are no batches of such equations */
+    size_t members, left; /* members of the first batch; how many of them would have to be computed alone */
+    /* units of base/effort.h for `part` of the motion; INFINITY: such equations cannot be computed in batches */
     double effort;
     double part;
     long evaluations;
 } nh_trial;
 
-/* The first batch with at most so much effort: its members' motions, NAN where they are left over; NULL when it needed
- * more, or would by what it did until then, or cannot be computed. */
+/* The first batch with at most so much effort: the motions of its members, NAN for those left out.  NULL when it needed
+ * more, or would by extrapolation, or cannot be computed. */
 nh_ensemble *nh_ensemble_try(const nh_trajectory_request *request, size_t members, const double *initial, double effort,
                              nh_trial *trial);
 

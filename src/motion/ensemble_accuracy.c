@@ -11,14 +11,14 @@
 #include "base/progress.h"
 #include "motion/vanishing.h"
 
-/* of the members: so many may be computed alone rather than all at a smaller tolerance */
+/* part of the members that may be computed alone; with more of them the tolerance of all is tightened */
 static const double most_left = 0.05;
-static const double most_step = 1e-5; /* from one tolerance to the next */
+static const double most_step = 1e-5; /* smallest factor from one tolerance to the next */
 
-static const double passes = 2.3;     /* runs that an ensemble needs, of the cost of the first */
-static const double slower = 10;      /* than the first a member may be, in counted work */
-static const double most_told = 1000;  /* a ratio above this says nothing more */
-enum { samples = 2 };                 /* members that are computed alone to see what they cost, beside the first */
+static const double passes = 2.3;     /* cost of all runs of an ensemble, relative to that of the first */
+static const double slower = 10;      /* a member may need so many times the counted work of the first */
+static const double most_told = 1000;  /* reports give no larger ratio */
+enum { samples = 2 };                 /* members beside the first that are computed alone to measure their cost */
 
 /* A member alone. */
 typedef struct {
@@ -30,17 +30,18 @@ typedef struct {
 
 typedef struct {
     const nh_trajectory_request *request;
-    nh_trajectory_request own;     /* with the model that pilot runs had derived */
+    nh_trajectory_request own;     /* with the model that the pilot runs derived */
     size_t members, threads, size; /* size: of a state (q, w) */
     const double *initial;
     double eps;
     nh_ensemble_accuracy *out;
     double *floor;          /* per member and value: the least scales (accuracy.h) */
-    double *off, *estimate; /* per member: the difference of the last two runs, and what it says of the tighter one */
-    nh_integration_plan usual;           /* that of the first */
-    nh_integration_plans ways;           /* for members alone: that of the first one, or what was given */
+    /* per member: the difference of the last two runs, and the estimated error of the tighter one */
+    double *off, *estimate;
+    nh_integration_plan usual;           /* plan of the first member */
+    nh_integration_plans ways;           /* for members alone: the plan of the first member, or the given plans */
     loner *one;             /* per member */
-    size_t *alone;          /* those that are to be computed alone */
+    size_t *alone;          /* members to be computed alone */
     nh_ensemble *e;
 } search;
 
@@ -63,7 +64,7 @@ static nh_ensemble *run(search *s, double tolerance, bool disturb, nh_error *err
     return e;
 }
 
-/* Has the member come to its end? */
+/* Has the member reached the end? */
 static bool arrived(const nh_ensemble *e, size_t member)
 {
     const double *last = e->value + ((member + 1) * e->count - 1) * e->n;
@@ -97,7 +98,7 @@ static size_t left_over(const search *s, double coarse)
     return left;
 }
 
-/* The estimate that all but those exceed which may be left over. */
+/* The estimate exceeded only by the part most_left of the members. */
 static double usual_estimate(const search *s)
 {
     double *sorted = nh_alloc_array(s->members + 1, sizeof *sorted);
@@ -158,7 +159,7 @@ static void find_zeros(search *s)
     nh_vanishing_free(v);
 }
 
-/* Those of sums that may cancel are taken from the first member's motion. */
+/* Floors for sums that may cancel, from the motion of the first member. */
 static void share_terms(search *s, const nh_trajectory_request *q, const nh_trajectory *t)
 {
     double *terms = nh_alloc_array(q->n + 1, sizeof *terms);
@@ -218,7 +219,7 @@ static void do_alone(size_t index, void *context)
     if (!s->one[s->alone[index]].done && !nh_interrupted()) compute_alone(s, s->alone[index], &s->ways, &a);
 }
 
-/* `n` members of the list; then what they say, in their order. */
+/* Computes `n` members of the list; then collects their results in the order of the list. */
 static void go_alone(search *s, size_t n)
 {
     nh_ensemble_accuracy *out = s->out;
@@ -263,8 +264,8 @@ static double cost_alone(search *s, const nh_integration_plans *ways)
     return n ? (nh_effort() - begin) / (double)n : a.effort;
 }
 
-/* Is it cheaper to compute all members alone?  *first: the first run of the ensemble in batches, where that was made to
-   see it. */
+/* Is it cheaper to compute all members alone?  *first: the first run of the ensemble in batches, where one was made to
+ * measure its cost. */
 static bool cheaper_alone(search *s, double each, nh_ensemble **first)
 {
     nh_trajectory_request q = *s->request;
@@ -325,7 +326,7 @@ static void explain(search *s)
                  a->way.method->name, a->ratio);
 }
 
-/* By batches as far as they go; the others alone. */
+/* Computes the members in batches, and alone those that are not accepted there. */
 static nh_ensemble *go_together(search *s, nh_ensemble *first, nh_error *error)
 {
     double coarse = 0;

@@ -14,21 +14,21 @@
 #include "motion/ensemble.h"
 
 typedef struct {
-    bool held;                  /* by all members */
+    bool held;                  /* all members have the accuracy */
     /* the largest estimate of the members that were accepted, at the tolerance of the batches */
     double wanted, estimate, tolerance;
-    bool all_alone;             /* then by `way`, and the tolerance is that of the first member */
-    nh_integration_plan way;                 /* of the first member alone; its method is NULL where that did not do */
-    nh_accuracy_choice choice;  /* where that comes from */
+    bool all_alone;             /* all were computed alone, by `way`; the tolerance is that of the first member */
+    nh_integration_plan way;                 /* plan of the first member alone; its method is NULL where that failed */
+    nh_accuracy_choice choice;  /* origin of that plan */
     double ratio;               /* counted work of all members alone to that in batches; 0: not known */
-    size_t alone, unsure;       /* members that were computed alone for it; that did not reach it all the same */
+    size_t alone, unsure;       /* members that were computed alone; members that do not have the accuracy */
     int runs;                   /* of the whole ensemble */
     long evaluations;           /* of all runs */
     double seconds;
     char why[512];
 } nh_ensemble_accuracy;
 
-/* As nh_ensemble_create, and nh_trajectory_accurate for `ways`. */
+/* As nh_ensemble_create; `ways` as in nh_trajectory_accurate. */
 nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial,
                                   size_t threads, double eps, const nh_integration_plans *ways,
                                   nh_ensemble_accuracy *accuracy, nh_error *error);

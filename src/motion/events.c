@@ -11,28 +11,30 @@
 #include "motion/sign_changes.h"
 
 enum { most_iterations = 100, refinements = 6 };
-static const double roundings = 4;   /* of the time: how short the interval around a zero becomes */
-static const double far_off = 1e3;   /* how far from a zero a function is much larger: in such intervals, */
-static const double distant = 1e-4;  /* and in parts of the step */
-static const double few = 100;       /* in such intervals: too near to tell */
-static const double most_jump = 0.5; /* of the size there: more beside the zero is a jump */
+static const double roundings = 4;   /* length of the final interval around a zero, in roundings of the time */
+/* distances from a zero at which a function must be much larger: in final intervals, */
+static const double far_off = 1e3;
+static const double distant = 1e-4;  /* and as a part of the step */
+/* nearer to an end of the step, in final intervals, a jump cannot be told from a zero */
+static const double few = 100;
+static const double most_jump = 0.5; /* next to a jump a value is a larger part of that farther off */
 
 struct nh_event_search {
     const nh_event_watch *watch;
     nh_inside_step *inside;
     nh_sign_changes change;
     double *raw;   /* values and sizes, 2 count */
-    bool *pending; /* per function: zero at the beginning of the whole motion, and of no sign since */
+    bool *pending; /* per function: it was zero at the beginning of the whole motion, and has had no sign since */
     double before, now; /* ends of the last step */
-    double *first, *at; /* the state at the beginning of all; values */
+    double *first, *at; /* the initial state of the motion; values */
     size_t which;       /* the function whose zero is wanted */
     double jumped, lost,
-        unknown; /* times of a jump, of a function that changes too often, of one without values; NAN */
+        unknown; /* times of a jump, of a function that changes too often, and of one without values; or NAN */
 };
 
 /* ---- values ---- */
 
-/* The values, 0 where they are no larger than what the tolerance allows. */
+/* The values; 0 where they are below what the tolerance allows. */
 static bool signed_value(double t, const double *z, double *value, void *context)
 {
     nh_event_search *c = context;
@@ -55,14 +57,14 @@ static double value_of_one(double t, void *context)
 
 /* ---- zeros ---- */
 
-/* Beside a zero a function is far smaller than at some distance; beside a jump or a pole it is not. */
+/* Near a zero a function is far smaller than at some distance; near a jump or a pole it is not. */
 static bool jumps(nh_event_search *c, double root, double near)
 {
     double low = fmin(c->before, c->now), high = fmax(c->before, c->now),
            far = fmax(far_off * near, distant * (high - low));
     double left = fmax(root - far, low), right = fmin(root + far, high);
     if (root - left < few * near || right - root < few * near)
-        return false; /* at an end of the step: it cannot be told */
+        return false; /* at an end of the step this cannot be decided */
     return fabs(value_of_one(root - near, c)) > most_jump * fabs(value_of_one(left, c)) &&
            fabs(value_of_one(root + near, c)) > most_jump * fabs(value_of_one(right, c));
 }
@@ -74,7 +76,7 @@ static bool solve(nh_event_search *c, double near, double far, double *root)
     double at_near = value_of_one(near, c), at_far = value_of_one(far, c), low = fmin(near, far),
            high = fmax(near, far);
     *root = at_near == 0 ? near : far;
-    if (!(at_near * at_far < 0)) { /* one of them is zero but for rounding */
+    if (!(at_near * at_far < 0)) { /* one of them is zero up to rounding */
         *root = fabs(at_near) < fabs(at_far) ? near : far;
         return true;
     }
@@ -96,7 +98,7 @@ static void append(nh_motion *motion, double time, size_t which, int direction, 
 {
     size_t n = motion->events, size = motion->size, room = 8;
     while (room < n) room *= 2;
-    if (n == 0 || n == room) { /* all are used */
+    if (n == 0 || n == room) { /* all places are used */
         room = n ? 2 * n : room;
         nh_event_found *all = nh_alloc_array(room, sizeof *all);
         double *states = nh_alloc_array(room, size * sizeof *states);
@@ -112,7 +114,7 @@ static void append(nh_motion *motion, double time, size_t which, int direction, 
     motion->events++;
 }
 
-/* The last one goes before those that are later on the way from `begin`. */
+/* Moves the last zero before those that are later on the way from `begin`. */
 static void put_in_order(nh_motion *motion, double begin, size_t from)
 {
     size_t size = motion->size;
@@ -141,7 +143,8 @@ static bool is_wanted(const nh_event_search *c, size_t which, int direction)
     return c->watch->direction[which] == 0 || c->watch->direction[which] == direction;
 }
 
-/* What was zero at the beginning and has a sign now was a zero there, in the direction of this sign. */
+/* A function that was zero at the beginning and has a sign now: its zero at the beginning is recorded, with the
+ * direction of this sign. */
 static void settle_beginning(nh_event_search *c, nh_motion *motion)
 {
     int way = c->now < c->before ? -1 : 1;
@@ -155,8 +158,7 @@ static void settle_beginning(nh_event_search *c, nh_motion *motion)
     }
 }
 
-/* All that have changed their sign between near and far, in order, up to the first that stops the motion.  Their sides
-   change. */
+/* Records all zeros between near and far, in order, up to the first that stops the motion, and updates the sides. */
 static bool take_zeros(nh_event_search *c, double near, double far, nh_motion *motion)
 {
     nh_sign_changes *s = &c->change;

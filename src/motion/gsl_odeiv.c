@@ -14,14 +14,14 @@
 #include "motion/sizes.h"
 #include "motion/stepping.h"
 
-static const double part_across = 1e-3; /* of the tolerance: what a step across a kink may spoil */
+static const double part_across = 1e-3; /* the error that a step across a kink may have, as a part of the tolerance */
 
 typedef struct {
     const nh_flow_problem *problem;
     const nh_flow_options *options;
     gsl_odeiv2_system system;
     gsl_odeiv2_driver *driver;
-    /* the shorter step that reads a state inside the last one; NULL: steps end at the output times */
+    /* the shorter step that gives a state inside the last one; NULL: steps end at the output times */
     gsl_odeiv2_step *between;
     const double *times;
     size_t count;
@@ -67,7 +67,7 @@ static int control_adjust(void *state, size_t n, unsigned int order, const doubl
     double worst = 0, before = *h;
     for (size_t i = 0; i < n; i++) {
         double r = fabs(error[i]) / allowed(((control_state *)state)->work, i, z[i]);
-        if (!(r <= worst)) worst = r; /* also where it is not a number */
+        if (!(r <= worst)) worst = r; /* also where the error is not a number */
     }
     if (!(worst <= too_large)) {
         *h = before * fmax(safety / pow(worst, 1.0 / order), 1 / most);
@@ -94,7 +94,7 @@ static int control_set_driver(void *state, const gsl_odeiv2_driver *driver)
 static const gsl_odeiv2_control_type control_type = {"sizes",       control_alloc,      control_init, control_adjust,
                                                      control_level, control_set_driver, control_free};
 
-/* A driver with this control in place of its own. */
+/* Makes a driver that has this control instead of its own. */
 static gsl_odeiv2_driver *driver_of(explicit_work *work, const gsl_odeiv2_step_type *type)
 {
     gsl_odeiv2_driver *driver =
@@ -140,7 +140,7 @@ static void forget(explicit_work *work)
     gsl_odeiv2_step_reset(work->driver->s);
 }
 
-/* Back to before the last step, where a guard has changed its sign over it. */
+/* Goes back to before the last step, where a guard has changed its sign in it. */
 static nh_step go_back(explicit_work *work, nh_guard_verdict verdict, double *time)
 {
     memcpy(work->state, work->old, work->problem->size * sizeof *work->state);
@@ -149,8 +149,8 @@ static nh_step go_back(explicit_work *work, nh_guard_verdict verdict, double *ti
     return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
 }
 
-/* Was there a wall in the last step?  True: it is taken back.  Behind a wall the steps become as long again as they
-   were before it. */
+/* Was there a wall in the last step?  True: the step is undone.  Behind a wall the steps become as long again as they
+ * were before it. */
 static bool back_from_wall(explicit_work *work, nh_motion *motion, double *time)
 {
     nh_kink_verdict verdict =
@@ -183,7 +183,7 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
     nh_guard_verdict verdict =
         flag == GSL_SUCCESS ? nh_guards_judge(&work->guards, work->before, *time, work->state, motion) : NH_GUARD_KEPT;
     if (verdict != NH_GUARD_KEPT) return go_back(work, verdict, time);
-    if (*time == target && fabs(work->h) < fabs(wanted)) work->h = wanted; /* it was cut to end there */
+    if (*time == target && fabs(work->h) < fabs(wanted)) work->h = wanted; /* the step was cut to end there */
     if (flag == GSL_SUCCESS && back_from_wall(work, motion, time)) return NH_STEP_ON;
     if (work->kinks.held) return NH_STEP_FAILED;
     if (flag == GSL_SUCCESS && work->options->after) {

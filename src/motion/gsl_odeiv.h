@@ -1,8 +1,8 @@
 /* gsl_odeiv: motions of z' = f(t, z) by GSL's steppers: Runge-Kutta pairs of order 8 (Prince-Dormand) and 5 (Fehlberg),
  * and Adams's method with fixed-point iteration in Nordsieck form.  No Jacobian is needed; guards are not watched.
  *
- * Between steps the one-step methods are read by a shorter step of the same method, so that output times do not change
- * the motion; Adams's method steps to every output time.
+ * A shorter step of the same method gives the states between two steps of a one-step method, so that output times do
+ * not change the motion; Adams's method steps to every output time.
  * [Galassi2009] */
 #ifndef NH_GSL_ODEIV_H
 #define NH_GSL_ODEIV_H
@@ -20,7 +20,7 @@ typedef enum {
 #undef X
 } nh_gsl_odeiv_method;
 
-/* As nh_flow. */
+/* Integrates as nh_flow does. */
 nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *problem, const double *initial, size_t count,
                         const double *times, const nh_flow_options *options, nh_error *error);
 

@@ -11,11 +11,11 @@ struct nh_inside_step {
     const nh_stepper *stepper;
     size_t size;
     double before, now;
-    double *states;                   /* those that follow */
-    double *old, *end, *off, *errors; /* states at both ends; the distance of the completing step from `end` */
-    gsl_odeiv2_step *step; /* completes steppers without states inside their steps; NULL: this one has them */
+    double *states;                   /* block of the six arrays that follow */
+    double *old, *end, *off, *errors; /* states at both ends; distance of the auxiliary step from `end` */
+    gsl_odeiv2_step *step; /* auxiliary step for steppers without states inside their steps; NULL: this one has them */
     gsl_odeiv2_system system;
-    bool completed;       /* `off` is that of this step */
+    bool completed;       /* `off` belongs to this step */
     double *first, *last; /* rates at both ends, where they are known */
     bool first_known, last_known;
 };
@@ -68,7 +68,7 @@ double nh_inside_step_begin(const nh_inside_step *c) { return c->before; }
 double nh_inside_step_end(const nh_inside_step *c) { return c->now; }
 size_t nh_inside_step_size(const nh_inside_step *c) { return c->size; }
 
-/* From `old` to z at a time in the step. */
+/* Integrates from `old` to z at a time in the step. */
 static bool step_to(nh_inside_step *c, double time, double *z)
 {
     memcpy(z, c->old, c->size * sizeof *z);

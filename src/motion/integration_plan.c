@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static const double exponent = 0.9; /* with which errors fall with the tolerance, at most */
+static const double exponent = 0.9; /* largest exponent with which errors are expected to fall with the tolerance */
 
 bool nh_integration_plan_doubtful(const nh_method *method)
 {
@@ -34,7 +34,7 @@ static const nh_integration_plan *second_of(size_t n, const nh_integration_plan 
     return best;
 }
 
-/* Two runs, of which the tighter one is taken, and one more where another method confirms it. */
+/* Two runs, of which the tighter one is used, and a third where another method confirms it. */
 double nh_integration_plan_cost(size_t n, const nh_integration_plan *way, double eps, const nh_integration_plan *w)
 {
     const nh_integration_plan *second =

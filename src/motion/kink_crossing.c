@@ -8,10 +8,10 @@
 #include "motion/events.h"
 #include "motion/gsl_odeiv.h"
 
-/* in `least`: at least so far behind a wall, and as far as it was to it, a one-step method goes */
+/* in units of `least`: a one-step method goes at least so far behind a wall, and as far as its way to the wall was */
 static const double few = 64;
 
-/* Its beginning, the wanted times in it, its end. */
+/* The beginning of the step, the wanted times in it, and its end. */
 static size_t times_of(const nh_kink_crossing *l, double end, double *times)
 {
     size_t n = 0;
@@ -34,7 +34,7 @@ static nh_motion *by_one_step_method(const nh_kinks *k, const nh_flow_problem *p
         .rtol = l->rtol, .scale = scale, .watch = l->watch, .guarded = true, .whole = k->span,
         .cancelled = nh_interrupted_callback};
     size_t count = times_of(l, end, times);
-    /* stages that are solved for would be too inexact to come near a wall */
+    /* an implicit method would solve its stages too inexactly to approach a wall */
     nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, p, l->old, count, times, &options, &ignored);
     nh_free(scale);
     nh_free(times);

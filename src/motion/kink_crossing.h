@@ -11,13 +11,13 @@ typedef struct {
     const double *old;      /* the state before it */
     const nh_sizes *sizes;
     double rtol;
-    size_t count;           /* times that are wanted */
+    size_t count;           /* the wanted times */
     const double *times;
     const nh_event_watch *watch; /* of the motion */
 } nh_kink_crossing;
 
-/* Was there a wall in the step?  NULL: no.  Otherwise the motion from before the step to behind the wall by a one-step
-   method, at the times that are wanted and at its end. */
+/* The motion from before the step to behind a wall in it, by a one-step method, at the wanted times and at its end.
+ * NULL: there was no wall in the step.  The caller frees it. */
 nh_motion *nh_kink_crossing_make(nh_kinks *kinks, const nh_flow_problem *problem, const nh_kink_crossing *leap,
                                  nh_inside *state, void *context, nh_motion *motion);
 

@@ -8,9 +8,9 @@
 #include "base/progress.h"
 
 enum { many = 20, most_halvings = 200 };
-static const double roundings = 16;       /* of the time, in `least` */
-static const double nearer = 1e-3;        /* of the way to a wall is left by a step towards it */
-/* of the whole motion: so many crossings in less would be more than there can be steps */
+static const double roundings = 16;       /* of the time: `least` is so long at least */
+static const double nearer = 1e-3;        /* part of the way to a wall that a step towards it leaves */
+/* part of the whole motion: a motion with `many` crossings in less time cannot leave the wall */
 static const double no_time = 1e-6;
 
 void nh_kinks_begin(nh_kinks *k, const nh_flow_problem *p, const double *z, size_t count, const double *times)
@@ -41,7 +41,7 @@ void nh_kinks_clear(nh_kinks *k)
 
 /* ---- the first wall within a step ---- */
 
-/* Between a time on this side and one behind a wall: the first behind it, to rounding. */
+/* From a time on this side and one behind a wall: the first time behind it, to rounding. */
 static double bisect(nh_sign_changes *c, double near, double far)
 {
     for (int i = 0; i < most_halvings; i++) {
@@ -53,7 +53,7 @@ static double bisect(nh_sign_changes *c, double near, double far)
     return far;
 }
 
-/* From now on the motion is behind the wall, at the state in k->change.z. */
+/* From now on the motion is behind the wall, at the state k->change.z. */
 void nh_kinks_go_over(nh_kinks *k, double t, nh_motion *motion)
 {
     k->crossed++;
@@ -115,7 +115,8 @@ void nh_kinks_see(nh_kinks *k, double t, const double *z)
         if (k->change.probe[i] * k->change.side[i] < 0 && !(fabs(t - k->from) > fabs(k->seen - k->from))) k->seen = t;
 }
 
-/* How far a step may go: to the wall that its ends show, or half as far where the method saw one that they do not. */
+/* The longest next step: to the wall that the ends of the step show, or half as long where the method evaluated the
+ * rates behind a wall that they do not show. */
 static double way_to_wall(const nh_kinks *k, double at, double way)
 {
     if (isnan(at)) return way / 2;
@@ -133,7 +134,7 @@ nh_kink_verdict nh_kinks_judge(nh_kinks *k, const nh_flow_problem *p, double bef
     bool good = p->rate(before, old, k->ends + 2 * n, p->context) && p->rate(now, z, k->ends + 3 * n, p->context);
     segment s = {k, before, now};
     double at = good ? nh_kinks_first(k, before, now, between, &s) : NAN, way = fabs(now - before);
-    if (!good) { /* exactly on a wall, where there may be no rates: fall short of it, or go a little further */
+    if (!good) { /* exactly on a wall, where rates may be undefined: end before it, or a little behind it */
         k->longest = way > 2 * k->least ? way / 2 : 1.5 * way;
         k->seen = INFINITY;
         return NH_KINK_BACK;

@@ -15,34 +15,34 @@
 #include "motion/sizes.h"
 
 typedef struct {
-    nh_sign_changes change; /* of the walls */
+    nh_sign_changes change; /* of the functions of the walls */
     double *ends;       /* of a one-step method: states and rates at both ends of the step */
-    double longest;     /* for it: no step is to be longer now (INFINITY: it may) */
-    double least;       /* steps as short as this one may lead across a wall */
+    double longest;     /* for a one-step method: the longest step that is allowed now (INFINITY: any) */
+    double least;       /* a step this short may cross a wall */
     /* where its step begins, and the first time in it at which the rates were evaluated behind a wall (INFINITY:
-       never) */
+     * never) */
     double from, seen;
-    double span, last;  /* of the whole motion; when the last of so many crossings was */
+    double span, last;  /* length of the whole motion; time of the last `many`th crossing */
     bool held;          /* the motion cannot leave a wall */
     long crossed;
 } nh_kinks;
 
-/* For a motion from z at times[0] to times[count - 1]. */
+/* Prepares for a motion from z at times[0] to times[count - 1]. */
 void nh_kinks_begin(nh_kinks *kinks, const nh_flow_problem *problem, const double *z, size_t count,
                     const double *times);
-/* What happens in so short a time is below the error that is allowed, or that is made in solving for stages: it is time
-   enough to lead across a wall. */
+/* A step so short that what happens in it is below the allowed error, or below the error of solving for stages, may
+ * cross a wall. */
 void nh_kinks_coarser(nh_kinks *kinks, double time);
 void nh_kinks_clear(nh_kinks *kinks);
 
 typedef enum { NH_KINK_NONE, NH_KINK_BACK, NH_KINK_CROSSED, NH_KINK_END } nh_kink_verdict;
 
-/* A one-step method evaluates the rates at (t, z). */
+/* A one-step method calls this when it evaluates the rates at (t, z). */
 void nh_kinks_see(nh_kinks *kinks, double t, const double *z);
 
-/* A one-step method came from `old` at `before` to `z` at `now`.  BACK: take the step back, and make none that is
- * longer than kinks->longest.  CROSSED: go on, and forget what was before.  END: the motion cannot leave the wall, and
- * ends (the note says so). */
+/* A one-step method went from `old` at `before` to `z` at `now`.  NONE: there was no wall.  BACK: undo the step,
+ * and make none that is longer than kinks->longest.  CROSSED: go on, without the history of earlier steps.  END: the
+ * motion cannot leave the wall, and ends (the note says so). */
 nh_kink_verdict nh_kinks_judge(nh_kinks *kinks, const nh_flow_problem *problem, double before, const double *old,
                                double now, const double *z, nh_motion *motion);
 

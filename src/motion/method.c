@@ -45,7 +45,8 @@ const nh_method *nh_method_find(const char *name)
     return NULL;
 }
 
-/* What other programs call the like: SUNDIALS, SciPy, MATLAB, Hairer's codes, mechanics; exactly, or nearly. */
+/* Names of the same methods in other programs: SUNDIALS, SciPy, MATLAB, Hairer's codes, mechanics; some of these are
+ * only similar. */
 static const char *elsewhere(const char *word, bool exactly)
 {
     static const char *const others[][2] = {

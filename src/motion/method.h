@@ -18,18 +18,18 @@ typedef enum {
 typedef struct {
     const char *word, *name, *about; /* word: on the command line */
     nh_method_family family;
-    int kind;           /* of the family's own list */
+    int kind;           /* index in the list of its family */
     bool composed;      /* of NH_METHOD_MIDPOINT */
-    int order;          /* of methods that take a step instead of a tolerance; otherwise 0 */
+    int order;          /* order of methods that take a step instead of a tolerance; otherwise 0 */
 } nh_method;
 
-/* All methods, in the order in which they are listed; index below the count. */
+/* All methods in the order in which they are listed; the index must be below the count. */
 size_t nh_method_count(void);
 const nh_method *nh_method_at(size_t index);
 /* The method of that name or word, or NULL. */
 const nh_method *nh_method_find(const char *name);
-/* The same for a word that a user gives: "auto" is NULL, the method that suits (automatic.h).  False with a
-   suggestion. */
+/* Reads a word that a user gives: "auto" gives NULL, for the method that suits (automatic.h).  False, with a
+ * suggestion, where there is no such method. */
 #define NH_METHOD_AUTOMATIC "auto"
 bool nh_method_given(const char *word, const nh_method **out, nh_error *error);
 

@@ -26,12 +26,12 @@ typedef struct {
     size_t m, n, size;
     double t, h;
     double substep[most_substeps];
-    size_t substeps, left; /* steps to the next output time */
+    size_t substeps, left; /* substeps of one step; steps left to the next output time */
     double step, *z0, *z1, *zm, *residual, *matrix, *start; /* start: p and R at the beginning of the step */
-    double *large, *noise, *inverse; /* the largest |z_i| so far; what rounding makes of z_i; size x 2 size */
+    double *large, *noise, *inverse; /* the largest |z_i| so far; effect of rounding on z_i; size x 2 size */
     const double *times;
     size_t count;
-    long before; /* evaluations of earlier runs */
+    long before; /* number of evaluations in earlier runs */
 } midpoint_work;
 
 static const double *evaluate(midpoint_work *k, nh_program which, double t, const double *z)
@@ -88,8 +88,8 @@ static void measure_noise(midpoint_work *k, size_t n, const double *matrix, cons
     }
 }
 
-/* x -= matrix^-1 residual for the last n states, the `iteration`th time; the largest change relative to the size that
- * the state has had so far (where that does not end soon: beside rounding), or infinity. */
+/* x -= matrix^-1 residual for the last n states, the `iteration`th time.  Returns the largest change relative to the
+ * size that the state has had so far, or infinity; where that is slow to end, relative to rounding. */
 static double newton_step(midpoint_work *k, size_t n, int iteration, double *matrix, double *residual, double *x)
 {
     double worst = 0, *large = k->large + k->size - n, *noise = k->noise + k->size - n;
@@ -100,18 +100,19 @@ static double newton_step(midpoint_work *k, size_t n, int iteration, double *mat
         x[i] -= residual[i];
         if (!isfinite(x[i])) return INFINITY;
         double size = fmax(fmax(large[i], fabs(x[i])), noise[i]);
-        if (residual[i] != 0) worst = fmax(worst, fabs(residual[i]) / size); /* size 0: infinite */
+        /* size 0: the relative change is infinite */
+        if (residual[i] != 0) worst = fmax(worst, fabs(residual[i]) / size);
     }
     return isfinite(worst) ? worst : 1;
 }
 
-/* A step led to k->z0. */
+/* Called after a step that led to k->z0. */
 static void follow(midpoint_work *k)
 {
     for (size_t i = 0; i < k->size; i++) k->large[i] = fmax(k->large[i], fabs(k->z0[i]));
 }
 
-/* At rounding, or small and no longer falling. */
+/* Is the change at rounding, or small and no longer falling? */
 static bool converged(double change, double last)
 {
     return change < 2 * DBL_EPSILON || (change < 1e-12 && change > last / 2);
@@ -252,7 +253,7 @@ static bool solve_energy(midpoint_work *k)
     double last = INFINITY, *rate = k->matrix + size * size, *mean = k->zm;
     if (!solve_midpoint(k)) return false;
     for (int i = 0; i < 3 * most_iterations; i++) {
-        double *middle = k->residual; /* not in use yet */
+        double *middle = k->residual; /* not set yet */
         for (size_t j = 0; j < size; j++) middle[j] = (k->z0[j] + k->z1[j]) / 2;
         const double *f = evaluate(k, NH_PROGRAM_FLOW, k->t + k->h / 2, middle);
         for (size_t j = 0; j < size; j++)
@@ -271,7 +272,7 @@ static bool solve_energy(midpoint_work *k)
 
 /* ---- which rule is valid ---- */
 
-/* How large what the rates of the pair are sums of is: |R| |u| and |M^-1| (|G| |u| + |R^T| |g_q|), u = M^-1 g_w. */
+/* The sizes of the terms in the rates of the pair: |R| |u| and |M^-1| (|G| |u| + |R^T| |g_q|), u = M^-1 g_w. */
 static bool pair_terms(const midpoint_work *k, const double *pair, const double *g, double *terms)
 {
     size_t m = k->m, n = k->n;
@@ -304,8 +305,8 @@ static bool pair_terms(const midpoint_work *k, const double *pair, const double 
     return good;
 }
 
-/* Rates are compared beside what they are made of: |f_j| and |df_j/dz_i z_i|, and the terms of the pair, which can
-   cancel where f_j is zero identically. */
+/* Compares rates relative to their terms: |f_j| and |df_j/dz_i z_i|, and the terms of the pair, which can cancel where
+ * f_j is zero identically. */
 static bool pair_is_the_motion(nh_programs *programs)
 {
     const nh_model *o = nh_programs_model(programs);
@@ -329,7 +330,7 @@ static bool pair_is_the_motion(nh_programs *programs)
     return same && nh_is_zero(o->dag, nh_diff(o->dag, o->E, o->system->t));
 }
 
-/* What the pair leaves out: forces, time, and what velocities have besides R w. */
+/* What the pair does not describe, in words: forces, time, and the part of the velocities beside R w. */
 static const char *why_another_motion(const nh_model *o)
 {
     bool time = false, nonlinear = false, affine = false;
@@ -409,7 +410,7 @@ nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool compos
 {
     size_t size = nh_programs_model(programs)->m + nh_programs_model(programs)->n;
     nh_flow_options own = *given, *options = &own;
-    own.rtol = 1; /* is not used */
+    own.rtol = 1; /* the method ignores it */
     const char *refused = nh_midpoint_refused(programs, rule);
     if (refused) return nh_fail(error, NH_NUMERIC, "", "this method cannot be used here: %s", refused), NULL;
     nh_motion *motion = nh_motion_start(size, size, initial, count, times, options, error);

@@ -30,7 +30,7 @@ typedef enum { NH_MIDPOINT, NH_LAGRANGE_DALEMBERT, NH_ENERGY } nh_midpoint_rule;
 /* NULL when the rule may be used with the model of these programs, otherwise why not. */
 const char *nh_midpoint_refused(nh_programs *programs, nh_midpoint_rule rule);
 
-/* options->step: the step, made a little smaller so that steps end at the output times.  Otherwise as nh_flow. */
+/* Integrates as nh_flow does. options->step: the step, made a little smaller so that steps end at the output times. */
 nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool composed, const double *initial, size_t count,
                        const double *times, const nh_flow_options *options, nh_error *error);
 

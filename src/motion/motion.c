@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-/* CVODE and IDA refuse to work below some 10 roundings; the error stops falling well before. */
+/* CVODE and IDA refuse tolerances below some 10 roundings; the error stops falling well before. */
 static const double smallest_rtol = 1e-14;
 
 static bool check_times(size_t count, const double *times, nh_error *error)

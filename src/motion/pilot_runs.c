@@ -9,19 +9,20 @@
 #include "motion/accuracy_measure.h"
 
 enum { least_outputs = 9, most_outputs = 1000, most_runs = 3 };
-/* of the budget, that the best known way takes for the piece; of the motion */
+/* length of the piece: the part of the budget that the best known plan takes for it; its largest part of the motion */
 static const double share = 1.0 / 16, most_part = 0.25;
-static const double patience = 2, least_effort = 2e5;  /* times the best so far: what costs more has lost */
-/* the reference: in parts of the error that is aimed at; CVODE's tolerance */
+/* a run is stopped at so many times the work of the best so far, but not below least_effort */
+static const double patience = 2, least_effort = 2e5;
+/* error of the reference, as a part of the error that is aimed at; its least tolerance with CVODE */
 static const double finer = 1e-2, finest_stiff = 1e-13;
-static const double least_error = 3e-14;               /* that can be aimed at */
-/* an error so many times below the aim is as good as that: no further run */
+static const double least_error = 3e-14;               /* smallest error that can be aimed at */
+/* an error below the aim by at most this factor is good: no further run */
 static const double close = 30;
-static const double safety = 3;                        /* further runs aim below */
-/* units: then the functions of methods with fixed steps are worth deriving */
+static const double safety = 3;                        /* further runs aim at the error divided by this */
+/* units of a motion for which the functions of methods with fixed steps are worth deriving */
 static const double long_motion = 1e9;
 
-/* another way than the best so far is chosen when it costs at most such a part of it */
+/* another plan than the best so far is chosen when it costs at most this part of it */
 static const double gain = 0.7;
 
 typedef struct {
@@ -29,7 +30,7 @@ typedef struct {
     nh_velocities velocities;
 } candidate;
 
-/* In the order in which they are tried: what a short budget leaves out is seldom the cheapest. */
+/* In the order in which they are tried: the last ones, which a short budget leaves out, are seldom the cheapest. */
 static const candidate candidates[] = {
     {"GSL rk8pd", NH_OWN_VELOCITIES},           {"CVODE BDF", NH_OWN_VELOCITIES},
     {"ARKODE ESDIRK", NH_OWN_VELOCITIES},       {"CVODE Adams", NH_OWN_VELOCITIES},
@@ -49,8 +50,8 @@ typedef struct {
     nh_options options;
     nh_programs *programs;
     nh_trajectory *reference;
-    double begun, length, whole, aim; /* aim: error on the piece that becomes eps on the whole */
-    double best;                      /* units for the piece, of what reached the aim */
+    double begun, length, whole, aim; /* aim: the error on the piece that becomes eps on the whole motion */
+    double best;                      /* units for the piece, of the cheapest run that reached the aim */
     long steps;                       /* of the reference */
 } pilot;
 
@@ -75,14 +76,14 @@ static nh_trajectory *run(pilot *s, const nh_method *method, nh_velocities veloc
     return NULL;
 }
 
-/* Of a run against the reference. */
+/* The error of a run relative to the reference. */
 static double error_of(const pilot *s, const nh_trajectory *t)
 {
     size_t which;
     return nh_accuracy_difference(s->piece.count, s->piece.n, s->reference->value, t->value, s->terms->floor, &which);
 }
 
-/* One method in some velocities, at the setting that its first run asks for. */
+/* Runs one method in some velocities, at the setting that its first run asks for. */
 static void try_way(pilot *s, const nh_method *method, nh_velocities velocities)
 {
     nh_integration_plan w = {.method = method, .velocities = velocities, .tolerance = NAN, .step = NAN};
@@ -126,7 +127,7 @@ static bool open_piece(pilot *s, const nh_state *from, double **times)
     s->piece.count = count;
     s->piece.times = *times;
     s->piece.options = &s->options;
-    s->piece.project = true; /* a state on the way is off the constraints by the error of the motion */
+    s->piece.project = true; /* a state on the way violates the constraints by the error of the motion */
     s->aim = fmax(least_error, s->terms->eps * s->length / s->whole);
     s->out->part = s->length / s->whole;
     return true;
@@ -177,7 +178,7 @@ void nh_pilot_runs_make(const nh_trajectory_request *request, const nh_state *fr
     out->seconds = nh_clock() - begun;
 }
 
-/* ---- what it says ---- */
+/* ---- the choice ---- */
 
 /* The cheapest run of a method in the model's own velocities, or NULL. */
 static const nh_integration_plan *way_of(const nh_pilot_runs *s, const nh_method *method, double eps)
@@ -201,7 +202,7 @@ nh_integration_plan_choice nh_pilot_runs_choose(const nh_pilot_runs *s, const nh
     double cost = nh_integration_plan_cost(s->count, s->way, eps, choice.way),
            whole = nh_integration_plan_cost(s->count, s->way, eps, own);
     if (cost < gain * (whole - (done ? own->effort : 0))) return choice;
-    if (choice.way->method != best) choice.next = fmax(1, cost / whole); /* so little is no difference */
+    if (choice.way->method != best) choice.next = fmax(1, cost / whole); /* so small a difference does not count */
     choice.way = done ? NULL : own;
     return choice;
 }

@@ -44,7 +44,7 @@ const nh_model *nh_programs_model(const nh_programs *s) { return s->model; }
 long nh_programs_evaluations(const nh_programs *s) { return s->evaluations; }
 size_t nh_programs_compiled(const nh_programs *s) { return s->compiled; }
 
-/* ---- what they compute ---- */
+/* ---- the functions ---- */
 
 /* e (count) and its derivatives by z, column-major, after them. */
 static void with_derivatives(const nh_model *o, size_t count, const nh_ex *e, nh_ex *derivative)
@@ -67,7 +67,7 @@ static void momentum(const nh_model *o, nh_ex *e)
     with_derivatives(o, 3 * m, e, e + 3 * m + m * n);
 }
 
-/* Number of outputs, written to e where that is not NULL. */
+/* Returns the number of outputs, and writes them to e unless that is NULL. */
 static size_t outputs(const nh_model *o, nh_program which, nh_ex *e)
 {
     size_t m = o->m, n = o->n, size = m + n;

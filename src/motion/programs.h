@@ -23,13 +23,13 @@ const nh_model *nh_programs_model(const nh_programs *programs);
 
 /* Values at (t, z), until the same program is evaluated again. */
 const double *nh_programs_at(nh_programs *programs, nh_program which, double t, const double *z);
-/* f (size) as motion.h has right-hand sides; the context is an nh_programs. */
+/* f (size), as a right-hand side of motion.h; the context is an nh_programs. */
 bool nh_programs_rate(double t, const double *z, double *rate, void *programs);
-/* The compiled program, for who evaluates it by other arithmetic: over points (t, q, w). */
+/* The compiled program over points (t, q, w), for callers that evaluate it in other arithmetic. */
 const nh_tape *nh_programs_tape(nh_programs *programs, nh_program which);
-/* The fastest of the rates f, as a frequency: |f_j| beside the largest value that the chart allows z_j. */
+/* The fastest rate as a frequency: the largest |f_j| divided by the largest value that the chart allows z_j. */
 double nh_programs_pace(const nh_model *model, const double *f);
-/* So far, of all programs. */
+/* Numbers of evaluations and of compiled programs so far. */
 long nh_programs_evaluations(const nh_programs *programs);
 size_t nh_programs_compiled(const nh_programs *programs);
 

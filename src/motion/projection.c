@@ -20,7 +20,7 @@ struct nh_projection {
     long evaluations;
 };
 
-/* A state moves as far as its size allows, whatever the units are. */
+/* The units in which states are moved: their sizes. */
 static void measure_sizes(nh_projection *p, double t, double end, const double *z0)
 {
     nh_dynamics *d = nh_dynamics_create(p->model);
@@ -89,7 +89,7 @@ size_t nh_projection_choose(const nh_model *o, size_t currents, const nh_ex *cur
                             const double *z0, const char **why)
 {
     nh_projection *p = nh_projection_create(o, currents, current, t, end, z0);
-    /* independent at some probe; left out here */
+    /* independent at some probe; omitted here */
     bool *anywhere = nh_alloc_array(2 * currents + 1, sizeof *anywhere), *out = anywhere + currents;
     double *start = nh_alloc_array(o->width, sizeof *start);
     size_t chosen = 0;
@@ -129,8 +129,8 @@ void nh_projection_free(nh_projection *p)
     nh_free(p);
 }
 
-/* One Gauss-Newton step; its size, or infinity.  Rows have norm 1, so that the rank does not depend on the currents'
-   units. */
+/* Makes one Gauss-Newton step, and returns its size, or infinity.  Rows are scaled to norm 1, so that the rank does not
+ * depend on the currents' units. */
 static double project_once(nh_projection *p, double *z)
 {
     size_t r = p->currents, n = p->size;

@@ -12,14 +12,14 @@
 
 typedef struct nh_projection nh_projection;
 
-/* `currents` expressions of the model's chart, which must have no implicit velocities; z0: m + n values at time t of a
-   motion to `end`. */
+/* For `currents` expressions of the model's chart, which must have no implicit velocities; z0: m + n values at time t
+ * of a motion to `end`.  The caller frees it. */
 nh_projection *nh_projection_create(const nh_model *model, size_t currents, const nh_ex *current, double t, double end,
                                     const double *z0);
 void nh_projection_free(nh_projection *projection);
 
-/* Which currents make sense to project onto from z0: the gradient of each must be independent of those of the currents
- * chosen before it. why[k]: NULL when current k is chosen, otherwise the reason why not; returns how many are
+/* Which currents can be projected onto from z0?  The gradient of each must be independent of those of the currents
+ * chosen before it. why[k]: NULL when current k is chosen, otherwise the reason why not.  Returns how many are
  * chosen. */
 size_t nh_projection_choose(const nh_model *model, size_t currents, const nh_ex *current, double t, double end,
                             const double *z0, const char **why);

@@ -8,11 +8,11 @@
 #include "motion/stepping.h"
 
 enum { most_iterations = 20, most_halvings = 3 };
-static const double conserved = 1e-9; /* relative rate of the energy at the probes that is rounding */
-static const double farthest = 0.1;   /* of the factor from 1 */
+static const double conserved = 1e-9; /* relative rate of the energy at the probes that counts as rounding */
+static const double farthest = 0.1;   /* largest distance of the factor from 1 */
 /* units of effort: of a step, and of the sums for each pair of stages */
 static const double step_units = 100, stage_vectors = 0.7;
-static const double rounding = 64 * DBL_EPSILON; /* of the energy, relative to the terms that it is made of */
+static const double rounding = 64 * DBL_EPSILON; /* of the energy, relative to its terms */
 
 static const nh_tableau classical = {.stages = 4,
                                      .a = {[1] = {0.5}, [2] = {0, 0.5}, [3] = {0, 0, 1}},
@@ -23,7 +23,7 @@ typedef struct {
     nh_programs *programs;
     nh_tableau tableau;
     size_t size, count;
-    double t, step, energy;    /* energy: at the start */
+    double t, step, energy;    /* energy: its value at the start */
     double *z, *z1, *stage, *d; /* stage: NH_MOST_STAGES x size */
     const double *times;
     long before;
@@ -39,7 +39,7 @@ const char *nh_relaxation_refused(nh_programs *s)
         const double *z = o->chart->probe + p * o->chart->width,
                      *e = nh_programs_at(s, NH_PROGRAM_GRADIENT, z[0], z + 1),
                      *f = nh_programs_at(s, NH_PROGRAM_RATE, z[0], z + 1);
-        /* beside the terms of dE/dt, which are large near the end of a chart */
+        /* relative to the terms of dE/dt, which are large near the end of a chart */
         double terms = 0, energy = fabs(e[size]);
         for (size_t j = 0; j < size; j++) terms += fabs(e[j] * f[j]), energy += fabs(e[j] * z[1 + j]);
         terms += energy * nh_programs_pace(o, f);
@@ -49,7 +49,7 @@ const char *nh_relaxation_refused(nh_programs *s)
     return o->chart->probes ? NULL : "the energy could not be tested at any point";
 }
 
-/* d of a step h from (t, z); false where the equations are not finite. */
+/* The direction d of a step h from (t, z); false where the equations are not finite. */
 static bool direction(relaxation_work *k, double h)
 {
     const nh_tableau *b = &k->tableau;
@@ -94,7 +94,7 @@ static double factor(relaxation_work *k, double h)
     return last <= small ? g : alone <= small ? 1 : NAN;
 }
 
-/* One relaxed step of about *h; *h becomes the time that has passed. */
+/* Makes one relaxed step of about *h; *h becomes the elapsed time. */
 static bool relaxed(relaxation_work *k, double *h)
 {
     for (int i = 0; i <= most_halvings; i++) {
@@ -151,7 +151,7 @@ nh_motion *nh_relaxation(nh_programs *programs, nh_relaxation_rule rule, const d
 {
     size_t size = nh_programs_model(programs)->m + nh_programs_model(programs)->n;
     nh_flow_options own = *given, *options = &own;
-    own.rtol = 1; /* is not used */
+    own.rtol = 1; /* the method ignores it */
     const char *refused = nh_relaxation_refused(programs);
     relaxation_work k = {.programs = programs,
                          .tableau = classical,

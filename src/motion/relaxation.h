@@ -12,13 +12,13 @@
 #include "motion/motion.h"
 #include "motion/programs.h"
 
-/* the classical method, and the pair of order 8 of tableau.h */
+/* the classical method of order 4, and the pair of order 8 of tableau.h */
 typedef enum { NH_RELAXATION_4, NH_RELAXATION_8 } nh_relaxation_rule;
 
 /* NULL when the energy of the model is conserved and can be kept, otherwise why not. */
 const char *nh_relaxation_refused(nh_programs *programs);
 
-/* options->step: the step, made a little smaller so that steps end at the output times.  Otherwise as nh_flow. */
+/* Integrates as nh_flow does. options->step: the step, made a little smaller so that steps end at the output times. */
 nh_motion *nh_relaxation(nh_programs *programs, nh_relaxation_rule rule, const double *initial, size_t count,
                          const double *times, const nh_flow_options *options, nh_error *error);
 

@@ -7,14 +7,14 @@
 void nh_guards_begin(nh_guards *g, const nh_flow_problem *problem, const nh_flow_options *options, const double *z,
                      size_t count, const double *times)
 {
-    static const double part = 1e-7; /* of the whole motion */
+    static const double part = 1e-7; /* part of the whole motion */
     size_t n = problem->guards;
     *g = (nh_guards){.problem = problem, .longest = INFINITY, .least = part * fabs(times[count - 1] - times[0])};
     if (!options->guarded || !n) return;
     g->value = nh_alloc_array(2 * n, sizeof *g->value);
     g->sign = g->value + n;
     if (!problem->guard(times[0], z, g->sign, problem->context))
-        for (size_t i = 0; i < n; i++) g->sign[i] = NAN; /* the first step tells */
+        for (size_t i = 0; i < n; i++) g->sign[i] = NAN; /* set by the first step */
 }
 
 void nh_guards_clear(nh_guards *g)
@@ -23,8 +23,8 @@ void nh_guards_clear(nh_guards *g)
     g->value = NULL;
 }
 
-/* The guard that has changed its sign, or cannot be computed; -1: none.  One that was zero at the start takes the first
-   sign that it has. */
+/* The guard that has changed its sign, or cannot be computed; -1: none.  A guard that was zero at the start takes the
+ * first sign that it has. */
 static long changed(nh_guards *g, double t, const double *z)
 {
     const nh_flow_problem *p = g->problem;
@@ -43,9 +43,10 @@ nh_guard_verdict nh_guards_judge(nh_guards *g, double before, double now, const 
     double way = fabs(now - before);
     long guard = changed(g, now, z);
     if (guard < 0) {
-        /* there is no change any more, or it is found again */
+        /* there is no change any more, or it will be found again */
         if (g->longest <= g->least) g->longest = INFINITY;
-        else if (way > 0.999 * g->longest) g->longest /= 2;            /* this was the first half of the way to it */
+        /* this was the first half of the way to the change */
+        else if (way > 0.999 * g->longest) g->longest /= 2;
         return NH_GUARD_KEPT;
     }
     g->longest = way / 2;

@@ -7,10 +7,10 @@
 #include "base/memory.h"
 
 enum { points = 9, most_depth = 40, most_samples = 4096 };
-static const double resolved_to =
-    0.1; /* of the range of a function in a step: how well its samples foretell each other */
-static const double rounding = 1e-12; /* of its size */
-static const double roundings = 64;   /* of the time: samples that are no farther apart are as dense as can be */
+/* how well samples must predict each other, as a part of the range of a function in a step */
+static const double resolved_to = 0.1;
+static const double rounding = 1e-12; /* the same, as a part of its size */
+static const double roundings = 64;   /* least distance of samples, in roundings of the time */
 
 void nh_sign_changes_open(nh_sign_changes *c)
 {
@@ -49,7 +49,7 @@ bool nh_sign_changes_crossed(nh_sign_changes *c, const double *value)
     return false;
 }
 
-/* Do cubics through every other sample foretell those between them? */
+/* Do cubics through every second sample predict the samples between them? */
 static bool is_resolved(const nh_sign_changes *c, size_t which)
 {
     double g[points], low = INFINITY, high = -INFINITY;
@@ -70,20 +70,20 @@ static bool is_resolved(const nh_sign_changes *c, size_t which)
     return true;
 }
 
-/* Where the parabola through three samples of one sign comes nearest to zero between them: in parts of the way from the
-   first to the last; NAN: at their ends. */
+/* Where the parabola through three samples of one sign comes nearest to zero between them, as a part of the way from
+ * the first to the last; NAN: at one of their ends. */
 static double nearest(double a, double b, double c)
 {
     double bend = a - 2 * b + c, at = 0.5 + (a - c) / (4 * bend);
     return a * b > 0 && b * c > 0 && fabs(b) <= fabs(a) && fabs(b) <= fabs(c) && at > 0 && at < 1 ? at : NAN;
 }
 
-/* The same between begin and begin + 2 width, with three values there: is there an excursion beyond zero around the
-   middle?  A time in it; NAN: none. */
+/* The same between begin and begin + 2 width, with three values there: does the function cross zero and return around
+ * the middle?  A time beyond zero; NAN: none. */
 static double excursion(nh_sign_changes *c, size_t which, double begin, double width, double first, double middle,
                         double last)
 {
-    static const double shorter = 0.25; /* of the way from the middle to an end, the next time */
+    static const double shorter = 0.25; /* the next time, as a part of the way from the middle to an end */
     for (int i = 0; i < c->closer; i++) {
         double part = nearest(first, middle, last), at = begin + 2 * part * width;
         if (isnan(part) || !nh_sign_changes_at(c, at, c->probe)) return NAN;
@@ -102,7 +102,7 @@ static double excursion(nh_sign_changes *c, size_t which, double begin, double w
     return NAN;
 }
 
-/* Samples j - 1 and j are on this side: is there an excursion to the other around sample j? */
+/* Samples j - 1 and j are on this side: does the function cross to the other side and return around sample j? */
 static double touched(nh_sign_changes *c, double begin, double width, size_t j)
 {
     for (size_t i = 0; i < c->count && j + 1 < points; i++) {
@@ -113,12 +113,13 @@ static double touched(nh_sign_changes *c, double begin, double width, size_t j)
     return NAN;
 }
 
-/* Do cubics foretell the values between samples, too?  Samples at equal distances take a fast oscillation for a slow
-   one. */
+/* Do cubics predict the values between samples, too?  Samples at equal distances can show a fast oscillation as a slow
+ * one. */
 static bool is_foretold(nh_sign_changes *c, double begin, double width)
 {
     static const double odd =
-        0.3819660112501051; /* in parts of the way to the next sample: no such part of an oscillation repeats */
+        /* parts of the way to the next sample: irrational, so that no oscillation repeats at them */
+        0.3819660112501051;
     for (int a = 1; a < points - 3; a += 3) {
         if (!nh_sign_changes_at(c, begin + (a + 1 + odd) * width, c->probe)) return false;
         for (size_t i = 0; i < c->count; i++) {
@@ -151,7 +152,8 @@ static bool scan(nh_sign_changes *c, double begin, double end, int depth, double
         double middle = begin + (end - begin) / 2;
         return scan(c, begin, middle, depth + 1, near, far) || scan(c, middle, end, depth + 1, near, far);
     }
-    for (size_t j = 1; j < points; j++) { /* at the beginning it is on this side, where rounding may not show that */
+    /* at the beginning the function is on this side, also where rounding hides that */
+    for (size_t j = 1; j < points; j++) {
         double at = begin + (double)j * width;
         *near = at - width, *far = j + 1 < points ? at : end;
         if (nh_sign_changes_crossed(c, c->sample + j * c->count)) return true;

@@ -11,28 +11,34 @@ enum { places = 5, most_iterations = 60, first_iterations = 12, longest_text = 8
 /* where a step is sampled; those next to its ends tell whether the determinant falls or rises there */
 static const double place[places] = {0, 1e-3, 0.5, 1 - 1e-3, 1};
 static const double golden = 0.3819660112501051; /* (3 - sqrt(5))/2 */
-static const double shallow = 0.05; /* of both sides after the first iterations: a minimum that is no zero */
-/* of both sides: a singular value so small is zero, or the step is far longer than the way past the place */
+/* part of the values at both sides: a minimum above it after the first iterations is no zero */
+static const double shallow = 0.05;
+/* part of the values at both sides: a smaller singular value is zero, or the step is far longer than the way past the
+ * place */
 static const double vanishing = 1e-3;
-static const double close_by = 1e-6;                 /* of the largest determinant: above it no error leads to a zero */
-static const double errors = 1e4, most_error = 1e-6; /* in rtol: what a motion may be off after many steps; in all */
-static const double same = 1e-9;                     /* times inside a step */
-static const double takes_part = 0.3;                /* of the largest entry of a singular vector */
+/* part of the largest determinant: above it no error leads to a zero */
+static const double close_by = 1e-6;
+/* error of a motion after many steps, in rtol; its largest value */
+static const double errors = 1e4, most_error = 1e-6;
+/* part of the determinant before the end of a step: where it is smaller at the end, the motion may end exactly there */
+static const double same = 1e-9;
+/* part of the largest entry of a singular vector: smaller entries are not named */
+static const double takes_part = 0.3;
 
 struct nh_singular_watch {
     nh_singular_terms terms;
     size_t m, k;
-    size_t states;          /* in `state` and `size`, which are made with the first step */
+    size_t states;          /* entries of `state` and `size`, which are allocated in the first step */
     double *entry;          /* K (m x m), F (k x m), column-major */
     double *column, *row;   /* factors of columns and rows: 1/sqrt(K_ss) and 1/|F_a| at the start */
-    double *matrix, *state; /* of m + k rows; a state */
+    double *matrix, *state; /* (m + k) x (m + k); a state */
     double *square, *vector, *sigma, *work;
-    double start[2];        /* singular values there */
+    double start[2];        /* singular values at the start */
     double last_time, last; /* the determinant at the end of the last step */
-    double *size, most;     /* of each state and of the determinant, so far */
+    double *size, most;     /* the largest value of each state and of the determinant so far */
     bool begun;
-    bool close; /* within errors */
-    bool rough; /* states inside the step are sketched */
+    bool close; /* the place was found within errors of the states */
+    bool rough; /* states inside the step come from the cubic (nh_inside_step_sketch) */
     char words[longest_words];
 };
 
@@ -50,7 +56,7 @@ static bool entries_at(nh_singular_watch *c, nh_inside_step *inside, double t)
     return good && entries_here(c, t);
 }
 
-/* Velocities in units of equal kinetic energy, constraints in units of equal size. */
+/* Scales velocities to units of equal kinetic energy, and constraints to units of equal size. */
 static void scale(nh_singular_watch *c)
 {
     size_t m = c->m, k = c->k;
@@ -91,7 +97,7 @@ static double determinant_of(nh_singular_watch *c)
     return isfinite(det) ? det : INFINITY;
 }
 
-/* At a time in the step. */
+/* The determinant at a time in the step. */
 static double determinant(nh_singular_watch *c, nh_inside_step *inside, double t)
 {
     return entries_at(c, inside, t) ? determinant_of(c) : INFINITY;
@@ -99,8 +105,8 @@ static double determinant(nh_singular_watch *c, nh_inside_step *inside, double t
 
 /* ---- singular values ---- */
 
-/* The least singular values of F and of K on ker F at a time in the step, with the singular vectors: the rows of F that
-   depend, and a velocity without inertia. */
+/* The least singular values of F and of K on ker F at a time in the step, with the singular vectors: the combination of
+ * rows of F that vanishes, and a velocity without inertia. */
 static bool least_values(nh_singular_watch *c, nh_inside_step *inside, double t, double least[2], double *rows,
                          double *velocity)
 {
@@ -169,7 +175,7 @@ static void say_velocities(nh_singular_watch *c, const double *velocity)
                           c->terms.system->coordinate[s].name);
 }
 
-/* Do the values at `time` vanish beside those at the sides?  The words say which. */
+/* Do the singular values at `time` vanish relative to those at the sides?  The words say which. */
 static bool vanishes(nh_singular_watch *c, nh_inside_step *inside, double time, const double sides[2])
 {
     double here[2], *rows = c->work + 3 * c->m * c->m, *velocity = rows + c->k;
@@ -182,7 +188,7 @@ static bool vanishes(nh_singular_watch *c, nh_inside_step *inside, double time, 
 
 /* ---- minima inside a step ---- */
 
-/* The minimum between two times by golden sections; NAN where it is no zero. */
+/* The minimum between two times by golden sections; NAN where it is not zero. */
 static double lowest_in(nh_singular_watch *c, nh_inside_step *inside, double from, double to, double sides)
 {
     double a = from, b = to, x = a + golden * (b - a), y = b - golden * (b - a), fx = determinant(c, inside, x),
@@ -195,7 +201,7 @@ static double lowest_in(nh_singular_watch *c, nh_inside_step *inside, double fro
     return fx < fy ? x : y;
 }
 
-/* First along the sketch of the step. */
+/* Looks for the minimum first along the cubic of the step. */
 static double lowest(nh_singular_watch *c, nh_inside_step *inside, double from, double to, double sides)
 {
     c->rough = true;
@@ -204,7 +210,7 @@ static double lowest(nh_singular_watch *c, nh_inside_step *inside, double from, 
     return isnan(at) ? NAN : lowest_in(c, inside, from, to, sides);
 }
 
-/* At the start of the motion. */
+/* The values at the start of the motion. */
 static bool begin_at(nh_singular_watch *c, nh_inside_step *inside, double t)
 {
     nh_free(c->state);
@@ -226,7 +232,7 @@ static bool least_of_both(nh_singular_watch *c, nh_inside_step *inside, double f
     return true;
 }
 
-/* Does an error of a state change the determinant by as much as it is? */
+/* Can errors of the states change the determinant by its own value? */
 static bool within_error(nh_singular_watch *c, nh_inside_step *inside, double t, double det, double rtol)
 {
     double error = fmin(errors * rtol, most_error);
@@ -245,7 +251,7 @@ static void follow_sizes(nh_singular_watch *c, nh_inside_step *inside)
     for (size_t i = 0; i < c->states; i++) c->size[i] = fmax(c->size[i], fabs(c->state[i]));
 }
 
-/* Samples that fall and rise; or that fall towards an end of the step, next to which the minimum may lie. */
+/* Do the samples fall and rise?  Or do they fall towards an end of the step, near which the minimum may lie? */
 static bool may_be_zero(const double *det, int i)
 {
     static const double lower = 0.9, far_lower = 1e-2;

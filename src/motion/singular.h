@@ -25,18 +25,18 @@ typedef struct {
     bool mapped; /* the velocities are not those of the coordinates */
 } nh_singular_terms;
 
-/* For motions that begin at one state. */
+/* For motions that begin at one state.  The caller frees it. */
 nh_singular_watch *nh_singular_watch_create(const nh_singular_terms *terms);
 void nh_singular_watch_free(nh_singular_watch *watch);
 
-/* In the last step: the time of the first such place (NAN: there is none), or of one so close to the motion that the
-   errors of its states, a part rtol of their sizes, may lead there. */
+/* The time of the first such place in the last step (NAN: there is none), or of its end where that is so near to such
+ * a place that errors of the states, of a multiple of rtol of their sizes, may lead there. */
 double nh_singular_watch_step(nh_singular_watch *watch, nh_inside_step *inside, double rtol);
-/* Is the end of the last step close to such a place, for which the integrator does not get on? */
+/* Is the end of the last step near such a place, so that the integrator cannot go on? */
 bool nh_singular_watch_end(nh_singular_watch *watch, nh_inside_step *inside);
-/* Was it found by the errors of the states? */
+/* Was the place found only within the errors of the states? */
 bool nh_singular_watch_close(const nh_singular_watch *watch);
-/* What vanishes at the place that was found, as a sentence. */
+/* What vanishes at that place, as a sentence. */
 const char *nh_singular_watch_words(const nh_singular_watch *watch);
 
 #endif

@@ -9,7 +9,7 @@ struct nh_singular_of_model {
     nh_singular_watch *watch;
 };
 
-/* Does one of the expressions depend on time, coordinates or velocities?  *told: on known states alone. */
+/* Does one of the expressions depend on time, coordinates or velocities?  *told: only on known states. */
 static bool varies(const nh_model *o, size_t n, const nh_ex *e, const bool *known, bool *told)
 {
     bool any = false;
@@ -28,7 +28,7 @@ static bool entries(double t, const double *z, double *entry, void *context)
     return nh_along_values_at(context, t, z, entry);
 }
 
-/* The velocities that a file maps to those of the coordinates have no constraints: their mass matrix alone decides. */
+/* Velocities that a file maps to those of the coordinates have no constraints: their mass matrix alone decides. */
 static size_t terms_of(const nh_model *o, bool mapped, nh_ex *e, size_t *k)
 {
     size_t m = o->m;

@@ -9,13 +9,14 @@
 #include "base/memory.h"
 
 enum { most_shorter = 60, most_levels = 8, between_measures = 32 };
-static const double shorter = 0.25;          /* from one tau to the next that is tried */
-static const double within = 0.25;           /* of the tau that is found: what follows from it */
+static const double shorter = 0.25;          /* factor from one tau that is tried to the next */
+static const double within = 0.25;           /* part of the tau that is found, which is used */
 static const double disturbance = 4;         /* roundings of each state, whose effect on the rates is measured */
-/* a state whose rounding in a step is such a part of its size has no digits; of others it may be such a part of the
-   tolerance */
+/* a state has no digits if its rounding in a step is a larger part of its size; the part of the tolerance that the
+ * rounding of another state may be */
 static const double drowned = 1e-3, rest = 0.1;
-static const double nothing = 1e-6;          /* of the smallest size: that of a state which nothing moves so far */
+/* size of a state that nothing moves so far, as a part of the smallest size */
+static const double nothing = 1e-6;
 
 static bool rate_at(nh_sizes *s, double t, const double *z, double *rate)
 {
@@ -23,7 +24,7 @@ static bool rate_at(nh_sizes *s, double t, const double *z, double *rate)
     return s->problem->rate(t, z, rate, s->problem->context) && nh_all_finite(s->problem->size, rate);
 }
 
-/* z + tau f into to, and the rates there; false: not defined, or they differ from f too much. */
+/* Writes z + tau f to `to`, and the rates there; false: they are not defined, or differ too much from f. */
 static bool step_is_short(nh_sizes *s, double t, double tau, const double *z, const double *f, double *to, double *rate)
 {
     for (size_t i = 0; i < s->problem->size; i++) to[i] = z[i] + tau * f[i];
@@ -40,7 +41,7 @@ static void enlarge(nh_sizes *s, double tau, const double *f)
     for (size_t i = 0; i < s->problem->size; i++) s->size[i] = fmax(s->size[i], fabs(tau * f[i]));
 }
 
-/* The change of the rates under rounding of the states, the largest so far. */
+/* The change of the rates by rounding of the states, the largest so far. */
 static void measure_rounding(nh_sizes *s, double t, const double *z)
 {
     size_t n = s->problem->size;
@@ -62,8 +63,8 @@ static void allocate(nh_sizes *s, const nh_flow_problem *problem)
     s->work = s->rounding + problem->size;
 }
 
-/* States that are still zero: as large as the others can make them in that time; those that nothing moves, small beside
-   all others. */
+/* Sizes of states that are still zero: as large as the others can make them within tau; of those that nothing moves,
+ * small relative to all others. */
 static void fill(nh_sizes *s, double t, const double *z)
 {
     double least = INFINITY;
@@ -77,7 +78,7 @@ static void fill(nh_sizes *s, double t, const double *z)
         if (!(s->size[i] > 0)) s->size[i] = nothing * least;
 }
 
-/* Sizes are no less than `least` (NULL: they come from the motion alone). */
+/* Raises the sizes to `least` (NULL: they come from the motion alone). */
 static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part, const double *least, const double *z,
                         double begin, double end)
 {
@@ -95,7 +96,7 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     s->tau = s->step = fabs(tau);
     enlarge(s, tau, f);
     bool more = is_short;
-    /* Picard's iteration: what moves, and what that moves */
+    /* Picard's iteration: states that move, then states that are moved by these */
     for (int level = 0; level < most_levels && more; level++) {
         for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * f[i];
         if (!rate_at(s, begin + tau, to, rate)) break;
@@ -128,11 +129,11 @@ void nh_sizes_clear(nh_sizes *s)
 
 void nh_sizes_follow(nh_sizes *s, double t, const double *z)
 {
-    if (!(s->tau > 0)) return; /* they are given */
+    if (!(s->tau > 0)) return; /* the sizes are given */
     s->step = fabs(t - s->last);
     s->last = t;
     for (size_t i = 0; i < s->problem->size; i++)
-        if (fabs(z[i]) > s->size[i]) s->size[i] = fabs(z[i]); /* not one that is not a number */
+        if (fabs(z[i]) > s->size[i]) s->size[i] = fabs(z[i]); /* false also for NAN */
     if (++s->followed % between_measures == 0) measure_rounding(s, t, z);
 }
 

@@ -29,20 +29,20 @@ typedef struct {
     long followed, evaluations;
 } nh_sizes;
 
-/* At the start of a motion.  False when the right-hand side cannot be evaluated there. */
+/* Determines the sizes at the start of a motion.  False when the right-hand side cannot be evaluated there. */
 bool nh_sizes_begin(nh_sizes *sizes, const nh_flow_problem *problem, double part, const double *z, double begin,
                     double end);
-/* Sizes that are given instead (nh_flow_options.scale; NULL: all 1). */
+/* Uses given sizes instead (nh_flow_options.scale; NULL: all 1). */
 void nh_sizes_given(nh_sizes *sizes, const nh_flow_problem *problem, const double *scale);
 void nh_sizes_clear(nh_sizes *sizes);
 
-/* A step led to z at time t. */
+/* Call after a step that led to z at time t. */
 void nh_sizes_follow(nh_sizes *sizes, double t, const double *z);
 
-/* The error that a step may make in state i whatever its value is now. */
+/* The absolute error that a step may make in state i, whatever its value is now. */
 double nh_sizes_absolute(const nh_sizes *sizes, double rtol, size_t i);
 
-/* One or the other, as the options say. */
+/* nh_sizes_begin or nh_sizes_given, as the options say. */
 bool nh_sizes_open(nh_sizes *sizes, const nh_flow_problem *problem, const nh_flow_options *options, const double *z,
                    size_t count, const double *times);
 

@@ -13,11 +13,10 @@
 #include "motion/singular.h"
 
 static const double default_max_steps = 1e7;
-/* of the whole time, in NH_ADVANCE_AFTER steps: no motion gets to its end so; */
+/* part of the whole time: a motion that advances less in NH_ADVANCE_AFTER steps does not reach its end */
 static const double least_advance = 1e-10;
-enum {
-    most_slow = 200
-}; /* but through a zero of a velocity whose size is not yet known, after as many times as many steps */
+/* such spans in a row that are allowed: steps are short near the zero of a velocity whose size is not known yet */
+enum { most_slow = 200 };
 
 /* Output at the wanted times up to `now`; false when a state there is not finite. */
 static bool store_reached(nh_motion *motion, size_t count, const double *times, double now, const nh_stepper *stepper)
@@ -34,7 +33,7 @@ static bool store_reached(nh_motion *motion, size_t count, const double *times, 
     return true;
 }
 
-/* How far a long motion has come. */
+/* Reports how far a long motion has come. */
 static void tell(const nh_motion *motion, size_t count, const double *times)
 {
     enum { steps_between_words = 2048 };
@@ -43,7 +42,7 @@ static void tell(const nh_motion *motion, size_t count, const double *times)
         nh_progress("a motion", (motion->end_time - times[0]) / span);
 }
 
-/* By a signal, by the limit of time or by that of memory. */
+/* Says what interrupted the motion: a signal, the limit of time or that of memory. */
 static void note_end(nh_motion *motion)
 {
     char words[80];
@@ -62,7 +61,7 @@ static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double 
     }
     double limit = options->max_steps > 0 ? options->max_steps : default_max_steps;
     bool cancelled =
-        options->cancelled && options->cancelled(options->cancel_context); /* this may compute for a while */
+        options->cancelled && options->cancelled(options->cancel_context); /* the call may compute for a while */
     if (nh_interrupted()) note_end(motion);
     else if (cancelled) nh_motion_note(motion, "cancelled at t = %.10g", motion->end_time);
     else if ((double)motion->steps >= limit) {
@@ -94,7 +93,7 @@ static void stop_at_zero(nh_motion *motion, size_t count, const double *times, c
     memcpy(motion->end_state, state, size * sizeof *state);
 }
 
-/* What a motion is watched for. */
+/* What is watched along a motion. */
 typedef struct {
     nh_inside_step *inside; /* NULL: for nothing */
     nh_event_search *events;
@@ -118,8 +117,8 @@ static void end_watching(watched *w, nh_motion *motion)
     nh_inside_step_free(w->inside);
 }
 
-/* In the last step.  *singular: the time at which the equations determine no acceleration, or NAN.  True: the motion
-   stops at an event before it. */
+/* Looks at the last step.  *singular: the time at which the equations determine no acceleration, or NAN. True: the
+ * motion stops at an event before it. */
 static bool watch_step(watched *w, double time, double last, nh_motion *motion, double *singular)
 {
     if (!w->inside || !nh_inside_step_take(w->inside, time)) return false;
@@ -136,18 +135,18 @@ static bool watch_step(watched *w, double time, double last, nh_motion *motion, 
     return stop;
 }
 
-/* The integrator does not get on: is this why? */
+/* The integrator cannot go on: the note says where a singular place is the reason. */
 static void tell_singular(const watched *w, nh_motion *motion)
 {
     if (w->singular && nh_singular_watch_end(w->singular, w->inside))
         nh_motion_note(motion, "near there %s", nh_singular_watch_words(w->singular));
 }
 
-/* The outputs before the time at which the equations determine no acceleration. */
+/* Keeps the outputs before the time at which the equations determine no acceleration. */
 static void end_at_singular(nh_motion *motion, size_t count, const double *times, double at, const watched *w,
                             const nh_stepper *stepper)
 {
-    static const double near = 1e-7; /* of the whole time: values there are those of the place itself */
+    static const double near = 1e-7; /* part of the whole time: values this near are those of the place itself */
     double before = at - near * (times[count - 1] - times[0]);
     store_reached(motion, count, times, before, stepper);
     motion->end_time = at;

@@ -25,7 +25,7 @@ static void hear(int line, const char *function, const char *file, const char *m
 bool nh_sundials_open(nh_sundials *s)
 {
     *s = (nh_sundials){0};
-    SUNLogger logger = NULL; /* warnings go to it, and it prints them */
+    SUNLogger logger = NULL; /* it would print warnings */
     return SUNContext_Create(SUN_COMM_NULL, &s->context) == 0 && SUNContext_ClearErrHandlers(s->context) == 0 &&
            SUNContext_PushErrHandler(s->context, hear, s) == 0 && SUNContext_GetLogger(s->context, &logger) == 0 &&
            SUNLogger_SetWarningFilename(logger, "/dev/null") == 0;

@@ -1,5 +1,4 @@
-/* sundials: a context for an integrator of SUNDIALS that keeps its words instead of printing them, for versions 6 and 7
-   alike. */
+/* sundials: a context for an integrator of SUNDIALS, versions 6 and 7, that keeps messages instead of printing them. */
 #ifndef NH_SUNDIALS_H
 #define NH_SUNDIALS_H
 
@@ -12,11 +11,10 @@
 
 typedef struct nh_sundials {
     SUNContext context;
-    char message[200]; /* the last error, empty when there is none */
+    char message[200]; /* the last error message, empty when there is none */
 } nh_sundials;
 
-/* s must stay where it is until it is closed, after all that was made in its context.  False when there is no
-   memory. */
+/* s must not move until it is closed, after everything that was made in its context.  False when there is no memory. */
 bool nh_sundials_open(nh_sundials *s);
 void nh_sundials_close(nh_sundials *s);
 

@@ -1,5 +1,5 @@
-/* One step with h = 1 from z = 0, in which the j-th call of the right-hand side answers with the j-th unit vector: what
- * the stepper asks for and what it returns are rows of its tableau. */
+/* Reads a tableau from one step with h = 1 from z = 0, in which the j-th call of the right-hand side returns the j-th
+ * unit vector: the states that the stepper asks for and its result are rows of the tableau. */
 #include "base/clones.h"
 #include "motion/tableau.h"
 

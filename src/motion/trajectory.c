@@ -15,11 +15,11 @@
 #include "graph/terms.h"
 #include "motion/sizes.h"
 
-/* |R| of a chart of coordinate velocities, without units, beyond which its formulas lose digits */
+/* largest |R| of a chart of coordinate velocities, without units: above it the formulas lose digits */
 static const double steepest = 10;
 
-/* The largest |z| along a motion, and what sizes.h says of states that are zero all along it.  Zeros of a chart that
-   breaks down have no such size. */
+/* The largest |z| along a motion; of states that are zero all along it, their size by sizes.h.  States of a chart that
+ * breaks down have no such size. */
 static void sizes_of_states(nh_dynamics *dynamics, const nh_motion *motion, double *large)
 {
     const nh_model *o = nh_dynamics_model(dynamics);
@@ -31,13 +31,13 @@ static void sizes_of_states(nh_dynamics *dynamics, const nh_motion *motion, doub
     for (size_t j = 0; j < states; j++) large[j] = known ? sizes.size[j] : 0;
     if (states == problem.size) nh_sizes_clear(&sizes);
     for (size_t i = 0; i < count * states; i++) large[i % states] = fmax(large[i % states], fabs(motion->state[i]));
-    for (size_t j = 0; j < o->m; j++) /* an angle that winds up is no larger for it */
+    for (size_t j = 0; j < o->m; j++) /* turns of an angle do not make it larger */
         if (o->system->coordinate[j].type == NH_ANGLE) large[j] = fmin(large[j], 1);
 }
 
 bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *size)
 {
-    static const double part = 1e-6; /* of a state's size: first order, and far above rounding */
+    static const double part = 1e-6; /* part of a state's size: the change is of first order, and far above rounding */
     size_t states = motion->size, count = motion->count;
     double *value = nh_alloc_array(2 * count * n + 1, sizeof *value),
            *moved = nh_alloc_array((count + 1) * states, sizeof *moved), *large = moved + count * states;
@@ -100,7 +100,7 @@ static bool point_of_scene(void *context, double t, const double *z, double *poi
     return nh_closed_subsystem_point(context, t, z, point);
 }
 
-/* The entries of R that kept states alone decide; the others do not enter their equations. */
+/* Is an entry of R steep that depends on kept states alone?  The others do not occur in the equations of these. */
 static bool scene_is_steep(const nh_closed_subsystem *s, nh_closed_subsystem_run *run, const nh_motion *motion)
 {
     const nh_model *o = s->model;
@@ -203,7 +203,7 @@ static bool value_of_watch(double t, const double *z, double *value, void *conte
     return nh_along_values_at(context, t, z, value);
 }
 
-/* From now on motions watch for the events, whose expressions these are (NULL: they do not). */
+/* From now on motions watch for the events, with these expressions (NULL: for none). */
 static void watch(job *j, nh_along_values *values)
 {
     nh_along_values_free(j->watch.context);
@@ -235,7 +235,7 @@ static nh_along_values *by_scene(size_t n, const nh_ex *e, void *context)
     return nh_along_values_create(j->q->model, point_of_scene, j->run, n, e);
 }
 
-/* From now on motions end at such places (`make` NULL: they do not), where the known states tell of them. */
+/* From now on singular places end the motions (`make` NULL: they do not), as far as the known states show them. */
 static void watch_singular(job *j, const bool *known,
                            nh_along_values *make(size_t n, const nh_ex *e, void *context))
 {
@@ -282,7 +282,7 @@ static void close_watch(job *j)
     nh_free(j->watched);
 }
 
-/* The wanted values along the motion and at its events, by expressions that are freed. */
+/* Writes the wanted values along the motion and at its events; frees the expressions. */
 static bool take_values(job *j, nh_along_values *values, const nh_motion *motion)
 {
     nh_free(j->out->event_value);
@@ -299,8 +299,8 @@ static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
     return nh_meets_pivot(dynamics, j->method, z0, ends, &j->how);
 }
 
-/* The scene's states from the start of all.  *failed: the current (its number) that did not determine its state all the
-   way, or -1. */
+/* The motion of the subsystem's states.  Where it cannot be used, *failed is the index of the current that did not
+ * determine its state, or of the last one in use; -1: none. */
 static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *failed, nh_error *error)
 {
     size_t events = j->q->events;
@@ -346,7 +346,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     return false;
 }
 
-/* With all currents; then without those that cease to determine their state on the way. */
+/* Uses all currents first; then without those that cease to determine their state on the way. */
 static bool in_scene(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
@@ -381,8 +381,8 @@ static nh_motion *in_own_velocities(job *j, nh_error *error)
     return motion;
 }
 
-/* By the equations of motion of the other model, unless its chart breaks down on the way; values as in all
-   coordinates. */
+/* By the equations of the other model, unless its chart breaks down on the way; the values are those in all
+ * coordinates. */
 static bool in_other_velocities(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
@@ -415,7 +415,7 @@ static bool in_other_velocities(job *j, nh_error *error)
     return good;
 }
 
-/* Was it ended by the limit? */
+/* Did the limit of work end the motion? */
 static bool spent_all(const nh_trajectory_request *q, const nh_motion *motion)
 {
     return !motion->complete && q->max_effort > 0 && motion->effort > q->max_effort;
@@ -442,7 +442,7 @@ static void in_all_states(job *j, nh_error *error)
         take_values(j, nh_along_values_of(j->dynamics, motion->size > q->model->m + q->model->n, q->n, q->e), motion);
 }
 
-/* The places of impulses are events that end the motion, after those of the request. */
+/* Adds the places of impulses, as events that end the motion, after the events of the request. */
 static nh_event *with_impulses(const nh_trajectory_request *q)
 {
     nh_event *event = nh_alloc_array(q->events + q->impulses + 1, sizeof *event);
@@ -451,7 +451,7 @@ static nh_event *with_impulses(const nh_trajectory_request *q)
     return event;
 }
 
-/* There the motion has no state that belongs to one of the sides, and no end that was asked for. */
+/* At an impulse the motion has no state that belongs to one of the sides, and it did not end on request. */
 static void end_at_impulse(nh_motion *motion, const nh_trajectory_request *q)
 {
     const nh_event_found *last = motion && motion->stopped ? &motion->event[motion->events - 1] : NULL;

@@ -29,33 +29,37 @@ typedef struct {
 typedef struct {
     const nh_model *model;
     const nh_state *initial;
-    size_t count;             /* output times */
+    size_t count;             /* number of output times */
     const double *times;
     const nh_options *options; /* tolerance, absolute, steps, compile */
     size_t n;
     const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
     /* n, or NULL: their errors are relative to the largest of their terms, with an accuracy (accuracy.h) */
     const bool *by_terms;
-    size_t events;            /* motion.h: found */
+    size_t events;            /* events to be recorded (motion.h) */
     const nh_event *event;
-    /* functions of t and q: the motion ends at their zeros, where it has an impulse that its equations do not determine
-       (integrals/region.h) */
+    /* functions of t and q: at their zeros the motion has an impulse that its equations do not determine, and ends
+     * (integrals/region.h) */
     size_t impulses;
     const nh_ex *impulse;
-    bool smallest;            /* integrate only what they need */
-    size_t currents;          /* of the chart, known to be conserved: they may make states superfluous there */
+    bool smallest;            /* integrate only the closed subsystem for `e` and the events */
+    /* expressions of the chart that are known to be conserved: they may determine states of the subsystem */
+    size_t currents;
     const nh_ex *current;
-    /* velocities that violate the constraints are replaced by the nearest that satisfy them */
+    /* replace velocities that violate the constraints by the nearest that satisfy them */
     bool project;
-    const nh_method *method;  /* NULL: the one that suits (automatic.h) */
-    double step;              /* of methods with a fixed step, which take the model's own equations, and all states */
-    nh_programs *programs;    /* of the model, for them; NULL: made for this motion */
-    nh_velocities velocities;   /* where they can be used; the model's own otherwise */
+    const nh_method *method;  /* NULL: automatic choice (automatic.h) */
+    double step;              /* of methods with a fixed step, which solve the model's own equations for all states */
+    nh_programs *programs;    /* programs of the model for these methods; NULL: made for this motion */
+    nh_velocities velocities;   /* used where possible; otherwise the model's own */
     const nh_model *other;    /* for NH_OTHER_VELOCITIES */
     double max_seconds;       /* time limit (base/clock.h); 0: none; a motion that takes longer is not complete */
     double max_effort;        /* the same in units of base/effort.h, of each attempt at the motion; 0: none */
 } nh_trajectory_request;
 
+/* A request for a thread's own use: its models are copies on a graph of their own (nh_model_copy), so that other
+ * threads can compute motions of the same models at the same time.  It borrows the rest of the request, and must be
+ * freed after all that was computed by it. */
 typedef struct {
     nh_motion *motion;        /* in (q, w), in (q, v), or in the kept states of the scene */
     const char *method, *formulation;
@@ -65,19 +69,20 @@ typedef struct {
     char machine[320];        /* how the equations were evaluated, in words */
 } nh_trajectory;
 
-/* In the chart, or in all coordinates where the chart breaks down on the way.  NULL with a message when nothing could
-   be computed. */
+/* The motion in the chart, or in all coordinates where the chart breaks down on the way.  NULL with a message when
+ * nothing could be computed.  The caller frees it. */
 nh_trajectory *nh_trajectory_create(const nh_trajectory_request *request, nh_error *error);
 void nh_trajectory_free(nh_trajectory *trajectory);
 
 /* ---- parts, also for the validation ---- */
 
-/* How large each expression is along a motion: the largest |e|, and of the first-order change of e when each state
- * changes by its own largest value, with any signs; so what is zero but for rounding is as large as what it is made
- * of. */
+/* The size of each expression along a motion: the larger of |e| and of its first-order change when each state changes
+ * by its own largest value, with a random sign.  So an expression that is zero up to rounding is as large as its
+ * terms. */
 bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *size);
 
-/* Where does a chart of coordinate velocities lose digits?  One flag per output (nh_free); *any: anywhere. */
+/* Where does a chart of coordinate velocities lose digits?  One flag per output, which the caller frees (nh_free);
+ * *any: at some output. */
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);
 
 /* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: the one that

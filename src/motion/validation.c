@@ -21,14 +21,14 @@ typedef struct {
     size_t watches;
     const nh_observable *watch;
     const nh_valid *valid;
-    const nh_method *method; /* NULL: the one that suits */
-    bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
+    const nh_method *method; /* NULL: automatic choice */
+    bool everywhere;  /* the chart breaks down on the way: the motion is integrated in all coordinates */
     size_t currents;
     const nh_ex *current; /* of the chart */
 } run;
 
-/* Of the work for all motions of the check each has the same part: in units of base/effort.h, and for multistep methods
- * also in steps, which evaluate the equations about twice and make a new Jacobian once in a while. */
+/* Each motion of the check may use the same part of the whole work: in units of base/effort.h, and for multistep
+ * methods also in steps, which evaluate the equations about twice each and compute a new Jacobian now and then. */
 enum { all_motions = NH_DRIFT_RUNS + 2 };
 
 static double most_effort(const run *r) { return 1e6 * r->options->check_work / all_motions; }
@@ -42,8 +42,8 @@ static double most_steps(const run *r)
 
 /* ---- the multiplier form ---- */
 
-/* Of q and v (2 m), and of the reactions (m).  Within tau, the time in which the rates change by about their own size,
- * a velocity makes a coordinate at least tau |v| large, and a momentum needs a force |p|/tau to change. */
+/* Scales of q and v (2 m), and of the reactions (m).  Within tau, the time in which the rates change by about their own
+ * size, a velocity makes a coordinate at least tau |v| large, and a momentum needs a force |p|/tau to change. */
 typedef struct {
     double *state, *force;
 } sizes_of_all;
@@ -65,7 +65,7 @@ static sizes_of_all measure_sizes(run *r, const nh_motion *motion)
     for (size_t s = 0; s < m; s++) {
         double q = fmax(sizes.size[s], tau * all.state[m + s]);
         for (size_t i = 0; i < motion->count; i++) q = fmax(q, fabs(motion->state[i * motion->size + s]));
-        all.state[s] = q > 0 ? q : 1; /* nothing is known of it */
+        all.state[s] = q > 0 ? q : 1; /* its size is not known */
         all.state[m + s] = fmax(all.state[m + s], DBL_EPSILON * all.state[s] / tau);
         if (tau > 0) all.force[s] = fmax(all.force[s], momentum[s] / tau);
     }
@@ -119,7 +119,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     nh_motion first = *reduced;
     first.count = 1;
     bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
-    /* a second opinion: near a pole of the coordinates it may need millions */
+    /* this only confirms a motion: near a pole of the coordinates it may need millions of steps */
     double enough = fmin(20000, 2000 + 20 * (double)reduced->steps);
     nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1],
                                .scale = sizes->state,
@@ -173,8 +173,8 @@ static nh_motion *motion_by(run *r, const nh_method *method, const nh_flow_optio
     return nh_automatic_or(method, &problem, r->z0, r->outputs, r->times, options, used, error);
 }
 
-/* The motion once more by CVODE Adams, unless it was computed so: coordinates and coordinate velocities are compared as
-   far as both go. */
+/* Computes the motion once more by CVODE Adams, unless that computed it first; compares coordinates and coordinate
+ * velocities as far as both motions go. */
 static void multistep(run *r, const nh_motion *motion, const sizes_of_all *sizes)
 {
     const nh_method *adams = nh_method_find("CVODE Adams");
@@ -229,7 +229,7 @@ static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
     nh_free(e);
 }
 
-/* ---- the scene ---- */
+/* ---- the closed subsystem ---- */
 
 /* Does the smallest model give the same values of the observables? */
 static void smallest_model(run *r, const nh_state *initial, const nh_motion *motion, const nh_ex *watched)
@@ -310,7 +310,7 @@ static void keep(run *r, const nh_state *initial, const nh_motion *motion)
         snprintf(v->note, sizeof v->note, "the test motion ends at t = %.4g: %.200s", motion->end_time, motion->note);
 }
 
-/* Second opinions on the tightest run. */
+/* Confirms the tightest run by independent computations. */
 static void compare_with_others(run *r, const nh_validation_request *q, const nh_motion *motion)
 {
     sizes_of_all sizes = measure_sizes(r, motion);
@@ -351,8 +351,8 @@ static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
     return true;
 }
 
-/* The method and the tolerance of the tightest run, by the accuracy that is wanted of the states and of what is
-   watched.  False: no motion at all. */
+/* Chooses the method and the tolerance of the tightest run by the wanted accuracy of the states and of the watched
+ * expressions.  False: no motion can be computed. */
 static bool choose(run *r, const nh_validation_request *q, double *tolerance, nh_error *error)
 {
     const nh_model *o = q->model;

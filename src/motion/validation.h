@@ -11,13 +11,13 @@
 #include "motion/accuracy.h"
 #include "motion/drift.h"
 
-/* Two computations of one motion whose states differ by more, relative to their sizes, are not said to agree. */
+/* Two computations of one motion agree when their states differ by at most this part of their sizes. */
 #define NH_MOTIONS_APART 0.01
 
 typedef struct {
     nh_arena *arena;
     const char *method, *multiplier_method, *chart;
-    bool checked;              /* an accuracy is requested */
+    bool checked;              /* an accuracy was requested */
     nh_accuracy accuracy;
     double tolerance[NH_DRIFT_RUNS], begin, end;
     size_t currents;
@@ -26,8 +26,8 @@ typedef struct {
     double *time, *state, *multiplier; /* count; count x (m + n); count x k by the formula */
     long evaluations, steps;
     bool complete;
-    char note[400]; /* room for the note of a motion and what stands before it */
-    bool multiplier_form;      /* was it integrated? */
+    char note[400]; /* room for the note of a motion and the words before it */
+    bool multiplier_form;      /* was the multiplier form integrated? */
     double state_difference, multiplier_difference, violation; /* relative to sizes along the motion */
     long multiplier_evaluations;
     /* was the motion computed once more by CVODE Adams, which shares nothing with an explicit pair? */
@@ -38,7 +38,8 @@ typedef struct {
     size_t watches;
     const char **watch_name;
     double *watch;             /* count x watches, along the tightest run */
-    /* the smallest model for what is watched, in words; NULL: nothing is watched, or it could not be integrated */
+    /* the closed subsystem for the watched expressions, in words; NULL: nothing is watched, or it could not be
+     * integrated */
     const char *scene;
     double scene_difference;   /* of the watched values, relative to their sizes along the motion */
     long scene_evaluations;
@@ -47,7 +48,7 @@ typedef struct {
 typedef struct {
     const char *name;
     nh_ex value;
-    bool asked; /* by the user: what the scene is made for */
+    bool asked; /* given by the user: the subsystem is made for it */
     bool by_terms; /* a sum that may cancel (nh_trajectory_request) */
 } nh_observable;
 
@@ -57,17 +58,17 @@ typedef struct {
     const nh_model *model, *other;
     size_t currents;
     const nh_ex *current;
-    const nh_valid *valid;         /* `currents` intervals, or NULL */
+    const nh_valid *valid;         /* `currents` boxes, or NULL */
     size_t watches;
     const nh_observable *watch;
     const nh_state *initial;
     double until;
     size_t outputs;
     const nh_options *options;
-    /* of the states and of what is watched, along the tightest run: its method and tolerance are chosen for it
-       (accuracy.h).  0: the method that suits (automatic.h), at the tolerance of the options */
+    /* wanted accuracy of the states and of the watched expressions along the tightest run, whose method and tolerance
+     * are chosen for it (accuracy.h). 0: the automatic choice (automatic.h), at the tolerance of the options */
     double accuracy;
-    /* with an accuracy: from what may be chosen; only plain ones, in their own velocities and with error control */
+    /* with an accuracy: the plans that may be used; only methods with error control, in the model's own velocities */
     const nh_integration_plans *ways;
 } nh_validation_request;
 

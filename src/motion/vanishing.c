@@ -10,11 +10,10 @@
 
 enum { most_probes = 4, disturbed_times = 4 };
 static const double disturbance = 4;   /* roundings of each state */
-static const double above = 32;        /* times what these change: larger is not rounding */
-/* so many times as large, they change a value that is well conditioned at least so many times as much: tan(pi/2) they
-   do not */
+static const double above = 32;        /* larger multiples of the effect of these are not rounding */
+/* roundings so many times larger change a well-conditioned value at least by this factor more; tan(pi/2) they do not */
 static const double more = 1e6, linear = 1e4;
-static const double cancelled = 1e-12; /* of the terms of a sum: what is left of one that is zero */
+static const double cancelled = 1e-12; /* part of the terms of a sum: a smaller value counts as zero */
 
 struct nh_vanishing {
     const nh_model *model;
@@ -22,7 +21,7 @@ struct nh_vanishing {
     nh_tape *tape;         /* rates of (q, w), then the quantities */
     nh_tape_work *work;
     size_t states, rows, outputs;
-    size_t *first;         /* of the outputs, by row: itself, then its terms; rows + 1 */
+    size_t *first;         /* per row of outputs: the row itself, then its terms; rows + 1 entries */
     double *z, *moved, *point, *value, *other, *rounding, *coarse;
     bool *fixed;
 };
@@ -84,7 +83,7 @@ static bool values_at(nh_vanishing *v, double t, const double *z, double *value)
     return true;
 }
 
-/* The largest changes of the rows when each state changes by `part` of itself. */
+/* The largest changes of the rows when each state changes by the relative part `part`. */
 static bool disturb(nh_vanishing *v, double t, double part, double *change)
 {
     uint64_t random = 0x2545f4914f6cdd1du;
@@ -101,14 +100,14 @@ static bool disturb(nh_vanishing *v, double t, double part, double *change)
     return true;
 }
 
-/* All rows at z, and what rounding of each state makes of them. */
+/* All rows at z, and the effect of rounding of each state on them. */
 static bool measure(nh_vanishing *v, double t)
 {
     double part = disturbance * DBL_EPSILON;
     return values_at(v, t, v->z, v->value) && disturb(v, t, part, v->rounding) && disturb(v, t, more * part, v->coarse);
 }
 
-/* False also where it is not a number. */
+/* False also for NAN. */
 static bool is_zero(const nh_vanishing *v, size_t row)
 {
     double size = 0, value = fabs(v->value[v->first[row]]);
@@ -118,8 +117,7 @@ static bool is_zero(const nh_vanishing *v, size_t row)
            (v->coarse[row] >= linear * v->rounding[row] || v->rounding[row] <= cancelled * size);
 }
 
-/* At the probe number `index` with the fixed states at their initial values; false: there is nothing to be computed
-   there. */
+/* At probe number `index`, with the fixed states at their initial values; false: the rows cannot be evaluated there. */
 static bool go_to_probe(nh_vanishing *v, size_t index, const double *start)
 {
     const nh_chart *c = v->model->chart;

@@ -64,7 +64,7 @@ static bool read_head(nh_analysis_file *a, nh_error *error)
     if (!nh_deck_is(a->deck, root, NH_DECK_MAP, "an analysis file (system: ..., ansatz: ...)", error)) return false;
     if (!nh_deck_rename(a->deck, root, "chart", "velocities", error)) return false; /* of earlier versions */
     if (!nh_deck_only(a->deck, root, top_keys, top_key_count, error)) return false;
-    const char *remark; /* title and doc are for the reader of the file */
+    const char *remark; /* text for readers of the file */
     if (!text_of(a->deck, root, "name", "analysis", &a->name, error) ||
         !text_of(a->deck, root, "system", NULL, &a->system, error))
         return false;
@@ -158,7 +158,7 @@ void *nh_analysis_file_take(reader *r, size_t count, size_t size)
     return nh_arena_alloc(r->a->arena, (count + 1) * size);
 }
 
-/* nh_analysis_file_to_chart, complaining about the node. */
+/* nh_analysis_file_to_chart, with a message about the node. */
 static bool to_chart(reader *r, const nh_deck_node *node, nh_ex e, nh_ex *out)
 {
     nh_error trouble;

@@ -14,11 +14,12 @@ typedef struct {
     const char *title;
     size_t quantities;
     nh_named *quantity;   /* path: x, y and perhaps a heading; plot: each over time */
-    size_t values;        /* 0: one motion with the values that there are */
+    size_t values;        /* 0: one motion with the values of the analysis */
     const char *vary;     /* a parameter, */
     double *value;        /* its values, a motion each; samples: how many, a linear problem each */
     bool has_time;
-    double begin, end;    /* the initial state holds at its own t, within this or not */
+    /* the motion begins at the t of the initial state, whether that lies within these times or not */
+    double begin, end;
     size_t unknown;       /* scan: over this one */
 } nh_figure_request;
 

@@ -61,7 +61,7 @@ static bool has_key(const char *keys, const char *key)
     return false;
 }
 
-/* Has the family only keys that mean something for its kind? */
+/* Has the family only keys with a meaning for its kind? */
 static bool fits(nh_analysis_file_reader *r, const nh_deck_node *item, const char *kind, const char *keys)
 {
     for (size_t i = 0; i < item->count; i++) {

@@ -1,4 +1,4 @@
-/* figures: what to draw of which motions (docs/formats.md). */
+/* analysis_file_figures: the figures of an analysis file, and their motions (docs/formats.md). */
 #include <string.h>
 
 #include "problem/analysis_file_internal.h"

@@ -23,9 +23,9 @@ bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, cons
 /* A list of "name = expression". */
 bool nh_analysis_file_watches(nh_analysis_file_reader *r, const nh_deck_node *list, const char *what, nh_named **out,
                               size_t *count);
-/* figures: what to draw of which motions. */
+/* Reads the figures. */
 bool nh_analysis_file_read_figures(nh_analysis_file_reader *r);
-/* ansatz: the list of families. */
+/* Reads the ansatz, a list of families. */
 bool nh_analysis_file_read_ansatz(nh_analysis_file_reader *r);
 
 #endif

@@ -72,7 +72,7 @@ static void seen(const nh_ex p[3], const int axis[2], nh_ex out[2])
     out[1] = p[axis[1]];
 }
 
-/* In the picture, and in space. */
+/* Points in the picture, and in space. */
 static void rod(drawing *w, const int axis[2], const nh_ex from[3], const nh_ex to[3])
 {
     nh_ex start[2], end[2];
@@ -118,7 +118,7 @@ static void ends(drawing *w, const int axis[2])
     }
 }
 
-/* A body that the ground carries, with its heading where it turns in the picture's plane. */
+/* A body that a joint on the ground carries, with its heading where it turns in the picture's plane. */
 static void bases(drawing *w, const int axis[2])
 {
     const nh_chain *c = w->s->chain;
@@ -161,7 +161,7 @@ static void wheels(drawing *w, const int axis[2])
     }
 }
 
-/* First the shapes of the plane, whose colours go by their numbers. */
+/* The shapes of the plane come first, because their colours follow from their numbers. */
 static void space_behind(drawing *w)
 {
     nh_shape *all = nh_arena_alloc(w->arena, (w->count + 1) * sizeof *all);
@@ -225,7 +225,7 @@ static const char *along_line(drawing *w, nh_ex r, const nh_coordinate *angle)
     return "length and angle as polar coordinates";
 }
 
-/* Hands that hang down at 0 and turn to the left, dials side by side. */
+/* Pendulum hands that hang down at 0 and turn to the left, on dials side by side. */
 static const char *dials(drawing *w)
 {
     enum { apart = 3 };

@@ -1,4 +1,4 @@
-/* input: what acts on a system over time, as an expression of t. */
+/* input: functions of time that act on a system, as expressions of t. */
 #ifndef NH_INPUT_H
 #define NH_INPUT_H
 

@@ -28,17 +28,17 @@ typedef struct {
     nh_track *track;
     size_t shapes;
     const nh_shape *shape;  /* what is drawn; its numbers are the tracks of that kind, in order */
-    const char *drawing;    /* whose drawing it is, in words: "as in the analysis file"; NULL: nothing is drawn */
+    const char *drawing;    /* whose drawing it is, in words: "as in the analysis file"; NULL: there is none */
 } nh_observables;
 
 /* An empty list that lives in the arena. */
 nh_observables nh_observables_create(nh_arena *arena, const nh_model *model);
 void nh_observables_add(nh_observables *tracks, const char *name, nh_track_kind kind, nh_ex value);
-/* Coordinates, then their velocities, then quasi-velocities, where the chart has them. */
+/* Adds the coordinates, then their velocities, then quasi-velocities, where the chart has them. */
 void nh_observables_add_states(nh_observables *tracks);
-/* What the analysis file watches (NULL: none). */
+/* Adds what the analysis file watches (NULL: nothing). */
 void nh_observables_add_watches(nh_observables *tracks, const nh_analysis_file *analysis);
-/* The drawing: of the analysis file, else of the system's, else that of drawing.h. */
+/* Adds the drawing: of the analysis file, else of the system, else that of drawing.h. */
 void nh_observables_add_drawing(nh_observables *tracks, const nh_analysis_file *analysis);
 
 #endif

@@ -1,6 +1,6 @@
 #include "problem/solid.h"
 
-/* The part of e above 0. */
+/* e, or 0 where it is negative. */
 static nh_ex positive(nh_dag *d, nh_ex e) { return nh_mul(d, nh_ratio(d, 1, 2), nh_add(d, e, nh_call(d, NH_ABS, e))); }
 
 /* Edges of a box: I_x = m (b^2 + c^2)/12, so a^2 = 6 (I_y + I_z - I_x)/m. */

@@ -83,7 +83,7 @@ static bool read_lines(nh_arena *arena, nh_table *t, char *text, nh_error *error
 
 nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error)
 {
-    static const char mark[] = "\xef\xbb\xbf"; /* that some programs begin files with */
+    static const char mark[] = "\xef\xbb\xbf"; /* a byte order mark, with which some programs begin files */
     size_t length;
     char *text = nh_files_read(path, most_bytes, &length, error);
     if (!text) return NULL;
@@ -92,7 +92,8 @@ nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error)
     bool good =
         length <= most_bytes || nh_fail(error, NH_INPUT, path, "the table is longer than %d bytes", (int)most_bytes);
     if (good && memchr(text, 0, length)) good = nh_fail(error, NH_INPUT, path, "the table contains a zero byte");
-    char *lines = good ? nh_arena_strndup(arena, text, length) : NULL; /* what was read has no end mark */
+    /* the text that was read has no terminating zero */
+    char *lines = good ? nh_arena_strndup(arena, text, length) : NULL;
     nh_free(text);
     if (good)
         good = read_lines(arena, t, strncmp(lines, mark, sizeof mark - 1) ? lines : lines + sizeof mark - 1, error);

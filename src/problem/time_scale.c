@@ -17,7 +17,7 @@ static double half_width(const nh_model *o, size_t s)
     return (o->chart->high[1 + s] - o->chart->low[1 + s]) / 2;
 }
 
-/* Of the coordinate whose velocity w^i is; 1 for quasi-velocities. */
+/* The unit of the coordinate whose velocity w^i is; 1 for quasi-velocities. */
 static double length_of(const nh_model *o, size_t i) { return o->chart->quasi ? 1 : half_width(o, o->chart->free[i]); }
 
 /* The accelerations at probe p, its velocities multiplied by `part`. */
@@ -40,8 +40,8 @@ static double median(size_t count, double *list)
     return list[count / 2];
 }
 
-/* What changes in the accelerations at probe p, in lengths, when `part` of its velocities is turned round, and the
-   largest of these velocities. */
+/* The change of the accelerations at probe p, in lengths, when `part` of its velocities is reversed, and the largest of
+ * these velocities. */
 static bool turned_round(const nh_model *o, nh_tape *tape, nh_tape_work *work, size_t p, double part, double *z,
                          double *out, double *change, double *speed)
 {
@@ -55,9 +55,9 @@ static bool turned_round(const nh_model *o, nh_tape *tape, nh_tape_work *work, s
     return true;
 }
 
-/* At rest, and what is added there by small velocities, which gyroscopic forces and friction multiply by a rate.  What
-   depends on the direction of the velocities alone (dry friction, multipliers of homogeneous constraints) is no rate:
-   it does not become smaller with them. */
+/* Accelerations at rest, and the change by small velocities, which gyroscopic forces and friction multiply by a rate.
+ * Terms that depend on the direction of the velocities alone (dry friction, multipliers of homogeneous constraints)
+ * give no rate: they do not become smaller with the velocities. */
 static double omega(const nh_model *o)
 {
     static const double small = 1e-3;

@@ -26,7 +26,7 @@ void nh_action_values(const nh_action *g, const double *q, double *E)
 
 /* ---- brackets ---- */
 
-/* Fields at several places as one long vector each. */
+/* Stacks fields at several places, each as one long vector. */
 static double *stacked(const nh_kinetic *k, size_t n, const nh_ex *component)
 {
     size_t m = k->m, places = places_of(k);
@@ -39,8 +39,8 @@ static double *stacked(const nh_kinetic *k, size_t n, const nh_ex *component)
     return out;
 }
 
-/* Fields (n of them, as stacked) in units of the coordinates' sizes, and divided by `size` each where that is not NULL;
- * the largest value of each into most. */
+/* Stacks n fields in units of the coordinates' sizes, each divided by its `size` where that is not NULL; the largest
+ * value of each into most. */
 static void in_units(const nh_kinetic *k, size_t n, const double *size, double *a, double *most)
 {
     size_t m = k->m, long_m = places_of(k) * m;
@@ -53,8 +53,8 @@ static void in_units(const nh_kinetic *k, size_t n, const double *size, double *
     nh_free(unit);
 }
 
-/* The generators E and their brackets B of size one: then the constants are numbers that do not depend on units, and
- * one that is zero can be told.  size[a] is what e_a was divided by, size[d + pair] what bracket `pair` was. */
+/* The generators E and their brackets B, scaled to size one: then the constants do not depend on units, and zero ones
+ * can be told from small ones. size[a]: the divisor of e_a; size[d + pair]: that of bracket `pair`. */
 static void normalise(const nh_kinetic *k, size_t d, double *E, double *B, double *size)
 {
     double *ones = size + d;
@@ -169,7 +169,8 @@ static size_t with_distribution(size_t m, size_t f, size_t d, const double *K, c
         for (size_t s = 0; s < m; s++)
             size = hypot(size, forms[a + s * f] = omega[a * m + s] / unit_of(K[s * (m + 1)]));
         for (size_t s = 0; s < m; s++) forms[a + s * f] = size > 0 ? forms[a + s * f] / size : 0;
-        for (size_t c = 0; c < d; c++) /* generators of length one: a column that D nearly contains stays small */
+        /* generators of length one: the part of a column outside D stays small where D nearly contains it */
+        for (size_t c = 0; c < d; c++)
             for (size_t s = 0; s < m; s++) on[a + c * f] += forms[a + s * f] * both[s + c * m];
     }
     size_t n = nh_kernel(f, m, forms, small, both + m * d, NULL, NULL);
@@ -392,8 +393,8 @@ bool nh_flows_move(nh_flows *f, const double *c, double t, double *q)
     return t == 0 || nh_runge_sized(m, field_rate, f, 0, t, tolerance, largest, q);
 }
 
-/* Back at the start: as far as the flow went away from it in the meantime, seen at times that are no parts of a
-   period. */
+/* Is it back at the start, relative to the distance that the flow went away in between (at times that are no parts of a
+ * period)? */
 static bool returns(nh_flows *f, const double *c, double time, const double *start)
 {
     static const double same = 1e-8, rounding = 1e-13, turn = 6.283185307179586, part[] = {0.17, 0.41, 0.77};
@@ -445,7 +446,7 @@ static double frequency(const nh_flows *f, const double *c, const double *q)
 
 bool nh_flows_closed(nh_flows *f, const double *c)
 {
-    enum { places = 4 }; /* the flow may meet a pole of the coordinates on its way from some */
+    enum { places = 4 }; /* from some places the flow may meet a pole of the coordinates */
     static const double turn = 6.283185307179586;
     const nh_kinetic *k = f->action->kinetic;
     bool closed = false;

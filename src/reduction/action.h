@@ -23,12 +23,13 @@ typedef struct {
     nh_ex *constant;           /* d x d x d: the same as expressions of the parameters (constants.h) */
     bool closes;
     double closure;            /* largest residual of a bracket, relative */
-    size_t worst[2];           /* that bracket */
-    bool *outside;             /* d x d: no combination of the generators; its constants are 0 and say nothing */
+    size_t worst[2];           /* the bracket with the largest residual */
+    /* d x d: this bracket is no combination of the generators; its constants are 0 and have no meaning */
+    bool *outside;
     size_t orbit;              /* rank E at generic points; d - orbit: isotropy */
     bool free;                 /* at every sample point */
     double least;              /* the least sigma_min / sigma_max of E, columns scaled */
-    size_t least_place;        /* the sample point where */
+    size_t least_place;        /* index of that sample point */
     bool dimension_assumption, chaplygin;
     size_t intersection;       /* dim S */
     double transversality;     /* Chaplygin: the least sigma_min / sigma_max of omega on V */
@@ -39,10 +40,10 @@ void nh_action_init(nh_action *action, const nh_kinetic *kinetic, size_t d, cons
                     const nh_options *options);
 void nh_action_clear(nh_action *action);
 
-/* Is it fit for reduction: invariant, independent, closed, free at the sample points?  The message names the field, the
-   bracket or the point. */
+/* Can the group be divided out: are its fields invariant, independent, closed, and free at the sample points?  The
+ * message names the field, the bracket or the point. */
 bool nh_action_check(const nh_action *action, const nh_options *options, nh_error *error);
-/* Has the orbit through a place the dimension that it has at generic points? */
+/* Does the orbit through a place have the dimension of generic orbits? */
 bool nh_action_check_at(const nh_action *action, const double *q, const nh_options *options, nh_error *error);
 /* Its dimension there. */
 size_t nh_action_orbit_at(const nh_action *action, const double *q, const nh_options *options);

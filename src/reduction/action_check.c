@@ -1,4 +1,5 @@
-/* action_check: is a group fit for reduction, and if not, why, with the field, the bracket or the point. */
+/* action_check: whether a group can be divided out, and if not, the field, the bracket or the point that prevents
+ * it. */
 #include <math.h>
 #include <string.h>
 
@@ -52,9 +53,9 @@ static bool not_closed(const nh_action *g, nh_error *error)
     return nh_error_hint(error, "add the bracket to the list, or remove one of the two fields");
 }
 
-/* sum_a c[a] e_a = 0 everywhere: true with one such c, the last coefficient that is not zero made 1.  Components are
- * compared in units of the coordinates' sizes, and fields in units of their own: a field that is small beside another
- * one is not zero. */
+/* Does sum_a c[a] e_a = 0 hold everywhere?  True with one such c, whose last nonzero coefficient is 1.  Components are
+ * compared in units of the coordinates' sizes, and fields in units of their own: a field that is small relative to
+ * another one is not zero. */
 static bool dependent(const nh_action *g, double small, double *c)
 {
     enum { most_places = 16 };
@@ -82,7 +83,7 @@ static bool dependent(const nh_action *g, double small, double *c)
     return n > 0;
 }
 
-/* "d/dx", "2 (field 1) - (field 3)": which fields add up to nothing. */
+/* "d/dx", "2 (field 1) - (field 3)": the fields whose sum vanishes. */
 static bool not_independent(const nh_action *g, const double *c, nh_error *error)
 {
     nh_text t, sum;

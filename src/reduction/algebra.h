@@ -32,7 +32,7 @@ void nh_algebra_ad(const nh_algebra *algebra, const double *x, double *out);
 void nh_algebra_coad(const nh_algebra *algebra, const double *x, const double *mu, double *out);
 
 /* The same algebra in the basis f_j = sum_i t[i + j*d] e_i, or the subalgebra that r < d such vectors span; *off (may
- * be NULL): by how much brackets leave the span. */
+ * be NULL): the distance of brackets from the span. */
 nh_algebra nh_algebra_change(const nh_algebra *algebra, size_t r, const double *t, double *off);
 
 /* The centre, and the span of all brackets [u, w] of two subspaces; out is d x d; return the dimension. */
@@ -41,7 +41,7 @@ size_t nh_algebra_brackets(const nh_algebra *algebra, size_t r, const double *u,
                            double small, double *out);
 /* k_ij = C_ia^b C_jb^a. */
 void nh_algebra_killing(const nh_algebra *algebra, double *out);
-/* By how much [e_a, x] leaves the span of r vectors (0: an ideal). */
+/* The distance of [e_a, x] from the span of r vectors x (0: an ideal). */
 double nh_algebra_ideal(const nh_algebra *algebra, size_t r, const double *u);
 
 typedef enum {
@@ -59,7 +59,7 @@ typedef enum {
 typedef struct {
     nh_algebra_kind kind;
     size_t dimension;
-    double *basis; /* d x dimension, in the given basis; of one-dimensional pieces each is a piece of its own */
+    double *basis; /* d x dimension, in the given basis */
 } nh_algebra_piece;
 
 /* What is known about an algebra: the dimensions of its series, and its indecomposable ideals, the largest first. */
@@ -69,8 +69,8 @@ typedef struct {
     nh_algebra_piece *piece;
 } nh_algebra_report;
 
-/* `cluster`: eigenvalues of a random element of the centroid that are nearer than this part of the spectral radius
- * belong together; an algebra of more than `most` dimensions stays in one piece. */
+/* `cluster`: eigenvalues of a random element of the centroid whose distance is less than this part of the spectral
+ * radius belong together; an algebra of more than `most` dimensions is not split. */
 void nh_algebra_report_init(nh_algebra_report *report, const nh_algebra *algebra, double small, double cluster,
                             size_t most, uint64_t seed);
 void nh_algebra_report_clear(nh_algebra_report *report);

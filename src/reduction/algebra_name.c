@@ -1,8 +1,8 @@
-/* algebra_name: the indecomposable ideals of an algebra, and what they are called.
+/* algebra_name: the indecomposable ideals of an algebra, and their names.
  *
  * An algebra is a direct sum of ideals exactly when its centroid, the matrices T with T[x,y] = [Tx,y], has commuting
- * projections.  The generalised eigenspaces of a random element of it are therefore ideals, and of several draws the
- * finest valid splitting is kept. */
+ * projections.  The generalised eigenspaces of a random element of it are therefore ideals; of several random elements
+ * the finest valid splitting is kept. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -303,7 +303,7 @@ static double off_ideals(const nh_algebra *g, const splitting *s)
     return off;
 }
 
-/* Of equally fine ones the most accurate: a draw may have eigenvalues that lie close together. */
+/* Of equally fine splittings the most accurate one: a random element may have eigenvalues close together. */
 static void finest_splitting(const nh_algebra *g, double small, double cluster, size_t most, uint64_t seed,
                              splitting *best)
 {
@@ -337,7 +337,7 @@ static void finest_splitting(const nh_algebra *g, double small, double cluster, 
     nh_free(s.basis);
 }
 
-/* The part of the centre outside [g,g], and an ideal that complements it: [g,g] with whatever is missing. */
+/* The part of the centre outside [g,g], and an ideal that complements it: [g,g] and the remaining vectors. */
 static size_t central_factor(const nh_algebra *g, double small, double *flat, double *rest, size_t *rest_dimension)
 {
     size_t d = g->d;

@@ -8,14 +8,15 @@
 #include "reduction/reach.h"
 #include "reduction/subspace.h"
 
-static const double usable = 0.25; /* of a guard: a chart that is known is taken again, and the connection is used */
+/* part of a guard at which a known chart is used again, and the connection is used */
+static const double usable = 0.25;
 
 struct nh_atlas {
     const nh_action *action;
     const nh_second *second;  /* of a second stage */
     const nh_action *both;
     bool chaplygin;
-    const size_t *avoid;      /* the coordinates along a slice that failed, while another is made; NULL */
+    const size_t *avoid;      /* the coordinates of a slice that failed, while another one is made; NULL */
     nh_reduced_chart **chart;
     size_t count, capacity;
     const nh_slice *preferred;
@@ -83,8 +84,8 @@ bool nh_chart_leave(const nh_reduced_chart *c, const double *z, double *q, doubl
     return good;
 }
 
-/* Velocities in the frame of both groups from one on the shape space of the first: its horizontal lift u = (x', -A x' -
-   A_0). */
+/* Velocities in the frame of both groups from those on the shape space of the first: the horizontal lift u = (x', -A x'
+ * - A_0). */
 static bool lift(const nh_chaplygin *first, const nh_slice *both, const double *q, const double *v, double *u)
 {
     const nh_slice *s = first->slice;
@@ -268,7 +269,7 @@ static bool build(nh_atlas *a, const double *q, const double *pivots, nh_error *
     size_t *independent = nh_arena_alloc(arena, (found->m + 1) * sizeof *independent);
     *s = *found;
     s->pivots = pivots;
-    s->tidy &= !pivots; /* what is simplified may have lost a place where it is regular */
+    s->tidy &= !pivots; /* the simplification may have removed a place at which it is regular */
     if (a->chaplygin && connection_regularity(s, q) > usable) {
         nh_chaplygin *c = nh_arena_alloc(arena, sizeof *c);
         for (size_t i = 0; i < s->n; i++) independent[i] = i;
@@ -302,7 +303,7 @@ enum { most_charts = 400 };
 
 const nh_reduced_chart *nh_atlas_at(nh_atlas *a, const double *q, const double *v, double *z, nh_error *error)
 {
-    static const double pole = 1e-10; /* of the best sample point */
+    static const double pole = 1e-10; /* part of the value at the best sample point */
     const nh_kinetic *k = a->action->kinetic;
     const nh_reduced_chart *best = NULL;
     double most = 0;
@@ -331,8 +332,8 @@ bool nh_atlas_start(const nh_atlas *a, const double *q, const double *v, double 
 
 /* ---- along the orbits ---- */
 
-/* To the place of the orbit, among a few, where the coordinates are most regular, unless they are much less so than
-   here or the same along the orbit. */
+/* Moves to the place of the orbit, among a few, at which the coordinates are most regular, unless they are much less so
+ * there than here, or the same along the orbit. */
 static void move_along_orbit(const nh_action *g, size_t attempt, double *q, double *v, double *moved)
 {
     static const double times[] = {0.7, -0.7, 1.4, -1.4}, better = 0.1, same = 1e-3;

@@ -36,7 +36,7 @@ static bool is_linear(work *w, nh_ex p)
 
 static void split(work *w, size_t parameters, const nh_ex *parameter)
 {
-    /* moments of inertia are usually the last ones: in them masses have no denominators */
+    /* moments of inertia are usually the last ones: formulas in these have no masses in denominators */
     for (size_t k = parameters; k-- > 0;) {
         if (is_linear(w, parameter[k])) w->mu[w->linear++] = parameter[k];
         else w->other[w->others++] = parameter[k];
@@ -44,7 +44,7 @@ static void split(work *w, size_t parameters, const nh_ex *parameter)
     for (size_t k = 0; k < w->linear * w->n; k++) w->slope[k] = nh_simplify_short(w->dag, w->slope[k], 0);
 }
 
-/* Every relation spares the parameter of its last column. */
+/* Every relation eliminates the parameter of its last column. */
 static void spare(work *w, const nh_relation_space *space, nh_base_parameters *out)
 {
     size_t n = w->linear;

@@ -11,10 +11,10 @@
 
 typedef struct {
     size_t count;
-    nh_ex *parameter, *meaning; /* what a parameter that is left stands for */
+    nh_ex *parameter, *meaning; /* the expression that a remaining parameter stands for */
 } nh_base_parameters;
 
-/* Rewrite n entries, functions of the variables.  False: no parameter can be spared. */
+/* Rewrites n entries, functions of the variables.  False: no parameter can be eliminated. */
 bool nh_base_parameters_of(nh_arena *arena, nh_dag *dag, size_t n, nh_ex *entry, size_t variables,
                            const nh_ex *variable, size_t parameters, const nh_ex *parameter, nh_base_parameters *out);
 

@@ -13,13 +13,13 @@
 #include "system/sample.h"
 
 enum { states = 30, most_basis = NH_MOST_SCREWS };
-static const double null_bound = 1e-10; /* of singular values; rows are scaled to size one */
+static const double null_bound = 1e-10; /* threshold of singular values; rows are scaled to size one */
 
 typedef struct {
     const nh_system *system;
     const nh_chain *chain;
     nh_dag *dag;
-    nh_wrench *behind;     /* per body: momentum of it and all bodies behind it, in its frame */
+    nh_wrench *behind;     /* per body: momentum of it and of all bodies behind it, in its frame */
     uint64_t seed;
     nh_chain_symmetries *out;
 } work;
@@ -100,7 +100,7 @@ static nh_ex *with_terms(nh_dag *dag, size_t count, const nh_ex *e, size_t *at)
     return all;
 }
 
-/* The largest of them, the terms themselves aside: what is left of terms that cancel is rounding, in any units. */
+/* The largest of them without the terms themselves: the rest of terms that cancel is rounding, in any units. */
 static double size_at(size_t count, const size_t *at, const double *value)
 {
     static const double rounding = 1e-12;
@@ -155,7 +155,7 @@ static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double 
     return dimension;
 }
 
-/* Rows to reduced echelon form; what is a whole number up to rounding becomes one. */
+/* Brings rows to reduced echelon form, and rounds entries that are whole numbers up to rounding. */
 static void reduce(size_t rows, size_t n, double *a)
 {
     for (size_t r = 0, c = 0; r < rows && c < n; c++) {
@@ -181,7 +181,7 @@ static void reduce(size_t rows, size_t n, double *a)
 }
 
 /* A null vector's coefficients with the parameters as symbols: the relation among the columns in which it is not zero,
- * which in echelon form is the only one.  The numbers where there is none. */
+ * which is unique in echelon form.  Without such a relation: the numbers. */
 static void with_symbols(const work *w, size_t rows, size_t n, const nh_ex *e, const double *null, nh_ex *out)
 {
     nh_dag *d = w->dag;

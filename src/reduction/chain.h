@@ -35,13 +35,14 @@ typedef struct {
     nh_arena *arena;
     size_t joints;
     size_t *dimension;         /* joints x NH_CHAIN_RULES: of each joint's algebra under each rule */
-    size_t fields;             /* one per dimension found; a field found by several rules occurs several times */
+    /* one per dimension that was found; a field found by several rules occurs several times */
+    size_t fields;
     nh_chain_field *field;
     double last_null, first_other; /* singular values on both sides of the cuts, over all of them */
 } nh_chain_symmetries;
 
-/* Joints whose displacement is not a coordinate of their own are passed over.  NULL with a message when the system has
-   no bodies. */
+/* Leaves out joints whose displacement is not a coordinate of their own.  NULL with a message when the system has no
+ * bodies. */
 nh_chain_symmetries *nh_chain_symmetries_find(const nh_system *system, uint64_t seed, nh_error *error);
 void nh_chain_symmetries_free(nh_chain_symmetries *symmetries);
 

@@ -98,7 +98,7 @@ static void gyroscopic(nh_chaplygin *c)
             }
 }
 
-/* What affine constraints, a part of L that is linear in the velocities and forces add. */
+/* The terms from affine constraints, from a part of L that is linear in the velocities, and from forces. */
 static void drift(nh_chaplygin *c)
 {
     const nh_slice *s = c->slice;

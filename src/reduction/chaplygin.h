@@ -36,10 +36,10 @@ typedef struct {
     nh_ex *J;        /* d x n: J_a = J[a*n + j] x'^j */
     nh_ex *U;        /* n x n x n: Ups_ij = U[(k*n + i)*n + j] x'^k */
     nh_ex V;         /* Vhat */
-    bool plain;      /* none of what follows: linear constraints, L = K - V, no forces */
+    bool plain;      /* the following members are not used: linear constraints, L = K - V, no forces */
     nh_ex *A0, *J0, *B0; /* d, d, d x n: B0[a*n + i] = B^a_i0 */
     nh_ex *a;        /* n: ahat */
-    nh_ex *force;    /* n, of (x, x'): what Lhat does not give, the gyroscopic force Ups_ij x'^j included */
+    nh_ex *force;    /* n, of (x, x'): forces beside Lhat, with the gyroscopic force Ups_ij x'^j */
     nh_reduced reduced; /* x' as velocities, p their momenta */
 } nh_chaplygin;
 
@@ -57,8 +57,8 @@ typedef struct {
     bool tested;
     bool measure, simple, factor;
     /* the density is many-valued: Theta has a period along a turn of an angle on which the stage is regular.  A density
-       that vanishes, or grows without bound, where the coordinates are singular or orbits are tangent to D is not
-       local: the stage ends there */
+     * that vanishes, or grows without bound, where the coordinates are singular or orbits are tangent to D is not
+     * local: the stage ends there */
     bool local;
     double size;        /* of Theta: 0 means that the Liouville measure is invariant */
     double curl;        /* largest |d Theta| */

@@ -61,7 +61,7 @@ static nh_ex *list(const nh_slice *s, const nh_ex *K, const nh_ex *U, size_t *to
     return e;
 }
 
-/* The algebraic condition: how far T^k_ij is from th_j delta^k_i - th_i delta^k_j, th = Theta/(n - 1). */
+/* The algebraic condition: the distance of T^k_ij from th_j delta^k_i - th_i delta^k_j, th = Theta/(n - 1). */
 static double off_simple(const gyro *g)
 {
     size_t n = g->n;
@@ -137,7 +137,7 @@ static bool many_valued(const nh_slice *s, const nh_ex *K, const nh_ex *U, doubl
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t j = 0; j < n; j++)
         for (size_t p = 0; p < places && k->periodic[s->shape[j]] && !many; p++) {
-            /* per radian: a number beside 1, whatever the other shape coordinates are measured in */
+            /* per radian: compared with 1, whatever the units of the other shape coordinates are */
             double mean, largest;
             many = period(s, tape, work, j, k->place + p * k->m, small, &mean, &largest) &&
                    fabs(mean) > small * (1 + largest);
@@ -172,7 +172,8 @@ static void in_units(gyro *g, const double *s)
     }
 }
 
-/* Where the parameters' values make the gyroscopic force vanish, what is left of it by rounding has no scale. */
+/* Where the parameters' values make the gyroscopic force vanish, its rounding errors cannot be compared with
+ * anything. */
 bool nh_chaplygin_flat(const nh_slice *s, const nh_ex *U)
 {
     enum { largest_form = 4000 };

@@ -40,7 +40,7 @@ static bool numbers_hold(const work *w, const nh_ex *constant)
     return nh_normal_is_zero(d, sum, (size_t)w->options->proof_terms) == NH_ZERO;
 }
 
-/* With symbols where there is such a relation; the numbers stay where there is none. */
+/* With parameters as symbols where there is such a relation; otherwise the numbers stay. */
 static void with_symbols(const work *w, nh_ex *constant)
 {
     nh_dag *d = w->kinetic->dag;

@@ -57,7 +57,7 @@ static bool minus_theta(const search *s, const nh_ex *K, const nh_ex *U, nh_ex *
             out[j] = nh_sub(d, out[j], b[i]);
         }
     }
-    /* or 1e-9 of it is lost near a pole of the coordinates */
+    /* near a pole of the coordinates 1e-9 of it would be lost */
     for (size_t j = 0; j < n && lu; j++) out[j] = nh_simplify(d, out[j]);
     bool good = lu != NULL;
     nh_lu_free(lu);
@@ -119,7 +119,7 @@ typedef struct {
     const search *s;
     const nh_ex *slope, *theta;
     const nh_options *options;
-    size_t left;           /* candidates that may be proved */
+    size_t left;           /* number of candidates that may still be proved */
     bool found;
     candidate best;
     nh_proof proof;
@@ -141,7 +141,8 @@ static nh_proof prove(const contest *t, const candidate *c)
     return all;
 }
 
-/* Of those that fit the first that holds for all parameters; else the first that is proved; else the first. */
+/* The first candidate that fits and holds for all parameters; else the first that is proved; else the first that
+ * fits. */
 static void offer_candidate(contest *t, const candidate *c)
 {
     if (!t->left) return;
@@ -157,7 +158,8 @@ static void offer_candidate(contest *t, const candidate *c)
 /* One factor, or two, that fit with rational exponents. */
 static void choose(contest *t, size_t rows, const double *column, const double *want)
 {
-    static const double fits = 1e-6; /* where -Theta is too long to be simplified no more is left; the proof decides */
+    /* where -Theta is too long to be simplified it has no more digits; the proof decides */
+    static const double fits = 1e-6;
     double c[2];
     for (size_t i = 0; i < t->s->factors && t->left; i++) {
         candidate one = {.terms = 1, .which = {i}};
@@ -175,7 +177,7 @@ static void choose(contest *t, size_t rows, const double *column, const double *
         }
 }
 
-/* m + m y^2 as 1 + y^2: a sum without powers of parameters that all terms have. */
+/* m + m y^2 as 1 + y^2: a sum without the powers of parameters that all terms have in common. */
 static nh_ex without_content(const search *s, nh_ex e)
 {
     static const int power[] = {2, 1, -1, -2};
@@ -188,8 +190,8 @@ static nh_ex without_content(const search *s, nh_ex e)
     return e;
 }
 
-/* e^power without the factors that are constant, and with (b^x)^c = b^(x c): a density's constant factors and its sign
-   are no matter. */
+/* e^power without constant factors, and with (b^x)^c = b^(x c): constant factors and the sign of a density do not
+ * matter. */
 static nh_ex without_constants(const search *s, nh_ex e, nh_num power)
 {
     nh_dag *d = s->d;
@@ -204,7 +206,7 @@ static nh_ex without_constants(const search *s, nh_ex e, nh_num power)
     return out;
 }
 
-/* What may occur in the density: the determinant, its numerator, the metric, and what these consist of. */
+/* Factors that may occur in the density: the determinant, its numerator, the metric, and parts of these. */
 static void collect_factors(search *s, const nh_ex *K)
 {
     nh_ex det = nh_simplify(s->d, nh_solve_determinant(s->d, s->n, K));

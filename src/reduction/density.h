@@ -8,9 +8,9 @@
 #include "integrals/prove.h"
 #include "reduction/chaplygin.h"
 
-/* The density exp(sigma), but for a constant factor, as a function of the slice's x; K (n x n), U (n x n x n) as for
+/* The density exp(sigma), up to a constant factor, as a function of the slice's x; K (n x n), U (n x n x n) as for
  * nh_chaplygin_measure_of, of a slice whose entries are exact.  False where none of this form is found.  Of several
- * that fit one that holds for all parameters is taken.  `proof`: of the equation; without one it holds to rounding at
+ * that fit, one that holds for all parameters is taken.  `proof`: of the equation; without one it holds to rounding at
  * the sample points. */
 bool nh_density_find(const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_options *options, nh_ex *density,
                      nh_proof *proof);

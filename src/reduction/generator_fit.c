@@ -13,7 +13,7 @@ static bool plain(const nh_kinetic *k) { return k->quadratic && !k->magnetic && 
 
 /* ---- values at the places ---- */
 
-/* What the rows are made of at (t, q, v): K, dK, dV or dL/dq, dL/dv; f's derivatives; b_k, d_j b_k. */
+/* The data of the rows at (t, q, v): K, dK, dV or dL/dq, dL/dv; f's derivatives; b_k, d_j b_k. */
 typedef struct {
     size_t K, dK, dV, Lq, Lv, fq, fv, b, db, total;
 } layout;
@@ -67,7 +67,7 @@ static nh_tape *row_tape(const nh_generator_fit *s, layout y)
 
 /* ---- rows ---- */
 
-/* What an entry of K compares with; a velocity without inertia, which constraints may bind, has none. */
+/* The unit of an entry of K; a velocity without inertia, which constraints may bind, has none. */
 static double size_of(const nh_generator_fit *s, const double *K, size_t r)
 {
     double own = fabs(K[r * s->m + r]);
@@ -111,8 +111,8 @@ static double unit_of(const nh_generator_fit *s, const double *e)
     return size > 0 ? 1 / size : 0;
 }
 
-/* One over the size of velocities, a power of 1024, by which no digit is lost: what constraints and L say must not
-   become small with the unit of time. */
+/* One over the unit of velocities, a power of 1024, by which no digit is lost: the rows of constraints and of L must
+ * not become small with the unit of time. */
 static double slowness(const nh_generator_fit *s, const double *v)
 {
     double size = 0;
@@ -134,7 +134,7 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
     bool finite = nh_all_finite(y.total, z);
     if (finite) {
         if (plain(k)) metric_rows(s, y, z, out);
-        /* of its own size: V may be steep elsewhere */
+        /* relative to its own size: V may be steep elsewhere */
         if (plain(k)) function_row(s, y, z, z + y.dV, z + y.Lv, v, unit_of(s, z + y.dV), out);
         for (size_t a = 0; a < k->f; a++)
             function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, slowness(s, v) * unit_of(s, z + y.fv + a * m),

@@ -22,10 +22,10 @@ typedef struct {
     size_t *component, *column;
 } nh_generator_fit;
 
-/* The scales; k, options, m are there. */
+/* Sets the scales; k, options and m must be set. */
 void nh_generator_fit_scale(nh_generator_fit *fit);
-/* Vectors, their sizes and singular values; the library, n and the scales are there.  False with a message when there
-   is nothing to fit at. */
+/* Finds the vectors, their sizes and singular values; the library, n and the scales must be set.  False with a message
+ * when there is no place to fit at. */
 bool nh_generator_fit_solve(nh_generator_fit *fit, nh_error *error);
 void nh_generator_fit_clear(nh_generator_fit *fit);
 

@@ -17,8 +17,8 @@ enum { most_columns = 420 };
 
 /* ---- one vector ---- */
 
-/* The coefficients of one vector again, from its own terms alone: a large library is badly conditioned, a few terms are
-   not. */
+/* Fits the coefficients of one vector again with its own terms only: a large library is badly conditioned, a few terms
+ * are not. */
 static void refit(nh_generator_fit *s, size_t r)
 {
     nh_generator_fit t = {.k = s->k, .options = s->options, .m = s->m};
@@ -31,7 +31,7 @@ static void refit(nh_generator_fit *s, size_t r)
     nh_generator_fit_scale(&t);
     if (nh_generator_fit_solve(&t, &ignored) && t.d > 0) {
         size_t *order = nh_library_order(&t.l), pivot = order[t.n - 1], use = 0;
-        /* another generator may live on the same terms: the one that has the most complex term is meant */
+        /* another generator may consist of the same terms: the one that contains the most complex term is meant */
         nh_relative_echelon(t.n, t.d, order, t.size, t.vector);
         for (size_t c = 0; c < t.d; c++)
             if (fabs(t.vector[pivot + c * t.n]) > fabs(t.vector[pivot + use * t.n])) use = c;
@@ -85,8 +85,8 @@ static void assemble(const nh_generator_fit *s, const nh_ex *coefficient, nh_ex 
     for (size_t i = 0; i < s->m && s->l.whole; i++) component[i] = nh_simplify(d, component[i]);
 }
 
-/* The conditions on column j, told apart by the marks.  by_terms: xi(V_i)/V_i of the potential's terms instead of
- * xi(V): where each vanishes the sum does, and no roots of different distances come together. */
+/* The conditions on column j, each with its mark. by_terms: xi(V_i)/V_i of the potential's terms instead of xi(V):
+ * where each vanishes the sum does, and roots of different distances are not multiplied. */
 static nh_ex conditions(const nh_generator_fit *s, size_t j, bool by_terms, const nh_ex *mark, nh_ex *field,
                         nh_ex *equation)
 {
@@ -148,8 +148,8 @@ static bool parametric(nh_generator_fit *s, size_t r, nh_ex *coefficient, const 
     return good;
 }
 
-/* With rational numbers where these hold for all parameters, else with an exact relation; with what the numbers look
-   like when there is none. */
+/* With rational numbers where these hold for all parameters, else with an exact relation; without one, with simple
+ * forms of the numbers. */
 static void make_generator(nh_generator_fit *s, size_t r, nh_ex *coefficient, nh_ex *component, nh_generator *out)
 {
     const nh_ex *fixed;
@@ -172,7 +172,7 @@ static void make_generators(nh_generator_fit *s, nh_generators *out)
     nh_relative_echelon(s->n, s->d, order, s->size, s->vector);
     out->generator = nh_arena_alloc(k->arena, (s->d + 1) * sizeof *out->generator);
     out->count = 0;
-    for (size_t r = s->d; r-- > 0;) { /* the pivots came from the most complex down */
+    for (size_t r = s->d; r-- > 0;) { /* the pivots come in order from the most complex one */
         refit(s, r);
         normalise(s, order, r);
         make_generator(s, r, coefficient, component, &out->generator[out->count]);
@@ -191,8 +191,8 @@ static size_t for_all_parameters(const nh_kinetic *k, const nh_generators *found
     return n;
 }
 
-/* The generators that one library has, taken when they are more than were known, or as many and more of them hold for
- * all parameters; *good is false with a message after a breakdown. */
+/* Takes the generators of one library when they are more than the known ones, or as many and more of them hold for all
+ * parameters; *good is false with a message after a breakdown. */
 static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, int level, size_t together,
                         const nh_joint_fields *joints, const nh_options *options, nh_error *error, bool *good)
 {
@@ -219,7 +219,7 @@ static bool complete(const nh_generators *found, const nh_jets *jets)
 }
 
 /* d/dq of the coordinates that neither the kinetic energy nor the potential nor the constraints contain: they need no
- * fit, which units that lie far apart may spoil.  Taken where that is more than was found. */
+ * fit, which very different units may make inaccurate.  Taken where they are more than were found. */
 static void cyclic(nh_generators *out, const nh_kinetic *k, const nh_options *options)
 {
     nh_generators found = *out;
@@ -252,7 +252,7 @@ bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *
         enough |= !more && !jets;
         if (level > 1 || (enough && for_all_parameters(k, out) == out->count) || !good || !k->model->system->chain)
             continue;
-        nh_joint_fields_init(&joints, k->model->system); /* simple fields are found without them */
+        nh_joint_fields_init(&joints, k->model->system); /* simple fields are found without these */
         one_library(out, k, jets, level, 3, &joints, options, error, &good);
         enough = complete(out, jets);
     }

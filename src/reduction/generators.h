@@ -14,13 +14,13 @@
 typedef struct {
     size_t count;
     nh_generator *generator;
-    int level;               /* of the library that was enough, or the last one */
-    size_t columns;          /* of that library */
+    int level;               /* level of the library that was enough, or of the last one */
+    size_t columns;          /* number of columns of that library */
     double last_null, first_other;
 } nh_generators;
 
 /* `jets` may be NULL (no metric): then every level is tried while the number grows.  Memory belongs to the kinetic's
- * arena.  Fails only on numerical breakdown; finding none is no failure. */
+ * arena.  False only on numerical breakdown; finding no generator is no failure. */
 bool nh_generators_find(nh_generators *out, const nh_kinetic *kinetic, const nh_jets *jets, const nh_options *options,
                         nh_error *error);
 

@@ -7,8 +7,8 @@
 
 /* ---- circles ---- */
 
-/* Central fields whose flow closes count as circles, up to what lies in [g,g]: generators, and the pieces of the
-   algebra that are lines. */
+/* The number of circles: of the generators and one-dimensional pieces that are central and have a closed flow, those
+ * that are independent modulo [g,g]. */
 static size_t circles(const nh_group *g, const nh_options *options)
 {
     const nh_algebra *c = &g->action.algebra;
@@ -25,7 +25,7 @@ static size_t circles(const nh_group *g, const nh_options *options)
     }
     for (size_t i = 0; i < g->report.pieces; i++) {
         double *line = central + count * d, size = nh_largest(d, g->report.piece[i].basis);
-        /* turns of 2 pi are tried */
+        /* of size one, because turns of 2 pi are tried */
         for (size_t a = 0; a < d; a++) line[a] = g->report.piece[i].basis[a] / (size > 0 ? size : 1);
         count += g->report.piece[i].kind == NH_R && nh_flows_closed(flows, line);
     }
@@ -187,8 +187,8 @@ static size_t along_dependents(const nh_group *g, size_t count, const size_t *su
     return n;
 }
 
-/* Generators of the subset that do not commute with all of it: a group that is not abelian is divided out as a
-   whole. */
+/* The number of generators of the subset that do not commute with all of it.  A group that is not abelian is divided
+ * out as a whole. */
 static size_t interacting(const nh_algebra *g, size_t count, const size_t *subset)
 {
     size_t n = 0;
@@ -265,7 +265,7 @@ static double *on_constraints(const nh_action *g)
     return out;
 }
 
-/* The least sigma_min / sigma_max of omega on the subset: not zero means that its orbits complement D everywhere. */
+/* The least sigma_min / sigma_max of omega on the subset: where it is not zero, the orbits complement D everywhere. */
 static double transversality(const nh_action *g, const double *on, const size_t *subset)
 {
     size_t f = g->kinetic->f, d = g->d;
@@ -338,8 +338,8 @@ static double independence(size_t m, size_t d, size_t places, const double *E, s
     return least;
 }
 
-/* The first subset of this size that generates a free action, with or without local symmetries in it; *trials are
-   left. */
+/* The first subset of this size that generates a free action, with or without local symmetries in it; *trials: how many
+ * more may be tried. */
 static bool free_of_size(const nh_group *g, const nh_options *options, const double *E, bool local, size_t size,
                          size_t *trials, size_t *index)
 {

@@ -11,13 +11,14 @@ typedef struct {
     nh_generators found;
     nh_action action;           /* of the closed forms (or of the fields given) */
     nh_algebra_report report;
-    bool *closed;               /* per piece of the report: a circle */
+    bool *closed;               /* per piece of the report: whether it is a circle */
     char *name;                 /* "SE(2) x SO(2)^3" */
     bool given;                 /* the user named the fields */
-    size_t missing;             /* symmetries, counted in a neighbourhood of a place, without a closed form */
-    /* some may not be symmetries of the whole configuration space: many-valued on an angle, or without a closed form */
+    size_t missing;             /* number of symmetries, counted near a place, without a closed form */
+    /* some may be no symmetries of the whole configuration space: many-valued on an angle, or without a closed form */
     bool local;
-    size_t global;              /* then: the dimension of the subgroup of those that are known to be */
+    /* then: the dimension of the subgroup of those that are known to be */
+    size_t global;
     char *global_name;
 } nh_group;
 
@@ -28,20 +29,20 @@ nh_group *nh_group_of(const nh_kinetic *kinetic, size_t count, const nh_generato
                       const nh_options *options);
 void nh_group_free(nh_group *group);
 
-/* The subgroup of the fields that leave the places u = 0 alone where the Lagrangian, a force or a constraint jumps or
- * has a kink (exact/walls.h).  The derivative of sign(u) is 0: the conditions of a symmetry hold on both sides, and a
- * field that moves the wall takes motions across it to others.  NULL where it is the whole group; may have dimension
- * 0. */
+/* The subgroup of the fields along which no wall u = 0 moves, at which the Lagrangian, a force or a constraint jumps or
+ * has a kink (exact/walls.h).  The derivative of sign(u) is 0, so that the conditions of a symmetry hold on both sides;
+ * but a field that moves the wall takes motions across it to others.  NULL where it is the whole group; may have
+ * dimension 0. */
 nh_group *nh_group_within_walls(const nh_group *group, const nh_options *options);
-/* How many of the local symmetries do so. */
+/* How many of the local symmetries move no wall. */
 size_t nh_group_jets_within_walls(const nh_jets *jets, const nh_kinetic *kinetic, const nh_options *options);
 
 /* The subset of the generators (as many as constraints) that makes a Chaplygin system; false when there is none.  Of
  * several: the one that most of the others normalise, then the least abelian, then the one with the most generators
  * along coordinates that the system calls dependent, then the best conditioned over the sample points. */
 bool nh_group_chaplygin(const nh_group *group, const nh_options *options, size_t *index);
-/* Where there is none: how many subsets of that size span a subalgebra, and the most that a transversality (see
-   nh_action) of theirs comes to. */
+/* Where there is none: the number of subsets of that size that span a subalgebra, and the largest transversality (see
+ * nh_action) among them. */
 size_t nh_group_subalgebras(const nh_group *group, size_t size, double *transversality);
 /* A largest subset of the generators that spans a subalgebra and acts freely at the sample points; returns its size (0:
    none was found). */

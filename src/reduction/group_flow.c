@@ -8,9 +8,8 @@
 #include "reduction/subspace.h"
 
 /* Where the generators do not depend on the shape coordinates, T g d/dx^i = d/dx^i, and the place follows the equation
- *     q' = x'^i d/dx^i + (Ad_g zeta)^a e_a(q),
- * which stays on the path of the motion: the flows of the factors take another one, round a pole of the coordinates
- * perhaps. */
+ * q' = x'^i d/dx^i + (Ad_g zeta)^a e_a(q), which stays on the path of the motion: the flows of the factors take other
+ * paths, perhaps around a pole of the coordinates. */
 static bool independent_of_shape(const nh_slice *s)
 {
     const nh_kinetic *k = s->kinetic;
@@ -68,7 +67,7 @@ void nh_group_flow_factors(nh_group_flow *f, const double *t)
     }
 }
 
-/* rate holds x' and, from `inner` on, Ad_h zeta of the factor in hand. */
+/* rate: x', and from `inner` on Ad_h zeta of the present factor. */
 static void place_rate(nh_group_flow *f, const double *q, double *rate)
 {
     const nh_slice *s = f->chart->slice;

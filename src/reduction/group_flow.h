@@ -11,7 +11,7 @@
 typedef struct {
     const nh_reduced_chart *chart;
     const nh_action *action;
-    bool group;                     /* its motion is wanted, too */
+    bool group;                     /* the motion in the group is wanted as well */
     bool abelian;                   /* all ad_a are zero: M = 1 */
     size_t inner, d, m;
     double *ad;                     /* d matrices d x d */
@@ -26,18 +26,18 @@ typedef struct {
     double *e, *before, *spatial;   /* their values; Ad of the factors kept; g' g^-1 */
 } nh_group_flow;
 
-/* `group`: its motion is wanted.  Without a chart so far. */
+/* `group`: the motion in the group is wanted.  The flow has no chart yet.  The caller clears it. */
 void nh_group_flow_init(nh_group_flow *flow, const nh_action *action, bool group);
-/* From now on over this chart, which is borrowed. */
+/* From now on the flow uses this chart, which it borrows. */
 void nh_group_flow_chart(nh_group_flow *flow, const nh_reduced_chart *chart);
 void nh_group_flow_clear(nh_group_flow *flow);
 
-/* How long a state is. */
+/* The number of entries of a state. */
 size_t nh_group_flow_size(const nh_group_flow *flow);
 /* z' (context: the flow). */
 bool nh_group_flow_rate(double time, const double *z, double *rate, void *flow);
-/* What must stay regular in the reduced equations, and det M, between limits that it must not leave, with M's entries:
-   three values (context: the flow). */
+/* The guards of the reduced equations, and det M, relative to limits that they must not cross, with M's entries: three
+ * values (context: the flow). */
 bool nh_group_flow_guard(double time, const double *z, double *value, void *flow);
 /* M(t) into flow->M and Ad_g into flow->P, from the d coordinates. */
 void nh_group_flow_factors(nh_group_flow *flow, const double *t);

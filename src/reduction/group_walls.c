@@ -1,5 +1,5 @@
-/* group_walls: which fields of a group leave the places alone where the Lagrangian, a force or a constraint jumps or
-   has a kink. */
+/* group_walls: the fields of a group along which no wall moves at which the Lagrangian, a force or a constraint jumps
+ * or has a kink. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ typedef struct {
     double *value; /* of one of them */
 } walls;
 
-/* What atan2 and its like jump by is a constant: no wall for whatever is made of angles. */
+/* The jumps of atan2 and similar functions are constants: they are no walls for functions of angles. */
 static size_t walls_of(const nh_kinetic *k, nh_ex *u)
 {
     const nh_system *s = k->model->system;

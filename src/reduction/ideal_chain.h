@@ -35,8 +35,8 @@ typedef struct {
 bool nh_ideals_init(nh_ideals *chain, const nh_algebra *algebra, size_t blocks, const size_t *size, const size_t *order,
                     const double *metric, nh_error *error);
 void nh_ideals_clear(nh_ideals *chain);
-/* A chain of ideals of g that basis vectors span, as long as possible: sizes of its blocks and the order; returns the
-   number of blocks. */
+/* A chain of ideals of g, spanned by basis vectors, as long as possible: the sizes of its blocks and the order; returns
+ * the number of blocks. */
 size_t nh_ideals_find(const nh_algebra *algebra, size_t *size, size_t *order);
 
 /* Parts of a vector of the algebra's own basis, and back; parts of a covector (beta_j = H_j^T mu). */

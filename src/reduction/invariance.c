@@ -58,7 +58,7 @@ size_t nh_invariance_equations(const nh_kinetic *k, const nh_ex *xi, nh_ex *out)
 
 /* ---- at the sample points ---- */
 
-/* The terms of an expression apart, so that a sum is compared with what it is made of. */
+/* The terms of an expression separately, so that a sum is compared with its terms. */
 static double relative_size(nh_tape *tape, nh_tape_work *work, const double *z, size_t n, double *out)
 {
     double worst = 0;
@@ -146,8 +146,8 @@ nh_ex nh_invariance_sum(const nh_kinetic *k)
     return minus ? nh_child(d, k->V, 0) : k->V;
 }
 
-/* A potential of many terms may be too large for one proof, or for one with all parameters: xi of each term vanishes by
-   itself, often. */
+/* A potential of many terms may be too large for one proof, or for one with all parameters: xi of each term often
+ * vanishes by itself. */
 static void prove_by_terms(const nh_kinetic *k, const nh_ex *xi, const nh_options *options, nh_condition *c)
 {
     nh_dag *d = k->dag;
@@ -164,7 +164,7 @@ static void prove_by_terms(const nh_kinetic *k, const nh_ex *xi, const nh_option
     if (whole.proved && !(c->proved && c->all_parameters)) *c = whole;
 }
 
-/* What the change of L is made of, coordinate by coordinate: sum |xi^s dL/dq^s| + |xi^s' dL/dv^s|. */
+/* The size of the terms of the change of L, coordinate by coordinate: sum |xi^s dL/dq^s| + |xi^s' dL/dv^s|. */
 static nh_ex size_of_change(const nh_kinetic *k, const nh_ex *xi)
 {
     nh_dag *d = k->dag;

@@ -17,7 +17,7 @@
 
 typedef struct {
     bool holds, proved, all_parameters; /* at the sample points; exactly; for all parameter values */
-    const nh_ex *fixed;                  /* else those that must have their values; NULL: all (nh_proof) */
+    const nh_ex *fixed;                  /* else the parameters that must have their values; NULL: all (nh_proof) */
     double residual;                    /* largest relative violation over the sample points */
 } nh_condition;
 
@@ -26,23 +26,23 @@ typedef struct {
     const char *name;      /* NULL unless the user gave one */
     nh_ex *component;      /* m */
     nh_condition metric, potential, constraints, forces;
-    bool invariant;        /* all of them hold */
+    bool invariant;        /* do all conditions hold? */
     bool local;            /* many-valued on an angle: a field on a covering of the configuration space only */
 } nh_generator;
 
-/* Components along the coordinates, as m expressions, into the generator (in the kinetic's arena), with the three
-   conditions checked. */
+/* Writes the m components along the coordinates to the generator (in the kinetic's arena), and checks its
+ * conditions. */
 void nh_generator_init(nh_generator *generator, const nh_kinetic *kinetic, const char *name, const nh_ex *component,
                        const nh_options *options);
 
-/* All its conditions together. */
+/* The weakest of the proofs of its conditions. */
 nh_proof nh_generator_proof(const nh_kinetic *kinetic, const nh_generator *generator);
 
 /* The conditions as expressions: h of the metric (or 1: of L), 1 of the potential, f of the constraints (composed with
  * the chart); `out` has room for h + 1 + f, h = m(m+1)/2.  Returns the number of those of the metric. */
 size_t nh_invariance_equations(const nh_kinetic *kinetic, const nh_ex *component, nh_ex *out);
 
-/* The potential, or what it is a multiple of. */
+/* The potential without a constant factor. */
 nh_ex nh_invariance_sum(const nh_kinetic *kinetic);
 
 /* "-y d/dx + x d/dy + d/dtheta". */

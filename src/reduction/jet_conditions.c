@@ -102,7 +102,7 @@ static void metric_rows(nh_jet_conditions *s, const double *jets)
 }
 
 /* xi(V) = 0 and its derivatives B^l_k d_l V + xi^l d_k d_l V = 0, divided by the size of dV at the place: near a
- * singularity of V it would hide all the others. */
+ * singularity of V these rows would dominate all others. */
 static void potential_rows(nh_jet_conditions *s, const double *jets)
 {
     size_t m = s->m;

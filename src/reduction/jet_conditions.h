@@ -1,7 +1,7 @@
 /* jet_conditions: the conditions on the 1-jet (xi, B) of a symmetry at one point (jets.h), as rows of a linear system.
  *
- * One column per jet in question; works in the scaled coordinates of transport.h.  The rows are kept apart by what they
- * belong to, so that each kind can be left out. */
+ * There is one column per jet, in the scaled coordinates of transport.h.  The rows of each kind are in
+ * a list of their own, so that a kind can be left out. */
 #ifndef NH_JET_CONDITIONS_H
 #define NH_JET_CONDITIONS_H
 
@@ -29,17 +29,17 @@ void nh_jet_conditions_init(nh_jet_conditions *conditions, const nh_kinetic *kin
                             const double *q0);
 void nh_jet_conditions_clear(nh_jet_conditions *conditions);
 
-/* A new row, for `columns` numbers. */
+/* Appends a row of `columns` numbers, and returns it. */
 double *nh_jet_conditions_row(nh_jet_conditions *conditions, nh_condition_kind kind);
-/* Rows of all kinds at the place q (true coordinates), where the jets are (columns of length m + m^2); false when the
-   metric is not finite there. */
+/* Appends rows of all kinds at the place q (true coordinates), at which the jets are given (columns of length m + m^2);
+ * false when the metric is not finite there. */
 bool nh_jet_conditions_at(nh_jet_conditions *conditions, const double *q, const double *jets);
 
 /* The columns' combinations that satisfy the rows of the metric and those asked for: basis (columns x columns at most);
  * returns how many.  The singular values on both sides of the cut, where they are wanted. */
 size_t nh_jet_conditions_kernel(const nh_jet_conditions *conditions, bool potential, bool constraints, double *basis,
                                 double *last, double *first);
-/* The rows of the metric with a threshold that forgives more: jets that are not needed are sorted out later. */
+/* The rows of the metric with a larger threshold: unnecessary jets are removed later. */
 size_t nh_jet_conditions_kernel_generous(const nh_jet_conditions *conditions, double *basis);
 /* From now on the columns are combinations of those so far: basis (columns x kept). */
 void nh_jet_conditions_restrict(nh_jet_conditions *conditions, size_t kept, const double *basis);

@@ -30,7 +30,7 @@ static void first_jets(nh_jet_conditions *s, double *jets)
     nh_free(S);
 }
 
-/* Toward a sample point, as far as the way is free. */
+/* Towards a sample point, as far as the transport succeeds. */
 static bool follow_ray(nh_jet_conditions *s, const double *q0, const double *target, const double *jets, double *end,
                        double *moved)
 {
@@ -123,9 +123,9 @@ static void conclude(nh_jet_conditions *s, const double *jets, const double *mov
     nh_free(xi);
 }
 
-/* After the first ray only those jets are carried on that leave the metric alone there too (with a generous bound: what
- * is kept without need is sorted out later).  Jets, their images at the end of that ray and the rows so far are
- * expressed in them. */
+/* After the first ray only those jets are kept that leave the metric invariant there, too (with a generous threshold:
+ * unnecessary ones are removed later).  Jets, their images at the end of that ray and the rows so far are expressed in
+ * terms of them. */
 static void thin_out(nh_jet_conditions *s, double *jets, double *moved)
 {
     size_t n = s->columns, size = s->t.size;
@@ -140,7 +140,8 @@ static void thin_out(nh_jet_conditions *s, double *jets, double *moved)
     nh_free(out);
 }
 
-/* As many rays as give half again as many rows as there are unknowns, of the potential and of the constraints each. */
+/* The number of rays that gives one and a half times as many rows as there are unknowns, of the potential and of the
+ * constraints each. */
 static size_t rays_wanted(const nh_jet_conditions *s)
 {
     size_t of_V = s->rows[NH_OF_POTENTIAL], of_D = s->rows[NH_OF_CONSTRAINTS];
@@ -152,7 +153,7 @@ static size_t rays_wanted(const nh_jet_conditions *s)
 static void run(nh_jet_conditions *s, nh_jets *out)
 {
     size_t m = s->m, length = s->t.size * s->columns, wanted = rays;
-    if (nh_interrupted()) return; /* then the tapes of `s` are not whole */
+    if (nh_interrupted()) return; /* then the tapes of `s` are not complete */
     double *jets = nh_alloc_array(length * (1 + most_rays), sizeof *jets), *moved = jets + length;
     out->end = nh_alloc_array(most_rays * m, sizeof *out->end);
     nh_transport_at(&s->t, out->place, s->x);

@@ -52,7 +52,7 @@ nh_pose nh_joint_at_rest(const nh_system *s, const nh_pose *pose)
     return out;
 }
 
-/* The size of a pivot at one place.  What vanishes identically never comes here; what is small is no zero. */
+/* The size of a pivot at one place.  Pivots that vanish identically were removed before; a small one is not zero. */
 static double score(void *context, nh_ex e)
 {
     enum { most = 128 };

@@ -23,8 +23,8 @@ typedef struct {
 
 /* ---- one field ---- */
 
-/* Is xi a combination of the basis?  The parts off each basis twist in turn: bases that are not orthogonal may say no
-   without need. */
+/* Is xi a combination of the basis?  It subtracts the part along each basis twist in turn: for a basis that is not
+ * orthogonal the answer may be no although xi is a combination. */
 static bool inside(const work *w, const nh_twist *xi)
 {
     nh_dag *d = w->dag;
@@ -50,7 +50,7 @@ static bool known(const nh_joint_fields *f, const nh_ex *component)
     return false;
 }
 
-/* -d/dy is as good as d/dy. */
+/* -d/dy counts as d/dy. */
 static void turn_round(const work *w, nh_ex *component)
 {
     size_t i = 0, m = w->out->m;
@@ -92,7 +92,7 @@ static bool turns(nh_dag *d, const nh_twist *t)
     return !nh_is_zero(d, t->w[0]) || !nh_is_zero(d, t->w[1]) || !nh_is_zero(d, t->w[2]);
 }
 
-/* c, in the frame in which `pose` is the body's: as it is, and turned about the points of the body. */
+/* Adds c, in the frame in which `pose` is that of the body: unchanged, and turned about the points of the body. */
 static void add_fixed(work *w, const nh_pose *pose, const nh_twist *c)
 {
     nh_dag *d = w->dag;
@@ -130,7 +130,7 @@ static void fixed_before(work *w)
     const nh_chain *c = w->chain;
     nh_dag *d = w->dag;
     nh_pose E = nh_joint_pose(d, c, w->joint), P = w->joint->placement;
-    bool own = !is_turned(w); /* else the ground's axes first: gravity knows those */
+    bool own = !is_turned(w); /* otherwise the axes of the ground first: gravity is given in these */
     for (long body = w->joint->parent;; ) {
         fixed_in(w, &P, &E, own);
         if (body == NH_GROUND) break;

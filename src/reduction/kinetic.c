@@ -138,8 +138,8 @@ static size_t usual_rank(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work,
     return most;
 }
 
-/* How far from singular a place is: the least singular value that is not zero everywhere, relative to the largest; 0
-   where something is not finite. */
+/* The distance of a place from singular ones: the least singular value that is not zero everywhere, relative to the
+ * largest; 0 where a value is not finite. */
 static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const double *q, size_t rank, double *K)
 {
     double *s;

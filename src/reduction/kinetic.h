@@ -26,9 +26,10 @@ typedef struct {
     bool quadratic, magnetic, autonomous, forced, affine, linear;
     bool metric;           /* quadratic, and K positive definite at the sample points */
     bool reducible;        /* L = K - V with a metric, linear constraints, no time, no forces */
-    /* a metric, no time, constraints that are at most affine: it has reduced equations, though no connection is used */
+    /* a metric, no time, constraints that are at most affine: the system has reduced equations, though no connection is
+     * used */
     bool general;
-    const char *obstacle;  /* why it is not reducible, in words; NULL */
+    const char *obstacle;  /* the reason why it is not reducible, in words; NULL: it is */
     size_t places;         /* samples */
     double *place, *speed; /* places x m: positions, and velocities that satisfy the constraints */
     double *time;          /* places */
@@ -55,8 +56,8 @@ void nh_kinetic_sizes(const nh_kinetic *kinetic, size_t places, double *size);
  * and what is found does not depend on units.  A power of 1024, by which no digit is lost: where the length is near one
  * it is 1. */
 double nh_kinetic_length(const nh_kinetic *kinetic, const double *diagonal);
-/* Does one of them change its value when an angle goes once around?  It is defined on a covering of the configuration
-   space only then. */
+/* Does one of them change its value when an angle makes one turn?  Then it is defined on a covering of the
+ * configuration space only. */
 bool nh_kinetic_many_valued(const nh_kinetic *kinetic, size_t count, const nh_ex *e);
 
 #endif

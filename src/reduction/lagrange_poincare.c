@@ -1,4 +1,4 @@
-/* lagrange_poincare: by elimination in the graph; what is short is simplified. */
+/* lagrange_poincare: elimination in the graph of expressions; short results are simplified. */
 #include "reduction/lagrange_poincare.h"
 
 #include "exact/normal.h"

@@ -35,7 +35,7 @@ static nh_ex *functions_of_system(const nh_kinetic *k, size_t *count)
     size_t capacity = 0, n = 0;
     for (size_t a = 0; a <= k->f; a++) {
         nh_ex of = a < k->f ? k->force[a] : k->model->system->lagrangian;
-        size_t more = nh_functions_in(k->dag, of, &e, 1); /* how many there are */
+        size_t more = nh_functions_in(k->dag, of, &e, 1); /* number of them */
         nh_grow(&out, &capacity, n + more + 1, sizeof *out);
         nh_functions_in(k->dag, of, out + n, more);
         n += more;
@@ -81,7 +81,7 @@ static void put_with_slopes(const nh_kinetic *k, factors *f, nh_ex g, nh_ex q, b
     put(f, for_covectors ? nh_mul(k->dag, slope, g) : nh_div(k->dag, slope, g));
 }
 
-/* Functions that come near a pole on the sample points would hide the others. */
+/* Leaves out functions that come near a pole at the sample points: they would dominate the others. */
 static void drop_wild(const nh_kinetic *k, factors *f)
 {
     static const double tame = 30;
@@ -109,7 +109,8 @@ static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
     bool angle = k->angle[j], turned = angle;
     f->count = 0;
     for (size_t i = 0; i < n; i++) turned |= circular(d, found[i]) && nh_depends(d, nh_child(d, found[i], 0), k->q[j]);
-    bool powers = !turned || level == 3 || level == 5; /* beside sines they are nearly dependent on a short interval */
+    /* together with sines these are nearly dependent on a short interval */
+    bool powers = !turned || level == 3 || level == 5;
     for (size_t i = 0; i < n && level == covectors; i++) powers &= !of_one(k, found[i], j);
     put(f, nh_int(d, 1));
     if (powers) put(f, k->q[j]);
@@ -136,9 +137,9 @@ static void add(nh_library *l, const nh_kinetic *k, nh_ex e, size_t component)
     l->complexity[l->count++] = nh_is_number(k->dag, e, 1) ? 0 : (double)nh_complexity(k->dag, e);
 }
 
-/* Which coordinates a component depends on, from the jets: B^i_j anywhere.  Scales of the metric make the entries
- * comparable.  A component with a slope is not zero, small though it may be against the length of the box: a rotation
- * of a short plane beside a rotor of great inertia. */
+/* The coordinates on which a component depends, from the jets: B^i_j anywhere.  Scales of the metric make the entries
+ * comparable.  A component with a slope is not zero, even if it is small relative to the length of the box: a rotation
+ * of a short plane together with a rotor of great inertia. */
 static bool *dependence(const nh_kinetic *k, const nh_jets *jets, bool *nonzero)
 {
     static const double small = 1e-7;
@@ -197,8 +198,8 @@ static void monomials(nh_library *l, const nh_kinetic *k, const bool *on, size_t
                   most);
 }
 
-/* What components are divided by at the level of covectors: K_ii where K is diagonal, else its determinant; 0 where
-   that is a number or unknown. */
+/* The divisor of components at the level of covectors: K_ii where K is diagonal, else its determinant; 0 where that is
+ * a number or unknown. */
 static nh_ex divisor(const nh_kinetic *k, size_t i)
 {
     nh_dag *d = k->dag;

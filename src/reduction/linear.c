@@ -16,8 +16,8 @@ static nh_ex second(nh_dag *d, const nh_reduced *o, nh_ex F, size_t b, size_t c)
     return nh_diff(d, nh_diff(d, F, o->w[b]), o->w[c]);
 }
 
-/* N = b M_GG^-1 row by row (M is symmetric: M_GG N^T = b^T), b_ab the coefficient of x' nu_b in p_a'; and what must
-   vanish beside it. */
+/* N = b M_GG^-1 row by row (M is symmetric: M_GG N^T = b^T), b_ab the coefficient of x' nu_b in p_a'; and the other
+ * terms, which must vanish, relative to it. */
 static bool coefficients(const nh_reduced *o, size_t shape, size_t g, const size_t *index, nh_ex *N, nh_ex *rest)
 {
     nh_dag *d = o->kinetic->dag;
@@ -43,8 +43,8 @@ static bool coefficients(const nh_reduced *o, size_t shape, size_t g, const size
     return good;
 }
 
-/* The largest part of p' that is not N p x', beside N and a change of the momenta by their size within the size l of x,
- * in units in which M has diagonal one:
+/* The largest part of p' other than N p x', relative to N and to a change of the momenta by their size within the size
+ * l of x, in units in which M has diagonal one:
  *
  *     l |rest_ajk| sqrt(M_xx / (M_aa M_jj M_kk)) / (1 + l |N_ab| sqrt(M_bb / M_aa))
  *

@@ -34,13 +34,14 @@ const char *nh_linear_question_name(nh_linear_question question);
 
 typedef struct {
     nh_arena *arena;
-    const char *obstacle;    /* why it cannot be asked, or NULL */
+    const char *obstacle;    /* the reason why it cannot be asked, or NULL */
     nh_linear_family family;
     nh_kinetic *kinetic;     /* or NULL */
     const char *group;       /* hamiltonization: what is divided out */
 } nh_linear_system;
 
-/* Of a model whose parameters have values of no importance; what follows holds for all of them. Not for currents. */
+/* For a model whose parameters have arbitrary values: the equations hold for all values.  Not for the question of
+ * currents. */
 nh_linear_system *nh_linear_system_create(const nh_model *model, nh_linear_question question,
                                           const nh_options *options);
 void nh_linear_system_free(nh_linear_system *system);

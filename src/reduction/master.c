@@ -133,7 +133,7 @@ void nh_reduced_add_forces(const nh_slice *s, const nh_ex *u, nh_ex *force)
     nh_free(from);
 }
 
-/* p_i = rho_i . Kf rho w, and what is left of rho_i . (pi, mu): a function of the place, whose rate is taken off. */
+/* p_i = rho_i . Kf rho w, and the rest of rho_i . (pi, mu): a function of the place, whose rate is subtracted. */
 static void momenta(nh_reduced *o, const nh_slice *s, const nh_ex *rho, const nh_ex *constant, const nh_ex *u,
                     nh_ex *rest)
 {

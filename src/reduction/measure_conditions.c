@@ -21,7 +21,7 @@ typedef struct {
 
 static nh_ex tidy(const work *w, nh_ex e) { return nh_simplify_short(w->dag, e, longest); }
 
-/* The inverse of K by cofactors, which have no denominators of their own, every entry as short as it gets. */
+/* The inverse of K by cofactors, which have no denominators of their own, with each entry as short as possible. */
 static bool inverse(const work *w, const nh_ex *K, nh_ex *inv)
 {
     size_t n = w->n;
@@ -83,7 +83,7 @@ static bool same(const nh_parameter_zeros *a, const nh_parameter_zeros *b)
     return equal;
 }
 
-/* e = 0 is one more condition, unless it holds anyhow or is there already. */
+/* Adds the condition e = 0, unless it always holds or is in the list. */
 static bool demand(work *w, nh_ex e, bool factor)
 {
     const nh_system *y = w->s->kinetic->model->system;
@@ -116,7 +116,7 @@ static bool closed(work *w)
     return good;
 }
 
-/* Does the curl of Theta vanish for hardly any parameters? */
+/* Does the curl of Theta vanish only for exceptional parameters? */
 static bool rarely_closed(const work *w)
 {
     bool found = false;

@@ -168,8 +168,8 @@ static void normalise(const search *s, nh_ex *c)
     for (size_t j = 0; j < s->n; j++) c[j] = nh_neg(s->k->dag, c[j]);
 }
 
-/* A coefficient that is not constant but constant along D: a momentum that is known, times a function of the leaf of an
-   integrable distribution. */
+/* A coefficient that is not constant, but constant along D: a known momentum, times a function of the leaf of an
+ * integrable distribution. */
 static bool multiple(const search *s, const nh_momentum *p)
 {
     const nh_kinetic *k = s->k;
@@ -320,7 +320,7 @@ static nh_ex energy_of(const nh_kinetic *k)
     return E;
 }
 
-/* Only what is proved is taken: nothing else of a system of this kind is known. */
+/* Only proved ones are taken: for a system of this kind there is no other test. */
 static void find_general(nh_momenta *out, const nh_action *g, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;

@@ -34,17 +34,18 @@ typedef struct {
 
 typedef struct {
     size_t count;
-    bool untried;          /* constraints that are not solved for velocities: nothing was looked for */
+    bool untried;          /* the constraints are not solved for velocities: no momenta were sought */
     nh_momentum *momentum; /* in the kinetic's arena */
 } nh_momenta;
 
-/* A momentum is proved where its generators are, too: how many are not.  Each proof becomes that of both. */
+/* A momentum is proved only if its generators are: each proof becomes that of both.  Returns how many momenta are not
+ * proved. */
 size_t nh_momenta_unproved(nh_momenta *momenta, const nh_action *action);
-/* Of those the rate itself decides, by a model with accelerations: what it refutes is left out.  Numbers that hardly
- * weigh in a generator (lengths of a nanometre beside a metre) may be the whole of the rate. */
+/* For momenta that are not proved the rate itself decides, by a model with accelerations: refuted ones are left out.
+ * Numbers that are small in a generator (lengths of a nanometre in a system of metres) may decide about the rate. */
 void nh_momenta_confirm(nh_momenta *momenta, const nh_model *model, const nh_options *options);
 
-/* Which of them are local. */
+/* Finds which of them are local. */
 void nh_momenta_mark(nh_momenta *momenta, const nh_kinetic *kinetic);
 
 /* Constants c (d) with omega(c^a e_a) = 0 (with `offset`: + b = 0) and c^a e_a . Q = 0, known in doubles, as

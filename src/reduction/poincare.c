@@ -18,7 +18,7 @@ typedef struct {
     size_t r;
     double *u, *du, *momentum, *rate; /* m each: (x', zeta), its derivative, Kf u, (Kf u)' */
     double *v;              /* d */
-    /* m each: the sums of the moduli of their terms, beside which a residual is small or not */
+    /* m each: the sums of the moduli of their terms, with which residuals are compared */
     double *of_momentum, *of_rate;
     const double *lifts; /* inner product of the generators for the lifts; NULL: that of the kinetic energy */
 } place;

@@ -30,7 +30,7 @@
 typedef struct {
     size_t places;           /* compared at */
     size_t dimension;        /* of S */
-    /* largest residuals, relative to the sum of the moduli of their terms */
+    /* largest residuals, each relative to the sum of the moduli of its terms */
     double one_vertical, one_horizontal, stages_vertical, stages_horizontal;
     /* by stages against the bracket itself, relative to the longest of vectors of these lengths */
     double bracket;

@@ -36,7 +36,7 @@ nh_kinetic *nh_quasi_symmetry_kinetic(const nh_kinetic *k)
     return w;
 }
 
-/* `proof` becomes that of this besides what it was of. */
+/* `proof` becomes the weaker one of both statements. */
 static bool vanishes(const nh_kinetic *k, nh_ex e, const nh_options *options, nh_proof *proof)
 {
     *proof = nh_proof_both(k->model, *proof, nh_prove_zero(k->model, 1, &e, true, options));

@@ -20,7 +20,7 @@
    itself.  For kinetic->general only. */
 nh_kinetic *nh_quasi_symmetry_kinetic(const nh_kinetic *kinetic);
 /* Conserved quantities of constant combinations of the generators of a group of the weak kinetic; `kinetic` is the true
- * one.  Of phi_0 only those are found that are polynomials of degree two at most. */
+ * one.  Only those are found whose phi_0 is a polynomial of degree at most two. */
 void nh_quasi_symmetry_momenta(nh_momenta *out, const nh_kinetic *kinetic, const nh_action *action,
                                const nh_options *options);
 

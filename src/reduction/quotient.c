@@ -39,7 +39,8 @@ static bool prolong(const nh_model *o, const nh_ex *e, nh_ex *eta)
         }
     }
     if (any && !o->chart->quasi) {
-        for (size_t i = 0; i < n; i++) eta[i] = right[o->chart->free[i]]; /* there w are components of v */
+        /* there the components of w are components of v */
+        for (size_t i = 0; i < n; i++) eta[i] = right[o->chart->free[i]];
     } else if (any) {
         nh_lu *lu = nh_lu_create(d, n, N, nh_chart_pivot_score, o->chart, NULL);
         good = lu != NULL;
@@ -77,8 +78,8 @@ static double pace(const nh_model *o, const double *rho)
     return most;
 }
 
-/* Where the energy does not change along Gamma, at the chart's probes: beside the terms of its rate, which may be
- * nothing but rounding, and its own terms in the time in which coordinates change by their size. */
+/* Is the energy constant along Gamma at the chart's probes?  Its rate is compared with its terms, which may be only
+ * rounding, and with the energy's own terms within the time in which coordinates change by their size. */
 static bool conservative(const nh_model *o)
 {
     static const double small = 1e-9;
@@ -178,7 +179,7 @@ static double fit(const nh_model *o, nh_tape *tape, nh_tape_work *work, double *
             for (size_t k = 0; k < n; k++) R[s + k * m] = value[m + s * n + k];
         }
         if (!isfinite(now) || !isfinite(nh_largest(m * n, R))) break;
-        off = size > 0 ? now / size : now; /* at rest there is no size */
+        off = size > 0 ? now / size : now; /* at rest there is nothing to compare with */
         if (off < 1e-15 || nh_least_squares(m, n, R, 1, b, m > n ? m : n, 1e-12) < 0) break;
         for (size_t k = 0; k < n; k++) z[1 + m + k] += b[k];
     }

@@ -1,4 +1,4 @@
-/* reach: places and velocities moved along the orbits of a group (reach.h). */
+/* reach: moves positions and velocities along the orbits of a group (reach.h). */
 #include "reduction/reach.h"
 
 #include <math.h>
@@ -88,7 +88,7 @@ size_t nh_slice_reach(const nh_slice *s, double *q, double *v, double *moved)
         double off = newton(s, z, size, dt);
         arrived = off <= there;
         good = isfinite(off);
-        for (size_t a = 0; a < d && good && !arrived; a++) { /* one after the other: to first order they add up */
+        for (size_t a = 0; a < d && good && !arrived; a++) { /* one after the other: to first order the steps add up */
             double step = translation(s->action, a) ? dt[a] : fmax(-longest, fmin(longest, dt[a]));
             if (step == 0) continue;
             good = count < most && nh_action_push(s->action, a, step, z);

@@ -26,13 +26,13 @@ static bool move(nh_flows *flows, size_t d, const double *t, double *q)
     return good;
 }
 
-/* One motion in hand. */
+/* The motion that is being computed. */
 typedef struct {
     nh_group_flow f;
     nh_flows *flows;
-    nh_atlas *atlas;          /* NULL: one chart only */
-    double *factor;           /* of finished stretches: d numbers each, the first one outermost */
-    size_t count, capacity, failures; /* new charts for one and the same output */
+    nh_atlas *atlas;          /* NULL: a single chart */
+    double *factor;           /* of finished parts: d numbers each, the first one outermost */
+    size_t count, capacity, failures; /* number of new charts for the same output */
     double *state, *left, *least;
     nh_reconstruction *out;
 } course;
@@ -51,7 +51,7 @@ static bool place_of(const course *c, const double *z, double *q)
     return good;
 }
 
-/* Copy what a stretch of the motion reached, from its output `from` on; the places of its points. */
+/* Copies the outputs of a part of the motion, from output `from` on, and their places. */
 static bool store(course *c, const nh_motion *motion, size_t from)
 {
     nh_group_flow *f = &c->f;
@@ -72,7 +72,7 @@ static bool store(course *c, const nh_motion *motion, size_t from)
     return good;
 }
 
-/* Keep the factors of g; the next stretch starts from the identity. */
+/* Stores the factors of g; the next part starts from the identity. */
 static void keep_factors(course *c, const double *t)
 {
     nh_group_flow *f = &c->f;
@@ -85,7 +85,7 @@ static void keep_factors(course *c, const double *t)
 
 static void limit_guards(course *c, const double *x)
 {
-    static const double part = 0.5, most = 0.1; /* of what the guards are here */
+    static const double part = 0.5, most = 0.1; /* part of the present values of the guards */
     if (c->atlas) nh_reduced_flow_limit(c->f.chart->flow, x, part, most);
 }
 
@@ -102,7 +102,7 @@ static void begin_stretch(course *c, const double *place)
    c->failures) where the equations could not be integrated. */
 static bool change_chart(course *c, const double *z, bool renew, double *place)
 {
-    static const double lost = 1e-4; /* no chart is any good */
+    static const double lost = 1e-4; /* no chart is regular there */
     nh_group_flow *f = &c->f;
     double *q = nh_alloc_array(2 * f->m + f->inner + f->d + 1, sizeof *q), *v = q + f->m, *next = v + f->m,
            *moved = next + f->inner, value[2];
@@ -128,7 +128,7 @@ static bool change_chart(course *c, const double *z, bool renew, double *place)
     return good;
 }
 
-/* From the last output on in a chart that is made for it. */
+/* Continues from the last output in a chart that is made for it. */
 static bool renew_chart(course *c, const nh_motion *motion, double *place)
 {
     size_t last = motion->count - 1;
@@ -136,8 +136,8 @@ static bool renew_chart(course *c, const nh_motion *motion, double *place)
     return change_chart(c, motion->state + last * motion->size, true, place);
 }
 
-/* After a stretch that a guard has ended: go on from there; where that fails, or the equations could not be integrated,
-   from the last output. */
+/* After a part that a guard has ended: continues from there; where that fails, or the equations could not be
+ * integrated, from the last output. */
 static bool go_on(course *c, const nh_motion *motion, bool renew)
 {
     nh_group_flow *f = &c->f;
@@ -177,7 +177,7 @@ static void explain(course *c, const nh_motion *motion, bool found, const double
     else snprintf(out->note, sizeof out->note, "%s", motion->note);
 }
 
-/* May a new chart be made for the last output?  Several times without another output in between is once too often. */
+/* May a new chart be made for the last output?  Not again after several ones without another output. */
 static bool may_renew(course *c, const nh_motion *motion)
 {
     enum { most_failures = 6 };
@@ -186,8 +186,8 @@ static bool may_renew(course *c, const nh_motion *motion)
     return c->failures < most_failures;
 }
 
-/* Least sizes of the states: of x and of the place those of coordinates; of the group's coordinates what moves the
- * place by as much, s_a = min_s size_s / |e_a^s|; of momenta none. */
+/* Least sizes of the states: of x and of the place those of coordinates; of the group's coordinates the change that
+ * moves the place by as much, s_a = min_s size_s / |e_a^s|; of momenta none. */
 static void least_sizes(const course *c, const double *place, double *least)
 {
     const nh_group_flow *f = &c->f;
@@ -233,7 +233,7 @@ static bool run(course *c, size_t count, const double *times, const nh_reconstru
             least_sizes(c, how->place, c->least);
             o.least = c->least;
         }
-        size_t n = count - out->count, first = stretches > 0; /* a later stretch begins where the last one ended */
+        size_t n = count - out->count, first = stretches > 0; /* a later part begins where the last one ended */
         if (first) memcpy(c->left + 1, times + out->count, n * sizeof *times);
         nh_motion *motion = nh_automatic_or(method, &problem, c->state, n + first, c->left, &o, NULL, error);
         if (!motion) return false;
@@ -256,7 +256,7 @@ static bool run(course *c, size_t count, const double *times, const nh_reconstru
     return true;
 }
 
-/* Where a motion starts: on the chart, with the place itself and what leads there from the chart's slice. */
+/* The start of a motion: on the chart, with the place itself and the moves that lead there from the chart's slice. */
 typedef struct {
     const nh_reduced_chart *chart;
     const double *z, *q;

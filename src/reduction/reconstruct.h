@@ -19,10 +19,12 @@
 typedef struct {
     const nh_method *method; /* with error control; NULL: the one that suits (automatic.h) */
     double tolerance, steps; /* steps: at most */
-    double absolute;         /* of nh_flow_options: sizes are those that states have along the motion; 0: sizes 1 */
-    /* m: the least size of each coordinate, beside which an error in it counts; NULL: from the motion */
+    /* of nh_flow_options: errors relative to the sizes that states have along the motion; 0: all sizes 1 */
+    double absolute;
+    /* m: the least size of each coordinate, for its errors; NULL: from the motion */
     const double *place;
-    /* units of base/effort.h of integration at most, a motion that needs more is not complete; 0: no limit */
+    /* largest work of the integration in units of base/effort.h: a motion that needs more is not complete; 0: no
+     * limit */
     double effort;
 } nh_reconstruct_how;
 
@@ -32,16 +34,16 @@ typedef struct {
     double *z;             /* count x (n + r): x and p along the motion, in the chart of that time */
     double *zeta;          /* count x d */
     double *energy;        /* count */
-    double *energy_size;   /* count: the largest of its terms so far, beside which a drift is small or not */
+    double *energy_size;   /* count: the largest term of the energy so far, with which its drift is compared */
     size_t restarts;       /* of the coordinates of the group */
     size_t charts;         /* changes of the chart */
-    size_t first_chart;    /* outputs before the first of them */
-    const nh_reduced *first; /* the equations until then */
+    size_t first_chart;    /* number of outputs before the first change of the chart */
+    const nh_reduced *first; /* the equations of the first chart */
     bool complete;
-    bool dependent;        /* it ended where the constraints become dependent: no equations go on there */
+    bool dependent;        /* it ended where the constraints become dependent, and the equations do not continue */
     char note[256];
     long evaluations, steps;
-    double effort, seconds; /* of integration, without the building of charts */
+    double effort, seconds; /* of the integration, without making charts */
 } nh_reconstruction;
 
 /* The reduced motion from z with g = identity, and the places it stands for.  `slice`: the group divided out, its

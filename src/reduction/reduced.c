@@ -69,7 +69,7 @@ void nh_reduced_guard_constraints(nh_reduced *o, const nh_slice *s, const size_t
 /* At each place an elimination of its own, with common columns: a is places x f rows of m, column by column. */
 static void choose_independent(const nh_slice *s, size_t places, double *a, size_t *independent)
 {
-    /* a component of the group is given up unless one of the shape is so much better */
+    /* a component of the group is eliminated unless one of the shape is so many times better */
     static const double group_first = 4;
     size_t m = s->m, f = s->f, rows = places * f, count = 0;
     bool *taken = nh_alloc_array(m, sizeof *taken);

@@ -31,7 +31,7 @@ typedef struct {
     bool plain;          /* M = 1: the p are the velocities w */
     bool timed;          /* the time t occurs */
     nh_ex t;
-    /* Where F has no formula: its r values at (x, w); false where it cannot be computed.  NULL: F is one. */
+    /* Where F has no formula: writes its r values at (x, w); false where it cannot be computed.  NULL: F has one. */
     bool (*force)(void *context, double t, const double *x, const double *w, double *F);
     void *context;
     nh_guard guard[2];   /* of the constraints, and of the generators on the slice; rows 0: none */
@@ -50,10 +50,10 @@ void nh_reduced_init(nh_reduced *reduced, const nh_kinetic *kinetic, size_t n, c
  * Hamel's equations in the frame (d/dx, e_a); docs/method.md, sec. 9.  `independent`: the r = m - f components of u
  * that serve as w. False when the others cannot be solved for. */
 bool nh_reduced_master(nh_reduced *reduced, const nh_slice *slice, const size_t *independent, nh_error *error);
-/* Add the forces without a potential in the frame to `force` (m): Fr^T Q at u = (x', zeta). */
+/* Adds the forces without a potential in the frame to `force` (m): Fr^T Q at u = (x', zeta). */
 void nh_reduced_add_forces(const nh_slice *slice, const nh_ex *u, nh_ex *force);
-/* Components of the frame that serve as w: the others' minor of omf is well conditioned; group components are given up
-   first. */
+/* Chooses the components of the frame that serve as w: the others' minor of omf is well conditioned; group components
+ * are eliminated first. */
 void nh_reduced_independent(const nh_slice *slice, size_t *independent);
 /* The same for one place on the slice, lengths and angles in units of the metric. */
 void nh_reduced_independent_at(const nh_slice *slice, const double *q, size_t *independent);
@@ -66,7 +66,7 @@ typedef struct nh_reduced_flow nh_reduced_flow;
 /* Keeps the equations, which have to outlive it.  The caller frees it. */
 nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *reduced);
 void nh_reduced_flow_free(nh_reduced_flow *flow);
-/* The time at which it is evaluated from now on (0 at first), where that occurs. */
+/* Sets the time at which it is evaluated from now on (0 at first), where the time occurs. */
 void nh_reduced_flow_time(nh_reduced_flow *flow, double t);
 /* A motion ends where a guard changes sign: beyond a singularity of the slice or of the connection it would mean
  * nothing; or earlier, where its modulus falls below the limit that nh_reduced_flow_limit sets. */
@@ -74,13 +74,13 @@ nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *flow);
 /* The two guards at x: the minor of the chosen columns over the root of the sum of the squares of all (between -1 and
  * 1; 1 where there is no matrix), less their limit; false when they are not finite. */
 bool nh_reduced_flow_guards(nh_reduced_flow *flow, const double *x, double value[2]);
-/* The limits for a motion from x: `part` of what the guards are there, `most` at most.  Returns the smaller modulus of
-   the two; 0 when not finite. */
+/* Sets the limits for a motion from x: `part` of the guards' values there, at most `most`.  Returns the smaller modulus
+ * of the two guards; 0 when not finite. */
 double nh_reduced_flow_limit(nh_reduced_flow *flow, const double *x, double part, double most);
 /* Are the constraints themselves dependent at x, or nearly so? */
 bool nh_reduced_flow_dependent(nh_reduced_flow *flow, const double *x);
-/* For who fills the equations: what must stay regular on a slice, its generators' minor; and the constraints' columns
-   (f of them). */
+/* For functions that make the equations: the matrices that must stay regular on a slice, its generators' minor and the
+ * constraints' columns (f of them). */
 void nh_reduced_guard_slice(nh_reduced *reduced, const nh_slice *slice);
 void nh_reduced_guard_constraints(nh_reduced *reduced, const nh_slice *slice, const size_t *columns);
 /* All at once at z: rate (n + r), w (r), zeta (d), energy; each may be NULL. */

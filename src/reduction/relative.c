@@ -102,7 +102,8 @@ static void exchange(size_t n, double *v, double *w)
 
 void nh_relative_echelon(size_t n, size_t count, const size_t *order, const double *size, double *v)
 {
-    static const double small = 1e-6, pivotal = 1e-3; /* nearly dependent columns carry noise: no pivot is made of it */
+    /* nearly dependent columns are mostly rounding errors: they give no pivot */
+    static const double small = 1e-6, pivotal = 1e-3;
     size_t rank = 0;
     for (size_t at = n; at-- > 0 && rank < count;) {
         size_t j = order[at], best = rank;

@@ -22,9 +22,9 @@ static int rate_of(double t, const double *y, double *rate, void *context)
     return GSL_SUCCESS;
 }
 
-/* Errors beside the size that a state has, or moves by, whatever its units are; one that is zero and does not move yet,
- * beside what it moves by once the others have moved; 1 for one that nothing moves.  False when the rates are not to be
- * had. */
+/* The units of errors: the size that a state has, or moves by; of a state that is zero and does not move yet, the size
+ * that it moves by after the others have moved; 1 for a state that nothing moves.  False when the rates cannot be
+ * computed. */
 static bool sizes_at(problem *p, double t, double way, const double *y, double *size)
 {
     size_t n = p->n;

@@ -85,8 +85,8 @@ static double largest_U(const nh_chaplygin *f)
     return most > 0 ? most : 1;
 }
 
-/* Signs and parts of the sample velocities: a force that is at most quadratic in the velocities is known by its values
-   at these. */
+/* Signs and fractions of the sample velocities: the values at these determine a force that is at most quadratic in the
+ * velocities. */
 enum { speeds = 4 };
 
 /* zeta^i force_i at the sample points and several velocities each; *size: the largest force. */
@@ -264,8 +264,8 @@ static double lie_of_U(const nh_chaplygin *f, const nh_ex *zeta)
     return worst;
 }
 
-/* The same where there is more than the gyroscopic form: that the forces are invariant is known already, and ahat has
-   to be. */
+/* The same where there are more forces than the gyroscopic one: their invariance is known already; that of ahat is
+ * checked. */
 static void general_conditions(nh_second *s)
 {
     const nh_chaplygin *f = s->first;

@@ -36,7 +36,7 @@ typedef struct {
     nh_kinetic *hat;        /* Khat and V on the shape space, as a system of its own */
     nh_action action;       /* N on the shape space */
     nh_slice slice;         /* of the shape space */
-    size_t n, d;            /* what remains; dimension of N */
+    size_t n, d;            /* n shape coordinates of the second stage; dimension of N */
     nh_ex *inertia, *Av, *Kt, *Bv; /* d x d, d x n, n x n, d x n x n */
     /* n x n x n: the gyroscopic form on vectors horizontal for Av, U_kij x'^k; what m adds to it does not matter for a
        measure */

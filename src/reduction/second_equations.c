@@ -60,8 +60,8 @@ static void curvature(nh_second *s)
             }
 }
 
-/* What Khat and V do not give of the force on the shape space: that of the first stage, and the magnetic one of
-   ahat. */
+/* The part of the force on the shape space that Khat and V do not give: that of the first stage, and the magnetic one
+ * of ahat. */
 static nh_ex force_of_first(const nh_chaplygin *f, const nh_kinetic *hat, size_t i)
 {
     nh_dag *d = f->dag;

@@ -37,7 +37,7 @@ bool nh_section_negative(const nh_dag *d, nh_ex e)
                                              : nh_num_int(1)) < 0;
 }
 
-/* A number that looks like this one. */
+/* A simple number near this one. */
 static nh_ex recognised(nh_dag *d, double value, const nh_options *options)
 {
     nh_num x;
@@ -66,7 +66,7 @@ nh_proof nh_section_coefficients(const nh_kinetic *k, size_t n, const nh_ex *e, 
     size_t count = 0, at = 0, *index = nh_alloc_array(n + 1, sizeof *index);
     nh_ex *own = nh_alloc_array(2 * n + 1, sizeof *own), *found = own + n;
     double *like = nh_alloc_array(n + 1, sizeof *like);
-    bool free = true; /* nothing is asked of the coefficients: whatever they are they hold */
+    bool free = true; /* no condition restricts the coefficients: any values satisfy it */
     for (size_t j = 0; j < n; j++) {
         if (v[j] == 0) continue;
         if (j == pivot) at = count;

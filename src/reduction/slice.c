@@ -63,7 +63,7 @@ static bool next_subset(size_t m, size_t d, size_t *index)
 static void choose(const nh_action *g, size_t places, const double *place, const size_t *avoid, size_t *shape,
                    size_t *along)
 {
-    static const double nearly = 1.05; /* of nearly equal ones the preferred, then the first */
+    static const double nearly = 1.05; /* of nearly equal rows the preferred ones, then the first */
     static const double avoided = 0.02;
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, d = g->d, trials = 0;
@@ -225,7 +225,7 @@ void nh_slice_place(const nh_slice *s, const double *x, double *q)
     for (size_t a = 0; a < s->d; a++) q[s->along[a]] = s->y0[a];
 }
 
-/* ---- round places ---- */
+/* ---- values of y0 ---- */
 
 static bool regular_at(const nh_action *g, const size_t *along, const double *y)
 {

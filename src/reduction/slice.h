@@ -20,7 +20,7 @@ typedef struct {
     size_t *shape, *along; /* n, d coordinate indices: x and y */
     double *y0;            /* d */
     nh_ex *y;              /* d: the same as expressions, exact where they are whole numbers or pi/2 */
-    bool tidy;             /* all of them are exact: expressions are worth simplifying */
+    bool tidy;             /* all of them are exact, so that simplifying expressions is useful */
     nh_ex *x;              /* n symbols */
     nh_ex *E;              /* m x d: generators on the slice, E[s*d + a] */
     nh_ex *K;              /* m x m in the frame, row-major; shape first */
@@ -37,11 +37,11 @@ double nh_slice_pivot_score(void *slice, nh_ex e);
 /* The d coordinates y whose rows of E are best conditioned over the sample points (system->dependent breaks ties). */
 void nh_slice_choose(const nh_action *action, size_t *shape, size_t *along);
 
-/* The same at one place.  `avoid`: d coordinates that did not last from there; others are taken unless they are far
-   worse.  NULL: none. */
+/* The same at one place.  `avoid`: d coordinates whose slice soon failed from there; others are taken unless they are
+ * far worse.  NULL: none. */
 void nh_slice_choose_at(const nh_action *action, const double *q, const size_t *avoid, size_t *shape, size_t *along);
 
-/* The first y of zeros, then right angles, then ones, at which the slice is regular. */
+/* The first y0 with entries 0, pi/2 (angles only) and 1 at which the slice is regular; false: none is. */
 bool nh_slice_nice(const nh_action *action, const size_t *along, double *y);
 
 /* y0 (d values); entries are simplified where y0 is exact (whole numbers, pi/2).  Memory: the kinetic's arena. */

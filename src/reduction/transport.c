@@ -79,7 +79,7 @@ static void christoffel(nh_transport *t)
 }
 
 /* For one p, in scaled coordinates: D_lj = d_p d_j K_lk X^k and S_lj = d_p d_k K_lj X^k (m x m, column-major), from the
-   tape's output. */
+ * tape's output. */
 static void second_derivatives(const nh_transport *t, size_t p, const double *x, double *D, double *S)
 {
     size_t m = t->m, h = t->h;
@@ -180,7 +180,7 @@ static bool rate_of(double s, const double *y, double *rate, void *context)
     return true;
 }
 
-/* |det K| at a part of the way, in scaled coordinates. */
+/* |det K| at a fraction of the way, in scaled coordinates. */
 static double determinant(nh_transport *t, const way *w, double part)
 {
     size_t m = t->m;
@@ -191,8 +191,8 @@ static double determinant(nh_transport *t, const way *w, double part)
     return fabs(nh_determinant(m, t->K));
 }
 
-/* Does det K keep away from zero?  A transport would spend all its steps on the way to a zero.  Each minimum among
-   samples is narrowed by golden sections. */
+/* Does det K stay away from zero?  A transport would spend all its steps on the way to a zero.  Each minimum among
+ * samples is narrowed by golden sections. */
 static bool is_regular(nh_transport *t, const way *w)
 {
     enum { samples = 16, sections = 24 };
@@ -215,7 +215,7 @@ static bool is_regular(nh_transport *t, const way *w)
 
 bool nh_transport_along(nh_transport *t, const double *q0, const double *q1, size_t count, double *y, double tolerance)
 {
-    static const double largest = 1e8; /* a jet that has grown so much has lost its digits */
+    static const double largest = 1e8; /* a jet that has grown by this factor has lost its digits */
     double *x = nh_alloc_array(t->m, sizeof *x);
     way w = {t, q0, x, count};
     for (size_t i = 0; i < t->m; i++) x[i] = (q1[i] - q0[i]) / t->scale[i];

@@ -9,7 +9,7 @@
 
 typedef struct {
     const nh_kinetic *kinetic;
-    size_t steps;          /* that may still be taken along lines */
+    size_t steps;          /* number of steps that may still be made along lines */
     size_t m, h, size;     /* h = m(m+1)/2; size = m + m^2: length of a jet */
     nh_tape *tape;         /* K, dK, ddK, packed */
     nh_tape_work *work;
@@ -26,12 +26,12 @@ typedef struct {
 void nh_transport_init(nh_transport *transport, const nh_kinetic *kinetic, const double *q0);
 void nh_transport_clear(nh_transport *transport);
 
-/* Metric and Christoffel symbols at a place (true coordinates), and what the direction x (scaled) needs; false when not
-   finite. */
+/* Computes metric and Christoffel symbols at a place (true coordinates), and their derivatives along the direction x
+ * (scaled); false when not finite. */
 bool nh_transport_at(nh_transport *transport, const double *q, const double *x);
 /* The derivative of a jet along the direction x that nh_transport_at was given. */
 void nh_transport_rate(const nh_transport *transport, const double *x, const double *jet, double *rate);
-/* Take `count` jets (columns of y) from q0 to q1; false when the way is blocked. */
+/* Transports `count` jets (columns of y) from q0 to q1; false where this fails, as near a singularity of the metric. */
 bool nh_transport_along(nh_transport *transport, const double *q0, const double *q1, size_t count, double *y,
                         double tolerance);
 

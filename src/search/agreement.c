@@ -23,7 +23,7 @@ void nh_agreement_keep(nh_analysis *r, size_t families, const nh_family *family,
     r->sampled = x;
 }
 
-/* Products of at most this degree; 0: there are more than `most`. */
+/* The products of degree at most this; 0: there are more than `most`. */
 static size_t list_products(const nh_analysis *r, size_t n, const nh_ex *phi, const size_t *degree, size_t highest,
                             size_t most, nh_ex *out)
 {
@@ -31,7 +31,8 @@ static size_t list_products(const nh_analysis *r, size_t n, const nh_ex *phi, co
     size_t count = 0, *sum = nh_alloc_array(most + 1, sizeof *sum);
     out[count++] = nh_int(d, 1);
     for (size_t k = 0; k < n && count; k++)
-        for (size_t i = 0; i < count; i++) { /* the list grows: powers of phi_k are products of those before with it */
+        /* the list grows: the powers of phi_k are products with it of earlier entries */
+        for (size_t i = 0; i < count; i++) {
             if (!degree[k] || sum[i] + degree[k] > highest) continue;
             if (count == most) {
                 nh_free(sum);
@@ -44,10 +45,10 @@ static size_t list_products(const nh_analysis *r, size_t n, const nh_ex *phi, co
     return count;
 }
 
-/* Is the number of integrals of this degree reached by products? */
+/* Do products of currents give as many integrals of this degree as there are? */
 static const nh_completeness *complete_to(const nh_analysis *r, const nh_sampled_space *x)
 {
-    /* a system that depends on time is counted with it */
+    /* a system that depends on time is counted with time in the coefficients */
     bool in_time = x->timely || !r->completeness[NH_COMPLETE_IN_COORDINATES].counted;
     const nh_completeness *c = &r->completeness[in_time ? NH_COMPLETE_IN_TIME : NH_COMPLETE_IN_COORDINATES];
     bool everywhere = c->counted && !c->count.obstacle && !c->count.leaf && !c->regional && !c->count.where,

@@ -16,9 +16,9 @@ static double rounded(double x, int digits)
     return isfinite(x) ? strtod(text, NULL) : x;
 }
 
-/* Singular values are rates, relative to 1, with errors of a few roundings of the largest one.  What is below those is
- * a matter of the order of additions, another one on another processor: it is given as that bound, and the others with
- * as many digits as are known of all that stand above it by far. */
+/* Singular values are rates, relative to 1, with errors of a few roundings of the largest one.  A value below these
+ * errors depends on the order of additions, which differs between processors: it is replaced by the bound of the
+ * errors.  The others are given with the digits that are known of all values far above it. */
 nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
 {
     enum { digits = 3, digits_of_gap = 2 };
@@ -76,7 +76,7 @@ void nh_analysis_warn(nh_analysis *r, const char *format, ...)
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
     for (size_t k = 0; k < r->warnings; k++)
-        if (!strcmp(r->warning[k], text)) return; /* said by another search of the same system */
+        if (!strcmp(r->warning[k], text)) return; /* another search of the same system said it already */
     r->warning[r->warnings++] = nh_arena_strdup(r->arena, text);
 }
 

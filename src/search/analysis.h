@@ -1,4 +1,4 @@
-/* analysis: the result of an analysis.  Documents are views of it; nothing is computed after it is complete. */
+/* analysis: the result of an analysis.  Documents only show it; nothing is computed after it is complete. */
 #ifndef NH_ANALYSIS_H
 #define NH_ANALYSIS_H
 
@@ -14,8 +14,8 @@
 #include "integrals/unknowns.h"
 #include "problem/observables.h"
 
-/* Coefficient functions that have no closed form: Chebyshev series in one variable, a coordinate or t, good in an
-   interval of it. */
+/* Coefficient functions without closed form: Chebyshev series in one variable, a coordinate or t, valid in an interval
+ * of it, or in several variables, valid on a box. */
 typedef struct {
     nh_ex variable;
     double low, high;
@@ -34,16 +34,16 @@ typedef struct {
     nh_ex in_velocities;      /* in t, q, q' and parameters */
     bool has_in_velocities;
     bool exact;               /* every coefficient was recognised */
-    nh_letters letters;       /* numbers inside of its terms that got names */
+    nh_letters letters;       /* numbers inside of its terms that have names */
     double quotient, heldout;
     nh_proof proof;
     bool asked;               /* were the coefficients refined with many digits?  */
-    bool moved;               /* and is what came out another combination than doubles had found?  */
-    double refined;           /* the digits to which they cancel then, -1 when this could not be computed */
+    bool moved;               /* and did the refinement give another combination than doubles had? */
+    double refined;           /* digits to which the rate cancels then, -1 when this could not be computed */
     double printed_digits;    /* the digits to which the current cancels with its coefficients as printed */
     nh_independence independence;
     double fraction;
-    nh_rank rank;             /* how that was decided; undecided: by doubles */
+    nh_rank rank;             /* how independence was decided; undecided: by doubles */
     const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
     const char *known;        /* of currents that the system's file knows, in brackets: "Phi4 = [Phi3]/a^2", or NULL */
     bool has_symmetry, by_current_route, by_symmetry_route, local;
@@ -59,7 +59,7 @@ typedef struct {
 /* A combination that looks conserved in doubles and is not. */
 typedef struct {
     nh_ex phi, in_velocities; /* in the chart; in t, q, q' and parameters */
-    double digits;            /* to which its rate cancels at best, with coefficients of any accuracy */
+    double digits;            /* digits to which its rate cancels at best, with coefficients of any accuracy */
     double rate;              /* root mean square of its rate over that of its variation, per unit of time */
 } nh_near_current;
 
@@ -74,12 +74,12 @@ typedef struct {
 
 enum { NH_MOST_ALMOST = 6, NH_MOST_PIECES = 6, NH_MOST_FURTHER = 24, NH_MOST_RELATIONS = 24 };
 
-/* "Phi6^2" and what it is equal to. */
+/* A product such as "Phi6^2", and the expression that it equals. */
 typedef struct {
     const char *left, *right;
 } nh_further_relation;
 
-/* An integral that the others determine, and that is needed to write all as polynomials. */
+/* An integral that is a function of the others, and without which not all integrals are polynomials of the list. */
 typedef struct {
     nh_current current;
     size_t degree;            /* in the velocities */
@@ -93,28 +93,28 @@ typedef struct {
     double *vector;           /* columns x dimension */
 } nh_sampled_space;
 
-/* They against the space that was counted, where that is complete to their degree: spanned by products of the
-   currents. */
+/* The null vectors compared with the counted space, where the count is complete to their degree: the space is spanned
+ * by products of the currents. */
 typedef struct {
     bool compared, agrees;
     size_t degree, products;
-    double angle;             /* the largest between a null vector and the space */
+    double angle;             /* the largest distance of a null vector from the space */
 } nh_counted_space;
 
-/* What kept something out, and from which value on it would not; option: NULL: nothing did. */
+/* An option that excluded something, and the value from which on it would not; option: NULL: nothing was excluded. */
 typedef struct {
     const char *option;
     double value;
 } nh_limit;
 
-/* How the search ended: with everything of the kind that can exist, with all that there was to try, or by a limit (of
-   work, size or time). */
+/* How the search ended: all integrals of the kind that can exist are found, all stages were tried, or a limit (of work,
+ * size or time) ended it. */
 typedef enum { NH_SEARCH_COMPLETE, NH_SEARCH_EXHAUSTED, NH_SEARCH_CUT } nh_search;
 
 /* A stage of the search. */
 typedef struct {
     const char *name;
-    /* sectors: parts that were solved apart; found: new independent currents */
+    /* sectors: parts that were solved separately; found: number of new independent currents */
     size_t columns, sectors, dimension, found;
     double gap, seconds;
     bool skipped, undecided;          /* skipped: too large; undecided: likely null vectors without a certificate */
@@ -135,9 +135,9 @@ typedef struct {
 typedef struct {
     const char *name;         /* "E_T", "k = 2", "E_T, k = 2" */
     size_t quantity;          /* of the request; of a path 0 */
-    double value;             /* of the parameter that is varied; NAN: none is */
+    double value;             /* value of the varied parameter; NAN: none is varied */
     size_t count;
-    double *x, *y, *heading;  /* heading: NULL: none */
+    double *x, *y, *heading;  /* heading: NULL: none is drawn */
 } nh_figure_curve;
 
 typedef struct {
@@ -148,20 +148,22 @@ typedef struct {
 
 struct nh_analysis {
     nh_arena *arena;
-    const char *command, *system_path, *analysis_path; /* to repeat it; command and analysis_path may be NULL */
+    /* the command that repeats the analysis; command and analysis_path may be NULL */
+    const char *command, *system_path, *analysis_path;
     nh_system *system;
     nh_analysis_file *analysis;    /* NULL: chosen by the program */
-    struct nh_theory *theory;  /* where it was asked for; else NULL */
+    struct nh_theory *theory;  /* where it was requested; else NULL */
     nh_model *model, *other;  /* other: the coordinate chart beside a quasi one, or NULL */
     nh_distribution constraint; /* the kind of constraint */
-    /* of a quadratic constraint: "z' < 0", where everything was computed, and "z' > 0"; NULL: there are no branches */
+    /* of a quadratic constraint: "z' < 0", the branch of the computation, and "z' > 0"; NULL: there are no branches */
     const char *branch, *other_branch;
     bool equations_on_both;     /* as printed, the equations hold on the other branch too */
     nh_options options;
     double pace;                /* Omega of problem/time_scale.h where the system was found fast (or long), else 0 */
     nh_route route;
-    const char *ansatz_note;  /* what was tried, in words */
-    size_t samples, beyond, rejected; /* beyond: where the chart's pivot is near zero, from the multiplier form */
+    const char *ansatz_note;  /* description of what was tried */
+    /* beyond: points where the chart's pivot is near zero, from the multiplier form */
+    size_t samples, beyond, rejected;
     size_t stages, stage_capacity;
     nh_stage_record *stage;          /* of the staged search; empty with an analysis file */
     nh_spectrum current, symmetry;
@@ -173,19 +175,19 @@ struct nh_analysis {
     size_t specials;
     nh_special *special;
     size_t count, capacity, independent, local_maximum;
-    size_t open;              /* null vectors that could be true but got no certificate */
-    const char *letter;       /* of the names of currents, as Phi in Phi1; see nh_currents_name */
+    size_t open;              /* null vectors that may be true, but have no certificate */
+    const char *letter;       /* first letters of the names of currents, as Phi in Phi1; see nh_currents_name */
     nh_current *found;
     /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
     size_t pieces;
     nh_current *piece;
-    /* polynomial in the velocities, functions of the currents found: not counted.  Products of the currents that the
-       count compares do not give them.  At most NH_MOST_FURTHER */
+    /* polynomial in the velocities, and functions of the currents found: not counted.  The products of the currents
+     * that the count uses do not give them.  At most NH_MOST_FURTHER */
     size_t furthers;
     nh_further_integral *further;
     size_t relations;         /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
     nh_further_relation *relation;
-    size_t almosts;           /* nearly conserved quantities that the search met: at most NH_MOST_ALMOST */
+    size_t almosts;           /* nearly conserved quantities that the search found: at most NH_MOST_ALMOST */
     nh_near_current *almost;
     const struct nh_explicit_motion *motion; /* as formulas (search/explicit_motion.h); NULL: none is known */
     /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
@@ -194,25 +196,26 @@ struct nh_analysis {
     nh_completeness completeness[NH_COMPLETENESS_KINDS];
     nh_count_memory *counted; /* while the search goes on */
     nh_verdict verdict;
-    nh_search search;         /* NONE is impossible where it was cut */
-    nh_observables tracks;         /* validation->watch holds their values, row by row */
+    nh_search search;         /* the verdict cannot be NONE where the search was cut */
+    nh_observables tracks;         /* their values are in validation->watch, row by row */
     size_t figures;
-    nh_figure *figure;        /* those that the analysis asks for */
+    nh_figure *figure;        /* the expressions that the analysis file asks for */
     nh_validation *validation; /* NULL when no motion could be computed */
     size_t warnings;
     const char **warning;
-    const char *energy_rate;  /* with which the warning ends that the energy is not conserved; NULL: none, or long */
-    bool partial;             /* work or time ended the search, or the user did */
+    /* the last words of the warning that the energy is not conserved; NULL: none, or they are long */
+    const char *energy_rate;
+    bool partial;             /* the limit of work or time, or the user, ended the search */
     nh_timing timing;
 };
 
 /* "complete", "exhausted", "cut". */
 const char *nh_search_word(nh_search search);
-/* "--option stage_columns=412": what would bring a stage in that was too large.  In the arena. */
+/* "--option stage_columns=412": the setting that would include a stage that was too large.  In the arena. */
 const char *nh_limit_words(nh_arena *arena, const nh_limit *limit);
-/* The pieces that are constant along every motion, since motions end where they do. */
+/* The pieces that are constant along every motion, because motions end where the pieces do. */
 size_t nh_analysis_to_the_end(const nh_analysis *result);
-/* How many stages were too large. */
+/* The number of stages that were too large. */
 size_t nh_analysis_left_out(const nh_analysis *result);
 
 /* A null space's numbers, copied into an arena. */

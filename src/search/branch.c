@@ -27,7 +27,7 @@ bool nh_branch_conserves(const nh_model *other, nh_ex phi, const nh_proof *here,
     return there.proved || (!here->proved && there.digits >= options->digits);
 }
 
-/* Zero by normal form, or, where that is too large, at the probes. */
+/* Is it zero by its normal form, or, where that is too large, at the probes? */
 static bool vanishes(const nh_model *o, nh_ex e)
 {
     return nh_normal_is_zero(o->dag, e, 0) == NH_ZERO || nh_chart_pivot_score(o->chart, e) == 0;
@@ -51,7 +51,7 @@ static bool equations_agree(const nh_model *o, const nh_model *other)
            agree(o, other, o->m, o->reaction, other->reaction);
 }
 
-/* Is the field, as it is printed, that of the current there?  By (N0), (NX), (NY). */
+/* Is the field, as printed, that of the current on the other branch?  By (N0), (NX), (NY). */
 static bool field_agrees(const nh_model *o, const nh_model *other, const nh_points *points, const nh_symmetry *z,
                          nh_ex phi, double enough)
 {

@@ -10,8 +10,8 @@
 #include "integrals/refine.h"
 #include "integrals/sharpen.h"
 
-/* The relation of the terms' rates; where it needs values of parameters, or has no exact numbers, with names for the
-   numbers inside of terms. */
+/* The relation of the terms' rates.  Where it needs values of parameters, or has no exact numbers, the numbers inside
+ * of terms are replaced by names. */
 static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out,
                             nh_letters *letters)
 {
@@ -44,8 +44,8 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
     return relation;
 }
 
-/* Exact: Gamma of the support's terms are linearly related over the field of the parameters, some of them at their
-   given values where that is needed. */
+/* Exact coefficients: the rates of the support's terms are linearly related over the field of the parameters, some of
+ * which keep their given values where that is needed. */
 static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out,
                                nh_claim *claim, nh_letters *letters)
 {
@@ -53,7 +53,7 @@ static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const n
     for (size_t j = 0; j < c->count && relation.fixed && relation.found && !relation.too_large; j++)
         c->term[j] = nh_fixed_values(o, relation.fixed, c->term[j]);
     *claim = (nh_claim){.free = true, .fixed = relation.fixed, .related = relation.found};
-    /* nothing is known of other values: the proof may be shorter than the relation */
+    /* other values are not considered: the proof may be shorter than the relation */
     if (relation.too_large) *claim = (nh_claim){.free = true};
     return relation.found;
 }
@@ -70,8 +70,7 @@ static bool near(size_t n, const double *a, const double *b)
     return worst <= 1e-6 * largest;
 }
 
-/* Terms that are conserved by themselves add nothing, and leave the others' coefficients undetermined; one term
-   stays. */
+/* Drops terms that are conserved by themselves, which leave the others' coefficients undetermined; one term stays. */
 static bool drop_constant_terms(const nh_model *o, nh_candidate *c, const nh_options *options)
 {
     nh_dag *d = o->dag;
@@ -99,7 +98,7 @@ static nh_refined refine_terms(const nh_model *o, const nh_candidate *c, const n
     return better;
 }
 
-/* Terms that turn out to have no part are no terms: they may have relations of their own. */
+/* Drops terms whose coefficients vanish: they may have relations of their own. */
 static void drop_zeros(nh_candidate *c)
 {
     size_t n = 0, pivot = 0;
@@ -122,7 +121,7 @@ static void refine(const nh_model *o, nh_candidate *c, const nh_options *options
     }
     f->asked = true;
     f->refined = better.count ? better.digits[0] : -1;
-    /* of the same terms, but not the one that doubles saw */
+    /* a combination of the same terms, but not the one of doubles */
     f->moved = better.count && !near(c->count, c->coefficient, better.coefficient);
     if (better.count) memcpy(c->coefficient, better.coefficient, c->count * sizeof *c->coefficient);
     if (better.count) drop_zeros(c);

@@ -10,8 +10,8 @@ typedef struct {
     nh_dag *d;
     size_t states;
     const nh_ex *state;
-    nh_ex *rate; /* what has gone into a combined coordinate stands in none */
-    nh_ex *with; /* per state: what z adds to it */
+    nh_ex *rate; /* per state; q_k of a combined coordinate occurs in none */
+    nh_ex *with; /* per state q_i: z - q_i, or 0 */
 } search;
 
 static bool constant(const search *x, nh_ex e)

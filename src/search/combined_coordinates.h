@@ -1,9 +1,9 @@
-/* combined_coordinates: coordinates that stand in the equations of motion only together.
+/* combined_coordinates: coordinates that occur in the equations of motion only in one combination.
  *
- * Where a translation v = d/dq_k - r d/dq_i with a constant r leaves the equations of motion alone, they depend on q_i
- * and q_k through z = q_i + r q_k only: two bodies on a line, with a force that depends on x - y; a wave, with one that
- * depends on x - c t.  With z in place of q_i the equations do not depend on q_k, and fewer states stand in each
- * (explicit_motion.h).  The time may be one of the two, as q_k. */
+ * Where the equations of motion do not change along a translation v = d/dq_k - r d/dq_i with a constant r, they depend
+ * on q_i and q_k through z = q_i + r q_k only: two bodies on a line, with a force that depends on x - y; a wave, with
+ * one that depends on x - c t.  With z instead of q_i the equations do not depend on q_k, and each contains fewer
+ * states (explicit_motion.h).  The time may be one of the two, as q_k. */
 #ifndef NH_COMBINED_COORDINATES_H
 #define NH_COMBINED_COORDINATES_H
 
@@ -12,7 +12,7 @@
 /* The symbol of the state that a combined coordinate replaces stands for it: q_i = z - sum of r_k q_k. */
 typedef struct {
     size_t count;
-    size_t *state; /* the replaced ones, as places in t, q, w */
+    size_t *state; /* the replaced states, as indices into t, q, w */
     nh_ex *symbol;
     nh_ex *combined;          /* z in the states */
     nh_ex *state_in_combined; /* q_i in z and the others */

@@ -4,18 +4,18 @@
 
 #include "search/analysis.h"
 
-enum { NH_LEAST_ALMOST = 6 /* digits to which what is almost conserved is */ };
+enum { NH_LEAST_ALMOST = 6 /* digits to which a nearly conserved combination cancels */ };
 
 typedef struct {
     nh_analysis *result;
-    nh_points *heldout, *generic; /* points that no fit has seen */
+    nh_points *heldout, *generic; /* points that were used in no fit */
     nh_terrain terrain;           /* where motions cross walls; of the first current on */
     bool searched;
     nh_ex *inverse;               /* the chart's velocities in coordinate velocities */
     bool invertible;
-    bool brief;                   /* the fields of what comes next are not wanted */
+    bool brief;                   /* symmetries of the following currents are not wanted */
     size_t refuted;               /* candidates so far that are certainly not conserved */
-    size_t nears;                 /* candidates of the present list that are nearly conserved, and only nearly */
+    size_t nears;                 /* refuted candidates of the present list that are nearly conserved */
     nh_candidate *near[NH_MOST_ALMOST];
 } nh_current_checker;
 

@@ -44,7 +44,7 @@ static double heldout_residual(const nh_model *o, const nh_points *points, nh_ex
     return worst;
 }
 
-/* What decides whether it is a current at all. */
+/* Decides whether it is a current. */
 static void decide(nh_current_checker *b, nh_candidate *c, nh_current *f)
 {
     nh_analysis *r = b->result;
@@ -55,12 +55,12 @@ static void decide(nh_current_checker *b, nh_candidate *c, nh_current *f)
     if (nh_coefficients_refuted(f, &r->options)) return;
     f->proof = nh_prove_claim(r->model, f->phi, claim, &r->options);
     nh_coefficients_certify(&r->options, f);
-    /* what doubles lose within the terms is no rate: balls have measured it, at points of their own */
+    /* rounding within the terms is no rate: balls have measured it, at other points */
     if (f->heldout > r->options.heldout && f->proof.digits >= open_digits) f->heldout = pow(10, -f->proof.digits);
 }
 
-/* Simple ones first, so that the complicated ones are called dependent; equally simple ones in an order that no number
-   decides. */
+/* Sorts simple ones first, so that complicated ones are called dependent; equally simple ones in an order that does not
+ * depend on rounding. */
 static void sort(nh_analysis *r)
 {
     nh_dag *d = r->model->dag;
@@ -97,7 +97,7 @@ const char *nh_currents_name(nh_analysis *r, size_t number)
     return nh_arena_printf(r->arena, "%s%zu", r->letter, number);
 }
 
-/* What doubles propose, with many digits at exact points: they have the last word. */
+/* Refines combinations that doubles propose, with many digits at exact points, which decide. */
 static void decide_ranks(nh_analysis *r, const nh_ex *phi, nh_independence *kind)
 {
     nh_ex *list = nh_alloc_array(r->count + 1, sizeof *list);
@@ -152,8 +152,8 @@ static double relative_rate(const nh_model *o, const nh_points *points, nh_ex ph
     return variation > 0 && isfinite(rate) ? sqrt(rate / variation) : NAN;
 }
 
-/* No current, or none for certain, although doubles could not tell: worth a word when it is slow, as what it is.  The
-   slowest come first. */
+/* Records a combination that is no current, or not certainly one, although doubles could not tell: as a slow quantity
+ * when it changes slowly.  The slowest come first. */
 static void note_almost(nh_current_checker *b, const nh_current *f, double digits)
 {
     nh_analysis *r = b->result;
@@ -170,9 +170,9 @@ static void note_almost(nh_current_checker *b, const nh_current *f, double digit
     r->almost[at] = (nh_near_current){f->phi, copy.in_velocities, digits, rate};
 }
 
-/* A candidate that fails on held-out points, is refuted exactly or does not cancel with many digits is no current: it
- * is left out, with a word about it.  Nor is what has no certificate, although nothing speaks against it: it remains an
- * open question. */
+/* A candidate is no current when it fails on held-out points, is refuted exactly, or does not cancel with many digits:
+ * it is left out, with a warning.  A candidate without a certificate is left out too, also where nothing refutes it:
+ * whether it is conserved stays open. */
 static bool keeps(nh_current_checker *b, const nh_current *f, bool certain)
 {
     nh_analysis *r = b->result;
@@ -181,7 +181,7 @@ static bool keeps(nh_current_checker *b, const nh_current *f, bool certain)
         note_almost(b, f, f->refined);
         return false;
     }
-    /* it was only likely: what cancels as far as doubles go remains an open question, the rest is answered */
+    /* it was only likely: where it cancels as far as doubles go the question stays open, otherwise it is answered */
     if (!certain) {
         r->open += f->proof.digits >= open_digits;
         return false;
@@ -246,7 +246,7 @@ void nh_currents_put(nh_current_checker *b, const nh_current *found)
     b->result->count++;
 }
 
-/* Up to `doubt` of its gradient, in doubles; from there to `sure` ball arithmetic decides. */
+/* In doubles up to `doubt` of its gradient; from there to `sure` in ball arithmetic. */
 static bool is_known(const nh_current_checker *b, nh_ex current, double doubt)
 {
     const nh_analysis *r = b->result;
@@ -268,7 +268,7 @@ bool nh_currents_known(const nh_current_checker *b, nh_ex current)
 
 /* ---- the list ---- */
 
-/* A function of the currents and of the pieces so far is no news. */
+/* A function of the currents and the pieces so far is left out. */
 static void keep_piece(nh_current_checker *b, const nh_current *f)
 {
     nh_analysis *r = b->result;
@@ -288,7 +288,7 @@ static void keep_piece(nh_current_checker *b, const nh_current *f)
     nh_free(phi);
 }
 
-/* A true current, the next of the list: everywhere, or as a piece. */
+/* Appends a true current to the list: of currents, or of pieces. */
 static bool keep(nh_current_checker *b, nh_current *f)
 {
     f->region = nh_currents_hold(b, f);
@@ -316,7 +316,7 @@ bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_po
     return keep(b, f);
 }
 
-/* The coefficients are those of an exact relation with all parameters as symbols. */
+/* Are the coefficients those of an exact relation with all parameters as symbols? */
 static bool add_related(nh_current_checker *b, nh_ex phi, double quotient)
 {
     nh_analysis *r = b->result;
@@ -366,7 +366,7 @@ static size_t unite(nh_current_checker *b, nh_ex *term, bool *leading)
     return n;
 }
 
-/* One of the leading terms that the vector has is its pivot. */
+/* The pivot is a leading term that the vector contains. */
 static nh_candidate joined(const nh_current_checker *b, size_t n, const nh_ex *term, const bool *leading,
                            const double *coefficient)
 {
@@ -409,7 +409,7 @@ size_t nh_currents_join(nh_current_checker *b, const nh_points *fit)
     return added;
 }
 
-/* Everybody expects the energy: where it is not conserved this is said, with its rate when that is short. */
+/* The energy is expected to be conserved: where it is not, a warning says so, with its rate when that is short. */
 static void miss_energy(nh_current_checker *b)
 {
     enum { longest = 40 };
@@ -427,7 +427,7 @@ static void miss_energy(nh_current_checker *b)
     nh_free(text);
 }
 
-/* What only approximates a function of the currents found since, were it to two digits, is no news. */
+/* Removes nearly conserved quantities that only approximate a function of the currents, to two digits. */
 static void forget_known_almosts(nh_current_checker *b)
 {
     nh_analysis *r = b->result;
@@ -437,7 +437,7 @@ static void forget_known_almosts(nh_current_checker *b)
     r->almosts = kept;
 }
 
-/* Nor is a piece that is a function of currents found since. */
+/* Removes pieces that are functions of currents found later. */
 static void name_pieces(nh_current_checker *b)
 {
     nh_analysis *r = b->result;
@@ -451,7 +451,7 @@ static void name_pieces(nh_current_checker *b)
     r->pieces = kept;
 }
 
-/* A series that is a function of closed forms found since is no news. */
+/* Removes series that are functions of closed forms found later. */
 static bool forget_known_series(nh_analysis *r)
 {
     size_t kept = 0, before = r->count;

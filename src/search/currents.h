@@ -9,17 +9,18 @@
 nh_current_checker *nh_current_checker_create(nh_analysis *result, nh_error *error);
 void nh_current_checker_free(nh_current_checker *bench);
 
-/* Refine a candidate, recognise its coefficients, normalise, prove, hold out and classify it; append it to
- * result->found unless it turns out not to be conserved (then a warning says so).  `fit`: the points of its null space;
- * `certain`: the null space was; otherwise only a certificate makes it a current, and nothing is said without. */
+/* Refines a candidate, recognises its coefficients, normalises, proves, holds out and classifies it, and appends it to
+ * result->found unless it turns out not to be conserved (then a warning says so).  `fit`: the points of its null space.
+ * `certain`: the null space was certain; otherwise the candidate needs a certificate, and without one there is no
+ * warning. */
 bool nh_currents_add(nh_current_checker *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
 
-/* The last current holds at the given parameters only, phi for all: phi takes its place where it is a function of phi
-   and the others (`exchanged`).  Where it is none, phi comes before it; where phi is no news, nothing happens.  Returns
-   how many more there are. */
+/* The last current holds at the given parameters only, phi for all: phi replaces it if it is a function of phi and the
+ * other currents (`exchanged`); otherwise phi is placed before it.  Nothing happens where phi depends on the other
+ * currents.  Returns how many more currents there are. */
 size_t nh_currents_exchange_last(nh_current_checker *bench, nh_ex phi, bool *exchanged);
 
-/* Append one that was checked before. */
+/* Appends a current that was checked before. */
 void nh_currents_put(nh_current_checker *bench, const nh_current *found);
 
 /* "Phi3"; "Psi3" where the system has a symbol such as Phi1, and so on.  Belongs to the arena of the analysis. */
@@ -28,26 +29,27 @@ const char *nh_currents_name(nh_analysis *analysis, size_t number);
 /* Is it a function of the currents found so far, or constant? */
 bool nh_currents_known(const nh_current_checker *bench, nh_ex phi);
 
-/* Where the current holds, in words; NULL: everywhere.  What is not proved holds to so many digits. */
+/* Where the current holds, in words; NULL: everywhere.  A current that is not proved holds to so many digits. */
 const char *nh_currents_region(nh_current_checker *bench, nh_ex phi, double digits, bool *to_the_end);
-/* The same of this current; what is not proved everywhere may be proved there. */
+/* The same of this current; one that is not proved everywhere may be proved there. */
 const char *nh_currents_hold(nh_current_checker *bench, nh_current *found);
-/* A proved current that ends or jumps at a zero of u because of a root of u^2: is it a current everywhere with u
-   instead of that root (integrals/continued.h)?  Then it becomes that one. */
+/* A proved current that ends or jumps at a zero of u because it contains a root of u^2: with u instead of that root, is
+ * it a current everywhere (integrals/continued.h)?  Then it is replaced by that one. */
 bool nh_currents_continue(nh_current_checker *bench, nh_current *found);
 
-/* The same for a series, whose certificate was computed with it.  Nothing is added when it depends on the currents
-   there are. */
+/* The same as nh_currents_add for a series, whose certificate was computed with it: for series in several variables
+ * their bound is the certificate.  Nothing is added when it depends on earlier currents. */
 bool nh_currents_add_series(nh_current_checker *bench, nh_ex phi, const nh_series *series, double digits);
 
-/* After the last candidate of a list: is a combination of those that were only nearly conserved a current?  Returns how
-   many were added. */
+/* Call after the last candidate of a list: is a combination of the nearly conserved ones a current?  Returns how many
+ * were added. */
 size_t nh_currents_join(nh_current_checker *bench, const nh_points *fit);
 
-/* Where there are series: which currents are independent, closed forms first?  Series that depend on them go. */
+/* Where there are series: decides which currents are independent, closed forms first, and removes series that depend on
+ * others. */
 void nh_currents_recount(nh_current_checker *bench);
 
-/* Order, name and relate what was found; series that depend on closed forms go. */
+/* Sorts, names and relates the currents; removes series that depend on closed forms. */
 void nh_currents_finish(nh_current_checker *bench);
 
 #endif

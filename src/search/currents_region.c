@@ -1,4 +1,4 @@
-/* currents_region: what holds in a part of the motions only. */
+/* currents_region: currents that hold for a part of the motions only. */
 #include <math.h>
 
 #include "count/one_side.h"
@@ -22,7 +22,7 @@ const char *nh_currents_region(nh_current_checker *b, nh_ex phi, double digits, 
     return nh_region_text(b->result->model->dag, &region, b->result->arena);
 }
 
-/* e with |u| and sign(u) as they are on the side of the wall u = 0 on which the region lies. */
+/* e with |u| and sign(u) as on the side of the wall u = 0 on which the region lies. */
 static nh_ex on_its_side(nh_dag *d, const nh_region *region, nh_ex e)
 {
     nh_ex from[4 * NH_MOST_WALLS], to[4 * NH_MOST_WALLS];
@@ -45,7 +45,7 @@ const char *nh_currents_hold(nh_current_checker *b, nh_current *f)
 {
     const nh_model *o = b->result->model;
     const nh_options *options = &b->result->options;
-    /* what cancels to fewer digits as printed need not do better anywhere */
+    /* a formula that cancels to fewer digits as printed cannot be required to do better */
     nh_region region =
         region_of(b, f->phi, f->proof.proved ? 0 : fmax(NH_LEAST_ALMOST, fmin(f->printed_digits, options->digits) / 2));
     if (region.count && !f->proof.proved) {
@@ -62,7 +62,8 @@ const char *nh_currents_hold(nh_current_checker *b, nh_current *f)
     return nh_region_text(o->dag, &region, b->result->arena);
 }
 
-/* The same current, written so that it goes through its walls?  It has to be proved again, and to hold everywhere. */
+/* Can the same current be written so that it passes through its walls?  Then it must be proved again, and hold
+ * everywhere. */
 static bool goes_through(nh_current_checker *b, nh_current *f, nh_ex phi)
 {
     nh_model *o = b->result->model;
@@ -82,6 +83,6 @@ bool nh_currents_continue(nh_current_checker *b, nh_current *f)
     if (goes_through(b, f, nh_continued_roots(o, f->phi, (uint64_t)b->result->options.seed)) ||
         goes_through(b, f, nh_continued_arctangents(o, f->phi)))
         return true;
-    /* a polynomial in the velocities, like the energy in a potential atan(y/x), is counted as such */
+    /* a polynomial in the velocities, such as the energy in a potential atan(y/x), is counted as one */
     return isinf(nh_counted_degree_of(o, f->phi)) && goes_through(b, f, nh_continued_turns(o, f->phi));
 }

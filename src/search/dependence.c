@@ -143,7 +143,8 @@ void nh_dependence_relations(nh_analysis *r)
 
 enum { most_known = 6 };
 
-/* Those that can be written in the chart, "[Phi3]" where the file says Phi3: the found ones may have the same names. */
+/* The known currents that can be written in the chart, as "[Phi3]" where the file says Phi3: the found ones may have
+ * the same names. */
 static size_t known_currents(nh_analysis *r, nh_ex *symbol, nh_ex *phi)
 {
     const nh_system *s = r->model->system;
@@ -157,7 +158,7 @@ static size_t known_currents(nh_analysis *r, nh_ex *symbol, nh_ex *phi)
     return n;
 }
 
-/* The constant multiple that it is of one of them; otherwise the sum of multiples. */
+/* Is it a constant multiple of one of them, or a sum of multiples? */
 static const char *combination(nh_analysis *r, const nh_points *points, size_t n, const nh_ex *symbol, const nh_ex *phi)
 {
     nh_ex name[most_known + 1], value[most_known + 1];
@@ -175,7 +176,7 @@ static const char *combination(nh_analysis *r, const nh_points *points, size_t n
     return numeric_relation(points, r->model, &all, used) && used[n] ? exact_relation(r, &all, used, symbol[n]) : NULL;
 }
 
-/* Otherwise the product or the quotient of two of them, up to a constant factor. */
+/* Is it the product or the quotient of two of them, up to a constant factor? */
 static const char *product(nh_analysis *r, const nh_points *points, size_t n, const nh_ex *symbol, const nh_ex *phi)
 {
     nh_dag *d = r->model->dag;

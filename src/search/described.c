@@ -7,11 +7,11 @@
 #include "integrals/fixed.h"
 #include "integrals/symmetry.h"
 
-static const size_t longest = 3000; /* of a current that is brought into a form of its own */
+static const size_t longest = 3000; /* largest complexity of a current whose form is chosen here */
 
 /* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
 
-/* The shortest form, the same however e was written: of equally short ones that of the sum written out. */
+/* The shortest form, which does not depend on how e was written: of equally short forms that of the expanded sum. */
 static nh_ex shortest(nh_dag *d, nh_ex e)
 {
     nh_ex as_written = nh_simplify_short(d, e, 0), sum = as_written;
@@ -39,22 +39,22 @@ static nh_ex parametric_factor(const nh_model *o, nh_ex e)
     return factor;
 }
 
-/* A factor c is no unit for c = 0. */
+/* A factor c is no unit: it may be 0. */
 static bool is_unit(const nh_model *o, nh_ex factor)
 {
     double value = nh_model_number(o, factor);
     return isfinite(value) && value != 0;
 }
 
-/* What to divide the current by: Z^0 where it is a constant, so that the energy's symmetry is d/dt; else the simplest
-   factor of zeta. */
+/* The divisor of the current: Z^0 where it is a constant, so that the energy's symmetry is d/dt; else the simplest
+ * factor of zeta. */
 static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
 {
     nh_dag *d = o->dag;
     if (is_parametric(o, Z0) && is_unit(o, Z0)) return Z0;
     nh_ex best = nh_int(d, 1);
     size_t least = SIZE_MAX;
-    for (size_t i = o->n; i-- > 0;) { /* later components win ties */
+    for (size_t i = o->n; i-- > 0;) { /* of equally simple components the last one is taken */
         if (nh_is_zero(d, zeta[i])) continue;
         nh_ex factor = parametric_factor(o, zeta[i]);
         size_t size = nh_is_number(d, factor, 1) ? 0 : nh_complexity(d, factor);
@@ -121,9 +121,9 @@ static bool with_symmetry(nh_analysis *r, const nh_points *points, nh_current *f
 
 /* ---- what it is ---- */
 
-/* Does the current change when an angle goes once around?  Then it is defined only locally: not where turns count, so
- * that the system is at another place behind each.  A series in the angle is
- * compared half a turn before and behind the middle of its interval: shorter than a turn it says nothing. */
+/* Does the current change when an angle makes one turn?  Then it is defined only locally; not where turns count,
+ * because the system is at another place after each.  A series in the angle is compared half a turn before and after
+ * the middle of its interval: on a shorter interval it does not tell. */
 static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, const nh_series *series)
 {
     nh_dag *d = o->dag;
@@ -147,8 +147,8 @@ static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, cons
     return false;
 }
 
-/* What phi is of e: "" itself, "minus the ", "a multiple of the "; NULL where phi/e is not constant for all
-   parameters. */
+/* phi in terms of e: "" itself, "minus the ", "a multiple of the "; NULL where phi/e is not constant for all
+ * parameters. */
 static const char *part_of(nh_model *o, nh_ex phi, nh_ex e)
 {
     nh_ex ratio = nh_simplify_short(o->dag, nh_div(o->dag, phi, e), 0);
@@ -156,7 +156,7 @@ static const char *part_of(nh_model *o, nh_ex phi, nh_ex e)
     return nh_is_number(o->dag, ratio, 1) ? "" : nh_is_number(o->dag, ratio, -1) ? "minus the " : "a multiple of the ";
 }
 
-/* phi/e at the points: the same everywhere?  Simplifying the quotient costs a hundred times that. */
+/* Is phi/e the same at all points?  Simplifying the quotient costs a hundred times as much. */
 static bool looks_proportional(size_t points, const double *phi, const double *e)
 {
     static const double same = 1e-6;

@@ -72,7 +72,7 @@ static void add_column(search *x, size_t component, nh_ex e)
     for (size_t s = 0; s <= x->o->m; s++) field[s] = s == component ? e : nh_int(x->d, 0);
 }
 
-/* The simplest functions first: in reduced form each symmetry then has the simplest terms. */
+/* Sorts the simplest functions first: the reduced form of each symmetry then has the simplest terms. */
 static void list_columns(search *x, bool dynamical)
 {
     size_t m = x->o->m, factors = dynamical ? 1 + x->o->n : 1;
@@ -185,7 +185,8 @@ static void put_evolutionary(const search *x, nh_ex **at, const nh_equation_symm
         *(*at)++ = nh_mul(x->d, factor, nh_sub(x->d, s->space[r], nh_mul(x->d, x->o->rho[r], s->time)));
 }
 
-/* Those that are no combinations of point symmetries, of these times currents, and of others before them. */
+/* The dynamical symmetries that are no combinations of point symmetries, of these times currents, and of earlier
+ * ones. */
 static void keep_new(search *x, const nh_relation_space *r, size_t count, const nh_named_current *current)
 {
     nh_equation_symmetries *out = x->out;
@@ -228,7 +229,7 @@ static void find_dynamical(search *x, size_t count, const nh_named_current *curr
     if (r && !r->obstacle && r->proved) keep_new(x, r, count, current);
 }
 
-/* ---- what they make of currents ---- */
+/* ---- S(Phi) of the currents ---- */
 
 static nh_ex derivative(const search *x, const nh_equation_symmetry *s, nh_ex phi)
 {
@@ -243,7 +244,7 @@ static nh_ex derivative(const search *x, const nh_equation_symmetry *s, nh_ex ph
     return e;
 }
 
-/* In the basis of the space of currents. */
+/* S(Phi) in the basis of the space of currents. */
 static nh_ex combination(const search *x, const nh_symmetry_space *space, nh_ex e)
 {
     size_t n = space->dimension;
@@ -260,7 +261,7 @@ static nh_ex combination(const search *x, const nh_symmetry_space *space, nh_ex 
     return sum;
 }
 
-/* Of the currents, by the ranks of gradients: that one is larger is a proof. */
+/* Is it a function of the currents, by the ranks of gradients?  A larger rank is a proof that it is not. */
 static nh_action_answer dependence(const search *x, size_t count, const nh_named_current *current, nh_ex e)
 {
     nh_ex *all = nh_alloc_array(count + 1, sizeof *all);

@@ -53,7 +53,7 @@ static bool start(nh_explicit_curve *c, const nh_explicit_request *request)
     return true;
 }
 
-/* With the constants that the state has, is the formula the state itself? */
+/* Is the formula the state itself, with the constants as functions of the state? */
 static bool agrees(const nh_explicit_curve *c, size_t i)
 {
     static const double rounding = 1e-6;
@@ -71,7 +71,7 @@ static bool agrees(const nh_explicit_curve *c, size_t i)
     return off <= rounding * size && 2 * compared > count;
 }
 
-/* du/ds = Gamma(u)/Gamma(s) for all that is known, with what is known put in? */
+/* Does du/ds = Gamma(u)/Gamma(s) hold for all known states, with the formulas substituted? */
 static bool satisfied(const nh_explicit_curve *c, const bool *known)
 {
     const nh_explicit_motion *m = c->m;
@@ -113,8 +113,8 @@ static nh_ex without_poles(const nh_explicit_curve *c, nh_ex e)
     return poles(c, sum) < before && !nh_explicit_too_long(c, sum) ? sum : e;
 }
 
-/* What still depends on states that are not solved is not known.  A constant that is none, to all digits, ends it
-   all. */
+/* Drops formulas that still depend on unsolved states.  A constant that is not constant, to all digits, makes the whole
+ * motion invalid. */
 static void conclude(nh_explicit_curve *c)
 {
     nh_explicit_motion *m = c->m;

@@ -55,7 +55,7 @@ bool nh_explicit_has_integral(const nh_explicit_curve *c, nh_ex e)
     return false;
 }
 
-/* At how many points it is above zero, and at how many below. */
+/* The number of points at which it is positive, and at which it is negative. */
 static void count_signs(const nh_explicit_curve *c, nh_ex e, size_t *above, size_t *below)
 {
     *above = *below = 0;
@@ -150,7 +150,7 @@ int nh_explicit_degree(const nh_explicit_curve *c, nh_ex e, nh_ex u, nh_ex k[3])
 
 /* ---- from currents ---- */
 
-/* sqrt(Q) as a factor times the root of what normal forms have below it. */
+/* sqrt(Q) as a factor times the root of the radicand of its normal form. */
 static bool canonical_root(nh_dag *d, nh_ex Q, nh_ex *factor, nh_ex *base)
 {
     nh_ex root = nh_canonical(d, nh_sqrt(d, Q), 0), half = nh_ratio(d, 1, 2);
@@ -247,8 +247,8 @@ static bool solve_quadratic(nh_explicit_curve *c, size_t u, const nh_ex k[3], nh
     return true;
 }
 
-/* One state of one current, a polynomial in it; few states that are not solved, velocities before positions, short
-   ones. */
+/* Looks for one state of one current that is polynomial in it, with few unsolved states, velocities before positions,
+ * short ones first. */
 typedef struct {
     size_t current, state;
     double cost;
@@ -285,7 +285,8 @@ bool nh_explicit_solve_first(nh_explicit_curve *c, size_t most_unknowns)
     return true;
 }
 
-/* Other states may stand before the root, not below it: x'^2/cos(h)^2 is what is given of a velocity x' = v cos(h). */
+/* Other states may be factors of the root, but not below it: a current gives x'^2/cos(h)^2 of a velocity x' = v
+ * cos(h). */
 bool nh_explicit_solve_second(nh_explicit_curve *c, size_t most_unknowns, bool constant_root)
 {
     for (size_t j = 0; j < c->currents && nh_explicit_room(c); j++) {

@@ -1,4 +1,4 @@
-/* explicit_motion_internal: what is known of the states along one curve: the parts of explicit_motion.c. */
+/* explicit_motion_internal: the known formulas of the states along one curve, for the parts of explicit_motion.c. */
 #ifndef NH_EXPLICIT_MOTION_INTERNAL_H
 #define NH_EXPLICIT_MOTION_INTERNAL_H
 
@@ -33,7 +33,7 @@ typedef struct {
 
 nh_ex nh_explicit_simple(const nh_explicit_curve *c, nh_ex e);
 bool nh_explicit_too_long(const nh_explicit_curve *c, nh_ex e);
-/* With what is solved. */
+/* With the solved states substituted. */
 nh_ex nh_explicit_along(const nh_explicit_curve *c, nh_ex e);
 /* In the states alone; integrals are 0. */
 nh_ex nh_explicit_in_states(const nh_explicit_curve *c, nh_ex e);

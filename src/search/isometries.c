@@ -39,7 +39,7 @@ static bool depends_on_position(const nh_kinetic *k)
     return any;
 }
 
-/* xi^s K_sr v^r on the submanifold: what total derivatives add to L is left to the functions. */
+/* xi^s K_sr v^r on the submanifold.  Functions of position that total derivatives in L add are found by the ansatz. */
 static nh_ex momentum(const nh_kinetic *k, const nh_generator *g)
 {
     nh_dag *d = k->dag;
@@ -50,8 +50,7 @@ static nh_ex momentum(const nh_kinetic *k, const nh_generator *g)
     return nh_simplify_short(d, nh_model_compose(k->model, sum), 0);
 }
 
-/* xi^s a_s of L = 1/2 K_rs v^r v^s + a_s v^s - V: what a magnetic field or a rotor that is invariant adds to the
-   momentum. */
+/* xi^s a_s of L = 1/2 K_rs v^r v^s + a_s v^s - V: what an invariant magnetic field or rotor adds to the momentum. */
 static nh_ex magnetic(const nh_kinetic *k, const nh_ex *a, const nh_generator *g)
 {
     nh_dag *d = k->dag;
@@ -112,8 +111,8 @@ static list harmonics(const nh_stage_solver *x, int most)
     return l;
 }
 
-/* What a potential may contribute: the system's functions, lengths, harmonics, and products of the functions with
-   harmonics. */
+/* Functions that a potential may require: the system's functions, lengths, harmonics, and products of the functions
+ * with harmonics. */
 static nh_family functions_family(const nh_stage_solver *x, int most_harmonic, nh_family *part)
 {
     nh_arena *arena = x->r->arena;
@@ -128,9 +127,9 @@ static nh_family functions_family(const nh_stage_solver *x, int most_harmonic, n
     return (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
 }
 
-/* Cartesian coordinates are products of functions of one coordinate in those in which the metric separates: with them
- * the momenta of translations are what an oscillator turns, whatever its coordinates, and alone what friction takes; of
- * a free motion they are what grows like t. */
+/* Cartesian coordinates are products of functions of one coordinate in coordinates in which the metric separates.
+ * Currents are sums of them and the momenta of translations: times waves for an oscillator, with constant coefficients
+ * under friction; for a free motion with the momenta times t. */
 static void cartesian(nh_stage_solver *x, size_t n, const nh_ex *P)
 {
     enum { few = 3 };

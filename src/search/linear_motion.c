@@ -30,24 +30,24 @@
 
 enum {
     longest = 2000,  /* symbols of an equation of motion */
-    most_letters = 12, /* variables of a block whose rates without a name may still be roots (integrals/letters.h) */
+    most_letters = 12, /* largest block in which rates without a name may still be roots (integrals/letters.h) */
     most_drives = 12 /* functions of t in b and its derivatives */
 };
-/* of the largest rate: a rate below it is zero, whose double eigenvalue is split by the root of rounding */
+/* as a part of the largest rate: a smaller rate is zero, a double eigenvalue that rounding splits by its square root */
 static const double defective = 1e-5,
-                    equal = 1e-6;     /* relatively: one rate, likewise */
+                    equal = 1e-6;     /* the same for the relative distance of two equal rates */
 
 typedef struct {
     nh_stage_solver *x;
     size_t size;       /* of z */
     nh_ex *z, *entry;  /* entry[i + j size]: A; 0 (the number) where there is none */
-    nh_ex *b;          /* what z' is at z = 0 */
+    nh_ex *b;          /* z' at z = 0 */
     size_t *block;     /* per variable: the first of its block */
-    size_t count, *of; /* of the block at hand: its variables */
+    size_t count, *of; /* the variables of the present block */
     size_t drives;     /* 1 and the functions of t that terms of b and of its derivatives are multiples of */
     nh_ex drive[most_drives];
-    size_t forms;      /* quadratic ones of the block at hand that are invariant */
-    bool turns;        /* of the rate that is followed: its imaginary part is meant */
+    size_t forms;      /* invariant quadratic forms of the present block */
+    bool turns;        /* of the present rate: its imaginary part is meant */
 } linear;
 
 /* ---- the matrix ---- */
@@ -202,7 +202,7 @@ static size_t waves(nh_dag *d, nh_ex t, nh_ex re, nh_ex im, nh_ex *out)
     return 2;
 }
 
-/* sqrt(e) or -sqrt(e), whichever is written without a root: w for w^2.  Both are rates. */
+/* sqrt(e) or -sqrt(e), whichever has no root: w for w^2.  Both are rates. */
 static nh_ex either_root(nh_dag *d, nh_ex e)
 {
     if (nh_kind_of(d, e) != NH_PRODUCT || nh_num_value(nh_constant_of(d, e)) < 0) return nh_sqrt(d, e);
@@ -234,7 +234,7 @@ static size_t waves_of_two(const linear *l, bool turns, nh_ex *out)
 
 /* ---- the stages of one block ---- */
 
-/* Its variables and the functions that drive it, once or also times t, times these functions of t. */
+/* The variables of the block and its driving functions, these also times t if asked for, times functions of t. */
 static void stage(linear *l, const char *name, bool resonant, size_t functions, const nh_ex *function)
 {
     nh_analysis *r = l->x->r;
@@ -275,9 +275,9 @@ static size_t second_order(const linear *l, size_t *q, size_t *w)
     return is && 2 * n == l->count ? n : 0;
 }
 
-/* With q'' = B q and u B = -s^2 u: u . (q' cos(s t) + s q sin(s t)) is conserved, and with u B = s^2 u
-   u . (q' - s q) exp(s t).  What is a quarter of a turn later is a function of it and of the invariant forms.  Terms
-   are half as many as there are otherwise, and the work of numbers that have no name an eighth. */
+/* With q'' = B q and u B = -s^2 u: u . (q' cos(s t) + s q sin(s t)) is conserved, and with u B = s^2 u u . (q' - s q)
+ * exp(s t).  The current a quarter of a period later is a function of it and of the invariant forms.  This needs half
+ * as many terms as the general form, and an eighth of the work for numbers without a name. */
 static bool wave_of_second_order(linear *l, nh_ex s, bool turns, const char *name)
 {
     nh_analysis *r = l->x->r;
@@ -387,7 +387,7 @@ static void forms_if_unnamed(linear *l, const double *re, const double *im)
 
 /* ---- the whole block ---- */
 
-/* How often this rate occurs in the block, one that came before included. */
+/* How often this rate occurs in the block; earlier occurrences are included. */
 static size_t multiplicity(const linear *l, const double *re, const double *im, size_t k, double near, bool *old)
 {
     size_t count = 0;
@@ -416,7 +416,7 @@ static void powers_of_time(linear *l, size_t times, size_t count, const nh_ex *w
     stage(l, "states with linear equations, times exponentials, waves and powers of t", false, n, f);
 }
 
-/* The rates of the block, what differs from zero by rounding being zero; the largest, or false. */
+/* The rates of the block; a rate that differs from zero by rounding is set to zero.  Returns the largest, or false. */
 static bool rates(const linear *l, double *re, double *im, double *largest)
 {
     bool good = eigenvalues(l, l->x->r->model, re, im);
@@ -442,7 +442,7 @@ static void solve_rate(linear *l, double re, double im, size_t times, bool formu
     powers_of_time(l, times, count, wave);
 }
 
-/* Each rate once, with its conjugate: of two values that differ by rounding the first. */
+/* Each rate once, with its conjugate; of two values that differ by rounding the first is taken. */
 static void solve_block(linear *l)
 {
     size_t n = l->count, done = 0;

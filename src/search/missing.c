@@ -17,10 +17,10 @@
 
 /* ---- the count ---- */
 
-/* What is proved, in closed form, and room for it. */
+/* The proved currents in closed form, with room for more. */
 static size_t most_proved(const nh_analysis *r) { return r->count + r->furthers + r->pieces + 1; }
 
-/* What is proved is compared with how much there can be.  A degree that was asked for may cost more. */
+/* Compares the proved currents with the bound for their number.  A degree that the user asks for may cost more. */
 static void count(nh_analysis *r, bool again)
 {
     enum { times_if_asked = 10 };
@@ -82,7 +82,7 @@ static void set_aside(search *s)
     r->count = kept;
 }
 
-/* Those that do not depend on what was proved in the meantime. */
+/* Puts back those that do not depend on currents proved in the meantime. */
 static void take_back(search *s)
 {
     nh_analysis *r = s->solver.r;
@@ -94,8 +94,8 @@ static void take_back(search *s)
     }
 }
 
-/* An integral polynomial in the velocities takes the place of a current that is not, and depends on it and the others:
-   it is regular where these velocities vanish, and its field is shorter. */
+/* An integral polynomial in the velocities replaces a current that is not, and is a function of it and the others: it
+ * is regular where these velocities vanish, and its field is shorter. */
 static bool take_place(search *s, const nh_current *f)
 {
     nh_analysis *r = s->solver.r;
@@ -117,7 +117,7 @@ static bool take_place(search *s, const nh_current *f)
     return false;
 }
 
-/* A function of the currents found: it is checked as any other, and set apart. */
+/* A function of the currents found: it is checked as any other, and put into a list of its own. */
 static bool keep_further(search *s, size_t degree, nh_candidate *candidate, const nh_points *fit)
 {
     nh_analysis *r = s->solver.r;
@@ -133,14 +133,14 @@ static bool keep_further(search *s, size_t degree, nh_candidate *candidate, cons
     if (open.count && nh_currents_continue(s->solver.bench, f))
         open = nh_region_open(r->model, &s->solver.bench->terrain, f->phi, &r->options, r->arena);
     f->region = nh_region_text(r->model->dag, &open, r->arena);
-    nh_current found = *f; /* in the place where the next current of the list will be */
+    nh_current found = *f; /* at the place of the next current in the list */
     if (!f->region && take_place(s, &found)) return true;
     *f = found;
     r->further[r->furthers++] = (nh_further_integral){*f, degree};
     return true;
 }
 
-/* Of the null vectors the one with the most complex term: what the others are made of is known. */
+/* Chooses the null vector with the most complex term: the simpler terms are those of known integrals. */
 static bool lift_further(search *s, size_t degree, const nh_family *all)
 {
     nh_analysis *r = s->solver.r;
@@ -188,8 +188,8 @@ static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
     return n;
 }
 
-/* Is the list of its terms that of a current?  Longer lists take seconds, and doubles lose what is in them: of 17 with
-   more than 300 terms none was one. */
+/* Can the list of its terms be that of a current?  Longer lists take seconds, and doubles lose the small coefficients:
+ * of 17 lists with more than 300 terms none was one. */
 static bool lift(search *s, size_t degree, const nh_constructed *c, bool further)
 {
     enum { most_terms = 300 };
@@ -205,7 +205,7 @@ static bool lift(search *s, size_t degree, const nh_constructed *c, bool further
     const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
     bool solvable = terms <= most_terms;
     if (solvable) nh_stage_solver_stage(&s->solver, name, 1, all);
-    /* doubles lose it where poles make the terms nearly dependent on each other */
+    /* doubles lose it where poles make the terms nearly dependent */
     if (r->count == before && !further && constants == 1 && c->coefficient)
         nh_stage_solver_certify_terms(&s->solver, c->terms, c->term, c->coefficient, name);
     return r->count > before || (further && solvable && lift_further(s, degree, all));
@@ -217,13 +217,13 @@ static bool is_over(const search *s, bool further)
                    : nh_stage_solver_done(&s->solver);
 }
 
-/* What is looked for: functions of the currents found too; in the shape alone; with words that are many-valued. */
+/* What is sought: also functions of the currents found; integrals of the shape alone; with many-valued functions. */
 typedef struct {
     bool further, shape, secular;
     const nh_construct_rates *rates;
 } manner;
 
-/* Words of one price. */
+/* Tries the words up to one price. */
 static bool construct_at(search *s, const nh_completeness *c, manner how, double price, bool *more)
 {
     nh_analysis *r = s->solver.r;
@@ -248,21 +248,22 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
     for (size_t k = 0; k < x->count && !is_over(s, further); k++) found |= lift(s, degree, &x->item[k], further);
-    /* what could not be proved may have a simpler form in dearer words */
+    /* an integral that could not be proved may have a simpler form in words of a higher price */
     *more = !x->limited && (x->recognised < x->dimension || x->count);
     nh_construction_free(x);
     nh_free(phi);
     return found;
 }
 
-/* Of the kind that comes first: time in the coefficients of a system without it gives functions of these. */
+/* Of the simplest kind: without time in the coefficients, which in a system without time gives functions of these
+ * only. */
 static bool lacks_further(const nh_analysis *r)
 {
     const nh_completeness *c = &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME];
     return c->counted && c->incomplete_at && c->count.row[c->incomplete_at - 1].settled;
 }
 
-/* Words become dearer until something is found. */
+/* Raises the price of the words until something is found. */
 static bool construct_up_to(search *s, const nh_completeness *c, manner how, double dearest, double work)
 {
     bool found = false, more = true;
@@ -273,7 +274,7 @@ static bool construct_up_to(search *s, const nh_completeness *c, manner how, dou
     return found;
 }
 
-/* Does time in the coefficients allow no more than there is without? */
+/* Is the number with time in the coefficients no larger than without? */
 static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
 {
     const nh_completeness *first = &r->completeness[NH_COMPLETE_IN_COORDINATES];
@@ -317,7 +318,7 @@ static bool integrate(search *s, const nh_completeness *c)
    large. */
 static bool construct(search *s, const nh_completeness *c, bool further)
 {
-    /* of the work, for what the currents found determine, and for functions that are rare */
+    /* part of the work for integrals that the currents found determine, and for rare functions */
     static const double part = 0.25;
     double dearest = c->count.time ? 6 : 16, dearest_secular = 6,
            work = s->solver.r->options.construct * (further ? part : 1);

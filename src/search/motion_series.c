@@ -8,7 +8,7 @@
 #include "exact/ball_series.h"
 #include "integrals/exact_points.h"
 
-/* most_links, most_tries: on either side of the start */
+/* most_links, most_tries: on each side of the start */
 enum { most_defined = 16, most_links = 32, most_tries = 32, bits = 128 };
 
 /* States, parameters, constants and roots at the start; integrals are 0 there. */
@@ -33,7 +33,7 @@ static size_t list(const nh_explicit_motion *m, nh_ball_defined *out)
     return n;
 }
 
-/* A bound beside what it may be, a part of the largest term: at most 1 where it is small. */
+/* A bound relative to what is allowed, a part of the largest term: at most 1 where it is small enough. */
 static double excess(const nh_motion_series_of_one *s, double half)
 {
     static const double part = 1e-12;
@@ -56,8 +56,8 @@ static double upwards(double bound)
     return out;
 }
 
-/* To so many digits, so that rounding in the motion, or in the kernels of another processor, changes nothing of what
- * is printed.  `side`: not below x, not above x, or 0 for the nearest. */
+/* Rounded to so many digits, so that rounding in the motion, or in the kernels of another processor, does not change
+ * the printed text.  `side`: not below x, not above x, or 0 for the nearest. */
 static double rounded(double x, int digits, int side)
 {
     static const double less_than_a_unit = 0.3;
@@ -70,16 +70,16 @@ static double rounded(double x, int digits, int side)
     return out;
 }
 
-/* bounds hold the rounding of coefficients, and lengths follow from bounds */
+/* bounds include the rounding of coefficients, and lengths follow from bounds */
 enum { digits_of_lengths = 2, digits_of_ends = 8, digits_of_states = 12 };
 
-/* What follows goes into every try of an interval. */
+/* Data of every try of an interval. */
 typedef struct {
     nh_ball_series *series;
     const nh_explicit_motion *m;
     nh_ex *symbol; /* the integrals, and room for the coefficients and bounds of all */
     double *coefficient, *bound;
-    size_t tries; /* that are left */
+    size_t tries; /* number of tries that are left */
 } trial;
 
 static trial trial_of(nh_arena *arena, nh_ball_series *series, const nh_explicit_motion *m)
@@ -92,7 +92,8 @@ static trial trial_of(nh_arena *arena, nh_ball_series *series, const nh_explicit
     return t;
 }
 
-/* The series about the centre, where the ball stands; the largest excess of a bound, INFINITY without bounds. */
+/* The series about the centre, at which the ball's symbols are; returns the largest excess of a bound, INFINITY without
+ * bounds. */
 static double take_all(const trial *t, nh_motion_series_link *out)
 {
     double most = 0;
@@ -110,7 +111,7 @@ static double take_all(const trial *t, nh_motion_series_link *out)
     return most;
 }
 
-/* The length at which the bound would be what it may be: bounds grow like x^(terms), those of pieces faster. */
+/* The length at which the bound would reach what is allowed: bounds grow like x^(terms), those of pieces faster. */
 static double ideal(double half, double excess_there)
 {
     static const double most = 2;
@@ -159,7 +160,7 @@ static size_t chain(nh_arena *arena, trial *t, const nh_motion_series_link *firs
     return n;
 }
 
-/* Those below in reverse, the first, those above. */
+/* Joins the intervals: those below in reverse order, the first one, those above. */
 static void join(nh_motion_series *out, size_t below, const nh_motion_series_link *down,
                  const nh_motion_series_link *first, size_t above, const nh_motion_series_link *up)
 {

@@ -5,7 +5,8 @@
 #include "system/sample.h"
 
 enum { most_symbols = 12, extra_sets = 4 };
-static const double spread = 0.04; /* small, so that the nearest value is the same one; large against rounding */
+/* small, so that the nearest value belongs to the same number; large relative to rounding */
+static const double spread = 0.04;
 
 /* ---- parameters and sums of parameters (J + m a^2) that values may be monomials of ---- */
 

@@ -4,8 +4,8 @@
 
 #include "geometry/model.h"
 
-/* The value at another parameter set (a model whose tapes bind it), nearest to `near`; false when it cannot be
-   computed. */
+/* The number at another parameter set (a model whose tapes are bound to it), nearest to `near`; false when it cannot be
+ * computed. */
 typedef bool nh_follow(const nh_model *changed, double near, double *value, void *context);
 
 /* A product of powers of the parameters, and of sums of them that occur in the equations of motion, that equals `value`

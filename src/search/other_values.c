@@ -5,8 +5,8 @@
 
 #include "integrals/fixed.h"
 
-/* Values of two digits between 1.1 and 1.4 times the given ones, no two factors the same: nothing that holds by chance
-   at the given values holds there. */
+/* Values of two digits between 1.1 and 1.4 times the given ones, with different factors: relations that hold by chance
+ * at the given values do not hold there. */
 static double *values_nearby(const nh_model *o)
 {
     enum { factors = 7 };

@@ -1,4 +1,4 @@
-/* other_values: what a stage finds where the parameters have other values than the given ones.
+/* other_values: null spaces of a stage at other values of the parameters than the given ones.
  *
  * At special values (1, 4, 7) the echelon form of a null space has a smaller support than at generic ones: a
  * coefficient such as a - 2 b + c vanishes there, and no relation over the field of the parameters has this support.
@@ -13,7 +13,7 @@
 
 typedef struct {
     bool tried;
-    nh_model model; /* the analysis' model at the other values; borrows all but these */
+    nh_model model; /* the analysis' model at the other values; owns only what depends on the values */
     nh_points *points;
     /* simplest first; with the given pivots.  NULL: the stage has no null space there, or may not be solved again */
     nh_candidates *simplest, *with_pivots;
@@ -26,8 +26,8 @@ void nh_other_values_take(nh_other_values *other, const nh_ansatz *ansatz, const
                           const nh_ex *pivot, const nh_options *options);
 void nh_other_values_clear(nh_other_values *other);
 
-/* Puts currents that hold for all values of the parameters in the place of the last one, which holds at the given ones
-   only and has this pivot; `exchanged`: that one is gone.  Returns how many more currents there are. */
+/* Replaces the last current, which holds at the given parameters only and has this pivot, by currents that hold for all
+ * values.  `exchanged`: the last one is gone.  Returns how many more currents there are. */
 size_t nh_other_values_exchange(nh_current_checker *bench, nh_other_values *other, nh_ex pivot, bool *exchanged);
 
 #endif

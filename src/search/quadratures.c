@@ -14,7 +14,7 @@
 #include "search/currents.h"
 #include "search/explicit_motion.h"
 
-/* Is it replaced, or does one that is depend on it? */
+/* Is the parameter replaced, or does a replaced one depend on it? */
 static bool is_needed(const nh_model *o, const nh_ex *fixed, size_t parameter)
 {
     for (size_t i = 0; i < o->system->parameters; i++)
@@ -23,8 +23,8 @@ static bool is_needed(const nh_model *o, const nh_ex *fixed, size_t parameter)
     return false;
 }
 
-/* Which parameters have their values, where some must: those that stand in functions and exponents of the equations of
- * motion and of the currents, and those that a current needs.  NULL: none. */
+/* The parameters that keep their values, where some must: those in functions and exponents of the equations of motion
+ * and of the currents, and those that a current needs.  NULL: none. */
 static const nh_ex *special_values(const nh_analysis *r)
 {
     enum { most = 64 };
@@ -55,8 +55,8 @@ static size_t gather(const nh_analysis *r, bool general, nh_ex *current)
     return n;
 }
 
-/* More states; then no integrals without closed form; then no roots; then time as the parameter; then fewer values of
-   parameters. */
+/* Is it better?  More states are; then no integrals without closed form; then no roots; then time as the parameter;
+ * then fewer parameters with values. */
 static bool better(const nh_explicit_motion *a, const nh_explicit_motion *b)
 {
     if (!b || a->known != b->known) return !b || a->known > b->known;
@@ -75,8 +75,8 @@ static bool is_parametric(const nh_model *o, nh_ex e)
     return true;
 }
 
-/* sqrt(u) sqrt(v) as sqrt(u v), also below other roots: what is integrated is factored, and so hides that the states
-   cancel in 1 - C^2. */
+/* sqrt(u) sqrt(v) as sqrt(u v), also below other roots: integrands are factored, which hides that the states cancel in
+ * 1 - C^2. */
 static nh_ex joined_roots(nh_dag *d, nh_ex e)
 {
     enum { most = 200, passes = 4 };
@@ -106,8 +106,8 @@ static nh_ex joined_roots(nh_dag *d, nh_ex e)
     return e;
 }
 
-/* sqrt(m^2 u) as m sqrt(u), sqrt(x^4 u) as x^2 sqrt(u): where that changes a sign, the root does so everywhere in e;
-   what comes out is proved anew. */
+/* sqrt(m^2 u) as m sqrt(u), sqrt(x^4 u) as x^2 sqrt(u): if that changes a sign, the root has the other sign everywhere
+ * in e; the result is proved anew. */
 static nh_ex shorter_roots(const nh_model *o, nh_ex e)
 {
     enum { most = 200 };
@@ -122,7 +122,7 @@ static nh_ex shorter_roots(const nh_model *o, nh_ex e)
     return e;
 }
 
-/* log(c u) as log u, with a positive c of parameters: the factor of a logarithm in a current is one. */
+/* log(c u) as log u, with a positive constant c of parameters: in a current it adds a constant only. */
 static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
 {
     enum { most = 24 };
@@ -182,7 +182,7 @@ typedef struct {
     size_t length;
 } constant;
 
-/* For all values of the parameters before for some; short before long. */
+/* Sorts currents for all values of the parameters before those for some; short before long. */
 static int by_generality(const void *left, const void *right)
 {
     const constant *a = left, *b = right;
@@ -191,8 +191,8 @@ static int by_generality(const void *left, const void *right)
     return a->e < b->e ? -1 : a->e > b->e;
 }
 
-/* sqrt(s^2 R) as s sqrt(R), where sqrt(R) stands in the equations of motion and the parameters make s positive: the
-   rate then vanishes whatever the sign of s. */
+/* sqrt(s^2 R) as s sqrt(R), where sqrt(R) occurs in the equations of motion and the parameters make s positive: the
+ * rate then vanishes for both signs of s. */
 static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
 {
     enum { most = 200 };
@@ -228,8 +228,8 @@ static nh_ex signs_as_roots(nh_dag *d, nh_ex e)
     return nh_substitute(d, e, signs, call, by);
 }
 
-/* The constant's value, shorter.  A sign that this changes in its roots and not in those of the equations of motion may
-   ask for values of parameters. */
+/* The constant's value in a shorter form.  If this changes the sign of its roots relative to those of the equations of
+ * motion, values of parameters may be needed. */
 static nh_ex as_current(const nh_analysis *r, nh_ex value, bool general)
 {
     const nh_model *o = r->model;
@@ -277,7 +277,8 @@ static const nh_explicit_motion *try_all(nh_stage_solver *x, const nh_explicit_r
         if (!m) continue;
         tried[(*count)++] = m;
         if (better(m, best)) best = m;
-        if (i == 0 && m->known == states && !m->roots && !m->integrals) break; /* nothing is simpler */
+        /* no other parameter can give a simpler motion */
+        if (i == 0 && m->known == states && !m->roots && !m->integrals) break;
     }
     return best;
 }
@@ -288,7 +289,8 @@ static const char *joined(nh_arena *arena, const char *all, const char *one)
     return all ? nh_arena_printf(arena, "%s, %s", all, one) : one;
 }
 
-/* Where its constants do not jump, and are real, which may be so for bound motions only; NULL: everywhere. */
+/* The region in which its constants do not jump, and are real, which may hold for bound motions only; NULL:
+ * everywhere. */
 static const char *region_of(nh_stage_solver *x, const nh_explicit_motion *m)
 {
     const nh_model *o = x->r->model;

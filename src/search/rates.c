@@ -12,7 +12,7 @@
 #include "search/volume_rate.h"
 
 enum { most_values = 24, most_rates = 4 };
-/* a double eigenvalue comes as two that differ by the root of rounding; their mean is right to rounding */
+/* rounding splits a double eigenvalue into two by its square root; their mean is right to rounding */
 static const double split_by_rounding = 3e-7;
 
 /* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
@@ -25,7 +25,7 @@ typedef struct {
     bool periodic, imaginary;
 } rate_context;
 
-/* (x, y) is one of the values again, which becomes the mean of all that were seen; `seen` of each. */
+/* Is (x, y) one of the values again?  That becomes the mean of its occurrences; `seen`: how many there are of each. */
 static bool again(double x, double y, size_t count, double *re, double *im, size_t *seen)
 {
     for (size_t j = 0; j < count; j++) {
@@ -56,7 +56,7 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
         if (y < 0 || p->residual[k] > 1e-7 * hypot(x, y)) continue; /* relative: rates have units */
         if (y < split_by_rounding * fabs(x)) y = 0;
         if (fabs(x) < split_by_rounding * y) x = 0;
-        /* whole harmonics are in the base: nu, 1 - nu, 1 + nu, ... are one rate */
+        /* the base contains whole harmonics: nu, 1 - nu, 1 + nu, ... are one rate */
         if (c->periodic) y = fabs(y - round(y));
         if (fabs(x) + fabs(y) < 1e-6 * largest || again(x, y, count, re, im, seen)) continue;
         re[count] = x;
@@ -70,7 +70,7 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
     return count;
 }
 
-/* Of a periodic coordinate nu is known up to whole numbers and its sign: nu, 1 - nu, 1 + nu, 2 - nu. */
+/* Of a periodic coordinate nu is known up to its sign and whole numbers: nu, 1 - nu, 1 + nu, 2 - nu. */
 static int folds(const rate_context *c) { return c->imaginary && c->periodic ? 4 : 1; }
 static double unfolded(double nu, int fold) { return (fold % 2 ? -nu : nu) + (double)((fold + 1) / 2); }
 
@@ -89,8 +89,8 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
     return n > 0 && best < 0.5 * fabs(near);
 }
 
-/* A convergent p/q of a real number is off by 1/q^2 or so: by much less only when the number is p/q (1/1000 of an angle
-   in thousandths). */
+/* The convergents p/q of a real number differ from it by about 1/q^2.  A much smaller difference means that the number
+ * is p/q (1/1000 for an angle in thousandths). */
 static nh_ex unusually_near(nh_dag *d, double value, double tolerance)
 {
     static const double by_chance = 1e-3;
@@ -100,11 +100,11 @@ static nh_ex unusually_near(nh_dag *d, double value, double tolerance)
     return fabs(nh_num_value(r) - value) * q * q < by_chance ? nh_number(d, r) : 0;
 }
 
-/* The pencil's eigenvalues have as many digits as the gap of its null space leaves, sometimes seven: what looks like
- * the value is tried before the digits are. */
+/* The pencil's eigenvalues have as many digits as the gap of its null space leaves, sometimes seven: a simple number
+ * near the value is tried before the value itself. */
 enum { AS_DIGITS, AS_NUMBERS, NAMED };
 static const double few_digits = 1000, /* times the tolerance for recognising numbers */
-                    negligible = 1e-6;  /* of one part of a rate against the other */
+    negligible = 1e-6;                 /* ratio of one part of a rate to the other */
 
 static nh_ex number_of(const rate_context *c, double value)
 {
@@ -138,13 +138,13 @@ static nh_ex rate_of(rate_context *c, double value, bool imaginary, int how)
     return e ? e : nh_real(c->x->r->model->dag, value);
 }
 
-/* The rates of one pencil, with the family that they are to multiply. */
+/* The rates of one pencil, with the family that is multiplied by their waves. */
 typedef struct {
     rate_context context;
     const nh_family *base;
     size_t which, count; /* which of the pencil's bases; rates */
     double re[most_values], im[most_values];
-    int how[most_values]; /* the form in which a rate enters */
+    int how[most_values]; /* the form of the rate */
 } waves;
 
 /* exp(-re q) {cos(im q), sin(im q)} for every rate. */
@@ -170,8 +170,8 @@ static size_t wave_terms(waves *w, nh_ex *out)
     return count;
 }
 
-/* The base times the waves; with the base itself only where it is everything of degree one (smooth functions on a small
- * interval are nearly dependent, so that nothing unnecessary should be there). */
+/* The base times the waves; the base itself only where it contains all functions of degree one (smooth functions on a
+ * small interval are nearly dependent, so that there should be no unnecessary ones). */
 static size_t wave_families(waves *w, nh_family *out)
 {
     nh_arena *arena = w->context.x->r->arena;
@@ -184,7 +184,7 @@ static size_t wave_families(waves *w, nh_family *out)
     return w->which == NH_PENCIL_PLAIN - 1 ? 2 : 1;
 }
 
-/* How much new a rate promises in some form, and how far that is from being conserved. */
+/* How many new currents a rate seems to give in some form, and how far these are from being conserved. */
 typedef struct {
     size_t news;
     double worst;
@@ -199,8 +199,8 @@ static promise promises(waves *w, size_t k, int how)
     return p;
 }
 
-/* As much, as nearly conserved: a number or an expression that is no more than near the rate leaves a rest that its
-   digits do not. */
+/* Are as many as nearly conserved?  A number or an expression that is only close to the rate leaves a residual that its
+ * digits do not. */
 static bool as_good(promise a, promise b)
 {
     static const double rounding = 1e-13, much = 100;
@@ -214,7 +214,7 @@ static bool plain(const rate_context *c, double value)
     return nh_recognise_number(c->x->r->model->dag, value, c->x->r->options.recognise, &e) || !number_of(c, value);
 }
 
-/* Each rate by itself in the form in which it promises most; those that promise nothing are left out. */
+/* Each rate by itself in the form that seems to give most currents; rates that give none are left out. */
 static void choose_forms(waves *w)
 {
     size_t kept = 0;
@@ -254,8 +254,8 @@ static bool is_wave(const nh_stage_solver *x, nh_ex g, double nu)
     return size > 0 && rest < 1e-7 * size;
 }
 
-/* The frequencies with which a system is driven are waves of the base itself: nothing is conserved with them, and they
-   are nearly dependent on the others. */
+/* The frequencies of driving forces are waves of the base itself: they give no currents, and are nearly dependent on
+ * the others. */
 static size_t without_driven(const nh_stage_solver *x, nh_ex q, size_t n, double *re, double *im)
 {
     const nh_model *o = x->r->model;
@@ -271,7 +271,7 @@ static size_t without_driven(const nh_stage_solver *x, nh_ex q, size_t n, double
     return kept;
 }
 
-/* Many waves on a short interval are nearly dependent: what they hide together each may still show alone. */
+/* Many waves on a short interval are nearly dependent: each is tried alone as well. */
 static void one_by_one(waves *w, const char *text)
 {
     nh_stage_solver *x = w->context.x;
@@ -330,7 +330,7 @@ void nh_rates_search_in(nh_stage_solver *x, const nh_family *base)
     pencil_of(x, x->r->model->system->t, 0, "t", base, NH_PENCIL_BASES);
 }
 
-/* The equations of motion do not depend on it (time included: whether they do is seen soon enough). */
+/* Are the equations of motion independent of the coordinate?  (Of time this is not asked: the stage finds out soon.) */
 static bool is_cyclic(const nh_stage_solver *x, nh_ex q)
 {
     for (size_t i = 0; i < x->words.shapes; i++)

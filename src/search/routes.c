@@ -6,8 +6,8 @@
 #include "base/parallel.h"
 #include "search/spans.h"
 
-/* The symmetry route has about n + 1 times as many columns, each an expression of its own: beyond this it is left out,
-   and said. */
+/* The symmetry route has about n + 1 times as many columns, each an expression of its own: beyond this number it is
+ * omitted, and the result says so. */
 enum { most_columns = 400 };
 
 static nh_nullspace *solve(nh_analysis *r, size_t n, const nh_field_column *column, const nh_points *points,

@@ -19,8 +19,8 @@ typedef struct {
     nh_ex variable;
     size_t words;
     nh_ex word[most_words];
-    bool full; /* there were more than fit */
-    const char *equation; /* of coefficients that have no name, or NULL */
+    bool full; /* more series were found than there is room for */
+    const char *equation; /* the equation of coefficients without a name, or NULL */
 } problem;
 
 static void put(problem *p, nh_ex e)
@@ -54,7 +54,7 @@ static nh_ex shown(const nh_model *o, nh_ex word)
     return word;
 }
 
-/* What doubles can see of it: without the tails of the series below rounding. */
+/* The current as doubles can use it: without coefficients of the series below rounding. */
 static nh_ex expression_of(const problem *p, const nh_series_space *space, size_t k, nh_series *series)
 {
     nh_dag *d = p->x->r->model->dag;
@@ -114,8 +114,8 @@ static size_t keep(problem *p, const nh_series_space *space)
     return added;
 }
 
-/* Is there anything in it that is not known?  Seen near the middle of the interval: to continue the functions is dear.
- */
+/* Does it contain a current that is not known?  This is tested near the middle of the interval, because continuing the
+ * functions costs much. */
 static bool fresh(const problem *p, const nh_series_search *s)
 {
     const nh_analysis *r = p->x->r;
@@ -134,7 +134,7 @@ static bool fresh(const problem *p, const nh_series_search *s)
     return news;
 }
 
-/* Without an interval of the user's a series in t goes on to the end of the motions. */
+/* Without an interval from the user a series in t extends to the end of the motions. */
 static double end_of_time(const nh_stage_solver *x)
 {
     const nh_system *system = x->r->system;
@@ -143,7 +143,7 @@ static double end_of_time(const nh_stage_solver *x)
     return x->r->options.until;
 }
 
-/* Coefficients that have names, proved before they are tried: by equations of second, then of third order. */
+/* Coefficients that have names, proved before the series are tried: by equations of second, then of third order. */
 static void named(problem *p, const char *what)
 {
     nh_analysis *r = p->x->r;
@@ -191,7 +191,7 @@ static void search(problem *p, const char *what)
     note->seconds = nh_clock() - start;
 }
 
-/* What has closed form should be found as that: the same words with harmonics of q and the system's functions. */
+/* Closed forms should be found first: the same words with harmonics of q and the system's functions. */
 static void closed_forms(problem *p)
 {
     nh_stage_solver *x = p->x;
@@ -223,7 +223,8 @@ static void linear_in(nh_stage_solver *x, nh_ex q)
     problem p = {.x = x, .variable = q};
     put_all(&p, o->n, o->chart->w);
     if (x->words.shapes > 1) put_all(&p, o->m, o->rho);
-    if (o->system->has_forces) put(&p, nh_int(o->dag, 1)); /* friction takes what depends on the place alone */
+    /* with friction, currents have terms that depend on position alone */
+    if (o->system->has_forces) put(&p, nh_int(o->dag, 1));
     named(&p, "velocities");
     search(&p, "velocities");
 }
@@ -297,7 +298,7 @@ static void put_polar(problem *p)
     }
 }
 
-/* Functions of t: where the equations are linear, all that there is. */
+/* Functions of t: where the equations are linear these give all currents. */
 void nh_stage_solver_series_in_time(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;

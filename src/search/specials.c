@@ -101,7 +101,7 @@ bool nh_specials_find(nh_analysis *r, size_t *families, nh_family **family, nh_e
 
 void nh_specials_name(nh_analysis *r, const nh_letters *letters)
 {
-    static const double same = 1e-7; /* a search knows less digits of a value than the current that it leads to */
+    static const double same = 1e-7; /* a search knows fewer digits of a value than the current that it leads to */
     for (size_t k = 0; k < r->specials; k++)
         for (size_t j = 0; j < r->hits->unknowns; j++)
             for (size_t i = 0; i < letters->count; i++) {

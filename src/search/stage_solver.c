@@ -57,8 +57,8 @@ static size_t most_tested(const nh_analysis *r)
     return least_tested > r->local_maximum ? least_tested : r->local_maximum;
 }
 
-/* Gradients against those of the known currents; candidates come simplest first.  kind[k] of candidate k; returns how
-   many are new. */
+/* Compares gradients with those of the known currents; candidates come simplest first. kind[k] of candidate k; returns
+ * how many are new. */
 static size_t compare(nh_stage_solver *x, nh_candidates *list, nh_independence *kind)
 {
     nh_analysis *r = x->r;
@@ -102,7 +102,7 @@ nh_stage_record *nh_stage_solver_note(nh_stage_solver *x, const char *name)
 static void keep_spectrum(nh_stage_solver *x, const nh_nullspace *s, bool found)
 {
     nh_analysis *r = x->r;
-    bool alone = r->current.columns < 3 && s->columns >= 3; /* the energy for itself: one value shows no gap */
+    bool alone = r->current.columns < 3 && s->columns >= 3; /* the energy alone: one value shows no gap */
     bool better = !r->current.done || found || alone || (r->count == 0 && s->columns > r->current.columns);
     if (better) r->current = nh_spectrum_of(r->arena, s);
 }
@@ -116,7 +116,7 @@ static nh_sectors split(nh_stage_solver *x, nh_ansatz *a)
     return nh_sectors_split(r->model, large ? x->reflections : &none, x->ranges, a);
 }
 
-/* What the null spaces of the parts take: both triangles, then two decompositions of each. */
+/* The work of the null spaces of the parts: both triangles, then two decompositions of each. */
 static double dense_work(const nh_sectors *sectors, size_t points)
 {
     static const double decompositions = 16;
@@ -128,7 +128,7 @@ static double dense_work(const nh_sectors *sectors, size_t points)
     return sum;
 }
 
-/* A stage is solved whole or not at all. */
+/* A stage is solved completely or not at all. */
 static nh_limit limit_of(const nh_stage_solver *x, const nh_sectors *sectors, size_t points)
 {
     static const double room = 1.2;
@@ -146,7 +146,7 @@ static size_t points_for(const nh_sectors *sectors)
     return (size_t)fmax(least_points, points_per_column * (double)sectors->largest);
 }
 
-/* Columns are limited by the largest part, and by what can be held at all. */
+/* The number of columns is limited, in all and in the largest part. */
 nh_solved nh_stage_solver_solve(nh_stage_solver *x, size_t families, const nh_family *family)
 {
     nh_analysis *r = x->r;
@@ -228,7 +228,7 @@ static void solve_elsewhere(nh_stage_solver *x, const nh_solved *s, size_t pivot
     nh_sectors_clear(&sectors);
 }
 
-/* Several parameters need their values: do they need to be related only? */
+/* Where several parameters need their values: is it enough that they are related? */
 static void relate(nh_stage_solver *x, const nh_solved *s, nh_candidate *c, nh_ex pivot, bool certain)
 {
     nh_analysis *r = x->r;
@@ -244,7 +244,8 @@ static void relate(nh_stage_solver *x, const nh_solved *s, nh_candidate *c, nh_e
     if (!nh_currents_add(x->bench, c, s->fit, certain)) nh_currents_put(x->bench, &last);
 }
 
-/* A current that holds at the given values of the parameters only, while another holds for all: that one is wanted. */
+/* A current that holds at the given values of the parameters only, while another one holds for all: the latter is
+ * taken. */
 static size_t without_values(nh_stage_solver *x, const nh_solved *s, size_t pivots, const nh_ex *pivot, nh_ex own,
                              nh_other_values *other, bool *exchanged)
 {
@@ -263,8 +264,8 @@ static nh_ex *pivots_of(const nh_candidates *list)
     return pivot;
 }
 
-/* Certificates of vectors that are only likely are dear and mostly refused: the limit of work ends them too, and leaves
-   the question open. */
+/* Certificates of vectors that are only likely cost much and mostly fail: the limit of work ends them too, and the
+ * question stays open. */
 static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_solved *s, bool certain)
 {
     nh_analysis *r = x->r;
@@ -293,12 +294,12 @@ static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_solved *
     nh_free(kind);
     nh_free(pivot);
     nh_other_values_clear(&other);
-    /* a series may look independent of what came after it */
+    /* a series may seem independent of currents found after it */
     if (r->independent >= r->local_maximum) nh_currents_recount(x->bench);
     return r->independent > before ? r->independent - before : 0;
 }
 
-/* The first `count` null vectors, turned into what is new in them. */
+/* Turns the first `count` null vectors into the new currents in them. */
 static size_t harvest(nh_stage_solver *x, const nh_solved *s, size_t count, bool certain)
 {
     nh_candidates *list = nh_echelon(x->r->model, s->fit, s->ansatz, s->nullspace, count, &x->r->options);
@@ -327,7 +328,7 @@ void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families
         r->rejected += s.fit->tried - nh_points_equations(s.fit);
         note->found = harvest(x, &s, s.nullspace->dimension, true);
         if (s.nullspace->likely > s.nullspace->dimension) {
-            /* how many of them are certain hangs on rounding; what they are does not */
+            /* rounding decides how many of them are certain, but not what they are */
             size_t open = r->open, refuted = x->bench->refuted, likely = s.nullspace->likely;
             note->found += harvest(x, &s, likely, false);
             note->undecided = r->open > open || likely > most_tested(r);

@@ -62,7 +62,7 @@ static void function_stages(nh_stage_solver *x)
     }
 }
 
-/* What classical systems of many bodies have, before stages that are too large for them. */
+/* The usual integrals of many bodies, before stages that are too large for such systems. */
 static void stages_of_many(nh_stage_solver *x)
 {
     enum { few_coordinates = 6, turns = 1 };
@@ -77,7 +77,8 @@ static void stages_of_many(nh_stage_solver *x)
     x->wide = false;
 }
 
-/* Work ends it at the same place everywhere, time does not; a stage that was too large is left out and ends nothing. */
+/* Whether a limit ended the search.  Work ends it at the same place everywhere, time does not; a stage that was too
+ * large is skipped and ends nothing. */
 static void how_it_ended(nh_analysis *r, bool spent)
 {
     for (size_t i = 0; i < r->stages; i++)

@@ -51,7 +51,7 @@ nh_family nh_family_list_polynomial(nh_family_list *s, const nh_expr_set *l, siz
 
 /* ---- the lists that stages are made of ---- */
 
-/* Everything of degree one or two in the velocities that the system itself shows. */
+/* All functions of degree one or two in the velocities that occur in the system. */
 static nh_expr_set words(const nh_family_list *s)
 {
     nh_expr_set l = {0};
@@ -118,8 +118,8 @@ nh_expr_set nh_expr_set_squares(const nh_family_list *s, const nh_expr_set *a)
 
 /* ---- the stages ---- */
 
-/* Products of components along the frame of the kinetic energy with lengths and harmonics: in polar coordinates the
-   components of vectors. */
+/* Products of components in the frame of the kinetic energy with lengths and harmonics: the components of vectors in
+ * polar coordinates. */
 nh_expr_set nh_expr_set_lengths(const nh_family_list *s, bool squares_too, bool time)
 {
     nh_dag *d = s->o->dag;
@@ -298,8 +298,8 @@ bool nh_stage_of_many(nh_arena *arena, const nh_model *o, const nh_dictionary *w
     return true;
 }
 
-/* Masses and springs that grow like t bring t times the words.  Elsewhere t f is a second vector of the eigenvalue of
-   f, which rounding splits. */
+/* Masses and springs that grow like t need t times the words.  Elsewhere t f is a second vector for the eigenvalue of
+ * f, which rounding splits. */
 static void put_growing(const nh_family_list *s, nh_expr_set *l)
 {
     nh_expr_set words = {0};

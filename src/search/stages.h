@@ -1,4 +1,4 @@
-/* stages: the stages of the search, in order. */
+/* stages: linear problems of the search, by the families of functions that their ansatz is made of. */
 #ifndef NH_STAGES_H
 #define NH_STAGES_H
 

@@ -1,4 +1,4 @@
-/* For the files that build stages. */
+/* stages_internal: lists of expressions and families, for the files that build stages. */
 #ifndef NH_STAGES_INTERNAL_H
 #define NH_STAGES_INTERNAL_H
 
@@ -15,8 +15,8 @@ typedef struct {
     size_t count;
 } nh_family_list;
 
-/* Expressions, each once; more than fit are left out: a list that is full has more columns than the option `columns`
-   lets any ansatz have. */
+/* Expressions, each once.  Those for which there is no room are left out: a full list has more columns than the option
+ * `columns` allows an ansatz. */
 typedef struct {
     size_t n;
     nh_ex e[NH_MOST_EXPRS];
@@ -48,7 +48,7 @@ void nh_family_list_product_of_sets(nh_family_list *families, const nh_expr_set 
 bool nh_family_list_timely(const nh_family_list *families);
 /* Functions of t alone, with their derivatives. */
 void nh_expr_set_put_time(const nh_family_list *families, nh_expr_set *list);
-/* What a force that depends on t alone adds to momenta and centres of mass. */
+/* The functions that a force depending on t alone adds to momenta and centres of mass. */
 void nh_family_list_drive(nh_family_list *families);
 /* Momenta, positions, powers and logarithms of t, and no more. */
 void nh_stage_drive(nh_family_list *families);

@@ -1,5 +1,5 @@
-/* Stages of few columns for systems of many coordinates, where everything of degree one or two times everything else is
-   too much: centres of mass and angular momenta. */
+/* Stages of few columns for systems of many coordinates: centres of mass and angular momenta.  All products of degree
+ * one or two would be too many. */
 #include "search/stages_internal.h"
 
 /* Momenta times 1 and t, positions, t. */

@@ -6,7 +6,7 @@
 #include "exact/normal.h"
 #include "search/stages_internal.h"
 
-/* What separation of variables gives (Euler's two centres, Liouville's systems): squares of velocities with
+/* Integrals from separation of variables (Euler's two centres, Liouville's systems): squares of velocities with
  * coefficients of higher degree in the positions, the energy and the system's functions with lower ones. */
 void nh_stage_separation(nh_family_list *s)
 {
@@ -143,8 +143,8 @@ nh_expr_set nh_expr_set_one_coordinate(const nh_family_list *s)
     return all;
 }
 
-/* Parabolic coordinates are r cos^2(q/2), r sin^2(q/2): what separates in them is quadratic in the frame times lengths
-   and half angles. */
+/* Parabolic coordinates are r cos^2(q/2), r sin^2(q/2): integrals that separate in them are quadratic in the frame
+ * times lengths and half angles. */
 void nh_stage_half_angles(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;

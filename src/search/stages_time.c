@@ -1,4 +1,4 @@
-/* stages_time: what the stages add where the Lagrangian, a force or a constraint depends on time. */
+/* stages_time: functions that the stages add where the Lagrangian, a force or a constraint depends on time. */
 #include "graph/diff.h"
 #include "search/stages_internal.h"
 
@@ -49,8 +49,8 @@ static long power_of_time(const nh_model *o, nh_ex e, int *left)
     return kind == NH_SUM ? highest : all < most_powers ? all : most_powers;
 }
 
-/* That a force t^p, and no function of t, needs twice integrated.  More would be nearly dependent on the functions,
-   where t has a short interval. */
+/* The power that a force t^p needs after two integrations, without functions of t.  More powers would be nearly
+ * dependent on the functions, where t has a short interval. */
 static long powers_of_time(const nh_model *o)
 {
     int left = longest_walk;
@@ -64,8 +64,8 @@ static long powers_of_time(const nh_model *o)
     return p + 2 < most_powers ? p + 2 : most_powers;
 }
 
-/* What a force that depends on t alone adds to momenta and centres of mass: powers of t, and functions of t by
-   themselves and times t. */
+/* The functions that a force depending on t alone adds to momenta and centres of mass: powers of t, and functions of t
+ * by themselves and times t. */
 void nh_family_list_drive(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
@@ -79,8 +79,8 @@ void nh_family_list_drive(nh_family_list *s)
     nh_family_list_product_of_sets(s, &f, &some);
 }
 
-/* The least that a momentum, and a centre of mass, along which nothing acts but time can need: many functions of t are
-   nearly dependent where t has a short interval. */
+/* The fewest functions for a momentum, and a centre of mass, on which only a force in t acts: many functions of t are
+ * nearly dependent where t has a short interval. */
 void nh_stage_drive(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;

@@ -95,7 +95,7 @@ static size_t lead(const space *x, const nh_ex *c)
     return 0;
 }
 
-/* Without those that are combinations of others. */
+/* The relations that are no combinations of others. */
 static bool make_independent(space *x, nh_symmetry_space *out)
 {
     nh_relation_space *r = relations(x, 1, x->value);
@@ -157,8 +157,8 @@ static size_t rows_of(const space *x, nh_space_kind kind)
                                           : x->fields->all + projectable;
 }
 
-/* The field of -E is d/dt where this lies in the canonical distribution; [Gamma, d/dt] = 0 where nothing depends on t.
- * For long formulas this is the only proof that is short. */
+/* Is the field of -E d/dt, because d/dt lies in the canonical distribution?  [Gamma, d/dt] = 0 where nothing depends on
+ * t.  For long formulas only this proof is short. */
 static bool is_translation(const space *x, nh_ex phi)
 {
     bool energy = false;
@@ -166,7 +166,7 @@ static bool is_translation(const space *x, nh_ex phi)
     return energy && x->autonomous;
 }
 
-/* What vanishes for a current of a kind. */
+/* The expressions that vanish for a current of a kind. */
 static void conditions(const space *x, nh_space_kind kind, nh_ex phi, nh_ex *out)
 {
     const nh_bracket_fields *b = x->fields;
@@ -288,7 +288,7 @@ static bool annihilated(const space *x, const candidates *b, nh_ex phi)
     return true;
 }
 
-/* Kept where its gradient does not depend on those before it. */
+/* Keeps a function whose gradient does not depend on those before it. */
 static void offer(const space *x, candidates *b, nh_ex phi, nh_ex name)
 {
     if (b->count == most_products || nh_kind_of(x->d, name) == NH_NUMBER || !annihilated(x, b, phi)) return;
@@ -322,7 +322,8 @@ static void offer_powers(const space *x, candidates *b)
     nh_free(entry);
 }
 
-/* How many independent currents Gamma and `n` fields annihilate, and which functions of the found ones they do. */
+/* The number of independent currents that Gamma and `n` fields annihilate, and those functions of the found currents
+ * that they annihilate. */
 static nh_space_bound bound(const space *x, size_t n, const nh_ex *field)
 {
     candidates *b = nh_alloc(sizeof *b);

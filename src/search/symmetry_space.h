@@ -1,10 +1,9 @@
-/* symmetry_space: the constraint symmetries of the currents that were found as one linear space, and which currents can
- * have better ones.
+/* symmetry_space: the constraint symmetries of the currents found as one linear space, and its special subspaces.
  *
  * Z(Phi) is linear in Phi, with Z(1) = Gamma/Lbar and Z(Phi Psi) = Phi Z(Psi) + Psi Z(Phi) - Phi Psi Gamma/Lbar.  That
  * Z is projectable, is of case 1, or has [Gamma, Z] in the canonical distribution, are linear conditions on Phi
- * (bracket_fields.h): subspaces, found exactly (relation_space.h). How many independent currents fulfil the last two at
- * all is bounded by the rank of brackets (closure.h). */
+ * (bracket_fields.h): subspaces, found exactly (relation_space.h).  The rank of brackets bounds the number of
+ * independent currents that fulfil one of the last two conditions at all (closure.h). */
 #ifndef NH_SYMMETRY_SPACE_H
 #define NH_SYMMETRY_SPACE_H
 
@@ -22,14 +21,14 @@ typedef struct {
 /* Subspaces of the currents. */
 typedef enum { NH_SPACE_BEST, NH_SPACE_CASE1, NH_SPACE_PROJECTABLE, NH_SPACE_INSIDE, NH_SPACES } nh_space_kind;
 
-/* A current of the basis, and what is known of its field. */
+/* A current of the basis, and the properties of its field. */
 typedef struct {
     nh_ex combination, phi;    /* of the currents' names; of the currents */
     bool in[NH_SPACES];
     const nh_field *field;     /* of a projectable one, simplified; else NULL */
 } nh_space_member;
 
-/* How many currents of a kind there can be: those that some fields annihilate. */
+/* A bound for the number of currents of a kind: those that certain fields annihilate. */
 typedef struct {
     nh_closure closure;
     /* independent currents of this kind that were found: currents, combinations of the basis, products of powers */
@@ -38,15 +37,16 @@ typedef struct {
 } nh_space_bound;
 
 typedef struct {
-    const char *obstacle;      /* why the space was not found, or NULL */
-    size_t degree;             /* of the currents in the velocities, at most; others are there without their products */
+    const char *obstacle;      /* the reason why the space was not found, or NULL */
+    /* largest degree of a current in the velocities; currents of higher degree have no products */
+    size_t degree;
     size_t others;
-    size_t left_out;           /* products beyond the most that are looked at */
+    size_t left_out;           /* products beyond the largest number */
     size_t dimension, of[NH_SPACES];
     bool sure;                 /* these numbers are proved, for the products of the currents that were found */
     nh_space_member *member;   /* dimension */
     nh_space_bound inside, case1;
-    bool all_inside, all_case1; /* every current is: the fields vanish */
+    bool all_inside, all_case1; /* every current is of this kind: the conditions are identities */
     size_t counted;            /* of all currents polynomial of this degree: an upper bound for their dimension, or 0 */
 } nh_symmetry_space;
 

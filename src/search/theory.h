@@ -1,5 +1,5 @@
-/* theory: the geometry of a system written out, for --equations: what a report shows of the constraint submanifold, of
- * the equations for symmetries, and of the brackets of the currents.  Everything is exact; nothing decides. */
+/* theory: the geometry of a system for --equations: the constraint submanifold, the equations for symmetries, and the
+ * brackets of the currents.  Everything is exact, and only shown. */
 #ifndef NH_THEORY_H
 #define NH_THEORY_H
 
@@ -10,12 +10,12 @@
 #include "search/equation_symmetries.h"
 
 typedef struct nh_theory {
-    /* the chart of coordinate velocities where there is one: the geometry is written in it */
+    /* the chart of coordinate velocities where there is one: the formulas are written in it */
     const nh_model *model;
     const nh_submanifold *submanifold, *own; /* of it; and of the chart that the currents are in (perhaps the same) */
     const nh_determining *determining;
-    const nh_inertial *inertial;   /* NULL: the reaction does not split */
-    double shown, written;         /* options: longer formulas are left out of text and page; of the JSON */
+    const nh_inertial *inertial;   /* NULL: the reaction cannot be split */
+    double shown, written;         /* options: longest formula in text and page; in the JSON */
     size_t brackets;
     struct nh_theory_bracket {
         const char *name;          /* of the current */

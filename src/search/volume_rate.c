@@ -1,4 +1,3 @@
-/* The divergence of the equations of motion, as the rate of a function of the coordinates. */
 #include "search/volume_rate.h"
 
 #include "exact/normal.h"

@@ -50,7 +50,7 @@ static void build_poses(nh_chain *c, nh_dag *d)
     }
 }
 
-/* Pose and twist behind one more screw. */
+/* Pose and twist after one more screw. */
 static void advance(nh_dag *d, const nh_screw *s, nh_pose *pose, nh_twist *twist)
 {
     nh_pose step = nh_screw_pose(d, s);

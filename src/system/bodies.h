@@ -4,13 +4,13 @@
  * axes through the origin of the joint's frame; the body's frame is where that frame is taken by the joint.  So at s =
  * 0 body and joint frames coincide, and a pose is
  *
- *     pose(body) = pose(parent) placement exp(xi_1 s_1) exp(xi_2 s_2) ...                                        (the
- *     map F, eq. 3.21)
+ *     pose(body) = pose(parent) placement exp(xi_1 s_1) exp(xi_2 s_2) ...
+ *                                                                                            (the map F, eq. 3.21)
  *
  * A displacement s is a coordinate, or an expression in coordinates and t.  The metric in the rates s' of all screws is
  *
- *     S_kl = sum over bodies h(J_k, J_l),   kinetic energy = 1/2 S_kl s_k' s_l',                                  (eq.
- *     3.22)
+ *     S_kl = sum over bodies h(J_k, J_l),   kinetic energy = 1/2 S_kl s_k' s_l',
+ *                                                                                                       (eq. 3.22)
  *
  * computed from the leaves to the root: with the composite inertia C of everything behind screw k, F = C xi_k, S_kk =
  * <xi_k, F>, and F carried towards the root gives S_jk = <xi_j, F> [Featherstone2008, ch. 6].  The potential is -g .
@@ -22,9 +22,9 @@
 #include "base/memory.h"
 #include "system/screw.h"
 
-/* The kinds of joints, and nowhere else: identifier, word of the file, screws (0: as many as `axes`), a bit for each of
- * them that turns, how the names of its coordinates end, its keys.  Screws along `axis` need no more; others have their
- * axes in bodies_values.c. */
+/* The table of the kinds of joints: identifier, word of the file, screws (0: as many as `axes`), a bit for each screw
+ * that turns, endings of the names of its coordinates, its keys.  Screws along `axis` need nothing else; the axes of
+ * others are in bodies_values.c. */
 enum { NH_JOINT_AXIS = 1, NH_JOINT_AXES = 2, NH_JOINT_PITCH = 4, NH_JOINT_ANGLES = 8 };
 #define NH_JOINT_TABLE(X)                                                                  \
     X(FIXED, "fixed", 0, 0, "", 0)                                                         \
@@ -48,15 +48,16 @@ typedef enum {
 
 enum { NH_GROUND = -1, NH_MOST_SCREWS = 6 };
 
-/* One degree of freedom of a joint, in the frame right behind it (and right before it: a screw leaves itself alone). */
+/* One degree of freedom of a joint, in the frame right after it (or right before it: a screw does not move its own
+ * axis). */
 typedef struct {
     bool turns;       /* a turn about the axis (with a pitch: a helical motion), else a translation along it */
     nh_ex axis[3];    /* unit vector */
     nh_ex pitch;      /* translation per radian */
     /* displacement, and its derivative with respect to t: a coordinate and its velocity, or expressions in them */
     nh_ex s, rate;
-    long coordinate;  /* whose coordinate s is; -1: an expression */
-    double low, high; /* where to sample it, away from a pole of Euler's angles; both 0: the default */
+    long coordinate;  /* index of the coordinate that s is; -1: s is an expression */
+    double low, high; /* its sampling interval, away from a pole of Euler's angles; both 0: the default */
 } nh_screw;
 
 typedef struct {
@@ -71,7 +72,7 @@ typedef struct {
 
 typedef struct {
     const char *name, *doc;
-    size_t joint;     /* the one that carries it */
+    size_t joint;     /* index of the joint that carries it */
     nh_ex mass, center[3], inertia[9]; /* in the body's frame; the inertia about the centre of mass */
     nh_pose pose;     /* of the body's frame in the ground's */
     nh_ex position[3]; /* of the centre of mass */
@@ -86,7 +87,7 @@ typedef struct {
     size_t body;
     long on;          /* the body whose surface it touches, or NH_GROUND */
     nh_ex at[3];      /* a point of the blade, or the centre of the wheel, in the body's frame */
-    bool ball;        /* rolling without an axle */
+    bool ball;        /* a ball that rolls without an axle */
     nh_ex axis[3];    /* unit vector: across the blade, or the axle; in the body's frame */
     nh_ex radius;
     int normal;       /* of the surface: axis number in the frame of `on` */
@@ -115,8 +116,8 @@ typedef struct {
     const nh_ex *q, *v; /* coordinates and velocities */
 } nh_chain_scope;
 
-/* Fill in what follows from bodies, joints and gravity: rates, poses, positions, metric, energies, K.  `order` must be
-   set. */
+/* Computes all that bodies, joints and gravity determine: rates, poses, positions, metric, energies, K.  `order` must
+ * be set. */
 void nh_chain_build(nh_chain *chain, const nh_chain_scope *scope);
 
 /* The displacement of one screw; its twist xi. */
@@ -127,7 +128,8 @@ nh_twist nh_screw_twist(nh_dag *dag, const nh_screw *screw);
    skip = 0 the body itself. */
 void nh_chain_frame(const nh_chain *chain, nh_dag *dag, long body, size_t skip, nh_pose *pose, nh_twist *twist);
 
-/* What holds all q'' at zero, gravity included: d/dt dL/dq' - dL/dq = K q'' + out (m) for L = kinetic - potential. */
+/* The forces that hold all q'' at zero, gravity included: d/dt dL/dq' - dL/dq = K q'' + out (m) for L = kinetic -
+ * potential. */
 void nh_chain_bias(const nh_chain *chain, const nh_chain_scope *scope, nh_ex *out);
 
 /* Of one body about the origin of its frame. */

@@ -20,7 +20,7 @@ static void add_scaled(nh_dag *d, nh_ex factor, const nh_ex x[3], nh_ex sum[3])
     for (int i = 0; i < 3; i++) sum[i] = nh_add(d, sum[i], nh_mul(d, factor, x[i]));
 }
 
-/* Behind one more screw: A := Ad A + [V, xi s'] + xi s'', V := Ad V + xi s'. */
+/* After one more screw: A := Ad A + [V, xi s'] + xi s'', V := Ad V + xi s'. */
 static void advance(nh_dag *d, const nh_screw *s, nh_ex drift, state *x)
 {
     nh_pose step = nh_screw_pose(d, s);

@@ -1,6 +1,5 @@
-/* bodies_read: the tree of a system file's `bodies:` and `joints:`: names, kinds, who carries whom, coordinates.  No
- * expression is read here: expressions may use the coordinates that joints bring, so that these must be known
- * before. */
+/* bodies_read: reads the tree of a system file's `bodies:` and `joints:`: names, kinds, parents, coordinates.  No
+ * expression is read here: expressions may contain the coordinates of joints, so that these must be known before. */
 #include <string.h>
 
 #include "base/text.h"
@@ -144,7 +143,7 @@ static bool carries(reader *r, const nh_deck_node *item, nh_joint *j, size_t ind
     return true;
 }
 
-/* Is there a key for a thing that this kind of joint does not have? */
+/* Is there a key that has no meaning for this kind of joint? */
 static bool fitting_keys(reader *r, const nh_deck_node *item, nh_joint_kind kind)
 {
     static const struct {
@@ -253,8 +252,7 @@ bool nh_system_read_tree(reader *r)
 
 /* ---- coordinates ---- */
 
-/* What the screws of a joint are called when the file does not say: the joint's name, and a letter when there are
-   several. */
+/* Default names for the screws of a joint: the joint's name, and a letter when there are several. */
 static const char *default_name(reader *r, const nh_joint *j, size_t k)
 {
     if (j->screws == 1) return j->name;

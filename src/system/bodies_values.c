@@ -259,7 +259,7 @@ static bool wheel_values(reader *r, const nh_deck_node *item, nh_wheel *w)
 {
     static const char *const keys[] = {"name", "type", "body", "at", "axis", "axle", "radius", "on", "normal", "doc"};
     static const char *const types[] = {"knife-edge", "rolling", "ball"};
-    const char *doc; /* for the reader of the file */
+    const char *doc; /* text for readers of the file */
     if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a wheel {type: ..., body: ...}", r->error)) return false;
     if (!nh_deck_only(r->deck, item, keys, sizeof keys / sizeof *keys, r->error)) return false;
     const nh_deck_node *type = nh_deck_get(item, "type"), *normal = nh_deck_get(item, "normal");
@@ -303,7 +303,7 @@ static bool wheel_values(reader *r, const nh_deck_node *item, nh_wheel *w)
            not_negative(r, item, "radius", "a radius", w->radius);
 }
 
-/* "wheel of cart"; "wheel 2 of cart" where more than one of the body's has no name. */
+/* "wheel of cart"; "wheel 2 of cart" where several wheels of the body have no name. */
 static void name_wheels(reader *r)
 {
     nh_chain *c = r->system->chain;
@@ -338,7 +338,7 @@ static bool read_wheels(reader *r)
 
 /* ---- all of it ---- */
 
-/* A number g means downwards, along -z. */
+/* A single number is the acceleration downwards, along -z. */
 static bool read_gravity(reader *r)
 {
     nh_dag *d = r->system->dag;

@@ -1,5 +1,5 @@
-/* branches: dependent velocities that are roots.  How they are found, which branch is taken, and how formulas are
-   written in the velocity instead of the root. */
+/* branches: dependent velocities that are roots: finding them, choosing the branch, and writing formulas in the
+ * velocity instead of the root. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -10,7 +10,7 @@
 #include "system/sample.h"
 
 enum { wanted_probes = 24, most_tries = 400, projection_steps = 60 };
-/* relative to the velocities, and to the terms of a constraint */
+/* largest residual, relative to the velocities, and to the terms of a constraint */
 static const double small_step = 1e-14, satisfied = 1e-9;
 
 static void cloud_tape(nh_constraint_samples *c)
@@ -149,7 +149,7 @@ void nh_constraint_samples_clear(nh_constraint_samples *c)
 
 static const double rounding = 1e-13; /* of the size of a row of df/dv */
 
-/* Is the whole row of df/dv zero?  One that is, but for rounding, must not pass for one in small units. */
+/* Is the whole row of df/dv zero?  Then it must not be scaled up from rounding, as a row in small units is. */
 static bool row_vanishes(const nh_constraint_samples *c, size_t a)
 {
     nh_system *s = c->system;
@@ -176,7 +176,7 @@ static void put_row(const nh_constraint_samples *c, size_t p, size_t i, bool emp
     for (size_t j = 0; j < c->m; j++) a[i + j * rows] = zero ? 0 : F[i + j * c->k] * c->speed[j] / c->size[i];
 }
 
-/* Largest rank of df/dv over the points, and the constraint that adds nothing to those before it. */
+/* The largest rank of df/dv over the points, and the first constraint that depends on those before it. */
 static size_t rank_of(const nh_constraint_samples *c, size_t *redundant)
 {
     size_t best = 0;
@@ -227,7 +227,7 @@ bool nh_constraint_samples_init_written(nh_constraint_samples *c, nh_system *sys
     return true;
 }
 
-/* Point at the first constraint that cannot hold together with those before it. */
+/* Points at the first constraint that contradicts those before it. */
 static bool contradiction(const nh_constraint_samples *c, uint64_t seed, nh_error *error)
 {
     const nh_system *s = c->system;

@@ -28,8 +28,8 @@ void nh_constraint_samples_init(nh_constraint_samples *c, nh_system *system, siz
 bool nh_constraint_samples_init_written(nh_constraint_samples *c, nh_system *system, uint64_t seed);
 void nh_constraint_samples_clear(nh_constraint_samples *c);
 
-/* Refuse constraints that say nothing new, contradict each other or leave no freedom; the message names the constraint
-   and the rank. */
+/* Refuses constraints that depend on each other, contradict each other or leave no freedom; the message names the
+ * constraint and the rank. */
 bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t seed, nh_error *error);
 
 #endif

@@ -58,7 +58,7 @@ static const char *quote_for(const char *what)
 
 enum { FOUND_SIZE = NH_DECK_SHOWN + 32 };
 
-/* What stands there, as in "found ...". */
+/* The content of a node in words, as in "found ...". */
 static void describe(const nh_deck_node *node, char out[FOUND_SIZE])
 {
     char shown[NH_DECK_SHOWN];
@@ -88,14 +88,14 @@ __attribute__((format(printf, 5, 6))) static bool wrong(const nh_deck *deck, con
     return nh_deck_fail(deck, node, 0, error, "%s%s%s must be %s, found %s", quote, what, quote, expected, found);
 }
 
-/* `a:1` is a word for YAML. */
+/* YAML reads `a:1` as a single word. */
 static bool lacks_space(const nh_deck_node *node)
 {
     const char *colon = node->kind == NH_DECK_SCALAR && node->plain ? strchr(node->text, ':') : NULL;
     return colon && colon[1] && !nh_deck_is_space(colon[1]);
 }
 
-/* How the list is written that was meant by a map or a single text: `forces: {x: -x'}` by its first entry. */
+/* Shows how the list is written, where the file has a map or a single text: `forces: {x: -x'}` by its first entry. */
 static void hint_list(const nh_deck_node *node, const char *what, nh_error *error)
 {
     static const char *const of_equations[] = {"definitions", "forces", "map"};
@@ -149,7 +149,7 @@ static void hint_known(const nh_deck *deck, const nh_deck_node *map, const char 
     }
     nh_text list;
     nh_text_init(&list);
-    if (deck->source[map->begin] == '{') /* an expression with a comma, cut in two? */
+    if (deck->source[map->begin] == '{') /* is it an expression that was split at its comma? */
         nh_text_add(&list, "if it belongs to an expression, put the expression in double quotes; ");
     list_known(known, count, &list);
     nh_error_hint(error, "%s", nh_text_string(&list));
@@ -201,7 +201,8 @@ bool nh_deck_number(const nh_deck *deck, const nh_deck_node *node, const char *w
     return nh_text_to_number(node->text, out) || wrong(deck, node, what, error, "a number that a double can hold");
 }
 
-/* Digits are read exactly (a seed may have 19 of them); 1e6 and 4096.0 are whole too, while doubles are exact. */
+/* Digits are read exactly (a seed may have 19 of them); 1e6 and 4096.0 are whole numbers too, as far as doubles are
+ * exact. */
 static bool to_whole(const char *text, long *out)
 {
     const double exact = 9007199254740992.0; /* 2^53 */

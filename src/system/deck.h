@@ -17,13 +17,13 @@ typedef struct nh_deck_node nh_deck_node;
 struct nh_deck_node {
     nh_deck_kind kind;
     const char *text;         /* of a scalar */
-    bool plain;               /* a scalar without quotes: null, true, 12 mean what they look like */
+    bool plain;               /* a scalar without quotes, so that null, true and 12 are not texts */
     size_t count;             /* items of a list, entries of a map */
     const nh_deck_node **item; /* items, or values of a map */
     const nh_deck_node **key;  /* keys of a map (scalars, distinct) */
     size_t begin, end;        /* byte range in the source */
     size_t line, column;      /* of the first character, from 1; a column counts code points */
-    const struct nh_deck *deck; /* where it stands: a file may include another */
+    const struct nh_deck *deck; /* the deck that it belongs to: a file may include another one */
 };
 
 typedef struct nh_deck nh_deck;
@@ -45,7 +45,7 @@ bool nh_deck_include(nh_deck *deck, nh_deck_prepare *prepare, nh_error *error);
    refused. */
 bool nh_deck_rename(nh_deck *deck, const nh_deck_node *map, const char *old, const char *key, nh_error *error);
 /* A map {x: 1, y: {unit: m}}, or a list [x: 1, y: {unit: m}], as the list [{name: x, KEY: 1}, {name: y, unit: m}] that
- * it is short for (KEY: short_for); a scalar, and other items of a list, as they are. */
+ * it abbreviates (KEY: short_for); a scalar, and other items of a list, are not changed. */
 const nh_deck_node *nh_deck_named(nh_deck *deck, const char *short_for, const nh_deck_node *node);
 const nh_deck_node *nh_deck_root(const nh_deck *deck);
 const char *nh_deck_name(const nh_deck *deck);
@@ -58,8 +58,8 @@ const nh_deck_node *nh_deck_get(const nh_deck_node *map, const char *key);
 bool nh_deck_fail(const nh_deck *deck, const nh_deck_node *node, size_t offset, nh_error *error, const char *format,
                   ...) __attribute__((format(printf, 5, 6)));
 
-/* Record an error in what was typed behind an option, at a byte of it: where is OPTION:COLUMN, the code is that of the
-   command line.  Returns false. */
+/* Records an error in the text of an option, at a byte of it: the place is OPTION:COLUMN, the code is that of the
+ * command line.  Returns false. */
 bool nh_deck_fail_typed(const char *option, const char *typed, size_t at, nh_error *error, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 

@@ -38,7 +38,7 @@ nh_deck_node *nh_deck_word_at(nh_deck *deck, const char *text, const nh_deck_nod
     return node;
 }
 
-/* Room for one more: it doubles whenever the count is a power of two. */
+/* Makes room for one more: the array doubles whenever the count is a power of two. */
 static void make_room(nh_deck *deck, const nh_deck_node ***array, size_t count)
 {
     if (count & (count - 1)) return;
@@ -74,7 +74,7 @@ nh_deck_node *nh_deck_copy(nh_deck *deck, const nh_deck_node *node, const char *
     return copy;
 }
 
-/* ---- of one line ---- */
+/* ---- entries from one line ---- */
 
 /* The node of text[begin .. end) without the blanks around it. */
 static nh_deck_node *word_between(nh_deck *deck, size_t begin, size_t end)

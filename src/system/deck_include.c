@@ -8,7 +8,7 @@ enum { deepest = 16 };
 
 static const nh_deck_node *merged(nh_arena *arena, const char *key, const nh_deck_node *base, const nh_deck_node *own);
 
-/* Entries {name: x} of a list stand for the same thing when x is the same. */
+/* Do two entries {name: x} of a list have the same x? */
 static const char *name_of(const nh_deck_node *item)
 {
     const nh_deck_node *name = nh_deck_get(item, "name");
@@ -46,7 +46,7 @@ static bool all_named(const nh_deck_node *list)
     return all;
 }
 
-/* An entry `x: 1` or `x: {...}` as {name: x, KEY: 1} or {name: x, ...}; where it stands in the file stays known. */
+/* An entry `x: 1` or `x: {...}` as {name: x, KEY: 1} or {name: x, ...}, with its place in the file. */
 static const nh_deck_node *named_item(nh_arena *arena, const char *short_for, const nh_deck_node *key,
                                       const nh_deck_node *value)
 {

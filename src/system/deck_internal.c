@@ -74,7 +74,7 @@ void nh_deck_free(nh_deck *deck)
     nh_free(deck);
 }
 
-/* Code points in the bytes before `byte`. */
+/* The number of code points before `byte`. */
 static size_t code_point_of(const nh_deck *deck, size_t byte)
 {
     size_t block = byte / NH_DECK_BLOCK, count = deck->before[block];
@@ -190,7 +190,7 @@ void nh_deck_shorten(const char *text, char out[NH_DECK_SHOWN])
     out[used] = '\0';
 }
 
-/* What is wrong with the character at `byte`, recorded; true when nothing is. */
+/* Records what is wrong with the character at `byte`; true when nothing is. */
 static bool judge(const nh_deck *deck, size_t byte, unsigned char original, size_t length, uint32_t code,
                   nh_error *error)
 {

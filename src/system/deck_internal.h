@@ -14,7 +14,7 @@ struct nh_deck {
     size_t *before; /* before[i]: code points before byte i * NH_DECK_BLOCK */
     size_t *line;   /* byte at which a line begins */
     size_t lines, line_capacity;
-    nh_code code;   /* of its errors; NH_OK: that of a file, with line and column */
+    nh_code code;   /* code of its errors; NH_OK: that of a file, with line and column */
 };
 
 enum { NH_DECK_BLOCK = 64, NH_DECK_SHOWN = 192 };
@@ -22,8 +22,8 @@ enum { NH_DECK_BLOCK = 64, NH_DECK_SHOWN = 192 };
 /* A deck without a tree that owns a copy of `text` (without byte order mark), indexed. */
 nh_deck *nh_deck_create(const char *name, const char *text, size_t length);
 
-/* Refuse what is no text: bytes that are not UTF-8, control characters.  (libyaml would, but without line and
-   column.) */
+/* Refuses what is not text: bytes that are not UTF-8, and invisible characters.  (libyaml refuses them too, but without
+ * line and column.) */
 bool nh_deck_check_text(nh_deck *deck, nh_error *error);
 
 /* libyaml counts code points, we count bytes. */

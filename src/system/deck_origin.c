@@ -102,7 +102,7 @@ static size_t find_flow(walk *w, char quote, size_t offset)
         last = w->at;
         step_flow(w, quote);
     }
-    if (w->done > offset) /* it lies inside what the last step produced */
+    if (w->done > offset) /* the byte is inside the result of the last step */
         return last;
     size_t breaks = 0; /* an escaped line break produces nothing: go on to what follows it */
     while (quote == '"' && w->at + 1 < w->end && w->source[w->at] == '\\' && nh_deck_is_break(w->source[w->at + 1])) {
@@ -161,7 +161,7 @@ static size_t find_block(walk *w, size_t offset)
     return w->at;
 }
 
-/* "Unexpected end" is best seen right after the last word, not after the blanks and line breaks that follow it. */
+/* The place of "unexpected end": right after the last word, not after the blanks and line breaks that follow it. */
 static size_t trim(const char *text, size_t offset)
 {
     size_t length = strlen(text);

@@ -47,7 +47,7 @@ static bool next_event(builder *b, yaml_event_t *event)
                            p->context, byte_at(b, p->context_mark), b->error);
 }
 
-/* Anchors, tags and aliases: nobody who writes mechanics means them; whoever begins an expression with * does. */
+/* Refuses anchors, tags and aliases: files about mechanics do not need them, but an expression may begin with *. */
 static bool check_properties(builder *b, const yaml_event_t *event)
 {
     bool alias = event->type == YAML_ALIAS_EVENT;
@@ -65,7 +65,7 @@ static bool check_properties(builder *b, const yaml_event_t *event)
     return nh_error_hint(b->error, NH_DECK_QUOTE_HINT);
 }
 
-/* A text of the program has no invisible characters: escapes could bring them in. */
+/* A text must have no invisible characters, which escapes could insert. */
 static bool check_scalar_text(builder *b, const char *text, size_t length, size_t begin)
 {
     for (size_t i = 0, bytes; i < length; i += bytes ? bytes : 1) {
@@ -80,7 +80,7 @@ static bool check_scalar_text(builder *b, const char *text, size_t length, size_
     return true;
 }
 
-/* [atan2(y, x)] is a list of `atan2(y` and `x)`. */
+/* YAML reads [atan2(y, x)] as a list of `atan2(y` and `x)`. */
 static bool check_cut(builder *b, const nh_deck_node *node)
 {
     const char *source = b->deck->source;
@@ -142,7 +142,7 @@ static void collect(builder *b, nh_deck_node *node, size_t bottom)
     b->used = bottom;
 }
 
-/* Where a collection ends: at its bracket; in block style libyaml only knows the next word after it. */
+/* The end of a collection: its bracket; in block style libyaml only gives the place of the next word. */
 static void close_collection(builder *b, nh_deck_node *node, const yaml_event_t *end)
 {
     char first = b->deck->source[node->begin];
@@ -159,7 +159,7 @@ static int by_text(const void *left, const void *right)
     return order ? order : (a->begin > b->begin) - (a->begin < b->begin);
 }
 
-/* Sorted, so that a hostile file cannot make this quadratic. */
+/* Sorted, so that the time for a hostile file is not quadratic. */
 static bool check_duplicates(builder *b, const nh_deck_node *map)
 {
     const nh_deck_node *second = NULL, *first = NULL;
@@ -196,7 +196,7 @@ static bool check_key(builder *b, const nh_deck_node *key)
     return true;
 }
 
-/* {a: 1, b} reads as b without a value: most often a comma or a colon that was not meant so. */
+/* YAML reads {a: 1, b} as b without a value: mostly a misplaced comma or a missing colon. */
 static bool check_value(builder *b, const nh_deck_node *key, const nh_deck_node *value)
 {
     const char *source = b->deck->source;
@@ -322,7 +322,7 @@ static bool build(nh_deck *deck, nh_error *error)
     return good;
 }
 
-/* What can be said about the bytes before they are looked at one by one. */
+/* Checks that concern the bytes as a whole. */
 static bool check_bytes(const char *name, const char *text, size_t length, nh_error *error)
 {
     if (length > SIZE_LIMIT)

@@ -1,7 +1,7 @@
 /* deck_yaml: see deck_yaml.h.
  *
- * Most of these messages are met by someone who wrote an expression that YAML takes for something else, so most
- * hints say where quotes help. */
+ * Most of these errors come from an expression that YAML reads in another way, so that most hints say where quotes
+ * help. */
 #include "system/deck_yaml.h"
 
 #include <string.h>
@@ -55,7 +55,7 @@ static size_t line_of(const nh_deck *deck, size_t byte)
     return line;
 }
 
-/* Inside { } or [ ] came something else than a comma or the closing bracket. */
+/* Inside { } or [ ] there is neither a comma nor the closing bracket. */
 static bool explain_bracket(const nh_deck *deck, size_t at, size_t since, nh_error *error)
 {
     bool map = deck->source[since] == '{';
@@ -74,7 +74,7 @@ static bool explain_bracket(const nh_deck *deck, size_t at, size_t since, nh_err
     return nh_error_hint(error, NH_DECK_QUOTE_HINT);
 }
 
-/* A line that fits neither its map nor its list; or something behind a value, like the + 1 of `x: 'a' + 1`. */
+/* A line that belongs neither to its map nor to its list; or text after a value, as the + 1 of `x: 'a' + 1`. */
 static bool explain_misfit(const nh_deck *deck, size_t at, const char *kind, size_t since, nh_error *error)
 {
     size_t before = at;
@@ -114,7 +114,7 @@ static bool matches(const rewording *row, const char *problem, const char *conte
     return strstr(problem, row->problem) && (!row->context || (context && strstr(context, row->context)));
 }
 
-/* An end of file on an empty line shows nothing: go back to the last word. */
+/* The place of an end of file on an empty line: the last word. */
 static size_t visible(const nh_deck *deck, size_t at)
 {
     if (nothing_after(deck, at))

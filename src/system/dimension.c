@@ -12,7 +12,7 @@ enum { longest_term = 80 };
 typedef enum { UNSEEN, WANTED, UNKNOWN, NUMBER, KNOWN } knowledge;
 
 typedef struct {
-    unsigned char known; /* a knowledge */
+    unsigned char known; /* what is known of a unit */
     nh_unit unit;
 } value;
 
@@ -34,7 +34,7 @@ static nh_unit unit_of_coordinate(const nh_coordinate *c)
 
 static bool has_unit(const nh_coordinate *c) { return *c->unit || c->type != NH_PLAIN; }
 
-/* Time counts in seconds, unless some unit of the file measures it otherwise: then nobody knows in what. */
+/* The unit of time is the second, unless some unit of the file contains another unit of time: then it is not known. */
 static nh_unit unit_of_time(const nh_system *s)
 {
     nh_unit second = {.power = {[NH_UNIT_SECOND] = 1}, .scale = 1};
@@ -93,7 +93,7 @@ static void want_none(checker *k, nh_ex e, const char *as)
     nh_unit_print(v.unit, k->fault);
 }
 
-/* Terms that are to have one unit; their unit, where one of them has one. */
+/* Compares terms that must have one unit; returns their unit, where one of them has one. */
 static value of_terms(checker *k, nh_ex e, size_t n)
 {
     value all = {NUMBER, none};
@@ -151,7 +151,8 @@ static value value_of(checker *k, nh_ex e)
     }
 }
 
-/* A node comes after its children: down to see what is wanted, and up again. */
+/* A node comes after its children in the graph: one pass down for the required units, and one up for the units
+ * found. */
 static value check(checker *k, nh_ex root)
 {
     nh_dag *d = k->s->dag;

@@ -27,7 +27,7 @@ static double volume(size_t rows, size_t columns, double *a)
     return product;
 }
 
-/* The least over the probes; *largest gets the largest. */
+/* The least value over the probes; *largest: the largest. */
 static double subset_score(const nh_constraint_samples *c, const size_t *subset, double *largest)
 {
     double least = INFINITY;
@@ -58,7 +58,8 @@ static bool next_subset(size_t k, size_t m, size_t *subset)
     return false;
 }
 
-/* Constraints written as  x' = ...  with the left sides not occurring on the right tell what the user had in mind. */
+/* Constraints written as x' = ..., whose left sides do not occur on the right, show which velocities the user takes as
+ * dependent. */
 static bool written_explicitly(const nh_constraint_samples *c, size_t *out)
 {
     const nh_system *s = c->system;
@@ -83,7 +84,7 @@ static double best_subset(const nh_constraint_samples *c, size_t *out)
     for (size_t i = 0; i < c->k; i++) subset[i] = i;
     do {
         double score = subset_score(c, subset, &largest);
-        /* later coordinates win ties: users list first what moves freely */
+        /* of equally good coordinates the later one depends: users list first those that move freely */
         if (score > best * (1 - 1e-9) || best < 0) {
             best = score;
             memcpy(out, subset, c->k * sizeof *out);
@@ -93,8 +94,8 @@ static double best_subset(const nh_constraint_samples *c, size_t *out)
     return best;
 }
 
-/* Where the user sets parameters, the velocities that suit the values of the file, unless they are much worse: the same
-   formulas for all values. */
+/* Where the user sets parameters: the velocities that suit the values of the file, unless they are much worse, so that
+ * the formulas are the same for all values. */
 static double best_dependent(const nh_constraint_samples *c, size_t *out)
 {
     static const double much_worse = 1e-3;
@@ -112,7 +113,8 @@ static double best_dependent(const nh_constraint_samples *c, size_t *out)
     return best;
 }
 
-/* What the user named or wrote, unless that breaks down all over the sampling domain: then another chart takes over. */
+/* The velocities that the user named or wrote, unless that chart breaks down all over the sampling domain: then another
+ * one is chosen. */
 static double choose_dependent(const nh_constraint_samples *c, size_t *out, bool *replaced)
 {
     static const double undetermined = 1e-12;
@@ -190,8 +192,8 @@ static bool relate(nh_dag *d, nh_ex f, nh_ex u)
     return false;
 }
 
-/* What implicit velocities satisfy, for normal forms: a constraint that is a polynomial in one of them, and has no
-   other of which nothing is known. */
+/* Rules for implicit velocities, for normal forms: from a constraint that is a polynomial in one of them, and contains
+ * no other one without a rule. */
 static void relate_implicit(nh_chart *chart, size_t k, const nh_ex *f)
 {
     nh_dag *d = chart->system->dag;
@@ -219,7 +221,7 @@ static bool keep_implicit(nh_chart *chart, const nh_constraint_samples *c, size_
     nh_lu *lu = nh_lu_create(d, k, G, nh_embedding_score, chart, NULL);
     if (!lu) return false;
     nh_ex *b = nh_alloc_array(k * explicit_width + 1, sizeof *b);
-    for (size_t j = 0; j < explicit_width; j++) { /* all partial derivatives before the first rule */
+    for (size_t j = 0; j < explicit_width; j++) { /* all partial derivatives before the first rule is set */
         for (size_t a = 0; a < k; a++) b[j * k + a] = nh_neg(d, nh_diff(d, f[a], chart->symbol[j]));
         nh_lu_solve(lu, b + j * k, b + j * k);
     }
@@ -304,7 +306,8 @@ static bool contains_only_parameters(const nh_constraint_samples *c, nh_ex e)
     return only;
 }
 
-/* u' with f_a = slope u' + rest, the slope a number or a parameter, goes out of all others: it depends on the rest. */
+/* Substitutes u', with f_a = slope u' + rest and the slope a number or a parameter, in all other constraints: it
+ * depends on the rest. */
 static bool solve_one(const nh_constraint_samples *c, triangle *t)
 {
     const nh_system *s = c->system;
@@ -376,7 +379,7 @@ static nh_chart *chart_of(const nh_constraint_samples *c, const triangle *t, siz
     return chart;
 }
 
-/* What was solved before, in terms of the rest. */
+/* Writes the velocities that were solved before in terms of the remaining ones. */
 static void put_solved(nh_chart *chart, const triangle *t)
 {
     const nh_system *s = chart->system;
@@ -388,8 +391,8 @@ static void put_solved(nh_chart *chart, const triangle *t)
     }
 }
 
-/* Linear constraints all at once; of others the linear ones first.  What is left is a root when it is one and
-   quadratic, and stays implicit otherwise. */
+/* Solves linear constraints all at once; of others the linear ones first.  A single remaining constraint that is
+ * quadratic gives a root; otherwise the remaining velocities stay implicit. */
 static nh_chart *solved(const nh_constraint_samples *c, triangle *t, nh_ex *G, double pivot)
 {
     nh_dag *d = c->system->dag;
@@ -438,7 +441,7 @@ bool nh_embedding_ranks(nh_system *system, uint64_t seed, nh_error *error)
     nh_constraint_samples c;
     if (system->constraints == 0) return true;
     nh_constraint_samples_init(&c, system, system->constraints, seed);
-    /* no point found says nothing: the user's chart has points */
+    /* without a point nothing is decided: the chart of the user has points */
     bool good = c.count == 0 || nh_constraint_samples_check_rank(&c, seed, error);
     nh_constraint_samples_clear(&c);
     return good;

@@ -123,7 +123,7 @@ bool nh_chart_complete(const nh_chart *c, double *z)
             size = fmax(size, fabs(out[i]));
             u[i] -= out[i];
         }
-        bool stays = size >= 0.5 * last; /* what is zero, beside velocities that are, does no more than that */
+        bool stays = size >= 0.5 * last; /* as of a velocity that is zero up to rounding of the others */
         good = size <= 4e-16 * largest || (stays && size < 1e-13 * fmax(largest, 1e-2));
         last = size;
     }
@@ -153,7 +153,7 @@ bool nh_embedding_vanishes(const nh_system *s, size_t width, const nh_ex *symbol
     return zero;
 }
 
-/* Implicit velocities are known to doubles only, and cannot be asked. */
+/* Implicit velocities are known as doubles only: they cannot be evaluated with more digits. */
 static bool vanishes(const nh_chart *c, nh_ex e)
 {
     return c->implicit || nh_embedding_vanishes(c->system, c->width, c->symbol, c->probes, c->probe, e);
@@ -192,8 +192,8 @@ static void probes_of_quasi(nh_chart *c, uint64_t seed)
     nh_sampler_free(sampler);
 }
 
-/* |f| beside sum_j |df/dv_j v_j| + |f - sum_j df/dv_j v_j|, which the constraint f = 0 weighs against each other, on
-   the image of the chart. */
+/* |f| relative to sum_j |df/dv_j v_j| + |f - sum_j df/dv_j v_j|, the terms that the constraint f = 0 balances, on the
+ * image of the chart. */
 static double off_constraint(const nh_chart *c, size_t a, nh_ex f)
 {
     const nh_system *s = c->system;
@@ -354,8 +354,8 @@ nh_chart *nh_chart_create(nh_system *system, nh_chart_choice choice, uint64_t se
 
 /* ---- back from coordinate velocities ---- */
 
-/* On a level each velocity is that of one coordinate alone, times a function of position: then the others are not used.
- * Cyclic ones are the last choice. */
+/* On a level, a velocity may be that of one coordinate times a function of position: then no other coordinates are
+ * used.  Cyclic ones are used last. */
 static void choose_rows(const nh_chart *c, const nh_ex *R, bool *used)
 {
     const nh_system *s = c->system;

@@ -52,7 +52,7 @@ typedef struct {
     bool replaced;
 } nh_chart;
 
-/* Nearer to a zero of its pivot a chart of coordinate velocities has formulas that lose too many digits. */
+/* Nearer to a zero of its pivot the formulas of a chart of coordinate velocities lose too many digits. */
 extern const double nh_chart_least_pivot;
 
 /* NULL on failure; the message names the constraint and the rank. */
@@ -64,13 +64,13 @@ bool nh_chart_complete(const nh_chart *chart, double *z);
 
 /* The sampling interval of any symbol of the system. */
 void nh_chart_range(const nh_chart *chart, nh_ex symbol, double *low, double *high);
-/* What a coordinate, a velocity or the time is measured in: half the width of the interval that the system's author
-   gives it; without one, 1. */
+/* The unit of a coordinate, a velocity or the time: half the width of the interval that the system's author gives;
+ * without one, 1. */
 double nh_chart_symbol_unit(const nh_system *system, nh_ex symbol);
-/* That of coordinate i, in which its velocity is measured, too, per unit of time, so that velocities of lengths and
-   angles compare in all units of length. */
+/* The unit of coordinate i, also of its velocity per unit of time, so that velocities of lengths and angles compare in
+ * all units of length. */
 double nh_chart_unit(const nh_system *system, size_t i);
-/* What the entries of R (m x n, row-major) are multiplied by to be numbers without units; 1 in quasi-velocities. */
+/* The factors by which the entries of R (m x n, row-major) become numbers without units; 1 in quasi-velocities. */
 void nh_chart_slopes(const nh_chart *chart, double *factor);
 
 /* The chart's velocities as functions of (t, q, q'): w = (R^T R)^-1 R^T (v - rho(0)) where rho is affine in w.  False
@@ -81,14 +81,14 @@ bool nh_chart_inverse(const nh_chart *chart, nh_ex *w_of_v);
  * again: it then holds on both branches. */
 nh_ex nh_chart_both_branches(const nh_chart *chart, nh_ex e);
 
-/* For printed formulas: no root where a dependent velocity is equal to it.  With the symbols of the chart's roots,
-   reduced by what they satisfy. */
+/* For printed formulas: a dependent velocity replaces a root that is equal to it.  The result contains the symbols of
+ * the chart's roots, reduced by their squares. */
 nh_ex nh_chart_shown(const nh_chart *chart, nh_ex e);
-/* Such an expression in t, q, q'. */
+/* An expression from nh_chart_shown in t, q, q'. */
 nh_ex nh_chart_in_velocities(const nh_chart *chart, nh_ex shown);
-/* And as one of another chart of the same velocities, on its branch. */
+/* The same as an expression of another chart of the same velocities, on its branch. */
 nh_ex nh_chart_composed(const nh_chart *chart, nh_ex shown, const nh_chart *other);
-/* "z' < 0": where a chart with a branch is, or, with -chart->branch, where it is not.  To be freed. */
+/* "z' < 0": where a chart with a branch is, or, with -chart->branch, where it is not.  The caller frees it. */
 char *nh_chart_branch_name(const nh_chart *chart, int branch);
 
 /* nh_pivot_score over the chart's probes (context: the chart). */

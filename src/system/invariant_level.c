@@ -21,7 +21,7 @@ typedef struct {
     nh_system *s;
     size_t n;
     nh_ex *field;            /* n x coordinates */
-    const char **origin;     /* the names of the velocities that they began as */
+    const char **origin;     /* names of the velocities from which they were made */
 } basis;
 
 /* ---- the fields ---- */
@@ -38,8 +38,8 @@ static bool has_coordinates(const nh_system *s, nh_ex e)
     return any;
 }
 
-/* Constant ones first; then that along a cyclic coordinate, for whose momentum it is an entry of the diagonal of the
-   mass matrix. */
+/* Constant ones first; then the one along a cyclic coordinate, which is an entry of the diagonal of the mass matrix for
+ * its momentum. */
 static size_t pivot_of(const basis *b, const nh_ex *entry)
 {
     const nh_system *s = b->s;

@@ -11,7 +11,7 @@
 #include "system/sample.h"
 
 enum { starts = 240, newton_steps = 80, enough_starts = 20, deepest = 60 };
-static const double farthest = 100; /* starts: up to so many times the domain around its middle */
+static const double farthest = 100; /* starting points lie within so many times the domain around its middle */
 
 /* ---- proved by intervals ---- */
 
@@ -66,7 +66,7 @@ static range function_of(nh_function f, range a)
     }
 }
 
-/* Between what e lies, wherever it is real. */
+/* Bounds of e, wherever it is real. */
 static range range_of(const nh_system *s, nh_ex e, int depth)
 {
     const nh_dag *d = s->dag;
@@ -108,7 +108,7 @@ static bool never_zero(const nh_system *s, nh_ex e)
     return r.low > 0 || r.high < 0;
 }
 
-/* ---- looked for ---- */
+/* ---- search for a point ---- */
 
 typedef struct {
     nh_system *system;
@@ -118,7 +118,7 @@ typedef struct {
     double *out, *dense, *step, *half; /* half: of the sampling interval of each */
 } search;
 
-/* |f| against what a step of the size of q, or of its sampling interval, changes. */
+/* |f| relative to the change of f by a step of the size of q, or of its sampling interval. */
 static bool is_zero(const search *x, const double *z)
 {
     static const double small = 1e-9;
@@ -203,7 +203,8 @@ static void clear(search *x)
     nh_free(x->half);
 }
 
-/* Does some start lead to a point?  Also true where hardly any point can be evaluated: then nothing is known. */
+/* Does the search from some start end at a point?  Also true where hardly any point can be evaluated: then it is not
+ * decided. */
 static bool has_point(nh_system *s, size_t k, const nh_ex *level, uint64_t seed)
 {
     search x = {.system = s, .k = k, .m = s->coordinates, .width = 1 + s->coordinates};

@@ -49,7 +49,7 @@ static bool read_conditions(nh_system_reader *r, const nh_deck_node *item, nh_kn
     return true;
 }
 
-/* In anything that changes but t: which? */
+/* Does the formula contain a variable other than t?  Which? */
 static bool depends_on_state(nh_system_reader *r, nh_ex e, const char **which)
 {
     const nh_system *s = r->system;
@@ -103,7 +103,7 @@ static bool read_motion(nh_system_reader *r, const nh_deck_node *item, const nh_
 static bool read_one(nh_system_reader *r, const nh_deck_node *item, nh_known_motion *out)
 {
     static const char *const keys[] = {"name", "doc", "when", "start", "motion"};
-    const char *doc; /* for the reader of the file */
+    const char *doc; /* text for readers of the file */
     nh_system *s = r->system;
     if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a motion {name: ..., motion: [...]}", r->error) ||
         !nh_deck_only(r->deck, item, keys, sizeof keys / sizeof *keys, r->error))
@@ -165,8 +165,8 @@ static nh_system *names_of(const nh_system *s)
     return n;
 }
 
-/* Are they well written?  Not yet in the system's graph, where they would change the order in which sums are
-   printed. */
+/* Are they well formed?  They are not parsed into the system's graph, where they would change the order in which sums
+ * are printed. */
 bool nh_system_check_motions(nh_system_reader *r, const nh_deck_node *known)
 {
     nh_known_motion *ignored;

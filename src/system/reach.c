@@ -7,7 +7,7 @@
 #include "system/domain.h"
 #include "system/embedding_internal.h"
 
-/* How far out of the interval a wall is looked for, in half widths, and in how many steps. */
+/* a wall is sought up to so many half widths from the middle of the interval, in so many steps */
 enum { farthest = 16, steps = 512 };
 
 static bool is_given(const nh_system *s, nh_ex symbol)

@@ -43,7 +43,7 @@ static void note(reader *r, const nh_deck_node *place, const char *text)
 
 /* ---- wheels ---- */
 
-/* What the robot description and the body's joint say, where the entry itself says nothing. */
+/* Values from the robot description and the body's joint, where the entry itself has none. */
 static bool fill(reader *r, const nh_deck_node *item, nh_deck_node *wheel, const char *body)
 {
     const nh_deck_node *joint = entry(r->joints, "child", body), *rim = nh_deck_get(r->rims, body),
@@ -99,7 +99,7 @@ static bool read_wheel(reader *r, const nh_deck_node *item)
     return known_body(r, word, body) && fill(r, item, wheel, body);
 }
 
-/* ---- what carries the root ---- */
+/* ---- the joint that carries the root ---- */
 
 /* The height of the root's origin at which the wheels touch the plane z = 0: that of the first; others are compared
    with it. */
@@ -196,7 +196,7 @@ static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node *
     return true;
 }
 
-/* ---- all of it ---- */
+/* ---- the whole file ---- */
 
 static nh_deck_node *list_under(reader *r, const char *key)
 {

@@ -10,8 +10,8 @@ enum { most_sobol = 40 }; /* dimensions that GSL has the sequence for */
 
 struct nh_sampler {
     gsl_qrng *qrng;
-    size_t dimension, sobol; /* so many of them by the sequence */
-    uint64_t state;          /* of the pseudo-random numbers of the others */
+    size_t dimension, sobol; /* number of dimensions taken from the sequence */
+    uint64_t state;          /* state of the pseudo-random numbers for the others */
     double *low, *width, *shift;
 };
 

@@ -4,7 +4,8 @@
 
 #include "exact/normal.h"
 
-enum { short_enough = 150 }; /* what is simplified: a product of two rotation matrices is, the product of five is not */
+/* largest complexity that is simplified: that of a product of two rotation matrices, not of five */
+enum { short_enough = 150 };
 
 nh_ex nh_tidy(nh_dag *d, nh_ex e) { return nh_simplify_short(d, e, short_enough); }
 

@@ -4,7 +4,7 @@
 
 enum { plane = 2, axes = 6 };
 
-/* given: how many a file has; a body in space has its axes besides. */
+/* given: how many numbers a file gives; a body in space also has its axes. */
 static const struct {
     const char *name;
     size_t given;

@@ -28,7 +28,7 @@ typedef enum {
 typedef struct {
     nh_shape_kind kind;
     const char *name;              /* for the legend, or NULL */
-    bool flat;                     /* stands for what is drawn in space, too */
+    bool flat;                     /* only in the plane: it stands there for shapes that are drawn in space */
     nh_ex value[NH_SHAPE_NUMBERS]; /* as many as nh_shape_numbers says */
 } nh_shape;
 

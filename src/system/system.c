@@ -160,7 +160,7 @@ static bool not_an_equation(const nh_deck *deck, const nh_deck_node *node, size_
     return nh_error_hint(error, "equations stand under constraints, forces, definitions and in the velocities' map");
 }
 
-/* Orders of functions do not move: a first argument with coordinates, velocities or time, or NULL. */
+/* The order of a function must be constant: a first argument that contains coordinates, velocities or time, or NULL. */
 static const char *moving_order(const nh_system *y, nh_ex e)
 {
     enum { most = 64 };
@@ -178,7 +178,7 @@ static const char *moving_order(const nh_system *y, nh_ex e)
     return NULL;
 }
 
-/* Parses, and checks what the grammar does not say. */
+/* Parses, and checks conditions beyond the grammar. */
 static bool read_text(const nh_system *y, const char *text, scope *s, nh_ex *lhs, nh_ex *rhs, nh_parse_fault *fault)
 {
     if (lhs ? !nh_parse_equation(y->dag, text, resolve, s, lhs, rhs, fault)

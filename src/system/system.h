@@ -15,7 +15,7 @@ typedef struct {
     nh_ex symbol;
     double value;
     double written; /* its value in the file */
-    bool set;       /* by the user, not by the file */
+    bool set;       /* set by the user, not by the file */
     bool input;     /* the file says that it may change with time: an argument of exported code */
 } nh_parameter;
 
@@ -42,7 +42,8 @@ typedef struct {
 typedef struct {
     const char *name, *text;
     nh_ex value;
-    const char *out_of_reach; /* of a known current: why the program's own ansatz does not hold it, or NULL */
+    /* of a known current: the reason why the program's own ansatz does not contain it, or NULL */
+    const char *out_of_reach;
     bool unwatched;           /* of a known current: no column of a motion */
 } nh_named;
 
@@ -52,14 +53,13 @@ typedef struct {
     double value;
     const nh_deck *deck;     /* where it was written: NULL for the command line */
     const nh_deck_node *key;
-    /* with bottom > 0: exactly this ratio; the name stands for it like a definition, and is no parameter any more */
+    /* with bottom > 0: exactly this ratio; the name is then a definition instead of a parameter */
     int64_t top, bottom;
     /* the same with this constant, as in "sqrt(3)/2", or function of the other parameters; NULL: none */
     const char *formula;
 } nh_setting;
 
-/* A map of where motions are hard to compute, as texts of the command line: nothing of it is looked at before it is
-   made. */
+/* A robustness map, as texts of the command line, which are not read before the map is made. */
 typedef struct {
     const char *name, *doc, *over;
     const char *initial, *velocities; /* NULL: not given */
@@ -68,13 +68,13 @@ typedef struct {
     nh_setting *setting, *option;
 } nh_named_map;
 
-/* A closed form: some coordinates as functions of t and of numbers that the initial state gives.  A claim of the file;
-   its user must check it. */
+/* A closed form: some coordinates as functions of t and of numbers that follow from the initial state.  The file claims
+ * it; whoever uses it must check it. */
 typedef struct {
     const char *name;
     size_t starts, conditions, values;
     nh_named *start;   /* in the initial state (t, coordinates, either velocities) */
-    nh_ex *symbol;     /* what stands for them in the motion */
+    nh_ex *symbol;     /* their symbols in the motion */
     nh_ex *condition;  /* vanish at initial states that it holds for */
     bool *given;       /* per coordinate: is it known? */
     nh_ex *value;      /* per coordinate, in t, parameters and the symbols */
@@ -85,7 +85,7 @@ typedef struct {
     nh_dag *dag;
     nh_deck *deck;
     const char *name, *title, *source;
-    /* for the user: what was left out of a robot description or taken for something else; units that do not agree */
+    /* for the user: parts of a robot description that were left out or replaced; units that do not agree */
     const char **note;
     size_t notes;
     nh_ex t;
@@ -93,7 +93,7 @@ typedef struct {
     nh_parameter *parameter;
     nh_coordinate *coordinate;
     nh_constraint *constraint;
-    /* so many of the constraints, the last ones, say on which level of an integral the system is */
+    /* number of constraints, the last ones, that put the system on a level of an integral */
     size_t levels;
     nh_named *definition;
     nh_interval *interval;   /* the sampling box as far as the user gave it */
@@ -126,8 +126,8 @@ nh_system *nh_system_parse(const char *name, const char *text, size_t settings, 
 nh_deck *nh_system_deck(const char *path, nh_error *error);
 void nh_system_free(nh_system *system);
 
-/* The closed forms that the file knows, in memory of the system: false only where one contains a definition that is no
-   function of t. */
+/* The closed forms that the file knows, in memory of the system.  False only where one contains a definition that is
+ * not a function of t. */
 bool nh_system_motions(nh_system *system, size_t *count, nh_known_motion **out, nh_error *error);
 
 /* t, coordinates, velocities and quasi-velocities by name, for messages: at most 2*coordinates + quasi + 1, counted by
@@ -140,7 +140,8 @@ size_t nh_system_state_names(const nh_system *system, const char **names);
 #define NH_VELOCITY_IS_WRITTEN "the velocity of `%s` is written %s'"
 const char *nh_system_velocity_meant(const nh_system *system, const char *word, const char *near);
 
-/* The hint on a word that names no coordinate, no parameter: the nearest one, or all of them.  Always false. */
+/* Gives the hint for a word that names no coordinate, or no parameter: the nearest name, or all of them.  Always
+ * false. */
 bool nh_system_hint_coordinates(const nh_system *system, const char *word, nh_error *error);
 bool nh_system_hint_parameters(const nh_system *system, const char *word, nh_error *error);
 
@@ -164,7 +165,7 @@ void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const do
 /* The value of an expression in the parameters. */
 double nh_system_number(const nh_system *system, nh_ex e);
 
-/* A level (0, 1, ..) to which motions do not keep, or of which that is not decided.  Returns false. */
+/* Refuses a level (0, 1, ..) that motions leave, or of which that is not decided.  Returns false. */
 bool nh_system_refuse_level(const nh_system *system, size_t level, bool proved, nh_error *error);
 
 /* The index of a coordinate by name, or -1. */

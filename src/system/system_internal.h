@@ -46,13 +46,13 @@ bool nh_system_read_drawing(nh_system_reader *r);
 bool nh_system_read_known(nh_system_reader *r);
 bool nh_system_check_motions(nh_system_reader *r, const nh_deck_node *known);
 bool nh_system_read_robustness(nh_system_reader *r);
-bool nh_system_read_notes(nh_system_reader *r); /* at the end: they are about the whole */
+bool nh_system_read_notes(nh_system_reader *r); /* these come at the end, as they concern the whole system */
 
 /* `levels:` as constraints, behind all others, and velocities for them (invariant_level.c). */
 bool nh_system_read_levels(nh_system_reader *r);
 
-/* Bodies and joints, in this order: who carries whom; the coordinates that joints bring (room for them: NH_MOST_SCREWS
- * each); expressions and all that follows from them.  Wheels become constraints, for which the caller has room. */
+/* Bodies and joints, in this order: parents; the coordinates of joints (room for them: NH_MOST_SCREWS each);
+ * expressions and all that follows from them.  Wheels become constraints, for which the caller has room. */
 bool nh_system_read_tree(nh_system_reader *r);
 bool nh_system_read_joint_coordinates(nh_system_reader *r);
 bool nh_system_read_chain(nh_system_reader *r);

@@ -10,7 +10,7 @@ static bool count_quasi(nh_system_reader *r, const nh_deck_node *chart)
 {
     const nh_system *s = r->system;
     const nh_deck_node *list = nh_deck_get(chart, "names");
-    if (s->constraints > s->coordinates) return true; /* told by the ranks */
+    if (s->constraints > s->coordinates) return true; /* the ranks decide */
     size_t left = s->coordinates - s->constraints;
     if (s->quasi == left) return true;
     nh_deck_fail(
@@ -115,7 +115,7 @@ size_t nh_system_state_names(const nh_system *s, const char **names)
     return n;
 }
 
-/* Is it before, middle, after, one behind the other? */
+/* Are the words before, middle and after next to each other? */
 static bool consists_of(const char *word, const char *before, const char *middle, size_t length, const char *after)
 {
     size_t n = strlen(before);
@@ -194,7 +194,7 @@ bool nh_system_read_domain(nh_system_reader *r)
     nh_system *s = r->system;
     size_t screws = s->chain ? s->chain->screws : 0;
     s->interval = nh_system_take(r, (map ? map->count : 0) + screws, sizeof *s->interval);
-    for (size_t k = 0; k < screws; k++) { /* first, so that what the user says comes later and wins */
+    for (size_t k = 0; k < screws; k++) { /* first, so that later intervals of the user replace these */
         const nh_screw *screw = &s->chain->screw[k];
         if (screw->coordinate < 0 || screw->low == screw->high) continue;
         s->interval[s->intervals++] = (nh_interval){s->coordinate[screw->coordinate].q, screw->low, screw->high};

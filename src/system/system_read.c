@@ -172,12 +172,13 @@ static bool read_coordinates(reader *r)
     if (s->coordinates == 0)
         return nh_deck_fail(r->deck, NULL, 0, r->error,
                             "no joint of this system has a coordinate, and `coordinates:` declares none");
-    for (size_t i = 0; i < s->coordinates; i++) /* after all coordinates: symbols print in the order of declaration */
+    /* after all coordinates: symbols are printed in the order of declaration */
+    for (size_t i = 0; i < s->coordinates; i++)
         s->coordinate[i].v = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s'", s->coordinate[i].name));
     return true;
 }
 
-/* The names of the quasi-velocities, before any expression: using one where it may not stand is then told as such. */
+/* Reads the names of the quasi-velocities before any expression, so that a message can say where one must not stand. */
 static bool read_quasi_names(reader *r)
 {
     const nh_deck_node *chart = nh_deck_get(r->root, "velocities"), *list;
@@ -334,7 +335,7 @@ static void remove_parameter(nh_system *s, nh_parameter *p)
     s->parameters--;
 }
 
-/* A name that is unknown here may be one of a coordinate.  False. */
+/* Gives the hint for a name that is unknown here, but may be one of a coordinate.  False. */
 static bool hint_state(nh_error *error)
 {
     if (strncmp(error->what, "unknown name", strlen("unknown name")) || !strncmp(error->hint, "did you mean", 12))
@@ -344,8 +345,8 @@ static bool hint_state(nh_error *error)
                                 "`forces:`");
 }
 
-/* An input over time takes the place of a parameter, as a definition.  What stands in it is known before the
-   coordinates are. */
+/* An input over time replaces a parameter, as a definition.  It may contain names that are known before the
+ * coordinates. */
 static bool make_input(reader *r, nh_parameter *p, const nh_setting *setting)
 {
     nh_system *s = r->system;
@@ -420,7 +421,7 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
     return true;
 }
 
-/* Keys that a file of another program may have, and what stands in their place here. */
+/* Keys that files of other programs may have, and their equivalents here. */
 static const struct {
     const char *key, *hint;
 } elsewhere[] = {
@@ -457,7 +458,7 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
                     r->error))
         return false;
     if (!other_words(r) || !nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
-    const char *doc; /* for the reader of the file */
+    const char *doc; /* text for readers of the file */
     if (!nh_system_text_of(r, r->root, "name", "system", &s->name) ||
         !nh_system_text_of(r, r->root, "title", s->name, &s->title))
         return false;

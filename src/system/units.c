@@ -90,7 +90,7 @@ static const struct {
                 {"M", 1e6},   {"G", 1e9},   {"T", 1e12},      {"P", 1e15},      {"E", 1e18}, {"Z", 1e21},
                 {"Y", 1e24},  {"u", 1e-6},  {"\u00b5", 1e-6}, {"\u03bc", 1e-6}, {"n", 1e-9}, {"p", 1e-12},
                 {"f", 1e-15}, {"a", 1e-18}, {"z", 1e-21},     {"y", 1e-24}};
-/* Words that people write for them: not understood, and pointed to the symbol. */
+/* Words that people write for units: refused, with the symbol as a suggestion. */
 static const char *const words[][2] = {
     {"meter", "m"}, {"metre", "m"}, {"meters", "m"}, {"metres", "m"}, {"kilogram", "kg"}, {"gram", "g"},
     {"second", "s"}, {"seconds", "s"}, {"sec", "s"}, {"newton", "N"}, {"joule", "J"}, {"watt", "W"}, {"volt", "V"},
@@ -176,7 +176,7 @@ static bool is_name(const char *name, nh_unit *out)
     return false;
 }
 
-/* One letter is near to every other: only longer names are compared. */
+/* One letter resembles every other one: only longer names are compared. */
 static const char *nearest(const char *name)
 {
     static const char *const common[] = {

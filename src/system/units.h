@@ -22,8 +22,7 @@ typedef struct {
 } nh_unit_fault;
 bool nh_is_unit(const char *text, nh_unit_fault *fault);
 
-/* What a unit stands for: powers of the base units of the SI, radians counting as 1, and how many of their product it
-   is. */
+/* The value of a unit: powers of the base units of the SI, with radians as 1, and the factor of their product. */
 enum {
     NH_UNIT_METRE,
     NH_UNIT_KILOGRAM,
@@ -40,10 +39,10 @@ typedef struct {
     bool clock;   /* it measures time in something else than seconds */
 } nh_unit;
 
-/* Of a text that nh_is_unit takes; "" is 1. */
+/* The value of a text that nh_is_unit accepts; "" is 1. */
 nh_unit nh_unit_of(const char *text);
 nh_unit nh_unit_product(nh_unit a, nh_unit b, double power); /* a b^power */
-/* The same powers, and no two known scales that differ? */
+/* Are the powers equal, and no two known factors different? */
 bool nh_unit_equal(nh_unit a, nh_unit b);
 /* "kg m^2/s^2", "0.001 m", "1". */
 void nh_unit_print(nh_unit unit, nh_text *out);

@@ -18,7 +18,7 @@ typedef struct {
     double direction[3];
     const char *mimics;          /* the name that the file gives, or NULL */
     const nh_xml *mimic;
-    double factor, offset;       /* of the joint that it follows */
+    double factor, offset;       /* its coordinate is factor times that of the joint that it follows, plus offset */
     double damping;
     nh_urdf_pose origin;
 } joint;
@@ -47,7 +47,7 @@ static bool has_coordinate(const joint *j)
     return (j->kind == REVOLUTE || j->kind == CONTINUOUS || j->kind == PRISMATIC) && !j->mimics;
 }
 
-/* A name for a parameter, or the coordinate of joint `own`, that no other coordinate has. */
+/* A name for a parameter, or for the coordinate of joint `own`, that no other coordinate has. */
 static char *free_name(reader *r, char *name, size_t own)
 {
     nh_arena *arena = r->u.deck->arena;
@@ -311,7 +311,7 @@ static nh_deck_node *vector(reader *r, const joint *j, const double v[3])
     return list;
 }
 
-/* A plane across a direction that is no axis: two translations, of a body without mass, and a turn. */
+/* A plane whose normal is no axis: two translations, of a body without mass, and a turn. */
 static void split_plane(reader *r, const joint *j, nh_deck_node *turn)
 {
     nh_deck *deck = r->u.deck;

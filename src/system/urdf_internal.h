@@ -13,7 +13,7 @@ typedef struct {
 typedef struct {
     nh_deck *deck;
     nh_error *error;
-    nh_deck_node *notes; /* what was left out or taken for something else */
+    nh_deck_node *notes; /* notes on parts that were left out or replaced */
 } nh_urdf_reader;
 
 bool nh_urdf_fail(nh_urdf_reader *u, size_t at, const char *format, ...) __attribute__((format(printf, 3, 4)));
