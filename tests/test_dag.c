@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "exact/normal.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/print.h"
@@ -397,22 +398,40 @@ Test(dag, radicands_are_bases_of_half_powers)
 
 static void make_one(size_t index, void *dag) { nh_int(dag, 1000 + (int)index); }
 
-Test(dag, is_made_in_turns)
+/* Threads make expressions in copies of a graph: the numbers of the old ones stay, the graph does not change. */
+static void make_in_copy(size_t index, void *original)
 {
-    nh_dag *d = nh_dag_create();
-    nh_parallel_in_turns(3, 2, make_one, d);
-    nh_parallel_in_turns(2, 1, make_one, d);
-    cr_expect_not(nh_frozen());
+    nh_dag *d = nh_dag_copy(original);
+    size_t before = nh_dag_size(original);
+    nh_ex x = nh_symbol(d, "x"), e = parsed(d, "sin(x)^2/(1 + x)");
+    cr_expect_eq(nh_dag_size(d), before, "what the graph has is found again");
+    nh_ex y = nh_symbol(d, "y"), product = nh_mul(d, nh_int(d, 1000 + (int)index), nh_mul(d, e, y));
+    cr_expect_gt(nh_dag_size(d), before);
+    cr_expect_eq(nh_diff(d, nh_diff(d, product, y), x), nh_diff(d, nh_mul(d, nh_int(d, 1000 + (int)index), e), x));
+    cr_expect_str_eq(nh_name_of(d, x), "x");
+    cr_expect_eq(nh_dag_size(original), before);
     nh_dag_free(d);
 }
 
-static void look(size_t index, void *frozen) { ((bool *)frozen)[index] = nh_frozen(); }
+Test(dag, is_copied_for_each_thread)
+{
+    nh_dag *d = nh_dag_create();
+    nh_ex x = nh_symbol(d, "x"), e = parsed(d, "sin(x)^2/(1 + x)"), slope = nh_simplify(d, nh_diff(d, e, x));
+    size_t size = nh_dag_size(d);
+    nh_parallel(8, 4, make_in_copy, d);
+    nh_parallel(2, 1, make_in_copy, d);
+    cr_expect_eq(nh_dag_size(d), size);
+    cr_expect_eq(nh_simplify(d, nh_diff(d, e, x)), slope);
+    nh_dag_free(d);
+}
+
+static void look(size_t index, void *worker) { ((unsigned long *)worker)[index] = nh_parallel_worker(); }
 
 /* A sanitized build ends where an expression is made there. */
 Test(dag, is_frozen_while_others_may_read, .signal = NH_CHECKED ? SIGABRT : 0)
 {
-    bool frozen[2] = {0};
-    nh_parallel(2, 2, look, frozen);
-    cr_assert(frozen[0] && frozen[1] && !nh_frozen());
+    unsigned long worker[2] = {0};
+    nh_parallel(2, 2, look, worker);
+    cr_assert(worker[0] && worker[1] && !nh_parallel_worker());
     if (NH_CHECKED) nh_parallel(1, 1, make_one, nh_dag_create());
 }

@@ -218,7 +218,6 @@ static void work_alone(void *unused) { work(bad, unused); }
 static void release(void *unused) { (void)unused; }
 
 static void in_parallel(void *unused) { nh_parallel(jobs, 4, work, unused); }
-static void in_turns(void *unused) { nh_parallel_in_turns(jobs, 4, work, unused); }
 static void aside(void *unused) { nh_aside_end(nh_aside_begin(work_alone, unused)); }
 static void interruptible(void *unused) { nh_interruptible(work_alone, release, unused); }
 
@@ -227,19 +226,19 @@ static void two_deep(void *unused)
     nh_held held;
     nh_hold(&held, &lock);
     nh_release(&held);
-    cr_expect_not(nh_recovery_run(in_turns, unused));
+    cr_expect_not(nh_recovery_run(in_parallel, unused));
     in_parallel(unused);
 }
 
 /* What a thread of ours cannot do ends the caller's run, after all of them have ended; no lock stays held. */
 Test(recovery, threads_hand_it_on)
 {
-    void (*const way[])(void *) = {work_alone, in_parallel, in_turns, aside, interruptible, two_deep};
+    void (*const way[])(void *) = {work_alone, in_parallel, aside, interruptible, two_deep};
     for (size_t i = 0; i < sizeof way / sizeof *way; i++) {
         cr_expect_not(nh_recovery_run(way[i], NULL), "%zu", i);
         cr_expect_eq(nh_recovery_wanted(), 1234u);
         cr_expect_not(nh_recovery_here());
-        cr_expect_not(nh_in_turns());
+        cr_expect_eq(nh_parallel_worker(), 0u);
         cr_assert_eq(pthread_mutex_trylock(&lock), 0, "%zu", i);
         pthread_mutex_unlock(&lock);
         cr_expect_gt(ended, 0u);

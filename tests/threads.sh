@@ -21,6 +21,7 @@ NHSYM=$build/nhsym
 export NHSYM
 look 'contexts at once' "$build/tests/bench_contexts"
 look 'an ensemble' "$NHSYM" simulate sleigh --ensemble 40 --threads 4 --until 2
+look 'members alone' "$NHSYM" simulate sleigh --velocities coordinates --ensemble 40 --spread 0.9 --initial 'phi=0.3, omega=0.5' --threads 4 --until 5
 look 'sectors of a search' "$NHSYM" analyze kepler --no-analysis --threads 4 --quiet --json /dev/null
 look 'a search with series' "$NHSYM" analyze rolling_ball --threads 4 --quiet --json /dev/null
 echo "$passed passed, $failed failed"

@@ -42,9 +42,10 @@ static void end_rescue(rescue *r)
 
 /* ---- a queue of jobs ---- */
 
-static _Thread_local bool frozen;
+static atomic_ulong workers;
+static _Thread_local unsigned long worker;
 
-bool nh_frozen(void) { return frozen; }
+unsigned long nh_parallel_worker(void) { return worker; }
 
 typedef struct {
     size_t jobs;
@@ -64,11 +65,11 @@ static void do_jobs(void *argument)
 static void *work(void *argument)
 {
     queue *q = argument;
-    bool before = frozen;
+    unsigned long before = worker;
     nh_context_enter(q->here);
-    frozen = true;
+    worker = atomic_fetch_add(&workers, 1) + 1;
     if (!do_rescued(&q->rescue, do_jobs, q)) atomic_store(&q->next, q->jobs);
-    frozen = before;
+    worker = before;
     return NULL;
 }
 
@@ -83,69 +84,6 @@ void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *co
     work(&q);
     for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);
     end_rescue(&q.rescue);
-}
-
-/* ---- in turns ---- */
-
-typedef struct {
-    void (*job)(size_t, void *);
-    void *context;
-    pthread_mutex_t turn;
-    bool recovers;
-} line;
-
-typedef struct {
-    const line *line;
-    size_t index;
-} place;
-
-static _Thread_local pthread_mutex_t *turn; /* NULL: this thread does no such job */
-static _Thread_local bool has_turn;
-
-bool nh_in_turns(void) { return turn != NULL; }
-
-bool nh_turn_give(void)
-{
-    if (!turn || !has_turn) return false;
-    has_turn = false;
-    frozen = true;
-    pthread_mutex_unlock(turn);
-    return true;
-}
-
-bool nh_turn_take(void)
-{
-    if (!turn || has_turn) return false;
-    pthread_mutex_lock(turn);
-    frozen = false;
-    return has_turn = true;
-}
-
-static void do_place(void *argument)
-{
-    const place *p = argument;
-    p->line->job(p->index, p->line->context);
-}
-
-static void do_in_turn(size_t index, void *context)
-{
-    line *l = context;
-    place p = {l, index};
-    rescue r = {.recovers = l->recovers};
-    turn = &l->turn;
-    nh_turn_take();
-    do_rescued(&r, do_place, &p);
-    nh_turn_give();
-    turn = NULL;
-    end_rescue(&r);
-}
-
-void nh_parallel_in_turns(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context)
-{
-    line l = {.job = job, .context = context, .recovers = nh_recovery_here()};
-    pthread_mutex_init(&l.turn, NULL);
-    nh_parallel(jobs, threads, do_in_turn, &l);
-    pthread_mutex_destroy(&l.turn);
 }
 
 size_t nh_threads(double wanted)
@@ -207,6 +145,7 @@ typedef struct {
     pthread_cond_t ended;
     bool done, left;
     nh_context *here;
+    unsigned long worker; /* the caller, who waits */
     rescue rescue;
 } errand;
 
@@ -223,6 +162,7 @@ static void *go(void *argument)
 {
     errand *e = argument;
     nh_context_enter(e->here);
+    worker = e->worker;
     bool whole = do_rescued(&e->rescue, e->job, e->context);
     pthread_mutex_lock(&e->lock);
     e->done = true;
@@ -253,6 +193,7 @@ bool nh_interruptible(void (*job)(void *), void (*release)(void *), void *contex
                   .release = release,
                   .context = context,
                   .here = nh_context_here(),
+                  .worker = worker,
                   .rescue = rescue_here(),
                   .lock = PTHREAD_MUTEX_INITIALIZER,
                   .ended = PTHREAD_COND_INITIALIZER};

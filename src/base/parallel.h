@@ -11,18 +11,11 @@
 /* job(i, context) for i = 0 .. jobs-1.  With one thread, or when none can be started, the caller does them in order. */
 void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context);
 
-/* The same for jobs that use and change what they share, as motions do with the graph of their model's expressions:
- * only one goes on at a time, but for what it does between nh_turn_give() and nh_turn_take(), which touches nothing
- * shared.  These two do nothing elsewhere, nor where the turn is given or taken already, and say whether they did. */
-void nh_parallel_in_turns(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context);
-bool nh_turn_give(void);
-bool nh_turn_take(void);
-/* Is this thread inside of such a job? */
-bool nh_in_turns(void);
-/* Does this thread make no expressions now: in a job of nh_parallel, also where the caller does it himself, and in one
- * in turns whose turn is given?  To make one there ends the process in a sanitized build, with one thread as with many:
- * other threads read or change the graph. */
-bool nh_frozen(void);
+/* A number that belongs to this thread and this call of nh_parallel, inside of one of its jobs, also where the caller
+ * does the job himself; elsewhere 0.  A graph of expressions keeps the number of the place where it was made.  To make
+ * an expression in it elsewhere ends the process in a sanitized build, whatever the number of threads: other threads
+ * may read the graph. */
+unsigned long nh_parallel_worker(void);
 /* Is this a sanitized build? */
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
 enum { NH_CHECKED = 1 };

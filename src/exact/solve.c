@@ -92,6 +92,19 @@ nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score
     return NULL;
 }
 
+nh_lu *nh_lu_copy(const nh_lu *lu, nh_dag *copy)
+{
+    nh_lu *c = nh_alloc(sizeof *c);
+    size_t n = lu->n;
+    *c = *lu;
+    c->dag = copy;
+    c->a = nh_alloc_array(n * n + 1, sizeof *c->a);
+    c->row = nh_alloc_array(n + 1, sizeof *c->row);
+    if (n) memcpy(c->a, lu->a, n * n * sizeof *c->a);
+    if (n) memcpy(c->row, lu->row, n * sizeof *c->row);
+    return c;
+}
+
 void nh_lu_free(nh_lu *lu)
 {
     if (!lu) return;

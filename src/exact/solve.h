@@ -15,6 +15,8 @@ typedef struct nh_lu nh_lu;
 /* Factors the n x n matrix a (row-major: a[i*n + j]).  NULL when some column has no usable pivot; *rank (may be NULL)
  * is the number of columns that have one.  The caller frees the factors. */
 nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score, void *context, size_t *rank);
+/* The same factors, of which `copy` is a copy of the graph (nh_dag_copy). */
+nh_lu *nh_lu_copy(const nh_lu *lu, nh_dag *copy);
 void nh_lu_free(nh_lu *lu);
 
 /* x := a^-1 b (x may be b). */

@@ -401,6 +401,34 @@ void nh_model_free(nh_model *model)
     nh_arena_free(model->arena);
 }
 
+nh_model *nh_model_copy(const nh_model *model, nh_dag *dag)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_model *o = nh_arena_alloc(arena, sizeof *o);
+    nh_system *system = nh_arena_alloc(arena, sizeof *system);
+    nh_chart *chart = nh_arena_alloc(arena, sizeof *chart);
+    *system = *model->system;
+    system->dag = dag;
+    system->arena = arena;
+    *chart = *model->chart;
+    chart->system = system;
+    chart->arena = arena;
+    *o = *model;
+    o->arena = arena;
+    o->system = system;
+    o->chart = chart;
+    o->dag = dag;
+    o->M_lu = model->M_lu ? nh_lu_copy(model->M_lu, dag) : NULL;
+    return o;
+}
+
+void nh_model_copy_free(nh_model *copy)
+{
+    if (!copy) return;
+    nh_lu_free(copy->M_lu);
+    nh_arena_free(copy->arena);
+}
+
 int nh_model_sign(const nh_model *o, nh_ex e)
 {
     const nh_chart *c = o->chart;

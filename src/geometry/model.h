@@ -48,8 +48,14 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error);
 nh_model *nh_model_bare(nh_system *system, nh_chart *chart);
 void nh_model_free(nh_model *model);
 
-/* G, made when it is first wanted where the Lagrangian is long: its n m derivatives of momenta are then most of the
-   model, and no motion needs them. */
+/* The same model in `dag`, a copy of its graph (nh_dag_copy): a thread derives there what it needs for a motion, while
+ * others read the model.  Its expressions have the numbers that they have in `model`, which has to outlive it.  The
+ * caller frees it by nh_model_copy_free, and the graph after it. */
+nh_model *nh_model_copy(const nh_model *model, nh_dag *dag);
+void nh_model_copy_free(nh_model *copy);
+
+/* G, which is computed at the first call where the Lagrangian is long: its n m derivatives of momenta are most of the
+ * model then, and no motion needs them. */
 const nh_ex *nh_model_G(const nh_model *model);
 
 /* The bodies and joints of a long Lagrangian, whose equations are computed by recursion, and the rest of the

@@ -12,12 +12,37 @@
 nh_dag *nh_dag_create(void)
 {
     nh_dag *dag = nh_alloc(sizeof *dag);
+    dag->worker = nh_parallel_worker();
     dag->bucket_count = 1 << 10;
     dag->bucket = nh_alloc_array(dag->bucket_count, sizeof *dag->bucket);
     dag->names = nh_arena_create();
     nh_int(dag, 0); /* index 0 is the number 0, index 1 the number 1 */
     nh_int(dag, 1);
     return dag;
+}
+
+static void *copied(const void *from, size_t count, size_t size)
+{
+    void *out = nh_alloc_array(count + 1, size);
+    if (count) memcpy(out, from, count * size);
+    return out;
+}
+
+nh_dag *nh_dag_copy(const nh_dag *dag)
+{
+    nh_dag *c = nh_alloc(sizeof *c);
+    *c = *dag;
+    c->worker = nh_parallel_worker();
+    c->node = copied(dag->node, c->node_capacity = dag->node_count, sizeof *c->node);
+    c->arg = copied(dag->arg, c->arg_capacity = dag->arg_count, sizeof *c->arg);
+    c->bucket = copied(dag->bucket, dag->bucket_count, sizeof *c->bucket);
+    c->name = copied(dag->name, c->name_capacity = dag->name_count, sizeof *c->name);
+    c->memo = copied(dag->memo, dag->memo_capacity, sizeof *c->memo);
+    c->simplified = copied(dag->simplified, dag->simplified_capacity, sizeof *c->simplified);
+    c->rule = copied(dag->rule, c->rule_capacity = dag->rule_count, sizeof *c->rule);
+    c->power = copied(dag->power, c->power_capacity = dag->power_count, sizeof *c->power);
+    c->names = nh_arena_create();
+    return c;
 }
 
 void nh_dag_free(nh_dag *dag)
@@ -77,7 +102,8 @@ static uint64_t mask_of(const nh_dag *dag, unsigned kind, size_t count, const ui
 
 nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg)
 {
-    if (NH_CHECKED && nh_frozen()) abort(); /* a mistake of the program, whatever the number of threads */
+    /* a mistake of the program, whatever the number of threads */
+    if (NH_CHECKED && dag->worker != nh_parallel_worker()) abort();
     nh_work_add(NH_WORK_NODE, 1);
     uint64_t hash = hash_of(kind, op, count, arg);
     for (uint32_t i = dag->bucket[hash & (dag->bucket_count - 1)]; i; i = dag->node[i - 1].next) {

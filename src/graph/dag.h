@@ -120,6 +120,10 @@ int64_t nh_gcd(int64_t a, int64_t b); /* not negative; the arguments are not INT
 
 /* A graph with the numbers 0 and 1; nh_dag_free frees it with all its nodes. */
 nh_dag *nh_dag_create(void);
+/* A graph with the same expressions under the same numbers, in which other ones can be made without a change of `dag`:
+ * so threads derive further expressions at the same time, each in a copy.  `dag` has to outlive it; the caller frees
+ * it. */
+nh_dag *nh_dag_copy(const nh_dag *dag);
 void nh_dag_free(nh_dag *dag);
 size_t nh_dag_size(const nh_dag *dag); /* number of nodes made so far; indices are below it */
 

@@ -52,6 +52,7 @@ struct nh_dag {
     size_t rule_count, rule_capacity;
     nh_power_rule *power;
     size_t power_count, power_capacity;
+    unsigned long worker; /* nh_parallel_worker() where it was made: expressions are made nowhere else */
 };
 
 /* The relation that a symbol satisfies, or NULL. */

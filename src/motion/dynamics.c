@@ -23,6 +23,7 @@ struct nh_dynamics {
     nh_tape *wall;       /* NULL: there are none */
     nh_tape_work *wall_work;
     double patience;
+    bool shares;         /* another nh_dynamics owns the tapes */
 };
 
 static void make_rates(nh_dynamics *d)
@@ -33,7 +34,7 @@ static void make_rates(nh_dynamics *d)
     memcpy(e + o->m, o->a, o->n * sizeof *e);
     d->rate = nh_model_tape(o, o->m + o->n, e);
     d->walls = nh_walls_between(o->dag, o->m + o->n, e, o->width, o->chart->symbol, wall);
-    if (d->walls) d->wall = nh_model_tape(o, d->walls, wall), d->wall_work = nh_tape_work_create(d->wall);
+    if (d->walls) d->wall = nh_model_tape(o, d->walls, wall);
     nh_free(e);
 }
 
@@ -85,9 +86,24 @@ static void watch_pivot(nh_dynamics *d)
             e[a * o->m + s] = nh_chart_compose(o->chart, nh_diff(o->dag, f, o->system->coordinate[s].v));
     }
     d->constraint = nh_model_tape(o, o->k * o->m, e);
-    d->constraint_work = nh_tape_work_create(d->constraint);
-    d->slope = nh_alloc_array(o->k * o->m + o->k * o->k, sizeof *d->slope);
     nh_free(e);
+}
+
+static nh_tape_work *work_of(const nh_tape *tape) { return tape ? nh_tape_work_create(tape) : NULL; }
+
+/* The memory for evaluating the tapes. */
+static void make_room(nh_dynamics *d)
+{
+    size_t m = d->m, n = d->n, k = d->model->k;
+    d->rate_work = work_of(d->rate);
+    d->jacobian_work = work_of(d->jacobian);
+    d->velocity_work = work_of(d->velocity);
+    d->constraint_work = work_of(d->constraint);
+    d->wall_work = work_of(d->wall);
+    d->slope = d->constraint ? nh_alloc_array(k * m + k * k, sizeof *d->slope) : NULL;
+    d->point = nh_alloc_array(d->width, sizeof *d->point);
+    d->out = nh_alloc_array(m * (1 + n) + 1, sizeof *d->out);
+    d->dense = nh_alloc_array(m * n + m + n + 1, sizeof *d->dense);
 }
 
 nh_dynamics *nh_dynamics_create(const nh_model *o)
@@ -97,13 +113,17 @@ nh_dynamics *nh_dynamics_create(const nh_model *o)
     make_rates(d);
     d->jacobian = nh_dynamics_differences(nh_tape_length(d->rate), d->size) ? NULL : jacobian_tape(o);
     d->velocity = velocity_tape(o);
-    d->rate_work = nh_tape_work_create(d->rate);
-    d->jacobian_work = d->jacobian ? nh_tape_work_create(d->jacobian) : NULL;
-    d->velocity_work = nh_tape_work_create(d->velocity);
-    d->point = nh_alloc_array(d->width, sizeof *d->point);
-    d->out = nh_alloc_array(d->m * (1 + d->n) + 1, sizeof *d->out);
-    d->dense = nh_alloc_array(d->m * d->n + d->m + d->n + 1, sizeof *d->dense);
     watch_pivot(d);
+    make_room(d);
+    return d;
+}
+
+nh_dynamics *nh_dynamics_share(const nh_dynamics *other)
+{
+    nh_dynamics *d = nh_alloc(sizeof *d);
+    *d = *other;
+    d->shares = true;
+    make_room(d);
     return d;
 }
 
@@ -114,16 +134,13 @@ void nh_dynamics_free(nh_dynamics *d)
     nh_tape_work_free(d->jacobian_work);
     nh_tape_work_free(d->velocity_work);
     nh_tape_work_free(d->constraint_work);
-    nh_tape_free(d->constraint);
     nh_tape_work_free(d->wall_work);
-    nh_tape_free(d->wall);
     nh_free(d->slope);
-    nh_tape_free(d->rate);
-    nh_tape_free(d->jacobian);
-    nh_tape_free(d->velocity);
     nh_free(d->point);
     nh_free(d->out);
     nh_free(d->dense);
+    nh_tape *const tape[] = {d->rate, d->jacobian, d->velocity, d->constraint, d->wall};
+    for (size_t i = 0; i < sizeof tape / sizeof *tape && !d->shares; i++) nh_tape_free(tape[i]);
     nh_free(d);
 }
 

@@ -17,6 +17,8 @@ typedef struct {
 typedef struct nh_dynamics nh_dynamics;
 /* Keeps the model, which has to outlive it.  The caller frees it. */
 nh_dynamics *nh_dynamics_create(const nh_model *model);
+/* Uses the programs of another one, which has to outlive it: for another thread.  The caller frees it. */
+nh_dynamics *nh_dynamics_share(const nh_dynamics *other);
 void nh_dynamics_free(nh_dynamics *dynamics);
 /* The problem for the integrators; its context is the nh_dynamics, which one thread uses at a time. */
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);

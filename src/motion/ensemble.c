@@ -28,6 +28,7 @@ typedef struct {
     const double *initial;
     nh_tableau tableau;
     nh_tape *values;
+    nh_dynamics *watched; /* of a chart whose pivot is watched; else NULL */
     bool *alone;
     long *evaluations; /* per batch */
     double begun, limit; /* units of effort of this thread; the limit may be INFINITY */
@@ -267,12 +268,11 @@ static void do_batch(size_t index, void *context)
     open_batch(&b, p, index);
     double *block = b.z, span = p->request->times[p->out->count - 1] - b.t;
     long steps = 0;
-    if (nh_dynamics_watched(p->request->model) && !p->out->scene->smooth) {
-        b.dynamics = nh_dynamics_create(p->request->model);
+    if (p->watched) {
+        b.dynamics = nh_dynamics_share(p->watched);
         for (size_t l = 0; l < lanes; l++) b.pivot[l] = 0;
         watch_pivots(&b);
     }
-    nh_turn_give(); /* its programs are compiled: what follows evaluates them */
     b.h = span / 1000;
     nh_flow_problem all = {.size = b.kept * lanes, .context = &b, .rate = rates_of_all};
     /* a member has no rates there, and will be left out */
@@ -310,12 +310,10 @@ typedef struct {
     loner *one;
 } loners;
 
-static void do_alone(size_t index, void *context)
+static void compute_alone(const plan *p, const nh_trajectory_request *request, loner *l)
 {
-    const plan *p = ((loners *)context)->p;
-    loner *l = &((loners *)context)->one[index];
     const nh_ensemble *e = p->out;
-    const nh_model *o = p->request->model;
+    const nh_model *o = request->model;
     if (nh_interrupted()) return unknown_from(p, l->member, 0);
     size_t each = e->count * e->n;
     double *z = nh_alloc_array(2 * o->m, sizeof *z), *v = z + o->m, *target = e->value + l->member * each;
@@ -324,7 +322,7 @@ static void do_alone(size_t index, void *context)
                        .size = o->m + o->n,
                        .time = (double *)p->request->times,
                        .state = (double *)p->initial + l->member * (o->m + o->n)};
-    nh_trajectory_request q = *p->request;
+    nh_trajectory_request q = *request;
     nh_state state = {.t = q.times[0], .q = z, .v = v};
     nh_error error;
     nh_error_clear(&error);
@@ -344,6 +342,14 @@ static void do_alone(size_t index, void *context)
     nh_free(z);
 }
 
+static void do_alone(size_t index, void *context)
+{
+    const loners *left = context;
+    nh_trajectory_own own = nh_trajectory_own_create(left->p->request);
+    compute_alone(left->p, &own.request, &left->one[1 + index]);
+    nh_trajectory_own_free(&own);
+}
+
 static void count_interrupted(nh_ensemble *e)
 {
     size_t each = e->count * e->n;
@@ -360,7 +366,9 @@ static void go_alone(plan *p, bool all, size_t threads)
     size_t n = 0;
     for (size_t i = 0; i < e->members; i++)
         if (all || p->alone[i]) left.one[n++].member = i;
-    nh_parallel_in_turns(n, threads, do_alone, &left);
+    /* the others find in their copies of the graph what this one derives */
+    if (n) compute_alone(p, p->request, left.one);
+    if (n > 1) nh_parallel(n - 1, threads, do_alone, &left);
     for (size_t i = 0; i < n; i++) {
         const loner *l = &left.one[i];
         e->alone += l->done;
@@ -379,8 +387,10 @@ static bool open_plan(plan *p, const nh_trajectory_request *q, nh_ensemble *e, c
         .request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e), .limit = INFINITY};
     p->evaluations = nh_alloc_array((e->members + lanes - 1) / lanes, sizeof *p->evaluations);
     p->alone = nh_alloc_array(e->members, sizeof *p->alone);
-    return !e->scene->implicit && !e->scene->walls && !q->impulses && e->scene->kept &&
-           /* members cross walls at different times */ nh_tableau_rk8pd(&p->tableau);
+    bool together = !e->scene->implicit && !e->scene->walls && !q->impulses && e->scene->kept &&
+                    /* members cross walls at different times */ nh_tableau_rk8pd(&p->tableau);
+    if (together && nh_dynamics_watched(q->model) && !e->scene->smooth) p->watched = nh_dynamics_create(q->model);
+    return together;
 }
 
 static void close_plan(plan *p)
@@ -388,6 +398,7 @@ static void close_plan(plan *p)
     nh_free(p->alone);
     nh_free(p->evaluations);
     nh_tape_free(p->values);
+    nh_dynamics_free(p->watched);
 }
 
 nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *q, size_t members, nh_error *error)
@@ -415,7 +426,7 @@ nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, 
     bool together = open_plan(&p, q, e, initial);
     double begin = nh_clock();
     size_t batches = (members + lanes - 1) / lanes;
-    if (together) nh_parallel_in_turns(batches, threads, do_batch, &p);
+    if (together) nh_parallel(batches, threads, do_batch, &p);
     for (size_t i = 0; i < batches; i++) e->evaluations += p.evaluations[i] * lanes;
     go_alone(&p, !together, threads);
     if (nh_interrupted()) count_interrupted(e);

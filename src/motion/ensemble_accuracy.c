@@ -43,6 +43,7 @@ typedef struct {
     loner *one;             /* per member */
     size_t *alone;          /* members to be computed alone */
     nh_ensemble *e;
+    bool scaled;            /* `floor` contains the terms of the first member */
 } search;
 
 static nh_ensemble *run(search *s, double tolerance, bool disturb, nh_error *error)
@@ -166,16 +167,18 @@ static void share_terms(search *s, const nh_trajectory_request *q, const nh_traj
     nh_accuracy_terms(q, t, terms);
     for (size_t j = 0; j < s->members; j++)
         for (size_t k = 0; k < q->n; k++) s->floor[j * q->n + k] = fmax(s->floor[j * q->n + k], terms[k]);
+    s->scaled = true;
     nh_free(terms);
 }
 
 /* ---- members alone ---- */
 
-/* By the method and at the tolerance that it needs, into its place; how it was computed into *a.  What a batch found
-   stays where this does not come to the end. */
-static void compute_alone(search *s, size_t member, const nh_integration_plans *ways, nh_accuracy *a)
+/* Computes a member by the method and at the tolerance that it needs, into its place; *a says how.  Where it does not
+ * reach the end but the batch did, the values of the batch stay. */
+static void compute_alone(search *s, const nh_trajectory_request *request, size_t member,
+                          const nh_integration_plans *ways, nh_accuracy *a)
 {
-    const nh_model *o = s->request->model;
+    const nh_model *o = request->model;
     nh_ensemble *e = s->e;
     loner *l = &s->one[member];
     size_t each = e->count * e->n;
@@ -183,17 +186,17 @@ static void compute_alone(search *s, size_t member, const nh_integration_plans *
     nh_dynamics *d = nh_dynamics_create(o);
     nh_motion start = {.count = 1,
                        .size = s->size,
-                       .time = (double *)s->request->times,
+                       .time = (double *)request->times,
                        .state = (double *)s->initial + member * s->size};
-    nh_state state = {.t = s->request->times[0], .q = z, .v = z + o->m};
-    nh_trajectory_request q = *s->request;
+    nh_state state = {.t = request->times[0], .q = z, .v = z + o->m};
+    nh_trajectory_request q = *request;
     nh_error error;
     nh_error_clear(&error);
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
     nh_trajectory *t =
         nh_along(d, &start, o->m, o->rho, z + o->m) ? nh_trajectory_accurate(&q, s->eps, ways, a, &error) : NULL;
-    if (member == 0) share_terms(s, &q, t);
+    if (!s->scaled) share_terms(s, &q, t);
     size_t reached = t ? t->motion->count : 0;
     bool before = arrived(e, member);
     for (size_t i = 0; i < each && (reached == e->count || !before); i++)
@@ -216,7 +219,10 @@ static void do_alone(size_t index, void *context)
     search *s = context;
     nh_accuracy a = {.held = false};
     nh_progress("members alone", (double)index / (double)s->members);
-    if (!s->one[s->alone[index]].done && !nh_interrupted()) compute_alone(s, s->alone[index], &s->ways, &a);
+    if (s->one[s->alone[index]].done || nh_interrupted()) return;
+    nh_trajectory_own own = nh_trajectory_own_create(s->request);
+    compute_alone(s, &own.request, s->alone[index], &s->ways, &a);
+    nh_trajectory_own_free(&own);
 }
 
 /* Computes `n` members of the list; then collects their results in the order of the list. */
@@ -225,7 +231,7 @@ static void go_alone(search *s, size_t n)
     nh_ensemble_accuracy *out = s->out;
     bool *before = nh_alloc_array(n + 1, sizeof *before);
     for (size_t i = 0; i < n; i++) before[i] = !s->one[s->alone[i]].done && arrived(s->e, s->alone[i]);
-    nh_parallel_in_turns(n, s->threads, do_alone, s);
+    nh_parallel(n, s->threads, do_alone, s);
     for (size_t i = 0; i < n; i++) {
         const loner *l = &s->one[s->alone[i]];
         if (!l->done) continue;
@@ -250,7 +256,7 @@ static double cost_alone(search *s, const nh_integration_plans *ways)
     nh_ensemble_accuracy *out = s->out;
     nh_integration_plans all = *ways;
     all.more = (double)(s->members - 1);
-    compute_alone(s, 0, &all, &a);
+    compute_alone(s, s->request, 0, &all, &a);
     if (!a.held || nh_interrupted()) return INFINITY;
     out->way = a.way;
     out->choice = a.choice;
@@ -260,7 +266,7 @@ static double cost_alone(search *s, const nh_integration_plans *ways)
     if (a.way.velocities == NH_OTHER_VELOCITIES && !s->own.other) s->own.other = ways->derive(ways->context, INFINITY);
     double begin = nh_effort();
     size_t n = s->members - 1 < samples ? s->members - 1 : samples;
-    for (size_t i = 1; i <= n && !nh_interrupted(); i++) compute_alone(s, i, &s->ways, &a);
+    for (size_t i = 1; i <= n && !nh_interrupted(); i++) compute_alone(s, s->request, i, &s->ways, &a);
     return n ? (nh_effort() - begin) / (double)n : a.effort;
 }
 

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "base/parallel.h"
 #include "graph/diff.h"
 
 typedef struct {
@@ -96,7 +95,6 @@ static size_t outputs(const nh_model *o, nh_program which, nh_ex *e)
 static void compile(nh_programs *s, nh_program which)
 {
     const nh_model *o = s->model;
-    bool taken = nh_turn_take();
     size_t count = outputs(o, which, NULL);
     nh_ex *e = nh_alloc_array(count + 1, sizeof *e);
     outputs(o, which, e);
@@ -106,7 +104,6 @@ static void compile(nh_programs *s, nh_program which)
     p->out = nh_alloc_array(count + 1, sizeof *p->out);
     s->compiled++;
     nh_free(e);
-    if (taken) nh_turn_give();
 }
 
 const double *nh_programs_at(nh_programs *s, nh_program which, double t, const double *z)

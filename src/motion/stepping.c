@@ -38,7 +38,7 @@ static void tell(const nh_motion *motion, size_t count, const double *times)
 {
     enum { steps_between_words = 2048 };
     double span = times[count - 1] - times[0];
-    if (motion->steps > 0 && motion->steps % steps_between_words == 0 && span != 0 && !nh_in_turns())
+    if (motion->steps > 0 && motion->steps % steps_between_words == 0 && span != 0 && !nh_parallel_worker())
         nh_progress("a motion", (motion->end_time - times[0]) / span);
 }
 
@@ -165,7 +165,6 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
     bool stop = false;
     double singular = NAN;
     nh_step step = NH_STEP_ON;
-    bool given = nh_turn_give(); /* steps evaluate tapes, and touch no expressions */
     double mark = motion->end_time, least = least_advance * fabs(times[count - 1] - times[0]);
     for (int stuck = 0, slow = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, before);) {
         double time = motion->end_time;
@@ -195,7 +194,6 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
     if (!stop && !isnan(singular)) end_at_singular(motion, count, times, singular, &w, stepper);
     if (!stop && motion->steps > 0) keep_end_state(motion, work, stepper);
     end_watching(&w, motion);
-    if (given) nh_turn_take();
     motion->complete = motion->count == count || motion->stopped;
     nh_free(work);
     motion->seconds = nh_clock() - begin;

@@ -61,7 +61,15 @@ typedef struct {
  * threads can compute motions of the same models at the same time.  It borrows the rest of the request, and must be
  * freed after all that was computed by it. */
 typedef struct {
-    nh_motion *motion;        /* in (q, w), in (q, v), or in the kept states of the scene */
+    nh_trajectory_request request;
+    nh_dag *dag;
+    nh_model *model, *other; /* other: NULL where the request has none */
+} nh_trajectory_own;
+nh_trajectory_own nh_trajectory_own_create(const nh_trajectory_request *request);
+void nh_trajectory_own_free(nh_trajectory_own *own);
+
+typedef struct {
+    nh_motion *motion;        /* states (q, w), (q, v), or the kept states of the subsystem */
     const char *method, *formulation;
     double *value;            /* count x n, row by row: value[i * n + k] */
     double *event_value;      /* the same at the events: motion->events x n */
