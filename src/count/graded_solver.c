@@ -78,8 +78,7 @@ static void add_term(nh_graded_system *s, bool derivative, size_t index, const n
     nh_free(e);
 }
 
-/* w^i X_i^k d/dz_k,  X_0^k d/dz_k,  and the rates' monomials times d/dw^l */
-static void list_terms(nh_graded_system *s)
+void nh_graded_list_terms(nh_graded_system *s)
 {
     const nh_graded_problem *p = s->p;
     size_t n = p->n, m = s->r->variables, e = s->r->size, count = 1 + n + n * (n + 1) / 2;
@@ -278,9 +277,7 @@ static size_t compress(nh_graded_system *s, nh_residue *out)
     return wanted;
 }
 
-/* The coefficients that are looked at later: all up to this weight, or at the end those of the first jets, unless all
-   are kept. */
-static size_t coefficients_left(const nh_graded_system *s, uint32_t *out)
+size_t nh_graded_coefficients_left(const nh_graded_system *s, uint32_t *out)
 {
     size_t last = s->r->first[s->k + 2], m = s->r->variables, count = 0;
     bool jets = is_last(s) && !s->p->keep;
@@ -300,11 +297,11 @@ static size_t coefficients_left(const nh_graded_system *s, uint32_t *out)
  * the pivots contribute.  Echelon form in the parameters, the latest first. */
 static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t rank, const size_t *pivots)
 {
-    size_t columns = s->reached, kept = 0, among = 0, left = coefficients_left(s, NULL),
+    size_t columns = s->reached, kept = 0, among = 0, left = nh_graded_coefficients_left(s, NULL),
            *from = nh_alloc_array(s->N + 1, sizeof *from);
     uint32_t *exponent = nh_alloc_array(left + 1, sizeof *exponent);
     bool *gone = nh_alloc_array(s->N + 1, sizeof *gone);
-    coefficients_left(s, exponent);
+    nh_graded_coefficients_left(s, exponent);
     for (size_t q = 0; q < rank; q++) gone[columns - 1 - pivots[q]] = true;
     for (size_t j = 0; j < s->N; j++) {
         if (!gone[j]) from[kept++] = j;
@@ -338,8 +335,8 @@ static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t ra
 /* Does the limit of work allow it? */
 static bool may_substitute(nh_graded_system *s, size_t rank)
 {
-    double work =
-        (double)s->alphas * (double)coefficients_left(s, NULL) * (double)rank * (double)(s->reached - rank + 1);
+    double left = (double)nh_graded_coefficients_left(s, NULL),
+           work = (double)s->alphas * left * (double)rank * (double)(s->reached - rank + 1);
     s->planned = fmax(s->planned, s->work + work);
     s->over |= s->planned > s->p->most_work;
     return !s->over;
@@ -379,7 +376,7 @@ static void use_conditions(nh_graded_system *s)
 
 /* ---- weight by weight ---- */
 
-static void solve_weight(nh_graded_system *s, nh_graded_count *out)
+void nh_graded_solve_weight(nh_graded_system *s, nh_graded_count *out)
 {
     s->before = s->N;
     equations(s);
@@ -398,7 +395,7 @@ static void solve_weight(nh_graded_system *s, nh_graded_count *out)
     nh_free(s->start);
 }
 
-static void start(nh_graded_system *s)
+void nh_graded_start(nh_graded_system *s)
 {
     const nh_graded_problem *p = s->p;
     int own = p->parity == NH_ALL_DEGREES ? -1 : p->parity == NH_ODD_DEGREES, other = own < 0 ? -1 : 1 - own;
@@ -408,7 +405,7 @@ static void start(nh_graded_system *s)
     s->betas = monomials(p->n, p->degree + 1, other, NULL);
     s->beta = nh_arena_alloc(s->arena, s->betas * p->n + 1);
     monomials(p->n, p->degree + 1, other, s->beta);
-    list_terms(s);
+    nh_graded_list_terms(s);
     for (size_t a = 0; a < s->alphas && !s->over; a++) nh_graded_parameter(s, a, 0);
 }
 
@@ -420,7 +417,7 @@ static void keep_series(nh_graded_system *s, nh_graded_count *out)
         memcpy(out->series + i * s->N, s->row + i * s->stride, s->N * sizeof *out->series);
 }
 
-static void substitute_all(nh_graded_system *s)
+void nh_graded_substitute_all(nh_graded_system *s)
 {
     if (!s->conditions || !may_substitute(s, s->conditions)) return;
     size_t *pivot = nh_alloc_array(s->conditions, sizeof *pivot);
@@ -436,12 +433,11 @@ static void substitute_all(nh_graded_system *s)
     s->conditions = 0;
 }
 
-/* What is left of the conditions is used, and the first jets of the solutions are kept, or all of them. */
-static void finish(nh_graded_system *s, nh_graded_count *out)
+void nh_graded_finish(nh_graded_system *s, nh_graded_count *out)
 {
     size_t m = s->r->variables;
     s->k = out->order ? out->order - 1 : 0;
-    substitute_all(s);
+    nh_graded_substitute_all(s);
     if (s->over) return;
     out->alphas = s->alphas;
     uint8_t *alpha = nh_arena_alloc(out->arena, s->alphas * s->p->n + 1);
@@ -455,146 +451,4 @@ static void finish(nh_graded_system *s, nh_graded_count *out)
                 memcpy(out->jet + (a * (1 + m) + k) * s->N, nh_graded_row(s, a, e), s->N * sizeof *out->jet);
         }
     if (s->p->keep) keep_series(s, out);
-}
-
-/* ---- from one order to the next ---- */
-
-struct nh_graded_state {
-    nh_graded_system s;
-    size_t order, size, *total, injective_at, most; /* of what was solved; size: of its ring, which is gone */
-    bool injective;
-};
-
-static void system_clear(nh_graded_system *s)
-{
-    nh_free(s->symbol);
-    nh_free(s->condition);
-    nh_free(s->row);
-    nh_arena_free(s->arena);
-}
-
-void nh_graded_state_free(nh_graded_state *state)
-{
-    if (!state) return;
-    system_clear(&state->s);
-    nh_free(state->total);
-    nh_free(state);
-}
-
-/* What finish() changes, which is not what the next weight starts from: the coefficients of the first jets and the
-   numbers. */
-typedef struct {
-    size_t N, conditions, count;
-    double work;
-    uint32_t *exponent;
-    nh_residue *row;
-} saved;
-
-static saved save(nh_graded_system *s)
-{
-    saved kept = {.N = s->N, .conditions = s->conditions, .work = s->work};
-    s->k = s->r->order - 1;
-    kept.count = coefficients_left(s, NULL);
-    kept.exponent = nh_alloc_array(kept.count + 1, sizeof *kept.exponent);
-    kept.row = nh_alloc_array(s->alphas * kept.count * s->N + 1, sizeof *kept.row);
-    coefficients_left(s, kept.exponent);
-    for (size_t i = 0; i < s->alphas * kept.count; i++)
-        memcpy(kept.row + i * s->N, nh_graded_row(s, i / kept.count, kept.exponent[i % kept.count]),
-               s->N * sizeof *kept.row);
-    return kept;
-}
-
-static void restore(nh_graded_system *s, saved *kept)
-{
-    s->N = kept->N;
-    s->conditions = kept->conditions;
-    s->work = kept->work;
-    for (size_t i = 0; i < s->alphas * kept->count; i++)
-        memcpy(nh_graded_row(s, i / kept->count, kept->exponent[i % kept->count]), kept->row + i * s->N,
-               s->N * sizeof *kept->row);
-    nh_free(kept->row);
-    nh_free(kept->exponent);
-}
-
-/* The coefficients of the longer series, those of higher weights zero.  What the last weight left to finish() is
-   substituted now, as it is in a long series. */
-static void lengthen(nh_graded_state *state, const nh_graded_problem *p)
-{
-    nh_graded_system *s = &state->s;
-    size_t old = state->size, size = p->ring->size;
-    nh_residue *row = nh_alloc_array(s->alphas * size * s->stride, sizeof *row);
-    for (size_t a = 0; a < s->alphas; a++)
-        memcpy(row + a * size * s->stride, s->row + a * old * s->stride, old * s->stride * sizeof *row);
-    nh_free(s->row);
-    s->row = row;
-    s->p = p;
-    s->r = p->ring;
-    s->terms = 0;
-    list_terms(s);
-    s->over |= s->planned > p->most_work || s->work >= p->most_work;
-    s->k = state->order - 1;
-    if (!s->over && 4 * (s->N - s->conditions) <= s->N) substitute_all(s);
-}
-
-/* The system at its first weight, or at the first that was not solved yet. */
-static nh_graded_state *open_state(const nh_graded_problem *p, nh_graded_state *old, nh_graded_count *out)
-{
-    if (old && (p->keep || old->order == 0 || old->order >= p->ring->order)) {
-        nh_graded_state_free(old);
-        old = NULL;
-    }
-    nh_graded_state *state = old ? old : nh_alloc(sizeof *state);
-    if (old) {
-        lengthen(state, p);
-        memcpy(out->total, state->total, (state->order + 1) * sizeof *out->total);
-        out->injective = state->injective;
-        out->injective_at = state->injective_at;
-        out->most = state->most;
-        return state;
-    }
-    state->s = (nh_graded_system){.p = p, .r = p->ring, .f = p->ring->field, .arena = nh_arena_create()};
-    start(&state->s);
-    out->total[0] = out->most = state->s.N;
-    return state;
-}
-
-nh_graded_count *nh_graded_continue(const nh_graded_problem *p, nh_graded_state **kept)
-{
-    nh_arena *arena = nh_arena_create();
-    nh_graded_count *out = nh_arena_alloc(arena, sizeof *out);
-    *out = (nh_graded_count){.order = p->ring->order, .arena = arena};
-    out->total = nh_arena_alloc(arena, (out->order + 1) * sizeof *out->total);
-    nh_graded_state *state = open_state(p, kept ? *kept : NULL, out);
-    nh_graded_system *s = &state->s;
-    out->unknowns = s->alphas * s->r->size;
-    for (s->k = state->order; s->k < out->order && !s->over; s->k++) solve_weight(s, out);
-    saved before = {0};
-    bool again = kept && !p->keep && !s->over && out->order > 0;
-    if (again) before = save(s);
-    if (!s->over) finish(s, out);
-    out->solved = !s->over;
-    out->work = s->work;
-    if (again) restore(s, &before);
-    if (kept) *kept = again ? state : NULL;
-    if (!again) {
-        nh_graded_state_free(state);
-        return out;
-    }
-    s->over = false; /* of the limits of this order: those of the next are looked at then */
-    state->order = out->order;
-    state->size = s->r->size;
-    nh_free(state->total);
-    state->total = nh_alloc_array(out->order + 1, sizeof *state->total);
-    memcpy(state->total, out->total, (out->order + 1) * sizeof *state->total);
-    state->injective = out->injective;
-    state->injective_at = out->injective_at;
-    state->most = out->most;
-    return out;
-}
-
-nh_graded_count *nh_graded_solve(const nh_graded_problem *p) { return nh_graded_continue(p, NULL); }
-
-void nh_graded_count_clear(nh_graded_count *count)
-{
-    if (count) nh_arena_free(count->arena);
 }

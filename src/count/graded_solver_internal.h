@@ -49,4 +49,23 @@ void nh_graded_parameter(nh_graded_system *system, size_t alpha, size_t exponent
  * becomes a condition on earlier parameters. */
 void nh_graded_solve_symbol(nh_graded_system *system);
 
+/* The monomials of Phi and of Gamma(Phi), the terms of Gamma; every c_alpha(0) is a parameter. */
+void nh_graded_start(nh_graded_system *system);
+/* w^i X_i^k d/dz_k,  X_0^k d/dz_k,  and the rates' monomials times d/dw^l, with the series of the ring. */
+void nh_graded_list_terms(nh_graded_system *system);
+
+/* The equations of weight s->k solved, and the conditions that come from them used or kept; out: N, whether the symbol
+   was injective. */
+void nh_graded_solve_weight(nh_graded_system *system, nh_graded_count *out);
+
+/* The coefficients that are needed after weight s->k: all up to this weight, or at the end those of the first jets,
+ * unless all are kept.  Returns their number, and writes their exponents to out unless that is NULL. */
+size_t nh_graded_coefficients_left(const nh_graded_system *system, uint32_t *out);
+
+/* The conditions that are kept are used, if the work allows it. */
+void nh_graded_substitute_all(nh_graded_system *system);
+
+/* Uses the remaining conditions, and copies the first jets of the solutions, or all of their coefficients, to out. */
+void nh_graded_finish(nh_graded_system *system, nh_graded_count *out);
+
 #endif
