@@ -1,4 +1,5 @@
-/* stresses: the robustness maps that a system file names, of where motions of this system are hard to compute. */
+/* robustness_maps: the robustness maps that a system file names: planes of initial values or parameters in which
+ * motions may be hard to compute. */
 #include <stdlib.h>
 #include <string.h>
 
