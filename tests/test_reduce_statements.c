@@ -109,7 +109,7 @@ Test(reduce_statements, stages_that_do_not_follow_each_other)
     told t = tell_file("systems/crane.yaml", 0, NULL);
     SAYS(TEXT(t), "\nStage 2: second stage, by SO(2)");
     SAYS(TEXT(t), "\nStage 3, in one step instead of stages 1 and 2: ");
-    SAYS(PAGE(t), "8 coordinates, 4 constraints; reduced to 4, then to 3; in one step to 2.");
+    SAYS(PAGE(t), "8 coordinates, 4 constraints; reduced to 4 shape coordinates, then to 3; in one step to 2.");
     nh_text code;
     nh_text_init(&code);
     nh_reduction_latex(t.r, &code);
@@ -127,10 +127,10 @@ Test(reduce_statements, momenta_without_a_closed_form)
     sweep_plain_only();
     told t = tell_file("systems/euler_disk.yaml", 0, NULL);
     cr_assert_eq(t.r->momenta.count, 0);
-    SAYS(TEXT(t), "The 2 of stage 2, linear in the velocities, are conserved; no momentum of the group has a closed form");
-    IS_SILENT(TEXT(t), "No momentum of the group is conserved");
-    SAYS(PAGE(t), "The 2 of stage 2, linear in the velocities, are conserved");
-    IS_SILENT(PAGE(t), "No momentum of the group is conserved");
+    SAYS(TEXT(t), "The 2 currents of stage 2 that are linear in the velocities are conserved; the search found no momentum of the group in closed form");
+    IS_SILENT(TEXT(t), "no conserved momentum of the group");
+    SAYS(PAGE(t), "The 2 currents of stage 2 that are linear in the velocities are conserved");
+    IS_SILENT(PAGE(t), "no conserved momentum of the group");
     done(&t);
 }
 

@@ -405,7 +405,7 @@ Test(scene, an_initial_position_astray)
         nh_simulation *s = nh_simulation_create(&q, &error);
         remove(path);
         must(s != NULL, &error, initial);
-        cr_expect_eq(s->astray != NULL, i % 2 == 1, "l = %g, %s", l, initial);
+        cr_expect_eq(s->violation != NULL, i % 2 == 1, "l = %g, %s", l, initial);
         nh_simulation_free(s);
     }
 }

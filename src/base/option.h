@@ -28,7 +28,7 @@
     X(trivial,          1e-11,   0,      1,     real,  "",         "a column that varies by less than this part of its size is constant")    \
     X(split,            1e-4,    0,      1,     real,  "",         "pencil eigenvalues below this are split Jordan blocks at zero")          \
     X(heldout,          1e-8,    0,      1,     real,  "",         "largest relative residual of a current on points not used in the fit")   \
-    X(slow,             1e-2,    0,      1e6,   real,  "",         "almost conserved: what changes by less than this part of its variation in a unit of time") \
+    X(slow,             1e-2,    0,      1e6,   real,  "",         "a function that changes by less than this part of its variation in a unit of time is almost conserved") \
     X(support,          3e-7,    0,      1,     real,  "",         "coefficients below this part of the largest are tried as zero")          \
     X(sure,             1e-2,    0,      1,     real,  "",         "gradient fraction above which a current is independent")                 \
     X(doubt,            1e-6,    0,      1,     real,  "",         "gradient fraction below which a current is dependent")                   \
@@ -39,7 +39,7 @@
     X(bits,             256,     64,     4096,  whole, "bits",     "working precision of ball arithmetic")                                   \
     X(digits,           50,      10,     1000,  whole, "digits",   "digits to which a residual must vanish to be certified")                 \
     X(proof_terms,      20000,   100,    1e7,   whole, "terms",    "largest polynomial that an exact proof may use; five times as large for what balls certify") \
-    X(named,            1,      0,      1,     whole, "",         "coefficients without elementary form: 1, named functions (Legendre, Gauss, Bessel, ..) are tried before a series; 0, they are not") \
+    X(named,            1,      0,      1,     whole, "",         "coefficients without elementary form: 1: named functions (Legendre, Gauss, Bessel, ..) are tried before a series; 0: they are not") \
     X(series_degree,    256,     8,      4096,  whole, "",         "largest degree of a Chebyshev series of a coefficient without closed form; where it needs more, its interval is shorter") \
     X(degree,           0,       0,      12,    whole, "",         "integrals polynomial in the velocities are counted up to this degree; 0: 6 for two coordinates, 4 up to four, 2 for more") \
     X(count_work,       2e8,     0,      1e15,  real,  "products", "of residues that one count may take; where a bound still falls, five times as many; for --degree, ten times") \
@@ -59,14 +59,14 @@
     X(absolute,         1e-3,    0,      1e6,   real,  "",         "part of a state's largest size so far below which errors are absolute; benchmark: the size")       \
     X(drift,            100,     1,      1e6,   real,  "tolerance", "a current that drifts by more tolerances must drift less at smaller ones")               \
     X(steps,            2e5,     10,     1e9,   whole, "steps",    "a motion that needs more steps than this ends with a message")           \
-    X(fixed_steps,      10,      1,      1e6,   whole, "steps",    "simulate --method: of a method with fixed steps, from one output to the next") \
+    X(fixed_steps,      10,      1,      1e6,   whole, "steps",    "simulate --method: steps of a method with a fixed step between two outputs") \
     X(group,            1e-7,   0,      1,     real,  "",         "equations of a symmetry group, scaled to size one: what is below this vanishes") \
     X(transversal,      5e-3,   0,      1,     real,  "",         "a group is divided out by Chaplygin reduction when its orbits stay so far from the distribution") \
     X(cluster,          2e-3,   0,      1,     real,  "",         "eigenvalues nearer than this part of the largest belong to one ideal of an algebra") \
     X(transport,        1e-11,  1e-14,  1e-4,  real,  "",         "tolerance to which 1-jets of symmetries are transported")             \
-    X(transport_steps,  4000,   1,      1e9,   whole, "steps",    "of the transport of 1-jets, in all")                                    \
+    X(transport_steps,  4000,   1,      1e9,   whole, "steps",    "largest number of steps of the transport of 1-jets")                                    \
     X(jets,             240,     1,      1e5,   whole, "unknowns", "reduce: m coordinates give m (m + 1)/2 unknowns of local symmetries of the metric; more are not solved for") \
-    X(ideals,           24,      1,      1000,  whole, "dimensions", "reduce: a larger Lie algebra is not taken apart into ideals")           \
+    X(ideals,           24,      1,      1000,  whole, "dimensions", "reduce: a larger Lie algebra is not decomposed into ideals")           \
     X(compile,          1,       0,      1e6,   real,  "",         "a motion's equations are compiled once interpreting them needed so many times the counted work of compiling; 0: never") \
     X(robustness_tolerance, 1e-8, 1e-14, 1e-2, real, "",         "of the motions of benchmark --robustness")                                  \
     X(robustness_error, 1e-4,    1e-12,  1,     real,  "",         "an error up to this is accurate in benchmark --robustness")              \

@@ -109,7 +109,8 @@ bool nh_late(void)
            nh_clock_limit_reached(c->time_limit);
 }
 
-bool nh_limit_reached(void)
+/* Was it ended by a limit? */
+static bool limit_reached(void)
 {
     nh_context *c = nh_context_here();
     return atomic_load(&c->reached) && !atomic_load(&c->interrupted);
@@ -128,7 +129,7 @@ void nh_ended_words(char *out, size_t size)
 
 const char *nh_ended_option(void)
 {
-    if (!nh_limit_reached()) return NULL;
+    if (!limit_reached()) return NULL;
     return atomic_load(&nh_context_here()->filled) ? "--max-memory" : "--max-seconds";
 }
 

@@ -38,10 +38,8 @@ double nh_limit_memory(void);
 void nh_limit_pass(void);
 /* Was the computation ended, by a signal or a limit? */
 bool nh_interrupted(void);
-/* Ended by a limit. */
-bool nh_limit_reached(void);
-/* Of an ended computation: its exit code, "interrupted" or "the time limit of 1 s was reached", and the option that
-   raises the limit, or NULL. */
+/* For a computation that was ended: its exit code; "interrupted" or "the time limit of 1 s was reached"; the option
+ * that raises the limit, or NULL. */
 nh_code nh_ended_code(void);
 void nh_ended_words(char *out, size_t size);
 const char *nh_ended_option(void);

@@ -67,7 +67,7 @@ static bool ending_fits(const destination *to, nh_error *error)
     const char *dot = strrchr(to->path, '.');
     for (size_t i = 0; dot && i < sizeof ending / sizeof *ending; i++) {
         if (strcasecmp(dot + 1, ending[i][0]) || !strcmp(ending[i][0], to->option)) continue;
-        nh_fail(error, NH_USAGE, "", "--%s does not write what `%s` is the name of", to->option, to->path);
+        nh_fail(error, NH_USAGE, "", "--%s does not write files of this kind: `%s`", to->option, to->path);
         if (!strcmp(ending[i][1], to->option)) return nh_error_hint(error, "pictures are .svg or .pdf");
         return nh_error_hint(error, "did you mean --%s %s?", ending[i][1], to->path);
     }

@@ -50,7 +50,7 @@ static void prefer(nh_benchmark_work *c, double agreement, const double *states,
                    const char *second)
 {
     if (!(agreement < c->out->agreement)) return;
-    memcpy(c->yard.state, states, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *states);
+    memcpy(c->solution.state, states, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *states);
     c->out->agreement = agreement;
     c->out->reference = reference;
     c->out->second = second;
@@ -58,11 +58,11 @@ static void prefer(nh_benchmark_work *c, double agreement, const double *states,
 
 static double agreement_of(nh_benchmark_work *c, double *states, const double *other)
 {
-    double *before = c->yard.state;
-    c->yard.state = states;
-    nh_reference_solution_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
-    double agreement = nh_reference_solution_error(&c->yard, NH_BENCHMARK_OUTPUTS, other);
-    c->yard.state = before;
+    double *before = c->solution.state;
+    c->solution.state = states;
+    nh_reference_solution_scales(&c->solution, c->out->arena, c->formulation[0].scale[0]);
+    double agreement = nh_reference_solution_error(&c->solution, NH_BENCHMARK_OUTPUTS, other);
+    c->solution.state = before;
     return agreement;
 }
 
@@ -83,8 +83,8 @@ static bool try_pair(nh_benchmark_work *c, const pair *p, size_t f, double *stat
     if (states_of(c, f, p->second, p->second_tolerance, other))
         prefer(c, agreement_of(c, states, other), states, name,
                nh_arena_printf(arena, "%s at %.0e", p->second, p->second_tolerance));
-    /* where the second does not agree, a closed form may */
-    for (size_t k = 0; k < c->closeds && !(c->out->agreement < c->options.benchmark_trusted); k++)
+    /* where the two methods disagree, a closed form may take the place of the second */
+    for (size_t k = 0; k < c->closed_count && !(c->out->agreement < c->options.benchmark_trusted); k++)
         if (c->closed[k].whole)
             prefer(c, nh_closed_off(c, &c->closed[k], states, &ignored), states, name,
                    nh_arena_printf(arena, "closed form \"%s\"", c->closed[k].motion->name));
@@ -111,7 +111,7 @@ bool nh_benchmark_work_reference(nh_benchmark_work *c, nh_error *error)
     nh_free(other);
     if (isfinite(c->out->agreement)) {
         nh_known_motions_use(c);
-        nh_reference_solution_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
+        nh_reference_solution_scales(&c->solution, c->out->arena, c->formulation[0].scale[0]);
         return true;
     }
     nh_fail(error, NH_NUMERIC, "", "no reference could be computed: the motion does not reach t = %g by two methods",
@@ -158,14 +158,15 @@ void nh_benchmark_work_refuse(nh_benchmark_work *c, const char *method, const ch
 /* The currents that a projection preserves; the others with the reason. */
 static void choose_currents(nh_benchmark_work *c)
 {
-    size_t n = c->yard.currents;
+    const nh_reference_solution *y = &c->solution;
+    size_t n = y->currents;
     const char **why = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *why);
     c->held = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *c->held);
-    nh_projection_choose(c->model, n, c->yard.current, c->yard.times[0], c->yard.times[NH_BENCHMARK_OUTPUTS - 1],
+    nh_projection_choose(c->model, n, y->current, y->times[0], y->times[NH_BENCHMARK_OUTPUTS - 1],
                          c->formulation[0].z0, why);
     for (size_t k = 0; k < n; k++) {
-        if (!why[k]) c->held[c->held_currents++] = c->yard.current[k];
-        else nh_benchmark_work_refuse(c, nh_arena_printf(c->out->arena, "projection onto %s", c->yard.name[k]), why[k]);
+        if (!why[k]) c->held[c->held_currents++] = y->current[k];
+        else nh_benchmark_work_refuse(c, nh_arena_printf(c->out->arena, "projection onto %s", y->name[k]), why[k]);
     }
 }
 
@@ -179,7 +180,7 @@ static void list_candidates(nh_benchmark_work *c)
     }
     const nh_method *projected = nh_method_find("GSL rk8pd");
     if (!wanted(c->out, projected)) return;
-    if (!c->yard.currents)
+    if (!c->solution.currents)
         nh_benchmark_work_refuse(c, "projection",
                                  "the energy is not conserved, and the file knows no current; `known:` may hold one "
                                  "that `nhsym analyze` finds");
@@ -321,22 +322,22 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
     c->model = out->question->model;
     c->initial.q[coordinate] += turn;
     if (turn != 0) c->project = true;
-    c->yard.model = c->model;
-    c->yard.state = nh_arena_alloc(arena, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *c->yard.state);
+    c->solution.model = c->model;
+    c->solution.state = nh_arena_alloc(arena, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *c->solution.state);
     out->begin = c->initial.t;
     for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++)
-        c->yard.times[i] = i + 1 == NH_BENCHMARK_OUTPUTS
+        c->solution.times[i] = i + 1 == NH_BENCHMARK_OUTPUTS
                                ? out->end
                                : out->begin + (out->end - out->begin) * (double)i / (NH_BENCHMARK_OUTPUTS - 1);
     if (!(fabs(out->end - out->begin) > 0))
         return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
     size_t known = c->model->system->currents;
-    const char **astray = nh_arena_alloc(arena, (known + 1) * sizeof *astray);
-    for (size_t i = nh_reference_solution_currents(&c->yard, arena, astray); i-- > 0;)
-        nh_benchmark_work_refuse(c, nh_arena_printf(arena, "the known current \"%s\"", astray[i]),
+    const char **varying = nh_arena_alloc(arena, (known + 1) * sizeof *varying);
+    for (size_t i = nh_reference_solution_currents(&c->solution, arena, varying); i-- > 0;)
+        nh_benchmark_work_refuse(c, nh_arena_printf(arena, "the known current \"%s\"", varying[i]),
                                  "it is not conserved with these parameters");
-    out->currents = c->yard.currents;
-    out->current = c->yard.name;
+    out->currents = c->solution.currents;
+    out->current = c->solution.name;
     if (!open_formulations(c, error)) return false;
     nh_known_motions_open(c);
     watch_charts(c);
@@ -358,14 +359,14 @@ void nh_benchmark_work_no_reference(nh_benchmark_work *c)
 {
     size_t m2 = 2 * c->model->m;
     const nh_formulation *all = &c->formulation[c->formulations - 1];
-    for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++) memcpy(c->yard.state + i * m2, all->z0, m2 * sizeof(double));
-    nh_reference_solution_scales(&c->yard, c->out->arena, c->absolute);
+    for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++) memcpy(c->solution.state + i * m2, all->z0, m2 * sizeof(double));
+    nh_reference_solution_scales(&c->solution, c->out->arena, c->absolute);
 }
 
 void nh_benchmark_work_close(nh_benchmark_work *c)
 {
     for (size_t f = 0; f < c->formulations; f++) nh_formulation_close(&c->formulation[f]);
-    nh_reference_solution_close(&c->yard);
+    nh_reference_solution_close(&c->solution);
     nh_reduction_free(c->reduction);
     nh_model_free(c->other);
 }

@@ -51,7 +51,7 @@ static void columns_of(const nh_ansatz *a, nh_ex *out)
 /* Which of the known currents are combinations of the columns. */
 static void find_known(fit *f)
 {
-    const nh_reference_solution *y = &f->c->yard;
+    const nh_reference_solution *y = &f->c->solution;
     size_t n = f->cheb->columns, rows = f->heldout->count;
     nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
     double *one = nh_alloc_array(n * n + 1, sizeof *one), unit = 1;

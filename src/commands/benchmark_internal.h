@@ -52,10 +52,10 @@ void nh_formulation_close(nh_formulation *f);
  * computed. */
 bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y);
 
-/* Known currents of the system file that are conserved, and the energy if it is.  The names of those that are not, as
-   many as it returns (room for all known ones). */
-size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena, const char **astray);
-/* After the reference states are there. */
+/* The currents that the system file knows and that are conserved, and the energy if it is.  Writes the names of those
+ * that are not conserved, and returns their number (room for all known ones). */
+size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena, const char **varying);
+/* The scales of the currents; called when the reference states are known. */
 void nh_reference_solution_scales(nh_reference_solution *y, nh_arena *arena, double least);
 void nh_reference_solution_close(nh_reference_solution *y);
 /* The largest error over the first `count` outputs, and the drift of each current. */
@@ -94,14 +94,14 @@ typedef struct {
     const nh_model *model;
     nh_model *other;
     nh_state initial;
-    nh_reference_solution yard;
+    nh_reference_solution solution;
     size_t formulations, candidates, refusals; /* refusals: room for so many */
     /* formulations; the reduced ones come last */
     nh_formulation formulation[NH_BENCHMARK_FORMULATIONS + NH_CHART_REDUCED];
     nh_reduction *reduction;
-    size_t closeds;
-    nh_known_motions *closed;      /* those that hold for this initial state, if they are true */
-    size_t held_currents;   /* those that a projection holds */
+    size_t closed_count;
+    nh_known_motions *closed;      /* those that apply to this initial state; true or not */
+    size_t held_currents;   /* currents that a projection preserves */
     nh_ex *held;
     nh_candidate_run candidate[NH_BENCHMARK_CANDIDATES];
     nh_run_record *grid; /* candidates x levels; method NULL: not run */

@@ -30,7 +30,7 @@ static nh_motion *integrate(nh_benchmark_work *c, const nh_candidate_run *k, dou
                            .effort = c->effort,
                            .cancelled = late,
                            .cancel_context = c};
-    const double *times = c->yard.times;
+    const double *times = c->solution.times;
     if (!k->method) {
         nh_chetaev_problem problem = nh_bordered_problem(f->bordered);
         problem.holds = k->index == 2;
@@ -74,7 +74,7 @@ static nh_run_record_status status_of(const nh_options *o, const nh_run_record *
 static void judge(nh_benchmark_work *c, const nh_candidate_run *k, nh_motion *motion, nh_run_record *m)
 {
     nh_formulation *f = &c->formulation[k->formulation];
-    size_t n = c->yard.currents;
+    size_t n = c->solution.currents;
     double *states = nh_alloc_array(NH_BENCHMARK_OUTPUTS * 2 * c->model->m, sizeof *states);
     m->drift = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *m->drift);
     m->evaluations = motion->evaluations;
@@ -82,10 +82,10 @@ static void judge(nh_benchmark_work *c, const nh_candidate_run *k, nh_motion *mo
     if (motion->complete && f->reduced) {
         m->error = nh_reduced_error(f, motion);
         for (size_t i = 0; i < n; i++)
-            m->drift[i] = c->yard.current[i] == c->model->E ? (m->worst_drift = nh_reduced_drift(f, motion)) : NAN;
+            m->drift[i] = c->solution.current[i] == c->model->E ? (m->worst_drift = nh_reduced_drift(f, motion)) : NAN;
     } else if (motion->complete && good) {
-        m->error = nh_reference_solution_error(&c->yard, motion->count, states);
-        nh_reference_solution_drifts(&c->yard, motion->count, states, m->drift);
+        m->error = nh_reference_solution_error(&c->solution, motion->count, states);
+        nh_reference_solution_drifts(&c->solution, motion->count, states, m->drift);
         m->worst_drift = n ? 0 : NAN;
         for (size_t i = 0; i < n; i++) m->worst_drift = fmax(m->worst_drift, m->drift[i]);
     }

@@ -70,7 +70,7 @@ static const char *own_reference(nh_benchmark_work *c, nh_formulation *f)
         nh_flow_options how = {
             .rtol = two[i].tolerance, .scale = f->scale, .max_steps = 1e6, .effort = 1e9 * c->budget / 4};
         nh_motion *motion = nh_method_flow(nh_method_find(two[i].method), &f->problem, f->z0, NH_BENCHMARK_OUTPUTS,
-                                           c->yard.times, &how, &ignored);
+                                           c->solution.times, &how, &ignored);
         bool good = motion && motion->complete;
         const char *why =
             good ? NULL

@@ -25,7 +25,7 @@ static bool at_the_start(const nh_benchmark_work *c, const nh_known_motion *k, d
     double *point = nh_alloc_array(o->chart->width + 1, sizeof *point);
     nh_error ignored;
     nh_error_clear(&ignored);
-    bool good = nh_dynamics_point(c->formulation[0].dynamics, c->yard.times[0], c->formulation[0].z0, point);
+    bool good = nh_dynamics_point(c->formulation[0].dynamics, c->solution.times[0], c->formulation[0].z0, point);
     for (size_t i = 0; i < n && good; i++)
         good = nh_analysis_file_to_chart(o, i < k->starts ? k->start[i].value : k->condition[i - k->starts], &e[i],
                                          &ignored);
@@ -59,7 +59,7 @@ static bool along(const nh_benchmark_work *c, const nh_known_motion *k, const do
     nh_tape *tape = nh_tape_create(o->dag, inputs, in, n, out, s->parameters, o->parameter, o->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++) {
-        x[0] = c->yard.times[i];
+        x[0] = c->solution.times[i];
         nh_tape_eval(tape, work, x, value);
         for (size_t j = 0, l = 0; j < m; j++) {
             if (!k->given[j]) continue;
@@ -89,14 +89,14 @@ void nh_known_motions_open(nh_benchmark_work *c)
     if (!good) nh_benchmark_work_refuse(c, "closed forms", error.what);
     for (size_t i = 0; i < count && good; i++) {
         const nh_known_motion *k = &known[i];
-        nh_known_motions *f = &c->closed[c->closeds];
+        nh_known_motions *f = &c->closed[c->closed_count];
         double *start = nh_alloc_array(k->starts + k->conditions + 1, sizeof *start);
         *f = (nh_known_motions){.motion = k,
                                 .state =
                                     nh_arena_alloc(arena, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *f->state),
                                 .whole = k->values == c->model->m};
         bool fitting = at_the_start(c, k, start);
-        if (fitting && along(c, k, start, f->state)) c->closeds++;
+        if (fitting && along(c, k, start, f->state)) c->closed_count++;
         else if (fitting)
             nh_benchmark_work_refuse(c, nh_arena_printf(arena, "closed form \"%s\"", k->name),
                                      "it has no value on the way");
@@ -109,13 +109,13 @@ void nh_known_motions_open(nh_benchmark_work *c)
 double nh_closed_off(nh_benchmark_work *c, const nh_known_motions *f, double *states, size_t *worst)
 {
     size_t m = c->model->m;
-    double *kept = c->yard.state, most = 0;
-    c->yard.state = states;
-    nh_reference_solution_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
-    c->yard.state = kept;
+    double *kept = c->solution.state, most = 0;
+    c->solution.state = states;
+    nh_reference_solution_scales(&c->solution, c->out->arena, c->formulation[0].scale[0]);
+    c->solution.state = kept;
     *worst = 0;
     for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS * 2 * m; i++) {
-        double off = f->motion->given[i % m] ? fabs(f->state[i] - states[i]) / c->yard.scale[i % (2 * m)] : 0;
+        double off = f->motion->given[i % m] ? fabs(f->state[i] - states[i]) / c->solution.scale[i % (2 * m)] : 0;
         if (!(off <= most)) most = isfinite(off) ? off : INFINITY, *worst = i;
     }
     return most;
@@ -147,24 +147,24 @@ static void refuse(nh_benchmark_work *c, const nh_known_motions *f, double off, 
     nh_benchmark_work_refuse(
         c, nh_arena_printf(c->out->arena, "closed form \"%s\"", f->motion->name),
         nh_arena_printf(c->out->arena, "it is not this motion: %s is off by %.0e at t = %g, where %s agree to %.0e",
-                        name, off, c->yard.times[worst / (2 * m)], methods, c->out->agreement));
+                        name, off, c->solution.times[worst / (2 * m)], methods, c->out->agreement));
 }
 
 void nh_known_motions_use(nh_benchmark_work *c)
 {
     size_t m = c->model->m;
     const char *methods = nh_arena_printf(c->out->arena, "%s and %s", c->out->reference, c->out->second);
-    for (size_t k = 0; k < c->closeds; k++) {
+    for (size_t k = 0; k < c->closed_count; k++) {
         const nh_known_motions *f = &c->closed[k];
         size_t worst;
-        double off = nh_closed_off(c, f, c->yard.state, &worst);
+        double off = nh_closed_off(c, f, c->solution.state, &worst);
         if (!(off <=
               fmax(fmin(c->options.benchmark_closed * c->out->agreement, c->options.benchmark_trusted), least_off))) {
             refuse(c, f, off, worst, methods);
             continue;
         }
         for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS * 2 * m; i++)
-            if (f->motion->given[i % m]) c->yard.state[i] = f->state[i];
+            if (f->motion->given[i % m]) c->solution.state[i] = f->state[i];
         if (f->whole) {
             c->out->second = c->out->reference;
             c->out->reference = nh_arena_printf(c->out->arena, "closed form \"%s\"", f->motion->name);

@@ -174,7 +174,7 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh
     s->unsure = nh_reduction_unsure(b);
     if (nh_stage_apart(s, &r->options))
         nh_reduction_warn(
-            r, "the reduced motion by %s differs by %.1e from the motion of reference, more than %d tolerances",
+            r, "the reduced motion by %s differs by %.1e from the reference motion, more than %d tolerances",
             s->group, s->agreement, NH_REDUCTION_ALLOWED);
 }
 

@@ -159,7 +159,7 @@ static bool same_current(const nh_model *o, nh_ex a, nh_ex b)
     return same;
 }
 
-size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena, const char **astray)
+size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena, const char **varying)
 {
     size_t others = 0;
     const nh_model *o = y->model;
@@ -175,7 +175,7 @@ size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena,
         if (k && !nh_analysis_file_to_chart(o, s->current[k - 1].value, &phi, &ignored)) continue;
         if (k && y->currents && y->current[0] == o->E && same_current(o, o->E, phi)) continue;
         if (!is_conserved(o, phi)) {
-            if (k) astray[others++] = s->current[k - 1].name;
+            if (k) varying[others++] = s->current[k - 1].name;
             continue;
         }
         if (!to_coordinates(o, 1, &phi, &e[y->currents])) continue;

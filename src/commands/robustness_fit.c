@@ -167,8 +167,8 @@ static double missing(const fit *f, const solved *s)
     for (size_t j = 0; j < n; j++) one[j + j * n] = 1;
     double *all = nh_span_values(f->model, f->heldout, n, s->e, n, one),
            *found = nh_span_values(f->model, f->heldout, n, s->e, s->space->dimension, s->space->vector);
-    for (size_t k = 0; k < f->plain->yard.currents && n < rows; k++) {
-        double *phi = nh_span_values(f->model, f->heldout, 1, &f->plain->yard.current[k], 1, &unit);
+    for (size_t k = 0; k < f->plain->solution.currents && n < rows; k++) {
+        double *phi = nh_span_values(f->model, f->heldout, 1, &f->plain->solution.current[k], 1, &unit);
         if (nh_span_distance(rows, n, all, 1, phi) < in_span)
             worst = fmax(isnan(worst) ? 0 : worst, nh_span_distance(rows, s->space->dimension, found, 1, phi));
         nh_free(phi);

@@ -244,10 +244,10 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     return true;
 }
 
-/* The distance of the initial position from where a constraint between positions holds, |f|/|df/dq|: its time
- * derivative, which is all that the equations of motion know, keeps f as it is.  f is zero beside its terms, or what a
- * part of each coordinate changes in it. */
-static const char *words_astray(const nh_simulation *s, const nh_state *at)
+/* The distance of the initial position from a constraint between positions, |f|/|df/dq|: the equations of motion
+ * contain only its time derivative, which keeps f constant. f counts as zero relative to its terms, or to its change by
+ * a small part of each coordinate. */
+static const char *words_violation(const nh_simulation *s, const nh_state *at)
 {
     static const double small = 1e-6;
     const nh_model *o = s->model;
@@ -290,7 +290,7 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
     s->arena = arena;
     s->table = q->table;
     if (nh_simulate_read(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
-    if (times) s->astray = words_astray(s, &initial);
+    if (times) s->violation = words_violation(s, &initial);
     if (times && choose_columns(s, q, error) && nh_simulate_events(s, q, error) &&
         integrate(s, q, &initial, count, times, error))
         return s;

@@ -69,9 +69,10 @@ struct nh_simulation {
     const char *scene;    /* the smallest model in words; NULL: all states were integrated */
     /* the initial state that was chosen where none was given, as after --initial; NULL: it was given */
     const char *begin;
-    /* the initial position violates a constraint between positions: which, and by how much; NULL */
-    const char *astray;
-    const char *idle;     /* parameters and bodies without influence on what is watched, in words; empty: all matter */
+    /* which constraint between positions the initial position violates, and by how much; NULL: none */
+    const char *violation;
+    /* parameters and bodies without influence on the observables, in words; empty: all of them have */
+    const char *idle;
     bool compared;        /* the whole model was integrated too, because the motion is short */
     /* the least times of both, and the largest difference of the observables, relative to their size along the
      * motion */

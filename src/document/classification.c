@@ -74,7 +74,7 @@ void nh_classification_almost_all(const nh_classified *x, size_t degree, const n
     nh_classification_amount(x, n->bound, out);
     nh_text_addf(out, "%s%s\n", x->of == NH_OF_CURRENTS ? " with the constant 1" : "",
                  all          ? ""
-                 : n->settled ? ", the same over several orders"
+                 : n->settled ? "; several orders give the same bound"
                               : ", perhaps fewer");
 }
 

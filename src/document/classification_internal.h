@@ -67,12 +67,8 @@ void nh_classification_picture(const nh_classified_plane *plane, nh_pen *pen);
 
 /* ---- JSON ---- */
 
-void nh_classification_put_number(nh_json *to, const char *key, const nh_classify_number *number);
-void nh_classification_put_head(const nh_classified *classified, nh_json *root);
-/* What is proved at a value or for almost all; "current" is null when it is longer than the option `written`. */
+/* The currents proved at a value or for almost all; "current" is null when it is longer than the option `written`. */
 void nh_classification_put_currents(const nh_analysis *result, size_t count, const size_t *index, nh_json *to);
-/* Per degree from 1 on: numbers at one value. */
-void nh_classification_put_here(nh_json *to, size_t rows, const nh_classify_number *number);
 
 /* ---- JSON of two and three parameters ---- */
 

@@ -13,7 +13,7 @@ static bool special(const nh_classify_value *v) { return v->first > 0 && !v->deg
 
 /* ---- parts shared with two and three parameters ---- */
 
-void nh_classification_put_number(nh_json *to, const char *key, const nh_classify_number *n)
+static void put_number(nh_json *to, const char *key, const nh_classify_number *n)
 {
     if (!n->bounded) {
         nh_json_put_null(to, key);
@@ -26,7 +26,7 @@ void nh_classification_put_number(nh_json *to, const char *key, const nh_classif
     nh_json_put_bool(item, "settled", n->settled);
 }
 
-void nh_classification_put_head(const nh_classified *x, nh_json *root)
+static void put_head(const nh_classified *x, nh_json *root)
 {
     nh_json_put_number(root, "schema", 1);
     nh_json_put_text(root, "version", NH_VERSION);
@@ -61,13 +61,14 @@ void nh_classification_put_currents(const nh_analysis *r, size_t count, const si
     }
 }
 
-void nh_classification_put_here(nh_json *to, size_t rows, const nh_classify_number *number)
+/* For each degree from 1 on: numbers at one value. */
+static void put_here(nh_json *to, size_t rows, const nh_classify_number *number)
 {
     nh_json *degrees = nh_json_put_array(to, "degrees");
     for (size_t d = 1; d <= rows; d++) {
         nh_json *row = nh_json_add_object(degrees);
         nh_json_put_number(row, "degree", (double)d);
-        nh_classification_put_number(row, "here", &number[d]);
+        put_number(row, "here", &number[d]);
     }
 }
 
@@ -77,7 +78,7 @@ nh_json *nh_classification_begin(const nh_classified *x, const char *obstacle, c
                                  const nh_plane_row *row)
 {
     nh_json *root = nh_json_object();
-    nh_classification_put_head(x, root);
+    put_head(x, root);
     nh_json_put_text(root, "obstacle", obstacle);
     nh_json_put_text(root, "ended_by", end);
     nh_json_put_number(root, "generic", rows ? (double)row[rows - 1].number.bound : NAN);
@@ -101,7 +102,7 @@ nh_json *nh_classification_add_degree(nh_json *list, size_t degree, const nh_pla
 {
     nh_json *item = nh_json_add_object(list);
     nh_json_put_number(item, "degree", (double)degree);
-    nh_classification_put_number(item, "almost_all", &row->number);
+    put_number(item, "almost_all", &row->number);
     nh_json_put_number(item, "known", (double)row->known);
     nh_json_put_bool(item, "exact", row->number.bound == row->known);
     nh_json_put_number(item, "unknowns", (double)row->unknowns);
@@ -117,7 +118,7 @@ void nh_classification_put_found(nh_json *item, size_t rows, size_t first, const
 {
     nh_json_put_number(item, "from_degree", (double)first);
     nh_json_put_number(item, "dimension", (double)number[rows].bound);
-    nh_classification_put_here(item, rows, number);
+    put_here(item, rows, number);
     nh_json_put_bool(item, "proved", proved);
     nh_json_put_text(item, "not_constructed_because", why);
 }
@@ -142,7 +143,7 @@ static void put_degrees(const nh_classified *x, nh_json *to)
         const nh_classify_row *row = &of(x)->row[d - 1];
         nh_json *item = nh_json_add_object(list);
         nh_json_put_number(item, "degree", (double)d);
-        nh_classification_put_number(item, "almost_all", &row->number);
+        put_number(item, "almost_all", &row->number);
         nh_json_put_number(item, "known", row->known == SIZE_MAX ? NAN : (double)row->known);
         nh_json_put_bool(item, "exact", exact(row));
         nh_json_put_number(item, "unknowns", (double)row->unknowns);
@@ -152,7 +153,7 @@ static void put_degrees(const nh_classified *x, nh_json *to)
         nh_json_put_number(item, "excluded_height", row->lifted ? row->height : NAN);
         nh_json_put_bool(item, "excluded_everywhere", row->theorem);
         nh_json_put_number(item, "primes_for_everywhere", row->bits > 0 ? (double)row->theorem_primes : NAN);
-        nh_classification_put_number(item, "infinity", &row->infinite);
+        put_number(item, "infinity", &row->infinite);
     }
 }
 
@@ -186,7 +187,7 @@ static void put_special(const nh_classified *x, size_t index, nh_json *list)
     nh_free(root);
     nh_json_put_number(item, "from_degree", (double)v->first);
     nh_json_put_number(item, "dimension", (double)v->number[of(x)->rows].bound);
-    nh_classification_put_here(item, of(x)->rows, v->number);
+    put_here(item, of(x)->rows, v->number);
     nh_json_put_bool(item, "proved", (at->result || at->shown) && at->complete >= v->first);
     nh_json_put_text(item, "shown", at->shown);
     nh_json_put_text(item, "not_constructed_because", at->why);
@@ -211,7 +212,7 @@ char *nh_classification_json(const nh_classified *x, const nh_run *run)
 {
     nh_json *root = nh_json_object();
     bool all = of(x)->rows == (x->question ? x->question->family.levels : x->degree);
-    nh_classification_put_head(x, root);
+    put_head(x, root);
     nh_json_put_text(root, "obstacle", of(x)->obstacle);
     nh_json_put_text(root, "ended_by", of(x)->end);
     nh_json_put_bool(root, "limit", of(x)->limit);

@@ -40,8 +40,6 @@ void nh_export_indent(nh_export_body *b, const char *indent);
 /* Writes the body of a function, between form->begin and form->end; returns whether the code has the sign function. */
 bool nh_export_put_body(const nh_export_form *form, const nh_export *x, const nh_export_function *f, const char *prefix,
                         const char *const *member, nh_text *out);
-/* Arguments whose symbols occur in the body are unpacked; is this one used at all? */
-bool nh_export_uses(const nh_export_function *f, nh_ex symbol);
 size_t nh_export_expressions(const nh_export_function *f, nh_arena *arena, nh_ex **out);
 
 /* The description of a function, each line after `before`: its purpose, the region of currents, the stage. */

@@ -47,7 +47,8 @@ void nh_html_source(nh_html_writer *w, const char *text)
     if (!nh_typeset_pieces(text, NH_MATHML, widest, write_piece, w)) nh_html_tagged(w, "code", text);
 }
 
-void nh_html_name(nh_html_writer *w, const char *name)
+/* The same for a name within the text. */
+static void write_name(nh_html_writer *w, const char *name)
 {
     nh_text formula;
     nh_text_init(&formula);
@@ -65,7 +66,7 @@ void nh_html_chart_name(nh_html_writer *w, const char *name)
     nh_html_add(w, "<span class=\"word\">(");
     for (bool first = true; nh_facts_next(&list, one, sizeof one); first = false) {
         nh_html_text(w, first ? "" : ", ");
-        nh_html_name(w, one);
+        write_name(w, one);
     }
     nh_html_add(w, ")</span>");
 }

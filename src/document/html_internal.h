@@ -36,9 +36,7 @@ void nh_html_number(nh_html_writer *w, double value, int digits);
 void nh_html_count(nh_html_writer *w, size_t value);
 /* A text of the expression language as a formula, broken where a line may end; as code when it is no formula. */
 void nh_html_source(nh_html_writer *w, const char *text);
-/* The same for a name within the text. */
-void nh_html_name(nh_html_writer *w, const char *name);
-/* Words with a list of names in parentheses at their end, such as a chart has: the names as formulas. */
+/* Words that end in a list of names in parentheses: the names as formulas. */
 void nh_html_chart_name(nh_html_writer *w, const char *name);
 /* label = e for formulas that belong together, with the user's abbreviations: repeated parts get a common name; or a
  * remark that one is too long for a page.  A label is "", a name, or MathML, which begins with <. */

@@ -12,13 +12,15 @@ static const char *words_of(nh_sheet *s, const nh_analysis *r)
     const nh_explicit_motion *m = r->motion;
     const char *fixed = m->fixed ? nh_fixed_text(r->model, m->fixed) : "";
     const char *rest = m->known < m->states ? " No closed form was found for the other states." : "";
-    const char *where = m->region ? nh_arena_printf(r->arena, "While a motion stays in one region (%s)", m->region)
-                                  : "Along every motion";
-    return nh_sheet_label(s, "%s, with $<%s>$ as the parameter; the numbers C are constant %s.%s%s%s%s%s%s", where,
+    const char *where = m->region ? nh_arena_printf(r->arena, "while a motion stays in one region (%s)", m->region)
+                                  : "along every motion";
+    return nh_sheet_label(s,
+                          "These formulas hold %s%s%s%s, with $<%s>$ as the parameter; the numbers C are constant "
+                          "%s.%s%s",
+                          where, *fixed ? ", for " : "", fixed,
+                          r->branch ? nh_arena_printf(r->arena, ", on the branch %s only", r->branch) : "",
                           nh_name_of(s->dag, m->state[m->parameter]), m->region ? "there" : "along motions",
-                          m->proved ? " Proved: these formulas satisfy the equations of motion." : "", rest,
-                          *fixed ? " For " : "", fixed, *fixed ? "." : "",
-                          r->branch ? nh_arena_printf(r->arena, " On the branch %s only.", r->branch) : "");
+                          m->proved ? " Proved: they satisfy the equations of motion." : "", rest);
 }
 
 static const char *name(nh_sheet *s, nh_ex symbol) { return nh_sheet_label(s, "<%s>", nh_name_of(s->dag, symbol)); }

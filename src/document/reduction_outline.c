@@ -75,7 +75,8 @@ static void algebra(nh_pen *p, const nh_reduction *r, const nh_group *g)
     nh_pen_fact(p, "Action", "%s, with orbits of dimension %zu", a->free ? "free" : "not free", a->orbit);
     if (!r->kinetic->affine || !r->kinetic->f) return;
     nh_pen_fact(p, "Constraints",
-                "the directions $V$ of the group and the allowed directions $D$ together %s; they have %zu in common%s",
+                "the directions $V$ of the group and the allowed directions $D$ together %s; their intersection has "
+                "dimension %zu%s",
                 a->dimension_assumption ? "span the tangent space" : "do not span the tangent space", a->intersection,
                 a->chaplygin ? ": a Chaplygin system" : "");
 }
@@ -256,12 +257,11 @@ static void no_momenta(nh_pen *p, const nh_reduction *r)
     size_t linear = nh_reduction_linear_stage(r), n = linear < r->stages ? r->stage[linear].linear.count : 0;
     if (n)
         nh_pen_words(p,
-                     "The %zu of stage %zu, linear in the velocities, %s; no momentum of the group has a closed form, "
-                     "among the sections of "
-                     "the search.",
-                     n, linear + 1, n == 1 ? "is conserved" : "are conserved");
+                     "The %zu current%s of stage %zu that %s linear in the velocities %s conserved; the search found "
+                     "no momentum of the group in closed form.",
+                     n, n == 1 ? "" : "s", linear + 1, n == 1 ? "is" : "are", n == 1 ? "is" : "are");
     else if (r->momenta.untried) nh_pen_words(p, "No search: the constraints are not solved for velocities.");
-    else nh_pen_words(p, "No momentum of the group is conserved, among the sections of the search.");
+    else nh_pen_words(p, "The search found no conserved momentum of the group.");
 }
 
 static void momenta(nh_pen *p, const nh_reduction *r)
@@ -292,8 +292,9 @@ static void reduces(nh_pen *p, const nh_reduction *r)
                r->kinetic->f == 1 ? "" : "s");
     for (size_t i = 0; i < r->stages; i++) {
         if (nh_reduction_on_levels(&r->stage[i])) continue;
-        nh_pen_say(p, any ? nh_reduction_instead(r, i) ? "; in one step to %zu" : ", then to %zu" : "; reduced to %zu",
-                   r->stage[i].shown->n);
+        size_t n = r->stage[i].shown->n;
+        if (any) nh_pen_say(p, nh_reduction_instead(r, i) ? "; in one step to %zu" : ", then to %zu", n);
+        else nh_pen_say(p, "; reduced to %zu shape coordinate%s", n, n == 1 ? "" : "s");
         any = true;
     }
     nh_pen_say(p, ".");

@@ -160,10 +160,9 @@ static void chain(const nh_reduction_stage *s, nh_pen *p)
         nh_pen_say(p, "}");
     }
     nh_pen_say(p,
-               " (numbers of the generators above); S of dimension %zu. Vertical and horizontal equations against the "
-               "true accelerations at %zu "
-               "places: in one stage %.2g, by stages %.2g; bracket by stages against the bracket %.2g, Euler-Poincare "
-               "right-hand side %.2g",
+               " (numbers of the generators above); S of dimension %zu. Checked at %zu places: the vertical and "
+               "horizontal equations differ from the true accelerations by %.2g in one stage and by %.2g by stages; "
+               "the bracket by stages differs from the bracket by %.2g, the Euler-Poincare right-hand side by %.2g",
                o->dimension, o->places, fmax(o->one_vertical, o->one_horizontal),
                fmax(o->stages_vertical, o->stages_horizontal), o->bracket, o->euler_poincare);
     nh_pen_close(p, NH_PEN_FACT);
@@ -197,9 +196,8 @@ static void numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *
     else nh_pen_say(p, "; %s drifts by %.2g", energy, s->energy_drift);
     if (s->kind == NH_STAGE_SECOND && s->momentum_drift >= 0)
         nh_pen_say(p, why ? "; the momentum drifts by %.2g" : ", the momentum by %.2g", s->momentum_drift);
-    if (s->charts)
-        nh_pen_say(p, "; the slice or the velocities change %zu time%s along the motion", s->charts,
-                   s->charts == 1 ? "" : "s");
+    if (s->charts == 1) nh_pen_say(p, "; the slice or the velocities change once along the motion");
+    else if (s->charts) nh_pen_say(p, "; the slice or the velocities change %zu times along the motion", s->charts);
     nh_pen_close(p, NH_PEN_FACT);
 }
 

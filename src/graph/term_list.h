@@ -18,11 +18,12 @@ typedef struct {
     size_t count, capacity;
 } nh_term_list;
 
-void nh_term_list_push(nh_term_list *bag, nh_term_list_item item);
-/* For qsort: equal expressions side by side. */
+/* Appends an item. */
+void nh_term_list_push(nh_term_list *list, nh_term_list_item item);
+/* A comparison for qsort that puts equal expressions side by side. */
 int nh_term_list_order(const void *a, const void *b);
-/* The node: NH_SUM or NH_PRODUCT; the items are in order, each expression once. */
-nh_ex nh_term_list_intern(nh_dag *dag, nh_kind kind, const nh_term_list *bag);
+/* The node of kind NH_SUM or NH_PRODUCT; the items are sorted, and each expression occurs once. */
+nh_ex nh_term_list_intern(nh_dag *dag, nh_kind kind, const nh_term_list *list);
 
 /* The product without its coefficient. */
 nh_ex nh_product_without_number(nh_dag *dag, nh_ex product);

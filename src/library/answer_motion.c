@@ -265,7 +265,7 @@ static void simulation_notes(const nh_answer *a, bool verbose, bool printed, nh_
 {
     const nh_simulation *s = a->part[0];
     if (s && printed) put_notes(a->request, s, verbose, out);
-    if (s && s->astray) nh_text_addf(out, "warning: %s\n", s->astray);
+    if (s && s->violation) nh_text_addf(out, "warning: %s\n", s->violation);
 }
 
 static int simulation_code(const nh_answer *a, nh_error *error)

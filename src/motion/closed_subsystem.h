@@ -41,12 +41,13 @@ typedef struct {
  * frees it. */
 nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *model, size_t n, const nh_ex *watched, size_t currents,
                                                 const nh_ex *current);
-void nh_closed_subsystem_free(nh_closed_subsystem *scene);
+void nh_closed_subsystem_free(nh_closed_subsystem *subsystem);
 
 /* The equations of the kept states, from z0 (m + n values) at time t.  Dropped states keep their initial values, and
  * currents the values that they have there.  The caller frees the result before the subsystem. */
 typedef struct nh_closed_subsystem_run nh_closed_subsystem_run;
-nh_closed_subsystem_run *nh_closed_subsystem_run_create(const nh_closed_subsystem *scene, double t, const double *z0);
+nh_closed_subsystem_run *nh_closed_subsystem_run_create(const nh_closed_subsystem *subsystem, double t,
+                                                        const double *z0);
 void nh_closed_subsystem_run_free(nh_closed_subsystem_run *run);
 /* As nh_dynamics_jit and nh_dynamics_words. */
 void nh_closed_subsystem_run_jit(nh_closed_subsystem_run *run, double patience);
@@ -61,10 +62,10 @@ nh_flow_problem nh_closed_subsystem_problem(nh_closed_subsystem_run *run, const 
 bool nh_closed_subsystem_point(nh_closed_subsystem_run *run, double t, const double *z, double *point);
 
 /* "2 of 5 states integrated (omega, v), phi and x by quadrature, y dropped; 5 of 8 instructions" */
-void nh_closed_subsystem_words(const nh_closed_subsystem *scene, nh_text *out);
+void nh_closed_subsystem_words(const nh_closed_subsystem *subsystem, nh_text *out);
 /* "the parameters jz3 and l2 have no influence, nor the body column"; empty when all matter. */
-void nh_closed_subsystem_idle_words(const nh_closed_subsystem *scene, nh_text *out);
+void nh_closed_subsystem_idle_words(const nh_closed_subsystem *subsystem, nh_text *out);
 /* The name of state i of (q, w). */
-const char *nh_closed_subsystem_state_name(const nh_closed_subsystem *scene, size_t i);
+const char *nh_closed_subsystem_state_name(const nh_closed_subsystem *subsystem, size_t i);
 
 #endif

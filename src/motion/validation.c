@@ -129,7 +129,6 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
         v->violation = full->violation;
-        v->multiplier_evaluations = full->motion->evaluations;
         compare(r, b, reduced, full, sizes);
         if (!full->motion->complete && (double)full->motion->steps >= options.max_steps)
             snprintf(v->note, sizeof v->note,

@@ -29,8 +29,7 @@ typedef struct {
     char note[400]; /* room for the note of a motion and the words before it */
     bool multiplier_form;      /* was the multiplier form integrated? */
     double state_difference, multiplier_difference, violation; /* relative to sizes along the motion */
-    long multiplier_evaluations;
-    /* was the motion computed once more by CVODE Adams, which shares nothing with an explicit pair? */
+    /* was the motion computed once more by CVODE Adams, which is independent of an explicit pair? */
     bool multistep;
     double multistep_difference; /* of its states, relative to sizes along the motion */
     double crossing;           /* first time at which another chart's pivot changes sign; NAN: never */

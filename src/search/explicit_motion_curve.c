@@ -32,7 +32,8 @@ nh_ex nh_explicit_along(const nh_explicit_curve *c, nh_ex e)
     return e;
 }
 
-nh_ex nh_explicit_in_states(const nh_explicit_curve *c, nh_ex e)
+/* In the states alone; integrals are 0. */
+static nh_ex in_states(const nh_explicit_curve *c, nh_ex e)
 {
     const nh_explicit_motion *m = c->m;
     nh_ex zero = nh_int(c->d, 0);
@@ -45,7 +46,7 @@ nh_ex nh_explicit_in_states(const nh_explicit_curve *c, nh_ex e)
 
 nh_ex nh_explicit_at_points(const nh_explicit_curve *c, nh_ex e)
 {
-    return nh_combined_coordinates_out(c->combined, c->d, nh_explicit_in_states(c, e));
+    return nh_combined_coordinates_out(c->combined, c->d, in_states(c, e));
 }
 
 bool nh_explicit_has_integral(const nh_explicit_curve *c, nh_ex e)
@@ -118,7 +119,7 @@ nh_ex nh_explicit_constant(nh_explicit_curve *c, nh_ex value, bool integrated)
 {
     nh_explicit_motion *m = c->m;
     bool at_start = nh_explicit_has_integral(c, value);
-    if (integrated) value = nh_explicit_simple(c, nh_explicit_in_states(c, value));
+    if (integrated) value = nh_explicit_simple(c, in_states(c, value));
     nh_ex symbol = nh_symbol_fresh(c->d, nh_arena_printf(c->arena, "C%zu", m->constants + 1));
     if (integrated) value = nh_explicit_split_roots(c, value);
     m->constant[m->constants++] = (nh_motion_constant){symbol, value, integrated, at_start};
@@ -194,7 +195,7 @@ static bool name_root(nh_explicit_curve *c, nh_ex Q, nh_ex state, bool constant,
     nh_diff_rule(d, symbol, c->s, nh_div(d, nh_diff(d, base, c->s), nh_mul(d, nh_int(d, 2), symbol)));
     c->radicand[m->roots] = plain;
     m->root[m->roots++] =
-        (nh_motion_root){symbol, base, nh_explicit_simple(c, nh_div(d, state, nh_explicit_in_states(c, factor)))};
+        (nh_motion_root){symbol, base, nh_explicit_simple(c, nh_div(d, state, in_states(c, factor)))};
     *out = nh_mul(d, factor, symbol);
     return true;
 }
@@ -236,7 +237,7 @@ static bool solve_quadratic(nh_explicit_curve *c, size_t u, const nh_ex k[3], nh
     bool solved = split_root_of(d, D, &outside, &inside) && nh_explicit_unknowns(c, inside, &last) == 0;
     if (solved) take_out_rate(c, constant, &outside, &inside);
     nh_ex state = nh_add(d, nh_product(d, 3, (nh_ex[]){two, k[2], c->m->state[u]}), k[1]);
-    solved = solved && name_root(c, inside, nh_explicit_in_states(c, nh_div(d, state, outside)), constant_root, &r);
+    solved = solved && name_root(c, inside, in_states(c, nh_div(d, state, outside)), constant_root, &r);
     if (!solved) {
         c->m->constants--;
         c->symbols--;

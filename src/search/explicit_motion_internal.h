@@ -35,9 +35,7 @@ nh_ex nh_explicit_simple(const nh_explicit_curve *c, nh_ex e);
 bool nh_explicit_too_long(const nh_explicit_curve *c, nh_ex e);
 /* With the solved states substituted. */
 nh_ex nh_explicit_along(const nh_explicit_curve *c, nh_ex e);
-/* In the states alone; integrals are 0. */
-nh_ex nh_explicit_in_states(const nh_explicit_curve *c, nh_ex e);
-/* The same without combined coordinates: what has a value at a point of the model. */
+/* In the states alone, without combined coordinates; integrals are 0: it has a value at a point of the model. */
 nh_ex nh_explicit_at_points(const nh_explicit_curve *c, nh_ex e);
 /* The same sign at all points?  0: no, or not known. */
 int nh_explicit_sign(void *curve, nh_ex e);
