@@ -87,6 +87,55 @@ static double measure(const task *t)
     return seconds;
 }
 
+typedef struct {
+    const char *system, *coordinates;
+    nh_count_question question;
+    double aim;
+} row;
+
+static const row ROW[] = {
+    {"henon_heiles", "x, y, t", {.time = true, .degree = 4}, 0.045},
+    {"henon_heiles", "x, y, t", {.time = true, .degree = 6}, 0.48},
+    {"routh_sphere", "all 5", {.degree = 2}, 0.025},
+    {"routh_sphere", "all 5", {.degree = 3}, 0.155},
+    {"routh_sphere", "all 5", {.degree = 4}, 2.1},
+    {"rolling_disk", "all 5", {.degree = 2}, 0.065},
+    {"rolling_disk", "all 5", {.degree = 3}, 1.05},
+    {"rolling_disk", "the inclination", {.shape = NH_CLOSED_SHAPE, .degree = 8}, 0.02},
+    {"kovalevskaya_top", "all 3", {.degree = 8}, 6.95},
+    {"kovalevskaya_top", "all but the precession", {.shape = NH_NOT_CYCLIC, .degree = 8}, 0.095},
+};
+enum { rows = sizeof ROW / sizeof *ROW };
+
+static void measure_row(const row *x)
+{
+    char path[256];
+    nh_error error = {0};
+    snprintf(path, sizeof path, "systems/%s.yaml", x->system);
+    nh_system *y = nh_system_read(path, 0, NULL, &error);
+    nh_chart *chart = y ? nh_chart_create(y, NH_CHART_AUTO, 1, &error) : NULL;
+    nh_model *o = chart ? nh_model_create(y, chart, &error) : NULL;
+    if (!o) {
+        fprintf(stderr, "%s\n", error.what);
+        return;
+    }
+    nh_count_question q = x->question;
+    q.alone = true;
+    q.work = 1e12;
+    double least = INFINITY;
+    size_t bound = 0, order = 0;
+    for (int run = 0; run < 3; run++) {
+        double start = nh_clock_of_thread();
+        nh_count c = nh_count_integrals(o, &q);
+        least = fmin(least, nh_clock_of_thread() - start);
+        bound = c.rows ? c.row[0].bound : 0;
+        order = c.rows ? c.row[0].order : 0;
+    }
+    printf("| %s | %s | %zu | %zu | %zu | %.4f | %.4f |\n", x->system, x->coordinates, q.degree, order, bound, least, x->aim);
+    fflush(stdout);
+    nh_model_free(o);
+}
+
 /* Between the two highest degrees, and from the fewest to the most coordinates at one degree. */
 static double exponent(double x0, double y0, double x1, double y1) { return log(y1 / y0) / log(x1 / x0); }
 
@@ -98,5 +147,7 @@ int main(void)
     printf("\nFitted growth with the degree: 2 coordinates d^%.1f (8 to 12), 3 coordinates d^%.1f (4 to 8), 4 coordinates d^%.1f (2 to 6); with the number m of coordinates: degree 2 m^%.1f (4 to 6), degree 4 m^%.1f (3 to 5).\n",
            exponent(8, seconds[0], 12, seconds[1]), exponent(4, seconds[2], 8, seconds[4]), exponent(2, seconds[5], 6, seconds[7]), exponent(4, seconds[5], 6, seconds[10]),
            exponent(3, seconds[2], 5, seconds[9]));
+    printf("\n| system | coefficients in | degree | order | at most | s | aim, s |\n|---|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < rows; i++) measure_row(&ROW[i]);
     return 0;
 }

@@ -30,7 +30,7 @@ static nh_analysis *ask(const char *text)
 /* f of word i at x, by Clenshaw's recurrence; 0 for a word that does not occur. */
 static double f_of(const nh_analysis *r, const nh_series *s, const char *word, double x)
 {
-    double u = (2 * x - s->low - s->high) / (s->high - s->low), b = 0, c = 0;
+    double u = (2 * x - s->low[0] - s->high[0]) / (s->high[0] - s->low[0]), b = 0, c = 0;
     for (size_t i = 0; i < s->words; i++) {
         char *name = nh_print_string(r->model->dag, s->word[i]);
         bool same = !strcmp(name, word);
@@ -101,7 +101,7 @@ static void two_on(const char *name, const char *const shape[3], double low, dou
     cr_expect_eq(r->almosts, 0, "%s on [%g, %g]: %zu almost conserved", name, low, high, r->almosts);
     for (size_t k = 0; k < r->count; k++) {
         const nh_series *s = r->found[k].series;
-        cr_expect(!s || (s->low <= low && s->high >= high), "%s: [%g, %g] of [%g, %g]", name, s->low, s->high, low,
+        cr_expect(!s || (s->low[0] <= low && s->high[0] >= high), "%s: [%g, %g] of [%g, %g]", name, s->low[0], s->high[0], low,
                   high);
     }
     nh_analysis_free(r);
@@ -152,7 +152,7 @@ Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120)
     cr_expect(r->independent == 3 && check_series(r, "disk") == 2, "%zu independent", r->independent);
     for (size_t k = 0; k < r->count; k++) {
         const nh_series *s = r->found[k].series;
-        cr_expect(!s || (s->low > 0 && s->low < 0.3 && s->high > 2.8 && s->high < M_PI), "[%g, %g]", s->low, s->high);
+        cr_expect(!s || (s->low[0] > 0 && s->low[0] < 0.3 && s->high[0] > 2.8 && s->high[0] < M_PI), "[%g, %g]", s->low[0], s->high[0]);
     }
     nh_analysis_free(r);
 }
@@ -255,7 +255,7 @@ static const struct {
      "coordinates: [{name: r, type: length}, {name: f, type: angle}]\nlagrangian: (r'^2 + r^2*f'^2)/2 - "
      "t*r^2/2\ndomain: {r: [0.5, 1.5]}\n",
      4},
-    {"a pull", "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 + sqrt(1 + t)*x\n", 2},
+    {"a pull", "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 + exp(cos(t))*x\n", 2},
     {"friction that grows",
      "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - x^2/2\nforces:\n  - x = -t*x'\n", 2},
     {"squares: Ermakov and Pinney",
@@ -279,7 +279,7 @@ static void all_of(size_t i)
     cr_expect_gt(check_series(r, driven[i].name), 0u, "%s: no series", driven[i].name);
     for (size_t k = 0; k < r->count; k++) {
         const nh_series *s = r->found[k].series;
-        cr_expect(!s || s->variable == r->system->t, "%s", driven[i].name);
+        cr_expect(!s || s->variable[0] == r->system->t, "%s", driven[i].name);
     }
     nh_analysis_free(r);
 }

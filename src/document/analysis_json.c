@@ -286,10 +286,25 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
         return;
     }
     nh_json *item = nh_json_put_object(to, "series");
-    nh_json_put_text(item, "coordinate", nh_name_of(w->dag, series->variable));
-    nh_json_put_number(item, "low", series->low);
-    nh_json_put_number(item, "high", series->high);
+    if (series->variables == 1) {
+        nh_json_put_text(item, "coordinate", nh_name_of(w->dag, series->variable[0]));
+        nh_json_put_number(item, "low", series->low[0]);
+        nh_json_put_number(item, "high", series->high[0]);
+    } else {
+        nh_json_put_null(item, "coordinate");
+        nh_json_put_null(item, "low");
+        nh_json_put_null(item, "high");
+    }
+    nh_json *box = nh_json_put_array(item, "box");
+    for (size_t j = 0; j < series->variables; j++) {
+        nh_json *edge = nh_json_add_object(box);
+        nh_json_put_text(edge, "coordinate", nh_name_of(w->dag, series->variable[j]));
+        nh_json_put_number(edge, "low", series->low[j]);
+        nh_json_put_number(edge, "high", series->high[j]);
+    }
     nh_json_put_number(item, "degree", (double)series->degree);
+    if (series->variables > 1) nh_json_put_number(item, "rate_bound", series->bound);
+    else nh_json_put_null(item, "rate_bound");
     if (series->equation) nh_json_put_text(item, "equation", series->equation);
     else nh_json_put_null(item, "equation");
     nh_json *words = nh_json_put_array(item, "words");
@@ -301,8 +316,18 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
     nh_json *table = nh_json_put_array(item, "coefficients");
     for (size_t i = 0; i < series->words; i++) {
         nh_json *row = nh_json_add_array(table);
-        for (size_t k = 0; k <= series->degree; k++)
-            nh_json_add_number(row, series->coefficient[i * series->stride + k]);
+        size_t terms = series->index ? series->stride : series->degree + 1;
+        for (size_t k = 0; k < terms; k++) nh_json_add_number(row, series->coefficient[i * series->stride + k]);
+    }
+    if (!series->index) {
+        nh_json_put_null(item, "indices");
+        return;
+    }
+    table = nh_json_put_array(item, "indices");
+    for (size_t z = 0; z < series->stride; z++) {
+        nh_json *row = nh_json_add_array(table);
+        for (size_t j = 0; j < series->variables; j++)
+            nh_json_add_number(row, series->index[z * series->variables + j]);
     }
 }
 

@@ -89,6 +89,18 @@ void nh_ball_set_ratio(nh_ball *ball, nh_ex symbol, int64_t p, int64_t q)
 
 void nh_ball_set_double(nh_ball *ball, nh_ex symbol, double value) { arb_set_d(place(ball, symbol), value); }
 
+void nh_ball_set_between(nh_ball *ball, nh_ex symbol, double low, double high)
+{
+    arf_t a, b;
+    arf_init(a);
+    arf_init(b);
+    arf_set_d(a, low);
+    arf_set_d(b, high);
+    arb_set_interval_arf(place(ball, symbol), a, b, ball->bits);
+    arf_clear(b);
+    arf_clear(a);
+}
+
 void nh_ball_set_arb(nh_ball *ball, nh_ex symbol, const arb_t value) { arb_set(place(ball, symbol), value); }
 
 /* ---- nodes ---- */

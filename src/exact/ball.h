@@ -18,7 +18,9 @@ long nh_ball_bits(const nh_ball *ball);
 /* Sets a symbol to the exact rational p/q, or to an exact double; forgets values that depended on it. */
 void nh_ball_set_ratio(nh_ball *ball, nh_ex symbol, int64_t p, int64_t q);
 void nh_ball_set_double(nh_ball *ball, nh_ex symbol, double value);
-/* Set a symbol to the value of an expression in symbols set before. */
+/* Sets a symbol to all numbers between two doubles at once. */
+void nh_ball_set_between(nh_ball *ball, nh_ex symbol, double low, double high);
+/* Sets a symbol to the value of an expression in symbols that are set already; indeterminate when it has none. */
 void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value);
 /* The same, rounded to the mid-point: for iterations that correct themselves, whose radii would only grow. */
 void nh_ball_set_middle(nh_ball *ball, nh_ex symbol, nh_ex value);

@@ -28,9 +28,13 @@ void nh_ball_series_free(nh_ball_series *series);
 bool nh_ball_series_take(nh_ball_series *series, size_t count, const nh_ex *e, size_t degree, double half,
                          double *coefficient, double *bound);
 
-/* The centre goes to `to` in steps no longer than `step`: the ball gets the values there of the variable, the roots
- * and the integrals, enclosed by series; short steps keep them sharp.  False where a series does not exist on the way:
- * the ball has the values at a place before. */
+/* A bound of |a_degree| of each of `count` expressions about all values that the variable has in the ball.  False where
+ * one of them is not bounded. */
+bool nh_ball_series_term(nh_ball_series *series, size_t count, const nh_ex *e, size_t degree, double *bound);
+
+/* Moves the centre to `to` in equal steps no longer than `step`, but at most 1000: the ball gets the values of the
+ * variable, the roots and the integrals there, enclosed by series; short steps keep the enclosures small.
+ * False where a series does not exist on the way: then the ball has the values of an earlier place. */
 bool nh_ball_series_move(nh_ball_series *series, double to, double step);
 
 #endif

@@ -7,22 +7,32 @@
 #include "integrals/exact_points.h"
 #include "motion/trajectory.h"
 
-/* How many outputs there are before the motion leaves the interval of current k. */
-static size_t outputs_inside(const nh_drift_question *q, const nh_motion *motion, size_t k)
+/* Number of outputs before the motion leaves this interval of a variable. */
+static size_t outputs_between(const nh_model *o, const nh_motion *motion, nh_ex variable, double low, double high)
 {
-    const nh_model *o = nh_dynamics_model(q->dynamics);
-    if (!q->valid || !q->valid[k].variable) return motion->count;
-    bool of_time = q->valid[k].variable == o->system->t;
+    bool of_time = variable == o->system->t;
     for (size_t s = of_time ? o->m - 1 : 0; s < o->m; s++)
-        for (size_t i = 0; (of_time || o->system->coordinate[s].q == q->valid[k].variable) && i < motion->count; i++) {
+        for (size_t i = 0; (of_time || o->system->coordinate[s].q == variable) && i < motion->count; i++) {
             double x = of_time ? motion->time[i] : motion->state[i * motion->size + s];
-            if (x < q->valid[k].low || x > q->valid[k].high) return i;
+            if (x < low || x > high) return i;
         }
     return motion->count;
 }
 
-/* How far a current changes along a motion that is given in doubles, its formula evaluated with many digits; NAN: not
-   known. */
+/* Number of outputs before the motion leaves the box of current k. */
+static size_t outputs_inside(const nh_drift_question *q, const nh_motion *motion, size_t k)
+{
+    const nh_model *o = nh_dynamics_model(q->dynamics);
+    size_t count = motion->count;
+    for (size_t j = 0; q->valid && j < q->valid[k].variables; j++) {
+        const nh_valid *v = &q->valid[k];
+        size_t inside = outputs_between(o, motion, v->variable[j], v->low[j], v->high[j]);
+        if (inside < count) count = inside;
+    }
+    return count;
+}
+
+/* The change of a current along a motion in doubles, with its formula evaluated to many digits; NAN: not known. */
 static double change_by_balls(const nh_model *o, const nh_motion *motion, const bool *steep, size_t inside, nh_ex phi)
 {
     enum { bits = 256 };

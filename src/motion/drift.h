@@ -3,6 +3,7 @@
 #define NH_DRIFT_H
 
 #include "base/option.h"
+#include "exact/ball_box.h"
 #include "motion/dynamics.h"
 
 enum { NH_DRIFT_RUNS = 3 };
@@ -23,8 +24,9 @@ typedef struct {
 
 /* Where a current is defined: while each of these variables lies between its low and high. */
 typedef struct {
-    nh_ex variable; /* a coordinate or t; 0: it holds everywhere */
-    double low, high;
+    size_t variables; /* 0: it holds everywhere */
+    nh_ex variable[NH_BOX_VARIABLES]; /* coordinates or t */
+    double low[NH_BOX_VARIABLES], high[NH_BOX_VARIABLES];
 } nh_valid;
 
 typedef struct {

@@ -2,6 +2,7 @@
 #ifndef NH_ANALYSIS_H
 #define NH_ANALYSIS_H
 
+#include "exact/ball_box.h"
 #include "geometry/distribution.h"
 #include "count/completeness.h"
 #include "motion/validation.h"
@@ -17,13 +18,18 @@
 /* Coefficient functions without closed form: Chebyshev series in one variable, a coordinate or t, valid in an interval
  * of it, or in several variables, valid on a box. */
 typedef struct {
-    nh_ex variable;
-    double low, high;
-    size_t degree, words;
-    nh_ex *word;              /* the functions that they multiply */
-    double *coefficient;      /* of T_k for word i: coefficient[i * stride + k], k = 0 .. degree */
+    size_t variables;
+    nh_ex variable[NH_BOX_VARIABLES];
+    double low[NH_BOX_VARIABLES], high[NH_BOX_VARIABLES];
+    size_t degree, words;     /* the total degree */
+    nh_ex *word;              /* the functions that are multiplied by the series */
+    double *coefficient;      /* of term z for word i: coefficient[i * stride + z] */
     size_t stride;
-    const char *equation;     /* which linear equation of second order they satisfy; NULL: not known, or too long */
+    /* which product of T_k term z is: index[z * variables + j], stride x variables; NULL: T_z, z = 0 .. degree */
+    const unsigned char *index;
+    /* in several variables: |Gamma(Phi)| is at most this on the box, for velocities of the chart up to 1 */
+    double bound;
+    const char *equation;     /* a linear equation of second order that they satisfy; NULL: not known, or too long */
 } nh_series;
 
 typedef struct {
@@ -45,8 +51,9 @@ typedef struct {
     double fraction;
     nh_rank rank;             /* how independence was decided; undecided: by doubles */
     const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
-    const char *known;        /* of currents that the system's file knows, in brackets: "Phi4 = [Phi3]/a^2", or NULL */
-    bool has_symmetry, by_current_route, by_symmetry_route, local;
+    /* in terms of currents that the system's file knows, in brackets: "Phi4 = [Phi3]/a^2"; or NULL */
+    const char *known;
+    bool has_symmetry, local;
     bool on_both;             /* of two branches: as printed, current and field hold on the other one too */
     const char *region;       /* of a piece: where it holds, "for x > 0" */
     bool counted;             /* of a piece: it holds on the sides on which integrals are counted (count/one_side.h) */
