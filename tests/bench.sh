@@ -153,7 +153,8 @@ ten=$(from chain '$2 + 0 == 10 { print $3 + 0 }')
 
 section "Counting integrals" series \
     "The linear systems of the count ([method.md](method.md), section 10) for a natural system with a polynomial potential: the even part of the given degree in the velocities, of series up to" \
-    "two orders above it. Least of some runs of the solver alone. Parameters: the most that are free at a time."
+    "two orders above it. Least of some runs of the solver alone. Parameters: the most that are free at a time. Then whole counts of one degree of shipped systems, with all orders that they take." \
+    "The aims are half of what a first version of the solver took."
 
 say "## Every system" "" "\`tests/bench_whole.sh build\`" "" \
     "Whole runs of \`nhsym analyze --no-analysis\`, from the start of the process to its end, one for each shipped system." ""

@@ -50,7 +50,8 @@ int main(int argc, char **argv)
         else if (!strcmp(argv[i], "time")) q.time = true;
         else if (!strcmp(argv[i], "generic")) q.generic = true;
         else if (!strcmp(argv[i], "only")) q.alone = true;
-        else if (!strcmp(argv[i], "shape")) q.shape = true;
+        else if (!strcmp(argv[i], "shape")) q.shape = NH_NOT_CYCLIC;
+        else if (!strcmp(argv[i], "closed")) q.shape = NH_CLOSED_SHAPE;
         else if (!strcmp(argv[i], "work") && i + 1 < argc) q.work = strtod(argv[++i], NULL);
         else count_file(argv[i], &q);
     }

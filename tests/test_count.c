@@ -5,6 +5,7 @@
 
 #include "exact/normal.h"
 #include "count/completeness.h"
+#include "count/count_internal.h"
 #include "count/one_side.h"
 #include "problem/analysis_file.h"
 #include "names.h"
@@ -375,6 +376,37 @@ Test(count, time_is_a_coordinate)
     c = count_in("name: o\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - t*x^4\n", 2, false, false);
     size_t none[] = {1, 1};
     expect("a quartic oscillator that stiffens", &c, 2, none);
+}
+
+static const char *const ROLLING_DISK =
+    "name: disk\ncoordinates: [{name: x}, {name: y}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+    "lagrangian: (x'^2 + y'^2)/2 + h'^2*cos(h)^2/2 + (h'^2 + p'^2*sin(h)^2)/8 + (p'*cos(h) + s')^2/4 - 2*sin(h)\n"
+    "constraints:\n  - x' - h'*sin(h)*sin(p) + p'*cos(h)*cos(p) + s'*cos(p) = 0\n"
+    "  - y' + h'*sin(h)*cos(p) + p'*cos(h)*sin(p) + s'*sin(p) = 0\n";
+
+/* The heading enters only the rates of the place of the contact; the spin and the place enter nothing. */
+Test(count, coordinates_that_closed_equations_do_not_need_are_dropped)
+{
+    static const nh_count_shape SHAPE[] = {NH_EVERY_COORDINATE, NH_NOT_CYCLIC, NH_CLOSED_SHAPE};
+    static const size_t UNKNOWN_COORDINATES[] = {5, 2, 1};
+    problem p = problem_of(ROLLING_DISK);
+    for (size_t i = 0; i < sizeof SHAPE / sizeof *SHAPE; i++) {
+        nh_count_question q = {.shape = SHAPE[i], .degree = 2, .alone = true, .work = 1e10};
+        nh_counter c;
+        nh_counter_open(&c, p.model, &q);
+        cr_expect_eq(c.equations->coordinates, UNKNOWN_COORDINATES[i], "%zu: %zu", i, c.equations->coordinates);
+        nh_counter_close(&c);
+        nh_count n = nh_count_integrals(p.model, &q);
+        cr_assert_eq(n.rows, 1, "%s", n.obstacle ? n.obstacle : "nothing was counted");
+        cr_expect_eq(n.row[0].bound, 7, "%zu: %zu", i, n.row[0].bound);
+    }
+    /* 1, two of degree 1 and the energy: products of degree up to 8, (a, b, c) with a + b + 2 c <= 8 */
+    nh_count_question q = {.shape = NH_CLOSED_SHAPE, .degree = 8, .alone = true, .work = 1e9};
+    nh_count n = nh_count_integrals(p.model, &q);
+    cr_assert_eq(n.rows, 1);
+    cr_expect_eq(n.row[0].bound, 95, "%zu", n.row[0].bound);
+    cr_expect(n.row[0].settled);
+    problem_clear(&p);
 }
 
 Test(count, known_integrals_are_compared)

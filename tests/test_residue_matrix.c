@@ -95,6 +95,33 @@ Test(residue_matrix, echelon_forms_span_the_rows)
     echelon(90, 120, 80, 70);
 }
 
+/* The echelon form belongs to the span of the rows: rows in another order, times numbers, and rows that add nothing leave it as it is. */
+Test(residue_matrix, echelon_forms_depend_on_the_span_only)
+{
+    enum { ROWS = 31, COLUMNS = 70, RANK = 23 };
+    nh_prime f = nh_prime_at(3);
+    uint64_t seed = 19;
+    nh_residue *a = random_matrix(f, ROWS * RANK, 2), *b = random_matrix(f, RANK * COLUMNS, 3), *c = nh_alloc_array(ROWS * COLUMNS, sizeof *c), *both = nh_alloc_array(2 * ROWS * COLUMNS, sizeof *both);
+    size_t pivot[ROWS], other[2 * ROWS];
+    nh_residue_matrix_multiply(f, ROWS, RANK, COLUMNS, a, b, c);
+    for (size_t i = 0; i < ROWS; i++) memcpy(both + 2 * (ROWS - 1 - i) * COLUMNS, c + i * COLUMNS, COLUMNS * sizeof *c);
+    size_t rank = nh_residue_matrix_echelon(f, ROWS, COLUMNS, COLUMNS, c, pivot);
+    cr_assert_eq(rank, RANK);
+    for (size_t i = 0; i < ROWS; i++) memcpy(both + (2 * i + 1) * COLUMNS, c + i * COLUMNS, COLUMNS * sizeof *c);
+    for (size_t i = 0; i < 2 * ROWS; i++) {
+        nh_residue factor = nh_residue_random(f, &seed);
+        for (size_t j = 0; j < COLUMNS; j++) both[i * COLUMNS + j] = nh_residue_mul(f, factor, both[i * COLUMNS + j]);
+    }
+    cr_assert_eq(nh_residue_matrix_echelon(f, 2 * ROWS, COLUMNS, COLUMNS, both, other), rank);
+    cr_expect_eq(memcmp(pivot, other, rank * sizeof *pivot), 0);
+    cr_expect_eq(memcmp(c, both, rank * COLUMNS * sizeof *c), 0);
+    for (size_t k = rank * COLUMNS; k < 2 * ROWS * COLUMNS; k++) cr_assert_eq(both[k], 0);
+    nh_free(both);
+    nh_free(c);
+    nh_free(b);
+    nh_free(a);
+}
+
 Test(residue_matrix, nothing_has_rank_zero)
 {
     nh_residue zero[12] = {0};

@@ -15,12 +15,13 @@
 
 typedef struct {
     bool time;              /* coefficients may depend on t */
-    bool shape;             /* they do not depend on cyclic coordinates, which leaves fewer of them and longer series */
-    bool further;        /* what is no polynomial in the known ones is new, even if it is another function of them */
-    const struct nh_construct_rates *rates; /* what words may contain beside the system's functions, or NULL */
-    bool secular;           /* words may contain coordinates that are seen only inside of functions */
-    size_t degree;          /* in the velocities, at most */
-    double price;           /* of the dearest words */
+    nh_count_shape shape;   /* fewer coordinates allow longer series */
+    /* an integral counts as new if it is no polynomial in the known ones, even if it is another function of them */
+    bool further;
+    const struct nh_construct_rates *rates; /* functions that words may contain beside the system's own, or NULL */
+    bool secular;           /* words may contain coordinates that occur only inside of functions */
+    size_t degree;          /* highest degree in the velocities */
+    double price;           /* highest price of a word */
     size_t most_words;
     double work;            /* limit, in products of residues */
     size_t known;

@@ -304,7 +304,10 @@ void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_questi
     *c = (nh_counter){.q = question,
                       .most = question->work,
                       .equations = nh_jet_equations_create(model, question->time, question->generic)};
-    if (question->shape && !c->equations->obstacle) nh_jet_equations_drop_cyclic(c->equations);
+    if (question->shape != NH_EVERY_COORDINATE && !c->equations->obstacle) {
+        bool more = nh_jet_equations_drop_cyclic(c->equations);
+        while (more && question->shape == NH_CLOSED_SHAPE) more = nh_jet_equations_drop_cyclic(c->equations);
+    }
     c->current = nh_alloc_array(question->known + 1, sizeof *c->current);
     c->degree = nh_alloc_array(question->known + 1, sizeof *c->degree);
     c->index = nh_alloc_array(question->known + 1, sizeof *c->index);

@@ -62,13 +62,18 @@ typedef struct nh_count_memory nh_count_memory;
 nh_count_memory *nh_count_memory_create(void);
 void nh_count_memory_free(nh_count_memory *memory);
 
+/* The coordinates on which coefficients may depend.  Cyclic ones are those on which the equations do not depend.
+ * Without their rates fewer equations are left, and more coordinates may be cyclic for these: the angle of a disk that
+ * rolls enters the rates of its place alone. */
+typedef enum { NH_EVERY_COORDINATE, NH_NOT_CYCLIC, NH_CLOSED_SHAPE } nh_count_shape;
+
 typedef struct {
     bool time, generic;
-    /* coefficients do not depend on cyclic coordinates; known integrals that do are left out */
-    bool shape;
-    nh_count_memory *memory; /* NULL: none */
-    size_t degree;          /* up to which; 0: as far as `work` goes */
-    /* this degree only, until all are functions of the known ones: row[0]; products are not compared */
+    nh_count_shape shape;   /* known integrals that depend on other coordinates are left out */
+    nh_count_memory *memory; /* NULL: nothing is kept */
+    size_t degree;          /* highest degree; 0: as high as `work` allows */
+    /* counts this degree only, until all solutions are functions of the known integrals: row[0]; products are not
+     * compared */
     bool alone;
     double work;            /* limit in products of residues; about 5e8 take a second */
     size_t known;

@@ -141,6 +141,17 @@ bool nh_jet_equations_is_cyclic(const nh_jet_equations *x, nh_ex q)
     return !occurs(x, x->m, x->rho, q) && !occurs(x, x->n * x->n, x->M, q) && !occurs(x, x->n, x->A, q);
 }
 
+/* Functions that only equations contained which were dropped are functions of no coordinate that is left. */
+static void register_again(nh_jet_equations *x)
+{
+    nh_jet_point_free(x->point);
+    x->point = nh_jet_point_create(x->dag);
+    if (!nh_jet_point_register(x->point, x->m, x->rho) || !nh_jet_point_register(x->point, x->n * x->n, x->M) ||
+        !nh_jet_point_register(x->point, x->n, x->A))
+        x->obstacle = x->point->obstacle;
+    x->products = products(x);
+}
+
 bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
 {
     nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate),
@@ -158,15 +169,17 @@ bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
     x->rho = rho;
     x->m = kept;
     x->coordinates = kept + x->time;
+    if (some) register_again(x);
     return some;
 }
 
-bool nh_jet_equations_have_cyclic(const nh_model *model)
+size_t nh_jet_equations_cyclic_rounds(const nh_model *model)
 {
     nh_jet_equations *x = nh_jet_equations_create(model, false, false);
-    bool some = !x->obstacle && nh_jet_equations_drop_cyclic(x);
+    size_t rounds = 0;
+    while (!x->obstacle && nh_jet_equations_drop_cyclic(x)) rounds++;
     nh_jet_equations_free(x);
-    return some;
+    return rounds;
 }
 
 void nh_jet_equations_free(nh_jet_equations *x)

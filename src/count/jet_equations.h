@@ -40,7 +40,8 @@ bool nh_jet_equations_is_cyclic(const nh_jet_equations *equations, nh_ex coordin
 /* Drops the rates of cyclic coordinates: the equations that are left are closed.  False where no coordinate is
  * cyclic. */
 bool nh_jet_equations_drop_cyclic(nh_jet_equations *equations);
-bool nh_jet_equations_have_cyclic(const nh_model *model);
+/* How often nh_jet_equations_drop_cyclic drops coordinates, which may be cyclic only after others were dropped. */
+size_t nh_jet_equations_cyclic_rounds(const nh_model *model);
 void nh_jet_equations_free(nh_jet_equations *equations);
 
 /* Moves to another point, which follows from prime and seed; false: it is singular. */

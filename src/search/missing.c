@@ -13,6 +13,7 @@
 #include "search/currents.h"
 #include "search/described.h"
 #include "search/relations.h"
+#include "search/series_several.h"
 #include "search/stage_solver.h"
 
 /* ---- the count ---- */
@@ -59,9 +60,10 @@ static void check(nh_analysis *r)
 
 typedef struct {
     nh_stage_solver solver;
-    bool cyclic;            /* there are cyclic coordinates */
-    double work;            /* that is left for this count */
-    size_t aside;           /* currents that are certified only */
+    size_t cyclic;          /* how often cyclic coordinates can be dropped */
+    double work;            /* work that is left for this count */
+    size_t solutions;       /* the most that series had for the coordinates at hand */
+    size_t aside;           /* currents that are only certified */
     nh_current *set_aside;
 } search;
 
@@ -219,7 +221,8 @@ static bool is_over(const search *s, bool further)
 
 /* What is sought: also functions of the currents found; integrals of the shape alone; with many-valued functions. */
 typedef struct {
-    bool further, shape, secular;
+    bool further, secular;
+    nh_count_shape shape;
     const nh_construct_rates *rates;
 } manner;
 
@@ -247,6 +250,7 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     q.independent += regional;
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
+    if (x->dimension > s->solutions) s->solutions = x->dimension;
     for (size_t k = 0; k < x->count && !is_over(s, further); k++) found |= lift(s, degree, &x->item[k], further);
     /* an integral that could not be proved may have a simpler form in words of a higher price */
     *more = !x->limited && (x->recognised < x->dimension || x->count);
@@ -268,6 +272,7 @@ static bool construct_up_to(search *s, const nh_completeness *c, manner how, dou
 {
     bool found = false, more = true;
     s->work = work;
+    s->solutions = 0;
     for (double price = 2; more && !found && price <= dearest && s->work > 0 && !is_over(s, how.further);
          price += price < 4 ? 1 : 2)
         found = construct_at(s, c, how, price, &more);
@@ -314,8 +319,26 @@ static bool integrate(search *s, const nh_completeness *c)
     return r->count > before;
 }
 
-/* Of one kind.  In t alone most coefficients are no words but waves, and a number that is not settled is mostly far too
-   large. */
+/* Tries the shape first, the closed one before the other.  Where it has as many solutions as there are, more
+ * coordinates give no others: *shape is then the one that is enough. */
+static bool construct_in_shapes(search *s, const nh_completeness *c, manner how, double dearest, double work,
+                                nh_count_shape *shape)
+{
+    static const nh_count_shape order[] = {NH_CLOSED_SHAPE, NH_NOT_CYCLIC, NH_EVERY_COORDINATE};
+    size_t degree = how.further ? c->incomplete_at : c->missing_at, all = c->count.row[degree - 1].bound;
+    bool found = false, enough = false;
+    for (size_t i = s->cyclic > 1 ? 0 : s->cyclic ? 1 : 2; i < sizeof order / sizeof *order && !found && !enough; i++) {
+        manner own = how;
+        own.shape = *shape = order[i];
+        if (own.shape != NH_EVERY_COORDINATE) own.rates = NULL;
+        found = construct_up_to(s, c, own, dearest, work);
+        enough = s->solutions == all;
+    }
+    return found;
+}
+
+/* Tries one kind of coefficients.  In t alone most coefficients are waves, which the words do not contain, and a count
+ * that is not settled is mostly far too large. */
 static bool construct(search *s, const nh_completeness *c, bool further)
 {
     /* part of the work for integrals that the currents found determine, and for rare functions */
@@ -327,11 +350,11 @@ static bool construct(search *s, const nh_completeness *c, bool further)
     if (!wanted) return false;
     size_t degree = further ? c->incomplete_at : c->missing_at;
     nh_construct_rates rates = nh_construct_rates_of(s->solver.r->model, degree, c->count.time, part * work);
-    manner any = {.further = further, .rates = &rates}, shape = {.further = further, .shape = true}, secular = any;
+    manner any = {.further = further, .rates = &rates}, secular = any;
     secular.secular = true;
     work = fmax(work - rates.work, 0);
-    return (s->cyclic && construct_up_to(s, c, shape, dearest, work)) || construct_up_to(s, c, any, dearest, work)
-        || (!further && integrate(s, c))
+    if (construct_in_shapes(s, c, any, dearest, work, &secular.shape)) return true;
+    return (!further && integrate(s, c))
         || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }
 
@@ -343,6 +366,15 @@ static bool is_missing(const nh_analysis *r)
     return some;
 }
 
+/* What has no closed form: of the kind that comes first, unless only the other may have more. */
+static void in_several(search *s)
+{
+    nh_analysis *r = s->solver.r;
+    bool found = false;
+    for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found && !nh_stage_solver_done(&s->solver); i++)
+        if (!adds_nothing(r, &r->completeness[i])) found = nh_series_in_several(&s->solver, &r->completeness[i]);
+}
+
 static void look(nh_analysis *r)
 {
     search s = {0};
@@ -352,7 +384,7 @@ static void look(nh_analysis *r)
     nh_progress("integrals that the count misses", -1);
     nh_budget_begin(r->options.work);
     set_aside(&s);
-    s.cyclic = nh_jet_equations_have_cyclic(r->model);
+    s.cyclic = nh_jet_equations_cyclic_rounds(r->model);
     bool stale = false;
     for (bool found = true; found && !nh_late();) {
         bool again = found = false;
@@ -363,6 +395,7 @@ static void look(nh_analysis *r)
         if (found) count(r, stale = again);
     }
     if (stale && !nh_late()) count(r, false);
+    in_several(&s);
     take_back(&s);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.solver.bench);
