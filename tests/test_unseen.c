@@ -115,7 +115,7 @@ static const unseen UNSEEN[] = {
      "coordinates: [u, {name: ph, type: angle}]\n"
      "lagrangian: (u'^2 + ph'^2)/(2*cosh(u)^2)\n"
      "known: {currents: [{name: about z, expr: ph'/cosh(u)^2}, {name: about x, expr: \"(cos(ph)*u'*cosh(u) + sin(ph)*sinh(u)*ph')/cosh(u)^2\"}]}\n",
-     3},
+     4},
     {"stereographic sphere",
      "coordinates: [x, y]\n"
      "lagrangian: 2*(x'^2 + y'^2)/(1 + x^2 + y^2)^2\n"
@@ -203,7 +203,7 @@ static const unseen UNSEEN[] = {
      "coordinates: [a, {name: b, type: angle}]\n"
      "lagrangian: exp(2*a)*(a'^2 + b'^2)/2 + k*exp(-a)\n"
      "known: {currents: [{name: Runge-Lenz, expr: exp(3*a)*b'*(sin(b)*a' + cos(b)*b') - k*cos(b)}]}\n",
-     3},
+     4},
     {"thermostat",
      "parameters: [{name: k, value: 0.8}, {name: K, value: 1}]\n"
      "coordinates: [x, y, z]\n"

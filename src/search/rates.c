@@ -21,7 +21,6 @@ typedef struct {
     nh_stage_solver *x;
     const nh_ansatz *base;
     nh_ex q; /* t or a coordinate */
-    nh_ex base_of_power; /* Q, when q = log Q: exp(-lambda log Q) = Q^-lambda; 0: none */
     bool periodic, imaginary;
 } rate_context;
 
@@ -142,7 +141,8 @@ static nh_ex rate_of(rate_context *c, double value, bool imaginary, int how)
 typedef struct {
     rate_context context;
     const nh_family *base;
-    size_t which, count; /* which of the pencil's bases; rates */
+    bool linear; /* the family is everything of degree one */
+    size_t count;
     double re[most_values], im[most_values];
     int how[most_values]; /* the form of the rate */
 } waves;
@@ -157,9 +157,7 @@ static size_t wave_terms(waves *w, nh_ex *out)
         double re = w->re[k], im = w->im[k];
         bool turns = fabs(im) > negligible * fabs(re), decays = fabs(re) > negligible * fabs(im);
         nh_ex rate = decays ? nh_neg(d, rate_of(c, re, false, w->how[k])) : 0;
-        nh_ex decay = !decays            ? nh_int(d, 1)
-                      : c->base_of_power ? nh_pow(d, c->base_of_power, rate)
-                                         : nh_call(d, NH_EXP, nh_mul(d, rate, c->q));
+        nh_ex decay = decays ? nh_call(d, NH_EXP, nh_mul(d, rate, c->q)) : nh_int(d, 1);
         nh_ex angle = turns ? nh_mul(d, rate_of(c, im, true, w->how[k]), c->q) : 0;
         if (!turns) out[count++] = decay;
         else {
@@ -181,7 +179,7 @@ static size_t wave_families(waves *w, nh_family *out)
     part[1] = (nh_family){.kind = NH_TERMS, .terms = wave_terms(w, wave), .term = wave};
     out[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
     out[1] = *w->base;
-    return w->which == NH_PENCIL_PLAIN - 1 ? 2 : 1;
+    return w->linear ? 2 : 1;
 }
 
 /* How many new currents a rate seems to give in some form, and how far these are from being conserved. */
@@ -287,8 +285,8 @@ static void one_by_one(waves *w, const char *text)
     }
 }
 
-/* Returns whether something new was found; `which` of the bases it is. */
-static bool pencil_of(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name, const nh_family *base, size_t which)
+/* Returns whether new currents were found; `linear`: the family is everything of degree one. */
+static bool pencil_of(nh_stage_solver *x, nh_ex q, const char *name, const nh_family *base, bool linear)
 {
     nh_analysis *r = x->r;
     nh_error ignored;
@@ -298,17 +296,14 @@ static bool pencil_of(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name
     if (nh_counted_superfluous(&x->counted, 1, base, nh_depends(r->model->dag, q, r->model->system->t))) return false;
     nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, base, x->ranges->count / 2 - 2, &ignored);
     if (!a) return false;
-    waves w = {.context = {.x = x, .base = a, .q = q, .base_of_power = power}, .base = base, .which = which};
+    waves w = {.context = {.x = x, .base = a, .q = q}, .base = base, .linear = linear};
     for (size_t i = 0; i < x->words.waves; i++) w.context.periodic |= x->words.wave[i] == q;
     w.count = without_driven(x, q, rates(r->model, &w.context, w.re, w.im, most_values), w.re, w.im);
     if (w.count > most_rates) w.count = most_rates;
     choose_forms(&w);
     if (w.count) {
         char text[120];
-        snprintf(text, sizeof text,
-                 power ? "powers of %.60s with exponents found by the pencil"
-                       : "exponentials and waves in %.60s with rates found by the pencil",
-                 name);
+        snprintf(text, sizeof text, "exponentials and waves in %.60s with rates found by the pencil", name);
         nh_stage_solver_stage(x, text, wave_families(&w, family), family);
         if (w.count > 1) one_by_one(&w, text);
     }
@@ -316,18 +311,18 @@ static bool pencil_of(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name
     return r->independent > before;
 }
 
-static bool pencil_stage(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name, size_t which)
+static bool pencil_stage(nh_stage_solver *x, nh_ex q, const char *name, nh_pencil_base base)
 {
     nh_analysis *r = x->r;
     /* elsewhere 1 and q are a pair that rounding splits */
-    size_t index = q == r->model->system->t && which == NH_PENCIL_PLAIN - 1 ? NH_PENCIL_TIME : which;
-    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, index);
-    return pencil_of(x, q, power, name, &base, which);
+    bool timely = q == r->model->system->t && base == NH_PENCIL_LINEAR;
+    nh_family family = nh_stage_pencil_base(r->arena, r->model, &x->words, timely ? NH_PENCIL_TIME : base);
+    return pencil_of(x, q, name, &family, base == NH_PENCIL_LINEAR);
 }
 
 void nh_rates_search_in(nh_stage_solver *x, const nh_family *base)
 {
-    pencil_of(x, x->r->model->system->t, 0, "t", base, NH_PENCIL_BASES);
+    pencil_of(x, x->r->model->system->t, "t", base, false);
 }
 
 /* Are the equations of motion independent of the coordinate?  (Of time this is not asked: the stage finds out soon.) */
@@ -338,40 +333,7 @@ static bool is_cyclic(const nh_stage_solver *x, nh_ex q)
     return true;
 }
 
-static bool positive_everywhere(const nh_stage_solver *x, nh_ex e)
-{
-    const nh_points *p = x->ranges;
-    double *value = nh_alloc_array(p->count + 1, sizeof *value);
-    bool positive = true;
-    nh_points_evaluate(p, x->r->model, 1, &e, value);
-    for (size_t i = 0; i < p->count && positive; i++) positive = value[i] > 0 && isfinite(value[i]);
-    nh_free(value);
-    return positive;
-}
-
-/* Gamma f = nu (Gamma(Q)/Q) f: then Q^-nu f is an integral.  Q: positive lengths and functions of the system, one of Q
-   and 1/Q. */
-static void powers(nh_stage_solver *x)
-{
-    enum { most = 6 };
-    nh_dag *d = x->r->model->dag;
-    nh_ex tried[most];
-    size_t n = 0;
-    for (size_t i = 0; i < x->words.lengths + x->words.atoms && n < most && !nh_stage_solver_done(x); i++) {
-        nh_ex Q = i < x->words.lengths ? x->words.length[i] : x->words.atom[i - x->words.lengths];
-        bool old = nh_function_of(d, Q) == NH_EXP;
-        for (size_t j = 0; j < n && !old; j++) old = Q == tried[j] || nh_mul(d, Q, tried[j]) == nh_int(d, 1);
-        if (old || !positive_everywhere(x, Q)) continue;
-        tried[n++] = Q;
-        char *name = nh_print_string(d, Q);
-        bool timely = nh_depends(d, Q, x->r->system->t); /* masses and springs that are powers of t */
-        if (!pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 0))
-            pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, timely ? NH_PENCIL_GROWING : 2);
-        nh_free(name);
-    }
-}
-
-/* exp(-nu V) f with V the potential: what a thermostat that keeps the speed gives (f falls as the forces do work). */
+/* exp(-nu V) f with V the potential: for a thermostat that keeps the speed (f falls as the forces do work). */
 static void potential_rate(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
@@ -384,7 +346,16 @@ static void potential_rate(nh_stage_solver *x)
     }
     nh_ex V = nh_substitute(o->dag, o->system->lagrangian, o->m, v, zero);
     if (nh_kind_of(o->dag, V) != NH_NUMBER && !nh_depends(o->dag, V, o->system->t))
-        pencil_stage(x, V, 0, "the potential", NH_PENCIL_PRODUCTS);
+        pencil_stage(x, V, "the potential", NH_PENCIL_PRODUCTS);
+}
+
+/* For a variable the smallest base that gives new currents is enough: larger ones make them more complicated. */
+static bool linear_rates(nh_stage_solver *x, nh_ex q, const char *name)
+{
+    bool found = false;
+    for (nh_pencil_base base = NH_PENCIL_VELOCITIES; base <= NH_PENCIL_LINEAR && !found; base++)
+        found = !nh_stage_solver_done(x) && pencil_stage(x, q, name, base);
+    return found;
 }
 
 /* exp(-nu Q) f where volumes grow like exp(Q): the velocities of a body on wheels fall and grow with combinations of
@@ -394,37 +365,44 @@ static void volume_rate(nh_stage_solver *x)
     const nh_model *o = x->r->model;
     if ((o->k == 0 && !o->system->has_forces) || nh_stage_solver_done(x)) return;
     nh_ex Q = nh_volume_rate_potential(o, &x->words, (size_t)x->r->options.proof_terms);
-    bool found = !Q || nh_kind_of(o->dag, Q) == NH_SYMBOL;
-    for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_stage_solver_done(x) && !found; base++)
-        found = pencil_stage(x, Q, 0, "the logarithm of the invariant density", base);
+    if (Q && nh_kind_of(o->dag, Q) != NH_SYMBOL) linear_rates(x, Q, "the logarithm of the invariant density");
 }
 
-/* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it
-   found. */
+static void rates_of(nh_stage_solver *x, nh_ex q, const char *name, size_t bases, const nh_pencil_base *base)
+{
+    for (size_t i = 0; i < bases && !nh_stage_solver_done(x); i++) pencil_stage(x, q, name, base[i]);
+}
+
+static void rates_in_time(nh_stage_solver *x)
+{
+    static const nh_pencil_base larger[] = {NH_PENCIL_QUADRATIC, NH_PENCIL_CUBIC, NH_PENCIL_FRAME, NH_PENCIL_PRODUCTS};
+    const nh_model *o = x->r->model;
+    nh_ex t = o->system->t;
+    bool found = linear_rates(x, t, "t");
+    if (!found && nh_depends(o->dag, o->Lbar, t)) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_GROWING});
+    if (o->system->has_forces) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_SQUARES});
+    rates_of(x, t, "t", sizeof larger / sizeof *larger, larger);
+}
+
+static void rates_along(nh_stage_solver *x, const nh_coordinate *c)
+{
+    static const nh_pencil_base larger[] = {NH_PENCIL_FRAME, NH_PENCIL_PRODUCTS};
+    const nh_model *o = x->r->model;
+    const char *name = nh_name_of(o->dag, c->q);
+    bool found = linear_rates(x, c->q, name);
+    if (o->system->has_forces) rates_of(x, c->q, name, 1, (nh_pencil_base[]){NH_PENCIL_SQUARES});
+    if (c->type == NH_ANGLE && x->words.waves > 1 && !found && !nh_stage_solver_done(x)) {
+        nh_family around = nh_stage_pencil_around(x->r->arena, o, &x->words, c->q);
+        pencil_of(x, c->q, name, &around, false);
+    }
+    if (is_cyclic(x, c->q)) rates_of(x, c->q, name, sizeof larger / sizeof *larger, larger);
+}
+
 void nh_rates_search(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
-    for (size_t i = 0; i <= o->m; i++) {
-        nh_ex q = i == 0 ? o->system->t : o->system->coordinate[i - 1].q;
-        const char *name = nh_name_of(o->dag, q);
-        bool found = false;
-        for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_stage_solver_done(x) && !found; base++)
-            found = pencil_stage(x, q, 0, name, base);
-        if (i == 0 && !found && nh_depends(o->dag, o->Lbar, q) && !nh_stage_solver_done(x))
-            pencil_stage(x, q, 0, name, NH_PENCIL_GROWING);
-        if (o->system->has_forces && !nh_stage_solver_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_SQUARES);
-        for (size_t base = NH_PENCIL_QUADRATIC; base <= NH_PENCIL_CUBIC && i == 0 && !nh_stage_solver_done(x); base++)
-            pencil_stage(x, q, 0, name, base);
-        if (i > 0 && o->system->coordinate[i - 1].type == NH_ANGLE && x->words.waves > 1 && !found &&
-            !nh_stage_solver_done(x)) {
-            nh_family around = nh_stage_pencil_around(x->r->arena, o, &x->words, q);
-            pencil_of(x, q, 0, name, &around, NH_PENCIL_BASES);
-        }
-        for (size_t base = NH_PENCIL_PLAIN; base <= NH_PENCIL_PRODUCTS && is_cyclic(x, q) && !nh_stage_solver_done(x);
-             base++)
-            pencil_stage(x, q, 0, name, base);
-    }
-    powers(x);
+    rates_in_time(x);
+    for (size_t i = 0; i < o->m; i++) rates_along(x, &o->system->coordinate[i]);
     volume_rate(x);
     potential_rate(x);
 }

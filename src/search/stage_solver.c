@@ -12,7 +12,7 @@
 #include "integrals/prove.h"
 #include "search/other_values.h"
 
-enum { range_points = 256, range_points_each = 10, least_points = 256, least_tested = 60, short_factor = 14 };
+enum { range_points = 256, range_points_each = 10, least_points = 256, least_tested = 60 };
 static const double points_per_column = 2.5;
 
 bool nh_stage_solver_begin(nh_stage_solver *x, nh_analysis *r, nh_error *error)
@@ -42,14 +42,6 @@ static nh_ex rough(const nh_model *o, const nh_candidate *c)
     for (size_t j = 0; j < c->count; j++)
         e = nh_add(o->dag, e, nh_mul(o->dag, nh_real(o->dag, c->coefficient[j]), c->term[j]));
     return e;
-}
-
-static void keep_factor(nh_stage_solver *x, nh_ex phi)
-{
-    if (x->factors == NH_MOST_FACTORS || nh_complexity(x->r->model->dag, phi) > short_factor) return;
-    for (size_t i = 0; i < x->factors; i++)
-        if (x->factor[i] == phi) return;
-    x->factor[x->factors++] = phi;
 }
 
 static size_t most_tested(const nh_analysis *r)
@@ -285,9 +277,6 @@ static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_solved *
             bool exchanged;
             r->independent += 1 + without_values(x, s, pivots, pivot, pivot[k], &other, &exchanged);
             if (!exchanged) relate(x, s, c, pivot[k], certain);
-            keep_factor(x, r->found[r->count - 1].phi);
-        } else if (c->count == 1 && kind[k] == NH_DEPENDENT) {
-            keep_factor(x, c->term[0]);
         }
     }
     r->independent += nh_currents_join(x->bench, s->fit);

@@ -7,17 +7,13 @@
 #include "search/counted.h"
 #include "search/currents.h"
 
-enum { NH_MOST_FACTORS = 10 };
-
 /* The state of the search. */
 typedef struct {
     nh_analysis *r;
     nh_current_checker *bench;
     nh_dictionary words;
     nh_points *ranges;
-    nh_reflections *reflections; /* found when a stage is large */
-    size_t factors;              /* simple currents, dependent ones too: factors of later stages */
-    nh_ex factor[NH_MOST_FACTORS];
+    nh_reflections *reflections; /* made for the first large stage */
     nh_counted counted;          /* stages that the count makes superfluous are left out */
     /* number of quadratic forms that linear motion leaves invariant, when all of them are known */
     size_t forms;

@@ -6,31 +6,13 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "integrals/prove.h"
+#include "search/force_potential.h"
 #include "search/stage_solver.h"
 #include "search/constraint_integrals.h"
 #include "search/quadratures.h"
 #include "search/stages.h"
 
-/* Currents found so far as factors: Phi times 1, t, positions and the system's functions. */
-static void known_stage(nh_stage_solver *x)
-{
-    nh_analysis *r = x->r;
-    nh_ex *f = nh_arena_alloc(r->arena, (2 + x->words.positions + x->words.atoms + x->words.potentials) * sizeof *f);
-    size_t m = 0;
-    f[m++] = nh_int(r->model->dag, 1);
-    f[m++] = r->system->t;
-    for (size_t i = 0; i < x->words.positions; i++) f[m++] = x->words.position[i];
-    for (size_t i = 0; i < x->words.atoms; i++) f[m++] = x->words.atom[i];
-    for (size_t i = 0; i < x->words.potentials; i++) f[m++] = x->words.potential[i];
-    if (x->factors < 2) return;
-    nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *both = nh_arena_alloc(r->arena, sizeof *both);
-    part[0] = (nh_family){.kind = NH_TERMS, .terms = x->factors, .term = x->factor};
-    part[1] = (nh_family){.kind = NH_TERMS, .terms = m, .term = f};
-    both[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-    nh_stage_solver_stage(x, "currents found so far times t, positions and the system's functions", 1, both);
-}
-
-/* The energy and each momentum alone: nothing nearly dependent beside them can take their place. */
+/* The energy and each momentum alone, so that no nearly dependent function replaces them. */
 static void single_stages(nh_stage_solver *x)
 {
     nh_analysis *r = x->r;
@@ -44,7 +26,15 @@ static void single_stages(nh_stage_solver *x)
     }
 }
 
-/* Each of the system's functions alone: many at once are nearly dependent on a small interval. */
+/* What the energy and the work of the forces leave constant, where the forces have a potential. */
+static void force_potential(nh_stage_solver *x)
+{
+    const nh_model *o = x->r->model;
+    nh_ex U = nh_force_potential(o, x->ranges, (size_t)x->r->options.proof_terms);
+    if (U) nh_stage_solver_certify(x, nh_sub(o->dag, o->E, U), "energy and potential of the forces");
+}
+
+/* Each of the system's functions alone: many together are nearly dependent on a small interval. */
 static void function_stages(nh_stage_solver *x)
 {
     nh_analysis *r = x->r;
@@ -91,31 +81,57 @@ static void how_it_ended(nh_analysis *r, bool spent)
                      r->options.work, 10 * r->options.work);
 }
 
+/* A stage of `stages`, or a search of its own. */
+typedef struct {
+    void (*run)(nh_stage_solver *solver); /* NULL: the stage */
+    nh_stage_name stage;
+} step;
+
+/* What is found by small linear problems first; what they can hide from each other, and what needs many columns,
+   later.  From the second step on the count may make a stage superfluous. */
+static const step steps[] = {
+    {.stage = NH_STAGE_WORDS},               /* the energy, momenta, velocities and positions by themselves */
+    {.stage = NH_STAGE_DRIVE},               /* with what a force of t adds to them */
+    {.run = stages_of_many},                 /* and angular momenta, where everything else is too large */
+    {.run = nh_linear_motion_search},        /* before the pencil, which has the rates of linear motion by rounding */
+    {.run = nh_rates_search},                /* before larger stages, whose null vectors are less short */
+    {.stage = NH_STAGE_WORDS_POSITIONS},     /* times t and positions */
+    {.run = nh_isometries_search},           /* the same, whatever the coordinates */
+    {.run = function_stages},                /* times one function */
+    {.run = nh_quadratures_complete},        /* where one integral is missing */
+    {.run = nh_series_stages},               /* no closed form, of one coordinate */
+    {.stage = NH_STAGE_DEGREE_2},            /* from here on of higher degree: columns by the hundred */
+    {.stage = NH_STAGE_WEIGHTS},             /* Runge and Lenz */
+    {.stage = NH_STAGE_WEIGHT_4},            /* Kovalevskaya, Toda, Calogero */
+    {.stage = NH_STAGE_SEPARATION},          /* Euler, Liouville */
+    {.stage = NH_STAGE_TIME},                /* Ermakov, Lewis */
+    {.run = nh_stage_solver_series_in_time}, /* no closed form, of t */
+    {.stage = NH_STAGE_HALF_ANGLES},         /* parabolic coordinates seen from polar ones */
+    {.run = nh_stage_solver_series_in_each}, /* no closed form, of one coordinate each */
+};
+
+static void run_step(nh_stage_solver *x, const step *s)
+{
+    nh_stage stage;
+    if (s->run) s->run(x);
+    else if (nh_stage_at(x->r->arena, x->r->model, &x->words, s->stage, &stage))
+        nh_stage_solver_stage(x, stage.name, stage.families, stage.family);
+}
+
 bool nh_staged_search_run(nh_analysis *r, nh_error *error)
 {
-    enum { counted_from = 1, pencils_after = 2, isometries_after = 4, time_after = 13 };
     nh_stage_solver x;
     if (!nh_stage_solver_begin(&x, r, error)) return false;
     nh_budget_begin(r->options.work);
     r->counted = nh_count_memory_create();
     x.words = nh_dictionary_of(r->model);
-    nh_stage stage;
     nh_integrals_find(&x);
     single_stages(&x);
-    for (size_t i = 0; !nh_stage_solver_done(&x) && nh_stage_at(r->arena, r->model, &x.words, i, &stage); i++) {
-        x.counted.on = i >= counted_from;
-        nh_stage_solver_stage(&x, stage.name, stage.families, stage.family);
-        if (i + 1 == pencils_after) stages_of_many(&x);
-        if (i + 1 == pencils_after && !nh_stage_solver_done(&x)) nh_linear_motion_search(&x);
-        if (i + 1 == pencils_after && !nh_stage_solver_done(&x)) nh_rates_search(&x);
-        if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) nh_isometries_search(&x);
-        if (i + 1 == isometries_after) function_stages(&x);
-        if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) known_stage(&x);
-        if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) nh_quadratures_complete(&x);
-        if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) nh_series_stages(&x);
-        if (i + 1 == time_after) nh_stage_solver_series_in_time(&x);
+    if (!nh_stage_solver_done(&x)) force_potential(&x);
+    for (size_t i = 0; i < sizeof steps / sizeof *steps && !nh_stage_solver_done(&x); i++) {
+        x.counted.on = i > 0;
+        run_step(&x, &steps[i]);
     }
-    if (!nh_stage_solver_done(&x)) nh_stage_solver_series_in_each(&x);
     nh_quadratures_search(&x);
     bool spent = nh_budget_spent();
     nh_budget_begin(INFINITY);

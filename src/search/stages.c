@@ -140,23 +140,16 @@ static nh_expr_set times(const nh_family_list *s, const nh_expr_set *a, const nh
     return l;
 }
 
-static nh_expr_set frame_products(const nh_family_list *s, bool squares_too)
+static nh_expr_set frame_products(const nh_family_list *s)
 {
-    nh_expr_set f = {0}, w = waves(s), some = nh_expr_set_lengths(s, false, !squares_too),
+    nh_expr_set f = {0}, w = waves(s), some = nh_expr_set_lengths(s, false, false),
                 all = nh_expr_set_lengths(s, true, false), g = nh_expr_set_functions(s, false);
     nh_expr_set_put_all(&f, s->w->frames, s->w->frame);
-    nh_expr_set out = times(s, &f, &some), sq = nh_expr_set_squares(s, &f), more = times(s, &sq, &all);
-    if (squares_too) nh_expr_set_put_all(&out, more.n, more.e);
+    nh_expr_set out = times(s, &f, &some), squares = nh_expr_set_squares(s, &f), more = times(s, &squares, &all);
+    nh_expr_set_put_all(&out, more.n, more.e);
     nh_expr_set_put_all(&out, all.n, all.e);
-    if (squares_too) nh_expr_set_put_all(&out, g.n, g.e);
+    nh_expr_set_put_all(&out, g.n, g.e);
     return times(s, &out, &w);
-}
-
-static void stage_frame(nh_family_list *s)
-{
-    if (s->w->frames < s->o->n) return;
-    nh_expr_set l = frame_products(s, true);
-    nh_family_list_add(s, nh_family_list_terms(s, &l));
 }
 
 static void stage_words(nh_family_list *s)
@@ -178,23 +171,6 @@ static void stage_words_positions(nh_family_list *s)
     if (timely) nh_family_list_drive(s);
 }
 
-static void stage_linear_waves(nh_family_list *s)
-{
-    nh_expr_set l = linear_words(s), w = waves(s);
-    if (s->w->waves) nh_family_list_product_of_sets(s, &l, &w);
-}
-
-static void stage_functions(nh_family_list *s)
-{
-    nh_expr_set l = words(s), q = nh_expr_set_positions(s, true, false), f = nh_expr_set_functions(s, true);
-    if (f.n < 2) return;
-    nh_family_list_add(s, nh_family_list_product(s, 3,
-                                                 (nh_family[]){nh_family_list_terms(s, &l), nh_family_list_terms(s, &q),
-                                                               nh_family_list_terms(s, &f)}));
-    nh_family_list_product_of_sets(s, &q, &f);
-}
-
-/* Products of two positions or velocities, times the atoms; only where the angles do not matter. */
 static void stage_degree_2(nh_family_list *s)
 {
     enum { degree = 2 };
@@ -233,21 +209,6 @@ static void stage_weights(nh_family_list *s)
                                                     nh_family_list_terms(s, &f)}));
 }
 
-/* Rational: P / v with P linear. */
-static void stage_ratios(nh_family_list *s)
-{
-    nh_dag *d = s->o->dag;
-    nh_expr_set l = linear_words(s), q = nh_expr_set_positions(s, true, false), v = {0};
-    for (size_t i = 0; i < s->w->velocities; i++) nh_expr_set_put(&v, nh_powi(d, s->w->velocity[i], -1));
-    for (size_t i = 0; i < s->w->atoms; i++) nh_expr_set_put(&v, s->w->atom[i]);
-    nh_expr_set qt = nh_expr_set_positions(s, true, true);
-    nh_family_list_add(s, nh_family_list_product(s, 3,
-                                                 (nh_family[]){nh_family_list_terms(s, &l), nh_family_list_terms(s, &q),
-                                                               nh_family_list_terms(s, &v)}));
-    nh_family_list_product_of_sets(s, &v, &qt);
-    nh_family_list_add(s, nh_family_list_terms(s, &qt));
-}
-
 typedef struct {
     const char *name;
     void (*build)(nh_family_list *);
@@ -259,22 +220,17 @@ static const recipe of_many[] = {
 };
 
 static const recipe stages[] = {
-    {"energy, momenta, velocities, forms, positions, terms of the potential", stage_words},
-    {"momenta times 1, t and logarithms of t, positions, powers of t", nh_stage_drive},
-    {"energy, momenta, velocities and forms times 1, t and the positions", stage_words_positions},
-    {"velocities and forms times first harmonics of the angles", stage_linear_waves},
-    {"energy, momenta and forms times positions and the system's own functions", stage_functions},
-    {"total degree 2 times the system's own functions", stage_degree_2},
-    {"quadratic forms times positions", stage_weights},
-    {"weighted degree 4 in the frame of the kinetic energy", nh_stage_weight_4},
-    {"squares of velocities times positions of higher degree, energy and functions times lower", nh_stage_separation},
-    {"cubic in velocities times positions, velocities times functions and positions", nh_stage_cubic},
-    {"degree four in velocities, as homogeneous as the potential", nh_stage_homogeneous},
-    {"squares of single momenta, the energy, and functions of one coordinate", nh_stage_separated},
-    {"squares of positions and velocities times functions of time", nh_stage_time},
-    {"squares of the frame times lengths and first harmonics", stage_frame},
-    {"squares of the frame times lengths and half angles", nh_stage_half_angles},
-    {"ratios of velocities", stage_ratios},
+    [NH_STAGE_WORDS] = {"energy, momenta, velocities, forms, positions, terms of the potential", stage_words},
+    [NH_STAGE_DRIVE] = {"momenta times 1, t and logarithms of t, positions, powers of t", nh_stage_drive},
+    [NH_STAGE_WORDS_POSITIONS] = {"energy, momenta, velocities and forms times 1, t and the positions",
+                                  stage_words_positions},
+    [NH_STAGE_DEGREE_2] = {"total degree 2 times the system's own functions", stage_degree_2},
+    [NH_STAGE_WEIGHTS] = {"quadratic forms times positions", stage_weights},
+    [NH_STAGE_WEIGHT_4] = {"weighted degree 4 in the frame of the kinetic energy", nh_stage_weight_4},
+    [NH_STAGE_SEPARATION] = {"squares of velocities times positions of higher degree, energy and functions times lower",
+                             nh_stage_separation},
+    [NH_STAGE_TIME] = {"squares of positions and velocities times functions of time", nh_stage_time},
+    [NH_STAGE_HALF_ANGLES] = {"squares of the frame times lengths and half angles", nh_stage_half_angles},
 };
 
 static nh_stage cook(const recipe *r, nh_arena *arena, const nh_model *o, const nh_dictionary *w)
@@ -311,35 +267,53 @@ static void put_growing(const nh_family_list *s, nh_expr_set *l)
 
 /* Squares or cubes of velocities and lengths, and the system's functions, for cubes times lengths.  Lists that are too
    long are left empty. */
-static nh_family power_base(nh_family_list *s, size_t degree)
+static nh_expr_set pencil_powers(const nh_family_list *s, size_t degree)
 {
     enum { most_variables = 7 };
     nh_expr_set u = {0}, l = {0}, q = nh_expr_set_lengths(s, false, false), f = nh_expr_set_functions(s, false);
     nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
     nh_expr_set_put_all(&u, s->w->lengths, s->w->length);
-    if (u.n > most_variables || s->w->lengths == 0 || (degree > 2 && (s->w->waves || f.n == 0)))
-        return nh_family_list_terms(s, &l);
+    if (u.n > most_variables || s->w->lengths == 0 || (degree > 2 && (s->w->waves || f.n == 0))) return l;
     l = nh_expr_set_squares(s, &u);
     for (size_t k = 2; k < degree; k++) l = times(s, &l, &u);
     nh_expr_set g = degree > 2 ? times(s, &f, &q) : f;
     nh_expr_set_put_all(&l, g.n, g.e);
-    return nh_family_list_terms(s, &l);
+    return l;
 }
 
-nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *o, const nh_dictionary *w, nh_ex angle)
+/* Velocities, times first harmonics of the angles where these stay few; of degree one everything else as well. */
+static nh_expr_set pencil_words(const nh_family_list *s, nh_pencil_base base)
 {
-    nh_dag *d = o->dag;
-    nh_family_list s = {arena, o, w, NULL, 0};
-    nh_expr_set l = linear_words(&s), wave = {0};
-    nh_expr_set_put(&wave, nh_int(d, 1));
-    nh_expr_set_put(&wave, nh_call(d, NH_COS, angle));
-    nh_expr_set_put(&wave, nh_call(d, NH_SIN, angle));
-    nh_expr_set both = times(&s, &l, &wave);
-    return nh_family_list_terms(&s, &both);
+    enum { most_with_waves = 110 };
+    const nh_dictionary *w = s->w;
+    nh_expr_set l = {0}, v = {0};
+    nh_expr_set_put_all(&l, w->velocities, w->velocity);
+    if (base >= NH_PENCIL_LINEAR) nh_expr_set_put_all(&l, w->frames, w->frame);
+    if (base >= NH_PENCIL_LINEAR) nh_expr_set_put_all(&l, w->forms, w->form);
+    size_t n = l.n;
+    if (base > NH_PENCIL_VELOCITIES && (double)n * pow(3, (double)w->waves) <= most_with_waves) v = waves(s);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < v.n; j++) nh_expr_set_put(&l, nh_mul(s->o->dag, l.e[i], v.e[j]));
+    if (base >= NH_PENCIL_TIME) nh_expr_set_put_time(s, &l);
+    if (base == NH_PENCIL_GROWING) put_growing(s, &l);
+    if (base < NH_PENCIL_LINEAR) return l;
+    nh_expr_set q = nh_expr_set_positions(s, false, false), f = nh_expr_set_functions(s, false);
+    nh_expr_set_put_all(&l, q.n, q.e);
+    nh_expr_set_put_all(&l, f.n, f.e);
+    nh_expr_set_put_all(&l, w->momenta, w->momentum);
+    return l;
 }
 
-/* Of the potentials, again and again: exp(2 c x) (x'^2/2 + f(x)) is kept under friction c x'^2 where f' + 2 c f =
-   V'. */
+/* Velocities times 1 and positions. */
+static nh_expr_set pencil_products(const nh_family_list *s)
+{
+    nh_expr_set u = {0}, x = nh_expr_set_positions(s, true, false);
+    nh_expr_set_put_all(&u, s->w->velocities, s->w->velocity);
+    return times(s, &u, &x);
+}
+
+/* Integrals of the potentials, repeatedly: with friction c x'^2 exp(2 c x) (x'^2/2 + f(x)) is conserved where f' + 2 c
+ * f = V'. */
 static void put_derivatives(const nh_family_list *s, nh_expr_set *l)
 {
     enum { highest = 6 };
@@ -356,45 +330,42 @@ static void put_derivatives(const nh_family_list *s, nh_expr_set *l)
         }
 }
 
-nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t base)
+/* Squares of velocities, and the system's functions with the derivatives of its potentials. */
+static nh_expr_set pencil_squares(const nh_family_list *s)
 {
-    enum { most_with_waves = 110 };
+    nh_expr_set u = {0}, f = nh_expr_set_functions(s, true);
+    put_derivatives(s, &f);
+    nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
+    nh_expr_set uu = nh_expr_set_squares(s, &u);
+    nh_expr_set_put_all(&uu, f.n, f.e);
+    return uu;
+}
+
+nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *o, const nh_dictionary *w, nh_ex angle)
+{
+    nh_dag *d = o->dag;
     nh_family_list s = {arena, o, w, NULL, 0};
-    bool growing = base == NH_PENCIL_GROWING, timely = growing || base == NH_PENCIL_TIME;
-    if (timely) base = 2;
-    if (base == NH_PENCIL_QUADRATIC || base == NH_PENCIL_CUBIC) return power_base(&s, base == NH_PENCIL_CUBIC ? 3 : 2);
-    if (base == NH_PENCIL_SQUARES) {
-        nh_expr_set u = {0}, f = nh_expr_set_functions(&s, true);
-        put_derivatives(&s, &f);
-        nh_expr_set_put_all(&u, o->n, o->chart->w);
-        nh_expr_set uu = nh_expr_set_squares(&s, &u);
-        nh_expr_set_put_all(&uu, f.n, f.e);
-        return nh_family_list_terms(&s, &uu);
+    nh_expr_set l = linear_words(&s), wave = {0};
+    nh_expr_set_put(&wave, nh_int(d, 1));
+    nh_expr_set_put(&wave, nh_call(d, NH_COS, angle));
+    nh_expr_set_put(&wave, nh_call(d, NH_SIN, angle));
+    nh_expr_set both = times(&s, &l, &wave);
+    return nh_family_list_terms(&s, &both);
+}
+
+nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, nh_pencil_base base)
+{
+    nh_family_list s = {arena, o, w, NULL, 0};
+    nh_expr_set l = {0};
+    switch (base) {
+    case NH_PENCIL_QUADRATIC: l = pencil_powers(&s, 2); break;
+    case NH_PENCIL_CUBIC: l = pencil_powers(&s, 3); break;
+    case NH_PENCIL_SQUARES: l = pencil_squares(&s); break;
+    case NH_PENCIL_PRODUCTS: l = pencil_products(&s); break;
+    case NH_PENCIL_FRAME:
+        if (w->frames == o->n) l = frame_products(&s);
+        break;
+    default: l = pencil_words(&s, base);
     }
-    if (base == NH_PENCIL_PRODUCTS) {
-        nh_expr_set u = {0}, x = nh_expr_set_positions(&s, true, false);
-        nh_expr_set_put_all(&u, w->velocities, w->velocity);
-        nh_expr_set l = times(&s, &u, &x);
-        return nh_family_list_terms(&s, &l);
-    }
-    if (base >= NH_PENCIL_PLAIN) {
-        nh_expr_set l = {0};
-        if (w->frames == o->n) l = frame_products(&s, base > NH_PENCIL_PLAIN);
-        return nh_family_list_terms(&s, &l);
-    }
-    nh_expr_set l = {0}, v = {0}, q = nh_expr_set_positions(&s, false, false), f = nh_expr_set_functions(&s, false);
-    nh_expr_set_put_all(&l, w->velocities, w->velocity);
-    if (base == 2) nh_expr_set_put_all(&l, w->frames, w->frame);
-    if (base == 2) nh_expr_set_put_all(&l, w->forms, w->form);
-    size_t words_count = l.n;
-    if (base > 0 && (double)words_count * pow(3, (double)w->waves) <= most_with_waves) v = waves(&s);
-    for (size_t i = 0; i < words_count; i++)
-        for (size_t j = 0; j < v.n; j++) nh_expr_set_put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
-    if (timely) nh_expr_set_put_time(&s, &l);
-    if (growing) put_growing(&s, &l);
-    if (base < 2) return nh_family_list_terms(&s, &l);
-    nh_expr_set_put_all(&l, q.n, q.e);
-    nh_expr_set_put_all(&l, f.n, f.e);
-    nh_expr_set_put_all(&l, w->momenta, w->momentum);
     return nh_family_list_terms(&s, &l);
 }

@@ -71,12 +71,6 @@ void nh_stage_weight_4(nh_family_list *families);
 /* Squares of velocities with coefficients of higher degree in the positions; the energy and functions with lower
  * ones. */
 void nh_stage_separation(nh_family_list *families);
-/* Squares of single momenta, and the energy, with coefficients that are functions of one coordinate each, and these. */
-void nh_stage_separated(nh_family_list *families);
-/* Quasi-homogeneous polynomials of degree four in the velocities, for polynomial potentials. */
-void nh_stage_homogeneous(nh_family_list *families);
-/* Cubic in the velocities times positions, the system's functions with one velocity (Holt, Fokas and Lagerstrom). */
-void nh_stage_cubic(nh_family_list *families);
 /* Half angles: parabolic coordinates seen from polar ones. */
 void nh_stage_half_angles(nh_family_list *families);
 /* 1 and products of functions of one coordinate. */

@@ -1,0 +1,134 @@
+/* The potential of forces, coordinate by coordinate: U_1 = int Q_1 dq^1, U_2 = int (Q_2 - dU_1/dq^2) dq^2, ... */
+#include "search/force_potential.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "exact/antiderivative.h"
+#include "exact/normal.h"
+#include "graph/diff.h"
+
+enum { largest_form = 2000, most_signs = 8 };
+
+typedef struct {
+    const nh_model *o;
+    const nh_points *points;
+    size_t max_terms, signs;
+    nh_ex *force;            /* m */
+    nh_ex call[most_signs];  /* sign(u) with velocities in u */
+    nh_ex value[most_signs]; /* symbols: its value on either side */
+} problem;
+
+static bool has_velocities(const nh_model *o, nh_ex e)
+{
+    for (size_t s = 0; s < o->m; s++)
+        if (nh_depends(o->dag, e, o->system->coordinate[s].v)) return true;
+    return false;
+}
+
+/* |u| = u sign(u); every sign(u) of velocities becomes a symbol. */
+static bool fix_signs(problem *p, nh_ex *e)
+{
+    nh_dag *d = p->o->dag;
+    nh_ex call[most_signs];
+    size_t n = nh_functions_in(d, *e, call, most_signs);
+    for (size_t i = 0; i < n && n <= most_signs; i++) {
+        nh_function f = nh_function_of(d, call[i]);
+        if ((f != NH_SIGN && f != NH_ABS) || !has_velocities(p->o, call[i])) continue;
+        nh_ex u = nh_child(d, call[i], 0), sign = nh_call(d, NH_SIGN, u);
+        size_t k = 0;
+        while (k < p->signs && p->call[k] != sign) k++;
+        if (k == most_signs) return false;
+        if (k == p->signs) {
+            p->call[k] = sign;
+            p->value[p->signs++] = nh_symbol_fresh(d, "s");
+        }
+        *e = nh_substitute(d, *e, 1, &call[i], &(nh_ex){f == NH_SIGN ? p->value[k] : nh_mul(d, p->value[k], u)});
+    }
+    /* 1/s = s */
+    for (size_t k = 0; k < p->signs; k++)
+        *e = nh_substitute(d, *e, 1, &(nh_ex){nh_powi(d, p->value[k], -1)}, &p->value[k]);
+    *e = nh_simplify_short(d, *e, largest_form);
+    return n <= most_signs && !has_velocities(p->o, *e) && !nh_depends(d, *e, p->o->system->t);
+}
+
+static bool is_closed(const problem *p)
+{
+    nh_dag *d = p->o->dag;
+    const nh_coordinate *c = p->o->system->coordinate;
+    for (size_t i = 0; i < p->o->m; i++)
+        for (size_t j = 0; j < i; j++) {
+            nh_ex curl = nh_sub(d, nh_diff(d, p->force[i], c[j].q), nh_diff(d, p->force[j], c[i].q));
+            if (!nh_is_zero(d, nh_simplify_short(d, curl, largest_form))) return false;
+        }
+    return true;
+}
+
+/* The sign of e at all points; 0 where it changes. */
+static int sign_at_points(void *context, nh_ex e)
+{
+    const problem *p = context;
+    double *value = nh_alloc_array(p->points->count + 1, sizeof *value);
+    e = nh_substitute(p->o->dag, e, p->signs, p->value, p->call);
+    nh_points_evaluate(p->points, p->o, 1, &e, value);
+    int sign = 0;
+    bool same = true;
+    for (size_t i = 0; i < p->points->count && same; i++) {
+        int here = (value[i] > 0) - (value[i] < 0);
+        same = here && (i == 0 || here == sign) && isfinite(value[i]);
+        sign = here;
+    }
+    nh_free(value);
+    return same ? sign : 0;
+}
+
+/* Along the coordinates in the order of `step`: 1, or -1 from the last one. */
+static nh_ex integrate(problem *p, int step)
+{
+    const nh_model *o = p->o;
+    nh_dag *d = o->dag;
+    size_t parameters = o->system->parameters, n = parameters + p->signs;
+    nh_ex U = nh_int(d, 0), *constant = nh_alloc_array(n + o->m + 1, sizeof *constant);
+    memcpy(constant, o->parameter, parameters * sizeof *constant);
+    memcpy(constant + parameters, p->value, p->signs * sizeof *constant);
+    bool found = true;
+    for (size_t k = 0; k < o->m && found; k++) {
+        size_t i = step > 0 ? k : o->m - 1 - k, constants = n;
+        nh_ex q = o->system->coordinate[i].q, F = 0,
+              rest = nh_simplify_short(d, nh_sub(d, p->force[i], nh_diff(d, U, q)), largest_form);
+        for (size_t j = 0; j < o->m; j++)
+            if (j != i) constant[constants++] = o->system->coordinate[j].q;
+        if (nh_is_zero(d, rest)) continue;
+        nh_integration in = {.dag = d,
+                             .x = q,
+                             .constants = constants,
+                             .constant = constant,
+                             .max_terms = p->max_terms,
+                             .sign = sign_at_points,
+                             .context = p};
+        found = nh_antiderivative(&in, rest, &F);
+        if (found) U = nh_add(d, U, F);
+    }
+    nh_free(constant);
+    return found ? nh_substitute(d, U, p->signs, p->value, p->call) : 0;
+}
+
+nh_ex nh_force_potential(const nh_model *o, const nh_points *points, size_t max_terms)
+{
+    if (!o->system->has_forces) return 0;
+    problem p = {.o = o, .points = points, .max_terms = max_terms};
+    p.force = nh_alloc_array(o->m + 1, sizeof *p.force);
+    bool some = false, position = true;
+    for (size_t s = 0; s < o->m && position; s++) {
+        p.force[s] = o->system->force[s];
+        position = fix_signs(&p, &p.force[s]);
+        some |= !nh_is_zero(o->dag, p.force[s]);
+    }
+    nh_ex U = 0;
+    if (some && position && is_closed(&p)) {
+        U = integrate(&p, 1);
+        if (!U) U = integrate(&p, -1);
+    }
+    nh_free(p.force);
+    return U;
+}
