@@ -38,11 +38,11 @@ static bool is_plain(const nh_jet_equations *x, nh_ex e)
 }
 
 /* A power that cannot be evaluated is left out. */
-static void put_power(nh_known_motions_words *w, nh_known_motions_letter *l, nh_ex e, double price)
+static void put_power(nh_closed_words *w, nh_closed_letter *l, nh_ex e, double price)
 {
     nh_jet_equations *x = w->equations;
     if (price > w->most + tiny) return;
-    nh_known_motions_power p = {
+    nh_closed_power p = {
         .shown = e, .value = e, .price = price, .coordinates = coordinates_in(x, e), .plain = is_plain(x, e)};
     size_t kernels = x->point->kernels;
     if (!nh_jet_equations_take(x, true, &p.value)) {
@@ -58,7 +58,7 @@ static void put_power(nh_known_motions_words *w, nh_known_motions_letter *l, nh_
 
 /* The exponents k/root of a letter.  A negative exponent is priced relative to the lowest that the system has.  Whole
  * powers of a linear base are sums of other words. */
-static void put_powers(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
+static void put_powers(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
     double root = (double)a->root, down = a->down, up = a->up;
@@ -69,7 +69,7 @@ static void put_powers(nh_known_motions_words *w, nh_known_motions_letter *l, co
         put_power(w, l, nh_pow(d, a->base, nh_ratio(d, -k, a->root)), (double)k / root / down);
 }
 
-static void put_exponentials(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
+static void put_exponentials(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
     for (int64_t k = 1; (double)k <= w->most; k++) {
@@ -80,7 +80,7 @@ static void put_exponentials(nh_known_motions_words *w, nh_known_motions_letter 
 
 /* cos^i sin^j without those that sin^2 + cos^2 = 1 makes of others: of the products of negative powers, 1/(cos sin)
  * alone. */
-static void put_circle(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
+static void put_circle(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
     nh_ex c = nh_call(d, NH_COS, a->base), s = nh_call(d, NH_SIN, a->base);
@@ -94,11 +94,11 @@ static void put_circle(nh_known_motions_words *w, nh_known_motions_letter *l, co
         }
 }
 
-static void put_letter(nh_known_motions_words *w, const nh_letter *a)
+static void put_letter(nh_closed_words *w, const nh_letter *a)
 {
     nh_grow(&w->letter, &w->capacity, w->letters + 1, sizeof *w->letter);
-    nh_known_motions_letter *l = &w->letter[w->letters];
-    *l = (nh_known_motions_letter){0};
+    nh_closed_letter *l = &w->letter[w->letters];
+    *l = (nh_closed_letter){0};
     put_power(w, l, nh_int(w->equations->dag, 1), 0);
     if (a->kind == NH_LETTER_CIRCLE) put_circle(w, l, a);
     else if (a->kind == NH_LETTER_EXPONENTIAL) put_exponentials(w, l, a);
@@ -110,10 +110,10 @@ static void put_letter(nh_known_motions_words *w, const nh_letter *a)
 /* ---- words ---- */
 
 /* The choice after `at`, with price `sum` and `factors` factors that are not plain.  False: it was the last. */
-static bool next_choice(const nh_known_motions_words *w, size_t most_factors, size_t *at, double *sum, size_t *factors)
+static bool next_choice(const nh_closed_words *w, size_t most_factors, size_t *at, double *sum, size_t *factors)
 {
     for (size_t i = 0; i < w->letters; i++) {
-        const nh_known_motions_power *power = w->letter[i].power;
+        const nh_closed_power *power = w->letter[i].power;
         size_t others = *factors - !power[at[i]].plain, next = at[i] + 1;
         double rest = *sum - power[at[i]].price;
         while (next < w->letter[i].powers && others + !power[next].plain > most_factors) next++;
@@ -128,7 +128,7 @@ static bool next_choice(const nh_known_motions_words *w, size_t most_factors, si
 
 /* Counts all choices whose price is at most `largest` and that have at most so many factors that are not plain, and
  * writes them where there is room. */
-static size_t choices(const nh_known_motions_words *w, size_t most_factors, size_t most, uint16_t *choice,
+static size_t choices(const nh_closed_words *w, size_t most_factors, size_t most, uint16_t *choice,
                       double *price)
 {
     size_t count = 0, factors = 0, *at = nh_alloc_array(w->letters + 1, sizeof *at);
@@ -144,7 +144,7 @@ static size_t choices(const nh_known_motions_words *w, size_t most_factors, size
 
 /* The largest number of factors that are not plain with which there are at most `most` words; 0: even one gives
  * more. */
-static size_t factors_that_fit(const nh_known_motions_words *w, size_t most)
+static size_t factors_that_fit(const nh_closed_words *w, size_t most)
 {
     size_t factors = w->letters;
     while (factors > 0 && choices(w, factors, most, NULL, NULL) > most) factors--;
@@ -164,7 +164,7 @@ static int by_price(const void *a, const void *b)
     return (x->index > y->index) - (x->index < y->index);
 }
 
-static void sort(nh_known_motions_words *w)
+static void sort(nh_closed_words *w)
 {
     size_t n = w->letters;
     rank *order = nh_alloc_array(w->words + 1, sizeof *order);
@@ -186,17 +186,17 @@ static void sort(nh_known_motions_words *w)
     w->price = price;
 }
 
-nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, double price, size_t most_words,
+nh_closed_words *nh_closed_words_create(nh_jet_equations *x, double price, size_t most_words,
                                                       bool secular, const nh_construct_rates *rates)
 {
-    nh_known_motions_words *w = nh_alloc(sizeof *w);
-    *w = (nh_known_motions_words){.equations = x, .most = price};
+    nh_closed_words *w = nh_alloc(sizeof *w);
+    *w = (nh_closed_words){.equations = x, .most = price};
     nh_letters letters = nh_letters_of(x, secular, rates);
     for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
     nh_free(letters.item);
     size_t factors = factors_that_fit(w, most_words);
     if (w->letters && !factors) {
-        nh_known_motions_words_free(w);
+        nh_closed_words_free(w);
         return NULL;
     }
     w->words = choices(w, factors, most_words, NULL, NULL);
@@ -207,7 +207,7 @@ nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, doubl
     return w;
 }
 
-void nh_known_motions_words_free(nh_known_motions_words *w)
+void nh_closed_words_free(nh_closed_words *w)
 {
     if (!w) return;
     for (size_t i = 0; i < w->letters; i++) nh_free(w->letter[i].power);
@@ -217,14 +217,14 @@ void nh_known_motions_words_free(nh_known_motions_words *w)
     nh_free(w);
 }
 
-uint32_t nh_known_motions_word_coordinates(const nh_known_motions_words *w, size_t word)
+uint32_t nh_closed_words_coordinates(const nh_closed_words *w, size_t word)
 {
     uint32_t mask = 0;
     for (size_t i = 0; i < w->letters; i++) mask |= w->letter[i].power[w->choice[word * w->letters + i]].coordinates;
     return mask;
 }
 
-nh_ex nh_known_motions_word(const nh_known_motions_words *w, size_t word)
+nh_ex nh_closed_words_expression(const nh_closed_words *w, size_t word)
 {
     nh_dag *d = w->equations->dag;
     nh_ex e = nh_int(d, 1);
@@ -236,7 +236,7 @@ nh_ex nh_known_motions_word(const nh_known_motions_words *w, size_t word)
 /* ---- independent words ---- */
 
 /* The values of all words at the point of the equations.  False: the point is not regular. */
-static bool values_at(const nh_known_motions_words *w, const nh_jet_ring *point, nh_residue *value,
+static bool values_at(const nh_closed_words *w, const nh_jet_ring *point, nh_residue *value,
                       nh_residue *out)
 {
     nh_jet_equations *x = w->equations;
@@ -257,7 +257,7 @@ static bool values_at(const nh_known_motions_words *w, const nh_jet_ring *point,
     return good;
 }
 
-static void keep_words(nh_known_motions_words *w, size_t count, const size_t *chosen)
+static void keep_words(nh_closed_words *w, size_t count, const size_t *chosen)
 {
     for (size_t k = 0; k < count; k++) {
         memmove(w->choice + k * w->letters, w->choice + chosen[k] * w->letters, w->letters * sizeof *w->choice);
@@ -267,7 +267,7 @@ static void keep_words(nh_known_motions_words *w, size_t count, const size_t *ch
 }
 
 /* Values of all words at so many points, in echelon form.  Returns the rank; `chosen`: the pivot columns. */
-static size_t independent_at(const nh_known_motions_words *w, nh_prime field, size_t rows, size_t *chosen, bool *enough)
+static size_t independent_at(const nh_closed_words *w, nh_prime field, size_t rows, size_t *chosen, bool *enough)
 {
     enum { most_tries = 64 };
     nh_jet_equations *x = w->equations;
@@ -289,7 +289,7 @@ static size_t independent_at(const nh_known_motions_words *w, nh_prime field, si
 }
 
 /* Points are added until there are more than the rank: often only few of the words are independent. */
-double nh_known_motions_words_reduce(nh_known_motions_words *w)
+double nh_closed_words_reduce(nh_closed_words *w)
 {
     /* rows_together: rows that dense algebra treats in the time of one product */
     enum { spare = 8, first = 64, rows_together = 4 };
@@ -312,11 +312,11 @@ double nh_known_motions_words_reduce(nh_known_motions_words *w)
 /* ---- values ---- */
 
 /* Series of every power of every letter; series[i]: of letter i, one after another. */
-static bool powers(const nh_known_motions_words *w, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue **series)
+static bool powers(const nh_closed_words *w, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue **series)
 {
     bool good = true;
     for (size_t i = 0; i < w->letters && good; i++) {
-        const nh_known_motions_letter *l = &w->letter[i];
+        const nh_closed_letter *l = &w->letter[i];
         series[i] = nh_alloc_array(l->powers * ring->size, sizeof **series);
         for (size_t k = 0; k < l->powers && good; k++)
             good = nh_jet_eval_all(v, 1, &l->power[k].value, series[i] + k * ring->size);
@@ -324,7 +324,7 @@ static bool powers(const nh_known_motions_words *w, nh_jet_eval *v, const nh_jet
     return good;
 }
 
-bool nh_known_motions_words_evaluate(const nh_known_motions_words *w, const nh_jet_ring *ring,
+bool nh_closed_words_evaluate(const nh_closed_words *w, const nh_jet_ring *ring,
                                      const nh_residue *coordinate, nh_residue *out, double *work)
 {
     nh_residue **series = nh_alloc_array(w->letters + 1, sizeof *series),

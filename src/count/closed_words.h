@@ -26,40 +26,40 @@ typedef struct {
     double price;
     uint32_t coordinates; /* a set of bits: the coordinates on which it depends */
     bool plain;           /* a polynomial in coordinates, sines and cosines */
-} nh_known_motions_power;
+} nh_closed_power;
 
 typedef struct {
     size_t powers, capacity;
-    nh_known_motions_power *power; /* cheapest first; the first is 1 */
-} nh_known_motions_letter;
+    nh_closed_power *power; /* cheapest first; the first is 1 */
+} nh_closed_letter;
 
 typedef struct {
     nh_jet_equations *equations;
     double most;          /* the largest price */
     size_t letters, capacity;
-    nh_known_motions_letter *letter;
+    nh_closed_letter *letter;
     size_t words;
     uint16_t *choice;     /* words x letters: the index of the power of each letter */
     double *price;        /* price per word */
-} nh_known_motions_words;
+} nh_closed_words;
 
 /* The words up to a price; `secular`, `rates`: closed_letters.h.  All letters are registered for evaluation, so a point
  * must be chosen afterwards.  NULL: there are more words than `most_words`, even with one such factor in each. */
-nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words,
+nh_closed_words *nh_closed_words_create(nh_jet_equations *equations, double price, size_t most_words,
                                                       bool secular, const nh_construct_rates *rates);
-void nh_known_motions_words_free(nh_known_motions_words *words);
+void nh_closed_words_free(nh_closed_words *words);
 
 /* Leaves out words that are linear combinations of cheaper ones (partial fractions, sines and cosines in denominators),
  * by their values at random points; returns the work in products of residues.  The equations stand at another point
  * afterwards.  Related roots may have other signs at other points, so their words stay. */
-double nh_known_motions_words_reduce(nh_known_motions_words *words);
+double nh_closed_words_reduce(nh_closed_words *words);
 
 /* The coordinates that a word depends on, and the word with parameters as symbols. */
-uint32_t nh_known_motions_word_coordinates(const nh_known_motions_words *words, size_t word);
-nh_ex nh_known_motions_word(const nh_known_motions_words *words, size_t word);
+uint32_t nh_closed_words_coordinates(const nh_closed_words *words, size_t word);
+nh_ex nh_closed_words_expression(const nh_closed_words *words, size_t word);
 
 /* The series of all words, one after another.  False: another point is needed.  `work` counts products of residues. */
-bool nh_known_motions_words_evaluate(const nh_known_motions_words *words, const nh_jet_ring *ring,
+bool nh_closed_words_evaluate(const nh_closed_words *words, const nh_jet_ring *ring,
                                      const nh_residue *coordinate, nh_residue *out, double *work);
 
 #endif

@@ -139,7 +139,7 @@ static void add_constructed(nh_construction *out, const nh_construct_attempt *a,
                           .coefficient = nh_arena_alloc(out->arena, terms * sizeof *c->coefficient)};
     for (size_t j = 0; j < terms; j++) {
         if (!r->row[i * r->width + j]) continue;
-        nh_ex e = nh_known_motions_word(a->words, a->chosen[r->order[j] % a->kept]);
+        nh_ex e = nh_closed_words_expression(a->words, a->chosen[r->order[j] % a->kept]);
         e = nh_mul(x->dag, e, nh_velocity_frame_monomial(a->frame, x, g->alpha + r->order[j] / a->kept * x->n));
         if (c->coefficient && !read_coefficient(a, r->row[i * r->width + j], &c->coefficient[c->terms]))
             c->coefficient = NULL;
@@ -377,11 +377,11 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     nh_counter c;
     *out = (nh_construction){.arena = arena};
     nh_counter_open(&c, model, &q);
-    nh_known_motions_words *words = NULL;
+    nh_closed_words *words = NULL;
     if (!c.equations->obstacle)
-        words = nh_known_motions_words_create(c.equations, question->price, question->most_words, question->secular,
+        words = nh_closed_words_create(c.equations, question->price, question->most_words, question->secular,
                                               question->rates);
-    if (words && !c.equations->obstacle) c.work += nh_known_motions_words_reduce(words);
+    if (words && !c.equations->obstacle) c.work += nh_closed_words_reduce(words);
     nh_velocity_frame frame = nh_velocity_frame_of(c.equations);
     outcome o = words ? UNLUCKY : TOO_MUCH;
     for (size_t point = 0; point < most_points && o == UNLUCKY && !c.equations->obstacle && !nh_late(); point++) {
@@ -394,7 +394,7 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     out->limited = o != DONE;
     out->work = c.work;
     nh_velocity_frame_clear(&frame);
-    nh_known_motions_words_free(words);
+    nh_closed_words_free(words);
     nh_counter_close(&c);
     return out;
 }

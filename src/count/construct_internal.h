@@ -13,7 +13,7 @@ enum { NH_CONSTRUCT_ROWS_TOGETHER = 4 }; /* products of residues that dense alge
  * functionals. */
 typedef struct {
     nh_counter *counter;
-    nh_known_motions_words *words;
+    nh_closed_words *words;
     const nh_velocity_frame *frame; /* order at which solutions are recognised */
     nh_count_series *series;
     size_t parts;            /* number of parities */

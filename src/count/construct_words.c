@@ -43,7 +43,7 @@ bool nh_construct_words_scarce(const nh_construct_attempt *a, size_t order, size
         for (size_t k = 0; k < m; k++)
             if (set >> k & 1) own[variables++] = weight[k];
         for (size_t k = 0; k < words; k++)
-            among += !(nh_known_motions_word_coordinates(a->words, word ? word[k] : k) & ~set);
+            among += !(nh_closed_words_coordinates(a->words, word ? word[k] : k) & ~set);
         bool all = variables >= leaf; /* on a leaf only so many coordinates vary independently */
         room = nh_jet_ring_size(all ? leaf : variables, all ? f->weight : own, order, most_coefficients);
         good = among + (all ? spare : spare_few) <= room;
@@ -63,7 +63,7 @@ static bool word_values(nh_construct_attempt *a)
     bool good = true;
     for (size_t j = 0; j < a->lines.lines && good && !nh_late(); j++) {
         nh_count_along(a->series->ring, line, a->lines.curve + j * a->lines.size, all, a->series->coordinate, q);
-        good = nh_known_motions_words_evaluate(a->words, line, q, series, &c->work);
+        good = nh_closed_words_evaluate(a->words, line, q, series, &c->work);
         for (size_t k = 0; k < words && good; k++)
             nh_count_line_values(&a->lines, j, a->field, series + k * line->size, a->value + k, a->width);
     }
