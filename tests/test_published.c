@@ -83,6 +83,10 @@ static const published PUBLISHED[] = {
      "parameters: {a: 0.4, b: 0.7, c: 0.9}\ncoordinates: [x, y]\n"
      "lagrangian: x'*y' - a/(x*y) - b*x^(1/2)*y^(-5/2) - c*x^(-1/2)*y^(-3/2)\n" QUADRANT, 3, 6},
     /* F. Calogero, J. Math. Phys. 10 (1969) 2191; M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313 */
+    /* M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313; S. Wojciechowski, Phys. Lett. A 95 (1983) 279: as many integrals as there can be */
+    {"Calogero, B3", "parameters: {g: 0.3, h: 0.2}\ncoordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - g*(1/(x - y)^2 + 1/(x - z)^2 + 1/(y - z)^2 + 1/(x + y)^2 + 1/(x + z)^2 + 1/(y + z)^2) - h*(1/x^2 + 1/y^2 + 1/z^2)\n"
+     "domain: {x: [0.5, 0.9], y: [1.2, 1.7], z: [2, 2.5]}\n", 6, 4},
     {"Calogero, B2",
      "parameters: {g: 0.4, h: 0.7}\n" PLANE "g/(x - y)^2 - g/(x + y)^2 - h/x^2 - h/y^2\ndomain: {x: [0.2, 1], y: [1.5, 2.5]}\n", 4, 6},
     /* F. Tremblay, A. V. Turbiner and P. Winternitz, J. Phys. A 42 (2009) 242001 */

@@ -126,17 +126,31 @@ static bool next_choice(const nh_closed_words *w, size_t most_factors, size_t *a
     return false;
 }
 
-/* Counts all choices whose price is at most `largest` and that have at most so many factors that are not plain, and
- * writes them where there is room. */
-static size_t choices(const nh_closed_words *w, size_t most_factors, size_t most, uint16_t *choice,
-                      double *price)
+static bool is_wanted(const nh_closed_words *w, const nh_closed_weights *wanted, const size_t *at)
 {
-    size_t count = 0, factors = 0, *at = nh_alloc_array(w->letters + 1, sizeof *at);
+    nh_residue sum = 0;
+    for (size_t i = 0; i < w->letters; i++)
+        sum = nh_residue_add(wanted->field, sum, w->letter[i].power[at[i]].weight);
+    for (size_t i = 0; i < wanted->count; i++)
+        if (wanted->weight[i] == sum) return true;
+    return false;
+}
+
+/* Counts the wanted choices whose price is at most `largest` and that have at most so many factors that are not plain,
+ * and writes them where there is room.  More than `most`: where so many choices have to be looked at, too. */
+static size_t choices(const nh_closed_words *w, size_t most_factors, size_t most, const nh_closed_weights *wanted,
+                      uint16_t *choice, double *price)
+{
+    enum { most_looks = 1000000 };
+    size_t count = 0, looks = 0, factors = 0, *at = nh_alloc_array(w->letters + 1, sizeof *at);
     double sum = 0;
     do {
-        for (size_t i = 0; choice && i < w->letters; i++) choice[count * w->letters + i] = (uint16_t)at[i];
-        if (choice) price[count] = sum;
-        count++;
+        if (++looks > most_looks) count = most + 1;
+        else if (!wanted || is_wanted(w, wanted, at)) {
+            for (size_t i = 0; choice && i < w->letters; i++) choice[count * w->letters + i] = (uint16_t)at[i];
+            if (choice) price[count] = sum;
+            count++;
+        }
     } while (count <= most && next_choice(w, most_factors, at, &sum, &factors));
     nh_free(at);
     return count;
@@ -144,10 +158,10 @@ static size_t choices(const nh_closed_words *w, size_t most_factors, size_t most
 
 /* The largest number of factors that are not plain with which there are at most `most` words; 0: even one gives
  * more. */
-static size_t factors_that_fit(const nh_closed_words *w, size_t most)
+static size_t factors_that_fit(const nh_closed_words *w, size_t most, const nh_closed_weights *wanted)
 {
     size_t factors = w->letters;
-    while (factors > 0 && choices(w, factors, most, NULL, NULL) > most) factors--;
+    while (factors > 0 && choices(w, factors, most, wanted, NULL, NULL) > most) factors--;
     return factors;
 }
 
@@ -186,25 +200,58 @@ static void sort(nh_closed_words *w)
     w->price = price;
 }
 
-nh_closed_words *nh_closed_words_create(nh_jet_equations *x, double price, size_t most_words,
-                                                      bool secular, const nh_construct_rates *rates)
+nh_closed_words *nh_closed_words_create(nh_jet_equations *x, double price, bool secular,
+                                        const nh_construct_rates *rates)
 {
     nh_closed_words *w = nh_alloc(sizeof *w);
     *w = (nh_closed_words){.equations = x, .most = price};
     nh_letters letters = nh_letters_of(x, secular, rates);
     for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
     nh_free(letters.item);
-    size_t factors = factors_that_fit(w, most_words);
-    if (w->letters && !factors) {
-        nh_closed_words_free(w);
-        return NULL;
+    return w;
+}
+
+bool nh_closed_words_weigh(nh_closed_words *w, const nh_residue *scaling, nh_prime field)
+{
+    size_t powers = 0, at = 0;
+    bool all = true;
+    for (size_t i = 0; i < w->letters; i++) powers += w->letter[i].powers;
+    nh_ex *value = nh_alloc_array(powers + 1, sizeof *value);
+    nh_residue *weight = nh_alloc_array(powers + 1, sizeof *weight);
+    bool *constant = nh_alloc_array(powers + 1, sizeof *constant);
+    for (size_t i = 0; i < w->letters; i++)
+        for (size_t k = 0; k < w->letter[i].powers; k++) value[at++] = w->letter[i].power[k].value;
+    nh_scaling_weights(w->equations, scaling, field, powers, value, weight, constant);
+    at = 0;
+    for (size_t i = 0; i < w->letters; i++) {
+        nh_closed_letter *l = &w->letter[i];
+        size_t kept = 0;
+        for (size_t k = 0; k < l->powers; k++, at++) {
+            all &= constant[at];
+            if (!constant[at]) continue;
+            l->power[kept] = l->power[k];
+            l->power[kept++].weight = weight[at];
+        }
+        l->powers = kept;
     }
-    w->words = choices(w, factors, most_words, NULL, NULL);
+    nh_free(constant);
+    nh_free(weight);
+    nh_free(value);
+    return all;
+}
+
+bool nh_closed_words_list(nh_closed_words *w, size_t most_words, const nh_closed_weights *wanted)
+{
+    size_t factors = factors_that_fit(w, most_words, wanted);
+    if (w->letters && !factors) return false;
+    nh_free(w->choice);
+    nh_free(w->price);
+    w->words = choices(w, factors, most_words, wanted, NULL, NULL);
     w->choice = nh_alloc_array(w->words * w->letters + 1, sizeof *w->choice);
     w->price = nh_alloc_array(w->words + 1, sizeof *w->price);
-    choices(w, factors, most_words, w->choice, w->price);
+    choices(w, factors, most_words, wanted, w->choice, w->price);
     sort(w);
-    return w;
+    return w->words > 0;
 }
 
 void nh_closed_words_free(nh_closed_words *w)
@@ -222,6 +269,14 @@ uint32_t nh_closed_words_coordinates(const nh_closed_words *w, size_t word)
     uint32_t mask = 0;
     for (size_t i = 0; i < w->letters; i++) mask |= w->letter[i].power[w->choice[word * w->letters + i]].coordinates;
     return mask;
+}
+
+nh_residue nh_closed_words_weight(const nh_closed_words *w, nh_prime field, size_t word)
+{
+    nh_residue sum = 0;
+    for (size_t i = 0; i < w->letters; i++)
+        sum = nh_residue_add(field, sum, w->letter[i].power[w->choice[word * w->letters + i]].weight);
+    return sum;
 }
 
 nh_ex nh_closed_words_expression(const nh_closed_words *w, size_t word)
@@ -289,24 +344,26 @@ static size_t independent_at(const nh_closed_words *w, nh_prime field, size_t ro
 }
 
 /* Points are added until there are more than the rank: often only few of the words are independent. */
-double nh_closed_words_reduce(nh_closed_words *w)
+bool nh_closed_words_reduce(nh_closed_words *w, double most, double *work)
 {
     /* rows_together: rows that dense algebra treats in the time of one product */
     enum { spare = 8, first = 64, rows_together = 4 };
     nh_prime field = nh_jet_point_prime(w->equations->point, 0);
     size_t n = w->words, kept = 0, *chosen = nh_alloc_array(n + 1, sizeof *chosen), rows = first;
-    double work = 0;
-    bool enough = true;
-    for (bool more = true; more && enough; rows *= 2) {
+    bool enough = true, allowed = true;
+    for (bool more = true; more && enough && allowed; rows *= 2) {
         more = rows < n + spare;
         if (!more) rows = n + spare;
+        double least = (double)(rows < n ? rows : n), planned = (double)rows * (double)n * least / rows_together;
+        allowed = *work + planned < most;
+        if (!allowed) break;
         kept = independent_at(w, field, rows, chosen, &enough);
-        work += (double)rows * (double)n * (double)kept / rows_together;
+        *work += (double)rows * (double)n * (double)kept / rows_together;
         more &= kept + spare > rows;
     }
-    if (enough) keep_words(w, kept, chosen);
+    if (enough && allowed) keep_words(w, kept, chosen);
     nh_free(chosen);
-    return work;
+    return allowed;
 }
 
 /* ---- values ---- */

@@ -19,13 +19,14 @@
 #define NH_CLOSED_WORDS_H
 
 #include "count/construct_rates.h"
-#include "count/jet_equations.h"
+#include "count/scaling.h"
 
 typedef struct {
     nh_ex shown, value;   /* with parameters as symbols; as it is evaluated */
     double price;
     uint32_t coordinates; /* a set of bits: the coordinates on which it depends */
     bool plain;           /* a polynomial in coordinates, sines and cosines */
+    nh_residue weight;    /* S(value) / value, where words are listed by their weights */
 } nh_closed_power;
 
 typedef struct {
@@ -43,19 +44,36 @@ typedef struct {
     double *price;        /* price per word */
 } nh_closed_words;
 
-/* The words up to a price; `secular`, `rates`: closed_letters.h.  All letters are registered for evaluation, so a point
- * must be chosen afterwards.  NULL: there are more words than `most_words`, even with one such factor in each. */
-nh_closed_words *nh_closed_words_create(nh_jet_equations *equations, double price, size_t most_words,
-                                                      bool secular, const nh_construct_rates *rates);
+/* The letters with their powers up to a price, and no words yet; `secular`, `rates`: closed_letters.h.  All letters are
+ * registered for evaluation, so a point must be chosen afterwards.  Never NULL. */
+nh_closed_words *nh_closed_words_create(nh_jet_equations *equations, double price, bool secular,
+                                        const nh_construct_rates *rates);
+
+/* Leaves out the powers that the scaling does not multiply by constants, and gives weights to the others.  Were there
+ * none to leave out?  The equations stand at another point afterwards. */
+bool nh_closed_words_weigh(nh_closed_words *words, const nh_residue *scaling, nh_prime field);
+
+/* The sums of weights that words may have. */
+typedef struct {
+    nh_prime field;
+    size_t count;
+    const nh_residue *weight;
+} nh_closed_weights;
+
+/* Lists the words up to the price, of these weights (NULL: all).  False: there are more than `most_words`, even with
+ * one factor in each that is not plain; or none. */
+bool nh_closed_words_list(nh_closed_words *words, size_t most_words, const nh_closed_weights *wanted);
 void nh_closed_words_free(nh_closed_words *words);
 
 /* Leaves out words that are linear combinations of cheaper ones (partial fractions, sines and cosines in denominators),
- * by their values at random points; returns the work in products of residues.  The equations stand at another point
- * afterwards.  Related roots may have other signs at other points, so their words stay. */
-double nh_closed_words_reduce(nh_closed_words *words);
+ * by their values at random points; *work grows by the products of residues.  False: it would take more than `most`.
+ * The equations stand at another point afterwards.  Related roots may have other signs at other points, so their words
+ * stay. */
+bool nh_closed_words_reduce(nh_closed_words *words, double most, double *work);
 
-/* The coordinates that a word depends on, and the word with parameters as symbols. */
+/* The coordinates that a word depends on, its weight, and the word with parameters as symbols. */
 uint32_t nh_closed_words_coordinates(const nh_closed_words *words, size_t word);
+nh_residue nh_closed_words_weight(const nh_closed_words *words, nh_prime field, size_t word);
 nh_ex nh_closed_words_expression(const nh_closed_words *words, size_t word);
 
 /* The series of all words, one after another.  False: another point is needed.  `work` counts products of residues. */

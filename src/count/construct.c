@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "exact/residue_matrix.h"
 
-enum { spare = 24, spare_few = 8, beyond_degree = 4, most_points = 60 };
+enum { spare = 24, spare_few = 8, most_points = 60 };
 
 /* ---- which combinations of solutions are recognised ---- */
 
@@ -147,79 +147,16 @@ static void add_constructed(nh_construction *out, const nh_construct_attempt *a,
     }
 }
 
-/* The known integrals as vectors: differentials at one point, or values of products under random functionals; and the
- * solutions likewise. */
-typedef struct {
-    nh_count_space known;
-    const nh_residue *solution; /* of the current parity: N x known.width */
-} news;
-
-static bool known_differentials(news *x, nh_construct_attempt *a)
-{
-    nh_differentials all, known;
-    nh_count_differentials(a->counter, &all, &known);
-    bool good = nh_count_known_differ(a->counter, a->series->ring, a->series->coordinate, &known);
-    x->known.width = known.kept + known.n;
-    for (size_t i = 0; i < known.rows && good; i++)
-        nh_count_space_add(&x->known, a->field, known.row + i * x->known.width);
-    nh_count_differentials_clear(&all, &known);
-    return good;
-}
-
-static nh_residue *solution_differentials(const news *x, const nh_construct_attempt *a, const nh_graded_count *g)
-{
-    nh_differentials all, solution;
-    nh_count_differentials(a->counter, &all, &solution);
-    nh_count_solutions_differ(g, a->field, &solution);
-    nh_residue *out = nh_alloc_array(solution.rows * x->known.width + 1, sizeof *out);
-    memcpy(out, solution.row, solution.rows * x->known.width * sizeof *out);
-    nh_count_differentials_clear(&all, &solution);
-    return out;
-}
-
-/* Products are compared with solutions of an order that determines them. */
-static nh_count_series *short_series(nh_construct_attempt *a, size_t degree)
-{
-    bool regular;
-    size_t order = (degree + beyond_degree / 2) * a->counter->frame->step;
-    return nh_count_series_create(a->counter, order < a->series->ring->order ? order : a->series->ring->order, INFINITY,
-                                  &regular);
-}
-
-static bool known_products(news *x, nh_construct_attempt *a, const nh_count_series *s, size_t degree,
-                           nh_count_functionals *f)
-{
-    nh_count_monomials p = nh_count_monomials_list(a->counter, degree);
-    *f = nh_count_functionals_create(s->ring, a->counter->equations->n, p.count + spare, 271828 + degree);
-    x->known.width = f->count;
-    nh_residue *value = nh_alloc_array(p.count * f->count + 1, sizeof *value);
-    bool good = p.count && nh_count_product_values(a->counter, s->ring, s->coordinate, &p, f, value);
-    for (size_t i = 0; i < p.count && good; i++) nh_count_space_add(&x->known, a->field, value + i * f->count);
-    nh_free(value);
-    nh_count_monomials_clear(&p);
-    return good;
-}
-
-/* Does a combination of solutions enlarge what is known? */
-static bool is_new(const nh_construct_attempt *a, news *x, const nh_residue *combination, size_t N)
-{
-    nh_residue *sum = nh_alloc_array(x->known.width + 1, sizeof *sum);
-    for (size_t s = 0; s < N; s++)
-        nh_residue_add_multiple(a->field, x->known.width, sum, x->solution + s * x->known.width, combination[s]);
-    bool grows = nh_count_space_add(&x->known, a->field, sum);
-    nh_free(sum);
-    return grows;
-}
-
 static representatives represent(const nh_construct_attempt *a, const nh_graded_count *g, size_t rows,
-                                 const nh_residue *combination, const nh_residue *coefficient, size_t way, news *x)
+                                 const nh_residue *combination, const nh_residue *coefficient, size_t way,
+                                 nh_construct_news *x, size_t part)
 {
     size_t N = g->total[g->order], terms = g->alphas * a->kept;
     representatives r = {.order = order_terms(a, g, a->counter->equations->n, way), .width = terms + N};
     r.row = simplest(a, g, rows, combination, coefficient, r.order);
     r.fresh = nh_alloc_array(rows + 1, sizeof *r.fresh);
     for (size_t i = rows; i-- > 0;) {
-        if (!is_new(a, x, r.row + i * r.width + terms, N)) continue;
+        if (!nh_construct_news_add(x, a, part, r.row + i * r.width + terms)) continue;
         r.fresh[r.count++] = i;
         for (size_t j = 0; j < terms; j++) r.length += r.row[i * r.width + j] != 0;
     }
@@ -233,17 +170,8 @@ static void representatives_clear(representatives *r)
     nh_free(r->fresh);
 }
 
-/* The number of combinations that are new; they are not kept. */
-static size_t count_new(const nh_construct_attempt *a, news *x, size_t rows, const nh_residue *combination, size_t N)
-{
-    size_t before = x->known.rows, count = 0;
-    for (size_t i = 0; i < rows; i++) count += is_new(a, x, combination + i * N, N);
-    x->known.rows = before;
-    return count;
-}
-
 /* For one parity: the shortest representatives from several echelon forms. */
-static void recognise(nh_construction *out, nh_construct_attempt *a, size_t part, news *x)
+static void recognise(nh_construction *out, nh_construct_attempt *a, size_t part, nh_construct_news *x)
 {
     enum { ways = 4 };
     const nh_graded_count *g = a->solution[part];
@@ -251,12 +179,12 @@ static void recognise(nh_construction *out, nh_construct_attempt *a, size_t part
     nh_residue *combination = nh_alloc_array(N * N + 1, sizeof *combination);
     size_t found = recognised(a, part, combination);
     out->recognised += found;
-    if (count_new(a, x, found, combination, N)) {
+    if (nh_construct_news_count(x, a, part, found, combination)) {
         nh_residue *coefficient = in_words(a, part, found, combination);
-        representatives best = represent(a, g, found, combination, coefficient, 0, x);
+        representatives best = represent(a, g, found, combination, coefficient, 0, x, part);
         for (size_t way = 1; way < ways; way++) {
             x->known.rows = before;
-            representatives r = represent(a, g, found, combination, coefficient, way, x),
+            representatives r = represent(a, g, found, combination, coefficient, way, x, part),
                             worse = r.length < best.length ? best : r;
             if (r.length < best.length) best = r;
             representatives_clear(&worse);
@@ -271,10 +199,8 @@ static void recognise(nh_construction *out, nh_construct_attempt *a, size_t part
 
 /* ---- a point ---- */
 
-typedef enum { DONE, UNLUCKY, TOO_MUCH } outcome;
-
 /* The solutions of both parities. */
-static outcome solve(nh_construction *out, nh_construct_attempt *a, size_t degree)
+static nh_construct_outcome solve(nh_construction *out, nh_construct_attempt *a, size_t degree)
 {
     nh_counter *c = a->counter;
     a->parts = a->series->split ? 2 : 1;
@@ -286,81 +212,87 @@ static outcome solve(nh_construction *out, nh_construct_attempt *a, size_t degre
         p.keep = true;
         nh_graded_count *g = a->solution[part] = nh_graded_solve(&p);
         c->work += g->work;
-        if (!g->solved || c->work >= c->q->work || nh_late()) return TOO_MUCH;
+        if (!g->solved || c->work >= c->q->work || nh_late()) return NH_CONSTRUCT_TOO_MUCH;
         out->dimension += g->total[g->order];
     }
-    return DONE;
+    out->solutions = out->dimension;
+    return NH_CONSTRUCT_DONE;
 }
 
-/* The solutions as vectors, from their coefficients of w^alpha; afterwards these are in the frame's velocities. */
-static bool solution_news(nh_construct_attempt *a, news *x, const nh_count_series *s, const nh_count_functionals *f,
-                          nh_residue **solution)
+/* Rewrites the coefficients of w^alpha in the frame's velocities. */
+static bool in_frame(nh_construct_attempt *a)
 {
     bool good = true;
-    for (size_t part = 0; part < a->parts && good; part++) {
-        nh_graded_count *g = a->solution[part];
-        size_t N = g->total[g->order];
-        if (N && s) {
-            solution[part] = nh_alloc_array(N * x->known.width + 1, sizeof *solution[part]);
-            nh_count_solution_values(g, a->series->ring, f, solution[part]);
-        } else if (N) {
-            solution[part] = solution_differentials(x, a, g);
-        }
-        good = nh_velocity_frame_apply(a->frame, a->counter->equations, a->series->ring, a->series->coordinate, g,
-                                       &a->counter->work);
-    }
+    for (size_t part = 0; part < a->parts && good; part++)
+        good = nh_velocity_frame_apply(a->frame, a->counter->equations, a->series->ring, a->series->coordinate,
+                                       a->solution[part], &a->counter->work);
     return good;
 }
 
 /* Handles one parity after another: each new integral joins the known ones. */
-static outcome recognise_all(nh_construction *out, nh_construct_attempt *a, const nh_construct_question *question)
+nh_construct_outcome nh_construct_recognise(nh_construction *out, nh_construct_attempt *a,
+                                            const nh_construct_question *question)
 {
     nh_counter *c = a->counter;
-    nh_count_series *s = question->further ? short_series(a, question->degree) : NULL;
-    nh_count_functionals f = {0};
-    news x = {0};
-    nh_residue *solution[2] = {NULL, NULL};
-    bool good = s ? known_products(&x, a, s, question->degree, &f) : !question->further && known_differentials(&x, a),
-         scarce = true;
-    good = good && solution_news(a, &x, s, &f, solution) && nh_construct_values(a);
+    nh_construct_news x;
+    bool good = nh_construct_news_open(&x, a, question) && in_frame(a) && nh_construct_values(a), scarce = true;
     if (good) {
         nh_construct_words_choose(a);
         scarce = nh_construct_words_scarce(a, out->order, a->kept, a->chosen) && c->work < c->q->work && !nh_late();
     }
-    for (size_t part = 0; part < a->parts && good && scarce; part++) {
-        x.solution = solution[part];
-        if (x.solution) recognise(out, a, part, &x);
-    }
-    for (size_t part = 0; part < a->parts; part++) nh_free(solution[part]);
-    nh_free(x.known.row);
-    nh_count_functionals_clear(&f);
-    nh_count_series_free(s);
-    return !good ? UNLUCKY : scarce ? DONE : TOO_MUCH;
+    for (size_t part = 0; part < a->parts && good && scarce; part++)
+        if (x.solution[part]) recognise(out, a, part, &x);
+    nh_construct_news_close(&x);
+    return !good ? NH_CONSTRUCT_UNLUCKY : scarce ? NH_CONSTRUCT_DONE : NH_CONSTRUCT_TOO_MUCH;
 }
 
-static outcome attempt_at(nh_construction *out, nh_construct_attempt *a, const nh_construct_question *question)
-{
-    nh_counter *c = a->counter;
-    bool regular;
-    out->order = nh_construct_order(a, question->degree);
-    if (!out->order) return TOO_MUCH;
-    a->series = nh_count_series_create(c, out->order, c->q->work, &regular);
-    if (!a->series) return regular ? TOO_MUCH : UNLUCKY;
-    a->field = a->series->ring->field;
-    out->dimension = 0;
-    outcome solved = solve(out, a, question->degree);
-    if (solved != DONE) return solved;
-    a->lines = nh_count_lines_create(a->series->ring, a->words->words + out->dimension + spare);
-    return recognise_all(out, a, question);
-}
-
-static void clear(nh_construct_attempt *a)
+void nh_construct_attempt_clear(nh_construct_attempt *a)
 {
     for (size_t part = 0; part < a->parts; part++) nh_graded_count_clear(a->solution[part]);
     nh_count_lines_clear(&a->lines);
     nh_count_series_free(a->series);
     nh_free(a->value);
     nh_free(a->chosen);
+}
+
+static nh_construct_outcome solve_and_recognise(nh_construction *out, nh_construct_attempt *a,
+                                                const nh_construct_question *question)
+{
+    nh_counter *c = a->counter;
+    bool regular;
+    out->order = nh_construct_order(a, question->degree);
+    if (!out->order) return NH_CONSTRUCT_TOO_MUCH;
+    a->series = nh_count_series_create(c, out->order, c->q->work, &regular);
+    if (!a->series) return regular ? NH_CONSTRUCT_TOO_MUCH : NH_CONSTRUCT_UNLUCKY;
+    a->field = a->series->ring->field;
+    nh_construct_outcome solved = solve(out, a, question->degree);
+    if (solved != NH_CONSTRUCT_DONE) return solved;
+    a->lines = nh_count_lines_create(a->series->ring, a->words->words + out->dimension + spare);
+    return nh_construct_recognise(out, a, question);
+}
+
+static nh_construct_outcome attempt_at(nh_construction *out, nh_counter *c, nh_closed_words *words,
+                                       const nh_velocity_frame *frame, const nh_construct_question *question)
+{
+    nh_construct_attempt a = {.counter = c, .words = words, .frame = frame};
+    nh_construct_outcome o = solve_and_recognise(out, &a, question);
+    nh_construct_attempt_clear(&a);
+    return o;
+}
+
+/* ---- the construction ---- */
+
+/* The scalings for which the words' letters have weights. */
+static nh_scalings scalings_of(nh_jet_equations *x, const nh_closed_words *words, const nh_velocity_frame *frame)
+{
+    size_t count = 0;
+    nh_ex *function = nh_alloc_array(words->letters + frame->n + 1, sizeof *function);
+    for (size_t i = 0; i < frame->n; i++)
+        if (frame->shown[i] != nh_int(x->dag, 1)) function[count++] = frame->value[i];
+    for (size_t i = 0; i < words->letters; i++) function[count++] = words->letter[i].power[1].value;
+    nh_scalings out = nh_scaling_find(x, count, function);
+    nh_free(function);
+    return out;
 }
 
 nh_construction *nh_construct(const nh_model *model, const nh_construct_question *question)
@@ -375,24 +307,34 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
                            .independent = question->independent,
                            .current = question->current};
     nh_counter c;
-    *out = (nh_construction){.arena = arena};
+    *out = (nh_construction){.arena = arena, .whole = question->weights};
     nh_counter_open(&c, model, &q);
     nh_closed_words *words = NULL;
-    if (!c.equations->obstacle)
-        words = nh_closed_words_create(c.equations, question->price, question->most_words, question->secular,
-                                              question->rates);
-    if (words && !c.equations->obstacle) c.work += nh_closed_words_reduce(words);
+    nh_scalings scalings = {0};
     nh_velocity_frame frame = nh_velocity_frame_of(c.equations);
-    outcome o = words ? UNLUCKY : TOO_MUCH;
-    for (size_t point = 0; point < most_points && o == UNLUCKY && !c.equations->obstacle && !nh_late(); point++) {
-        nh_construct_attempt a = {.counter = &c, .words = words, .frame = &frame};
-        if (!nh_count_regular_point(&c, point)) continue;
-        o = attempt_at(out, &a, question);
-        clear(&a);
+    bool some = !c.equations->obstacle;
+    if (some) words = nh_closed_words_create(c.equations, question->price, question->secular, question->rates);
+    some = some && !c.equations->obstacle;
+    if (some && question->weights) {
+        scalings = scalings_of(c.equations, words, &frame);
+        some = scalings.count > 0;
+    } else if (some) {
+        some = nh_closed_words_list(words, question->most_words, NULL);
+        if (some) some = nh_closed_words_reduce(words, INFINITY, &c.work);
     }
-    out->words = words ? words->words : 0;
-    out->limited = o != DONE;
+    nh_construct_outcome o = some ? NH_CONSTRUCT_UNLUCKY : NH_CONSTRUCT_TOO_MUCH;
+    for (size_t point = 0; point < most_points && o == NH_CONSTRUCT_UNLUCKY && !c.equations->obstacle && !nh_late();
+         point++) {
+        if (!nh_count_regular_point(&c, point)) continue;
+        out->dimension = out->recognised = 0;
+        if (question->weights) o = nh_construct_by_weights(out, &c, words, &frame, &scalings, point, question);
+        else o = attempt_at(out, &c, words, &frame, question);
+    }
+    if (words && !question->weights) out->words = words->words;
+    out->limited = o != NH_CONSTRUCT_DONE;
+    out->whole &= o == NH_CONSTRUCT_DONE;
     out->work = c.work;
+    nh_scaling_clear(&scalings);
     nh_velocity_frame_clear(&frame);
     nh_closed_words_free(words);
     nh_counter_close(&c);

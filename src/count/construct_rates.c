@@ -5,89 +5,13 @@
 #include <flint/nmod_mat.h>
 #include <flint/nmod_poly.h>
 #include <flint/nmod_poly_factor.h>
-#include <string.h>
 
 #include "base/progress.h"
-#include "count/count_internal.h"
+#include "count/solution_matrix.h"
 
-enum { beyond_degree = 3, spare = 4, most_points = 20, most_coefficients = 4000, most_solutions = 120 };
+enum { beyond_degree = 3, most_points = 20, most_coefficients = 4000, most_solutions = 120 };
 
-/* ---- the field of a cyclic coordinate ---- */
-
-/* d/dq_k = sum_j b_j d/dz_j: (dy/dz) b = dy/dq_k, where y are the linear coordinates of the frame.  Exact up to order -
- * step. */
-static bool cyclic_field(const nh_adapted_frame *f, const nh_count_series *s, size_t k, nh_residue *b)
-{
-    const nh_jet_ring *ring = s->ring;
-    size_t m = f->all, size = ring->size;
-    nh_residue *J = nh_alloc_array(m * m * size, sizeof *J), *slope = nh_alloc_array(size, sizeof *slope);
-    for (size_t l = 0; l < m; l++)
-        for (size_t j = 0; j < m; j++) {
-            nh_jet_derivative(ring, s->coordinate + l * size, j, slope);
-            for (size_t i = 0; i < m; i++) nh_jet_add_multiple(ring, J + (i * m + j) * size, f->from[i * m + l], slope);
-        }
-    for (size_t i = 0; i < m; i++) nh_jet_constant(ring, f->from[i * m + k], b + i * size);
-    bool good = nh_jet_solve(ring, m, J, 1, b);
-    nh_free(slope);
-    nh_free(J);
-    return good;
-}
-
-/* ---- its matrix on the solutions ---- */
-
-/* Solution `s` of c_alpha. */
-static void take_series(const nh_graded_count *g, const nh_jet_ring *ring, size_t alpha, size_t s, nh_residue *out)
-{
-    size_t N = g->total[g->order];
-    for (size_t e = 0; e < ring->size; e++) out[e] = g->series[(alpha * ring->size + e) * N + s];
-}
-
-/* Random functionals of the solutions (columns 0 .. N - 1) and of their derivatives (N .. 2N - 1),
-   up to coefficient `end`. */
-static void functionals(const nh_graded_count *g, const nh_jet_ring *ring, const nh_residue *b, size_t end,
-                        nmod_mat_t out)
-{
-    size_t N = g->total[g->order], rows = N + spare, size = ring->size;
-    nh_residue *weight = nh_alloc_array(rows * end + 1, sizeof *weight), *c = nh_alloc_array(3 * size, sizeof *c);
-    nh_residue *slope = c + size, *rate = slope + size;
-    uint64_t random = 1618;
-    for (size_t alpha = 0; alpha < g->alphas; alpha++) {
-        for (size_t i = 0; i < rows * end; i++) weight[i] = nh_residue_random(ring->field, &random);
-        for (size_t s = 0; s < N; s++) {
-            take_series(g, ring, alpha, s, c);
-            memset(rate, 0, size * sizeof *rate);
-            for (size_t j = 0; j < ring->variables; j++) {
-                if (nh_jet_is_zero(ring, b + j * size)) continue;
-                nh_jet_derivative(ring, c, j, slope);
-                nh_jet_add_product(ring, rate, b + j * size, slope);
-            }
-            for (size_t i = 0; i < rows; i++) {
-                uint64_t own = nmod_mat_entry(out, i, s), its = nmod_mat_entry(out, i, N + s);
-                for (size_t e = 0; e < end; e++) {
-                    own = nh_residue_gather(ring->field, own, weight[i * end + e], c[e]);
-                    its = nh_residue_gather(ring->field, its, weight[i * end + e], rate[e]);
-                }
-                nmod_mat_entry(out, i, s) = nh_residue_reduce(ring->field, own);
-                nmod_mat_entry(out, i, N + s) = nh_residue_reduce(ring->field, its);
-            }
-        }
-    }
-    nh_free(c);
-    nh_free(weight);
-}
-
-/* A := the matrix of the derivative on the solutions, from the values of solutions (left half of `both`) and of their
- * derivatives (right half).  False where the series are too short to tell solutions apart, or the span is not closed
- * under the derivative. */
-static bool matrix_of(nmod_mat_t both, size_t N, nmod_mat_t A)
-{
-    if ((size_t)nmod_mat_rref(both) != N || (N && nmod_mat_entry(both, N - 1, N - 1) != 1)) return false;
-    for (size_t i = 0; i < N; i++)
-        for (size_t j = 0; j < N; j++) nmod_mat_entry(A, i, j) = nmod_mat_entry(both, i, N + j);
-    return true;
-}
-
-/* ---- its eigenvalues ---- */
+/* ---- eigenvalues ---- */
 
 /* The short fraction with this residue. */
 static bool fraction(nh_residue value, uint64_t p, nh_num *out)
@@ -154,28 +78,24 @@ static void read_eigenvalues(const nmod_mat_t A, uint64_t p, nh_ex coordinate, n
 
 /* ---- a point ---- */
 
-/* False where the series are too short: more truncated series than solutions satisfy the equations. */
+/* Reads the rates along coordinate k.  False where the series are too short. */
 static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_graded_count *g, size_t k,
                      nh_construct_rates *out)
 {
-    bool closed = true;
     const nh_jet_ring *ring = s->ring;
-    size_t N = g->total[g->order], m = c->frame->all;
-    size_t end = ring->first[ring->order - c->frame->step + 1]; /* derivatives are exact up to this order */
-    nh_residue *b = nh_alloc_array(m * ring->size, sizeof *b);
-    nmod_mat_t both, A;
-    nmod_mat_init(both, (slong)(N + spare), (slong)(2 * N), ring->field.p);
+    size_t N = g->total[g->order];
+    nh_residue *along = nh_alloc_array(c->frame->all * ring->size, sizeof *along),
+               *value = nh_alloc_array(N * N + 1, sizeof *value);
+    nmod_mat_t A;
     nmod_mat_init(A, (slong)N, (slong)N, ring->field.p);
-    if (cyclic_field(c->frame, s, k, b)) {
-        functionals(g, ring, b, end, both);
-        closed = matrix_of(both, N, A);
-        if (closed) read_eigenvalues(A, ring->field.p, c->equations->coordinate[k], out);
-    }
-    double products = (double)m * (double)ring->pairs[ring->size] + 2 * (double)(N + spare) * (double)end;
-    out->work += (double)g->alphas * (double)N * products;
+    nh_jet_constant(ring, 1, along + k * ring->size);
+    bool closed = !N || nh_solution_matrix(c, s, g, along, NULL, value, &out->work);
+    for (size_t i = 0; i < N; i++)
+        for (size_t j = 0; j < N; j++) nmod_mat_entry(A, i, j) = value[i * N + j];
+    if (closed) read_eigenvalues(A, ring->field.p, c->equations->coordinate[k], out);
     nmod_mat_clear(A);
-    nmod_mat_clear(both);
-    nh_free(b);
+    nh_free(value);
+    nh_free(along);
     return closed;
 }
 

@@ -2,6 +2,7 @@
  * coefficients to tell them apart. */
 #include "count/construct_internal.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/progress.h"
@@ -29,25 +30,82 @@ static void least_weights(const nh_adapted_frame *f, size_t *weight)
     }
 }
 
-/* There must be fewer functions of some of the coordinates than coefficients, or every function would be a combination
- * of them.  `word`: which words; NULL: all. */
+/* How many of the coordinates of a set the scalings determine from the others, for functions of given weights: the rank
+ * of their components there. */
+static size_t scaled(const nh_construct_attempt *a, uint32_t set)
+{
+    const nh_scalings *s = a->scalings;
+    const nh_jet_equations *x = a->counter->equations;
+    if (!s) return 0;
+    nh_prime f = x->point->field;
+    size_t m = s->coordinates;
+    nh_residue *component = nh_alloc_array(s->count * m + 1, sizeof *component), kappa, mu;
+    for (size_t i = 0; i < s->count; i++)
+        for (size_t k = 0; k < m; k++) {
+            nh_num own = s->number[i * s->width + k], shift = s->number[i * s->width + m + k];
+            if (set >> k & 1 && nh_residue_ratio(f, own.p, own.q, &kappa) && nh_residue_ratio(f, shift.p, shift.q, &mu))
+                component[i * m + k] = nh_residue_add(f, nh_residue_mul(f, kappa, x->at[k]), mu);
+        }
+    size_t rank = nh_residue_matrix_rank(f, s->count, m, component);
+    nh_free(component);
+    return rank;
+}
+
+/* The least variables first. */
+static int by_weight(const void *a, const void *b)
+{
+    size_t x = *(const size_t *)a, y = *(const size_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Are there fewer words than `room`, of each weight? */
+static bool few_enough(size_t words, const nh_residue *weight, const bool *inside, size_t room)
+{
+    size_t *among = nh_alloc_array(words + 1, sizeof *among), kinds = 0;
+    nh_residue *kind = nh_alloc_array(words + 1, sizeof *kind);
+    bool good = true;
+    for (size_t k = 0; k < words && good; k++) {
+        size_t i = 0;
+        if (!inside[k]) continue;
+        while (i < kinds && kind[i] != weight[k]) i++;
+        if (i == kinds) kind[kinds++] = weight[k];
+        good = ++among[i] <= room;
+    }
+    nh_free(kind);
+    nh_free(among);
+    return good;
+}
+
 bool nh_construct_words_scarce(const nh_construct_attempt *a, size_t order, size_t words, const size_t *word)
 {
     const nh_adapted_frame *f = a->counter->frame;
     size_t m = f->all, leaf = f->kept, *weight = nh_alloc_array(m + 1, sizeof *weight);
-    size_t *own = nh_alloc_array(m + 1, sizeof *own);
-    bool good = true;
+    size_t *own = nh_alloc_array(m + 1, sizeof *own), *all_weights = nh_alloc_array(leaf + 1, sizeof *all_weights);
+    nh_residue *kind = nh_alloc_array(words + 1, sizeof *kind);
+    bool good = true, *inside = nh_alloc_array(words + 1, sizeof *inside);
     least_weights(f, weight);
+    memcpy(all_weights, f->weight, leaf * sizeof *all_weights);
+    qsort(all_weights, leaf, sizeof *all_weights, by_weight);
+    for (size_t k = 0; k < words && a->scalings; k++)
+        kind[k] = nh_closed_words_weight(a->words, a->counter->equations->point->field, word ? word[k] : k);
     for (uint32_t set = 1; set < (uint32_t)1 << m && good; set++) {
-        size_t variables = 0, among = 0, room;
+        size_t variables = 0, determined = scaled(a, set), room;
         for (size_t k = 0; k < m; k++)
             if (set >> k & 1) own[variables++] = weight[k];
         for (size_t k = 0; k < words; k++)
-            among += !(nh_closed_words_coordinates(a->words, word ? word[k] : k) & ~set);
+            inside[k] = !(nh_closed_words_coordinates(a->words, word ? word[k] : k) & ~set);
+        qsort(own, variables, sizeof *own, by_weight);
         bool all = variables >= leaf; /* on a leaf only so many coordinates vary independently */
-        room = nh_jet_ring_size(all ? leaf : variables, all ? f->weight : own, order, most_coefficients);
-        good = among + (all ? spare : spare_few) <= room;
+        size_t count = all ? leaf : variables, spared = all ? spare : spare_few;
+        const size_t *from = all ? all_weights : own;
+        determined = determined < count ? determined : count;
+        room = count == determined ? 1 + spared /* one function of each weight */
+                                   : nh_jet_ring_size(count - determined, from + determined, order, most_coefficients);
+        good = room > spared && few_enough(words, kind, inside, room - spared);
     }
+    nh_free(inside);
+    nh_free(kind);
+    nh_free(all_weights);
     nh_free(own);
     nh_free(weight);
     return good;

@@ -99,7 +99,9 @@ static nh_graded_state *open_state(const nh_graded_problem *p, nh_graded_state *
     }
     state->s = (nh_graded_system){.p = p, .r = p->ring, .f = p->ring->field, .arena = nh_arena_create()};
     nh_graded_start(&state->s);
-    out->total[0] = out->most = state->s.N;
+    state->order = p->from ? p->from_order : 0;
+    for (size_t k = 0; k <= state->order; k++) out->total[k] = state->s.N;
+    out->most = state->s.N;
     return state;
 }
 

@@ -395,6 +395,19 @@ void nh_graded_solve_weight(nh_graded_system *s, nh_graded_count *out)
     nh_free(s->start);
 }
 
+/* The given solutions become the parameters. */
+static void start_from(nh_graded_system *s)
+{
+    enum { room = 16 };
+    const nh_graded_problem *p = s->p;
+    s->N = p->from;
+    s->stride = s->N + room;
+    s->row = nh_alloc_array(s->alphas * s->r->size * s->stride, sizeof *s->row);
+    for (size_t a = 0; a < s->alphas; a++)
+        for (size_t e = 0; e < p->from_size; e++)
+            memcpy(nh_graded_row(s, a, e), p->from_series + (a * p->from_size + e) * p->from, p->from * sizeof *s->row);
+}
+
 void nh_graded_start(nh_graded_system *s)
 {
     const nh_graded_problem *p = s->p;
@@ -406,7 +419,8 @@ void nh_graded_start(nh_graded_system *s)
     s->beta = nh_arena_alloc(s->arena, s->betas * p->n + 1);
     monomials(p->n, p->degree + 1, other, s->beta);
     nh_graded_list_terms(s);
-    for (size_t a = 0; a < s->alphas && !s->over; a++) nh_graded_parameter(s, a, 0);
+    if (p->from) start_from(s);
+    for (size_t a = 0; a < s->alphas && !s->over && !p->from; a++) nh_graded_parameter(s, a, 0);
 }
 
 static void keep_series(nh_graded_system *s, nh_graded_count *out)

@@ -25,6 +25,9 @@ typedef struct {
     size_t most_parameters;     /* beyond so many parameters at a time, or so much work, the solver gives up */
     double most_work;           /* limit in products of residues */
     bool keep;                  /* all coefficients of the solutions are wanted, not only their first jets */
+    /* solutions of the same problem up to a lower order, to be continued; or 0 of them: start from the point */
+    size_t from, from_order, from_size; /* their number; order; coefficients of their series */
+    const nh_residue *from_series;      /* alphas x from_size x from */
 } nh_graded_problem;
 
 typedef struct {

@@ -49,7 +49,8 @@ void nh_graded_parameter(nh_graded_system *system, size_t alpha, size_t exponent
  * becomes a condition on earlier parameters. */
 void nh_graded_solve_symbol(nh_graded_system *system);
 
-/* The monomials of Phi and of Gamma(Phi), the terms of Gamma; every c_alpha(0) is a parameter. */
+/* The monomials of Phi and of Gamma(Phi), the terms of Gamma; every c_alpha(0) is a parameter, or every solution that
+ * the problem gives. */
 void nh_graded_start(nh_graded_system *system);
 /* w^i X_i^k d/dz_k,  X_0^k d/dz_k,  and the rates' monomials times d/dw^l, with the series of the ring. */
 void nh_graded_list_terms(nh_graded_system *system);

@@ -63,6 +63,7 @@ typedef struct {
     size_t cyclic;          /* how often cyclic coordinates can be dropped */
     double work;            /* work that is left for this count */
     size_t solutions;       /* the most that series had for the coordinates at hand */
+    double covered;         /* up to this price words were tried for these coordinates */
     size_t aside;           /* currents that are only certified */
     nh_current *set_aside;
 } search;
@@ -221,7 +222,7 @@ static bool is_over(const search *s, bool further)
 
 /* What is sought: also functions of the currents found; integrals of the shape alone; with many-valued functions. */
 typedef struct {
-    bool further, secular;
+    bool further, secular, weights;
     nh_count_shape shape;
     const nh_construct_rates *rates;
 } manner;
@@ -238,6 +239,7 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
                                .shape = how.shape,
                                .further = further,
                                .secular = how.secular,
+                               .weights = how.weights,
                                .rates = how.rates,
                                .degree = degree,
                                .price = price,
@@ -250,10 +252,11 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     q.independent += regional;
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
-    if (x->dimension > s->solutions) s->solutions = x->dimension;
+    if (x->solutions > s->solutions) s->solutions = x->solutions;
     for (size_t k = 0; k < x->count && !is_over(s, further); k++) found |= lift(s, degree, &x->item[k], further);
     /* an integral that could not be proved may have a simpler form in words of a higher price */
     *more = !x->limited && (x->recognised < x->dimension || x->count);
+    if (x->whole) s->covered = price;
     nh_construction_free(x);
     nh_free(phi);
     return found;
@@ -275,7 +278,7 @@ static bool construct_up_to(search *s, const nh_completeness *c, manner how, dou
     s->solutions = 0;
     for (double price = 2; more && !found && price <= dearest && s->work > 0 && !is_over(s, how.further);
          price += price < 4 ? 1 : 2)
-        found = construct_at(s, c, how, price, &more);
+        if (how.weights || price > s->covered) found = construct_at(s, c, how, price, &more);
     return found;
 }
 
@@ -331,7 +334,11 @@ static bool construct_in_shapes(search *s, const nh_completeness *c, manner how,
         manner own = how;
         own.shape = *shape = order[i];
         if (own.shape != NH_EVERY_COORDINATE) own.rates = NULL;
+        s->covered = 0;
+        own.weights = true;
         found = construct_up_to(s, c, own, dearest, work);
+        own.weights = false;
+        if (!found) found = construct_up_to(s, c, own, dearest, work);
         enough = s->solutions == all;
     }
     return found;
@@ -354,6 +361,7 @@ static bool construct(search *s, const nh_completeness *c, bool further)
     secular.secular = true;
     work = fmax(work - rates.work, 0);
     if (construct_in_shapes(s, c, any, dearest, work, &secular.shape)) return true;
+    s->covered = 0;
     return (!further && integrate(s, c))
         || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }
