@@ -7,6 +7,7 @@
 #include "graph/diff.h"
 #include "count/closed_primitives.h"
 #include "count/construct.h"
+#include "count/construct_rates.h"
 #include "names.h"
 
 #define PLANE "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - "
@@ -83,6 +84,29 @@ Test(construct, functions_without_closed_form_are_not_recognised)
     nh_construction_free(c);
     nh_model_free(o);
     nh_system_free(s);
+}
+
+/* Beside a sphere no linear integral depends on the place along a line; in a plane the moment depends on both places. */
+Test(construct, coordinates_of_no_integral_are_idle)
+{
+    static const struct {
+        const char *text;
+        size_t degree, idle;
+    } ROW[] = {
+        {"coordinates: [x, {name: h, type: angle}, {name: p, type: angle}]\nlagrangian: (x'^2 + h'^2 + sin(h)^2*p'^2)/2\n", 1, 1},
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n", 1, 0},
+        {"coordinates: [{name: r, type: length}, {name: f, type: angle}]\nlagrangian: (r'^2 + r^2*f'^2)/2 - r^3\n", 2, 1},
+    };
+    for (size_t i = 0; i < sizeof ROW / sizeof *ROW; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "name: row\n%s", ROW[i].text);
+        nh_system *s = system_of(text);
+        nh_model *o = model_of(s);
+        nh_construct_rates r = nh_construct_rates_of(o, ROW[i].degree, false, 2e9);
+        cr_expect_eq(r.idle, ROW[i].idle, "%s: %zu", ROW[i].text, r.idle);
+        nh_model_free(o);
+        nh_system_free(s);
+    }
 }
 
 /* ---- antiderivatives of roots ---- */

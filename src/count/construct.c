@@ -301,6 +301,8 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     nh_construction *out = nh_arena_alloc(arena, sizeof *out);
     nh_count_question q = {.time = question->time,
                            .shape = question->shape,
+                           .idle = question->rates ? question->rates->idle : 0,
+                           .idle_coordinate = question->rates ? question->rates->idle_coordinate : NULL,
                            .degree = question->degree,
                            .work = question->work,
                            .known = question->known,

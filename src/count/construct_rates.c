@@ -78,8 +78,9 @@ static void read_eigenvalues(const nmod_mat_t A, uint64_t p, nh_ex coordinate, n
 
 /* ---- a point ---- */
 
-/* Reads the rates along coordinate k.  False where the series are too short. */
-static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_graded_count *g, size_t k,
+/* Reads the rates along coordinate k; *idle stays where no solution depends on it.  False where the series are too
+ * short. */
+static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_graded_count *g, size_t k, bool *idle,
                      nh_construct_rates *out)
 {
     const nh_jet_ring *ring = s->ring;
@@ -92,6 +93,7 @@ static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_gra
     bool closed = !N || nh_solution_matrix(c, s, g, along, NULL, value, &out->work);
     for (size_t i = 0; i < N; i++)
         for (size_t j = 0; j < N; j++) nmod_mat_entry(A, i, j) = value[i * N + j];
+    *idle &= closed && nmod_mat_is_zero(A);
     if (closed) read_eigenvalues(A, ring->field.p, c->equations->coordinate[k], out);
     nmod_mat_clear(A);
     nh_free(value);
@@ -107,7 +109,11 @@ static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, n
     *closed = true;
     if (f->kept != f->all || nh_jet_ring_size(f->kept, f->weight, order, most_coefficients) == SIZE_MAX) return true;
     nh_count_series *s = nh_count_series_create(c, order, c->q->work, &regular);
-    for (size_t part = 0; s && part < (s->split ? 2 : 1) && !nh_late(); part++) {
+    size_t coordinates = c->equations->coordinates, part = 0, parts = !s ? 0 : s->split ? 2 : 1;
+    bool *idle = nh_alloc_array(coordinates + 1, sizeof *idle), all = parts > 0;
+    for (size_t k = 0; k < coordinates; k++)
+        idle[k] = nh_jet_equations_is_cyclic(c->equations, c->equations->coordinate[k]);
+    for (; part < parts && !nh_late(); part++) {
         nh_parity parity = !s->split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
         nh_graded_problem p = nh_count_problem(c, s, degree, parity);
         p.keep = true;
@@ -116,9 +122,15 @@ static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, n
         bool few = g->solved && g->total[g->order] <= most_solutions;
         for (size_t k = 0; k < c->equations->coordinates && few; k++)
             if (nh_jet_equations_is_cyclic(c->equations, c->equations->coordinate[k]))
-                *closed &= rates_of(c, s, g, k, out);
+                *closed &= rates_of(c, s, g, k, &idle[k], out);
+        all &= few;
         nh_graded_count_clear(g);
     }
+    out->idle = 0;
+    for (size_t k = 0; k < coordinates && all && part == parts; k++)
+        if (idle[k] && out->idle < NH_MOST_CONSTRUCT_RATES)
+            out->idle_coordinate[out->idle++] = c->equations->coordinate[k];
+    nh_free(idle);
     nh_count_series_free(s);
     return s || regular;
 }

@@ -7,7 +7,7 @@
  *
  * A real eigenvalue lambda gives coefficients exp(lambda y) times functions of the others, a pair +-i omega gives
  * cos(omega y) and sin(omega y); 0 gives polynomials in y.  A is computed from the power series of the solutions, modulo
- * a prime: rates that are short fractions are found. */
+ * a prime: rates that are short fractions are found.  Where A is 0 no integral depends on y. */
 #ifndef NH_CONSTRUCT_RATES_H
 #define NH_CONSTRUCT_RATES_H
 
@@ -24,6 +24,8 @@ typedef struct {
 typedef struct nh_construct_rates {
     size_t count;
     nh_construct_rate item[NH_MOST_CONSTRUCT_RATES];
+    size_t idle; /* cyclic coordinates on which no integral of the degree depends */
+    nh_ex idle_coordinate[NH_MOST_CONSTRUCT_RATES];
     double work; /* products of residues that were used */
 } nh_construct_rates;
 

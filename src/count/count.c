@@ -308,6 +308,7 @@ void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_questi
         bool more = nh_jet_equations_drop_cyclic(c->equations);
         while (more && question->shape == NH_CLOSED_SHAPE) more = nh_jet_equations_drop_cyclic(c->equations);
     }
+    if (!c->equations->obstacle) nh_jet_equations_drop(c->equations, question->idle, question->idle_coordinate);
     c->current = nh_alloc_array(question->known + 1, sizeof *c->current);
     c->degree = nh_alloc_array(question->known + 1, sizeof *c->degree);
     c->index = nh_alloc_array(question->known + 1, sizeof *c->index);

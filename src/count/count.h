@@ -70,6 +70,8 @@ typedef enum { NH_EVERY_COORDINATE, NH_NOT_CYCLIC, NH_CLOSED_SHAPE } nh_count_sh
 typedef struct {
     bool time, generic;
     nh_count_shape shape;   /* known integrals that depend on other coordinates are left out */
+    size_t idle;            /* cyclic coordinates that are left out beside those of the shape */
+    const nh_ex *idle_coordinate;
     nh_count_memory *memory; /* NULL: nothing is kept */
     size_t degree;          /* highest degree; 0: as high as `work` allows */
     /* counts this degree only, until all solutions are functions of the known integrals: row[0]; products are not

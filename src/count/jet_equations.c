@@ -152,7 +152,7 @@ static void register_again(nh_jet_equations *x)
     x->products = products(x);
 }
 
-bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
+void nh_jet_equations_drop(nh_jet_equations *x, size_t count, const nh_ex *list)
 {
     nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate),
           *rho = nh_arena_alloc(x->arena, (x->m + 1) * sizeof *rho);
@@ -160,7 +160,9 @@ bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
     if (x->time) coordinate[0] = x->coordinate[0];
     for (size_t s = 0; s < x->m; s++) {
         nh_ex q = x->coordinate[x->time + s];
-        if (nh_jet_equations_is_cyclic(x, q)) continue;
+        bool dropped = false;
+        for (size_t i = 0; i < count; i++) dropped |= list[i] == q;
+        if (dropped) continue;
         coordinate[x->time + kept] = q;
         rho[kept++] = x->rho[s];
     }
@@ -170,7 +172,17 @@ bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
     x->m = kept;
     x->coordinates = kept + x->time;
     if (some) register_again(x);
-    return some;
+}
+
+bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
+{
+    nh_ex *cyclic = nh_alloc_array(x->m + 1, sizeof *cyclic);
+    size_t count = 0;
+    for (size_t s = 0; s < x->m; s++)
+        if (nh_jet_equations_is_cyclic(x, x->coordinate[x->time + s])) cyclic[count++] = x->coordinate[x->time + s];
+    nh_jet_equations_drop(x, count, cyclic);
+    nh_free(cyclic);
+    return count > 0;
 }
 
 size_t nh_jet_equations_cyclic_rounds(const nh_model *model)

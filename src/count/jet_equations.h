@@ -37,6 +37,8 @@ typedef struct {
 nh_jet_equations *nh_jet_equations_create(const nh_model *model, bool time, bool generic);
 /* Is the coordinate cyclic: does no equation depend on it? */
 bool nh_jet_equations_is_cyclic(const nh_jet_equations *equations, nh_ex coordinate);
+/* Drops the rates of these coordinates, on which no equation may depend. */
+void nh_jet_equations_drop(nh_jet_equations *equations, size_t count, const nh_ex *coordinate);
 /* Drops the rates of cyclic coordinates: the equations that are left are closed.  False where no coordinate is
  * cyclic. */
 bool nh_jet_equations_drop_cyclic(nh_jet_equations *equations);
