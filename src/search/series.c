@@ -181,8 +181,11 @@ static void search(problem *p, const char *what)
     note->sectors = 1;
     note->dimension = nh_series_count(s);
     if (note->dimension && fresh(p, s)) {
-        bool reached =
-            nh_series_extend(s, p->variable == r->system->t ? end_of_time(p->x) : -INFINITY, r->arena, &space);
+        bool reached = nh_series_extend(s, -INFINITY, r->arena, &space);
+        /* to the end of the motions, if that is not too far */
+        nh_series_space longer;
+        double end = p->variable == r->system->t ? end_of_time(p->x) : -INFINITY;
+        if (reached && end > space.high && nh_series_extend(s, end, r->arena, &longer)) space = longer;
         if (reached)
             note->found = keep(p, &space);
         else
