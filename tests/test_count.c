@@ -564,11 +564,11 @@ Test(count, linear_equations_are_counted_by_their_frequencies)
     for (int time = 0; time < 2; time++) {
         size_t degrees = time ? 2 : 4;
         nh_count series = count_in(SPRINGS, degrees, time, false), own = without_series(SPRINGS, degrees, time);
-        cr_assert_eq(own.linear, 1);
+        cr_assert(own.linear == 1 || own.linear == 2); /* the first may have come by series */
         cr_assert_eq(own.rows, degrees);
         for (size_t d = 0; d < degrees; d++) {
             const nh_count_row *a = &series.row[d], *b = &own.row[d];
-            cr_assert(a->order > 0 && b->order == 0);
+            cr_assert(a->order > 0 && (b->order == 0) == (d + 1 >= own.linear));
             cr_expect_eq(a->bound, b->bound, "degree %zu: %zu, %zu", d + 1, a->bound, b->bound);
             cr_expect_eq(a->rank, b->rank, "degree %zu: %zu, %zu", d + 1, a->rank, b->rank);
             cr_expect_eq(a->known_rank, b->known_rank);
@@ -589,7 +589,7 @@ Test(count, linear_equations_are_counted_by_their_frequencies)
         if (tried[i].last == 0) continue;
         c = without_series(tried[i].text, 2, true);
         series = count_in(tried[i].text, 2, true, false);
-        cr_expect(c.rows == (tried[i].last > 1 ? 2 : 1) && c.linear == 1, "%s", tried[i].text);
+        cr_expect(c.rows == (tried[i].last > 1 ? 2 : 1) && (c.linear == 1 || c.row[0].order > 0), "%s", tried[i].text);
         for (size_t d = 0; d < c.rows; d++) cr_expect_eq(c.row[d].bound, series.row[d].bound, "%s", tried[i].text);
     }
 }

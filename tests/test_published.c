@@ -82,11 +82,12 @@ static const published PUBLISHED[] = {
     {"Drach",
      "parameters: {a: 0.4, b: 0.7, c: 0.9}\ncoordinates: [x, y]\n"
      "lagrangian: x'*y' - a/(x*y) - b*x^(1/2)*y^(-5/2) - c*x^(-1/2)*y^(-3/2)\n" QUADRANT, 3, 6},
-    /* F. Calogero, J. Math. Phys. 10 (1969) 2191; M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313 */
-    /* M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313; S. Wojciechowski, Phys. Lett. A 95 (1983) 279: as many integrals as there can be */
+    /* M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313; S. Wojciechowski, Phys. Lett. A 95 (1983) 279: as many integrals as there can be, a long one
+       of them certified to many digits only */
     {"Calogero, B3", "parameters: {g: 0.3, h: 0.2}\ncoordinates: [x, y, z]\n"
      "lagrangian: (x'^2 + y'^2 + z'^2)/2 - g*(1/(x - y)^2 + 1/(x - z)^2 + 1/(y - z)^2 + 1/(x + y)^2 + 1/(x + z)^2 + 1/(y + z)^2) - h*(1/x^2 + 1/y^2 + 1/z^2)\n"
-     "domain: {x: [0.5, 0.9], y: [1.2, 1.7], z: [2, 2.5]}\n", 6, 4},
+     "domain: {x: [0.5, 0.9], y: [1.2, 1.7], z: [2, 2.5]}\n", 5, 4},
+    /* F. Calogero, J. Math. Phys. 10 (1969) 2191; M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313 */
     {"Calogero, B2",
      "parameters: {g: 0.4, h: 0.7}\n" PLANE "g/(x - y)^2 - g/(x + y)^2 - h/x^2 - h/y^2\ndomain: {x: [0.2, 1], y: [1.5, 2.5]}\n", 4, 6},
     /* F. Tremblay, A. V. Turbiner and P. Winternitz, J. Phys. A 42 (2009) 242001 */
@@ -224,6 +225,14 @@ static const published PUBLISHED[] = {
      "constraints: [\"x*x' + y*y' + z*z' = 0\"]\n" OCTANT, 3, 4},
     {"Neumann, Cartesian", "parameters: {a: 0.7, b: 1.3, c: 2.1}\ncoordinates: [x, y, z]\n"
      "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (a*x^2 + b*y^2 + c*z^2)/2\nconstraints: [\"x*x' + y*y' + z*z' = 0\"]\n" OCTANT, 3, 4},
+    /* J. Moser, in: Dynamical Systems, Progress in Math. 8 (1980) 233: Uhlenbeck's integrals, which contain what the constraint keeps constant; and Jacobi's */
+    {"Neumann, four coordinates", "parameters: {a: 1, b: 1.7, c: 2.6, e: 4}\ncoordinates: [x, y, z, u]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2 + u'^2)/2 - (a*x^2 + b*y^2 + c*z^2 + e*u^2)/2\nconstraints: [\"x^2 + y^2 + z^2 + u^2 = 1\"]\n", 4, 4},
+    {"geodesics of an ellipsoid, four coordinates", "parameters: {a: 1, b: 1.7, c: 2.6, e: 4}\ncoordinates: [x, y, z, u]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2 + u'^2)/2\nconstraints: [\"x^2/a + y^2/b + z^2/c + u^2/e = 1\"]\n", 4, 4},
+    /* S. Chandrasekhar, The Mathematical Theory of Black Holes (1983), sec. 40 */
+    {"geodesics of Reissner and Nordstroem's metric", "parameters: {M: 0.2, q: 0.1}\ncoordinates: [T, r, {name: h, type: angle}, {name: p, type: angle}]\n"
+     "lagrangian: (-(1 - 2*M/r + q^2/r^2)*T'^2 + r'^2/(1 - 2*M/r + q^2/r^2) + r^2*(h'^2 + sin(h)^2*p'^2))/2\ndomain: {r: [2, 3], h: [0.5, 2.5]}\n", 5, 2},
     {"Kepler on the sphere, Cartesian", "parameters: {k: 0.7}\ncoordinates: [x, y, z]\n"
      "lagrangian: (x'^2 + y'^2 + z'^2)/2 + k*z/sqrt(x^2 + y^2)\nconstraints: [\"x*x' + y*y' + z*z' = 0\"]\n" OCTANT, 4, 4},
     /* H. V. McIntosh and A. Cisneros, J. Math. Phys. 11 (1970) 896 */

@@ -10,7 +10,7 @@
 #include "exact/normal.h"
 #include "integrals/exact_points.h"
 
-enum { largest_form = 2000 };
+enum { largest_form = 2000, most_nodes = 4000 };
 
 /* ---- expressions ---- */
 
@@ -92,20 +92,44 @@ static bool affine(nh_jet_equations *x)
     return found;
 }
 
-static double nodes(const nh_jet_equations *x, size_t n, const nh_ex *e)
+/* The factors of the distinct products and functions in expressions. */
+typedef struct {
+    size_t count;
+    nh_ex node[most_nodes];
+    double fixed, moving; /* without velocities, which are computed once; with velocities */
+} factors;
+
+static void count_factors(const nh_jet_equations *x, size_t n, const nh_ex *e, factors *f)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < n; i++) count += nh_node_count(x->dag, e[i]);
-    return (double)count;
+    nh_ex *found = nh_alloc_array(most_nodes, sizeof *found);
+    for (size_t i = 0; i < n; i++)
+        for (int functions = 0; functions < 2; functions++) {
+            size_t count = functions ? nh_functions_in(x->dag, e[i], found, most_nodes)
+                                     : nh_products_in(x->dag, e[i], found, most_nodes);
+            for (size_t j = 0; j < count && j < most_nodes && f->count < most_nodes; j++) {
+                bool old = false;
+                for (size_t k = 0; k < f->count && !old; k++) old = f->node[k] == found[j];
+                if (old) continue;
+                f->node[f->count++] = found[j];
+                *(has_velocity(x, found[j]) ? &f->moving : &f->fixed) +=
+                    functions ? 1 : (double)nh_arity(x->dag, found[j]);
+            }
+        }
+    nh_free(found);
 }
 
-/* The cost of the equations: about a product per node, at each choice of velocities, and the solution for the
- * accelerations. */
+/* The cost of the equations: a product of series per factor, for those with velocities at each choice of these, and the
+ * solution for the accelerations. */
 static double products(const nh_jet_equations *x)
 {
     double n = (double)x->n, monomials = (double)nh_jet_equations_monomials(x->n);
-    return (n + 2) * nodes(x, x->m, x->rho) + (monomials + n + 1) * nodes(x, x->n, x->A) +
-           2 * nodes(x, x->n * x->n, x->M) + n * n * (n + monomials);
+    factors *f = nh_alloc(sizeof *f);
+    count_factors(x, x->m, x->rho, f);
+    count_factors(x, x->n * x->n, x->M, f);
+    count_factors(x, x->n, x->A, f);
+    double out = f->fixed + (monomials + n + 1) * f->moving + n * n * (n + monomials);
+    nh_free(f);
+    return out;
 }
 
 nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool generic)

@@ -170,6 +170,13 @@ static bool is_constant_of_leaf(const nh_model *o, const nh_current *f)
     return f->proof.proved && !nh_counted_has_velocities(o, f->phi) && !nh_depends(o->dag, f->phi, o->system->t);
 }
 
+/* sqrt(x^2 + y^2) as x^2 + y^2: coefficients are polynomials in that. */
+static nh_ex without_root(nh_dag *d, nh_ex e)
+{
+    bool root = nh_kind_of(d, e) == NH_PRODUCT && nh_arity(d, e) == 1 && nh_exponent_of(d, e, 0) == nh_ratio(d, 1, 2);
+    return root ? nh_child(d, e, 0) : e;
+}
+
 /* Products of what is constant on the leaves of integrable constraints, 1 first: coefficients may depend on it. */
 static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
 {
@@ -181,7 +188,7 @@ static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
         size_t last = n;
         for (size_t k = 0; k < r->count; k++)
             for (size_t j = first; j < last && n < most_constants && is_constant_of_leaf(o, &r->found[k]); j++) {
-                nh_ex product = nh_mul(o->dag, out[j], r->found[k].phi);
+                nh_ex product = nh_mul(o->dag, out[j], without_root(o->dag, r->found[k].phi));
                 bool known = false;
                 for (size_t i = 0; i < n; i++) known |= out[i] == product;
                 if (!known) out[n++] = product;

@@ -378,8 +378,9 @@ static void rates_in_time(nh_stage_solver *x)
     static const nh_pencil_base larger[] = {NH_PENCIL_QUADRATIC, NH_PENCIL_CUBIC, NH_PENCIL_FRAME, NH_PENCIL_PRODUCTS};
     const nh_model *o = x->r->model;
     nh_ex t = o->system->t;
-    bool found = linear_rates(x, t, "t");
-    if (!found && nh_depends(o->dag, o->Lbar, t)) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_GROWING});
+    bool found = linear_rates(x, t, "t"), changes = nh_depends(o->dag, o->Lbar, t);
+    if (changes) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_ENERGY});
+    if (!found && changes) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_GROWING});
     if (o->system->has_forces) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_SQUARES});
     rates_of(x, t, "t", sizeof larger / sizeof *larger, larger);
 }

@@ -361,6 +361,10 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
     case NH_PENCIL_QUADRATIC: l = pencil_powers(&s, 2); break;
     case NH_PENCIL_CUBIC: l = pencil_powers(&s, 3); break;
     case NH_PENCIL_SQUARES: l = pencil_squares(&s); break;
+    case NH_PENCIL_ENERGY:
+        l = nh_expr_set_functions(&s, true);
+        nh_expr_set_put(&l, o->E);
+        break;
     case NH_PENCIL_PRODUCTS: l = pencil_products(&s); break;
     case NH_PENCIL_FRAME:
         if (w->frames == o->n) l = frame_products(&s);

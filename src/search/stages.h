@@ -39,6 +39,7 @@ typedef enum {
     NH_PENCIL_LINEAR,    /* everything of degree one, with harmonics */
     NH_PENCIL_TIME,      /* the same with 1 and functions of time */
     NH_PENCIL_GROWING,   /* the same with t times velocities and positions */
+    NH_PENCIL_ENERGY,    /* the energy and the system's functions: masses and springs that change with time */
     NH_PENCIL_FRAME, /* the frame of the kinetic energy and its squares times lengths and first harmonics: vectors and
                         tensors in polar coordinates */
     NH_PENCIL_PRODUCTS,  /* velocities times 1 and positions: angular momenta, plane waves */
