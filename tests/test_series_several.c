@@ -188,6 +188,15 @@ Test(series_several, two_coordinates_and_the_time, .timeout = 300)
     nh_analysis_free(r);
 }
 
+/* The energy times an exponential of t has a closed form, and needs no construction. */
+Test(series_several, the_energy_of_a_mass_that_grows, .timeout = 60)
+{
+    nh_analysis *r = ask_with("name: growing\ncoordinates: [x, y]\nlagrangian: exp(t/5)*exp(x^2 - y^2)*(x'^2 + y'^2)/2\n", 0);
+    cr_assert_eq(r->independent, 1u);
+    cr_expect(!r->found[0].series && r->found[0].proof.proved);
+    nh_analysis_free(r);
+}
+
 /* ---- the bound ---- */
 
 /* Coefficients that are wrong by 1e-7 solve the equations to no more than that, and the bound says so. */
