@@ -657,7 +657,7 @@ Test(classify, an_open_value_names_the_option_that_decides_it)
     place p = place_make();
     char line[500];
     const char *text = "classify %.300s/tests/data/classify/henon_heiles.yaml --over eps --set B=1 --degree 2 --option count_work=%s";
-    snprintf(line, sizeof line, text, p.project, "1e5");
+    snprintf(line, sizeof line, text, p.project, "5e4");
     finished f = run_expecting(&p, line, 0);
     cr_expect(strstr(f.out, "No value of eps with "), "%s", f.out);
     cr_expect(strstr(f.out, "Not decided at eps = 1/3: degree 2"), "%s", f.out);
