@@ -121,8 +121,8 @@ static void series_words(nh_pen *p, const nh_analysis *r, const nh_series *s)
                    nh_name_of(r->model->dag, s->variable[j]));
     nh_pen_say(p, ", without closed form among the functions of the search, on ");
     for (size_t j = 0; j < s->variables && several; j++)
-        nh_pen_say(p, "%s%.6g <= <%s> <= %.6g", j ? ", " : "the box ", s->low[j],
-                   nh_name_of(r->model->dag, s->variable[j]), s->high[j]);
+        nh_pen_say(p, "%s<%s> in [%.6g, %.6g]", j ? ", " : "the box ", nh_name_of(r->model->dag, s->variable[j]),
+                   s->low[j], s->high[j]);
     if (!several) nh_pen_say(p, "[%.6g, %.6g]", s->low[0], s->high[0]);
     nh_pen_say(p, ".");
     nh_pen_close(p, NH_PEN_WORDS);
