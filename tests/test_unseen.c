@@ -345,6 +345,15 @@ static const unseen UNSEEN[] = {
      "known: {currents: [{name: rotation, expr: \"log(x)*y'/y - log(y)*x'/x\"}]}\n",
      4},
     /* sin(2 pi/3) is a number */
+    /* x' sin(x) is a total derivative: the momentum of x is not constant, its part with x' is */
+    {"a momentum beside a total derivative",
+     "coordinates: [{name: q, type: angle}, x, {name: p, type: angle}, y]\n"
+     "lagrangian: 0.82*cos(q) - 0.46*sin(p) + 1.47*sin(y) + 0.69*cos(0.43*t)*cos(2*p) + 0.39*q'^2 + x'^2*(0.59*sin(y)^2 + 0.42)/2 + 0.81*p'^2 + 0.445*y'^2 + 1.98*x'*sin(x)\n"
+     "constraints: [\"y' = 0.97*sin(0.54*t) + 1.05*p'*(t + 1)*sin(p)\"]\n", 2},
+    /* integrable: 1/x, which the equations do not contain, goes linearly with p */
+    {"an integrable constraint with x^2",
+     "coordinates: [{name: p, type: angle}, x]\nlagrangian: 0.94*x'^2 - 2.82*x + 0.69*x'*cos(0.51*t - p) + 3.26*x*x' + 0.58*(10*p' - 5.1)^2\n"
+     "constraints: [\"x' = 7*x^2*(51 - 100*p')/625\"]\n", 2},
     {"three wheels at angles of 120 degrees",
      "parameters: [{name: L, value: 0.2}, {name: r, value: 0.05}]\n"
      "coordinates: [x, y, {name: th, type: angle}, {name: p1, type: angle}, {name: p2, type: angle}, {name: p3, type: angle}]\n"

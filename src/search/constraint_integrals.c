@@ -68,6 +68,24 @@ static void letter(const nh_model *o, alphabet *a, nh_ex e)
     a->function[a->functions++] = e;
 }
 
+/* Where a velocity is q^k times something, k > 1: dq/q^k is integrated to q^(1 - k). */
+static void powers(const nh_model *o, alphabet *a)
+{
+    nh_dag *d = o->dag;
+    nh_ex *product = nh_alloc_array(most_functions, sizeof *product);
+    for (size_t s = 0; s < o->m; s++) {
+        size_t n = nh_products_in(d, o->rho[s], product, most_functions);
+        for (size_t i = 0; i < n && i < most_functions; i++)
+            for (size_t k = 0; k < nh_arity(d, product[i]); k++) {
+                nh_ex q = nh_child(d, product[i], k), exponent = nh_exponent_of(d, product[i], k);
+                if (nh_kind_of(d, q) != NH_SYMBOL || nh_kind_of(d, exponent) != NH_NUMBER) continue;
+                nh_num power = nh_number_of(d, exponent);
+                if (power.q == 1 && power.p > 1) letter(o, a, nh_powi(d, q, 1 - power.p));
+            }
+    }
+    nh_free(product);
+}
+
 static void letters(const nh_stage_solver *x, alphabet *a)
 {
     const nh_model *o = x->r->model;
@@ -79,6 +97,7 @@ static void letters(const nh_stage_solver *x, alphabet *a)
         letter(o, a, nh_call(o->dag, NH_COS, w.wave[i]));
         letter(o, a, nh_call(o->dag, NH_SIN, w.wave[i]));
     }
+    powers(o, a);
 }
 
 /* Quadratic in the coordinates, and functions; cubic, and coordinates times functions; of degree four, and squares of

@@ -5,12 +5,26 @@
 
 #include "base/budget.h"
 #include "base/progress.h"
+#include "exact/normal.h"
 #include "integrals/prove.h"
 #include "search/force_potential.h"
 #include "search/stage_solver.h"
 #include "search/constraint_integrals.h"
 #include "search/quadratures.h"
 #include "search/stages.h"
+
+/* The part of a momentum with velocities, where there is another, which may come from a total derivative in L. */
+static void without_positions(nh_stage_solver *x, nh_ex momentum)
+{
+    const nh_model *o = x->r->model;
+    nh_ex *zero = nh_alloc_array(o->n + 1, sizeof *zero);
+    for (size_t i = 0; i < o->n; i++) zero[i] = nh_int(o->dag, 0);
+    nh_ex rest = nh_substitute(o->dag, momentum, o->n, o->chart->w, zero);
+    nh_free(zero);
+    if (nh_is_zero(o->dag, rest) || nh_kind_of(o->dag, rest) == NH_NUMBER) return;
+    nh_stage_solver_certify(x, nh_simplify_short(o->dag, nh_sub(o->dag, momentum, rest), 0),
+                            "the part of a momentum with velocities");
+}
 
 /* The energy and each momentum alone, so that no nearly dependent function replaces them. */
 static void single_stages(nh_stage_solver *x)
@@ -23,6 +37,7 @@ static void single_stages(nh_stage_solver *x)
         *all = (nh_family){.kind = NH_TERMS, .terms = 1, .term = e};
         if (nh_stage_solver_promising(x, 1, all)) nh_stage_solver_stage(x, i == 0 ? "energy" : "a momentum", 1, all);
         else nh_stage_solver_certify(x, *e, i == 0 ? "energy, in ball arithmetic" : "a momentum, in ball arithmetic");
+        if (i > 0 && !nh_stage_solver_done(x)) without_positions(x, *e);
     }
 }
 
