@@ -1,9 +1,9 @@
 /* archives: settings for libraries that are linked into the program, made before these start. */
 #include <stdlib.h>
 
-/* OpenBLAS starts a thread per core when it is loaded, and each of them spins for 25 ms waiting for work.  It is told
- * to start none: blocks of work are shared out above it (base/parallel.h), with results that do not depend on the
- * number of threads.  Must run before the constructors of the libraries, which have no priority. */
+/* OpenBLAS starts a thread per core when it is loaded, and each of them spins for 25 ms waiting for work.  This
+ * setting makes it start none: blocks of work are shared out above it (base/parallel.h), with results that do not
+ * depend on the number of threads.  Must run before the constructors of the libraries, which have no priority. */
 __attribute__((constructor(101))) static void keep_blas_single(void) { setenv("OPENBLAS_NUM_THREADS", "1", 0); }
 
 /* OpenBLAS has kernels for every kind of processor, which add in different orders: the last digits, and decisions that

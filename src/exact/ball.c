@@ -359,6 +359,16 @@ static double log10_of(const arf_t x)
     return value;
 }
 
+double nh_ball_upper(const arb_t v)
+{
+    mag_t bound;
+    mag_init(bound);
+    arb_get_mag(bound, v);
+    double out = mag_get_d(bound);
+    mag_clear(bound);
+    return out;
+}
+
 double nh_ball_log10_upper(const arb_t v)
 {
     arf_t bound;

@@ -26,16 +26,6 @@ typedef struct {
     bool fine;
 } box;
 
-static double upper(const arb_t v)
-{
-    mag_t bound;
-    mag_init(bound);
-    arb_get_mag(bound, v);
-    double out = mag_get_d(bound);
-    mag_clear(bound);
-    return out;
-}
-
 static size_t columns(const box *x) { return x->f->degree + 1; }
 static size_t functions(const box *x) { return x->f->count * x->e->functions; }
 static size_t power(size_t base, size_t exponent)
@@ -130,7 +120,7 @@ static void residuals(box *x, arb_srcptr f)
                 for (size_t j = 0; j <= r; j++)
                     arb_addmul(sum, x->value + (b * F + a) * (r + 1) + j, f + j * n + k * F + a, bits);
             double *worst = &x->worst[k * x->e->equations + b];
-            *worst = fmax(*worst, upper(sum));
+            *worst = fmax(*worst, nh_ball_upper(sum));
         }
     arb_clear(sum);
 }

@@ -17,6 +17,9 @@ void nh_ball_set_number(const nh_ball *ball, arb_t out, nh_num c);
  * them. */
 double nh_ball_products(long bits);
 
+/* A rigorous upper bound of |v|. */
+double nh_ball_upper(const arb_t v);
+
 /* log10 of rigorous bounds of |v|. */
 double nh_ball_log10_upper(const arb_t v);
 double nh_ball_log10_lower(const arb_t v);

@@ -235,16 +235,6 @@ static bool eval(nh_ball_series *s, nh_ex e, arb_poly_t out)
 
 /* ---- asking ---- */
 
-static double upper(const arb_t v)
-{
-    mag_t bound;
-    mag_init(bound);
-    arb_get_mag(bound, v);
-    double out = mag_get_d(bound);
-    mag_clear(bound);
-    return out;
-}
-
 /* The coefficient as a double, and a bound of its error. */
 static double rounded(const nh_ball_series *s, const arb_poly_t p, slong k, double *off)
 {
@@ -255,7 +245,7 @@ static double rounded(const nh_ball_series *s, const arb_poly_t p, slong k, doub
     double out = arf_get_d(arb_midref(c), ARF_RND_NEAR);
     arb_set_d(d, out);
     arb_sub(c, c, d, s->bits);
-    *off = upper(c);
+    *off = nh_ball_upper(c);
     arb_clear(d);
     arb_clear(c);
     return out;
@@ -309,7 +299,7 @@ bool nh_ball_series_term(nh_ball_series *s, size_t count, const nh_ex *e, size_t
     for (size_t i = 0; i < count && fine; i++) {
         fine = eval(s, e[i], p);
         arb_poly_get_coeff_arb(v, p, (slong)degree);
-        bound[i] = upper(v);
+        bound[i] = nh_ball_upper(v);
     }
     forget(s);
     arb_clear(v);
@@ -382,7 +372,7 @@ bool nh_ball_series_take(nh_ball_series *s, size_t count, const nh_ex *e, size_t
     for (int side = -1; side <= 1 && fine; side += 2)
         fine = largest_last(s, count, e, centre, all, pieces, side * (upwards * half), last);
     for (size_t i = 0; i < count && fine; i++) {
-        bound[i] = upwards * (bound[i] + upper(last + i) * pow(half, (double)all));
+        bound[i] = upwards * (bound[i] + nh_ball_upper(last + i) * pow(half, (double)all));
         fine = isfinite(bound[i]);
     }
     _arb_vec_clear(last, (slong)count);
