@@ -82,11 +82,10 @@ static const published PUBLISHED[] = {
     {"Drach",
      "parameters: {a: 0.4, b: 0.7, c: 0.9}\ncoordinates: [x, y]\n"
      "lagrangian: x'*y' - a/(x*y) - b*x^(1/2)*y^(-5/2) - c*x^(-1/2)*y^(-3/2)\n" QUADRANT, 3, 6},
-    /* M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313; S. Wojciechowski, Phys. Lett. A 95 (1983) 279: as many integrals as there can be, a long one
-       of them certified to many digits only */
+    /* M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313; S. Wojciechowski, Phys. Lett. A 95 (1983) 279: as many integrals as there can be */
     {"Calogero, B3", "parameters: {g: 0.3, h: 0.2}\ncoordinates: [x, y, z]\n"
      "lagrangian: (x'^2 + y'^2 + z'^2)/2 - g*(1/(x - y)^2 + 1/(x - z)^2 + 1/(y - z)^2 + 1/(x + y)^2 + 1/(x + z)^2 + 1/(y + z)^2) - h*(1/x^2 + 1/y^2 + 1/z^2)\n"
-     "domain: {x: [0.5, 0.9], y: [1.2, 1.7], z: [2, 2.5]}\n", 5, 4},
+     "domain: {x: [0.5, 0.9], y: [1.2, 1.7], z: [2, 2.5]}\n", 6, 4},
     /* F. Calogero, J. Math. Phys. 10 (1969) 2191; M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313 */
     {"Calogero, B2",
      "parameters: {g: 0.4, h: 0.7}\n" PLANE "g/(x - y)^2 - g/(x + y)^2 - h/x^2 - h/y^2\ndomain: {x: [0.2, 1], y: [1.5, 2.5]}\n", 4, 6},

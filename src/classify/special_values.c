@@ -11,6 +11,7 @@
 
 #include "base/memory.h"
 #include "classify/special_values_internal.h"
+#include "exact/fraction.h"
 
 /* ---- modulo a prime ---- */
 
@@ -74,28 +75,6 @@ void nh_special_roots_clear(nh_special_roots *r)
 
 /* ---- over the integers ---- */
 
-/* The residues of one number. */
-static bool reconstruct(size_t primes, const nh_prime *prime, const nh_residue *residue, fmpq_t out)
-{
-    fmpz_t x, m;
-    fmpz_init_set_ui(x, residue[0]);
-    fmpz_init_set_ui(m, prime[0].p);
-    for (size_t i = 1; i + 1 < primes; i++) {
-        fmpz_CRT_ui(x, x, m, residue[i], prime[i].p, 0);
-        fmpz_mul_ui(m, m, prime[i].p);
-    }
-    bool good = fmpq_reconstruct_fmpz(out, x, m);
-    if (good) {
-        nh_prime last = prime[primes - 1];
-        nh_residue top = (nh_residue)fmpz_fdiv_ui(fmpq_numref(out),
-                                                  last.p), bottom = (nh_residue)fmpz_fdiv_ui(fmpq_denref(out), last.p);
-        good = bottom && nh_residue_mul(last, residue[primes - 1], bottom) == top;
-    }
-    fmpz_clear(m);
-    fmpz_clear(x);
-    return good;
-}
-
 fmpz *nh_special_lift_numbers(size_t primes, const nh_prime *prime, size_t count, const nh_residue *const *residue)
 {
     fmpq_t *q = nh_alloc_array(count, sizeof *q);
@@ -107,7 +86,7 @@ fmpz *nh_special_lift_numbers(size_t primes, const nh_prime *prime, size_t count
     for (size_t k = 0; k < count; k++) fmpq_init(q[k]);
     for (size_t k = 0; k < count && good; k++) {
         for (size_t i = 0; i < primes; i++) r[i] = residue[i][k];
-        good = reconstruct(primes, prime, r, q[k]);
+        good = nh_fraction_of(primes, prime, r, q[k]);
         fmpz_lcm(common, common, fmpq_denref(q[k]));
     }
     for (size_t k = 0; k < count && good; k++) {

@@ -120,29 +120,17 @@ typedef struct {
     size_t width, *order, *fresh, count, length;
 } representatives;
 
-/* The row's entry as a fraction; false: none is short enough. */
-static bool read_coefficient(const nh_construct_attempt *a, nh_residue value, nh_num *out)
-{
-    int64_t top, bottom;
-    bool good = nh_residue_fraction(a->field, value, &top, &bottom);
-    if (good) *out = nh_num_ratio(top, bottom);
-    return good;
-}
-
 static void add_constructed(nh_construction *out, const nh_construct_attempt *a, const nh_graded_count *g,
                             const representatives *r, size_t i)
 {
     const nh_jet_equations *x = a->counter->equations;
     nh_constructed *c = &out->item[out->count++];
     size_t terms = g->alphas * a->kept;
-    *c = (nh_constructed){.term = nh_arena_alloc(out->arena, terms * sizeof *c->term),
-                          .coefficient = nh_arena_alloc(out->arena, terms * sizeof *c->coefficient)};
+    *c = (nh_constructed){.term = nh_arena_alloc(out->arena, terms * sizeof *c->term)};
     for (size_t j = 0; j < terms; j++) {
         if (!r->row[i * r->width + j]) continue;
         nh_ex e = nh_closed_words_expression(a->words, a->chosen[r->order[j] % a->kept]);
         e = nh_mul(x->dag, e, nh_velocity_frame_monomial(a->frame, x, g->alpha + r->order[j] / a->kept * x->n));
-        if (c->coefficient && !read_coefficient(a, r->row[i * r->width + j], &c->coefficient[c->terms]))
-            c->coefficient = NULL;
         c->term[c->terms++] = e;
     }
 }

@@ -35,7 +35,6 @@ typedef struct {
 typedef struct {
     size_t terms;
     nh_ex *term;            /* a word times a monomial in the velocities, without coefficient; the most complex first */
-    nh_num *coefficient;    /* for these parameters, if all are short fractions modulo the prime; otherwise NULL */
 } nh_constructed;
 
 typedef struct {

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "graph/diff.h"
+#include "graph/monomials.h"
 #include "graph/terms.h"
 #include "exact/normal.h"
 #include "integrals/exact_points.h"
@@ -70,6 +71,37 @@ static nh_proof holding(nh_proof proof, const nh_ex *fixed)
     return proof;
 }
 
+/* The velocities, parameters and t in which e is a polynomial. */
+static size_t symbols_of_degree(const nh_model *o, nh_ex e, size_t most, nh_ex *out)
+{
+    size_t n = 0;
+    nh_ex t = o->system->t;
+    for (size_t i = 0; i < o->n && n < most; i++)
+        if (nh_monomials_has_degree(o->dag, e, o->chart->w[i])) out[n++] = o->chart->w[i];
+    for (size_t i = 0; i < o->system->parameters && n < most; i++)
+        if (nh_monomials_has_degree(o->dag, e, o->parameter[i])) out[n++] = o->parameter[i];
+    if (n < most && nh_monomials_has_degree(o->dag, e, t)) out[n++] = t;
+    return n;
+}
+
+/* Over one denominator with all monomials in the velocities a rate may be too large where each coefficient is not: they
+ * vanish one by one. */
+static nh_zero_verdict is_zero(const nh_model *o, nh_ex e, size_t limit)
+{
+    enum { most_symbols = 24, most_coefficients = 2000 };
+    nh_ex symbol[most_symbols];
+    nh_monomials m;
+    nh_zero_verdict verdict = nh_normal_is_zero(o->dag, e, limit);
+    if (verdict != NH_TOO_LARGE) return verdict;
+    size_t n = symbols_of_degree(o, e, most_symbols, symbol);
+    bool split = nh_monomials_of(o->dag, e, n, symbol, most_coefficients, &m);
+    if (split && m.count > 1) verdict = NH_ZERO;
+    for (size_t i = 0; i < m.count && verdict == NH_ZERO; i++)
+        verdict = nh_normal_is_zero(o->dag, m.coefficient[i], limit);
+    nh_monomials_clear(&m);
+    return verdict;
+}
+
 typedef struct {
     const nh_model *o;
     nh_ex e;
@@ -79,18 +111,17 @@ typedef struct {
 static bool vanishes(const nh_ex *fixed, void *context)
 {
     const zero_problem *z = context;
-    return nh_normal_is_zero(z->o->dag, nh_fixed_values(z->o, fixed, z->e), z->limit) == NH_ZERO;
+    return is_zero(z->o, nh_fixed_values(z->o, fixed, z->e), z->limit) == NH_ZERO;
 }
 
 /* By normal forms of at most so many terms.  Is one too large? */
 static bool prove_sum(const nh_model *o, nh_ex sum, nh_claim claim, size_t limit, nh_proof *proof)
 {
-    nh_dag *d = o->dag;
     nh_zero_verdict symbols = NH_TOO_LARGE, values = NH_ZERO;
     if (!proof->proved && claim.free && !claim.rounded)
-        symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
+        symbols = is_zero(o, with_symbols(o, claim.fixed, sum), limit);
     if (symbols == NH_ZERO) *proof = holding(*proof, claim.fixed);
-    if (!proof->proved && !claim.rounded) values = nh_normal_is_zero(d, nh_exact_values(o, sum), limit);
+    if (!proof->proved && !claim.rounded) values = is_zero(o, nh_exact_values(o, sum), limit);
     proof->proved = proof->proved || (!claim.rounded && values == NH_ZERO);
     if (proof->proved && symbols == NH_NONZERO)
         proof->fixed = nh_fixed_least(o, 1, &sum, vanishes, &(zero_problem){o, sum, limit});

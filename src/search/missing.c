@@ -8,6 +8,7 @@
 #include "count/closed_primitives.h"
 #include "count/construct.h"
 #include "count/construct_rates.h"
+#include "count/lift.h"
 #include "integrals/echelon.h"
 #include "search/counted.h"
 #include "search/currents.h"
@@ -198,27 +199,46 @@ static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
     return n;
 }
 
-/* Can the list of its terms be that of a current?  Longer lists take seconds, and doubles lose the small coefficients:
- * of 17 lists with more than 300 terms none was one. */
-static bool lift(search *s, size_t degree, const nh_constructed *c, bool further)
+/* By linear equations modulo primes: exactly, and for all parameters where they occur as polynomials. */
+static bool lift_exactly(search *s, bool time, size_t terms, const nh_ex *term, const char *name)
+{
+    nh_analysis *r = s->solver.r;
+    nh_lift_result exact = nh_lift(r->model, time, terms, term, s->work);
+    s->work -= exact.work;
+    return exact.integral && nh_stage_solver_certify(&s->solver, exact.integral, name);
+}
+
+/* By doubles: the coefficients may be roots and the like.  Longer lists take seconds, and their small coefficients are
+ * lost. */
+static bool lift_by_doubles(search *s, size_t degree, const nh_family *all, bool further, const char *name)
 {
     enum { most_terms = 300 };
+    size_t before = s->solver.r->count;
+    if (all->terms > most_terms) return false;
+    nh_stage_solver_stage(&s->solver, name, 1, all);
+    return s->solver.r->count > before || (further && lift_further(s, degree, all));
+}
+
+/* Finds the coefficients of an integral's terms, which may be constants of the leaf. */
+static bool lift(search *s, size_t degree, bool time, const nh_constructed *c, bool further)
+{
     nh_analysis *r = s->solver.r;
     nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
     nh_ex constant[most_constants];
-    size_t before = r->count, constants = constants_of_leaf(r, constant), terms = 0;
-    nh_ex *term = nh_arena_alloc(r->arena, constants * c->terms * sizeof *term);
+    size_t constants = constants_of_leaf(r, constant), terms = 0, once = 0;
+    nh_ex *term = nh_arena_alloc(r->arena, constants * c->terms * sizeof *term),
+          *first_once = nh_arena_alloc(r->arena, constants * c->terms * sizeof *first_once);
     for (size_t j = 0; j < c->terms; j++)
-        for (size_t k = 0; k < constants; k++) term[terms++] = nh_mul(r->model->dag, c->term[j], constant[k]);
+        for (size_t k = 0; k < constants; k++) {
+            term[terms] = nh_mul(r->model->dag, c->term[j], constant[k]);
+            if (j || !k) first_once[once++] = term[terms];
+            terms++;
+        }
     *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
     s->solver.wide = true;
     const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
-    bool solvable = terms <= most_terms;
-    if (solvable) nh_stage_solver_stage(&s->solver, name, 1, all);
-    /* doubles lose it where poles make the terms nearly dependent */
-    if (r->count == before && !further && constants == 1 && c->coefficient)
-        nh_stage_solver_certify_terms(&s->solver, c->terms, c->term, c->coefficient, name);
-    return r->count > before || (further && solvable && lift_further(s, degree, all));
+    if (!further && lift_exactly(s, time, once, first_once, name)) return true;
+    return lift_by_doubles(s, degree, all, further, name);
 }
 
 static bool is_over(const search *s, bool further)
@@ -260,7 +280,8 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
     if (x->solutions > s->solutions) s->solutions = x->solutions;
-    for (size_t k = 0; k < x->count && !is_over(s, further); k++) found |= lift(s, degree, &x->item[k], further);
+    for (size_t k = 0; k < x->count && !is_over(s, further); k++)
+        found |= lift(s, degree, q.time, &x->item[k], further);
     /* an integral that could not be proved may have a simpler form in words of a higher price */
     *more = !x->limited && (x->recognised < x->dimension || x->count);
     if (x->whole) s->covered = price;

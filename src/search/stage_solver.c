@@ -349,28 +349,19 @@ static nh_candidate *candidate_of(nh_stage_solver *x, size_t n, const nh_ex *ter
     return c;
 }
 
-size_t nh_stage_solver_certify_terms(nh_stage_solver *x, size_t n, const nh_ex *term, const nh_num *coefficient,
-                                     const char *name)
+size_t nh_stage_solver_certify(nh_stage_solver *x, nh_ex e, const char *name)
 {
     nh_analysis *r = x->r;
-    nh_dag *d = r->model->dag;
-    nh_ex e = nh_int(d, 0);
-    for (size_t j = 0; j < n; j++) e = nh_add(d, e, nh_mul(d, nh_number(d, coefficient[j]), term[j]));
-    if (nh_kind_of(d, e) == NH_NUMBER || nh_currents_known(x->bench, e)) return 0;
+    nh_num one = nh_num_int(1);
+    if (nh_kind_of(r->model->dag, e) == NH_NUMBER || nh_currents_known(x->bench, e)) return 0;
     if (nh_prove_digits(r->model, e, &r->options) < r->options.digits) return 0;
     nh_stage_record *note = nh_stage_solver_note(x, name);
-    note->columns = n;
+    note->columns = 1;
     note->sectors = 1;
-    note->found = nh_currents_add(x->bench, candidate_of(x, n, term, coefficient), x->ranges, false);
+    note->found = nh_currents_add(x->bench, candidate_of(x, 1, &e, &one), x->ranges, false);
     note->dimension = note->found;
     r->independent += note->found;
     return note->found;
-}
-
-size_t nh_stage_solver_certify(nh_stage_solver *x, nh_ex e, const char *name)
-{
-    nh_num one = nh_num_int(1);
-    return nh_stage_solver_certify_terms(x, 1, &e, &one, name);
 }
 
 void nh_stage_solver_certify_each(nh_stage_solver *x, size_t n, const nh_ex *e, const char *name)

@@ -56,10 +56,6 @@ void nh_stage_solver_stage(nh_stage_solver *solver, const char *name, size_t fam
 size_t nh_stage_solver_certify(nh_stage_solver *solver, nh_ex e, const char *name);
 /* The same of each of n, as one stage. */
 void nh_stage_solver_certify_each(nh_stage_solver *solver, size_t n, const nh_ex *e, const char *name);
-/* The same for a sum of terms, with these coefficients at the given parameters; those for other parameters are solved
- * for. */
-size_t nh_stage_solver_certify_terms(nh_stage_solver *solver, size_t terms, const nh_ex *term,
-                                     const nh_num *coefficient, const char *name);
 
 /* Exponentials and waves in t and in the coordinates, with rates from the pencil. */
 void nh_rates_search(nh_stage_solver *solver);

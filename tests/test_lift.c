@@ -1,0 +1,62 @@
+/* Coefficients from residues: given terms, the integral that they make, for all parameters where it is a polynomial in these. */
+#include "names.h"
+
+#include <stdio.h>
+
+#include "count/lift.h"
+#include "exact/normal.h"
+
+typedef struct {
+    const char *name, *text;
+    bool time;
+    size_t terms;
+    const char *term[6], *integral; /* NULL: there is none of these terms */
+} row;
+
+#define PLANE "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - "
+#define LINE "coordinates: [x]\nlagrangian: x'^2/2 - "
+
+static const row ROW[] = {
+    {"Post and Winternitz", "parameters: {a: 0.7}\n" PLANE "a*y*x^(-2/3)\n", false, 4,
+     {"x'^2*y'", "y'^3", "x^(1/3)*x'", "y*x^(-2/3)*y'"}, "x'^2*y' + 2/3*y'^3 + 3*a*x^(1/3)*x' + 2*a*y*x^(-2/3)*y'"},
+    {"a sum of parameters", "parameters: {a: 2, b: 3}\n" LINE "(a + b)*x^2\n", false, 2, {"x'^2", "x^2"}, "x'^2 + 2*(a + b)*x^2"},
+    {"a square of such a sum", "parameters: {a: 2, b: 3}\n" LINE "((a + b)^2*x^4 + a*x)\n", false, 3, {"x'^2", "x^4", "x"},
+     "x'^2 + 2*(a + b)^2*x^4 + 2*a*x"},
+    {"a parameter in a denominator", "parameters: {k: 2, m: 3}\ncoordinates: [x]\nlagrangian: m*x'^2/2 - k*x^2/2\n", false, 2,
+     {"x'^2", "x^2"}, "x'^2 + k/m*x^2"},
+    /* no polynomial in them: for their values only */
+    {"one over a sum", "parameters: {k: 2, m: 3, n: 4}\ncoordinates: [x]\nlagrangian: (m + n)*x'^2/2 - k*x^2/2\n", false, 2,
+     {"x'^2", "x^2"}, "x'^2 + 2/7*x^2"},
+    {"a long fraction", LINE "1234567890123/9876543210987*x^2\n", false, 2, {"x'^2", "x^2"},
+     "x'^2 + 2*1234567890123/9876543210987*x^2"},
+    {"terms with time", "parameters: {g: 9.81}\n" LINE "g*x\n", true, 3, {"x", "t*x'", "t^2"}, "x - t*x' - g*t^2/2"},
+    {"others' terms", LINE "x^2\n", false, 2, {"x'^2", "x^4"}, NULL},
+    {"two integrals of these terms", PLANE "0\n", false, 3, {"x'*y'", "x'^2", "y'^2"}, NULL},
+    {"a root as a coefficient", LINE "sqrt(2)*x^2\n", false, 2, {"x'^2", "x^2"}, NULL},
+    {"no polynomial in the velocities", LINE "x^2\n", false, 2, {"sin(x')", "x^2"}, NULL},
+    {"a rolling disk's momentum", "parameters: {m: 2, J: 3, R: 1/2}\ncoordinates: [x, f]\nlagrangian: m*x'^2/2 + J*f'^2/2 - m*x\n"
+     "constraints: [\"x' = R*f'\"]\nvelocities: {names: [w], map: [\"f' = w\", \"x' = R*w\"]}\n", false, 2, {"w^2", "x"}, "w^2 + 8/7*x"},
+};
+
+Test(lift, coefficients_of_given_terms)
+{
+    for (size_t i = 0; i < sizeof ROW / sizeof *ROW; i++) {
+        char text[500];
+        nh_error error = {0};
+        nh_ex term[6];
+        snprintf(text, sizeof text, "name: row\n%s", ROW[i].text);
+        nh_system *s = system_of(text);
+        nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
+        must(o != NULL, &error, ROW[i].name);
+        for (size_t j = 0; j < ROW[i].terms; j++) term[j] = nh_model_compose(o, expression_of(s, ROW[i].term[j]));
+        nh_lift_result r = nh_lift(o, ROW[i].time, ROW[i].terms, term, 1e9), none = nh_lift(o, ROW[i].time, ROW[i].terms, term, 10);
+        cr_expect_eq(r.integral != 0, ROW[i].integral != NULL, "%s", ROW[i].name);
+        cr_expect_eq(none.integral, (nh_ex)0, "%s: without work", ROW[i].name);
+        if (r.integral && ROW[i].integral) {
+            nh_ex difference = nh_sub(o->dag, r.integral, nh_model_compose(o, expression_of(s, ROW[i].integral)));
+            cr_expect_eq(nh_normal_is_zero(o->dag, difference, 0), NH_ZERO, "%s", ROW[i].name);
+        }
+        nh_model_free(o);
+        nh_system_free(s);
+    }
+}
