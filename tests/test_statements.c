@@ -186,6 +186,7 @@ Test(statements, a_field_is_complete_in_every_report)
 /* Components of [Gamma,Z] outside of the distribution belong to the forms that are printed: those of the geometry, where it is shown. */
 Test(statements, the_forms_of_the_currents_are_those_of_the_geometry)
 {
+    sweep_plain_only();
     static const char sleigh[] = "name: own\nparameters: [{name: m, value: 2}, {name: J, value: 0.9}, {name: a, value: 0.6}]\n"
                                  "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: phi, type: angle}]\n"
                                  "lagrangian: m/2*((x' - a*phi'*sin(phi))^2 + (y' + a*phi'*cos(phi))^2) + J/2*phi'^2\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
@@ -489,6 +490,7 @@ Test(statements, a_proved_current_does_not_drift_by_itself)
 /* A field of many lines is left out of the text, which says how to see it. */
 Test(statements, a_long_field_is_on_the_page)
 {
+    sweep_plain_only();
     place p = place_make();
     reports r = analyze(&p, "rolling_ball"), all = analyze(&p, "rolling_ball --option shown=4000");
     cr_expect(strstr(r.text, " symbols: the page shows it, and so does --option shown=") && !strstr(r.text, "Z_psi"), "%s", r.text);
