@@ -75,7 +75,14 @@ static void echelon(size_t m, size_t n, size_t r, size_t within)
         for (size_t j = 0; j < n; j++) cr_assert_eq(c[i * n + j], 0);
     }
     nh_residue_matrix_multiply(f, m, r, n, a, b, c);
-    if (within == n) cr_assert_eq(nh_residue_matrix_rank(f, m, n, c), rank);
+    if (within == n) {
+        size_t *alone = nh_alloc_array(m + n + 1, sizeof *alone);
+        cr_assert_eq(nh_residue_matrix_pivots(f, m, n, c, alone), rank);
+        for (size_t i = 0; i < rank; i++) cr_assert_eq(alone[i], pivot[i]);
+        nh_residue_matrix_multiply(f, m, r, n, a, b, c);
+        cr_assert_eq(nh_residue_matrix_rank(f, m, n, c), rank);
+        nh_free(alone);
+    }
     if (within == n && r <= m && r <= n / 3) cr_assert_eq(rank, r);
     nh_free(pivot);
     nh_free(e);

@@ -321,7 +321,7 @@ static void keep_words(nh_closed_words *w, size_t count, const size_t *chosen)
     w->words = count;
 }
 
-/* Values of all words at so many points, in echelon form.  Returns the rank; `chosen`: the pivot columns. */
+/* The rank of the values of all words at so many points; `chosen`: the pivot columns. */
 static size_t independent_at(const nh_closed_words *w, nh_prime field, size_t rows, size_t *chosen, bool *enough)
 {
     enum { most_tries = 64 };
@@ -336,7 +336,7 @@ static size_t independent_at(const nh_closed_words *w, nh_prime field, size_t ro
         found += values_at(w, point, value, matrix + found * n);
     }
     *enough = found == rows;
-    if (*enough) independent = nh_residue_matrix_echelon(field, rows, n, n, matrix, chosen);
+    if (*enough) independent = nh_residue_matrix_pivots(field, rows, n, matrix, chosen);
     nh_jet_ring_free(point);
     nh_free(value);
     nh_free(matrix);

@@ -200,10 +200,15 @@ size_t nh_residue_matrix_echelon(nh_prime field, size_t rows, size_t columns, si
     return eliminate(field, rows, columns, within, a, pivot, true);
 }
 
+size_t nh_residue_matrix_pivots(nh_prime field, size_t rows, size_t columns, nh_residue *a, size_t *pivot)
+{
+    return eliminate(field, rows, columns, columns, a, pivot, false);
+}
+
 size_t nh_residue_matrix_rank(nh_prime field, size_t rows, size_t columns, nh_residue *a)
 {
     size_t *pivot = nh_alloc_array((rows < columns ? rows : columns) + 1, sizeof *pivot);
-    size_t rank = eliminate(field, rows, columns, columns, a, pivot, false);
+    size_t rank = nh_residue_matrix_pivots(field, rows, columns, a, pivot);
     nh_free(pivot);
     return rank;
 }

@@ -21,6 +21,10 @@ void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, co
 size_t nh_residue_matrix_echelon(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a,
                                  size_t *pivot);
 
+/* Only the pivots, for two thirds of the work: the first columns that are linearly independent.  Returns how many there
+ * are; the matrix is destroyed. */
+size_t nh_residue_matrix_pivots(nh_prime field, size_t rows, size_t columns, nh_residue *a, size_t *pivot);
+
 /* The rank; the matrix is destroyed. */
 size_t nh_residue_matrix_rank(nh_prime field, size_t rows, size_t columns, nh_residue *a);
 
