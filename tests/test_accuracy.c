@@ -67,7 +67,7 @@ Test(accuracy, what_is_held_is_true)
     for (size_t i = 0; i < n; free(name[i++])) {
         char path[400];
         snprintf(path, sizeof path, "systems/%s.yaml", name[i]);
-        if (i % 4 || !sweep_tries(i / 4, 4, 24)) continue;
+        if (i % 4 || !sweep_tries(i / 4, 8, 24)) continue;
         try_system(path, i / 4);
         tried++;
     }

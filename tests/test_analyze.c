@@ -603,7 +603,7 @@ Test(analyze, meanings_are_true, .timeout = 120)
     static const char *const systems[] = {"sleigh", "vertical_disk", "heisenberg_particle", "rolling_ball", "charged_particle", "euler_top"};
     size_t tried = 0, energies = 0, momenta = 0;
     for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
-        if (!sweep_tries(i + 1, 3, 6)) continue;
+        if (!sweep_tries(i + 1, 6, 12)) continue;
         tried++;
         char path[100];
         snprintf(path, sizeof path, "systems/%s.yaml", systems[i]);

@@ -346,7 +346,7 @@ Test(browser, pages_are_as_they_should_be)
     sweep_plain_only();
     bool skipped = false;
     for (size_t i = 0; !skipped && i < sizeof SYSTEMS / sizeof *SYSTEMS; i++) {
-        if (!sweep_tries(i, 12, 12)) continue;
+        if (!sweep_tries(i, 18, 18)) continue;
         char line[200];
         place p;
         snprintf(line, sizeof line, "analyze %s --quiet --html page.html --json page.json", SYSTEMS[i]);
@@ -396,7 +396,7 @@ static void write_every_page(const place *p)
     char *system[most_files], names[most_files * 60] = "";
     size_t n = list("systems", system), length = 0;
     for (size_t i = 0; i < n; free(system[i++]))
-        if (sweep_tries(i + 3, 12, 12)) length += (size_t)snprintf(names + length, sizeof names - length, "%.50s\n", system[i]);
+        if (sweep_tries(i + 3, 18, 18)) length += (size_t)snprintf(names + length, sizeof names - length, "%.50s\n", system[i]);
     write_here(p, "names", names);
     char *argument[] = {"sh", "-c", (char[6 * PATH_MAX]){0}, NULL};
     snprintf(argument[2], 6 * PATH_MAX,

@@ -13,7 +13,7 @@ Test(catalogue, finds_what_is_known_and_nothing_false)
     size_t n = list("systems", name);
     cr_assert_geq(n, 1);
     for (size_t i = 0; i < n; free(name[i++])) {
-        if (!sweep_tries(i + 1, 30, 120)) continue;
+        if (!sweep_tries(i + 1, 40, 120)) continue;
         row o = compare_file("systems", name[i], 0, patience);
         cr_expect_eq(o.missing, o.excused, "%s: %s", name[i], o.names);
         cr_expect_eq(o.untrue, 0, "%s: %s", name[i], o.names);

@@ -126,7 +126,7 @@ static void check_momenta(const nh_export *x, size_t probe)
 Test(export_meaning, equations, .timeout = 300)
 {
     for (size_t i = 0; i < EXPORTED_SYSTEMS; i++) {
-        if (!sweep_tries(i, 4, 16)) continue;
+        if (!sweep_tries(i, 8, 16)) continue;
         nh_export *x = make(&EXPORTED[i], "equations, momenta, submanifold");
         for (size_t p = 0; p < probes; p++) {
             check_equations(x, p);
@@ -195,7 +195,7 @@ Test(export_meaning, currents, .timeout = 300)
     sweep_plain_only();
     size_t systems = 0;
     for (size_t i = 0; i < EXPORTED_SYSTEMS; i++) {
-        if (!sweep_tries(i, 4, 16)) continue;
+        if (!sweep_tries(i, 8, 16)) continue;
         nh_export *x = make(&EXPORTED[i], "currents, submanifold");
         for (size_t p = 0; p < probes; p++) {
             check_currents(x, p);
@@ -287,7 +287,7 @@ Test(export_meaning, reductions, .timeout = 300)
 {
     size_t checked = 0;
     for (size_t i = 0; i < EXPORTED_SYSTEMS; i++) {
-        if (!sweep_tries(i, 4, 16)) continue;
+        if (!sweep_tries(i, 8, 16)) continue;
         nh_export *x = make(&EXPORTED[i], "equations, reduced");
         for (size_t s = 0; x->reduction && s < x->reduction->stages; s++)
             for (size_t p = 0; p < probes; p++) {

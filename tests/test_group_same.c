@@ -95,7 +95,7 @@ static void for_all(size_t (*check)(const char *name), size_t from)
     size_t n = list("systems", name), count = 0, symmetric = 0;
     cr_assert_gt(n, 60u);
     for (size_t i = 0; i < n; free(name[i++])) {
-        if (!sweep_tries(i + from, 4, 24)) continue;
+        if (!sweep_tries(i + from, 6, 24)) continue;
         clock_t begin = clock();
         symmetric += check(name[i]) > 0;
         count++;

@@ -268,7 +268,7 @@ Test(parameters, rates_of_shipped_systems_are_named)
     sweep_plain_only();
     static const char *const name[] = {"penning_trap", "omni_robot", "constant_speed", "foucault_pendulum"};
     for (size_t i = 0; i < 4; i++)
-        if (sweep_tries(i, 2, 2)) cJSON_Delete(all_hold(name[i]));
+        if (sweep_tries(i, 4, 4)) cJSON_Delete(all_hold(name[i]));
 }
 
 /* Gamma is long for want of a short M^-1; the fields are short. */

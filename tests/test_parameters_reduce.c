@@ -178,7 +178,7 @@ Test(parameters_reduce, equations_of_a_special_group_say_so)
 static void sample(const char *const *name, size_t n, bool currents)
 {
     for (size_t i = 0; i < n; i++) {
-        if (!sweep_tries(i, 8, 32)) continue;
+        if (!sweep_tries(i, 12, 36)) continue;
         char path[200];
         snprintf(path, sizeof path, "systems/%s.yaml", name[i]);
         parameters_row o = parameters_of(path, currents, !currents, 1);

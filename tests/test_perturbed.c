@@ -17,7 +17,7 @@ Test(perturbed, what_nearly_is_conserved_is_told_apart)
     options.until = 0.5;
     for (size_t i = 0; i < sizeof systems / sizeof *systems; i++)
         for (size_t k = 0; k < PERTURBATIONS; k++) {
-            if (!sweep_tries(PERTURBATIONS * i + k, 24, 240)) continue;
+            if (!sweep_tries(PERTURBATIONS * i + k, 36, 240)) continue;
             tried++;
             perturbed p = perturbed_copy("systems", systems[i], k, 20261121 + i, &options);
             cr_expect_eq(p.o.wrong, 0, "%s + 1e%d: %s", systems[i], perturbation[k], p.o.names);

@@ -153,7 +153,7 @@ static double largest_change(const nh_model *o, nh_ex phi)
 Test(piecewise, currents_are_continuous_along_motions)
 {
     for (size_t i = 0; i < COUNT; i++) {
-        if (!sweep_tries(i, 6, 18)) continue;
+        if (!sweep_tries(i, 9, 18)) continue;
         const piecewise *p = &PIECEWISE[i];
         nh_analysis *r = analysed(p->text);
         row o = {.rate = -INFINITY};

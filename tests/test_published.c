@@ -428,7 +428,7 @@ static size_t independent_and_proved(const nh_analysis *r)
 Test(published, published_systems_are_complete_and_proved)
 {
     for (size_t i = 0; i < PUBLISHED_COUNT; i++) {
-        if (!sweep_tries(i, 12, 48)) continue;
+        if (!sweep_tries(i, 20, 60)) continue;
         const published *u = &PUBLISHED[i];
         nh_analysis *r = analysed(u->text, -1);
         const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];

@@ -372,7 +372,7 @@ Test(quadratures, potentials_of_one_coordinate)
         "k*(exp(-2*x) - 2*exp(-x))", "-k/x",        "k/x",       "k/x^2 - a/x",   "k*tanh(x)"};
     enum { count = sizeof potential / sizeof *potential };
     for (size_t i = 0; i < count; i++) {
-        if (!sweep_tries(i, 4, count)) continue;
+        if (!sweep_tries(i, 6, count)) continue;
         char text[400];
         snprintf(text, sizeof text, "name: one\nparameters: {k: 1.1, a: 0.7}\ncoordinates: [x]\ndomain: {x: [0.5, 1]}\nlagrangian: x'^2/2 - (%s)\n",
                  potential[i]);
@@ -398,7 +398,7 @@ Test(quadratures, combined_coordinates)
          "constraints: [\"x^2 + y^2 = a^2\"]\n", 5},
     };
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
-        if (sweep_tries(i, 2, sizeof row / sizeof *row)) complete(row[i].text, row[i].independent);
+        if (sweep_tries(i, 3, sizeof row / sizeof *row)) complete(row[i].text, row[i].independent);
 }
 
 /* A potential that is an angle: the energy stays as it is, a polynomial in the velocities, and is counted as such. */

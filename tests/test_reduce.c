@@ -47,7 +47,7 @@ static const struct {
 Test(reduce, groups_and_motions_of_the_shipped_systems)
 {
     for (size_t i = 0; i < sizeof catalogue / sizeof *catalogue; i++) {
-        if (!sweep_tries(i, 6, 20)) continue;
+        if (!sweep_tries(i, 9, 27)) continue;
         char path[100];
         nh_error error = {0};
         snprintf(path, sizeof path, "systems/%s.yaml", catalogue[i].system);

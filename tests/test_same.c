@@ -98,7 +98,7 @@ static void for_all(check *one, size_t from)
 {
     nh_options options = patient();
     for (size_t i = 0; i < SYSTEMS; i++) {
-        if (!sweep_tries(i + from, 32, 160)) continue;
+        if (!sweep_tries(i + from, 48, 160)) continue;
         answer a = answer_of(systems[i], &options);
         one(&a, systems[i], &options);
         answer_clear(&a);

@@ -119,7 +119,7 @@ Test(schema, what_analyze_writes_fits)
     cJSON *schema = read_json("docs/schema/analyze.json");
     place p = place_make();
     for (size_t i = 0; i < sizeof LINES / sizeof *LINES; i++) {
-        if (!sweep_tries(i, 4, 16)) continue;
+        if (!sweep_tries(i, 8, 16)) continue;
         char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
         snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
         snprintf(line, sizeof line, "analyze %s --quiet --json r.json", LINES[i]);
@@ -367,7 +367,7 @@ Test(schema, what_reduce_writes_fits)
     size_t n = list("systems", name);
     cr_assert_gt(n, 60);
     for (size_t i = 0; i < n; free(name[i++]))
-        if (sweep_tries(i, 12, 24)) reduce_fits(&p, name[i]);
+        if (sweep_tries(i, 18, 36)) reduce_fits(&p, name[i]);
     cJSON_Delete(whole);
     place_clear(&p);
 }

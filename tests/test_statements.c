@@ -125,7 +125,7 @@ Test(statements, the_constraints_are_named_alike)
     static const char *const systems[] = {"appell_hamel", "skate_on_belt", "sleigh", "bead_on_turning_wire"};
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof systems / sizeof *systems; s++) {
-        if (!sweep_tries(s + 1, 2, 4)) continue;
+        if (!sweep_tries(s + 1, 3, 6)) continue;
         reports r = analyze(&p, systems[s]);
         const cJSON *c = item(r.json, "constraint");
         const char *type = item(c, "type")->valuestring;
@@ -166,7 +166,7 @@ Test(statements, a_field_is_complete_in_every_report)
     static const char *const systems[] = {"sleigh", "constant_speed", "skate_on_belt", "relativistic_particle", "appell_hamel"};
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof systems / sizeof *systems; s++) {
-        if (!sweep_tries(s + 3, 2, 5)) continue;
+        if (!sweep_tries(s + 3, 4, 8)) continue;
         reports r = analyze(&p, systems[s]);
         size_t along = occurrences(r.text, "d/d"), components = occurrences(r.text, "\n  Z_"), forms = occurrences(r.text, "\n  i_[Gamma,Z] phi^");
         cr_assert_gt(along + components, 0u);

@@ -106,7 +106,7 @@ Test(tex, every_number_is_in_the_json)
     sweep_plain_only();
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
-        if (!sweep_tries(s, 5, 10)) continue;
+        if (!sweep_tries(s, 8, 16)) continue;
         char line[200];
         snprintf(line, sizeof line, "analyze %s --quiet --tex a.tex --json a.json", SYSTEMS[s]);
         finished f = run(&p, line);
