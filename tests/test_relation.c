@@ -12,6 +12,7 @@
 #include "exact/normal.h"
 #include "graph/print.h"
 #include "exact/relation.h"
+#include "exact/relation_express.h"
 #include "exact/relation_unknown.h"
 #include "evaluate/tape.h"
 #include "typed.h"
@@ -494,5 +495,51 @@ Test(relation, numbers_without_a_form_are_left_alone)
     cr_expect_not(nh_relation_unknown(&(nh_unknown_numbers){dag, 1, parameter, &a, 1, unknown, &value, 0}, 1, e, &c, x));
     value = 3; /* there is no relation */
     cr_expect_not(nh_relation_unknown(&(nh_unknown_numbers){dag, 1, parameter, &a, 1, unknown, &value, 0}, 1, e, &c, x));
+    nh_dag_free(dag);
+}
+
+/* ---- one by others ---- */
+
+/* The last as a combination of the others: which of them, the first possible ones; by residues along a curve, and by normal forms where these say nothing. */
+Test(relation, one_expression_by_others)
+{
+    static const struct {
+        const char *parameters;
+        size_t n;
+        const char *e[6];
+        bool found;
+        const char *c[5];
+    } ROW[] = {
+        {"a b", 4, {"x^2", "x", "1", "(a*x + b)^2"}, true, {"a^2", "2*a*b", "b^2"}},
+        {"a", 3, {"x", "1", "1/(x + a)"}, false, {0}},
+        {"", 4, {"sin(x)^2", "cos(x)^2", "cos(2*x)", "1"}, true, {"1", "1", "0"}}, /* the first possible ones */
+        {"a", 4, {"1/x", "1/(x + a)", "1/(x*(x + a))", "(2*x + a)/(x*(x + a))"}, true, {"1", "1", "0"}},
+        {"a k", 3, {"exp(a*x)*x", "exp(a*x)", "exp(a*x)*(x - k)/k"}, true, {"1/k", "-1"}},
+        {"a", 2, {"sqrt(x + a)/x", "(x + a)/(x*sqrt(x + a))"}, true, {"1"}},
+        {"", 2, {"x", "0*x"}, true, {"0"}},
+        {"", 3, {"y*x", "y", "y*(3*x - 5)/7"}, true, {"3/7", "-5/7"}},
+        {"", 2, {"y*x", "x"}, false, {0}},
+        {"a", 2, {"legendre_p(a, x)*x", "x*legendre_p(a, x)/a"}, true, {"1/a"}}, /* not along a curve */
+    };
+    for (size_t i = 0; i < sizeof ROW / sizeof *ROW; i++) {
+        nh_dag *dag = nh_dag_create();
+        nh_ex e[6], c[5], parameter[4];
+        for (size_t j = 0; j < ROW[i].n; j++) e[j] = ex(dag, ROW[i].e[j]);
+        size_t parameters = symbols(dag, ROW[i].parameters, parameter);
+        bool found = nh_relation_express(dag, ROW[i].n, e, parameters, parameter, 0, c);
+        cr_expect_eq(found, ROW[i].found, "%s", ROW[i].e[ROW[i].n - 1]);
+        for (size_t j = 0; j + 1 < ROW[i].n && found && ROW[i].found; j++)
+            cr_expect_eq(nh_normal_is_zero(dag, nh_sub(dag, c[j], ex(dag, ROW[i].c[j])), 0), NH_ZERO, "%s: number %zu", ROW[i].e[ROW[i].n - 1], j);
+        nh_dag_free(dag);
+    }
+}
+
+/* s^2 = x^2: s is x only on one branch, so that it is not expressed by x. */
+Test(relation, one_expression_by_others_on_two_branches)
+{
+    nh_dag *dag = nh_dag_create();
+    nh_ex x = nh_symbol(dag, "x"), s = nh_symbol(dag, "s"), e[] = {x, s}, c[1];
+    nh_relate(dag, s, 2, ex(dag, "x^2"));
+    cr_expect(!nh_relation_express(dag, 2, e, 0, NULL, 0, c));
     nh_dag_free(dag);
 }

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "exact/form.h"
 #include "exact/normal.h"
-#include "exact/relation.h"
+#include "exact/relation_express.h"
 #include "exact/square.h"
 #include "graph/diff.h"
 

@@ -14,13 +14,4 @@
 nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
                                      size_t max_terms, nh_ex *coefficient);
 
-/* Expresses the last of n expressions by those before it, which need not be independent: the first ones possible are
- * used.
- *
- *     e_(n-1) = sum_j c_j e_j,   j < n - 1
- *
- * False where there is no such relation, or it is too large. */
-bool nh_relation_express(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
-                         size_t max_terms, nh_ex *coefficient);
-
 #endif

@@ -9,15 +9,22 @@
 #include "exact/relation.h"
 #include "exact/residue_matrix.h"
 
-enum { canonical_length = 2000, beyond = 24, longest = 250, most_points = 200, largest_fraction = 2000 };
+enum {
+    canonical_length = 2000,
+    beyond = 24,
+    beyond_few = 8,
+    longest = 250,
+    most_points = 200,
+    largest_fraction = 2000
+};
 
 typedef struct {
     const nh_relation_columns *q;
     nh_dag *d;
     nh_prime field;
     nh_jet_point *point;
-    nh_ex *entry;              /* canonical */
-    nh_residue *matrix;        /* reduced */
+    nh_ex *entry;       /* canonical */
+    nh_residue *matrix; /* reduced */
     size_t rank, *pivot;
 } problem;
 
@@ -76,10 +83,9 @@ static void fill(problem *x, const nh_jet_ring *ring, const nh_residue *value)
                 x->matrix[(i * ring->size + e) * columns + j] = value[(j * rows + i) * ring->size + e];
 }
 
-static bool find_rank(problem *x)
+static bool find_rank(problem *x, size_t order)
 {
-    size_t rows = x->q->rows, columns = x->q->columns, one = 1, order = 2 * columns / rows + beyond;
-    if (order > longest) order = longest;
+    size_t rows = x->q->rows, columns = x->q->columns, one = 1;
     x->field = nh_jet_point_prime(x->point, 1);
     nh_jet_ring *ring = nh_jet_ring_create(x->field, 1, &one, order);
     nh_ex *constant;
@@ -194,23 +200,47 @@ static void solve(problem *x, nh_arena *arena, nh_relation_space *out)
     nh_free(pivots);
 }
 
+/* The rank, by series up to this order; an obstacle otherwise, or NULL. */
+static const char *open_problem(problem *x, const nh_relation_columns *q, size_t order)
+{
+    size_t total = q->columns * q->rows;
+    *x = (problem){
+        .q = q, .d = q->dag, .point = nh_jet_point_create(q->dag), .entry = nh_alloc_array(total + 1, sizeof(nh_ex))};
+    nh_forms forms;
+    nh_forms_init(&forms, q->dag, false, canonical_length);
+    for (size_t e = 0; e < total; e++) x->entry[e] = nh_form_rewrite(&forms, q->entry[e]);
+    nh_forms_clear(&forms);
+    if (!nh_jet_point_register(x->point, total, x->entry)) return x->point->obstacle;
+    return find_rank(x, order) ? NULL : "no regular point was found";
+}
+
+static void close_problem(problem *x)
+{
+    nh_free(x->matrix);
+    nh_free(x->pivot);
+    nh_free(x->entry);
+    nh_jet_point_free(x->point);
+}
+
+nh_relation_last nh_relation_space_last(const nh_relation_columns *q, bool *support)
+{
+    problem x;
+    size_t n = q->columns;
+    bool known = !open_problem(&x, q, n / q->rows + beyond_few),
+         free = known && x.rank > 0 && x.pivot[x.rank - 1] == n - 1;
+    for (size_t j = 0; j < n && known; j++) support[j] = j == n - 1;
+    for (size_t i = 0; i < x.rank && known && !free; i++) support[x.pivot[i]] = x.matrix[i * n + n - 1] != 0;
+    close_problem(&x);
+    return !known ? NH_LAST_UNKNOWN : free ? NH_LAST_IS_FREE : NH_LAST_IS_COMBINED;
+}
+
 nh_relation_space *nh_relation_space_of(nh_arena *arena, const nh_relation_columns *q)
 {
     nh_relation_space *out = nh_arena_alloc(arena, sizeof *out);
-    size_t total = q->columns * q->rows;
-    problem x = {
-        .q = q, .d = q->dag, .point = nh_jet_point_create(q->dag), .entry = nh_alloc_array(total + 1, sizeof(nh_ex))};
-    *out = (nh_relation_space){0};
-    nh_forms forms;
-    nh_forms_init(&forms, q->dag, false, canonical_length);
-    for (size_t e = 0; e < total; e++) x.entry[e] = nh_form_rewrite(&forms, q->entry[e]);
-    nh_forms_clear(&forms);
-    if (!nh_jet_point_register(x.point, total, x.entry)) out->obstacle = x.point->obstacle;
-    else if (!find_rank(&x)) out->obstacle = "no regular point was found";
-    else solve(&x, arena, out);
-    nh_free(x.matrix);
-    nh_free(x.pivot);
-    nh_free(x.entry);
-    nh_jet_point_free(x.point);
+    problem x;
+    size_t order = 2 * q->columns / q->rows + beyond;
+    *out = (nh_relation_space){.obstacle = open_problem(&x, q, order < longest ? order : longest)};
+    if (!out->obstacle) solve(&x, arena, out);
+    close_problem(&x);
     return out;
 }

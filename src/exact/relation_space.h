@@ -31,6 +31,11 @@ typedef struct {
     nh_ex *coefficient;
 } nh_relation_space;
 
+/* Is the last column a combination of those before it, modulo the prime?  Then `support` marks that column and those
+ * that the combination needs, the first ones possible.  `parameters` and max_terms do not matter. */
+typedef enum { NH_LAST_UNKNOWN, NH_LAST_IS_FREE, NH_LAST_IS_COMBINED } nh_relation_last;
+nh_relation_last nh_relation_space_last(const nh_relation_columns *columns, bool *support);
+
 /* In the arena; expressions belong to the graph. */
 nh_relation_space *nh_relation_space_of(nh_arena *arena, const nh_relation_columns *columns);
 

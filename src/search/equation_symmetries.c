@@ -4,7 +4,7 @@
 
 #include "base/progress.h"
 #include "exact/normal.h"
-#include "exact/relation.h"
+#include "exact/relation_express.h"
 
 enum { most_letters = 24, most_words = 300, most_columns = 360, most_nodes = 400000, most_dynamical = 12 };
 

@@ -1,7 +1,7 @@
 #include "search/volume_rate.h"
 
 #include "exact/normal.h"
-#include "exact/relation.h"
+#include "exact/relation_express.h"
 #include "graph/diff.h"
 
 enum { largest_form = 2000 };
