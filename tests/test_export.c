@@ -156,7 +156,7 @@ static void batch_make(batch *b, size_t part)
     scratch_name(b->folder);
     cr_assert_not_null(mkdtemp(b->folder));
     for (size_t i = part; i < EXPORTED_SYSTEMS; i += share)
-        if (sweep_tries(i / share, 8, 16)) b->of[b->count++] = make(b, &EXPORTED[i]);
+        if (sweep_tries(i / share, 8, 32)) b->of[b->count++] = make(b, &EXPORTED[i]);
 }
 
 static void batch_clear(batch *b)

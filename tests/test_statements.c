@@ -286,6 +286,7 @@ Test(statements, rounding_is_no_rate)
  * compared with. */
 Test(statements, a_residual_without_a_size_is_decided_exactly)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "ball.yaml", "name: ball\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - 1.9*y^2 - 3.1*z^2\n"
                                 "constraints: [\"x*x' + y*y' + z*z' = 0\"]\ndomain: {y: [0.5, 1]}\n");
@@ -503,6 +504,7 @@ Test(statements, a_long_field_is_on_the_page)
 /* The multiplier of z'^2 = a^2 (x'^2 + y'^2) depends on the direction of the velocity, however small that is: nothing is fast here. */
 Test(statements, a_direction_is_no_rate)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "cone.yaml", "name: cone\nparameters: [{name: a, value: 0.4}, {name: g, value: 9.81}]\ncoordinates: [x, y, z]\n"
                                 "lagrangian: (x'^2+y'^2+z'^2)/2 - g*z\nconstraints: [\"z'^2 = a^2*(x'^2+y'^2)\"]\n");

@@ -205,7 +205,9 @@ static bool lift_exactly(search *s, bool time, size_t terms, const nh_ex *term, 
     nh_analysis *r = s->solver.r;
     nh_lift_result exact = nh_lift(r->model, time, terms, term, s->work);
     s->work -= exact.work;
-    return exact.integral && nh_stage_solver_certify(&s->solver, exact.integral, name);
+    bool found = exact.integral && nh_stage_solver_certify(&s->solver, exact.integral, name);
+    if (found) r->stage[r->stages - 1].columns = terms;
+    return found;
 }
 
 /* By doubles: the coefficients may be roots and the like.  Longer lists take seconds, and their small coefficients are
