@@ -1,7 +1,6 @@
 /* Eigenvalues of the derivative along a cyclic coordinate on the space of solutions. */
 #include "count/construct_rates.h"
 
-#include <flint/fmpq.h>
 #include <flint/nmod_mat.h>
 #include <flint/nmod_poly.h>
 #include <flint/nmod_poly_factor.h>
@@ -14,20 +13,12 @@ enum { beyond_degree = 3, most_points = 20, most_coefficients = 4000, most_solut
 /* ---- eigenvalues ---- */
 
 /* The short fraction with this residue. */
-static bool fraction(nh_residue value, uint64_t p, nh_num *out)
+static bool fraction(nh_residue value, nh_prime field, nh_num *out)
 {
     enum { longest = 1000 };
-    fmpz_t a, m;
-    fmpq_t q;
-    fmpz_init_set_ui(a, value);
-    fmpz_init_set_ui(m, p);
-    fmpq_init(q);
-    bool found = fmpq_reconstruct_fmpz(q, a, m) && fmpz_cmp_ui(fmpq_denref(q), longest) <= 0 &&
-                 fmpz_cmp_si(fmpq_numref(q), longest) <= 0 && fmpz_cmp_si(fmpq_numref(q), -longest) >= 0;
-    if (found) *out = nh_num_ratio(fmpz_get_si(fmpq_numref(q)), fmpz_get_si(fmpq_denref(q)));
-    fmpq_clear(q);
-    fmpz_clear(m);
-    fmpz_clear(a);
+    int64_t top, bottom;
+    bool found = nh_residue_fraction(field, value, longest, &top, &bottom);
+    if (found) *out = nh_num_ratio(top, bottom);
     return found;
 }
 
@@ -50,12 +41,12 @@ static int64_t root_of(int64_t square)
 }
 
 /* Reads a linear factor x - lambda, or x^2 + omega^2: no prime here has a root of -1. */
-static void read_factor(const nmod_poly_t f, uint64_t p, nh_ex coordinate, nh_construct_rates *out)
+static void read_factor(const nmod_poly_t f, nh_prime field, nh_ex coordinate, nh_construct_rates *out)
 {
     nh_residue last = (nh_residue)nmod_poly_get_coeff_ui(f, 0);
     nh_construct_rate r = {.coordinate = coordinate, .wave = nmod_poly_degree(f) == 2};
     if (!last || nmod_poly_degree(f) > 2 || (r.wave && nmod_poly_get_coeff_ui(f, 1))) return;
-    if (!fraction(r.wave ? last : (nh_residue)(p - last), p, &r.rate)) return;
+    if (!fraction(r.wave ? last : nh_residue_negative(field, last), field, &r.rate)) return;
     if (r.wave) {
         if (r.rate.p < 0 || !root_of(r.rate.p) || !root_of(r.rate.q)) return;
         r.rate = nh_num_ratio(root_of(r.rate.p), root_of(r.rate.q));
@@ -63,15 +54,15 @@ static void read_factor(const nmod_poly_t f, uint64_t p, nh_ex coordinate, nh_co
     put(out, r);
 }
 
-static void read_eigenvalues(const nmod_mat_t A, uint64_t p, nh_ex coordinate, nh_construct_rates *out)
+static void read_eigenvalues(const nmod_mat_t A, nh_prime field, nh_ex coordinate, nh_construct_rates *out)
 {
     nmod_poly_t characteristic;
     nmod_poly_factor_t parts;
-    nmod_poly_init(characteristic, p);
+    nmod_poly_init(characteristic, field.p);
     nmod_poly_factor_init(parts);
     nmod_mat_charpoly(characteristic, A);
     nmod_poly_factor(parts, characteristic);
-    for (slong i = 0; i < parts->num; i++) read_factor(parts->p + i, p, coordinate, out);
+    for (slong i = 0; i < parts->num; i++) read_factor(parts->p + i, field, coordinate, out);
     nmod_poly_factor_clear(parts);
     nmod_poly_clear(characteristic);
 }
@@ -94,7 +85,7 @@ static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_gra
     for (size_t i = 0; i < N; i++)
         for (size_t j = 0; j < N; j++) nmod_mat_entry(A, i, j) = value[i * N + j];
     *idle &= closed && nmod_mat_is_zero(A);
-    if (closed) read_eigenvalues(A, ring->field.p, c->equations->coordinate[k], out);
+    if (closed) read_eigenvalues(A, ring->field, c->equations->coordinate[k], out);
     nmod_mat_clear(A);
     nh_free(value);
     nh_free(along);

@@ -205,8 +205,7 @@ static bool tells(const columns *c, size_t count, const nh_residue *scaling)
 static bool read_fraction(nh_prime field, nh_residue value, nh_num *out)
 {
     int64_t top, bottom;
-    if (!nh_residue_fraction(field, value, &top, &bottom) || top > longest || top < -longest || bottom > longest)
-        return false;
+    if (!nh_residue_fraction(field, value, longest, &top, &bottom)) return false;
     *out = nh_num_ratio(top, bottom);
     return true;
 }

@@ -108,19 +108,6 @@ static bool find_rank(problem *x, size_t order)
 
 /* ---- one relation ---- */
 
-/* The fraction of small numbers with this residue, by a continued fraction. */
-static bool fraction(nh_prime f, nh_residue a, int64_t *num, int64_t *den)
-{
-    int64_t r0 = (int64_t)f.p, r1 = a, t0 = 0, t1 = 1;
-    while (r1 > largest_fraction) {
-        int64_t q = r0 / r1, r = r0 - q * r1, t = t0 - q * t1;
-        r0 = r1, r1 = r, t0 = t1, t1 = t;
-    }
-    *num = t1 < 0 ? -r1 : r1;
-    *den = t1 < 0 ? -t1 : t1;
-    return *den > 0 && *den <= largest_fraction;
-}
-
 static bool holds(const problem *x, const nh_ex *c)
 {
     for (size_t i = 0; i < x->q->rows; i++) {
@@ -137,7 +124,7 @@ static bool by_fractions(const problem *x, size_t n, const size_t *column, const
 {
     int64_t num, den;
     for (size_t k = 0; k < n; k++) {
-        if (!fraction(x->field, value[k], &num, &den)) return false;
+        if (!nh_residue_fraction(x->field, value[k], largest_fraction, &num, &den)) return false;
         c[column[k]] = nh_ratio(x->d, num, den);
     }
     return holds(x, c);

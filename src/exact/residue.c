@@ -66,7 +66,7 @@ bool nh_residue_ratio(nh_prime f, int64_t top, int64_t bottom, nh_residue *out)
 }
 
 /* Euclid's algorithm for p and a, until the remainder is small enough. */
-bool nh_residue_fraction(nh_prime f, nh_residue a, int64_t *top, int64_t *bottom)
+bool nh_residue_fraction(nh_prime f, nh_residue a, int64_t longest, int64_t *top, int64_t *bottom)
 {
     int64_t r0 = (int64_t)f.p, r1 = a, t0 = 0, t1 = 1;
     while (2 * r1 * r1 >= (int64_t)f.p) {
@@ -76,7 +76,7 @@ bool nh_residue_fraction(nh_prime f, nh_residue a, int64_t *top, int64_t *bottom
     }
     *top = t1 < 0 ? -r1 : r1;
     *bottom = t1 < 0 ? -t1 : t1;
-    return 2 * t1 * t1 < (int64_t)f.p;
+    return 2 * t1 * t1 < (int64_t)f.p && *bottom <= longest && *top <= longest && *top >= -longest;
 }
 
 bool nh_residue_root(nh_prime f, nh_residue a, uint64_t order, nh_residue *root)

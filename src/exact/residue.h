@@ -72,9 +72,9 @@ nh_residue nh_residue_inverse(nh_prime f, nh_residue a); /* of a residue that is
 /* False: the prime divides the denominator. */
 bool nh_residue_ratio(nh_prime f, int64_t top, int64_t bottom, nh_residue *out);
 
-/* a = top/bottom modulo the prime with |top| and bottom below sqrt(p/2), if there is such a fraction: there is no
- * second one (Wang, Guy and Davenport 1982). */
-bool nh_residue_fraction(nh_prime f, nh_residue a, int64_t *top, int64_t *bottom);
+/* a = top/bottom modulo the prime with |top| and bottom below sqrt(p/2) and at most `longest`, if there is such a
+ * fraction: there is no second one (Wang, Guy and Davenport 1982). */
+bool nh_residue_fraction(nh_prime f, nh_residue a, int64_t longest, int64_t *top, int64_t *bottom);
 
 /* The root of this order, for orders whose odd part is prime to p - 1: for square roots the one that is a square
  * itself.  False when there is none, or a is 0. */
