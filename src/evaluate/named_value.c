@@ -1,6 +1,8 @@
 #include "evaluate/named_value.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 enum { least_bits = 64, most_bits = 4096, wanted_bits = 54, below_doubles = -1100 };
 
@@ -258,10 +260,10 @@ static void advance(acb_ptr y, acb_srcptr p, const acb_t at, const acb_t h, slon
     mag_clear(tail);
 }
 
-/* The solution with y(0) = 1, y'(0) = 0, or 0 and 1. */
-static void riemann(acb_t out, bool second, acb_srcptr argument, which part, slong bits)
+/* Of the solution with y(0) = 1, y'(0) = 0, or 0 and 1: y and y' at z = argument[3]. */
+static void transport(acb_ptr y, bool second, acb_srcptr argument, slong bits)
 {
-    enum { VALUE, SLOPE, AT, NEXT, MIDDLE, all };
+    enum { AT, NEXT, MIDDLE, STEP, all };
     acb_ptr w = _acb_vec_init(all);
     acb_t z;
     double gone = 0, length;
@@ -269,7 +271,8 @@ static void riemann(acb_t out, bool second, acb_srcptr argument, which part, slo
     mag_init(size);
     acb_init(z);
     acb_set(z, argument + 3);
-    acb_set_ui(w + (second ? SLOPE : VALUE), 1);
+    acb_set_ui(y, !second);
+    acb_set_ui(y + 1, second);
     acb_get_mid(w + MIDDLE, z);
     acb_get_mag(size, w + MIDDLE);
     length = mag_get_d(size);
@@ -281,15 +284,50 @@ static void riemann(acb_t out, bool second, acb_srcptr argument, which part, slo
         else acb_set_d(w + NEXT, gone / length);
         if (!done) acb_mul(w + NEXT, w + NEXT, w + MIDDLE, bits);
         if (!done) acb_get_mid(w + NEXT, w + NEXT);
-        acb_sub(out, w + NEXT, w + AT, bits);
-        advance(w + VALUE, argument, w + AT, out, bits);
+        acb_sub(w + STEP, w + NEXT, w + AT, bits);
+        advance(y, argument, w + AT, w + STEP, bits);
         acb_get_mid(w + AT, w + NEXT);
     }
-    acb_set(out, w + (part == PRIME ? SLOPE : VALUE));
-    if (!acb_is_finite(z)) acb_indeterminate(out);
+    if (!acb_is_finite(z)) _acb_vec_indeterminate(y, 2);
     mag_clear(size);
     acb_clear(z);
     _acb_vec_clear(w, all);
+}
+
+static void riemann(acb_t out, bool second, acb_srcptr argument, which part, slong bits)
+{
+    acb_ptr y = _acb_vec_init(2);
+    transport(y, second, argument, bits);
+    acb_set(out, y + (part == PRIME));
+    _acb_vec_clear(y, 2);
+}
+
+/* Whoever asks for y mostly asks for y' at the same place, perhaps after a batch of other places: what one transport
+ * gave is kept until another place wants its row.  Of a thread, so that no lock is needed; what is kept is what would
+ * be computed again. */
+typedef struct {
+    double place[4];
+    double y[2]; /* NaN: not yet to all digits */
+    slong bits;  /* of the last transport; 0: none */
+} solution;
+enum { kept = 512 };
+
+static solution *solution_at(bool second, const double *place)
+{
+    static _Thread_local solution all[kept];
+    uint64_t hash = second;
+    for (size_t i = 0; i < 4; i++) {
+        uint64_t word;
+        memcpy(&word, place + i, sizeof word);
+        hash = (hash ^ word) * UINT64_C(0x9E3779B97F4A7C15);
+        hash ^= hash >> 32;
+    }
+    solution *at = all + hash % (kept / 2) * 2 + second;
+    if (at->bits == 0 || memcmp(at->place, place, sizeof at->place) != 0) {
+        *at = (solution){.y = {NAN, NAN}};
+        memcpy(at->place, place, sizeof at->place);
+    }
+    return at;
 }
 
 typedef void bessel_function(acb_t out, const acb_t order, const acb_t x, slong bits);
@@ -384,8 +422,28 @@ static bool precise(const arb_t x)
            (arb_rel_accuracy_bits(x) >= wanted_bits || mag_cmp_2exp_si(arb_radref(x), below_doubles) < 0);
 }
 
+static double riemann_to_all_digits(bool second, which part, const double *place)
+{
+    solution *at = solution_at(second, place);
+    acb_ptr x = _acb_vec_init(4), y = _acb_vec_init(2);
+    for (slong i = 0; i < 4; i++) acb_set_d(x + i, place[i]);
+    while (isnan(at->y[part]) && at->bits < most_bits) {
+        at->bits = at->bits > 0 ? 2 * at->bits : least_bits;
+        transport(y, second, x, at->bits);
+        for (slong i = 0; i < 2; i++) {
+            if (isnan(at->y[i]) && arb_contains_zero(acb_imagref(y + i)) && precise(acb_realref(y + i)))
+                at->y[i] = arf_get_d(arb_midref(acb_realref(y + i)), ARF_RND_NEAR);
+        }
+    }
+    _acb_vec_clear(x, 4);
+    _acb_vec_clear(y, 2);
+    return at->y[part];
+}
+
 double nh_named_value(nh_function f, const double *argument)
 {
+    if (f >= NH_RIEMANN_C && f <= NH_RIEMANN_S_PRIME)
+        return riemann_to_all_digits(f >= NH_RIEMANN_S, (f - NH_RIEMANN_C) % 2 ? PRIME : PLAIN, argument);
     size_t n = nh_function_arity(f);
     double out = NAN;
     arb_t all;
