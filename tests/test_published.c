@@ -294,7 +294,11 @@ static const published PUBLISHED[] = {
      "parameters: {w: 0.8, a: 0.3, b: 0.5}\n"
      "coordinates: [r, {name: th, type: angle}]\n"
      "lagrangian: (r'^2 + r^2*th'^2 - w^2*r^2)/2 - (a/cos(th/2)^2 + b/sin(th/2)^2)/r^2\n"
-     "domain: {r: [0.5, 2], th: [0.5, 1.3]}\n", 4, 6},
+     "domain: {r: [0.5, 2], th: [0.4, 2.4]}\n", 4, 6},
+    /* V. Perlick, Class. Quantum Grav. 9 (1992) 1009: Kepler's problem on a surface of constant curvature; two roots, each a power of r times the other */
+    {"Perlick, first family",
+     "parameters: {a: 0.4, k: 0.9}\ncoordinates: [r, {name: f, type: angle}]\n"
+     "lagrangian: (r'^2/(1 + a*r^2) + r^2*f'^2)/2 - k*sqrt(1/r^2 + a)\ndomain: {r: [0.5, 2]}\n", 3, 6},
     /* H. Hartmann, Theor. Chim. Acta 24 (1972) 201; C. Quesne, J. Phys. A 21 (1988) 3093 */
     {"Hartmann",
      "parameters: {k: 0.7, a: 0.3, b: 0.2}\n"

@@ -165,6 +165,32 @@ static nh_ex minor_of(const nh_model *o, size_t row, uint32_t used)
     return sum;
 }
 
+/* Is e a square of a product of coordinates' powers? */
+static bool is_square(const nh_jet_equations *x, nh_ex e)
+{
+    nh_dag *d = x->dag;
+    if (nh_kind_of(d, e) != NH_PRODUCT) return nh_is_number(d, e, 1);
+    bool square = true;
+    for (size_t k = 0; k < nh_arity(d, e); k++) {
+        nh_ex exponent = nh_exponent_of(d, e, k);
+        nh_num n = nh_kind_of(d, exponent) == NH_NUMBER ? nh_number_of(d, exponent) : nh_num_int(1);
+        square &= is_coordinate(x, nh_child(d, e, k)) && nh_num_short(n) && n.q == 1 && n.p % 2 == 0;
+    }
+    return square;
+}
+
+/* Is the root of `base` a root of the system times coordinates, but for its sign?  Words with both would be related, in
+ * a way that proofs do not know. */
+static bool has_root(const nh_jet_equations *x, const nh_letters *l, nh_ex base)
+{
+    nh_dag *d = x->dag;
+    bool found = false;
+    for (size_t i = 0; i < l->count && !found; i++)
+        found = l->item[i].kind == NH_LETTER_POWER && l->item[i].root % 2 == 0 && l->item[i].base != base &&
+                is_square(x, nh_simplify_short(d, nh_div(d, base, l->item[i].base), largest_form));
+    return found;
+}
+
 /* The factors of an expression, as bases with half powers.  Common factors of a sum's terms are divided out, unless
  * `plain`: the quotient may be written with them again. */
 static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool plain)
@@ -179,7 +205,7 @@ static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool
         if (!nh_is_number(d, common, 1)) {
             take_factors(x, l, common, true);
             take_factors(x, l, nh_simplify_short(d, nh_div(d, base, common), largest_form), true);
-        } else take_power(x, l, base, sum ? nh_num_ratio(-1, 2) : nh_num_int(-1), 0);
+        } else take_power(x, l, base, sum && !has_root(x, l, base) ? nh_num_ratio(-1, 2) : nh_num_int(-1), 0);
     }
 }
 
@@ -280,6 +306,26 @@ static void take_rates(const nh_jet_equations *x, nh_letters *l, const nh_constr
     }
 }
 
+/* In t the rates are all that integrals contain: the powers of a letter of rates alone, up to the highest rate. */
+static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, const nh_construct_rates *rates)
+{
+    for (size_t i = 0; rates && i < rates->count; i++) {
+        const nh_construct_rate *r = &rates->item[i];
+        nh_letter_kind kind = r->wave ? NH_LETTER_CIRCLE : NH_LETTER_EXPONENTIAL;
+        if (r->coordinate != x->model->system->t || !is_coordinate(x, r->coordinate)) continue;
+        for (size_t k = first; k < l->count; k++) {
+            nh_parts unit;
+            if (l->item[k].kind != kind) continue;
+            nh_parts_make(x->dag, true, l->item[k].base, &unit);
+            if (unit.count == 1 && unit.item[0].atom == r->coordinate) {
+                double multiple = fabs(nh_num_value(r->rate) / nh_num_value(unit.item[0].coefficient));
+                l->item[k].known = (int64_t)fmax((double)l->item[k].known, round(multiple));
+            }
+            nh_free(unit.item);
+        }
+    }
+}
+
 nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_rates *rates)
 {
     const nh_model *o = x->model;
@@ -297,7 +343,9 @@ nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_r
     for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1);
     take_determinant(x, &l);
     take_roots(x, &l);
+    size_t own = l.count;
     take_rates(x, &l, rates);
+    take_known(x, &l, own, rates);
     take_potential(x, &l);
     for (size_t i = coordinates; i < l.count; i++)
         l.item[i].linear = l.item[i].kind == NH_LETTER_POWER && is_linear(x, &l, coordinates, l.item[i].base);

@@ -72,9 +72,10 @@ static void put_powers(nh_closed_words *w, nh_closed_letter *l, const nh_letter 
 static void put_exponentials(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
-    for (int64_t k = 1; (double)k <= w->most; k++) {
-        put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, k), a->base)), (double)k);
-        if (a->down > 0) put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, -k), a->base)), (double)k);
+    for (int64_t k = 1; a->known ? k <= a->known : (double)k <= w->most; k++) {
+        double price = a->known ? 0 : (double)k;
+        put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, k), a->base)), price);
+        if (a->down > 0) put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, -k), a->base)), price);
     }
 }
 
@@ -85,6 +86,12 @@ static void put_circle(nh_closed_words *w, nh_closed_letter *l, const nh_letter 
     nh_dag *d = w->equations->dag;
     nh_ex c = nh_call(d, NH_COS, a->base), s = nh_call(d, NH_SIN, a->base);
     double cost_c = 1 / fmax(a->down, 1), cost_s = 1 / fmax(a->down_sine, 1);
+    if (a->known) {
+        for (int i = 0; i <= (int)a->known; i++)
+            for (int j = i == 0; j <= 1 && i + j <= (int)a->known; j++)
+                put_power(w, l, nh_mul(d, nh_powi(d, c, i), nh_powi(d, s, j)), 0);
+        return;
+    }
     int most_c = (int)(w->most / cost_c), most_s = (int)(w->most / cost_s);
     for (int i = a->down > 0 ? -most_c : 0; i <= (int)w->most; i++)
         for (int j = a->down_sine > 0 ? -most_s : 0; j <= 1; j++) {

@@ -5,10 +5,12 @@
  *
  *     q                    whole powers; negative and fractional ones where the system has them
  *     bases of powers      sums under roots and in denominators, with the least root that occurs
- *     factors of det M     with half powers of both signs: what normalises the reduced momenta
+ *     factors of det M     with half powers of both signs, which normalise the reduced momenta; whole ones where a
+ *                          root of the system is the same but for powers of coordinates
  *     cos u, sin u         of the least angle of which the system has multiples; negative powers where it has them
  *     exp u                whole powers, of both signs where it has them
- *     cos, sin, exp of a cyclic coordinate times a rate, where solutions have this rate (construct_rates.h)
+ *     cos, sin, exp of a cyclic coordinate times a rate, where solutions have this rate (construct_rates.h); those in
+ *                          t cost nothing: integrals have no others
  *     log u, asin u, ..    whole powers
  *
  * A word is a product of powers, one of each letter at most; its price is the sum of the prices of the powers: the
