@@ -306,9 +306,11 @@ static void take_rates(const nh_jet_equations *x, nh_letters *l, const nh_constr
     }
 }
 
-/* In t the rates are all that integrals contain: the powers of a letter of rates alone, up to the highest rate. */
+/* In t the rates are all that integrals contain: the powers of a letter of rates alone, up to the highest rate.  Of
+ * rates with a small unit, as 1 and 1.001, these would be too many: they keep their price. */
 static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, const nh_construct_rates *rates)
 {
+    static const int64_t most = 6;
     for (size_t i = 0; rates && i < rates->count; i++) {
         const nh_construct_rate *r = &rates->item[i];
         nh_letter_kind kind = r->wave ? NH_LETTER_CIRCLE : NH_LETTER_EXPONENTIAL;
@@ -324,6 +326,8 @@ static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, c
             nh_free(unit.item);
         }
     }
+    for (size_t k = first; k < l->count; k++)
+        if (l->item[k].known > most) l->item[k].known = 0;
 }
 
 nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_rates *rates)
