@@ -415,11 +415,12 @@ void nh_named_value_ball(nh_function f, arb_srcptr argument, arb_t out, slong bi
     acb_clear(all);
 }
 
-/* Rounds to a double: to all its digits, or to an absolute error below the smallest double. */
-static bool precise(const arb_t x)
+/* The double with all digits of a ball, or with an absolute error below the smallest double; NaN: it is too wide. */
+static double rounded(const arb_t x)
 {
-    return arb_is_finite(x) &&
-           (arb_rel_accuracy_bits(x) >= wanted_bits || mag_cmp_2exp_si(arb_radref(x), below_doubles) < 0);
+    bool precise = arb_is_finite(x) &&
+                   (arb_rel_accuracy_bits(x) >= wanted_bits || mag_cmp_2exp_si(arb_radref(x), below_doubles) < 0);
+    return precise ? arf_get_d(arb_midref(x), ARF_RND_NEAR) : NAN;
 }
 
 static double riemann_to_all_digits(bool second, which part, const double *place)
@@ -431,8 +432,7 @@ static double riemann_to_all_digits(bool second, which part, const double *place
         at->bits = at->bits > 0 ? 2 * at->bits : least_bits;
         transport(y, second, x, at->bits);
         for (slong i = 0; i < 2; i++) {
-            if (isnan(at->y[i]) && arb_contains_zero(acb_imagref(y + i)) && precise(acb_realref(y + i)))
-                at->y[i] = arf_get_d(arb_midref(acb_realref(y + i)), ARF_RND_NEAR);
+            if (isnan(at->y[i]) && arb_contains_zero(acb_imagref(y + i))) at->y[i] = rounded(acb_realref(y + i));
         }
     }
     _acb_vec_clear(x, 4);
@@ -452,7 +452,7 @@ double nh_named_value(nh_function f, const double *argument)
     for (size_t i = 0; i < n; i++) arb_set_d(x + i, argument[i]);
     for (slong bits = least_bits; bits <= most_bits && isnan(out); bits *= 2) {
         nh_named_value_ball(f, x, all, bits);
-        if (precise(all)) out = arf_get_d(arb_midref(all), ARF_RND_NEAR);
+        out = rounded(all);
     }
     _arb_vec_clear(x, (slong)n);
     arb_clear(all);
@@ -469,9 +469,8 @@ double complex nh_named_value_complex(nh_function f, const double complex *argum
     for (size_t i = 0; i < n; i++) acb_set_d_d(x + i, creal(argument[i]), cimag(argument[i]));
     for (slong bits = least_bits; bits <= most_bits && isnan(creal(out)); bits *= 2) {
         value(all, f, x, bits);
-        if (precise(acb_realref(all)) && precise(acb_imagref(all)))
-            out = CMPLX(arf_get_d(arb_midref(acb_realref(all)), ARF_RND_NEAR),
-                        arf_get_d(arb_midref(acb_imagref(all)), ARF_RND_NEAR));
+        double re = rounded(acb_realref(all)), im = rounded(acb_imagref(all));
+        if (!isnan(re) && !isnan(im)) out = CMPLX(re, im);
     }
     _acb_vec_clear(x, (slong)n);
     acb_clear(all);
