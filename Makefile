@@ -257,9 +257,9 @@ FAST_LINKER := $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 # They take what is installed, and Python's package, from the build.
 $(if $(SANITIZE),,$(BUILD)/tests/test_docs $(BUILD)/tests/test_install $(BUILD)/tests/test_python: | $(BUILD)/$(SONAME))
 
-$(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/libnhsym.a
+$(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/tests/criterion_start.o $(BUILD)/libnhsym.a
 	@echo "  link $@"
-	@$(LINK) $(FAST_LINKER) $< $(BUILD)/libnhsym.a $(LDLIBS) -lcriterion -o $@
+	@$(LINK) $(FAST_LINKER) $< $(BUILD)/tests/criterion_start.o $(BUILD)/libnhsym.a $(LDLIBS) -lcriterion -o $@
 
 # Built from a copy: setuptools leaves files beside its sources.
 wheel: library
