@@ -39,7 +39,7 @@ Test(random, nothing_false_and_what_is_plain_is_found)
     nh_options options = quick_options();
     size_t tried = 0, known = 0, missing = 0, found = 0;
     for (uint64_t i = 0; i < systems; i++) {
-        if (!sweep_tries(i, 60, 180)) continue;
+        if (!sweep_tries(i, 90, 180)) continue;
         tried++;
         random_system r = random_system_create(20261121 + i);
         row o = analysed(&r, &options);

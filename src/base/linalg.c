@@ -405,8 +405,13 @@ void nh_multiply(size_t m, size_t n, size_t k, const double *a, const double *b,
         return;
     nh_work_add(NH_WORK_DENSE, product(m, n, k));
     look_for_room();
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (lapack_int)m, (lapack_int)n, (lapack_int)k, 1.0, a,
-                (lapack_int)m, b, (lapack_int)k, 0.0, c, (lapack_int)m);
+    lapack_int rows = (lapack_int)m, columns = (lapack_int)n, inner = (lapack_int)k;
+    /* dgemm would copy the whole matrix for one vector */
+    if (n == 1) cblas_dgemv(CblasColMajor, CblasNoTrans, rows, inner, 1.0, a, rows, b, 1, 0.0, c, 1);
+    else if (m == 1) cblas_dgemv(CblasColMajor, CblasTrans, inner, columns, 1.0, b, inner, a, 1, 0.0, c, 1);
+    else
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, columns, inner, 1.0, a, rows, b, inner, 0.0, c,
+                    rows);
 }
 
 void nh_solve_triangle_right(size_t m, size_t n, const double *r, size_t ldr, double *b)
