@@ -7,6 +7,7 @@
 
 #include "exact/residue_matrix.h"
 #include "count/closed_letters.h"
+#include "graph/diff.h"
 
 static const double tiny = 1e-9;
 
@@ -207,12 +208,41 @@ static void sort(nh_closed_words *w)
     w->price = price;
 }
 
+/* The only coordinate on which e depends; 0: there is none, or another. */
+static nh_ex only_coordinate(const nh_jet_equations *x, nh_ex e)
+{
+    nh_ex only = 0;
+    for (size_t k = 0; k < x->coordinates; k++) {
+        if (!nh_depends(x->dag, e, x->coordinate[k])) continue;
+        if (only) return 0;
+        only = x->coordinate[k];
+    }
+    return only;
+}
+
+/* Powers of q, exp(b q), and cos^i(c q) sin^j(c q) with i >= 0 and j = 0 or 1 are sums of q^a exp(lambda q), no pair
+ * (a, lambda) twice: their products, also of several coordinates, are linearly independent. */
+static bool are_independent(const nh_jet_equations *x, const nh_letters *l)
+{
+    for (size_t i = 0; i < l->count; i++) {
+        const nh_letter *a = &l->item[i];
+        nh_ex q = only_coordinate(x, a->base);
+        if (!q || (a->kind == NH_LETTER_POWER && a->base != q)) return false;
+        if (a->kind == NH_LETTER_CIRCLE && (a->down > 0 || a->down_sine > 0)) return false;
+        if (a->kind != NH_LETTER_POWER && nh_depends(x->dag, nh_diff(x->dag, a->base, q), q)) return false;
+        for (size_t k = 0; k < i; k++)
+            if (l->item[k].kind == a->kind && nh_depends(x->dag, l->item[k].base, q)) return false;
+    }
+    return true;
+}
+
 nh_closed_words *nh_closed_words_create(nh_jet_equations *x, double price, bool secular,
                                         const nh_construct_rates *rates)
 {
     nh_closed_words *w = nh_alloc(sizeof *w);
     *w = (nh_closed_words){.equations = x, .most = price};
     nh_letters letters = nh_letters_of(x, secular, rates);
+    w->independent = are_independent(x, &letters);
     for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
     nh_free(letters.item);
     return w;
@@ -355,6 +385,7 @@ bool nh_closed_words_reduce(nh_closed_words *w, double most, double *work)
 {
     /* rows_together: rows that dense algebra treats in the time of one product */
     enum { spare = 8, first = 64, rows_together = 4 };
+    if (w->independent) return true;
     nh_prime field = nh_jet_point_prime(w->equations->point, 0);
     size_t n = w->words, kept = 0, *chosen = nh_alloc_array(n + 1, sizeof *chosen), rows = first;
     bool enough = true, allowed = true;

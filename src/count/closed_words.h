@@ -41,6 +41,7 @@ typedef struct {
     double most;          /* the largest price */
     size_t letters, capacity;
     nh_closed_letter *letter;
+    bool independent;     /* whatever words are listed, they are linearly independent */
     size_t words;
     uint16_t *choice;     /* words x letters: the index of the power of each letter */
     double *price;        /* price per word */

@@ -378,10 +378,10 @@ static bool construct_in_shapes(search *s, const nh_completeness *c, manner how,
  * that is not settled is mostly far too large. */
 static bool construct(search *s, const nh_completeness *c, bool further)
 {
-    /* part of the work for integrals that the currents found determine, and for rare functions */
-    static const double part = 0.25;
+    /* parts of the work: for rare functions, and for integrals that the currents found determine */
+    static const double part = 0.25, further_part = 0.08;
     double dearest = c->count.time ? 6 : 16, dearest_secular = 6,
-           work = s->solver.r->options.construct * (further ? part : 1);
+           work = s->solver.r->options.construct * (further ? further_part : 1);
     bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) &&
                               !adds_nothing(s->solver.r, c));
     if (!wanted) return false;
