@@ -8,7 +8,9 @@
 #include "count/closed_primitives.h"
 #include "count/construct.h"
 #include "count/construct_rates.h"
+#include "graph/print.h"
 #include "names.h"
+#include "search/naming.h"
 
 #define PLANE "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - "
 
@@ -102,8 +104,39 @@ Test(construct, coordinates_of_no_integral_are_idle)
         snprintf(text, sizeof text, "name: row\n%s", ROW[i].text);
         nh_system *s = system_of(text);
         nh_model *o = model_of(s);
-        nh_construct_rates r = nh_construct_rates_of(o, ROW[i].degree, false, 2e9);
+        nh_construct_rates r = nh_construct_rates_of(o, ROW[i].degree, false, 0, NULL, 2e9);
         cr_expect_eq(r.idle, ROW[i].idle, "%s: %zu", ROW[i].text, r.idle);
+        nh_model_free(o);
+        nh_system_free(s);
+    }
+}
+
+/* Of r^2, r r' and r'^2 in a potential k r^2/2 + a/r^2; the same where it repels; and of a wave with whole numbers. */
+Test(construct, rates_are_written_by_parameters)
+{
+    static const struct {
+        const char *text, *argument;
+        bool wave;
+        size_t rates;
+    } ROW[] = {
+        {"parameters: {m: 1.3, k: 2.1, a: 0.4}\ncoordinates: [{name: r, type: length}]\nlagrangian: m*r'^2/2 - k*r^2/2 - a/r^2\n", "2*t*sqrt(k/m)", true, 1},
+        {"parameters: {m: 1.3, k: 2.1, a: 0.4}\ncoordinates: [{name: r, type: length}]\nlagrangian: m*r'^2/2 + k*r^2/2 - a/r^2\n", "2*t*sqrt(k/m)", false, 2},
+        {"parameters: {w: 1.37, a: 0.4}\ncoordinates: [{name: r, type: length}]\nlagrangian: r'^2/2 - w^2*r^2 - a/r^2\n", "2*sqrt(2)*t*w", true, 1},
+        {"parameters: {a: 0.4}\ncoordinates: [{name: r, type: length}]\nlagrangian: r'^2/2 - 3*r^2/8 - a/r^2\n", "sqrt(3)*t", true, 1},
+    };
+    for (size_t i = 0; i < sizeof ROW / sizeof *ROW; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "name: row\n%s", ROW[i].text);
+        nh_system *s = system_of(text);
+        nh_model *o = model_of(s);
+        nh_ex atom[NH_NAMING_ATOMS];
+        nh_construct_rates r = nh_construct_rates_of(o, 2, true, nh_naming_atoms(o, atom), atom, 2e9);
+        cr_assert_eq(r.count, ROW[i].rates, "%s: %zu", ROW[i].text, r.count);
+        char *argument = nh_print_string(o->dag, nh_construct_rate_argument(o->dag, &r.item[0]));
+        const char *sign = argument[0] == '-' ? argument + 1 : argument;
+        cr_expect_str_eq(sign, ROW[i].argument, "%s", ROW[i].text);
+        for (size_t k = 0; k < r.count; k++) cr_expect_eq(r.item[k].wave, ROW[i].wave, "%s", ROW[i].text);
+        nh_free(argument);
         nh_model_free(o);
         nh_system_free(s);
     }

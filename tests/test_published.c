@@ -290,6 +290,9 @@ static const published PUBLISHED[] = {
      "coordinates: [r, {name: th, type: angle}]\n"
      "lagrangian: (r'^2 + r^2*th'^2 - w^2*r^2)/2 - (a/cos(4*th)^2 + b/sin(4*th)^2)/r^2\n"
      "domain: {r: [0.5, 2], th: [0.1, 0.3]}\n", 3, 6},
+    {"Tremblay, Turbiner and Winternitz, k = 2, with a spring", "parameters: {m: 1.3, k: 2.1, a: 0.4, b: 0.7}\n"
+     "coordinates: [{name: r, type: length}, {name: f, type: angle}]\n"
+     "lagrangian: m*(r'^2 + r^2*f'^2)/2 - k*r^2/2 - (a/cos(2*f)^2 + b/sin(2*f)^2)/r^2\ndomain: {r: [0.5, 2], f: [0.2, 0.6]}\n", 4, 6},
     {"Tremblay, Turbiner and Winternitz, k = 1/2",
      "parameters: {w: 0.8, a: 0.3, b: 0.5}\n"
      "coordinates: [r, {name: th, type: angle}]\n"
@@ -477,6 +480,15 @@ Test(published, waves_in_time_are_within_the_work)
     sweep_plain_only();
     nh_analysis *r = analysed_row("Tremblay, Turbiner and Winternitz, k = 1/2");
     cr_expect_eq(independent_and_proved(r), 4);
+    nh_analysis_free(r);
+}
+
+/* The fourth has waves of the rate 2 sqrt(k/m), which is none of the numbers of the system, and holds for all k and m. */
+Test(published, rates_in_time_are_roots_of_parameters)
+{
+    nh_analysis *r = analysed_row("Tremblay, Turbiner and Winternitz, k = 2, with a spring");
+    cr_expect_eq(independent_and_proved(r), 4);
+    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "%s", r->found[k].name);
     nh_analysis_free(r);
 }
 

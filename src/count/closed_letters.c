@@ -300,9 +300,10 @@ static void take_rates(const nh_jet_equations *x, nh_letters *l, const nh_constr
     for (size_t i = 0; rates && i < rates->count; i++) {
         const nh_construct_rate *r = &rates->item[i];
         if (!is_coordinate(x, r->coordinate)) continue;
-        nh_ex argument = nh_mul(d, nh_number(d, r->rate), r->coordinate);
+        nh_ex argument = nh_construct_rate_argument(d, r);
         nh_letter *found = direction(d, l, r->wave ? NH_LETTER_CIRCLE : NH_LETTER_EXPONENTIAL, argument, &sign);
         if (found && !r->wave && sign < 0) found->down = fmax(found->down, least_down);
+        if (found && r->root) found->unit = r->unit;
     }
 }
 
@@ -315,16 +316,18 @@ static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, c
         const nh_construct_rate *r = &rates->item[i];
         nh_letter_kind kind = r->wave ? NH_LETTER_CIRCLE : NH_LETTER_EXPONENTIAL;
         if (r->coordinate != x->model->system->t || !is_coordinate(x, r->coordinate)) continue;
+        nh_parts own, unit;
+        nh_parts_make(x->dag, true, nh_construct_rate_argument(x->dag, r), &own);
         for (size_t k = first; k < l->count; k++) {
-            nh_parts unit;
             if (l->item[k].kind != kind) continue;
             nh_parts_make(x->dag, true, l->item[k].base, &unit);
-            if (unit.count == 1 && unit.item[0].atom == r->coordinate) {
-                double multiple = fabs(nh_num_value(r->rate) / nh_num_value(unit.item[0].coefficient));
-                l->item[k].known = (int64_t)fmax((double)l->item[k].known, round(multiple));
+            if (unit.count == 1 && own.count == 1 && unit.item[0].atom == own.item[0].atom) {
+                double multiple = nh_num_value(own.item[0].coefficient) / nh_num_value(unit.item[0].coefficient);
+                l->item[k].known = (int64_t)fmax((double)l->item[k].known, round(fabs(multiple)));
             }
             nh_free(unit.item);
         }
+        nh_free(own.item);
     }
     for (size_t k = first; k < l->count; k++)
         if (l->item[k].known > most) l->item[k].known = 0;

@@ -15,6 +15,7 @@ typedef struct {
      * occur */
     double up, down;
     double down_sine;     /* of the sine; of cosines `down` holds the lowest exponent */
+    nh_ex unit;           /* a root in the base that the equations do not contain, which sines take; 0: none */
     int64_t known;        /* powers up to this one have the rates of integrals in t, and no price; 0: not known */
     bool linear;          /* its whole powers are polynomials in the coordinates, which are letters themselves */
 } nh_letter;

@@ -21,7 +21,7 @@ static uint32_t coordinates_in(const nh_jet_equations *x, nh_ex e)
     return mask;
 }
 
-/* Is it a product of whole positive powers of coordinates, sines and cosines? */
+/* Is it a product of numbers and whole positive powers of coordinates, sines and cosines? */
 static bool is_plain(const nh_jet_equations *x, nh_ex e)
 {
     const nh_dag *d = x->dag;
@@ -32,6 +32,7 @@ static bool is_plain(const nh_jet_equations *x, nh_ex e)
     }
     for (size_t k = 0; k < nh_arity(d, e); k++) {
         nh_ex exponent = nh_exponent_of(d, e, k);
+        if (nh_kind_of(d, nh_child(d, e, k)) == NH_NUMBER) continue;
         bool whole = nh_kind_of(d, exponent) == NH_NUMBER && nh_number_of(d, exponent).q == 1;
         if (!whole || nh_num_value(nh_number_of(d, exponent)) < 0 || !is_plain(x, nh_child(d, e, k))) return false;
     }
@@ -75,6 +76,12 @@ static void put_exponentials(nh_closed_words *w, nh_closed_letter *l, const nh_l
     nh_dag *d = w->equations->dag;
     for (int64_t k = 1; a->known ? k <= a->known : (double)k <= w->most; k++) {
         double price = a->known ? 0 : (double)k;
+        if (a->unit) { /* integrals consist of cosh(r t) and r sinh(r t) with coefficients without r */
+            nh_ex argument = nh_mul(d, nh_int(d, k), a->base);
+            put_power(w, l, nh_call(d, NH_COSH, argument), price);
+            put_power(w, l, nh_mul(d, a->unit, nh_call(d, NH_SINH, argument)), price);
+            continue;
+        }
         put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, k), a->base)), price);
         if (a->down > 0) put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, -k), a->base)), price);
     }
@@ -86,6 +93,7 @@ static void put_circle(nh_closed_words *w, nh_closed_letter *l, const nh_letter 
 {
     nh_dag *d = w->equations->dag;
     nh_ex c = nh_call(d, NH_COS, a->base), s = nh_call(d, NH_SIN, a->base);
+    if (a->unit) s = nh_mul(d, a->unit, s); /* its coefficients are without the root */
     double cost_c = 1 / fmax(a->down, 1), cost_s = 1 / fmax(a->down_sine, 1);
     if (a->known) {
         for (int i = 0; i <= (int)a->known; i++)

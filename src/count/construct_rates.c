@@ -4,65 +4,52 @@
 #include <flint/nmod_mat.h>
 #include <flint/nmod_poly.h>
 #include <flint/nmod_poly_factor.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/progress.h"
 #include "count/solution_matrix.h"
 
-enum { beyond_degree = 3, most_points = 20, most_coefficients = 4000, most_solutions = 120 };
+enum { beyond_degree = 3, most_points = 20, most_coefficients = 4000, most_solutions = 120, most_squares = 64 };
 
 /* ---- eigenvalues ---- */
 
-/* The short fraction with this residue. */
-static bool fraction(nh_residue value, nh_prime field, nh_num *out)
+/* omega^2 or -lambda^2 of integrals along coordinates, modulo a prime. */
+typedef struct {
+    nh_prime field;
+    size_t count;
+    nh_ex coordinate[most_squares];
+    nh_residue square[most_squares], lambda[most_squares]; /* lambda: 0 where it is no residue */
+} squares;
+
+static void put_square(squares *out, nh_ex coordinate, nh_residue square, nh_residue lambda)
 {
-    enum { longest = 1000 };
-    int64_t top, bottom;
-    bool found = nh_residue_fraction(field, value, longest, &top, &bottom);
-    if (found) *out = nh_num_ratio(top, bottom);
-    return found;
+    for (size_t i = 0; i < out->count; i++)
+        if (out->coordinate[i] == coordinate && out->square[i] == square && out->lambda[i] == lambda) return;
+    if (out->count == most_squares) return;
+    out->coordinate[out->count] = coordinate;
+    out->square[out->count] = square;
+    out->lambda[out->count++] = lambda;
 }
 
-static void put(nh_construct_rates *out, nh_construct_rate r)
-{
-    for (size_t i = 0; i < out->count; i++) {
-        const nh_construct_rate *o = &out->item[i];
-        if (o->coordinate == r.coordinate && o->wave == r.wave && o->rate.p == r.rate.p && o->rate.q == r.rate.q)
-            return;
-    }
-    if (out->count < NH_MOST_CONSTRUCT_RATES) out->item[out->count++] = r;
-}
-
-/* The square root of a square number, otherwise 0. */
-static int64_t root_of(int64_t square)
-{
-    int64_t root = 0;
-    while (root * root < square) root++;
-    return root * root == square ? root : 0;
-}
-
-/* Reads a linear factor x - lambda, or x^2 + omega^2: no prime here has a root of -1. */
-static void read_factor(const nmod_poly_t f, nh_prime field, nh_ex coordinate, nh_construct_rates *out)
-{
-    nh_residue last = (nh_residue)nmod_poly_get_coeff_ui(f, 0);
-    nh_construct_rate r = {.coordinate = coordinate, .wave = nmod_poly_degree(f) == 2};
-    if (!last || nmod_poly_degree(f) > 2 || (r.wave && nmod_poly_get_coeff_ui(f, 1))) return;
-    if (!fraction(r.wave ? last : nh_residue_negative(field, last), field, &r.rate)) return;
-    if (r.wave) {
-        if (r.rate.p < 0 || !root_of(r.rate.p) || !root_of(r.rate.q)) return;
-        r.rate = nh_num_ratio(root_of(r.rate.p), root_of(r.rate.q));
-    }
-    put(out, r);
-}
-
-static void read_eigenvalues(const nmod_mat_t A, nh_prime field, nh_ex coordinate, nh_construct_rates *out)
+/* Reads the factors x - lambda, and x^2 + omega^2.  No prime here has a root of -1, so that x^2 + omega^2 has no linear
+ * factors where omega^2 is a square modulo p, and otherwise the two with lambda^2 = -omega^2. */
+static void read_eigenvalues(const nmod_mat_t A, nh_ex coordinate, squares *out)
 {
     nmod_poly_t characteristic;
     nmod_poly_factor_t parts;
-    nmod_poly_init(characteristic, field.p);
+    nmod_poly_init(characteristic, out->field.p);
     nmod_poly_factor_init(parts);
     nmod_mat_charpoly(characteristic, A);
     nmod_poly_factor(parts, characteristic);
-    for (slong i = 0; i < parts->num; i++) read_factor(parts->p + i, field, coordinate, out);
+    for (slong i = 0; i < parts->num; i++) {
+        const nmod_poly_struct *f = parts->p + i;
+        slong degree = nmod_poly_degree(f);
+        nh_residue last = (nh_residue)nmod_poly_get_coeff_ui(f, 0), lambda = nh_residue_negative(out->field, last);
+        nh_residue square = degree == 1 ? nh_residue_mul(out->field, last, lambda) : last; /* -lambda^2, omega^2 */
+        bool wave = degree == 2 && !nmod_poly_get_coeff_ui(f, 1);
+        if (last && (degree == 1 || wave)) put_square(out, coordinate, square, wave ? 0 : lambda);
+    }
     nmod_poly_factor_clear(parts);
     nmod_poly_clear(characteristic);
 }
@@ -72,7 +59,7 @@ static void read_eigenvalues(const nmod_mat_t A, nh_prime field, nh_ex coordinat
 /* Reads the rates along coordinate k; *idle stays where no solution depends on it.  False where the series are too
  * short. */
 static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_graded_count *g, size_t k, bool *idle,
-                     nh_construct_rates *out)
+                     nh_construct_rates *out, squares *seen)
 {
     const nh_jet_ring *ring = s->ring;
     size_t N = g->total[g->order];
@@ -85,7 +72,8 @@ static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_gra
     for (size_t i = 0; i < N; i++)
         for (size_t j = 0; j < N; j++) nmod_mat_entry(A, i, j) = value[i * N + j];
     *idle &= closed && nmod_mat_is_zero(A);
-    if (closed) read_eigenvalues(A, ring->field, c->equations->coordinate[k], out);
+    seen->field = ring->field;
+    if (closed) read_eigenvalues(A, c->equations->coordinate[k], seen);
     nmod_mat_clear(A);
     nh_free(value);
     nh_free(along);
@@ -93,7 +81,7 @@ static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_gra
 }
 
 /* False: another point is needed.  `closed`: series of this order tell all solutions apart. */
-static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, nh_construct_rates *out)
+static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, nh_construct_rates *out, squares *seen)
 {
     const nh_adapted_frame *f = c->frame;
     bool regular = true;
@@ -113,7 +101,7 @@ static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, n
         bool few = g->solved && g->total[g->order] <= most_solutions;
         for (size_t k = 0; k < c->equations->coordinates && few; k++)
             if (nh_jet_equations_is_cyclic(c->equations, c->equations->coordinate[k]))
-                *closed &= rates_of(c, s, g, k, &idle[k], out);
+                *closed &= rates_of(c, s, g, k, &idle[k], out, seen);
         all &= few;
         nh_graded_count_clear(g);
     }
@@ -126,21 +114,199 @@ static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, n
     return s || regular;
 }
 
-nh_construct_rates nh_construct_rates_of(const nh_model *model, size_t degree, bool time, double work)
+/* At the first regular point. */
+static void rates_somewhere(nh_counter *c, size_t degree, nh_construct_rates *out, squares *seen)
+{
+    bool some = false, done = false, closed = false;
+    for (size_t k = 0; k < c->equations->coordinates && !c->equations->obstacle; k++)
+        some |= nh_jet_equations_is_cyclic(c->equations, c->equations->coordinate[k]);
+    for (size_t point = 0; some && !done && point < most_points && !c->equations->obstacle && !nh_late(); point++) {
+        if (!nh_count_regular_point(c, point)) continue;
+        size_t order = (degree + beyond_degree) * c->frame->step, more = (degree + 1) * c->frame->step;
+        done = rates_at(c, degree, order, &closed, out, seen);
+        if (done && !closed && out->work < c->q->work) done = rates_at(c, degree, order + more, &closed, out, seen);
+    }
+}
+
+/* ---- rates ---- */
+
+/* Longer fractions are often none: two residues of 2^31 are near to one another by chance. */
+enum { longest_rate = 1000, longest_square = 20000, longest_multiple = 64 };
+enum { most_atoms = 12, most_factors = 3 };
+
+/* A question, and what its answer is at a place: the squares, and the residues of the atoms. */
+typedef struct {
+    nh_construct_rates rates;
+    squares seen;
+    nh_residue atom[most_atoms];
+} answer;
+
+typedef struct {
+    nh_dag *dag;
+    size_t atoms;
+    const nh_ex *atom;
+    answer given, generic;  /* at the parameters' values, and for indeterminates */
+    int power[most_atoms];  /* of the monomial at hand */
+} naming;
+
+static bool fraction(nh_residue value, int64_t longest, nh_prime field, nh_num *out)
+{
+    int64_t top, bottom;
+    bool found = nh_residue_fraction(field, value, longest, &top, &bottom);
+    if (found) *out = nh_num_ratio(top, bottom);
+    return found;
+}
+
+static nh_residue residue_of(nh_prime field, nh_num a)
+{
+    return nh_residue_mul(field, nh_residue_of(field, a.p), nh_residue_inverse(field, nh_residue_of(field, a.q)));
+}
+
+/* sqrt(p/q) = sqrt(p q)/q, with the square factors taken out of the root. */
+static nh_num root_of(nh_num square, int64_t *radicand)
+{
+    int64_t rest = square.p * square.q, out = 1;
+    for (int64_t i = 2; i * i <= rest; i++)
+        while (rest % (i * i) == 0) {
+            rest /= i * i;
+            out *= i;
+        }
+    *radicand = rest;
+    return nh_num_ratio(out, square.q);
+}
+
+static void put(nh_construct_rates *out, nh_construct_rate r)
+{
+    for (size_t i = 0; i < out->count; i++) {
+        const nh_construct_rate *o = &out->item[i];
+        if (o->coordinate == r.coordinate && o->wave == r.wave && o->unit == r.unit && o->rate.p == r.rate.p &&
+            o->rate.q == r.rate.q)
+            return;
+    }
+    if (out->count < NH_MOST_CONSTRUCT_RATES) out->item[out->count++] = r;
+}
+
+/* The rate with omega^2 = multiple prod_i a_i^power_i, whole powers outside of the root.  lambda < 0 is told from
+ * lambda > 0 by its residue; both are rates where they are conjugate. */
+static void put_root(naming *x, size_t at, nh_num multiple)
+{
+    nh_prime field = x->given.seen.field;
+    nh_construct_rate r = {.coordinate = x->given.seen.coordinate[at], .wave = multiple.p > 0};
+    nh_ex factor = nh_int(x->dag, 1), under = factor;
+    nh_residue value = 1;
+    int64_t radicand;
+    multiple.p = r.wave ? multiple.p : -multiple.p;
+    r.rate = root_of(multiple, &radicand);
+    for (size_t i = 0; i < x->atoms; i++) {
+        nh_residue a = x->given.atom[i];
+        if (x->power[i] < 0) a = nh_residue_inverse(field, a);
+        value = nh_residue_mul(field, value, nh_residue_power(field, a, (uint64_t)abs(x->power[i] / 2)));
+        factor = nh_mul(x->dag, factor, nh_powi(x->dag, x->atom[i], x->power[i] / 2));
+        under = nh_mul(x->dag, under, nh_powi(x->dag, x->atom[i], x->power[i] % 2));
+    }
+    under = nh_mul(x->dag, under, nh_int(x->dag, radicand));
+    r.root = under != nh_int(x->dag, 1);
+    r.unit = nh_mul(x->dag, factor, nh_pow(x->dag, under, nh_ratio(x->dag, 1, 2)));
+    bool other = !r.wave && !r.root &&
+                 nh_residue_mul(field, value, residue_of(field, r.rate)) != x->given.seen.lambda[at];
+    if (!other) put(&x->given.rates, r);
+    r.rate.p = -r.rate.p;
+    if (!r.wave && (other || r.root)) put(&x->given.rates, r);
+}
+
+/* Multiplies the monomial, with these residues, by powers of `factors` more atoms: is a short multiple of it omega^2,
+ * for indeterminates and at the parameters' values? */
+static bool name(naming *x, size_t at, size_t from, size_t factors, nh_residue given, nh_residue generic)
+{
+    static const int power[] = {1, -1, 2, -2};
+    const squares *s = &x->given.seen, *g = &x->generic.seen;
+    nh_num multiple;
+    for (size_t i = 0; i < g->count && !factors; i++) {
+        if (g->coordinate[i] != s->coordinate[at]) continue;
+        nh_residue ratio = nh_residue_mul(g->field, g->square[i], nh_residue_inverse(g->field, generic));
+        if (!fraction(ratio, longest_multiple, g->field, &multiple)) continue;
+        if (nh_residue_mul(s->field, residue_of(s->field, multiple), given) != s->square[at]) continue;
+        put_root(x, at, multiple);
+        return true;
+    }
+    for (size_t i = from; i < x->atoms && factors; i++)
+        for (size_t k = 0; k < sizeof power / sizeof *power; k++) {
+            nh_residue a = x->given.atom[i], b = x->generic.atom[i];
+            if (power[k] < 0) {
+                a = nh_residue_inverse(s->field, a);
+                b = nh_residue_inverse(g->field, b);
+            }
+            a = nh_residue_mul(s->field, given, nh_residue_power(s->field, a, (uint64_t)abs(power[k])));
+            b = nh_residue_mul(g->field, generic, nh_residue_power(g->field, b, (uint64_t)abs(power[k])));
+            x->power[i] = power[k];
+            if (name(x, at, i + 1, factors - 1, a, b)) return true;
+            x->power[i] = 0;
+        }
+    return false;
+}
+
+/* As numbers. */
+static void put_number(naming *x, size_t at)
+{
+    const squares *s = &x->given.seen;
+    nh_num value;
+    memset(x->power, 0, sizeof x->power);
+    if (s->lambda[at] && fraction(s->lambda[at], longest_rate, s->field, &value))
+        put_root(x, at, nh_num_ratio(-value.p * value.p, value.q * value.q));
+    else if (fraction(s->square[at], longest_square, s->field, &value)) put_root(x, at, value);
+}
+
+/* The residues of the atoms at the point of the equations.  False: one of them is 0. */
+static bool residues(const naming *x, nh_jet_equations *e, const nh_ex *taken, nh_residue *out)
+{
+    size_t one = 1;
+    nh_jet_ring *point = nh_jet_ring_create(e->point->field, 1, &one, 0);
+    nh_jet_eval *v = nh_jet_equations_eval(e, point, e->at);
+    bool good = nh_jet_eval_all(v, x->atoms, taken, out);
+    for (size_t i = 0; i < x->atoms && good; i++) good = out[i] != 0;
+    nh_jet_eval_free(v);
+    nh_jet_ring_free(point);
+    return good;
+}
+
+/* False: the rates cannot be compared with the atoms. */
+static bool ask(const naming *x, const nh_model *model, const nh_count_question *q, answer *out)
+{
+    nh_ex taken[most_atoms];
+    nh_counter c;
+    bool good = true;
+    nh_counter_open(&c, model, q);
+    for (size_t i = 0; i < x->atoms && good; i++) {
+        taken[i] = x->atom[i];
+        good = !c.equations->obstacle && nh_jet_equations_take(c.equations, true, &taken[i]);
+    }
+    rates_somewhere(&c, q->degree, &out->rates, &out->seen);
+    good = good && out->seen.count && c.equations->point->field.p == out->seen.field.p &&
+           residues(x, c.equations, taken, out->atom);
+    nh_counter_close(&c);
+    return good;
+}
+
+nh_construct_rates nh_construct_rates_of(const nh_model *model, size_t degree, bool time, size_t atoms,
+                                         const nh_ex *atom, double work)
 {
     nh_count_question q = {.time = time, .degree = degree, .work = work};
-    nh_construct_rates out = {0};
-    nh_counter c;
-    bool some = false, done = false, closed = false;
-    nh_counter_open(&c, model, &q);
-    for (size_t k = 0; k < c.equations->coordinates && !c.equations->obstacle; k++)
-        some |= nh_jet_equations_is_cyclic(c.equations, c.equations->coordinate[k]);
-    for (size_t point = 0; some && !done && point < most_points && !c.equations->obstacle && !nh_late(); point++) {
-        if (!nh_count_regular_point(&c, point)) continue;
-        size_t order = (degree + beyond_degree) * c.frame->step, more = (degree + 1) * c.frame->step;
-        done = rates_at(&c, degree, order, &closed, &out);
-        if (done && !closed && out.work < work) done = rates_at(&c, degree, order + more, &closed, &out);
+    naming x = {.dag = model->dag, .atoms = atoms < most_atoms ? atoms : most_atoms, .atom = atom};
+    bool named = ask(&x, model, &q, &x.given);
+    q.generic = true;
+    named = named && x.atoms && x.given.rates.work < work && ask(&x, model, &q, &x.generic);
+    x.given.rates.work += x.generic.rates.work;
+    for (size_t at = 0; at < x.given.seen.count; at++) {
+        bool found = false;
+        memset(x.power, 0, sizeof x.power);
+        for (size_t factors = 0; factors <= most_factors && named && !found; factors++)
+            found = name(&x, at, 0, factors, 1, 1);
+        if (!found) put_number(&x, at);
     }
-    nh_counter_close(&c);
-    return out;
+    return x.given.rates;
+}
+
+nh_ex nh_construct_rate_argument(nh_dag *d, const nh_construct_rate *r)
+{
+    return nh_product(d, 3, (nh_ex[]){nh_number(d, r->rate), r->unit, r->coordinate});
 }

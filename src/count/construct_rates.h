@@ -7,7 +7,9 @@
  *
  * A real eigenvalue lambda gives coefficients exp(lambda y) times functions of the others, a pair +-i omega gives
  * cos(omega y) and sin(omega y); 0 gives polynomials in y.  A is computed from the power series of the solutions, modulo
- * a prime: rates that are short fractions are found.  Where A is 0 no integral depends on y. */
+ * a prime, and once more with random residues for the parameters: a monomial in these that equals omega^2 both times,
+ * as 4 k/m, is its formula.  Else rates are found that are short fractions, or whose squares are.  Where A is 0 no
+ * integral depends on y. */
 #ifndef NH_CONSTRUCT_RATES_H
 #define NH_CONSTRUCT_RATES_H
 
@@ -15,9 +17,12 @@
 
 enum { NH_MOST_CONSTRUCT_RATES = 16 };
 
+/* lambda, or omega > 0 of a wave, is rate*unit. */
 typedef struct {
     nh_ex coordinate;
-    nh_num rate; /* lambda, or omega > 0 of a wave */
+    nh_num rate;
+    nh_ex unit;    /* of numbers and parameters */
+    bool root;     /* the unit has a square root, which the equations do not contain */
     bool wave;
 } nh_construct_rate;
 
@@ -29,8 +34,13 @@ typedef struct nh_construct_rates {
     double work; /* products of residues that were used */
 } nh_construct_rates;
 
-/* The rates of the integrals of a degree, with coefficients in t, too, where `time`.  There are none without a cyclic
- * coordinate, on leaves, or where the work does not suffice. */
-nh_construct_rates nh_construct_rates_of(const nh_model *model, size_t degree, bool time, double work);
+/* lambda or omega times the coordinate. */
+nh_ex nh_construct_rate_argument(nh_dag *dag, const nh_construct_rate *rate);
+
+/* The rates of the integrals of a degree, with coefficients in t, too, where `time`; written by `atom`, expressions of
+ * the parameters, as far as possible.  There are none without a cyclic coordinate, on leaves, or where the work does
+ * not suffice. */
+nh_construct_rates nh_construct_rates_of(const nh_model *model, size_t degree, bool time, size_t atoms,
+                                         const nh_ex *atom, double work);
 
 #endif

@@ -9,7 +9,7 @@
 
 enum {
     spare = 8, /* points beyond the number of columns */
-    tries = 3, /* points that are tried for each that is needed */
+    tries = 8, /* points that are tried for each that is needed: at half of them a root of parameters has no value */
     most_parameters = 12,
     most_power = 12, /* of a parameter */
     most_primes = 24,
@@ -166,10 +166,10 @@ static bool fractions(lifting *l, size_t columns, const column *c, nh_num *out)
 
 /* ---- monomials in the parameters ---- */
 
-/* The k with b = 2^k a. */
-static bool power_of_two(nh_prime field, nh_residue a, nh_residue b, int *k)
+/* The k with b = 4^k a. */
+static bool power_of_four(nh_prime field, nh_residue a, nh_residue b, int *k)
 {
-    nh_residue up = a, down = b;
+    nh_residue up = a, down = b, four = nh_residue_of(field, 4);
     if (!a || !b) {
         *k = 0;
         return a == b;
@@ -180,8 +180,21 @@ static bool power_of_two(nh_prime field, nh_residue a, nh_residue b, int *k)
             *k = -*k;
             return true;
         }
-        up = nh_residue_add(field, up, up);
-        down = nh_residue_add(field, down, down);
+        up = nh_residue_mul(field, up, four);
+        down = nh_residue_mul(field, down, four);
+    }
+    return false;
+}
+
+/* Residues of the parameters at which the terms have values: roots of parameters have them only at some. */
+static bool choose_parameters(lifting *l, nh_prime field, nh_residue *at)
+{
+    enum { most_choices = 64, places = 4 };
+    uint64_t random = 31;
+    for (size_t choice = 0; choice < most_choices && !l->equations->obstacle; choice++) {
+        for (size_t k = 0; k < l->parameters; k++) at[k] = nh_residue_random(field, &random);
+        for (uint64_t seed = 1; seed <= places; seed++)
+            if (rates(l, field, seed, at)) return true;
     }
     return false;
 }
@@ -209,26 +222,24 @@ static bool choose_columns(lifting *l, size_t most, column *out, size_t *count)
 {
     size_t terms = l->terms, parameters = l->parameters;
     nh_prime field = nh_jet_point_prime(l->equations->point, 0);
-    uint64_t random = 31;
     nh_residue at[most_parameters] = {0}, *base = nh_alloc_array(terms, sizeof *base),
-               *doubled = nh_alloc_array((parameters + 1) * terms, sizeof *doubled);
+               *scaled = nh_alloc_array((parameters + 1) * terms, sizeof *scaled);
     column *plain = nh_alloc_array(terms, sizeof *plain);
     for (size_t j = 0; j < terms; j++) plain[j].term = j;
-    for (size_t k = 0; k < parameters; k++) at[k] = nh_residue_random(field, &random);
-    bool good = solve(l, field, at, terms, plain, base);
+    bool good = choose_parameters(l, field, at) && solve(l, field, at, terms, plain, base);
     for (size_t k = 0; k <= parameters && good; k++) { /* the last time all of them */
         nh_residue moved[most_parameters] = {0};
         for (size_t i = 0; i < parameters; i++)
-            moved[i] = i == k || k == parameters ? nh_residue_add(field, at[i], at[i]) : at[i];
-        good = solve(l, field, moved, terms, plain, doubled + k * terms);
+            moved[i] = i == k || k == parameters ? nh_residue_mul(field, nh_residue_of(field, 4), at[i]) : at[i];
+        good = solve(l, field, moved, terms, plain, scaled + k * terms);
     }
     *count = 0;
     for (size_t j = 0; j < terms && good; j++) {
         size_t mixed = 0, parameter[most_parameters];
         int degree = 0;
         for (size_t k = 0; k < parameters; k++)
-            if (!power_of_two(field, base[j], doubled[k * terms + j], &plain[j].power[k])) parameter[mixed++] = k;
-        if (mixed) good = power_of_two(field, base[j], doubled[parameters * terms + j], &degree);
+            if (!power_of_four(field, base[j], scaled[k * terms + j], &plain[j].power[k])) parameter[mixed++] = k;
+        if (mixed) good = power_of_four(field, base[j], scaled[parameters * terms + j], &degree);
         for (size_t k = 0; k < parameters; k++) {
             bool own = true;
             for (size_t i = 0; i < mixed; i++) own &= parameter[i] != k;
@@ -237,7 +248,7 @@ static bool choose_columns(lifting *l, size_t most, column *out, size_t *count)
         good = good && add_monomials(plain[j], mixed, parameter, degree, out, count, most);
     }
     nh_free(plain);
-    nh_free(doubled);
+    nh_free(scaled);
     nh_free(base);
     return good;
 }

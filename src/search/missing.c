@@ -13,6 +13,7 @@
 #include "search/counted.h"
 #include "search/currents.h"
 #include "search/described.h"
+#include "search/naming.h"
 #include "search/relations.h"
 #include "search/series_several.h"
 #include "search/stage_solver.h"
@@ -386,7 +387,10 @@ static bool construct(search *s, const nh_completeness *c, bool further)
                               !adds_nothing(s->solver.r, c));
     if (!wanted) return false;
     size_t degree = further ? c->incomplete_at : c->missing_at;
-    nh_construct_rates rates = nh_construct_rates_of(s->solver.r->model, degree, c->count.time, part * work);
+    nh_ex atom[NH_NAMING_ATOMS];
+    const nh_model *o = s->solver.r->model;
+    nh_construct_rates rates =
+        nh_construct_rates_of(o, degree, c->count.time, nh_naming_atoms(o, atom), atom, part * work);
     manner any = {.further = further, .rates = &rates}, secular = any;
     secular.secular = true;
     work = fmax(work - rates.work, 0);

@@ -4,7 +4,7 @@
 #include "integrals/recognise.h"
 #include "system/sample.h"
 
-enum { most_symbols = 12, extra_sets = 4 };
+enum { extra_sets = 4 };
 /* small, so that the nearest value belongs to the same number; large relative to rounding */
 static const double spread = 0.04;
 
@@ -24,7 +24,7 @@ static void harvest(const nh_model *o, nh_ex e, nh_ex *list, size_t *count, nh_i
     nh_dag *d = o->dag;
     uint32_t known;
     nh_kind kind = nh_kind_of(d, e);
-    if (*count == most_symbols || kind == NH_SYMBOL || kind == NH_NUMBER || nh_index_get(seen, e, &known)) return;
+    if (*count == NH_NAMING_ATOMS || kind == NH_SYMBOL || kind == NH_NUMBER || nh_index_get(seen, e, &known)) return;
     nh_index_put(seen, e, 0);
     if (parametric_sum(o, e)) {
         list[(*count)++] = e;
@@ -33,11 +33,11 @@ static void harvest(const nh_model *o, nh_ex e, nh_ex *list, size_t *count, nh_i
     for (size_t i = 0; i < nh_arity(d, e); i++) harvest(o, nh_child(d, e, i), list, count, seen);
 }
 
-static size_t atoms_of(const nh_model *o, nh_ex *list)
+size_t nh_naming_atoms(const nh_model *o, nh_ex list[NH_NAMING_ATOMS])
 {
     size_t count = 0;
     nh_index seen = {0};
-    for (size_t i = 0; i < o->system->parameters && count < most_symbols; i++)
+    for (size_t i = 0; i < o->system->parameters && count < NH_NAMING_ATOMS; i++)
         if (o->parameter_value[i] > 0) list[count++] = o->parameter[i];
     for (size_t i = 0; i < o->n * o->n; i++) harvest(o, o->M[i], list, &count, &seen);
     for (size_t i = 0; i < o->n; i++) harvest(o, o->a[i], list, &count, &seen);
@@ -82,8 +82,8 @@ static bool follow_all(const nh_model *o, const sets *s, double value, nh_follow
 
 nh_ex nh_name_value(const nh_model *o, double value, nh_follow *follow, void *context, double tolerance, uint64_t seed)
 {
-    nh_ex atom[most_symbols], found = 0;
-    size_t n = atoms_of(o, atom);
+    nh_ex atom[NH_NAMING_ATOMS], found = 0;
+    size_t n = nh_naming_atoms(o, atom);
     sets s = make_sets(o, n, atom, seed + 5);
     double *values = nh_alloc_array(s.count, sizeof *values);
     bool named = follow_all(o, &s, value, follow, context, values)
