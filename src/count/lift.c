@@ -9,7 +9,7 @@
 
 enum {
     spare = 8, /* points beyond the number of columns */
-    tries = 8, /* points that are tried for each that is needed: at half of them a root of parameters has no value */
+    tries = 40, /* points that are tried for each that is needed: at half of them a root has no value */
     most_parameters = 12,
     most_power = 12, /* of a parameter */
     most_primes = 24,
