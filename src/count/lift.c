@@ -189,12 +189,12 @@ static bool power_of_four(nh_prime field, nh_residue a, nh_residue b, int *k)
 /* Residues of the parameters at which the terms have values: roots of parameters have them only at some. */
 static bool choose_parameters(lifting *l, nh_prime field, nh_residue *at)
 {
-    enum { most_choices = 64, places = 4 };
-    uint64_t random = 31;
-    for (size_t choice = 0; choice < most_choices && !l->equations->obstacle; choice++) {
+    enum { most_choices = 32, places = 16 };
+    uint64_t random = 31, seed = 0;
+    for (size_t choice = 0; choice < most_choices; choice++) {
         for (size_t k = 0; k < l->parameters; k++) at[k] = nh_residue_random(field, &random);
-        for (uint64_t seed = 1; seed <= places; seed++)
-            if (rates(l, field, seed, at)) return true;
+        for (size_t place = 0; place < places && !l->equations->obstacle; place++)
+            if (rates(l, field, ++seed, at)) return true;
     }
     return false;
 }
