@@ -195,7 +195,7 @@ Test(export_meaning, currents, .timeout = 300)
     sweep_plain_only();
     size_t systems = 0;
     for (size_t i = 0; i < EXPORTED_SYSTEMS; i++) {
-        if (!sweep_tries(i, 8, 16)) continue;
+        if (!sweep_tries(i, 7, 14)) continue;
         nh_export *x = make(&EXPORTED[i], "currents, submanifold");
         for (size_t p = 0; p < probes; p++) {
             check_currents(x, p);
