@@ -235,7 +235,7 @@ Test(classify, swinging_atwood) { expect_family("atwood", 0, NULL, 4, false, "C-
 /* The sphere has a third of degree one, Kovalevskaya's top a fourth of degree four. */
 Test(classify, tops)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     expect_family("top", 0, NULL, 4, true, "C0 1@1 1/2@4");
 }
 

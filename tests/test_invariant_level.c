@@ -130,7 +130,7 @@ static const cJSON *get(const cJSON *item, const char *name) { return cJSON_GetO
 /* Goryachev's and Chaplygin's top from the family of all tops with two equal moments, which holds no level: [BorisovMamaev2005]. */
 Test(invariant_level, goryachev_and_chaplygin_are_found)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     place p = place_make();
     char line[500];
     snprintf(line, sizeof line, "classify %.300s/tests/data/classify/top.yaml --over C --shape --degree 3 --on p_phi=0 --json - --quiet", p.project);

@@ -77,7 +77,7 @@ Test(plane_sweep, unknown_curves_end_it)
 /* Tops with the centre of mass on an axis: Lagrange's, which are a curve, and Kovalevskaya's, once for each equatorial axis; not Euler's, which has no weight. */
 Test(plane_sweep, heavy_tops)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     cJSON *root = classified("heavy_tops.yaml --over b,c --shape --degree 4 --option plane=20 --option lines=2");
     expect(root, "b", "c", "c - b = 0@1 1,2@4 2,1@4");
     cr_expect_eq(cJSON_GetArraySize(key(root, "degrees")), 4);

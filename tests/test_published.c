@@ -486,6 +486,7 @@ Test(published, waves_in_time_are_within_the_work)
 /* The fourth has waves of the rate 2 sqrt(k/m), which is none of the numbers of the system, and holds for all k and m. */
 Test(published, rates_in_time_are_roots_of_parameters)
 {
+    sweep_plain_only();
     nh_analysis *r = analysed_row("Tremblay, Turbiner and Winternitz, k = 2, with a spring");
     cr_expect_eq(independent_and_proved(r), 4);
     for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "%s", r->found[k].name);

@@ -147,7 +147,7 @@ Test(series, ellipsoid_on_a_wide_interval, .timeout = 120)
  * holds on a part of it. */
 Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     nh_analysis *r = roll(disk, 0.0005, 3.141);
     cr_expect(r->independent == 3 && check_series(r, "disk") == 2, "%zu independent", r->independent);
     for (size_t k = 0; k < r->count; k++) {

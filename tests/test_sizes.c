@@ -150,7 +150,7 @@ Test(sizes, ring_of_pendula, .timeout = 600)
 /* Energy, momentum, angular momentum and centre of mass. */
 Test(sizes, bodies_in_space, .timeout = 600)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     static const size_t sizes[] = {5, 6, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         if (!sweep_tries(s, 3, 16)) continue;

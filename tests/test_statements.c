@@ -301,7 +301,7 @@ Test(statements, a_residual_without_a_size_is_decided_exactly)
 /* A rate that doubles cannot tell from its rounding, atanh of nearly one, is measured in balls. */
 Test(statements, a_residual_is_no_rounding)
 {
-    if (!sweep_tries(1, 1, 4)) return; /* four seconds */
+    sweep_whole_only();
     place p = place_make();
     write_here(&p, "skate.yaml", "name: skate\nparameters: {b: 1e-9}\ncoordinates: [x, y, {name: p, type: angle}]\n"
                                  "lagrangian: (x'^2 + y'^2)/2 + b*p'^2/2\nconstraints: [\"x'*sin(p) - y'*cos(p) = b*p'\"]\n");

@@ -4,6 +4,7 @@
 #include <flint/nmod_mat.h>
 #include <flint/nmod_poly.h>
 #include <flint/nmod_poly_factor.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -165,7 +166,10 @@ static nh_residue residue_of(nh_prime field, nh_num a)
 /* sqrt(p/q) = sqrt(p q)/q, with the square factors taken out of the root. */
 static nh_num root_of(nh_num square, int64_t *radicand)
 {
+    int64_t p = llround(sqrt((double)square.p)), q = llround(sqrt((double)square.q));
     int64_t rest = square.p * square.q, out = 1;
+    *radicand = 1;
+    if (p * p == square.p && q * q == square.q) return nh_num_ratio(p, q);
     for (int64_t i = 2; i * i <= rest; i++)
         while (rest % (i * i) == 0) {
             rest /= i * i;
@@ -279,6 +283,10 @@ static bool ask(const naming *x, const nh_model *model, const nh_count_question 
     for (size_t i = 0; i < x->atoms && good; i++) {
         taken[i] = x->atom[i];
         good = !c.equations->obstacle && nh_jet_equations_take(c.equations, true, &taken[i]);
+    }
+    if (!good) { /* their obstacle is none of the equations' */
+        nh_counter_close(&c);
+        nh_counter_open(&c, model, q);
     }
     rates_somewhere(&c, q->degree, &out->rates, &out->seen);
     good = good && out->seen.count && c.equations->point->field.p == out->seen.field.p &&
