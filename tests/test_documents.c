@@ -107,6 +107,7 @@ Test(documents, formulas_and_options_are_set_as_such)
     };
     place p = place_with_systems();
     for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        if (!sweep_tries(i + 1, 1, 2)) continue;
         char line[400];
         snprintf(line, sizeof line, "%s --quiet --html page.html --tex page.tex", of[i].command);
         finished done = run_expecting(&p, line, 0);

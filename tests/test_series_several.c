@@ -158,7 +158,7 @@ Test(series_several, nothing_where_nothing_is_missing, .timeout = 120)
 /* An edge turns with a coordinate of a flat plane; the motion in the plane is free. */
 Test(series_several, two_shape_coordinates_of_an_edge, .timeout = 120)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     nh_analysis *r = ask("name: edge\ncoordinates: [u, v, y, z]\nlagrangian: (exp(u^2 - v^2)*(u'^2 + v'^2) + y'^2 + "
                          "z'^2)/2\nconstraints:\n  - z' = u*y'\n");
     cr_expect_eq(r->independent, 4u);

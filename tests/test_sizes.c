@@ -95,7 +95,7 @@ static void chain(nh_text *text, size_t n, bool closed)
 
 Test(sizes, chains, .timeout = 600)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     static const size_t sizes[] = {6, 8, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         if (!sweep_tries(s, 3, 16)) continue;
