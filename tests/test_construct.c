@@ -111,7 +111,7 @@ Test(construct, coordinates_of_no_integral_are_idle)
     }
 }
 
-/* Of r^2, r r' and r'^2 in a potential k r^2/2 + a/r^2; the same where it repels; and of a wave with whole numbers. */
+/* Of r^2, r r' and r'^2 in a potential k r^2/2 + a/r^2; the same where it repels; and of a rate without parameters. */
 Test(construct, rates_are_written_by_parameters)
 {
     static const struct {

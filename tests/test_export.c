@@ -157,6 +157,7 @@ static void batch_make(batch *b, size_t part)
     cr_assert_not_null(mkdtemp(b->folder));
     for (size_t i = part; i < EXPORTED_SYSTEMS; i += share)
         if (sweep_tries(i / share + 2, 8, 8)) b->of[b->count++] = make(b, &EXPORTED[i]);
+    cr_assert_gt(b->count, 0, "no system in part %zu", part);
 }
 
 static void batch_clear(batch *b)

@@ -190,8 +190,8 @@ static void put(nh_construct_rates *out, nh_construct_rate r)
     if (out->count < NH_MOST_CONSTRUCT_RATES) out->item[out->count++] = r;
 }
 
-/* The rate with omega^2 = multiple prod_i a_i^power_i, whole powers outside of the root.  lambda < 0 is told from
- * lambda > 0 by its residue; both are rates where they are conjugate. */
+/* Adds the rate with omega^2 = multiple prod_i a_i^power_i; whole powers stand outside of the root.  The residue of a
+ * rational lambda gives its sign; an irrational lambda and its conjugate -lambda are both rates. */
 static void put_root(naming *x, size_t at, nh_num multiple)
 {
     nh_prime field = x->given.seen.field;

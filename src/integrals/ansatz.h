@@ -18,7 +18,8 @@
  * each of them ansatz.c has a function build_NAME. */
 #define NH_FAMILY_TABLE(X)                                                                                       \
     X(NH_POLYNOMIAL, polynomial, "basis, in, degree", false, monomials(f->in_count, f->degree))                  \
-    X(NH_FOURIER, fourier, "basis, in, harmonics, frequency, constant", false, 2 * f->in_count * f->degree + f->constant) \
+    X(NH_FOURIER, fourier, "basis, in, harmonics, frequency, constant", false,                                   \
+      2 * f->in_count * f->degree + f->constant)                                                                 \
     X(NH_CHEBYSHEV, chebyshev, "basis, in, degree", true, f->degree + 1)
 
 #define X(kind, name, keys, single, columns) kind,
