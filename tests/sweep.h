@@ -49,16 +49,9 @@ static inline bool sweep_tries(size_t i, size_t one_in, size_t one_in_sanitized)
     return sweep_whole() || i % (SWEEP_SANITIZED ? one_in_sanitized : one_in) == 0;
 }
 
-/* At the beginning of a test that is one long computation: */
-static inline void sweep_whole_only(void)
-{
-    if (!sweep_whole()) cr_skip_test("long: make check-all runs it");
-}
-
-/* ... and of one whose code others run under sanitizers, with smaller systems. */
-static inline void sweep_plain_only(void)
-{
-    if (SWEEP_SANITIZED && !sweep_whole()) cr_skip_test("long under sanitizers: make check-all runs it there");
-}
+/* Behind the name of a test that is one long computation, and of one whose code others run under sanitizers, with smaller systems.
+ * No process is started for them; criterion_start.c enables them where all is tried. */
+#define WHOLE_ONLY .disabled = true
+#define PLAIN_ONLY .disabled = SWEEP_SANITIZED
 
 #endif

@@ -207,9 +207,8 @@ static nh_trajectory *by_pilot_runs(const nh_model *o, const nh_state *initial, 
 }
 
 /* Many thousands of periods of a driven oscillator, x = 2 sin(t): others are measured, the result is right whatever is chosen.  A tenth of one period: nothing is measured. */
-Test(accuracy, a_long_motion_is_measured_and_a_short_one_is_not)
+Test(accuracy, a_long_motion_is_measured_and_a_short_one_is_not, PLAIN_ONLY)
 {
-    sweep_plain_only();
     mechanics x = mechanics_of_text("name: test\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - x^2/2\nforces: [\"x = -x'/2 + cos(t)\"]\n", NH_CHART_AUTO);
     double q[1] = {0}, v[1] = {2}, until = 4e5;
     nh_state initial = {.q = q, .v = v};
@@ -262,9 +261,8 @@ static void try_ensemble(const char *text, const double start[4], double until, 
     mechanics_clear(&x);
 }
 
-Test(accuracy, every_member_of_an_ensemble_is_as_accurate)
+Test(accuracy, every_member_of_an_ensemble_is_as_accurate, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const pendulum = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 + cos(x) - y^4/4 + x*y/5\n";
     static const char *const kepler = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2)\n";
     static double one[MEMBERS * COUNT * 2], two[MEMBERS * COUNT * 2];
@@ -296,9 +294,8 @@ static nh_ensemble *stiff_ensemble(const char *text, const double start[4], doub
 }
 
 /* Van der Pol's oscillator while it relaxes: in batches the pair of order 8 would take a hundred thousand steps for what BDF does in some hundred. */
-Test(accuracy, members_of_a_stiff_ensemble_are_computed_alone)
+Test(accuracy, members_of_a_stiff_ensemble_are_computed_alone, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const stiff = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2\nforces: [\"x = 1000*(1 - x^2)*x'\"]\n";
     const double start[4] = {2, 0.5, 0, 0};
     nh_integration_plans pilot = {.pilot = true};

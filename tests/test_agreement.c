@@ -43,9 +43,8 @@ static nh_analysis *analysed(const task *q)
     return r;
 }
 
-Test(agreement, null_vectors_are_in_the_counted_space)
+Test(agreement, null_vectors_are_in_the_counted_space, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 0; i < tasks; i++) {
         nh_analysis *r = analysed(&TASK[i]);
         const nh_counted_space *c = &r->counted_space;

@@ -207,9 +207,8 @@ Test(analyze, the_sleigh_in_quasi_velocities)
     }
 }
 
-Test(analyze, the_sleigh_in_coordinate_velocities)
+Test(analyze, the_sleigh_in_coordinate_velocities, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 0; i < SET_COUNT; i++) {
         if (!sweep_tries(i, 1, 3)) continue;
         nh_analysis *r = ask((question){SLEIGH, QUESTION, SETS[i], NH_CHART_COORDINATES, 0, 0.3});
@@ -219,9 +218,8 @@ Test(analyze, the_sleigh_in_coordinate_velocities)
 }
 
 /* The frequency gets its name wherever it is not ambiguous. */
-Test(analyze, the_frequency_is_recognised)
+Test(analyze, the_frequency_is_recognised, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 1; i < SET_COUNT; i++) {
         if (!sweep_tries(i + 2, 1, 3)) continue;
         nh_analysis *r = ask((question){SLEIGH, QUESTION, SETS[i], NH_CHART_AUTO, 0, 1});
@@ -232,9 +230,8 @@ Test(analyze, the_frequency_is_recognised)
 }
 
 /* k = 1, all the mass in the centre: no multiplier, the centre of mass moves uniformly, both components of its momentum are found. */
-Test(analyze, the_sleigh_without_inertia_about_its_centre)
+Test(analyze, the_sleigh_without_inertia_about_its_centre, PLAIN_ONLY)
 {
-    sweep_plain_only();
     const char *text = "name: q\nsystem: sleigh\nansatz:\n"
                        "  - product:\n"
                        "      - terms: [omega, v]\n"
@@ -290,9 +287,8 @@ static const char *ansatz(const char *items)
 }
 
 /* A little friction: the energy is not conserved, and this is said; with a column that compensates it, that is a true current. */
-Test(analyze, friction)
+Test(analyze, friction, PLAIN_ONLY)
 {
-    sweep_plain_only();
     const char *system = sleigh_with("forces:\n  - phi = -0.01*phi'\n", "");
     nh_analysis *r = ask((question){.system = system, .analysis = ansatz("  - terms: [omega^2, v^2, omega*v]\n")});
     cr_expect(r->verdict == NH_NONE && r->count == 0, "verdict %d, %zu found", (int)r->verdict, r->count);
@@ -316,9 +312,8 @@ Test(analyze, friction)
 }
 
 /* Nothing is said against the energy where it is conserved but not in the ansatz. */
-Test(analyze, an_ansatz_without_a_true_integral_says_none)
+Test(analyze, an_ansatz_without_a_true_integral_says_none, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const items[] = {"  - {basis: polynomial, in: [x, y, phi], degree: 3}\n", "  - terms: [omega, v, omega*v, omega^2]\n",
                                         "  - product:\n      - terms: [omega, v]\n      - {basis: fourier, in: phi, harmonics: 4}\n"};
     for (size_t i = 0; i < 3; i++) {
@@ -372,9 +367,8 @@ Test(analyze, nearly_is_not_conserved)
 }
 
 /* Functions that the search makes may be undefined somewhere (here the root of 3 - 8 x^2 + ...): they go, the energy stays. */
-Test(analyze, words_that_are_not_finite_do_not_hide_the_energy)
+Test(analyze, words_that_are_not_finite_do_not_hide_the_energy, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *r = ask((question){.system = file("system.yaml", "name: box\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: p, type: angle}]\n"
                                                                "lagrangian: x'^2*(29*y^4 + 25)/200 - 2.12*x^2 + y'^2*(29*x^2 + 18)/100 + p'^2 + y^2*p'\n"
                                                                "constraints: [\"p' = 79*x^2*y'/50 - 4*x'*sin(p)/5\"]\n"), .until = 1});
@@ -416,9 +410,8 @@ static nh_analysis *plain(const char *system, const char *items, uint64_t seed, 
 }
 
 /* The same rows in another order: the same spectrum.  The seed moves the points: the same dimensions, the same kind of spectrum. */
-Test(analyze, order_of_the_ansatz_and_seed)
+Test(analyze, order_of_the_ansatz_and_seed, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
     const char *orders[] = {TERMS TRUE_WAVES WAVES POLYNOMIAL, WAVES TERMS POLYNOMIAL TRUE_WAVES};
     for (size_t i = 0; i < 2; i++) {
@@ -441,9 +434,8 @@ Test(analyze, order_of_the_ansatz_and_seed)
 }
 
 /* The same seed gives the same result to the last digit. */
-Test(analyze, repeatable)
+Test(analyze, repeatable, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *a = ask((question){SLEIGH, QUESTION, SETS[4], NH_CHART_AUTO, 3, 1}), *b = ask((question){SLEIGH, QUESTION, SETS[4], NH_CHART_AUTO, 3, 1});
     cr_assert_eq(a->current.rank, b->current.rank);
     cr_expect_arr_eq(a->current.spectrum, b->current.spectrum, a->current.rank * sizeof(double));
@@ -469,9 +461,8 @@ static const char *in_other_units(double length, double mass)
     return file("system.yaml", text);
 }
 
-Test(analyze, units)
+Test(analyze, units, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *a = plain(in_other_units(1, 1), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
     nh_analysis *grams = plain(in_other_units(1, 1000), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
     cr_expect_eq(a->count, 3);
@@ -492,9 +483,8 @@ Test(analyze, units)
 }
 
 /* The same question in both charts: the same functions, so the same dimensions and ranks. */
-Test(analyze, charts)
+Test(analyze, charts, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_QUASI);
     nh_analysis *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_COORDINATES);
     cr_expect(a->model->chart->quasi && !b->model->chart->quasi);
@@ -526,9 +516,8 @@ Test(analyze, chebyshev)
     nh_analysis_free(r);
 }
 
-Test(analyze, a_nonlinear_constraint)
+Test(analyze, a_nonlinear_constraint, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *r = ask((question){.system = file("system.yaml", SPACE_EXPLICIT), .analysis = ansatz("  - terms: [\"x'/y'\", \"x'\", \"y'\", \"x\", \"t\"]\n")});
     cr_assert_eq(r->count, 1, "%zu found", r->count);
     cr_expect_not_null(find(r, "x'/y'"));
@@ -583,9 +572,8 @@ Test(analyze, almost_conserved_is_told_apart)
 }
 
 /* Definitions that use each other many times over: the potential would be longer than any memory when written out, and is a small graph. */
-Test(analyze, definitions_upon_definitions, .timeout = 120)
+Test(analyze, definitions_upon_definitions, .timeout = 120, PLAIN_ONLY)
 {
-    sweep_plain_only();
     enum { levels = 45 };
     char text[levels * 60 + 300];
     size_t n = (size_t)sprintf(text, "name: deep\nparameters: [{name: m, value: 1.5}]\ncoordinates: [{name: x, type: length}]\ndefinitions:\n  - d0 = x/m\n");
@@ -629,9 +617,8 @@ Test(analyze, meanings_are_true, .timeout = 120)
 
 /* Coefficients that solve a linear equation without elementary solutions (the disk's are of Legendre type): a series each, certified by its
  * refinement; with the energy they are three of the disk's currents.  They must be new, linear and constant to rounding inside the interval. */
-Test(analyze, series_of_the_rolling_disk, .timeout = 120)
+Test(analyze, series_of_the_rolling_disk, .timeout = 120, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     nh_analyze_request request = {.system_path = "systems/rolling_disk.yaml"};
     nh_options_default(&request.options);
@@ -658,9 +645,8 @@ Test(analyze, series_of_the_rolling_disk, .timeout = 120)
 }
 
 /* Kovalevskaya's top in Euler angles: energy, momentum, and an integral of the fourth degree; with other moments of inertia it is not there. */
-Test(analyze, kovalevskaya, .timeout = 120)
+Test(analyze, kovalevskaya, .timeout = 120, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const form =
         "name: top\nparameters: [{name: A, value: %s}, {name: C, value: 0.9}, {name: g, value: 1.3}]\n"
         "coordinates: [{name: phi, type: angle}, {name: theta, type: angle}, {name: psi, type: angle}]\n"
@@ -676,9 +662,8 @@ Test(analyze, kovalevskaya, .timeout = 120)
 }
 
 /* What is found in Cartesian coordinates must be found in polar ones: vectors have the harmonics of a cyclic angle there. */
-Test(analyze, polar_coordinates, .timeout = 120)
+Test(analyze, polar_coordinates, .timeout = 120, PLAIN_ONLY)
 {
-    sweep_plain_only();
 #define SPHERICAL "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\ndomain: {r: [0.5, 2], th: [0.4, 2.6]}\n"
 #define POLAR "coordinates: [{name: r, type: length}, {name: ph, type: angle}]\ndomain: {r: [0.5, 2]}\n"
     static const struct {
@@ -715,9 +700,8 @@ Test(analyze, unknown_exponents)
 }
 
 /* A free top whose angle of precession is given as a length, in thousandths: the pencil has seven digits of the rate 1/1000. */
-Test(analyze, a_rate_with_few_digits, .timeout = 120)
+Test(analyze, a_rate_with_few_digits, .timeout = 120, PLAIN_ONLY)
 {
-    sweep_plain_only();
     const char *text = "name: top\nparameters: [{name: A, value: 1.1}, {name: B, value: 1.7}, {name: C, value: 2.3}]\n"
                        "coordinates: [{name: p, type: length}, {name: h, type: angle}, {name: s, type: angle}]\n"
                        "definitions: [\"P = p'/1000\"]\ndomain: {p: [-800, 800], h: [0.5, 2.1], s: [-0.8, 0.8]}\n"

@@ -235,9 +235,8 @@ static void expect_translation(const mechanics *x, bool expected)
 }
 
 /* The rate of a snake's energy is too long for a normal form: what the equations of motion say of it is the proof. */
-Test(prove, energy_of_long_equations)
+Test(prove, energy_of_long_equations, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const text =
         "name: snake\nparameters: {m: 1.3, J: 0.4, l: 0.7}\ncoordinates: [x, y, {name: h, type: angle}, {name: a, type: angle}, {name: b, type: angle}]\n"
         "definitions: [\"vx = x' - l*h'*sin(h) - l*(h'+a')*sin(h+a)\", \"vy = y' + l*h'*cos(h) + l*(h'+a')*cos(h+a)\", "

@@ -234,9 +234,8 @@ Test(bodies, accelerations_of_chains)
     }
 }
 
-Test(bodies, accelerations_of_trees)
+Test(bodies, accelerations_of_trees, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (uint64_t seed = 21; seed <= 24; seed++) {
         if (!sweep_tries(seed, 2, 4)) continue;
         char *text, name[40];
@@ -248,9 +247,8 @@ Test(bodies, accelerations_of_trees)
 }
 
 /* A graph, not a formula: the number of nodes grows like a power of n. */
-Test(bodies, chains_stay_small)
+Test(bodies, chains_stay_small, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t n = 4; n <= 12; n += 4) {
         tree t;
         char *text = revolute_chain(&t, n, 5);
@@ -445,9 +443,8 @@ static const cJSON *crane_set(cJSON *all)
 }
 
 /* K, the constraints, and the motion's accelerations in all coordinates, against 40 digits. */
-Test(bodies, crane_against_the_oracle)
+Test(bodies, crane_against_the_oracle, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *all = oracle_read("tests/data/crane_oracle.json");
     const cJSON *set = crane_set(all);
     mechanics x = crane("systems/crane.yaml", set, NH_CHART_QUASI);
@@ -538,9 +535,8 @@ Test(bodies, energies_written_by_hand)
 }
 
 /* Newton and Euler against Lagrange: c = X_0(dL/dq') - dL/dq with X_0 = d/dt + q' d/dq, also where joints are driven or geared. */
-Test(bodies, bias_agrees_with_the_lagrangian)
+Test(bodies, bias_agrees_with_the_lagrangian, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_system *s = parsed("gravity: [0.4, -1, -9]\n"
                           "bodies:\n"
                           "  - {name: a, mass: 1.2, center: [0.1, 0.2, 0.3], inertia: [[0.5, 0.1, 0], [0.1, 0.6, -0.05], [0, -0.05, 0.7]]}\n"
@@ -568,9 +564,8 @@ Test(bodies, bias_agrees_with_the_lagrangian)
 }
 
 /* A large chain in a chart that moves, with a further term in its Lagrangian: M a = A is Lagrange's equation of the whole. */
-Test(bodies, large_chains_with_wheels)
+Test(bodies, large_chains_with_wheels, PLAIN_ONLY)
 {
-    sweep_plain_only();
     mechanics x = mechanics_of_text("parameters: [{name: W, value: 0.7}, {name: l, value: 0.8}]\n"
                                     "gravity: [0.3, 0.2, -9]\n"
                                     "bodies:\n  - {name: disc}\n  - {name: car, mass: 1.1, inertia: 0.3, center: [0.2, 0.1, 0]}\n  - {name: one, mass: 0.9, inertia: 0.2, center: [-0.4, 0, 0.2]}\n"

@@ -85,9 +85,8 @@ Test(browser, script_and_style_may_stand_in_a_page)
 }
 
 /* The slider at its end: the clock, the cursors of all plots and the drawing are there, too. */
-Test(browser, slider_plots_and_drawing_move_together)
+Test(browser, slider_plots_and_drawing_move_together, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_page("analyze sleigh --quiet --html page.html");
     write_with(&p, "page.html", "moved.html", 1, (const char *const[]){"var b=document.getElementById('when');b.value=b.max;b.dispatchEvent(new Event('input'));"});
     char *start = document_of(&p, "page.html"), *last = start ? document_of(&p, "moved.html") : NULL;
@@ -113,9 +112,8 @@ Test(browser, slider_plots_and_drawing_move_together)
 }
 
 /* A tumbling box: at every time at most three of its faces are seen, the others are outlines without a fill; all of it stays in the picture, and moves. */
-Test(browser, bodies_in_space)
+Test(browser, bodies_in_space, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "box.yaml", "name: box\nbodies: [{name: box, mass: 2, inertia: [0.3, 0.5, 0.7]}]\njoints: [{type: free, child: box, coordinates: [x, y, z, a, b, c]}]\ngravity: [0, 0, -1]\n");
     finished_clear((finished[]){run_expecting(&p, "simulate box.yaml --initial a=0.3,b=1,a'=1,b'=0.4,c'=2,x'=1 --until 2 --quiet --html page.html", 0)});
@@ -147,9 +145,8 @@ Test(browser, bodies_in_space)
 }
 
 /* The picture for paper shows the faces that the script draws at the end of the motion, and stands in the page's way on paper only. */
-Test(browser, the_still_picture_is_the_last_one)
+Test(browser, the_still_picture_is_the_last_one, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "box.yaml", "name: box\nbodies: [{name: box, mass: 2, inertia: [0.3, 0.5, 0.7]}]\njoints: [{type: free, child: box, coordinates: [x, y, z, a, b, c]}]\ngravity: [0, 0, -1]\n");
     finished_clear((finished[]){run_expecting(&p, "simulate box.yaml --initial a=0.3,b=1,a'=1,b'=0.4,c'=2,x'=1 --until 2 --quiet --html page.html", 0)});
@@ -178,9 +175,8 @@ Test(browser, the_still_picture_is_the_last_one)
 
 /* Played to its end the motion stays there, or with `loop` it begins again; at four times the speed it takes two seconds, of three that are
  * shown in frames of a tenth. */
-Test(browser, a_motion_ends_or_loops)
+Test(browser, a_motion_ends_or_loops, PLAIN_ONLY)
 {
-    sweep_plain_only();
 #define FRAMES "var n=0;window.requestAnimationFrame=function(f){return n++<30?setTimeout(function(){f(100*n);},1):0;};"
     static const char *const SCRIPT[] = {
         FRAMES "document.getElementById('speed').value='4';document.getElementById('play').click();",
@@ -211,9 +207,8 @@ static size_t printed_pages(const char *pdf, size_t length)
     return n;
 }
 
-Test(browser, the_sleigh_is_six_pages_on_paper)
+Test(browser, the_sleigh_is_six_pages_on_paper, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_page("analyze sleigh --quiet --html page.html");
     char *seen = document_in(&p, "page.html", "--no-pdf-header-footer --print-to-pdf=page.pdf"), path[PATH_MAX];
     bool skipped = !seen;
@@ -233,9 +228,8 @@ Test(browser, the_sleigh_is_six_pages_on_paper)
     if (skipped) cr_skip_test("no chromium");
 }
 
-Test(browser, a_hostile_title_stays_text)
+Test(browser, a_hostile_title_stays_text, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "h.yaml", "name: h\ntitle: \"<img src=x onerror=document.body.id='pwned'></title><script>document.body.id='pwned'</script>\"\n"
                              "coordinates:\n  - {name: x, type: length, doc: \"<svg onload=document.body.id='pwned'>\"}\nlagrangian: x'^2\n");
@@ -341,9 +335,8 @@ static cJSON *page_looked_at(place *p, const char *line, const char *flags)
 
 static const char *const wide_window = "--virtual-time-budget=9000 --window-size=1200,900", *const narrow_dark = "--virtual-time-budget=9000 --window-size=390,844 --force-dark-mode --enable-features=WebContentsForceDark";
 
-Test(browser, pages_are_as_they_should_be)
+Test(browser, pages_are_as_they_should_be, PLAIN_ONLY)
 {
-    sweep_plain_only();
     bool skipped = false;
     for (size_t i = 0; !skipped && i < sizeof SYSTEMS / sizeof *SYSTEMS; i++) {
         if (!sweep_tries(i, 18, 18)) continue;
@@ -367,9 +360,8 @@ Test(browser, pages_are_as_they_should_be)
     if (skipped) cr_skip_test("no chromium");
 }
 
-Test(browser, so_are_those_of_the_other_commands)
+Test(browser, so_are_those_of_the_other_commands, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const LINES[] = {
         "verify sleigh --current m*v --quiet --html page.html",
         "simulate sleigh --initial omega=2 --until 5 --quiet --html page.html",

@@ -100,9 +100,8 @@ Test(budget, ends_a_search_at_the_same_place_with_any_threads)
     }
 }
 
-Test(budget, finds_nothing_is_not_none)
+Test(budget, finds_nothing_is_not_none, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *late = search("systems/crane.yaml", 1e4, 0.01, 1, 330), *poor = search("systems/crane.yaml", 1, 1e6, 1, 330);
     for (int i = 0; i < 2; i++) {
         const nh_analysis *r = i ? poor : late;
@@ -133,9 +132,8 @@ Test(budget, names_what_brings_a_stage_in)
     nh_analysis_free(wider);
 }
 
-Test(budget, complete_is_not_exhausted)
+Test(budget, complete_is_not_exhausted, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *all = search("systems/free_particle.yaml", 1e4, 1e6, 1, 330);
     cr_expect_eq(all->search, all->independent == all->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED);
     cr_expect_eq(all->independent, all->local_maximum);

@@ -55,9 +55,8 @@ Test(catalogue, analysis_files_find_everything_known)
 }
 
 /* The field of the energy is d/dt, however long the inverse of the mass matrix is. */
-Test(catalogue, the_energy_belongs_to_time)
+Test(catalogue, the_energy_belongs_to_time, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error;
     nh_error_clear(&error);
     nh_analyze_request q = {.system_path = "systems/rattleback.yaml"};
@@ -74,9 +73,8 @@ Test(catalogue, the_energy_belongs_to_time)
 }
 
 /* The check itself: a coordinate and one of the known false currents are caught by it. */
-Test(catalogue, the_multiplier_form_catches_what_is_not_conserved)
+Test(catalogue, the_multiplier_form_catches_what_is_not_conserved, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error;
     nh_error_clear(&error);
     nh_analyze_request q = {.system_path = "systems/appell_hamel.yaml"};

@@ -42,9 +42,8 @@ static void expect_breakdown(const nh_benchmark *c)
 }
 
 /* With error control the error follows the tolerance; the reference is the closed form's equal. */
-Test(chart, errors_follow_the_tolerance_unless_the_chart_breaks_down)
+Test(chart, errors_follow_the_tolerance_unless_the_chart_breaks_down, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_benchmark *c = compare("systems/sleigh.yaml", "omega=2", 5, 20);
     cr_expect(c->agreement < 1e-10, "%g", c->agreement);
     cr_expect_geq(c->currents, 2);
@@ -91,9 +90,8 @@ Test(chart, a_closed_form_that_is_nearly_true)
     nh_benchmark_free(c);
 }
 
-Test(chart, closed_forms_that_are_shipped_are_true)
+Test(chart, closed_forms_that_are_shipped_are_true, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const folders[] = {"systems", "systems/stress"};
     size_t closed = 0;
     for (int f = 0; f < 2; f++) {
@@ -141,9 +139,8 @@ static void write_text(const nh_benchmark *c, const nh_robustness *s, nh_text *o
 }
 
 /* Two chaotic motions that differ at the end are no reference, whoever chose the time: then nothing is right, and that is said; else the time is shortened. */
-Test(chart, no_two_methods_agree)
+Test(chart, no_two_methods_agree, WHOLE_ONLY)
 {
-    sweep_whole_only();
     nh_benchmark *c = compare("systems/double_pendulum.yaml", "p=2, q=2", 60, 3);
     cr_expect(c->doubtful && c->agreement > 1e-3, "%g", c->agreement);
     for (size_t i = 0; i < c->count; i++) cr_expect(c->item[i].status != NH_ACCURATE && c->item[i].status != NH_UNDETECTED && !c->item[i].front, "%s", c->item[i].method);
@@ -155,9 +152,8 @@ Test(chart, no_two_methods_agree)
     nh_benchmark_free(c);
 }
 
-Test(chart, a_time_that_nobody_chose_is_shortened_until_two_methods_agree)
+Test(chart, a_time_that_nobody_chose_is_shortened_until_two_methods_agree, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};
     nh_options_default(&q.options);
@@ -169,9 +165,8 @@ Test(chart, a_time_that_nobody_chose_is_shortened_until_two_methods_agree)
 }
 
 /* 1e8 radians in the default time, none of which can be reached: the time becomes that of what can be. */
-Test(chart, a_very_fast_motion)
+Test(chart, a_very_fast_motion, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "tests/data/ion.yaml"};
     nh_options_default(&q.options);
@@ -200,9 +195,8 @@ Test(chart, a_known_current_that_is_none)
     nh_benchmark_free(c);
 }
 
-Test(chart, projection_has_no_drift)
+Test(chart, projection_has_no_drift, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_benchmark *c = compare("systems/contact_oscillator.yaml", NULL, 8, 20);
     const nh_run_record *plain = find(c, "GSL rk8pd", "", 1e-4), *projected = find(c, "GSL rk8pd, projected", "", 1e-4);
     cr_assert(plain && projected);
@@ -228,9 +222,8 @@ Test(chart, why_the_energy_preserving_method_is_refused)
     }
 }
 
-Test(chart, what_would_be_wrong_is_refused)
+Test(chart, what_would_be_wrong_is_refused, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_benchmark *c = compare("systems/ball_on_turntable.yaml", NULL, 3, 2);
     bool refused = false;
     for (size_t i = 0; i < c->refused; i++) refused |= strstr(c->refusal[i], "energy-preserving: it would converge to a different motion") != NULL;
@@ -240,9 +233,8 @@ Test(chart, what_would_be_wrong_is_refused)
 }
 
 /* Differences are off by about their order's share of rounding; a complex step and the exact Jacobian by rounding and nothing, the latter for less work. */
-Test(chart, derivatives_by_differences)
+Test(chart, derivatives_by_differences, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_benchmark *c = compare("systems/sleigh.yaml", "omega=2", 1, 0.2);
     static const double least[] = {0, 0, 1e-10, 1e-13, 0}, most[] = {0, 1e-14, 1e-6, 1e-8, 1e-10};
     static const long work[] = {1, 5, 6, 10, 20}; /* 5 states */
@@ -270,9 +262,8 @@ static bool has_formulation(const nh_benchmark *c, const char *words, size_t *ri
 }
 
 /* Quasi-velocities, coordinate velocities, all coordinates, multipliers of both indices, and the stages of the reduction, twice reduced too. */
-Test(chart, every_formulation)
+Test(chart, every_formulation, WHOLE_ONLY)
 {
-    sweep_whole_only();
     size_t right = 0;
     nh_benchmark *c = compare("systems/sleigh.yaml", "omega=2", 4, 20);
     cr_expect(has_formulation(c, "quasi-velocities", &right) && has_formulation(c, "coordinate velocities", &right) && has_formulation(c, "all coordinates", &right));
@@ -288,9 +279,8 @@ Test(chart, every_formulation)
 }
 
 /* Currents among polynomials: a plain SVD takes sin^2 + cos^2 - 1 for one, the quotient does not; both bases and routes find the known ones. */
-Test(chart, the_discrete_problem)
+Test(chart, the_discrete_problem, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_benchmark *c = compare("systems/spherical_pendulum.yaml", NULL, 1, 12);
     size_t deceived = 0, exact = 0, routes = 0;
     cr_assert(c->fits > 20, "%zu", c->fits);
@@ -310,9 +300,8 @@ Test(chart, the_discrete_problem)
 }
 
 /* What is called wrong is an option. */
-Test(chart, thresholds_are_options)
+Test(chart, thresholds_are_options, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
     nh_options_default(&q.options);
@@ -404,9 +393,8 @@ static const nh_robustness_map *map_of(const nh_robustness *s, const char *words
     return NULL;
 }
 
-Test(chart, stress_calls_right_only_what_is)
+Test(chart, stress_calls_right_only_what_is, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_robustness *s = stress_of("systems/sleigh.yaml", "omega=2", 5, 20);
     size_t all = 0, sum = 0;
     for (size_t i = 0; i < s->maps; i++)
@@ -428,9 +416,8 @@ Test(chart, stress_calls_right_only_what_is)
 }
 
 /* A map over two things that the user names: a range over decades is divided by ratios, one from 0 evenly. */
-Test(chart, stress_over_what_is_named)
+Test(chart, stress_over_what_is_named, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "phi=0.1, omega=2", .until_given = true};
     nh_options_default(&q.options);
@@ -470,9 +457,8 @@ Test(chart, stress_over_what_is_not_there)
     expect_no_map("omega=2", "a=1:2, k=1:2, m=1:2", "at most 2");
 }
 
-Test(chart, stress_as_text_and_json)
+Test(chart, stress_as_text_and_json, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_robustness *s = stress_of("systems/isotropic_oscillator.yaml", NULL, 3, 3);
     nh_benchmark *c = compare("systems/isotropic_oscillator.yaml", NULL, 3, 1);
     nh_text text;

@@ -165,9 +165,8 @@ Test(choice, work_is_counted)
 }
 
 /* The full motion of a reduction, and every stage, say what they need. */
-Test(choice, reductions_count_too)
+Test(choice, reductions_count_too, PLAIN_ONLY)
 {
-    sweep_plain_only();
     double effort[2];
     for (int i = 0; i < 2; i++) {
         nh_error error = {0};
@@ -281,9 +280,8 @@ static void leave_off(const pid_t *child)
 }
 
 /* Every command that takes an accuracy says the same by itself and beside six busy loops, with one thread and with two, and leaves nothing for later runs. */
-Test(choice, the_same_on_a_busy_machine)
+Test(choice, the_same_on_a_busy_machine, WHOLE_ONLY)
 {
-    sweep_whole_only();
     static const char *const driven = "name: driven\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - x^2/2\nforces: [\"x = -x'/2 + cos(t)\"]\n";
     static const char *const lines[] = {"simulate driven.yaml --initial x=1 --until 4000 --accuracy 1e-7 --step 1000 --option steps=1e8 --json -",
                                         "simulate sleigh --initial omega=2 --until 3 --accuracy 1e-8 --step 1 --json -",

@@ -233,16 +233,14 @@ Test(classify, oscillators) { expect_family("oscillators", 0, NULL, 4, false, "1
 Test(classify, swinging_atwood) { expect_family("atwood", 0, NULL, 4, false, "C-1 0@1 3@2"); }
 
 /* The sphere has a third of degree one, Kovalevskaya's top a fourth of degree four. */
-Test(classify, tops)
+Test(classify, tops, WHOLE_ONLY)
 {
-    sweep_whole_only();
     expect_family("top", 0, NULL, 4, true, "C0 1@1 1/2@4");
 }
 
 /* On the level 0 of a momentum, which is a constraint that needs no force: the top of Goryachev and Chaplygin, of degree three.  [BorisovMamaev2005] */
-Test(classify, levels_are_constraints)
+Test(classify, levels_are_constraints, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_family("top_level", 0, NULL, 3, true, "C0 1@1 1/4@3");
 }
 
@@ -367,9 +365,8 @@ Test(classify, special_values_are_no_longer_than_their_bound)
 /* ---- brute force ---- */
 
 /* Families that are classified nowhere else, by a program that shares nothing with this one. */
-Test(classify, brute_force_agrees)
+Test(classify, brute_force_agrees, PLAIN_ONLY)
 {
-    sweep_plain_only();
     if (system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1")) {
         cr_log_warn("skipped: there is no Python with numpy (Debian: python3-numpy)");
         return;
@@ -523,9 +520,8 @@ Test(classify, the_command_constructs_and_proves)
 }
 
 /* Other parameters may be ratios that are no decimals, too; the parameter is not the first of those that are left. */
-Test(classify, other_parameters_are_exact)
+Test(classify, other_parameters_are_exact, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_setting settings[] = {at("A", 1, 3), at("B", 16, 3)};
     nh_error error = {0};
     nh_classify_request q = {.system_path = "tests/data/classify/henon_heiles.yaml", .settings = 2, .setting = settings, .over = "eps"};

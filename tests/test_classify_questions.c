@@ -67,17 +67,15 @@ Test(questions, suslov)
 
 /* Veselova's system has a measure for every body; with (gamma + b e) W = 0 for b = 0, and for b = +-1, where the constraint is
  * integrable. */
-Test(questions, veselova)
+Test(questions, veselova, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect(FAMILY("veselova"), "b", NH_OF_MEASURE, "0 | b = 1: 1 proved | b = 0: 1 proved | b = -1: 1 proved");
     expect(FAMILY("veselova"), "b", NH_OF_INTEGRABILITY, "0 | b = 1: 1 proved | b = -1: 1 proved");
 }
 
 /* Three shape coordinates: Chaplygin's ball itself is Hamiltonian only for other forms of the equations, or on levels. */
-Test(questions, balls)
+Test(questions, balls, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect(FAMILY("ball"), "l", NH_OF_HAMILTONIZATION, "0");
     expect(FAMILY("ball"), "l", NH_OF_SYMMETRIES, "3");
 }
@@ -107,9 +105,8 @@ static double divergence(double k, double x, double y)
     return sum;
 }
 
-Test(questions, particles)
+Test(questions, particles, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const double special[] = {2, -1, -2, -3};
     for (size_t i = 0; i < 4; i++) cr_expect_float_eq(divergence(special[i], 0.7, 0.4), 0, 1e-6);
     for (double k = -4.05; k < 4; k += 0.1) cr_expect(fabs(divergence(k, 0.7, 0.4)) > 1e-4, "k = %g", k);
@@ -163,9 +160,8 @@ static size_t planted(uint64_t *random, bool with, nh_linear_question question, 
     return values;
 }
 
-Test(questions, planted_values_are_found)
+Test(questions, planted_values_are_found, PLAIN_ONLY)
 {
-    sweep_plain_only();
     uint64_t random = 17;
     for (int i = 0; i < 24; i++) {
         bool with = i % 2, found = false;

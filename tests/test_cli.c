@@ -232,9 +232,8 @@ Test(cli, version_and_help)
     place_clear(&p);
 }
 
-Test(cli, explain_knows_its_own_topics)
+Test(cli, explain_knows_its_own_topics, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     finished all = run_expecting(&p, "explain", 0);
     char line[200], word[100];
@@ -344,9 +343,8 @@ Test(cli, list_and_show)
 
 /* ---- where systems are found ---- */
 
-Test(cli, a_system_of_ones_own_in_an_empty_folder)
+Test(cli, a_system_of_ones_own_in_an_empty_folder, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const lines[] = {"analyze mine.yaml", "analyze ./mine.yaml", "analyze sub/mine.yaml", "analyze free"};
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
@@ -391,9 +389,8 @@ Test(cli, nhsym_path_is_searched_in_order)
 }
 
 /* A folder of NHSYM_PATH without subfolders: files of one name, or of both kinds, do not stand in each other's way. */
-Test(cli, a_folder_may_hold_systems_and_analyses)
+Test(cli, a_folder_may_hold_systems_and_analyses, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const path[] = {"NHSYM_PATH=mixed:bare", NULL};
     place p = place_make();
     folder_here(&p, "mixed", 0755);
@@ -419,9 +416,8 @@ Test(cli, a_folder_may_hold_systems_and_analyses)
 }
 
 /* `make install` into a folder; the program is then run there from elsewhere, without any setting. */
-Test(cli, the_installed_program_works_from_anywhere, .timeout = 300)
+Test(cli, the_installed_program_works_from_anywhere, .timeout = 300, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     char build[PATH_MAX + 8], destination[2 * PATH_MAX], *slash;
     size_t inside = strlen(p.project); /* as make itself names the folder: it writes this name into the files that tell what depends on what */
@@ -485,9 +481,8 @@ Test(cli, quiet_prints_nothing)
 
 static bool coloured(const finished *f) { return strchr(f->out, '\x1b') != NULL; }
 
-Test(cli, colours_only_on_a_terminal_that_wants_them)
+Test(cli, colours_only_on_a_terminal_that_wants_them, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const without[] = {"NO_COLOR=1", "TERM=xterm", NULL}, *const with[] = {"TERM=xterm", NULL};
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
@@ -524,9 +519,8 @@ static void cut_last_line(char *text)
     *last = 0;
 }
 
-Test(cli, the_same_question_gets_the_same_answer)
+Test(cli, the_same_question_gets_the_same_answer, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     finished a = run_with_path(&p, "analyze sleigh --seed 5"), b = run_with_path(&p, "analyze sleigh --seed 5"), c = run_with_path(&p, "analyze sleigh --seed 6");
     cut_last_line(a.out);

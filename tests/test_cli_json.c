@@ -175,9 +175,8 @@ Test(cli_json, the_sleigh_has_every_key)
 }
 
 /* Systems that stress the numbers: everything conserved, nothing conserved, no constraint, roots, implicit velocities, no inertia to drift. */
-Test(cli_json, other_systems_have_every_key, .timeout = 300)
+Test(cli_json, other_systems_have_every_key, .timeout = 300, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const texts[] = {FREE, DAMPED, CONE, IMPLICIT};
     place p = place_make();
     for (size_t i = 0; i < COUNT(texts); i++) {
@@ -208,9 +207,8 @@ Test(cli_json, texts_and_numbers_are_exact)
 }
 
 /* The current is written in the names of the system file; in_velocities in its coordinates only. */
-Test(cli_json, in_velocities_has_no_quasi_velocity)
+Test(cli_json, in_velocities_has_no_quasi_velocity, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_project();
     cJSON *root = json_of(&p, "analyze sleigh --json - --set k=3", 0);
     const cJSON *currents = find(root, "currents"), *c;
@@ -254,9 +252,8 @@ Test(cli_json, the_same_inputs_give_the_same_output, .timeout = 300)
     place_clear(&p);
 }
 
-Test(cli_json, threads_do_not_change_the_output, .timeout = 300)
+Test(cli_json, threads_do_not_change_the_output, .timeout = 300, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_project();
     char *a = without_timing(json_of(&p, "analyze vertical_disk --threads 1 --max-seconds 1000 --json -", 0)), *b = without_timing(json_of(&p, "analyze vertical_disk --threads 3 --max-seconds 1000 --json -", 0));
     cr_expect_str_eq(a, b);
@@ -265,9 +262,8 @@ Test(cli_json, threads_do_not_change_the_output, .timeout = 300)
     place_clear(&p);
 }
 
-Test(cli_json, seed_and_samples_reach_the_result)
+Test(cli_json, seed_and_samples_reach_the_result, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_project();
     cJSON *root = json_of(&p, "analyze sleigh --json - --seed 77 --samples 300", 0);
     cr_expect_eq(cJSON_GetNumberValue(find(root, "samples.seed")), 77.0);
@@ -277,9 +273,8 @@ Test(cli_json, seed_and_samples_reach_the_result)
 }
 
 /* The motion of an analysis is as accurate as was asked for, or the exit code says that it is not. */
-Test(cli_json, accuracy_reaches_the_result)
+Test(cli_json, accuracy_reaches_the_result, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_project();
     cJSON *root = json_of(&p, "analyze sleigh --json - --accuracy 1e-8", 0);
     cr_expect(cJSON_IsTrue(find(root, "validation.accuracy.held")));
@@ -316,9 +311,8 @@ static size_t entries(const place *p, const char *name)
     return n;
 }
 
-Test(cli_json, a_file_is_written_beside_the_summary)
+Test(cli_json, a_file_is_written_beside_the_summary, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const lines[] = {"analyze mine.yaml --json out/result.json", "analyze --json=out/result.json mine.yaml", "analyze mine.yaml --json out/result",
                                         "analyze --json out/result.json mine.yaml --quiet"};
     static const char *const names[] = {"out/result.json", "out/result.json", "out/result", "out/result.json"};
@@ -341,9 +335,8 @@ Test(cli_json, a_file_is_written_beside_the_summary)
     place_clear(&p);
 }
 
-Test(cli_json, an_option_without_file_prints)
+Test(cli_json, an_option_without_file_prints, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const lines[] = {"analyze mine.yaml --json", "analyze --json mine.yaml", "analyze mine.yaml --json --seed 3", "analyze --json - mine.yaml"};
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
@@ -441,9 +434,8 @@ static double counted_degree(const place *p, const char *work, const char *asked
 }
 
 /* --degree: a count may take ten times the work, and no more: it comes as far as another one with ten times as much. */
-Test(cli_json, a_degree_that_is_asked_for_may_cost_ten_times_the_work)
+Test(cli_json, a_degree_that_is_asked_for_may_cost_ten_times_the_work, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const works[] = {"1e4", "1e5", "1e6"};
     place p = place_with_project();
     for (size_t i = 0; i + 1 < COUNT(works); i++) {

@@ -5,9 +5,8 @@
 #include "program.h"
 #include "sweep.h"
 
-Test(cli_manners, help_fits_a_screen)
+Test(cli_manners, help_fits_a_screen, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     finished all = run_expecting(&p, "help", 0);
     int lines = 0;
@@ -82,9 +81,8 @@ Test(cli_manners, completions_know_every_option)
     place_clear(&p);
 }
 
-Test(cli_manners, new_writes_a_system_that_works_and_never_over_another)
+Test(cli_manners, new_writes_a_system_that_works_and_never_over_another, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     finished f = run_expecting(&p, "new skate", 0);
     cr_expect_not_null(strstr(f.out, "nhsym analyze skate.yaml"));
@@ -106,9 +104,8 @@ Test(cli_manners, new_writes_a_system_that_works_and_never_over_another)
     place_clear(&p);
 }
 
-Test(cli_manners, a_folder_takes_all_outputs)
+Test(cli_manners, a_folder_takes_all_outputs, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     finished f = run_expecting(&p, "analyze sleigh -o out --no-color", 0);
     char *summary = read_here(&p, "out/summary.txt"), *page = read_here(&p, "out/report.html"), *json = read_here(&p, "out/result.json"), *tex = read_here(&p, "out/report.tex"),
@@ -172,9 +169,8 @@ Test(cli_manners, every_result_has_a_folder)
     place_clear(&p);
 }
 
-Test(cli_manners, progress_goes_to_standard_error_when_asked)
+Test(cli_manners, progress_goes_to_standard_error_when_asked, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     finished f = run_expecting(&p, "analyze free_particle --progress always --json -", 0), silent = run_expecting(&p, "analyze free_particle --json -", 0);
     cr_expect(strstr(f.err, " s left: ") || strstr(f.err, " min left: "), "%s", f.err);
@@ -265,9 +261,8 @@ Test(cli_manners, an_interrupted_search_for_accuracy_keeps_a_motion)
     }
 }
 
-Test(cli_manners, an_interrupted_comparison_says_what_was_measured)
+Test(cli_manners, an_interrupted_comparison_says_what_was_measured, PLAIN_ONLY)
 {
-    sweep_plain_only();
     char *out = interrupted_output("benchmark sleigh --budget 300s", "CVODE");
     cr_expect_not_null(strstr(out, "Chaplygin sleigh"), "%s", out);
     free(out);
@@ -284,9 +279,8 @@ Test(cli_manners, an_interrupted_reduction_keeps_the_group)
 }
 
 Test(cli_manners, sigterm_ends_with_what_there_is) { interrupt(SIGTERM); }
-Test(cli_manners, sigint_ends_with_what_there_is)
+Test(cli_manners, sigint_ends_with_what_there_is, PLAIN_ONLY)
 {
-    sweep_plain_only();
     interrupt(SIGINT);
 }
 
@@ -338,9 +332,8 @@ static size_t read_bars(const char *text, int *height, size_t most)
     return n;
 }
 
-Test(cli_manners, spectrum_and_drifts_are_drawn)
+Test(cli_manners, spectrum_and_drifts_are_drawn, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     finished f = run_expecting(&p, "analyze sleigh", 0);
     int height[200];

@@ -53,9 +53,8 @@ static const refusal refusals[] = {
     {"kepler", "--group", "x", 2, {"`x` is not a component of a vector field", "hint: write fields as `x=1; ...`"}},
 };
 
-Test(cli_reduce, groups_that_will_not_do)
+Test(cli_reduce, groups_that_will_not_do, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         const refusal *c = &refusals[i];
@@ -100,9 +99,8 @@ Test(cli_reduce, accuracy)
 }
 
 /* The full motion and every stage say by which method they are computed, and agree to what is asked for: groups of several kinds, one and two stages, equations by stages, a quotient. */
-Test(cli_reduce, accuracy_chooses_methods)
+Test(cli_reduce, accuracy_chooses_methods, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const cases[][2] = {{"sleigh", "1e-5"}, {"sleigh", "1e-10"}, {"suslov", "1e-8"}, {"kepler", "1e-5"}, {"kepler", "1e-10"}, {"crane_lagrangian", "1e-8"}, {"constant_speed", "1e-8"}};
     place p = place_make();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -129,9 +127,8 @@ Test(cli_reduce, accuracy_chooses_methods)
 }
 
 /* A dashpot that stops the relative motion of two masses within 1e-6: what is left when their common motion is divided out is stiff. */
-Test(cli_reduce, accuracy_of_a_stiff_reduced_motion)
+Test(cli_reduce, accuracy_of_a_stiff_reduced_motion, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char text[] = "name: dashpot\nparameters: [{name: c, value: 500000}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                                "lagrangian: (x'^2 + y'^2)/2 - (x - y)^2/2\nforces: [\"x = -c*(x' - y')\", \"y = c*(x' - y')\"]\n";
     place p = place_make();
@@ -151,9 +148,8 @@ Test(cli_reduce, accuracy_of_a_stiff_reduced_motion)
 }
 
 /* Euler's disk passes so near to the vertical that no method knows its motion to 1e-10: what is known, and from when on it is not. */
-Test(cli_reduce, accuracy_that_cannot_be_had)
+Test(cli_reduce, accuracy_that_cannot_be_had, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     char *more[] = {"euler_disk", "--accuracy", "1e-10"};
     finished f = reduce(&p, more, 3);
@@ -220,9 +216,8 @@ Test(cli_reduce, time_limit)
 }
 
 /* The momentum map is that of the Lagrangian, whatever stands in it; and what is only a symmetry of the equations is counted. */
-Test(cli_reduce, momenta_of_any_lagrangian)
+Test(cli_reduce, momenta_of_any_lagrangian, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const struct {
         const char *system, *momentum;
         size_t which, weaker;

@@ -38,9 +38,8 @@ static void expect_words(const char *out, const char *const *word)
 }
 
 /* Every option that the help of a command lists, every command, values, systems and files. */
-Test(completion, bash_completes_everything)
+Test(completion, bash_completes_everything, PLAIN_ONLY)
 {
-    sweep_plain_only();
     if (!has("bash")) return;
     place p = place_with_systems();
     write_here(&p, "mine.yaml", "name: mine\n");

@@ -257,9 +257,8 @@ Test(diff, implicit_symbols_follow_their_rules)
 
 /* ---- size ---- */
 
-Test(diff, deep_expressions_need_no_deep_stack, .timeout = 20)
+Test(diff, deep_expressions_need_no_deep_stack, .timeout = 20, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_dag *d = nh_dag_create();
     nh_ex x = nh_symbol(d, "x"), e = x;
     for (int i = 0; i < 100000; i++) e = nh_call(d, NH_SIN, nh_add(d, e, nh_symbol(d, "a")));
@@ -268,9 +267,8 @@ Test(diff, deep_expressions_need_no_deep_stack, .timeout = 20)
     nh_dag_free(d);
 }
 
-Test(diff, wide_expressions, .timeout = 20)
+Test(diff, wide_expressions, .timeout = 20, PLAIN_ONLY)
 {
-    sweep_plain_only();
     enum { sum_terms = 100000, factors = 1000 };
     nh_dag *d = nh_dag_create();
     nh_ex x = nh_symbol(d, "x"), *part = nh_alloc_array(sum_terms, sizeof *part);

@@ -111,9 +111,8 @@ static void flat_ones(bool plain, uint64_t seed)
 
 Test(distribution, the_classical_growth_vectors) { flat_ones(true, 1); }
 
-Test(distribution, growth_does_not_depend_on_coordinates_and_on_how_constraints_are_written)
+Test(distribution, growth_does_not_depend_on_coordinates_and_on_how_constraints_are_written, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (uint64_t seed = 1; seed <= 2; seed++)
         if (sweep_tries(seed, 2, 1)) flat_ones(false, seed);
 }

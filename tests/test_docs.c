@@ -66,9 +66,8 @@ static int run(const char *command, nh_text *out)
 
 /* ---- the house ---- */
 
-Test(docs, house_is_in_order)
+Test(docs, house_is_in_order, PLAIN_ONLY)
 {
-    sweep_plain_only();
     char folder[most_path], command[most_path + 64];
     nh_text said;
     program_folder(folder);
@@ -254,17 +253,15 @@ static walk walk_page(const char *path)
     return w;
 }
 
-Test(docs, readme_is_true)
+Test(docs, readme_is_true, PLAIN_ONLY)
 {
-    sweep_plain_only();
     walk w = walk_page("README.md");
     cr_expect_geq(w.ran, 3);
     cr_expect_geq(w.shown, 20);
 }
 
-Test(docs, pages_are_true)
+Test(docs, pages_are_true, PLAIN_ONLY)
 {
-    sweep_plain_only();
     DIR *folder = opendir("docs");
     size_t pages = 0, ran = 0;
     cr_assert(folder);

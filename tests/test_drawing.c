@@ -239,9 +239,8 @@ static size_t times_in(const char *text, const char *word)
 }
 
 /* The picture of the catalogue: finite, small, with its title escaped. */
-Test(drawing, a_portrait)
+Test(drawing, a_portrait, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_time_series *c;
     nh_simulation *s = moving("systems/snakeboard.yaml", NULL, 0, &c);
     nh_text text;

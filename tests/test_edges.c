@@ -76,9 +76,8 @@ static void write_clustered(char path[SCRATCH], double r)
 }
 
 /* All samples in a box of edge r about a point: there every function is nearly a polynomial, and many are nearly conserved. */
-Test(edges, samples_that_lie_close_together)
+Test(edges, samples_that_lie_close_together, PLAIN_ONLY)
 {
-    sweep_plain_only();
     size_t i = 0;
     for (double r = 0.1; r > 1e-6; r /= 10) {
         if (!sweep_tries(i++, 2, 4)) continue;

@@ -89,9 +89,8 @@ Test(everywhere, threads)
 }
 
 /* Without the instructions of newer processors; a processor or a library that does not know these names goes on as before. */
-Test(everywhere, processors)
+Test(everywhere, processors, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const old[] = {"OPENBLAS_CORETYPE=Nehalem", "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-AVX2_Usable,-FMA,-FMA_Usable,-AVX512F,-AVX512F_Usable", NULL};
     static const char *const other[] = {"OPENBLAS_CORETYPE=Sandybridge", NULL};
     compare("an old processor", "--threads 1", old, 1e-5, 1e-6);

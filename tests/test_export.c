@@ -386,7 +386,6 @@ static void octave_calls(const batch *b)
 
 static void languages(size_t part)
 {
-    if (part != 3) sweep_plain_only();
     batch b;
     batch_make(&b, part);
     c_program(&b);
@@ -419,7 +418,7 @@ static void languages(size_t part)
     batch_clear(&b);
 }
 
-Test(export, languages_1, .timeout = 300) { languages(0); }
-Test(export, languages_2, .timeout = 300) { languages(1); }
-Test(export, languages_3, .timeout = 300) { languages(2); }
+Test(export, languages_1, .timeout = 300, PLAIN_ONLY) { languages(0); }
+Test(export, languages_2, .timeout = 300, PLAIN_ONLY) { languages(1); }
+Test(export, languages_3, .timeout = 300, PLAIN_ONLY) { languages(2); }
 Test(export, languages_4, .timeout = 300) { languages(3); }

@@ -98,9 +98,8 @@ Test(export_cli, files)
 }
 
 /* With other parameters, or elsewhere, a current may not be conserved. */
-Test(export_cli, where_currents_hold)
+Test(export_cli, where_currents_hold, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     finished f = run_expecting(&p, "export sleigh --to c --of currents", 0);
     cr_expect_not_null(strstr(f.out, " * Phi1, minus the energy: proved for all m, a, k\n"));

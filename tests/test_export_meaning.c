@@ -190,9 +190,8 @@ static void check_in_velocities(const nh_export *x, size_t probe)
     exported_call_clear(&b);
 }
 
-Test(export_meaning, currents, .timeout = 300)
+Test(export_meaning, currents, .timeout = 300, PLAIN_ONLY)
 {
-    sweep_plain_only();
     size_t systems = 0;
     for (size_t i = 0; i < EXPORTED_SYSTEMS; i++) {
         if (!sweep_tries(i, 7, 14)) continue;

@@ -11,9 +11,8 @@
 static const char *const steps[] = {"command", "family", "form", "function", "integrator", "joint"};
 enum { step_count = sizeof steps / sizeof *steps };
 
-Test(extend, the_steps_of_the_docs_work)
+Test(extend, the_steps_of_the_docs_work, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 0; i < step_count; i++) {
         char command[200], line[400], wrong[4000] = "";
         snprintf(command, sizeof command, "sh tests/extend.sh %s %s 2>&1", steps[i], sweep_whole() ? "" : "quick");

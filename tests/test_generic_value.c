@@ -28,9 +28,8 @@ Test(generic_value, zero_in_disguise_and_not)
     mechanics_clear(&x);
 }
 
-Test(generic_value, the_crane_has_no_measure_for_positive_parameters)
+Test(generic_value, the_crane_has_no_measure_for_positive_parameters, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "reduce crane --until 1 --json=r.json");
     cr_assert_eq(f.code, 0, "%s", f.err);

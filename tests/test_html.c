@@ -271,9 +271,8 @@ static void expect_defined(const char *text, const char *line)
 }
 
 /* Text, page and LaTeX leave no formula out; with less room they do, with all that only it needs, and the option that is named shows it. */
-Test(html, what_is_left_out_is_named_with_the_option_that_shows_it)
+Test(html, what_is_left_out_is_named_with_the_option_that_shows_it, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const lines[] = {"analyze car_trailers_3 --option work=1", "reduce car_trailers_3", "analyze crane --option work=1"};
     place p = place_with_systems();
     for (size_t i = 0; i < 3; i++) {
@@ -316,9 +315,8 @@ static void ticks_of(const char *figure, const char *end, char *out, size_t size
 }
 
 /* Plots of time against error stand under one another to be compared: their axes are the same. */
-Test(html, plots_that_are_compared_have_the_same_axes)
+Test(html, plots_that_are_compared_have_the_same_axes, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const captions[] = {"Seconds against error, ", "Time against error, "};
     place p = place_with_systems();
     cJSON *json;
@@ -349,9 +347,8 @@ static const double *numbers_of(const cJSON *array, size_t *count, double *out, 
 
 /* Figures 2 to 7 of Cech and Musilova 2014: the heading is k asin tanh t, the energies are E0 tanh^2 t and E0 / cosh^2 t (eq. 37 and 38 with omega0 = k), the
  * path is symmetric in time about the cusp; and the frequency's scan falls at 1/k. */
-Test(html, figures_of_the_paper_are_computed)
+Test(html, figures_of_the_paper_are_computed, PLAIN_ONLY)
 {
-    sweep_plain_only();
     enum { most = 2000 };
     place p = place_with_systems();
     cJSON *json;
@@ -423,9 +420,8 @@ Test(html, a_hostile_file_runs_nothing)
 }
 
 /* No reference to anything outside the file; namespaces and the meta element are not fetched. */
-Test(html, the_page_needs_nothing_else)
+Test(html, the_page_needs_nothing_else, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     char *page = page_of(&p, "analyze sleigh", 0);
     cr_expect_null(strstr(page, "src="));
@@ -441,9 +437,8 @@ Test(html, the_page_needs_nothing_else)
 }
 
 /* Units of coordinates label the axes, where all of one kind have the same. */
-Test(html, units_are_on_the_axes)
+Test(html, units_are_on_the_axes, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "u.yaml", "coordinates:\n  - {name: phi, type: angle}\n  - {name: x, type: length, unit: km}\n  - {name: y, type: length, unit: km}\n  - {name: u, unit: A}\n"
                              "  - {name: w, unit: V}\nlagrangian: phi'^2 + x'^2 + y'^2 + u'^2 + w'^2 - x^2\n");
@@ -458,9 +453,8 @@ Test(html, units_are_on_the_axes)
 }
 
 /* A disk that is full leaves the page that was there. */
-Test(html, a_page_is_written_whole_or_not_at_all)
+Test(html, a_page_is_written_whole_or_not_at_all, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     write_here(&p, "page.html", "an older page");
     finished f = run_so(&p, &(manner){.file_limit = 20000}, "analyze sleigh --quiet --html page.html");
@@ -614,9 +608,8 @@ Test(html, what_is_no_formula_is_refused)
 }
 
 /* A page explains the words that stand on it, and no others; it has no column in which nothing stands; rules of joints are told. */
-Test(html, words_and_columns_that_are_needed)
+Test(html, words_and_columns_that_are_needed, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     write_here(&p, "crane.yaml", "name: crane\nbodies: [{name: column, mass: 2, inertia: 0.4}, {name: arm, mass: 1, inertia: 0.2, center: [0.5, 0, 0]}]\n"
                                  "joints: [{type: helical, child: column, axis: z, pitch: 0.1, coordinates: [q]}, {type: revolute, parent: column, child: arm, axis: x, coordinates: [w]}]\ngravity: 9.81\n");
@@ -640,9 +633,8 @@ Test(html, words_and_columns_that_are_needed)
 }
 
 /* Letters of the theory are set as formulas wherever they stand; no line begins with the sign behind a formula; a heading has something below it. */
-Test(html, letters_in_sentences_are_formulas)
+Test(html, letters_in_sentences_are_formulas, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     write_here(&p, "slope.yaml", "name: slope\nparameters: [{name: r, value: 0.5}, {name: g, value: 2.1}]\ncoordinates: [x, y, {name: p, type: angle}, {name: h, type: angle}]\n"
                                  "lagrangian: (x'^2 + y'^2)/2 + 3/10*h'^2 + p'^2/5 + g*x\nconstraints: [\"x' = r*h'*cos(p)\", \"y' = r*h'*sin(p)\"]\n");

@@ -20,9 +20,8 @@ static int run(const char *command, char *out, size_t size)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-Test(install, installs_compiles_runs_and_leaves_no_trace)
+Test(install, installs_compiles_runs_and_leaves_no_trace, PLAIN_ONLY)
 {
-    sweep_plain_only();
     char said[20000];
     int  code = run("sh tests/install.sh 2>&1", said, sizeof said);
     cr_expect_eq(code, 0, "%s", said);

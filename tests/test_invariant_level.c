@@ -128,9 +128,8 @@ Test(invariant_level, what_is_no_level_is_refused)
 static const cJSON *get(const cJSON *item, const char *name) { return cJSON_GetObjectItemCaseSensitive(item, name); }
 
 /* Goryachev's and Chaplygin's top from the family of all tops with two equal moments, which holds no level: [BorisovMamaev2005]. */
-Test(invariant_level, goryachev_and_chaplygin_are_found)
+Test(invariant_level, goryachev_and_chaplygin_are_found, WHOLE_ONLY)
 {
-    sweep_whole_only();
     place p = place_make();
     char line[500];
     snprintf(line, sizeof line, "classify %.300s/tests/data/classify/top.yaml --over C --shape --degree 3 --on p_phi=0 --json - --quiet", p.project);

@@ -386,9 +386,8 @@ static void *analyse(void *question)
     return json;
 }
 
-Test(library, two_contexts_work_at_once)
+Test(library, two_contexts_work_at_once, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_question question[] = {{.system = "sleigh"}, {.system_text = oscillator}, {.system = "kepler", .options = "threads=2"}};
     enum { count = sizeof question / sizeof *question };
     pthread_t thread[count];
@@ -453,9 +452,8 @@ Test(library, every_document_can_be_had)
     close_one(&o);
 }
 
-Test(library, the_example_compiles_and_prints_the_currents)
+Test(library, the_example_compiles_and_prints_the_currents, PLAIN_ONLY)
 {
-    sweep_plain_only();
     char command[1000], line[2000], path[SCRATCH];
     bool momentum = false, energy = false;
     const char *build = getenv("NHSYM");

@@ -220,9 +220,8 @@ Test(limits, hopeless_work_is_refused)
 /* ---- a signal while the output is written ---- */
 
 /* Standard output is a pipe that nobody empties, so that the program is writing when the signal comes. */
-Test(limits, a_signal_ends_the_writing_at_once)
+Test(limits, a_signal_ends_the_writing_at_once, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     char command[900];
     write_here(&p, "page.html", "an older page");

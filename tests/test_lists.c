@@ -34,9 +34,8 @@ static void alike(place *p, const char *a, const char *b)
     finished_clear(&two);
 }
 
-Test(lists, in_one_piece_or_in_several)
+Test(lists, in_one_piece_or_in_several, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const pairs[][2] = {
         {"simulate sleigh --initial omega=2 --until 1 --step 0.5 --set m=3 --set k=3", "simulate sleigh --initial omega=2 --until 1 --step 0.5 --set 'm = 3; k=3'"},
         {"simulate sleigh --initial omega=2,v=1 --until 1 --step 0.5", "simulate sleigh --initial omega=2 --initial ' v = 1 ' --until 1 --step 0.5"},

@@ -133,9 +133,8 @@ static const char *where(const stage *g, const char *key)
 }
 
 /* Eighteen parameters, four shape coordinates: exactly which values have a measure, and that no positive ones do. */
-Test(measure_conditions, crane)
+Test(measure_conditions, crane, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const line = " --group x=1;y=1;phi1=1;psi3=1;x=-y,y=x,theta=1";
     stage g = open_stage("systems/crane.yaml", line, 0);
     const cJSON *measure = oracle_get(g.s.stage, "measure");

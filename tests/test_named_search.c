@@ -63,9 +63,8 @@ Test(named_search, airy)
 
 /* Lengthening pendulum [Cauchy], powers of time, an exponential that fades,
  * Bessel's own equation. */
-Test(named_search, bessel)
+Test(named_search, bessel, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const systems[] = {
         HEAD("{name: g, value: 9}, {name: a, value: 1}, {name: v, value: 0.3}")
             "lagrangian: (a + v*t)^2*x'^2/2 - g*(a + v*t)*x^2/2\ndomain: {t: [0.1, 2]}\n",
@@ -78,9 +77,8 @@ Test(named_search, bessel)
         if (sweep_tries(i, 2, 4)) expect_named(ask_text(systems[i]), 2, "bessel_", 2);
 }
 
-Test(named_search, kummer)
+Test(named_search, kummer, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_named(ask_text(HEAD("{name: a, value: 1.3}") "lagrangian: x'^2/2 + (t^2/4 + "
                                                         "a)*x^2/2\ndomain: {t: [0.5, 2]}\n"),
                  2, "hyp", 2);
@@ -91,9 +89,8 @@ Test(named_search, kummer)
                  2, "hyp", 2);
 }
 
-Test(named_search, gauss)
+Test(named_search, gauss, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_named(ask_text(HEAD("{name: n, value: 1.3}") "lagrangian: (1 - t^2)*x'^2/2 - n*(n + "
                                                         "1)*x^2/2\ndomain: {t: [0.1, 0.8]}\n"),
                  2, "hyp2f1", 2);
@@ -105,9 +102,8 @@ Test(named_search, gauss)
 
 /* The rolling disk, whose parameters a and b are conjugate: k^2 = m C r^2/(A (C
  * + m r^2)) [Appell, Korteweg]. */
-Test(named_search, rolling_disk, .timeout = 120)
+Test(named_search, rolling_disk, .timeout = 120, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *r = ask("systems/rolling_disk.yaml");
     for (size_t k = 0; k < r->count; k++) {
         char *text = nh_print_string(r->model->dag, r->found[k].phi);
@@ -120,9 +116,8 @@ Test(named_search, rolling_disk, .timeout = 120)
 
 /* Euler's disk with thickness is "solved by using hypergeometric functions" [Cendra and Diaz 2007]: with singular points i, -i
  * and infinity of cot theta, for all parameters; there is no other integral of degree 2. */
-Test(named_search, euler_disk, .timeout = 300)
+Test(named_search, euler_disk, .timeout = 300, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *r = ask("systems/euler_disk.yaml");
     cr_assert(r->completeness[NH_COMPLETE_IN_COORDINATES].degree >= 2 && r->completeness[NH_COMPLETE_IN_COORDINATES].generic);
     expect_named(r, 3, "riemann_", 2);
@@ -153,9 +148,8 @@ static void expect_equation(nh_analysis *r, size_t series, const char *equation)
 }
 
 /* Mathieu's equation has no solution with a name here. */
-Test(named_search, equations_without_names, .timeout = 120)
+Test(named_search, equations_without_names, .timeout = 120, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_equation(ask_text(HEAD("{name: a, value: 1.1}, {name: e, value: 0.4}") "lagrangian: "
                                                                                   "x'^2/2 - (a + "
                                                                                   "e*cos(2*t))*x^"
@@ -168,17 +162,15 @@ Test(named_search, equations_without_names, .timeout = 120)
 #define INVERSE_SQUARE(potential, domain) \
     HEAD("{name: k, value: 0.8}, {name: w, value: 1.3}") "lagrangian: x'^2/2 - (" potential ")*x^2/2 - k/x^2\ndomain: {x: [0.5, 2], t: " domain "}\n"
 
-Test(named_search, products_of_named_functions)
+Test(named_search, products_of_named_functions, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_named(ask_text(INVERSE_SQUARE("w*t", "[0.5, 2]")), 2, "airy_", 2);
     expect_named(ask_text(INVERSE_SQUARE("-w*t^2", "[0.5, 1.5]")), 2, "bessel_", 2);
     expect_equation(ask_text(INVERSE_SQUARE("1 + w*cos(t)", "[0, 1]")), 2, "f(t)*(x'^2 + 2*k/x^2) + .., f = u*v with solutions u and v of u'' = (-w*cos(t) - 1)*u");
 }
 
 /* y'' = -z and z' = t y couple three words and no two of them: an equation of third order that is no symmetric square. */
-Test(named_search, third_order_without_names)
+Test(named_search, third_order_without_names, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_equation(ask_text("name: test\ncoordinates: [y, z]\nlagrangian: (y'^2 + z'^2)/2 - y*z\nconstraints: [\"z' = t*y\"]\ndomain: {t: [0.5, 1.5]}\n"), 3, "f''' = ");
 }

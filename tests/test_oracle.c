@@ -131,9 +131,8 @@ Test(oracle, nonlinear_constraint_in_space_with_a_symmetry_of_case_2)
 
 /* ---- Euler's disk ---- */
 
-Test(oracle, disk)
+Test(oracle, disk, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const key[ORACLE_QUANTITIES] = {"Lbar", "Lbar_a", "Abar", "Bbar", "acc", "ydd", "mu", "eps_prime"};
     static const char *const parameter[] = {"r", "e", "M", "I1", "I3", "g"};
     cJSON *data = oracle_read("tests/data/disk_oracle.json");
@@ -283,9 +282,8 @@ Test(oracle, drifts_of_the_sleighs_currents)
 }
 
 /* Euler's disk: the reference motions are from an extrapolation method in extended precision (errors below 1e-20). */
-Test(oracle, motions_of_the_disk)
+Test(oracle, motions_of_the_disk, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const parameter[] = {"r", "e", "M", "I1", "I3", "g"};
     cJSON *data = oracle_read("tests/data/disk_oracle.json");
     const cJSON *set, *motion;

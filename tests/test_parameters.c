@@ -54,9 +54,8 @@ static cJSON *all_hold(const char *arguments)
 /* ---- currents ---- */
 
 /* At k = 1 the arguments have no letter, and the formulas hold for all k nevertheless. */
-Test(parameters, a_value_that_only_looks_special_is_none)
+Test(parameters, a_value_that_only_looks_special_is_none, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *root = answer("analyze sleigh --json - --set k=1 --set a=0.7");
     const cJSON *phi = current(root, "m*(v*sin(phi/k) + a*k*omega*cos(phi/k))");
     cr_assert_not_null(phi, "the current that is a momentum at k = 1 is not there with its parameters");
@@ -64,9 +63,8 @@ Test(parameters, a_value_that_only_looks_special_is_none)
     cJSON_Delete(root);
 }
 
-Test(parameters, a_claim_is_verified_with_the_values_that_it_needs)
+Test(parameters, a_claim_is_verified_with_the_values_that_it_needs, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *fixed = answer("verify sleigh --json - --set k=1 --set a=0.7 --current v*sin(phi)+a*omega*cos(phi)"),
           *free = answer("verify sleigh --json - --current v*sin(phi/k)+a*k*omega*cos(phi/k)"),
           *numbers = answer("verify sleigh --json - --set k=1 --set a=0.7 --current 10*v*sin(phi)+7*omega*cos(phi)");
@@ -80,9 +78,8 @@ Test(parameters, a_claim_is_verified_with_the_values_that_it_needs)
 }
 
 /* The relation of the rates is the proof, where the sum of the rates is too long for one. */
-Test(parameters, momenta_of_three_bodies_hold_for_all_masses)
+Test(parameters, momenta_of_three_bodies_hold_for_all_masses, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *root = answer("analyze three_bodies --json -");
     const cJSON *item;
     cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "currents")) cr_expect_str_eq(text_of(item, "holds"), "all parameters", "%s", text_of(item, "expression"));
@@ -132,26 +129,23 @@ static void expect_names(const named_case *c)
 }
 
 /* Frequencies are no products of parameters: (H +- sqrt(H^2 - 4 a M))/(2 M), and whole numbers at some values. */
-Test(parameters, frequencies_of_a_trap_are_named)
+Test(parameters, frequencies_of_a_trap_are_named, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_names(&(named_case){"name: s\nparameters: {a: 0.7, H: 3.1, M: 1.9}\ncoordinates: [u, v]\n"
                                "lagrangian: M*(u'^2 + v'^2)/2 + H*(u*v' - v*u')/2 + a*(u^2 + v^2)/2\n",
                                {"", "--set a=0.4321 --set H=2.7183 --set M=1.1", "--set a=2 --set H=3 --set M=1"}, 4});
 }
 
-Test(parameters, frequencies_in_a_turning_frame_are_named)
+Test(parameters, frequencies_in_a_turning_frame_are_named, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_names(&(named_case){"name: s\nparameters: {w: 2.3, W: 0.31}\ncoordinates: [x, y]\n"
                                "lagrangian: (x'^2 + y'^2)/2 + W*(x*y' - y*x') - (w^2 - W^2)/2*(x^2 + y^2)\n",
                                {"", "--set w=1.9173 --set W=0.7712", "--set w=3 --set W=1"}, 4});
 }
 
 /* A decay and a frequency together; two decays. */
-Test(parameters, rates_of_damped_motions_are_named)
+Test(parameters, rates_of_damped_motions_are_named, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char damped[] = "name: s\nparameters: {m: 1.3, k: 2.1, c: 0.3, b: 0.7}\ncoordinates: [x, y]\n"
                                  "lagrangian: m*(x'^2 + y'^2)/2 - k*(x^2 + y^2)/2 - b*x*y\nforces: [\"x = -c*x'\", \"y = -c*y'\"]\n";
     expect_names(&(named_case){damped, {"", "--set m=0.9174 --set k=1.7731 --set c=0.4 --set b=0.3219"}, 4});
@@ -161,9 +155,8 @@ Test(parameters, rates_of_damped_motions_are_named)
 }
 
 /* The speed is kept: momenta grow with exp(E x/(M u^2)). */
-Test(parameters, rates_of_a_thermostat_are_named)
+Test(parameters, rates_of_a_thermostat_are_named, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_names(&(named_case){"name: s\nparameters: {M: 0.83, E: 1.37, u: 0.91}\ncoordinates: [x, y, z]\nlagrangian: M*(x'^2 + y'^2 + z'^2)/2 + E*x\n"
                                "constraints: [\"x'^2 + y'^2 + z'^2 = u^2\"]\ndependent: [z]\ndomain: {x': [-0.4, 0.4], y': [-0.4, 0.4], z': [0.3, 0.9]}\n",
                                {"", "--set M=1.2719 --set E=0.9123 --set u=1.1", "--set M=2 --set E=3 --set u=1"}, 5});
@@ -214,18 +207,16 @@ static void expect_related(const char *system, const char *list, const char *par
 }
 
 /* What holds at k = 18, m = 2, w = 3 holds for k = m w^2. */
-Test(parameters, values_that_need_only_be_related)
+Test(parameters, values_that_need_only_be_related, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_related("name: s\nparameters: {k: 18, m: 2, w: 3}\ncoordinates: [x, y]\nlagrangian: m*(x'^2 + y'^2)/2 - k*x^2/2 - m*w^2*y^2/2\n", "further_integrals", "k", "m*w^2");
     expect_related("name: s\nparameters: {m: 1.3, a: 0.7, b: 1.4}\ncoordinates: [x, y]\nlagrangian: m*(x'^2 + y'^2 - a^2*x^2 - b^2*y^2)/2\n", "further_integrals", "b", "2*a");
     expect_related("name: s\nparameters: {a: 2, b: 2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - a*x^2 - b*y^2)/2 - (x^2 + y^2)^2\n", "currents", "b", "a");
 }
 
 /* Stiffnesses 1, 4, 7 make a - 2 b + c zero, and with it a term of the integral of a particle on a sphere. */
-Test(parameters, no_term_vanishes_at_the_given_values)
+Test(parameters, no_term_vanishes_at_the_given_values, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_names(&(named_case){"name: s\nparameters: {a: 1, b: 4, c: 7}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2 - a*x^2 - b*y^2 - c*z^2)/2\n"
                                "constraints: [\"z' = -(x*x' + y*y')/z\"]\n", {"", "--set b=2.3 --set c=9"}, 3});
 }
@@ -240,9 +231,8 @@ static void expect_unknown(const cJSON *root, const char *set, const char *unkno
 }
 
 /* s = 5/8 at M = 1 and c = 5/4 is c/(2 M). */
-Test(parameters, several_unknowns_at_once_are_named)
+Test(parameters, several_unknowns_at_once_are_named, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const set[] = {"", "--set M=1 --set c=1.25 --set k=2", "--set M=1.7192 --set k=2.3317 --set c=0.61"};
     place p = place_make();
     write_here(&p, "s.yaml", "name: s\nparameters: {M: 1, k: 4, c: 1}\ncoordinates: [x]\n"
@@ -263,18 +253,16 @@ Test(parameters, several_unknowns_at_once_are_named)
     place_clear(&p);
 }
 
-Test(parameters, rates_of_shipped_systems_are_named)
+Test(parameters, rates_of_shipped_systems_are_named, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const name[] = {"penning_trap", "omni_robot", "constant_speed", "foucault_pendulum"};
     for (size_t i = 0; i < 4; i++)
         if (sweep_tries(i, 4, 4)) cJSON_Delete(all_hold(name[i]));
 }
 
 /* Gamma is long for want of a short M^-1; the fields are short. */
-Test(parameters, coefficients_of_long_relations_have_parameters)
+Test(parameters, coefficients_of_long_relations_have_parameters, WHOLE_ONLY)
 {
-    sweep_whole_only();
     cJSON *ball = all_hold("chaplygin_ball"), *other = all_hold("chaplygin_ball --set A=1.2 --set B=1.6 --set r=0.5");
     const cJSON *item;
     cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(ball, "currents"))
@@ -301,24 +289,21 @@ static void expect_same_formulas(const char *system, const char *sets)
 }
 
 /* Which of two equally simple currents comes first, and their signs, follow from the formulas; numbers of many digits make no relation too long. */
-Test(parameters, order_and_signs_do_not_depend_on_the_values)
+Test(parameters, order_and_signs_do_not_depend_on_the_values, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_same_formulas("chaplygin_ball", "--set A=6 --set B=7 --set C=9 --set m=5 --set r=8");
     if (sweep_whole()) expect_same_formulas("chaplygin_ball", "--set A=1.4456 --set B=1.8124 --set C=2.0697 --set m=1.6325 --set r=0.58974");
 }
 
 /* 0.8246527771 is no 475/576. */
-Test(parameters, a_fraction_near_a_rate_is_not_taken_for_it)
+Test(parameters, a_fraction_near_a_rate_is_not_taken_for_it, WHOLE_ONLY)
 {
-    sweep_whole_only();
     expect_same_formulas("omni_robot", "--set m=5.2566 --set I=0.21323 --set J=0.0017997 --set L=0.25116 --set r=0.049145");
 }
 
 /* nu and 1 - nu are one rate: whichever is below 1/2, the same one is named. */
-Test(parameters, a_rate_is_named_on_either_side_of_one_half)
+Test(parameters, a_rate_is_named_on_either_side_of_one_half, WHOLE_ONLY)
 {
-    sweep_whole_only();
     expect_same_formulas("sleigh_inertia", "--set m=6 --set J=7 --set a=9");
     expect_same_formulas("sleigh_inertia", "--set m=1.3144 --set J=0.70769 --set a=0.49361");
 }
@@ -327,9 +312,8 @@ Test(parameters, a_rate_is_named_on_either_side_of_one_half)
 
 static const cJSON *momentum(const cJSON *root, size_t i) { return cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(root, "momenta"), (int)i); }
 
-Test(parameters, gauge_momenta_have_parameters_whatever_the_values)
+Test(parameters, gauge_momenta_have_parameters_whatever_the_values, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const line[] = {"reduce vertical_disk --json -", "reduce vertical_disk --json - --set r=0.6173", "reduce vertical_disk --json - --set r=2 --set J=3"};
     for (size_t i = 0; i < 3; i++) {
         cJSON *root = answer(line[i]);
@@ -342,9 +326,8 @@ Test(parameters, gauge_momenta_have_parameters_whatever_the_values)
 }
 
 /* A hoop that rolls round a cone: its exponent and what it is a power of hold three parameters. */
-Test(parameters, an_exponent_of_three_parameters)
+Test(parameters, an_exponent_of_three_parameters, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "cone.yaml", "name: cone\ncoordinates: [r, {name: th, type: angle}, {name: psi, type: angle}]\nparameters: {m: 1.3, I: 0.7, al: 0.4, g: 9.81, R: 0.5}\n"
                                 "lagrangian: m/2*(r'^2/sin(al)^2 + r^2*th'^2) + I/2*psi'^2 - m*g*r/tan(al)\nconstraints: [\"r*th' - R*psi' = 0\"]\ndomain: {r: [0.5, 2]}\n");
@@ -359,9 +342,8 @@ Test(parameters, an_exponent_of_three_parameters)
 }
 
 /* Integrals in whose formulas a root of the equations of motion stands, of which the parameters divide the radicand. */
-Test(parameters, a_root_with_parameters_below)
+Test(parameters, a_root_with_parameters_below, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_names(&(named_case){
         "name: electric\ncoordinates: [x, y]\nparameters: {m: 1, c: 1, q: 1, E: 0.4}\n"
         "lagrangian: -m*c^2*sqrt(1 - (x'^2 + y'^2)/c^2) + q*E*x\n",
@@ -370,9 +352,8 @@ Test(parameters, a_root_with_parameters_below)
 }
 
 /* |u| and sign(u) stand in the accelerations together. */
-Test(parameters, momenta_beside_a_kink)
+Test(parameters, momenta_beside_a_kink, PLAIN_ONLY)
 {
-    sweep_plain_only();
     expect_names(&(named_case){
         "name: spring\ncoordinates: [x, y]\nparameters: {m: 1, M: 2, k: 3, l: 0.5}\n"
         "lagrangian: m/2*x'^2 + M/2*y'^2 - k/2*(abs(x - y) - l)^2\n",
@@ -381,9 +362,8 @@ Test(parameters, momenta_beside_a_kink)
 }
 
 /* The masses' ratio, although both sums of distances keep their roots in the potential. */
-Test(parameters, generators_have_parameters_whatever_the_values)
+Test(parameters, generators_have_parameters_whatever_the_values, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const line[] = {"reduce three_bodies --json -", "reduce three_bodies --json - --set a=1.43778 --set b=0.86224"};
     for (size_t i = 0; i < 2; i++) {
         cJSON *root = answer(line[i]), *group = cJSON_GetObjectItemCaseSensitive(root, "group");
@@ -396,9 +376,8 @@ Test(parameters, generators_have_parameters_whatever_the_values)
     }
 }
 
-Test(parameters, a_second_group_has_parameters)
+Test(parameters, a_second_group_has_parameters, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *root = answer("reduce routh_sphere --json -");
     const cJSON *second = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(root, "stages"), 1), *field = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(second, "generators"), 0);
     cr_expect_str_eq(text_of(field, "p"), "r/l");
@@ -407,9 +386,8 @@ Test(parameters, a_second_group_has_parameters)
 }
 
 /* For c = 0 a current was divided by c, and called proved. */
-Test(parameters, no_current_is_divided_by_what_is_zero)
+Test(parameters, no_current_is_divided_by_what_is_zero, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *json = answer("analyze two_wheel_carriage --json - --quiet --set c=0");
     const cJSON *item;
     cr_expect_eq(cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(json, "currents")), 7);

@@ -71,9 +71,8 @@ Test(parameters_reduce, constants_of_a_group_are_symbols)
     cJSON_Delete(one);
 }
 
-Test(parameters_reduce, brackets_in_words_have_symbols)
+Test(parameters_reduce, brackets_in_words_have_symbols, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "reduce three_bodies");
     cr_expect_not_null(strstr(f.out, "[e_1,e_4] = -(a + b)/a e_2"), "%s", f.out);
@@ -82,9 +81,8 @@ Test(parameters_reduce, brackets_in_words_have_symbols)
 }
 
 /* The fields of joints: null vectors of conditions with parameters. */
-Test(parameters_reduce, fields_of_joints_have_symbols)
+Test(parameters_reduce, fields_of_joints_have_symbols, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *file = answer(helix, ""), *other = answer(helix, "--set h=0.31416 --set l=1.27 --set m=0.9");
     same(at(file, "joints"), at(other, "joints"), "fields of joints");
     cJSON_Delete(file);
@@ -142,9 +140,8 @@ Test(parameters_reduce, a_density_says_for_which_values)
 }
 
 /* Near a pole of the coordinates 1e-9 of what has to be integrated is lost: at these values the density was not recognised. */
-Test(parameters_reduce, a_density_is_found_for_values_far_apart)
+Test(parameters_reduce, a_density_is_found_for_values_far_apart, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "reduce ball_on_slope --set m=6 --set J=7 --set r=9 --set b=5");
     cr_expect_not_null(strstr(f.out, "density = cos(theta)*cos(psi)\n"), "%s", f.out);
@@ -197,9 +194,8 @@ Test(parameters_reduce, reductions_are_the_same_letter_for_letter)
 }
 
 /* There is no 1/r for r = 0; for c = 0 the file's equations of motion are not finite; for g = 0 there are other generators, whose combinations the file's are. */
-Test(parameters_reduce, what_a_special_value_changes_is_told_apart)
+Test(parameters_reduce, what_a_special_value_changes_is_told_apart, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const struct {
         const char *path, *name;
         formula_fate fate;

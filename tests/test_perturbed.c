@@ -6,9 +6,8 @@
 static const char *const systems[] = {"appell_hamel", "contact_oscillator", "free_particle", "henon_heiles_kk", "isotropic_oscillator", "kepler", "knife_edge", "lagrange_top",
                                       "neumann", "nonholonomic_particle", "relativistic_particle", "sleigh", "spherical_pendulum", "suslov_principal", "two_wheel_carriage"};
 
-Test(perturbed, what_nearly_is_conserved_is_told_apart)
+Test(perturbed, what_nearly_is_conserved_is_told_apart, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_options options;
     size_t tried = 0, broken = 0, survived = 0;
     nh_options_default(&options);

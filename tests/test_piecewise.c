@@ -331,9 +331,8 @@ Test(piecewise, motions_pass_from_branch_to_branch)
 
 /* Where L jumps, or the constraints give other velocities, the equations of motion contain an impulse: velocities that go through unchanged are no
  * motion, and what they conserve is no current.  What is left of L = d/dt (x |x|) and so on is none. */
-Test(piecewise, an_impulse_is_no_passage)
+Test(piecewise, an_impulse_is_no_passage, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const struct {
         const char *text, *region;
     } of[] = {

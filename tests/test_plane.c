@@ -269,9 +269,8 @@ static void random_family(planted what, uint64_t *random, char *expected, size_t
     nh_text_clear(&text);
 }
 
-Test(plane, nothing_is_found_where_there_is_nothing)
+Test(plane, nothing_is_found_where_there_is_nothing, PLAIN_ONLY)
 {
-    sweep_plain_only();
     uint64_t random = 81;
     char none[100];
     for (int round = 0; round < 6; round++) random_family(NOTHING, &random, none, sizeof none);
@@ -284,9 +283,8 @@ Test(plane, planted_curves_are_found)
     for (int round = 0; round < 6; round++) random_family(CURVE, &random, expected, sizeof expected);
 }
 
-Test(plane, planted_points_are_found)
+Test(plane, planted_points_are_found, PLAIN_ONLY)
 {
-    sweep_plain_only();
     uint64_t random = 83;
     char expected[100];
     for (int round = 0; round < 6; round++) random_family(POINT, &random, expected, sizeof expected);
@@ -378,9 +376,8 @@ static void write_system(const place *p, const char *parameters, const char *lag
 }
 
 /* The curve la = 1 + 1/mu, and a point on it where the other coupling ends as well; a curve m = 1 with k free. */
-Test(plane, points_on_curves_are_found)
+Test(plane, points_on_curves_are_found, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_system(&p, "mu: 0.4, la: 0.3", "(x'^2 + y'^2)/2 - x^4 - (mu - 3)*y^3 - (mu*la - 1 - mu)*(x^2*y + x*y^3)");
     finished f = run_expecting(&p, "classify a.yaml --over mu,la --degree 2", 0);

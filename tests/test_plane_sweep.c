@@ -43,9 +43,8 @@ static void expect(const cJSON *root, const char *first, const char *second, con
 static const cJSON *degree(const cJSON *root, int d) { return cJSON_GetArrayItem(key(root, "degrees"), d - 1); }
 
 /* What determinants of size 31 say (test_plane), by lines. */
-Test(plane_sweep, lines_find_what_determinants_find)
+Test(plane_sweep, lines_find_what_determinants_find, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *root = classified("henon_heiles.yaml --over B,eps --set A=1 --degree 4 --option plane=20 --option lines=16");
     expect(root, "B", "eps", "eps - 2 = 0@2 1,1/3@2 16,16/3@4");
     cr_expect_eq(key(degree(root, 3), "lines")->valueint, 0);
@@ -55,9 +54,8 @@ Test(plane_sweep, lines_find_what_determinants_find)
 }
 
 /* What lies beyond the height is not found, and not excluded either. */
-Test(plane_sweep, no_more_is_excluded_than_was_looked_at)
+Test(plane_sweep, no_more_is_excluded_than_was_looked_at, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *root = classified("henon_heiles.yaml --over B,eps --set A=1 --degree 4 --option plane=20 --option lines=7");
     expect(root, "B", "eps", "eps - 2 = 0@2 1,1/3@2");
     cr_expect_eq(key(degree(root, 4), "excluded_height")->valueint, 7);
@@ -75,9 +73,8 @@ Test(plane_sweep, unknown_curves_end_it)
 }
 
 /* Tops with the centre of mass on an axis: Lagrange's, which are a curve, and Kovalevskaya's, once for each equatorial axis; not Euler's, which has no weight. */
-Test(plane_sweep, heavy_tops)
+Test(plane_sweep, heavy_tops, WHOLE_ONLY)
 {
-    sweep_whole_only();
     cJSON *root = classified("heavy_tops.yaml --over b,c --shape --degree 4 --option plane=20 --option lines=2");
     expect(root, "b", "c", "c - b = 0@1 1,2@4 2,1@4");
     cr_expect_eq(cJSON_GetArraySize(key(root, "degrees")), 4);

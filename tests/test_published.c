@@ -475,18 +475,16 @@ Test(published, a_root_that_the_system_has_is_no_second_letter)
 }
 
 /* The fourth has waves in t, with the rates that the integrals have: known before, so that they cost nothing. */
-Test(published, waves_in_time_are_within_the_work)
+Test(published, waves_in_time_are_within_the_work, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *r = analysed_row("Tremblay, Turbiner and Winternitz, k = 1/2");
     cr_expect_eq(independent_and_proved(r), 4);
     nh_analysis_free(r);
 }
 
 /* The fourth has waves of the rate 2 sqrt(k/m), which is none of the numbers of the system, and holds for all k and m. */
-Test(published, rates_in_time_are_roots_of_parameters)
+Test(published, rates_in_time_are_roots_of_parameters, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *r = analysed_row("Tremblay, Turbiner and Winternitz, k = 2, with a spring");
     cr_expect_eq(independent_and_proved(r), 4);
     for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "%s", r->found[k].name);
@@ -508,10 +506,9 @@ Test(published, without_work_nothing_is_constructed_and_that_is_said)
 #define NARROW_B2 \
     "parameters: {g: 0.4, h: 0.7}\n" PLANE "x^2 - y^2 - g/(x - y)^2 - g/(x + y)^2 - h/x^2 - h/y^2\ndomain: {x: [0.2, 0.25], y: [1.5, 1.55]}\n"
 
-Test(published, integrals_with_nearly_dependent_poles)
+Test(published, integrals_with_nearly_dependent_poles, PLAIN_ONLY)
 {
     static const double words[] = {0, 150};
-    sweep_plain_only();
     for (size_t i = 0; i < 2; i++) {
         nh_analysis *r = analysed_with(NARROW_B2, -1, words[i]);
         const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
@@ -531,9 +528,8 @@ static bool has_relation(const nh_analysis *r, const char *left, const char *rig
 }
 
 /* Two components of Runge and Lenz's vector depend on the third, on energy and momentum: A L = 0 and A^2 = k^2 - 2 E L^2 / m, with Phi1 = -E. */
-Test(published, integrals_that_depend_on_others_and_their_relations)
+Test(published, integrals_that_depend_on_others_and_their_relations, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *r = analysed("parameters: {m: 1.3, k: 0.8}\ncoordinates: [x, y, z]\nlagrangian: m*(x'^2 + y'^2 + z'^2)/2 + k/sqrt(x^2 + y^2 + z^2)\n", -1);
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
     cr_assert_eq(r->independent, 5);
@@ -573,9 +569,8 @@ Test(published, generic_systems_have_no_further_integrals)
 }
 
 /* cos(sqrt(a) t) beside cos(t): no rational multiples of one angle, which residues show by the sign of the root; of a = 4 they are. */
-Test(published, frequencies_that_are_roots_are_followed)
+Test(published, frequencies_that_are_roots_are_followed, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const value[] = {"2.3", "4"};
     for (size_t i = 0; i < 2; i++) {
         char text[300];

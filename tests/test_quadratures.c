@@ -187,29 +187,25 @@ static void check_integrals(nh_analysis *r, const char *name, size_t independent
 
 /* ---- systems that ship ---- */
 
-Test(quadratures, sleigh)
+Test(quadratures, sleigh, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check(ask_file("systems/sleigh.yaml"), "sleigh", 5, 6);
 }
 
-Test(quadratures, constant_speed)
+Test(quadratures, constant_speed, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check(ask_file("systems/constant_speed.yaml"), "constant speed", 5, 6);
 }
-Test(quadratures, skate_on_belt)
+Test(quadratures, skate_on_belt, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check(ask_file("systems/skate_on_belt.yaml"), "skate on a belt", 5, 6);
 }
 Test(quadratures, knife_edge) { check(ask_file("systems/knife_edge.yaml"), "knife edge", 5, 6); }
 Test(quadratures, free_particle) { check(ask_file("systems/free_particle.yaml"), "free particle", 6, 7); }
 
 /* The sleigh's third current [CechMusilova2014, sec. 4.2] for all values of the parameters, although its position needs k = 2. */
-Test(quadratures, time_of_the_sleigh)
+Test(quadratures, time_of_the_sleigh, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_analysis *r = ask_file("systems/sleigh.yaml");
     bool found = false;
     for (size_t k = 0; k < r->count; k++) {
@@ -223,9 +219,8 @@ Test(quadratures, time_of_the_sleigh)
 /* ---- others ---- */
 
 /* Drag with the square of the speed: x' |x'| has a sign. */
-Test(quadratures, drag)
+Test(quadratures, drag, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check(ask("name: drag\nparameters: [{name: m, value: 2}, {name: d, value: 0.3}]\n"
               "coordinates: [{name: x, type: length}, {name: y, type: length}]\nlagrangian: m/2*(x'^2 + y'^2)\n"
               "forces: [\"x = -d*x'*sqrt(x'^2 + y'^2)\", \"y = -d*y'*sqrt(x'^2 + y'^2)\"]\n"
@@ -250,9 +245,8 @@ Test(quadratures, drag_along_the_path)
     nh_analysis_free(r);
 }
 
-Test(quadratures, skate_on_slope)
+Test(quadratures, skate_on_slope, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check(ask("name: slope\nparameters: [{name: m, value: 2}, {name: J, value: 1}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"
               "coordinates: [{name: phi, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
               "lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 + m*b*x\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
@@ -261,9 +255,8 @@ Test(quadratures, skate_on_slope)
 }
 
 /* A surface on which only the energy and one momentum are polynomials. */
-Test(quadratures, surface)
+Test(quadratures, surface, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check(ask("name: surface\nparameters: [{name: m, value: 2}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
               "lagrangian: m/2*(1 + x^2)*(x'^2 + y'^2)\n"), "surface", 4, 5);
 }
@@ -321,9 +314,8 @@ Test(quadratures, a_formula_has_no_poles_of_its_derivation)
     nh_analysis_free(r);
 }
 
-Test(quadratures, car)
+Test(quadratures, car, WHOLE_ONLY)
 {
-    sweep_whole_only();
     check_integrals(ask_car("0.4", "log("), "car", 4, 7, 2);
     check_integrals(ask_car("3", "atan("), "car of large inertia", 4, 7, 2);
 }
@@ -426,16 +418,14 @@ Test(quadratures, real_where_the_motion_is_bound)
 /* ---- integrals without closed form ---- */
 
 /* cos of an exponential has no elementary integral: the skate that turns ever slower keeps three currents, and no false one; its place is an integral. */
-Test(quadratures, skate_that_turns_slower)
+Test(quadratures, skate_that_turns_slower, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check_integrals(ask_file("systems/skate_with_friction.yaml"), "skate with friction", 3, 6, 2);
 }
 
 /* One integral below another: the speed on a slope, and the place. */
-Test(quadratures, skate_on_slope_that_turns_slower)
+Test(quadratures, skate_on_slope_that_turns_slower, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check_integrals(ask("name: slope\nparameters: [{name: m, value: 1.2}, {name: J, value: 0.4}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"
                         "coordinates: [{name: phi, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
                         "lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 + m*b*x\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
@@ -444,9 +434,8 @@ Test(quadratures, skate_on_slope_that_turns_slower)
 }
 
 /* Time as an elliptic integral of the place; of a genus above one; of an angle. */
-Test(quadratures, one_dimension)
+Test(quadratures, one_dimension, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check_integrals(ask("name: well\nparameters: [{name: m, value: 1.3}]\ncoordinates: [{name: x, type: length}]\nlagrangian: m/2*x'^2 - x^4/4 - x^6/6\n"), "well", 1, 3, 1);
     check_integrals(ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*h'^2 + m*g*cos(h)\n"), "pendulum", 1, 3, 1);
     check_integrals(ask("name: central\nparameters: [{name: m, value: 1.3}, {name: k, value: 0.4}]\ncoordinates: [{name: r, type: length}, {name: p, type: angle}]\n"
@@ -517,9 +506,8 @@ static void skate(const double *y, double *out)
     out[0] = y[3], out[1] = y[4] * cos(y[0]), out[2] = y[4] * sin(y[0]), out[3] = -d / J * y[3], out[4] = b * cos(y[0]) - d / m * y[4];
 }
 
-Test(quadratures, series_of_a_skate)
+Test(quadratures, series_of_a_skate, PLAIN_ONLY)
 {
-    sweep_plain_only();
     enum { states = 5, pieces = 200 };
     nh_analysis *r = ask("name: slope\nparameters: [{name: m, value: 1.2}, {name: J, value: 0.4}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"
                          "coordinates: [{name: phi, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"

@@ -61,9 +61,8 @@ Test(random, nothing_false_and_what_is_plain_is_found)
 }
 
 /* The generator itself: its currents are conserved by the multiplier form, to all digits, and other functions are not. */
-Test(random, what_is_built_in_is_conserved)
+Test(random, what_is_built_in_is_conserved, PLAIN_ONLY)
 {
-    sweep_plain_only();
     size_t tried = 0, checked = 0, kinds[CONSTRAINT_KINDS] = {0};
     for (uint64_t i = 0; i < generated; i++) {
         if (!sweep_tries(i, 40, 120)) continue;

@@ -77,9 +77,8 @@ Test(reduce, groups_and_motions_of_the_shipped_systems)
 }
 
 /* The crane: three kinds of stages, each over ten units of time. */
-Test(reduce, crane)
+Test(reduce, crane, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (uint64_t seed = 1; seed <= 3; seed++) {
         if (!sweep_tries(seed - 1, 2, 3)) continue;
         nh_error error = {0};
@@ -103,9 +102,8 @@ Test(reduce, crane)
 }
 
 /* The same numbers of a group whatever the seed: dimension, and the structure constants of the closed forms. */
-Test(reduce, structure_constants_do_not_depend_on_the_seed)
+Test(reduce, structure_constants_do_not_depend_on_the_seed, PLAIN_ONLY)
 {
-    sweep_plain_only();
     double c[216];
     for (uint64_t seed = 1; seed <= 4; seed++) {
         if (!sweep_tries(seed - 1, 3, 3)) continue;
@@ -295,9 +293,8 @@ Test(reduce, c_code_of_a_quotient_compiles)
 }
 
 /* The C code of every stage, compiled, against the equations themselves. */
-Test(reduce, c_code_computes_the_reduced_equations)
+Test(reduce, c_code_computes_the_reduced_equations, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     nh_reduction *r = reduce_path("systems/crane.yaml", NULL, NULL, NULL, 1, &error);
     must(r != NULL, &error, "crane");

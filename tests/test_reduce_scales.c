@@ -127,9 +127,8 @@ static void same(const moving *s, const units *u, bool given)
     nh_reduction_free(b);
 }
 
-Test(reduce_scales, masses)
+Test(reduce_scales, masses, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1, 1e-9, 1}, false), same(&all[i], &(units){1, 1e9, 1}, false);
 }
 
@@ -144,9 +143,8 @@ Test(reduce_scales, masses_and_times)
 }
 
 /* A group that is given: no field is zero because another one is 1e9 times as large, no orbits nearly lie in the constraints. */
-Test(reduce_scales, lengths)
+Test(reduce_scales, lengths, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1e-9, 1, 1}, true), same(&all[i], &(units){1e9, 1, 1}, true);
 }
 
@@ -175,9 +173,8 @@ static double largest_rate(const nh_model *o, nh_ex value)
 }
 
 /* A small wheel in a large box: fields that hardly move anything in one direction, and everything in another one.  What is called conserved is conserved. */
-Test(reduce_scales, lengths_far_apart)
+Test(reduce_scales, lengths_far_apart, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const double radius[] = {1e-9, 1e-6, 1e-3, 1, 1e6};
     static const char *const potential[] = {"", " - r*y", " - r^2*x^2", " - 3*cos(th)"};
     for (size_t i = 0; i < 5; i++)

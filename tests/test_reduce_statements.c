@@ -103,9 +103,8 @@ Test(reduce_statements, energy_that_is_not_followed)
 }
 
 /* The whole group divided at once is an alternative, not what follows. */
-Test(reduce_statements, stages_that_do_not_follow_each_other)
+Test(reduce_statements, stages_that_do_not_follow_each_other, PLAIN_ONLY)
 {
-    sweep_plain_only();
     told t = tell_file("systems/crane.yaml", 0, NULL);
     SAYS(TEXT(t), "\nStage 2: second stage, by SO(2)");
     SAYS(TEXT(t), "\nStage 3, in one step instead of stages 1 and 2: ");
@@ -122,9 +121,8 @@ Test(reduce_statements, stages_that_do_not_follow_each_other)
 }
 
 /* Currents that are conserved without a closed form are conserved. */
-Test(reduce_statements, momenta_without_a_closed_form)
+Test(reduce_statements, momenta_without_a_closed_form, PLAIN_ONLY)
 {
-    sweep_plain_only();
     told t = tell_file("systems/euler_disk.yaml", 0, NULL);
     cr_assert_eq(t.r->momenta.count, 0);
     SAYS(TEXT(t), "The 2 currents of stage 2 that are linear in the velocities are conserved; the search found no momentum of the group in closed form");
@@ -290,9 +288,8 @@ Test(reduce_statements, one_coordinate)
 }
 
 /* A momentum is not called by the letter of a parameter. */
-Test(reduce_statements, momenta_beside_a_parameter_of_that_name)
+Test(reduce_statements, momenta_beside_a_parameter_of_that_name, PLAIN_ONLY)
 {
-    sweep_plain_only();
     told t = tell_file("systems/vertical_disk.yaml", 0, NULL);
     IS_SILENT(TEXT(t), ") J = ");
     SAYS(TEXT(t), "    p_xi = K*p'\n");

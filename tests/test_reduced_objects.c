@@ -644,9 +644,8 @@ static void check(const char *name, const char *text, const char *line, const ch
     }
 }
 
-Test(reduced_objects, snake_of_three_links)
+Test(reduced_objects, snake_of_three_links, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("snake", "name: snake\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.4}, {name: l, value: 0.7}]\n"
           "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: a, type: angle}, {name: b, type: angle}]\n"
           "domain: {a: [0.3, 0.9], b: [0.4, 1.1]}\n"
@@ -655,9 +654,8 @@ Test(reduced_objects, snake_of_three_links)
           "constraints: [\"y'*cos(h) = x'*sin(h)\", \"vy*cos(h+a) = vx*sin(h+a)\", \"uy*cos(h+b) = ux*sin(h+b)\"]\n", "", "c");
 }
 
-Test(reduced_objects, ball_with_a_rotor)
+Test(reduced_objects, ball_with_a_rotor, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("ball with a rotor", "name: rotor\nparameters: [{name: m, value: 1.1}, {name: A, value: 0.5}, {name: C, value: 0.7}, {name: I, value: 0.2}, {name: R, value: 0.6}]\n"
           "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}, {name: r, type: angle}]\n"
           "domain: {h: [0.5, 1.4]}\n"
@@ -674,9 +672,8 @@ Test(reduced_objects, disk_on_a_slope)
 }
 
 /* A nonholonomic particle that carries a body of changing shape: N = SO(3). */
-Test(reduced_objects, non_abelian_second_stage)
+Test(reduced_objects, non_abelian_second_stage, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("particle and body", "name: carrier\nparameters: [{name: A, value: 0.8}, {name: B, value: 1.1}, {name: C, value: 0.6}, {name: k, value: 0.4}]\n"
           "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
           "domain: {h: [0.5, 1.4], y: [0.3, 0.8]}\n"
@@ -697,9 +694,8 @@ Test(reduced_objects, body_with_sliding_masses)
           " --group p=1;p=-sin(p)*cos(h)/sin(h),h=cos(p),s=sin(p)/sin(h);p=cos(p)*cos(h)/sin(h),h=sin(p),s=-cos(p)/sin(h)", "ls");
 }
 
-Test(reduced_objects, double_pendulum_in_space)
+Test(reduced_objects, double_pendulum_in_space, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("pendulum in space", "name: spatial\nparameters: [{name: m, value: 1.2}, {name: M, value: 0.7}, {name: g, value: 3}]\n"
           "coordinates: [{name: p, type: angle}, {name: a, type: angle}, {name: q, type: angle}, {name: b, type: angle}]\ndomain: {a: [0.4, 1.2], b: [0.5, 1.3]}\n"
           "definitions: [\"X = cos(p)*cos(a)*a' - sin(p)*sin(a)*p'\", \"Y = sin(p)*cos(a)*a' + cos(p)*sin(a)*p'\", \"Z = sin(a)*a'\", \"U = X + cos(q)*cos(b)*b' - sin(q)*sin(b)*q'\", \"V = Y + sin(q)*cos(b)*b' + cos(q)*sin(b)*q'\", \"W = Z + sin(b)*b'\"]\n"
@@ -707,27 +703,24 @@ Test(reduced_objects, double_pendulum_in_space)
 }
 
 /* Other joints: a hand of a SCARA robot with a flywheel; a nut on a screw. */
-Test(reduced_objects, schoenflies_joint)
+Test(reduced_objects, schoenflies_joint, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("hand", "name: hand\nparameters: [{name: m, value: 1.2}, {name: A, value: 0.4}]\n"
           "bodies: [{name: a, mass: m, inertia: [0.3, 0.4, 0.5], center: [0.1, 0.2, 0]}, {name: b, mass: 0.8, inertia: [A, 0.5, 0.2], center: [0.15, 0, 0.05]}]\n"
           "joints:\n  - {type: schoenflies, child: a, coordinates: [x, y, z, h]}\n  - {type: revolute, parent: a, child: b, axis: x, at: [0.4, 0, 0], coordinates: [p]}\n",
           " --group x=1;y=1;z=1;h=1,x=-y,y=x" INCLINED, "ls");
 }
 
-Test(reduced_objects, translating_screw)
+Test(reduced_objects, translating_screw, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("nut", "name: nut\nparameters: [{name: m, value: 1.2}, {name: c, value: 0.3}]\n"
           "bodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5], center: [0.1, 0, 0.2]}, {name: b, mass: m, inertia: [0.4, 0.3, 0.2], center: [0, 0.2, 0.1]}]\n"
           "joints:\n  - {type: revolute, child: a, coordinates: [s]}\n  - {type: translating-screw, pitch: c, axis: x, parent: a, child: b, at: [0.2, 0, 0], coordinates: [y, z, p]}\n", " --group s=1", "ls");
 }
 
 /* A blade at the end of an arm on a free cart: the constraint goes across the chain. */
-Test(reduced_objects, constraint_across_a_chain)
+Test(reduced_objects, constraint_across_a_chain, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("arm with a blade", "name: arm\nparameters: [{name: m, value: 1.2}, {name: l, value: 0.5}]\n"
           "bodies: [{name: a, mass: m, inertia: [0.1, 0.1, 0.4]}, {name: b, mass: 0.7, inertia: [0.1, 0.1, 0.2], center: [0.2, 0, 0]}]\n"
           "joints:\n  - {type: planar, child: a, coordinates: [x, y, h]}\n  - {type: revolute, parent: a, child: b, at: [l, 0, 0], coordinates: [p]}\n"
@@ -735,18 +728,16 @@ Test(reduced_objects, constraint_across_a_chain)
 }
 
 /* A metric that couples everything, and a constraint with two symmetries, one of which is not conserved. */
-Test(reduced_objects, coupled_metric)
+Test(reduced_objects, coupled_metric, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("gears", "name: gears\nparameters: [{name: a, value: 1.2}, {name: b, value: 0.5}]\n"
           "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: u, type: number}, {name: v, type: number}]\ndomain: {u: [0.3, 0.9], v: [0.4, 1.1]}\n"
           "lagrangian: (x'^2*(1 + u^2) + y'^2 + a*u'^2 + b*(1 + u^2)*v'^2)/2 + b*u*x'*v'/3 + y'*u'/4 - v^2/3\nconstraints: [\"y' = u*x' + v*u'\"]\n", " --group y=1;x=1", "cl");
 }
 
 /* Two driven wheels, and a mass that slides along a vertical axis and turns about it: a group that does not act freely, of which a part is taken. */
-Test(reduced_objects, cart_with_a_cylindrical_joint)
+Test(reduced_objects, cart_with_a_cylindrical_joint, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("cart", "name: cart\nparameters: [{name: m, value: 1.2}, {name: l, value: 0.5}, {name: r, value: 0.3}]\n"
           "bodies: [{name: cart, mass: m, inertia: [0.1, 0.1, 0.4], center: [0.1, 0, 0]}, {name: left, mass: 0.2, inertia: [0.01, 0.02, 0.01]},\n"
           "  {name: right, mass: 0.2, inertia: [0.01, 0.02, 0.01]}, {name: slider, mass: 0.4, inertia: [0.01, 0.01, 0.02]}]\n"
@@ -756,9 +747,8 @@ Test(reduced_objects, cart_with_a_cylindrical_joint)
 }
 
 /* Two blades, one at the end of a rod that gets longer and shorter. */
-Test(reduced_objects, blades_on_a_sliding_rod)
+Test(reduced_objects, blades_on_a_sliding_rod, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("train", "name: train\nparameters: [{name: m, value: 1}, {name: k, value: 0.6}, {name: l, value: 0.4}]\n"
           "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: u, type: length}, {name: w, type: angle}]\n"
           "lagrangian: m/2*(x'^2 + y'^2) + 0.3*h'^2 + (u'^2 + (l + u)^2*(h' + w')^2)/4 + 0.1*(h' + w')^2 - k*u^2/2\ndomain: {u: [-0.2, 0.2], w: [0.4, 1.2]}\n"
@@ -774,9 +764,8 @@ Test(reduced_objects, heisenberg_group)
 }
 
 /* A tilted coin on a slope: of the plane's symmetries one translation is left. */
-Test(reduced_objects, tilted_coin_on_a_slope)
+Test(reduced_objects, tilted_coin_on_a_slope, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("coin", "name: coin\nparameters: [{name: m, value: 1.1}, {name: r, value: 0.5}, {name: g, value: 3}, {name: al, value: 0.3}]\n"
           "coordinates: [{name: th, type: angle}, {name: ph, type: angle}, {name: ps, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
           "definitions: [\"b = r*cos(th)\", \"z = r*sin(th)\"]\ndomain: {th: [0.5, 1.2]}\n"
@@ -786,9 +775,8 @@ Test(reduced_objects, tilted_coin_on_a_slope)
 }
 
 /* A rod that slides through a sleeve on a turning table, with a spring, and carries a flywheel: two commuting turns in the second stage. */
-Test(reduced_objects, sleeve_on_a_table)
+Test(reduced_objects, sleeve_on_a_table, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check("sleeve", "name: sleeve\nparameters: [{name: m, value: 1.2}, {name: I, value: 0.4}, {name: k, value: 2}]\n"
           "bodies: [{name: table, mass: 2, inertia: [0.4, 0.4, I]}, {name: rod, mass: m, inertia: [0.05, 0.3, 0.3], center: [0.2, 0, 0.1]}, {name: fly, mass: 0.3, inertia: [0.02, 0.04, 0.04]}]\n"
           "joints:\n  - {type: revolute, child: table, axis: z, coordinates: [p]}\n  - {type: cylindrical, parent: table, child: rod, at: [0, 0.3, 0.2], axis: x, coordinates: [s, u]}\n"

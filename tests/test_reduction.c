@@ -105,9 +105,8 @@ static void master_against_full(const char *name, const char *text, const char *
 
 static const size_t FIRST[] = {0, 1, 2, 3, 4, 5}, CRANE_FOUR[] = {0, 1, 4, 5};
 
-Test(reduction, equations_on_a_slice_and_reconstruction_agree_with_the_full_motion)
+Test(reduction, equations_on_a_slice_and_reconstruction_agree_with_the_full_motion, PLAIN_ONLY)
 {
-    sweep_plain_only();
     master_against_full("crane, d = 4", CRANE, NULL, 4, CRANE_FOUR, 2, 1e-10);
     master_against_full("crane, d = 6", CRANE, NULL, 6, FIRST, 2, 1e-10);
     master_against_full("snakeboard", SNAKEBOARD, NULL, 4, FIRST, 0.5, 1e-10);
@@ -248,9 +247,8 @@ Test(reduction, crane_reference_values)
 }
 
 /* The reduced motions with reconstruction, from initial states with any group coordinates. */
-Test(reduction, crane_reference_motions)
+Test(reduction, crane_reference_motions, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     cJSON *data = oracle_read("tests/data/crane_oracle.json");
     tally tq = {.what = "q(T)"}, tz = {.what = "reduced"};
@@ -317,9 +315,8 @@ static void chaplygin_against_master(const char *name, nh_system *system, const 
     stage_close(&s);
 }
 
-Test(reduction, almost_symplectic_equations_agree_with_those_in_the_frame)
+Test(reduction, almost_symplectic_equations_agree_with_those_in_the_frame, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const size_t cart[] = {0, 1, 4}, ball[] = {0, 1}, particle[] = {1};
     nh_error error = {0};
     chaplygin_against_master("crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, 1e-10);
@@ -557,9 +554,8 @@ static void momenta_of(const char *name, nh_system *system, size_t count, size_t
     nh_system_free(system);
 }
 
-Test(reduction, conserved_momenta_come_from_constraint_symmetries)
+Test(reduction, conserved_momenta_come_from_constraint_symmetries, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     momenta_of("vertical disk", nh_system_read("systems/vertical_disk.yaml", 0, NULL, &error), 2, 0);
     momenta_of("snakeboard", nh_system_parse("snakeboard", SNAKEBOARD, 0, NULL, &error), 1, 1);

@@ -41,9 +41,8 @@ static void followed(const nh_reduction *r, const char *name)
     }
 }
 
-Test(reductions, many_states)
+Test(reductions, many_states, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const struct {
         const char *system;
         size_t states;
@@ -70,9 +69,8 @@ Test(reductions, many_states)
 }
 
 /* What is simplified over all sample points has a removable singularity on the way: a quotient of the constraints' solution; the metric of a slice. */
-Test(reductions, passes_a_removable_singularity)
+Test(reductions, passes_a_removable_singularity, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const struct {
         const char *path;
         size_t place;
@@ -89,9 +87,8 @@ Test(reductions, passes_a_removable_singularity)
 
 /* Euler's disk passes the vertical at 0.008 rad: its angles turn by pi within a few steps, where an error in time of 1e-11 is one of 1e-8 in the place.  With CVODE Adams alone, at any
  * tolerance, the reduced motions are 1.3e-8 off. */
-Test(reductions, passes_near_a_pole)
+Test(reductions, passes_near_a_pole, PLAIN_ONLY)
 {
-    sweep_plain_only();
     enum { place = 42 };
     nh_error error = {0};
     nh_reduction *r = reduce_file("systems/euler_disk.yaml", NULL, &error);
@@ -215,9 +212,8 @@ static const struct {
      "SO(3) x SE(2) x SO(2)", "SE(2)", "SO(3)"},
 };
 
-Test(reductions, two_stages_with_affine_constraints_magnetic_terms_and_forces)
+Test(reductions, two_stages_with_affine_constraints_magnetic_terms_and_forces, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 0; i < sizeof twice / sizeof *twice; i++) {
         nh_error error = {0};
         nh_reduction *r = reduce_text(twice[i].text, &error);
@@ -363,9 +359,8 @@ Test(reductions, symmetries_up_to_a_total_derivative)
 }
 
 /* Against what is known about shipped systems: the moving energy, and the momentum with its magnetic part. */
-Test(reductions, known_integrals)
+Test(reductions, known_integrals, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const struct {
         const char *system, *known;
     } cases[] = {{"systems/cart_on_disc.yaml", "moving energy"}, {"systems/charged_particle.yaml", "angular momentum"}, {"systems/ball_on_turntable.yaml", "Emov"}};
@@ -425,9 +420,8 @@ Test(reductions, time_limit)
 }
 
 /* Section 4 of the paper: which displacements of the joints leave the kinetic energy alone, and which of these are symmetries. */
-Test(reductions, joint_by_joint)
+Test(reductions, joint_by_joint, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     nh_reduction *r = reduce_file("systems/crane.yaml", NULL, &error);
     must(r != NULL, &error, "crane");
@@ -465,9 +459,8 @@ Test(reductions, many_functions)
 }
 
 /* A place and its velocity moved onto a slice, and back by the flows of the generators. */
-Test(reductions, moved_onto_a_slice)
+Test(reductions, moved_onto_a_slice, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const systems[] = {"sleigh", "crane", "isotropic_oscillator", "rolling_ball", "veselova"};
     for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
         char path[100];
@@ -500,9 +493,8 @@ Test(reductions, moved_onto_a_slice)
 }
 
 /* Nothing is said about currents along a motion that changes its chart; its repetition may change it where the first one did not. */
-Test(reductions, linear_currents_that_are_not_followed)
+Test(reductions, linear_currents_that_are_not_followed, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     nh_reduction *r = reduce_file("systems/euler_disk.yaml", NULL, &error);
     must(r != NULL, &error, "disk");

@@ -129,9 +129,8 @@ static void other_names(const answer *a, const char *name, const nh_options *opt
     expect_same(a, name, "renamed and in another order", options, (rewriting){.rename = true, .order = turned}, NH_CHART_AUTO);
 }
 
-Test(same, whatever_the_coordinates_are_called_and_their_order)
+Test(same, whatever_the_coordinates_are_called_and_their_order, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for_all(other_names, 18);
 }
 

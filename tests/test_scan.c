@@ -61,9 +61,8 @@ static cJSON *scanned(const place *p, const char *line)
 
 /* ---- what is found ---- */
 
-Test(scan, the_sleigh_jumps_at_two)
+Test(scan, the_sleigh_jumps_at_two, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     cJSON *root = scanned(&p, "scan sleigh --over k=1.6:2.4:5");
     const cJSON *s = special(root, "k", "2");
@@ -77,9 +76,8 @@ Test(scan, the_sleigh_jumps_at_two)
 }
 
 /* A value where the grid ends is told by its own name, not by its neighbour's. */
-Test(scan, values_at_the_ends_have_their_names)
+Test(scan, values_at_the_ends_have_their_names, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     cJSON *root = scanned(&p, "scan sleigh --over k=1:4:7");
     cr_expect_eq(cJSON_GetArraySize(cJSON_GetObjectItem(root, "special")), 4);
@@ -94,9 +92,8 @@ Test(scan, values_at_the_ends_have_their_names)
 }
 
 /* The coefficient of y^3 is special at 1/3 and at 2, and the parameter is hidden in it. */
-Test(scan, values_between_points_are_found_recognised_and_confirmed)
+Test(scan, values_between_points_are_found_recognised_and_confirmed, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const struct {
         const char *coefficient, *over, *exact, *other;
         double value;
@@ -132,9 +129,8 @@ Test(scan, values_between_points_are_found_recognised_and_confirmed)
 }
 
 /* Cubic forms up to rotation and scale are a plane, in which the two that are integrable are points: a line through random forms misses them. */
-Test(scan, nothing_is_confirmed_where_there_is_nothing)
+Test(scan, nothing_is_confirmed_where_there_is_nothing, PLAIN_ONLY)
 {
-    sweep_plain_only();
     srand(5);
     for (int i = 0; i < 4; i++) {
         place p = place_make();
@@ -149,9 +145,8 @@ Test(scan, nothing_is_confirmed_where_there_is_nothing)
     }
 }
 
-Test(scan, over_two_parameters_each_line_is_looked_along)
+Test(scan, over_two_parameters_each_line_is_looked_along, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     cJSON *root = scanned(&p, "scan sine.yaml --over b=1,2 --over k=0.1:0.94:8");
@@ -165,9 +160,8 @@ Test(scan, over_two_parameters_each_line_is_looked_along)
 }
 
 /* For k <= 1 the force is zero; nothing says so but abs. */
-Test(scan, a_step_is_located_by_bisection)
+Test(scan, a_step_is_located_by_bisection, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "ramp.yaml", "name: ramp\nparameters: {k: 2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (abs(k - 1) + k - 1)*x^2\n");
     cJSON *root = scanned(&p, "scan ramp.yaml --of reduce --over k=-1:3:6 --number group.dimension --number stages");
@@ -181,9 +175,8 @@ Test(scan, a_step_is_located_by_bisection)
     place_clear(&p);
 }
 
-Test(scan, numbers_of_analyze_by_their_path)
+Test(scan, numbers_of_analyze_by_their_path, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "o.yaml", "name: o\nparameters: {k: 2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + k*y^4)/2\n");
     cJSON *root = scanned(&p, "scan o.yaml --of analyze --over k=0,1 --number completeness.degree --number currents.0.proved --option work=50");
@@ -262,9 +255,8 @@ static void expect_same(const place *p, const char *one, const char *other)
     }
 }
 
-Test(scan, workers_and_parts_do_not_change_a_byte)
+Test(scan, workers_and_parts_do_not_change_a_byte, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "one", "");
@@ -350,9 +342,8 @@ static size_t units_of(const place *p, const char *folder)
     return (size_t)n;
 }
 
-Test(scan, kills_at_any_moment_lose_nothing_and_leave_nothing)
+Test(scan, kills_at_any_moment_lose_nothing_and_leave_nothing, PLAIN_ONLY)
 {
-    sweep_plain_only();
     int kills = sweep_whole() ? 8 : 4;
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
@@ -375,9 +366,8 @@ Test(scan, kills_at_any_moment_lose_nothing_and_leave_nothing)
     place_clear(&p);
 }
 
-Test(scan, a_worker_that_dies_is_replaced)
+Test(scan, a_worker_that_dies_is_replaced, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "whole", "");
@@ -393,9 +383,8 @@ Test(scan, a_worker_that_dies_is_replaced)
     place_clear(&p);
 }
 
-Test(scan, an_interruption_keeps_what_there_is)
+Test(scan, an_interruption_keeps_what_there_is, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "whole", "");
@@ -417,9 +406,8 @@ Test(scan, an_interruption_keeps_what_there_is)
 
 /* ---- files ---- */
 
-Test(scan, a_full_disk_loses_nothing)
+Test(scan, a_full_disk_loses_nothing, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "whole", "");
@@ -437,9 +425,8 @@ Test(scan, a_full_disk_loses_nothing)
     place_clear(&p);
 }
 
-Test(scan, damaged_units_are_computed_again)
+Test(scan, damaged_units_are_computed_again, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "whole", "");
@@ -466,9 +453,8 @@ static void expect_refusal(const place *p, const char *line, int code, const cha
     finished_clear(&f);
 }
 
-Test(scan, another_scan_in_the_folder_is_refused)
+Test(scan, another_scan_in_the_folder_is_refused, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "s", "");

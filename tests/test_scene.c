@@ -96,9 +96,8 @@ static const nh_closed_subsystem *scene_along(nh_trajectory **t, const nh_model 
 }
 
 /* The crane turns freely about the car's centre line: its tilt needs one velocity and the momentum of its turn, the car's path neither of them. */
-Test(scene, the_crane_and_its_car)
+Test(scene, the_crane_and_its_car, PLAIN_ONLY)
 {
-    sweep_plain_only();
     mechanics x = mechanics_of_file("systems/crane.yaml", NH_CHART_AUTO, 0, NULL);
     double at[16] = {0, 0, 0, 0.4, 0, 0, 0, 0.3};
     double f = 1, s = 0.3, turn = f * sin(0.4) / 2.6;

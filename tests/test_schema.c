@@ -145,9 +145,8 @@ Test(schema, what_analyze_writes_fits)
     place_clear(&p);
 }
 
-Test(schema, what_classify_writes_fits)
+Test(schema, what_classify_writes_fits, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const lines[] = {"classify/henon_heiles.yaml --over eps", "classify/atwood.yaml --over mu --degree 2", "classify/knife.yaml --over b --degree 1 --shape",
                                         "classify/quartic.yaml --over mu,b --degree 2"};
     cJSON *schema = read_json("docs/schema/classification.json");
@@ -195,9 +194,8 @@ Test(schema, what_scan_writes_fits)
 }
 
 /* Linear systems, an iteration, no parameters, inputs. */
-Test(schema, what_export_writes_fits)
+Test(schema, what_export_writes_fits, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const lines[] = {"sleigh", "snakeboard --of equations,reduced", "constant_speed --of submanifold", "implicit.yaml --of submanifold", "skate_with_friction --of equations --input c"};
     static const char implicit[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z'^5 + z' = x'*y'\"]\n";
     cJSON *schema = read_json("docs/schema/export.json");

@@ -107,47 +107,40 @@ static void two_on(const char *name, const char *const shape[3], double low, dou
     nh_analysis_free(r);
 }
 
-Test(series, disk_on_a_short_interval, .timeout = 120)
+Test(series, disk_on_a_short_interval, .timeout = 120, PLAIN_ONLY)
 {
-    sweep_plain_only();
     two_on("disk", disk, 1.0, 2.1);
 }
 
-Test(series, disk_on_a_wide_interval, .timeout = 120)
+Test(series, disk_on_a_wide_interval, .timeout = 120, WHOLE_ONLY)
 {
-    sweep_whole_only();
     two_on("disk", disk, 0.6, 2.5);
 }
 
-Test(series, disk_on_a_very_wide_interval, .timeout = 120)
+Test(series, disk_on_a_very_wide_interval, .timeout = 120, WHOLE_ONLY)
 {
-    sweep_whole_only();
     two_on("disk", disk, 0.3, 2.8);
 }
 
-Test(series, disk_near_an_end, .timeout = 120)
+Test(series, disk_near_an_end, .timeout = 120, PLAIN_ONLY)
 {
-    sweep_plain_only();
     two_on("disk", disk, 0.2, 1.2);
 }
 
-Test(series, tyre_on_a_wide_interval, .timeout = 120)
+Test(series, tyre_on_a_wide_interval, .timeout = 120, WHOLE_ONLY)
 {
-    sweep_whole_only();
     two_on("tyre", tyre, 0.3, 2.7);
 }
 
-Test(series, ellipsoid_on_a_wide_interval, .timeout = 120)
+Test(series, ellipsoid_on_a_wide_interval, .timeout = 120, WHOLE_ONLY)
 {
-    sweep_whole_only();
     two_on("ellipsoid", ellipsoid, 0.3, 2.7);
 }
 
 /* At h = 0 and pi the equations are singular: an interval with these ends is too wide for a series, and what is said
  * holds on a part of it. */
-Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120)
+Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120, WHOLE_ONLY)
 {
-    sweep_whole_only();
     nh_analysis *r = roll(disk, 0.0005, 3.141);
     cr_expect(r->independent == 3 && check_series(r, "disk") == 2, "%zu independent", r->independent);
     for (size_t k = 0; k < r->count; k++) {
@@ -159,9 +152,8 @@ Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120)
 
 /* The same functions whatever the interval: near the middle of one the other's currents are combinations of its own, so
  * that ratios of 2 x 2 determinants of (f1, f2) do not depend on it. */
-Test(series, the_interval_does_not_matter, .timeout = 120)
+Test(series, the_interval_does_not_matter, .timeout = 120, WHOLE_ONLY)
 {
-    sweep_whole_only();
     static const double at[3] = {1.1, 1.5, 1.9}, ends[2][2] = {{1.0, 2.1}, {0.3, 2.8}};
     double determinant[2][3];
     for (int i = 0; i < 2; i++) {
@@ -290,9 +282,8 @@ Test(series, one_linear_equation, .timeout = 200)
         if (sweep_tries(i, 2, 6)) all_of(i);
 }
 
-Test(series, more_than_one, .timeout = 200)
+Test(series, more_than_one, .timeout = 200, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 5; i < driven_count; i++)
         if (sweep_tries(i, 2, 5)) all_of(i);
 }
@@ -341,9 +332,8 @@ static bool at_point(void *context, nh_ball *ball, double s, size_t sample)
 
 /* s' = 1, x' = x/s: f x with f' + f/s = 0, so f = 1/s; 1 is there too, x^2 s would be a word that is a multiple of x^2,
  * and x^3 goes with 1/s^3. */
-Test(series, words_and_singularities)
+Test(series, words_and_singularities, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_dag *d = nh_dag_create();
     plane p = {nh_symbol(d, "s"), nh_symbol(d, "x")};
     nh_ex x2 = nh_powi(d, p.x, 2), rate = nh_div(d, p.x, p.s);

@@ -156,9 +156,8 @@ Test(series_several, nothing_where_nothing_is_missing, .timeout = 120)
 /* ---- with constraints, and with time ---- */
 
 /* An edge turns with a coordinate of a flat plane; the motion in the plane is free. */
-Test(series_several, two_shape_coordinates_of_an_edge, .timeout = 120)
+Test(series_several, two_shape_coordinates_of_an_edge, .timeout = 120, WHOLE_ONLY)
 {
-    sweep_whole_only();
     nh_analysis *r = ask("name: edge\ncoordinates: [u, v, y, z]\nlagrangian: (exp(u^2 - v^2)*(u'^2 + v'^2) + y'^2 + "
                          "z'^2)/2\nconstraints:\n  - z' = u*y'\n");
     cr_expect_eq(r->independent, 4u);
@@ -178,9 +177,8 @@ Test(series_several, a_place_and_the_time, .timeout = 120)
 }
 
 /* The same plane with a mass that grows: both momenta and the moment depend on three variables. */
-Test(series_several, two_coordinates_and_the_time, .timeout = 300)
+Test(series_several, two_coordinates_and_the_time, .timeout = 300, WHOLE_ONLY)
 {
-    sweep_whole_only();
     nh_analysis *r = ask("name: growing\ncoordinates: [x, y]\nlagrangian: exp(t/5)*exp(x^2 - y^2)*(x'^2 + y'^2)/2\n");
     cr_expect_eq(r->independent, 4u);
     cr_expect_eq(check(r, "growing"), 3u);

@@ -24,9 +24,8 @@ static double last_number(const char *table)
 static const char *const oscillator = "name: spring\nparameters: [{name: w, value: 2}]\ncoordinates: [x]\nlagrangian: (x'^2 - w^2*x^2)/2\n";
 
 /* x = cos 2t at t = 3 by every method, as exactly as its order promises. */
-Test(simulate, every_method_has_a_word)
+Test(simulate, every_method_has_a_word, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "spring.yaml", oscillator);
     for (size_t i = 0; i < nh_method_count(); i++) {

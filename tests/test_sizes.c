@@ -47,9 +47,8 @@ static bool meant(const nh_analysis *r, const char *words)
 }
 
 /* Of different frequencies: the energy and the phase of each. */
-Test(sizes, oscillators, .timeout = 600)
+Test(sizes, oscillators, .timeout = 600, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const size_t sizes[] = {4, 5, 6, 8, 12};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         if (!sweep_tries(s, 3, 16)) continue;
@@ -69,9 +68,8 @@ Test(sizes, oscillators, .timeout = 600)
 static size_t many(void) { return sweep_whole() ? 40 : SWEEP_SANITIZED ? 6 : 16; }
 
 /* In blocks of two each, and what is said about each takes no more than it has to: half of what may be computed is enough for all. */
-Test(sizes, many_oscillators, .timeout = 600)
+Test(sizes, many_oscillators, .timeout = 600, PLAIN_ONLY)
 {
-    sweep_plain_only();
     size_t n = many();
     nh_text text;
     coordinates(&text, n, "x");
@@ -93,9 +91,8 @@ static void chain(nh_text *text, size_t n, bool closed)
     else nh_text_addf(text, " - k*x1^2/2 - k*x%zu^2/2\n", n);
 }
 
-Test(sizes, chains, .timeout = 600)
+Test(sizes, chains, .timeout = 600, WHOLE_ONLY)
 {
-    sweep_whole_only();
     static const size_t sizes[] = {6, 8, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         if (!sweep_tries(s, 3, 16)) continue;
@@ -108,9 +105,8 @@ Test(sizes, chains, .timeout = 600)
 }
 
 /* The total momentum, the centre of mass, the energy. */
-Test(sizes, ring_of_many, .timeout = 600)
+Test(sizes, ring_of_many, .timeout = 600, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const wanted[] = {"m*(x1' + ", "m*(t*(x1' + "};
     nh_text text;
     chain(&text, many(), true);
@@ -148,9 +144,8 @@ Test(sizes, ring_of_pendula, .timeout = 600)
 }
 
 /* Energy, momentum, angular momentum and centre of mass. */
-Test(sizes, bodies_in_space, .timeout = 600)
+Test(sizes, bodies_in_space, .timeout = 600, WHOLE_ONLY)
 {
-    sweep_whole_only();
     static const size_t sizes[] = {5, 6, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         if (!sweep_tries(s, 3, 16)) continue;

@@ -189,9 +189,8 @@ static void shown_rates(shown_chain *x, const double *eta, const double *beta, d
     cr_assert(nh_solve(d, transposed, 1, out, &rcond));
 }
 
-Test(stages, reference_values_as_printed)
+Test(stages, reference_values_as_printed, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *data = oracle_read("tests/data/stages_oracle.json");
     tally constants = {.what = "constants"}, bracket = {.what = "bracket"}, rates = {.what = "beta'"};
     double misprint = 0;

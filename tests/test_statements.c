@@ -73,9 +73,8 @@ static const cJSON *item(const cJSON *of, const char *key)
 /* ---- words ---- */
 
 /* A current's Z may be free of velocities along time and space without being a symmetry of the equations of motion: the word is projectable. */
-Test(statements, projectable_is_said_alike)
+Test(statements, projectable_is_said_alike, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     reports r = analyze(&p, "sleigh");
     size_t projectable = 0, third = 0, both = 0;
@@ -103,9 +102,8 @@ Test(statements, projectable_is_said_alike)
 }
 
 /* Semiholonomic is a property of linear and affine constraints: of nonlinear ones nothing is said. */
-Test(statements, semiholonomic_is_for_constraints_that_it_is_defined_for)
+Test(statements, semiholonomic_is_for_constraints_that_it_is_defined_for, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     reports r = analyze(&p, "constant_speed");
     cr_expect(cJSON_IsNull(item(item(r.json, "constraint"), "semiholonomic")), "%s", cJSON_Print(item(r.json, "constraint")));
@@ -160,9 +158,8 @@ Test(statements, a_drift_of_zero_is_zero)
 /* ---- fields ---- */
 
 /* Every component and every i_[Gamma,Z] phi^a of the text is in the document and on the page. */
-Test(statements, a_field_is_complete_in_every_report)
+Test(statements, a_field_is_complete_in_every_report, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const systems[] = {"sleigh", "constant_speed", "skate_on_belt", "relativistic_particle", "appell_hamel"};
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof systems / sizeof *systems; s++) {
@@ -184,9 +181,8 @@ Test(statements, a_field_is_complete_in_every_report)
 }
 
 /* Components of [Gamma,Z] outside of the distribution belong to the forms that are printed: those of the geometry, where it is shown. */
-Test(statements, the_forms_of_the_currents_are_those_of_the_geometry)
+Test(statements, the_forms_of_the_currents_are_those_of_the_geometry, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char sleigh[] = "name: own\nparameters: [{name: m, value: 2}, {name: J, value: 0.9}, {name: a, value: 0.6}]\n"
                                  "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: phi, type: angle}]\n"
                                  "lagrangian: m/2*((x' - a*phi'*sin(phi))^2 + (y' + a*phi'*cos(phi))^2) + J/2*phi'^2\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
@@ -284,9 +280,8 @@ Test(statements, rounding_is_no_rate)
 
 /* Of an integral of the constraints every term of the Noether equations vanishes: what rounding leaves has no size to be
  * compared with. */
-Test(statements, a_residual_without_a_size_is_decided_exactly)
+Test(statements, a_residual_without_a_size_is_decided_exactly, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "ball.yaml", "name: ball\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - 1.9*y^2 - 3.1*z^2\n"
                                 "constraints: [\"x*x' + y*y' + z*z' = 0\"]\ndomain: {y: [0.5, 1]}\n");
@@ -299,9 +294,8 @@ Test(statements, a_residual_without_a_size_is_decided_exactly)
 }
 
 /* A rate that doubles cannot tell from its rounding, atanh of nearly one, is measured in balls. */
-Test(statements, a_residual_is_no_rounding)
+Test(statements, a_residual_is_no_rounding, WHOLE_ONLY)
 {
-    sweep_whole_only();
     place p = place_make();
     write_here(&p, "skate.yaml", "name: skate\nparameters: {b: 1e-9}\ncoordinates: [x, y, {name: p, type: angle}]\n"
                                  "lagrangian: (x'^2 + y'^2)/2 + b*p'^2/2\nconstraints: [\"x'*sin(p) - y'*cos(p) = b*p'\"]\n");
@@ -427,9 +421,8 @@ static void write_branches(const place *p)
 }
 
 /* Printed with the velocity, not the root, every current holds on both branches: asked of each of them by itself. */
-Test(statements, currents_are_printed_so_that_they_hold_on_both_branches)
+Test(statements, currents_are_printed_so_that_they_hold_on_both_branches, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_branches(&p);
     reports r = analyze(&p, "up.yaml");
@@ -501,9 +494,8 @@ Test(statements, a_long_field_is_on_the_page)
 }
 
 /* The multiplier of z'^2 = a^2 (x'^2 + y'^2) depends on the direction of the velocity, however small that is: nothing is fast here. */
-Test(statements, a_direction_is_no_rate)
+Test(statements, a_direction_is_no_rate, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "cone.yaml", "name: cone\nparameters: [{name: a, value: 0.4}, {name: g, value: 9.81}]\ncoordinates: [x, y, z]\n"
                                 "lagrangian: (x'^2+y'^2+z'^2)/2 - g*z\nconstraints: [\"z'^2 = a^2*(x'^2+y'^2)\"]\n");

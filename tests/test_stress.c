@@ -38,9 +38,8 @@ static size_t with_status(const nh_robustness_map *map, size_t method, nh_run_re
 }
 
 /* Where the two methods of the reference end elsewhere nothing is right or silently wrong: here a constraint is singular at cos(a) = 0, and chaos. */
-Test(stress, no_reference_that_two_methods_do_not_confirm)
+Test(stress, no_reference_that_two_methods_do_not_confirm, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};
     nh_options_default(&q.options);
@@ -81,9 +80,8 @@ Test(stress, a_plane_on_the_page)
 
 /* ---- by name ---- */
 
-Test(stress, a_map_that_the_file_names)
+Test(stress, a_map_that_the_file_names, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_robustness *s = map_over("systems/suslov.yaml", "inertia ratios up to 1e6", 0);
     cr_assert(s->maps == 1 && s->map[0].cells == 125 && !strcmp(s->map[0].axis, "A") && !strcmp(s->map[0].second_axis, "C"));
     cr_expect(s->count[NH_UNDETECTED] == 0 && s->count[NH_ACCURATE] + s->count[NH_FLAGGED] > 100, "%zu right", s->count[NH_ACCURATE]);
@@ -121,9 +119,8 @@ Test(stress, a_name_that_is_not_there)
 }
 
 /* The chart of coordinate velocities ends at l = c sin(psi1): some motions cross it, and no cell of these is called right. */
-Test(stress, the_front_axle_at_its_pole)
+Test(stress, the_front_axle_at_its_pole, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_robustness *s = map_over("systems/stress/front_axle.yaml", "at l = c sin(psi1)", 0);
     cr_expect(s->count[NH_UNDETECTED] == 0 && s->count[NH_DETECTED] > 10 && s->count[NH_ACCURATE] > 10, "%zu wrong, %zu caught, %zu right", s->count[NH_UNDETECTED], s->count[NH_DETECTED], s->count[NH_ACCURATE]);
     nh_robustness_free(s);
@@ -145,9 +142,8 @@ Test(stress, few_steps_are_out_of_time)
 
 /* Where nothing turns a motion round in time the discrete Lagrange-d'Alembert principle gains energy exponentially, and the implicit midpoint rule in an orthonormal
  * frame does not [ModinVerdier2020]. */
-Test(stress, energy_by_fixed_steps)
+Test(stress, energy_by_fixed_steps, WHOLE_ONLY)
 {
-    sweep_whole_only();
     nh_robustness *s = map_over("systems/stress/driven_particle.yaml", "turned round by nothing", 2e6);
     const nh_robustness_map *map = &s->map[0];
     double drift[2][3] = {{0}};
@@ -163,9 +159,8 @@ Test(stress, energy_by_fixed_steps)
 }
 
 /* What would converge to a different motion is refused, with the reason. */
-Test(stress, a_refusal_is_told)
+Test(stress, a_refusal_is_told, PLAIN_ONLY)
 {
-    sweep_plain_only();
     nh_robustness *s = map_over("systems/ball_on_turntable.yaml", NULL, 100);
     const nh_robustness_map *map = map_of(s, "long times by fixed steps");
     size_t told = 0;

@@ -210,9 +210,8 @@ static size_t verified(place *p, const cJSON *root, const char *section, const c
     return count;
 }
 
-Test(symmetry_space, of_the_sleigh_only_functions_of_the_energy_have_their_brackets_in_the_distribution)
+Test(symmetry_space, of_the_sleigh_only_functions_of_the_energy_have_their_brackets_in_the_distribution, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "analyze sleigh --set k=3 --equations --json=r.json");
     cr_assert_eq(f.code, 0, "%s", f.err);
@@ -229,9 +228,8 @@ Test(symmetry_space, of_the_sleigh_only_functions_of_the_energy_have_their_brack
     place_clear(&p);
 }
 
-Test(symmetry_space, a_skate_on_a_slope)
+Test(symmetry_space, a_skate_on_a_slope, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     char *json = equations_of(&p, SKATE, "");
     cJSON *root = cJSON_Parse(json);
@@ -245,9 +243,8 @@ Test(symmetry_space, a_skate_on_a_slope)
 }
 
 /* Roots of numbers have residues modulo some primes alone: a point has to have all of these. */
-Test(symmetry_space, roots_of_numbers)
+Test(symmetry_space, roots_of_numbers, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const root_of[] = {"2", "3", "5", "7", "10", "13"};
     for (size_t i = 0; i < sizeof root_of / sizeof *root_of; i++) {
         if (!sweep_tries(i, 2, 6)) continue;
@@ -284,9 +281,8 @@ Test(symmetry_space, a_quotient_of_currents_is_better_than_they_are)
 }
 
 /* Without constraints every current has a field of case 1; the free particle's space of degree two in two dimensions. */
-Test(symmetry_space, of_unconstrained_systems_everything_is_of_case_1)
+Test(symmetry_space, of_unconstrained_systems_everything_is_of_case_1, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     char *json = equations_of(&p, "name: two\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\nlagrangian: (x'^2 + y'^2)/2\n", "");
     cJSON *root = cJSON_Parse(json);
@@ -319,9 +315,8 @@ static void point_symmetries(const char *text, double points, double dynamical)
 #define LINE(L) "name: line\nparameters: [{name: k, value: 3}]\ncoordinates: [{name: x, type: length}]\ndomain: {x: [0.5, 2]}\nlagrangian: " L "\n"
 
 /* Lie's numbers for equations of second order: 8, 3, 2. */
-Test(symmetry_space, point_symmetries_of_one_equation)
+Test(symmetry_space, point_symmetries_of_one_equation, PLAIN_ONLY)
 {
-    sweep_plain_only();
     point_symmetries(LINE("x'^2/2"), 8, 0);
     point_symmetries(LINE("x'^2/2 - k/x^2"), 3, 0);
     point_symmetries(LINE("x'^2/2 - k*x^4"), 2, 0);
@@ -329,9 +324,8 @@ Test(symmetry_space, point_symmetries_of_one_equation)
 }
 
 /* Shifts, a turn, two scalings; and a shift across the blade: parallel curves are motions as well. On a slope turns and one scaling are gone. */
-Test(symmetry_space, point_symmetries_of_skates)
+Test(symmetry_space, point_symmetries_of_skates, WHOLE_ONLY)
 {
-    sweep_whole_only();
     point_symmetries("name: skate\nparameters: [{name: m, value: 2}, {name: J, value: 0.5}]\ncoordinates: [{name: f, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
                      "lagrangian: m/2*(x'^2 + y'^2) + J/2*f'^2\nconstraints: [\"y'*cos(f) = x'*sin(f)\"]\n", 7, 0);
     point_symmetries(SKATE, 5, 0);
@@ -346,9 +340,8 @@ static char *line_of(const cJSON *root, const char *label)
 }
 
 /* A turn makes of one current of the sleigh the other one; none of both fields is a symmetry of the equations of motion. */
-Test(symmetry_space, a_turn_maps_currents_of_the_sleigh_to_each_other)
+Test(symmetry_space, a_turn_maps_currents_of_the_sleigh_to_each_other, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     finished f = run(&p, "analyze sleigh --equations --json=r.json --quiet");
     cr_assert_eq(f.code, 0, "%s", f.err);

@@ -101,9 +101,8 @@ Test(tex, no_piece_is_wide_and_all_are_whole)
 static const char *const SYSTEMS[] = {"sleigh", "euler_disk --option work=900", "contact_oscillator --option work=300", "snakeboard --option work=600", "heisenberg_particle", "kepler --option work=600", "car_with_trailer --option work=10", "free_particle"};
 
 /* \nhnumber{all digits}{as shown}: the JSON has it to the last digit, and what is shown is it, rounded. */
-Test(tex, every_number_is_in_the_json)
+Test(tex, every_number_is_in_the_json, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
         if (!sweep_tries(s, 8, 16)) continue;
@@ -153,9 +152,8 @@ static bool set_in_type(const place *p, const char *name)
 
 static const char *const REDUCED[] = {"crane", "vertical_disk", "kepler", "constant_speed", "skate_with_friction"};
 
-Test(tex, documents_are_set_without_a_fault)
+Test(tex, documents_are_set_without_a_fault, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     bool installed = true;
     for (size_t s = 0; installed && s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
@@ -197,9 +195,8 @@ static size_t times(const char *text, const char *word)
 }
 
 /* The objects of all stages that the JSON has are formulas of the document, with the reduced equations and the group besides. */
-Test(tex, reductions_are_documents)
+Test(tex, reductions_are_documents, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     for (size_t i = 0; i < sizeof REDUCED / sizeof *REDUCED; i++) {
         if (!sweep_tries(i, 3, 6)) continue;

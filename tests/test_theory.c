@@ -190,9 +190,8 @@ static void compare(const sheet *s, const cJSON *set, const char *mu_key, const 
 static const char *const SLEIGH_PARAMETERS[] = {"m", "a", "k"};
 static const char PHI2[] = "m*x'/cos(phi)*sin(phi/k) + m*a*k*phi'*cos(phi/k)";
 
-Test(theory, sleigh_as_printed_is_the_tabulated_one)
+Test(theory, sleigh_as_printed_is_the_tabulated_one, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *data = oracle_read("tests/data/sleigh_oracle.json");
     const cJSON *set;
     cJSON_ArrayForEach(set, oracle_get(data, "sets")) {
@@ -203,9 +202,8 @@ Test(theory, sleigh_as_printed_is_the_tabulated_one)
     cJSON_Delete(data);
 }
 
-Test(theory, thick_disk_as_printed_is_the_tabulated_one)
+Test(theory, thick_disk_as_printed_is_the_tabulated_one, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const char *const parameter[] = {"r", "e", "M", "I1", "I3", "g"};
     cJSON *data = oracle_read("tests/data/disk_oracle.json");
     const cJSON *set;
@@ -432,9 +430,8 @@ static void check_determining(const char *path, const char *current)
     sheet_clear(&s);
 }
 
-Test(theory, determining_equations_as_printed_hold_for_symmetries_and_for_no_other_field)
+Test(theory, determining_equations_as_printed_hold_for_symmetries_and_for_no_other_field, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check_determining("systems/sleigh.yaml", PHI2);
     check_determining("systems/appell_hamel.yaml", "(x*y' - x'*y)/sqrt(x'^2 + y'^2)");
     check_determining("systems/nonholonomic_particle.yaml", "y - t*y'");
@@ -467,9 +464,8 @@ static nh_ex left_side(const nh_determining *all, size_t equation, nh_ex phi, nh
 }
 
 /* In quasi-velocities alone, and with two affine constraints: the same equations, without the JSON between. */
-Test(theory, determining_equations_in_any_chart)
+Test(theory, determining_equations_in_any_chart, PLAIN_ONLY)
 {
-    sweep_plain_only();
     mechanics all[] = {mechanics_of_text(AFFINE, NH_CHART_QUASI), mechanics_of_text(AFFINE, NH_CHART_COORDINATES), mechanics_of_text(TURNTABLE, NH_CHART_COORDINATES)};
     nh_arena *arena = nh_arena_create();
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
@@ -531,9 +527,8 @@ static size_t crane_settings(const cJSON *set, nh_setting *setting)
 static const char *const BASE[4] = {"psi1", "psi2", "phi1", "phi2"}; /* the order of the data */
 
 /* Khat, Upsilon, H(x, p) and the momenta of the group, of the first stage. */
-Test(theory, first_stage_of_the_crane_as_printed_is_the_tabulated_one)
+Test(theory, first_stage_of_the_crane_as_printed_is_the_tabulated_one, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *data = oracle_read("tests/data/crane_oracle.json");
     const cJSON *set = oracle_get(data, "sets")->child, *point;
     nh_setting setting[20];
@@ -583,9 +578,8 @@ Test(theory, first_stage_of_the_crane_as_printed_is_the_tabulated_one)
     cJSON_Delete(data);
 }
 
-Test(theory, second_stage_of_the_crane_as_printed_is_the_tabulated_one)
+Test(theory, second_stage_of_the_crane_as_printed_is_the_tabulated_one, PLAIN_ONLY)
 {
-    sweep_plain_only();
     cJSON *data = oracle_read("tests/data/crane_oracle.json");
     const cJSON *set = oracle_get(data, "sets")->child, *point;
     nh_setting setting[20];
@@ -778,9 +772,8 @@ static void check_bundle(const char *file, const char *line, size_t stage, size_
     reduced_clear(&s);
 }
 
-Test(theory, the_whole_group_at_once_and_by_stages_as_printed_along_its_own_motion)
+Test(theory, the_whole_group_at_once_and_by_stages_as_printed_along_its_own_motion, PLAIN_ONLY)
 {
-    sweep_plain_only();
     check_bundle("systems/euler_disk.yaml", "", 1, 1, 2);
     check_bundle("systems/euler_disk.yaml", " --group 1,2,3 --chain 1;2,3", 1, 2, 1);
     check_bundle("systems/euler_disk.yaml", " --inner 1,4=1/3;2,4=-1/5;3,2=2/7;4,4=2;1,1=5/4", 1, 1, 2);

@@ -93,9 +93,8 @@ static double largest(const double *v, size_t n)
     return most;
 }
 
-Test(urdf, wheels_roll_over_a_thousand_units_of_time)
+Test(urdf, wheels_roll_over_a_thousand_units_of_time, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 0; i < robot_count; i++) {
         if (!sweep_tries(i + 1, 3, 3)) continue;
         rolling x;
@@ -159,9 +158,8 @@ static size_t allowed(const rolling *x, const rolling_robot *given, const double
     return free_ones;
 }
 
-Test(urdf, energies_and_equations_are_those_of_an_independent_computation)
+Test(urdf, energies_and_equations_are_those_of_an_independent_computation, PLAIN_ONLY)
 {
-    sweep_plain_only();
     static const size_t freedom[robot_count] = {4, 2, 2};
     for (size_t i = 0; i < robot_count; i++) {
         rolling x;
@@ -210,9 +208,8 @@ static const char massive[] = "<robot name=\"cart-1\">\n"
                               "  <joint name=\"l\" type=\"continuous\"><parent link=\"body\"/><child link=\"arm\"/><axis xyz=\"0 1 0\"/></joint>\n"
                               "</robot>\n";
 
-Test(urdf, wheels_and_base_are_named_on_the_command_line_or_in_a_file_beside_it)
+Test(urdf, wheels_and_base_are_named_on_the_command_line_or_in_a_file_beside_it, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_make();
     write_here(&p, "cart.urdf", cart);
     write_here(&p, "cart.yaml", "urdf: cart.urdf\nwheels: [l.wheel, {body: r_wheel, radius: 0.1}]\n");
@@ -366,9 +363,8 @@ static void energies(const char *csv, double *first, double *last)
     *last = strtod(at, NULL);
 }
 
-Test(urdf, a_robot_of_thirty_joints_is_simulated_and_exported)
+Test(urdf, a_robot_of_thirty_joints_is_simulated_and_exported, WHOLE_ONLY)
 {
-    sweep_whole_only();
     place p = place_make();
     double first, last;
     write_humanoid(&p, "many.urdf", 4, 7);

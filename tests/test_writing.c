@@ -51,9 +51,8 @@ static void expect_old(const place *p, size_t i, const finished *f, const char *
     free(text);
 }
 
-Test(writing, a_full_disk_leaves_the_old_file)
+Test(writing, a_full_disk_leaves_the_old_file, PLAIN_ONLY)
 {
-    sweep_plain_only();
     for (size_t i = 0; i < writers; i++) {
         place p = place_make();
         folder_here(&p, "out", 0755);
@@ -92,9 +91,8 @@ Test(writing, a_folder_that_is_read_only_keeps_the_old_file)
 }
 
 /* A device cannot be replaced, and is told to be full when it is; so is what a pipe or a disk behind standard output does not take. */
-Test(writing, a_full_device_is_told)
+Test(writing, a_full_device_is_told, PLAIN_ONLY)
 {
-    sweep_plain_only();
     if (access("/dev/full", W_OK)) cr_skip_test("no /dev/full");
     for (size_t i = 0; i < writers; i++) {
         place p = place_make();
@@ -179,9 +177,8 @@ Test(writing, a_folder_is_written_whole_or_not_at_all)
 }
 
 /* Figures that an older run wrote into the folder and the new one does not have would be taken for its own; what nhsym did not write is not its to remove. */
-Test(writing, figures_of_an_older_run_go_with_it)
+Test(writing, figures_of_an_older_run_go_with_it, PLAIN_ONLY)
 {
-    sweep_plain_only();
     place p = place_with_systems();
     char name[60], to[PATH_MAX + 60], *text;
     finished f = run_expecting(&p, "analyze sleigh --quiet -o out", 0);
