@@ -15,9 +15,6 @@
 #include "graph/terms.h"
 #include "motion/sizes.h"
 
-/* largest |R| of a chart of coordinate velocities, without units: above it the formulas lose digits */
-static const double steepest = 10;
-
 /* The largest |z| along a motion; of states that are zero all along it, their size by sizes.h.  States of a chart that
  * breaks down have no such size. */
 static void sizes_of_states(nh_dynamics *dynamics, const nh_motion *motion, double *large)
@@ -61,40 +58,6 @@ bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t 
     return good;
 }
 
-/* ---- charts that break down ---- */
-
-bool nh_may_leave_chart(const nh_model *o)
-{
-    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
-    bool may = o->k && (!o->chart->quasi || nh_chart_inverse(o->chart, inverse));
-    nh_free(inverse);
-    return may;
-}
-
-static bool *steep(size_t count, size_t n, const double *R, const double *factor, bool *any)
-{
-    bool *flag = nh_alloc_array(count + 1, sizeof *flag);
-    *any = false;
-    for (size_t i = 0; i < count; i++) {
-        for (size_t j = 0; j < n; j++) flag[i] |= !(fabs(R[i * n + j] * factor[j]) < steepest);
-        *any |= flag[i];
-    }
-    return flag;
-}
-
-bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
-{
-    const nh_model *o = nh_dynamics_model(dynamics);
-    size_t n = o->m * o->n;
-    double *R = nh_alloc_array(n * (motion->count + 1) + 1, sizeof *R), *factor = R + n * motion->count;
-    nh_chart_slopes(o->chart, factor);
-    bool good = !o->chart->quasi && o->k && nh_along(dynamics, motion, n, o->R, R),
-         *flag = steep(good ? motion->count : 0, n, R, factor, any);
-    if (!good) flag = (nh_free(flag), nh_alloc_array(motion->count + 1, sizeof *flag));
-    nh_free(R);
-    return flag;
-}
-
 static bool point_of_scene(void *context, double t, const double *z, double *point)
 {
     return nh_closed_subsystem_point(context, t, z, point);
@@ -118,42 +81,12 @@ static bool scene_is_steep(const nh_closed_subsystem *s, nh_closed_subsystem_run
     double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
     nh_along_values *entries = nh_along_values_create(o, point_of_scene, run, n, e);
     bool any = false, good = nh_along_values_outputs(entries, motion, R);
-    if (good) nh_free(steep(motion->count, n, R, factor, &any));
+    if (good) nh_free(nh_steep_entries(motion->count, n, R, factor, &any));
     nh_along_values_free(entries);
     nh_free(R);
     nh_free(factor);
     nh_free(e);
     return any || !good;
-}
-
-static void say_machine(const char *words, char *machine)
-{
-    enum { room = 320 };
-    snprintf(machine, room, "%s", words ? words : "interpreted");
-}
-
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count,
-                                const double *times, const nh_flow_options *given, char *machine,
-                                const nh_method **used, nh_error *error)
-{
-    const nh_model *o = nh_dynamics_model(dynamics);
-    size_t m = o->m;
-    nh_bordered *b = nh_bordered_create(o);
-    nh_bordered_jit(b, nh_dynamics_patience(dynamics));
-    nh_flow_problem problem = nh_bordered_flow(b);
-    nh_flow_options options = *given;
-    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = given->scale ? nh_alloc_array(2 * m, sizeof *scale) : NULL;
-    nh_motion first = {.count = 1, .size = m + o->n, .time = (double *)times, .state = (double *)z0};
-    memcpy(y, z0, m * sizeof *y);
-    for (size_t s = 0; s < 2 * m && scale; s++) scale[s] = given->scale[0];
-    options.scale = scale;
-    bool good = nh_along(dynamics, &first, m, o->rho, y + m);
-    nh_motion *motion = good ? nh_automatic_or(method, &problem, y, count, times, &options, used, error) : NULL;
-    if (machine) say_machine(nh_bordered_words(b), machine);
-    nh_free(scale);
-    nh_free(y);
-    nh_bordered_free(b);
-    return motion;
 }
 
 /* ---- one motion ---- */
@@ -169,7 +102,7 @@ typedef struct {
     nh_flow_options how;
     bool leave; /* the chart ends on the way */
     nh_event_watch watch;
-    nh_ex *watched; /* the events' expressions and the sizes of their terms */
+    nh_ex *watched;               /* the events' expressions and the sizes of their terms */
     nh_dynamics *other;           /* of the model in other velocities, */
     nh_closed_subsystem_run *run; /* of the scene */
     nh_singular_of_model *singular;
@@ -194,6 +127,12 @@ bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double
     bool met = motion && motion->guard_hit >= 0;
     nh_motion_free(motion);
     return met;
+}
+
+/* How the equations were evaluated. */
+static void say_machine(job *j, const char *words)
+{
+    snprintf(j->out->machine, sizeof j->out->machine, "%s", words ? words : "interpreted");
 }
 
 /* ---- events ---- */
@@ -236,8 +175,7 @@ static nh_along_values *by_scene(size_t n, const nh_ex *e, void *context)
 }
 
 /* From now on singular places end the motions (`make` NULL: they do not), as far as the known states show them. */
-static void watch_singular(job *j, const bool *known,
-                           nh_along_values *make(size_t n, const nh_ex *e, void *context))
+static void watch_singular(job *j, const bool *known, nh_along_values *make(size_t n, const nh_ex *e, void *context))
 {
     nh_singular_of_model_free(j->singular);
     bool chart = make == in_chart || make == by_scene;
@@ -335,7 +273,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     j->out->motion = motion;
     watch(j, NULL);
     watch_singular(j, NULL, NULL);
-    say_machine(nh_closed_subsystem_run_words(run), j->out->machine);
+    say_machine(j, nh_closed_subsystem_run_words(run));
     nh_free(small);
     nh_closed_subsystem_run_free(run);
     if (good) return true;
@@ -405,7 +343,7 @@ static bool in_other_velocities(job *j, nh_error *error)
         j->out->motion = motion;
         j->out->formulation = q->other->chart->quasi ? NH_ON_SUBMANIFOLD ", in quasi-velocities"
                                                      : NH_ON_SUBMANIFOLD ", in coordinate velocities";
-        say_machine(nh_dynamics_words(other), j->out->machine);
+        say_machine(j, nh_dynamics_words(other));
         take_values(j, nh_along_values_of(j->dynamics, true, q->n, q->e), motion);
     } else {
         nh_motion_free(motion);
@@ -425,7 +363,7 @@ static void in_all_states(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
     nh_motion *motion = j->leave ? NULL : in_own_velocities(j, error);
-    say_machine(nh_dynamics_words(j->dynamics), j->out->machine);
+    say_machine(j, nh_dynamics_words(j->dynamics));
     bool any = j->leave;
     if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
     bool out_of_time = late(&j->time_limit) || (motion && spent_all(q, motion));

@@ -11,6 +11,8 @@
 /* The formulation in the model's own velocities, as reports name it. */
 #define NH_ON_SUBMANIFOLD "equations of motion on the constraint submanifold"
 
+enum { NH_TRAJECTORY_MACHINE = 320 };
+
 /* The equations of a motion. */
 typedef enum {
     /* those on the constraint submanifold, of the model; all coordinates where its chart breaks down on the way */
@@ -74,7 +76,7 @@ typedef struct {
     double *value;            /* count x n, row by row: value[i * n + k] */
     double *event_value;      /* the same at the events: motion->events x n */
     nh_closed_subsystem *scene;          /* NULL: all states were integrated */
-    char machine[320];        /* how the equations were evaluated, in words */
+    char machine[NH_TRAJECTORY_MACHINE];        /* how the equations were evaluated, in words */
 } nh_trajectory;
 
 /* The motion in the chart, or in all coordinates where the chart breaks down on the way.  NULL with a message when
@@ -92,10 +94,12 @@ bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t 
 /* Where does a chart of coordinate velocities lose digits?  One flag per output, which the caller frees (nh_free);
  * *any: at some output. */
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);
+/* The same from `count` rows of n slopes, which the factors free of their units. */
+bool *nh_steep_entries(size_t count, size_t n, const double *R, const double *factor, bool *any);
 
 /* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: the one that
- * suits (automatic.h), *used where `used` is not NULL.  `machine`: 320 bytes for how the equations were evaluated, or
- * NULL. */
+ * suits (automatic.h), *used where `used` is not NULL.  `machine`: NH_TRAJECTORY_MACHINE bytes for how the equations
+ * were evaluated, or NULL. */
 nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count,
                                 const double *times, const nh_flow_options *options, char *machine,
                                 const nh_method **used, nh_error *error);

@@ -37,6 +37,8 @@ bool nh_system_text_of(nh_system_reader *r, const nh_deck_node *map, const char 
                        const char **out);
 bool nh_system_assignment_name(nh_system_reader *r, const nh_deck_node *node, const char *what, const char **name);
 bool nh_system_read_right_side(nh_system_reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out);
+/* Gives parameters the values of a request; those with exact values and inputs become definitions. */
+bool nh_system_apply_settings(nh_system_reader *r, size_t count, const nh_setting *setting);
 bool nh_system_new_name(nh_system_reader *r, const nh_deck_node *node); /* is it free and well formed? */
 bool nh_system_read_chart(nh_system_reader *r);
 bool nh_system_read_forces(nh_system_reader *r);

@@ -1,0 +1,198 @@
+/* antiderivative_roots: antiderivatives with square roots of quadratic polynomials. */
+#include "exact/antiderivative_internal.h"
+
+#include "exact/normal.h"
+#include "exact/square.h"
+#include "graph/diff.h"
+
+typedef nh_antiderivative_builder builder;
+typedef nh_antiderivative_letter letter;
+
+/* sqrt(Q) with a polynomial Q in x, or in y = x^(1/n), exp(lambda x), cos(u) or sin(u): then candidates are functions
+   of y. */
+typedef struct {
+    nh_ex x, Q, root, back; /* the variable; back: what it stands for */
+    int degree;             /* of Q */
+    size_t count;           /* 0: it is x */
+    /* from[i] becomes to[i], a function of y; of the other one of sine and cosine only squares are functions of y */
+    nh_ex from[2], to[2];
+} radical;
+
+/* The degree, 1 or 2, of Q = a x^2 + b x + c; 0 where it is no such polynomial. */
+static int coefficients_of(const builder *b, nh_ex x, nh_ex Q, nh_ex out[3])
+{
+    nh_dag *d = b->d;
+    nh_ex zero = nh_int(d, 0), first = nh_diff(d, Q, x), second = nh_simplify_short(d, nh_diff(d, first, x), 0);
+    if (nh_depends(d, second, x)) return 0;
+    out[0] = nh_simplify_short(d, nh_substitute(d, Q, 1, &x, &zero), 0);
+    out[1] = nh_simplify_short(d, nh_substitute(d, first, 1, &x, &zero), 0);
+    out[2] = nh_mul(d, nh_ratio(d, 1, 2), second);
+    return nh_is_zero(d, second) ? !nh_is_zero(d, out[1]) : 2;
+}
+
+static nh_ex back(const builder *b, const radical *r, nh_ex e)
+{
+    return r->count ? nh_substitute(b->d, e, 1, &r->x, &r->back) : e;
+}
+
+/* exp(k log y) as y^k */
+static nh_ex with_powers(nh_dag *d, nh_ex e, nh_ex y)
+{
+    enum { most = 32 };
+    nh_ex call[most], by[most];
+    size_t n = nh_functions_in(d, e, call, most), count = 0;
+    for (size_t i = 0; i < n && i < most; i++) {
+        if (nh_function_of(d, call[i]) != NH_EXP || !nh_depends(d, call[i], y)) continue;
+        nh_ex k = nh_simplify_short(d, nh_mul(d, y, nh_diff(d, nh_child(d, call[i], 0), y)), 0);
+        if (nh_kind_of(d, k) != NH_NUMBER) continue;
+        by[count] = nh_pow(d, y, k);
+        call[count++] = call[i];
+    }
+    return nh_substitute(d, e, count, call, by);
+}
+
+static nh_ex in_variable(const builder *b, const radical *r, nh_ex e)
+{
+    nh_dag *d = b->d;
+    if (!r->count) return e;
+    return nh_simplify_short(d, nh_canonical(d, with_powers(d, nh_substitute(d, e, r->count, r->from, r->to), r->x), 0),
+                             0);
+}
+
+/* int dx/sqrt(Q): with a > 0 the logarithm of 2 sqrt(a Q) + Q', with a < 0 the arctangent of Q'/(2 sqrt(-a Q)). */
+static void put_first_kind(builder *b, const radical *r, const nh_ex k[3])
+{
+    nh_dag *d = b->d;
+    nh_ex two = nh_int(d, 2), slope = back(b, r, nh_add(d, k[1], nh_product(d, 3, (nh_ex[]){two, k[2], r->x})));
+    int sign = nh_antiderivative_mostly(b, k[2]);
+    if (sign > 0)
+        nh_antiderivative_put_logarithm(
+            b, nh_add(d, nh_product(d, 3, (nh_ex[]){two, nh_antiderivative_root(b, k[2]), r->root}), slope));
+    if (sign < 0)
+        nh_antiderivative_put(
+            b, nh_call(d, NH_ATAN,
+                       nh_div(d, slope,
+                              nh_product(d, 3, (nh_ex[]){two, nh_antiderivative_root(b, nh_neg(d, k[2])), r->root}))));
+}
+
+/* int dx/((x - p) sqrt(Q)): with T = 2 Q(p) + Q'(p) (x - p) the area function of T/(2 sqrt(Q(p) Q)), or the arctangent
+   for Q(p) < 0; for a Q of degree one, where T = Q(p) + Q, they are twice those of sqrt(Q/Q(p)). */
+static void put_third_kind(builder *b, const radical *r, nh_ex p)
+{
+    nh_dag *d = b->d;
+    nh_ex at = nh_simplify_short(d, nh_substitute(d, r->Q, 1, &r->x, &p), 0), slope = nh_diff(d, r->Q, r->x),
+          two = nh_int(d, 2);
+    slope = nh_simplify_short(d, nh_substitute(d, slope, 1, &r->x, &p), 0);
+    int sign = nh_antiderivative_mostly(b, at);
+    if (nh_is_zero(d, at) || sign == 0) return;
+    nh_ex T = back(b, r, nh_add(d, nh_mul(d, two, at), nh_mul(d, slope, nh_sub(d, r->x, p))));
+    nh_ex size = nh_antiderivative_root(b, sign > 0 ? at : nh_neg(d, at));
+    nh_ex f = r->degree == 1 ? nh_div(d, r->root, size) : nh_div(d, T, nh_product(d, 3, (nh_ex[]){two, size, r->root}));
+    if (sign > 0) nh_antiderivative_put_area(b, f);
+    else nh_antiderivative_put(b, nh_call(d, NH_ATAN, f));
+}
+
+static void put_poles(builder *b, const radical *r, nh_ex p)
+{
+    nh_dag *d = b->d;
+    nh_ex k[3], zero = nh_int(d, 0), slope = nh_simplify_short(d, nh_diff(d, p, r->x), 0);
+    if (nh_is_zero(d, slope)) return;
+    if (!nh_depends(d, slope, r->x)) {
+        put_third_kind(b, r, nh_neg(d, nh_div(d, nh_substitute(d, p, 1, &r->x, &zero), slope)));
+    } else if (coefficients_of(b, r->x, p, k) == 2) {
+        nh_ex D = nh_simplify_short(
+                  d, nh_sub(d, nh_powi(d, k[1], 2), nh_product(d, 3, (nh_ex[]){nh_int(d, 4), k[2], k[0]})), 0),
+              two = nh_mul(d, nh_int(d, 2), k[2]);
+        if (nh_antiderivative_sign(b, D) <= 0) return;
+        put_third_kind(b, r, nh_div(d, nh_sub(d, nh_antiderivative_root(b, D), k[1]), two));
+        put_third_kind(b, r, nh_neg(d, nh_div(d, nh_add(d, nh_antiderivative_root(b, D), k[1]), two)));
+    }
+}
+
+static void put_integrals(builder *b, radical r)
+{
+    nh_dag *d = b->d;
+    nh_ex k[3];
+    bool is_exponential = r.count && nh_kind_of(d, r.back) == NH_FUNCTION && nh_function_of(d, r.back) == NH_EXP;
+    r.Q = in_variable(b, &r, r.Q);
+    if ((r.count && nh_depends(d, r.Q, b->in->x)) || !nh_depends(d, r.Q, r.x)) return;
+    r.degree = coefficients_of(b, r.x, r.Q, k);
+    if (!r.degree) return;
+    if (r.degree == 2) put_first_kind(b, &r, k);
+    if (is_exponential) put_third_kind(b, &r, nh_int(d, 0)); /* dx = dy/(lambda y) */
+    for (size_t j = 0; j < b->divisors; j++) {
+        nh_ex p = in_variable(b, &r, b->divisor[j].e);
+        if (!r.count || !nh_depends(d, p, b->in->x)) put_poles(b, &r, p);
+    }
+}
+
+/* y = exp(lambda x), exp(-lambda x), and their powers: cosh(x) is (1 + exp(2 x))/(2 exp(x)). */
+static void put_root_of_exponentials(builder *b, nh_ex Q, nh_ex root, nh_ex exponential)
+{
+    enum { most_times = 4 };
+    nh_dag *d = b->d;
+    nh_ex y = nh_symbol_fresh(d, "y"),
+          lambda = nh_simplify_short(d, nh_diff(d, nh_child(d, exponential, 0), b->in->x), 0);
+    for (int i = 0; i < 2 * most_times && !nh_depends(d, lambda, b->in->x); i++) {
+        nh_ex rate = nh_mul(d, nh_int(d, i % 2 ? -(i / 2 + 1) : i / 2 + 1), lambda);
+        put_integrals(b, (radical){.x = y,
+                                   .Q = Q,
+                                   .root = root,
+                                   .back = nh_call(d, NH_EXP, nh_mul(d, rate, b->in->x)),
+                                   .count = 1,
+                                   .from = {b->in->x},
+                                   .to = {nh_div(d, nh_call(d, NH_LOG, y), rate)}});
+    }
+}
+
+/* y = cos u and sin u */
+static void put_root_of_waves(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex sine)
+{
+    nh_dag *d = b->d;
+    nh_ex y = nh_symbol_fresh(d, "y"), other = nh_sqrt(d, nh_sub(d, nh_int(d, 1), nh_powi(d, y, 2)));
+    put_integrals(b, (radical){y, Q, root, cosine, 0, 2, {cosine, sine}, {y, other}});
+    put_integrals(b, (radical){y, Q, root, sine, 0, 2, {sine, cosine}, {y, other}});
+}
+
+/* y = x^(1/n) */
+static void put_root_of_powers(builder *b, nh_ex Q, nh_ex root, int64_t n)
+{
+    nh_dag *d = b->d;
+    nh_ex y = nh_symbol_fresh(d, "y"), log_y = nh_call(d, NH_LOG, y);
+    put_integrals(b, (radical){.x = y,
+                               .Q = Q,
+                               .root = root,
+                               .back = nh_pow(d, b->in->x, nh_ratio(d, 1, n)),
+                               .count = 1,
+                               .from = {b->in->x},
+                               .to = {nh_call(d, NH_EXP, nh_mul(d, nh_int(d, n), log_y))}});
+}
+
+static void put_root(builder *b, nh_ex Q, nh_ex root)
+{
+    put_integrals(b, (radical){.x = b->in->x, .Q = Q, .root = root});
+    for (size_t i = 0; i < b->letters; i++) {
+        const letter *l = &b->letter[i];
+        const nh_kernel *k = &b->form.kernels.item[l->index];
+        if (l->kind == NH_KERNEL_ROOT && k->atom == b->in->x) put_root_of_powers(b, Q, root, k->unit.q);
+        if (l->kind == NH_KERNEL_EXP) put_root_of_exponentials(b, Q, root, l->e);
+        if (l->kind == NH_KERNEL_COS)
+            put_root_of_waves(b, Q, root, l->e,
+                              nh_kernel_power(&b->form.kernels, b->form.kernels.item[l->index].partner, 1));
+    }
+}
+
+void nh_antiderivative_put_roots(builder *b)
+{
+    const nh_kernel *k = b->form.kernels.item;
+    for (size_t i = 0; i < b->letters; i++) {
+        const letter *u = &b->letter[i];
+        if (u->kind != NH_KERNEL_ROOT || k[u->index].unit.q != 2) continue;
+        put_root(b, k[u->index].atom, u->e);
+        for (size_t j = 0; j < i; j++) {
+            const letter *v = &b->letter[j];
+            if (v->kind == NH_KERNEL_ROOT && k[v->index].unit.q == 2)
+                put_root(b, nh_mul(b->d, k[u->index].atom, k[v->index].atom), nh_mul(b->d, u->e, v->e));
+        }
+    }
+}

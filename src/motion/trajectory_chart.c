@@ -1,0 +1,68 @@
+/* trajectory_chart: where a chart breaks down, and the motion in all coordinates. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "graph/terms.h"
+#include "motion/automatic.h"
+#include "motion/trajectory.h"
+
+/* largest |R| of a chart of coordinate velocities, without units: above it the formulas lose digits */
+static const double steepest = 10;
+
+bool nh_may_leave_chart(const nh_model *o)
+{
+    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
+    bool may = o->k && (!o->chart->quasi || nh_chart_inverse(o->chart, inverse));
+    nh_free(inverse);
+    return may;
+}
+
+bool *nh_steep_entries(size_t count, size_t n, const double *R, const double *factor, bool *any)
+{
+    bool *flag = nh_alloc_array(count + 1, sizeof *flag);
+    *any = false;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = 0; j < n; j++) flag[i] |= !(fabs(R[i * n + j] * factor[j]) < steepest);
+        *any |= flag[i];
+    }
+    return flag;
+}
+
+bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    size_t n = o->m * o->n;
+    double *R = nh_alloc_array(n * (motion->count + 1) + 1, sizeof *R), *factor = R + n * motion->count;
+    nh_chart_slopes(o->chart, factor);
+    bool good = !o->chart->quasi && o->k && nh_along(dynamics, motion, n, o->R, R),
+         *flag = nh_steep_entries(good ? motion->count : 0, n, R, factor, any);
+    if (!good) flag = (nh_free(flag), nh_alloc_array(motion->count + 1, sizeof *flag));
+    nh_free(R);
+    return flag;
+}
+
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count,
+                                const double *times, const nh_flow_options *given, char *machine,
+                                const nh_method **used, nh_error *error)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    size_t m = o->m;
+    nh_bordered *b = nh_bordered_create(o);
+    nh_bordered_jit(b, nh_dynamics_patience(dynamics));
+    nh_flow_problem problem = nh_bordered_flow(b);
+    nh_flow_options options = *given;
+    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = given->scale ? nh_alloc_array(2 * m, sizeof *scale) : NULL;
+    nh_motion first = {.count = 1, .size = m + o->n, .time = (double *)times, .state = (double *)z0};
+    memcpy(y, z0, m * sizeof *y);
+    for (size_t s = 0; s < 2 * m && scale; s++) scale[s] = given->scale[0];
+    options.scale = scale;
+    bool good = nh_along(dynamics, &first, m, o->rho, y + m);
+    nh_motion *motion = good ? nh_automatic_or(method, &problem, y, count, times, &options, used, error) : NULL;
+    const char *words = nh_bordered_words(b);
+    if (machine) snprintf(machine, NH_TRAJECTORY_MACHINE, "%s", words ? words : "interpreted");
+    nh_free(scale);
+    nh_free(y);
+    nh_bordered_free(b);
+    return motion;
+}
