@@ -36,7 +36,7 @@ static bool has_ansatz(const char *path)
 }
 
 /* What is out of reach is found with the ansatz of the analysis file of that name. */
-Test(catalogue, analysis_files_find_everything_known)
+Test(catalogue, analysis_files_find_everything_known, PLAIN_ONLY)
 {
     char *name[most_files];
     size_t n = list("analyses", name);

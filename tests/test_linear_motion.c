@@ -124,7 +124,7 @@ static size_t exact_squares(const nh_analysis *r)
 
 /* n equal masses between springs: frequencies 2 sqrt(k/m) sin(j pi/(2 n + 2)) have no short names, the quadratic integrals need none, a constant
  * force included.  Drag at one end takes them all and leaves complex rates, the search for whose names ends after little work. */
-Test(linear_motion, chains_have_their_quadratic_integrals)
+Test(linear_motion, chains_have_their_quadratic_integrals, PLAIN_ONLY)
 {
     enum { n = SWEEP_SANITIZED ? 3 : 5 };
     static const struct {
@@ -159,7 +159,7 @@ Test(linear_motion, waves_of_few_masses_have_roots_as_rates)
 }
 
 /* Two eigenvectors for four rates of two values: waves alone give half of what there is. */
-Test(linear_motion, jordan_blocks_have_powers_of_time)
+Test(linear_motion, jordan_blocks_have_powers_of_time, PLAIN_ONLY)
 {
     static const char *const text[] = {
         "name: j\ncoordinates: [x, y]\nlagrangian: \"x'*y' - x*y - y^2/2\"\n",

@@ -124,7 +124,7 @@ Test(named_search, euler_disk, .timeout = 300, PLAIN_ONLY)
 }
 
 /* The elementary ones among them: a frequency that falls as 1/(1 + t^2), and beyond the value at which it becomes a growth. */
-Test(named_search, conjugate_points_elementary)
+Test(named_search, conjugate_points_elementary, PLAIN_ONLY)
 {
     static const char *const force[][2] = {{"-k", "sqrt(k + 1)*atan(t)"}, {"k", "sqrt(k - 1)*atan(t)"}, {"1", "atan(t)"}, {"2", "sinh(atan(t))"}, {"-8", "sin(3*atan(t))"}};
     for (size_t i = 0; i < sizeof force / sizeof *force; i++) {

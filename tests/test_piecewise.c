@@ -150,7 +150,7 @@ static double largest_change(const nh_model *o, nh_ex phi)
     return worst;
 }
 
-Test(piecewise, currents_are_continuous_along_motions)
+Test(piecewise, currents_are_continuous_along_motions, PLAIN_ONLY)
 {
     for (size_t i = 0; i < COUNT; i++) {
         if (!sweep_tries(i, 9, 18)) continue;

@@ -339,7 +339,7 @@ Test(plane, limits_are_named)
 
 static const cJSON *key(const cJSON *object, const char *name) { return cJSON_GetObjectItem(object, name); }
 
-Test(plane, the_command_constructs_and_proves)
+Test(plane, the_command_constructs_and_proves, PLAIN_ONLY)
 {
     place p = place_make();
     char line[500];

@@ -465,7 +465,7 @@ static nh_analysis *analysed_row(const char *name)
 }
 
 /* Of two roots, each a power of a coordinate times the other, the system's own alone is a letter: with both, one integral of two was found, and not proved. */
-Test(published, a_root_that_the_system_has_is_no_second_letter)
+Test(published, a_root_that_the_system_has_is_no_second_letter, PLAIN_ONLY)
 {
     nh_analysis *r = analysed_row("Perlick, first family");
     cr_expect_eq(independent_and_proved(r), 3);

@@ -200,7 +200,7 @@ Test(quadratures, skate_on_belt, PLAIN_ONLY)
 {
     check(ask_file("systems/skate_on_belt.yaml"), "skate on a belt", 5, 6);
 }
-Test(quadratures, knife_edge) { check(ask_file("systems/knife_edge.yaml"), "knife edge", 5, 6); }
+Test(quadratures, knife_edge, PLAIN_ONLY) { check(ask_file("systems/knife_edge.yaml"), "knife edge", 5, 6); }
 Test(quadratures, free_particle) { check(ask_file("systems/free_particle.yaml"), "free particle", 6, 7); }
 
 /* The sleigh's third current [CechMusilova2014, sec. 4.2] for all values of the parameters, although its position needs k = 2. */

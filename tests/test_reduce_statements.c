@@ -266,7 +266,7 @@ Test(reduce_statements, stages_that_are_local)
 }
 
 /* A density that is a power of the determinant's numerator alone, without the pole of the angles. */
-Test(reduce_statements, densities)
+Test(reduce_statements, densities, PLAIN_ONLY)
 {
     told t;
     static const char *const dense[] = {"chaplygin_ball", "veselova", "spherical_robot", "routh_sphere"};

@@ -156,7 +156,7 @@ Test(space, planted_surfaces_curves_and_points)
 }
 
 /* With v = w = 0 oscillators, of the frequencies 1 and sqrt(u): found on the surface, whatever planes are looked at. */
-Test(space, what_lies_on_a_surface_is_found_once)
+Test(space, what_lies_on_a_surface_is_found_once, PLAIN_ONLY)
 {
     place p = place_make();
     write_system(&p, "u: 0.41, v: 0.37, w: 0.29", "x^2 + u*y^2 + v*y^4 + w*x^2*y");

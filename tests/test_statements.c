@@ -482,7 +482,7 @@ Test(statements, a_proved_current_does_not_drift_by_itself)
 }
 
 /* A field of many lines is left out of the text, which says how to see it. */
-Test(statements, a_long_field_is_on_the_page)
+Test(statements, a_long_field_is_on_the_page, PLAIN_ONLY)
 {
     place p = place_make();
     reports r = analyze(&p, "sleigh --option shown=10"), all = analyze(&p, "sleigh --option shown=4000");
@@ -511,7 +511,7 @@ Test(statements, a_direction_is_no_rate, PLAIN_ONLY)
 
 /* A skate on a belt: sqrt(1/cos(h)^2) (x' - V) is its speed times the sign of cos(h), which jumps where cos(h) = 0. The coordinates' velocities end there, the
  * motion goes on, and the speed with it. */
-Test(statements, a_further_integral_goes_on_where_the_chart_ends)
+Test(statements, a_further_integral_goes_on_where_the_chart_ends, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "belt.yaml", "name: belt\nparameters: [{name: V, value: 0.8}]\ncoordinates: [x, y, {name: h, type: angle}]\n"

@@ -265,7 +265,7 @@ Test(symmetry_space, roots_of_numbers, PLAIN_ONLY)
 }
 
 /* x' = e^(-g ..) ..: of the currents y' and z' none has its bracket in the distribution, and a quotient has. */
-Test(symmetry_space, a_quotient_of_currents_is_better_than_they_are)
+Test(symmetry_space, a_quotient_of_currents_is_better_than_they_are, PLAIN_ONLY)
 {
     place p = place_with_systems();
     finished f = run(&p, "analyze constant_speed --equations --json=r.json --quiet");

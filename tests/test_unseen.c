@@ -6,6 +6,7 @@
 
 #include "catalogue.h"
 #include "scratch.h"
+#include "sweep.h"
 
 typedef struct {
     const char *name, *text;
@@ -396,7 +397,7 @@ Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed)
 
 /* z' = A z + b(t), where b has finitely many derivatives: each current is exp(-lambda t) (l . z + c(t)), and no series
    is needed. */
-Test(unseen, linear_motion_that_is_driven_has_closed_forms)
+Test(unseen, linear_motion_that_is_driven_has_closed_forms, PLAIN_ONLY)
 {
     static const struct {
         const char *name, *text;
