@@ -29,9 +29,10 @@ BUILD   = build$(if $(SANITIZE),-$(if $(filter thread,$(SANITIZE)),threads,sanit
 JOBS    = $(shell nproc 2>/dev/null || echo 2)
 comma   = ,
 
-# Warnings are errors with the compilers that this was written with; a newer one may warn of what could not be seen yet.
+# Warnings are errors with the compilers that this was written with; a newer one may warn of what could not be seen yet, and so may a library that deprecates a
+# function after us.
 KNOWN    = 12 14
-WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(filter $(KNOWN),$(firstword $(subst ., ,$(shell $(CC) -dumpversion)))),-Werror)
+WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(filter $(KNOWN),$(firstword $(subst ., ,$(shell $(CC) -dumpversion)))),-Werror -Wno-error=deprecated-declarations)
 # Wrong addresses, which the address sanitizer sees where they are used: these three took a quarter of the time to compile, and an eighth of that to run.
 USED     = -fno-sanitize=object-size$(comma)pointer-overflow$(comma)null
 SANE     = -fsanitize=$(if $(filter thread,$(SANITIZE)),thread,address$(comma)undefined -fno-sanitize-recover=all $(USED)) -fno-omit-frame-pointer

@@ -2,6 +2,7 @@
  * are continued alone, and recognised in words whose weights fit. */
 #include "count/construct_internal.h"
 
+#include <flint/nmod.h>
 #include <flint/nmod_mat.h>
 #include <flint/nmod_poly.h>
 #include <flint/nmod_poly_factor.h>

@@ -223,8 +223,9 @@ static void taylor(acb_ptr u, slong n, acb_srcptr p, const acb_t at, slong bits)
     _acb_vec_clear(w, all);
 }
 
-/* y and y' from `at` to `at` + h; not finite where h leaves the disc of convergence. */
-static void advance(acb_ptr y, acb_srcptr p, const acb_t at, const acb_t h, slong bits)
+/* y and y' from `at` to `at` + h; not finite where h leaves the disc of convergence.  Not inlined: GCC 14 would take y
+ * for its first part, and warn. */
+__attribute__((noinline)) static void advance(acb_ptr y, acb_srcptr p, const acb_t at, const acb_t h, slong bits)
 {
     double left = distance_below(at, 1), right = distance_below(at, -1), radius = disc * fmin(left, right);
     mag_t size, ratio, tail;
@@ -263,35 +264,40 @@ static void advance(acb_ptr y, acb_srcptr p, const acb_t at, const acb_t h, slon
 /* Of the solution with y(0) = 1, y'(0) = 0, or 0 and 1: y and y' at z = argument[3]. */
 static void transport(acb_ptr y, bool second, acb_srcptr argument, slong bits)
 {
-    enum { AT, NEXT, MIDDLE, STEP, all };
-    acb_ptr w = _acb_vec_init(all);
-    acb_t z;
+    acb_t z, at, next, middle, step;
     double gone = 0, length;
     mag_t size;
     mag_init(size);
     acb_init(z);
+    acb_init(at);
+    acb_init(next);
+    acb_init(middle);
+    acb_init(step);
     acb_set(z, argument + 3);
     acb_set_ui(y, !second);
     acb_set_ui(y + 1, second);
-    acb_get_mid(w + MIDDLE, z);
-    acb_get_mag(size, w + MIDDLE);
+    acb_get_mid(middle, z);
+    acb_get_mag(size, middle);
     length = mag_get_d(size);
     for (bool done = !acb_is_finite(z); !done;) {
-        double reach = disc * stride * fmin(distance_below(w + AT, 1), distance_below(w + AT, -1)) * nearly;
+        double reach = disc * stride * fmin(distance_below(at, 1), distance_below(at, -1)) * nearly;
         done = !(gone + reach < length) || !(reach > 1e-6);
         gone += reach;
-        if (done) acb_set(w + NEXT, z);
-        else acb_set_d(w + NEXT, gone / length);
-        if (!done) acb_mul(w + NEXT, w + NEXT, w + MIDDLE, bits);
-        if (!done) acb_get_mid(w + NEXT, w + NEXT);
-        acb_sub(w + STEP, w + NEXT, w + AT, bits);
-        advance(y, argument, w + AT, w + STEP, bits);
-        acb_get_mid(w + AT, w + NEXT);
+        if (done) acb_set(next, z);
+        else acb_set_d(next, gone / length);
+        if (!done) acb_mul(next, next, middle, bits);
+        if (!done) acb_get_mid(next, next);
+        acb_sub(step, next, at, bits);
+        advance(y, argument, at, step, bits);
+        acb_get_mid(at, next);
     }
     if (!acb_is_finite(z)) _acb_vec_indeterminate(y, 2);
     mag_clear(size);
     acb_clear(z);
-    _acb_vec_clear(w, all);
+    acb_clear(at);
+    acb_clear(next);
+    acb_clear(middle);
+    acb_clear(step);
 }
 
 static void riemann(acb_t out, bool second, acb_srcptr argument, which part, slong bits)

@@ -18,7 +18,11 @@ typedef struct {
 /* The byte of the source at which Expat is. */
 static size_t place(const reader *r)
 {
-    XML_Index index = XML_GetCurrentByteIndex(r->parser);
+#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9 /* where the other name is deprecated */
+    int64_t index = XML_GetCurrentByteIndex64(r->parser);
+#else
+    int64_t index = XML_GetCurrentByteIndex(r->parser);
+#endif
     size_t at = r->skip + (index < 0 ? 0 : (size_t)index);
     return at < r->deck->length ? at : r->deck->length;
 }
