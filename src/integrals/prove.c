@@ -6,6 +6,7 @@
 #include "graph/monomials.h"
 #include "graph/terms.h"
 #include "exact/normal.h"
+#include "integrals/affine_field.h"
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"
 #include "integrals/symmetry.h"
@@ -197,6 +198,10 @@ static bool proved_by_symmetry(const nh_model *o, nh_ex phi, nh_claim claim, con
     enum { longest = 40 };
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
     bool holds = o->n > 0;
+    if (holds && nh_affine_field(o, phi, options, zeta) && equations_hold(o, phi, zeta, claim, options)) {
+        nh_free(zeta);
+        return true;
+    }
     if (holds) nh_symmetry_components(o, phi, zeta);
     for (size_t i = 0; i < o->n && holds; i++) holds = nh_complexity(o->dag, zeta[i]) <= longest;
     holds = holds && equations_hold(o, phi, zeta, claim, options);

@@ -14,7 +14,7 @@ typedef struct {
     const nh_model *o;
     const nh_points *points;
     size_t max_terms, signs;
-    nh_ex *force;            /* m */
+    const nh_ex *force;      /* m */
     nh_ex call[most_signs];  /* sign(u) with velocities in u */
     nh_ex value[most_signs]; /* symbols: its value on either side */
 } problem;
@@ -113,22 +113,31 @@ static nh_ex integrate(problem *p, int step)
     return found ? nh_substitute(d, U, p->signs, p->value, p->call) : 0;
 }
 
+static nh_ex potential(problem *p)
+{
+    if (!is_closed(p)) return 0;
+    nh_ex U = integrate(p, 1);
+    return U ? U : integrate(p, -1);
+}
+
 nh_ex nh_force_potential(const nh_model *o, const nh_points *points, size_t max_terms)
 {
     if (!o->system->has_forces) return 0;
     problem p = {.o = o, .points = points, .max_terms = max_terms};
-    p.force = nh_alloc_array(o->m + 1, sizeof *p.force);
+    nh_ex *force = nh_alloc_array(o->m + 1, sizeof *force);
+    p.force = force;
     bool some = false, position = true;
     for (size_t s = 0; s < o->m && position; s++) {
-        p.force[s] = o->system->force[s];
-        position = fix_signs(&p, &p.force[s]);
-        some |= !nh_is_zero(o->dag, p.force[s]);
+        force[s] = o->system->force[s];
+        position = fix_signs(&p, &force[s]);
+        some |= !nh_is_zero(o->dag, force[s]);
     }
-    nh_ex U = 0;
-    if (some && position && is_closed(&p)) {
-        U = integrate(&p, 1);
-        if (!U) U = integrate(&p, -1);
-    }
-    nh_free(p.force);
+    nh_ex U = some && position ? potential(&p) : 0;
+    nh_free(force);
     return U;
+}
+
+nh_ex nh_form_potential(const nh_model *o, const nh_points *points, size_t max_terms, const nh_ex *form)
+{
+    return potential(&(problem){.o = o, .points = points, .max_terms = max_terms, .force = form});
 }

@@ -66,6 +66,8 @@ void nh_linear_motion_search(nh_stage_solver *solver);
 /* The quadratic forms of such a system alone, where its rates have no names.  They contain what the stage of positions
  * turned into each other gives, which needs more work. */
 void nh_linear_motion_forms(nh_stage_solver *solver);
+/* Canonical momenta times 1 and positions, and centres of mass, where the kinetic energy depends on the position. */
+void nh_linear_fields_search(nh_stage_solver *solver);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
 void nh_isometries_search(nh_stage_solver *solver);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */

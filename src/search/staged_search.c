@@ -107,6 +107,7 @@ typedef struct {
 static const step steps[] = {
     {.stage = NH_STAGE_WORDS},               /* the energy, momenta, velocities and positions by themselves */
     {.stage = NH_STAGE_DRIVE},               /* with what a force of t adds to them */
+    {.run = nh_linear_fields_search},        /* before stages whose coefficients would be masses and lengths */
     {.run = stages_of_many},                 /* and angular momenta, where everything else is too large */
     {.run = nh_linear_motion_search},        /* before the pencil, which has the rates of linear motion by rounding */
     {.run = nh_rates_search},                /* before larger stages, whose null vectors are less short */

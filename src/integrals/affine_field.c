@@ -1,0 +1,94 @@
+#include "integrals/affine_field.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "base/memory.h"
+#include "integrals/exact_points.h"
+#include "integrals/recognise.h"
+
+enum { spare_points = 4, tries_per_point = 4, most_denominator = 1000 };
+static const double small = 1e-10; /* of a residual, relative to the components */
+
+/* M^T zeta = Y(Phi) at a random point. */
+static bool values_at(const nh_model *o, nh_ball *ball, uint64_t *state, const nh_ex *M, const nh_ex *Y, nh_ex *basis,
+                      size_t width, double *work, double *zeta, double *row)
+{
+    double radius, rcond;
+    if (!nh_exact_point(o, ball, state)) return false;
+    for (size_t i = 0; i < o->n; i++) {
+        if (!nh_ball_value(ball, Y[i], &zeta[i], &radius)) return false;
+        for (size_t j = 0; j < o->n; j++)
+            if (!nh_ball_value(ball, M[i * o->n + j], &work[j * o->n + i], &radius)) return false;
+    }
+    for (size_t b = 0; b < width; b++)
+        if (!nh_ball_value(ball, basis[b], &row[b], &radius)) return false;
+    return nh_solve(o->n, work, 1, zeta, &rcond);
+}
+
+/* The coefficients of each component, if they are short fractions that fit at all points; `row` is points x width,
+ * `value` points x n. */
+static bool fit(const nh_model *o, size_t points, size_t width, const nh_ex *basis, const double *row,
+                const double *value, nh_ex *zeta)
+{
+    nh_dag *d = o->dag;
+    double *a = nh_alloc_array(points * width, sizeof *a), *b = nh_alloc_array(points * o->n, sizeof *b);
+    nh_num *c = nh_alloc_array(width, sizeof *c);
+    memcpy(a, row, points * width * sizeof *a);
+    memcpy(b, value, points * o->n * sizeof *b);
+    bool good = nh_least_squares(points, width, a, o->n, b, points, 1e-12) == (int)width;
+    for (size_t i = 0; i < o->n && good; i++) {
+        double size = 0, residual = 0;
+        for (size_t k = 0; k < width && good; k++) {
+            double x = b[i * points + k];
+            good = fabs(x) < small ? (c[k] = nh_num_int(0), true) : nh_recognise_ratio(x, most_denominator, small, &c[k]);
+        }
+        for (size_t p = 0; p < points && good; p++) {
+            double rest = value[i * points + p];
+            size = fmax(size, fabs(rest));
+            for (size_t k = 0; k < width; k++) rest -= nh_num_value(c[k]) * row[k * points + p];
+            residual = fmax(residual, fabs(rest));
+        }
+        good = good && residual <= small * fmax(size, 1);
+        if (good) zeta[i] = nh_linear(d, width, c, basis);
+    }
+    nh_free(c);
+    nh_free(b);
+    nh_free(a);
+    return good;
+}
+
+bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
+{
+    nh_dag *d = o->dag;
+    size_t width = 2 + 2 * o->m, points = width + spare_points, found = 0, n = o->n;
+    nh_ex t = o->system->t, *basis = nh_alloc_array(width, sizeof *basis),
+          *M = nh_alloc_array(n * n + n + 1, sizeof *M), *Y = M + n * n;
+    double *work = nh_alloc_array(n * n + n + width + 1, sizeof *work), *here = work + n * n, *line = here + n;
+    double *row = nh_alloc_array(points * width, sizeof *row), *value = nh_alloc_array(points * n + 1, sizeof *value);
+    basis[0] = nh_int(d, 1);
+    basis[1] = t;
+    for (size_t s = 0; s < o->m; s++) {
+        basis[2 + s] = o->system->coordinate[s].q;
+        basis[2 + o->m + s] = nh_mul(d, t, o->system->coordinate[s].q);
+    }
+    for (size_t i = 0; i < n; i++) Y[i] = nh_exact_values(o, nh_model_Y(o, i, phi));
+    for (size_t i = 0; i < n * n; i++) M[i] = nh_exact_values(o, o->M[i]);
+    nh_ball *ball = nh_ball_create(d, (long)options->bits);
+    uint64_t state = (uint64_t)options->seed + 78;
+    for (size_t tries = 0; tries < tries_per_point * points && found < points; tries++) {
+        if (!values_at(o, ball, &state, M, Y, basis, width, work, here, line)) continue;
+        for (size_t i = 0; i < n; i++) value[i * points + found] = here[i];
+        for (size_t k = 0; k < width; k++) row[k * points + found] = line[k];
+        found++;
+    }
+    bool good = n > 0 && found == points && fit(o, points, width, basis, row, value, zeta);
+    nh_ball_free(ball);
+    nh_free(value);
+    nh_free(row);
+    nh_free(work);
+    nh_free(M);
+    nh_free(basis);
+    return good;
+}

@@ -1,0 +1,72 @@
+/* A stage of the search, for a kinetic energy that depends on the position: fields that are linear in the coordinates,
+ * and centres of mass.
+ *
+ *     P = (B^s_r q^r + b^s) p_s                  of a turn of all coordinates at once: of a body that floats freely
+ *     p_s = dF/dt, dp_s/dt = Q:  F - t p_s + Q t^2/2
+ *
+ * The coefficients of the first are numbers such as 1, where those in the velocities are all masses and lengths; the
+ * second has none, so that both are proved for all parameters, by the short fields that they have. */
+#include "exact/normal.h"
+#include "graph/diff.h"
+#include "search/force_potential.h"
+#include "search/stage_solver.h"
+#include "search/stages_internal.h"
+
+static bool is_constant(const nh_model *o, nh_ex e)
+{
+    for (size_t s = 0; s < o->m; s++)
+        if (nh_depends(o->dag, e, o->system->coordinate[s].q)) return false;
+    return !nh_depends(o->dag, e, o->system->t);
+}
+
+/* The form a of P = a_i w^i, where it depends on the position alone, and on it. */
+static bool form_of(const nh_model *o, nh_ex P, nh_ex *a)
+{
+    nh_ex rest = P, zero = nh_int(o->dag, 0);
+    bool linear = !nh_depends(o->dag, P, o->system->t), constant = true;
+    for (size_t i = 0; i < o->n && linear; i++) {
+        a[i] = nh_diff(o->dag, P, o->chart->w[i]);
+        rest = nh_substitute(o->dag, rest, 1, &o->chart->w[i], &zero);
+        constant = constant && is_constant(o, a[i]);
+        for (size_t j = 0; j < o->n; j++) linear = linear && !nh_depends(o->dag, a[i], o->chart->w[j]);
+    }
+    return linear && !constant && nh_is_zero(o->dag, rest);
+}
+
+/* dp_s/dt = Q, a constant: p_s - Q t; with p_s = dF/dt also F - t p_s + Q t^2/2. */
+static void centres_of_mass(nh_stage_solver *x)
+{
+    nh_analysis *r = x->r;
+    const nh_model *o = r->model;
+    nh_dag *d = o->dag;
+    nh_ex t = o->system->t, half = nh_ratio(d, 1, 2), *a = nh_arena_alloc(r->arena, (o->n + 1) * sizeof *a);
+    for (size_t s = 0; s < o->m && !nh_stage_solver_done(x); s++) {
+        nh_ex Q = nh_simplify_short(d, nh_diff(d, o->system->lagrangian, o->system->coordinate[s].q), 0), P = o->p[s];
+        if (o->system->has_forces) Q = nh_add(d, Q, o->system->force[s]);
+        bool constant = is_constant(o, Q);
+        for (size_t i = 0; i < o->m; i++) constant = constant && !nh_depends(d, Q, o->system->coordinate[i].v);
+        if (!constant || !form_of(o, P, a)) continue;
+        if (!nh_is_zero(d, Q)) nh_stage_solver_certify(x, nh_sub(d, P, nh_mul(d, Q, t)), "a momentum and its force");
+        nh_ex F = nh_form_potential(o, x->ranges, (size_t)r->options.proof_terms, a);
+        if (!F || nh_stage_solver_done(x)) continue;
+        F = nh_sub(d, F, nh_mul(d, t, P));
+        nh_stage_solver_certify(x, nh_add(d, F, nh_product(d, 3, (nh_ex[]){half, Q, nh_powi(d, t, 2)})),
+                                "a centre of mass");
+    }
+}
+
+void nh_linear_fields_search(nh_stage_solver *x)
+{
+    nh_analysis *r = x->r;
+    const nh_model *o = r->model;
+    bool constant = true;
+    for (size_t i = 0; i < o->n * o->n; i++) constant = constant && is_constant(o, o->M[i]);
+    if (o->k || o->chart->quasi || constant) return;
+    nh_family_list families = {r->arena, o, &x->words, NULL, 0};
+    nh_expr_set momenta = {0}, positions = nh_expr_set_positions(&families, true, false);
+    nh_expr_set_put_all(&momenta, o->m, o->p);
+    nh_family factor[] = {nh_family_list_terms(&families, &momenta), nh_family_list_terms(&families, &positions)};
+    nh_family products = nh_family_list_product(&families, 2, factor);
+    nh_stage_solver_stage(x, "canonical momenta times 1 and positions", 1, &products);
+    centres_of_mass(x);
+}

@@ -1,0 +1,74 @@
+/* linear fields: bodies that float freely have the momenta of turns and translations, and centres of mass, for all parameter values, however long the
+ * accelerations are. */
+#include "mechanics.h"
+#include "scratch.h"
+#include "sweep.h"
+
+#include "commands/analyze.h"
+#include "integrals/affine_field.h"
+
+#define BASE \
+    "bodies:\n  - {name: base, mass: m0, inertia: I0}\n  - {name: one, mass: m1, inertia: I1, center: [l/2, 0, 0]}\n"
+#define JOINTS \
+    "joints:\n  - {type: planar, child: base, axis: z, coordinates: [x, y, h]}\n  - {type: revolute, parent: base, child: one, at: [a, 0, 0], axis: z, coordinates: [q]}\n"
+#define ONE_LINK "parameters: {g: 3.7, m0: 4, m1: 1, I0: 0.9, I1: 0.1, a: 0.6, l: 0.7}\n"
+#define FREE_ARM "name: arm\n" ONE_LINK BASE JOINTS
+#define FALLING_ARM "name: arm\n" ONE_LINK "gravity: [0, -g, 0]\n" BASE JOINTS
+#define TWO_LINKS                                                                                                                                        \
+    "name: arm\nparameters: {m0: 4, m1: 1, m2: 0.8, I0: 0.9, I1: 0.1, I2: 0.07, a: 0.6, l: 0.7}\n" BASE                                                   \
+    "  - {name: two, mass: m2, inertia: I2, center: [l/2, 0, 0]}\n" JOINTS                                                                                \
+    "  - {type: revolute, parent: one, child: two, at: [l, 0, 0], axis: z, coordinates: [r]}\n"
+
+/* The energy, two momenta, two centres of mass, and the angular momentum. */
+static void expect_six(const char *text, bool other_may_be_at_values)
+{
+    char path[SCRATCH];
+    FILE *out = scratch_open(path);
+    cr_assert(out && fputs(text, out) >= 0 && fclose(out) == 0);
+    nh_error error = {0};
+    nh_analyze_request q = {.system_path = path};
+    nh_options_default(&q.options);
+    q.options.max_seconds = 1e6; /* the same on every machine */
+    nh_analysis *r = nh_analysis_create(&q, &error);
+    remove(path);
+    cr_assert(r, "%s", error.what);
+    size_t free = 0;
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_current *f = &r->found[k];
+        free += f->independence == NH_INDEPENDENT && f->proof.all_parameters;
+        cr_expect(f->proof.all_parameters || (other_may_be_at_values && f->independence != NH_INDEPENDENT), "current %zu", k);
+    }
+    cr_expect_eq(free, 6, "%zu independent currents for all parameters", free);
+    cr_expect_eq(r->completeness[NH_COMPLETE_IN_COORDINATES].missing_at, 0);
+    nh_analysis_free(r);
+}
+
+Test(linear_fields, one_link_on_a_free_base) { expect_six(FREE_ARM, false); }
+Test(linear_fields, and_while_it_falls, PLAIN_ONLY) { expect_six(FALLING_ARM, false); }
+Test(linear_fields, two_links, PLAIN_ONLY) { expect_six(TWO_LINKS, true); }
+
+/* By hand: the turn is d/dh + x d/dy - y d/dx, the centre of mass belongs to -t d/dx, and of the energy there is none. */
+Test(linear_fields, fields_by_their_values)
+{
+    static const struct {
+        const char *phi, *zeta[4];
+    } known[] = {{"(m0 + m1)*x' - m1*(a*sin(h)*h' + l/2*sin(h + q)*(h' + q'))", {"1", "0", "0", "0"}},
+                 {"I1*(h' + q') + I0*h'", {NULL}},
+                 {"t*((m0 + m1)*y' + m1*(a*cos(h)*h' + l/2*cos(h + q)*(h' + q')))/3 + x^2", {"0", "t/3", "0", "0"}}};
+    mechanics x = mechanics_of_text(FREE_ARM, NH_CHART_AUTO);
+    nh_dag *d = x.model->dag;
+    nh_options options;
+    nh_options_default(&options);
+    nh_ex zeta[4], p[4];
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        bool found = nh_affine_field(x.model, formula(x.model, known[k].phi), &options, zeta);
+        cr_expect_eq(found, known[k].zeta[0] != NULL, "%s", known[k].phi);
+        for (size_t i = 0; i < 4 && found; i++) cr_expect_eq(zeta[i], formula(x.model, known[k].zeta[i]), "%s: %zu", known[k].phi, i);
+    }
+    memcpy(p, x.model->p, sizeof p);
+    nh_ex turn = nh_add(d, p[2], nh_sub(d, nh_mul(d, formula(x.model, "x"), p[1]), nh_mul(d, formula(x.model, "y"), p[0])));
+    cr_expect(nh_affine_field(x.model, turn, &options, zeta));
+    cr_expect(zeta[0] == formula(x.model, "-y") && zeta[1] == formula(x.model, "x") && zeta[2] == formula(x.model, "1") && zeta[3] == formula(x.model, "0"));
+    cr_expect_not(nh_affine_field(x.model, x.model->E, &options, zeta));
+    mechanics_clear(&x);
+}
