@@ -5,7 +5,9 @@
 #include "sweep.h"
 
 #include "commands/analyze.h"
+#include "exact/normal.h"
 #include "integrals/affine_field.h"
+#include "integrals/prove.h"
 
 #define BASE \
     "bodies:\n  - {name: base, mass: m0, inertia: I0}\n  - {name: one, mass: m1, inertia: I1, center: [l/2, 0, 0]}\n"
@@ -19,8 +21,8 @@
     "  - {name: two, mass: m2, inertia: I2, center: [l/2, 0, 0]}\n" JOINTS                                                                                \
     "  - {type: revolute, parent: one, child: two, at: [l, 0, 0], axis: z, coordinates: [r]}\n"
 
-/* The energy, two momenta, two centres of mass, and the angular momentum. */
-static void expect_six(const char *text, bool other_may_be_at_values)
+/* So many independent currents, for all parameters, and no more of the first degrees. */
+static void expect(const char *text, size_t currents, bool other_may_be_at_values)
 {
     char path[SCRATCH];
     FILE *out = scratch_open(path);
@@ -38,14 +40,53 @@ static void expect_six(const char *text, bool other_may_be_at_values)
         free += f->independence == NH_INDEPENDENT && f->proof.all_parameters;
         cr_expect(f->proof.all_parameters || (other_may_be_at_values && f->independence != NH_INDEPENDENT), "current %zu", k);
     }
-    cr_expect_eq(free, 6, "%zu independent currents for all parameters", free);
+    cr_expect_eq(free, currents, "%zu independent currents for all parameters", free);
     cr_expect_eq(r->completeness[NH_COMPLETE_IN_COORDINATES].missing_at, 0);
     nh_analysis_free(r);
 }
 
-Test(linear_fields, one_link_on_a_free_base) { expect_six(FREE_ARM, false); }
-Test(linear_fields, and_while_it_falls, PLAIN_ONLY) { expect_six(FALLING_ARM, false); }
-Test(linear_fields, two_links, PLAIN_ONLY) { expect_six(TWO_LINKS, true); }
+/* The energy, two momenta, two centres of mass, and the angular momentum. */
+Test(linear_fields, one_link_on_a_free_base) { expect(FREE_ARM, 6, false); }
+Test(linear_fields, and_while_it_falls, PLAIN_ONLY) { expect(FALLING_ARM, 6, false); }
+Test(linear_fields, two_links, PLAIN_ONLY) { expect(TWO_LINKS, 6, true); }
+
+/* A slider on a body that floats in space: the energy, three momenta, three centres of mass, three angular momenta. */
+Test(linear_fields, a_slider_on_a_free_body, WHOLE_ONLY)
+{
+    expect("name: slider\nparameters: {m0: 4, m1: 1, I: 0.9, J: 0.7, K: 0.5, b: 0.3}\n"
+           "bodies:\n  - {name: base, mass: m0, inertia: [I, J, K]}\n  - {name: one, mass: m1}\n"
+           "joints:\n  - {type: free, child: base, angles: zxz}\n  - {type: prismatic, parent: base, child: one, at: [b, 0, 0], axis: z, coordinates: [s]}\n",
+           10, false);
+}
+
+/* In both patterns of angles the turn about x, which is none of the coordinates. */
+Test(linear_fields, turns_in_space)
+{
+    static const struct {
+        const char *angles, *zeta[3];
+    } known[] = {{"zxz", {"-sin(a)/tan(b)", "cos(a)", "sin(a)/sin(b)"}}, {"zyx", {"cos(a)*tan(b)", "-sin(a)", "cos(a)/cos(b)"}}};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "name: top\nparameters: {I: 0.9, J: 0.7, K: 0.5}\nbodies: [{name: top, inertia: [I, J, K]}]\n"
+                 "joints: [{type: spherical, child: top, angles: %s, coordinates: [a, b, c]}]\n",
+                 known[k].angles);
+        mechanics x = mechanics_of_text(text, NH_CHART_AUTO);
+        nh_dag *d = x.model->dag;
+        nh_options options;
+        nh_options_default(&options);
+        nh_ex phi = nh_int(d, 0), zeta[3];
+        for (size_t i = 0; i < 3; i++) phi = nh_add(d, phi, nh_mul(d, formula(x.model, known[k].zeta[i]), x.model->p[i]));
+        cr_assert(nh_affine_field(x.model, phi, &options, zeta), "%s", known[k].angles);
+        for (size_t i = 0; i < 3; i++) {
+            nh_ex rest = nh_sub(d, zeta[i], formula(x.model, known[k].zeta[i]));
+            cr_expect_eq(nh_normal_is_zero(d, rest, 0), NH_ZERO, "%s: %zu", known[k].angles, i);
+        }
+        nh_proof proof = nh_prove_current(x.model, phi, true, &options);
+        cr_expect(proof.all_parameters, "%s", known[k].angles);
+        mechanics_clear(&x);
+    }
+}
 
 /* By hand: the turn is d/dh + x d/dy - y d/dx, the centre of mass belongs to -t d/dx, and of the energy there is none. */
 Test(linear_fields, fields_by_their_values)

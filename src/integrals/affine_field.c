@@ -9,11 +9,12 @@
 #include "integrals/recognise.h"
 
 enum { spare_points = 4, tries_per_point = 4, most_denominator = 1000 };
-static const double small = 1e-10; /* of a residual, relative to the components */
+static const double small = 1e-10;    /* of a residual, relative to the components */
+static const double singular = 1e-12; /* of the basis at the points */
 
 /* M^T zeta = Y(Phi) at a random point. */
-static bool values_at(const nh_model *o, nh_ball *ball, uint64_t *state, const nh_ex *M, const nh_ex *Y, nh_ex *basis,
-                      size_t width, double *work, double *zeta, double *row)
+static bool values_at(const nh_model *o, nh_ball *ball, uint64_t *state, const nh_ex *M, const nh_ex *Y,
+                      const nh_ex *basis, size_t width, double *work, double *zeta, double *row)
 {
     double radius, rcond;
     if (!nh_exact_point(o, ball, state)) return false;
@@ -37,12 +38,13 @@ static bool fit(const nh_model *o, size_t points, size_t width, const nh_ex *bas
     nh_num *c = nh_alloc_array(width, sizeof *c);
     memcpy(a, row, points * width * sizeof *a);
     memcpy(b, value, points * o->n * sizeof *b);
-    bool good = nh_least_squares(points, width, a, o->n, b, points, 1e-12) == (int)width;
+    bool good = nh_least_squares(points, width, a, o->n, b, points, singular) == (int)width;
     for (size_t i = 0; i < o->n && good; i++) {
         double size = 0, residual = 0;
         for (size_t k = 0; k < width && good; k++) {
             double x = b[i * points + k];
-            good = fabs(x) < small ? (c[k] = nh_num_int(0), true) : nh_recognise_ratio(x, most_denominator, small, &c[k]);
+            good =
+                fabs(x) < small ? (c[k] = nh_num_int(0), true) : nh_recognise_ratio(x, most_denominator, small, &c[k]);
         }
         for (size_t p = 0; p < points && good; p++) {
             double rest = value[i * points + p];
@@ -59,20 +61,14 @@ static bool fit(const nh_model *o, size_t points, size_t width, const nh_ex *bas
     return good;
 }
 
-bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
+static bool guess(const nh_model *o, nh_ex phi, const nh_options *options, size_t width, const nh_ex *basis,
+                  nh_ex *zeta)
 {
     nh_dag *d = o->dag;
-    size_t width = 2 + 2 * o->m, points = width + spare_points, found = 0, n = o->n;
-    nh_ex t = o->system->t, *basis = nh_alloc_array(width, sizeof *basis),
-          *M = nh_alloc_array(n * n + n + 1, sizeof *M), *Y = M + n * n;
+    size_t points = width + spare_points, found = 0, n = o->n;
+    nh_ex *M = nh_alloc_array(n * n + n + 1, sizeof *M), *Y = M + n * n;
     double *work = nh_alloc_array(n * n + n + width + 1, sizeof *work), *here = work + n * n, *line = here + n;
     double *row = nh_alloc_array(points * width, sizeof *row), *value = nh_alloc_array(points * n + 1, sizeof *value);
-    basis[0] = nh_int(d, 1);
-    basis[1] = t;
-    for (size_t s = 0; s < o->m; s++) {
-        basis[2 + s] = o->system->coordinate[s].q;
-        basis[2 + o->m + s] = nh_mul(d, t, o->system->coordinate[s].q);
-    }
     for (size_t i = 0; i < n; i++) Y[i] = nh_exact_values(o, nh_model_Y(o, i, phi));
     for (size_t i = 0; i < n * n; i++) M[i] = nh_exact_values(o, o->M[i]);
     nh_ball *ball = nh_ball_create(d, (long)options->bits);
@@ -89,6 +85,44 @@ bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh
     nh_free(row);
     nh_free(work);
     nh_free(M);
+    return good;
+}
+
+static size_t affine(const nh_model *o, nh_ex *basis)
+{
+    nh_ex t = o->system->t;
+    size_t n = 0;
+    basis[n++] = nh_int(o->dag, 1);
+    basis[n++] = t;
+    for (size_t s = 0; s < o->m; s++) {
+        basis[n++] = o->system->coordinate[s].q;
+        basis[n++] = nh_mul(o->dag, t, o->system->coordinate[s].q);
+    }
+    return n;
+}
+
+size_t nh_affine_field_words(const nh_model *o, size_t a, size_t b, nh_ex out[NH_AFFINE_FIELD_WORDS])
+{
+    nh_dag *d = o->dag;
+    const nh_coordinate *c = o->system->coordinate;
+    if (a == b || c[a].type != NH_ANGLE || c[b].type != NH_ANGLE) return 0;
+    nh_ex cosine = nh_call(d, NH_COS, c[b].q), sine = nh_call(d, NH_SIN, c[b].q), tangent = nh_call(d, NH_TAN, c[b].q);
+    nh_ex first[] = {nh_call(d, NH_COS, c[a].q), nh_call(d, NH_SIN, c[a].q)};
+    nh_ex second[] = {nh_int(d, 1), tangent, nh_powi(d, cosine, -1), nh_powi(d, tangent, -1), nh_powi(d, sine, -1)};
+    for (size_t i = 0; i < NH_AFFINE_FIELD_WORDS; i++) out[i] = nh_mul(d, first[i % 2], second[i / 2]);
+    return NH_AFFINE_FIELD_WORDS;
+}
+
+bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
+{
+    nh_ex *basis = nh_alloc_array(2 + 2 * o->m + NH_AFFINE_FIELD_WORDS, sizeof *basis);
+    size_t width = affine(o, basis);
+    bool good = guess(o, phi, options, width, basis, zeta);
+    for (size_t a = 0; a < o->m && !good; a++)
+        for (size_t b = 0; b < o->m && !good; b++) {
+            size_t more = nh_affine_field_words(o, a, b, basis + width);
+            good = more > 0 && guess(o, phi, options, width + more, basis, zeta);
+        }
     nh_free(basis);
     return good;
 }

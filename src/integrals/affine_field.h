@@ -1,6 +1,6 @@
-/* affine_field: a current's field where it is affine in the coordinates and t.
+/* affine_field: a current's field where it is affine in the coordinates and t, but for the turns of three angles.
  *
- *     Y_j(Phi) = M_ij zeta^i,   zeta^i = c_0 + c_1 t + c_s q^s + d_s t q^s
+ *     Y_j(Phi) = M_ij zeta^i,   zeta^i = c_0 + c_1 t + c_s q^s + d_s t q^s + e_w w(q^a, q^b)
  *
  * Turns and translations of whole systems have such fields, and centres of mass, however long M^-1 is. */
 #ifndef NH_AFFINE_FIELD_H
@@ -8,6 +8,14 @@
 
 #include "base/option.h"
 #include "geometry/model.h"
+
+/* The words of a turn in space, in three angles of which a is the first and b the second: with the patterns zxz and zyx
+ *
+ *     cos(a) d_b - sin(a) cot(b) d_a + sin(a)/sin(b) d_c,   sin(a) d_b - cos(a) tan(b) d_a - cos(a)/cos(b) d_c
+ *
+ * Returns how many there are: none where a and b are one coordinate, or one is no angle. */
+enum { NH_AFFINE_FIELD_WORDS = 10 };
+size_t nh_affine_field_words(const nh_model *model, size_t a, size_t b, nh_ex out[NH_AFFINE_FIELD_WORDS]);
 
 /* zeta (n) with short fractions as coefficients, by its values at points, for the parameters' given values.  A guess:
  * the equation above and that of Noether remain to be checked.  False: there is none. */

@@ -137,7 +137,7 @@ nh_ex nh_force_potential(const nh_model *o, const nh_points *points, size_t max_
     return U;
 }
 
-nh_ex nh_form_potential(const nh_model *o, const nh_points *points, size_t max_terms, const nh_ex *form)
+nh_ex nh_force_potential_of(const nh_model *o, const nh_points *points, size_t max_terms, const nh_ex *form)
 {
     return potential(&(problem){.o = o, .points = points, .max_terms = max_terms, .force = form});
 }

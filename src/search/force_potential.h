@@ -13,6 +13,6 @@
    on which the form depends.  `max_terms`: of polynomials. */
 nh_ex nh_force_potential(const nh_model *model, const nh_points *points, size_t max_terms);
 /* The same of a form in the coordinates, `form` (m): F with dF/dq^i = form_i. */
-nh_ex nh_form_potential(const nh_model *model, const nh_points *points, size_t max_terms, const nh_ex *form);
+nh_ex nh_force_potential_of(const nh_model *model, const nh_points *points, size_t max_terms, const nh_ex *form);
 
 #endif

@@ -2,12 +2,14 @@
  * and centres of mass.
  *
  *     P = (B^s_r q^r + b^s) p_s                  of a turn of all coordinates at once: of a body that floats freely
+ *     the same with words of turns in three angles
  *     p_s = dF/dt, dp_s/dt = Q:  F - t p_s + Q t^2/2
  *
  * The coefficients of the first are numbers such as 1, where those in the velocities are all masses and lengths; the
  * second has none, so that both are proved for all parameters, by the short fields that they have. */
 #include "exact/normal.h"
 #include "graph/diff.h"
+#include "integrals/affine_field.h"
 #include "search/force_potential.h"
 #include "search/stage_solver.h"
 #include "search/stages_internal.h"
@@ -47,12 +49,34 @@ static void centres_of_mass(nh_stage_solver *x)
         for (size_t i = 0; i < o->m; i++) constant = constant && !nh_depends(d, Q, o->system->coordinate[i].v);
         if (!constant || !form_of(o, P, a)) continue;
         if (!nh_is_zero(d, Q)) nh_stage_solver_certify(x, nh_sub(d, P, nh_mul(d, Q, t)), "a momentum and its force");
-        nh_ex F = nh_form_potential(o, x->ranges, (size_t)r->options.proof_terms, a);
+        nh_ex F = nh_force_potential_of(o, x->ranges, (size_t)r->options.proof_terms, a);
         if (!F || nh_stage_solver_done(x)) continue;
         F = nh_sub(d, F, nh_mul(d, t, P));
         nh_stage_solver_certify(x, nh_add(d, F, nh_product(d, 3, (nh_ex[]){half, Q, nh_powi(d, t, 2)})),
                                 "a centre of mass");
     }
+}
+
+/* Turns in space: the momenta of all angles times the words of affine_field.h for each first and second angle. */
+static void turns_in_space(nh_stage_solver *x, nh_family_list *families, const nh_family *products)
+{
+    enum { least = 3 };
+    const nh_model *o = x->r->model;
+    nh_expr_set momenta = {0};
+    nh_ex word[NH_AFFINE_FIELD_WORDS];
+    for (size_t s = 0; s < o->m; s++)
+        if (o->system->coordinate[s].type == NH_ANGLE) nh_expr_set_put(&momenta, o->p[s]);
+    if (momenta.n < least) return;
+    for (size_t a = 0; a < o->m; a++)
+        for (size_t b = 0; b < o->m && !nh_stage_solver_done(x); b++) {
+            nh_expr_set words = {0};
+            nh_expr_set_put_all(&words, nh_affine_field_words(o, a, b, word), word);
+            if (!words.n) continue;
+            nh_family factor[] = {nh_family_list_terms(families, &momenta), nh_family_list_terms(families, &words)};
+            nh_family all[] = {nh_family_list_product(families, 2, factor), *products};
+            if (nh_stage_solver_promising(x, 2, all))
+                nh_stage_solver_stage(x, "momenta of turns in three angles", 2, all);
+        }
 }
 
 void nh_linear_fields_search(nh_stage_solver *x)
@@ -68,5 +92,6 @@ void nh_linear_fields_search(nh_stage_solver *x)
     nh_family factor[] = {nh_family_list_terms(&families, &momenta), nh_family_list_terms(&families, &positions)};
     nh_family products = nh_family_list_product(&families, 2, factor);
     nh_stage_solver_stage(x, "canonical momenta times 1 and positions", 1, &products);
+    turns_in_space(x, &families, &products);
     centres_of_mass(x);
 }
