@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "integrals/exact_points.h"
 #include "integrals/recognise.h"
 
@@ -12,9 +13,9 @@ enum { spare_points = 4, tries_per_point = 4, most_denominator = 1000 };
 static const double small = 1e-10;    /* of a residual, relative to the components */
 static const double singular = 1e-12; /* of the basis at the points */
 
-/* M^T zeta = Y(Phi) at a random point. */
-static bool values_at(const nh_model *o, nh_ball *ball, uint64_t *state, const nh_ex *M, const nh_ex *Y,
-                      const nh_ex *basis, size_t width, double *work, double *zeta, double *row)
+/* M^T zeta = Y(Phi) at a random point, with the values of the words there. */
+static bool values_at(const nh_model *o, nh_ball *ball, uint64_t *state, const nh_ex *M, const nh_ex *Y, size_t words,
+                      const nh_ex *word, double *work, double *zeta, double *row)
 {
     double radius, rcond;
     if (!nh_exact_point(o, ball, state)) return false;
@@ -23,8 +24,8 @@ static bool values_at(const nh_model *o, nh_ball *ball, uint64_t *state, const n
         for (size_t j = 0; j < o->n; j++)
             if (!nh_ball_value(ball, M[i * o->n + j], &work[j * o->n + i], &radius)) return false;
     }
-    for (size_t b = 0; b < width; b++)
-        if (!nh_ball_value(ball, basis[b], &row[b], &radius)) return false;
+    for (size_t b = 0; b < words; b++)
+        if (!nh_ball_value(ball, word[b], &row[b], &radius)) return false;
     return nh_solve(o->n, work, 1, zeta, &rcond);
 }
 
@@ -61,31 +62,27 @@ static bool fit(const nh_model *o, size_t points, size_t width, const nh_ex *bas
     return good;
 }
 
-static bool guess(const nh_model *o, nh_ex phi, const nh_options *options, size_t width, const nh_ex *basis,
-                  nh_ex *zeta)
+/* Values of zeta (points x n) and of the words (points x words), column by column; false where there are too few. */
+static bool sample(const nh_model *o, nh_ex phi, const nh_options *options, size_t points, size_t words,
+                   const nh_ex *word, double *value, double *row)
 {
-    nh_dag *d = o->dag;
-    size_t points = width + spare_points, found = 0, n = o->n;
+    size_t found = 0, n = o->n;
     nh_ex *M = nh_alloc_array(n * n + n + 1, sizeof *M), *Y = M + n * n;
-    double *work = nh_alloc_array(n * n + n + width + 1, sizeof *work), *here = work + n * n, *line = here + n;
-    double *row = nh_alloc_array(points * width, sizeof *row), *value = nh_alloc_array(points * n + 1, sizeof *value);
+    double *work = nh_alloc_array(n * n + n + words + 1, sizeof *work), *here = work + n * n, *line = here + n;
     for (size_t i = 0; i < n; i++) Y[i] = nh_exact_values(o, nh_model_Y(o, i, phi));
     for (size_t i = 0; i < n * n; i++) M[i] = nh_exact_values(o, o->M[i]);
-    nh_ball *ball = nh_ball_create(d, (long)options->bits);
+    nh_ball *ball = nh_ball_create(o->dag, (long)options->bits);
     uint64_t state = (uint64_t)options->seed + 78;
-    for (size_t tries = 0; tries < tries_per_point * points && found < points; tries++) {
-        if (!values_at(o, ball, &state, M, Y, basis, width, work, here, line)) continue;
+    for (size_t tries = 0; tries < tries_per_point * points && found < points && !nh_interrupted(); tries++) {
+        if (!values_at(o, ball, &state, M, Y, words, word, work, here, line)) continue;
         for (size_t i = 0; i < n; i++) value[i * points + found] = here[i];
-        for (size_t k = 0; k < width; k++) row[k * points + found] = line[k];
+        for (size_t k = 0; k < words; k++) row[k * points + found] = line[k];
         found++;
     }
-    bool good = n > 0 && found == points && fit(o, points, width, basis, row, value, zeta);
     nh_ball_free(ball);
-    nh_free(value);
-    nh_free(row);
     nh_free(work);
     nh_free(M);
-    return good;
+    return found == points;
 }
 
 static size_t affine(const nh_model *o, nh_ex *basis)
@@ -115,14 +112,27 @@ size_t nh_affine_field_words(const nh_model *o, size_t a, size_t b, nh_ex out[NH
 
 bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
 {
-    nh_ex *basis = nh_alloc_array(2 + 2 * o->m + NH_AFFINE_FIELD_WORDS, sizeof *basis);
-    size_t width = affine(o, basis);
-    bool good = guess(o, phi, options, width, basis, zeta);
-    for (size_t a = 0; a < o->m && !good; a++)
-        for (size_t b = 0; b < o->m && !good; b++) {
-            size_t more = nh_affine_field_words(o, a, b, basis + width);
-            good = more > 0 && guess(o, phi, options, width + more, basis, zeta);
-        }
+    size_t width = 2 + 2 * o->m, pairs = o->m * o->m, most = width + NH_AFFINE_FIELD_WORDS,
+           points = most + spare_points;
+    nh_ex *word = nh_alloc_array(width + pairs * NH_AFFINE_FIELD_WORDS, sizeof *word), *end = word + affine(o, word);
+    for (size_t p = 0; p < pairs; p++) end += nh_affine_field_words(o, p / o->m, p % o->m, end);
+    size_t words = (size_t)(end - word);
+    double *value = nh_alloc_array(points * o->n + 1, sizeof *value),
+           *row = nh_alloc_array(points * words, sizeof *row), *some = nh_alloc_array(points * most, sizeof *some);
+    nh_ex *basis = nh_alloc_array(most, sizeof *basis);
+    memcpy(basis, word, width * sizeof *basis);
+    bool sampled = o->n > 0 && sample(o, phi, options, points, words, word, value, row),
+         good = sampled && fit(o, points, width, basis, row, value, zeta);
+    memcpy(some, row, points * width * sizeof *some);
+    for (size_t at = width; at < words && sampled && !good; at += NH_AFFINE_FIELD_WORDS) {
+        memcpy(basis + width, word + at, NH_AFFINE_FIELD_WORDS * sizeof *basis);
+        memcpy(some + points * width, row + points * at, points * NH_AFFINE_FIELD_WORDS * sizeof *some);
+        good = fit(o, points, most, basis, some, value, zeta);
+    }
     nh_free(basis);
+    nh_free(some);
+    nh_free(row);
+    nh_free(value);
+    nh_free(word);
     return good;
 }

@@ -7,6 +7,7 @@
  *
  * The coefficients of the first are numbers such as 1, where those in the velocities are all masses and lengths; the
  * second has none, so that both are proved for all parameters, by the short fields that they have. */
+#include "base/memory.h"
 #include "exact/normal.h"
 #include "graph/diff.h"
 #include "integrals/affine_field.h"
@@ -57,26 +58,49 @@ static void centres_of_mass(nh_stage_solver *x)
     }
 }
 
-/* Turns in space: the momenta of all angles times the words of affine_field.h for each first and second angle. */
+/* The angles about whose axis the whole can be turned: a current that is known has a field that moves no other angle. */
+static void first_angles(const nh_stage_solver *x, bool *first)
+{
+    const nh_analysis *r = x->r;
+    const nh_model *o = r->model;
+    const nh_coordinate *c = o->system->coordinate;
+    nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
+    for (size_t k = 0; k < r->count; k++) {
+        size_t angles = 0, last = 0;
+        if (!nh_affine_field(o, r->found[k].phi, &r->options, zeta)) continue;
+        for (size_t s = 0; s < o->m; s++)
+            if (c[s].type == NH_ANGLE && !nh_is_zero(o->dag, zeta[s])) angles++, last = s;
+        if (angles == 1 && nh_kind_of(o->dag, zeta[last]) == NH_NUMBER) first[last] = true;
+    }
+    nh_free(zeta);
+}
+
+/* Turns in space: the momenta of three angles in a row times the words of affine_field.h, for each first angle and the
+ * other two as second. */
 static void turns_in_space(nh_stage_solver *x, nh_family_list *families, const nh_family *products)
 {
-    enum { least = 3 };
+    enum { three = 3 };
     const nh_model *o = x->r->model;
-    nh_expr_set momenta = {0};
-    nh_ex word[NH_AFFINE_FIELD_WORDS];
+    size_t *angle = nh_alloc_array(o->m + 1, sizeof *angle), angles = 0;
+    bool *first = nh_alloc_array(o->m + 1, sizeof *first);
     for (size_t s = 0; s < o->m; s++)
-        if (o->system->coordinate[s].type == NH_ANGLE) nh_expr_set_put(&momenta, o->p[s]);
-    if (momenta.n < least) return;
-    for (size_t a = 0; a < o->m; a++)
-        for (size_t b = 0; b < o->m && !nh_stage_solver_done(x); b++) {
-            nh_expr_set words = {0};
-            nh_expr_set_put_all(&words, nh_affine_field_words(o, a, b, word), word);
+        if (o->system->coordinate[s].type == NH_ANGLE) angle[angles++] = s;
+    if (angles >= three) first_angles(x, first);
+    for (size_t i = 0; i + three <= angles; i++)
+        for (size_t pair = 0; pair < three * three && !nh_stage_solver_done(x); pair++) {
+            size_t a = angle[i + pair / three], b = angle[i + pair % three];
+            nh_expr_set momenta = {0}, words = {0};
+            nh_ex word[NH_AFFINE_FIELD_WORDS];
+            if (first[a]) nh_expr_set_put_all(&words, nh_affine_field_words(o, a, b, word), word);
             if (!words.n) continue;
+            for (size_t k = 0; k < three; k++) nh_expr_set_put(&momenta, o->p[angle[i + k]]);
             nh_family factor[] = {nh_family_list_terms(families, &momenta), nh_family_list_terms(families, &words)};
             nh_family all[] = {nh_family_list_product(families, 2, factor), *products};
             if (nh_stage_solver_promising(x, 2, all))
                 nh_stage_solver_stage(x, "momenta of turns in three angles", 2, all);
         }
+    nh_free(first);
+    nh_free(angle);
 }
 
 void nh_linear_fields_search(nh_stage_solver *x)
