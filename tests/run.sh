@@ -11,7 +11,7 @@ if [ "$1" = --one ]; then # a program: its log, with the seconds of each test, a
     all=$(printf '%s' "$line" | sed -n 's/.*Tested: *\([0-9]*\).*/\1/p')
     : "${good:=0}" "${all:=0}"
     bad=$((all - good))
-    [ "$all" = 0 ] && grep -aq 'skipped: ' "$log" && all=skipped # all of them, and the program says why
+    [ "$all" = 0 ] && grep -aq -e 'skipped: ' -e 'Test is disabled' "$log" && all=skipped # all of them, and the program says why
     [ "$code" != 0 ] && [ "$bad" = 0 ] && ! grep -aq 'skipped: ' "$log" && bad=1 # a warning makes it 1
     [ "$all" = 0 ] && bad=1
     grep -aq -e 'LeakSanitizer: detected' -e 'runtime error:' -e 'ERROR: AddressSanitizer' "$log" && bad=$((bad + 1)) # Criterion passes these over
@@ -21,7 +21,7 @@ if [ "$1" = --one ]; then # a program: its log, with the seconds of each test, a
     {
         printf '%-45s %4d passed %3d failed %5d s\n' "$program" "$good" "$bad" "$seconds"
         grep -a '^measured: ' "$log"
-        [ "$all" = skipped ] && grep -a 'skipped: ' "$log" | head -n 1
+        [ "$all" = skipped ] && grep -a -e 'skipped: ' -e 'Test is disabled' "$log" | head -n 1
         [ "$bad" = 0 ] || grep -av -e '\[RUN \]' -e '\[PASS\]' "$log"
     } >"$log.said"
     cat "$log.said" && rm "$log.said"
@@ -36,7 +36,7 @@ programs=$(for name in "$@"; do
 done | grep -v '\.[a-z]*$')
 before=$(for program in $programs; do
     seconds=$(cut -d' ' -f4 "$program.line" 2>/dev/null)
-    [ "$seconds" ] || seconds=$(grep -c sweep_ "tests/${program##*/}.c" 2>/dev/null)
+    [ "$seconds" ] || seconds=$(grep -c -e sweep_ -e PLAIN_ONLY -e WHOLE_ONLY "tests/${program##*/}.c" 2>/dev/null)
     echo "${seconds:-0} $program"
     rm -f "$program.line"
 done | sort -rn | cut -d' ' -f2)

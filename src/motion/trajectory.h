@@ -76,7 +76,7 @@ typedef struct {
     double *value;            /* count x n, row by row: value[i * n + k] */
     double *event_value;      /* the same at the events: motion->events x n */
     nh_closed_subsystem *scene;          /* NULL: all states were integrated */
-    char machine[NH_TRAJECTORY_MACHINE];        /* how the equations were evaluated, in words */
+    char machine[NH_TRAJECTORY_MACHINE]; /* how the equations were evaluated, in words */
 } nh_trajectory;
 
 /* The motion in the chart, or in all coordinates where the chart breaks down on the way.  NULL with a message when

@@ -58,7 +58,7 @@ static void centres_of_mass(nh_stage_solver *x)
     }
 }
 
-/* The angles about whose axis the whole can be turned: a current that is known has a field that moves no other angle. */
+/* The angles about whose axis the whole can be turned: a known current has a field that moves no other angle. */
 static void first_angles(const nh_stage_solver *x, bool *first)
 {
     const nh_analysis *r = x->r;
