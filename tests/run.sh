@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs Criterion programs, one more at a time than there are processors, because some wait (for a limit of time, a browser, a server), and adds up what they say.  Those that took longest last time go first; before the first time, those with sweeps.
+# Runs Criterion programs, one more at a time than there are processors, because some wait (for a limit of time, a browser, a server), and adds up what they say.  Those that took longest last time go first; before the first time, those that run other programs (a compiler, Python), then those with sweeps.
 # usage: run.sh BUILD|PROGRAM...          the last line is "N passed, N failed"
 if [ "$1" = --one ]; then # a program: its log, with the seconds of each test, and its line "name passed failed seconds" stay beside it
     program=$2
@@ -36,6 +36,7 @@ programs=$(for name in "$@"; do
 done | grep -v '\.[a-z]*$')
 before=$(for program in $programs; do
     seconds=$(cut -d' ' -f4 "$program.line" 2>/dev/null)
+    [ "$seconds" ] || ! grep -q 'popen(' "tests/${program##*/}.c" 2>/dev/null || seconds=100
     [ "$seconds" ] || seconds=$(grep -c -e sweep_ -e PLAIN_ONLY -e WHOLE_ONLY "tests/${program##*/}.c" 2>/dev/null)
     echo "${seconds:-0} $program"
     rm -f "$program.line"
