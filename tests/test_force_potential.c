@@ -6,7 +6,7 @@
 #include "commands/analyze.h"
 #include "exact/normal.h"
 #include "graph/diff.h"
-#include "search/force_potential.h"
+#include "integrals/force_potential.h"
 
 typedef struct {
     mechanics x;

@@ -7,6 +7,7 @@
 #include "commands/analyze.h"
 #include "exact/normal.h"
 #include "integrals/affine_field.h"
+#include "integrals/centre_of_mass.h"
 #include "integrals/prove.h"
 
 #define BASE \
@@ -16,10 +17,14 @@
 #define ONE_LINK "parameters: {g: 3.7, m0: 4, m1: 1, I0: 0.9, I1: 0.1, a: 0.6, l: 0.7}\n"
 #define FREE_ARM "name: arm\n" ONE_LINK BASE JOINTS
 #define FALLING_ARM "name: arm\n" ONE_LINK "gravity: [0, -g, 0]\n" BASE JOINTS
-#define TWO_LINKS                                                                                                                                        \
-    "name: arm\nparameters: {m0: 4, m1: 1, m2: 0.8, I0: 0.9, I1: 0.1, I2: 0.07, a: 0.6, l: 0.7}\n" BASE                                                   \
+#define TWO_LINKS(GRAVITY)                                                                                                                               \
+    "name: arm\nparameters: {g: 3.7, m0: 4, m1: 1, m2: 0.8, I0: 0.9, I1: 0.1, I2: 0.07, a: 0.6, l: 0.7}\n" GRAVITY BASE                                   \
     "  - {name: two, mass: m2, inertia: I2, center: [l/2, 0, 0]}\n" JOINTS                                                                                \
     "  - {type: revolute, parent: one, child: two, at: [l, 0, 0], axis: z, coordinates: [r]}\n"
+#define SLIDER(GRAVITY)                                                                                                                                  \
+    "name: slider\nparameters: {g: 1.7, m0: 4, m1: 1, I: 0.9, J: 0.7, K: 0.5, b: 0.3}\n" GRAVITY                                                          \
+    "bodies:\n  - {name: base, mass: m0, inertia: [I, J, K]}\n  - {name: one, mass: m1}\n"                                                               \
+    "joints:\n  - {type: free, child: base, angles: zxz}\n  - {type: prismatic, parent: base, child: one, at: [b, 0, 0], axis: z, coordinates: [s]}\n"
 
 /* So many independent currents, for all parameters, and no more of the first degrees. */
 static void expect(const char *text, size_t currents, bool other_may_be_at_values)
@@ -48,15 +53,51 @@ static void expect(const char *text, size_t currents, bool other_may_be_at_value
 /* The energy, two momenta, two centres of mass, and the angular momentum. */
 Test(linear_fields, one_link_on_a_free_base) { expect(FREE_ARM, 6, false); }
 Test(linear_fields, and_while_it_falls, PLAIN_ONLY) { expect(FALLING_ARM, 6, false); }
-Test(linear_fields, two_links, PLAIN_ONLY) { expect(TWO_LINKS, 6, true); }
+Test(linear_fields, two_links, PLAIN_ONLY) { expect(TWO_LINKS(""), 6, true); }
+Test(linear_fields, two_links_while_they_fall, WHOLE_ONLY) { expect(TWO_LINKS("gravity: [0, -g, 0]\n"), 6, false); }
 
-/* A slider on a body that floats in space: the energy, three momenta, three centres of mass, three angular momenta. */
-Test(linear_fields, a_slider_on_a_free_body, WHOLE_ONLY)
+/* A slider on a body in space: the energy, three momenta, three centres of mass, three angular momenta; about the centre of mass while it falls. */
+Test(linear_fields, a_slider_on_a_free_body, WHOLE_ONLY) { expect(SLIDER(""), 10, false); }
+Test(linear_fields, a_slider_on_a_falling_body, WHOLE_ONLY) { expect(SLIDER("gravity: g\n"), 10, false); }
+
+/* By hand; the angles of two pendulums have none. */
+Test(linear_fields, centres_of_mass)
 {
-    expect("name: slider\nparameters: {m0: 4, m1: 1, I: 0.9, J: 0.7, K: 0.5, b: 0.3}\n"
-           "bodies:\n  - {name: base, mass: m0, inertia: [I, J, K]}\n  - {name: one, mass: m1}\n"
-           "joints:\n  - {type: free, child: base, angles: zxz}\n  - {type: prismatic, parent: base, child: one, at: [b, 0, 0], axis: z, coordinates: [s]}\n",
-           10, false);
+    static const struct {
+        size_t s;
+        const char *mass, *F;
+    } known[] = {{0, "m0 + m1", "(m0 + m1)*x + m1*(a*cos(h) + l/2*cos(h + q))"}, {1, "m0 + m1", "(m0 + m1)*y + m1*(a*sin(h) + l/2*sin(h + q))"}};
+    mechanics x = mechanics_of_text(FALLING_ARM, NH_CHART_AUTO);
+    nh_dag *d = x.model->dag;
+    nh_centre_of_mass centre[4];
+    cr_assert_eq(nh_centres_of_mass(x.model, 0, centre), 2);
+    for (size_t i = 0; i < 2; i++) {
+        cr_expect_eq(centre[i].s, known[i].s);
+        cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, centre[i].mass, formula(x.model, known[i].mass)), 0), NH_ZERO);
+        cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, centre[i].F, formula(x.model, known[i].F)), 0), NH_ZERO);
+    }
+    mechanics_clear(&x);
+    x = mechanics_of_text("name: pendulums\nparameters: {m: 1, M: 2, g: 3}\ncoordinates: [{name: u, type: angle}, {name: v, type: angle}]\n"
+                          "lagrangian: (m + M)/2*u'^2 + M/2*v'^2 + M*cos(u - v)*u'*v' + g*cos(u)\n",
+                          NH_CHART_AUTO);
+    cr_expect_eq(nh_centres_of_mass(x.model, 0, centre), 0);
+    mechanics_clear(&x);
+}
+
+/* The turn about the centre of mass C of what falls: x moves by C_y - y, y by x - C_x, h by 1. */
+Test(linear_fields, turn_about_the_centre_of_mass)
+{
+    mechanics x = mechanics_of_text(FALLING_ARM, NH_CHART_AUTO);
+    nh_dag *d = x.model->dag;
+    nh_options options;
+    nh_options_default(&options);
+    static const char *known[4] = {"m1*(a*sin(h) + l/2*sin(h + q))/(m0 + m1)", "-m1*(a*cos(h) + l/2*cos(h + q))/(m0 + m1)", "1", "0"};
+    nh_ex phi = nh_int(d, 0), zeta[4];
+    for (size_t i = 0; i < 4; i++) phi = nh_add(d, phi, nh_mul(d, formula(x.model, known[i]), x.model->p[i]));
+    cr_assert(nh_affine_field(x.model, phi, &options, zeta));
+    for (size_t i = 0; i < 4; i++)
+        cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, zeta[i], formula(x.model, known[i])), 0), NH_ZERO, "%zu", i);
+    mechanics_clear(&x);
 }
 
 /* In both patterns of angles the turn about x, which is none of the coordinates. */

@@ -6,6 +6,7 @@
 #include "base/linalg.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "integrals/centre_of_mass.h"
 #include "integrals/exact_points.h"
 #include "integrals/recognise.h"
 
@@ -67,14 +68,15 @@ static bool sample(const nh_model *o, nh_ex phi, const nh_options *options, size
                    const nh_ex *word, double *value, double *row)
 {
     size_t found = 0, n = o->n;
-    nh_ex *M = nh_alloc_array(n * n + n + 1, sizeof *M), *Y = M + n * n;
+    nh_ex *M = nh_alloc_array(n * n + n + words + 1, sizeof *M), *Y = M + n * n, *exact = Y + n;
     double *work = nh_alloc_array(n * n + n + words + 1, sizeof *work), *here = work + n * n, *line = here + n;
     for (size_t i = 0; i < n; i++) Y[i] = nh_exact_values(o, nh_model_Y(o, i, phi));
     for (size_t i = 0; i < n * n; i++) M[i] = nh_exact_values(o, o->M[i]);
+    for (size_t b = 0; b < words; b++) exact[b] = nh_exact_values(o, word[b]);
     nh_ball *ball = nh_ball_create(o->dag, (long)options->bits);
     uint64_t state = (uint64_t)options->seed + 78;
     for (size_t tries = 0; tries < tries_per_point * points && found < points && !nh_interrupted(); tries++) {
-        if (!values_at(o, ball, &state, M, Y, words, word, work, here, line)) continue;
+        if (!values_at(o, ball, &state, M, Y, words, exact, work, here, line)) continue;
         for (size_t i = 0; i < n; i++) value[i * points + found] = here[i];
         for (size_t k = 0; k < words; k++) row[k * points + found] = line[k];
         found++;
@@ -85,16 +87,20 @@ static bool sample(const nh_model *o, nh_ex phi, const nh_options *options, size
     return found == points;
 }
 
-static size_t affine(const nh_model *o, nh_ex *basis)
+/* 1, t, q, t q, and where centres of mass are: 2 + 3 m at most. */
+static size_t affine(const nh_model *o, const nh_options *options, nh_ex *basis)
 {
     nh_ex t = o->system->t;
-    size_t n = 0;
+    nh_centre_of_mass *centre = nh_alloc_array(o->m + 1, sizeof *centre);
+    size_t n = 0, centres = nh_centres_of_mass(o, (size_t)options->proof_terms, centre);
     basis[n++] = nh_int(o->dag, 1);
     basis[n++] = t;
     for (size_t s = 0; s < o->m; s++) {
         basis[n++] = o->system->coordinate[s].q;
         basis[n++] = nh_mul(o->dag, t, o->system->coordinate[s].q);
     }
+    for (size_t i = 0; i < centres; i++) basis[n++] = nh_div(o->dag, centre[i].F, centre[i].mass);
+    nh_free(centre);
     return n;
 }
 
@@ -112,9 +118,10 @@ size_t nh_affine_field_words(const nh_model *o, size_t a, size_t b, nh_ex out[NH
 
 bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
 {
-    size_t width = 2 + 2 * o->m, pairs = o->m * o->m, most = width + NH_AFFINE_FIELD_WORDS,
-           points = most + spare_points;
-    nh_ex *word = nh_alloc_array(width + pairs * NH_AFFINE_FIELD_WORDS, sizeof *word), *end = word + affine(o, word);
+    size_t pairs = o->m * o->m;
+    nh_ex *word = nh_alloc_array(2 + 3 * o->m + pairs * NH_AFFINE_FIELD_WORDS, sizeof *word);
+    size_t width = affine(o, options, word), most = width + NH_AFFINE_FIELD_WORDS, points = most + spare_points;
+    nh_ex *end = word + width;
     for (size_t p = 0; p < pairs; p++) end += nh_affine_field_words(o, p / o->m, p % o->m, end);
     size_t words = (size_t)(end - word);
     double *value = nh_alloc_array(points * o->n + 1, sizeof *value),

@@ -3,15 +3,16 @@
  *
  *     P = (B^s_r q^r + b^s) p_s                  of a turn of all coordinates at once: of a body that floats freely
  *     the same with words of turns in three angles
+ *     the same with F_r p_s/M                    of a turn about the centre of mass, of a body that falls
  *     p_s = dF/dt, dp_s/dt = Q:  F - t p_s + Q t^2/2
  *
- * The coefficients of the first are numbers such as 1, where those in the velocities are all masses and lengths; the
- * second has none, so that both are proved for all parameters, by the short fields that they have. */
+ * The coefficients of P are numbers such as 1, where those in the velocities are all masses and lengths; the last has
+ * none, so that all are proved for all parameters, by the short fields that they have. */
 #include "base/memory.h"
 #include "exact/normal.h"
 #include "graph/diff.h"
 #include "integrals/affine_field.h"
-#include "search/force_potential.h"
+#include "integrals/centre_of_mass.h"
 #include "search/stage_solver.h"
 #include "search/stages_internal.h"
 
@@ -22,40 +23,52 @@ static bool is_constant(const nh_model *o, nh_ex e)
     return !nh_depends(o->dag, e, o->system->t);
 }
 
-/* The form a of P = a_i w^i, where it depends on the position alone, and on it. */
-static bool form_of(const nh_model *o, nh_ex P, nh_ex *a)
-{
-    nh_ex rest = P, zero = nh_int(o->dag, 0);
-    bool linear = !nh_depends(o->dag, P, o->system->t), constant = true;
-    for (size_t i = 0; i < o->n && linear; i++) {
-        a[i] = nh_diff(o->dag, P, o->chart->w[i]);
-        rest = nh_substitute(o->dag, rest, 1, &o->chart->w[i], &zero);
-        constant = constant && is_constant(o, a[i]);
-        for (size_t j = 0; j < o->n; j++) linear = linear && !nh_depends(o->dag, a[i], o->chart->w[j]);
-    }
-    return linear && !constant && nh_is_zero(o->dag, rest);
-}
-
 /* dp_s/dt = Q, a constant: p_s - Q t; with p_s = dF/dt also F - t p_s + Q t^2/2. */
-static void centres_of_mass(nh_stage_solver *x)
+static void centres_of_mass(nh_stage_solver *x, size_t centres, const nh_centre_of_mass *centre, const nh_ex *force)
 {
-    nh_analysis *r = x->r;
-    const nh_model *o = r->model;
+    const nh_model *o = x->r->model;
     nh_dag *d = o->dag;
-    nh_ex t = o->system->t, half = nh_ratio(d, 1, 2), *a = nh_arena_alloc(r->arena, (o->n + 1) * sizeof *a);
-    for (size_t s = 0; s < o->m && !nh_stage_solver_done(x); s++) {
-        nh_ex Q = nh_simplify_short(d, nh_diff(d, o->system->lagrangian, o->system->coordinate[s].q), 0), P = o->p[s];
-        if (o->system->has_forces) Q = nh_add(d, Q, o->system->force[s]);
-        bool constant = is_constant(o, Q);
-        for (size_t i = 0; i < o->m; i++) constant = constant && !nh_depends(d, Q, o->system->coordinate[i].v);
-        if (!constant || !form_of(o, P, a)) continue;
+    nh_ex t = o->system->t, half = nh_ratio(d, 1, 2);
+    for (size_t i = 0; i < centres && !nh_stage_solver_done(x); i++) {
+        nh_ex Q = force[i], P = o->p[centre[i].s];
         if (!nh_is_zero(d, Q)) nh_stage_solver_certify(x, nh_sub(d, P, nh_mul(d, Q, t)), "a momentum and its force");
-        nh_ex F = nh_force_potential_of(o, x->ranges, (size_t)r->options.proof_terms, a);
-        if (!F || nh_stage_solver_done(x)) continue;
-        F = nh_sub(d, F, nh_mul(d, t, P));
+        if (nh_stage_solver_done(x)) return;
+        nh_ex F = nh_sub(d, centre[i].F, nh_mul(d, t, P));
         nh_stage_solver_certify(x, nh_add(d, F, nh_product(d, 3, (nh_ex[]){half, Q, nh_powi(d, t, 2)})),
                                 "a centre of mass");
     }
+}
+
+/* The centres of mass along which the force is a constant, and it. */
+static size_t pulled_centres(const nh_model *o, size_t max_terms, nh_centre_of_mass *centre, nh_ex *force)
+{
+    nh_dag *d = o->dag;
+    size_t centres = nh_centres_of_mass(o, max_terms, centre), count = 0;
+    for (size_t i = 0; i < centres; i++) {
+        size_t s = centre[i].s;
+        nh_ex Q = nh_simplify_short(d, nh_diff(d, o->system->lagrangian, o->system->coordinate[s].q), 0);
+        if (o->system->has_forces) Q = nh_add(d, Q, o->system->force[s]);
+        bool constant = is_constant(o, Q);
+        for (size_t r = 0; r < o->m; r++) constant = constant && !nh_depends(d, Q, o->system->coordinate[r].v);
+        if (!constant) continue;
+        centre[count] = centre[i];
+        force[count++] = Q;
+    }
+    return count;
+}
+
+/* F_i p_j/M of two centres: with them a turn is one about the centre of mass, which a constant force leaves alone.
+ * Without a force they are products of currents. */
+static nh_expr_set turns_about_centres(const nh_model *o, size_t centres, const nh_centre_of_mass *centre,
+                                       const nh_ex *force)
+{
+    nh_expr_set all = {0};
+    bool some = false;
+    for (size_t i = 0; i < centres; i++) some |= !nh_is_zero(o->dag, force[i]);
+    for (size_t i = 0; i < centres && some; i++)
+        for (size_t j = 0; j < centres; j++)
+            if (j != i) nh_expr_set_put(&all, nh_div(o->dag, nh_mul(o->dag, centre[i].F, o->p[centre[j].s]), centre[i].mass));
+    return all;
 }
 
 /* The angles about whose axis the whole can be turned: a known current has a field that moves no other angle. */
@@ -76,8 +89,8 @@ static void first_angles(const nh_stage_solver *x, bool *first)
 }
 
 /* Turns in space: the momenta of three angles in a row times the words of affine_field.h, for each first angle and the
- * other two as second. */
-static void turns_in_space(nh_stage_solver *x, nh_family_list *families, const nh_family *products)
+ * other two as second, together with the families of turns in a plane. */
+static void turns_in_space(nh_stage_solver *x, nh_family_list *families, size_t others, const nh_family *other)
 {
     enum { three = 3 };
     const nh_model *o = x->r->model;
@@ -95,9 +108,9 @@ static void turns_in_space(nh_stage_solver *x, nh_family_list *families, const n
             if (!words.n) continue;
             for (size_t k = 0; k < three; k++) nh_expr_set_put(&momenta, o->p[angle[i + k]]);
             nh_family factor[] = {nh_family_list_terms(families, &momenta), nh_family_list_terms(families, &words)};
-            nh_family all[] = {nh_family_list_product(families, 2, factor), *products};
-            if (nh_stage_solver_promising(x, 2, all))
-                nh_stage_solver_stage(x, "momenta of turns in three angles", 2, all);
+            nh_family all[] = {nh_family_list_product(families, 2, factor), other[0], other[others - 1]};
+            if (nh_stage_solver_promising(x, 1 + others, all))
+                nh_stage_solver_stage(x, "momenta of turns in three angles", 1 + others, all);
         }
     nh_free(first);
     nh_free(angle);
@@ -110,12 +123,17 @@ void nh_linear_fields_search(nh_stage_solver *x)
     bool constant = true;
     for (size_t i = 0; i < o->n * o->n; i++) constant = constant && is_constant(o, o->M[i]);
     if (o->k || o->chart->quasi || constant) return;
+    nh_centre_of_mass *centre = nh_arena_alloc(r->arena, (o->m + 1) * sizeof *centre);
+    nh_ex *force = nh_arena_alloc(r->arena, (o->m + 1) * sizeof *force);
+    size_t centres = pulled_centres(o, (size_t)r->options.proof_terms, centre, force);
     nh_family_list families = {r->arena, o, &x->words, NULL, 0};
-    nh_expr_set momenta = {0}, positions = nh_expr_set_positions(&families, true, false);
+    nh_expr_set momenta = {0}, positions = nh_expr_set_positions(&families, true, false),
+                about = turns_about_centres(o, centres, centre, force);
     nh_expr_set_put_all(&momenta, o->m, o->p);
     nh_family factor[] = {nh_family_list_terms(&families, &momenta), nh_family_list_terms(&families, &positions)};
-    nh_family products = nh_family_list_product(&families, 2, factor);
-    nh_stage_solver_stage(x, "canonical momenta times 1 and positions", 1, &products);
-    turns_in_space(x, &families, &products);
-    centres_of_mass(x);
+    nh_family all[] = {nh_family_list_product(&families, 2, factor), nh_family_list_terms(&families, &about)};
+    size_t n = about.n ? 2 : 1;
+    nh_stage_solver_stage(x, "canonical momenta times 1 and positions", n, all);
+    turns_in_space(x, &families, n, all);
+    centres_of_mass(x, centres, centre, force);
 }

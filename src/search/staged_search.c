@@ -6,8 +6,8 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "integrals/force_potential.h"
 #include "integrals/prove.h"
-#include "search/force_potential.h"
 #include "search/stage_solver.h"
 #include "search/constraint_integrals.h"
 #include "search/quadratures.h"
@@ -103,11 +103,11 @@ typedef struct {
 } step;
 
 /* What is found by small linear problems first; what they can hide from each other, and what needs many columns,
-   later.  From the second step on the count may make a stage superfluous. */
+   later.  From the third step on the count may make a stage superfluous. */
 static const step steps[] = {
+    {.run = nh_linear_fields_search},        /* before stages whose coefficients would be masses and lengths */
     {.stage = NH_STAGE_WORDS},               /* the energy, momenta, velocities and positions by themselves */
     {.stage = NH_STAGE_DRIVE},               /* with what a force of t adds to them */
-    {.run = nh_linear_fields_search},        /* before stages whose coefficients would be masses and lengths */
     {.run = stages_of_many},                 /* and angular momenta, where everything else is too large */
     {.run = nh_linear_motion_search},        /* before the pencil, which has the rates of linear motion by rounding */
     {.run = nh_rates_search},                /* before larger stages, whose null vectors are less short */
@@ -145,7 +145,7 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
     single_stages(&x);
     if (!nh_stage_solver_done(&x)) force_potential(&x);
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !nh_stage_solver_done(&x); i++) {
-        x.counted.on = i > 0;
+        x.counted.on = i > 1;
         run_step(&x, &steps[i]);
     }
     nh_quadratures_search(&x);

@@ -1,5 +1,5 @@
 /* The potential of forces, coordinate by coordinate: U_1 = int Q_1 dq^1, U_2 = int (Q_2 - dU_1/dq^2) dq^2, ... */
-#include "search/force_potential.h"
+#include "integrals/force_potential.h"
 
 #include <math.h>
 #include <string.h>
@@ -64,10 +64,11 @@ static bool is_closed(const problem *p)
     return true;
 }
 
-/* The sign of e at all points; 0 where it changes. */
+/* The sign of e at all points; 0 where it changes, or there are none. */
 static int sign_at_points(void *context, nh_ex e)
 {
     const problem *p = context;
+    if (!p->points) return 0;
     double *value = nh_alloc_array(p->points->count + 1, sizeof *value);
     e = nh_substitute(p->o->dag, e, p->signs, p->value, p->call);
     nh_points_evaluate(p->points, p->o, 1, &e, value);

@@ -10,7 +10,7 @@
 #include "integrals/points.h"
 
 /* U in the model's graph; 0: the forces have none, or no closed form is found.  The points show the signs of functions
-   on which the form depends.  `max_terms`: of polynomials. */
+   on which the form depends; NULL: none is known.  `max_terms`: of polynomials. */
 nh_ex nh_force_potential(const nh_model *model, const nh_points *points, size_t max_terms);
 /* The same of a form in the coordinates, `form` (m): F with dF/dq^i = form_i. */
 nh_ex nh_force_potential_of(const nh_model *model, const nh_points *points, size_t max_terms, const nh_ex *form);
