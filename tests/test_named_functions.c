@@ -88,7 +88,8 @@ static const char *const calls[] = {
     "hyp2f1_prime(a, b, c, x)", "gauss_f_prime(s, p, c, x)", "hyp1f1_prime(a, b, x)", "hyperu_prime(a, b, x)", "bessel_j_prime(n, x)",
     "bessel_y_prime(n, x)", "bessel_i_prime(n, x)", "bessel_k_prime(n, x)", "airy_ai_prime(x)", "airy_bi_prime(x)", "riemann_c(a, b, c, x)", "riemann_s(a, b, c, x)", "riemann_c_prime(a, b, c, x)",
     "riemann_s_prime(a, b, c, x)", "elliptic_k(x)", "elliptic_e(x)",
-    "elliptic_f(x, a)", "elliptic_einc(x, a)", "elliptic_f(a, x)", "elliptic_einc(a, x)"};
+    "elliptic_f(x, a)", "elliptic_einc(x, a)", "elliptic_f(a, x)", "elliptic_einc(a, x)",
+    "elliptic_pi(x, a, b)", "elliptic_pi(a, x, b)", "elliptic_pi(a, b, x)"};
 enum { CALLS = sizeof calls / sizeof *calls };
 
 /* ---- values ---- */
@@ -117,6 +118,7 @@ Test(named_functions, values_agree_with_gsl)
         near(value("elliptic_e(x)", x), gsl_sf_ellint_Ecomp(sqrt(x), GSL_PREC_DOUBLE), 1e-13, "E(m)");
         near(value("elliptic_f(x, a)", x), gsl_sf_ellint_F(x, sqrt(a), GSL_PREC_DOUBLE), 1e-13, "F");
         near(value("elliptic_einc(x, a)", x), gsl_sf_ellint_E(x, sqrt(a), GSL_PREC_DOUBLE), 1e-13, "E(phi, m)");
+        near(value("elliptic_pi(b, x, a)", x), gsl_sf_ellint_P(x, sqrt(a), -b, GSL_PREC_DOUBLE), 1e-13, "Pi(n, phi, m)");
     }
 }
 
@@ -352,6 +354,7 @@ Test(named_functions, letters_on_paper)
     expect_typeset("riemann_s_prime(a, b, c, x)", NH_LATEX, "\\mathrm{Ps}'_{a, b, c}\\left(x\\right)");
     expect_typeset("airy_ai_prime(x)", NH_LATEX, "\\mathrm{Ai}'\\left(x\\right)");
     expect_typeset("elliptic_f(phi, m)", NH_LATEX, "F\\left(\\varphi \\mid m\\right)");
+    expect_typeset("elliptic_pi(n, phi, m)", NH_LATEX, "\\Pi\\left(n; \\varphi \\mid m\\right)");
     expect_typeset("bessel_j(n, x)^2", NH_LATEX, "{\\left(J_{n}\\left(x\\right)\\right)}^{2}");
     expect_typeset("bessel_y_prime(n, x)", NH_MATHML,
                    "<msub><msup><mi>Y</mi><mo>\u2032</mo></msup><mrow><mi>n</mi></mrow></msub><mo>\u2061</mo><mo stretchy=\"false\">(</mo><mi>x</mi><mo stretchy=\"false\">)</mo>");

@@ -63,7 +63,8 @@
      [NH_BESSEL_K] = "gsl_sf_bessel_Knu($1, $2)", [NH_BESSEL_K_PRIME] = "($1/$2*gsl_sf_bessel_Knu($1, $2) - gsl_sf_bessel_Knu($1 + 1, $2))", \
      [NH_AIRY_AI] = AI "($1" P0, [NH_AIRY_AI_PRIME] = AI "_deriv($1" P0, [NH_AIRY_BI] = BI "($1" P0, [NH_AIRY_BI_PRIME] = BI "_deriv($1" P0, \
      [NH_ELLIPTIC_K] = "gsl_sf_ellint_Kcomp(sqrt($1)" P0, [NH_ELLIPTIC_E] = "gsl_sf_ellint_Ecomp(sqrt($1)" P0, \
-     [NH_ELLIPTIC_F] = "gsl_sf_ellint_F($1, sqrt($2)" P0, [NH_ELLIPTIC_EINC] = "gsl_sf_ellint_E($1, sqrt($2)" P0}
+     [NH_ELLIPTIC_F] = "gsl_sf_ellint_F($1, sqrt($2)" P0, [NH_ELLIPTIC_EINC] = "gsl_sf_ellint_E($1, sqrt($2)" P0, \
+     [NH_ELLIPTIC_PI] = "gsl_sf_ellint_P($2, sqrt($3), -($1)" P0}
 
 #define MP(arguments, value, places) "np.vectorize(lambda " arguments ": float(_mp.re(" value ")))(" places ")"
 #define MP_GAUSS(places) \
@@ -105,7 +106,8 @@
      [NH_BESSEL_I] = "_sf.iv($1, $2)", [NH_BESSEL_I_PRIME] = "_sf.ivp($1, $2)", [NH_BESSEL_K] = "_sf.kv($1, $2)", [NH_BESSEL_K_PRIME] = "_sf.kvp($1, $2)", \
      [NH_AIRY_AI] = "_sf.airy($1)[0]", [NH_AIRY_AI_PRIME] = "_sf.airy($1)[1]", [NH_AIRY_BI] = "_sf.airy($1)[2]", [NH_AIRY_BI_PRIME] = "_sf.airy($1)[3]", \
      [NH_ELLIPTIC_K] = "_sf.ellipk($1)", [NH_ELLIPTIC_E] = "_sf.ellipe($1)", [NH_ELLIPTIC_F] = "_sf.ellipkinc($1, $2)", \
-     [NH_ELLIPTIC_EINC] = "_sf.ellipeinc($1, $2)"}
+     [NH_ELLIPTIC_EINC] = "_sf.ellipeinc($1, $2)", \
+     [NH_ELLIPTIC_PI] = MP("n, u, m", "_mp.ellippi(n, u, m)", "$1, $2, $3")}
 
 #define SP_GAUSS(s, p, c, x) "sp.hyper((sp.S(" s ")/2 + sp.sqrt(sp.S(" s ")**2/4 - (" p ")), sp.S(" s ")/2 - sp.sqrt(sp.S(" s ")**2/4 - (" p "))), (" c ",), " x ")"
 #define SYMPY \
@@ -119,7 +121,7 @@
      [NH_BESSEL_K] = "sp.besselk($1, $2)", [NH_BESSEL_K_PRIME] = "(-(sp.besselk($1 - 1, $2) + sp.besselk($1 + 1, $2))/2)", \
      [NH_AIRY_AI] = "sp.airyai($1)", [NH_AIRY_AI_PRIME] = "sp.airyaiprime($1)", [NH_AIRY_BI] = "sp.airybi($1)", [NH_AIRY_BI_PRIME] = "sp.airybiprime($1)", \
      [NH_ELLIPTIC_K] = "sp.elliptic_k($1)", [NH_ELLIPTIC_E] = "sp.elliptic_e($1)", [NH_ELLIPTIC_F] = "sp.elliptic_f($1, $2)", \
-     [NH_ELLIPTIC_EINC] = "sp.elliptic_e($1, $2)"}
+     [NH_ELLIPTIC_EINC] = "sp.elliptic_e($1, $2)", [NH_ELLIPTIC_PI] = "sp.elliptic_pi($1, $2, $3)"}
 
 #define OCTAVE \
     {[NH_BESSEL_J] = "besselj($1, $2)", [NH_BESSEL_J_PRIME] = "((besselj($1 - 1, $2) - besselj($1 + 1, $2))/2)", \

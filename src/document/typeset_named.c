@@ -22,6 +22,7 @@ static const struct {
     {"airy_ai", "Ai", NULL, NULL, 0, ","},   {"airy_bi", "Bi", NULL, NULL, 0, ","},
     {"elliptic_k", "K", NULL, NULL, 0, ","}, {"elliptic_e", "E", NULL, NULL, 0, ","},
     {"elliptic_f", "F", NULL, NULL, 0, "|"}, {"elliptic_einc", "E", NULL, NULL, 0, "|"},
+    {"elliptic_pi", "\u03a0", NULL, NULL, 0, ";|"},
 };
 enum { rows = sizeof table / sizeof *table };
 
@@ -49,13 +50,14 @@ static void put_numbered(const nh_typeset_writer *w, size_t i, bool derived)
 
 static void put_letter(const nh_typeset_writer *w, size_t i, bool derived)
 {
-    bool word = table[i].letter[1] != 0;
+    const char *letter = table[i].letter;
+    bool greek = (unsigned char)*letter > 127, word = letter[1] != 0 && !greek;
     if (w->form == NH_LATEX) {
-        nh_text_addf(w->out, word ? "\\mathrm{%s}%s" : "%s%s", table[i].letter, derived ? "'" : "");
+        nh_text_addf(w->out, word ? "\\mathrm{%s}%s" : "%s%s", greek ? "\\Pi" : letter, derived ? "'" : "");
         return;
     }
     if (derived) nh_text_add(w->out, "<msup>");
-    nh_text_addf(w->out, word ? "<mi mathvariant=\"normal\">%s</mi>" : "<mi>%s</mi>", table[i].letter);
+    nh_text_addf(w->out, word ? "<mi mathvariant=\"normal\">%s</mi>" : "<mi>%s</mi>", letter);
     if (derived) nh_text_add(w->out, "<mo>\u2032</mo></msup>");
 }
 

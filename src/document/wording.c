@@ -159,6 +159,7 @@ static const nh_glossary_entry functions[] = {
     {"elliptic_e(m)", "complete elliptic integral of the second kind"},
     {"elliptic_f(u, m)", "incomplete elliptic integral of the first kind, of the angle u"},
     {"elliptic_einc(u, m)", "incomplete elliptic integral of the second kind"},
+    {"elliptic_pi(n, u, m)", "incomplete elliptic integral of the third kind, with 1 - n sin(u)^2 below"},
 };
 
 size_t nh_glossary_functions(void) { return sizeof functions / sizeof *functions; }

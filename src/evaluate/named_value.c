@@ -402,6 +402,7 @@ static void value(acb_t out, nh_function f, acb_srcptr x, slong bits)
     case NH_ELLIPTIC_E: acb_elliptic_e(out, x, bits); break;
     case NH_ELLIPTIC_F: acb_elliptic_f(out, x, x + 1, 0, bits); break;
     case NH_ELLIPTIC_EINC: acb_elliptic_e_inc(out, x, x + 1, 0, bits); break;
+    case NH_ELLIPTIC_PI: acb_elliptic_pi_inc(out, x, x + 1, x + 2, 0, bits); break;
     default: acb_indeterminate(out); break;
     }
     if (f == NH_BESSEL_K_PRIME) acb_neg(out, out);

@@ -113,9 +113,9 @@ bool nh_named_relation_first_order(nh_dag *dag, nh_ex f, size_t *place, nh_ex *c
     enum { last = 3 };
     size_t which;
     nh_function kind = nh_function_of(dag, f);
-    if (kind == NH_ELLIPTIC_F || kind == NH_ELLIPTIC_EINC) {
-        *place = 0;
-        *constant = nh_named_function_rate(dag, f, 0);
+    if (kind == NH_ELLIPTIC_F || kind == NH_ELLIPTIC_EINC || kind == NH_ELLIPTIC_PI) {
+        *place = kind == NH_ELLIPTIC_PI; /* of the angle */
+        *constant = nh_named_function_rate(dag, f, *place);
         *factor = nh_int(dag, 0);
         return true;
     }

@@ -85,7 +85,8 @@ typedef enum {
     NH_ELLIPTIC_K,
     NH_ELLIPTIC_E,
     NH_ELLIPTIC_F,
-    NH_ELLIPTIC_EINC, /* elliptic integrals */
+    NH_ELLIPTIC_EINC,
+    NH_ELLIPTIC_PI, /* elliptic integrals */
     NH_FUNCTION_COUNT
 } nh_function;
 #undef X

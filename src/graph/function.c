@@ -40,6 +40,7 @@ static const struct {
     NAMED(ELLIPTIC_E, "elliptic_e", 1, "m"),
     NAMED(ELLIPTIC_F, "elliptic_f", 2, "u, m"),
     NAMED(ELLIPTIC_EINC, "elliptic_einc", 2, "u, m"),
+    NAMED(ELLIPTIC_PI, "elliptic_pi", 3, "n, u, m"),
 };
 #undef X
 
@@ -76,6 +77,7 @@ const char *nh_function_elsewhere(const char *name)
         {"hypergeom", "write hyp2f1(a, b, c, x) or hyp1f1(a, b, x)"},
         {"ellipk", "write elliptic_k(m) with the parameter m, the square of the modulus"},
         {"ellipe", "write elliptic_e(m) with the parameter m, the square of the modulus"},
+        {"ellippi", "write elliptic_pi(n, u, m) with 1 - n sin(u)^2 below and m, the square of the modulus"},
         {"kummer_m", "write hyp1f1(a, b, x)"},
         {"kummer_u", "write hyperu(a, b, x)"},
         {"sgn", "write x/abs(x)"},

@@ -27,7 +27,7 @@ static const struct {
     {NH_AIRY_BI, "x*f"},
 };
 
-/* First derivatives of elliptic integrals [DLMF 19.4, with m = k^2]. */
+/* First derivatives of elliptic integrals [DLMF 19.4, with m = k^2, n = alpha^2]. */
 static const struct {
     nh_function f;
     size_t argument;
@@ -41,6 +41,12 @@ static const struct {
      "m)*sqrt(1 - m*sin(u)^2))"},
     {NH_ELLIPTIC_EINC, 0, "sqrt(1 - m*sin(u)^2)"},
     {NH_ELLIPTIC_EINC, 1, "(f - elliptic_f(u, m))/(2*m)"},
+    {NH_ELLIPTIC_PI, 0,
+     "(elliptic_einc(u, m) + (m - n)/n*elliptic_f(u, m) + (n^2 - m)/n*f - n*sqrt(1 - m*sin(u)^2)*sin(2*u)/(2*(1 - "
+     "n*sin(u)^2)))/(2*(m - n)*(n - 1))"},
+    {NH_ELLIPTIC_PI, 1, "1/((1 - n*sin(u)^2)*sqrt(1 - m*sin(u)^2))"},
+    {NH_ELLIPTIC_PI, 2,
+     "(elliptic_einc(u, m)/(m - 1) + f - m*sin(2*u)/(2*(m - 1)*sqrt(1 - m*sin(u)^2)))/(2*(n - m))"},
 };
 
 nh_function nh_named_function_base(nh_function f) { return f < NH_ELLIPTIC_K ? f - (f - NH_LEGENDRE_P) % 2 : f; }

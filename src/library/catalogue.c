@@ -158,7 +158,7 @@ static void explain_functions(nh_text *out)
         nh_glossary_entry f = nh_glossary_function_at(i);
         nh_text_addf(out, "%-24s %s\n", f.word, f.text);
     }
-    nh_text_add(out, "\nBoth arguments of elliptic_f and elliptic_einc may move.  Values are computed by Arb, right to "
+    nh_text_add(out, "\nAll arguments of elliptic integrals may move.  Values are computed by Arb, right to "
                      "the last digits of a double; where a function\n"
                      "is not real, it has none.  Proofs use its differential equation, neighbouring orders and "
                      "Wronski's determinant.\n");

@@ -23,7 +23,8 @@ def _of_sympy(sp):
         "hyp1f1": (lambda a, b, x: sp.hyper((a,), (b,), x), lambda a, b, x: ratio(a, b) * sp.hyper((a + 1,), (b + 1,), x)),
         "bessel_j": bessel(sp.besselj, 1, -1), "bessel_y": bessel(sp.bessely, 1, -1), "bessel_i": bessel(sp.besseli, 1, 1), "bessel_k": bessel(sp.besselk, -1, -1),
         "airy_ai": (sp.airyai, sp.airyaiprime), "airy_bi": (sp.airybi, sp.airybiprime),
-        "elliptic_k": (sp.elliptic_k, None), "elliptic_e": (sp.elliptic_e, None), "elliptic_f": (sp.elliptic_f, None), "elliptic_einc": (sp.elliptic_e, None)}
+        "elliptic_k": (sp.elliptic_k, None), "elliptic_e": (sp.elliptic_e, None), "elliptic_f": (sp.elliptic_f, None),
+        "elliptic_einc": (sp.elliptic_e, None), "elliptic_pi": (sp.elliptic_pi, None)}
 
 
 # ---- functions that SymPy has not ----
@@ -121,7 +122,8 @@ def __getattr__(name):
 # ---- back ----
 
 ALIKE = {"besselj": "bessel_j", "bessely": "bessel_y", "besseli": "bessel_i", "besselk": "bessel_k", "airyai": "airy_ai", "airybi": "airy_bi",
-         "airyaiprime": "airy_ai_prime", "airybiprime": "airy_bi_prime", "legendre": "legendre_p", "elliptic_k": "elliptic_k", "elliptic_f": "elliptic_f"}
+         "airyaiprime": "airy_ai_prime", "airybiprime": "airy_bi_prime", "legendre": "legendre_p",
+         "elliptic_k": "elliptic_k", "elliptic_f": "elliptic_f", "elliptic_pi": "elliptic_pi"}
 
 
 def _hyper(e):

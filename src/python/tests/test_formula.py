@@ -80,7 +80,7 @@ def test_typesets():
 # The arguments before the last.
 NAMED = {"legendre_p": "1/3", "legendre_q": "1/3", "hyp2f1": "1/3, 1/2, 5/4", "gauss_f": "1, 2, 3/2", "riemann_c": "1, 1/2, -3", "riemann_s": "1, 1/2, -3", "hyp1f1": "1/2, 3/2",
          "hyperu": "1/2, 3/2", "bessel_j": "1/3", "bessel_y": "1/3", "bessel_i": "1/3", "bessel_k": "1/3", "airy_ai": "", "airy_bi": "", "elliptic_k": "", "elliptic_e": "",
-         "elliptic_f": "1/2", "elliptic_einc": "1/2"}
+         "elliptic_f": "1/2", "elliptic_einc": "1/2", "elliptic_pi": "1/3, 1/2"}
 
 
 def test_named_functions_to_sympy_and_back():
