@@ -70,7 +70,7 @@ Test(linear_fields, centres_of_mass)
     mechanics x = mechanics_of_text(FALLING_ARM, NH_CHART_AUTO);
     nh_dag *d = x.model->dag;
     nh_centre_of_mass centre[4];
-    cr_assert_eq(nh_centres_of_mass(x.model, 0, centre), 2);
+    cr_assert_eq(nh_centre_of_mass_find(x.model, 0, centre), 2);
     for (size_t i = 0; i < 2; i++) {
         cr_expect_eq(centre[i].s, known[i].s);
         cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, centre[i].mass, formula(x.model, known[i].mass)), 0), NH_ZERO);
@@ -80,7 +80,7 @@ Test(linear_fields, centres_of_mass)
     x = mechanics_of_text("name: pendulums\nparameters: {m: 1, M: 2, g: 3}\ncoordinates: [{name: u, type: angle}, {name: v, type: angle}]\n"
                           "lagrangian: (m + M)/2*u'^2 + M/2*v'^2 + M*cos(u - v)*u'*v' + g*cos(u)\n",
                           NH_CHART_AUTO);
-    cr_expect_eq(nh_centres_of_mass(x.model, 0, centre), 0);
+    cr_expect_eq(nh_centre_of_mass_find(x.model, 0, centre), 0);
     mechanics_clear(&x);
 }
 

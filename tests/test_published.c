@@ -380,6 +380,12 @@ static const published PUBLISHED[] = {
      "definitions: [\"W1 = p'*sin(h)*sin(s) + h'*cos(s)\", \"W2 = p'*sin(h)*cos(s) - h'*sin(s)\", \"W3 = p'*cos(h) + s'\", g1 = sin(h)*sin(s), g2 = sin(h)*cos(s), g3 = cos(h)]\n"
      "lagrangian: A*(W1^2 + W2^2)/2 + C*W3^2/2 - k*g3 - u*g3^2 + l*W3\n"
      "domain: {h: [0.5, 1.3], p: [-0.7, 0.7], s: [-0.7, 0.7]}\n", 3, 4},
+    /* A. Bravo-Doddoli and L. C. Garcia-Naranjo, Regul. Chaotic Dyn. 20 (2015) 497: a linear integral by an elliptic integral of the third kind */
+    {"sleigh with a trailer on a skate",
+     "parameters: {m: 1, I: 0.3, M: 0.9, J: 0.2, a: 0.4, b: 0.5}\n"
+     "bodies:\n  - {name: one, mass: m, inertia: I}\n  - {name: two, mass: M, inertia: J, center: [-b, 0, 0]}\n"
+     "joints:\n  - {type: planar, child: one, axis: z, coordinates: [x, y, h]}\n  - {type: revolute, parent: one, child: two, at: [-a, 0, 0], axis: z, coordinates: [q]}\n"
+     "wheels:\n  - {type: knife-edge, body: one, axis: y}\n  - {type: knife-edge, body: two, at: [-b, 0, 0], axis: y}\n", 2, 3},
     /* controls: C. Stoermer 1907; G. W. Hill 1878; V. Szebehely 1967; M. C. Gutzwiller, J. Math. Phys. 14 (1973) 139; G. K. Savvidy, Phys. Lett. B 130 (1983) 303 */
     {"Stoermer", "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + sin(th)^2/r*ph'\ndomain: {r: [0.5, 2], th: [0.4, 1.2]}\n", 2, 4},

@@ -346,8 +346,13 @@ bool nh_antiderivative(const nh_integration *in, nh_ex f, nh_ex *F)
     nh_forms forms;
     nh_forms_init(&forms, in->dag, false, in->max_terms ? in->max_terms : default_terms);
     bool found = read(b, arena, &forms, f);
-    if (found) candidates(b);
-    found = found && !b->full && combine(b, f, F);
+    bool done = false;
+    if (found && in->elliptic) {
+        nh_antiderivative_put_elliptic(b);
+        done = b->count > 0 && combine(b, f, F); /* few, before the many that are elementary */
+    }
+    if (found && !done) candidates(b);
+    found = done || (found && !b->full && combine(b, f, F));
     nh_form_clear(&b->form);
     nh_forms_clear(&forms);
     nh_arena_free(arena);

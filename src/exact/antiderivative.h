@@ -10,6 +10,7 @@
  *     log p              for each factor p of the denominator
  *     atan, atanh        for a factor that is quadratic in a kernel, or linear in a sine and its cosine; for roots of
  *                        quadratic polynomials
+ *     elliptic integrals of an angle u, where they are asked for, for the root of a + b sin(u)^2 and its factors
  *
  * The c_j come from an exact linear system (relation.h), which also proves dF/dx = f.  That no F is found proves
  * nothing. */
@@ -24,6 +25,7 @@ typedef struct {
     size_t constants;
     const nh_ex *constant;   /* symbols: parameters, and constants of earlier integrations */
     size_t max_terms;        /* largest number of terms of polynomials; 0: the default of relation.h */
+    bool elliptic;           /* elliptic integrals of an angle are candidates, too */
     /* The sign of a function of x and the constants wherever F is needed; 0: it changes, or is not known.  It chooses
      * among the forms of a real logarithm. */
     int (*sign)(void *context, nh_ex e);

@@ -44,6 +44,9 @@ void nh_antiderivative_put_area(nh_antiderivative_builder *builder, nh_ex f);
 /* The candidates of the square roots of quadratic polynomials, and of products of two roots. */
 void nh_antiderivative_put_roots(nh_antiderivative_builder *builder);
 
+/* The elliptic integrals of roots of a + c sin(u)^2, and what is elementary in integrals with such a root and poles. */
+void nh_antiderivative_put_elliptic(nh_antiderivative_builder *builder);
+
 /* The sign of e; 0: it changes, or is not known. */
 int nh_antiderivative_sign(const nh_antiderivative_builder *builder, nh_ex e);
 /* The sign that decides between a real logarithm and an arctangent, where both are candidates for the two signs of

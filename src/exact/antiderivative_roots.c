@@ -145,6 +145,57 @@ static void put_root_of_exponentials(builder *b, nh_ex Q, nh_ex root, nh_ex expo
     }
 }
 
+/* int du/((y - p) sqrt(Q)), Q = a + c sin(u)^2, y = cos u: with n = 1/(1 - p^2) the part that is even in y is an
+ * elliptic integral of the third kind, and the odd one, with kappa^2 = a n + c, an area function or arctangent of
+ * kappa sin(u)/sqrt(Q).  `square`: p^2. */
+static void put_elliptic_pole(builder *b, const radical *r, nh_ex a, nh_ex c, nh_ex square, nh_ex angle, nh_ex sine)
+{
+    nh_dag *d = b->d;
+    nh_ex n = nh_simplify_short(d, nh_powi(d, nh_sub(d, nh_int(d, 1), square), -1), 0);
+    nh_ex third[] = {n, angle, nh_neg(d, nh_div(d, c, a))};
+    nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_PI, third));
+    nh_ex kappa = nh_simplify_short(d, nh_add(d, nh_mul(d, a, n), c), 0);
+    int sign = nh_antiderivative_sign(b, kappa);
+    if (!sign) return;
+    nh_ex f = nh_div(d, nh_mul(d, nh_antiderivative_root(b, sign > 0 ? kappa : nh_neg(d, kappa)), sine), r->root);
+    if (sign > 0) nh_antiderivative_put_area(b, f);
+    else nh_antiderivative_put(b, nh_call(d, NH_ATAN, f));
+}
+
+/* The elliptic integrals of Q = k_0 + k_2 cos(u)^2 that is positive where the cosine is 1, and those of the poles. */
+static void put_elliptic(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex sine)
+{
+    nh_dag *d = b->d;
+    nh_ex y = nh_symbol_fresh(d, "y"), other = nh_sqrt(d, nh_sub(d, nh_int(d, 1), nh_powi(d, y, 2)));
+    nh_ex k[3], angle = nh_child(d, sine, 0);
+    radical r = {y, Q, root, cosine, 0, 2, {cosine, sine}, {y, other}};
+    r.Q = in_variable(b, &r, r.Q);
+    if (nh_depends(d, r.Q, b->in->x) || coefficients_of(b, r.x, r.Q, k) != 2 || !nh_is_zero(d, k[1])) return;
+    nh_ex a = nh_simplify_short(d, nh_add(d, k[0], k[2]), 0), c = nh_neg(d, k[2]);
+    if (nh_antiderivative_sign(b, a) <= 0) return;
+    nh_ex argument[] = {angle, nh_simplify_short(d, nh_neg(d, nh_div(d, c, a)), 0)};
+    nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_F, argument));
+    nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_EINC, argument));
+    for (size_t j = 0; j < b->divisors; j++) {
+        nh_ex p[3], e = in_variable(b, &r, b->divisor[j].e);
+        int degree = nh_depends(d, e, b->in->x) ? 0 : coefficients_of(b, r.x, e, p);
+        if (degree == 2 && nh_is_zero(d, p[1])) {
+            put_elliptic_pole(b, &r, a, c, nh_neg(d, nh_div(d, p[0], p[2])), angle, sine);
+        } else if (degree == 1) {
+            put_elliptic_pole(b, &r, a, c, nh_powi(d, nh_div(d, p[0], p[1]), 2), angle, sine);
+        } else if (degree == 2) {
+            nh_ex D = nh_sub(d, nh_powi(d, p[1], 2), nh_product(d, 3, (nh_ex[]){nh_int(d, 4), p[2], p[0]}));
+            D = nh_simplify_short(d, D, 0);
+            if (nh_antiderivative_sign(b, D) <= 0) continue;
+            nh_ex half = nh_antiderivative_root(b, D), twice = nh_mul(d, nh_int(d, 2), p[2]);
+            for (int side = -1; side <= 1; side += 2) {
+                nh_ex at = nh_div(d, nh_sub(d, nh_mul(d, nh_int(d, side), half), p[1]), twice);
+                put_elliptic_pole(b, &r, a, c, nh_powi(d, at, 2), angle, sine);
+            }
+        }
+    }
+}
+
 /* y = cos u and sin u */
 static void put_root_of_waves(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex sine)
 {
@@ -166,6 +217,20 @@ static void put_root_of_powers(builder *b, nh_ex Q, nh_ex root, int64_t n)
                                .count = 1,
                                .from = {b->in->x},
                                .to = {nh_call(d, NH_EXP, nh_mul(d, nh_int(d, n), log_y))}});
+}
+
+void nh_antiderivative_put_elliptic(builder *b)
+{
+    const nh_kernel *k = b->form.kernels.item;
+    for (size_t i = 0; i < b->letters; i++) {
+        const letter *u = &b->letter[i];
+        if (u->kind != NH_KERNEL_ROOT || k[u->index].unit.q != 2) continue;
+        for (size_t j = 0; j < b->letters; j++) {
+            const letter *l = &b->letter[j];
+            if (l->kind != NH_KERNEL_COS) continue;
+            put_elliptic(b, k[u->index].atom, u->e, l->e, nh_kernel_power(&b->form.kernels, k[l->index].partner, 1));
+        }
+    }
 }
 
 static void put_root(builder *b, nh_ex Q, nh_ex root)

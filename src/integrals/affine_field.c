@@ -92,7 +92,7 @@ static size_t affine(const nh_model *o, const nh_options *options, nh_ex *basis)
 {
     nh_ex t = o->system->t;
     nh_centre_of_mass *centre = nh_alloc_array(o->m + 1, sizeof *centre);
-    size_t n = 0, centres = nh_centres_of_mass(o, (size_t)options->proof_terms, centre);
+    size_t n = 0, centres = nh_centre_of_mass_find(o, (size_t)options->proof_terms, centre);
     basis[n++] = nh_int(o->dag, 1);
     basis[n++] = t;
     for (size_t s = 0; s < o->m; s++) {

@@ -24,7 +24,7 @@ static bool form_of(const nh_model *o, size_t s, nh_ex *form)
     return linear && !constant && nh_is_zero(d, rest) && !nh_is_zero(d, form[s]);
 }
 
-size_t nh_centres_of_mass(const nh_model *o, size_t max_terms, nh_centre_of_mass *out)
+size_t nh_centre_of_mass_find(const nh_model *o, size_t max_terms, nh_centre_of_mass *out)
 {
     if (o->k || o->chart->quasi) return 0;
     size_t count = 0;

@@ -15,6 +15,6 @@ typedef struct {
 
 /* Those with an F that is no linear function of the coordinates; `out` has room for m.  None where the velocities are
  * constrained or replaced.  `max_terms`: of polynomials. */
-size_t nh_centres_of_mass(const nh_model *model, size_t max_terms, nh_centre_of_mass *out);
+size_t nh_centre_of_mass_find(const nh_model *model, size_t max_terms, nh_centre_of_mass *out);
 
 #endif

@@ -43,7 +43,7 @@ static void centres_of_mass(nh_stage_solver *x, size_t centres, const nh_centre_
 static size_t pulled_centres(const nh_model *o, size_t max_terms, nh_centre_of_mass *centre, nh_ex *force)
 {
     nh_dag *d = o->dag;
-    size_t centres = nh_centres_of_mass(o, max_terms, centre), count = 0;
+    size_t centres = nh_centre_of_mass_find(o, max_terms, centre), count = 0;
     for (size_t i = 0; i < centres; i++) {
         size_t s = centre[i].s;
         nh_ex Q = nh_simplify_short(d, nh_diff(d, o->system->lagrangian, o->system->coordinate[s].q), 0);
@@ -66,8 +66,10 @@ static nh_expr_set turns_about_centres(const nh_model *o, size_t centres, const 
     bool some = false;
     for (size_t i = 0; i < centres; i++) some |= !nh_is_zero(o->dag, force[i]);
     for (size_t i = 0; i < centres && some; i++)
-        for (size_t j = 0; j < centres; j++)
-            if (j != i) nh_expr_set_put(&all, nh_div(o->dag, nh_mul(o->dag, centre[i].F, o->p[centre[j].s]), centre[i].mass));
+        for (size_t j = 0; j < centres; j++) {
+            nh_ex word = nh_mul(o->dag, centre[i].F, o->p[centre[j].s]);
+            if (j != i) nh_expr_set_put(&all, nh_div(o->dag, word, centre[i].mass));
+        }
     return all;
 }
 

@@ -70,6 +70,8 @@ void nh_linear_motion_forms(nh_stage_solver *solver);
 void nh_linear_fields_search(nh_stage_solver *solver);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
 void nh_isometries_search(nh_stage_solver *solver);
+/* Two velocities that turn along one coordinate, without a potential. */
+void nh_velocity_turn_search(nh_stage_solver *solver);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */
 void nh_series_stages(nh_stage_solver *solver);
 /* The same for currents linear in the velocities, where the equations depend on several coordinates: after the stages

@@ -114,6 +114,7 @@ static const step steps[] = {
     {.stage = NH_STAGE_WORDS_POSITIONS},     /* times t and positions */
     {.run = nh_isometries_search},           /* the same, whatever the coordinates */
     {.run = function_stages},                /* times one function */
+    {.run = nh_velocity_turn_search},        /* two velocities and their energy */
     {.run = nh_quadratures_complete},        /* where one integral is missing */
     {.run = nh_series_stages},               /* no closed form, of one coordinate */
     {.stage = NH_STAGE_DEGREE_2},            /* from here on of higher degree: columns by the hundred */

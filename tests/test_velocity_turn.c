@@ -1,0 +1,66 @@
+/* velocity_turn: two velocities that turn along one coordinate have two linear currents, by an integral that is elementary or elliptic; with a potential they have
+ * none. */
+#include "mechanics.h"
+#include "scratch.h"
+#include "sweep.h"
+
+#include "commands/analyze.h"
+#include "graph/print.h"
+
+#define SKATES(M, MORE)                                                                                                                                          \
+    "name: skates\nparameters: {m: 1, I: 0.3, M: " M ", J: 0.2, a: 0.4, b: 0.5, k: 0.7}\n"                                                                      \
+    "bodies:\n  - {name: one, mass: m, inertia: I}\n  - {name: two, mass: M, inertia: J, center: [-b, 0, 0]}\n"                                                 \
+    "joints:\n  - {type: planar, child: one, axis: z, coordinates: [x, y, h]}\n  - {type: revolute, parent: one, child: two, at: [-a, 0, 0], axis: z, coordinates: [q]}\n" \
+    "wheels:\n  - {type: knife-edge, body: one, axis: y}\n  - {type: knife-edge, body: two, at: [-b, 0, 0], axis: y}\n" MORE
+
+static nh_analysis *analysis_of(const char *text)
+{
+    char path[SCRATCH];
+    FILE *out = scratch_open(path);
+    cr_assert(out && fputs(text, out) >= 0 && fclose(out) == 0);
+    nh_error error = {0};
+    nh_analyze_request q = {.system_path = path};
+    nh_options_default(&q.options);
+    q.options.max_seconds = 1e6; /* the same on every machine */
+    nh_analysis *r = nh_analysis_create(&q, &error);
+    remove(path);
+    cr_assert(r, "%s", error.what);
+    return r;
+}
+
+/* So many independent currents, all proved for all parameters; the last one contains these words. */
+static void expect(const char *text, size_t currents, const char *word)
+{
+    nh_analysis *r = analysis_of(text);
+    size_t proved = 0;
+    bool there = !word;
+    for (size_t k = 0; k < r->count; k++) {
+        char *shown = nh_print_string(r->model->dag, r->found[k].phi);
+        proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.all_parameters;
+        there |= word && strstr(shown, word);
+        nh_free(shown);
+    }
+    cr_expect_eq(proved, currents, "%zu of %zu", proved, currents);
+    cr_expect(there, "no current contains %s", word);
+    nh_analysis_free(r);
+}
+
+Test(velocity_turn, hinged_skates) { expect(SKATES("0.9", ""), 2, "elliptic_pi"); }
+
+/* J = M b^2: the root under the integral is a constant for these values. */
+Test(velocity_turn, where_the_root_is_a_constant, PLAIN_ONLY) { expect(SKATES("0.8", ""), 2, "elliptic_pi"); }
+
+Test(velocity_turn, with_a_spring_there_is_none, PLAIN_ONLY) { expect(SKATES("0.9", "lagrangian: -k*q^2/2\n"), 1, NULL); }
+
+/* The same with numbers in place of the parameters: the angle is a multiple of q. */
+Test(velocity_turn, by_a_constant_rate)
+{
+    static const char text[] =
+        "name: skates\ncoordinates: [x, y, {name: h, type: angle}, {name: q, type: angle}]\nlagrangian: (x'^2 + y'^2)/2 + h'^2/8 + (h' + q')^2/4\n"
+        "constraints: [y'*cos(h) = x'*sin(h), y'*cos(h + q) - x'*sin(h + q) = h' + q' + h'*cos(q)]\n";
+    nh_analysis *r = analysis_of(text);
+    size_t proved = 0;
+    for (size_t k = 0; k < r->count; k++) proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.proved;
+    cr_expect_geq(proved, 2);
+    nh_analysis_free(r);
+}
