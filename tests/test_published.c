@@ -386,6 +386,9 @@ static const published PUBLISHED[] = {
      "bodies:\n  - {name: one, mass: m, inertia: I}\n  - {name: two, mass: M, inertia: J, center: [-b, 0, 0]}\n"
      "joints:\n  - {type: planar, child: one, axis: z, coordinates: [x, y, h]}\n  - {type: revolute, parent: one, child: two, at: [-a, 0, 0], axis: z, coordinates: [q]}\n"
      "wheels:\n  - {type: knife-edge, body: one, axis: y}\n  - {type: knife-edge, body: two, at: [-b, 0, 0], axis: y}\n", 2, 3},
+    /* F. Fasso and N. Sansonetto, J. Nonlinear Sci. 26 (2016) 519: bodies on planes that turn */
+    {"vertical disk on a turntable", "parameters: {m: 1, I: 0.3, J: 0.5, R: 0.4, W: 0.7}\ncoordinates: [x, y, {name: th, type: angle}, {name: ph, type: angle}]\n"
+     "lagrangian: m/2*(x'^2 + y'^2) + J/2*th'^2 + I/2*ph'^2\nconstraints: [\"x' = R*cos(th)*ph' - W*y\", \"y' = R*sin(th)*ph' + W*x\"]\n", 5, 4},
     /* controls: C. Stoermer 1907; G. W. Hill 1878; V. Szebehely 1967; M. C. Gutzwiller, J. Math. Phys. 14 (1973) 139; G. K. Savvidy, Phys. Lett. B 130 (1983) 303 */
     {"Stoermer", "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + sin(th)^2/r*ph'\ndomain: {r: [0.5, 2], th: [0.4, 1.2]}\n", 2, 4},
@@ -477,6 +480,15 @@ Test(published, a_root_that_the_system_has_is_no_second_letter, PLAIN_ONLY)
     cr_expect_eq(independent_and_proved(r), 3);
     for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "Phi%zu", k + 1);
     cr_expect_eq(r->completeness[NH_COMPLETE_IN_COORDINATES].missing_at, 0);
+    nh_analysis_free(r);
+}
+
+/* Coefficients of constructed integrals that are quotients in the parameters: W m R/(I + m R^2). */
+Test(published, quotients_of_parameters_in_what_is_constructed, PLAIN_ONLY)
+{
+    nh_analysis *r = analysed_row("vertical disk on a turntable");
+    cr_expect_eq(independent_and_proved(r), 5);
+    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "Phi%zu", k + 1);
     nh_analysis_free(r);
 }
 

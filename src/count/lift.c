@@ -305,6 +305,7 @@ nh_lift_result nh_lift(const nh_model *model, bool time, size_t terms, const nh_
     if (terms < 2) return out;
     if (parameters && parameters <= most_parameters)
         out.integral = lift(model, time, true, terms, term, most, &out.work);
+    out.general = out.integral != 0;
     if (!out.integral) out.integral = lift(model, time, false, terms, term, most - out.work, &out.work);
     return out;
 }

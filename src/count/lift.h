@@ -15,6 +15,7 @@
 
 typedef struct {
     nh_ex integral; /* 0: none was found */
+    bool general;   /* for all parameters */
     double work;    /* products of residues */
 } nh_lift_result;
 

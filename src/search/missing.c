@@ -201,12 +201,17 @@ static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
 }
 
 /* By linear equations modulo primes: exactly, and for all parameters where they occur as polynomials. */
-static bool lift_exactly(search *s, bool time, size_t terms, const nh_ex *term, const char *name)
+static nh_lift_result lift_exactly(search *s, bool time, size_t terms, const nh_ex *term)
+{
+    nh_lift_result exact = nh_lift(s->solver.r->model, time, terms, term, s->work);
+    s->work -= exact.work;
+    return exact;
+}
+
+static bool keep_lifted(search *s, const nh_lift_result *exact, size_t terms, const char *name)
 {
     nh_analysis *r = s->solver.r;
-    nh_lift_result exact = nh_lift(r->model, time, terms, term, s->work);
-    s->work -= exact.work;
-    bool found = exact.integral && nh_stage_solver_certify(&s->solver, exact.integral, name);
+    bool found = exact->integral && nh_stage_solver_certify(&s->solver, exact->integral, name);
     if (found) r->stage[r->stages - 1].columns = terms;
     return found;
 }
@@ -222,9 +227,11 @@ static bool lift_by_doubles(search *s, size_t degree, const nh_family *all, bool
     return s->solver.r->count > before || (further && lift_further(s, degree, all));
 }
 
-/* Finds the coefficients of an integral's terms, which may be constants of the leaf. */
+/* Finds the coefficients of an integral's terms, which may be constants of the leaf.  Those of a few terms may be
+ * quotients in the parameters, which the exact relation of their rates has (coefficients.c). */
 static bool lift(search *s, size_t degree, bool time, const nh_constructed *c, bool further)
 {
+    enum { a_few = 20 };
     nh_analysis *r = s->solver.r;
     nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
     nh_ex constant[most_constants];
@@ -240,8 +247,11 @@ static bool lift(search *s, size_t degree, bool time, const nh_constructed *c, b
     *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
     s->solver.wide = true;
     const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
-    if (!further && lift_exactly(s, time, once, first_once, name)) return true;
-    return lift_by_doubles(s, degree, all, further, name);
+    nh_lift_result exact = further ? (nh_lift_result){0} : lift_exactly(s, time, once, first_once);
+    bool first = exact.general || once > a_few;
+    if (first && keep_lifted(s, &exact, once, name)) return true;
+    if (lift_by_doubles(s, degree, all, further, name)) return true;
+    return !first && keep_lifted(s, &exact, once, name);
 }
 
 static bool is_over(const search *s, bool further)
