@@ -172,3 +172,30 @@ Test(linear_motion, jordan_blocks_have_powers_of_time, PLAIN_ONLY)
         nh_analysis_free(r);
     }
 }
+
+/* In resonance the functions of t that an ansatz needs are nearly dependent on the interval of the samples: the integral of the drive is exact.  Also without
+ * resonance, with damping, with real eigenvalues, and with two equal ones, which this way does not solve. */
+Test(linear_motion, drives_are_integrated)
+{
+    static const char *const text[] = {"w^2*x^2/2 - f*x*cos(w*t)\n", "w^2*x^2/2 - f*x*cos(n*t)\nforces: [\"x = -2*c*x'\"]\n", "-w^2*x^2/2 - f*x*exp(w*t)\n",
+                                       "w^2*x^2/2 - f*x*t^2*sin(w*t)\n", "w^2*x^2/2 - f*x*exp(-w*t)\nforces: [\"x = -2*w*x'\"]\n"};
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
+        char all[400], path[SCRATCH];
+        snprintf(all, sizeof all, "name: driven\nparameters: {w: 0.8, f: 0.3, n: 0.7, c: 0.2}\ncoordinates: [x]\nlagrangian: x'^2/2 - (%s", text[i]);
+        char *end = strchr(strstr(all, "lagrangian"), '\n');
+        memmove(end + 1, end, strlen(end) + 1);
+        *end = ')';
+        FILE *out = scratch_open(path);
+        cr_assert(out && fputs(all, out) >= 0 && fclose(out) == 0);
+        nh_error error = {0};
+        nh_analyze_request q = {.system_path = path};
+        nh_options_default(&q.options);
+        nh_analysis *r = nh_analysis_create(&q, &error);
+        remove(path);
+        cr_assert(r, "%s", error.what);
+        size_t proved = 0;
+        for (size_t k = 0; k < r->count; k++) proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.all_parameters;
+        cr_expect_eq(proved, 2, "%s: %zu", text[i], proved);
+        nh_analysis_free(r);
+    }
+}

@@ -389,6 +389,12 @@ static const published PUBLISHED[] = {
     /* F. Fasso and N. Sansonetto, J. Nonlinear Sci. 26 (2016) 519: bodies on planes that turn */
     {"vertical disk on a turntable", "parameters: {m: 1, I: 0.3, J: 0.5, R: 0.4, W: 0.7}\ncoordinates: [x, y, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: m/2*(x'^2 + y'^2) + J/2*th'^2 + I/2*ph'^2\nconstraints: [\"x' = R*cos(th)*ph' - W*y\", \"y' = R*sin(th)*ph' + W*x\"]\n", 5, 4},
+    /* M. A. Olshanetsky and A. M. Perelomov, as above, written with hyperbolic functions; a sum of two pendulums, upside down, seen from x + y and x - y */
+    {"Toda, A2, periodic, with a cosh", PLANE "exp(x) - 2*exp(-x/2)*cosh(sqrt(3)*y/2)\n", 2, 6},
+    {"product of two cosh", PLANE "cosh(x)*cosh(y)\n", 2, 6},
+    /* a linear integral by an exponential, an integrating factor */
+    {"spin by a cosine of the place", "coordinates: [{name: h, type: angle}, {name: f, type: angle}, {name: s, type: angle}]\n"
+     "lagrangian: (h'^2 + sin(h)^2*f'^2 + s'^2)/2\nconstraints: [\"s' = cos(h)*f'\"]\ndomain: {h: [0.5, 2.5]}\n", 2, 4},
     /* controls: C. Stoermer 1907; G. W. Hill 1878; V. Szebehely 1967; M. C. Gutzwiller, J. Math. Phys. 14 (1973) 139; G. K. Savvidy, Phys. Lett. B 130 (1983) 303 */
     {"Stoermer", "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + sin(th)^2/r*ph'\ndomain: {r: [0.5, 2], th: [0.4, 1.2]}\n", 2, 4},

@@ -121,7 +121,11 @@ static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_
         if (down && value < 0) *down = fmax(*down, fmax(-value - less, 1));
         return;
     }
-    if (function && f == NH_EXP) return;
+    if (function && f == NH_EXP) { /* canonical forms have exp(x)^-1 for exp(-x) */
+        nh_letter *found = direction(d, l, NH_LETTER_EXPONENTIAL, nh_child(d, base, 0), &sign);
+        if (found && sign * value < 0) found->down = fmax(found->down, least_down);
+        return;
+    }
     if (exponent.q == 1 && value > 0) return; /* whole powers are polynomials in the letters of the base */
     nh_letter *found = letter_of(l, NH_LETTER_POWER, base);
     found->root = found->root / nh_gcd(found->root, exponent.q) * exponent.q;

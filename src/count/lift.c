@@ -1,11 +1,13 @@
 #include "count/lift.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/progress.h"
 #include "count/jet_equations.h"
 #include "exact/fraction.h"
 #include "exact/residue_matrix.h"
+#include "integrals/fixed.h"
 
 enum {
     spare = 8, /* points beyond the number of columns */
@@ -255,21 +257,21 @@ static bool choose_columns(lifting *l, size_t most, column *out, size_t *count)
 
 /* ---- the whole ---- */
 
-static nh_ex sum(const nh_model *o, const nh_ex *term, size_t columns, const column *c, const nh_num *coefficient)
+/* The coefficient of each term, from those of its columns. */
+static void gather(const nh_model *o, size_t terms, size_t columns, const column *c, const nh_num *coefficient,
+                   nh_ex *out)
 {
-    nh_ex *e = nh_alloc_array(columns, sizeof *e);
+    for (size_t j = 0; j < terms; j++) out[j] = nh_int(o->dag, 0);
     for (size_t j = 0; j < columns; j++) {
-        e[j] = term[c[j].term];
+        nh_ex e = nh_number(o->dag, coefficient[j]);
         for (size_t k = 0; k < o->system->parameters && k < most_parameters; k++)
-            if (c[j].power[k]) e[j] = nh_mul(o->dag, e[j], nh_powi(o->dag, o->parameter[k], c[j].power[k]));
+            if (c[j].power[k]) e = nh_mul(o->dag, e, nh_powi(o->dag, o->parameter[k], c[j].power[k]));
+        out[c[j].term] = nh_add(o->dag, out[c[j].term], e);
     }
-    nh_ex out = nh_linear(o->dag, columns, coefficient, e);
-    nh_free(e);
-    return out;
 }
 
-static nh_ex lift(const nh_model *o, bool time, bool generic, size_t terms, const nh_ex *term, double most,
-                  double *work)
+static bool lift(const nh_model *o, bool time, bool generic, size_t terms, const nh_ex *term, double most, double *work,
+                 nh_ex *out)
 {
     enum { times_as_many = 3 }; /* columns as terms */
     lifting l = {.equations = nh_jet_equations_create(o, time, generic), .terms = terms, .most = most};
@@ -277,7 +279,6 @@ static nh_ex lift(const nh_model *o, bool time, bool generic, size_t terms, cons
     size_t room = times_as_many * terms, columns = terms;
     column *c = nh_alloc_array(room, sizeof *c);
     nh_num *coefficient = nh_alloc_array(room, sizeof *coefficient);
-    nh_ex out = 0;
     bool good = !x->obstacle;
     l.parameters = generic ? o->system->parameters : 0;
     l.term = nh_alloc_array(terms, sizeof *l.term);
@@ -288,13 +289,28 @@ static nh_ex lift(const nh_model *o, bool time, bool generic, size_t terms, cons
         good = nh_jet_equations_take(x, true, &l.term[j]);
     }
     if (generic) good = good && choose_columns(&l, room, c, &columns);
-    if (good && fractions(&l, columns, c, coefficient)) out = sum(o, term, columns, c, coefficient);
+    good = good && fractions(&l, columns, c, coefficient);
+    if (good) gather(o, terms, columns, c, coefficient, out);
     *work += l.work;
     nh_free(coefficient);
     nh_free(c);
     nh_free(l.term);
     nh_free(l.rate);
     nh_jet_equations_free(x);
+    return good;
+}
+
+static nh_ex sum(nh_dag *d, size_t n, const nh_ex *term, const nh_ex *coefficient)
+{
+    nh_ex *e = nh_alloc_array(n, sizeof *e);
+    nh_num *one = nh_alloc_array(n, sizeof *one);
+    for (size_t j = 0; j < n; j++) {
+        e[j] = nh_mul(d, coefficient[j], term[j]);
+        one[j] = nh_num_int(1);
+    }
+    nh_ex out = nh_linear(d, n, one, e);
+    nh_free(one);
+    nh_free(e);
     return out;
 }
 
@@ -303,9 +319,46 @@ nh_lift_result nh_lift(const nh_model *model, bool time, size_t terms, const nh_
     nh_lift_result out = {0};
     size_t parameters = model->system->parameters;
     if (terms < 2) return out;
-    if (parameters && parameters <= most_parameters)
-        out.integral = lift(model, time, true, terms, term, most, &out.work);
-    out.general = out.integral != 0;
-    if (!out.integral) out.integral = lift(model, time, false, terms, term, most - out.work, &out.work);
+    nh_ex *coefficient = nh_alloc_array(terms, sizeof *coefficient);
+    out.general = parameters && parameters <= most_parameters &&
+                  lift(model, time, true, terms, term, most, &out.work, coefficient);
+    if (out.general || lift(model, time, false, terms, term, most - out.work, &out.work, coefficient))
+        out.integral = sum(model->dag, terms, term, coefficient);
+    nh_free(coefficient);
     return out;
+}
+
+static bool has_time(const nh_model *o, size_t terms, const nh_ex *term)
+{
+    bool has = false;
+    for (size_t j = 0; j < terms; j++) has |= nh_depends(o->dag, term[j], o->system->t);
+    for (size_t s = 0; s < o->m; s++) has |= nh_depends(o->dag, o->rho[s], o->system->t);
+    for (size_t i = 0; i < o->n; i++) has |= nh_depends(o->dag, o->a[i], o->system->t);
+    return has;
+}
+
+bool nh_lift_coefficients(const nh_model *model, size_t terms, const nh_ex *term, const double *like, size_t pivot,
+                          double most, nh_ex *coefficient)
+{
+    enum { few = 4 };
+    size_t parameters = model->system->parameters;
+    nh_ex *turned = nh_alloc_array(terms + 1, sizeof *turned);
+    bool found = false, time = has_time(model, terms, term);
+    double work = 0;
+    if (terms < 2 || !parameters || parameters > most_parameters) terms = 0;
+    for (size_t k = 0; k <= terms && k <= few && !found && work < most; k++) { /* f_0 changes places with another */
+        size_t first = k ? k - 1 : pivot;
+        if (first == terms) break;
+        memcpy(turned, term, terms * sizeof *turned);
+        turned[0] = term[first];
+        turned[first] = term[0];
+        found = lift(model, time, true, terms, turned, most - work, &work, coefficient);
+        if (!found) continue;
+        nh_ex swapped = coefficient[0];
+        coefficient[0] = coefficient[first];
+        coefficient[first] = swapped;
+        found = nh_fixed_is_like(model, terms, coefficient, like);
+    }
+    nh_free(turned);
+    return found;
 }

@@ -3,12 +3,52 @@
 #include <math.h>
 #include <string.h>
 
+#include "count/lift.h"
 #include "exact/normal.h"
 #include "integrals/companion.h"
 #include "integrals/fixed.h"
+#include "integrals/prove.h"
 #include "integrals/recognise.h"
 #include "integrals/refine.h"
 #include "integrals/sharpen.h"
+
+/* The factors of a product that are parameters. */
+static nh_ex parameters_in(const nh_model *o, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    nh_ex all = nh_int(d, 1);
+    if (nh_kind_of(d, e) != NH_PRODUCT) return all;
+    for (size_t k = 0; k < nh_arity(d, e); k++) {
+        nh_ex base = nh_child(d, e, k), factor = nh_pow(d, base, nh_exponent_of(d, e, k));
+        bool parameter = false;
+        for (size_t i = 0; i < o->system->parameters; i++) parameter |= base == o->parameter[i];
+        if (parameter) all = nh_mul(d, all, factor);
+    }
+    return all;
+}
+
+/* Coefficients for all parameters by residues, which long rates do not hinder, and that proves to be conserved. */
+static bool lifted(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out)
+{
+    enum { most_terms = 60 };
+    static const double part = 0.01; /* of the work of a construction */
+    nh_dag *d = o->dag;
+    size_t n = c->count;
+    if (n > most_terms) return false;
+    nh_ex term[most_terms], factor[most_terms], phi = nh_int(d, 0);
+    double like[most_terms];
+    for (size_t j = 0; j < n; j++) {
+        factor[j] = parameters_in(o, c->term[j]);
+        term[j] = nh_div(d, c->term[j], factor[j]);
+        like[j] = c->coefficient[j] * nh_model_number(o, factor[j]);
+    }
+    if (!nh_lift_coefficients(o, n, term, like, c->pivot, part * options->construct, out)) return false;
+    for (size_t j = 0; j < n; j++) {
+        phi = nh_add(d, phi, nh_mul(d, out[j], term[j]));
+        out[j] = nh_div(d, out[j], factor[j]);
+    }
+    return nh_prove_current(o, phi, true, options).all_parameters;
+}
 
 /* The relation of the terms' rates.  Where it needs values of parameters, or has no exact numbers, the numbers inside
  * of terms are replaced by names. */
@@ -39,6 +79,11 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
         nh_free(shown);
         if (shorter.found) relation = shorter;
         if (shorter.found) memcpy(out, rate, c->count * sizeof *out);
+    }
+    if (!relation.all_parameters && lifted(o, c, options, rate)) {
+        relation = (nh_fixed){.found = true, .all_parameters = true};
+        letters->count = 0;
+        memcpy(out, rate, c->count * sizeof *out);
     }
     nh_free(rate);
     return relation;

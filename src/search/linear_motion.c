@@ -217,18 +217,31 @@ static nh_ex either_root(nh_dag *d, nh_ex e)
 }
 
 /* A block of two: lambda = T/2 +- sqrt(T^2/4 - D) with the trace T and the determinant D. */
-static size_t waves_of_two(const linear *l, bool turns, nh_ex *out)
+static nh_driven_pair pair_of(const linear *l, bool turns)
 {
     nh_dag *d = l->x->r->model->dag;
     size_t i = l->of[0], j = l->of[1], n = l->size;
     const nh_ex *e = l->entry;
+    if (nh_is_zero(d, e[j + i * n])) i = l->of[1], j = l->of[0];
     nh_ex half = nh_mul(d, nh_ratio(d, 1, 2), nh_add(d, e[i + i * n], e[j + j * n]));
     nh_ex D = nh_sub(d, nh_mul(d, e[i + i * n], e[j + j * n]), nh_mul(d, e[i + j * n], e[j + i * n]));
-    nh_ex apart = nh_simplify_short(d, nh_sub(d, nh_mul(d, half, half), D), 0), t = l->x->r->system->t;
-    if (turns) return waves(d, t, half, either_root(d, nh_neg(d, apart)), out);
-    nh_ex s = either_root(d, apart);
-    out[0] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_add(d, half, s), t)));
-    out[1] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_sub(d, half, s), t)));
+    nh_ex square = nh_simplify_short(d, nh_sub(d, nh_mul(d, half, half), D), 0);
+    return (nh_driven_pair){.state = {l->z[i], l->z[j]},
+                            .drive = {l->b[i], l->b[j]},
+                            .a = e[i + i * n],
+                            .c = e[j + i * n],
+                            .half = half,
+                            .apart = either_root(d, turns ? nh_neg(d, square) : square),
+                            .turns = turns};
+}
+
+static size_t waves_of_two(const linear *l, const nh_driven_pair *p, nh_ex *out)
+{
+    nh_dag *d = l->x->r->model->dag;
+    nh_ex t = l->x->r->system->t;
+    if (p->turns) return waves(d, t, p->half, p->apart, out);
+    out[0] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_add(d, p->half, p->apart), t)));
+    out[1] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_sub(d, p->half, p->apart), t)));
     return out[0] == out[1] ? 1 : 2;
 }
 
@@ -437,7 +450,10 @@ static void solve_rate(linear *l, double re, double im, size_t times, bool formu
     nh_ex wave[2], decay = formulas ? 0 : named(l, re, false), turn = formulas ? 0 : named(l, im, true);
     bool many = l->forms && l->count > most_letters && (re == 0 || im == 0);
     if (many && wave_of_second_order(l, im != 0 ? turn : decay, im != 0, name)) return;
-    size_t count = formulas ? waves_of_two(l, im != 0, wave) : waves(d, l->x->r->system->t, decay, turn, wave);
+    nh_driven_pair pair = {0};
+    if (formulas) pair = pair_of(l, im != 0);
+    size_t count = formulas ? waves_of_two(l, &pair, wave) : waves(d, l->x->r->system->t, decay, turn, wave);
+    if (formulas && l->drives > 1 && nh_driven_pair_search(l->x, &pair) == count) return;
     both_stages(l, name, count, wave);
     powers_of_time(l, times, count, wave);
 }

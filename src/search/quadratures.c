@@ -319,11 +319,12 @@ void nh_quadratures_complete(nh_stage_solver *x)
     size_t n = gather(r, true, current);
     nh_explicit_request request = {
         .points = x->ranges, .currents = n, .current = current, .linear = true, .options = &r->options};
+    bool open = !nh_counted_covers(&x->counted, 1, false);
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
         const nh_explicit_motion *m = nh_explicit_motion_along(r->arena, o, &request, i);
-        if (!m || m->known < states) continue;
+        if (!m || (m->known < states && !open)) continue;
         harvest(x, 1, &m);
-        return;
+        if (m->known == states) return;
     }
 }
 

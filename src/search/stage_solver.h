@@ -70,6 +70,16 @@ void nh_linear_motion_forms(nh_stage_solver *solver);
 void nh_linear_fields_search(nh_stage_solver *solver);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
 void nh_isometries_search(nh_stage_solver *solver);
+/* Two states with linear equations and a drive; `apart`: half the distance of the eigenvalues, which are half +- apart,
+ * or with `turns` half +- i apart. */
+typedef struct {
+    nh_ex state[2], drive[2]; /* z, g */
+    nh_ex a, c;               /* z1' = a z1 + .., z2' = c z1 + ..: c is not 0 */
+    nh_ex half, apart;
+    bool turns;
+} nh_driven_pair;
+/* Returns how many independent currents it finds. */
+size_t nh_driven_pair_search(nh_stage_solver *solver, const nh_driven_pair *pair);
 /* Two velocities that turn along one coordinate, without a potential. */
 void nh_velocity_turn_search(nh_stage_solver *solver);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */
