@@ -395,6 +395,19 @@ static const published PUBLISHED[] = {
     /* a linear integral by an exponential, an integrating factor */
     {"spin by a cosine of the place", "coordinates: [{name: h, type: angle}, {name: f, type: angle}, {name: s, type: angle}]\n"
      "lagrangian: (h'^2 + sin(h)^2*f'^2 + s'^2)/2\nconstraints: [\"s' = cos(h)*f'\"]\ndomain: {h: [0.5, 2.5]}\n", 2, 4},
+    /* J. M. Osborne and D. V. Zenkov, Proc. 44th IEEE Conf. Decision and Control (2005) 1114: the speed along the blade follows by an arctangent of the mass's place */
+    {"sleigh with a mass on a spring across it", "parameters: {m: 1, I: 0.5, M: 0.4, k: 2}\ncoordinates: [x, y, {name: th, type: angle}, s]\n"
+     "lagrangian: m/2*(x'^2 + y'^2) + I/2*th'^2 + M/2*((x' - s'*sin(th) - s*cos(th)*th')^2 + (y' + s'*cos(th) - s*sin(th)*th')^2) - k/2*s^2\n"
+     "constraints: [\"y'*cos(th) = x'*sin(th)\"]\n", 3, 3},
+    /* J. Neimark and N. Fufaev, Dynamics of Nonholonomic Systems (1972), ch. III: a homogeneous ball on a sphere keeps its spin about the normal */
+    {"ball on a sphere", "parameters: {m: 1, k: 0.4, r: 0.3, R: 1, g: 1}\n"
+     "coordinates: [{name: th, type: angle}, {name: ph, type: angle}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+     "definitions: [\"wx = h'*cos(p) + s'*sin(h)*sin(p)\", \"wy = h'*sin(p) - s'*sin(h)*cos(p)\", \"wz = p' + s'*cos(h)\"]\n"
+     "lagrangian: m/2*(R+r)^2*(th'^2 + sin(th)^2*ph'^2) + k*m*r^2/2*(wx^2 + wy^2 + wz^2) - m*g*(R+r)*cos(th)\n"
+     "constraints: [\"(R+r)*th' = r*(-wx*sin(ph) + wy*cos(ph))\", \"(R+r)*sin(th)*ph' = r*(-(wx*cos(ph) + wy*sin(ph))*cos(th) + wz*sin(th))\"]\n"
+     "domain: {h: [0.5, 2.5], th: [0.4, 1.2]}\n", 3, 2},
+    /* the places that a motion on a distribution of step 2 in four dimensions reaches: three of six are series, as integrals of 1/sqrt(1 + x^2 + x^4) */
+    {"distribution with a quartic below the root", "coordinates: [x, y, z, w]\nlagrangian: (x'^2 + y'^2 + z'^2 + w'^2)/2\nconstraints: [\"z' = x*y'\", \"w' = x^2*y'\"]\n", 3, 3},
     /* controls: C. Stoermer 1907; G. W. Hill 1878; V. Szebehely 1967; M. C. Gutzwiller, J. Math. Phys. 14 (1973) 139; G. K. Savvidy, Phys. Lett. B 130 (1983) 303 */
     {"Stoermer", "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + sin(th)^2/r*ph'\ndomain: {r: [0.5, 2], th: [0.4, 1.2]}\n", 2, 4},

@@ -61,6 +61,33 @@ static nh_ex primitive_of_root(const nh_jet_equations *x, const quadratic *q, nh
     return sign > 0 && nh_model_sign(o, inside) > 0 ? nh_call(d, NH_LOG, inside) : 0;
 }
 
+/* The primitive of 1/(a + b z + c z^2): an arctangent, or an area function or logarithm; 0: its sign is not known. */
+static nh_ex primitive_of_quotient(const nh_jet_equations *x, const quadratic *q, nh_ex z)
+{
+    nh_dag *d = x->dag;
+    nh_ex slope = nh_add(d, q->b, nh_product(d, 3, (nh_ex[]){nh_int(d, 2), q->c, z})), four = nh_int(d, 4);
+    nh_ex D = nh_sub(d, nh_product(d, 3, (nh_ex[]){four, q->a, q->c}), nh_powi(d, q->b, 2));
+    D = nh_simplify_short(d, D, largest_form);
+    int sign = has_coordinates(x, D) || has_coordinates(x, q->c) ? 0 : nh_model_sign(x->model, D);
+    if (sign > 0) return nh_call(d, NH_ATAN, nh_simplify_short(d, nh_div(d, slope, nh_sqrt(d, D)), largest_form));
+    if (!sign) return 0;
+    nh_ex root = nh_sqrt(d, nh_neg(d, D)), inside = nh_div(d, nh_sub(d, slope, root), nh_add(d, slope, root));
+    int side = nh_model_sign(x->model, inside);
+    return side ? nh_call(d, NH_LOG, side > 0 ? inside : nh_neg(d, inside)) : 0;
+}
+
+/* The primitives of 1/`base` by one coordinate. */
+static void of_quotient(list *l, nh_ex base)
+{
+    const nh_jet_equations *x = l->equations;
+    for (size_t k = 0; k < x->coordinates; k++) {
+        nh_ex q = x->coordinate[k];
+        quadratic p;
+        if (q != x->model->system->t && nh_depends(l->dag, base, q) && read_quadratic(l->dag, base, q, &p))
+            append(l, primitive_of_quotient(x, &p, q));
+    }
+}
+
 /* The primitives of a root of `base` by one coordinate. */
 static void along_coordinates(list *l, nh_ex base)
 {
@@ -176,6 +203,7 @@ static void of_letters(list *l, const nh_letters *letters)
         bool linear = nh_kind_of(l->dag, a->base) == NH_SYMBOL || a->linear;
         int sign = linear && a->down > 0 ? nh_model_sign(l->equations->model, a->base) : 0;
         if (sign) append(l, nh_call(l->dag, NH_LOG, sign > 0 ? a->base : nh_neg(l->dag, a->base)));
+        if (a->down > 0) of_quotient(l, a->base);
         if (a->root != 2) continue;
         along_coordinates(l, a->base);
         along_coordinates(l, nh_numerator(l->dag, a->base)); /* 1 + (x/y)^2 */

@@ -32,8 +32,11 @@ static bool lifted(const nh_model *o, const nh_candidate *c, const nh_options *o
 {
     enum { most_terms = 60 };
     static const double part = 0.01; /* of the work of a construction */
+    static const double larger = 50; /* proofs: what residues give is seldom false */
     nh_dag *d = o->dag;
     size_t n = c->count;
+    nh_options wide = *options;
+    wide.proof_terms *= larger;
     if (n > most_terms) return false;
     nh_ex term[most_terms], factor[most_terms], phi = nh_int(d, 0);
     double like[most_terms];
@@ -47,7 +50,7 @@ static bool lifted(const nh_model *o, const nh_candidate *c, const nh_options *o
         phi = nh_add(d, phi, nh_mul(d, out[j], term[j]));
         out[j] = nh_div(d, out[j], factor[j]);
     }
-    return nh_prove_current(o, phi, true, options).all_parameters;
+    return nh_prove_current(o, phi, true, &wide).all_parameters;
 }
 
 /* The relation of the terms' rates.  Where it needs values of parameters, or has no exact numbers, the numbers inside

@@ -152,6 +152,34 @@ static void cartesian(nh_stage_solver *x, size_t n, const nh_ex *P)
         nh_stage_solver_stage(x, "these momenta times 1 and t, and products of functions of one coordinate", 1, &grown);
 }
 
+/* Under constraints with coefficients that depend on two angles: of a ball that rolls on a sphere the spin about the
+ * normal, n . w with n = (sin a cos b, sin a sin b, cos a). */
+static void on_a_sphere(nh_stage_solver *x, size_t n, const nh_ex *P)
+{
+    enum { waves = 3 };
+    nh_analysis *r = x->r;
+    const nh_model *o = r->model;
+    nh_dag *d = o->dag;
+    nh_family_list families = {r->arena, o, &x->words, NULL, 0};
+    nh_expr_set momenta = {0};
+    nh_expr_set_put_all(&momenta, n, P);
+    for (size_t a = 0; a < o->m; a++)
+        for (size_t b = 0; b < a && !nh_stage_solver_done(x); b++) {
+            if (o->system->coordinate[a].type != NH_ANGLE || o->system->coordinate[b].type != NH_ANGLE) continue;
+            nh_ex qa = o->system->coordinate[a].q, qb = o->system->coordinate[b].q, one = nh_int(d, 1);
+            nh_ex left[waves] = {one, nh_call(d, NH_COS, qa), nh_call(d, NH_SIN, qa)},
+                  right[waves] = {one, nh_call(d, NH_COS, qb), nh_call(d, NH_SIN, qb)};
+            nh_expr_set products = {0};
+            for (size_t i = 0; i < waves * waves; i++)
+                nh_expr_set_put(&products, nh_mul(d, left[i / waves], right[i % waves]));
+            nh_family factor[] = {nh_family_list_terms(&families, &momenta),
+                                  nh_family_list_terms(&families, &products)};
+            nh_family all = nh_family_list_product(&families, 2, factor);
+            if (nh_stage_solver_promising(x, 1, &all))
+                nh_stage_solver_stage(x, "momenta of the isometries times waves of two angles", 1, &all);
+        }
+}
+
 void nh_isometries_search(nh_stage_solver *x)
 {
     nh_analysis *r = x->r;
@@ -172,6 +200,7 @@ void nh_isometries_search(nh_stage_solver *x)
     all[1] = functions_family(x, 1, part);
     all[2] = (nh_family){.kind = NH_TERMS, .terms = also->n, .term = also->e};
     nh_stage_solver_stage(x, "momenta of the isometries of the kinetic energy, and functions", 3, all);
+    if (o->k && !nh_counted_covers(&x->counted, 1, false)) on_a_sphere(x, n, P);
     if (!nh_stage_solver_done(x)) cartesian(x, n, P);
     if (nh_stage_solver_done(x)) return;
     for (size_t i = 0; i < n; i++)

@@ -9,6 +9,8 @@
 #include "count/construct.h"
 #include "count/construct_rates.h"
 #include "count/lift.h"
+#include "exact/normal.h"
+#include "exact/square.h"
 #include "integrals/echelon.h"
 #include "search/counted.h"
 #include "search/currents.h"
@@ -333,6 +335,35 @@ static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
 
 /* ---- what is integrated along a coordinate ---- */
 
+/* The same with velocities times 1 and positions: with dv/dt = c f'(h) h', v - c f is constant.  A velocity may need
+ * the root of its inertia: x'/cos(h), where a blade with the heading h moves. */
+static void integrate_velocities(search *s, const nh_family *currents)
+{
+    nh_analysis *r = s->solver.r;
+    const nh_model *o = r->model;
+    s->solver.words = nh_dictionary_of(r->model);
+    const nh_dictionary *w = &s->solver.words;
+    size_t n = 0, positions = 0, most = w->velocities + w->forms + w->frames + o->n + 1;
+    nh_ex *linear = nh_arena_alloc(r->arena, most * sizeof *linear),
+          *position = nh_arena_alloc(r->arena, (w->positions + 1) * sizeof *position);
+    position[positions++] = nh_int(o->dag, 1);
+    for (size_t k = 0; k < w->positions; k++) position[positions++] = w->position[k];
+    for (size_t k = 0; k < w->velocities; k++) linear[n++] = w->velocity[k];
+    for (size_t k = 0; k < w->forms; k++) linear[n++] = w->form[k];
+    for (size_t k = 0; k < w->frames; k++) linear[n++] = w->frame[k];
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex outside, inside, inertia = nh_simplify_short(o->dag, o->M[i * o->n + i], 0);
+        if (!nh_square_split(o->dag, inertia, &outside, &inside) || nh_kind_of(o->dag, outside) == NH_NUMBER) continue;
+        linear[n++] = nh_mul(o->dag, outside, o->chart->w[i]);
+    }
+    nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, 2 * sizeof *all);
+    part[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = linear};
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = positions, .term = position};
+    all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+    all[1] = *currents;
+    nh_stage_solver_stage(&s->solver, "velocities times 1 and positions, currents times antiderivatives", 2, all);
+}
+
 /* Integrals found, times 1, coordinates, t and antiderivatives: with x' = c f'(h) h' for a current c, x - c f is
    constant. */
 static bool integrate(search *s, const nh_completeness *c)
@@ -360,6 +391,7 @@ static bool integrate(search *s, const nh_completeness *c)
     nh_family all = {.kind = NH_TERMS, .terms = n, .term = term};
     s->solver.wide = true;
     nh_stage_solver_stage(&s->solver, "currents found so far times coordinates and antiderivatives", 1, &all);
+    if (r->count == before && c->missing_at == 1) integrate_velocities(s, &all);
     return r->count > before;
 }
 
@@ -422,7 +454,13 @@ static bool is_missing(const nh_analysis *r)
 static void in_several(search *s)
 {
     nh_analysis *r = s->solver.r;
-    bool found = false;
+    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    size_t before = r->count;
+    if (c->counted && c->missing_at == 1 && c->missing) {
+        s->solver.words = nh_dictionary_of(r->model);
+        nh_stage_solver_series_of_positions(&s->solver);
+    }
+    bool found = r->count > before;
     for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found && !nh_stage_solver_done(&s->solver); i++)
         if (!adds_nothing(r, &r->completeness[i])) found = nh_series_in_several(&s->solver, &r->completeness[i]);
 }
@@ -447,7 +485,12 @@ static void look(nh_analysis *r)
         if (found) count(r, stale = again);
     }
     if (stale && !nh_late()) count(r, false);
+    size_t before = r->independent;
     in_several(&s);
+    if (r->independent > before && r->independent >= r->local_maximum) { /* nothing is missing then */
+        r->search = NH_SEARCH_COMPLETE;
+        if (!nh_late()) count(r, false);
+    }
     take_back(&s);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.solver.bench);

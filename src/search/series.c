@@ -250,6 +250,31 @@ void nh_series_stages(nh_stage_solver *x)
     search(&p, "squares of velocities");
 }
 
+void nh_stage_solver_series_of_positions(nh_stage_solver *x)
+{
+    enum { most_currents = 2 };
+    const nh_analysis *r = x->r;
+    const nh_model *o = r->model;
+    nh_ex q = x->words.shapes == 1 ? x->words.shape[0] : 0;
+    problem p = {.x = x, .variable = q};
+    size_t currents = 0;
+    if (x->words.shapes != 1 || o->chart->implicit || nh_counted_has_walls(o) || nh_stage_solver_done(x)) return;
+    put_all(&p, o->n, o->chart->w);
+    for (size_t k = 0; k < r->count && currents < most_currents; k++) {
+        nh_ex c = r->found[k].phi;
+        bool linear = r->found[k].proof.proved && !nh_depends(o->dag, c, o->system->t) &&
+                      nh_counted_degree_of(o, c) == 1;
+        for (size_t s = 0; s < o->m; s++) {
+            nh_ex position = o->system->coordinate[s].q;
+            linear = linear && (position == q || !nh_depends(o->dag, c, position));
+        }
+        currents += linear;
+        for (size_t s = 0; s < o->m && linear; s++)
+            if (o->system->coordinate[s].q != q) put(&p, nh_mul(o->dag, o->system->coordinate[s].q, c));
+    }
+    if (currents) search(&p, "velocities, and positions times currents,");
+}
+
 /* Velocities and positions times the rate of q: Killing fields of plane waves are translations with functions of the
    wave's phase. */
 static void affine_in(nh_stage_solver *x, nh_ex q)

@@ -87,6 +87,9 @@ void nh_series_stages(nh_stage_solver *solver);
 /* The same for currents linear in the velocities, where the equations depend on several coordinates: after the stages
  * that find closed forms. */
 void nh_stage_solver_series_in_each(nh_stage_solver *solver);
+/* Velocities with functions of one coordinate q, and the others times a linear current: where dx/dt = c f(q) dq/dt with
+ * constants c and c' = g(q) dq/dt, x c' - c F(q) is constant. */
+void nh_stage_solver_series_of_positions(nh_stage_solver *solver);
 /* With functions of t. */
 void nh_stage_solver_series_in_time(nh_stage_solver *solver);
 
