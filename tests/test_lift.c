@@ -80,6 +80,7 @@ Test(lift, coefficients_like_given_ones)
     cr_expect_eq(nh_normal_is_zero(o->dag, phi, 0), NH_ZERO);
     cr_expect_not(nh_lift_coefficients(o, 3, term, other, 2, 1e9, c));
     cr_expect_not(nh_lift_coefficients(o, 3, term, like, 2, 10, c), "without work");
+    cr_expect_not(nh_lift_coefficients(o, 1, term, like, 0, 1e9, c), "one term");
     nh_model_free(o);
     nh_system_free(s);
 }

@@ -342,13 +342,12 @@ bool nh_lift_coefficients(const nh_model *model, size_t terms, const nh_ex *term
 {
     enum { few = 4 };
     size_t parameters = model->system->parameters;
-    nh_ex *turned = nh_alloc_array(terms + 1, sizeof *turned);
+    if (terms < 2 || !parameters || parameters > most_parameters) return false;
+    nh_ex *turned = nh_alloc_array(terms, sizeof *turned);
     bool found = false, time = has_time(model, terms, term);
     double work = 0;
-    if (terms < 2 || !parameters || parameters > most_parameters) terms = 0;
     for (size_t k = 0; k <= terms && k <= few && !found && work < most; k++) { /* f_0 changes places with another */
         size_t first = k ? k - 1 : pivot;
-        if (first == terms) break;
         memcpy(turned, term, terms * sizeof *turned);
         turned[0] = term[first];
         turned[first] = term[0];
