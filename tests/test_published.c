@@ -511,6 +511,16 @@ Test(published, quotients_of_parameters_in_what_is_constructed, PLAIN_ONLY)
     nh_analysis_free(r);
 }
 
+/* C. P. Dettmann and G. P. Morriss, Phys. Rev. E 54 (1996) 2495: Gauss's thermostat keeps the speed, and a momentum times an exponential of the potential; here on a
+ * sphere, where the momentum is no product of a velocity and positions. */
+Test(published, a_thermostat_on_a_sphere, PLAIN_ONLY)
+{
+    nh_analysis *r = analysed("parameters: {v: 0.5}\ncoordinates: [{name: h, type: angle}, {name: f, type: angle}]\n"
+                              "lagrangian: (h'^2 + sin(h)^2*f'^2)/2 - cos(h)\nconstraints: [\"h'^2 + sin(h)^2*f'^2 = v^2\"]\ndomain: {h: [0.5, 2.5]}\n", -1);
+    cr_expect_eq(independent_and_proved(r), 1);
+    nh_analysis_free(r);
+}
+
 /* The fourth has waves in t, with the rates that the integrals have: known before, so that they cost nothing. */
 Test(published, waves_in_time_are_within_the_work, PLAIN_ONLY)
 {

@@ -333,22 +333,6 @@ static bool is_cyclic(const nh_stage_solver *x, nh_ex q)
     return true;
 }
 
-/* exp(-nu V) f with V the potential: for a thermostat that keeps the speed (f falls as the forces do work). */
-static void potential_rate(nh_stage_solver *x)
-{
-    const nh_model *o = x->r->model;
-    nh_ex *zero = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *zero),
-          *v = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *v);
-    if (o->k == 0 || nh_stage_solver_done(x)) return;
-    for (size_t s = 0; s < o->m; s++) {
-        v[s] = o->system->coordinate[s].v;
-        zero[s] = nh_int(o->dag, 0);
-    }
-    nh_ex V = nh_substitute(o->dag, o->system->lagrangian, o->m, v, zero);
-    if (nh_kind_of(o->dag, V) != NH_NUMBER && !nh_depends(o->dag, V, o->system->t))
-        pencil_stage(x, V, "the potential", NH_PENCIL_PRODUCTS);
-}
-
 /* For a variable the smallest base that gives new currents is enough: larger ones make them more complicated. */
 static bool linear_rates(nh_stage_solver *x, nh_ex q, const char *name)
 {
@@ -371,6 +355,23 @@ static void volume_rate(nh_stage_solver *x)
 static void rates_of(nh_stage_solver *x, nh_ex q, const char *name, size_t bases, const nh_pencil_base *base)
 {
     for (size_t i = 0; i < bases && !nh_stage_solver_done(x); i++) pencil_stage(x, q, name, base[i]);
+}
+
+/* exp(-nu V) f with V the potential: for a thermostat that keeps the speed (f falls as the forces do work): velocities
+ * and their products with positions, and where coordinates are curved the momenta. */
+static void potential_rate(nh_stage_solver *x)
+{
+    const nh_model *o = x->r->model;
+    nh_ex *zero = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *zero),
+          *v = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *v);
+    if (o->k == 0 || nh_stage_solver_done(x)) return;
+    for (size_t s = 0; s < o->m; s++) {
+        v[s] = o->system->coordinate[s].v;
+        zero[s] = nh_int(o->dag, 0);
+    }
+    nh_ex V = nh_substitute(o->dag, o->system->lagrangian, o->m, v, zero);
+    if (nh_kind_of(o->dag, V) != NH_NUMBER && !nh_depends(o->dag, V, o->system->t))
+        rates_of(x, V, "the potential", 2, (nh_pencil_base[]){NH_PENCIL_PRODUCTS, NH_PENCIL_LINEAR});
 }
 
 static void rates_in_time(nh_stage_solver *x)
