@@ -161,6 +161,7 @@ Test(antiderivative, elliptic)
     check_kind("1/((a + b*cos(x)^2)*sqrt(p + c*sin(x)^2))", true, -2, 4);
     check_kind("(b + cos(x))/((p + k*sin(x)^2)*sqrt(a - b*cos(x)^2))", true, -1, 2);
     check_kind("1/((p + a*cos(x))*sqrt(a + b*sin(x)^2))", true, -1, 2);
+    check_kind("cos(x)/(sin(x)^2*sqrt(a + b*sin(x)^2))", true, 0.4, 2);
     check_kind("cos(x)/((16/7 + 3/2*cos(x) - 2/9*cos(x)^2)*sqrt(2 - sin(x)^2))", true, -1, 1.5);
 }
 

@@ -151,7 +151,9 @@ static void put_root_of_exponentials(builder *b, nh_ex Q, nh_ex root, nh_ex expo
 static void put_elliptic_pole(builder *b, const radical *r, nh_ex a, nh_ex c, nh_ex square, nh_ex angle, nh_ex sine)
 {
     nh_dag *d = b->d;
-    nh_ex n = nh_simplify_short(d, nh_powi(d, nh_sub(d, nh_int(d, 1), square), -1), 0);
+    nh_ex apart = nh_simplify_short(d, nh_sub(d, nh_int(d, 1), square), 0);
+    if (nh_is_zero(d, apart)) return; /* a pole at sin u = 0 is a function of the first two kinds */
+    nh_ex n = nh_simplify_short(d, nh_powi(d, apart, -1), 0);
     nh_ex third[] = {n, angle, nh_neg(d, nh_div(d, c, a))};
     nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_PI, third));
     nh_ex kappa = nh_simplify_short(d, nh_add(d, nh_mul(d, a, n), c), 0);

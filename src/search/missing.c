@@ -335,8 +335,8 @@ static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
 
 /* ---- what is integrated along a coordinate ---- */
 
-/* The same with velocities times 1 and positions: with dv/dt = c f'(h) h', v - c f is constant.  A velocity may need
- * the root of its inertia: x'/cos(h), where a blade with the heading h moves. */
+/* Velocities times 1 and positions besides currents times antiderivatives: with dv/dt = c f'(h) h', v - c f is
+ * constant.  A velocity may need the root of its inertia: x'/cos(h), where a blade with the heading h moves. */
 static void integrate_velocities(search *s, const nh_family *currents)
 {
     nh_analysis *r = s->solver.r;
