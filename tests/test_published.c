@@ -522,7 +522,7 @@ Test(published, a_thermostat_on_a_sphere, PLAIN_ONLY)
 }
 
 /* The fourth has waves in t, with the rates that the integrals have: known before, so that they cost nothing. */
-Test(published, waves_in_time_are_within_the_work, PLAIN_ONLY)
+Test(published, waves_in_time_are_within_the_work, WHOLE_ONLY)
 {
     nh_analysis *r = analysed_row("Tremblay, Turbiner and Winternitz, k = 1/2");
     cr_expect_eq(independent_and_proved(r), 4);
@@ -530,7 +530,7 @@ Test(published, waves_in_time_are_within_the_work, PLAIN_ONLY)
 }
 
 /* The fourth has waves of the rate 2 sqrt(k/m), which is none of the numbers of the system, and holds for all k and m. */
-Test(published, rates_in_time_are_roots_of_parameters, PLAIN_ONLY)
+Test(published, rates_in_time_are_roots_of_parameters, WHOLE_ONLY)
 {
     nh_analysis *r = analysed_row("Tremblay, Turbiner and Winternitz, k = 2, with a spring");
     cr_expect_eq(independent_and_proved(r), 4);
