@@ -5,11 +5,8 @@
  *
  * for both lambda; with lambda = h +- i s the real and the imaginary part of it.  The integral is exact, in resonance
  * too, where the functions of t that an ansatz needs are nearly dependent on a short interval. */
-#include "exact/antiderivative.h"
 #include "exact/normal.h"
 #include "search/stage_solver.h"
-
-static int sign_of(void *context, nh_ex e) { return nh_model_sign(context, e); }
 
 /* f . z - int f . g dt; false where the integral has no closed form. */
 static bool keep(nh_stage_solver *x, const nh_driven_pair *p, const nh_ex f[2], size_t *found)
@@ -18,14 +15,7 @@ static bool keep(nh_stage_solver *x, const nh_driven_pair *p, const nh_ex f[2], 
     nh_dag *d = o->dag;
     nh_ex drive = nh_add(d, nh_mul(d, f[0], p->drive[0]), nh_mul(d, f[1], p->drive[1])), F;
     nh_ex state = nh_add(d, nh_mul(d, f[0], p->state[0]), nh_mul(d, f[1], p->state[1]));
-    nh_integration in = {.dag = d,
-                         .x = o->system->t,
-                         .constants = o->system->parameters,
-                         .constant = o->parameter,
-                         .max_terms = (size_t)x->r->options.proof_terms,
-                         .sign = sign_of,
-                         .context = (void *)o};
-    if (!nh_antiderivative(&in, nh_simplify_short(d, drive, 0), &F)) return false;
+    if (!nh_stage_solver_integral(x, o->system->t, nh_simplify_short(d, drive, 0), false, &F)) return false;
     *found += nh_stage_solver_certify(x, nh_sub(d, state, F), "two states with linear equations and a drive");
     return true;
 }

@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "exact/antiderivative.h"
 #include "exact/normal.h"
 #include "integrals/fixed.h"
 #include "integrals/prove.h"
@@ -384,4 +385,22 @@ void nh_stage_solver_certify_each(nh_stage_solver *x, size_t n, const nh_ex *e, 
     *nh_stage_solver_note(x, name) = note;
     nh_free(kind);
     nh_free(list.candidate);
+}
+
+/* ---- integrals ---- */
+
+static int sign_of(void *context, nh_ex e) { return nh_model_sign(context, e); }
+
+bool nh_stage_solver_integral(const nh_stage_solver *x, nh_ex variable, nh_ex f, bool elliptic, nh_ex *F)
+{
+    nh_model *o = x->r->model;
+    nh_integration in = {.dag = o->dag,
+                         .x = variable,
+                         .constants = o->system->parameters,
+                         .constant = o->parameter,
+                         .max_terms = (size_t)x->r->options.proof_terms,
+                         .elliptic = elliptic,
+                         .sign = sign_of,
+                         .context = o};
+    return nh_antiderivative(&in, f, F);
 }

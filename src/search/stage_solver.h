@@ -57,6 +57,10 @@ size_t nh_stage_solver_certify(nh_stage_solver *solver, nh_ex e, const char *nam
 /* The same of each of n, as one stage. */
 void nh_stage_solver_certify_each(nh_stage_solver *solver, size_t n, const nh_ex *e, const char *name);
 
+/* The antiderivative of f, a function of the variable and the parameters, by the signs that functions have at the
+ * model's probes; `elliptic`: elliptic integrals are forms, too.  False: none was found. */
+bool nh_stage_solver_integral(const nh_stage_solver *solver, nh_ex variable, nh_ex f, bool elliptic, nh_ex *F);
+
 /* Exponentials and waves in t and in the coordinates, with rates from the pencil. */
 void nh_rates_search(nh_stage_solver *solver);
 /* The same in t alone, for this family. */

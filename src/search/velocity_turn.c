@@ -10,7 +10,6 @@
  *     u^1 cos F + u^2 sin F,   u^2 cos F - u^1 sin F,   F = int f ds
  *
  * The coefficients of linear currents solve a linear equation of second order in s; Q reduces it to this integral. */
-#include "exact/antiderivative.h"
 #include "exact/normal.h"
 #include "exact/square.h"
 #include "graph/diff.h"
@@ -91,21 +90,6 @@ static bool speed_of_turn(const problem *p, nh_ex N, nh_ex D, nh_ex *f)
     return !nh_depends(d, *f, o->system->t);
 }
 
-static int sign_of(void *context, nh_ex e) { return nh_model_sign(context, e); }
-
-static bool integrate(const problem *p, nh_ex f, nh_ex *F)
-{
-    nh_integration in = {.dag = p->d,
-                         .x = p->s,
-                         .constants = p->o->system->parameters,
-                         .constant = p->o->parameter,
-                         .max_terms = (size_t)p->x->r->options.proof_terms,
-                         .elliptic = true,
-                         .sign = sign_of,
-                         .context = (void *)p->o};
-    return nh_antiderivative(&in, f, F);
-}
-
 /* Whether that gives a current that holds everywhere.  `general`: for all values of the parameters. */
 static bool turn(const problem *p, bool general)
 {
@@ -114,7 +98,8 @@ static bool turn(const problem *p, bool general)
     nh_ex determinant = short_form(p, nh_sub(d, nh_mul(d, p->M[0], p->M[2]), nh_powi(d, p->M[1], 2)));
     if (nh_model_sign(p->o, determinant) <= 0) return false;
     nh_ex D = root_of(p, determinant), side = nh_int(d, nh_model_sign(p->o, p->M[0]));
-    if (!speed_of_turn(p, N, D, &f) || !integrate(p, general ? f : nh_exact_values(p->o, f), &F)) return false;
+    if (!speed_of_turn(p, N, D, &f)) return false;
+    if (!nh_stage_solver_integral(p->x, p->s, general ? f : nh_exact_values(p->o, f), true, &F)) return false;
     nh_ex scale = nh_powi(d, root_of(p, nh_mul(d, side, p->M[0])), -1), cosine = nh_call(d, NH_COS, F),
           sine = nh_call(d, NH_SIN, F);
     nh_ex u[] = {nh_mul(d, scale, N), nh_product(d, 3, (nh_ex[]){scale, D, p->w[1]})};
