@@ -76,27 +76,15 @@ static nh_ex primitive_of_quotient(const nh_jet_equations *x, const quadratic *q
     return side ? nh_call(d, NH_LOG, side > 0 ? inside : nh_neg(d, inside)) : 0;
 }
 
-/* The primitives of 1/`base` by one coordinate. */
-static void of_quotient(list *l, nh_ex base)
+/* The primitives of 1/`base`, or of a root of it, by one coordinate. */
+static void along_coordinates(list *l, nh_ex base, bool root)
 {
     const nh_jet_equations *x = l->equations;
     for (size_t k = 0; k < x->coordinates; k++) {
         nh_ex q = x->coordinate[k];
         quadratic p;
         if (q != x->model->system->t && nh_depends(l->dag, base, q) && read_quadratic(l->dag, base, q, &p))
-            append(l, primitive_of_quotient(x, &p, q));
-    }
-}
-
-/* The primitives of a root of `base` by one coordinate. */
-static void along_coordinates(list *l, nh_ex base)
-{
-    const nh_jet_equations *x = l->equations;
-    for (size_t k = 0; k < x->coordinates; k++) {
-        nh_ex q = x->coordinate[k];
-        quadratic p;
-        if (q != x->model->system->t && nh_depends(l->dag, base, q) && read_quadratic(l->dag, base, q, &p))
-            append(l, primitive_of_root(x, &p, q, base));
+            append(l, root ? primitive_of_root(x, &p, q, base) : primitive_of_quotient(x, &p, q));
     }
 }
 
@@ -203,10 +191,10 @@ static void of_letters(list *l, const nh_letters *letters)
         bool linear = nh_kind_of(l->dag, a->base) == NH_SYMBOL || a->linear;
         int sign = linear && a->down > 0 ? nh_model_sign(l->equations->model, a->base) : 0;
         if (sign) append(l, nh_call(l->dag, NH_LOG, sign > 0 ? a->base : nh_neg(l->dag, a->base)));
-        if (a->down > 0) of_quotient(l, a->base);
+        if (a->down > 0) along_coordinates(l, a->base, false);
         if (a->root != 2) continue;
-        along_coordinates(l, a->base);
-        along_coordinates(l, nh_numerator(l->dag, a->base)); /* 1 + (x/y)^2 */
+        along_coordinates(l, a->base, true);
+        along_coordinates(l, nh_numerator(l->dag, a->base), true); /* 1 + (x/y)^2 */
         for (size_t k = 0; k < letters->count; k++)
             if (letters->item[k].kind == NH_LETTER_CIRCLE) along_circle(l, a->base, letters->item[k].base);
     }
