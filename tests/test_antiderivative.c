@@ -124,6 +124,26 @@ Test(antiderivative, roots)
     check("1/sqrt(2*exp(-x) - exp(-2*x) - c)", -0.4, 1);
     check("1/(exp(x) + sqrt(1 + exp(2*x)))", -1, 1);
     check("1/(sqrt(a + x)*sqrt(p - x))", -1, 2);
+    check("(cos(x) - 1)*sqrt(4*a*b + (a - b)^2*sin(x)^2)/((a*(cos(x) - 1) - b*(cos(x) + 1))*sin(x))", 0.3, 2.5); /* a pole where the cosine is 1 */
+}
+
+/* exp(-F) is a power of functions, wherever F's logarithms are of squares or of one sine and its cosine. */
+Test(antiderivative, integrating_factor)
+{
+    static const char *const row[][2] = {{"atanh(cos(x))/2 + log(sin(x)^2)/4", "1/sqrt(1 + cos(x))"},
+                                         {"log(sin(x)^2)/4", "1/sqrt(sin(x))"},
+                                         {"log((a + x)^2)", "1/(a + x)^2"},
+                                         {"a*x - log(x)", "x*exp(-a*x)"}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        place p = {nh_dag_create(), 0.3, 1.2};
+        nh_ex mu = nh_integrating_factor(p.dag, ex(p.dag, row[i][0])), ratio = nh_div(p.dag, mu, ex(p.dag, row[i][1]));
+        char *shown = nh_print_string(p.dag, mu);
+        for (size_t k = 1; k < samples; k++)
+            cr_expect_float_eq(value_at(&p, ratio, sample(&p, k))/value_at(&p, ratio, sample(&p, 0)), 1, 1e-12, "%s: %s", row[i][0], shown);
+        cr_expect(!strstr(shown, "log") && !strstr(shown, "atanh"), "%s", shown);
+        nh_free(shown);
+        nh_dag_free(p.dag);
+    }
 }
 
 /* Motions in the potentials a exp(k x), a/cosh(x)^2, a tanh(x), a x^(2/3). */

@@ -386,6 +386,12 @@ static const published PUBLISHED[] = {
      "bodies:\n  - {name: one, mass: m, inertia: I}\n  - {name: two, mass: M, inertia: J, center: [-b, 0, 0]}\n"
      "joints:\n  - {type: planar, child: one, axis: z, coordinates: [x, y, h]}\n  - {type: revolute, parent: one, child: two, at: [-a, 0, 0], axis: z, coordinates: [q]}\n"
      "wheels:\n  - {type: knife-edge, body: one, axis: y}\n  - {type: knife-edge, body: two, at: [-b, 0, 0], axis: y}\n", 2, 3},
+    /* M. Banados, C. Teitelboim and J. Zanelli, Phys. Rev. Lett. 69 (1992) 1849: six Killing fields with exponentials in both cyclic coordinates, and a root that
+       cancels from the inertia's determinant; the sphere by its distance from an axis: a root with the sign that is real there */
+    {"geodesics around a black hole in three dimensions", "parameters: {M: 0.8}\ncoordinates: [T, {name: r, type: length}, f]\n"
+     "lagrangian: ((r^2 - M)*T'^2 - r'^2/(r^2 - M) - r^2*f'^2)/2\ndomain: {r: [1.5, 2.5]}\n", 5, 4},
+    {"sphere by the distance from an axis", "parameters: {R: 1.3}\ncoordinates: [{name: r, type: length}, {name: f, type: angle}]\n"
+     "lagrangian: (r'^2/(1 - r^2/R^2) + r^2*f'^2)/2\ndomain: {r: [0.3, 1]}\n", 3, 6},
     /* F. Fasso and N. Sansonetto, J. Nonlinear Sci. 26 (2016) 519: bodies on planes that turn */
     {"vertical disk on a turntable", "parameters: {m: 1, I: 0.3, J: 0.5, R: 0.4, W: 0.7}\ncoordinates: [x, y, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: m/2*(x'^2 + y'^2) + J/2*th'^2 + I/2*ph'^2\nconstraints: [\"x' = R*cos(th)*ph' - W*y\", \"y' = R*sin(th)*ph' + W*x\"]\n", 5, 4},

@@ -107,6 +107,17 @@ static void take_function(const nh_jet_equations *x, nh_letters *l, nh_ex e)
 
 /* ---- powers ---- */
 
+/* A sum that is negative at all probes has a real root only with the other sign. */
+static nh_ex positive(const nh_jet_equations *x, nh_ex base)
+{
+    nh_dag *d = x->dag;
+    if (nh_kind_of(d, base) != NH_SUM || nh_model_sign(x->model, base) >= 0) return base;
+    nh_ex sum = nh_neg(d, nh_number(d, nh_constant_of(d, base)));
+    for (size_t i = 0; i < nh_arity(d, base); i++)
+        sum = nh_sub(d, sum, nh_mul(d, nh_number(d, nh_coefficient_of(d, base, i)), nh_child(d, base, i)));
+    return sum;
+}
+
 /* `less`: by how much the lowest exponent of an integral is expected above this one. */
 static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_num exponent, double less)
 {
@@ -127,7 +138,7 @@ static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_
         return;
     }
     if (exponent.q == 1 && value > 0) return; /* whole powers are polynomials in the letters of the base */
-    nh_letter *found = letter_of(l, NH_LETTER_POWER, base);
+    nh_letter *found = letter_of(l, NH_LETTER_POWER, positive(x, base));
     found->root = found->root / nh_gcd(found->root, exponent.q) * exponent.q;
     if (value < 0) found->down = fmax(found->down, fmax(-value - less, 1 / (double)found->root));
     else found->up = fmax(found->up, value);
@@ -219,8 +230,9 @@ static void take_determinant(const nh_jet_equations *x, nh_letters *l)
     if (o->n <= largest_inertia) take_factors(x, l, nh_simplify_short(x->dag, minor_of(o, 0, 0), largest_form), false);
 }
 
-/* The momenta of a frame in which the inertia is 1 have roots of the inertia: exp(u/2) where the inertia has exp(u). */
-static void take_roots(const nh_jet_equations *x, nh_letters *l)
+/* The momenta of a frame in which the inertia is 1 have roots of the inertia: exp(u/2) where the inertia has exp(u).
+ * `sums`: also of sums, which may cancel from the determinant, as in (r^2 - 1) T'^2 - r'^2/(r^2 - 1). */
+static void take_roots(const nh_jet_equations *x, nh_letters *l, bool sums)
 {
     nh_dag *d = x->dag;
     double sign;
@@ -229,6 +241,8 @@ static void take_roots(const nh_jet_equations *x, nh_letters *l)
         bool product = nh_kind_of(d, inertia) == NH_PRODUCT;
         for (size_t k = 0; k < (product ? nh_arity(d, inertia) : 1); k++) {
             nh_ex factor = product ? nh_child(d, inertia, k) : inertia;
+            if (sums && product && nh_kind_of(d, factor) == NH_SUM && of_position(x, factor))
+                take_factors(x, l, factor, true);
             if (nh_kind_of(d, factor) != NH_FUNCTION || nh_function_of(d, factor) != NH_EXP || !of_position(x, factor))
                 continue;
             nh_ex half = nh_mul(d, nh_ratio(d, 1, 2), nh_child(d, factor, 0));
@@ -311,7 +325,16 @@ static void take_rates(const nh_jet_equations *x, nh_letters *l, const nh_constr
     }
 }
 
-/* In t the rates are all that integrals contain: the powers of a letter of rates alone, up to the highest rate.  Of
+/* Is it a letter, as far as the rates tell? */
+static bool has_powers(const nh_construct_rates *rates, nh_ex coordinate)
+{
+    bool pure = false;
+    for (size_t i = 0; rates && rates->only && i < rates->pure && !pure; i++)
+        pure = rates->pure_coordinate[i] == coordinate;
+    return !pure;
+}
+
+/* In t, as in cyclic coordinates, the rates are all that integrals contain: the powers of a letter of rates alone, up to the highest rate.  Of
  * rates with a small unit, as 1 and 1.001, these would be too many: they keep their price. */
 static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, const nh_construct_rates *rates)
 {
@@ -319,7 +342,8 @@ static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, c
     for (size_t i = 0; rates && i < rates->count; i++) {
         const nh_construct_rate *r = &rates->item[i];
         nh_letter_kind kind = r->wave ? NH_LETTER_CIRCLE : NH_LETTER_EXPONENTIAL;
-        if (r->coordinate != x->model->system->t || !is_coordinate(x, r->coordinate)) continue;
+        if (!rates->only && r->coordinate != x->model->system->t) continue;
+        if (!is_coordinate(x, r->coordinate)) continue;
         nh_parts own, unit;
         nh_parts_make(x->dag, true, nh_construct_rate_argument(x->dag, r), &own);
         for (size_t k = first; k < l->count; k++) {
@@ -348,12 +372,13 @@ nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_r
     for (size_t i = 0; i < o->n * o->n; i++) e[n++] = o->M[i];
     for (size_t i = 0; i < o->n; i++) e[n++] = o->A[i];
     for (size_t k = 0; k < x->coordinates; k++)
-        if (secular || !only_inside(x, n, e, x->coordinate[k])) letter_of(&l, NH_LETTER_POWER, x->coordinate[k]);
+        if (has_powers(rates, x->coordinate[k]) && (secular || !only_inside(x, n, e, x->coordinate[k])))
+            letter_of(&l, NH_LETTER_POWER, x->coordinate[k]);
     size_t coordinates = l.count;
     /* the last are forces: derivatives, whose exponents are one lower */
     for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1);
     take_determinant(x, &l);
-    take_roots(x, &l);
+    take_roots(x, &l, rates && rates->only);
     size_t own = l.count;
     take_rates(x, &l, rates);
     take_known(x, &l, own, rates);

@@ -55,11 +55,26 @@ static void read_eigenvalues(const nmod_mat_t A, nh_ex coordinate, squares *out)
     nmod_poly_clear(characteristic);
 }
 
+/* Has A's minimal polynomial no square factor? */
+static bool is_diagonalizable(const nmod_mat_t A)
+{
+    nmod_poly_t minimal;
+    nmod_poly_init(minimal, A->mod.n);
+    nmod_mat_minpoly(minimal, A);
+    bool simple = nmod_poly_is_squarefree(minimal);
+    nmod_poly_clear(minimal);
+    return simple;
+}
+
 /* ---- a point ---- */
 
-/* Reads the rates along coordinate k; *idle stays where no solution depends on it.  False where the series are too
- * short. */
-static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_graded_count *g, size_t k, bool *idle,
+/* What is so of all solutions along a cyclic coordinate. */
+typedef struct {
+    bool idle, pure; /* none depends on it; none has a power of it */
+} trait;
+
+/* Reads the rates along coordinate k.  False where the series are too short. */
+static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_graded_count *g, size_t k, trait *of,
                      nh_construct_rates *out, squares *seen)
 {
     const nh_jet_ring *ring = s->ring;
@@ -72,7 +87,8 @@ static bool rates_of(const nh_counter *c, const nh_count_series *s, const nh_gra
     bool closed = !N || nh_solution_matrix(c, s, g, along, NULL, value, &out->work);
     for (size_t i = 0; i < N; i++)
         for (size_t j = 0; j < N; j++) nmod_mat_entry(A, i, j) = value[i * N + j];
-    *idle &= closed && nmod_mat_is_zero(A);
+    of->idle &= closed && nmod_mat_is_zero(A);
+    of->pure &= closed && (!N || is_diagonalizable(A));
     seen->field = ring->field;
     if (closed) read_eigenvalues(A, c->equations->coordinate[k], seen);
     nmod_mat_clear(A);
@@ -90,9 +106,10 @@ static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, n
     if (f->kept != f->all || nh_jet_ring_size(f->kept, f->weight, order, most_coefficients) == SIZE_MAX) return true;
     nh_count_series *s = nh_count_series_create(c, order, c->q->work, &regular);
     size_t coordinates = c->equations->coordinates, part = 0, parts = !s ? 0 : s->split ? 2 : 1;
-    bool *idle = nh_alloc_array(coordinates + 1, sizeof *idle), all = parts > 0;
+    trait *of = nh_alloc_array(coordinates + 1, sizeof *of);
+    bool all = parts > 0;
     for (size_t k = 0; k < coordinates; k++)
-        idle[k] = nh_jet_equations_is_cyclic(c->equations, c->equations->coordinate[k]);
+        of[k].idle = of[k].pure = nh_jet_equations_is_cyclic(c->equations, c->equations->coordinate[k]);
     for (; part < parts && !nh_late(); part++) {
         nh_parity parity = !s->split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
         nh_graded_problem p = nh_count_problem(c, s, degree, parity);
@@ -102,15 +119,18 @@ static bool rates_at(nh_counter *c, size_t degree, size_t order, bool *closed, n
         bool few = g->solved && g->total[g->order] <= most_solutions;
         for (size_t k = 0; k < c->equations->coordinates && few; k++)
             if (nh_jet_equations_is_cyclic(c->equations, c->equations->coordinate[k]))
-                *closed &= rates_of(c, s, g, k, &idle[k], out, seen);
+                *closed &= rates_of(c, s, g, k, &of[k], out, seen);
         all &= few;
         nh_graded_count_clear(g);
     }
-    out->idle = 0;
-    for (size_t k = 0; k < coordinates && all && part == parts; k++)
-        if (idle[k] && out->idle < NH_MOST_CONSTRUCT_RATES)
+    out->idle = out->pure = 0;
+    for (size_t k = 0; k < coordinates && all && part == parts; k++) {
+        if (of[k].idle && out->idle < NH_MOST_CONSTRUCT_RATES)
             out->idle_coordinate[out->idle++] = c->equations->coordinate[k];
-    nh_free(idle);
+        if (of[k].pure && out->pure < NH_MOST_CONSTRUCT_RATES)
+            out->pure_coordinate[out->pure++] = c->equations->coordinate[k];
+    }
+    nh_free(of);
     nh_count_series_free(s);
     return s || regular;
 }

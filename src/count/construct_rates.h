@@ -6,7 +6,8 @@
  *     d c_s/dy = sum_t A_ts c_t,      det(A - lambda) = 0
  *
  * A real eigenvalue lambda gives coefficients exp(lambda y) times functions of the others, a pair +-i omega gives
- * cos(omega y) and sin(omega y); 0 gives polynomials in y.  A is computed from the power series of the solutions, modulo
+ * cos(omega y) and sin(omega y); 0 gives polynomials in y, of degree 0 where A's minimal
+ * polynomial has no square factor.  A is computed from the power series of the solutions, modulo
  * a prime, and once more with random residues for the parameters: a monomial in these that equals omega^2 both times,
  * as 4 k/m, is its formula.  Else rates are found that are short fractions, or whose squares are.  Where A is 0 no
  * integral depends on y. */
@@ -31,6 +32,11 @@ typedef struct nh_construct_rates {
     nh_construct_rate item[NH_MOST_CONSTRUCT_RATES];
     size_t idle; /* cyclic coordinates on which no integral of the degree depends */
     nh_ex idle_coordinate[NH_MOST_CONSTRUCT_RATES];
+    size_t pure; /* cyclic coordinates of which no power occurs in them, only exponentials and waves */
+    nh_ex pure_coordinate[NH_MOST_CONSTRUCT_RATES];
+    /* The words contain cyclic coordinates only by these rates, at no price, and roots of the inertia; else the rates
+     * are letters like others. */
+    bool only;
     double work; /* products of residues that were used */
 } nh_construct_rates;
 

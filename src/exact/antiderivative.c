@@ -5,6 +5,7 @@
 #include "exact/relation_express.h"
 #include "exact/square.h"
 #include "graph/diff.h"
+#include "graph/measure.h"
 
 enum { default_terms = 20000, highest = 12 };
 
@@ -358,4 +359,42 @@ bool nh_antiderivative(const nh_integration *in, nh_ex f, nh_ex *F)
     nh_arena_free(arena);
     nh_free(b);
     return found;
+}
+
+/* log(1 + f) + log(1 - f), or their difference. */
+static nh_ex logarithms(nh_dag *d, nh_ex f, bool difference)
+{
+    nh_ex one = nh_int(d, 1), plus = nh_call(d, NH_LOG, nh_add(d, one, f)), minus = nh_call(d, NH_LOG, nh_sub(d, one, f));
+    return difference ? nh_sub(d, plus, minus) : nh_add(d, plus, minus);
+}
+
+/* p = q^2: 2 log q; where q is a sine whose cosine f is in the other logarithms, log(1 + f) + log(1 - f); 0: neither. */
+static nh_ex logarithm_of_square(nh_dag *d, nh_ex p, size_t n, const nh_ex *call)
+{
+    bool square = nh_kind_of(d, p) == NH_PRODUCT && nh_arity(d, p) == 1 && nh_is_number(d, nh_exponent_of(d, p, 0), 2) &&
+                  nh_num_is(nh_constant_of(d, p), 1);
+    if (!square) return 0;
+    nh_ex q = nh_child(d, p, 0), f = 0;
+    if (nh_kind_of(d, q) == NH_FUNCTION && nh_function_of(d, q) == NH_SIN) f = nh_call(d, NH_COS, nh_child(d, q, 0));
+    for (size_t i = 0; f && i < n; i++)
+        if (nh_function_of(d, call[i]) == NH_ATANH && nh_child(d, call[i], 0) == f) return logarithms(d, f, false);
+    return nh_mul(d, nh_int(d, 2), nh_call(d, NH_LOG, q));
+}
+
+nh_ex nh_integrating_factor(nh_dag *d, nh_ex F)
+{
+    enum { most = 16 };
+    nh_ex call[most], old[most], by[most];
+    size_t n = nh_functions_in(d, F, call, most), known = 0;
+    for (size_t i = 0; i < n && n <= most; i++) {
+        nh_function f = nh_function_of(d, call[i]);
+        nh_ex p = f == NH_LOG || f == NH_ATANH ? nh_child(d, call[i], 0) : 0;
+        nh_ex sum = f == NH_ATANH ? nh_mul(d, nh_ratio(d, 1, 2), logarithms(d, p, true))
+                    : p           ? logarithm_of_square(d, p, n, call)
+                                  : 0;
+        if (!sum) continue;
+        old[known] = call[i];
+        by[known++] = sum;
+    }
+    return nh_canonical(d, nh_call(d, NH_EXP, nh_neg(d, nh_substitute(d, F, known, old, by))), 0);
 }

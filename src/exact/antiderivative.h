@@ -37,4 +37,7 @@ typedef struct {
 
 bool nh_antiderivative(const nh_integration *integration, nh_ex f, nh_ex *F);
 
+/* exp(-F) up to a constant factor, as powers where F has logarithms: |p| may be p in them. */
+nh_ex nh_integrating_factor(nh_dag *dag, nh_ex F);
+
 #endif

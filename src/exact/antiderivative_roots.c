@@ -121,7 +121,8 @@ static void put_integrals(builder *b, radical r)
     if (r.degree == 2) put_first_kind(b, &r, k);
     if (is_exponential) put_third_kind(b, &r, nh_int(d, 0)); /* dx = dy/(lambda y) */
     for (size_t j = 0; j < b->divisors; j++) {
-        nh_ex p = in_variable(b, &r, b->divisor[j].e);
+        bool other_wave = r.count == 2 && b->divisor[j].e == r.from[1];
+        nh_ex p = other_wave ? nh_sub(d, nh_int(d, 1), nh_powi(d, r.x, 2)) : in_variable(b, &r, b->divisor[j].e);
         if (!r.count || !nh_depends(d, p, b->in->x)) put_poles(b, &r, p);
     }
 }

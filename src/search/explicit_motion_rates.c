@@ -102,29 +102,6 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
     return true;
 }
 
-/* exp(-I) up to a constant factor, so that |p| may be p in logarithms: exp(log(p^2)/2) is p; atanh f is (log(1 + f) -
-   log(1 - f))/2. */
-static nh_ex factor_of(nh_explicit_curve *c, nh_ex I)
-{
-    enum { most = 16 };
-    nh_dag *d = c->d;
-    nh_ex call[most], by[most], one = nh_int(d, 1);
-    size_t n = nh_functions_in(d, I, call, most), known = 0;
-    for (size_t i = 0; i < n && n <= most; i++) {
-        nh_function f = nh_function_of(d, call[i]);
-        nh_ex p = f == NH_LOG || f == NH_ATANH ? nh_child(d, call[i], 0) : 0;
-        bool square = f == NH_LOG && nh_kind_of(d, p) == NH_PRODUCT && nh_arity(d, p) == 1 &&
-                      nh_is_number(d, nh_exponent_of(d, p, 0), 2) && nh_num_is(nh_constant_of(d, p), 1);
-        if (square) by[known] = nh_mul(d, nh_int(d, 2), nh_call(d, NH_LOG, nh_child(d, p, 0)));
-        else if (f == NH_ATANH)
-            by[known] = nh_mul(d, nh_ratio(d, 1, 2),
-                               nh_sub(d, nh_call(d, NH_LOG, nh_add(d, one, p)), nh_call(d, NH_LOG, nh_sub(d, one, p))));
-        else continue;
-        call[known++] = call[i];
-    }
-    return nh_canonical(d, nh_call(d, NH_EXP, nh_neg(d, nh_substitute(d, I, known, call, by))), 0);
-}
-
 /* A name for int f ds, which is 0 where the motion starts. */
 static bool name_integral(nh_explicit_curve *c, nh_ex f, nh_ex *F)
 {
@@ -144,7 +121,7 @@ static bool solve_linear(nh_explicit_curve *c, size_t u, nh_ex A, nh_ex B, bool 
     nh_ex I = nh_int(d, 0), G, mu;
     size_t before = c->m->integrals;
     if (!nh_is_zero(d, A) && !integrate(c, A, &I) && !(named && name_integral(c, A, &I))) return false;
-    mu = factor_of(c, I);
+    mu = nh_integrating_factor(c->d, I);
     if (!integrate(c, nh_mul(d, mu, B), &G) && !(named && name_integral(c, nh_mul(d, mu, B), &G))) {
         c->m->integrals = before;
         return false;

@@ -436,6 +436,11 @@ static bool construct(search *s, const nh_completeness *c, bool further)
     manner any = {.further = further, .rates = &rates}, secular = any;
     secular.secular = true;
     work = fmax(work - rates.work, 0);
+    nh_construct_rates only = rates;
+    only.only = true;
+    manner by_rates = {.further = further, .rates = &only};
+    if (rates.count && construct_up_to(s, c, by_rates, dearest, further ? work : part * work)) return true;
+    s->covered = 0;
     if (construct_in_shapes(s, c, any, dearest, work, &secular.shape)) return true;
     s->covered = 0;
     return (!further && integrate(s, c))

@@ -10,6 +10,7 @@
  *     u^1 cos F + u^2 sin F,   u^2 cos F - u^1 sin F,   F = int f ds
  *
  * The coefficients of linear currents solve a linear equation of second order in s; Q reduces it to this integral. */
+#include "exact/antiderivative.h"
 #include "exact/normal.h"
 #include "exact/square.h"
 #include "graph/diff.h"
@@ -62,6 +63,14 @@ static nh_ex root_of(const problem *p, nh_ex e)
                : nh_sqrt(d, e);
 }
 
+static bool of_s_alone(const problem *p, nh_ex f)
+{
+    const nh_system *system = p->o->system;
+    for (size_t s = 0; s < p->o->m; s++)
+        if (system->coordinate[s].q != p->s && nh_depends(p->d, f, system->coordinate[s].q)) return false;
+    return !nh_depends(p->d, f, system->t);
+}
+
 /* d(angle)/ds of (N, D w^2), N = M_11 w^1 + M_12 w^2:
  *
  *     D (N dw^2/dt + D'/D ds/dt N w^2 - w^2 dN/dt)/(M_11 M_ij w^i w^j ds/dt)
@@ -85,9 +94,70 @@ static bool speed_of_turn(const problem *p, nh_ex N, nh_ex D, nh_ex *f)
     rate = short_form(p, nh_substitute(d, rate, 2, p->w, value));
     twice = short_form(p, nh_substitute(d, twice, 2, p->w, value));
     *f = short_form(p, nh_div(d, nh_mul(d, D, rate), nh_mul(d, twice, ds)));
-    for (size_t s = 0; s < o->m; s++)
-        if (o->system->coordinate[s].q != p->s && nh_depends(d, *f, o->system->coordinate[s].q)) return false;
-    return !nh_depends(d, *f, o->system->t);
+    return of_s_alone(p, *f);
+}
+
+/* How many of the two are currents that hold everywhere. */
+static size_t certified(const problem *p, const nh_ex e[2])
+{
+    size_t found = 0;
+    for (size_t i = 0; i < 2 && !nh_stage_solver_done(p->x); i++)
+        found += nh_stage_solver_certify(p->x, e[i], "a turn of two velocities along one coordinate");
+    return found;
+}
+
+/* Where d(ds/dt)/dt = h(s) (ds/dt)^2 with ds/dt = l_i w^i, the angle needs no integral: with g = exp(-int h ds),
+ * e = (-l_2, l_1) and n_j = e^i M_ij the two are
+ *
+ *     C = g ds/dt,   K = g n_j w^j/D */
+typedef struct {
+    nh_ex v, D, C, K;       /* v = ds/dt */
+    nh_ex e[2], unit[2], n; /* velocities: v(e) = 0, v(unit) = 1; n_j w^j */
+} apart;
+
+static nh_ex at(const problem *p, nh_ex form, const nh_ex w[2]) { return short_form(p, nh_substitute(p->d, form, 2, p->w, w)); }
+
+static nh_ex integral(const problem *p, bool general, nh_ex f)
+{
+    nh_ex F;
+    return of_s_alone(p, f) && nh_stage_solver_integral(p->x, p->s, general ? f : nh_exact_values(p->o, f), true, &F) ? F : 0;
+}
+
+/* dx/dt = alpha ds/dt + beta n_j w^j:   x C - C int alpha ds - K int beta D ds */
+static void position(const problem *p, const apart *y, bool general, size_t x)
+{
+    nh_dag *d = p->d;
+    nh_ex rate = p->o->rho[x], beta = short_form(p, nh_div(d, at(p, rate, y->e), at(p, y->n, y->e)));
+    nh_ex alpha = nh_sub(d, at(p, rate, y->unit), nh_mul(d, beta, at(p, y->n, y->unit)));
+    nh_ex A = integral(p, general, short_form(p, alpha)), B = integral(p, general, nh_mul(d, beta, y->D));
+    if (!A || !B) return;
+    nh_ex first = nh_mul(d, nh_sub(d, p->o->system->coordinate[x].q, A), y->C);
+    nh_stage_solver_certify(p->x, nh_sub(d, first, nh_mul(d, B, y->K)), "a position along two velocities");
+}
+
+static bool alone(const problem *p, nh_ex D, bool general)
+{
+    nh_dag *d = p->d;
+    const nh_system *system = p->o->system;
+    nh_ex zero = nh_int(d, 0), v = p->rate_of_s, F;
+    nh_ex h = short_form(p, nh_div(d, nh_model_gamma(p->o, v), nh_mul(d, v, v)));
+    if (!of_s_alone(p, h) || nh_depends(d, h, p->w[0]) || nh_depends(d, h, p->w[1])) return false;
+    if (!nh_stage_solver_integral(p->x, p->s, general ? h : nh_exact_values(p->o, h), false, &F)) return false;
+    nh_ex g = nh_integrating_factor(d, F), l[] = {nh_diff(d, v, p->w[0]), nh_diff(d, v, p->w[1])};
+    apart y = {.v = v, .D = D, .C = nh_mul(d, g, v), .e = {nh_neg(d, l[1]), l[0]}, .unit = {zero, zero}, .n = zero};
+    for (size_t i = 0; i < 2; i++)
+        for (size_t j = 0; j < 2; j++)
+            y.n = nh_add(d, y.n, nh_product(d, 3, (nh_ex[]){y.e[i], p->M[i + j], p->w[j]}));
+    y.K = short_form(p, nh_div(d, nh_mul(d, g, y.n), D));
+    size_t first = nh_is_zero(d, l[0]);
+    y.unit[first] = nh_div(d, nh_int(d, 1), l[first]);
+    if (!certified(p, (nh_ex[]){y.C, y.K})) return false;
+    for (size_t x = 0; x < p->o->m && !nh_stage_solver_done(p->x); x++)
+        if (system->coordinate[x].q != p->s) position(p, &y, general, x);
+    nh_ex T = nh_stage_solver_done(p->x) ? 0 : integral(p, general, g);
+    if (T)
+        nh_stage_solver_certify(p->x, nh_sub(d, nh_mul(d, system->t, y.C), T), "time along two velocities");
+    return true;
 }
 
 /* Whether that gives a current that holds everywhere.  `general`: for all values of the parameters. */
@@ -98,6 +168,7 @@ static bool turn(const problem *p, bool general)
     nh_ex determinant = short_form(p, nh_sub(d, nh_mul(d, p->M[0], p->M[2]), nh_powi(d, p->M[1], 2)));
     if (nh_model_sign(p->o, determinant) <= 0) return false;
     nh_ex D = root_of(p, determinant), side = nh_int(d, nh_model_sign(p->o, p->M[0]));
+    if (alone(p, D, general)) return true;
     if (!speed_of_turn(p, N, D, &f)) return false;
     if (!nh_stage_solver_integral(p->x, p->s, general ? f : nh_exact_values(p->o, f), true, &F)) return false;
     nh_ex scale = nh_powi(d, root_of(p, nh_mul(d, side, p->M[0])), -1), cosine = nh_call(d, NH_COS, F),
@@ -105,10 +176,7 @@ static bool turn(const problem *p, bool general)
     nh_ex u[] = {nh_mul(d, scale, N), nh_product(d, 3, (nh_ex[]){scale, D, p->w[1]})};
     nh_ex e[] = {nh_add(d, nh_mul(d, u[0], cosine), nh_mul(d, u[1], sine)),
                  nh_sub(d, nh_mul(d, u[1], cosine), nh_mul(d, u[0], sine))};
-    size_t found = 0;
-    for (size_t i = 0; i < 2 && !nh_stage_solver_done(p->x); i++)
-        found += nh_stage_solver_certify(p->x, e[i], "a turn of two velocities along one coordinate");
-    return found > 0;
+    return certified(p, e) > 0;
 }
 
 /* The integral, and where the root of M_11 jumps, depend on which velocity is the first. */
