@@ -125,6 +125,8 @@ Test(antiderivative, roots)
     check("1/(exp(x) + sqrt(1 + exp(2*x)))", -1, 1);
     check("1/(sqrt(a + x)*sqrt(p - x))", -1, 2);
     check("(cos(x) - 1)*sqrt(4*a*b + (a - b)^2*sin(x)^2)/((a*(cos(x) - 1) - b*(cos(x) + 1))*sin(x))", 0.3, 2.5); /* a pole where the cosine is 1 */
+    check("sqrt(p + a*cos(x))/sqrt(1 + cos(x))", -1, 1); /* by half angles */
+    check("sqrt(a + p*cos(x))/sqrt(1 + cos(x))", -1, 1);
 }
 
 /* exp(-F) is a power of functions, wherever F's logarithms are of squares or of one sine and its cosine. */
@@ -136,7 +138,7 @@ Test(antiderivative, integrating_factor)
                                          {"a*x - log(x)", "x*exp(-a*x)"}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         place p = {nh_dag_create(), 0.3, 1.2};
-        nh_ex mu = nh_integrating_factor(p.dag, ex(p.dag, row[i][0])), ratio = nh_div(p.dag, mu, ex(p.dag, row[i][1]));
+        nh_ex mu = nh_antiderivative_factor(p.dag, ex(p.dag, row[i][0])), ratio = nh_div(p.dag, mu, ex(p.dag, row[i][1]));
         char *shown = nh_print_string(p.dag, mu);
         for (size_t k = 1; k < samples; k++)
             cr_expect_float_eq(value_at(&p, ratio, sample(&p, k))/value_at(&p, ratio, sample(&p, 0)), 1, 1e-12, "%s: %s", row[i][0], shown);
@@ -182,6 +184,9 @@ Test(antiderivative, elliptic)
     check_kind("(b + cos(x))/((p + k*sin(x)^2)*sqrt(a - b*cos(x)^2))", true, -1, 2);
     check_kind("1/((p + a*cos(x))*sqrt(a + b*sin(x)^2))", true, -1, 2);
     check_kind("cos(x)/(sin(x)^2*sqrt(a + b*sin(x)^2))", true, 0.4, 2);
+    check_kind("1/sqrt(p + a*cos(x))", true, -2, 5);
+    check_kind("(c + cos(x))*sqrt(p - a*cos(x))", true, -2, 5);
+    check_kind("sin(x)^2/((p + b*cos(x))*sqrt(p + a*cos(x)))", true, -2, 2);
     check_kind("cos(x)/((16/7 + 3/2*cos(x) - 2/9*cos(x)^2)*sqrt(2 - sin(x)^2))", true, -1, 1.5);
 }
 

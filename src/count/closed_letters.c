@@ -334,8 +334,8 @@ static bool has_powers(const nh_construct_rates *rates, nh_ex coordinate)
     return !pure;
 }
 
-/* In t, as in cyclic coordinates, the rates are all that integrals contain: the powers of a letter of rates alone, up to the highest rate.  Of
- * rates with a small unit, as 1 and 1.001, these would be too many: they keep their price. */
+/* In t, as in cyclic coordinates, the rates are all that integrals contain: the powers of a letter of rates alone, up
+ * to the highest rate.  Of rates with a small unit, as 1 and 1.001, these would be too many: they keep their price. */
 static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, const nh_construct_rates *rates)
 {
     static const int64_t most = 6;

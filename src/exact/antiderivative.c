@@ -364,16 +364,16 @@ bool nh_antiderivative(const nh_integration *in, nh_ex f, nh_ex *F)
 /* log(1 + f) + log(1 - f), or their difference. */
 static nh_ex logarithms(nh_dag *d, nh_ex f, bool difference)
 {
-    nh_ex one = nh_int(d, 1), plus = nh_call(d, NH_LOG, nh_add(d, one, f)), minus = nh_call(d, NH_LOG, nh_sub(d, one, f));
+    nh_ex one = nh_int(d, 1), plus = nh_call(d, NH_LOG, nh_add(d, one, f));
+    nh_ex minus = nh_call(d, NH_LOG, nh_sub(d, one, f));
     return difference ? nh_sub(d, plus, minus) : nh_add(d, plus, minus);
 }
 
-/* p = q^2: 2 log q; where q is a sine whose cosine f is in the other logarithms, log(1 + f) + log(1 - f); 0: neither. */
+/* For p = q^2: 2 log q; where q is a sine and its cosine f in the other logarithms: log(1 + f) + log(1 - f); else 0. */
 static nh_ex logarithm_of_square(nh_dag *d, nh_ex p, size_t n, const nh_ex *call)
 {
-    bool square = nh_kind_of(d, p) == NH_PRODUCT && nh_arity(d, p) == 1 && nh_is_number(d, nh_exponent_of(d, p, 0), 2) &&
-                  nh_num_is(nh_constant_of(d, p), 1);
-    if (!square) return 0;
+    bool power = nh_kind_of(d, p) == NH_PRODUCT && nh_arity(d, p) == 1 && nh_num_is(nh_constant_of(d, p), 1);
+    if (!power || !nh_is_number(d, nh_exponent_of(d, p, 0), 2)) return 0;
     nh_ex q = nh_child(d, p, 0), f = 0;
     if (nh_kind_of(d, q) == NH_FUNCTION && nh_function_of(d, q) == NH_SIN) f = nh_call(d, NH_COS, nh_child(d, q, 0));
     for (size_t i = 0; f && i < n; i++)
@@ -381,7 +381,7 @@ static nh_ex logarithm_of_square(nh_dag *d, nh_ex p, size_t n, const nh_ex *call
     return nh_mul(d, nh_int(d, 2), nh_call(d, NH_LOG, q));
 }
 
-nh_ex nh_integrating_factor(nh_dag *d, nh_ex F)
+nh_ex nh_antiderivative_factor(nh_dag *d, nh_ex F)
 {
     enum { most = 16 };
     nh_ex call[most], old[most], by[most];

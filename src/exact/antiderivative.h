@@ -10,7 +10,7 @@
  *     log p              for each factor p of the denominator
  *     atan, atanh        for a factor that is quadratic in a kernel, or linear in a sine and its cosine; for roots of
  *                        quadratic polynomials
- *     elliptic integrals of an angle u, where they are asked for, for the root of a + b sin(u)^2 and its factors
+ *     elliptic integrals, where they are asked for, for the root of a + b sin(u)^2 or a + b cos(u), of u or u/2
  *
  * The c_j come from an exact linear system (relation.h), which also proves dF/dx = f.  That no F is found proves
  * nothing. */
@@ -38,6 +38,6 @@ typedef struct {
 bool nh_antiderivative(const nh_integration *integration, nh_ex f, nh_ex *F);
 
 /* exp(-F) up to a constant factor, as powers where F has logarithms: |p| may be p in them. */
-nh_ex nh_integrating_factor(nh_dag *dag, nh_ex F);
+nh_ex nh_antiderivative_factor(nh_dag *dag, nh_ex F);
 
 #endif

@@ -165,6 +165,25 @@ static void put_elliptic_pole(builder *b, const radical *r, nh_ex a, nh_ex c, nh
     else nh_antiderivative_put(b, nh_call(d, NH_ATAN, f));
 }
 
+/* Those of Q = k_0 + k_1 cos u = (k_0 + k_1)(1 - m sin(u/2)^2), and of poles p_0 + p_1 cos u. */
+static void put_elliptic_of_half(builder *b, const radical *r, const nh_ex k[3], nh_ex angle)
+{
+    nh_dag *d = b->d;
+    nh_ex a = nh_simplify_short(d, nh_add(d, k[0], k[1]), 0), two = nh_int(d, 2);
+    if (nh_antiderivative_sign(b, a) <= 0) return;
+    nh_ex m = nh_simplify_short(d, nh_div(d, nh_mul(d, two, k[1]), a), 0), half = nh_mul(d, nh_ratio(d, 1, 2), angle);
+    nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){half, m}));
+    nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_EINC, (nh_ex[]){half, m}));
+    for (size_t j = 0; j < b->divisors; j++) {
+        nh_ex p[3], e = in_variable(b, r, b->divisor[j].e);
+        if (nh_depends(d, e, b->in->x) || coefficients_of(b, r->x, e, p) != 1) continue;
+        nh_ex sum = nh_simplify_short(d, nh_add(d, p[0], p[1]), 0);
+        if (nh_is_zero(d, sum)) continue; /* a pole at u = 0 is a function of the first two kinds */
+        nh_ex n = nh_simplify_short(d, nh_div(d, nh_mul(d, two, p[1]), sum), 0);
+        nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_PI, (nh_ex[]){n, half, m}));
+    }
+}
+
 /* The elliptic integrals of Q = k_0 + k_2 cos(u)^2 that is positive where the cosine is 1, and those of the poles. */
 static void put_elliptic(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex sine)
 {
@@ -173,7 +192,9 @@ static void put_elliptic(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex si
     nh_ex k[3], angle = nh_child(d, sine, 0);
     radical r = {y, Q, root, cosine, 0, 2, {cosine, sine}, {y, other}};
     r.Q = in_variable(b, &r, r.Q);
-    if (nh_depends(d, r.Q, b->in->x) || coefficients_of(b, r.x, r.Q, k) != 2 || !nh_is_zero(d, k[1])) return;
+    int kind = nh_depends(d, r.Q, b->in->x) ? 0 : coefficients_of(b, r.x, r.Q, k);
+    if (kind == 1) put_elliptic_of_half(b, &r, k, angle);
+    if (kind != 2 || !nh_is_zero(d, k[1])) return;
     nh_ex a = nh_simplify_short(d, nh_add(d, k[0], k[2]), 0), c = nh_neg(d, k[2]);
     if (nh_antiderivative_sign(b, a) <= 0) return;
     nh_ex argument[] = {angle, nh_simplify_short(d, nh_neg(d, nh_div(d, c, a)), 0)};
@@ -199,6 +220,31 @@ static void put_elliptic(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex si
     }
 }
 
+/* y = tan(u/2) = sin u/(1 + cos u), where Q/(1 + cos u)^2 = k_0 + k_2 y^2: int du/sqrt(Q/(1 + cos u)^2) has a pole at
+ * y^2 = -1, with the arctangent or area function of sqrt(k_0 - k_2) y/sqrt(Q). */
+static void put_root_of_half_angle(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex sine)
+{
+    nh_dag *d = b->d;
+    nh_ex y = nh_symbol_fresh(d, "y"), one = nh_int(d, 1), square = nh_powi(d, y, 2), above = nh_add(d, one, cosine),
+          below = nh_add(d, one, square), k[3];
+    radical r = {.x = y,
+                 .Q = nh_div(d, Q, nh_powi(d, above, 2)),
+                 .root = nh_div(d, root, above),
+                 .back = nh_div(d, sine, above),
+                 .count = 2,
+                 .from = {cosine, sine},
+                 .to = {nh_div(d, nh_sub(d, one, square), below), nh_div(d, nh_mul(d, nh_int(d, 2), y), below)}};
+    r.Q = in_variable(b, &r, r.Q);
+    if (nh_depends(d, r.Q, b->in->x) || coefficients_of(b, y, r.Q, k) != 2 || !nh_is_zero(d, k[1])) return;
+    put_first_kind(b, &r, k);
+    nh_ex at = nh_simplify_short(d, nh_sub(d, k[0], k[2]), 0);
+    int sign = nh_antiderivative_sign(b, at);
+    if (!sign) return;
+    nh_ex f = nh_div(d, nh_mul(d, nh_antiderivative_root(b, sign > 0 ? at : nh_neg(d, at)), r.back), r.root);
+    if (sign > 0) nh_antiderivative_put(b, nh_call(d, NH_ATAN, f));
+    else nh_antiderivative_put_area(b, f);
+}
+
 /* y = cos u and sin u */
 static void put_root_of_waves(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex sine)
 {
@@ -206,6 +252,7 @@ static void put_root_of_waves(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_
     nh_ex y = nh_symbol_fresh(d, "y"), other = nh_sqrt(d, nh_sub(d, nh_int(d, 1), nh_powi(d, y, 2)));
     put_integrals(b, (radical){y, Q, root, cosine, 0, 2, {cosine, sine}, {y, other}});
     put_integrals(b, (radical){y, Q, root, sine, 0, 2, {sine, cosine}, {y, other}});
+    put_root_of_half_angle(b, Q, root, cosine, sine);
 }
 
 /* y = x^(1/n) */

@@ -121,7 +121,7 @@ static bool solve_linear(nh_explicit_curve *c, size_t u, nh_ex A, nh_ex B, bool 
     nh_ex I = nh_int(d, 0), G, mu;
     size_t before = c->m->integrals;
     if (!nh_is_zero(d, A) && !integrate(c, A, &I) && !(named && name_integral(c, A, &I))) return false;
-    mu = nh_integrating_factor(c->d, I);
+    mu = nh_antiderivative_factor(c->d, I);
     if (!integrate(c, nh_mul(d, mu, B), &G) && !(named && name_integral(c, nh_mul(d, mu, B), &G))) {
         c->m->integrals = before;
         return false;

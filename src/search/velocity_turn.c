@@ -115,12 +115,15 @@ typedef struct {
     nh_ex e[2], unit[2], n; /* velocities: v(e) = 0, v(unit) = 1; n_j w^j */
 } apart;
 
-static nh_ex at(const problem *p, nh_ex form, const nh_ex w[2]) { return short_form(p, nh_substitute(p->d, form, 2, p->w, w)); }
+static nh_ex at(const problem *p, nh_ex form, const nh_ex w[2])
+{
+    return short_form(p, nh_substitute(p->d, form, 2, p->w, w));
+}
 
 static nh_ex integral(const problem *p, bool general, nh_ex f)
 {
-    nh_ex F;
-    return of_s_alone(p, f) && nh_stage_solver_integral(p->x, p->s, general ? f : nh_exact_values(p->o, f), true, &F) ? F : 0;
+    nh_ex F, value = general ? f : nh_exact_values(p->o, f);
+    return of_s_alone(p, f) && nh_stage_solver_integral(p->x, p->s, value, true, &F) ? F : 0;
 }
 
 /* dx/dt = alpha ds/dt + beta n_j w^j:   x C - C int alpha ds - K int beta D ds */
@@ -143,7 +146,7 @@ static bool alone(const problem *p, nh_ex D, bool general)
     nh_ex h = short_form(p, nh_div(d, nh_model_gamma(p->o, v), nh_mul(d, v, v)));
     if (!of_s_alone(p, h) || nh_depends(d, h, p->w[0]) || nh_depends(d, h, p->w[1])) return false;
     if (!nh_stage_solver_integral(p->x, p->s, general ? h : nh_exact_values(p->o, h), false, &F)) return false;
-    nh_ex g = nh_integrating_factor(d, F), l[] = {nh_diff(d, v, p->w[0]), nh_diff(d, v, p->w[1])};
+    nh_ex g = nh_antiderivative_factor(d, F), l[] = {nh_diff(d, v, p->w[0]), nh_diff(d, v, p->w[1])};
     apart y = {.v = v, .D = D, .C = nh_mul(d, g, v), .e = {nh_neg(d, l[1]), l[0]}, .unit = {zero, zero}, .n = zero};
     for (size_t i = 0; i < 2; i++)
         for (size_t j = 0; j < 2; j++)
