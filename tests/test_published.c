@@ -392,6 +392,9 @@ static const published PUBLISHED[] = {
      "lagrangian: ((r^2 - M)*T'^2 - r'^2/(r^2 - M) - r^2*f'^2)/2\ndomain: {r: [1.5, 2.5]}\n", 5, 4},
     {"sphere by the distance from an axis", "parameters: {R: 1.3}\ncoordinates: [{name: r, type: length}, {name: f, type: angle}]\n"
      "lagrangian: (r'^2/(1 - r^2/R^2) + r^2*f'^2)/2\ndomain: {r: [0.3, 1]}\n", 3, 6},
+    /* R. A. Fisher's metric on the probabilities of three events, a sphere in roots of the coordinates; two oscillators whose frequencies are roots of roots of numbers */
+    {"probabilities of three events", "coordinates: [x, y]\nlagrangian: (x'^2/x + y'^2/y + (x' + y')^2/(1 - x - y))/8\ndomain: {x: [0.2, 0.4], y: [0.2, 0.4]}\n", 3, 6},
+    {"coupled oscillators with numbers", "coordinates: [x, y]\nlagrangian: (x'^2 + x'*y' + 2*y'^2)/2 - (x^2 - x*y + 3*y^2)/2\n", 4, 6},
     /* F. Fasso and N. Sansonetto, J. Nonlinear Sci. 26 (2016) 519: bodies on planes that turn */
     {"vertical disk on a turntable", "parameters: {m: 1, I: 0.3, J: 0.5, R: 0.4, W: 0.7}\ncoordinates: [x, y, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: m/2*(x'^2 + y'^2) + J/2*th'^2 + I/2*ph'^2\nconstraints: [\"x' = R*cos(th)*ph' - W*y\", \"y' = R*sin(th)*ph' + W*x\"]\n", 5, 4},

@@ -206,8 +206,15 @@ static bool has_root(const nh_jet_equations *x, const nh_letters *l, nh_ex base)
     return found;
 }
 
-/* The factors of an expression, as bases with half powers.  Common factors of a sum's terms are divided out, unless
- * `plain`: the quotient may be written with them again. */
+static bool is_odd(const nh_dag *d, nh_ex exponent)
+{
+    if (nh_kind_of(d, exponent) != NH_NUMBER) return false;
+    nh_num n = nh_number_of(d, exponent);
+    return nh_num_short(n) && n.q == 1 && n.p % 2 != 0;
+}
+
+/* The factors of an expression, as bases with half powers; coordinates, where their power is odd.  Common factors of a
+ * sum's terms are divided out, unless `plain`: the quotient may be written with them again. */
 static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool plain)
 {
     nh_dag *d = x->dag;
@@ -215,12 +222,15 @@ static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool
     for (size_t k = 0; k < (product ? nh_arity(d, e) : 1); k++) {
         nh_ex base = product ? nh_child(d, e, k) : e, common = nh_int(d, 1);
         if (!of_position(x, base)) continue;
-        bool sum = nh_kind_of(d, base) == NH_SUM;
+        bool sum = nh_kind_of(d, base) == NH_SUM, odd = product && is_odd(d, nh_exponent_of(d, e, k));
         if (sum && !plain) common = nh_terms_common(d, base);
         if (!nh_is_number(d, common, 1)) {
             take_factors(x, l, common, true);
             take_factors(x, l, nh_simplify_short(d, nh_div(d, base, common), largest_form), true);
-        } else take_power(x, l, base, sum && !has_root(x, l, base) ? nh_num_ratio(-1, 2) : nh_num_int(-1), 0);
+        } else {
+            bool root = sum ? !has_root(x, l, base) : odd && is_coordinate(x, base);
+            take_power(x, l, base, root ? nh_num_ratio(-1, 2) : nh_num_int(-1), 0);
+        }
     }
 }
 

@@ -77,7 +77,7 @@ nh_fixed nh_letters_relation(const nh_model *o, size_t n, nh_ex *term, const dou
     nh_ex *work = nh_alloc_array(4 * n + 1, sizeof *work);
     problem p = {o, options, n, term, coefficient, work, work + n, work + 2 * n, work + 3 * n, letters};
     nh_fixed found = {0};
-    for (size_t i = 0; i < kinds && !found.all_parameters && o->system->parameters > 0; i++)
+    for (size_t i = 0; i < kinds && !found.all_parameters; i++)
         found = try_kind(&p, kind[i]);
     if (found.all_parameters) {
         memcpy(term, p.named, n * sizeof *term);
