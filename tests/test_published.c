@@ -395,6 +395,11 @@ static const published PUBLISHED[] = {
     /* R. A. Fisher's metric on the probabilities of three events, a sphere in roots of the coordinates; two oscillators whose frequencies are roots of roots of numbers */
     {"probabilities of three events", "coordinates: [x, y]\nlagrangian: (x'^2/x + y'^2/y + (x' + y')^2/(1 - x - y))/8\ndomain: {x: [0.2, 0.4], y: [0.2, 0.4]}\n", 3, 6},
     {"coupled oscillators with numbers", "coordinates: [x, y]\nlagrangian: (x'^2 + x'*y' + 2*y'^2)/2 - (x^2 - x*y + 3*y^2)/2\n", 4, 6},
+    /* R. de Ritis et al., Phys. Rev. D 42 (1990) 1091, with a constant potential: two oscillators upside down, by roots of the scale factor and
+       exponentials of the field; a pendulum that falls, whose time is an elliptic integral times an integral that is a function of the others */
+    {"scale factor and a scalar field", "parameters: {L: 0.3}\ncoordinates: [a, q]\nlagrangian: -3*a*a'^2 + a^3*q'^2/2 - L*a^3\ndomain: {a: [0.6, 1.4]}\n", 4, 6},
+    {"pendulum on a falling support", "parameters: {m: 1, M: 3, l: 0.5, g: 1, I: 0.1}\ncoordinates: [y, {name: u, type: angle}]\n"
+     "lagrangian: (m + M)*y'^2/2 + (I + m*l^2)*u'^2/2 + m*l*cos(u)*u'*y' - (m + M)*g*y - m*g*l*sin(u)\n", 4, 6},
     /* F. Fasso and N. Sansonetto, J. Nonlinear Sci. 26 (2016) 519: bodies on planes that turn */
     {"vertical disk on a turntable", "parameters: {m: 1, I: 0.3, J: 0.5, R: 0.4, W: 0.7}\ncoordinates: [x, y, {name: th, type: angle}, {name: ph, type: angle}]\n"
      "lagrangian: m/2*(x'^2 + y'^2) + J/2*th'^2 + I/2*ph'^2\nconstraints: [\"x' = R*cos(th)*ph' - W*y\", \"y' = R*sin(th)*ph' + W*x\"]\n", 5, 4},

@@ -241,8 +241,8 @@ static void take_determinant(const nh_jet_equations *x, nh_letters *l)
 }
 
 /* The momenta of a frame in which the inertia is 1 have roots of the inertia: exp(u/2) where the inertia has exp(u).
- * `sums`: also of sums, which may cancel from the determinant, as in (r^2 - 1) T'^2 - r'^2/(r^2 - 1). */
-static void take_roots(const nh_jet_equations *x, nh_letters *l, bool sums)
+ * `all`: also of sums and coordinates, which may cancel from the determinant, as in (r^2 - 1) T'^2 - r'^2/(r^2 - 1). */
+static void take_roots(const nh_jet_equations *x, nh_letters *l, bool all)
 {
     nh_dag *d = x->dag;
     double sign;
@@ -251,7 +251,9 @@ static void take_roots(const nh_jet_equations *x, nh_letters *l, bool sums)
         bool product = nh_kind_of(d, inertia) == NH_PRODUCT;
         for (size_t k = 0; k < (product ? nh_arity(d, inertia) : 1); k++) {
             nh_ex factor = product ? nh_child(d, inertia, k) : inertia;
-            if (sums && product && nh_kind_of(d, factor) == NH_SUM && of_position(x, factor))
+            bool odd = product && is_odd(d, nh_exponent_of(d, inertia, k)) && is_coordinate(x, factor);
+            if (all && odd) take_power(x, l, factor, nh_num_ratio(-1, 2), 0);
+            if (all && product && nh_kind_of(d, factor) == NH_SUM && of_position(x, factor))
                 take_factors(x, l, factor, true);
             if (nh_kind_of(d, factor) != NH_FUNCTION || nh_function_of(d, factor) != NH_EXP || !of_position(x, factor))
                 continue;

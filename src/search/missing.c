@@ -5,12 +5,10 @@
 
 #include "base/budget.h"
 #include "base/progress.h"
-#include "count/closed_primitives.h"
 #include "count/construct.h"
 #include "count/construct_rates.h"
 #include "count/lift.h"
 #include "exact/normal.h"
-#include "exact/square.h"
 #include "integrals/echelon.h"
 #include "search/counted.h"
 #include "search/currents.h"
@@ -72,14 +70,17 @@ typedef struct {
     nh_current *set_aside;
 } search;
 
-static void set_aside(search *s)
+/* Those that are not proved, or else the series. */
+static void set_aside(search *s, bool series)
 {
     nh_analysis *r = s->solver.r;
     size_t kept = 0;
-    s->set_aside = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *s->set_aside);
+    nh_current *all = nh_arena_alloc(r->arena, (s->aside + r->count + 1) * sizeof *all);
+    if (s->aside) memcpy(all, s->set_aside, s->aside * sizeof *all);
+    s->set_aside = all;
     for (size_t k = 0; k < r->count; k++) {
         const nh_current *f = &r->found[k];
-        if (f->proof.proved || f->series) {
+        if (series ? !f->series : f->proof.proved || f->series) {
             r->found[kept++] = *f;
             continue;
         }
@@ -89,16 +90,17 @@ static void set_aside(search *s)
     r->count = kept;
 }
 
-/* Puts back those that do not depend on currents proved in the meantime. */
-static void take_back(search *s)
+/* Puts back those that do not depend on currents proved in the meantime, from the given one on. */
+static void take_back(search *s, size_t first)
 {
     nh_analysis *r = s->solver.r;
-    for (size_t k = 0; k < s->aside; k++) {
+    for (size_t k = first; k < s->aside; k++) {
         nh_current *f = &s->set_aside[k];
         if (f->independence == NH_INDEPENDENT && nh_currents_known(s->solver.bench, f->phi)) continue;
         r->independent += f->independence == NH_INDEPENDENT;
         nh_currents_put(s->solver.bench, f);
     }
+    s->aside = first;
 }
 
 /* An integral polynomial in the velocities replaces a current that is not, and is a function of it and the others: it
@@ -333,68 +335,6 @@ static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
            first->count.row[c->missing_at - 1].bound == c->count.row[c->missing_at - 1].bound;
 }
 
-/* ---- what is integrated along a coordinate ---- */
-
-/* Velocities times 1 and positions besides currents times antiderivatives: with dv/dt = c f'(h) h', v - c f is
- * constant.  A velocity may need the root of its inertia: x'/cos(h), where a blade with the heading h moves. */
-static void integrate_velocities(search *s, const nh_family *currents)
-{
-    nh_analysis *r = s->solver.r;
-    const nh_model *o = r->model;
-    s->solver.words = nh_dictionary_of(r->model);
-    const nh_dictionary *w = &s->solver.words;
-    size_t n = 0, positions = 0, most = w->velocities + w->forms + w->frames + o->n + 1;
-    nh_ex *linear = nh_arena_alloc(r->arena, most * sizeof *linear),
-          *position = nh_arena_alloc(r->arena, (w->positions + 1) * sizeof *position);
-    position[positions++] = nh_int(o->dag, 1);
-    for (size_t k = 0; k < w->positions; k++) position[positions++] = w->position[k];
-    for (size_t k = 0; k < w->velocities; k++) linear[n++] = w->velocity[k];
-    for (size_t k = 0; k < w->forms; k++) linear[n++] = w->form[k];
-    for (size_t k = 0; k < w->frames; k++) linear[n++] = w->frame[k];
-    for (size_t i = 0; i < o->n; i++) {
-        nh_ex outside, inside, inertia = nh_simplify_short(o->dag, o->M[i * o->n + i], 0);
-        if (!nh_square_split(o->dag, inertia, &outside, &inside) || nh_kind_of(o->dag, outside) == NH_NUMBER) continue;
-        linear[n++] = nh_mul(o->dag, outside, o->chart->w[i]);
-    }
-    nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, 2 * sizeof *all);
-    part[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = linear};
-    part[1] = (nh_family){.kind = NH_TERMS, .terms = positions, .term = position};
-    all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-    all[1] = *currents;
-    nh_stage_solver_stage(&s->solver, "velocities times 1 and positions, currents times antiderivatives", 2, all);
-}
-
-/* Integrals found, times 1, coordinates, t and antiderivatives: with x' = c f'(h) h' for a current c, x - c f is
-   constant. */
-static bool integrate(search *s, const nh_completeness *c)
-{
-    enum { most_primitives = 12, most_factors = 12 };
-    nh_analysis *r = s->solver.r;
-    const nh_model *o = r->model;
-    nh_dag *d = o->dag;
-    size_t words = most_primitives + o->m + 2, factors = 1, n = 0, before = r->count;
-    nh_ex *word = nh_arena_alloc(r->arena, words * sizeof *word), factor[most_factors] = {nh_int(d, 1)},
-          *phi = nh_alloc_array(most_proved(r), sizeof *phi);
-    bool general;
-    words = nh_closed_primitives(o, c->count.time, most_primitives, word);
-    size_t independent, known = nh_counted_proved(r, phi, &general, &independent);
-    for (size_t k = 0; k < known && factors < most_factors; k++)
-        if (nh_counted_degree_of(o, phi[k]) <= (double)c->missing_at) factor[factors++] = phi[k];
-    nh_free(phi);
-    if (!words) return false;
-    word[words++] = nh_int(d, 1);
-    word[words++] = o->system->t;
-    for (size_t k = 0; k < o->m; k++) word[words++] = o->system->coordinate[k].q;
-    nh_ex *term = nh_arena_alloc(r->arena, factors * words * sizeof *term);
-    for (size_t i = 0; i < factors; i++)
-        for (size_t j = 0; j < words; j++) term[n++] = nh_mul(d, factor[i], word[j]);
-    nh_family all = {.kind = NH_TERMS, .terms = n, .term = term};
-    s->solver.wide = true;
-    nh_stage_solver_stage(&s->solver, "currents found so far times coordinates and antiderivatives", 1, &all);
-    if (r->count == before && c->missing_at == 1) integrate_velocities(s, &all);
-    return r->count > before;
-}
-
 /* Tries the shape first, the closed one before the other.  Where it has as many solutions as there are, more
  * coordinates give no others: *shape is then the one that is enough. */
 static bool construct_in_shapes(search *s, const nh_completeness *c, manner how, double dearest, double work,
@@ -443,7 +383,7 @@ static bool construct(search *s, const nh_completeness *c, bool further)
     s->covered = 0;
     if (construct_in_shapes(s, c, any, dearest, work, &secular.shape)) return true;
     s->covered = 0;
-    return (!further && integrate(s, c))
+    return (!further && nh_primitives_search(&s->solver, c->count.time, c->missing_at))
         || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }
 
@@ -470,6 +410,19 @@ static void in_several(search *s)
         if (!adds_nothing(r, &r->completeness[i])) found = nh_series_in_several(&s->solver, &r->completeness[i]);
 }
 
+/* A series along one coordinate may be an integral that has a name, times integrals that were found in the meantime. */
+static bool integrate_series(search *s)
+{
+    nh_analysis *r = s->solver.r;
+    size_t series = 0, before = s->aside;
+    for (size_t k = 0; k < r->count; k++) series += r->found[k].series && r->found[k].independence == NH_INDEPENDENT;
+    if (!series || !r->furthers || nh_late()) return false;
+    set_aside(s, true);
+    bool found = nh_primitives_search(&s->solver, true, 1);
+    take_back(s, before);
+    return found;
+}
+
 static void look(nh_analysis *r)
 {
     search s = {0};
@@ -478,7 +431,7 @@ static void look(nh_analysis *r)
     if (!nh_stage_solver_begin(&s.solver, r, &ignored)) return;
     nh_progress("integrals that the count misses", -1);
     nh_budget_begin(r->options.work);
-    set_aside(&s);
+    set_aside(&s, false);
     s.cyclic = nh_jet_equations_cyclic_rounds(r->model);
     bool stale = false;
     for (bool found = true; found && !nh_late();) {
@@ -490,13 +443,14 @@ static void look(nh_analysis *r)
         if (found) count(r, stale = again);
     }
     if (stale && !nh_late()) count(r, false);
+    bool integrated = integrate_series(&s);
     size_t before = r->independent;
     in_several(&s);
-    if (r->independent > before && r->independent >= r->local_maximum) { /* nothing is missing then */
+    if ((integrated || r->independent > before) && r->independent >= r->local_maximum) { /* nothing is missing then */
         r->search = NH_SEARCH_COMPLETE;
         if (!nh_late()) count(r, false);
     }
-    take_back(&s);
+    take_back(&s, 0);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.solver.bench);
     for (size_t k = 0; k < r->furthers; k++)

@@ -86,6 +86,9 @@ typedef struct {
 size_t nh_driven_pair_search(nh_stage_solver *solver, const nh_driven_pair *pair);
 /* Two velocities that turn along one coordinate, without a potential. */
 void nh_velocity_turn_search(nh_stage_solver *solver);
+/* Integrals found, up to this degree, times 1, coordinates, t and antiderivatives of the system's functions; for degree
+ * one also velocities times 1 and positions.  Has it found something? */
+bool nh_primitives_search(nh_stage_solver *solver, bool time, size_t degree);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */
 void nh_series_stages(nh_stage_solver *solver);
 /* The same for currents linear in the velocities, where the equations depend on several coordinates: after the stages
