@@ -129,6 +129,26 @@ Test(linear_fields, turns_in_space)
     }
 }
 
+/* The last link turns about the point in which its skate stands: the sum of the rates is its momentum over J, of which only the value 1/0.2 is seen at points. */
+Test(linear_fields, a_multiple_of_a_momentum, PLAIN_ONLY)
+{
+    mechanics x = mechanics_of_text(
+        "name: links\nparameters: {m: 1, J: 0.2, l: 0.5}\n"
+        "bodies: [{name: a, mass: m, inertia: J}, {name: b, mass: m, inertia: J}, {name: c, mass: m, inertia: J}]\n"
+        "joints:\n  - {type: planar, child: a, coordinates: [x, y, h]}\n  - {type: revolute, parent: a, child: b, at: [l, 0, 0], axis: z, coordinates: [u]}\n"
+        "  - {type: revolute, parent: b, child: c, at: [l, 0, 0], axis: z, coordinates: [v]}\n"
+        "wheels: [{type: knife-edge, body: a, axis: y}, {type: knife-edge, body: c, axis: y}]\ndomain: {u: [0.3, 0.9], v: [0.3, 0.9]}\n",
+        NH_CHART_AUTO);
+    nh_options options;
+    nh_options_default(&options);
+    options.proof_terms = 2000; /* the rate itself has more */
+    nh_proof proof = nh_prove_current(x.model, formula(x.model, "h' + u' + v'"), true, &options);
+    cr_expect(proof.all_parameters && !proof.fixed);
+    proof = nh_prove_current(x.model, formula(x.model, "h' + u'"), true, &options);
+    cr_expect(!proof.proved);
+    mechanics_clear(&x);
+}
+
 /* By hand: the turn is d/dh + x d/dy - y d/dx, the centre of mass belongs to -t d/dx, and of the energy there is none. */
 Test(linear_fields, fields_by_their_values)
 {

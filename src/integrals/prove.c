@@ -192,13 +192,34 @@ static bool equations_hold(const nh_model *o, nh_ex phi, const nh_ex *zeta, nh_c
     return holds;
 }
 
+/* The field of a current that is a multiple of a momentum, by a constant of which only the value is known so far: Y_j(Phi)
+ * and M_ij zeta^i have the ratio s. */
+static void scale(const nh_model *o, nh_ex phi, nh_ex *zeta)
+{
+    nh_dag *d = o->dag;
+    for (size_t j = 0; j < o->n; j++) {
+        nh_ex sum = nh_int(d, 0);
+        for (size_t i = 0; i < o->n; i++) sum = nh_add(d, sum, nh_mul(d, o->M[i * o->n + j], zeta[i]));
+        sum = nh_simplify_short(d, sum, 0);
+        if (nh_is_zero(d, sum)) continue;
+        nh_ex s = nh_simplify_short(d, nh_div(d, nh_model_Y(o, j, phi), sum), 0);
+        bool constant = !nh_depends(d, s, o->system->t);
+        for (size_t k = 0; k < o->m; k++) constant &= !nh_depends(d, s, o->system->coordinate[k].q);
+        for (size_t i = 0; i < o->n; i++) constant &= !nh_depends(d, s, o->chart->w[i]);
+        for (size_t i = 0; i < o->n && constant; i++) zeta[i] = nh_mul(d, s, zeta[i]);
+        return;
+    }
+}
+
 /* Energies and momenta have fields with short components however long the accelerations are. */
 static bool proved_by_symmetry(const nh_model *o, nh_ex phi, nh_claim claim, const nh_options *options)
 {
     enum { longest = 40 };
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
     bool holds = o->n > 0;
-    if (holds && nh_affine_field(o, phi, options, zeta) && equations_hold(o, phi, zeta, claim, options)) {
+    bool affine = holds && nh_affine_field(o, phi, options, zeta);
+    if (affine && claim.free) scale(o, phi, zeta);
+    if (affine && equations_hold(o, phi, zeta, claim, options)) {
         nh_free(zeta);
         return true;
     }
