@@ -355,6 +355,27 @@ Test(piecewise, an_impulse_is_no_passage, PLAIN_ONLY)
     }
 }
 
+/* P. Winternitz, J. A. Smorodinsky, M. Uhlir and I. Fris, Yad. Fiz. 4 (1966) 625, their fourth potential in Cartesian coordinates: of its integrals one holds
+ * everywhere, the other on the side of y = 0 on which sqrt(r + x) sqrt(r - x) is y, or -y. */
+Test(piecewise, roots_whose_product_has_none, PLAIN_ONLY)
+{
+    static const char *const domain[2] = {"[0.4, 1]", "[-1, -0.4]"}, *const region[2] = {"for y > 0", "for y < 0"};
+    for (size_t i = 0; i < 2; i++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "parameters: {a: 0.4, b: 0.3, c: 0.2}\ncoordinates: [x, y]\ndefinitions: [r = sqrt(x^2 + y^2)]\n"
+                 "lagrangian: (x'^2 + y'^2)/2 + a/r - b*sqrt(r + x)/r - c*sqrt(r - x)/r\ndomain: {x: [0.4, 1], y: %s}\n", domain[i]);
+        nh_analysis *r = analysed(text);
+        size_t proved = 0;
+        for (size_t k = 0; k < r->count; k++) proved += r->found[k].proof.all_parameters && !r->found[k].region;
+        cr_expect_eq(proved, 2);
+        cr_assert_eq(r->pieces, 1);
+        cr_expect(r->piece[0].proof.all_parameters && r->piece[0].proof.sided && !strcmp(r->piece[0].region, region[i]), "%s", r->piece[0].region);
+        cr_expect_eq(r->completeness[0].missing_at, 0);
+        nh_analysis_free(r);
+    }
+}
+
 /* Without a kink nothing is cut, and what has poles is no piece. */
 Test(piecewise, smooth_and_rational_currents_hold_everywhere)
 {

@@ -11,7 +11,7 @@
 nh_ex nh_one_side(const nh_model *model, nh_ex e, nh_region *side);
 
 /* Likewise sqrt(u^2 v) by u sqrt(v) or -u sqrt(v): modulo a prime the root of a square has two values, both among those
- * of the other functions. */
+ * of the other functions; and the second of paired roots (geometry/model.h). */
 nh_ex nh_one_side_of_roots(const nh_model *model, nh_ex e, nh_region *side);
 
 /* Does a result for this region hold on the chosen sides?  Not where it holds in some parts only. */

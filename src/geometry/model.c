@@ -388,6 +388,7 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
         nh_error_clear(error);
         good = nh_fail_ended(error, "while the equations of motion were derived");
     }
+    if (good) nh_model_pair_roots(o);
     if (good) return o;
     nh_model_free(o);
     return NULL;

@@ -20,6 +20,18 @@
 #include "exact/solve.h"
 #include "system/embedding.h"
 
+/* Square roots in the Lagrangian whose product has none.
+ *
+ *     sqrt(r + x) sqrt(r - x) = |y|,   r^2 = x^2 + y^2
+ *
+ * A normal form takes the two for independent, and modulo a prime each has two values.  Where y has one sign at all
+ * probes of the chart, the second is y/sqrt(r + x) or -y/sqrt(r + x). */
+typedef struct {
+    nh_ex first, second; /* radicands */
+    nh_ex product;       /* of the roots, but for its sign: y */
+    int sign;            /* of the product at the probes */
+} nh_paired_root;
+
 typedef struct {
     nh_system *system;
     nh_chart *chart;
@@ -36,6 +48,8 @@ typedef struct {
     nh_ex *nu;              /* k x m: df^a/dv^s composed; annihilates R */
     nh_ex *reaction;        /* m: generalized force of the constraints on the bodies, -c_s */
     nh_lu *M_lu;
+    size_t pairs;           /* of roots in the Lagrangian */
+    const nh_paired_root *pair;
     size_t width;           /* chart->width; points are (t, q, w, u) */
     const nh_ex *parameter; /* system->parameters symbols and values */
     const double *parameter_value;
@@ -77,6 +91,11 @@ typedef struct {
 /* The derivative of e along the field. */
 nh_ex nh_model_along(const nh_model *model, const nh_field *field, nh_ex e);
 nh_ex nh_model_omega(const nh_model *model, const nh_field *a, const nh_field *b);
+
+/* Finds the paired roots: model->pairs. */
+void nh_model_pair_roots(nh_model *model);
+/* e with the second root of each pair written by the first. */
+nh_ex nh_model_paired_roots(const nh_model *model, nh_ex e);
 
 /* A tape that evaluates expressions at points (t, q, w, u), with the parameters bound; the caller frees it. */
 nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);

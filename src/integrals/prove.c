@@ -92,6 +92,7 @@ static nh_zero_verdict is_zero(const nh_model *o, nh_ex e, size_t limit)
     enum { most_symbols = 24, most_coefficients = 2000 };
     nh_ex symbol[most_symbols];
     nh_monomials m;
+    e = nh_model_paired_roots(o, e);
     nh_zero_verdict verdict = nh_normal_is_zero(o->dag, e, limit);
     if (verdict != NH_TOO_LARGE) return verdict;
     size_t n = symbols_of_degree(o, e, most_symbols, symbol);
@@ -150,6 +151,7 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     /* numbers too long for exact rationals were rounded to doubles when the rate was formed */
     double doubt = options->digits / 2;
     proof.rounded = !exact;
+    proof.sided = proof.proved && nh_model_paired_roots(o, sum) != sum;
     if (!exact && doubt > double_digits) doubt = double_digits;
     proof.refuted = !proof.proved && proof.points > 0 && proof.digits < doubt;
     nh_free(valued);

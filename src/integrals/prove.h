@@ -20,6 +20,7 @@ typedef struct {
     size_t points;        /* number of points at which it could be evaluated */
     /* its numbers were too long for exact rationals: only a double's digits can be expected */
     bool rounded;
+    bool sided;           /* proved where paired roots have the signs that they have at the probes (geometry/model.h) */
     bool refuted;         /* a ball excludes zero: Phi with these coefficients is not conserved */
 } nh_proof;
 

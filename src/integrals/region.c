@@ -257,6 +257,16 @@ nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, 
     return out;
 }
 
+nh_region nh_region_of_pairs(const nh_model *o)
+{
+    nh_region out = {0};
+    for (; out.count < o->pairs && out.count < NH_MOST_WALLS; out.count++) {
+        out.wall[out.count] = o->pair[out.count].product;
+        out.kind[out.count] = o->pair[out.count].sign > 0 ? NH_REGION_ABOVE : NH_REGION_BELOW;
+    }
+    return out;
+}
+
 nh_region nh_region_open(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
     nh_arena *arena)
 {

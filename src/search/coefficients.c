@@ -61,7 +61,7 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
     bool rounded = false;
     nh_ex *rate = nh_alloc_array(c->count + 1, sizeof *rate);
     for (size_t j = 0; j < c->count; j++) {
-        rate[j] = nh_model_gamma(o, c->term[j]);
+        rate[j] = nh_model_paired_roots(o, nh_model_gamma(o, c->term[j]));
         rounded = rounded || !nh_is_short(o->dag, c->term[j]);
     }
     nh_fixed relation = (c->by_values ? nh_fixed_relation_by_values : nh_fixed_relation)(o, c->count, rate,

@@ -17,6 +17,7 @@ typedef struct {
     size_t refuted;               /* candidates so far that are certainly not conserved */
     size_t nears;                 /* refuted candidates of the present list that are nearly conserved */
     nh_candidate *near[NH_MOST_ALMOST];
+    bool constructs;      /* what is found is of the construction, of which the terms are the simplest */
 } nh_current_checker;
 
 #endif

@@ -269,23 +269,36 @@ bool nh_currents_known(const nh_current_checker *b, nh_ex current)
 /* ---- the list ---- */
 
 /* A function of the currents and the pieces so far is left out. */
-static void keep_piece(nh_current_checker *b, const nh_current *f)
+static bool add_piece(nh_current_checker *b, const nh_current *f)
 {
     nh_analysis *r = b->result;
     size_t n = r->count + r->pieces;
-    if (r->pieces == NH_MOST_PIECES) return;
+    if (r->pieces == NH_MOST_PIECES) return false;
     nh_ex *phi = nh_alloc_array(n + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(n + 1, sizeof *kind);
     for (size_t k = 0; k < n; k++) phi[k] = k < r->count ? r->found[k].phi : r->piece[k - r->count].phi;
     phi[n] = f->phi;
     nh_independence_test(r->model, b->generic, n + 1, phi, r->options.sure, r->options.doubt, kind, NULL);
     if (!r->piece) r->piece = nh_arena_alloc(r->arena, NH_MOST_PIECES * sizeof *r->piece);
-    if (kind[n] == NH_INDEPENDENT) {
-        r->piece[r->pieces] = *f;
-        nh_described_fill(b, &r->piece[r->pieces++]);
-    }
+    bool independent = kind[n] == NH_INDEPENDENT;
+    if (independent) r->piece[r->pieces++] = *f;
     nh_free(kind);
     nh_free(phi);
+    return independent;
+}
+
+/* What is proved comes before pieces that are only certified, and may be functions of it. */
+static void keep_piece(nh_current_checker *b, const nh_current *f)
+{
+    nh_analysis *r = b->result;
+    nh_current aside[NH_MOST_PIECES];
+    size_t proved = 0, certified = 0;
+    for (size_t k = 0; k < r->pieces; k++)
+        if (r->piece[k].proof.proved || !f->proof.proved) r->piece[proved++] = r->piece[k];
+        else aside[certified++] = r->piece[k];
+    r->pieces = proved;
+    if (add_piece(b, f)) nh_described_fill(b, &r->piece[r->pieces - 1]);
+    for (size_t k = 0; k < certified; k++) add_piece(b, &aside[k]);
 }
 
 /* Appends a true current to the list: of currents, or of pieces. */
@@ -293,6 +306,7 @@ static bool keep(nh_current_checker *b, nh_current *f)
 {
     f->region = nh_currents_hold(b, f);
     if (f->region && nh_currents_continue(b, f)) f->region = NULL;
+    if (f->region && f->proof.sided && !b->constructs) return false; /* a simpler one may hold everywhere */
     if (f->region) {
         keep_piece(b, f);
         return false;

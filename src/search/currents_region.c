@@ -45,9 +45,11 @@ const char *nh_currents_hold(nh_current_checker *b, nh_current *f)
 {
     const nh_model *o = b->result->model;
     const nh_options *options = &b->result->options;
+    bool everywhere = f->proof.proved && !f->proof.sided;
     /* a formula that cancels to fewer digits as printed cannot be required to do better */
     nh_region region =
-        region_of(b, f->phi, f->proof.proved ? 0 : fmax(NH_LEAST_ALMOST, fmin(f->printed_digits, options->digits) / 2));
+        region_of(b, f->phi, everywhere ? 0 : fmax(NH_LEAST_ALMOST, fmin(f->printed_digits, options->digits) / 2));
+    if (f->proof.sided && region.count) region = nh_region_of_pairs(o);
     if (region.count && !f->proof.proved) {
         size_t n = 1 + o->m + o->n;
         nh_ex *term = nh_alloc_array(n, sizeof *term);

@@ -431,6 +431,7 @@ static void look(nh_analysis *r)
     if (!nh_stage_solver_begin(&s.solver, r, &ignored)) return;
     nh_progress("integrals that the count misses", -1);
     nh_budget_begin(r->options.work);
+    s.solver.bench->constructs = true;
     set_aside(&s, false);
     s.cyclic = nh_jet_equations_cyclic_rounds(r->model);
     bool stale = false;
