@@ -199,3 +199,19 @@ Test(linear_motion, drives_are_integrated)
         nh_analysis_free(r);
     }
 }
+
+/* A gyroscope's force, damping and a follower force: the root of a complex number by roots of real ones, whatever the sign of its real part. */
+Test(linear_motion, complex_coordinates, PLAIN_ONLY)
+{
+    static const char *const more[] = {"- a*(x^2 + y^2)/2\nforces: [\"x = -c*x'\", \"y = -c*y'\"]\n", "+ a*(x^2 + y^2)/2\nforces: [\"x = -c*x'\", \"y = -c*y'\"]\n",
+                                       "- a*(x^2 + y^2)/2\nforces: [\"x = -c*y\", \"y = c*x\"]\n"};
+    for (size_t k = 0; k < sizeof more / sizeof *more; k++) {
+        char text[400];
+        snprintf(text, sizeof text, "name: g\nparameters: {a: 0.4, c: 0.2, w: 1.3}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + w*(x*y' - y*x')/2 %s", more[k]);
+        nh_analysis *r = ask(text);
+        size_t proved = 0;
+        for (size_t i = 0; i < r->count; i++) proved += r->found[i].independence == NH_INDEPENDENT && r->found[i].proof.all_parameters;
+        cr_expect_eq(proved, 4, "%zu: %zu", k, proved);
+        nh_analysis_free(r);
+    }
+}

@@ -25,30 +25,19 @@
 #include "exact/invariant_forms.h"
 #include "exact/normal.h"
 #include "integrals/recognise.h"
-#include "search/stage_solver.h"
+#include "search/linear_motion_internal.h"
 #include "search/naming.h"
 
 enum {
     longest = 2000,  /* symbols of an equation of motion */
-    most_letters = 12, /* largest block in which rates without a name may still be roots (integrals/letters.h) */
-    most_drives = 12 /* functions of t in b and its derivatives */
+    most_letters = 12 /* largest block in which rates without a name may still be roots (integrals/letters.h) */
 };
 /* as a part of the largest rate: a smaller rate is zero, a double eigenvalue that rounding splits by its square root */
 static const double defective = 1e-5,
                     equal = 1e-6;     /* the same for the relative distance of two equal rates */
 
-typedef struct {
-    nh_stage_solver *x;
-    size_t size;       /* of z */
-    nh_ex *z, *entry;  /* entry[i + j size]: A; 0 (the number) where there is none */
-    nh_ex *b;          /* z' at z = 0 */
-    size_t *block;     /* per variable: the first of its block */
-    size_t count, *of; /* the variables of the present block */
-    size_t drives;     /* 1 and the functions of t that terms of b and of its derivatives are multiples of */
-    nh_ex drive[most_drives];
-    size_t forms;      /* invariant quadratic forms of the present block */
-    bool turns;        /* of the present rate: its imaginary part is meant */
-} linear;
+typedef nh_linear_motion_block linear;
+enum { most_drives = NH_LINEAR_MOTION_DRIVES };
 
 /* ---- the matrix ---- */
 
@@ -189,60 +178,6 @@ static nh_ex named(linear *l, double value, bool turns)
     l->turns = turns;
     nh_ex e = nh_name_value(r->model, value, follow, l, r->options.recognise, (uint64_t)r->options.seed);
     return e ? e : nh_real(d, value);
-}
-
-/* exp(-re t) {cos(im t), sin(im t)}, or without the waves. */
-static size_t waves(nh_dag *d, nh_ex t, nh_ex re, nh_ex im, nh_ex *out)
-{
-    nh_ex decay = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, re, t))), angle = nh_mul(d, im, t);
-    out[0] = decay;
-    if (nh_is_zero(d, im)) return 1;
-    out[0] = nh_mul(d, decay, nh_call(d, NH_COS, angle));
-    out[1] = nh_mul(d, decay, nh_call(d, NH_SIN, angle));
-    return 2;
-}
-
-/* sqrt(e) or -sqrt(e), whichever has no root: w for w^2.  Both are rates. */
-static nh_ex either_root(nh_dag *d, nh_ex e)
-{
-    if (nh_kind_of(d, e) != NH_PRODUCT || nh_num_value(nh_constant_of(d, e)) < 0) return nh_sqrt(d, e);
-    nh_ex root = nh_sqrt(d, nh_number(d, nh_constant_of(d, e)));
-    for (size_t i = 0; i < nh_arity(d, e); i++) {
-        nh_ex exponent = nh_exponent_of(d, e, i);
-        nh_num x = nh_kind_of(d, exponent) == NH_NUMBER ? nh_number_of(d, exponent) : nh_num_real(0.5);
-        if (!nh_num_short(x) || x.q != 1 || x.p % 2) return nh_sqrt(d, e);
-        root = nh_mul(d, root, nh_powi(d, nh_child(d, e, i), x.p / 2));
-    }
-    return root;
-}
-
-/* A block of two: lambda = T/2 +- sqrt(T^2/4 - D) with the trace T and the determinant D. */
-static nh_driven_pair pair_of(const linear *l, bool turns)
-{
-    nh_dag *d = l->x->r->model->dag;
-    size_t i = l->of[0], j = l->of[1], n = l->size;
-    const nh_ex *e = l->entry;
-    if (nh_is_zero(d, e[j + i * n])) i = l->of[1], j = l->of[0];
-    nh_ex half = nh_mul(d, nh_ratio(d, 1, 2), nh_add(d, e[i + i * n], e[j + j * n]));
-    nh_ex D = nh_sub(d, nh_mul(d, e[i + i * n], e[j + j * n]), nh_mul(d, e[i + j * n], e[j + i * n]));
-    nh_ex square = nh_simplify_short(d, nh_sub(d, nh_mul(d, half, half), D), 0);
-    return (nh_driven_pair){.state = {l->z[i], l->z[j]},
-                            .drive = {l->b[i], l->b[j]},
-                            .a = e[i + i * n],
-                            .c = e[j + i * n],
-                            .half = half,
-                            .apart = either_root(d, turns ? nh_neg(d, square) : square),
-                            .turns = turns};
-}
-
-static size_t waves_of_two(const linear *l, const nh_driven_pair *p, nh_ex *out)
-{
-    nh_dag *d = l->x->r->model->dag;
-    nh_ex t = l->x->r->system->t;
-    if (p->turns) return waves(d, t, p->half, p->apart, out);
-    out[0] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_add(d, p->half, p->apart), t)));
-    out[1] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_sub(d, p->half, p->apart), t)));
-    return out[0] == out[1] ? 1 : 2;
 }
 
 /* ---- the stages of one block ---- */
@@ -451,8 +386,9 @@ static void solve_rate(linear *l, double re, double im, size_t times, bool formu
     bool many = l->forms && l->count > most_letters && (re == 0 || im == 0);
     if (many && wave_of_second_order(l, im != 0 ? turn : decay, im != 0, name)) return;
     nh_driven_pair pair = {0};
-    if (formulas) pair = pair_of(l, im != 0);
-    size_t count = formulas ? waves_of_two(l, &pair, wave) : waves(d, l->x->r->system->t, decay, turn, wave);
+    if (formulas) pair = nh_linear_motion_pair(l, im != 0);
+    size_t count = formulas ? nh_linear_motion_waves_of_two(l, &pair, wave)
+                            : nh_linear_motion_waves(d, l->x->r->system->t, decay, turn, wave);
     if (formulas && l->drives > 1 && nh_driven_pair_search(l->x, &pair) == count) return;
     both_stages(l, name, count, wave);
     powers_of_time(l, times, count, wave);
@@ -466,6 +402,8 @@ static void solve_block(linear *l)
     bool good = rates(l, re, im, &largest), null = false, formulas = n == 2;
     for (size_t k = 0; k < n && good; k++) null |= hypot(re[k], im[k]) <= defective * largest;
     if (good && null) polynomials(l);
+    nh_complex_pair pair;
+    if (good && !null && nh_linear_motion_complex_pair(l, &pair)) nh_complex_pair_search(l->x, &pair);
     l->forms = n == l->size ? l->x->forms : 0;
     if (good && !formulas) forms_if_unnamed(l, re, im);
     for (size_t k = 0; k < n && good && !nh_stage_solver_done(l->x); k++) {

@@ -84,6 +84,12 @@ typedef struct {
 } nh_driven_pair;
 /* Returns how many independent currents it finds. */
 size_t nh_driven_pair_search(nh_stage_solver *solver, const nh_driven_pair *pair);
+/* Two coordinates q, their velocities v, and v' = C v + K q; matrices by columns. */
+typedef struct {
+    nh_ex q[2], v[2], C[4], K[4];
+} nh_complex_pair;
+/* Returns how many independent currents it finds. */
+size_t nh_complex_pair_search(nh_stage_solver *solver, const nh_complex_pair *pair);
 /* Two velocities that turn along one coordinate, without a potential. */
 void nh_velocity_turn_search(nh_stage_solver *solver);
 /* Integrals found, up to this degree, times 1, coordinates, t and antiderivatives of the system's functions; for degree
