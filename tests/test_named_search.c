@@ -89,6 +89,13 @@ Test(named_search, kummer, PLAIN_ONLY)
                  2, "hyp", 2);
 }
 
+/* Parabolic cylinder functions: both are analytic at t = 0, through which motions go, where U of t^2 is not; one grows by many powers of ten. */
+Test(named_search, parabolic_cylinder, PLAIN_ONLY)
+{
+    expect_named(ask_text(HEAD("{name: k, value: 0.7}") "lagrangian: x'^2/2 + (t^2 + k)*x^2/2\n"), 2, "hyp1f1", 2);
+    expect_named(ask_text(HEAD("{name: k, value: 0.7}") "lagrangian: x'^2/2 + (t^2 + k)*x^2/2\ndomain: {t: [-1, 1]}\n"), 2, "hyp1f1", 2);
+}
+
 Test(named_search, gauss, PLAIN_ONLY)
 {
     expect_named(ask_text(HEAD("{name: n, value: 1.3}") "lagrangian: (1 - t^2)*x'^2/2 - n*(n + "

@@ -419,6 +419,9 @@ Test(piecewise, a_single_current_is_told_its_region)
         {"x'^2/2 - x*abs(t - 2)", "x' + (t - 2)*abs(t - 2)/2", NULL, false},
         {"x'^2/2 - x*abs(t - 2)", "x' + (t - 2)*abs(t - 2)/2 + sign(t - 2)", "on each side of t = 2, where it jumps", false},
         {"x'^2/2 - acos(cos(x))", "x'^2/2 + acos(cos(x))", NULL, false},
+        /* x'' = t^2 x: t U(3/4, 3/2, t^2) jumps at t = 0, t M(3/4, 3/2, t^2) does not */
+        {"x'^2/2 + t^2*x^2/2", "exp(-t^2/2)*((x - t*(x' + t*x))*hyperu(3/4, 3/2, t^2) + 2*t^2*x*hyperu_prime(3/4, 3/2, t^2))", "on each side of t = 0, where it jumps", false},
+        {"x'^2/2 + t^2*x^2/2", "exp(-t^2/2)*((x - t*(x' + t*x))*hyp1f1(3/4, 3/2, t^2) + 2*t^2*x*hyp1f1_prime(3/4, 3/2, t^2))", NULL, false},
     };
     for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
         char text[400];

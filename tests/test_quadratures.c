@@ -225,6 +225,13 @@ Test(quadratures, drag, PLAIN_ONLY)
               "coordinates: [{name: x, type: length}, {name: y, type: length}]\nlagrangian: m/2*(x'^2 + y'^2)\n"
               "forces: [\"x = -d*x'*sqrt(x'^2 + y'^2)\", \"y = -d*y'*sqrt(x'^2 + y'^2)\"]\n"
               "domain: {\"x'\": [0.2, 1], \"y'\": [0.2, 1]}\n"), "drag", 4, 5);
+    /* without parameters the radicand y'^2/x'^2 + 1 is written as a sum: over x'^2 it is proved, too */
+    nh_analysis *r = ask("name: drag\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                         "forces: [\"x = -x'*sqrt(x'^2 + y'^2)\", \"y = -y'*sqrt(x'^2 + y'^2)\"]\ndomain: {\"x'\": [0.4, 1], \"y'\": [0.4, 1]}\n");
+    size_t proved = 0;
+    for (size_t k = 0; k < r->count; k++) proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.all_parameters;
+    cr_expect_eq(proved, 4);
+    nh_analysis_free(r);
 }
 
 /* A skate with friction that a slope pulls: linear equations one after another. */

@@ -7,6 +7,7 @@
  *     y          of atan2(y, x), whose cut is y = 0, x < 0
  *     1/v        of atan(v): where v is infinite
  *     1 - v^2    of asin(v), acos(v);  v - 1 of acosh(v)
+ *     z          of U(a, b, z) and of Bessel functions of z;  1 - z^2 of Legendre functions;  1 - z of 2F1
  *
  * each cut into its factors, so that sqrt((x - y)^2) gives x - y.  These are candidates: an evaluation must show
  * whether the expression jumps there. */

@@ -113,10 +113,19 @@ static bool passage_at(finder *x, nh_ex g, double *z, passage *p)
     return size > 0 && isfinite(p->speed);
 }
 
+/* Motions begin in the user's interval for t, and go on from there. */
+static bool is_before(const nh_system *system, const double *z)
+{
+    for (size_t i = 0; i < system->intervals; i++)
+        if (system->interval[i].symbol == system->t && z[0] < system->interval[i].low) return true;
+    return false;
+}
+
 /* Do motions arrive from at least one side? */
 static bool is_reached(finder *x, nh_crossing *c)
 {
     passage far[2], near[2];
+    if (is_before(x->o->system, c->point[0][0])) return false;
     for (int side = 0; side < 2; side++) {
         if (!passage_at(x, c->wall, c->point[side][1], &far[side])
             || !passage_at(x, c->wall, c->point[side][2], &near[side])) return false;

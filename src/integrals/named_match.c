@@ -304,24 +304,30 @@ static bool quartic(matcher *m, nh_ex e, nh_ex c[5])
 
 /* x^2 R = A x^2 + B x + C: v = x^(1/2 + n) exp(-k x) M(1/2 + n + B/(2 k), 1 + 2
  * n, 2 k x), k^2 = A, n^2 = 1/4 + C [DLMF 13.14.2]; x^2 R = A x^4 + B x^2 + C:
- * v = x^(1/2 + n) exp(-k x^2/2) M((1 + n)/2 + B/(4 k), 1 + n, k x^2). */
+ * v = x^(1/2 + n) exp(-k x^2/2) M((1 + n)/2 + B/(4 k), 1 + n, k x^2).
+ * The other solution has U for M; or -n for n where that is another one: for n
+ * = 1/2 both are analytic at x = 0, where U has a branch point. */
 static size_t whittaker(matcher *m, nh_ex R, nh_ex out[2])
 {
     nh_dag *d = m->d;
-    nh_ex c[5], x = m->x, one = nh_int(d, 1), two = nh_int(d, 2);
+    nh_ex c[5], x = m->x, one = nh_int(d, 1), two = nh_int(d, 2), other[2];
     if (!quartic(m, simple(d, times(m, R, nh_powi(d, x, 2))), c) || !nh_is_zero(d, c[3])) return 0;
     bool square = !nh_is_zero(d, c[4]);
     nh_ex A = square ? c[4] : c[2], B = square ? c[2] : c[1], apart = simple(d, shifted(m, c[0], 1, 4));
     if ((square && !nh_is_zero(d, c[1])) || !(value_of(m, A) > 0) || value_of(m, apart) < 0) return 0;
     nh_ex k = root(m, A), n = nh_is_zero(d, apart) ? apart : root(m, apart), half = number(m, 1, 2);
-    nh_ex z = times(m, k, square ? nh_powi(d, x, 2) : times(m, two, x)),
-          front =
-              times(m, nh_pow(d, x, simple(d, plus(m, half, n))), nh_call(d, NH_EXP, times(m, number(m, -1, 2), z)));
-    if (square)
-        return kummer(m, front, plus(m, times(m, half, plus(m, one, n)), over(m, B, times(m, nh_int(d, 4), k))),
-                      plus(m, one, n), z, out);
-    return kummer(m, front, plus(m, plus(m, half, n), over(m, B, times(m, two, k))), plus(m, one, times(m, two, n)), z,
-                  out);
+    nh_ex z = times(m, k, square ? nh_powi(d, x, 2) : times(m, two, x)), decay = times(m, number(m, -1, 2), z);
+    nh_ex order = square ? n : simple(d, times(m, two, n));
+    bool both = nh_kind_of(d, order) == NH_NUMBER && nh_number_of(d, order).q > 1;
+    for (int sign = both ? -1 : 1; sign <= 1; sign += 2) {
+        nh_ex own = sign > 0 ? n : nh_neg(d, n);
+        nh_ex front = times(m, nh_pow(d, x, simple(d, plus(m, half, own))), nh_call(d, NH_EXP, decay));
+        nh_ex a = square ? plus(m, times(m, half, plus(m, one, own)), over(m, B, times(m, nh_int(d, 4), k)))
+                         : plus(m, plus(m, half, own), over(m, B, times(m, two, k)));
+        kummer(m, front, a, plus(m, one, square ? own : times(m, two, own)), z, sign > 0 ? out : other);
+    }
+    if (both) out[1] = other[0];
+    return 2;
 }
 
 /* x moved so that `at` becomes 0. */

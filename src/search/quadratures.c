@@ -106,6 +106,17 @@ static nh_ex joined_roots(nh_dag *d, nh_ex e)
     return e;
 }
 
+/* The split of N/D, also of one that is written as a sum, y^2/x^2 + 1: that of N D, over D. */
+static bool split_quotient(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
+{
+    e = nh_simplify_short(d, e, 0);
+    if (nh_kind_of(d, e) != NH_SUM) return nh_square_split(d, e, outside, inside);
+    nh_ex N = nh_numerator(d, e), D = nh_simplify_short(d, nh_div(d, N, e), 0);
+    if (!nh_square_split(d, nh_mul(d, N, D), outside, inside)) return false;
+    *outside = nh_div(d, *outside, D);
+    return true;
+}
+
 /* sqrt(m^2 u) as m sqrt(u), sqrt(x^4 u) as x^2 sqrt(u): if that changes a sign, the root has the other sign everywhere
  * in e; the result is proved anew. */
 static nh_ex shorter_roots(const nh_model *o, nh_ex e)
@@ -115,7 +126,7 @@ static nh_ex shorter_roots(const nh_model *o, nh_ex e)
     nh_ex radicand[most], outside, inside;
     size_t n = nh_radicands_in(d, e, radicand, most);
     for (size_t i = 0; i < n; i++) {
-        bool split = nh_square_split(d, nh_simplify_short(d, radicand[i], 0), &outside, &inside) &&
+        bool split = split_quotient(d, radicand[i], &outside, &inside) &&
                      (is_parametric(o, outside) || nh_model_sign(o, outside) > 0);
         if (split) e = nh_substitute_root(d, e, radicand[i], nh_mul(d, outside, nh_sqrt(d, inside)));
     }

@@ -158,10 +158,11 @@ static void named(problem *p, const char *what)
         n = nh_named_squares(r->model, p->variable, p->words, p->word, r->arena, phi, &p->equation);
     if (!n) return;
     *family = (nh_family){.kind = NH_TERMS, .terms = n, .term = phi};
-    nh_stage_solver_stage(p->x,
-                          nh_arena_printf(r->arena, "%s with coefficients that are named functions of %s", what,
-                                          nh_name_of(r->model->dag, p->variable)),
-                          1, family);
+    const char *name = nh_arena_printf(r->arena, "%s with coefficients that are named functions of %s", what,
+                                       nh_name_of(r->model->dag, p->variable));
+    nh_stage_solver_stage(p->x, name, 1, family);
+    /* in doubles a function that grows by many powers of ten hides behind one that does not */
+    for (size_t k = 0; k < n && !nh_stage_solver_done(p->x); k++) nh_stage_solver_certify(p->x, phi[k], name);
 }
 
 static void search(problem *p, const char *what)
