@@ -120,20 +120,20 @@ static nh_ex at(const problem *p, nh_ex form, const nh_ex w[2])
     return short_form(p, nh_substitute(p->d, form, 2, p->w, w));
 }
 
-static nh_ex integral(const problem *p, bool general, nh_ex f)
+/* int f ds; false where f is no function of s alone, or has none. */
+static bool integral(const problem *p, bool general, nh_ex f, nh_ex *F)
 {
-    nh_ex F, value = general ? f : nh_exact_values(p->o, f);
-    return of_s_alone(p, f) && nh_stage_solver_integral(p->x, p->s, value, true, &F) ? F : 0;
+    return of_s_alone(p, f) &&
+           nh_stage_solver_integral(p->x, p->s, general ? f : nh_exact_values(p->o, f), true, F);
 }
 
 /* dx/dt = alpha ds/dt + beta n_j w^j:   x C - C int alpha ds - K int beta D ds */
 static void position(const problem *p, const apart *y, bool general, size_t x)
 {
     nh_dag *d = p->d;
-    nh_ex rate = p->o->rho[x], beta = short_form(p, nh_div(d, at(p, rate, y->e), at(p, y->n, y->e)));
+    nh_ex rate = p->o->rho[x], A, B, beta = short_form(p, nh_div(d, at(p, rate, y->e), at(p, y->n, y->e)));
     nh_ex alpha = nh_sub(d, at(p, rate, y->unit), nh_mul(d, beta, at(p, y->n, y->unit)));
-    nh_ex A = integral(p, general, short_form(p, alpha)), B = integral(p, general, nh_mul(d, beta, y->D));
-    if (!A || !B) return;
+    if (!integral(p, general, short_form(p, alpha), &A) || !integral(p, general, nh_mul(d, beta, y->D), &B)) return;
     nh_ex first = nh_mul(d, nh_sub(d, p->o->system->coordinate[x].q, A), y->C);
     nh_stage_solver_certify(p->x, nh_sub(d, first, nh_mul(d, B, y->K)), "a position along two velocities");
 }
@@ -157,8 +157,8 @@ static bool alone(const problem *p, nh_ex D, bool general)
     if (!certified(p, (nh_ex[]){y.C, y.K})) return false;
     for (size_t x = 0; x < p->o->m && !nh_stage_solver_done(p->x); x++)
         if (system->coordinate[x].q != p->s) position(p, &y, general, x);
-    nh_ex T = nh_stage_solver_done(p->x) ? 0 : integral(p, general, g);
-    if (T)
+    nh_ex T;
+    if (!nh_stage_solver_done(p->x) && integral(p, general, g, &T))
         nh_stage_solver_certify(p->x, nh_sub(d, nh_mul(d, system->t, y.C), T), "time along two velocities");
     return true;
 }
