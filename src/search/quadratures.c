@@ -106,11 +106,12 @@ static nh_ex joined_roots(nh_dag *d, nh_ex e)
     return e;
 }
 
-/* The split of N/D, also of one that is written as a sum, y^2/x^2 + 1: that of N D, over D. */
+/* The split of N/D, also of one that is written as a sum without roots, y^2/x^2 + 1: that of N D, over D. */
 static bool split_quotient(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
 {
+    nh_ex root;
     e = nh_simplify_short(d, e, 0);
-    if (nh_kind_of(d, e) != NH_SUM) return nh_square_split(d, e, outside, inside);
+    if (nh_kind_of(d, e) != NH_SUM || nh_radicands_in(d, e, &root, 1)) return nh_square_split(d, e, outside, inside);
     nh_ex N = nh_numerator(d, e), D = nh_simplify_short(d, nh_div(d, N, e), 0);
     if (!nh_square_split(d, nh_mul(d, N, D), outside, inside)) return false;
     *outside = nh_div(d, *outside, D);
