@@ -194,8 +194,8 @@ static bool equations_hold(const nh_model *o, nh_ex phi, const nh_ex *zeta, nh_c
     return holds;
 }
 
-/* The field of a current that is a multiple of a momentum, by a constant of which only the value is known so far: Y_j(Phi)
- * and M_ij zeta^i have the ratio s. */
+/* The field of a current that is a multiple of a momentum, by a constant of which only the value is known so far:
+ * Y_j(Phi) and M_ij zeta^i have the ratio s. */
 static void scale(const nh_model *o, nh_ex phi, nh_ex *zeta)
 {
     nh_dag *d = o->dag;

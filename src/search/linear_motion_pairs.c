@@ -67,9 +67,11 @@ bool nh_linear_motion_complex_pair(const linear *l, nh_complex_pair *out)
         is = nh_is_zero(o->dag, l->b[i]);
         if (i >= o->m) continue;
         is = is && n < 2;
+        if (is) v[n] = l->size; /* none yet */
         for (size_t j = 0; j < l->count && is; j++)
             if (l->z[l->of[j]] == o->rho[i]) v[n] = l->of[j];
             else is = nh_is_zero(o->dag, l->entry[i + l->of[j] * l->size]);
+        is = is && v[n] < l->size;
         if (is) q[n++] = i;
     }
     if (!is || n != 2) return false;
