@@ -50,6 +50,10 @@ for program in $programs; do
     [ -f "$program.line" ] && read -r _ good bad _ <"$program.line"
     passed=$((passed + good))
     failed=$((failed + bad))
+    [ "$bad" = 0 ] || { # again, where one looks first, and where a log that was cut off still has it
+        echo "failed: $program"
+        grep -av -e '\[RUN \]' -e '\[PASS\]' -e '^measured: ' "$program.log" | head -n 40
+    }
 done
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ] && [ "$passed" -gt 0 ]
