@@ -3,6 +3,7 @@
 #define NH_DOCUMENT_BENCHMARK_INTERNAL_H
 
 #include "commands/benchmark.h"
+#include "document/pen.h"
 
 /* The remarks about the reference, at most so many sentences. */
 enum { NH_BENCHMARK_WARNINGS = 2 };
@@ -14,5 +15,8 @@ extern const double nh_benchmark_goal[NH_BENCHMARK_GOALS];
 
 /* For the discrete problem: */
 const char *nh_fitted_word(const nh_fitted *fitted); /* "accurate", "too few", ...; in JSON the first is "right" */
+
+/* The section "Where methods fail"; robustness NULL: nothing. */
+void nh_benchmark_write_robustness(nh_pen *pen, const nh_robustness *robustness);
 
 #endif

@@ -1,4 +1,4 @@
-#include "motion/accuracy.h"
+#include "motion/accuracy_internal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,28 +19,10 @@ static const double quick = 1e8, faster = 20;
 static const double patience = 10;
 /* other methods are measured for a motion that needs so much work by the method of the first run, */
 static const double worthwhile = 5e7;
-static const double pilot_share = 0.25;  /* and they may take so large a part of that work */
+static const double pilot_share = 0.25; /* and they may take so large a part of that work */
 /* with more motions like this one: the least work of one motion that is worth measuring, and how many of them count */
 static const double shortest = 5e5, most_times = 16;
-static const double more_steps = 0.8;     /* greatest (n1/n2)^order from one number n1 of fixed steps to the next, n2 */
-
-typedef struct {
-    const nh_trajectory_request *request;
-    const nh_integration_plans *ways;
-    double eps;
-    nh_accuracy *out;
-    /* the plan that was given, or measured and chosen; NULL: there is none, or it failed for this motion */
-    const nh_integration_plan *way;
-    nh_pilot_runs pilot;
-    nh_trajectory_request own; /* with the model that the pilot runs derived */
-    double first;          /* units of the whole motion by the method of the first run */
-    nh_programs *programs; /* for methods with a fixed step */
-    double *floor;         /* least scales of the wanted expressions */
-    bool measured_terms;   /* `floor` contains the terms of sums that may cancel */
-    const nh_method *method[2];
-    bool doubtful; /* another method must confirm the result */
-    bool stopped;  /* the first run ended at its limit of work */
-} search;
+static const double more_steps = 0.8; /* greatest (n1/n2)^order from one number n1 of fixed steps to the next, n2 */
 
 static double span_of(const nh_trajectory_request *q) { return fabs(q->times[q->count - 1] - q->times[0]); }
 
@@ -52,23 +34,23 @@ static double spacing_of(const nh_trajectory_request *q)
     return longest;
 }
 
-static bool fixed(const search *s) { return s->way && s->way->method->order; }
+static bool fixed(const nh_accuracy_search *s) { return s->way && s->way->method->order; }
 
 /* The number of steps between two outputs, of a method with fixed steps, whose steps end at the outputs. */
-static double steps_at(const search *s, double tolerance)
+static double steps_at(const nh_accuracy_search *s, double tolerance)
 {
     return fmax(1, ceil(spacing_of(s->request) / nh_integration_plan_setting(s->way, tolerance) * (1 - 1e-9)));
 }
 
 /* The factor by which the errors of a run fall: the ratio of the tolerances, or that of the steps to the order of the
  * method. */
-static double ratio_of(const search *s, double coarse, double fine)
+static double ratio_of(const nh_accuracy_search *s, double coarse, double fine)
 {
     return fixed(s) ? pow(steps_at(s, coarse) / steps_at(s, fine), s->way->method->order) : fine / coarse;
 }
 
 /* The next tolerance; of a method with fixed steps one that gives more steps. */
-static double tighter(const search *s, double coarse, double part)
+static double tighter(const nh_accuracy_search *s, double coarse, double part)
 {
     double fine = fmax(tightest, coarse * part);
     while (fixed(s) && fine > tightest && ratio_of(s, coarse, fine) > more_steps) fine = fmax(tightest, fine * step);
@@ -88,8 +70,8 @@ static nh_state disturbed(const nh_trajectory_request *q, double *q_and_v)
     return out;
 }
 
-static nh_trajectory *run(search *s, const nh_method *method, double tolerance, bool disturb, double max_effort,
-                          nh_error *error)
+static nh_trajectory *run(nh_accuracy_search *s, const nh_method *method, double tolerance, bool disturb,
+                          double max_effort, nh_error *error)
 {
     nh_trajectory_request q = *s->request;
     nh_options options = *q.options;
@@ -119,7 +101,7 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
 }
 
 /* The difference of two motions; INFINITY when one of them did not reach its end. */
-static double difference(const search *s, const nh_trajectory *a, const nh_trajectory *b)
+static double difference(const nh_accuracy_search *s, const nh_trajectory *a, const nh_trajectory *b)
 {
     if (!a || !b || !a->motion->complete || !b->motion->complete) return INFINITY;
     return nh_accuracy_difference(a->motion->count, s->request->n, a->value, b->value, s->floor, &s->out->quantity);
@@ -127,7 +109,7 @@ static double difference(const search *s, const nh_trajectory *a, const nh_traje
 
 static double between(double x, double low, double high) { return fmax(low, fmin(high, x)); }
 
-static void take(search *s, const char *const pair[2])
+static void take(nh_accuracy_search *s, const char *const pair[2])
 {
     for (int i = 0; i < 2; i++) s->method[i] = nh_method_find(pair[i]);
 }
@@ -159,7 +141,8 @@ static const nh_method *other_of(const nh_method *method)
 }
 
 /* The first run of an integration plan; NULL when it does not reach the end with so much effort. */
-static nh_trajectory *take_way(search *s, const nh_integration_plan_choice *choice, double effort, double *tolerance)
+static nh_trajectory *take_way(nh_accuracy_search *s, const nh_integration_plan_choice *choice, double effort,
+                               double *tolerance)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -182,7 +165,7 @@ static nh_trajectory *take_way(search *s, const nh_integration_plan_choice *choi
     return NULL;
 }
 
-static nh_integration_plan_limits limits_of(const search *s)
+static nh_integration_plan_limits limits_of(const nh_accuracy_search *s)
 {
     return (nh_integration_plan_limits){
         .scene = s->request->smallest, .other = s->request->other != NULL, .spacing = spacing_of(s->request)};
@@ -190,7 +173,7 @@ static nh_integration_plan_limits limits_of(const search *s)
 
 /* The run of a given plan; NULL when none was given, or it does not reach the end with about the work that it needed
  * when it was measured. */
-static nh_trajectory *take_given(search *s, double *tolerance)
+static nh_trajectory *take_given(nh_accuracy_search *s, double *tolerance)
 {
     nh_integration_plan_limits limits = limits_of(s);
     nh_integration_plan_choice choice = nh_integration_plan_cheapest(s->ways->count, s->ways->way, s->eps, &limits);
@@ -201,7 +184,7 @@ static nh_trajectory *take_given(search *s, double *tolerance)
 
 /* Chooses the pair of methods, and makes the first run: by the explicit pair, and where that does not reach the end
  * within `quick`, by the implicit pair with far less work.  Where neither reaches the end the explicit pair is used. */
-static nh_trajectory *race(search *s, double tolerance)
+static nh_trajectory *race(nh_accuracy_search *s, double tolerance)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -220,7 +203,7 @@ static nh_trajectory *race(search *s, double tolerance)
 }
 
 /* A state in the middle of the computed part, from which a piece is typical of the whole motion. q_and_v: 2m values. */
-static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double *q_and_v)
+static nh_state state_on_the_way(const nh_accuracy_search *s, const nh_trajectory *t, double *q_and_v)
 {
     const nh_model *o = s->request->model;
     nh_motion *m = t->motion;
@@ -240,7 +223,7 @@ static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double
 
 /* Measures other methods on a piece of the motion of the first run, t; returns the first run of one that saves work, or
  * NULL. */
-static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *tolerance)
+static nh_trajectory *take_surveyed(nh_accuracy_search *s, const nh_trajectory *t, double *tolerance)
 {
     if (!s->ways->pilot || !t || !(complete(t) || s->stopped)) return NULL;
     s->first = whole(s->request, t);
@@ -276,7 +259,7 @@ static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *t
 }
 
 /* Where no plan was given: chooses the pair of methods, and returns the first run. */
-static nh_trajectory *choose(search *s, double *tolerance, nh_error *error)
+static nh_trajectory *choose(nh_accuracy_search *s, double *tolerance, nh_error *error)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -295,7 +278,7 @@ static nh_trajectory *choose(search *s, double *tolerance, nh_error *error)
 }
 
 /* The motion from the unperturbed initial state, where it can be computed. */
-static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
+static nh_trajectory *undisturbed(nh_accuracy_search *s, nh_trajectory *a)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -307,7 +290,7 @@ static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
 }
 
 /* Tightens the tolerance until the estimate is below eps/2; returns the last trajectory. */
-static nh_trajectory *tighten(search *s, nh_error *error)
+static nh_trajectory *tighten(nh_accuracy_search *s, nh_error *error)
 {
     double eps = s->eps, coarse = between(nh_accuracy_first * eps, 10 * tightest, loosest), last_difference = 0,
            last_ratio = 0, exponent = nh_accuracy_exponent;
@@ -357,7 +340,7 @@ static nh_trajectory *tighten(search *s, nh_error *error)
 }
 
 /* Runs the other method at tighter and tighter tolerances until it agrees. */
-static void confirm(search *s, const nh_trajectory *t)
+static void confirm(nh_accuracy_search *s, const nh_trajectory *t)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -372,91 +355,8 @@ static void confirm(search *s, const nh_trajectory *t)
     }
 }
 
-static const char *where(const nh_integration_plan *w)
-{
-    return w->velocities == NH_OWN_VELOCITIES    ? ""
-           : w->velocities == NH_ALL_COORDINATES ? " in all coordinates"
-                                                 : " in other velocities";
-}
-
-/* "GSL rk8pd at tolerance 1.0e-09", "relaxation, order 8 with steps of 0.01" */
-static void put_setting(const search *s, const nh_trajectory *t, char *out, size_t size)
-{
-    const nh_accuracy *a = s->out;
-    if (isnan(a->step))
-        snprintf(out, size, "%s%s at tolerance %.1e", t->method, a->measured ? where(s->way) : "", a->tolerance);
-    else snprintf(out, size, "%s with steps of %.2g", t->method, a->step);
-}
-
-/* Where the choice of the method comes from, in words. */
-static void explain_choice(const search *s)
-{
-    nh_accuracy *a = s->out;
-    char *end = a->why + strlen(a->why);
-    size_t left = sizeof a->why - strlen(a->why);
-    double part = 100 * s->pilot.part;
-    if (a->choice == NH_CHOICE_SHORT)
-        snprintf(end, left,
-                 "; the motion needs %.2g million counted operations: measuring other methods would need more",
-                 s->first / 1e6);
-    if (a->choice != NH_CHOICE_PILOT) return;
-    if (!a->measured)
-        snprintf(end, left, "; %zu methods were measured on %.2g %% of the motion: none would save work",
-                 s->pilot.tried, part);
-    else if (a->other)
-        snprintf(end, left,
-                 "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); "
-                 "the next, %s, needs %.2g times as much counted work",
-                 s->eps, s->pilot.tried, part, a->other->name, a->next);
-    else
-        snprintf(end, left,
-                 "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); "
-                 "every other needs at least twice as much counted work",
-                 s->eps, s->pilot.tried, part);
-}
-
-static const char *words_of_size(const search *s, const nh_trajectory *t)
-{
-    return nh_accuracy_cancels(s->request, t, s->out->quantity, &s->out->size) ? ", a sum of larger terms that cancel"
-                                                                               : "";
-}
-
-static void explain(search *s, const nh_trajectory *t)
-{
-    nh_accuracy *a = s->out;
-    size_t size = sizeof a->why;
-    char what[96];
-    put_setting(s, t, what, sizeof what);
-    if (nh_interrupted() && !a->held)
-        snprintf(a->why, size,
-                 "interrupted before the accuracy %.1e was reached: the result is that of %s, with unknown error",
-                 s->eps, what);
-    else if (!t->motion->complete)
-        snprintf(a->why, size, "the accuracy %.1e was not reached: the motion ended at t = %.6g", s->eps,
-                 t->motion->end_time);
-    else if (!(a->estimate < s->eps / 2)) {
-        const char *words = words_of_size(s, t);
-        snprintf(a->why, size,
-                 "the accuracy %.1e was not reached: %s has an estimated error of %.1e, in a quantity of size %.1e%s",
-                 s->eps, what, a->estimate, a->size, words);
-    } else if (!s->doubtful)
-        snprintf(a->why, size, "%s, estimated error %.1e", what, a->estimate);
-    else if (a->held)
-        snprintf(a->why, size, "%s, estimated error %.1e, %s agrees to %.1e", what, a->estimate, a->second,
-                 a->difference);
-    else if (!isfinite(a->difference))
-        snprintf(
-            a->why, size,
-            "the accuracy %.1e was not confirmed: %s estimates an error of %.1e, but %s could not compute the motion",
-            s->eps, t->method, a->estimate, a->second);
-    else
-        snprintf(a->why, size,
-                 "the accuracy %.1e was not confirmed: %s estimates an error of %.1e, but %s differs by %.1e", s->eps,
-                 t->method, a->estimate, a->second, a->difference);
-}
-
 /* Records how the motion was computed, so that others like it can be computed in the same way. */
-static nh_integration_plan way_of(const search *s, const nh_trajectory *t)
+static nh_integration_plan way_of(const nh_accuracy_search *s, const nh_trajectory *t)
 {
     const nh_accuracy *a = s->out;
     nh_integration_plan w = {.method = s->method[0],
@@ -474,7 +374,7 @@ static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, 
 {
     static const nh_integration_plans none = {.count = 0};
     *accuracy = (nh_accuracy){.wanted = eps, .estimate = INFINITY, .difference = INFINITY, .step = NAN, .next = NAN};
-    search s = {.ways = ways ? ways : &none, .own = *request, .eps = eps, .out = accuracy};
+    nh_accuracy_search s = {.ways = ways ? ways : &none, .own = *request, .eps = eps, .out = accuracy};
     s.request = &s.own;
     s.floor = nh_alloc_array(request->n + 1, sizeof *s.floor);
     nh_accuracy_zeros(request, s.floor);
@@ -484,8 +384,7 @@ static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, 
         if (good && s.doubtful && !nh_interrupted()) confirm(&s, t);
         accuracy->held = good && (!s.doubtful || accuracy->difference < eps);
         if (fixed(&s)) accuracy->step = spacing_of(request) / steps_at(&s, accuracy->tolerance);
-        explain(&s, t);
-        if (accuracy->held) explain_choice(&s);
+        nh_accuracy_explain(&s, t);
         accuracy->way = way_of(&s, t);
         if (fixed(&s)) accuracy->tolerance = NAN;
     }
@@ -512,7 +411,8 @@ nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, doub
     if (other && plain.held) {
         size_t used = strlen(plain.why);
         snprintf(plain.why + used, sizeof plain.why - used,
-                 "; the method chosen first, %s%s, did not reach the accuracy", t->method, where(&accuracy->way));
+                 "; the method chosen first, %s%s, did not reach the accuracy", t->method,
+                 nh_accuracy_where(&accuracy->way));
         *accuracy = plain;
         nh_trajectory_free(t);
         return other;
