@@ -218,6 +218,14 @@ Test(quadratures, time_of_the_sleigh, PLAIN_ONLY)
 
 /* ---- others ---- */
 
+static void all_proved(nh_analysis *r, size_t count)
+{
+    size_t proved = 0;
+    for (size_t k = 0; k < r->count; k++) proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.all_parameters;
+    cr_expect_eq(proved, count, "%zu", proved);
+    nh_analysis_free(r);
+}
+
 /* Drag with the square of the speed: x' |x'| has a sign. */
 Test(quadratures, drag, PLAIN_ONLY)
 {
@@ -226,15 +234,17 @@ Test(quadratures, drag, PLAIN_ONLY)
               "forces: [\"x = -d*x'*sqrt(x'^2 + y'^2)\", \"y = -d*y'*sqrt(x'^2 + y'^2)\"]\n"
               "domain: {\"x'\": [0.2, 1], \"y'\": [0.2, 1]}\n"), "drag", 4, 5);
     /* without parameters the radicand y'^2/x'^2 + 1 is written as a sum: over x'^2 it is proved, too */
-    nh_analysis *r = ask("name: drag\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
-                         "forces: [\"x = -x'*sqrt(x'^2 + y'^2)\", \"y = -y'*sqrt(x'^2 + y'^2)\"]\ndomain: {\"x'\": [0.4, 1], \"y'\": [0.4, 1]}\n");
-    size_t proved = 0;
-    for (size_t k = 0; k < r->count; k++) proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.all_parameters;
-    cr_expect_eq(proved, 4);
-    nh_analysis_free(r);
+    all_proved(ask("name: drag\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                   "forces: [\"x = -x'*sqrt(x'^2 + y'^2)\", \"y = -y'*sqrt(x'^2 + y'^2)\"]\ndomain: {\"x'\": [0.4, 1], \"y'\": [0.4, 1]}\n"), 4);
 }
 
-/* A skate with friction that a slope pulls: linear equations one after another. */
+/* Appell's and Hamel's constraint where it is a root of velocities: sqrt(x'^4 + x'^2 y'^2) is x' z', and x + x' z' is conserved on either branch. */
+Test(quadratures, a_root_of_velocities)
+{
+    all_proved(ask("name: cone\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - z\nconstraints: [\"z'^2 = x'^2 + y'^2\"]\n"
+                   "domain: {\"x'\": [0.3, 1], \"z'\": [0.4, 1]}\n"), 5);
+}
+
 /* The radicand x'^2 (1 + C^2) is a square times a constant: nothing is left to series, and the signs go into the roots again. */
 Test(quadratures, drag_along_the_path)
 {
@@ -252,6 +262,7 @@ Test(quadratures, drag_along_the_path)
     nh_analysis_free(r);
 }
 
+/* A skate with friction that a slope pulls: linear equations one after another. */
 Test(quadratures, skate_on_slope, PLAIN_ONLY)
 {
     check(ask("name: slope\nparameters: [{name: m, value: 2}, {name: J, value: 1}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"

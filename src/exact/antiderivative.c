@@ -323,15 +323,13 @@ static nh_ex without_fractions_below(const nh_integration *in, nh_ex f)
             nh_ex base = nh_child(d, product[i], k), x = nh_exponent_of(d, product[i], k);
             bool half = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 2;
             if (!half || !nh_depends(d, base, in->x)) continue;
-            nh_ex N = nh_numerator(d, base), D = nh_simplify_short(d, nh_div(d, N, base), 0);
-            nh_ex outside, inside, both = nh_simplify_short(d, nh_mul(d, N, D), 0);
+            nh_ex D = nh_simplify_short(d, nh_div(d, nh_numerator(d, base), base), 0), outside, inside;
             if (!nh_depends(d, D, in->x) || is_exponential(d, D)) continue;
-            if (!nh_square_split(d, both, &outside, &inside)) continue;
-            nh_ex factor = nh_simplify_short(d, nh_div(d, outside, D), 0);
-            int sign = in->sign(in->context, factor);
+            if (!nh_square_split_quotient(d, base, &outside, &inside)) continue;
+            int sign = in->sign(in->context, outside);
             if (!sign) continue;
             f = nh_substitute_root(d, f, base,
-                                   nh_product(d, 3, (nh_ex[]){nh_int(d, sign), factor, nh_sqrt(d, inside)}));
+                                   nh_product(d, 3, (nh_ex[]){nh_int(d, sign), outside, nh_sqrt(d, inside)}));
         }
     return f;
 }

@@ -23,6 +23,14 @@ bool nh_square_split(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
     return true;
 }
 
+bool nh_square_split_quotient(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
+{
+    nh_ex N = nh_numerator(d, e), D = nh_simplify_short(d, nh_div(d, N, e), 0);
+    if (!nh_square_split(d, nh_simplify_short(d, nh_mul(d, N, D), 0), outside, inside)) return false;
+    *outside = nh_simplify_short(d, nh_div(d, *outside, D), 0);
+    return true;
+}
+
 typedef struct {
     nh_dag *d;
     size_t most;

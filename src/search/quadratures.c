@@ -9,6 +9,7 @@
 #include "exact/square.h"
 #include "graph/measure.h"
 #include "graph/print.h"
+#include "graph/terms.h"
 #include "integrals/exact_points.h"
 #include "integrals/real_where.h"
 #include "search/currents.h"
@@ -106,16 +107,17 @@ static nh_ex joined_roots(nh_dag *d, nh_ex e)
     return e;
 }
 
-/* The split of N/D, also of one that is written as a sum without roots, y^2/x^2 + 1: that of N D, over D. */
-static bool split_quotient(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
+static bool split(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
 {
     nh_ex root;
     e = nh_simplify_short(d, e, 0);
-    if (nh_kind_of(d, e) != NH_SUM || nh_radicands_in(d, e, &root, 1)) return nh_square_split(d, e, outside, inside);
-    nh_ex N = nh_numerator(d, e), D = nh_simplify_short(d, nh_div(d, N, e), 0);
-    if (!nh_square_split(d, nh_mul(d, N, D), outside, inside)) return false;
-    *outside = nh_div(d, *outside, D);
-    return true;
+    bool quotient = nh_kind_of(d, e) == NH_SUM && !nh_radicands_in(d, e, &root, 1);
+    nh_ex common = nh_kind_of(d, e) == NH_SUM ? nh_terms_common(d, e) : nh_int(d, 1);
+    if (!nh_is_number(d, common, 1)) {
+        e = nh_mul(d, common, nh_simplify_short(d, nh_div(d, e, common), 0));
+        quotient = false;
+    }
+    return quotient ? nh_square_split_quotient(d, e, outside, inside) : nh_square_split(d, e, outside, inside);
 }
 
 /* sqrt(m^2 u) as m sqrt(u), sqrt(x^4 u) as x^2 sqrt(u): if that changes a sign, the root has the other sign everywhere
@@ -127,9 +129,9 @@ static nh_ex shorter_roots(const nh_model *o, nh_ex e)
     nh_ex radicand[most], outside, inside;
     size_t n = nh_radicands_in(d, e, radicand, most);
     for (size_t i = 0; i < n; i++) {
-        bool split = split_quotient(d, radicand[i], &outside, &inside) &&
-                     (is_parametric(o, outside) || nh_model_sign(o, outside) > 0);
-        if (split) e = nh_substitute_root(d, e, radicand[i], nh_mul(d, outside, nh_sqrt(d, inside)));
+        bool positive = split(d, radicand[i], &outside, &inside) &&
+                        (is_parametric(o, outside) || nh_model_sign(o, outside) > 0);
+        if (positive) e = nh_substitute_root(d, e, radicand[i], nh_mul(d, outside, nh_sqrt(d, inside)));
     }
     return e;
 }

@@ -57,10 +57,8 @@ static bool quadratic(problem *p, nh_ex Q)
 static nh_ex root_of(const problem *p, nh_ex e)
 {
     nh_dag *d = p->d;
-    nh_ex outside, inside, N = nh_numerator(d, e), D = short_form(p, nh_div(d, N, e));
-    return nh_square_split(d, short_form(p, nh_mul(d, N, D)), &outside, &inside)
-               ? nh_div(d, nh_mul(d, outside, nh_sqrt(d, inside)), D)
-               : nh_sqrt(d, e);
+    nh_ex outside, inside;
+    return nh_square_split_quotient(d, e, &outside, &inside) ? nh_mul(d, outside, nh_sqrt(d, inside)) : nh_sqrt(d, e);
 }
 
 static bool of_s_alone(const problem *p, nh_ex f)
