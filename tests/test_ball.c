@@ -2,6 +2,7 @@
 #include <criterion/criterion.h>
 #include <math.h>
 
+#include "exact/ball_eigenvalues.h"
 #include "exact/ball_fit.h"
 
 static nh_dag *dag;
@@ -251,4 +252,28 @@ Test(ball, fit_finds_the_true_combination)
     nh_ball_set_ratio(ball, x, 3, 5);
     cr_expect(nh_ball_fit_residual(fit, 0, &ratio) && ratio < -25, "%g", ratio);
     nh_ball_fit_free(fit);
+}
+
+/* x1'' = -7/10 x1, x2'' = x1 - 7/10 x2, x3'' = x2 - 7/10 x3: +- i sqrt(7/10), three times each, in one block of Jordan's. */
+Test(ball, a_multiple_eigenvalue_is_not_split)
+{
+    enum { n = 6 };
+    nh_ex A[n * n];
+    double re[n], im[n];
+    for (size_t i = 0; i < n * n; i++) A[i] = nh_int(dag, 0);
+    for (size_t i = 0; i < 3; i++) {
+        A[i * n + i + 3] = nh_int(dag, 1);
+        A[(i + 3) * n + i] = nh_ratio(dag, -7, 10);
+        if (i) A[(i + 3) * n + i - 1] = nh_int(dag, 1);
+    }
+    cr_assert(nh_ball_eigenvalues(ball, n, A, re, im));
+    size_t above = 0;
+    for (size_t i = 0; i < n; i++) {
+        above += im[i] > 0;
+        cr_expect_leq(fabs(fabs(im[i]) - sqrt(0.7)), 1e-14, "%.17g", im[i]);
+        cr_expect_leq(fabs(re[i]), 1e-14, "%.17g", re[i]);
+    }
+    cr_expect_eq(above, 3);
+    A[0] = nh_call(dag, NH_LOG, nh_int(dag, -1));
+    cr_expect_not(nh_ball_eigenvalues(ball, n, A, re, im));
 }

@@ -164,7 +164,11 @@ Test(linear_motion, jordan_blocks_have_powers_of_time, PLAIN_ONLY)
     static const char *const text[] = {
         "name: j\ncoordinates: [x, y]\nlagrangian: \"x'*y' - x*y - y^2/2\"\n",
         "name: j\nparameters: [{name: w, value: 1.7}]\ncoordinates: [x, y]\nlagrangian: \"x'*y' - w^2*x*y - y^2/2\"\n",
-        "name: j\ncoordinates: [a, b, c, d]\nlagrangian: \"a'*b' - a*b - b^2/2 + c'*d' - c*d - d^2/2\"\n"};
+        "name: j\ncoordinates: [a, b, c, d]\nlagrangian: \"a'*b' - a*b - b^2/2 + c'*d' - c*d - d^2/2\"\n",
+        /* a rate that rounding splits by its cube root; a drive of the frame's own rate, which brings t^2 */
+        "name: j\nparameters: {k: 0.7}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - k*(x^2 + y^2 + z^2)/2\nforces: [\"y = x\", \"z = y\"]\n",
+        "name: j\nparameters: {w: 0.6}\ncoordinates: [x, y]\n"
+        "lagrangian: (x'^2 + y'^2)/2 + w*(x*y' - y*x') + w^2*(x^2 + y^2)/2 - x*cos(w*t) + y*sin(w*t)\n"};
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
         nh_analysis *r = ask(text[k]);
         cr_expect_eq(r->independent, r->local_maximum, "%s: %zu", text[k], r->independent);

@@ -1,6 +1,7 @@
 #include "exact/ball_eigenvalues.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "exact/ball_internal.h"
@@ -63,4 +64,52 @@ bool nh_ball_eigenvalue_roots(nh_ball *ball, size_t n, const nh_ex *M, const nh_
     _acb_vec_clear(value, (slong)n);
     _acb_vec_clear(near, (slong)n);
     return good && isfinite(*error);
+}
+
+/* as a part of the largest: equal eigenvalues, of so many bits, are nearer */
+static const double equal = 1e-9;
+
+static void join_equal(size_t n, double *re, double *im)
+{
+    double *mean = nh_alloc_array(2 * n + 1, sizeof *mean), largest = 0;
+    for (size_t k = 0; k < n; k++) largest = fmax(largest, hypot(re[k], im[k]));
+    for (size_t k = 0; k < n; k++) {
+        double count = 0;
+        for (size_t j = 0; j < n; j++) {
+            if (hypot(re[j] - re[k], im[j] - im[k]) > equal * largest) continue;
+            count++;
+            mean[k] += re[j];
+            mean[n + k] += im[j];
+        }
+        mean[k] /= count;
+        mean[n + k] /= count;
+    }
+    memcpy(re, mean, n * sizeof *re);
+    memcpy(im, mean + n, n * sizeof *im);
+    nh_free(mean);
+}
+
+bool nh_ball_eigenvalues(nh_ball *ball, size_t n, const nh_ex *A, double *re, double *im)
+{
+    arb_mat_t entries;
+    acb_mat_t matrix;
+    acb_ptr value = _acb_vec_init((slong)n);
+    double error = 0;
+    arb_mat_init(entries, (slong)n, (slong)n);
+    acb_mat_init(matrix, (slong)n, (slong)n);
+    bool good = values(ball, n, A, entries);
+    if (good) {
+        acb_mat_set_arb_mat(matrix, entries);
+        acb_mat_approx_eig_qr(value, NULL, NULL, matrix, NULL, 0, nh_ball_bits(ball));
+    }
+    for (size_t i = 0; i < n && good; i++) {
+        re[i] = middle(acb_realref(value + i), &error);
+        im[i] = middle(acb_imagref(value + i), &error);
+        good = isfinite(re[i]) && isfinite(im[i]);
+    }
+    if (good) join_equal(n, re, im);
+    acb_mat_clear(matrix);
+    arb_mat_clear(entries);
+    _acb_vec_clear(value, (slong)n);
+    return good;
 }

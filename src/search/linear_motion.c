@@ -22,6 +22,7 @@
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "graph/terms.h"
+#include "exact/ball_eigenvalues.h"
 #include "exact/invariant_forms.h"
 #include "exact/normal.h"
 #include "integrals/recognise.h"
@@ -30,11 +31,14 @@
 
 enum {
     longest = 2000,  /* symbols of an equation of motion */
+    most_close = 24,  /* largest block in which rates that are equal are computed with so many bits, */
+    bits = 512,
     most_letters = 12 /* largest block in which rates without a name may still be roots (integrals/letters.h) */
 };
-/* as a part of the largest rate: a smaller rate is zero, a double eigenvalue that rounding splits by its square root */
-static const double defective = 1e-5,
-                    equal = 1e-6;     /* the same for the relative distance of two equal rates */
+/* As parts of the largest rate: a smaller rate is zero, a double eigenvalue that rounding splits by its square root; */
+static const double defective = 1e-5;
+static const double equal = 1e-6; /* two rates as near as this are equal, */
+static const double split = 1e-2; /* and as near as this perhaps */
 
 typedef nh_linear_motion_block linear;
 enum { most_drives = NH_LINEAR_MOTION_DRIVES };
@@ -140,6 +144,17 @@ static bool read_matrix(linear *l)
 
 /* ---- rates ---- */
 
+/* Are two of the rates so close that rounding may have split one? */
+static bool nearly_equal(size_t n, const double *re, const double *im)
+{
+    double largest = 0, least = HUGE_VAL;
+    for (size_t k = 0; k < n; k++) {
+        largest = fmax(largest, hypot(re[k], im[k]));
+        for (size_t j = 0; j < k; j++) least = fmin(least, hypot(re[j] - re[k], im[j] - im[k]));
+    }
+    return least < split * largest;
+}
+
 /* Eigenvalues of the block, as it is at this model's parameters. */
 static bool eigenvalues(const linear *l, const nh_model *o, double *re, double *im)
 {
@@ -150,6 +165,13 @@ static bool eigenvalues(const linear *l, const nh_model *o, double *re, double *
         for (size_t i = 0; i < n; i++) e[i + j * n] = l->entry[l->of[i] + l->of[j] * l->size];
     nh_tape_constants(o->dag, n * n, e, o->system->parameters, o->parameter, o->parameter_value, A);
     bool good = nh_eigen(n, A, re, im, NULL);
+    if (good && n <= most_close && nearly_equal(n, re, im)) {
+        nh_ball *ball = nh_ball_create(o->dag, bits);
+        for (size_t k = 0; k < o->system->parameters; k++)
+            nh_ball_set_expression(ball, o->parameter[k], nh_number(o->dag, nh_num_decimal(o->parameter_value[k])));
+        good = nh_ball_eigenvalues(ball, n, e, re, im) || nh_eigen(n, A, re, im, NULL);
+        nh_ball_free(ball);
+    }
     nh_free(A);
     nh_free(e);
     return good;
@@ -349,19 +371,20 @@ static size_t multiplicity(const linear *l, const double *re, const double *im, 
 }
 
 /* Where a rate that occurs several times has fewer eigenvectors, as in L = x' y' - x y - y^2/2, powers of t come with
-   the waves. */
+   the waves; a drive of that rate, seen from a turning frame for example, brings one power more. */
 static void powers_of_time(linear *l, size_t times, size_t count, const nh_ex *wave)
 {
     enum { most = 6 };
     nh_analysis *r = l->x->r;
     nh_dag *d = r->model->dag;
     size_t null = r->stage[r->stages - 1].dimension, n = 0;
-    if (times < 2 || null == 0 || null >= times * count || l->drives > 1 || nh_stage_solver_done(l->x)) return;
-    if (!l->forms) quadratic_forms(l);
+    bool driven = l->drives > 1, whole = !driven && (null == 0 || null >= times * count);
+    if (times < 2 || whole || nh_stage_solver_done(l->x)) return;
+    if (!l->forms && !driven) quadratic_forms(l);
     nh_ex f[2 * most];
     for (size_t k = 0; k < times && k < most; k++)
         for (size_t i = 0; i < count; i++) f[n++] = nh_mul(d, wave[i], nh_powi(d, r->system->t, (int64_t)k));
-    stage(l, "states with linear equations, times exponentials, waves and powers of t", false, n, f);
+    stage(l, "states with linear equations, times exponentials, waves and powers of t", driven, n, f);
 }
 
 /* The rates of the block; a rate that differs from zero by rounding is set to zero.  Returns the largest, or false. */
