@@ -406,6 +406,17 @@ Test(piecewise, smooth_and_rational_currents_hold_everywhere)
     }
 }
 
+/* Geodesics of a sphere of Berger's: t - atan(..)/sqrt(A) is proved for the given a, because its roots have branches; as a sine and a cosine of t sqrt(A), with
+ * which it goes on where the arctangent jumps, it is proved for all. */
+Test(piecewise, angles_are_proved_for_all_parameters, PLAIN_ONLY)
+{
+    nh_analysis *r = analysed("parameters: {a: 0.4}\ncoordinates: [{name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+                              "lagrangian: (h'^2 + p'^2*sin(h)^2 + a*(s' + p'*cos(h))^2)/2\ndomain: {h: [0.6, 1.3]}\n");
+    cr_expect_eq(r->independent, 5);
+    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "%s", r->found[k].name);
+    nh_analysis_free(r);
+}
+
 Test(piecewise, a_single_current_is_told_its_region)
 {
     static const struct {

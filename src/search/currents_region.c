@@ -65,11 +65,11 @@ const char *nh_currents_hold(nh_current_checker *b, nh_current *f)
 }
 
 /* Can the same current be written so that it passes through its walls?  Then it must be proved again, and hold
- * everywhere. */
+ * everywhere; perhaps for more parameter values, because it has no roots and arctangents whose branches must agree. */
 static bool goes_through(nh_current_checker *b, nh_current *f, nh_ex phi)
 {
     nh_model *o = b->result->model;
-    nh_claim claim = {.free = f->proof.all_parameters || f->proof.fixed, .fixed = f->proof.fixed};
+    nh_claim claim = {.free = f->exact, .fixed = f->proof.fixed};
     if (phi == f->phi) return false;
     nh_proof proof = nh_prove_claim(o, phi, claim, &b->result->options);
     if (!proof.proved || nh_currents_region(b, phi, 0, NULL)) return false;
