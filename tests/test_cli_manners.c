@@ -294,7 +294,8 @@ Test(cli_manners, an_interrupted_motion_leaves_nothing_behind)
              "NHSYM_CC=$PWD/slow TMPDIR=$PWD/tmp '%.200s' simulate contact_oscillator --initial \"x=1, y'=0.5\" --until 1e6 --step 50 --option steps=1e9 --option compile=1e-9 >out 2>err & p=$!\n"
              "for i in $(seq 500); do [ -s child ] && break; sleep 0.02; done\nsleep 0.3\nkill -INT $p\nwait $p || code=$?\n"
              "[ -z \"$(ls tmp)\" ] || exit 90\n[ \"$(wc -l <out)\" -gt 2 ] || exit 91\ngrep -q interrupted err || exit 92\n"
-             "! kill -0 $(cat child) 2>/dev/null || [ \"$(sed -n 's/^State:[^A-Z]*\\(.\\).*/\\1/p' /proc/$(cat child)/status 2>/dev/null)\" = Z ] || exit 93\nexit $code", p.program);
+             "ended() { ! kill -0 $(cat child) 2>/dev/null || [ \"$(sed -n 's/^State:[^A-Z]*\\(.\\).*/\\1/p' /proc/$(cat child)/status 2>/dev/null)\" = Z ]; }\n"
+             "for i in $(seq 500); do ended && break; sleep 0.02; done\nended || exit 93\nexit $code", p.program); /* on a busy machine a process that was killed ends when it has its turn */
     char *argument[] = {"sh", "-c", command, NULL};
     finished f = run_vector(&p, &(manner){0}, argument);
     cr_expect_eq(f.code, 130, "exit code %d: %s", f.code, f.err);
@@ -306,18 +307,25 @@ Test(cli_manners, an_interrupted_motion_leaves_nothing_behind)
    signal ends the run without them and without a part of a file; a signal that comes several times at once, as `timeout` sends it, is one. */
 Test(cli_manners, an_interrupted_ensemble_says_that_it_is_written)
 {
+    static const char *const delays[] = {"0.5", "2", "8"};
     place p = place_with_systems();
-    char command[800];
-    snprintf(command, sizeof command,
-             "'%.200s' simulate sleigh --ensemble 20000 --until 2000 --step 20 --quiet --progress always --json e.json >out 2>err & p=$!\n"
-             "until [ -s err ] || ! kill -0 $p; do sleep 0.02; done\nsleep 0.5\nfor i in 1 2 3; do kill -INT $p; sleep 0.01; done\n"
-             "until grep -q 'writing the results so far' err || ! kill -0 $p; do sleep 0.02; done\nkill -INT $p || exit 93\n"
-             "for i in $(seq 100); do kill -0 $p || break; sleep 0.02; done\n! kill -0 $p || { kill -9 $p; exit 94; }\n"
-             "[ -z \"$(ls *.json .e* 2>/dev/null)\" ] || exit 95\ngrep -q 'were not written completely' err || exit 96\nwait $p", p.program);
-    char *argument[] = {"sh", "-c", command, NULL};
-    finished f = run_vector(&p, &(manner){0}, argument);
-    cr_expect_eq(f.code, 130, "exit code %d: %s", f.code, f.err);
-    finished_clear(&f);
+    int code = 93;
+    for (size_t i = 0; i < sizeof delays / sizeof *delays && code == 93; i++) { /* 93: the tables were written before the second signal came */
+        char command[800];
+        snprintf(command, sizeof command,
+                 "rm -f err; '%.200s' simulate sleigh --ensemble 20000 --until 2000 --step 20 --quiet --progress always --json e.json >out 2>err & p=$!\n"
+                 "until [ -s err ] || ! kill -0 $p; do sleep 0.02; done\nsleep %s\nfor i in 1 2 3; do kill -INT $p; sleep 0.01; done\n"
+                 "until grep -q 'writing the results so far' err || ! kill -0 $p; do sleep 0.02; done\nkill -INT $p || exit 93\n"
+                 "for i in $(seq 100); do kill -0 $p || break; sleep 0.02; done\n! kill -0 $p || { kill -9 $p; exit 94; }\n"
+                 "[ -z \"$(ls *.json .e* 2>/dev/null)\" ] || exit 95\ngrep -q 'were not written completely' err || exit 96\nwait $p", p.program, delays[i]);
+        char *argument[] = {"sh", "-c", command, NULL};
+        finished f = run_vector(&p, &(manner){0}, argument);
+        code = f.code;
+        cr_expect(code == 130 || code == 93, "exit code %d: %s", f.code, f.err);
+        finished_clear(&f);
+        unlink_here(&p, "e.json");
+    }
+    cr_expect_eq(code, 130, "exit code %d", code);
     place_clear(&p);
 }
 
