@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 
+#include "count/jet_equations.h"
 #include "count/lift.h"
 #include "exact/normal.h"
 
@@ -83,4 +84,47 @@ Test(lift, coefficients_like_given_ones)
     cr_expect_not(nh_lift_coefficients(o, 1, term, like, 0, 1e9, c), "one term");
     nh_model_free(o);
     nh_system_free(s);
+}
+
+/* Along a motion the energy has no terms beyond its value: a pendulum on a cart, and a coin that rolls down a slope. */
+Test(lift, series_along_motions_keep_the_energy)
+{
+    enum { order = 6 };
+    static const char *const text[][2] = {{"name: cart\nparameters: {m: 2, l: 1/3}\ncoordinates: [x, {name: f, type: angle}]\n"
+                                           "lagrangian: m*x'^2/2 + (x'^2 + 2*l*x'*f'*cos(f) + l^2*f'^2)/2 + 9*l*cos(f)\n",
+                                           "m*x'^2/2 + (x'^2 + 2*l*x'*f'*cos(f) + l^2*f'^2)/2 - 9*l*cos(f)"},
+                                          {"name: coin\nparameters: {m: 2, J: 1/3}\ncoordinates: [x, y, {name: f, type: angle}, {name: p, type: angle}]\n"
+                                           "lagrangian: m*(x'^2 + y'^2)/2 + J*f'^2/2 + J*p'^2 - m*x\nconstraints: [\"x' = cos(f)*p'\", \"y' = sin(f)*p'\"]\n",
+                                           "m*(x'^2 + y'^2)/2 + J*f'^2/2 + J*p'^2 + m*x"}};
+    for (size_t i = 0; i < 2; i++) {
+        nh_error error = {0};
+        nh_system *s = system_of(text[i][0]);
+        nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
+        must(o != NULL, &error, text[i][0]);
+        nh_ex e = nh_model_compose(o, expression_of(s, text[i][1]));
+        nh_jet_equations *x = nh_jet_equations_create(o, false, false);
+        cr_assert(nh_jet_equations_take(x, true, &e), "%s", x->obstacle);
+        size_t one = 1, tried = 0;
+        nh_prime field = nh_jet_point_prime(x->point, 0);
+        nh_jet_ring *ring = nh_jet_ring_create(field, 1, &one, order);
+        nh_residue w[4], q[8 * (order + 1)], v[4 * (order + 1)], value[order + 1];
+        for (uint64_t seed = 1; seed < 100 && tried < 3; seed++) {
+            nh_jet_equations_choose(x, field, seed);
+            for (size_t k = 0; k < x->n; k++) w[k] = (nh_residue)(seed + 7 * k);
+            if (!nh_jet_equations_along(x, ring, w, q, v)) continue;
+            tried++;
+            nh_jet_eval *eval = nh_jet_equations_eval(x, ring, q);
+            for (size_t k = 0; k < x->n; k++) nh_jet_eval_set(eval, x->w[k], v + k * ring->size, true);
+            cr_assert(nh_jet_eval_all(eval, 1, &e, value));
+            cr_expect_neq(value[0], 0);
+            cr_expect_neq(q[1], 0);
+            for (size_t k = 1; k <= order; k++) cr_expect_eq(value[k], 0, "system %zu, order %zu", i, k);
+            nh_jet_eval_free(eval);
+        }
+        cr_expect_eq(tried, 3);
+        nh_jet_ring_free(ring);
+        nh_jet_equations_free(x);
+        nh_model_free(o);
+        nh_system_free(s);
+    }
 }

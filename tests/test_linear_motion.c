@@ -219,3 +219,35 @@ Test(linear_motion, complex_coordinates, PLAIN_ONLY)
         nh_analysis_free(r);
     }
 }
+
+/* ---- linear equations that the coordinates hide ---- */
+
+#define POLAR "coordinates: [{name: r, type: length}, {name: f, type: angle}]\ndomain: {r: [0.4, 1.4]}\nlagrangian: (r'^2 + r^2*f'^2)/2 "
+#define SPACE "coordinates: [{name: r, type: length}, {name: h, type: angle}, {name: f, type: angle}]\ndomain: {r: [0.4, 1.4], h: [0.4, 1.2]}\n" \
+              "lagrangian: (r'^2 + r^2*h'^2 + r^2*sin(h)^2*f'^2)/2 "
+
+/* An oscillator with drag, in a magnetic field, driven, seen from a turning frame with its own drive, with two bodies, in space; also by the square, the exponential
+ * and the logarithm of a coordinate.  Each had series, or numbers, or two fewer, or took a minute. */
+Test(linear_motion, functions_of_the_coordinates, PLAIN_ONLY)
+{
+    static const char *const text[] = {
+        "parameters: {c: 0.3, k: 0.5}\n" POLAR "- k*r^2/2\nforces: [\"r = -c*r'\", \"f = -c*r^2*f'\"]\n",
+        "parameters: {b: 0.7, k: 0.5}\n" POLAR "+ b*r^2*f'/2 - k*r^2/2\n",
+        "parameters: {e: 0.3, w: 0.7}\n" POLAR "- r^2/2 - e*r*cos(f)*cos(w*t)\n",
+        "parameters: {w: 0.3, g: 0.7}\n" POLAR "+ r^2*f'*w + r^2*w^2/2 - g*r*cos(f + w*t)\n",
+        "parameters: {b: 0.2, k: 0.3}\n" SPACE "+ b*r^2*sin(h)^2*f'/2 - k*r^2/2\n",
+        "parameters: {k: 0.2}\ncoordinates: [{name: r, type: length}, {name: f, type: angle}, {name: s, type: length}, {name: g, type: angle}]\n"
+        "domain: {r: [0.4, 1.2], s: [0.5, 1.3]}\nlagrangian: (r'^2 + r^2*f'^2 + s'^2 + s^2*g'^2)/2 - k*(r^2 + s^2 - 2*r*s*cos(f - g))/2\n",
+        "parameters: {k: 0.2}\ncoordinates: [u, v]\nlagrangian: (2*u*u' + v')^2/2 + v'^2/2 - k*(u^2 + v)^2/2 - v^2/2\ndomain: {u: [0.4, 1.2], v: [0.4, 1.2]}\n",
+        "parameters: {k: 0.2}\ncoordinates: [u, v]\nlagrangian: exp(2*u)*u'^2/2 + v'^2/2 - k*exp(2*u)/2 - v*exp(u)/5 - v^2/2\n",
+        "parameters: {k: 0.2}\ncoordinates: [u, v]\nlagrangian: u'^2/(2*u^2) + v'^2/2 - k*log(u)^2/2 - v*log(u)/5 - v^2/2\ndomain: {u: [0.4, 2]}\n"};
+    for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
+        char whole[600];
+        snprintf(whole, sizeof whole, "name: hidden\n%s", text[k]);
+        nh_analysis *r = ask(whole);
+        size_t proved = 0;
+        for (size_t i = 0; i < r->count; i++) proved += r->found[i].independence == NH_INDEPENDENT && r->found[i].proof.all_parameters;
+        cr_expect_eq(proved, r->local_maximum, "%s: %zu of %zu", text[k], proved, r->local_maximum);
+        nh_analysis_free(r);
+    }
+}

@@ -409,3 +409,34 @@ bool nh_jet_equations_accelerations(nh_jet_equations *x, const nh_jet_ring *ring
     nh_jet_eval_free(v);
     return good;
 }
+
+/* ---- motions ---- */
+
+bool nh_jet_equations_along(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *w, nh_residue *q,
+                            nh_residue *v)
+{
+    size_t n = x->n, size = ring->size, first = x->coordinates - x->m;
+    nh_prime field = ring->field;
+    nh_residue *M = nh_alloc_array(n * n * size + 1, sizeof *M), *a = nh_alloc_array(n * size + 1, sizeof *a),
+               *rho = nh_alloc_array(x->m * size + 1, sizeof *rho);
+    bool good = true;
+    memset(q, 0, x->coordinates * size * sizeof *q);
+    memset(v, 0, n * size * sizeof *v);
+    for (size_t k = 0; k < x->coordinates; k++) q[k * size] = x->at[k];
+    for (size_t i = 0; i < n; i++) v[i * size] = w[i];
+    for (size_t s = 0; s + 1 < size && good; s++) { /* each time one term more is right */
+        nh_residue part = nh_residue_inverse(field, s + 1);
+        nh_jet_eval *eval = nh_jet_equations_eval(x, ring, q);
+        for (size_t i = 0; i < n; i++) nh_jet_eval_set(eval, x->w[i], v + i * size, true);
+        good = nh_jet_eval_all(eval, n * n, x->M, M) && nh_jet_eval_all(eval, n, x->A, a) &&
+               nh_jet_eval_all(eval, x->m, x->rho, rho) && nh_jet_solve(ring, n, M, 1, a);
+        for (size_t k = 0; k < x->coordinates && good; k++)
+            q[k * size + s + 1] = k < first ? s == 0 : nh_residue_mul(field, part, rho[(k - first) * size + s]);
+        for (size_t i = 0; i < n && good; i++) v[i * size + s + 1] = nh_residue_mul(field, part, a[i * size + s]);
+        nh_jet_eval_free(eval);
+    }
+    nh_free(M);
+    nh_free(a);
+    nh_free(rho);
+    return good;
+}

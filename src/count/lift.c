@@ -34,29 +34,6 @@ typedef struct {
 
 /* ---- rates at a point ---- */
 
-/* The point moves along the motion: the first derivatives of coordinates and velocities.  False: it is singular. */
-static bool directions(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *w, nh_residue *q, nh_residue *v)
-{
-    size_t n = x->n, size = ring->size, first = x->coordinates - x->m;
-    for (size_t k = 0; k < x->coordinates; k++) q[k * size] = x->at[k];
-    nh_jet_eval *eval = nh_jet_equations_eval(x, ring, q);
-    nh_jet_equations_velocities(x, eval, ring, w);
-    nh_residue *M = nh_alloc_array(n * n * size + 1, sizeof *M), *a = nh_alloc_array(n * size + 1, sizeof *a),
-               *rho = nh_alloc_array(x->m * size + 1, sizeof *rho);
-    bool good = nh_jet_eval_all(eval, n * n, x->M, M) && nh_jet_eval_all(eval, n, x->A, a) &&
-                nh_jet_eval_all(eval, x->m, x->rho, rho) && nh_jet_solve(ring, n, M, 1, a);
-    for (size_t k = 0; k < x->coordinates && good; k++) q[k * size + 1] = k < first ? 1 : rho[(k - first) * size];
-    for (size_t i = 0; i < n && good; i++) {
-        v[i * size] = w[i];
-        v[i * size + 1] = a[i * size];
-    }
-    nh_free(M);
-    nh_free(a);
-    nh_free(rho);
-    nh_jet_eval_free(eval);
-    return good;
-}
-
 /* Gamma of all terms at a random point.  `parameter`: their residues; NULL: random ones. */
 static bool rates(lifting *l, nh_prime field, uint64_t seed, const nh_residue *parameter)
 {
@@ -70,7 +47,7 @@ static bool rates(lifting *l, nh_prime field, uint64_t seed, const nh_residue *p
                *q = nh_alloc_array(x->coordinates * ring->size + 1, sizeof *q),
                *series = nh_alloc_array(l->terms * ring->size, sizeof *series);
     for (size_t i = 0; i < n; i++) w[i] = nh_residue_random(field, &random);
-    bool good = directions(x, ring, w, q, v);
+    bool good = nh_jet_equations_along(x, ring, w, q, v);
     if (good) {
         nh_jet_eval *eval = nh_jet_equations_eval(x, ring, q);
         for (size_t i = 0; i < n; i++) nh_jet_eval_set(eval, x->w[i], v + i * ring->size, true);

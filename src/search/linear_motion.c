@@ -33,6 +33,7 @@ enum {
     longest = 2000,  /* symbols of an equation of motion */
     most_close = 24,  /* largest block in which rates that are equal are computed with so many bits, */
     bits = 512,
+    most_powers = 6,  /* of t, in one block of Jordan's */
     most_letters = 12 /* largest block in which rates without a name may still be roots (integrals/letters.h) */
 };
 /* As parts of the largest rate: a smaller rate is zero, a double eigenvalue that rounding splits by its square root; */
@@ -41,7 +42,6 @@ static const double equal = 1e-6; /* two rates as near as this are equal, */
 static const double split = 1e-2; /* and as near as this perhaps */
 
 typedef nh_linear_motion_block linear;
-enum { most_drives = NH_LINEAR_MOTION_DRIVES };
 
 /* ---- the matrix ---- */
 
@@ -64,50 +64,12 @@ static void join(linear *l, size_t i, size_t j)
     l->block[a > b ? a : b] = a > b ? b : a;
 }
 
-/* The function of t that the term is a constant multiple of. */
-static nh_ex function_of_time(nh_dag *d, nh_ex term, nh_ex t)
+static void find_blocks(linear *l)
 {
-    if (nh_kind_of(d, term) != NH_PRODUCT) return nh_depends(d, term, t) ? term : nh_int(d, 1);
-    nh_ex g = nh_int(d, 1);
-    for (size_t i = 0; i < nh_arity(d, term); i++) {
-        nh_ex factor = nh_pow(d, nh_child(d, term, i), nh_exponent_of(d, term, i));
-        if (nh_depends(d, factor, t)) g = nh_mul(d, g, factor);
-    }
-    return g;
-}
-
-static bool add_drive(linear *l, nh_ex term)
-{
-    nh_dag *d = l->x->r->model->dag;
-    nh_ex g = function_of_time(d, term, l->x->r->system->t);
-    bool old = nh_is_zero(d, term);
-    for (size_t i = 0; i < l->drives && !old; i++) old = g == l->drive[i];
-    if (!old && l->drives == most_drives) return false;
-    if (!old) l->drive[l->drives++] = g;
-    return true;
-}
-
-/* The functions of the terms of e that are new, sums below factors multiplied out; false where they are too many. */
-static bool add_drives(linear *l, nh_ex e)
-{
-    nh_ex *part;
-    bool fits = true;
-    size_t n = nh_terms_of(l->x->r->model->dag, e, &part);
-    if (n == 1) fits = add_drive(l, e);
-    for (size_t k = 1; k < n && fits; k++) fits = add_drives(l, part[k]);
-    nh_free(part);
-    return fits;
-}
-
-/* b of one row, from which the terms with z are taken, and the derivatives of its functions. */
-static bool drive(linear *l, nh_ex b)
-{
-    const nh_model *o = l->x->r->model;
-    size_t first = l->drives;
-    bool fits = add_drives(l, nh_simplify_short(o->dag, b, 0));
-    for (size_t i = first; i < l->drives && fits; i++)
-        fits = add_drives(l, nh_simplify_short(o->dag, nh_diff(o->dag, l->drive[i], o->system->t), 0));
-    return fits;
+    for (size_t i = 0; i < l->size; i++) l->block[i] = i;
+    for (size_t i = 0; i < l->size; i++)
+        for (size_t j = 0; j < l->size; j++)
+            if (!nh_is_zero(l->x->r->model->dag, l->entry[i + j * l->size])) join(l, i, j);
 }
 
 /* Row i of A; false when z_i' is not linear, or depends on t otherwise. */
@@ -121,25 +83,20 @@ static bool row(linear *l, size_t i, nh_ex rate)
         nh_ex slope = nh_simplify_short(o->dag, nh_diff(o->dag, rate, l->z[j]), 0);
         if (!constant(o, slope)) return false;
         l->entry[i + j * l->size] = slope;
-        if (!nh_is_zero(o->dag, slope)) join(l, i, j);
         b = nh_substitute(o->dag, b, 1, &l->z[j], &zero);
     }
     l->b[i] = b;
-    return drive(l, b);
+    return true;
 }
 
 static bool read_matrix(linear *l)
 {
     const nh_model *o = l->x->r->model;
     if (o->chart->implicit) return false;
-    l->drive[l->drives++] = nh_int(o->dag, 1);
-    for (size_t i = 0; i < l->size; i++) {
-        l->block[i] = i;
-        l->z[i] = o->chart->symbol[1 + i];
-    }
+    for (size_t i = 0; i < l->size; i++) l->z[i] = o->chart->symbol[1 + i];
     for (size_t i = 0; i < l->size; i++)
         if (!row(l, i, i < o->m ? o->rho[i] : o->a[i - o->m])) return false;
-    return true;
+    return nh_linear_motion_drives(l);
 }
 
 /* ---- rates ---- */
@@ -224,6 +181,19 @@ static void stage(linear *l, const char *name, bool resonant, size_t functions, 
     if (!nh_stage_solver_done(l->x)) nh_stage_solver_stage(l->x, name, 1, all);
 }
 
+bool nh_linear_motion_velocity(const linear *l, size_t i, size_t *j)
+{
+    nh_dag *d = l->x->r->model->dag;
+    size_t n = 0;
+    for (size_t k = 0; k < l->size; k++) {
+        nh_ex e = l->entry[i + k * l->size];
+        if (nh_is_zero(d, e)) continue;
+        n += k >= l->places && nh_is_number(d, e, 1) ? 1 : 2;
+        *j = k;
+    }
+    return n == 1;
+}
+
 /* q'' = B q: the coordinates of the block, and in the same places their velocities; 0 where it is not so. */
 static size_t second_order(const linear *l, size_t *q, size_t *w)
 {
@@ -233,14 +203,12 @@ static size_t second_order(const linear *l, size_t *q, size_t *w)
     for (size_t k = 0; k < l->count && is; k++) {
         size_t i = l->of[k];
         is = nh_is_zero(o->dag, l->b[i]);
-        if (i < o->m) {
+        if (i < l->places) {
             q[n] = i;
-            w[n] = o->m;
-            for (size_t j = o->m; j < l->size; j++)
-                if (nh_is_number(o->dag, l->entry[i + j * l->size], 1) && o->rho[i] == l->z[j]) w[n] = j;
-            is = is && o->rho[i] == l->z[w[n++]];
+            is = is && nh_linear_motion_velocity(l, i, &w[n++]);
         }
-        for (size_t j = o->m; j < l->size && i >= o->m; j++) is = is && nh_is_zero(o->dag, l->entry[i + j * l->size]);
+        for (size_t j = l->places; j < l->size && i >= l->places; j++)
+            is = is && nh_is_zero(o->dag, l->entry[i + j * l->size]);
     }
     return is && 2 * n == l->count ? n : 0;
 }
@@ -320,7 +288,7 @@ static void quadratic_forms(linear *l)
     bool constant_force = false;
     for (int positions = 0; positions < 2; positions++)
         for (size_t i = 0; i < n; i++)
-            if ((l->of[i] < o->m) == (positions == 1)) of[at++] = l->of[i];
+            if ((l->of[i] < l->places) == (positions == 1)) of[at++] = l->of[i];
     for (size_t i = 0; i < n; i++) constant_force |= !nh_is_zero(d, l->b[of[i]]);
     size_t all = n + constant_force;
     nh_ex *z = nh_alloc_array(all + 1, sizeof *z), *A = nh_alloc_array(all * all + 1, sizeof *A), trace = nh_int(d, 0);
@@ -370,21 +338,27 @@ static size_t multiplicity(const linear *l, const double *re, const double *im, 
     return count;
 }
 
+/* Waves times powers of t below `times`, these one after another; their number. */
+static size_t with_powers(linear *l, size_t times, size_t count, const nh_ex *wave, nh_ex *out)
+{
+    nh_dag *d = l->x->r->model->dag;
+    size_t n = 0;
+    for (size_t k = 0; k < times && k < most_powers; k++)
+        for (size_t i = 0; i < count; i++) out[n++] = nh_mul(d, wave[i], nh_powi(d, l->x->r->system->t, (int64_t)k));
+    return n;
+}
+
 /* Where a rate that occurs several times has fewer eigenvectors, as in L = x' y' - x y - y^2/2, powers of t come with
-   the waves; a drive of that rate, seen from a turning frame for example, brings one power more. */
+   the waves. */
 static void powers_of_time(linear *l, size_t times, size_t count, const nh_ex *wave)
 {
-    enum { most = 6 };
     nh_analysis *r = l->x->r;
-    nh_dag *d = r->model->dag;
-    size_t null = r->stage[r->stages - 1].dimension, n = 0;
-    bool driven = l->drives > 1, whole = !driven && (null == 0 || null >= times * count);
-    if (times < 2 || whole || nh_stage_solver_done(l->x)) return;
-    if (!l->forms && !driven) quadratic_forms(l);
-    nh_ex f[2 * most];
-    for (size_t k = 0; k < times && k < most; k++)
-        for (size_t i = 0; i < count; i++) f[n++] = nh_mul(d, wave[i], nh_powi(d, r->system->t, (int64_t)k));
-    stage(l, "states with linear equations, times exponentials, waves and powers of t", driven, n, f);
+    size_t null = r->stage[r->stages - 1].dimension;
+    if (times < 2 || null == 0 || null >= times * count || l->drives > 1 || nh_stage_solver_done(l->x)) return;
+    if (!l->forms) quadratic_forms(l);
+    nh_ex f[2 * most_powers];
+    size_t n = with_powers(l, times, count, wave, f);
+    stage(l, "states with linear equations, times exponentials, waves and powers of t", false, n, f);
 }
 
 /* The rates of the block; a rate that differs from zero by rounding is set to zero.  Returns the largest, or false. */
@@ -408,11 +382,10 @@ static void solve_rate(linear *l, double re, double im, size_t times, bool formu
     nh_ex wave[2], decay = formulas ? 0 : named(l, re, false), turn = formulas ? 0 : named(l, im, true);
     bool many = l->forms && l->count > most_letters && (re == 0 || im == 0);
     if (many && wave_of_second_order(l, im != 0 ? turn : decay, im != 0, name)) return;
-    nh_driven_pair pair = {0};
-    if (formulas) pair = nh_linear_motion_pair(l, im != 0);
-    size_t count = formulas ? nh_linear_motion_waves_of_two(l, &pair, wave)
+    size_t count = formulas ? nh_linear_motion_waves_of_two(l, im != 0, wave)
                             : nh_linear_motion_waves(d, l->x->r->system->t, decay, turn, wave);
-    if (formulas && l->drives > 1 && nh_driven_pair_search(l->x, &pair) == count) return;
+    nh_ex f[2 * most_powers];
+    if (l->drives > 1 && nh_linear_motion_driven(l, with_powers(l, times, count, wave, f), f) == times * count) return;
     both_stages(l, name, count, wave);
     powers_of_time(l, times, count, wave);
 }
@@ -438,27 +411,33 @@ static void solve_block(linear *l)
     nh_free(re);
 }
 
-static linear linear_of(nh_stage_solver *x, bool *is)
+nh_linear_motion_block nh_linear_motion_create(nh_stage_solver *x, size_t size, size_t places)
 {
-    size_t size = x->r->model->m + x->r->model->n;
-    linear l = {.x = x,
-                .size = size,
-                .z = nh_alloc_array(size + 1, sizeof *l.z),
-                .b = nh_alloc_array(size + 1, sizeof *l.b),
-                .entry = nh_alloc_array(size * size + 1, sizeof *l.entry),
-                .block = nh_alloc_array(size + 1, sizeof *l.block),
-                .of = nh_alloc_array(size + 1, sizeof *l.of)};
-    *is = read_matrix(&l);
-    return l;
+    return (linear){.x = x,
+                    .size = size,
+                    .places = places,
+                    .z = nh_alloc_array(size + 1, sizeof(nh_ex)),
+                    .b = nh_alloc_array(size + 1, sizeof(nh_ex)),
+                    .entry = nh_alloc_array(size * size + 1, sizeof(nh_ex)),
+                    .block = nh_alloc_array(size + 1, sizeof(size_t)),
+                    .of = nh_alloc_array(size + 1, sizeof(size_t))};
 }
 
-static void linear_clear(linear *l)
+void nh_linear_motion_clear(linear *l)
 {
     nh_free(l->of);
     nh_free(l->block);
     nh_free(l->entry);
     nh_free(l->b);
     nh_free(l->z);
+}
+
+static linear linear_of(nh_stage_solver *x, bool *is)
+{
+    const nh_model *o = x->r->model;
+    linear l = nh_linear_motion_create(x, o->m + o->n, o->m);
+    *is = read_matrix(&l);
+    return l;
 }
 
 static void take_block(linear *l, size_t first)
@@ -472,6 +451,7 @@ void nh_linear_motion_forms(nh_stage_solver *x)
 {
     bool is;
     linear l = linear_of(x, &is);
+    if (is) find_blocks(&l);
     if (is) take_block(&l, 0);
     if (is && l.count == l.size) {
         double *re = nh_alloc_array(2 * l.size + 1, sizeof *re), *im = re + l.size, largest;
@@ -479,16 +459,22 @@ void nh_linear_motion_forms(nh_stage_solver *x)
         nh_free(re);
         x->forms = l.forms;
     }
-    linear_clear(&l);
+    nh_linear_motion_clear(&l);
+}
+
+void nh_linear_motion_solve(linear *l)
+{
+    find_blocks(l);
+    for (size_t first = 0; first < l->size && !nh_stage_solver_done(l->x); first++) {
+        take_block(l, first);
+        if (l->count) solve_block(l);
+    }
 }
 
 void nh_linear_motion_search(nh_stage_solver *x)
 {
     bool is;
     linear l = linear_of(x, &is);
-    for (size_t first = 0; first < l.size && is && !nh_stage_solver_done(x); first++) {
-        take_block(&l, first);
-        if (l.count) solve_block(&l);
-    }
-    linear_clear(&l);
+    if (is) nh_linear_motion_solve(&l);
+    nh_linear_motion_clear(&l);
 }

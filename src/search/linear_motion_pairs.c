@@ -29,31 +29,19 @@ static nh_ex either_root(nh_dag *d, nh_ex e)
     return root;
 }
 
-nh_driven_pair nh_linear_motion_pair(const linear *l, bool turns)
+size_t nh_linear_motion_waves_of_two(const linear *l, bool turns, nh_ex out[2])
 {
     nh_dag *d = l->x->r->model->dag;
     size_t i = l->of[0], j = l->of[1], n = l->size;
     const nh_ex *e = l->entry;
-    if (nh_is_zero(d, e[j + i * n])) i = l->of[1], j = l->of[0];
+    nh_ex t = l->x->r->system->t;
     nh_ex half = nh_mul(d, nh_ratio(d, 1, 2), nh_add(d, e[i + i * n], e[j + j * n]));
     nh_ex D = nh_sub(d, nh_mul(d, e[i + i * n], e[j + j * n]), nh_mul(d, e[i + j * n], e[j + i * n]));
     nh_ex square = nh_simplify_short(d, nh_sub(d, nh_mul(d, half, half), D), 0);
-    return (nh_driven_pair){.state = {l->z[i], l->z[j]},
-                            .drive = {l->b[i], l->b[j]},
-                            .a = e[i + i * n],
-                            .c = e[j + i * n],
-                            .half = half,
-                            .apart = either_root(d, turns ? nh_neg(d, square) : square),
-                            .turns = turns};
-}
-
-size_t nh_linear_motion_waves_of_two(const linear *l, const nh_driven_pair *p, nh_ex out[2])
-{
-    nh_dag *d = l->x->r->model->dag;
-    nh_ex t = l->x->r->system->t;
-    if (p->turns) return nh_linear_motion_waves(d, t, p->half, p->apart, out);
-    out[0] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_add(d, p->half, p->apart), t)));
-    out[1] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_sub(d, p->half, p->apart), t)));
+    nh_ex apart = either_root(d, turns ? nh_neg(d, square) : square);
+    if (turns) return nh_linear_motion_waves(d, t, half, apart, out);
+    out[0] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_add(d, half, apart), t)));
+    out[1] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_sub(d, half, apart), t)));
     return out[0] == out[1] ? 1 : 2;
 }
 
@@ -65,13 +53,8 @@ bool nh_linear_motion_complex_pair(const linear *l, nh_complex_pair *out)
     for (size_t k = 0; k < l->count && is; k++) {
         size_t i = l->of[k];
         is = nh_is_zero(o->dag, l->b[i]);
-        if (i >= o->m) continue;
-        is = is && n < 2;
-        if (is) v[n] = l->size; /* none yet */
-        for (size_t j = 0; j < l->count && is; j++)
-            if (l->z[l->of[j]] == o->rho[i]) v[n] = l->of[j];
-            else is = nh_is_zero(o->dag, l->entry[i + l->of[j] * l->size]);
-        is = is && v[n] < l->size;
+        if (i >= l->places) continue;
+        is = is && n < 2 && nh_linear_motion_velocity(l, i, &v[n]);
         if (is) q[n++] = i;
     }
     if (!is || n != 2) return false;

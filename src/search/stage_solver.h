@@ -67,6 +67,8 @@ void nh_rates_search(nh_stage_solver *solver);
 void nh_rates_search_in(nh_stage_solver *solver, const nh_family *base);
 /* Systems, or blocks of coordinates, whose equations of motion are linear with constant coefficients. */
 void nh_linear_motion_search(nh_stage_solver *solver);
+/* The same of functions of the coordinates that have such equations. */
+void nh_linear_motion_functions(nh_stage_solver *solver);
 /* The quadratic forms of such a system alone, where its rates have no names.  They contain what the stage of positions
  * turned into each other gives, which needs more work. */
 void nh_linear_motion_forms(nh_stage_solver *solver);
@@ -74,16 +76,6 @@ void nh_linear_motion_forms(nh_stage_solver *solver);
 void nh_linear_fields_search(nh_stage_solver *solver);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
 void nh_isometries_search(nh_stage_solver *solver);
-/* Two states with linear equations and a drive; `apart`: half the distance of the eigenvalues, which are half +- apart,
- * or with `turns` half +- i apart. */
-typedef struct {
-    nh_ex state[2], drive[2]; /* z, g */
-    nh_ex a, c;               /* z1' = a z1 + .., z2' = c z1 + ..: c is not 0 */
-    nh_ex half, apart;
-    bool turns;
-} nh_driven_pair;
-/* Returns how many independent currents it finds. */
-size_t nh_driven_pair_search(nh_stage_solver *solver, const nh_driven_pair *pair);
 /* Two coordinates q, their velocities v, and v' = C v + K q; matrices by columns. */
 typedef struct {
     nh_ex q[2], v[2], C[4], K[4];

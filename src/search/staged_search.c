@@ -110,6 +110,7 @@ static const step steps[] = {
     {.stage = NH_STAGE_DRIVE},               /* with what a force of t adds to them */
     {.run = stages_of_many},                 /* and angular momenta, where everything else is too large */
     {.run = nh_linear_motion_search},        /* before the pencil, which has the rates of linear motion by rounding */
+    {.run = nh_linear_motion_functions},     /* the same in coordinates that hide it */
     {.run = nh_rates_search},                /* before larger stages, whose null vectors are less short */
     {.stage = NH_STAGE_WORDS_POSITIONS},     /* times t and positions */
     {.run = nh_isometries_search},           /* the same, whatever the coordinates */

@@ -1,0 +1,365 @@
+/* A stage of the search, for linear equations that the coordinates hide: functions u of the coordinates with
+ *
+ *     u_i'' = a_ij u_j' + b_ij u_j + c_i(t),        a, b of numbers or parameters,
+ *
+ * along every motion, as r cos(phi) and r sin(phi) of an oscillator in polar coordinates, or (x^2 - y^2)/2 and x y in
+ * parabolic ones.  The u are sums of words, products of one function of each coordinate.  Series along motions, modulo
+ * a prime, give all linear relations of the words, their first and second derivatives and functions of t; the largest
+ * space of words remains whose second derivatives lie in itself, its first ones and these functions.  What a and b are
+ * for all parameters follows from normal forms.  The rest is that of linear_motion.c, with z = (u, u'). */
+#include <string.h>
+
+#include "base/budget.h"
+#include "base/progress.h"
+#include "count/jet_equations.h"
+#include "exact/normal.h"
+#include "exact/residue_matrix.h"
+#include "graph/diff.h"
+#include "graph/measure.h"
+#include "integrals/fixed.h"
+#include "search/linear_motion_internal.h"
+
+enum {
+    most_letters = 10, /* of one coordinate */
+    most_words = 120,
+    most_functions = 12, /* u */
+    spare = 12,          /* points beyond the number of columns, */
+    tries = 40,          /* and how many are tried for each: at half of them a root has no value */
+    longest_number = 64, /* numerators and denominators in u */
+    longest = 3000       /* symbols of u'' */
+};
+
+typedef nh_linear_motion_block linear;
+
+typedef struct {
+    const nh_model *o;
+    nh_dag *d;
+    nh_jet_equations *equations;
+    size_t words, drives;
+    nh_ex word[most_words], drive[NH_LINEAR_MOTION_DRIVES];
+    /* rows of `columns` residues: the coefficients of the words' second derivatives, of the first ones, of the words,
+     * of the drives */
+    nh_prime field;
+    size_t relations, columns;
+    nh_residue *relation;
+} problem;
+
+/* ---- words ---- */
+
+static void put(size_t *n, nh_ex *list, size_t most, nh_ex e)
+{
+    for (size_t i = 0; i < *n; i++)
+        if (list[i] == e) return;
+    if (*n < most) list[(*n)++] = e;
+}
+
+static void put_waves(nh_dag *d, size_t *n, nh_ex *list, size_t most, nh_ex argument, nh_function cosine)
+{
+    put(n, list, most, nh_call(d, cosine, argument));
+    put(n, list, most, nh_call(d, cosine == NH_COS ? NH_SIN : NH_SINH, argument));
+}
+
+static bool is_constant(const problem *p, nh_ex e)
+{
+    for (size_t k = 0; k < p->o->width; k++)
+        if (nh_depends(p->d, e, p->o->chart->symbol[k])) return false;
+    return true;
+}
+
+/* The function calls of the equations of motion. */
+static size_t calls_in(const nh_model *o, size_t most, nh_ex *out)
+{
+    enum { most_own = 64 };
+    nh_ex own[most_own];
+    const nh_ex *list[] = {o->rho, o->M, o->a};
+    size_t n = 0, length[] = {o->m, o->n * o->n, o->n};
+    for (size_t part = 0; part < sizeof list / sizeof *list; part++)
+        for (size_t k = 0; k < length[part]; k++) {
+            size_t found = nh_functions_in(o->dag, list[part][k], own, most_own);
+            for (size_t i = 0; i < found && i < most_own; i++) put(&n, out, most, own[i]);
+        }
+    return n;
+}
+
+/* Functions of s with the arguments of this call, and with half of them: sin(s) for cos(2 s + y), exp(s) for
+ * exp(2 s). */
+static void put_functions(const problem *p, nh_ex s, nh_ex call, size_t *n, nh_ex *out, size_t most)
+{
+    nh_dag *d = p->d;
+    nh_ex u = nh_child(d, call, 0), slope = nh_diff(d, u, s), half = nh_mul(d, nh_ratio(d, 1, 2), slope);
+    nh_function f = nh_function_of(d, call);
+    bool back = nh_kind_of(d, slope) == NH_NUMBER    ? nh_num_value(nh_number_of(d, slope)) < 0
+                : nh_kind_of(d, slope) == NH_PRODUCT ? nh_num_value(nh_constant_of(d, slope)) < 0
+                                                     : false;
+    if (f == NH_LOG && u == s) put(n, out, most, call);
+    if (nh_is_zero(d, slope) || !is_constant(p, slope)) return;
+    for (int halves = 0; halves < 2; halves++) {
+        nh_ex argument = nh_mul(d, halves ? half : slope, s), forth = back ? nh_neg(d, argument) : argument;
+        if (f == NH_SIN || f == NH_COS || f == NH_TAN) put_waves(d, n, out, most, forth, NH_COS);
+        if (f == NH_SINH || f == NH_COSH || f == NH_TANH) put_waves(d, n, out, most, forth, NH_COSH);
+        if (f == NH_EXP) put(n, out, most, nh_call(d, NH_EXP, argument));
+    }
+}
+
+static size_t letters_of(const problem *p, nh_ex s, bool turns, size_t calls, const nh_ex *call, nh_ex *out)
+{
+    size_t n = 0;
+    put(&n, out, most_letters, s);
+    if (turns) put_waves(p->d, &n, out, most_letters, s, NH_COS);
+    for (size_t i = 0; i < calls; i++) put_functions(p, s, call[i], &n, out, most_letters);
+    put(&n, out, most_letters, nh_powi(p->d, s, 2));
+    return n;
+}
+
+/* All products of e and `factors` letters of different coordinates from number k on; false where they are too many. */
+static bool add_words(problem *p, size_t k, size_t factors, nh_ex e, const size_t *letters, const nh_ex *letter)
+{
+    if (factors == 0 && p->words == most_words) return false;
+    if (factors == 0) p->word[p->words++] = e;
+    bool room = true;
+    for (; k < p->o->m && factors && room; k++)
+        for (size_t i = 0; i < letters[k] && room; i++)
+            room = add_words(p, k + 1, factors - 1, nh_mul(p->d, e, letter[k * most_letters + i]), letters, letter);
+    return room;
+}
+
+/* 1, t where it occurs outside of functions, and functions of t. */
+static void find_drives(problem *p, size_t calls, const nh_ex *call)
+{
+    nh_ex t = p->o->system->t;
+    put(&p->drives, p->drive, NH_LINEAR_MOTION_DRIVES, nh_int(p->d, 1));
+    if (!p->equations->time) return;
+    for (size_t i = 0; i < calls; i++) put_functions(p, t, call[i], &p->drives, p->drive, NH_LINEAR_MOTION_DRIVES);
+    put(&p->drives, p->drive, NH_LINEAR_MOTION_DRIVES, t);
+    put(&p->drives, p->drive, NH_LINEAR_MOTION_DRIVES, nh_powi(p->d, t, 2));
+}
+
+static void find_words(problem *p)
+{
+    enum { most_calls = 40, most_factors = 3 };
+    nh_jet_equations *x = p->equations;
+    nh_ex call[most_calls], *letter = nh_alloc_array(p->o->m * most_letters + 1, sizeof *letter);
+    size_t *letters = nh_alloc_array(p->o->m + 1, sizeof *letters), calls = calls_in(p->o, most_calls, call);
+    for (size_t k = 0; k < p->o->m; k++) {
+        const nh_coordinate *q = &p->o->system->coordinate[k];
+        bool turns = q->type == NH_ANGLE || nh_jet_equations_is_cyclic(x, q->q);
+        letters[k] = letters_of(p, q->q, turns, calls, call, letter + k * most_letters);
+    }
+    bool room = true;
+    for (size_t factors = 1; factors <= most_factors && room; factors++) {
+        size_t before = p->words;
+        room = add_words(p, 0, factors, nh_int(p->d, 1), letters, letter);
+        if (!room) p->words = before;
+    }
+    find_drives(p, calls, call);
+    nh_free(letters);
+    nh_free(letter);
+}
+
+/* ---- relations at points ---- */
+
+/* The words, their derivatives and the drives at a random point, into `row`.  False: it is singular. */
+static bool values_at(problem *p, const nh_ex *taken, uint64_t seed, nh_residue *row)
+{
+    enum { order = 2 };
+    nh_jet_equations *x = p->equations;
+    size_t one = 1, all = p->words + p->drives;
+    uint64_t random = seed + 1;
+    nh_jet_equations_choose(x, p->field, seed);
+    nh_jet_ring *ring = nh_jet_ring_create(p->field, 1, &one, order);
+    size_t size = ring->size;
+    nh_residue *w = nh_alloc_array(x->n + 1, sizeof *w), *v = nh_alloc_array(x->n * size + 1, sizeof *v),
+               *q = nh_alloc_array(x->coordinates * size + 1, sizeof *q),
+               *series = nh_alloc_array(all * size + 1, sizeof *series);
+    for (size_t i = 0; i < x->n; i++) w[i] = nh_residue_random(p->field, &random);
+    bool good = nh_jet_equations_along(x, ring, w, q, v);
+    if (good) {
+        nh_jet_eval *eval = nh_jet_equations_eval(x, ring, q);
+        good = nh_jet_eval_all(eval, all, taken, series);
+        nh_jet_eval_free(eval);
+    }
+    for (size_t j = 0; j < p->words && good; j++) {
+        row[j] = nh_residue_add(p->field, series[j * size + 2], series[j * size + 2]);
+        row[p->words + j] = series[j * size + 1];
+        row[2 * p->words + j] = series[j * size];
+    }
+    for (size_t k = 0; k < p->drives && good; k++) row[3 * p->words + k] = series[(p->words + k) * size];
+    nh_free(series);
+    nh_free(q);
+    nh_free(v);
+    nh_free(w);
+    nh_jet_ring_free(ring);
+    return good;
+}
+
+/* The null space of the columns' values, as rows. */
+static void null_space(problem *p, size_t rows, nh_residue *value)
+{
+    size_t n = p->columns, *pivot = nh_alloc_array(n + 1, sizeof *pivot), next = 0;
+    size_t rank = nh_residue_matrix_echelon(p->field, rows, n, n, value, pivot);
+    p->relation = nh_alloc_array((n - rank) * n + 1, sizeof *p->relation);
+    for (size_t j = 0; j < n; j++) {
+        if (next < rank && pivot[next] == j) {
+            next++;
+            continue;
+        }
+        nh_residue *r = p->relation + p->relations++ * n;
+        r[j] = 1;
+        for (size_t i = 0; i < next; i++) r[pivot[i]] = nh_residue_negative(p->field, value[i * n + j]);
+    }
+    nh_free(pivot);
+}
+
+static bool find_relations(problem *p)
+{
+    nh_jet_equations *x = p->equations;
+    size_t all = p->words + p->drives, rows = 0, n = p->columns = 3 * p->words + p->drives, wanted = n + spare;
+    nh_ex *taken = nh_alloc_array(all + 1, sizeof *taken);
+    nh_residue *value = nh_alloc_array(wanted * n + 1, sizeof *value);
+    for (size_t i = 0; i < all && !x->obstacle; i++) {
+        taken[i] = i < p->words ? p->word[i] : p->drive[i - p->words];
+        nh_jet_equations_take(x, true, &taken[i]);
+    }
+    bool good = !x->obstacle;
+    if (good) p->field = nh_jet_point_prime(x->point, 0);
+    for (uint64_t seed = 1; rows < wanted && seed <= tries * wanted && good && !nh_late(); seed++) {
+        rows += values_at(p, taken, seed, value + rows * n);
+        good = !x->obstacle;
+    }
+    good = good && rows == wanted;
+    if (good) null_space(p, rows, value);
+    nh_work_add(NH_WORK_RESIDUE, (double)rows * (x->products + (double)(n * n) / 4));
+    nh_free(value);
+    nh_free(taken);
+    return good && p->relations;
+}
+
+/* ---- the largest closed space ---- */
+
+/* Brings the second derivatives to reduced echelon form; `pivot` gets their words.  False where a relation has none. */
+static bool reduce(problem *p, size_t *pivot)
+{
+    return nh_residue_matrix_echelon(p->field, p->relations, p->columns, p->words, p->relation, pivot) == p->relations;
+}
+
+/* What a combination of words has outside of the span of the u. */
+static void outside(const problem *p, const size_t *pivot, const nh_residue *e, nh_residue *out)
+{
+    memcpy(out, e, p->words * sizeof *out);
+    for (size_t i = 0; i < p->relations; i++) {
+        nh_residue c = nh_residue_negative(p->field, e[pivot[i]]);
+        if (c) nh_residue_add_multiple(p->field, p->words, out, p->relation + i * p->columns, c);
+    }
+}
+
+/* Keeps the combinations of relations in which nothing is outside.  True where all of them are kept. */
+static bool close_once(problem *p, const size_t *pivot)
+{
+    size_t D = p->relations, W = p->words, n = 2 * W + D, *own = nh_alloc_array(n + 1, sizeof *own);
+    nh_residue *E = nh_alloc_array(D * n + 1, sizeof *E);
+    for (size_t i = 0; i < D; i++) {
+        outside(p, pivot, p->relation + i * p->columns + W, E + i * n);
+        outside(p, pivot, p->relation + i * p->columns + 2 * W, E + i * n + W);
+        E[i * n + 2 * W + i] = 1;
+    }
+    size_t rank = nh_residue_matrix_echelon(p->field, D, n, 2 * W, E, own);
+    nh_residue *kept = nh_alloc_array((D - rank) * p->columns + 1, sizeof *kept);
+    for (size_t i = rank; i < D; i++)
+        for (size_t r = 0; r < D; r++) {
+            nh_residue c = E[i * n + 2 * W + r];
+            const nh_residue *row = p->relation + r * p->columns;
+            if (c) nh_residue_add_multiple(p->field, p->columns, kept + (i - rank) * p->columns, row, c);
+        }
+    nh_free(p->relation);
+    p->relation = kept;
+    p->relations = D - rank;
+    nh_free(E);
+    nh_free(own);
+    return rank == 0;
+}
+
+static bool find_closed(problem *p)
+{
+    size_t *pivot = nh_alloc_array(p->columns + 1, sizeof *pivot);
+    bool good = reduce(p, pivot), closed = false;
+    while (good && !closed && p->relations) {
+        closed = close_once(p, pivot);
+        good = reduce(p, pivot);
+    }
+    nh_free(pivot);
+    return good && p->relations && p->relations <= most_functions;
+}
+
+/* The u, the words' combinations with rational coefficients.  False where a coefficient is a parameter's, or where all
+ * of them are coordinates: then nothing is hidden. */
+static bool read_functions(const problem *p, nh_ex *u)
+{
+    bool hidden = false, good = true;
+    for (size_t i = 0; i < p->relations && good; i++) {
+        bool plain = false;
+        u[i] = nh_int(p->d, 0);
+        for (size_t j = 0; j < p->words && good; j++) {
+            int64_t top, bottom;
+            nh_residue c = p->relation[i * p->columns + j];
+            if (!c) continue;
+            good = nh_residue_fraction(p->field, c, longest_number, &top, &bottom);
+            if (good) u[i] = nh_add(p->d, u[i], nh_mul(p->d, nh_ratio(p->d, top, bottom), p->word[j]));
+        }
+        for (size_t k = 0; k < p->o->m; k++) plain |= u[i] == p->o->system->coordinate[k].q;
+        hidden |= !plain;
+    }
+    return good && hidden;
+}
+
+/* ---- the equations, for all parameters ---- */
+
+/* u_i'' as a combination of u', u and the drives. */
+static bool solve_row(const problem *p, const linear *l, size_t i, const nh_options *options)
+{
+    size_t D = l->places, count = 1 + 2 * D + p->drives;
+    nh_ex *e = nh_alloc_array(count, sizeof *e), *c = nh_alloc_array(count, sizeof *c);
+    e[0] = nh_simplify_short(p->d, nh_model_gamma(p->o, l->z[D + i]), 0);
+    bool good = nh_complexity(p->d, e[0]) <= longest;
+    memcpy(e + 1, l->z, 2 * D * sizeof *e);
+    memcpy(e + 1 + 2 * D, p->drive, p->drives * sizeof *e);
+    good = good &&
+           (nh_fixed_relation_of_symbols(p->o, count, e, NULL, options, c) ||
+            nh_fixed_relation_by_values(p->o, count, e, NULL, options, c).found) &&
+           !nh_is_zero(p->d, c[0]);
+    for (size_t j = 1; j < count && good; j++) {
+        nh_ex value = nh_simplify_short(p->d, nh_neg(p->d, nh_div(p->d, c[j], c[0])), 0);
+        if (j <= 2 * D) l->entry[D + i + (j - 1) * l->size] = value;
+        else l->b[D + i] = nh_add(p->d, l->b[D + i], nh_mul(p->d, value, p->drive[j - 1 - 2 * D]));
+    }
+    nh_free(c);
+    nh_free(e);
+    return good;
+}
+
+static void solve(const problem *p, nh_stage_solver *x, const nh_ex *u)
+{
+    size_t D = p->relations, size = 2 * D;
+    bool good = true;
+    linear l = nh_linear_motion_create(x, size, D);
+    for (size_t i = 0; i < D; i++) {
+        l.z[i] = u[i];
+        l.z[D + i] = nh_simplify_short(p->d, nh_model_gamma(p->o, u[i]), 0);
+        l.entry[i + (D + i) * size] = nh_int(p->d, 1);
+    }
+    for (size_t i = 0; i < D && good; i++) good = solve_row(p, &l, i, &x->r->options);
+    if (good && nh_linear_motion_drives(&l)) nh_linear_motion_solve(&l);
+    nh_linear_motion_clear(&l);
+}
+
+void nh_linear_motion_functions(nh_stage_solver *x)
+{
+    const nh_model *o = x->r->model;
+    if (o->chart->implicit) return;
+    nh_progress("linear equations that the coordinates hide", nh_budget_part());
+    problem p = {.o = o, .d = o->dag, .equations = nh_jet_equations_create(o, false, false)};
+    nh_ex u[most_functions];
+    if (!p.equations->obstacle) find_words(&p);
+    if (p.words && find_relations(&p) && find_closed(&p) && read_functions(&p, u)) solve(&p, x, u);
+    nh_free(p.relation);
+    nh_jet_equations_free(p.equations);
+}
