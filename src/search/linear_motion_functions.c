@@ -24,8 +24,8 @@ enum {
     most_words = 120,
     most_functions = 12, /* u */
     spare = 12,          /* points beyond the number of columns, */
-    tries = 40,          /* and how many are tried for each: at half of them a root has no value */
-    longest_number = 64, /* numerators and denominators in u */
+    tries = 40,          /* and how many are tried for each: at half of them a root has no value, */
+    most_sets = 4,       /* or at all of them, when it is one of the parameters' residues */
     longest = 3000       /* symbols of u'' */
 };
 
@@ -40,8 +40,10 @@ typedef struct {
     /* rows of `columns` residues: the coefficients of the words' second derivatives, of the first ones, of the words,
      * of the drives */
     nh_prime field;
+    uint64_t parameters; /* the random state from which their residues follow, the same at all points */
     size_t relations, columns;
     nh_residue *relation;
+    size_t *pivot; /* per relation: its word in u, which is in no other */
 } problem;
 
 /* ---- words ---- */
@@ -166,6 +168,9 @@ static bool values_at(problem *p, const nh_ex *taken, uint64_t seed, nh_residue 
     size_t one = 1, all = p->words + p->drives;
     uint64_t random = seed + 1;
     nh_jet_equations_choose(x, p->field, seed);
+    uint64_t same = p->parameters;
+    for (size_t k = 0; k < p->o->system->parameters; k++)
+        x->at[x->coordinates + k] = nh_residue_random(p->field, &same);
     nh_jet_ring *ring = nh_jet_ring_create(p->field, 1, &one, order);
     size_t size = ring->size;
     nh_residue *w = nh_alloc_array(x->n + 1, sizeof *w), *v = nh_alloc_array(x->n * size + 1, sizeof *v),
@@ -222,9 +227,12 @@ static bool find_relations(problem *p)
     }
     bool good = !x->obstacle;
     if (good) p->field = nh_jet_point_prime(x->point, 0);
-    for (uint64_t seed = 1; rows < wanted && seed <= tries * wanted && good && !nh_late(); seed++) {
-        rows += values_at(p, taken, seed, value + rows * n);
-        good = !x->obstacle;
+    for (p->parameters = 1; rows < wanted && p->parameters <= most_sets && good; p->parameters++) {
+        rows = 0;
+        for (uint64_t seed = 1; rows < wanted && seed <= tries * (rows + spare) && good && !nh_late(); seed++) {
+            rows += values_at(p, taken, seed, value + rows * n);
+            good = !x->obstacle;
+        }
     }
     good = good && rows == wanted;
     if (good) null_space(p, rows, value);
@@ -236,30 +244,31 @@ static bool find_relations(problem *p)
 
 /* ---- the largest closed space ---- */
 
-/* Brings the second derivatives to reduced echelon form; `pivot` gets their words.  False where a relation has none. */
-static bool reduce(problem *p, size_t *pivot)
+/* Brings the second derivatives to reduced echelon form; pivot[] are their words.  False where a relation has none. */
+static bool reduce(problem *p)
 {
-    return nh_residue_matrix_echelon(p->field, p->relations, p->columns, p->words, p->relation, pivot) == p->relations;
+    return nh_residue_matrix_echelon(p->field, p->relations, p->columns, p->words, p->relation, p->pivot) ==
+           p->relations;
 }
 
 /* What a combination of words has outside of the span of the u. */
-static void outside(const problem *p, const size_t *pivot, const nh_residue *e, nh_residue *out)
+static void outside(const problem *p, const nh_residue *e, nh_residue *out)
 {
     memcpy(out, e, p->words * sizeof *out);
     for (size_t i = 0; i < p->relations; i++) {
-        nh_residue c = nh_residue_negative(p->field, e[pivot[i]]);
+        nh_residue c = nh_residue_negative(p->field, e[p->pivot[i]]);
         if (c) nh_residue_add_multiple(p->field, p->words, out, p->relation + i * p->columns, c);
     }
 }
 
 /* Keeps the combinations of relations in which nothing is outside.  True where all of them are kept. */
-static bool close_once(problem *p, const size_t *pivot)
+static bool close_once(problem *p)
 {
     size_t D = p->relations, W = p->words, n = 2 * W + D, *own = nh_alloc_array(n + 1, sizeof *own);
     nh_residue *E = nh_alloc_array(D * n + 1, sizeof *E);
     for (size_t i = 0; i < D; i++) {
-        outside(p, pivot, p->relation + i * p->columns + W, E + i * n);
-        outside(p, pivot, p->relation + i * p->columns + 2 * W, E + i * n + W);
+        outside(p, p->relation + i * p->columns + W, E + i * n);
+        outside(p, p->relation + i * p->columns + 2 * W, E + i * n + W);
         E[i * n + 2 * W + i] = 1;
     }
     size_t rank = nh_residue_matrix_echelon(p->field, D, n, 2 * W, E, own);
@@ -280,75 +289,91 @@ static bool close_once(problem *p, const size_t *pivot)
 
 static bool find_closed(problem *p)
 {
-    size_t *pivot = nh_alloc_array(p->columns + 1, sizeof *pivot);
-    bool good = reduce(p, pivot), closed = false;
+    p->pivot = nh_alloc_array(p->columns + 1, sizeof *p->pivot);
+    bool good = reduce(p), closed = false;
     while (good && !closed && p->relations) {
-        closed = close_once(p, pivot);
-        good = reduce(p, pivot);
+        closed = close_once(p);
+        good = reduce(p);
     }
-    nh_free(pivot);
     return good && p->relations && p->relations <= most_functions;
 }
 
-/* The u, the words' combinations with rational coefficients.  False where a coefficient is a parameter's, or where all
- * of them are coordinates: then nothing is hidden. */
-static bool read_functions(const problem *p, nh_ex *u)
+/* Is a word in the u that is no coordinate?  Otherwise nothing is hidden. */
+static bool is_hidden(const problem *p)
 {
-    bool hidden = false, good = true;
-    for (size_t i = 0; i < p->relations && good; i++) {
-        bool plain = false;
-        u[i] = nh_int(p->d, 0);
-        for (size_t j = 0; j < p->words && good; j++) {
-            int64_t top, bottom;
-            nh_residue c = p->relation[i * p->columns + j];
-            if (!c) continue;
-            good = nh_residue_fraction(p->field, c, longest_number, &top, &bottom);
-            if (good) u[i] = nh_add(p->d, u[i], nh_mul(p->d, nh_ratio(p->d, top, bottom), p->word[j]));
-        }
-        for (size_t k = 0; k < p->o->m; k++) plain |= u[i] == p->o->system->coordinate[k].q;
-        hidden |= !plain;
-    }
-    return good && hidden;
+    bool hidden = false;
+    for (size_t i = 0; i < p->relations; i++)
+        for (size_t j = 0; j < p->words; j++)
+            hidden |= p->relation[i * p->columns + j] && nh_kind_of(p->d, p->word[j]) != NH_SYMBOL;
+    return hidden;
 }
 
 /* ---- the equations, for all parameters ---- */
 
-/* u_i'' as a combination of u', u and the drives. */
-static bool solve_row(const problem *p, const linear *l, size_t i, const nh_options *options)
+/* What stands in a column. */
+static nh_ex column(const problem *p, size_t j)
 {
-    size_t D = l->places, count = 1 + 2 * D + p->drives;
-    nh_ex *e = nh_alloc_array(count, sizeof *e), *c = nh_alloc_array(count, sizeof *c);
-    e[0] = nh_simplify_short(p->d, nh_model_gamma(p->o, l->z[D + i]), 0);
-    bool good = nh_complexity(p->d, e[0]) <= longest;
-    memcpy(e + 1, l->z, 2 * D * sizeof *e);
-    memcpy(e + 1 + 2 * D, p->drive, p->drives * sizeof *e);
-    good = good &&
-           (nh_fixed_relation_of_symbols(p->o, count, e, NULL, options, c) ||
-            nh_fixed_relation_by_values(p->o, count, e, NULL, options, c).found) &&
-           !nh_is_zero(p->d, c[0]);
-    for (size_t j = 1; j < count && good; j++) {
-        nh_ex value = nh_simplify_short(p->d, nh_neg(p->d, nh_div(p->d, c[j], c[0])), 0);
-        if (j <= 2 * D) l->entry[D + i + (j - 1) * l->size] = value;
-        else l->b[D + i] = nh_add(p->d, l->b[D + i], nh_mul(p->d, value, p->drive[j - 1 - 2 * D]));
-    }
-    nh_free(c);
-    nh_free(e);
-    return good;
+    size_t W = p->words;
+    if (j >= 3 * W) return p->drive[j - 3 * W];
+    nh_ex e = p->word[j % W];
+    for (size_t order = 2 - j / W; order; order--) e = nh_simplify_short(p->d, nh_model_gamma(p->o, e), 0);
+    return e;
 }
 
-static void solve(const problem *p, nh_stage_solver *x, const nh_ex *u)
+/* The coefficients of relation i, which is the only one of the columns that it has; 0 in the others. */
+static bool solve_relation(const problem *p, size_t i, const nh_options *options, nh_ex *out)
 {
-    size_t D = p->relations, size = 2 * D;
+    const nh_residue *r = p->relation + i * p->columns;
+    size_t n = 0, *at = nh_alloc_array(p->columns + 1, sizeof *at);
+    nh_ex *e = nh_alloc_array(2 * p->columns + 1, sizeof *e), *c = e + p->columns;
     bool good = true;
-    linear l = nh_linear_motion_create(x, size, D);
-    for (size_t i = 0; i < D; i++) {
-        l.z[i] = u[i];
-        l.z[D + i] = nh_simplify_short(p->d, nh_model_gamma(p->o, u[i]), 0);
-        l.entry[i + (D + i) * size] = nh_int(p->d, 1);
+    for (size_t j = 0; j < p->columns && good; j++) {
+        out[j] = nh_int(p->d, 0);
+        if (!r[j]) continue;
+        e[n] = column(p, j);
+        good = nh_complexity(p->d, e[n]) <= longest;
+        at[n++] = j;
     }
-    for (size_t i = 0; i < D && good; i++) good = solve_row(p, &l, i, &x->r->options);
+    good = good && nh_fixed_relation_of_symbols(p->o, n, e, NULL, options, c);
+    for (size_t k = 0; k < n && good; k++) out[at[k]] = c[k];
+    nh_free(e);
+    nh_free(at);
+    return good && !nh_is_zero(p->d, out[p->pivot[i]]);
+}
+
+/* With c the coefficients of all relations, u_i = sum of c_ij word_j; in the echelon form a combination of the u has
+ * the coefficient of u_k at its pivot. */
+static void set_equations(const problem *p, const nh_ex *c, linear *l)
+{
+    nh_dag *d = p->d;
+    size_t D = p->relations, W = p->words;
+    for (size_t i = 0; i < D; i++) {
+        const nh_ex *own = c + i * p->columns;
+        l->z[i] = nh_int(d, 0);
+        for (size_t j = 0; j < W; j++) l->z[i] = nh_add(d, l->z[i], nh_mul(d, own[j], p->word[j]));
+        l->z[D + i] = nh_simplify_short(d, nh_model_gamma(p->o, l->z[i]), 0);
+        l->entry[i + (D + i) * l->size] = nh_int(d, 1);
+        for (size_t k = 0; k < D; k++) {
+            nh_ex unit = nh_neg(d, c[k * p->columns + p->pivot[k]]);
+            l->entry[D + i + (D + k) * l->size] = nh_simplify_short(d, nh_div(d, own[W + p->pivot[k]], unit), 0);
+            l->entry[D + i + k * l->size] = nh_simplify_short(d, nh_div(d, own[2 * W + p->pivot[k]], unit), 0);
+        }
+        for (size_t k = 0; k < p->drives; k++)
+            l->b[D + i] = nh_sub(d, l->b[D + i], nh_mul(d, own[3 * W + k], p->drive[k]));
+    }
+}
+
+static void solve(const problem *p, nh_stage_solver *x)
+{
+    size_t D = p->relations;
+    nh_ex *c = nh_alloc_array(D * p->columns + 1, sizeof *c);
+    bool good = true;
+    for (size_t i = 0; i < D && good; i++) good = solve_relation(p, i, &x->r->options, c + i * p->columns);
+    linear l = nh_linear_motion_create(x, 2 * D, D);
+    if (good) set_equations(p, c, &l);
     if (good && nh_linear_motion_drives(&l)) nh_linear_motion_solve(&l);
     nh_linear_motion_clear(&l);
+    nh_free(c);
 }
 
 void nh_linear_motion_functions(nh_stage_solver *x)
@@ -356,10 +381,10 @@ void nh_linear_motion_functions(nh_stage_solver *x)
     const nh_model *o = x->r->model;
     if (o->chart->implicit) return;
     nh_progress("linear equations that the coordinates hide", nh_budget_part());
-    problem p = {.o = o, .d = o->dag, .equations = nh_jet_equations_create(o, false, false)};
-    nh_ex u[most_functions];
+    problem p = {.o = o, .d = o->dag, .equations = nh_jet_equations_create(o, false, true)};
     if (!p.equations->obstacle) find_words(&p);
-    if (p.words && find_relations(&p) && find_closed(&p) && read_functions(&p, u)) solve(&p, x, u);
+    if (p.words && find_relations(&p) && find_closed(&p) && is_hidden(&p)) solve(&p, x);
+    nh_free(p.pivot);
     nh_free(p.relation);
     nh_jet_equations_free(p.equations);
 }
