@@ -226,7 +226,8 @@ Test(linear_motion, complex_coordinates, PLAIN_ONLY)
 #define SPACE "coordinates: [{name: r, type: length}, {name: h, type: angle}, {name: f, type: angle}]\ndomain: {r: [0.4, 1.4], h: [0.4, 1.2]}\n" \
               "lagrangian: (r'^2 + r^2*h'^2 + r^2*sin(h)^2*f'^2)/2 "
 
-/* An oscillator with drag, in a magnetic field, driven, seen from a turning frame with its own drive, with two bodies, in space; also by the square, the exponential
+/* An oscillator with drag, in a magnetic field, driven, seen from a turning frame with its own drive, with two bodies, in space; a
+ * saddle that turns (words with functions of t); also by the square, the exponential
  * and the logarithm of a coordinate.  Each had series, or numbers, or two fewer, or took a minute. */
 Test(linear_motion, functions_of_the_coordinates, PLAIN_ONLY)
 {
@@ -238,6 +239,7 @@ Test(linear_motion, functions_of_the_coordinates, PLAIN_ONLY)
         "parameters: {b: 0.2, k: 0.3}\n" SPACE "+ b*r^2*sin(h)^2*f'/2 - k*r^2/2\n",
         "parameters: {k: 0.2}\ncoordinates: [{name: r, type: length}, {name: f, type: angle}, {name: s, type: length}, {name: g, type: angle}]\n"
         "domain: {r: [0.4, 1.2], s: [0.5, 1.3]}\nlagrangian: (r'^2 + r^2*f'^2 + s'^2 + s^2*g'^2)/2 - k*(r^2 + s^2 - 2*r*s*cos(f - g))/2\n",
+        "parameters: {k: 0.6, W: 0.7}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - k/2*((x^2 - y^2)*cos(2*W*t) + 2*x*y*sin(2*W*t))\n",
         "parameters: {k: 0.2}\ncoordinates: [u, v]\nlagrangian: (2*u*u' + v')^2/2 + v'^2/2 - k*(u^2 + v)^2/2 - v^2/2\ndomain: {u: [0.4, 1.2], v: [0.4, 1.2]}\n",
         "parameters: {k: 0.2}\ncoordinates: [u, v]\nlagrangian: exp(2*u)*u'^2/2 + v'^2/2 - k*exp(2*u)/2 - v*exp(u)/5 - v^2/2\n",
         "parameters: {k: 0.2}\ncoordinates: [u, v]\nlagrangian: u'^2/(2*u^2) + v'^2/2 - k*log(u)^2/2 - v*log(u)/5 - v^2/2\ndomain: {u: [0.4, 2]}\n"};

@@ -113,13 +113,14 @@ static size_t letters_of(const problem *p, nh_ex s, bool turns, size_t calls, co
     return n;
 }
 
-/* All products of e and `factors` letters of different coordinates from number k on; false where they are too many. */
+/* All products of e and `factors` letters of different variables from number k on; false where they are too many.  The
+ * last of them, time, is in no word alone: drives are functions of t. */
 static bool add_words(problem *p, size_t k, size_t factors, nh_ex e, const size_t *letters, const nh_ex *letter)
 {
     if (factors == 0 && p->words == most_words) return false;
     if (factors == 0) p->word[p->words++] = e;
     bool room = true;
-    for (; k < p->o->m && factors && room; k++)
+    for (; k <= p->o->m && factors && room && (k < p->o->m || !nh_is_number(p->d, e, 1)); k++)
         for (size_t i = 0; i < letters[k] && room; i++)
             room = add_words(p, k + 1, factors - 1, nh_mul(p->d, e, letter[k * most_letters + i]), letters, letter);
     return room;
@@ -136,17 +137,20 @@ static void find_drives(problem *p, size_t calls, const nh_ex *call)
     put(&p->drives, p->drive, NH_LINEAR_MOTION_DRIVES, nh_powi(p->d, t, 2));
 }
 
-static void find_words(problem *p)
+/* `timed`: words have functions of t, too, as x cos(w t) + y sin(w t) of a trap that turns. */
+static void find_words(problem *p, bool timed)
 {
     enum { most_calls = 40, most_factors = 3 };
     nh_jet_equations *x = p->equations;
-    nh_ex call[most_calls], *letter = nh_alloc_array(p->o->m * most_letters + 1, sizeof *letter);
+    nh_ex call[most_calls], *letter = nh_alloc_array((p->o->m + 1) * most_letters, sizeof *letter);
     size_t *letters = nh_alloc_array(p->o->m + 1, sizeof *letters), calls = calls_in(p->o, most_calls, call);
     for (size_t k = 0; k < p->o->m; k++) {
         const nh_coordinate *q = &p->o->system->coordinate[k];
         bool turns = q->type == NH_ANGLE || nh_jet_equations_is_cyclic(x, q->q);
         letters[k] = letters_of(p, q->q, turns, calls, call, letter + k * most_letters);
     }
+    for (size_t i = 0; i < calls && timed; i++)
+        put_functions(p, p->o->system->t, call[i], &letters[p->o->m], letter + p->o->m * most_letters, most_letters);
     bool room = true;
     for (size_t factors = 1; factors <= most_factors && room; factors++) {
         size_t before = p->words;
@@ -376,15 +380,24 @@ static void solve(const problem *p, nh_stage_solver *x)
     nh_free(c);
 }
 
-void nh_linear_motion_functions(nh_stage_solver *x)
+/* Are there such functions?  Then their currents are searched. */
+static bool search_words(nh_stage_solver *x, bool timed)
 {
     const nh_model *o = x->r->model;
-    if (o->chart->implicit) return;
-    nh_progress("linear equations that the coordinates hide", nh_budget_part());
     problem p = {.o = o, .d = o->dag, .equations = nh_jet_equations_create(o, false, true)};
-    if (!p.equations->obstacle) find_words(&p);
-    if (p.words && find_relations(&p) && find_closed(&p) && is_hidden(&p)) solve(&p, x);
+    bool possible = !p.equations->obstacle && (!timed || p.equations->time);
+    if (possible) find_words(&p, timed);
+    bool found = p.words && find_relations(&p) && find_closed(&p) && is_hidden(&p);
+    if (found) solve(&p, x);
     nh_free(p.pivot);
     nh_free(p.relation);
     nh_jet_equations_free(p.equations);
+    return found;
+}
+
+void nh_linear_motion_functions(nh_stage_solver *x)
+{
+    if (x->r->model->chart->implicit) return;
+    nh_progress("linear equations that the coordinates hide", nh_budget_part());
+    if (!search_words(x, false)) search_words(x, true);
 }
