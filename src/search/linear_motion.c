@@ -161,19 +161,16 @@ static nh_ex named(linear *l, double value, bool turns)
 
 /* ---- the stages of one block ---- */
 
-/* The variables of the block and its driving functions, these also times t if asked for, times functions of t. */
-static void stage(linear *l, const char *name, bool resonant, size_t functions, const nh_ex *function)
+/* The variables of the block and its driving functions, times functions of t. */
+static void stage(linear *l, const char *name, size_t functions, const nh_ex *function)
 {
     nh_analysis *r = l->x->r;
-    size_t terms = l->count + (resonant ? 2 : 1) * l->drives;
+    size_t terms = l->count + l->drives;
     nh_ex *term = nh_arena_alloc(r->arena, terms * sizeof *term),
           *copy = nh_arena_alloc(r->arena, (functions + 1) * sizeof *copy);
     nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, sizeof *all);
     for (size_t i = 0; i < l->count; i++) term[i] = l->z[l->of[i]];
-    for (size_t k = 0; k < l->drives; k++) {
-        term[l->count + k] = l->drive[k];
-        if (resonant) term[l->count + l->drives + k] = nh_mul(r->model->dag, r->system->t, l->drive[k]);
-    }
+    for (size_t k = 0; k < l->drives; k++) term[l->count + k] = l->drive[k];
     memcpy(copy, function, functions * sizeof *copy);
     part[0] = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
     part[1] = (nh_family){.kind = NH_TERMS, .terms = functions, .term = copy};
@@ -233,22 +230,6 @@ static bool wave_of_second_order(linear *l, nh_ex s, bool turns, const char *nam
     if (n) nh_stage_solver_stage(l->x, name, 1, all);
     nh_free(q);
     return n > 0;
-}
-
-/* Where the drive is no polynomial it may be in resonance. */
-static void both_stages(linear *l, const char *name, size_t functions, const nh_ex *function)
-{
-    const nh_analysis *r = l->x->r;
-    size_t before = r->independent;
-    stage(l, name, false, functions, function);
-    if (l->drives > 1 && r->independent < before + functions) stage(l, name, true, functions, function);
-}
-
-static void polynomials(linear *l)
-{
-    nh_dag *d = l->x->r->model->dag;
-    nh_ex t = l->x->r->system->t, f[3] = {nh_int(d, 1), t, nh_mul(d, t, t)};
-    stage(l, "states with linear equations, times powers of t", false, 3, f);
 }
 
 /* ---- quadratic forms of one block ---- */
@@ -348,19 +329,6 @@ static size_t with_powers(linear *l, size_t times, size_t count, const nh_ex *wa
     return n;
 }
 
-/* Where a rate that occurs several times has fewer eigenvectors, as in L = x' y' - x y - y^2/2, powers of t come with
-   the waves. */
-static void powers_of_time(linear *l, size_t times, size_t count, const nh_ex *wave)
-{
-    nh_analysis *r = l->x->r;
-    size_t null = r->stage[r->stages - 1].dimension;
-    if (times < 2 || null == 0 || null >= times * count || l->drives > 1 || nh_stage_solver_done(l->x)) return;
-    if (!l->forms) quadratic_forms(l);
-    nh_ex f[2 * most_powers];
-    size_t n = with_powers(l, times, count, wave, f);
-    stage(l, "states with linear equations, times exponentials, waves and powers of t", false, n, f);
-}
-
 /* The rates of the block; a rate that differs from zero by rounding is set to zero.  Returns the largest, or false. */
 static bool rates(const linear *l, double *re, double *im, double *largest)
 {
@@ -374,6 +342,16 @@ static bool rates(const linear *l, double *re, double *im, double *largest)
     return good;
 }
 
+/* Those of the rate 0, which occurs so often. */
+static void polynomials(linear *l, size_t times)
+{
+    nh_ex one = nh_int(l->x->r->model->dag, 1), f[2 * most_powers];
+    size_t n = with_powers(l, times, 1, &one, f);
+    if (nh_linear_motion_solutions(l, n, f) == times) return;
+    if (n < 3) n = with_powers(l, 3, 1, &one, f);
+    stage(l, "states with linear equations, times powers of t", n, f);
+}
+
 /* The currents of one rate. */
 static void solve_rate(linear *l, double re, double im, size_t times, bool formulas)
 {
@@ -385,9 +363,8 @@ static void solve_rate(linear *l, double re, double im, size_t times, bool formu
     size_t count = formulas ? nh_linear_motion_waves_of_two(l, im != 0, wave)
                             : nh_linear_motion_waves(d, l->x->r->system->t, decay, turn, wave);
     nh_ex f[2 * most_powers];
-    if (l->drives > 1 && nh_linear_motion_driven(l, with_powers(l, times, count, wave, f), f) == times * count) return;
-    both_stages(l, name, count, wave);
-    powers_of_time(l, times, count, wave);
+    if (nh_linear_motion_solutions(l, with_powers(l, times, count, wave, f), f) == times * count) return;
+    stage(l, name, count, wave);
 }
 
 /* Each rate once, with its conjugate; of two values that differ by rounding the first is taken. */
@@ -395,9 +372,10 @@ static void solve_block(linear *l)
 {
     size_t n = l->count, done = 0;
     double *re = nh_alloc_array(2 * n + 1, sizeof *re), *im = re + n, largest;
-    bool good = rates(l, re, im, &largest), null = false, formulas = n == 2;
-    for (size_t k = 0; k < n && good; k++) null |= hypot(re[k], im[k]) <= defective * largest;
-    if (good && null) polynomials(l);
+    bool good = rates(l, re, im, &largest), formulas = n == 2;
+    size_t null = 0;
+    for (size_t k = 0; k < n && good; k++) null += hypot(re[k], im[k]) <= defective * largest;
+    if (null) polynomials(l, null);
     nh_complex_pair pair;
     if (good && !null && nh_linear_motion_complex_pair(l, &pair)) nh_complex_pair_search(l->x, &pair);
     l->forms = n == l->size ? l->x->forms : 0;

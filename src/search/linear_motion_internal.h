@@ -32,8 +32,8 @@ bool nh_linear_motion_velocity(const nh_linear_motion_block *linear, size_t i, s
 
 /* exp(-re t) {cos(im t), sin(im t)}, or without the waves; their number. */
 size_t nh_linear_motion_waves(nh_dag *dag, nh_ex t, nh_ex re, nh_ex im, nh_ex out[2]);
-/* The currents of a driven block in which these functions of t are its states' coefficients; their number. */
-size_t nh_linear_motion_driven(const nh_linear_motion_block *block, size_t functions, const nh_ex *function);
+/* The currents in which these functions of t are the coefficients of the block's states; their number. */
+size_t nh_linear_motion_solutions(const nh_linear_motion_block *block, size_t functions, const nh_ex *function);
 /* Of a block of two, the functions of t that belong to lambda = T/2 +- sqrt(T^2/4 - D), with the trace T and the
  * determinant D; their number. */
 size_t nh_linear_motion_waves_of_two(const nh_linear_motion_block *block, bool turns, nh_ex out[2]);

@@ -1,10 +1,10 @@
-/* Linear equations with a drive, of any size: with l' = -A^T l
+/* The currents of linear equations z' = A z + b that belong to one rate: with l' = -A^T l
  *
  *     l . z - int l . b dt
  *
- * is conserved.  For the functions of t that belong to one rate the l are the null space of a matrix of expressions,
- * which is exact, and so is the integral: where the drive is in resonance, or turns slowly, the functions that an
- * ansatz needs are nearly dependent on the interval of the samples. */
+ * is conserved.  The l of given functions of t (waves, and powers of t where the rate occurs several times) are the
+ * null space of a matrix of expressions, which is exact, and so is the integral: where the drive is in resonance, or
+ * waves are slow, the functions that an ansatz needs are nearly dependent on the interval of the samples. */
 #include "exact/normal.h"
 #include "exact/relation_space.h"
 #include "graph/diff.h"
@@ -74,7 +74,7 @@ bool nh_linear_motion_drives(linear *l)
 
 /* The l = sum of coefficients times functions: column i n + k is function k in component i, row j the j-th component of
  * l' + A^T l. */
-static nh_relation_space *solutions(const linear *l, size_t n, const nh_ex *function)
+static nh_relation_space *space_of(const linear *l, size_t n, const nh_ex *function)
 {
     const nh_model *o = l->x->r->model;
     nh_dag *d = o->dag;
@@ -99,13 +99,13 @@ static nh_relation_space *solutions(const linear *l, size_t n, const nh_ex *func
     return space;
 }
 
-size_t nh_linear_motion_driven(const linear *l, size_t n, const nh_ex *function)
+size_t nh_linear_motion_solutions(const linear *l, size_t n, const nh_ex *function)
 {
     nh_stage_solver *x = l->x;
     const nh_model *o = x->r->model;
     nh_dag *d = o->dag;
     size_t found = 0, columns = n * l->count;
-    nh_relation_space *space = solutions(l, n, function);
+    nh_relation_space *space = space_of(l, n, function);
     for (size_t k = 0; k < space->proved && !space->obstacle && !nh_stage_solver_done(x); k++) {
         nh_ex state = nh_int(d, 0), drive = state, F;
         for (size_t c = 0; c < columns; c++) {
@@ -116,7 +116,7 @@ size_t nh_linear_motion_driven(const linear *l, size_t n, const nh_ex *function)
         }
         if (!nh_stage_solver_integral(x, o->system->t, nh_simplify_short(d, drive, 0), false, &F)) continue;
         found += nh_stage_solver_certify(x, nh_simplify_short(d, nh_sub(d, state, F), 0),
-                                         "states with linear equations and a drive");
+                                         "states with linear equations, times functions of t");
     }
     return found;
 }
