@@ -29,6 +29,8 @@ enum {
     longest = 3000       /* symbols of u'' */
 };
 
+static const double most_products = 4e6; /* of series, at all points: nothing hides in the equations of a long arm */
+
 typedef nh_linear_motion_block linear;
 
 typedef struct {
@@ -229,7 +231,7 @@ static bool find_relations(problem *p)
         taken[i] = i < p->words ? p->word[i] : p->drive[i - p->words];
         nh_jet_equations_take(x, true, &taken[i]);
     }
-    bool good = !x->obstacle;
+    bool good = !x->obstacle && x->products * (double)wanted <= most_products;
     if (good) p->field = nh_jet_point_prime(x->point, 0);
     for (p->parameters = 1; rows < wanted && p->parameters <= most_sets && good; p->parameters++) {
         rows = 0;
