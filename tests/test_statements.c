@@ -593,3 +593,37 @@ Test(statements, completeness_names_the_region)
         place_clear(&p);
     }
 }
+
+/* Geodesics of SL(2): time by a logarithm that is real where others are than the test motion is: its drift was said to be 0. */
+Test(statements, what_is_not_real_has_no_drift, PLAIN_ONLY)
+{
+    place p = place_make();
+    write_here(&p, "sl2.yaml", "name: sl2\ncoordinates: [x, y, z]\ndomain: {y: [0.6, 1.3]}\nlagrangian: ((x'^2 + y'^2)/y^2 + (z' + x'/y)^2)/2\n");
+    reports r = analyze(&p, "sl2.yaml");
+    size_t without = 0;
+    for (const cJSON *c = item(r.json, "currents")->child; c; c = c->next) {
+        bool none = cJSON_IsNull(item(c, "drift"));
+        cr_expect_eq(none, cJSON_IsNull(item(c, "drift_order_ok")));
+        cr_expect(!none || cJSON_GetArraySize(item(c, "real_where_positive")) > 0);
+        without += none;
+    }
+    cr_expect_eq(without, 1);
+    cr_expect_not_null(strstr(r.text, "not measured: it is real at no state of the test motion"), "%s", r.text);
+    cr_expect(!strstr(r.text, "nan") && !strstr(r.page, ">nan"), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* Neither is it conserved, trivially, nor is it not. */
+Test(statements, what_is_real_nowhere_is_refused)
+{
+    place p = place_make();
+    write_here(&p, "fall.yaml", "name: fall\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x\n");
+    finished f = run_expecting(&p, "verify fall.yaml --current sqrt(-10-y'^2)", 4);
+    cr_expect(strstr(f.err, "it has no real value at any of 256 states of the domain\nhint: is a sign below a root right?"), "%s", f.err);
+    cr_expect_str_eq(f.out, "");
+    finished_clear(&f);
+    f = run_expecting(&p, "verify fall.yaml --current sqrt(1-y'^2)", 0);
+    finished_clear(&f);
+    place_clear(&p);
+}

@@ -156,10 +156,26 @@ static void delimit(nh_verification *v, const nh_options *options)
     v->conserved = nh_region_to_the_end(&region);
 }
 
+/* What is real nowhere is neither conserved nor not. */
+static bool is_real_somewhere(const nh_verification *v, const nh_points *points, nh_error *error)
+{
+    double *value = nh_alloc_array(points->count + 1, sizeof *value);
+    bool some = false;
+    nh_points_evaluate(points, v->model, 1, &v->current, value);
+    for (size_t p = 0; p < points->count && !some; p++) some = isfinite(value[p]);
+    nh_free(value);
+    if (some) return true;
+    nh_fail(error, NH_NUMERIC, "--current", "it has no real value at any of %zu states of the domain", points->count);
+    return nh_error_hint(error, "is a sign below a root right?  Where it is real elsewhere, give such a `domain`");
+}
+
 static bool examine(nh_verification *v, const nh_options *options, nh_error *error)
 {
     nh_points *points = nh_points_create(v->model, test_points, 1.2, (uint64_t)options->seed + 7, error);
-    if (!points) return false;
+    if (!points || !is_real_somewhere(v, points, error)) {
+        nh_points_free(points);
+        return false;
+    }
     size_t n = 1 + v->model->m + v->model->n;
     nh_ex *term = nh_arena_alloc(v->arena, n * sizeof *term);
     nh_rate_terms(v->model, v->current, term);

@@ -276,7 +276,8 @@ static void put_drift(const writer *w, nh_json *to, const nh_current *f)
         return;
     }
     nh_json_put_number(to, "drift", f->drift.drift[NH_DRIFT_RUNS - 1]);
-    nh_json_put_bool(to, "drift_order_ok", f->drift.falls);
+    if (isnan(f->drift.drift[NH_DRIFT_RUNS - 1])) nh_json_put_null(to, "drift_order_ok");
+    else nh_json_put_bool(to, "drift_order_ok", f->drift.falls);
 }
 
 static void put_series(const writer *w, nh_json *to, const nh_series *series)
@@ -472,8 +473,8 @@ char *nh_analysis_json(const nh_analysis *r)
              left_out == 1 ? " is" : "s are", r->options.written);
     if (left_out) nh_json_add_text(warnings, note);
     size_t holes = nh_analysis_json_holes(r);
-    snprintf(note, sizeof note, "%zu values along the motion are not finite, as at a pole of the chart, and null here",
-             holes);
+    snprintf(note, sizeof note,
+             "%zu values along the motion are not finite, as at a pole of the chart, or not real, and null here", holes);
     if (holes) nh_json_add_text(warnings, note);
     return nh_json_finish(root);
 }

@@ -276,7 +276,8 @@ static void drift_plot(nh_pen *p, const nh_analysis *r, const nh_current *f)
     const nh_validation *v = r->validation;
     size_t j = 0;
     bool drawn = p->ink->screen || p->ink->brief;
-    if (!drawn || !v || v->count < 2 || !(f->drift.scale > 0)) return;
+    bool measured = v && f->drift.scale > 0 && isfinite(f->drift.drift[NH_DRIFT_RUNS - 1]);
+    if (!drawn || !measured || v->count < 2) return;
     const nh_track *track = r->tracks.track;
     while (j < v->watches && track[j].value != f->phi) j++;
     while (j < v->watches && track[j].kind != NH_TRACK_CURRENT) j++;
@@ -407,6 +408,7 @@ static void closed_form(nh_pen *p, const nh_analysis *r, const nh_current *f)
 static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *told)
 {
     const nh_validation *v = r->validation;
+    double drift = f->drift.drift[NH_DRIFT_RUNS - 1];
     nh_pen_card(p, NULL);
     nh_pen_name_heading(p, f->name);
     tags(p, r, f);
@@ -417,9 +419,12 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     if (f->known) nh_pen_fact(p, "Known", "%s; brackets mark currents that the system file gives", f->known);
     certificate(p, r, f);
-    if (v)
-        nh_pen_fact(p, "Drift", "%.2g at tolerance %.2g; %s",
-                    f->drift.drift[NH_DRIFT_RUNS - 1], v->tolerance[NH_DRIFT_RUNS - 1], nh_facts_drift(&f->drift));
+    if (v && isfinite(drift))
+        nh_pen_fact(p, "Drift", "%.2g at tolerance %.2g; %s", drift, v->tolerance[NH_DRIFT_RUNS - 1],
+                    nh_facts_drift(&f->drift));
+    else if (v)
+        nh_pen_fact(p, "Drift", "not measured: it %s of the test motion",
+                    isnan(drift) ? "is real at no state" : "has no finite value at some states");
     if (f->has_symmetry) {
         nh_pen_fact_begin(p, "Symmetry");
         p->ink->symmetry(p->to, &f->symmetry);

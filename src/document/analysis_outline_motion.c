@@ -15,8 +15,12 @@ static void drifts(nh_pen *p, const nh_analysis *r)
     snprintf(heads, sizeof heads, "current|#%g|#%g|#%g", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
     nh_pen_table(p, "Drift of the currents, by tolerance of the integration", heads);
     for (size_t k = 0; k < v->currents; k++) {
-        const double *d = v->current[k].drift;
-        nh_pen_row(p, "#<%s>|%.2g|%.2g|%.2g", r->found[k].name, d[0], d[1], d[2]);
+        char text[NH_DRIFT_RUNS][16];
+        for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
+            double d = v->current[k].drift[i];
+            snprintf(text[i], sizeof text[i], isfinite(d) ? "%.2g" : "\u2013", d);
+        }
+        nh_pen_row(p, "#<%s>|%s|%s|%s", r->found[k].name, text[0], text[1], text[2]);
     }
     nh_pen_table_end(p);
 }

@@ -78,19 +78,20 @@ void nh_drift_measure(const nh_drift_question *q, const nh_motion *motion, size_
         size_t per = nh_terms_of(nh_dynamics_model(q->dynamics)->dag, q->current[k], &e);
         double *value = nh_alloc_array(per * motion->count, sizeof *value);
         nh_drift *d = &out[k];
-        double scale = 0, worst = 0;
+        double scale = 0, worst = 0, first = NAN;
         size_t inside = outputs_inside(q, motion, k);
         bool good = nh_along(q->dynamics, motion, per, e, value);
         d->until = inside ? motion->time[inside - 1] : q->begin;
         for (size_t i = 0; i < inside && good; i++) {
-            if (steep[i]) continue;
+            if (steep[i] || isnan(value[i * per])) continue; /* it is real on a part of the motion only */
+            if (isnan(first)) first = value[i * per];
             for (size_t j = 0; j < per; j++) scale = fmax(scale, fabs(value[i * per + j]));
-            worst = fmax(worst, fabs(value[i * per] - value[0]));
+            worst = fmax(worst, fabs(value[i * per] - first));
             good = isfinite(worst) && isfinite(scale);
         }
         d->scale = scale;
-        d->drift[which] = good ? worst / fmax(scale, DBL_MIN) : INFINITY;
-        if (isfinite(scale)) look_closer(q, motion, steep, inside, k, which, d);
+        d->drift[which] = !good ? INFINITY : isnan(first) ? NAN : worst / fmax(scale, DBL_MIN);
+        if (isfinite(scale) && !isnan(first)) look_closer(q, motion, steep, inside, k, which, d);
         nh_free(value);
         nh_free(e);
     }
@@ -107,6 +108,6 @@ void nh_drift_judge(size_t count, const double *tolerance, const nh_options *opt
         double floor = 1e3 * DBL_EPSILON; /* rounding of thousands of steps */
         d->small = tight <= options->drift * tolerance[NH_DRIFT_RUNS - 1];
         d->falls = tight <= floor || (tight < loose / 5 && loose < 1);
-        d->explained = d->small || (d->falls && tight < d->drift[NH_DRIFT_RUNS - 2] / 5);
+        d->explained = isnan(tight) || d->small || (d->falls && tight < d->drift[NH_DRIFT_RUNS - 2] / 5);
     }
 }

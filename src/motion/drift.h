@@ -9,7 +9,8 @@
 enum { NH_DRIFT_RUNS = 3 };
 
 typedef struct {
-    double drift[NH_DRIFT_RUNS]; /* max |Phi - Phi(0)| / scale, loosest tolerance first */
+    /* max |Phi - Phi(0)| / scale, loosest tolerance first; NAN: it is real at no state of the motion */
+    double drift[NH_DRIFT_RUNS];
     double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
     /* time up to which it was measured: earlier than the end where the motion leaves the current's interval */
     double until;

@@ -319,13 +319,15 @@ static size_t multiplicity(const linear *l, const double *re, const double *im, 
     return count;
 }
 
-/* Waves times powers of t below `times`, these one after another; their number. */
+/* Waves, the sine first, times powers of t below `times`, these one after another; their number. */
 static size_t with_powers(linear *l, size_t times, size_t count, const nh_ex *wave, nh_ex *out)
 {
     nh_dag *d = l->x->r->model->dag;
     size_t n = 0;
-    for (size_t k = 0; k < times && k < most_powers; k++)
-        for (size_t i = 0; i < count; i++) out[n++] = nh_mul(d, wave[i], nh_powi(d, l->x->r->system->t, (int64_t)k));
+    for (size_t k = 0; k < times && k < most_powers; k++) {
+        nh_ex power = nh_powi(d, l->x->r->system->t, (int64_t)k);
+        for (size_t i = count; i > 0; i--) out[n++] = nh_mul(d, wave[i - 1], power);
+    }
     return n;
 }
 
