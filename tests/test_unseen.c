@@ -465,7 +465,7 @@ Test(unseen, stages_that_have_a_system_of_their_own)
         size_t independent;
     } ROW[] = {
         /* asin + acos are functions that may be related: not counted; P_x - pi/2 F t in elliptic coordinates */
-        {"these momenta times 1 and t, and products of functions of one coordinate",
+        {"states with linear equations, times functions of t",
          "parameters: {F: 0.7}\n"
          "coordinates: [u, v, z]\n"
          "lagrangian: (cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)/2 + z'^2/2 + F*cosh(u)*cos(v)*(asin(z/9) + acos(z/9))\n"

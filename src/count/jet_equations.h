@@ -65,8 +65,8 @@ bool nh_jet_equations_related(nh_jet_equations *equations, nh_prime field);
 void nh_jet_equations_velocities(nh_jet_equations *equations, nh_jet_eval *eval, const nh_jet_ring *ring,
                                  const nh_residue *w);
 
-/* The motion from the point with these velocities: series of the coordinates (`coordinates` components, time among them)
- * and of the velocities (n) in one variable, the time from there.  False: the point is singular. */
+/* The motion from the point with these velocities: series of the coordinates (`coordinates` components, time among
+ * them) and of the velocities (n) in one variable, the time from there.  False: the point is singular. */
 bool nh_jet_equations_along(nh_jet_equations *equations, const nh_jet_ring *ring, const nh_residue *w,
                             nh_residue *coordinate, nh_residue *velocity);
 

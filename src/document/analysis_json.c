@@ -474,7 +474,7 @@ char *nh_analysis_json(const nh_analysis *r)
     if (left_out) nh_json_add_text(warnings, note);
     size_t holes = nh_analysis_json_holes(r);
     snprintf(note, sizeof note,
-             "%zu values along the motion are not finite, as at a pole of the chart, or not real, and null here", holes);
+             "%zu values along the motion are not finite, as at a pole of the chart, or not real: null here", holes);
     if (holes) nh_json_add_text(warnings, note);
     return nh_json_finish(root);
 }

@@ -127,31 +127,6 @@ static nh_family functions_family(const nh_stage_solver *x, int most_harmonic, n
     return (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
 }
 
-/* Cartesian coordinates are products of functions of one coordinate in coordinates in which the metric separates.
- * Currents are sums of them and the momenta of translations: times waves for an oscillator, with constant coefficients
- * under friction; for a free motion with the momenta times t. */
-static void cartesian(nh_stage_solver *x, size_t n, const nh_ex *P)
-{
-    enum { few = 3 };
-    nh_analysis *r = x->r;
-    nh_family_list families = {r->arena, r->model, &x->words, NULL, 0};
-    nh_expr_set all = {0}, functions = nh_expr_set_one_coordinate(&families), plain = {0};
-    for (size_t s = 0; s < r->model->m; s++)
-        if (r->system->coordinate[s].type != NH_ANGLE) nh_expr_set_put(&plain, r->system->coordinate[s].q);
-    nh_expr_set squares = nh_expr_set_squares(&families, &plain);
-    nh_expr_set_put_all(&all, n, P);
-    for (size_t i = 0; i < functions.n; i++)
-        if (nh_kind_of(r->model->dag, functions.e[i]) != NH_NUMBER) nh_expr_set_put(&all, functions.e[i]);
-    nh_expr_set_put_all(&all, plain.n, plain.e);
-    if (plain.n <= few) nh_expr_set_put_all(&all, squares.n, squares.e);
-    nh_family base = nh_family_list_terms(&families, &all), grown;
-    nh_rates_search_in(x, &base);
-    for (size_t i = 0; i < n; i++) nh_expr_set_put(&all, nh_mul(r->model->dag, r->model->system->t, P[i]));
-    grown = nh_family_list_terms(&families, &all);
-    if (!nh_stage_solver_done(x))
-        nh_stage_solver_stage(x, "these momenta times 1 and t, and products of functions of one coordinate", 1, &grown);
-}
-
 /* Under constraints with coefficients that depend on two angles: of a ball that rolls on a sphere the spin about the
  * normal, n . w with n = (sin a cos b, sin a sin b, cos a). */
 static void on_a_sphere(nh_stage_solver *x, size_t n, const nh_ex *P)
@@ -201,7 +176,6 @@ void nh_isometries_search(nh_stage_solver *x)
     all[2] = (nh_family){.kind = NH_TERMS, .terms = also->n, .term = also->e};
     nh_stage_solver_stage(x, "momenta of the isometries of the kinetic energy, and functions", 3, all);
     if (o->k && !nh_counted_covers(&x->counted, 1, false)) on_a_sphere(x, n, P);
-    if (!nh_stage_solver_done(x)) cartesian(x, n, P);
     if (nh_stage_solver_done(x)) return;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++) PP[squares++] = nh_mul(o->dag, P[i], P[j]);

@@ -21,7 +21,7 @@
 
 enum {
     most_letters = 10, /* of one coordinate */
-    most_words = 120,
+    most_words = 200,
     most_functions = 12, /* u */
     spare = 12,          /* points beyond the number of columns, */
     tries = 40,          /* and how many are tried for each: at half of them a root has no value, */
@@ -36,6 +36,7 @@ typedef nh_linear_motion_block linear;
 typedef struct {
     const nh_model *o;
     nh_dag *d;
+    const nh_dictionary *known; /* the system's functions */
     nh_jet_equations *equations;
     size_t words, drives;
     nh_ex word[most_words], drive[NH_LINEAR_MOTION_DRIVES];
@@ -85,46 +86,65 @@ static size_t calls_in(const nh_model *o, size_t most, nh_ex *out)
     return n;
 }
 
-/* Functions of s with the arguments of this call, and with half of them: sin(s) for cos(2 s + y), exp(s) for
- * exp(2 s). */
-static void put_functions(const problem *p, nh_ex s, nh_ex call, size_t *n, nh_ex *out, size_t most)
+/* Functions of s with the argument of this call over `parts`: 2 gives sin(s) for cos(2 s + y), exp(s) for exp(2 s). */
+static void put_functions(const problem *p, nh_ex s, nh_ex call, int parts, size_t *n, nh_ex *out, size_t most)
 {
     nh_dag *d = p->d;
-    nh_ex u = nh_child(d, call, 0), slope = nh_diff(d, u, s), half = nh_mul(d, nh_ratio(d, 1, 2), slope);
+    nh_ex u = nh_child(d, call, 0), slope = nh_diff(d, u, s);
     nh_function f = nh_function_of(d, call);
     bool back = nh_kind_of(d, slope) == NH_NUMBER    ? nh_num_value(nh_number_of(d, slope)) < 0
                 : nh_kind_of(d, slope) == NH_PRODUCT ? nh_num_value(nh_constant_of(d, slope)) < 0
                                                      : false;
     if (f == NH_LOG && u == s) put(n, out, most, call);
     if (nh_is_zero(d, slope) || !is_constant(p, slope)) return;
-    for (int halves = 0; halves < 2; halves++) {
-        nh_ex argument = nh_mul(d, halves ? half : slope, s), forth = back ? nh_neg(d, argument) : argument;
-        if (f == NH_SIN || f == NH_COS || f == NH_TAN) put_waves(d, n, out, most, forth, NH_COS);
-        if (f == NH_SINH || f == NH_COSH || f == NH_TANH) put_waves(d, n, out, most, forth, NH_COSH);
-        if (f == NH_EXP) put(n, out, most, nh_call(d, NH_EXP, argument));
-    }
+    nh_ex argument = nh_product(d, 3, (nh_ex[]){nh_ratio(d, 1, parts), slope, s});
+    nh_ex forth = back ? nh_neg(d, argument) : argument;
+    if (f == NH_SIN || f == NH_COS || f == NH_TAN) put_waves(d, n, out, most, forth, NH_COS);
+    if (f == NH_SINH || f == NH_COSH || f == NH_TANH) put_waves(d, n, out, most, forth, NH_COSH);
+    if (f == NH_EXP) put(n, out, most, nh_call(d, NH_EXP, argument));
 }
 
+/* Does it depend on no other coordinate, nor on t? */
+static bool is_of(const problem *p, nh_ex e, nh_ex s)
+{
+    bool of = nh_depends(p->d, e, s) && !nh_depends(p->d, e, p->o->system->t);
+    for (size_t k = 0; k < p->o->m; k++) {
+        nh_ex q = p->o->system->coordinate[k].q;
+        of = of && (q == s || !nh_depends(p->d, e, q));
+    }
+    return of;
+}
+
+/* s, functions of s that occur in the equations of motion, their derivatives, and the square. */
 static size_t letters_of(const problem *p, nh_ex s, bool turns, size_t calls, const nh_ex *call, nh_ex *out)
 {
     size_t n = 0;
     put(&n, out, most_letters, s);
     if (turns) put_waves(p->d, &n, out, most_letters, s, NH_COS);
-    for (size_t i = 0; i < calls; i++) put_functions(p, s, call[i], &n, out, most_letters);
+    for (size_t i = 0; i < calls; i++) put_functions(p, s, call[i], 1, &n, out, most_letters);
     put(&n, out, most_letters, nh_powi(p->d, s, 2));
+    for (size_t i = 0; i < p->known->atoms; i++) {
+        nh_ex f = p->known->atom[i];
+        if (!is_of(p, f, s)) continue;
+        put(&n, out, most_letters, f);
+        put(&n, out, most_letters, nh_simplify_short(p->d, nh_diff(p->d, f, s), 0));
+    }
+    for (size_t i = 0; i < calls; i++) put_functions(p, s, call[i], 2, &n, out, most_letters);
     return n;
 }
 
-/* All products of e and `factors` letters of different variables from number k on; false where they are too many.  The
- * last of them, time, is in no word alone: drives are functions of t. */
-static bool add_words(problem *p, size_t k, size_t factors, nh_ex e, const size_t *letters, const nh_ex *letter)
+/* All products of e and `factors` letters of different variables from number k on, the first `most` of each; false
+ * where they are too many.  The last variable, time, is in no word alone: drives are functions of t. */
+static bool add_words(problem *p, size_t k, size_t factors, nh_ex e, size_t most, const size_t *letters,
+                      const nh_ex *letter)
 {
     if (factors == 0 && p->words == most_words) return false;
     if (factors == 0) p->word[p->words++] = e;
     bool room = true;
     for (; k <= p->o->m && factors && room && (k < p->o->m || !nh_is_number(p->d, e, 1)); k++)
-        for (size_t i = 0; i < letters[k] && room; i++)
-            room = add_words(p, k + 1, factors - 1, nh_mul(p->d, e, letter[k * most_letters + i]), letters, letter);
+        for (size_t i = 0; i < letters[k] && i < most && room; i++)
+            room =
+                add_words(p, k + 1, factors - 1, nh_mul(p->d, e, letter[k * most_letters + i]), most, letters, letter);
     return room;
 }
 
@@ -134,7 +154,9 @@ static void find_drives(problem *p, size_t calls, const nh_ex *call)
     nh_ex t = p->o->system->t;
     put(&p->drives, p->drive, NH_LINEAR_MOTION_DRIVES, nh_int(p->d, 1));
     if (!p->equations->time) return;
-    for (size_t i = 0; i < calls; i++) put_functions(p, t, call[i], &p->drives, p->drive, NH_LINEAR_MOTION_DRIVES);
+    for (int parts = 1; parts <= 2; parts++)
+        for (size_t i = 0; i < calls; i++)
+            put_functions(p, t, call[i], parts, &p->drives, p->drive, NH_LINEAR_MOTION_DRIVES);
     put(&p->drives, p->drive, NH_LINEAR_MOTION_DRIVES, t);
     put(&p->drives, p->drive, NH_LINEAR_MOTION_DRIVES, nh_powi(p->d, t, 2));
 }
@@ -143,6 +165,7 @@ static void find_drives(problem *p, size_t calls, const nh_ex *call)
 static void find_words(problem *p, bool timed)
 {
     enum { most_calls = 40, most_factors = 3 };
+    static const size_t most_of[most_factors] = {most_letters, 6, 4}; /* letters of a coordinate, the plainest first */
     nh_jet_equations *x = p->equations;
     nh_ex call[most_calls], *letter = nh_alloc_array((p->o->m + 1) * most_letters, sizeof *letter);
     size_t *letters = nh_alloc_array(p->o->m + 1, sizeof *letters), calls = calls_in(p->o, most_calls, call);
@@ -151,12 +174,14 @@ static void find_words(problem *p, bool timed)
         bool turns = q->type == NH_ANGLE || nh_jet_equations_is_cyclic(x, q->q);
         letters[k] = letters_of(p, q->q, turns, calls, call, letter + k * most_letters);
     }
-    for (size_t i = 0; i < calls && timed; i++)
-        put_functions(p, p->o->system->t, call[i], &letters[p->o->m], letter + p->o->m * most_letters, most_letters);
+    for (int parts = 1; parts <= 2 && timed; parts++)
+        for (size_t i = 0; i < calls; i++)
+            put_functions(p, p->o->system->t, call[i], parts, &letters[p->o->m], letter + p->o->m * most_letters,
+                          most_letters);
     bool room = true;
     for (size_t factors = 1; factors <= most_factors && room; factors++) {
         size_t before = p->words;
-        room = add_words(p, 0, factors, nh_int(p->d, 1), letters, letter);
+        room = add_words(p, 0, factors, nh_int(p->d, 1), most_of[factors - 1], letters, letter);
         if (!room) p->words = before;
     }
     find_drives(p, calls, call);
@@ -203,6 +228,32 @@ static bool values_at(problem *p, const nh_ex *taken, uint64_t seed, nh_residue 
     return good;
 }
 
+/* Words that are combinations of others and of drives, 1 + x^2 beside x^2, would be in relations that say nothing of
+ * motions: they are dropped, with their columns. */
+static void drop_dependent(problem *p, size_t rows, nh_residue *value)
+{
+    size_t W = p->words, K = p->drives, n = p->columns, kept = 0, *pivot = nh_alloc_array(W + K + 1, sizeof *pivot);
+    nh_residue *own = nh_alloc_array(rows * (K + W) + 1, sizeof *own);
+    for (size_t i = 0; i < rows; i++) {
+        memcpy(own + i * (K + W), value + i * n + 3 * W, K * sizeof *own);
+        memcpy(own + i * (K + W) + K, value + i * n + 2 * W, W * sizeof *own);
+    }
+    size_t rank = nh_residue_matrix_pivots(p->field, rows, K + W, own, pivot), left = 0, at = 0;
+    for (size_t i = 0; i < rank; i++) left += pivot[i] >= K;
+    p->columns = 3 * left + K;
+    for (size_t i = 0; i < rank; i++)
+        if (pivot[i] >= K) pivot[kept++] = pivot[i] - K;
+    for (size_t i = 0; i < rows; i++) {
+        for (size_t order = 0; order < 3; order++)
+            for (size_t j = 0; j < left; j++) value[at++] = value[i * n + order * W + pivot[j]];
+        for (size_t k = 0; k < K; k++) value[at++] = value[i * n + 3 * W + k];
+    }
+    for (size_t j = 0; j < left; j++) p->word[j] = p->word[pivot[j]];
+    p->words = left;
+    nh_free(own);
+    nh_free(pivot);
+}
+
 /* The null space of the columns' values, as rows. */
 static void null_space(problem *p, size_t rows, nh_residue *value)
 {
@@ -241,6 +292,7 @@ static bool find_relations(problem *p)
         }
     }
     good = good && rows == wanted;
+    if (good) drop_dependent(p, rows, value);
     if (good) null_space(p, rows, value);
     nh_work_add(NH_WORK_RESIDUE, (double)rows * (x->products + (double)(n * n) / 4));
     nh_free(value);
@@ -250,11 +302,11 @@ static bool find_relations(problem *p)
 
 /* ---- the largest closed space ---- */
 
-/* Brings the second derivatives to reduced echelon form; pivot[] are their words.  False where a relation has none. */
-static bool reduce(problem *p)
+/* Brings the second derivatives to reduced echelon form; pivot[] are their words.  Relations without any are
+ * dropped. */
+static void reduce(problem *p)
 {
-    return nh_residue_matrix_echelon(p->field, p->relations, p->columns, p->words, p->relation, p->pivot) ==
-           p->relations;
+    p->relations = nh_residue_matrix_echelon(p->field, p->relations, p->columns, p->words, p->relation, p->pivot);
 }
 
 /* What a combination of words has outside of the span of the u. */
@@ -296,12 +348,13 @@ static bool close_once(problem *p)
 static bool find_closed(problem *p)
 {
     p->pivot = nh_alloc_array(p->columns + 1, sizeof *p->pivot);
-    bool good = reduce(p), closed = false;
-    while (good && !closed && p->relations) {
+    bool closed = false;
+    reduce(p);
+    while (!closed && p->relations) {
         closed = close_once(p);
-        good = reduce(p);
+        reduce(p);
     }
-    return good && p->relations && p->relations <= most_functions;
+    return p->relations && p->relations <= most_functions;
 }
 
 /* Is a word in the u that is no coordinate?  Otherwise nothing is hidden. */
@@ -386,7 +439,7 @@ static void solve(const problem *p, nh_stage_solver *x)
 static bool search_words(nh_stage_solver *x, bool timed)
 {
     const nh_model *o = x->r->model;
-    problem p = {.o = o, .d = o->dag, .equations = nh_jet_equations_create(o, false, true)};
+    problem p = {.o = o, .d = o->dag, .known = &x->words, .equations = nh_jet_equations_create(o, false, true)};
     bool possible = !p.equations->obstacle && (!timed || p.equations->time);
     if (possible) find_words(&p, timed);
     bool found = p.words && find_relations(&p) && find_closed(&p) && is_hidden(&p);

@@ -320,11 +320,6 @@ static bool pencil_stage(nh_stage_solver *x, nh_ex q, const char *name, nh_penci
     return pencil_of(x, q, name, &family, base == NH_PENCIL_LINEAR);
 }
 
-void nh_rates_search_in(nh_stage_solver *x, const nh_family *base)
-{
-    pencil_of(x, x->r->model->system->t, "t", base, false);
-}
-
 /* Are the equations of motion independent of the coordinate?  (Of time this is not asked: the stage finds out soon.) */
 static bool is_cyclic(const nh_stage_solver *x, nh_ex q)
 {

@@ -63,8 +63,6 @@ bool nh_stage_solver_integral(const nh_stage_solver *solver, nh_ex variable, nh_
 
 /* Exponentials and waves in t and in the coordinates, with rates from the pencil. */
 void nh_rates_search(nh_stage_solver *solver);
-/* The same in t alone, for this family. */
-void nh_rates_search_in(nh_stage_solver *solver, const nh_family *base);
 /* Systems, or blocks of coordinates, whose equations of motion are linear with constant coefficients. */
 void nh_linear_motion_search(nh_stage_solver *solver);
 /* The same of functions of the coordinates that have such equations. */

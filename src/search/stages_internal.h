@@ -73,7 +73,5 @@ void nh_stage_weight_4(nh_family_list *families);
 void nh_stage_separation(nh_family_list *families);
 /* Half angles: parabolic coordinates seen from polar ones. */
 void nh_stage_half_angles(nh_family_list *families);
-/* 1 and products of functions of one coordinate. */
-nh_expr_set nh_expr_set_one_coordinate(const nh_family_list *families);
 
 #endif
