@@ -435,19 +435,19 @@ static void solve(const problem *p, nh_stage_solver *x)
     nh_free(c);
 }
 
-/* Are there such functions?  Then their currents are searched. */
+/* Searches the currents of such functions.  False where there are none, but may be in words with functions of t. */
 static bool search_words(nh_stage_solver *x, bool timed)
 {
     const nh_model *o = x->r->model;
     problem p = {.o = o, .d = o->dag, .known = &x->words, .equations = nh_jet_equations_create(o, false, true)};
-    bool possible = !p.equations->obstacle && (!timed || p.equations->time);
-    if (possible) find_words(&p, timed);
+    bool autonomous = !p.equations->time;
+    if (!p.equations->obstacle) find_words(&p, timed);
     bool found = p.words && find_relations(&p) && find_closed(&p) && is_hidden(&p);
     if (found) solve(&p, x);
     nh_free(p.pivot);
     nh_free(p.relation);
     nh_jet_equations_free(p.equations);
-    return found;
+    return found || autonomous;
 }
 
 void nh_linear_motion_functions(nh_stage_solver *x)
