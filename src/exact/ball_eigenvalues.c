@@ -102,10 +102,10 @@ bool nh_ball_eigenvalues(nh_ball *ball, size_t n, const nh_ex *A, double *re, do
         acb_mat_set_arb_mat(matrix, entries);
         acb_mat_approx_eig_qr(value, NULL, NULL, matrix, NULL, 0, nh_ball_bits(ball));
     }
+    for (size_t i = 0; i < n && good; i++) good = acb_is_finite(value + i);
     for (size_t i = 0; i < n && good; i++) {
         re[i] = middle(acb_realref(value + i), &error);
         im[i] = middle(acb_imagref(value + i), &error);
-        good = isfinite(re[i]) && isfinite(im[i]);
     }
     if (good) join_equal(n, re, im);
     acb_mat_clear(matrix);

@@ -11,7 +11,8 @@ bool nh_ball_eigenvalue_roots(nh_ball *ball, size_t n, const nh_ex *M, const nh_
                               double *error);
 
 /* Approximate eigenvalues re + i im of the n x n matrix A, row by row.  A multiple one, which rounding splits by a root
- * of its size, is the mean of its parts, which it does not move.  False where an entry has no value in the ball. */
+ * of its size, is the mean of its parts, which it does not move.  False, with re and im as they were, where an entry
+ * has no value in the ball. */
 bool nh_ball_eigenvalues(nh_ball *ball, size_t n, const nh_ex *A, double *re, double *im);
 
 #endif
