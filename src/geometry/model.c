@@ -55,6 +55,13 @@ nh_ex nh_model_gamma(const nh_model *o, nh_ex e)
     return result;
 }
 
+bool nh_model_is_constant(const nh_model *o, nh_ex e)
+{
+    for (size_t j = 0; j < o->width; j++)
+        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
+    return true;
+}
+
 nh_ex nh_model_along(const nh_model *o, const nh_field *f, nh_ex e)
 {
     nh_dag *d = o->dag;

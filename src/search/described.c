@@ -19,22 +19,15 @@ static nh_ex shortest(nh_dag *d, nh_ex e)
     return nh_complexity(d, sum) <= nh_complexity(d, as_written) ? sum : as_written;
 }
 
-static bool is_parametric(const nh_model *o, nh_ex e)
-{
-    for (size_t j = 0; j < o->width; j++)
-        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
-    return true;
-}
-
 /* The factor of e that contains numbers and parameters only. */
 static nh_ex parametric_factor(const nh_model *o, nh_ex e)
 {
     nh_dag *d = o->dag;
-    if (nh_kind_of(d, e) != NH_PRODUCT) return is_parametric(o, e) ? e : nh_int(d, 1);
+    if (nh_kind_of(d, e) != NH_PRODUCT) return nh_model_is_constant(o, e) ? e : nh_int(d, 1);
     nh_ex factor = nh_number(d, nh_constant_of(d, e));
     for (size_t i = 0; i < nh_arity(d, e); i++) {
         nh_ex base = nh_child(d, e, i), x = nh_exponent_of(d, e, i);
-        if (is_parametric(o, base) && is_parametric(o, x)) factor = nh_mul(d, factor, nh_pow(d, base, x));
+        if (nh_model_is_constant(o, base) && nh_model_is_constant(o, x)) factor = nh_mul(d, factor, nh_pow(d, base, x));
     }
     return factor;
 }
@@ -51,7 +44,7 @@ static bool is_unit(const nh_model *o, nh_ex factor)
 static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
 {
     nh_dag *d = o->dag;
-    if (is_parametric(o, Z0) && is_unit(o, Z0)) return Z0;
+    if (nh_model_is_constant(o, Z0) && is_unit(o, Z0)) return Z0;
     nh_ex best = nh_int(d, 1);
     size_t least = SIZE_MAX;
     for (size_t i = o->n; i-- > 0;) { /* of equally simple components the last one is taken */
@@ -154,7 +147,7 @@ static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, cons
 static const char *part_of(nh_model *o, nh_ex phi, nh_ex e)
 {
     nh_ex ratio = nh_simplify_short(o->dag, nh_div(o->dag, phi, e), 0);
-    if (!is_parametric(o, ratio)) return NULL;
+    if (!nh_model_is_constant(o, ratio)) return NULL;
     return nh_is_number(o->dag, ratio, 1) ? "" : nh_is_number(o->dag, ratio, -1) ? "minus the " : "a multiple of the ";
 }
 

@@ -45,13 +45,6 @@ typedef nh_linear_motion_block linear;
 
 /* ---- the matrix ---- */
 
-static bool constant(const nh_model *o, nh_ex e)
-{
-    for (size_t j = 0; j < o->width; j++)
-        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
-    return true;
-}
-
 static size_t root(linear *l, size_t i)
 {
     while (l->block[i] != i) i = l->block[i];
@@ -81,7 +74,7 @@ static bool row(linear *l, size_t i, nh_ex rate)
     for (size_t j = 0; j < l->size; j++) {
         if (!nh_depends(o->dag, rate, l->z[j])) continue;
         nh_ex slope = nh_simplify_short(o->dag, nh_diff(o->dag, rate, l->z[j]), 0);
-        if (!constant(o, slope)) return false;
+        if (!nh_model_is_constant(o, slope)) return false;
         l->entry[i + j * l->size] = slope;
         b = nh_substitute(o->dag, b, 1, &l->z[j], &zero);
     }

@@ -64,13 +64,6 @@ static void put_waves(nh_dag *d, size_t *n, nh_ex *list, size_t most, nh_ex argu
     put(n, list, most, nh_call(d, cosine == NH_COS ? NH_SIN : NH_SINH, argument));
 }
 
-static bool is_constant(const problem *p, nh_ex e)
-{
-    for (size_t k = 0; k < p->o->width; k++)
-        if (nh_depends(p->d, e, p->o->chart->symbol[k])) return false;
-    return true;
-}
-
 /* The function calls of the equations of motion. */
 static size_t calls_in(const nh_model *o, size_t most, nh_ex *out)
 {
@@ -96,7 +89,7 @@ static void put_functions(const problem *p, nh_ex s, nh_ex call, int parts, size
                 : nh_kind_of(d, slope) == NH_PRODUCT ? nh_num_value(nh_constant_of(d, slope)) < 0
                                                      : false;
     if (f == NH_LOG && u == s) put(n, out, most, call);
-    if (nh_is_zero(d, slope) || !is_constant(p, slope)) return;
+    if (nh_is_zero(d, slope) || !nh_model_is_constant(p->o, slope)) return;
     nh_ex argument = nh_product(d, 3, (nh_ex[]){nh_ratio(d, 1, parts), slope, s});
     nh_ex forth = back ? nh_neg(d, argument) : argument;
     if (f == NH_SIN || f == NH_COS || f == NH_TAN) put_waves(d, n, out, most, forth, NH_COS);

@@ -12,10 +12,7 @@ static const double spread = 0.04;
 
 static bool parametric_sum(const nh_model *o, nh_ex e)
 {
-    if (nh_kind_of(o->dag, e) != NH_SUM) return false;
-    for (size_t j = 0; j < o->width; j++)
-        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
-    return true;
+    return nh_kind_of(o->dag, e) == NH_SUM && nh_model_is_constant(o, e);
 }
 
 /* `seen`: a shared graph has exponentially many paths. */

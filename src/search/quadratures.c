@@ -69,13 +69,6 @@ static bool better(const nh_explicit_motion *a, const nh_explicit_motion *b)
 
 /* ---- the constants of integration as currents ---- */
 
-static bool is_parametric(const nh_model *o, nh_ex e)
-{
-    for (size_t j = 0; j < o->width; j++)
-        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
-    return true;
-}
-
 /* sqrt(u) sqrt(v) as sqrt(u v), also below other roots: integrands are factored, which hides that the states cancel in
  * 1 - C^2. */
 static nh_ex joined_roots(nh_dag *d, nh_ex e)
@@ -130,7 +123,7 @@ static nh_ex shorter_roots(const nh_model *o, nh_ex e)
     size_t n = nh_radicands_in(d, e, radicand, most);
     for (size_t i = 0; i < n; i++) {
         bool positive = split(d, radicand[i], &outside, &inside) &&
-                        (is_parametric(o, outside) || nh_model_sign(o, outside) > 0);
+                        (nh_model_is_constant(o, outside) || nh_model_sign(o, outside) > 0);
         if (positive) e = nh_substitute_root(d, e, radicand[i], nh_mul(d, outside, nh_sqrt(d, inside)));
     }
     return e;
@@ -149,7 +142,7 @@ static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
         if (nh_function_of(d, call[i]) != NH_LOG || nh_kind_of(d, u) != NH_PRODUCT) continue;
         c = nh_number(d, nh_constant_of(d, u));
         for (size_t f = 0; f < nh_arity(d, u); f++)
-            if (is_parametric(o, nh_child(d, u, f)) && is_parametric(o, nh_exponent_of(d, u, f)))
+            if (nh_model_is_constant(o, nh_child(d, u, f)) && nh_model_is_constant(o, nh_exponent_of(d, u, f)))
                 c = nh_mul(d, c, nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f)));
         nh_ex valued = nh_exact_values(o, c);
         if (nh_kind_of(d, valued) != NH_NUMBER || nh_num_value(nh_number_of(d, valued)) <= 0) continue;
@@ -165,7 +158,7 @@ static bool has_roots_of_states(const nh_model *o, nh_ex e)
     nh_ex radicand[most];
     size_t n = nh_radicands_in(o->dag, e, radicand, most);
     bool found = n == most;
-    for (size_t i = 0; i < n && !found; i++) found = !is_parametric(o, radicand[i]);
+    for (size_t i = 0; i < n && !found; i++) found = !nh_model_is_constant(o, radicand[i]);
     return found;
 }
 
@@ -217,7 +210,8 @@ static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
     for (size_t i = 0; i < roots; i++)
         for (size_t j = 0; j < known; j++) {
             nh_ex ratio = nh_simplify_short(d, nh_div(d, own[i], theirs[j]), 0);
-            if (own[i] == theirs[j] || !is_parametric(o, ratio) || !nh_square_split(d, ratio, &s, &rest)) continue;
+            bool parametric = own[i] != theirs[j] && nh_model_is_constant(o, ratio);
+            if (!parametric || !nh_square_split(d, ratio, &s, &rest)) continue;
             nh_ex value = nh_exact_values(o, s);
             if (rest != nh_int(d, 1) || nh_kind_of(d, value) != NH_NUMBER) continue;
             if (nh_num_value(nh_number_of(d, value)) < 0) s = nh_neg(d, s);
@@ -315,7 +309,7 @@ static const char *region_of(nh_stage_solver *x, const nh_explicit_motion *m)
         size_t n = nh_real_where(o, value, positive);
         all = joined(arena, all, nh_currents_region(x->bench, value, 0, NULL));
         for (size_t i = 0; i < n; i++) {
-            char *text = is_parametric(o, positive[i]) ? NULL : nh_print_string(o->dag, positive[i]);
+            char *text = nh_model_is_constant(o, positive[i]) ? NULL : nh_print_string(o->dag, positive[i]);
             if (text) all = joined(arena, all, nh_arena_printf(arena, "where %s > 0", text));
             nh_free(text);
         }
