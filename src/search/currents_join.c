@@ -1,0 +1,61 @@
+/* Candidates that nearly are currents: combinations of several of them, refined with many digits. */
+#include <math.h>
+
+#include "integrals/refine.h"
+#include "search/currents.h"
+
+static size_t unite(nh_current_checker *b, nh_ex *term, bool *leading)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < b->nears; k++)
+        for (size_t j = 0; j < b->near[k]->count; j++) {
+            size_t at = 0;
+            while (at < n && term[at] != b->near[k]->term[j]) at++;
+            if (at == n) term[n++] = b->near[k]->term[j];
+            leading[at] |= j == b->near[k]->pivot;
+        }
+    return n;
+}
+
+/* The pivot is a leading term that the vector contains. */
+static nh_candidate joined(const nh_current_checker *b, size_t n, const nh_ex *term, const bool *leading,
+                           const double *coefficient)
+{
+    nh_arena *arena = b->result->arena;
+    nh_candidate c = {.all = n, .accepted = b->near[0]->accepted};
+    c.term = nh_arena_alloc(arena, (n + 1) * sizeof *c.term);
+    c.coefficient = nh_arena_alloc(arena, (n + 1) * sizeof *c.coefficient);
+    c.all_term = nh_arena_alloc(arena, (n + 1) * sizeof *c.all_term);
+    c.all_coefficient = nh_arena_alloc(arena, (n + 1) * sizeof *c.all_coefficient);
+    c.all_size = nh_arena_alloc(arena, (n + 1) * sizeof *c.all_size);
+    for (size_t j = 0; j < n; j++) {
+        c.all_term[j] = term[j];
+        c.all_coefficient[j] = coefficient[j];
+        c.all_size[j] = fabs(coefficient[j]);
+        if (leading[j] && coefficient[j] != 0) c.term[0] = term[j];
+    }
+    return c;
+}
+
+size_t nh_currents_join(nh_current_checker *b, const nh_points *fit)
+{
+    enum { most_terms = 160 };
+    const nh_analysis *r = b->result;
+    size_t n = 0, added = 0;
+    for (size_t k = 0; k < b->nears; k++) n += b->near[k]->count;
+    nh_ex *term = nh_alloc_array(n + 1, sizeof *term);
+    bool *leading = nh_alloc_array(n + 1, sizeof *leading);
+    n = unite(b, term, leading);
+    nh_refined better = {0};
+    if (b->nears > 1 && n <= most_terms) better = nh_refine(r->model, n, term, leading, &r->options);
+    for (size_t k = 0; k < better.count; k++) {
+        if (better.digits[k] < r->options.digits) continue;
+        nh_candidate c = joined(b, n, term, leading, better.coefficient + k * n);
+        added += nh_currents_add(b, &c, fit, false);
+    }
+    b->nears = 0;
+    nh_refined_clear(&better);
+    nh_free(leading);
+    nh_free(term);
+    return added;
+}
