@@ -5,6 +5,7 @@
 #include "sweep.h"
 
 #include "commands/analyze.h"
+#include "commands/verify.h"
 #include "exact/normal.h"
 #include "integrals/affine_field.h"
 #include "integrals/centre_of_mass.h"
@@ -59,6 +60,27 @@ Test(linear_fields, two_links_while_they_fall, WHOLE_ONLY) { expect(TWO_LINKS("g
 /* A slider on a body in space: the energy, three momenta, three centres of mass, three angular momenta; about the centre of mass while it falls. */
 Test(linear_fields, a_slider_on_a_free_body, WHOLE_ONLY) { expect(SLIDER(""), 10, false); }
 Test(linear_fields, a_slider_on_a_falling_body, WHOLE_ONLY) { expect(SLIDER("gravity: g\n"), 10, false); }
+
+/* What analyze proves by a short field, verify proves of a formula that was typed: the rate itself is too long. */
+Test(linear_fields, verify_proves_a_momentum_by_its_field, PLAIN_ONLY)
+{
+    char path[SCRATCH];
+    FILE *out = scratch_open(path);
+    cr_assert(out && fputs(TWO_LINKS("gravity: [0, -g, 0]\n"), out) >= 0 && fclose(out) == 0);
+    nh_error error = {0};
+    nh_options options;
+    nh_options_default(&options);
+    nh_system *y = nh_system_read(path, 0, NULL, &error);
+    remove(path);
+    cr_assert(y, "%s", error.what);
+    nh_verification *v = nh_verification_of_current(y, NH_CHART_AUTO,
+                                                    "(m0 + m1 + m2)*x' - (m1 + m2)*a*h'*sin(h) - (m1/2 + m2)*l*(h' + q')*sin(h + q)"
+                                                    " - m2*l/2*(h' + q' + r')*sin(h + q + r)",
+                                                    &options, &error);
+    cr_assert(v, "%s", error.what);
+    cr_expect(v->conserved && v->proof.proved && v->proof.all_parameters);
+    nh_verification_free(v);
+}
 
 /* By hand; the angles of two pendulums have none. */
 Test(linear_fields, centres_of_mass)

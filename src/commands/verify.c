@@ -183,7 +183,7 @@ static bool examine(nh_verification *v, const nh_options *options, nh_error *err
     size_t n = 1 + v->model->m + v->model->n;
     nh_ex *term = nh_arena_alloc(v->arena, n * sizeof *term);
     nh_rate_terms(v->model, v->current, term);
-    v->proof = nh_prove_zero(v->model, n, term, true, options);
+    v->proof = nh_prove_current(v->model, v->current, true, options);
     bool found = nh_verification_worst_point(v, points, n, term, &v->residual);
     v->conserved = nh_verification_accepts(&v->proof, v->residual, options);
     v->has_counterexample = found && !v->conserved;
