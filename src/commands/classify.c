@@ -5,6 +5,7 @@
 
 #include "base/progress.h"
 #include "commands/classify_internal.h"
+#include "exact/normal.h"
 
 enum { chosen_degree = 4 };
 
@@ -151,11 +152,34 @@ size_t nh_classified_complete_everywhere(const nh_classified *x)
     return x->known == r->count + r->furthers ? nh_classified_complete(r) : 0;
 }
 
-static void analyse_value(nh_classified *x, const nh_classify_request *q, const nh_classify_value *v,
+/* Has a velocity no inertia at this value?  Where the parameter cancels in the equations of motion they have a limit
+ * there, which the count took; the system has no equations of motion. */
+static bool is_singular(const nh_classified *x, const nh_special_factor *f)
+{
+    const nh_model *o = x->almost_all->model;
+    nh_dag *d = o->dag;
+    size_t parameter;
+    int64_t top, bottom;
+    nh_error none;
+    nh_error_clear(&none);
+    if (!nh_classified_rational(f, &top, &bottom)) return false;
+    if (!nh_classified_parameter(o->system, x->over, &parameter, &none)) return false;
+    nh_ex value = nh_ratio(d, top, bottom), *M = nh_alloc_array(o->n * o->n + 1, sizeof *M);
+    for (size_t i = 0; i < o->n * o->n; i++)
+        M[i] = nh_simplify_short(d, nh_substitute(d, o->M[i], 1, &o->parameter[parameter], &value), 0);
+    nh_lu *lu = nh_lu_create(d, o->n, M, nh_chart_pivot_score, o->chart, NULL);
+    bool singular = !lu;
+    nh_lu_free(lu);
+    nh_free(M);
+    return singular;
+}
+
+static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_classify_value *v,
                           nh_classified_value *out)
 {
     int64_t top, bottom;
     nh_error error;
+    if (!v->degenerate && (v->first || v->open) && is_singular(x, &v->polynomial)) v->degenerate = true;
     if (!v->first || v->degenerate) return;
     out->why = x->question ? "it is looked at more closely at rational values only"
         : "currents are constructed at rational values only";

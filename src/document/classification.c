@@ -103,7 +103,7 @@ void nh_classification_left(const nh_classified *x, nh_text *out)
     if (degenerate) nh_text_add(out, ".\n");
     for (size_t k = 0; k < c->values; k++) {
         const nh_classify_value *v = &c->value[k];
-        if (!v->open) continue;
+        if (!v->open || v->degenerate) continue;
         nh_text_addf(out, "Not decided at %s: ", nh_classified_words(x, &v->polynomial));
         nh_classification_level(x, v->open, out);
         nh_text_add(out, ", of which there may be ");
