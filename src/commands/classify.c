@@ -146,6 +146,20 @@ size_t nh_classified_complete(const nh_analysis *r)
     return c->counted && !c->count.obstacle && !c->regional ? c->degree : 0;
 }
 
+size_t nh_classified_exact(const nh_classified *x, const nh_analysis *r, size_t rows, nh_classify_number *number)
+{
+    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    size_t d = 0;
+    if (x->shape || !c->counted || c->count.obstacle || c->regional) return 0;
+    for (size_t k = 0; k < c->count.rows && k < rows; k++) {
+        const nh_count_row *row = &c->count.row[k];
+        nh_classify_number *n = &number[row->degree];
+        if (row->bounded && n->bounded && row->bound < n->bound) n->bound = row->bound;
+        if (d + 1 == row->degree && n->bound == row->known) d++;
+    }
+    return d;
+}
+
 size_t nh_classified_complete_everywhere(const nh_classified *x)
 {
     const nh_analysis *r = x->almost_all;
@@ -189,11 +203,18 @@ static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_cla
     if (x->question) {
         out->why = NULL;
         nh_classified_confirm(x, q, &at, v->number[v->first].bound, out);
+        out->exact = out->complete;
         return;
     }
     nh_analysis *r = out->result = nh_classified_analyse(x, q, 1, &at, &error);
     out->why = r ? NULL : nh_arena_strdup(x->arena, error.what);
-    if (r) out->complete = nh_classified_complete(r);
+    if (!r) return;
+    out->complete = nh_classified_complete(r);
+    const nh_classification *c = x->classification;
+    out->exact = nh_classified_exact(x, r, c->rows, v->number);
+    if (v->open && v->open <= out->exact) v->open = 0;
+    while (v->first && v->number[v->first].bound <= c->row[v->first - 1].number.bound)
+        v->first = v->first < c->rows ? v->first + 1 : 0;
 }
 
 nh_classified *nh_classified_open(const nh_classify_request *q, nh_error *error)

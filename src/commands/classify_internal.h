@@ -30,6 +30,9 @@ nh_analysis *nh_classified_analyse(const nh_classified *classified, const nh_cla
 const char *nh_classified_value_of(nh_arena *arena, const nh_system *system, const char *name, double *about);
 /* The degree up to which the currents of an analysis account for the number of integrals; 0: none. */
 size_t nh_classified_complete(const nh_analysis *analysis);
+/* Takes the analysis' own bounds into the numbers of degrees 1 .. rows where they are lower; the degree up to which the
+ * products of its currents are as many. */
+size_t nh_classified_exact(const nh_classified *x, const nh_analysis *r, size_t rows, nh_classify_number *number);
 /* The same for the currents that are proved for every value, where the equations of a family do not depend on its
  * parameters. */
 size_t nh_classified_complete_everywhere(const nh_classified *family);

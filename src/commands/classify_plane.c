@@ -127,7 +127,7 @@ static void isolated_point(plane *x, const nh_classify_request *q, size_t index,
     nh_error_clear(&error);
     const nh_plane_point *at = &x->plane->point[index];
     const nh_plane_line *line = &x->plane->line[at->line];
-    const nh_classify_value *v = &line->line->value[at->value];
+    nh_classify_value *v = &line->line->value[at->value];
     nh_arena *arena = x->family->arena;
     int64_t top[2], bottom[2];
     nh_classified_rational(&line->across, &top[1], &bottom[1]);
@@ -147,7 +147,10 @@ static void isolated_point(plane *x, const nh_classify_request *q, size_t index,
             setting[k] = (nh_setting){.name = x->over[k], .value = p.about[k], .top = top[k], .bottom = bottom[k]};
         out->result = nh_classified_analyse(x->family, q, 2, setting, &error);
         out->why = out->result ? NULL : nh_arena_strdup(arena, error.what);
-        if (out->result) out->complete = nh_classified_complete(out->result);
+        if (out->result) {
+            out->complete = nh_classified_complete(out->result);
+            out->exact = nh_classified_exact(x->family, out->result, x->plane->rows, v->number);
+        }
     }
     add_point(x, capacity, &p);
 }

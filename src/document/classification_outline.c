@@ -96,7 +96,7 @@ static void outline_line(const nh_classified *x, pen *p)
         if (!v->first || v->degenerate) continue;
         if (!written++) nh_pen_section(p, "special", nh_classification_where(x));
         nh_pen_place_card(p, nh_classified_words(x, &v->polynomial));
-        nh_classification_write_numbers(x, p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
+        nh_classification_write_numbers(x, p, c->rows, v->number, v->first, x->value[k].exact, almost_all);
         nh_classification_write_value(x, p, &x->value[k], v->first);
     }
     nh_pen_section(p, "excluded", "What is excluded");
@@ -169,7 +169,7 @@ static void outline_plane(const plane *x, pen *p)
         const nh_classified_point *q = &x->point[k];
         if (!k) nh_pen_section(p, "points", "More at the points");
         nh_pen_place_card(p, place_of(x, q));
-        nh_classification_write_numbers(x->family, p, o->rows, q->number, q->first, q->at->complete, almost_all);
+        nh_classification_write_numbers(x->family, p, o->rows, q->number, q->first, q->at->exact, almost_all);
         nh_classification_write_value(x->family, p, q->at, q->first);
     }
     nh_pen_section(p, "excluded", "What is excluded");

@@ -85,7 +85,7 @@ static void put_points(const space *x, pen *p, const size_t *almost_all)
         const nh_classified_point *at = x->point[k].at;
         if (!k) nh_pen_section(p, "points", "More at the points");
         nh_pen_place_card(p, place_of(x, &x->point[k]));
-        nh_classification_write_numbers(x->family, p, x->space->rows, at->number, at->first, at->at->complete,
+        nh_classification_write_numbers(x->family, p, x->space->rows, at->number, at->first, at->at->exact,
                                         almost_all);
         nh_classification_write_value(x->family, p, at->at, at->first);
     }
