@@ -1,16 +1,12 @@
-#include "search/quadratures.h"
+#include "search/quadratures_internal.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/budget.h"
 #include "base/progress.h"
-#include "exact/normal.h"
-#include "exact/square.h"
 #include "graph/measure.h"
 #include "graph/print.h"
-#include "graph/terms.h"
-#include "integrals/exact_points.h"
 #include "integrals/real_where.h"
 #include "search/currents.h"
 #include "search/explicit_motion.h"
@@ -69,120 +65,6 @@ static bool better(const nh_explicit_motion *a, const nh_explicit_motion *b)
 
 /* ---- the constants of integration as currents ---- */
 
-/* sqrt(u) sqrt(v) as sqrt(u v), also below other roots: integrands are factored, which hides that the states cancel in
- * 1 - C^2. */
-static nh_ex joined_roots(nh_dag *d, nh_ex e)
-{
-    enum { most = 200, passes = 4 };
-    nh_ex product[most], by[most], half = nh_ratio(d, 1, 2);
-    for (int pass = 0; pass < passes; pass++) {
-        size_t n = nh_products_in(d, e, product, most), joined = 0;
-        for (size_t i = 0; i < n && i < most; i++) {
-            nh_ex radicand = nh_int(d, 1), others = nh_number(d, nh_constant_of(d, product[i]));
-            size_t roots = 0;
-            for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
-                nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
-                bool root = x == half || x == nh_neg(d, half);
-                roots += root;
-                if (root) radicand = nh_mul(d, radicand, nh_pow(d, base, nh_add(d, x, x)));
-                else others = nh_mul(d, others, nh_pow(d, base, x));
-            }
-            if (roots < 2) continue;
-            nh_ex above = nh_simplify_short(d, radicand, 0);
-            nh_ex below = nh_simplify_short(d, nh_div(d, nh_int(d, 1), radicand), 0);
-            bool over = nh_complexity(d, below) < nh_complexity(d, above);
-            product[joined] = product[i];
-            by[joined++] = over ? nh_div(d, others, nh_sqrt(d, below)) : nh_mul(d, others, nh_sqrt(d, above));
-        }
-        if (!joined) return e;
-        e = nh_substitute(d, e, joined, product, by);
-    }
-    return e;
-}
-
-static bool split(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
-{
-    nh_ex root;
-    e = nh_simplify_short(d, e, 0);
-    bool quotient = nh_kind_of(d, e) == NH_SUM && !nh_radicands_in(d, e, &root, 1);
-    nh_ex common = nh_kind_of(d, e) == NH_SUM ? nh_terms_common(d, e) : nh_int(d, 1);
-    if (!nh_is_number(d, common, 1)) {
-        e = nh_mul(d, common, nh_simplify_short(d, nh_div(d, e, common), 0));
-        quotient = false;
-    }
-    return quotient ? nh_square_split_quotient(d, e, outside, inside) : nh_square_split(d, e, outside, inside);
-}
-
-/* sqrt(m^2 u) as m sqrt(u), sqrt(x^4 u) as x^2 sqrt(u): if that changes a sign, the root has the other sign everywhere
- * in e; the result is proved anew. */
-static nh_ex shorter_roots(const nh_model *o, nh_ex e)
-{
-    enum { most = 200 };
-    nh_dag *d = o->dag;
-    nh_ex radicand[most], outside, inside;
-    size_t n = nh_radicands_in(d, e, radicand, most);
-    for (size_t i = 0; i < n; i++) {
-        bool positive = split(d, radicand[i], &outside, &inside) &&
-                        (nh_model_is_constant(o, outside) || nh_model_sign(o, outside) > 0);
-        if (positive) e = nh_substitute_root(d, e, radicand[i], nh_mul(d, outside, nh_sqrt(d, inside)));
-    }
-    return e;
-}
-
-/* log(c u) as log u, with a positive constant c of parameters: in a current it adds a constant only. */
-static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
-{
-    enum { most = 24 };
-    const nh_model *o = r->model;
-    nh_dag *d = o->dag;
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, e, call, most), logs = 0;
-    for (size_t i = 0; i < n && n <= most; i++) {
-        nh_ex u = nh_child(d, call[i], 0), c = nh_int(d, 1);
-        if (nh_function_of(d, call[i]) != NH_LOG || nh_kind_of(d, u) != NH_PRODUCT) continue;
-        c = nh_number(d, nh_constant_of(d, u));
-        for (size_t f = 0; f < nh_arity(d, u); f++)
-            if (nh_model_is_constant(o, nh_child(d, u, f)) && nh_model_is_constant(o, nh_exponent_of(d, u, f)))
-                c = nh_mul(d, c, nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f)));
-        nh_ex valued = nh_exact_values(o, c);
-        if (nh_kind_of(d, valued) != NH_NUMBER || nh_num_value(nh_number_of(d, valued)) <= 0) continue;
-        by[logs] = nh_call(d, NH_LOG, nh_div(d, u, c));
-        call[logs++] = call[i];
-    }
-    return nh_substitute(d, e, logs, call, by);
-}
-
-static bool has_roots_of_states(const nh_model *o, nh_ex e)
-{
-    enum { most = 24 };
-    nh_ex radicand[most];
-    size_t n = nh_radicands_in(o->dag, e, radicand, most);
-    bool found = n == most;
-    for (size_t i = 0; i < n && !found; i++) found = !nh_model_is_constant(o, radicand[i]);
-    return found;
-}
-
-/* atanh(a/sqrt(a^2 + b^2)) as asinh(a/b), where that is not much longer: it keeps its digits where b is small. */
-static nh_ex better_area_functions(const nh_model *o, nh_ex e)
-{
-    enum { most = 24, a_few = 4 };
-    nh_dag *d = o->dag;
-    nh_ex call[most], outside, inside, one = nh_int(d, 1);
-    size_t n = nh_functions_in(d, e, call, most);
-    for (size_t i = 0; i < n && n <= most; i++) {
-        if (nh_function_of(d, call[i]) != NH_ATANH) continue;
-        nh_ex f = nh_child(d, call[i], 0), square = nh_simplify_short(d, nh_powi(d, f, 2), 0);
-        nh_ex other = nh_simplify_short(d, nh_div(d, square, nh_sub(d, one, square)), 0);
-        if (!nh_square_split(d, other, &outside, &inside)) continue;
-        nh_ex u = nh_simplify_short(d, nh_mul(d, outside, nh_sqrt(d, inside)), 0);
-        int sign = has_roots_of_states(o, u) ? 0 : nh_model_sign(o, nh_div(d, f, u));
-        if (!sign || nh_complexity(d, u) > nh_complexity(d, f) + a_few) continue;
-        nh_ex area = nh_mul(d, nh_int(d, sign), nh_call(d, NH_ASINH, u));
-        e = nh_substitute(d, e, 1, &call[i], &area);
-    }
-    return e;
-}
-
 typedef struct {
     nh_ex e;
     bool fixed;
@@ -198,59 +80,6 @@ static int by_generality(const void *left, const void *right)
     return a->e < b->e ? -1 : a->e > b->e;
 }
 
-/* sqrt(s^2 R) as s sqrt(R), where sqrt(R) occurs in the equations of motion and the parameters make s positive: the
- * rate then vanishes for both signs of s. */
-static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
-{
-    enum { most = 200 };
-    nh_dag *d = o->dag;
-    nh_ex own[most], theirs[most], half = nh_ratio(d, 1, 2), s, rest;
-    size_t roots = nh_radicands_in(d, e, own, most), known = 0;
-    for (size_t k = 0; k < o->n; k++) known += nh_radicands_in(d, o->a[k], theirs + known, most - known);
-    for (size_t i = 0; i < roots; i++)
-        for (size_t j = 0; j < known; j++) {
-            nh_ex ratio = nh_simplify_short(d, nh_div(d, own[i], theirs[j]), 0);
-            bool parametric = own[i] != theirs[j] && nh_model_is_constant(o, ratio);
-            if (!parametric || !nh_square_split(d, ratio, &s, &rest)) continue;
-            nh_ex value = nh_exact_values(o, s);
-            if (rest != nh_int(d, 1) || nh_kind_of(d, value) != NH_NUMBER) continue;
-            if (nh_num_value(nh_number_of(d, value)) < 0) s = nh_neg(d, s);
-            e = nh_substitute_root(d, e, own[i], nh_mul(d, s, nh_pow(d, theirs[j], half)));
-            break;
-        }
-    return e;
-}
-
-/* sign(u) as u/sqrt(u^2): then it goes into the roots beside it. */
-static nh_ex signs_as_roots(nh_dag *d, nh_ex e)
-{
-    enum { most = 24 };
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, e, call, most), signs = 0;
-    for (size_t i = 0; i < n && i < most; i++) {
-        nh_ex u = nh_child(d, call[i], 0);
-        if (nh_function_of(d, call[i]) != NH_SIGN) continue;
-        by[signs] = nh_div(d, u, nh_sqrt(d, nh_powi(d, u, 2)));
-        call[signs++] = call[i];
-    }
-    return nh_substitute(d, e, signs, call, by);
-}
-
-/* The constant's value in a shorter form.  If this changes the sign of its roots relative to those of the equations of
- * motion, values of parameters may be needed. */
-static nh_ex as_current(const nh_analysis *r, nh_ex value, bool general)
-{
-    const nh_model *o = r->model;
-    nh_dag *d = o->dag;
-    nh_ex e = shorter_roots(o, nh_simplify_short(d, shorter_logarithms(r, shorter_roots(o, value)), 0));
-    nh_ex stable = better_area_functions(o, e);
-    if (stable != e && nh_prove_current(o, stable, true, &r->options).all_parameters) e = stable;
-    nh_ex joined = shorter_roots(o, joined_roots(d, signs_as_roots(d, e)));
-    nh_ex rooted = nh_simplify_short(d, roots_of_the_equations(o, joined), 0);
-    if (e == rooted || !general || nh_prove_current(o, e, true, &r->options).all_parameters) return e;
-    return nh_prove_current(o, rooted, true, &r->options).all_parameters ? rooted : e;
-}
-
 static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *const *tried)
 {
     const nh_model *o = x->r->model;
@@ -260,7 +89,7 @@ static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *
     for (size_t k = 0; k < count; k++)
         for (size_t j = 0; j < tried[k]->constants; j++) {
             if (!tried[k]->constant[j].integrated || tried[k]->constant[j].at_start) continue;
-            nh_ex e = as_current(x->r, tried[k]->constant[j].value, !tried[k]->fixed);
+            nh_ex e = nh_quadratures_form(x->r, tried[k]->constant[j].value, !tried[k]->fixed);
             list[n++] = (constant){e, tried[k]->fixed != NULL, nh_complexity(o->dag, e)};
         }
     qsort(list, n, sizeof *list, by_generality);
