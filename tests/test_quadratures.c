@@ -245,6 +245,34 @@ Test(quadratures, a_root_of_velocities)
                    "domain: {\"x'\": [0.3, 1], \"z'\": [0.4, 1]}\n"), 5);
 }
 
+/* Area functions in place of logarithms, without a current below a fraction bar: integrals that are polynomial in the velocities, so that all are
+ * polynomials in those found.  log(x'^2 (2 y (y + sqrt(1 + y^2)) + 1)) is 2 arsinh(y) and a constant of the motion. */
+Test(quadratures, polynomials_with_area_functions)
+{
+    static const struct {
+        const char *constraint, *area;
+    } known[] = {{"z' = y*x'", "asinh(y)"}, {"z' = sqrt(y)*x'", "asinh(sqrt(y))"}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "name: particle\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"%s\"]\ndomain: {y: [0.3, 2]}\n",
+                 known[i].constraint);
+        nh_analysis *r = ask(text);
+        bool found = false;
+        for (size_t k = 0; k < r->count; k++) {
+            char *phi = nh_print_string(r->model->dag, r->found[k].phi);
+            found |= strstr(phi, known[i].area) && r->found[k].proof.all_parameters;
+            cr_expect_not(strstr(phi, "log("), "%s", phi);
+            cr_expect_not(strstr(phi, "/x'") || strstr(phi, "/y'"), "%s", phi);
+            nh_free(phi);
+        }
+        cr_expect(found, "%s", known[i].constraint);
+        const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+        cr_expect(c->degree >= 4 && c->linear, "%s: degree %zu", known[i].constraint, c->degree);
+        nh_analysis_free(r);
+    }
+}
+
 /* The radicand x'^2 (1 + C^2) is a square times a constant: nothing is left to series, and the signs go into the roots again. */
 Test(quadratures, drag_along_the_path)
 {

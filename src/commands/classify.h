@@ -31,7 +31,7 @@ typedef struct {
     nh_analysis *result;     /* NULL: there is none, for this reason */
     const char *why;
     const char *shown;       /* for other questions than that of currents: what was found there; NULL */
-    size_t complete;         /* the degree up to which all integrals are functions of these currents, or this finding's */
+    size_t complete;         /* the degree up to which all integrals are functions of these currents */
     size_t exact;            /* the degree up to which their products, or this finding, account for the number */
 } nh_classified_value;
 

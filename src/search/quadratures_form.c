@@ -3,6 +3,7 @@
 
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/diff.h"
 #include "graph/measure.h"
 #include "graph/terms.h"
 #include "integrals/exact_points.h"
@@ -159,13 +160,114 @@ static nh_ex signs_as_roots(nh_dag *d, nh_ex e)
     return nh_substitute(d, e, signs, call, by);
 }
 
+/* Is u = a + b sqrt(R), with one root, but for those of constants? */
+static bool is_surd(const nh_model *o, nh_ex u, nh_ex *a, nh_ex *b, nh_ex *R)
+{
+    enum { most = 8 };
+    nh_dag *d = o->dag;
+    nh_ex radicand[most], s = nh_symbol_fresh(d, "s"), zero = nh_int(d, 0);
+    size_t n = nh_radicands_in(d, u, radicand, most), roots = 0;
+    for (size_t i = 0; i < n && i < most; i++)
+        if (!nh_model_is_constant(o, radicand[i])) radicand[roots++] = radicand[i];
+    if (n > most || roots != 1) return false;
+    nh_ex e = nh_simplify_short(d, nh_substitute_root(d, u, radicand[0], s), 0);
+    *R = radicand[0];
+    *b = nh_simplify_short(d, nh_diff(d, e, s), 0);
+    *a = nh_simplify_short(d, nh_substitute(d, e, 1, &s, &zero), 0);
+    return !nh_depends(d, *b, s) && !nh_is_zero(d, *b);
+}
+
+/* The root of e, where it is positive; `exact`: and has no root but of constants. */
+static bool root_of(const nh_model *o, nh_ex e, bool exact, nh_ex *out)
+{
+    nh_dag *d = o->dag;
+    nh_ex outside, inside;
+    if (!split(d, e, &outside, &inside) || (exact && !nh_model_is_constant(o, inside))) return false;
+    if (exact && nh_model_sign(o, outside) < 0) outside = nh_neg(d, outside);
+    *out = nh_mul(d, outside, nh_sqrt(d, inside));
+    return !exact || nh_model_sign(o, outside) > 0;
+}
+
+/* w = arcosh(C) as *times arsinh(*sinh): sinh(w/2) is the root of (C - 1)/2, and cosh(w/2) that of (C + 1)/2. */
+static bool area_of_cosine(const nh_model *o, nh_ex C, int *times, nh_ex *sinh)
+{
+    enum { most_halves = 4 };
+    nh_dag *d = o->dag;
+    nh_ex half = nh_ratio(d, 1, 2), one = nh_int(d, 1);
+    bool found = false;
+    for (int k = 1; k <= most_halves; k++) {
+        nh_ex below = nh_simplify_short(d, nh_mul(d, half, nh_sub(d, C, one)), 0), root;
+        if (!root_of(o, below, false, &root) || (found && nh_complexity(d, root) >= nh_complexity(d, *sinh))) break;
+        *sinh = root;
+        *times = 1 << k;
+        found = true;
+        if (!root_of(o, nh_simplify_short(d, nh_mul(d, half, nh_add(d, C, one)), 0), true, &C)) break;
+    }
+    return found;
+}
+
+/* log(a + b sqrt(R)) without log N, where a^2 - b^2 R = N^2 or -N^2: with a = N cosh w or N sinh w it is w.  N may be a
+ * current. */
+static bool area_of(const nh_model *o, nh_ex u, nh_ex *out)
+{
+    nh_dag *d = o->dag;
+    nh_ex a, b, R, N;
+    u = joined_roots(d, u);
+    if (!is_surd(o, u, &a, &b, &R)) return false;
+    nh_ex norm = nh_simplify_short(d, nh_sub(d, nh_powi(d, a, 2), nh_product(d, 3, (nh_ex[]){b, b, R})), 0);
+    int times = 1, sign = nh_is_zero(d, norm) ? 0 : nh_model_sign(o, norm);
+    if (!sign || !root_of(o, sign > 0 ? norm : nh_simplify_short(d, nh_neg(d, norm), 0), true, &N)) return false;
+    nh_ex w = nh_simplify_short(d, nh_div(d, a, N), 0);
+    if (sign > 0 && !area_of_cosine(o, w, &times, &w)) return false;
+    int side = nh_model_sign(o, sign > 0 ? nh_div(d, w, b) : b);
+    if (!side || nh_complexity(d, w) >= nh_complexity(d, u)) return false;
+    *out = nh_mul(d, nh_int(d, times * side), nh_call(d, NH_ASINH, w));
+    return true;
+}
+
+/* log(y + sqrt(1 + y^2)) as arsinh(y): shorter, and no logarithm of a current is added. */
+static nh_ex areas_of_logarithms(const nh_model *o, nh_ex e)
+{
+    enum { most = 24 };
+    nh_dag *d = o->dag;
+    nh_ex call[most], by[most];
+    size_t n = nh_functions_in(d, e, call, most), areas = 0;
+    for (size_t i = 0; i < n && n <= most; i++) {
+        if (nh_function_of(d, call[i]) != NH_LOG || !area_of(o, nh_child(d, call[i], 0), &by[areas])) continue;
+        call[areas++] = call[i];
+    }
+    return areas ? nh_simplify_short(d, nh_substitute(d, e, areas, call, by), 0) : e;
+}
+
+/* A current times the currents that divide it, where that is not much longer: x y' - u, and not x - u/y'.  What is
+ * polynomial in the velocities is counted (count/completeness.h). */
+static nh_ex without_a_divisor(const nh_model *o, nh_ex e)
+{
+    enum { most = 100, a_few = 4 };
+    nh_dag *d = o->dag;
+    nh_ex product[most];
+    size_t n = nh_products_in(d, e, product, most);
+    for (size_t i = 0; i < n && n <= most; i++)
+        for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
+            nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
+            if (nh_kind_of(d, x) != NH_NUMBER || nh_num_value(nh_number_of(d, x)) >= 0) continue;
+            if (nh_model_is_constant(o, base)) continue;
+            nh_ex times = nh_simplify_short(d, nh_mul(d, e, nh_pow(d, base, nh_neg(d, x))), 0);
+            if (nh_complexity(d, times) > nh_complexity(d, e) + a_few) continue;
+            if (nh_is_zero(d, nh_simplify_short(d, nh_model_gamma(o, base), 0))) return times;
+        }
+    return e;
+}
+
 nh_ex nh_quadratures_form(const nh_analysis *r, nh_ex value, bool general)
 {
+    enum { most_divisors = 3 };
     const nh_model *o = r->model;
     nh_dag *d = o->dag;
     nh_ex e = shorter_roots(o, nh_simplify_short(d, shorter_logarithms(r, shorter_roots(o, value)), 0));
-    nh_ex stable = better_area_functions(o, e);
+    nh_ex stable = areas_of_logarithms(o, better_area_functions(o, e));
     if (stable != e && nh_prove_current(o, stable, true, &r->options).all_parameters) e = stable;
+    for (int k = 0; k < most_divisors; k++) e = without_a_divisor(o, e);
     nh_ex joined = shorter_roots(o, joined_roots(d, signs_as_roots(d, e)));
     nh_ex rooted = nh_simplify_short(d, roots_of_the_equations(o, joined), 0);
     if (e == rooted || !general || nh_prove_current(o, e, true, &r->options).all_parameters) return e;
