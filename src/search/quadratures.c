@@ -67,15 +67,17 @@ static bool better(const nh_explicit_motion *a, const nh_explicit_motion *b)
 
 typedef struct {
     nh_ex e;
-    bool fixed;
+    bool fixed, timed;
     size_t length;
 } constant;
 
-/* Sorts currents for all values of the parameters before those for some; short before long. */
+/* Sorts currents for all values of the parameters before those for some; those without t, of which more is counted,
+ * before those with t; short before long. */
 static int by_generality(const void *left, const void *right)
 {
     const constant *a = left, *b = right;
     if (a->fixed != b->fixed) return a->fixed ? 1 : -1;
+    if (a->timed != b->timed) return a->timed ? 1 : -1;
     if (a->length != b->length) return a->length < b->length ? -1 : 1;
     return a->e < b->e ? -1 : a->e > b->e;
 }
@@ -90,7 +92,10 @@ static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *
         for (size_t j = 0; j < tried[k]->constants; j++) {
             if (!tried[k]->constant[j].integrated || tried[k]->constant[j].at_start) continue;
             nh_ex e = nh_quadratures_form(x->r, tried[k]->constant[j].value, !tried[k]->fixed);
-            list[n++] = (constant){e, tried[k]->fixed != NULL, nh_complexity(o->dag, e)};
+            list[n++] = (constant){.e = e,
+                                   .fixed = tried[k]->fixed != NULL,
+                                   .timed = nh_depends(o->dag, e, o->system->t),
+                                   .length = nh_complexity(o->dag, e)};
         }
     qsort(list, n, sizeof *list, by_generality);
     for (size_t j = 0; j < n && !nh_stage_solver_done(x); j++)

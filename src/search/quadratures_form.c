@@ -239,23 +239,56 @@ static nh_ex areas_of_logarithms(const nh_model *o, nh_ex e)
     return areas ? nh_simplify_short(d, nh_substitute(d, e, areas, call, by), 0) : e;
 }
 
-/* A current times the currents that divide it, where that is not much longer: x y' - u, and not x - u/y'.  What is
- * polynomial in the velocities is counted (count/completeness.h). */
+static bool is_conserved(const nh_model *o, nh_ex e)
+{
+    return nh_model_is_constant(o, e) || nh_is_zero(o->dag, nh_simplify_short(o->dag, nh_model_gamma(o, e), 0));
+}
+
+/* A product without its conserved factors, but for the longest. */
+static nh_ex without_factors(const nh_model *o, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    size_t n = nh_kind_of(d, e) == NH_PRODUCT ? nh_arity(d, e) : 0, longest = 0;
+    for (size_t f = 1; f < n; f++)
+        if (nh_complexity(d, nh_child(d, e, f)) > nh_complexity(d, nh_child(d, e, longest))) longest = f;
+    nh_ex rest = n ? nh_int(d, 1) : e;
+    for (size_t f = 0; f < n; f++) {
+        nh_ex factor = nh_pow(d, nh_child(d, e, f), nh_exponent_of(d, e, f));
+        if (f == longest || !is_conserved(o, factor)) rest = nh_mul(d, rest, factor);
+    }
+    return rest;
+}
+
+/* e times a factor, term by term. */
+static nh_ex times(nh_dag *d, nh_ex e, nh_ex factor)
+{
+    if (nh_kind_of(d, e) != NH_SUM) return nh_simplify_short(d, nh_mul(d, e, factor), 0);
+    nh_ex sum = nh_mul(d, nh_number(d, nh_constant_of(d, e)), factor);
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex term = nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i));
+        sum = nh_add(d, sum, nh_simplify_short(d, nh_mul(d, term, factor), 0));
+    }
+    return nh_simplify_short(d, sum, 0);
+}
+
+/* A current times a current that divides it, where that is not much longer, or divided by one where that is shorter:
+ * x y' - u, and not x - u/y'.  What is polynomial in the velocities is counted (count/completeness.h). */
 static nh_ex without_a_divisor(const nh_model *o, nh_ex e)
 {
-    enum { most = 100, a_few = 4 };
+    enum { a_few = 4 };
     nh_dag *d = o->dag;
-    nh_ex product[most];
-    size_t n = nh_products_in(d, e, product, most);
-    for (size_t i = 0; i < n && n <= most; i++)
-        for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
-            nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
-            if (nh_kind_of(d, x) != NH_NUMBER || nh_num_value(nh_number_of(d, x)) >= 0) continue;
-            if (nh_model_is_constant(o, base)) continue;
-            nh_ex times = nh_simplify_short(d, nh_mul(d, e, nh_pow(d, base, nh_neg(d, x))), 0);
-            if (nh_complexity(d, times) > nh_complexity(d, e) + a_few) continue;
-            if (nh_is_zero(d, nh_simplify_short(d, nh_model_gamma(o, base), 0))) return times;
+    size_t terms = nh_kind_of(d, e) == NH_SUM ? nh_arity(d, e) : 1, length = nh_complexity(d, e);
+    for (size_t i = 0; i < terms; i++) {
+        nh_ex term = nh_kind_of(d, e) == NH_SUM ? nh_child(d, e, i) : e;
+        for (size_t f = 0; nh_kind_of(d, term) == NH_PRODUCT && f < nh_arity(d, term); f++) {
+            nh_ex base = nh_child(d, term, f), x = nh_exponent_of(d, term, f);
+            if (nh_kind_of(d, x) != NH_NUMBER || nh_model_is_constant(o, base)) continue;
+            bool divides = nh_num_value(nh_number_of(d, x)) < 0;
+            nh_ex whole = without_factors(o, times(d, e, nh_pow(d, base, nh_neg(d, x))));
+            bool short_enough = nh_complexity(d, whole) < (divides ? length + a_few : length);
+            if (short_enough && !nh_model_is_constant(o, whole) && is_conserved(o, base)) return whole;
         }
+    }
     return e;
 }
 
