@@ -239,9 +239,15 @@ static nh_ex areas_of_logarithms(const nh_model *o, nh_ex e)
     return areas ? nh_simplify_short(d, nh_substitute(d, e, areas, call, by), 0) : e;
 }
 
+/* Most are not, which doubles show: a rate that is nowhere as small as rounding. */
 static bool is_conserved(const nh_model *o, nh_ex e)
 {
-    return nh_model_is_constant(o, e) || nh_is_zero(o->dag, nh_simplify_short(o->dag, nh_model_gamma(o, e), 0));
+    enum { rounding = 1000000000 }; /* one part in so many */
+    nh_dag *d = o->dag;
+    if (nh_model_is_constant(o, e)) return true;
+    nh_ex rate = nh_model_gamma(o, e), least = nh_mul(d, nh_ratio(d, 1, rounding), e);
+    if (nh_model_sign(o, nh_sub(d, nh_powi(d, rate, 2), nh_powi(d, least, 2))) > 0) return false;
+    return nh_is_zero(d, nh_simplify_short(d, rate, 0));
 }
 
 /* A product without its conserved factors, but for the longest. */
@@ -271,22 +277,44 @@ static nh_ex times(nh_dag *d, nh_ex e, nh_ex factor)
     return nh_simplify_short(d, sum, 0);
 }
 
+/* What a product may be multiplied by: each factor's inverse; that of all that divides it; that and of exponentials. */
+static size_t multipliers_of(nh_dag *d, nh_ex term, size_t most, nh_ex *out)
+{
+    size_t n = 0;
+    nh_ex divisor = nh_int(d, 1), growth = divisor;
+    if (nh_kind_of(d, term) != NH_PRODUCT) return 0;
+    for (size_t f = 0; f < nh_arity(d, term) && n + 2 < most; f++) {
+        nh_ex base = nh_child(d, term, f), x = nh_exponent_of(d, term, f);
+        if (nh_kind_of(d, x) != NH_NUMBER) continue;
+        out[n] = nh_pow(d, base, nh_neg(d, x));
+        if (nh_num_value(nh_number_of(d, x)) < 0) divisor = nh_mul(d, divisor, out[n]);
+        else if (nh_kind_of(d, base) == NH_FUNCTION && nh_function_of(d, base) == NH_EXP)
+            growth = nh_mul(d, growth, out[n]);
+        n++;
+    }
+    out[n++] = divisor;
+    out[n++] = nh_mul(d, divisor, growth);
+    return n;
+}
+
 /* A current times a current that divides it, where that is not much longer, or divided by one where that is shorter:
  * x y' - u, and not x - u/y'.  What is polynomial in the velocities is counted (count/completeness.h). */
 static nh_ex without_a_divisor(const nh_model *o, nh_ex e)
 {
-    enum { a_few = 4 };
+    enum { a_few = 4, most = 32, longest = 500 };
     nh_dag *d = o->dag;
-    size_t terms = nh_kind_of(d, e) == NH_SUM ? nh_arity(d, e) : 1, length = nh_complexity(d, e);
-    for (size_t i = 0; i < terms; i++) {
-        nh_ex term = nh_kind_of(d, e) == NH_SUM ? nh_child(d, e, i) : e;
-        for (size_t f = 0; nh_kind_of(d, term) == NH_PRODUCT && f < nh_arity(d, term); f++) {
-            nh_ex base = nh_child(d, term, f), x = nh_exponent_of(d, term, f);
-            if (nh_kind_of(d, x) != NH_NUMBER || nh_model_is_constant(o, base)) continue;
-            bool divides = nh_num_value(nh_number_of(d, x)) < 0;
-            nh_ex whole = without_factors(o, times(d, e, nh_pow(d, base, nh_neg(d, x))));
-            bool short_enough = nh_complexity(d, whole) < (divides ? length + a_few : length);
-            if (short_enough && !nh_model_is_constant(o, whole) && is_conserved(o, base)) return whole;
+    nh_ex core = without_factors(o, e);
+    bool sum = nh_kind_of(d, core) == NH_SUM;
+    size_t length = nh_complexity(d, core);
+    for (size_t i = 0; i < (sum ? nh_arity(d, core) : 1) && length <= longest; i++) {
+        nh_ex multiplier[most];
+        size_t n = multipliers_of(d, sum ? nh_child(d, core, i) : core, most, multiplier);
+        for (size_t k = 0; k < n; k++) {
+            if (nh_model_is_constant(o, multiplier[k]) || !is_conserved(o, multiplier[k])) continue;
+            nh_ex whole = without_factors(o, times(d, core, multiplier[k]));
+            bool divided = nh_complexity(d, nh_powi(d, multiplier[k], -1)) < nh_complexity(d, multiplier[k]);
+            bool short_enough = nh_complexity(d, whole) < (divided ? length : length + a_few);
+            if (short_enough && !nh_model_is_constant(o, whole)) return whole;
         }
     }
     return e;
