@@ -155,7 +155,7 @@ size_t nh_classified_exact(const nh_classified *x, const nh_analysis *r, size_t 
         const nh_count_row *row = &c->count.row[k];
         nh_classify_number *n = &number[row->degree];
         if (row->bounded && n->bounded && row->bound < n->bound) n->bound = row->bound;
-        if (d + 1 == row->degree && n->bound == row->known) d++;
+        if (d + 1 == row->degree && (n->bounded ? n->bound : row->bound) == row->known) d++;
     }
     return d;
 }

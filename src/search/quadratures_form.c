@@ -317,7 +317,7 @@ static nh_ex without_a_divisor(const nh_model *o, nh_ex e)
             if (short_enough && !nh_model_is_constant(o, whole)) return whole;
         }
     }
-    return e;
+    return core;
 }
 
 nh_ex nh_quadratures_form(const nh_analysis *r, nh_ex value, bool general)
