@@ -660,6 +660,18 @@ Test(classify, a_value_without_inertia_is_degenerate)
     place_clear(&p);
 }
 
+/* The analysis at a value has the last word: its lower bounds, and its currents where the count leaves the value open. */
+Test(classify, the_analysis_at_a_value_decides, PLAIN_ONLY)
+{
+    place p = place_make();
+    write_here(&p, "a.yaml", "name: a\nparameters: {g: 1}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - g*y\nconstraints: [\"z' = y*x'\"]\n");
+    finished f = run_expecting(&p, "classify a.yaml --over g", 0);
+    cr_expect(strstr(f.out, "\ng = 0\n  degree 1: 5 instead of 2, degree 2: 15 instead of 4, degree 3: 35 instead of\n    6, degree 4: 70 instead of 9.\n"), "%s", f.out);
+    cr_expect_not(strstr(f.out, "Not decided"), "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* What stays open names the option, and more of it decides. */
 Test(classify, an_open_value_names_the_option_that_decides_it)
 {

@@ -193,9 +193,11 @@ Test(statements, the_forms_of_the_currents_are_those_of_the_geometry, PLAIN_ONLY
         reports r = analyze(&p, geometry ? "own.yaml --equations" : "own.yaml");
         cr_expect_eq(occurrences(r.text, "\n  phi^1 = -sin(phi) dx + cos(phi) dy\n"), !geometry, "%s", r.text);
         cr_expect_eq(occurrences(r.text, "\n  phi^1 = -tan(phi) dx + dy\n"), 2 * geometry, "%s", r.text);
-        cr_expect_eq(occurrences(r.text, "\n  i_[Gamma,Z] phi^1 = -1/omega\n"), !geometry, "%s", r.text);
-        cr_expect_eq(occurrences(r.text, "\n  i_[Gamma,Z] phi^1 = -1/(omega*cos(phi))\n"), geometry, "%s", r.text);
-        cr_expect_eq(occurrences(r.text, "\n  i_[Gamma,Z(Phi3)]phi^1 = -1/(omega*cos(phi))\n"), geometry, "%s", r.text);
+        cr_expect_eq(occurrences(r.text, "\n  i_[Gamma,Z] phi^1 = -sqrt(m*v^2 + omega^2*(J + m*a^2))/(m*omega)\n"), !geometry, "%s", r.text);
+        cr_expect_eq(occurrences(r.text, "\n  i_[Gamma,Z] phi^1 = -sqrt(m*v^2 + omega^2*(J + m*a^2))/(m*omega*cos(phi))\n"), geometry, "%s", r.text);
+        /* S: the sum below the root */
+        cr_expect_eq(occurrences(r.text, "\n  i_[Gamma,Z(Phi3)]phi^1 = -sqrt(S_"), geometry, "%s", r.text);
+        cr_expect_eq(occurrences(r.text, ")/(m*omega*cos(phi))\n"), 2 * geometry, "%s", r.text);
         cr_expect_eq(occurrences(r.text, ") phi'' = 0\n") + occurrences(r.text, ") zeta^phi = 0\n"), 4 * geometry);
         cr_expect(!strstr(r.text, "(-J - m*a^2)"), "a sum of negative terms is minus a sum");
         reports_clear(&r);
