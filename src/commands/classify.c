@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "commands/classify_internal.h"
 #include "exact/normal.h"
+#include "integrals/exact_points.h"
 
 enum { chosen_degree = 4 };
 
@@ -179,8 +180,10 @@ static bool is_singular(const nh_classified *x, const nh_special_factor *f)
     if (!nh_classified_rational(f, &top, &bottom)) return false;
     if (!nh_classified_parameter(o->system, x->over, &parameter, &none)) return false;
     nh_ex value = nh_ratio(d, top, bottom), *M = nh_alloc_array(o->n * o->n + 1, sizeof *M);
-    for (size_t i = 0; i < o->n * o->n; i++)
-        M[i] = nh_simplify_short(d, nh_substitute(d, o->M[i], 1, &o->parameter[parameter], &value), 0);
+    for (size_t i = 0; i < o->n * o->n; i++) {
+        nh_ex there = nh_substitute(d, o->M[i], 1, &o->parameter[parameter], &value);
+        M[i] = nh_simplify_short(d, nh_exact_values(o, there), 0);
+    }
     nh_lu *lu = nh_lu_create(d, o->n, M, nh_chart_pivot_score, o->chart, NULL);
     bool singular = !lu;
     nh_lu_free(lu);
