@@ -320,6 +320,16 @@ static nh_ex without_a_divisor(const nh_model *o, nh_ex e)
     return core;
 }
 
+/* A form of a constant without signs, its roots joined. */
+static nh_ex in_other_roots(const nh_analysis *r, nh_ex e, bool general)
+{
+    const nh_model *o = r->model;
+    nh_ex joined = shorter_roots(o, joined_roots(o->dag, signs_as_roots(o->dag, e)));
+    nh_ex rooted = nh_simplify_short(o->dag, roots_of_the_equations(o, joined), 0);
+    if (e == rooted || !general || nh_prove_current(o, e, true, &r->options).all_parameters) return e;
+    return nh_prove_current(o, rooted, true, &r->options).all_parameters ? rooted : e;
+}
+
 nh_ex nh_quadratures_form(const nh_analysis *r, nh_ex value, bool general)
 {
     enum { most_divisors = 3 };
@@ -328,9 +338,10 @@ nh_ex nh_quadratures_form(const nh_analysis *r, nh_ex value, bool general)
     nh_ex e = shorter_roots(o, nh_simplify_short(d, shorter_logarithms(r, shorter_roots(o, value)), 0));
     nh_ex stable = areas_of_logarithms(o, better_area_functions(o, e));
     if (stable != e && nh_prove_current(o, stable, true, &r->options).all_parameters) e = stable;
-    for (int k = 0; k < most_divisors; k++) e = without_a_divisor(o, e);
-    nh_ex joined = shorter_roots(o, joined_roots(d, signs_as_roots(d, e)));
-    nh_ex rooted = nh_simplify_short(d, roots_of_the_equations(o, joined), 0);
-    if (e == rooted || !general || nh_prove_current(o, e, true, &r->options).all_parameters) return e;
-    return nh_prove_current(o, rooted, true, &r->options).all_parameters ? rooted : e;
+    e = in_other_roots(r, e, general);
+    nh_ex whole = e;
+    for (int k = 0; k < most_divisors; k++) whole = without_a_divisor(o, whole);
+    if (whole == e) return e;
+    nh_proof proof = nh_prove_current(o, whole, general, &r->options);
+    return (general ? proof.all_parameters : proof.proved) ? whole : e;
 }
