@@ -215,7 +215,10 @@ static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_cla
     out->complete = nh_classified_complete(r);
     const nh_classification *c = x->classification;
     out->exact = nh_classified_exact(x, r, c->rows, v->number);
-    if (v->open && v->open <= out->exact) v->open = 0;
+    if (v->open && v->open <= out->exact) { /* decided: there may be more from that degree on */
+        v->first = v->open < v->first ? v->open : v->first;
+        v->open = 0;
+    }
     while (v->first && v->number[v->first].bound <= c->row[v->first - 1].number.bound)
         v->first = v->first < c->rows ? v->first + 1 : 0;
 }
