@@ -53,7 +53,7 @@ Test(normal, identities)
         "sin(x/2)*cos(x/3)+cos(x/2)*sin(x/3)-sin(5*x/6)", "1/(1+tan(f)^2)-cos(f)^2", "sin(f)/(1+cos(f))-tan(f/2)",
         "tan(x+y)-(tan(x)+tan(y))/(1-tan(x)*tan(y))", "sin(x+pi/2)-cos(x)", "cos(x-3*pi)+cos(x)", "sin(pi/7)^2+cos(pi/7)^2-1",
         "cos(pi/4)-sqrt(2)/2", "sin(-5*pi/6)+1/2", "sin(x+2*pi/3)+sin(x)/2-sqrt(3)/2*cos(x)", "sin(x)+sin(x+2*pi/3)+sin(x+4*pi/3)", "cos(x/2-y-7*pi/4)-cos(pi/4-y+x/2)",
-        "sin(x*y+z)^2-1+cos(z+y*x)^2", "sin((x^2-1)/(x-1)+y)-sin(x+1+y)", "sin(2.5*x)^2+cos(2.5*x)^2-1",
+        "sin(x*y+z)^2-1+cos(z+y*x)^2", "sin((x^2-1)/(x-1)+y)-sin(x+1+y)", "sin(2.5*x)^2+cos(2.5*x)^2-1", "sin(3/10)-3*sin(1/10)+4*sin(1/10)^3", "cos(x+3/10)-cos(x)*cos(3/10)+sin(x)*sin(3/10)", "cos(4/5)-1+2*sin(2/5)^2",
         "cosh(x)^2-sinh(x)^2-1", "tanh(x)*cosh(x)-sinh(x)", "cosh(x)+sinh(x)-exp(x)", "cosh(x+y)-cosh(x)*cosh(y)-sinh(x)*sinh(y)",
         "1/cosh(x)^2-1+tanh(x)^2", "tanh(x/2)-sinh(x)/(cosh(x)+1)", "exp(a+b)-exp(a)*exp(b)", "exp(3*x)-exp(x)^3", "exp(-x)*exp(x)-1",
         "exp(x^2+3*x)*exp(-x^2-2*x)-exp(x)", "exp(x/2)*exp(x/3)-exp(5*x/6)", "exp(2+x)-exp(1)^2*exp(x)",

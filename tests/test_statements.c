@@ -205,6 +205,19 @@ Test(statements, the_forms_of_the_currents_are_those_of_the_geometry, PLAIN_ONLY
     place_clear(&p);
 }
 
+/* A slope of 0.3: what stands in the file stands in the formulas, and not the sine of a tenth. */
+Test(statements, the_sine_of_a_number_stays, PLAIN_ONLY)
+{
+    place p = place_make();
+    write_here(&p, "own.yaml", "name: own\nparameters: {m: 1, J: 0.4, g: 2}\ncoordinates: [x, y, {name: h, type: angle}]\n"
+               "lagrangian: m*(x'^2 + y'^2)/2 + J*h'^2/2 - m*g*y*sin(0.3)\nconstraints: [\"y'*cos(h) = x'*sin(h)\"]\n");
+    reports r = analyze(&p, "own.yaml");
+    cr_expect(strstr(r.text, "g*sin(3/10)*cos(h)"), "%s", r.text);
+    cr_expect_not(strstr(r.text, "(1/10)"), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
 /* The rate of an energy that is not conserved is a formula in all velocities, without the root that one of them is. */
 Test(statements, the_rate_of_the_energy_is_a_formula)
 {

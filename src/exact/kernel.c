@@ -300,6 +300,21 @@ static void settle(nh_kernels *k, size_t i, nh_num unit, size_t kernel)
     k->use[i].kernel = kernel;
 }
 
+/* A number as an argument is divided by no more than the others demand: sin(3/10) alone is no polynomial in
+ * sin(1/10). */
+static int64_t common_numerator(const nh_kernels *k, const nh_kernel_use *group, int64_t lcd)
+{
+    int64_t common = 0;
+    if (!nh_is_number(k->dag, group->atom, 1)) return 1;
+    for (size_t i = 0; i < k->uses; i++) {
+        const nh_kernel_use *u = &k->use[i];
+        if (u->settled || !same_group(u, group)) continue;
+        int64_t multiple = lcd / u->coefficient.q * u->coefficient.p;
+        common = common ? nh_gcd(common, multiple) : multiple;
+    }
+    return common;
+}
+
 /* Members whose multiples are too large get kernels of their own until the rest agrees. */
 static void settle_group(nh_kernels *k, size_t first)
 {
@@ -311,7 +326,7 @@ static void settle_group(nh_kernels *k, size_t first)
         settle(k, worst, unit, make_kernel(k, &group, unit));
     }
     if (k->use[first].settled) return;
-    nh_num unit = nh_num_ratio(1, lcd);
+    nh_num unit = nh_num_ratio(common_numerator(k, &group, lcd), lcd);
     size_t kernel = make_kernel(k, &group, unit);
     for (size_t i = first; i < k->uses; i++)
         if (!k->use[i].settled && same_group(&k->use[i], &group)) settle(k, i, unit, kernel);
