@@ -6,8 +6,9 @@
 
 #include "base/progress.h"
 #include "classify/plane_internal.h"
+#include "classify/sections.h"
 
-enum { least_primes = 4, first_sections = 4, most_sections = 20, most_unlucky = 6 };
+enum { least_primes = 4, first_sections = 4, parts = 3 };
 
 typedef struct {
     nh_classify_search s;
@@ -15,98 +16,22 @@ typedef struct {
     nh_space *out;
 } search;
 
-/* The index-th of some values of nu that have no special meaning. */
-static int64_t nu_at(size_t index) { return 7919 + 1009 * (int64_t)index; }
-
 /* ---- one prime ---- */
 
-/* Sections at several values of nu, all of the same degrees. */
 typedef struct {
-    size_t count, used;      /* used: number of values of nu taken, unlucky ones included */
-    nh_residue nu[most_sections];
-    nh_common_curves at[most_sections];
-} sections;
+    search *s;
+    size_t degree, prime;
+    nh_plane_row *row;
+} section;
 
-static bool alike(const nh_common_curves *a, const nh_common_curves *b)
+static bool section_at(void *context, int64_t nu, nh_common_curves *out)
 {
-    return !memcmp(a->special.degree, b->special.degree, sizeof a->special.degree)
-        && !memcmp(a->degenerate.degree, b->degenerate.degree, sizeof a->degenerate.degree)
-        && a->across.degree == b->across.degree;
-}
-
-/* A section whose degrees differ is unlucky: the first one, when the second disagrees with it, otherwise the new
- * one. */
-static void add_section(sections *x, nh_residue nu, nh_common_curves *c)
-{
-    if (x->count == 1 && !alike(&x->at[0], c)) nh_common_curves_clear(&x->at[--x->count]);
-    if (x->count && !alike(&x->at[0], c)) {
-        nh_common_curves_clear(c);
-        return;
-    }
-    x->nu[x->count] = nu;
-    x->at[x->count++] = *c;
-}
-
-static bool more_sections(search *s, size_t degree, size_t prime, size_t want, nh_plane_row *row, sections *x)
-{
-    nh_prime f = nh_classify_prime(&s->s, prime);
-    while (x->count < want && x->used < want + most_unlucky && !nh_late()) {
-        nh_common_curves c = {.across = {0, NULL}};
-        s->question.third_top = nu_at(x->used++);
-        s->question.third_bottom = 1;
-        s->s.products = s->question.products;
-        nh_progress("sections of special surfaces", -1);
-        if (!nh_plane_zeros(&s->s, degree, prime, row, &c)) {
-            nh_common_curves_clear(&c);
-            return false;
-        }
-        add_section(x, nh_residue_of(f, s->question.third_top), &c);
-    }
-    return x->count == want;
-}
-
-/* Special and degenerate surfaces and walls modulo one prime. */
-typedef struct {
-    nh_residue_surface part[3];
-} volumes;
-
-static void clear_volumes(volumes *v)
-{
-    for (int k = 0; k < 3; k++) nh_free(v->part[k].coefficient);
-    *v = (volumes){0};
-}
-
-static nh_residue_surface part_of(const nh_common_curves *c, int part)
-{
-    nh_residue_surface across = {.degree = {0, c->across.degree}, .coefficient = c->across.coefficient};
-    return part == 0 ? c->special : part == 1 ? c->degenerate : across;
-}
-
-static bool interpolate(const sections *x, nh_prime f, volumes *out)
-{
-    bool good = true;
-    nh_residue_surface section[most_sections];
-    for (int part = 0; part < 3 && good; part++) {
-        for (size_t k = 0; k < x->count; k++) section[k] = part_of(&x->at[k], part);
-        good = nh_residue_surface_from(f, x->count, x->nu, section, &out->part[part]);
-    }
-    if (!good) clear_volumes(out);
-    return good;
-}
-
-/* Takes more sections until they suffice. */
-static bool volumes_modulo(search *s, size_t degree, size_t prime, nh_plane_row *row, size_t *count, volumes *out)
-{
-    sections x = {.count = 0};
-    bool good = true, found = false;
-    for (size_t want = *count; want <= most_sections && good && !found; want += 2) {
-        good = more_sections(s, degree, prime, want, row, &x);
-        found = good && interpolate(&x, nh_classify_prime(&s->s, prime), out);
-        *count = want;
-    }
-    if (good && !found) s->out->end = "surfaces";
-    for (size_t k = 0; k < x.count; k++) nh_common_curves_clear(&x.at[k]);
-    return found;
+    const section *x = context;
+    x->s->question.third_top = nu;
+    x->s->question.third_bottom = 1;
+    x->s->s.products = x->s->question.products;
+    nh_progress("sections of special surfaces", -1);
+    return nh_plane_zeros(&x->s->s, x->degree, x->prime, x->row, out);
 }
 
 /* ---- from residues to surfaces and walls ---- */
@@ -114,33 +39,40 @@ static bool volumes_modulo(search *s, size_t degree, size_t prime, nh_plane_row 
 typedef struct {
     size_t count;
     nh_prime prime[NH_CLASSIFY_MOST_PRIMES];
-    nh_residue_surface part[3][NH_CLASSIFY_MOST_PRIMES];
+    nh_residue_surface part[parts][NH_CLASSIFY_MOST_PRIMES];
 } residues;
+
+/* Special and degenerate surfaces, and walls. */
+static const nh_residue_surface *part_of(const nh_sections *v, int part)
+{
+    return part == 0 ? &v->special : part == 1 ? &v->degenerate : &v->across;
+}
 
 static void clear(residues *r)
 {
     for (size_t i = 0; i < r->count; i++)
-        for (int k = 0; k < 3; k++) nh_free(r->part[k][i].coefficient);
+        for (int k = 0; k < parts; k++) nh_free(r->part[k][i].coefficient);
     r->count = 0;
 }
 
-static bool same_degrees(const residues *r, const volumes *v)
+static bool same_degrees(const residues *r, const nh_sections *v)
 {
     bool same = true;
-    for (int k = 0; k < 3; k++) same &= !memcmp(r->part[k][0].degree, v->part[k].degree, sizeof v->part[k].degree);
+    for (int k = 0; k < parts; k++)
+        same &= !memcmp(r->part[k][0].degree, part_of(v, k)->degree, sizeof part_of(v, k)->degree);
     return same;
 }
 
 /* Unlucky primes are treated as in a plane. */
-static void add(residues *r, nh_prime prime, volumes *v)
+static void add(residues *r, nh_prime prime, nh_sections *v)
 {
     if (r->count == 1 && !same_degrees(r, v)) clear(r);
     if (r->count && !same_degrees(r, v)) {
-        clear_volumes(v);
+        nh_sections_clear(v);
         return;
     }
     r->prime[r->count] = prime;
-    for (int k = 0; k < 3; k++) r->part[k][r->count] = v->part[k];
+    for (int k = 0; k < parts; k++) r->part[k][r->count] = *part_of(v, k);
     r->count++;
 }
 
@@ -154,9 +86,9 @@ static void take_one(nh_special_surface **list, size_t *count, size_t *capacity,
 
 static bool lift(search *s, const residues *r)
 {
-    nh_special_surfaces found[3];
+    nh_special_surfaces found[parts];
     bool lifted = true;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < parts; k++) {
         found[k] = nh_special_surfaces_lift(r->count, r->prime, r->part[k]);
         lifted &= found[k].lifted;
     }
@@ -167,7 +99,7 @@ static bool lift(search *s, const residues *r)
         for (size_t k = 0; k < found[2].surfaces; k++)
             take_one(&s->out->wall, &s->out->walls, &s->out->wall_capacity, &found[2].surface[k]);
     }
-    for (int k = 0; k < 3; k++) nh_special_surfaces_clear(&found[k]);
+    for (int k = 0; k < parts; k++) nh_special_surfaces_clear(&found[k]);
     return lifted;
 }
 
@@ -177,8 +109,11 @@ static bool find_surfaces(search *s, size_t degree, nh_plane_row *row)
     bool good = true;
     row->sections = first_sections;
     for (size_t prime = 0; prime < NH_CLASSIFY_MOST_PRIMES && good && !row->lifted; prime++) {
-        volumes v = {0};
-        good = volumes_modulo(s, degree, prime, row, &row->sections, &v);
+        nh_sections v;
+        section x = {.s = s, .degree = degree, .prime = prime, .row = row};
+        bool too_few;
+        good = nh_sections_find(nh_classify_prime(&s->s, prime), section_at, &x, &row->sections, &too_few, &v);
+        if (too_few) s->out->end = "surfaces";
         if (!good) break;
         add(&r, nh_classify_prime(&s->s, prime), &v);
         row->lifted = r.count >= least_primes && lift(s, &r);
@@ -218,11 +153,12 @@ static outcome look(search *s, size_t degree, const nh_plane_row *row, size_t pr
     if (here.bound != row->number.bound) return SOMETHING;
     s->s.products = s->question.products;
     bool good = nh_plane_zeros(&s->s, degree, prime, &plane, &c), covered = good;
-    for (int part = 0; part < 3 && covered; part++) {
+    nh_sections curves = nh_sections_of(&c);
+    for (int part = 0; part < parts && covered; part++) {
         size_t count;
-        nh_residue_surface curve = part_of(&c, part);
+        const nh_residue_surface *curve = part_of(&curves, part);
         nh_special_surface *known = known_of(s->out, part == 2, &count);
-        covered = nh_special_surfaces_cover(count, known, f, nu, &curve);
+        covered = nh_special_surfaces_cover(count, known, f, nu, curve);
         nh_free(known);
     }
     nh_common_curves_clear(&c);
