@@ -156,6 +156,8 @@ static void count_values(search *s, size_t degree)
         nh_classify_number *n = &v->number[degree];
         bool counted = nh_classify_count(s, degree, &p, row->number.bound, NULL, n), more = counted
             && n->bound > row->number.bound;
+        if ((more || !counted) && !v->first && !v->open) v->degenerate = nh_classify_singular(s, &p);
+        if (v->degenerate) continue;
         if (more && n->settled && !v->first) v->first = degree;
         if ((!counted || (more && !n->settled)) && !v->open) v->open = degree;
     }

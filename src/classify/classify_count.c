@@ -26,14 +26,20 @@ nh_prime nh_classify_prime(const search *s, size_t index)
     return nh_jet_point_prime(s->family.counter.equations->point, index);
 }
 
+/* Gives mu and nu the residues of the values that the question gives them. */
+static bool hold(search *s, nh_prime f)
+{
+    const nh_classify_question *q = s->q;
+    if (q->two && q->bottom > 0 && !nh_residue_ratio(f, q->top, q->bottom, &s->family.value)) return false;
+    return !q->three || q->third_bottom == 0
+        || nh_residue_ratio(f, q->third_top, q->third_bottom, &s->family.third_value);
+}
+
 nh_parametric_series *nh_classify_series(search *s, nh_prime f, uint64_t seed, size_t order)
 {
     nh_parametric_series *x = NULL;
     bool regular = false;
-    const nh_classify_question *q = s->q;
-    if (q->two && q->bottom > 0 && !nh_residue_ratio(f, q->top, q->bottom, &s->family.value)) return NULL;
-    if (q->three && q->third_bottom > 0 && !nh_residue_ratio(f, q->third_top, q->third_bottom, &s->family.third_value))
-        return NULL;
+    if (!hold(s, f)) return NULL;
     for (uint64_t attempt = 0; attempt < most_points && !regular && !s->family.obstacle && !nh_late(); attempt++)
         if (nh_parametric_choose(&s->family, f, seed + 1000 * attempt))
             x = nh_parametric_series_create(&s->family, order, &regular);
@@ -138,6 +144,14 @@ static bool prime_of(search *s, const place *p, nh_prime *f, nh_residue *lambda)
         if (residue_of(s, p, *f, lambda)) return true;
     }
     return false;
+}
+
+bool nh_classify_singular(search *s, const place *p)
+{
+    nh_prime f;
+    nh_residue lambda;
+    return prime_of(s, p, &f, &lambda) && hold(s, f)
+        && nh_parametric_singular(&s->family, f, lambda, s->family.value);
 }
 
 bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, size_t *known, nh_classify_number *out)

@@ -42,4 +42,7 @@ bool nh_classify_roots(nh_classify_search *search, size_t degree, size_t prime, 
 bool nh_classify_count(nh_classify_search *search, size_t degree, const nh_classify_place *place, size_t least,
                        size_t *known, nh_classify_number *out);
 
+/* Have the equations no meaning at this value, although they may have a limit, which is what is counted? */
+bool nh_classify_singular(nh_classify_search *search, const nh_classify_place *place);
+
 #endif

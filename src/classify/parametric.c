@@ -228,6 +228,14 @@ static void times(const nh_jet_ring *r, nh_residue *sum, const nh_residue *facto
     memcpy(sum, work, r->size * sizeof *sum);
 }
 
+static void set_parameters(nh_parametric *f, nh_residue lambda, nh_residue mu)
+{
+    const nh_jet_equations *x = f->counter.equations;
+    x->at[x->coordinates + f->parameter] = lambda;
+    if (f->second != SIZE_MAX) x->at[x->coordinates + f->second] = mu;
+    if (f->third != SIZE_MAX) x->at[x->coordinates + f->third] = f->third_value;
+}
+
 /* Q = (denominator of M)^n det M (the other denominators) */
 static bool multiplier(nh_parametric *f, const nh_jet_ring *r, const nh_residue *coordinate, nh_residue *out)
 {
@@ -243,7 +251,30 @@ static bool multiplier(nh_parametric *f, const nh_jet_ring *r, const nh_residue 
     }
     nh_jet_eval_free(v);
     nh_free(M);
-    return good && out[0];
+    return good;
+}
+
+bool nh_parametric_singular(nh_parametric *f, nh_prime field, nh_residue lambda, nh_residue mu)
+{
+    enum { points = 3, attempts = 60 };
+    bool linear = f->linear && f->linear->coefficient;
+    size_t variables = linear ? f->kept : 0, *one = nh_alloc_array(variables + 1, sizeof *one), zeros = 0;
+    for (size_t k = 0; k < variables; k++) one[k] = 1;
+    nh_jet_ring *r = nh_jet_ring_create(field, variables, one, 1);
+    nh_residue *Q = nh_alloc_array(r->size, sizeof *Q);
+    bool regular = false;
+    for (uint64_t seed = 0; seed < attempts && zeros < points && !regular && !f->obstacle; seed++) {
+        if (!nh_parametric_choose(f, field, seed)) continue;
+        set_parameters(f, lambda, mu);
+        if (linear ? !nh_parametric_linear_multiplier(f, r, Q) : !multiplier(f, r, f->counter.equations->at, Q))
+            continue;
+        zeros += !Q[0];
+        regular = Q[0];
+    }
+    nh_free(Q);
+    nh_free(one);
+    nh_jet_ring_free(r);
+    return zeros == points;
 }
 
 /* Do the fields span the directions of all coordinates that are kept? */
@@ -284,12 +315,10 @@ bool nh_parametric_motion(nh_parametric *f, const nh_jet_ring *r, nh_residue *co
     nh_jet_equations *x = f->counter.equations;
     size_t rates_at = (1 + x->fields * nh_parametric_kept(f)) * r->size;
     size_t length = rates_at + x->n * nh_jet_equations_monomials(x->n) * r->size;
-    x->at[x->coordinates + f->parameter] = lambda;
-    if (f->second != SIZE_MAX) x->at[x->coordinates + f->second] = mu;
-    if (f->third != SIZE_MAX) x->at[x->coordinates + f->third] = f->third_value;
+    set_parameters(f, lambda, mu);
     bool good = plain(f) ? plain_series(f, r, coordinate, out + r->size)
         : nh_adapted_frame_series(f->counter.frame, r, coordinate, out + r->size);
-    good = good && multiplier(f, r, coordinate, out)
+    good = good && multiplier(f, r, coordinate, out) && out[0]
         && nh_jet_equations_accelerations(x, r, coordinate, out + rates_at);
     nh_residue *work = nh_alloc_array(r->size, sizeof *work);
     for (size_t k = r->size; k < length && good; k += r->size) times(r, out + k, out, work);

@@ -56,6 +56,11 @@ void nh_parametric_close(nh_parametric *family);
 /* Moves to another point, which follows from prime and seed; false: it is singular. */
 bool nh_parametric_choose(nh_parametric *family, nh_prime field, uint64_t seed);
 
+/* Is Q, and with it det M or what the equations are divided by, zero at this value of each parameter and every point?
+ * There are no equations of motion, although they may have a limit (where a mass cancels, say).  Decided at three
+ * points; the point of the family moves. */
+bool nh_parametric_singular(nh_parametric *family, nh_prime field, nh_residue lambda, nh_residue mu);
+
 typedef struct {
     nh_jet_ring *ring;
     size_t degree, second;   /* degrees in lambda and in mu */

@@ -19,6 +19,8 @@ void nh_parametric_linear_open(nh_parametric *family);
 size_t nh_parametric_linear_length(const nh_parametric *family, const nh_jet_ring *ring);
 bool nh_parametric_linear_value(nh_parametric *family, nh_parametric_series *series, nh_residue lambda, nh_residue mu,
                                 nh_residue *out);
+/* Q alone, at the values that the parameters have. */
+bool nh_parametric_linear_multiplier(nh_parametric *family, const nh_jet_ring *ring, nh_residue *out);
 
 /* Q, Q X_i, Q w^l' at one value of each parameter.  False: the value is singular, or there is an obstacle. */
 bool nh_parametric_value(nh_parametric *family, nh_parametric_series *series, nh_residue lambda, nh_residue mu,

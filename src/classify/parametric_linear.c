@@ -95,7 +95,17 @@ static bool multipliers(nh_parametric *f, nh_jet_eval *v, const nh_jet_ring *r, 
         for (size_t k = 0; k < f->of_mass[i] * n + f->of_rest[i] && good; k++) times(r, Q, value, work);
     }
     nh_free(M);
-    return good && Q[0];
+    return good;
+}
+
+bool nh_parametric_linear_multiplier(nh_parametric *f, const nh_jet_ring *r, nh_residue *out)
+{
+    nh_residue *clear = nh_alloc_array(r->size, sizeof *clear);
+    nh_jet_eval *v = evaluator(f, r);
+    bool good = multipliers(f, v, r, clear, out);
+    nh_jet_eval_free(v);
+    nh_free(clear);
+    return good;
 }
 
 static bool expressions(nh_parametric *f, const nh_jet_ring *r, nh_residue *out)
@@ -103,7 +113,8 @@ static bool expressions(nh_parametric *f, const nh_jet_ring *r, nh_residue *out)
     size_t count = entries(f), e = r->size;
     nh_residue *clear = nh_alloc_array(2 * e, sizeof *clear);
     nh_jet_eval *v = evaluator(f, r);
-    bool good = multipliers(f, v, r, clear, out) && nh_jet_eval_all(v, count, f->entry, out + e);
+    bool good = multipliers(f, v, r, clear, out) && out[0]
+        && nh_jet_eval_all(v, count, f->entry, out + e);
     for (size_t i = 1; i <= count && good; i++)
         if (!nh_jet_is_zero(r, out + i * e)) times(r, out + i * e, clear, clear + e);
     nh_jet_eval_free(v);

@@ -229,6 +229,8 @@ void nh_plane_count_curves(nh_classify_search *s, nh_classify_kind kind, size_t 
         nh_classify_place p = {.kind = kind, .surface = &c->polynomial};
         nh_classify_number *n = &c->number[degree];
         bool counted = nh_classify_count(s, degree, &p, almost_all, NULL, n), more = counted && n->bound > almost_all;
+        if ((more || !counted) && !c->first && !c->open) c->degenerate = nh_classify_singular(s, &p);
+        if (c->degenerate) continue;
         if (more && n->settled && !c->first) c->first = degree;
         if ((!counted || (more && !n->settled)) && !c->open) c->open = degree;
     }
@@ -259,6 +261,26 @@ static bool beyond_curves(const nh_plane *o, const nh_classify_value *v, int64_t
     return true;
 }
 
+/* Have the equations no meaning on the line of this question? Then it is a degenerate curve. */
+static bool take_degenerate(search *s, const nh_classify_question *line)
+{
+    const nh_classify_question *own = s->s.q;
+    nh_plane *o = s->out;
+    bool held = s->s.family.held;
+    nh_classify_place any = {.kind = NH_CLASSIFY_ANY};
+    s->s.q = line;
+    s->s.family.held = true;
+    bool degenerate = nh_classify_singular(&s->s, &any);
+    s->s.q = own;
+    s->s.family.held = held;
+    if (!degenerate) return false;
+    int64_t coefficient[2] = {-line->top, line->bottom};
+    nh_special_curve curve = {.degree = {0, 1}, .coefficient = coefficient};
+    nh_special_surfaces one = {.surfaces = 1, .surface = &curve};
+    nh_plane_take_curves(&o->curve, &o->curves, &o->curve_capacity, &one, true);
+    return true;
+}
+
 static void classify_line(search *s, size_t index)
 {
     nh_plane *o = s->out;
@@ -268,7 +290,7 @@ static void classify_line(search *s, size_t index)
     q.top = -l->across.coefficient[0];
     q.bottom = l->across.coefficient[1];
     q.degree = o->rows;
-    if (is_curve(o, q.top, q.bottom)) return;
+    if (is_curve(o, q.top, q.bottom) || take_degenerate(s, &q)) return;
     l->line = nh_classify(s->model, &q);
     for (size_t k = 0; k < l->line->values; k++) {
         const nh_classify_value *v = &l->line->value[k];

@@ -60,18 +60,24 @@ nh_setting *nh_classified_settings(const nh_classified *x, size_t count, const n
     return setting;
 }
 
-nh_analysis *nh_classified_analyse(const nh_classified *x, const nh_classify_request *q, size_t count,
-                                   const nh_setting *at, nh_error *error)
+static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q, size_t count, const nh_setting *at,
+                            bool model_only, nh_error *error)
 {
     size_t all;
     nh_setting *setting = nh_classified_settings(x, count, at, &all);
     nh_analyze_request request = {.command = q->command, .system_path = q->system_path, .settings = all,
                                   .setting = setting, .options = q->options, .no_figures = true,
-                                  .model_only = q->of != NH_OF_CURRENTS};
+                                  .model_only = model_only};
     request.options.degree = (double)x->degree;
     nh_analysis *r = nh_analysis_create(&request, error);
     nh_free(setting);
     return r;
+}
+
+nh_analysis *nh_classified_analyse(const nh_classified *x, const nh_classify_request *q, size_t count,
+                                   const nh_setting *at, nh_error *error)
+{
+    return analyse(x, q, count, at, q->of != NH_OF_CURRENTS, error);
 }
 
 static bool polynomial_in_velocities(const nh_analysis *r, const nh_current *f)
@@ -167,42 +173,26 @@ size_t nh_classified_complete_everywhere(const nh_classified *x)
     return x->known == r->count + r->furthers ? nh_classified_complete(r) : 0;
 }
 
-/* Has a velocity no inertia at this value?  Where the parameter cancels in the equations of motion they have a limit
- * there, which the count took; the system has no equations of motion. */
-static bool is_singular(const nh_classified *x, const nh_special_factor *f)
-{
-    const nh_model *o = x->almost_all->model;
-    nh_dag *d = o->dag;
-    size_t parameter;
-    int64_t top, bottom;
-    nh_error none;
-    nh_error_clear(&none);
-    if (!nh_classified_rational(f, &top, &bottom)) return false;
-    if (!nh_classified_parameter(o->system, x->over, &parameter, &none)) return false;
-    nh_ex value = nh_ratio(d, top, bottom), *M = nh_alloc_array(o->n * o->n + 1, sizeof *M);
-    for (size_t i = 0; i < o->n * o->n; i++) {
-        nh_ex there = nh_substitute(d, o->M[i], 1, &o->parameter[parameter], &value);
-        M[i] = nh_simplify_short(d, nh_exact_values(o, there), 0);
-    }
-    nh_lu *lu = nh_lu_create(d, o->n, M, nh_chart_pivot_score, o->chart, NULL);
-    bool singular = !lu;
-    nh_lu_free(lu);
-    nh_free(M);
-    return singular;
-}
-
 static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_classify_value *v,
                           nh_classified_value *out)
 {
     int64_t top, bottom;
     nh_error error;
-    if (!v->degenerate && (v->first || v->open) && is_singular(x, &v->polynomial)) v->degenerate = true;
-    if (!v->first || v->degenerate) return;
-    out->why = x->question ? "it is looked at more closely at rational values only"
-        : "currents are constructed at rational values only";
-    if (!nh_classified_rational(&v->polynomial, &top, &bottom)) return;
+    if (!v->first && !v->degenerate) return;
+    if (!nh_classified_rational(&v->polynomial, &top, &bottom)) {
+        if (!v->degenerate)
+            out->why = x->question ? "it is looked at more closely at rational values only"
+                : "currents are constructed at rational values only";
+        return;
+    }
     nh_error_clear(&error);
     nh_setting at = {.name = x->over, .value = (double)top / (double)bottom, .top = top, .bottom = bottom};
+    if (v->degenerate) { /* the reason is that of the system there */
+        nh_analysis *none = analyse(x, q, 1, &at, true, &error);
+        out->why = none ? NULL : nh_arena_strdup(x->arena, error.what);
+        nh_analysis_free(none);
+        return;
+    }
     if (x->question) {
         out->why = NULL;
         nh_classified_confirm(x, q, &at, v->number[v->first].bound, out);

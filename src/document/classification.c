@@ -96,11 +96,15 @@ void nh_classification_left(const nh_classified *x, nh_text *out)
     const nh_classification *c = of(x);
     size_t degenerate = 0, first = 0;
     for (size_t k = 0; k < c->values; k++) {
-        if (!c->value[k].degenerate) continue;
+        if (!c->value[k].degenerate || x->value[k].why) continue;
         nh_text_addf(out, "%s%s", degenerate++ ? "; " : "Degenerate, and not examined: ",
                      nh_classified_words(x, &c->value[k].polynomial));
     }
     if (degenerate) nh_text_add(out, ".\n");
+    for (size_t k = 0; k < c->values; k++)
+        if (c->value[k].degenerate && x->value[k].why)
+            nh_text_addf(out, "Degenerate: %s (%s).\n", nh_classified_words(x, &c->value[k].polynomial),
+                         x->value[k].why);
     for (size_t k = 0; k < c->values; k++) {
         const nh_classify_value *v = &c->value[k];
         if (!v->open || v->degenerate) continue;
