@@ -647,7 +647,8 @@ Test(classify, one_side_of_a_kink)
     place_clear(&p);
 }
 
-/* Without its mass the skate keeps equations of motion in the limit, but has none of its own. */
+/* Without its mass the skate keeps equations of motion in the limit, but has none of its own; nor has it on a curve of
+ * two parameters, where a skate without moment of inertia moves like a point. */
 Test(classify, a_value_without_inertia_is_degenerate)
 {
     place p = place_make();
@@ -656,6 +657,10 @@ Test(classify, a_value_without_inertia_is_degenerate)
     finished f = run_expecting(&p, "classify a.yaml --over m --degree 1", 0);
     cr_expect(strstr(f.out, "Degenerate: m = 0 (the Lagrangian is singular"), "%s", f.out);
     cr_expect_not(strstr(f.out, "\nm = 0\n"), "%s", f.out);
+    finished_clear(&f);
+    f = run_expecting(&p, "classify a.yaml --over m,I --degree 1", 0);
+    cr_expect(strstr(f.out, "Degenerate, and not examined: 100*I + 9*m = 0; m = 0."), "%s", f.out);
+    cr_expect(strstr(f.out, "\nI = 0\n") && strstr(f.out, "1 curve and 0 points"), "%s", f.out);
     finished_clear(&f);
     place_clear(&p);
 }

@@ -62,13 +62,24 @@ Test(plane_sweep, no_more_is_excluded_than_was_looked_at, PLAIN_ONLY)
     cJSON_Delete(root);
 }
 
-/* Lines say nothing about curves that are not known from determinants. */
-Test(plane_sweep, unknown_curves_end_it)
+/* Curves that determinants are too large for are found from their points on lines. */
+Test(plane_sweep, curves_from_points_on_lines)
 {
-    cJSON *root = classified("henon_heiles.yaml --over B,eps --set A=1 --degree 4 --option plane=2");
-    cr_expect_str_eq(key(root, "ended_by")->valuestring, "curves");
-    cr_expect_eq(cJSON_GetArraySize(key(root, "degrees")), 1);
-    cr_expect(cJSON_IsFalse(key(root, "nowhere_else")));
+    cJSON *root = classified("henon_heiles.yaml --over B,eps --set A=1 --degree 2 --option plane=2 --option lines=3");
+    expect(root, "B", "eps", "eps - 2 = 0@2 1,1/3@2");
+    cr_expect_eq(key(degree(root, 1), "lines")->valueint, 0);
+    cr_expect_eq(key(degree(root, 2), "excluded_height")->valueint, 3);
+    cJSON_Delete(root);
+}
+
+/* Lines share the work of their degree: what was not reached is not excluded. */
+Test(plane_sweep, work_ends_the_lines)
+{
+    cJSON *root = classified("henon_heiles.yaml --over B,eps --set A=1 --degree 3 --option plane=2 --option staircase=1e6");
+    int height = key(degree(root, 3), "excluded_height")->valueint;
+    expect(root, "B", "eps", "eps - 2 = 0@2 1,1/3@2");
+    cr_expect_eq(key(degree(root, 2), "excluded_height")->valueint, 10);
+    cr_expect(height >= 1 && height < 10, "%d", height);
     cJSON_Delete(root);
 }
 

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "classify/plane_internal.h"
 #include "classify/plane_sweep.h"
+#include "classify/sections.h"
 
 enum { least_primes = 4, places = 3 };
 
@@ -195,15 +196,73 @@ static bool lift(search *s, const residues *r, nh_plane_row *row)
     return lifted;
 }
 
+/* ---- points on lines ---- */
+
+typedef struct {
+    search *s;
+    nh_classify_question *q;
+    size_t degree, prime;
+    const nh_plane_row *row;
+} section;
+
+/* Points where mu has this value. */
+static bool section_at(void *context, int64_t mu, nh_common_curves *out)
+{
+    const section *x = context;
+    nh_classify_row row = {.number = x->row->number};
+    nh_special_roots roots;
+    x->q->top = mu;
+    x->q->bottom = 1;
+    nh_progress("sections of special curves", -1);
+    if (!nh_classify_roots(&x->s->s, x->degree, x->prime, &row, &roots)) return false;
+    *out = (nh_common_curves){
+        .special = {.degree = {roots.excluded.degree}, .coefficient = roots.excluded.coefficient},
+        .degenerate = {.degree = {roots.degenerate.degree}, .coefficient = roots.degenerate.coefficient},
+        .across = {.coefficient = nh_alloc_array(1, sizeof *out->across.coefficient)}};
+    out->across.coefficient[0] = 1;
+    return true;
+}
+
+/* mu becomes the second variable. */
+static nh_residue_surface in_mu(nh_residue_surface a)
+{
+    return (nh_residue_surface){.degree = {a.degree[0], a.degree[2]}, .coefficient = a.coefficient};
+}
+
+/* Modulo one prime: curves on which lambda is not constant from their points on lines, where the determinants are too
+ * large; isolated points are not found. */
+static bool curves_from_points(search *s, size_t degree, size_t prime, nh_plane_row *row, nh_common_curves *out)
+{
+    enum { first_sections = 4 };
+    const nh_classify_question *own = s->s.q;
+    nh_classify_question q = *own;
+    section x = {.s = s, .q = &q, .degree = degree, .prime = prime, .row = row};
+    nh_sections found;
+    bool held = s->s.family.held, too_few;
+    size_t count = row->sections ? row->sections : first_sections;
+    nh_prime f = nh_classify_prime(&s->s, prime);
+    s->s.q = &q;
+    s->s.family.held = true;
+    bool good = nh_sections_find(f, section_at, &x, &count, &too_few, &found);
+    s->s.q = own;
+    s->s.family.held = held;
+    row->sections = count;
+    if (!good) return false;
+    *out = (nh_common_curves){in_mu(found.special), in_mu(found.degenerate),
+                              {.coefficient = found.across.coefficient}};
+    return true;
+}
+
 /* Takes more primes until the curves and lines are known over the rationals. */
-static bool find_zeros(search *s, size_t degree, nh_plane_row *row)
+static bool find_zeros(search *s, size_t degree, bool from_points, nh_plane_row *row)
 {
     residues r = {.count = 0};
     bool good = true;
     s->s.products = s->s.q->products;
     for (size_t prime = 0; prime < NH_CLASSIFY_MOST_PRIMES && good && !row->lifted; prime++) {
         nh_common_curves curves = {.across = {0, NULL}};
-        good = nh_plane_zeros(&s->s, degree, prime, row, &curves);
+        good = from_points ? curves_from_points(s, degree, prime, row, &curves)
+            : nh_plane_zeros(&s->s, degree, prime, row, &curves);
         if (!good) {
             nh_common_curves_clear(&curves);
             break;
@@ -328,6 +387,23 @@ static bool sweep(search *s, size_t degree, nh_plane_row *row)
     return good;
 }
 
+/* Where the lines show more curves than are known, these are found first. */
+static bool find_on_lines(search *s, size_t degree, nh_plane_row *row)
+{
+    static const char unknown[] = "curves";
+    nh_plane *o = s->out;
+    if (sweep(s, degree, row)) return true;
+    if (!o->end || strcmp(o->end, unknown)) return false;
+    nh_plane_row found = *row;
+    o->end = NULL;
+    if (!find_zeros(s, degree, true, &found) || !found.lifted) {
+        o->end = s->s.products < 0 ? NULL : unknown;
+        return false;
+    }
+    row->sections = found.sections;
+    return sweep(s, degree, row);
+}
+
 static void run(search *s)
 {
     nh_plane *o = s->out;
@@ -338,17 +414,17 @@ static void run(search *s)
         nh_progress("integrals for almost all values", -1);
         bool good = nh_classify_count(&s->s, degree, &any, 0, &row.known, &row.number);
         nh_progress("where the equations for integrals lose rank", -1);
-        bool swept = o->rows && o->row[o->rows - 1].swept, found = good && !swept && find_zeros(s, degree, &row);
+        bool swept = o->rows && o->row[o->rows - 1].swept, found = good && !swept && find_zeros(s, degree, false, &row);
         if (good && !found && !nh_late()) swept |= row.size > s->s.q->plane;
-        good = good && (found || (swept && s->s.q->lines && sweep(s, degree, &row))) && !nh_late();
+        good = good && (found || (swept && s->s.q->lines && find_on_lines(s, degree, &row))) && !nh_late();
         if (o->rows) row.height = fmin(row.height, o->row[o->rows - 1].height);
         if (!good) {
             if (!o->end)
                 o->end = s->s.family.obstacle       ? s->s.family.obstacle
                          : nh_late()                ? "time"
                          : !row.number.bounded      ? "work"
-                         : row.size > s->s.q->plane ? "plane"
                          : s->s.products < 0        ? "staircase"
+                         : row.size > s->s.q->plane ? "plane"
                                                     : "unknowns";
             break;
         }

@@ -74,7 +74,6 @@ static outcome look(search *s, const nh_plane_known *o, size_t degree, const nh_
     nh_special_roots roots;
     if (!nh_classify_count(s, degree, &any, number->bound, NULL, &here)) return nh_late() ? ENDED : SOMETHING;
     if (here.bound != number->bound) return SOMETHING;
-    s->products = s->q->products;
     if (!nh_classify_roots(s, degree, prime, &row, &roots)) return nh_late() || s->products < 0 ? ENDED : SOMETHING;
     nmod_poly_t known, found;
     nmod_poly_init(known, f.p);
@@ -149,6 +148,23 @@ static bool curves_are_known(search *s, nh_classify_question *q, const nh_plane_
     return look(s, o, degree, number) == NOTHING;
 }
 
+/* Every mu of this height. */
+static bool examine_size(search *s, nh_classify_question *q, const nh_plane_known *o, size_t degree,
+                         const nh_classify_number *number, int64_t size, nh_plane_sweep *out)
+{
+    bool good = true;
+    for (int64_t other = 0; other <= size && good; other++) {
+        if (nh_gcd(size, other) != 1) continue;
+        nh_progress("lines in the plane of the parameters", -1);
+        for (int64_t sign = 1; sign >= -1 && good; sign -= 2) {
+            if (other == 0 && sign < 0) continue;
+            good = examine(s, q, o, degree, number, sign * other, size, out); /* 0 is 0/1 */
+            if (good && other && other != size) good = examine(s, q, o, degree, number, sign * size, other, out);
+        }
+    }
+    return good;
+}
+
 bool nh_plane_sweep_lines(search *s, const nh_plane_known *o, size_t degree, const nh_classify_number *number,
                           size_t height, nh_plane_sweep *out)
 {
@@ -158,18 +174,16 @@ bool nh_plane_sweep_lines(search *s, const nh_plane_known *o, size_t degree, con
     *out = (nh_plane_sweep){.height = (double)height};
     s->q = &q;
     s->family.held = true;
+    s->products = own->products;
     good = curves_are_known(s, &q, o, degree, number);
     out->curves = !good;
-    for (int64_t size = 1; size <= (int64_t)height && good; size++)
-        for (int64_t other = 0; other <= size && good; other++) {
-            if (nh_gcd(size, other) != 1) continue;
-            nh_progress("lines in the plane of the parameters", -1);
-            for (int64_t sign = 1; sign >= -1 && good; sign -= 2) {
-                if (other == 0 && sign < 0) continue;
-                good = examine(s, &q, o, degree, number, sign * other, size, out); /* 0 is 0/1 */
-                if (good && other && other != size) good = examine(s, &q, o, degree, number, sign * size, other, out);
-            }
-        }
+    for (int64_t size = 1; size <= (int64_t)height && good; size++) {
+        good = examine_size(s, &q, o, degree, number, size, out);
+        if (good || size == 1 || nh_late()) continue;
+        out->height = fmin(out->height, (double)(size - 1)); /* the work that is left does not reach this size */
+        good = true;
+        break;
+    }
     s->q = own;
     s->family.held = held;
     return good;

@@ -96,8 +96,8 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
     if (o->rows && o->row[o->rows - 1].swept)
         nh_text_addf(
             out,
-            "  At higher degrees, other pairs were not examined where %s is not such a ratio: determinants are "
-            "larger than the option `plane`.\n",
+            "  By lines, pairs in which %s is no such ratio are not examined: determinants are larger than the option "
+            "`plane`.\n",
             x->over[1]);
     else if (o->rows)
         nh_text_add(
