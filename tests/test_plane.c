@@ -375,6 +375,17 @@ static void write_system(const place *p, const char *parameters, const char *lag
     fclose(file);
 }
 
+/* Where a curve of equal masses meets that without potential there is no more than without potential. */
+Test(plane, a_point_has_more_than_every_curve_through_it, PLAIN_ONLY)
+{
+    place p = place_make();
+    write_system(&p, "m: 1.5, k: 0.7", "(x'^2 + m*y'^2)/2 - k/(x^2 + y^2)^(1/2)");
+    finished f = run_expecting(&p, "classify a.yaml --over m,k --degree 2", 0);
+    cr_expect(strstr(f.out, "2 curves and 0 points"), "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* The curve la = 1 + 1/mu, and a point on it where the other coupling ends as well; a curve m = 1 with k free. */
 Test(plane, points_on_curves_are_found, PLAIN_ONLY)
 {

@@ -155,21 +155,48 @@ static void isolated_point(plane *x, const nh_classify_request *q, size_t index,
     add_point(x, capacity, &p);
 }
 
-const char *nh_classified_value_of(nh_arena *arena, const nh_system *s, const char *name, double *about)
+static bool number_of(const nh_system *s, const char *name, nh_num *out)
 {
     for (size_t i = 0; i < s->definitions; i++) {
         if (strcmp(s->definition[i].name, name) || nh_kind_of(s->dag, s->definition[i].value) != NH_NUMBER) continue;
-        nh_num n = nh_number_of(s->dag, s->definition[i].value);
-        *about = nh_num_value(n);
-        return nh_num_short(n) ? ratio(arena, n.p, n.q) : NULL;
+        *out = nh_number_of(s->dag, s->definition[i].value);
+        return true;
     }
-    return NULL;
+    return false;
+}
+
+const char *nh_classified_value_of(nh_arena *arena, const nh_system *s, const char *name, double *about)
+{
+    nh_num n;
+    if (!number_of(s, name, &n)) return NULL;
+    *about = nh_num_value(n);
+    return nh_num_short(n) ? ratio(arena, n.p, n.q) : NULL;
 }
 
 static bool have_point(const plane *x, const nh_classified_point *p)
 {
     for (size_t k = 0; k < x->points; k++)
         if (!strcmp(x->point[k].value[0], p->value[0]) && !strcmp(x->point[k].value[1], p->value[1])) return true;
+    return false;
+}
+
+/* Is there another curve through this rational point that is not examined, or almost all points of which have as
+ * many? */
+static bool belongs_to_another(const plane *x, size_t index, const nh_classified_point *p)
+{
+    nh_num value[2];
+    for (int i = 0; i < 2; i++)
+        if (!number_of(p->at->result->system, x->over[i], &value[i])) return false;
+    int64_t coefficient[2] = {-value[0].p, value[0].q};
+    nh_special_factor lambda = {.degree = 1, .coefficient = coefficient};
+    for (size_t k = 0; k < x->plane->curves; k++) {
+        const nh_plane_curve *c = &x->plane->curve[k];
+        if (k == index || !nh_special_curve_contains(&c->polynomial, &lambda, value[1].p, value[1].q)) continue;
+        bool more = false;
+        for (size_t d = 1; d <= x->plane->rows; d++)
+            more |= c->number[d].bounded && p->number[d].bounded && p->number[d].bound > c->number[d].bound;
+        if (c->degenerate || !more) return true;
+    }
     return false;
 }
 
@@ -190,7 +217,8 @@ static void points_on_curve(plane *x, size_t index, size_t *capacity)
             p.value[c->upright] = c->graph;
             p.value[!c->upright] = nh_classified_words(c->along, &v->polynomial);
         }
-        if (!have_point(x, &p)) add_point(x, capacity, &p);
+        if (have_point(x, &p) || (p.rational && belongs_to_another(x, index, &p))) continue;
+        add_point(x, capacity, &p);
     }
 }
 
