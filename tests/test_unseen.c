@@ -365,6 +365,13 @@ static const unseen UNSEEN[] = {
      "  - -x'*sin(th + 4*pi/3) + y'*cos(th + 4*pi/3) + L*th' = r*p3'\n"
      "known: {currents: [{name: sum, expr: \"r*(p1 + p2 + p3) - 3*L*th\"}]}\n",
      9},
+    /* the momenta of L have terms of d(s sin(z/2))/dt, which no equation has */
+    {"turn below a total derivative",
+     "coordinates: [y, z, s]\n"
+     "lagrangian: (y'^2 + z'^2)*(1 + (y^2 + z^2)^4)/2 + s'^2/2 + (y^2 + z^2)^2*(1 - sin(3*s/2) - cos(2*t)) - s - z'*s*cos(z/2)/2 - s'*sin(z/2)\n"
+     "constraints: [\"s' = (2 + y^4)*(z*z' + y*y')\"]\n"
+     "known: {currents: [{name: turning, expr: \"(1 + (y^2 + z^2)^4)*(y*z' - z*y')\"}]}\n",
+     1},
 };
 enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 

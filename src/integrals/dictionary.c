@@ -5,12 +5,14 @@
 
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "integrals/total_derivative.h"
 
 enum { least_entries = 24, entries_each = 3, seen_each = 512, least_seen = 4096, longest = 60 };
 
 typedef struct {
     nh_model *o;
     nh_dictionary *out;
+    nh_ex lagrangian;   /* without total derivatives, whose functions are in no equation */
     /* largest number of entries of each list, and of visited nodes: they grow with the coordinates */
     size_t most, most_seen;
     size_t seen_count, all_waves;
@@ -382,7 +384,7 @@ static void potentials(harvester *h)
     nh_dag *d = o->dag;
     nh_ex *zero = nh_alloc_array(o->m + 1, sizeof *zero), *v = nh_alloc_array(o->m + 1, sizeof *v);
     for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v;
-    potential_terms(h, nh_substitute(d, o->system->lagrangian, o->m, v, zero), 3);
+    potential_terms(h, nh_substitute(d, h->lagrangian, o->m, v, zero), 3);
     nh_free(v);
     nh_free(zero);
 }
@@ -438,7 +440,8 @@ static nh_ex *take(const harvester *h)
 nh_dictionary nh_dictionary_of(nh_model *o)
 {
     harvester h = {
-        .o = o, .most = larger(least_entries, entries_each * o->m), .most_seen = larger(least_seen, seen_each * o->m)};
+        .o = o, .lagrangian = nh_total_derivative_removed(o), .most = larger(least_entries, entries_each * o->m),
+        .most_seen = larger(least_seen, seen_each * o->m)};
     nh_dictionary out = {.velocity = take(&h),
                          .form = take(&h),
                          .atom = take(&h),
@@ -458,14 +461,14 @@ nh_dictionary nh_dictionary_of(nh_model *o)
     for (size_t s = 0; s < o->m && o->system->has_forces; s++) walk(&h, o->system->force[s]);
     for (size_t a = 0; a < o->k; a++) walk(&h, nh_chart_constraint(o->chart, a));
     h.integrate = false;
-    walk(&h, o->system->lagrangian);
+    walk(&h, h.lagrangian);
     /* velocities of variable masses: the integral of 1/M */
     for (size_t i = 0; i < o->n; i++) add_logarithm(&h, o->M[i * o->n + i], true);
     for (size_t s = 0; s < o->m; s++) walk(&h, o->rho[s]);
     for (size_t s = 0; s < o->m; s++)
         if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);
     for (size_t s = 0; s < o->m; s++)
-        add_momentum(&h, nh_diff(o->dag, o->system->lagrangian, o->system->coordinate[s].v));
+        add_momentum(&h, nh_diff(o->dag, h.lagrangian, o->system->coordinate[s].v));
     potentials(&h);
     frame(&h);
     add_roots(&h);
