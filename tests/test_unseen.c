@@ -372,6 +372,14 @@ static const unseen UNSEEN[] = {
      "constraints: [\"s' = (2 + y^4)*(z*z' + y*y')\"]\n"
      "known: {currents: [{name: turning, expr: \"(1 + (y^2 + z^2)^4)*(y*z' - z*y')\"}]}\n",
      1},
+    /* a turn of y and x + a z^2 - 2 z leaves the metric alone, while the potential depends on t */
+    {"turn in coordinates that hide it, with a force in time",
+     "parameters: [{name: a, value: 0.3}, {name: w, value: 1.3}]\n"
+     "coordinates: [x, y, z]\n"
+     "definitions: [\"f = x' + 2*a*z*z' - 2*z'\", \"s = x + a*z^2 - 2*z\"]\n"
+     "lagrangian: ((f^2 + y'^2)*(1 + (s^2 + y^2)^2) + (z' - 3*(y*f - s*y'))^2*(1 + z^2))/2 - cos(w*t)*z^2 - z^4\n"
+     "known: {currents: [{name: turning, expr: \"(1 + (s^2 + y^2)^2)*(s*y' - y*f) + 3*(s^2 + y^2)*(1 + z^2)*(z' - 3*(y*f - s*y'))\"}]}\n",
+     1},
 };
 enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 

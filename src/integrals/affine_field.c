@@ -116,6 +116,26 @@ size_t nh_affine_field_words(const nh_model *o, size_t a, size_t b, nh_ex out[NH
     return NH_AFFINE_FIELD_WORDS;
 }
 
+/* 1, q and q q: what quadratic changes of coordinates make of turns, as far as there are points for them. */
+static bool fit_quadratic(const nh_model *o, size_t points, size_t most, const nh_ex *word, const double *row,
+                          const double *value, nh_ex *zeta)
+{
+    size_t width = 0, m = o->m;
+    if (1 + m + m * (m + 1) / 2 > most) return false;
+    nh_ex *basis = nh_alloc_array(most, sizeof *basis);
+    double *some = nh_alloc_array(points * most, sizeof *some);
+    for (size_t r = 0; r <= m; r++)
+        for (size_t s = r; s <= m; s++, width++) {
+            size_t a = r ? 2 * r : 0, b = s ? 2 * s : 0; /* where affine() puts 1 and q */
+            basis[width] = nh_mul(o->dag, word[a], word[b]);
+            for (size_t p = 0; p < points; p++) some[width * points + p] = row[a * points + p] * row[b * points + p];
+        }
+    bool good = fit(o, points, width, basis, some, value, zeta);
+    nh_free(some);
+    nh_free(basis);
+    return good;
+}
+
 bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
 {
     size_t pairs = o->m * o->m;
@@ -136,6 +156,7 @@ bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh
         memcpy(some + points * width, row + points * at, points * NH_AFFINE_FIELD_WORDS * sizeof *some);
         good = fit(o, points, most, basis, some, value, zeta);
     }
+    if (sampled && !good) good = fit_quadratic(o, points, most, word, row, value, zeta);
     nh_free(basis);
     nh_free(some);
     nh_free(row);

@@ -1,7 +1,8 @@
 /* affine_field: a current's field where it is affine in the coordinates, t and the centre of mass, but for the turns of
- * three angles.
+ * three angles, or quadratic in the coordinates.
  *
  *     Y_j(Phi) = M_ij zeta^i,   zeta^i = c_0 + c_1 t + c_s q^s + d_s t q^s + f_s C^s + e_w w(q^a, q^b)
+ *                           or  zeta^i = c_0 + c_s q^s + c_rs q^r q^s
  *
  * Turns and translations of whole systems have such fields, and centres of mass C, however long M^-1 is. */
 #ifndef NH_AFFINE_FIELD_H

@@ -37,7 +37,7 @@ static bool linear_part(const nh_kinetic *k, nh_ex e, nh_ex v, nh_ex *out)
     return true;
 }
 
-static void read_lagrangian(nh_kinetic *k)
+static void read_lagrangian(nh_kinetic *k, bool metric_alone)
 {
     nh_dag *d = k->dag;
     nh_ex L = k->model->system->lagrangian;
@@ -52,7 +52,9 @@ static void read_lagrangian(nh_kinetic *k)
         k->magnetic |= !nh_is_zero(d, k->a[r]);
     }
     k->V = nh_neg(d, nh_simplify(d, at_rest(k, L)));
-    k->autonomous = !nh_depends(d, L, k->model->system->t);
+    if (metric_alone) k->V = nh_int(d, 0);
+    k->autonomous = metric_alone || !nh_depends(d, L, k->model->system->t);
+    for (size_t i = 0; i < k->m * k->m; i++) k->autonomous &= !nh_depends(d, k->K[i], k->model->system->t);
     if (k->quadratic && k->autonomous) return;
     for (size_t i = 0; i < k->m * k->m; i++) k->K[i] = nh_int(d, 0);
     for (size_t i = 0; i < k->m; i++) k->a[i] = nh_int(d, 0);
@@ -243,14 +245,14 @@ static const char *obstacle_of(const nh_kinetic *k)
     return NULL;
 }
 
-nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *error)
+static nh_kinetic *create(const nh_model *model, uint64_t seed, bool metric_alone, nh_error *error)
 {
     enum { least_places = 12 };
     nh_arena *arena = nh_arena_create();
     nh_kinetic *k = nh_arena_alloc(arena, sizeof *k);
     size_t m = model->m, f = model->k;
-    *k = (nh_kinetic){
-        .model = model, .dag = model->dag, .arena = arena, .m = m, .f = f, .forced = model->system->has_forces};
+    *k = (nh_kinetic){.model = model, .dag = model->dag, .arena = arena, .m = m, .f = f,
+                      .forced = model->system->has_forces && !metric_alone};
     nh_ex *all = nh_arena_alloc(arena, (3 * m + m * m + f * (m + 2) + 1) * sizeof *all);
     k->q = all;
     k->v = k->q + m;
@@ -272,8 +274,10 @@ nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *er
         k->q[s] = model->system->coordinate[s].q;
         k->v[s] = model->system->coordinate[s].v;
     }
-    read_lagrangian(k);
+    read_lagrangian(k, metric_alone);
+    bool autonomous = k->autonomous;
     read_constraints(k);
+    if (metric_alone) k->autonomous = autonomous;
     take_places(k, seed);
     k->metric = has_metric(k);
     k->obstacle = obstacle_of(k);
@@ -284,6 +288,16 @@ nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *er
     nh_error_hint(error, "give a domain on which the Lagrangian and the constraints are defined");
     nh_kinetic_free(k);
     return NULL;
+}
+
+nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *error)
+{
+    return create(model, seed, false, error);
+}
+
+nh_kinetic *nh_kinetic_metric(const nh_model *model, uint64_t seed, nh_error *error)
+{
+    return create(model, seed, true, error);
 }
 
 void nh_kinetic_free(nh_kinetic *k)

@@ -38,6 +38,8 @@ typedef struct {
 /* Keeps the model, which may be bare and must outlive it.  NULL with a message when there are too few usable sample
    points. */
 nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *error);
+/* The same for what follows from the kinetic energy alone: time may occur elsewhere, and the potential is zero. */
+nh_kinetic *nh_kinetic_metric(const nh_model *model, uint64_t seed, nh_error *error);
 void nh_kinetic_free(nh_kinetic *kinetic);
 
 /* A tape of expressions in the coordinates, parameters bound. */

@@ -67,7 +67,7 @@ static size_t momenta(const nh_stage_solver *x, nh_ex *P, list *also)
     const nh_model *o = r->model;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_kinetic *k = nh_kinetic_create(o, (uint64_t)r->options.seed + 909, &ignored);
+    nh_kinetic *k = nh_kinetic_metric(o, (uint64_t)r->options.seed + 909, &ignored);
     nh_jets *jets = NULL;
     nh_generators found = {0};
     nh_ex *a = NULL;
