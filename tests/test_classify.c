@@ -665,6 +665,19 @@ Test(classify, a_value_without_inertia_is_degenerate)
     place_clear(&p);
 }
 
+/* The family depends on time and the system at the value does not: it has as many with coefficients in t, x' and
+ * t x' - x among them, and fewer without. */
+Test(classify, coefficients_in_time_at_a_value_without_time)
+{
+    place p = place_make();
+    write_here(&p, "a.yaml", "name: a\nparameters: {k: 0.6}\ncoordinates: [x, y]\n"
+               "lagrangian: (x'^2 + y'^2)/2 - k/2*((x^2 - y^2)*cos(1.4*t) + 2*x*y*sin(1.4*t))\n");
+    finished f = run_expecting(&p, "classify a.yaml --over k --degree 1", 0);
+    cr_expect(strstr(f.out, "\nk = 0\n  degree 1: 6 instead of 5."), "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* The analysis at a value has the last word: its lower bounds, and its currents where the count leaves the value open. */
 Test(classify, the_analysis_at_a_value_decides, PLAIN_ONLY)
 {

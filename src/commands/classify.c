@@ -147,15 +147,23 @@ bool nh_classified_rational(const nh_special_factor *f, int64_t *top, int64_t *b
     return true;
 }
 
-size_t nh_classified_complete(const nh_analysis *r)
+/* The count of an analysis that has the coefficients of the family's: where the family depends on time, functions of
+ * time too, also at a value at which the system does not. */
+static const nh_completeness *completeness_of(const nh_classified *x, const nh_analysis *r)
 {
-    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    bool timely = !x->almost_all->completeness[NH_COMPLETE_IN_COORDINATES].counted;
+    return &r->completeness[timely ? NH_COMPLETE_IN_TIME : NH_COMPLETE_IN_COORDINATES];
+}
+
+size_t nh_classified_complete(const nh_classified *x, const nh_analysis *r)
+{
+    const nh_completeness *c = completeness_of(x, r);
     return c->counted && !c->count.obstacle && !c->regional ? c->degree : 0;
 }
 
 size_t nh_classified_exact(const nh_classified *x, const nh_analysis *r, size_t rows, nh_classify_number *number)
 {
-    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    const nh_completeness *c = completeness_of(x, r);
     size_t d = 0;
     if (x->shape || !c->counted || c->count.obstacle || c->regional) return 0;
     for (size_t k = 0; k < c->count.rows && k < rows; k++) {
@@ -170,7 +178,7 @@ size_t nh_classified_exact(const nh_classified *x, const nh_analysis *r, size_t 
 size_t nh_classified_complete_everywhere(const nh_classified *x)
 {
     const nh_analysis *r = x->almost_all;
-    return x->known == r->count + r->furthers ? nh_classified_complete(r) : 0;
+    return x->known == r->count + r->furthers ? nh_classified_complete(x, r) : 0;
 }
 
 static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_classify_value *v,
@@ -202,7 +210,7 @@ static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_cla
     nh_analysis *r = out->result = nh_classified_analyse(x, q, 1, &at, &error);
     out->why = r ? NULL : nh_arena_strdup(x->arena, error.what);
     if (!r) return;
-    out->complete = nh_classified_complete(r);
+    out->complete = nh_classified_complete(x, r);
     const nh_classification *c = x->classification;
     out->exact = nh_classified_exact(x, r, c->rows, v->number);
     if (v->open && v->open <= out->exact) { /* decided: there may be more from that degree on */

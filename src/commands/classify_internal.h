@@ -29,7 +29,7 @@ nh_analysis *nh_classified_analyse(const nh_classified *classified, const nh_cla
 /* The value of a name in a system that was read: a ratio, in the arena, and the double; NULL: none. */
 const char *nh_classified_value_of(nh_arena *arena, const nh_system *system, const char *name, double *about);
 /* The degree up to which the currents of an analysis account for the number of integrals; 0: none. */
-size_t nh_classified_complete(const nh_analysis *analysis);
+size_t nh_classified_complete(const nh_classified *family, const nh_analysis *analysis);
 /* Takes the analysis' own bounds into the numbers of degrees 1 .. rows where they are lower; the degree up to which the
  * products of its currents are as many. */
 size_t nh_classified_exact(const nh_classified *x, const nh_analysis *r, size_t rows, nh_classify_number *number);

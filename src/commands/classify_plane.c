@@ -148,7 +148,7 @@ static void isolated_point(plane *x, const nh_classify_request *q, size_t index,
         out->result = nh_classified_analyse(x->family, q, 2, setting, &error);
         out->why = out->result ? NULL : nh_arena_strdup(arena, error.what);
         if (out->result) {
-            out->complete = nh_classified_complete(out->result);
+            out->complete = nh_classified_complete(x->family, out->result);
             out->exact = nh_classified_exact(x->family, out->result, x->plane->rows, v->number);
         }
     }
