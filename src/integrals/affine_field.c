@@ -14,6 +14,12 @@ enum { spare_points = 4, tries_per_point = 4, most_denominator = 1000 };
 static const double small = 1e-10;    /* of a residual, relative to the components */
 static const double singular = 1e-12; /* of the basis at the points */
 
+/* A parameter at another value than that which the system gives it. */
+typedef struct {
+    size_t parameter;
+    nh_ex value;
+} change;
+
 /* M^T zeta = Y(Phi) at a random point, with the values of the words there. */
 static bool values_at(const nh_model *o, nh_ball *ball, uint64_t *state, const nh_ex *M, const nh_ex *Y, size_t words,
                       const nh_ex *word, double *work, double *zeta, double *row)
@@ -30,19 +36,17 @@ static bool values_at(const nh_model *o, nh_ball *ball, uint64_t *state, const n
     return nh_solve(o->n, work, 1, zeta, &rcond);
 }
 
-/* The coefficients of each component, if they are short fractions that fit at all points; `row` is points x width,
- * `value` points x n. */
-static bool fit(const nh_model *o, size_t points, size_t width, const nh_ex *basis, const double *row,
-                const double *value, nh_ex *zeta)
+/* The coefficients of each component (n x width), if they are short fractions that fit at all points; `row` is points x
+ * width, `value` points x n. */
+static bool coefficients(size_t n, size_t points, size_t width, const double *row, const double *value, nh_num *out)
 {
-    nh_dag *d = o->dag;
-    double *a = nh_alloc_array(points * width, sizeof *a), *b = nh_alloc_array(points * o->n, sizeof *b);
-    nh_num *c = nh_alloc_array(width, sizeof *c);
+    double *a = nh_alloc_array(points * width, sizeof *a), *b = nh_alloc_array(points * n, sizeof *b);
     memcpy(a, row, points * width * sizeof *a);
-    memcpy(b, value, points * o->n * sizeof *b);
-    bool good = nh_least_squares(points, width, a, o->n, b, points, singular) == (int)width;
-    for (size_t i = 0; i < o->n && good; i++) {
+    memcpy(b, value, points * n * sizeof *b);
+    bool good = nh_least_squares(points, width, a, n, b, points, singular) == (int)width;
+    for (size_t i = 0; i < n && good; i++) {
         double size = 0, residual = 0;
+        nh_num *c = out + i * width;
         for (size_t k = 0; k < width && good; k++) {
             double x = b[i * points + k];
             good =
@@ -55,24 +59,39 @@ static bool fit(const nh_model *o, size_t points, size_t width, const nh_ex *bas
             residual = fmax(residual, fabs(rest));
         }
         good = good && residual <= small * fmax(size, 1);
-        if (good) zeta[i] = nh_linear(d, width, c, basis);
     }
-    nh_free(c);
     nh_free(b);
     nh_free(a);
     return good;
 }
 
+static bool fit(const nh_model *o, size_t points, size_t width, const nh_ex *basis, const double *row,
+                const double *value, nh_ex *zeta)
+{
+    nh_num *c = nh_alloc_array(o->n * width + 1, sizeof *c);
+    bool good = coefficients(o->n, points, width, row, value, c);
+    for (size_t i = 0; i < o->n && good; i++) zeta[i] = nh_linear(o->dag, width, c + i * width, basis);
+    nh_free(c);
+    return good;
+}
+
+/* e with the given values; one parameter may have another one. */
+static nh_ex valued(const nh_model *o, const change *other, nh_ex e)
+{
+    if (other) e = nh_substitute(o->dag, e, 1, &o->parameter[other->parameter], &other->value);
+    return nh_exact_values(o, e);
+}
+
 /* Values of zeta (points x n) and of the words (points x words), column by column; false where there are too few. */
-static bool sample(const nh_model *o, nh_ex phi, const nh_options *options, size_t points, size_t words,
-                   const nh_ex *word, double *value, double *row)
+static bool sample(const nh_model *o, nh_ex phi, const nh_options *options, const change *other, size_t points,
+                   size_t words, const nh_ex *word, double *value, double *row)
 {
     size_t found = 0, n = o->n;
     nh_ex *M = nh_alloc_array(n * n + n + words + 1, sizeof *M), *Y = M + n * n, *exact = Y + n;
     double *work = nh_alloc_array(n * n + n + words + 1, sizeof *work), *here = work + n * n, *line = here + n;
-    for (size_t i = 0; i < n; i++) Y[i] = nh_exact_values(o, nh_model_Y(o, i, phi));
-    for (size_t i = 0; i < n * n; i++) M[i] = nh_exact_values(o, o->M[i]);
-    for (size_t b = 0; b < words; b++) exact[b] = nh_exact_values(o, word[b]);
+    for (size_t i = 0; i < n; i++) Y[i] = valued(o, other, nh_model_Y(o, i, phi));
+    for (size_t i = 0; i < n * n; i++) M[i] = valued(o, other, o->M[i]);
+    for (size_t b = 0; b < words; b++) exact[b] = valued(o, other, word[b]);
     nh_ball *ball = nh_ball_create(o->dag, (long)options->bits);
     uint64_t state = (uint64_t)options->seed + 78;
     for (size_t tries = 0; tries < tries_per_point * points && found < points && !nh_interrupted(); tries++) {
@@ -116,21 +135,73 @@ size_t nh_affine_field_words(const nh_model *o, size_t a, size_t b, nh_ex out[NH
     return NH_AFFINE_FIELD_WORDS;
 }
 
-/* 1, q and q q: what quadratic changes of coordinates make of turns, as far as there are points for them. */
-static bool fit_quadratic(const nh_model *o, size_t points, size_t most, const nh_ex *word, const double *row,
-                          const double *value, nh_ex *zeta)
+/* 1, q and q q, from the values of 1 and q in `row`; the number of columns. */
+static size_t quadratic(const nh_model *o, size_t points, const nh_ex *word, const double *row, nh_ex *basis,
+                        double *out)
 {
-    size_t width = 0, m = o->m;
+    size_t width = 0;
+    for (size_t r = 0; r <= o->m; r++)
+        for (size_t s = r; s <= o->m; s++, width++) {
+            size_t a = r ? 2 * r : 0, b = s ? 2 * s : 0; /* where affine() puts 1 and q */
+            basis[width] = nh_mul(o->dag, word[a], word[b]);
+            for (size_t p = 0; p < points; p++) out[width * points + p] = row[a * points + p] * row[b * points + p];
+        }
+    return width;
+}
+
+/* c (p/p0)^e, where e is the power by which c became `moved` when p0 was multiplied by the ratio; false: by none. */
+static bool power_of(nh_dag *d, nh_num c, nh_num moved, nh_num ratio, nh_ex p, nh_num p0, nh_ex *coefficient)
+{
+    enum { highest = 3 };
+    if (nh_num_is(c, 0) || nh_num_is(moved, 0)) return nh_num_is(c, 0) && nh_num_is(moved, 0);
+    for (int e = -highest; e <= highest; e++) {
+        nh_ex scale = nh_powi(d, nh_number(d, ratio), e);
+        if (nh_mul(d, nh_number(d, c), scale) != nh_number(d, moved)) continue;
+        *coefficient = nh_mul(d, *coefficient, nh_powi(d, nh_div(d, p, nh_number(d, p0)), e));
+        return true;
+    }
+    return false;
+}
+
+/* What quadratic changes of coordinates make of turns, as far as there are points for so many functions. Coefficients
+ * that are products of powers of parameters, as other values of these show, are written so. */
+static bool fit_quadratic(const nh_model *o, nh_ex phi, const nh_options *options, size_t points, size_t most,
+                          const nh_ex *word, const double *row, const double *value, nh_ex *zeta)
+{
+    nh_dag *d = o->dag;
+    size_t m = o->m, n = o->n, words = 1 + 2 * m;
     if (1 + m + m * (m + 1) / 2 > most) return false;
     nh_ex *basis = nh_alloc_array(most, sizeof *basis);
     double *some = nh_alloc_array(points * most, sizeof *some);
-    for (size_t r = 0; r <= m; r++)
-        for (size_t s = r; s <= m; s++, width++) {
-            size_t a = r ? 2 * r : 0, b = s ? 2 * s : 0; /* where affine() puts 1 and q */
-            basis[width] = nh_mul(o->dag, word[a], word[b]);
-            for (size_t p = 0; p < points; p++) some[width * points + p] = row[a * points + p] * row[b * points + p];
+    double *other_value = nh_alloc_array(points * (n + words + 1), sizeof *other_value);
+    double *other_row = other_value + points * n;
+    size_t width = quadratic(o, points, word, row, basis, some), all = n * width;
+    nh_num *c = nh_alloc_array(2 * all + 1, sizeof *c), *moved = c + all, ratio = nh_num_int(2);
+    nh_ex *coefficient = nh_alloc_array(all + 1, sizeof *coefficient);
+    bool good = coefficients(n, points, width, some, value, c);
+    for (size_t z = 0; z < all && good; z++) coefficient[z] = nh_number(d, c[z]);
+    bool powers = good;
+    for (size_t k = 0; k < o->system->parameters && powers; k++) {
+        nh_ex p = o->parameter[k], p0 = nh_exact_values(o, p);
+        if (!nh_depends(d, phi, p) || nh_kind_of(d, p0) != NH_NUMBER || nh_is_zero(d, p0)) continue;
+        change other = {k, nh_mul(d, p0, nh_number(d, ratio))};
+        powers = sample(o, phi, options, &other, points, words, word, other_value, other_row);
+        if (!powers) break;
+        quadratic(o, points, word, other_row, basis, some);
+        powers = coefficients(n, points, width, some, other_value, moved);
+        for (size_t z = 0; z < all && powers; z++)
+            powers = power_of(d, c[z], moved[z], ratio, p, nh_number_of(d, p0), &coefficient[z]);
+    }
+    for (size_t i = 0; i < n && good; i++) {
+        zeta[i] = nh_int(d, 0);
+        for (size_t k = 0; k < width; k++) {
+            size_t z = i * width + k;
+            zeta[i] = nh_add(d, zeta[i], nh_mul(d, powers ? coefficient[z] : nh_number(d, c[z]), basis[k]));
         }
-    bool good = fit(o, points, width, basis, some, value, zeta);
+    }
+    nh_free(coefficient);
+    nh_free(c);
+    nh_free(other_value);
     nh_free(some);
     nh_free(basis);
     return good;
@@ -148,7 +219,7 @@ bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh
            *row = nh_alloc_array(points * words, sizeof *row), *some = nh_alloc_array(points * most, sizeof *some);
     nh_ex *basis = nh_alloc_array(most, sizeof *basis);
     memcpy(basis, word, width * sizeof *basis);
-    bool sampled = o->n > 0 && sample(o, phi, options, points, words, word, value, row),
+    bool sampled = o->n > 0 && sample(o, phi, options, NULL, points, words, word, value, row),
          good = sampled && fit(o, points, width, basis, row, value, zeta);
     memcpy(some, row, points * width * sizeof *some);
     for (size_t at = width; at < words && sampled && !good; at += NH_AFFINE_FIELD_WORDS) {
@@ -156,7 +227,7 @@ bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh
         memcpy(some + points * width, row + points * at, points * NH_AFFINE_FIELD_WORDS * sizeof *some);
         good = fit(o, points, most, basis, some, value, zeta);
     }
-    if (sampled && !good) good = fit_quadratic(o, points, most, word, row, value, zeta);
+    if (sampled && !good) good = fit_quadratic(o, phi, options, points, most, word, row, value, zeta);
     nh_free(basis);
     nh_free(some);
     nh_free(row);

@@ -19,7 +19,8 @@
 enum { NH_AFFINE_FIELD_WORDS = 10 };
 size_t nh_affine_field_words(const nh_model *model, size_t a, size_t b, nh_ex out[NH_AFFINE_FIELD_WORDS]);
 
-/* zeta (n) with short fractions as coefficients, by its values at points, for the parameters' given values.  A guess:
+/* zeta (n) with short fractions as coefficients, by its values at points, for the parameters' given values; in
+ * quadratic ones times powers of parameters.  A guess:
  * the equation above and that of Noether remain to be checked.  False: there is none. */
 bool nh_affine_field(const nh_model *model, nh_ex phi, const nh_options *options, nh_ex *zeta);
 
