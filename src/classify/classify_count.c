@@ -160,11 +160,11 @@ bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, s
     nh_prime f;
     nh_residue lambda;
     bool held = s->family.held;
+    *out = (nh_classify_number){0};
     if (!prime_of(s, p, &f, &lambda)) return false;
     s->family.held = true;
     s->family.counter.work = 0;
     if (s->q->linear) {
-        *out = (nh_classify_number){0};
         if (known) least = *known = s->q->linear->known;
         dimension(s, f, degree, p, lambda, least, out);
         s->family.held = held;
