@@ -101,18 +101,19 @@ nh_ex nh_total_derivative_removed(const nh_model *o)
     nh_ex L = o->system->lagrangian, *a = nh_alloc_array(5 * o->m + 2, sizeof *a), *rest = a + o->m + 1;
     nh_ex *v = rest + o->m + 1, *zero = v + o->m, *linear = zero + o->m, out = L;
     parts x = {.o = o, .d = d, .m = o->m, .a = a, .rest = rest};
-    bool found = false;
-    if (!nh_complexity_within(d, L, longest)) {
+    bool some = false, found = false;
+    for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v, zero[s] = nh_int(d, 0);
+    for (size_t s = 0; s < o->m && nh_complexity_within(d, L, longest); s++) {
+        linear[s] = nh_substitute(d, nh_diff(d, L, v[s]), o->m, v, zero);
+        some |= !nh_is_zero(d, linear[s]);
+    }
+    if (!some) {
         nh_free(a);
         return L;
     }
-    for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v, zero[s] = nh_int(d, 0);
     nh_ex potential = nh_substitute(d, L, o->m, v, zero);
+    for (size_t s = 0; s < o->m; s++) a[s] = canonical(&x, linear[s]);
     a[o->m] = canonical(&x, potential);
-    for (size_t s = 0; s < o->m; s++) {
-        linear[s] = nh_substitute(d, nh_diff(d, L, v[s]), o->m, v, zero);
-        a[s] = canonical(&x, linear[s]);
-    }
     for (size_t s = 0; s < o->m; s++) found |= integrate(&x, s);
     if (found) {
         nh_ex T = kinetic(o, v, zero), all = nh_add(d, T, potential);
