@@ -75,8 +75,7 @@ static size_t momenta(const nh_stage_solver *x, nh_ex *P, list *also)
         a = nh_arena_alloc(r->arena, (k->m + 1) * sizeof *a);
         memcpy(a, k->a, k->m * sizeof *a);
         nh_kinetic alone = *k; /* the metric alone */
-        alone.V = nh_int(k->dag, 0);
-        alone.forced = alone.magnetic = false;
+        alone.magnetic = false;
         alone.linear = alone.affine = alone.autonomous = alone.general = true;
         alone.f = 0;
         for (size_t s = 0; s < k->m; s++) alone.a[s] = nh_int(k->dag, 0);
