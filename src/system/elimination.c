@@ -13,6 +13,7 @@
 #include "system/embedding_internal.h"
 
 enum { most_subsets = 2000 };
+static const double much_worse = 1e-3;
 
 /* ---- which velocities to eliminate ---- */
 
@@ -27,12 +28,16 @@ static double volume(size_t rows, size_t columns, double *a)
     return product;
 }
 
-/* The least value over the probes; *largest: the largest. */
-static double subset_score(const nh_constraint_samples *c, const size_t *subset, double *largest)
+typedef struct {
+    double least, largest; /* over the probes */
+    bool constant;         /* the determinant is the same everywhere: these velocities are determined at every point */
+} score;
+
+static score subset_score(const nh_constraint_samples *c, const size_t *subset)
 {
-    double least = INFINITY;
-    *largest = 0;
-    double *a = nh_alloc_array(c->k * c->m + 1, sizeof *a);
+    static const double same = 1e-12;
+    score s = {.least = INFINITY};
+    double *a = nh_alloc_array(c->k * c->m + 1, sizeof *a), small = INFINITY, large = 0;
     for (size_t p = 0; p < c->count; p++) {
         const double *F = c->F + p * c->k * c->m;
         for (size_t j = 0; j < c->k * c->k; j++)
@@ -40,11 +45,14 @@ static double subset_score(const nh_constraint_samples *c, const size_t *subset,
         double part = volume(c->k, c->k, a);
         for (size_t j = 0; j < c->k * c->m; j++) a[j] = F[j] * c->unit[j / c->k];
         double whole = fmax(volume(c->k, c->m, a), 1e-300);
-        least = fmin(least, part / whole);
-        *largest = fmax(*largest, part / whole);
+        s.least = fmin(s.least, part / whole);
+        s.largest = fmax(s.largest, part / whole);
+        small = fmin(small, part);
+        large = fmax(large, part);
     }
+    s.constant = c->count > 1 && small > large * (1 - same);
     nh_free(a);
-    return least;
+    return s;
 }
 
 static bool next_subset(size_t k, size_t m, size_t *subset)
@@ -77,36 +85,46 @@ static bool written_explicitly(const nh_constraint_samples *c, size_t *out)
     return true;
 }
 
+/* A chart without singular points and without divisions, where there is one that is not much worse; z, and not y, of
+ * z = x^2 + y^2. */
+static bool better(score a, score b)
+{
+    if (a.constant != b.constant) {
+        const score *constant = a.constant ? &a : &b, *other = a.constant ? &b : &a;
+        return (constant->least > much_worse * other->least) == a.constant;
+    }
+    /* of equally good coordinates the later one depends: users list first those that move freely */
+    return a.least > b.least * (1 - 1e-9);
+}
+
 static double best_subset(const nh_constraint_samples *c, size_t *out)
 {
     size_t *subset = nh_alloc_array(c->k + 1, sizeof *subset), tried = 0;
-    double best = -1, largest;
+    score best = {.least = -1};
     for (size_t i = 0; i < c->k; i++) subset[i] = i;
     do {
-        double score = subset_score(c, subset, &largest);
-        /* of equally good coordinates the later one depends: users list first those that move freely */
-        if (score > best * (1 - 1e-9) || best < 0) {
-            best = score;
+        score at = subset_score(c, subset);
+        if (best.least < 0 || better(at, best)) {
+            best = at;
             memcpy(out, subset, c->k * sizeof *out);
         }
     } while (++tried < most_subsets && next_subset(c->k, c->m, subset));
     nh_free(subset);
-    return best;
+    return best.least;
 }
 
 /* Where the user sets parameters: the velocities that suit the values of the file, unless they are much worse, so that
  * the formulas are the same for all values. */
 static double best_dependent(const nh_constraint_samples *c, size_t *out)
 {
-    static const double much_worse = 1e-3;
     nh_constraint_samples written;
-    double best = best_subset(c, out), largest;
+    double best = best_subset(c, out);
     if (!nh_constraint_samples_init_written(&written, c->system, c->seed)) return best;
     size_t *usual = nh_alloc_array(c->k + 1, sizeof *usual);
-    double score = written.count && best_subset(&written, usual) > 0 ? subset_score(c, usual, &largest) : 0;
-    if (score > much_worse * best) {
+    double least = written.count && best_subset(&written, usual) > 0 ? subset_score(c, usual).least : 0;
+    if (least > much_worse * best) {
         memcpy(out, usual, c->k * sizeof *out);
-        best = score;
+        best = least;
     }
     nh_free(usual);
     nh_constraint_samples_clear(&written);
@@ -119,13 +137,12 @@ static double choose_dependent(const nh_constraint_samples *c, size_t *out, bool
 {
     static const double undetermined = 1e-12;
     const nh_system *s = c->system;
-    double largest;
     if (s->dependents) memcpy(out, s->dependent, c->k * sizeof *out);
     *replaced = false;
     if (!s->dependents && !written_explicitly(c, out)) return best_dependent(c, out);
-    double least = subset_score(c, out, &largest);
-    *replaced = largest > undetermined && largest < nh_chart_least_pivot;
-    return *replaced ? best_dependent(c, out) : least;
+    score named = subset_score(c, out);
+    *replaced = named.largest > undetermined && named.largest < nh_chart_least_pivot;
+    return *replaced ? best_dependent(c, out) : named.least;
 }
 
 /* ---- building the chart ---- */
