@@ -23,10 +23,12 @@ static bool start(nh_explicit_curve *c, const nh_explicit_request *request)
     m->state = state;
     c->rate = nh_arena_alloc(c->arena, states * sizeof *c->rate);
     c->value = nh_arena_alloc(c->arena, states * sizeof *c->value);
-    c->refused = nh_arena_alloc(c->arena, states * sizeof *c->refused);
+    c->equation = nh_arena_alloc(c->arena, states * sizeof *c->equation);
     c->solved = nh_arena_alloc(c->arena, states * sizeof *c->solved);
     c->current = nh_arena_alloc(c->arena, (n + 1) * sizeof *c->current);
     c->used = nh_arena_alloc(c->arena, (n + 1) * sizeof *c->used);
+    c->view = nh_arena_alloc(c->arena, (n + 1) * sizeof *c->view);
+    for (size_t j = 0; j < n; j++) c->view[j].in = nh_arena_alloc(c->arena, states * sizeof *c->view[j].in);
     m->constant = nh_arena_alloc(c->arena, most_constants * sizeof *m->constant);
     m->root = nh_arena_alloc(c->arena, most_roots * sizeof *m->root);
     m->integral = nh_arena_alloc(c->arena, most_integrals * sizeof *m->integral);
@@ -41,6 +43,7 @@ static bool start(nh_explicit_curve *c, const nh_explicit_request *request)
         memcpy(c->rate, c->combined->rate, states * sizeof *c->rate);
     }
     c->currents = n;
+    c->most_named = request->rival ? request->rival->integrals : most_integrals;
     for (size_t j = 0; j < n; j++) {
         nh_ex e = request->current[j];
         c->current[j] = nh_combined_coordinates_in(c->combined, d, c->fixed ? nh_fixed_values(o, c->fixed, e) : e);

@@ -102,7 +102,8 @@ void nh_explicit_settle(nh_explicit_curve *c, size_t u, nh_ex value)
         if (c->solved[i]) c->value[i] = nh_explicit_simple(c, nh_substitute(c->d, c->value[i], 1, &symbol, &value));
     c->value[u] = value;
     c->solved[u] = true;
-    memset(c->refused, 0, c->m->states * sizeof *c->refused);
+    for (size_t i = 0; i < c->m->states; i++) c->equation[i].read = false;
+    for (size_t j = 0; j < c->currents; j++) c->view[j].read = false;
 }
 
 nh_ex nh_explicit_split_roots(nh_explicit_curve *c, nh_ex e)
@@ -253,22 +254,34 @@ static bool solve_quadratic(nh_explicit_curve *c, size_t u, const nh_ex k[3], nh
 typedef struct {
     size_t current, state;
     double cost;
-    nh_ex k[3];
+    const nh_ex *k; /* the coefficients of the polynomial */
 } choice;
 static const double position = 0.5, symbol = 1e-6;
 
+static nh_explicit_view *view(nh_explicit_curve *c, size_t j)
+{
+    nh_explicit_view *v = &c->view[j];
+    size_t last;
+    if (v->read) return v;
+    memset(v->in, 0, c->m->states * sizeof *v->in);
+    v->e = nh_explicit_along(c, c->current[j]);
+    v->unknowns = nh_explicit_unknowns(c, v->e, &last);
+    v->read = true;
+    return v;
+}
+
 static void consider(nh_explicit_curve *c, size_t j, int degree, size_t most_unknowns, choice *best)
 {
-    nh_ex e = nh_explicit_along(c, c->current[j]);
-    size_t last = 0, n = nh_explicit_unknowns(c, e, &last);
-    if (n == 0) c->used[j] = true;
-    if (n == 0 || n > most_unknowns || nh_explicit_too_long(c, e)) return;
+    nh_explicit_view *v = view(c, j);
+    if (v->unknowns == 0) c->used[j] = true;
+    if (v->unknowns == 0 || v->unknowns > most_unknowns || nh_explicit_too_long(c, v->e)) return;
     for (size_t u = c->m->states; u-- > 0;) {
-        if (c->solved[u] || !nh_depends(c->d, e, c->m->state[u])) continue;
-        choice this = {.current = j, .state = u};
-        if (nh_explicit_degree(c, e, c->m->state[u], this.k) != degree) continue;
-        this.cost = (double)n + (u <= c->o->m) * position + (double)nh_complexity(c->d, e) * symbol;
-        if (this.cost < best->cost) *best = this;
+        if (c->solved[u] || !nh_depends(c->d, v->e, c->m->state[u])) continue;
+        if (!v->in[u].degree) v->in[u].degree = nh_explicit_degree(c, v->e, c->m->state[u], v->in[u].k) + 1;
+        if (v->in[u].degree != degree + 1) continue;
+        double cost =
+            (double)v->unknowns + (u <= c->o->m) * position + (double)nh_complexity(c->d, v->e) * symbol;
+        if (cost < best->cost) *best = (choice){.current = j, .state = u, .cost = cost, .k = v->in[u].k};
     }
 }
 
@@ -281,8 +294,9 @@ bool nh_explicit_solve_first(nh_explicit_curve *c, size_t most_unknowns)
         if (!c->used[j]) consider(c, j, 1, most_unknowns, &best);
     if (best.cost == INFINITY || !nh_explicit_room(c)) return false;
     c->used[best.current] = true;
-    nh_ex constant = nh_explicit_constant(c, c->current[best.current], false);
-    nh_explicit_settle(c, best.state, nh_explicit_simple(c, nh_div(d, nh_sub(d, constant, best.k[0]), best.k[1])));
+    nh_ex constant = nh_explicit_constant(c, c->current[best.current], false),
+          value = nh_div(d, nh_sub(d, constant, best.k[0]), best.k[1]);
+    nh_explicit_settle(c, best.state, nh_explicit_simple(c, value));
     return true;
 }
 

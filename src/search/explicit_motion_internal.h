@@ -7,6 +7,24 @@
 
 enum { most_constants = 24, most_roots = 4, most_integrals = 8, most_symbols = 60 };
 
+/* A current along the curve, until another state is solved. */
+typedef struct {
+    bool read;
+    nh_ex e;
+    size_t unknowns; /* states that are not solved and that it depends on */
+    struct {
+        int degree; /* one more than nh_explicit_degree; 0: not asked for */
+        nh_ex k[3];
+    } *in;          /* per state */
+} nh_explicit_view;
+
+/* du/ds = r = A u + B of the state u, read anew when another state is solved. */
+typedef struct {
+    bool read, linear, refused; /* refused: it could not be integrated */
+    size_t state, length;
+    nh_ex r, A, B;
+} nh_explicit_equation;
+
 typedef struct {
     nh_arena *arena;
     const nh_model *o;
@@ -20,9 +38,10 @@ typedef struct {
        solved */
     nh_ex s, *rate, *value;
     bool *solved;
-    nh_ex *refused; /* per state: du/ds that could not be integrated; 0: none */
-    size_t currents;
+    nh_explicit_equation *equation; /* per state */
+    size_t currents, most_named;
     nh_ex *current;
+    nh_explicit_view *view; /* per current */
     bool *used;
     size_t symbols; /* parameters of the system, then the constants */
     nh_ex symbol[most_symbols];

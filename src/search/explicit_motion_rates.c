@@ -107,7 +107,7 @@ static bool name_integral(nh_explicit_curve *c, nh_ex f, nh_ex *F)
 {
     nh_explicit_motion *m = c->m;
     f = nh_explicit_simple(c, f);
-    if (m->integrals == most_integrals || nh_explicit_too_long(c, f)) return false;
+    if (m->integrals == c->most_named || nh_explicit_too_long(c, f)) return false;
     *F = nh_symbol_fresh(c->d, nh_arena_printf(c->arena, "J%zu", m->integrals + 1));
     nh_diff_rule(c->d, *F, c->s, f);
     m->integral[m->integrals++] = (nh_motion_integral){*F, f};
@@ -131,12 +131,6 @@ static bool solve_linear(nh_explicit_curve *c, size_t u, nh_ex A, nh_ex B, bool 
     return true;
 }
 
-/* A state with du/ds = A u + B. */
-typedef struct {
-    size_t state, length;
-    nh_ex r, A, B;
-} equation;
-
 /* Do so many states that are not solved stand in one of the two only that their quotient depends on more than one? */
 static bool depends_on_many(const nh_explicit_curve *c, nh_ex own, nh_ex speed)
 {
@@ -149,47 +143,61 @@ static bool depends_on_many(const nh_explicit_curve *c, nh_ex own, nh_ex speed)
     return count > few;
 }
 
-/* `named`: also those that were refused. */
-static size_t equations(nh_explicit_curve *c, bool named, equation *out)
+static void read_equation(nh_explicit_curve *c, size_t u, nh_ex speed)
 {
-    nh_ex speed = nh_explicit_along(c, c->rate[c->m->parameter]), k[3];
+    nh_ex own = nh_explicit_along(c, c->rate[u]), k[3];
+    nh_explicit_equation *q = &c->equation[u], before = *q;
+    *q = (nh_explicit_equation){.read = true, .state = u};
+    if (nh_explicit_too_long(c, own) || depends_on_many(c, own, speed)) return;
+    q->r = nh_explicit_split_roots(c, nh_explicit_simple(c, nh_div(c->d, own, speed)));
+    size_t last = u, n = nh_explicit_unknowns(c, q->r, &last);
+    q->linear = n <= 1 && last == u && !nh_explicit_too_long(c, q->r) &&
+                nh_explicit_degree(c, q->r, c->m->state[u], k) <= 1;
+    if (!q->linear) return;
+    q->refused = before.refused && before.r == q->r;
+    q->length = nh_complexity(c->d, q->r);
+    q->A = k[1];
+    q->B = k[0];
+}
+
+/* Of the states that are not solved; `named`: also those that were refused. */
+static size_t equations(nh_explicit_curve *c, bool named, nh_explicit_equation *out)
+{
+    nh_ex speed = nh_explicit_along(c, c->rate[c->m->parameter]);
     size_t count = 0;
-    for (size_t u = 0; u < c->m->states && !nh_explicit_too_long(c, speed); u++) {
-        nh_ex own = nh_explicit_along(c, c->rate[u]);
-        if (c->solved[u] || nh_explicit_too_long(c, own) || depends_on_many(c, own, speed)) continue;
-        nh_ex r = nh_explicit_split_roots(c, nh_explicit_simple(c, nh_div(c->d, own, speed)));
-        size_t last = u, n = nh_explicit_unknowns(c, r, &last);
-        if ((r == c->refused[u] && !named) || n > 1 || last != u || nh_explicit_too_long(c, r) ||
-            nh_explicit_degree(c, r, c->m->state[u], k) > 1)
-            continue;
-        out[count++] = (equation){u, nh_complexity(c->d, r), r, k[1], k[0]};
+    if (nh_explicit_too_long(c, speed)) return 0;
+    for (size_t u = 0; u < c->m->states; u++) {
+        if (c->solved[u]) continue;
+        if (!c->equation[u].read) read_equation(c, u, speed);
+        if (c->equation[u].linear && (named || !c->equation[u].refused)) out[count++] = c->equation[u];
     }
     return count;
 }
 
 static int by_length(const void *left, const void *right)
 {
-    const equation *a = left, *b = right;
+    const nh_explicit_equation *a = left, *b = right;
     return a->length != b->length ? (a->length < b->length ? -1 : 1) : a->state < b->state ? -1 : a->state > b->state;
 }
 
 /* The time first, along combined coordinates: it makes the other states known that a current gives with it. */
 static int time_first(const void *left, const void *right)
 {
-    const equation *a = left, *b = right;
+    const nh_explicit_equation *a = left, *b = right;
     return !a->state != !b->state ? (a->state ? 1 : -1) : by_length(left, right);
 }
 
 /* The shortest first. */
 bool nh_explicit_solve_rate(nh_explicit_curve *c, bool named)
 {
-    equation *list = nh_alloc_array(c->m->states + 1, sizeof *list);
+    nh_explicit_equation *list = nh_alloc_array(c->m->states + 1, sizeof *list);
     size_t count = equations(c, named, list);
     bool solved = false;
     qsort(list, count, sizeof *list, c->combined ? time_first : by_length);
     for (size_t i = 0; i < count && !solved && nh_explicit_room(c); i++) {
-        solved = solve_linear(c, list[i].state, list[i].A, list[i].B, named);
-        if (!solved) c->refused[list[i].state] = list[i].r;
+        size_t u = list[i].state;
+        solved = solve_linear(c, u, list[i].A, list[i].B, named);
+        if (!solved) c->equation[u].refused = true;
     }
     nh_free(list);
     return solved;

@@ -105,17 +105,17 @@ static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *
 
 /* ---- the whole ---- */
 
-/* With every state as the parameter; the best one.  NULL where combined coordinates were asked for and there are
-   none. */
-static const nh_explicit_motion *try_all(nh_stage_solver *x, const nh_explicit_request *request, size_t *count,
+/* With every state as the parameter; the best one, or the one that was best before. */
+static const nh_explicit_motion *try_all(nh_stage_solver *x, nh_explicit_request request,
+                                         const nh_explicit_motion *best, size_t *count,
                                          const nh_explicit_motion **tried)
 {
     const nh_model *o = x->r->model;
-    const nh_explicit_motion *best = NULL;
     size_t states = 1 + o->m + o->n;
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
-        const nh_explicit_motion *m = nh_explicit_motion_along(x->r->arena, o, request, i);
-        if (!m && request->combined && i == 0) return NULL;
+        request.rival = best && best->known == states ? best : NULL;
+        const nh_explicit_motion *m = nh_explicit_motion_along(x->r->arena, o, &request, i);
+        if (!m && request.combined && i == 0) return best;
         if (!m) continue;
         tried[(*count)++] = m;
         if (better(m, best)) best = m;
@@ -185,17 +185,15 @@ void nh_quadratures_search(nh_stage_solver *x)
     valued.currents = gather(r, false, special);
     valued.fixed = special_values(r);
     const nh_explicit_motion **tried = nh_arena_alloc(r->arena, 2 * states * sizeof *tried),
-                             *best = try_all(x, &request, &count, tried);
-    if (valued.fixed && !(best && best->known == states && !best->integrals)) {
-        const nh_explicit_motion *other = try_all(x, &valued, &count, tried);
-        if (other && better(other, best)) best = other;
-    }
+                             *best = try_all(x, request, NULL, &count, tried);
+    if (valued.fixed && !(best && best->known == states && !best->integrals))
+        best = try_all(x, valued, best, &count, tried);
     harvest(x, count, tried);
     /* the formulas of motions in combined coordinates are not shown: their constants are currents */
     request.combined = valued.combined = true;
     count = 0;
-    if (!nh_stage_solver_done(x)) try_all(x, &request, &count, tried);
-    if (!nh_stage_solver_done(x) && valued.fixed) try_all(x, &valued, &count, tried);
+    if (!nh_stage_solver_done(x)) try_all(x, request, NULL, &count, tried);
+    if (!nh_stage_solver_done(x) && valued.fixed) try_all(x, valued, NULL, &count, tried);
     harvest(x, count, tried);
     if (!best || best->known <= 1) return;
     nh_explicit_motion *m = nh_arena_alloc(r->arena, sizeof *m);
