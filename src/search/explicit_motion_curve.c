@@ -3,10 +3,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "exact/generic_value.h"
 #include "exact/normal.h"
 #include "exact/square.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
+#include "graph/monomials.h"
 
 /* ---- expressions along the curve and in the states ---- */
 
@@ -133,21 +135,31 @@ bool nh_explicit_vanishes(const nh_explicit_curve *c, nh_ex e)
     return nh_normal_is_zero(c->d, e, (size_t)c->options->proof_terms) == NH_ZERO;
 }
 
+/* By a value, which is found sooner than a normal form.  False: not known, as where roots are symbols of their own. */
+static bool is_nonzero(const nh_explicit_curve *c, nh_ex e, nh_ex u)
+{
+    for (size_t i = 0; i < c->m->roots; i++)
+        if (nh_depends(c->d, e, c->m->root[i].symbol)) return false;
+    return nh_generic_nonzero(c->d, 1, &e, 2, (nh_ex[]){u, c->s});
+}
+
 int nh_explicit_degree(const nh_explicit_curve *c, nh_ex e, nh_ex u, nh_ex k[3])
 {
     nh_dag *d = c->d;
     nh_ex zero = nh_int(d, 0), first = nh_diff(d, e, u), second = nh_diff(d, first, u);
+    if (is_nonzero(c, nh_diff(d, second, u), u)) return 3;
     k[2] = nh_explicit_simple(c, nh_mul(d, nh_ratio(d, 1, 2), second));
     if (nh_depends(d, k[2], u) && !nh_explicit_vanishes(c, nh_diff(d, k[2], u))) return 3;
     k[2] = nh_substitute(d, k[2], 1, &u, &zero);
     k[1] = nh_explicit_simple(c, nh_substitute(d, first, 1, &u, &zero));
     k[0] = nh_explicit_simple(c, nh_substitute(d, e, 1, &u, &zero));
-    /* u |u| has a third derivative that vanishes, too */
-    nh_ex rest = nh_sub(d, e, nh_add(d, k[0], nh_mul(d, u, nh_add(d, k[1], nh_mul(d, u, k[2])))));
-    return !nh_explicit_vanishes(c, rest)   ? 3
-           : !nh_explicit_vanishes(c, k[2]) ? 2
-           : !nh_explicit_vanishes(c, k[1]) ? 1
-                                            : 0;
+    if (!nh_monomials_has_degree(d, e, u)) { /* the third derivative of u |u| vanishes, too; and u/u has a hole */
+        nh_ex rest = nh_sub(d, e, nh_add(d, k[0], nh_mul(d, u, nh_add(d, k[1], nh_mul(d, u, k[2])))));
+        if (!nh_explicit_vanishes(c, rest)) return 3;
+    }
+    for (int degree = 2; degree > 0; degree--)
+        if (is_nonzero(c, k[degree], u) || !nh_explicit_vanishes(c, k[degree])) return degree;
+    return 0;
 }
 
 /* ---- from currents ---- */
