@@ -60,8 +60,27 @@ static void check(nh_analysis *r)
 
 /* ---- the construction ---- */
 
+/* What is sought: also functions of the currents found; integrals of the shape alone; with many-valued functions. */
+typedef struct {
+    bool further, secular, weights;
+    nh_count_shape shape;
+    const nh_construct_rates *rates;
+} manner;
+
+/* A construction without anything new: a later one finds no more, because more currents are known then. */
+typedef struct {
+    manner how; /* without the rates, which the model, the degree and the time determine */
+    bool time, rates, only, more, whole;
+    size_t degree, solutions;
+    double price, given, work;
+} barren;
+
+enum { most_barren = 128 };
+
 typedef struct {
     nh_stage_solver solver;
+    size_t barrens;
+    barren barren[most_barren];
     size_t cyclic;          /* how often cyclic coordinates can be dropped */
     double work;            /* work that is left for this count */
     size_t solutions;       /* the most that series had for the coordinates at hand */
@@ -264,12 +283,27 @@ static bool is_over(const search *s, bool further)
                    : nh_stage_solver_done(&s->solver);
 }
 
-/* What is sought: also functions of the currents found; integrals of the shape alone; with many-valued functions. */
-typedef struct {
-    bool further, secular, weights;
-    nh_count_shape shape;
-    const nh_construct_rates *rates;
-} manner;
+/* The same question as before, as far as the work goes; NULL: it was not asked, or there was something new. */
+static const barren *asked_before(const search *s, const barren *now)
+{
+    for (size_t i = 0; i < s->barrens; i++) {
+        const barren *b = &s->barren[i];
+        if (b->how.further == now->how.further && b->how.secular == now->how.secular &&
+            b->how.weights == now->how.weights && b->how.shape == now->how.shape && b->time == now->time &&
+            b->rates == now->rates && b->only == now->only && b->degree == now->degree && b->price == now->price &&
+            b->given == now->given)
+            return b;
+    }
+    return NULL;
+}
+
+static void take(search *s, const barren *b, bool *more)
+{
+    s->work -= b->work;
+    if (b->solutions > s->solutions) s->solutions = b->solutions;
+    if (b->whole) s->covered = b->price;
+    *more = b->more;
+}
 
 /* Tries the words up to one price. */
 static bool construct_at(search *s, const nh_completeness *c, manner how, double price, bool *more)
@@ -277,6 +311,15 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     nh_analysis *r = s->solver.r;
     bool further = how.further;
     size_t degree = further ? c->incomplete_at : c->missing_at;
+    barren now = {.how = {how.further, how.secular, how.weights, how.shape, NULL},
+                  .time = c->count.time,
+                  .rates = how.rates != NULL,
+                  .only = how.rates && how.rates->only,
+                  .degree = degree,
+                  .price = price,
+                  .given = s->work};
+    const barren *before = asked_before(s, &now);
+    if (before) return take(s, before, more), false;
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     bool general, found = false;
     nh_construct_question q = {.time = c->count.time,
@@ -295,13 +338,15 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     q.known += regional;
     q.independent += regional;
     nh_construction *x = nh_construct(r->model, &q);
-    s->work -= x->work;
-    if (x->solutions > s->solutions) s->solutions = x->solutions;
+    now.work = x->work;
+    now.solutions = x->solutions;
+    now.whole = x->whole;
+    /* an integral that could not be proved may have a simpler form in words of a higher price */
+    now.more = !x->limited && (x->recognised < x->dimension || x->count);
+    take(s, &now, more);
     for (size_t k = 0; k < x->count && !is_over(s, further); k++)
         found |= lift(s, degree, q.time, &x->item[k], further);
-    /* an integral that could not be proved may have a simpler form in words of a higher price */
-    *more = !x->limited && (x->recognised < x->dimension || x->count);
-    if (x->whole) s->covered = price;
+    if (!x->count && !nh_late() && s->barrens < most_barren) s->barren[s->barrens++] = now;
     nh_construction_free(x);
     nh_free(phi);
     return found;
