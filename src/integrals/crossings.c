@@ -23,7 +23,9 @@ typedef struct {
     nh_tape_work *work;
     nh_ball *ball;
     nh_ex *rate;        /* Gamma: 1, rho, a */
-    double *origin, *direction, *z, *out, *half;
+    nh_tape *rates;     /* the same */
+    nh_tape_work *rates_work;
+    double *origin, *direction, *z, *out, *half, *passing;
     nh_projector *projector; /* NULL: lines in the chart */
     double *position;          /* t, q, v */
     nh_arena *arena;
@@ -96,21 +98,36 @@ typedef struct {
     double speed, strength; /* Gamma(g)/|grad g|, max |Gamma|, both in units of the box */
 } passage;
 
-static bool passage_at(finder *x, nh_ex g, double *z, passage *p)
+/* From the derivatives of g and the components of Gamma. */
+static bool passage_of(const finder *x, const double *slope, const double *rate, passage *p)
 {
-    double along = 0, size = 0, radius;
+    double along = 0, size = 0;
     p->strength = 0;
-    if (!nh_exact_at(x->o, x->ball, z)) return false;
     for (size_t j = 0; j < x->explicit_width; j++) {
-        double slope, rate;
-        if (!nh_ball_value(x->ball, nh_diff(x->o->dag, g, x->o->chart->symbol[j]), &slope, &radius)) return false;
-        if (!nh_ball_value(x->ball, x->rate[j], &rate, &radius)) return false;
-        along += slope * rate;
-        size += pow(slope * x->half[j], 2);
-        p->strength = fmax(p->strength, fabs(rate) / x->half[j]);
+        along += slope[j] * rate[j];
+        size += pow(slope[j] * x->half[j], 2);
+        p->strength = fmax(p->strength, fabs(rate[j]) / x->half[j]);
     }
     p->speed = along / sqrt(size);
     return size > 0 && isfinite(p->speed);
+}
+
+static bool passage_at(finder *x, nh_ex g, double *z, passage *p)
+{
+    double radius, *slope = x->passing, *rate = slope + x->explicit_width;
+    if (!nh_exact_at(x->o, x->ball, z)) return false;
+    for (size_t j = 0; j < x->explicit_width; j++) {
+        if (!nh_ball_value(x->ball, nh_diff(x->o->dag, g, x->o->chart->symbol[j]), &slope[j], &radius)) return false;
+        if (!nh_ball_value(x->ball, x->rate[j], &rate[j], &radius)) return false;
+    }
+    return passage_of(x, slope, rate, p);
+}
+
+/* Motions come to rest before they arrive, or the equations have a pole there; from two distances. */
+static bool ends(passage far, passage near, double slower, double stronger)
+{
+    return !(fabs(near.speed) > slower * fabs(far.speed)) ||
+           near.strength * depth[2] > stronger * far.strength * depth[1];
 }
 
 /* Motions begin in the user's interval for t, and go on from there. */
@@ -129,15 +146,31 @@ static bool is_reached(finder *x, nh_crossing *c)
     for (int side = 0; side < 2; side++) {
         if (!passage_at(x, c->wall, c->point[side][1], &far[side])
             || !passage_at(x, c->wall, c->point[side][2], &near[side])) return false;
-        bool stops = !(fabs(near[side].speed) > fabs(far[side].speed) / 2);
-        bool diverges = near[side].strength * depth[2] > far[side].strength * depth[1] / 2;
-        if (stops || diverges) return false;
+        if (ends(far[side], near[side], 0.5, 0.5)) return false;
     }
     return near[1].speed < 0 || (c->touches ? near[0].speed < 0 : near[0].speed > 0);
 }
 
+/* In doubles, which are accurate enough to see that motions do not arrive from one side, by a wide margin. */
+static bool is_clearly_unreached(finder *x, size_t i, double s)
+{
+    double f[NH_MOST_WALLS], slope[NH_MOST_WALLS];
+    passage p[2];
+    for (int side = 0; side < 2; side++) {
+        for (size_t k = 1; k < NH_CROSSING_DEPTHS; k++) {
+            if (!point_at(x, s + (side ? depth[k] : -depth[k]), false)) return false;
+            evaluate(x, f, slope);
+            nh_tape_eval(x->rates, x->rates_work, x->z, x->passing);
+            if (!passage_of(x, x->out + i * (1 + x->explicit_width) + 1, x->passing, &p[k - 1])) return false;
+        }
+        if (ends(p[0], p[1], 0.125, 0.75)) return true;
+    }
+    return false;
+}
+
 static void keep(finder *x, size_t i, double s, bool touches)
 {
+    if (is_clearly_unreached(x, i, s)) return;
     double f[NH_MOST_WALLS], slope[NH_MOST_WALLS];
     nh_crossing c = {.wall = x->walls->e[i], .touches = touches};
     for (int side = 0; side < 2; side++)
@@ -210,6 +243,9 @@ static void create(finder *x)
     x->rate[0] = nh_int(o->dag, 1);
     memcpy(x->rate + 1, o->rho, o->m * sizeof *x->rate);
     memcpy(x->rate + 1 + o->m, o->a, o->n * sizeof *x->rate);
+    x->rates = nh_model_tape(o, width, x->rate);
+    x->rates_work = nh_tape_work_create(x->rates);
+    x->passing = nh_alloc_array(2 * width, sizeof *x->passing);
     x->ball = nh_ball_create(o->dag, bits);
     nh_exact_parameters(o, x->ball);
     size_t room = o->width > 1 + 2 * o->m ? o->width : 1 + 2 * o->m;
@@ -225,6 +261,9 @@ static void clear(finder *x)
 {
     nh_free(x->z);
     nh_ball_free(x->ball);
+    nh_free(x->passing);
+    nh_tape_work_free(x->rates_work);
+    nh_tape_free(x->rates);
     nh_free(x->rate);
     nh_free(x->out);
     nh_tape_work_free(x->work);
