@@ -20,6 +20,7 @@ typedef struct {
     nh_dag *dag;
     nh_forms literal, cut;
     nh_index done;     /* part -> simplified */
+    size_t too_deep;   /* how many parts were left as they are */
     nh_index rational; /* part -> is it a polynomial in symbols and their inverses? */
     int depth;
 } context;
@@ -244,9 +245,13 @@ static nh_ex apart(contest *c, nh_ex e)
 static nh_ex simplify(context *shared, nh_ex e)
 {
     uint32_t known;
+    nh_ex before;
     contest c = {.shared = shared, .dag = shared->dag, .best = e, .last = e, .length = nh_complexity(shared->dag, e)};
-    if (c.length <= shortest || shared->depth > deepest || nh_interrupted()) return e;
+    if (c.length <= shortest || nh_interrupted()) return e;
+    if (shared->depth > deepest) return shared->too_deep++, e;
+    if (nh_dag_simplified(c.dag, e, true, &before)) return before;
     if (nh_index_get(&shared->done, e, &known)) return known;
+    size_t left = shared->too_deep;
     shared->depth++;
     c.inexact = !nh_is_short(c.dag, e);
     if (compete(&c, e, true)) compete(&c, e, false);
@@ -254,6 +259,8 @@ static nh_ex simplify(context *shared, nh_ex e)
     if (c.best == e) offer(&c, apart(&c, e));
     shared->depth--;
     if (!nh_index_get(&shared->done, e, &known)) nh_index_put(&shared->done, e, c.best);
+    /* the same parts are in many expressions: the graph keeps what does not depend on the rest */
+    if (shared->too_deep == left && !nh_interrupted()) nh_dag_set_simplified(c.dag, e, true, c.best);
     return c.best;
 }
 
@@ -315,7 +322,7 @@ static nh_ex restore_roots(context *shared, nh_ex source, nh_ex result)
 nh_ex nh_simplify(nh_dag *dag, nh_ex e)
 {
     nh_ex known;
-    if (nh_dag_simplified(dag, e, &known)) return known;
+    if (nh_dag_simplified(dag, e, false, &known)) return known;
     context shared = {.dag = dag};
     nh_forms_init(&shared.literal, dag, true, most_terms);
     nh_forms_init(&shared.cut, dag, false, most_terms);
@@ -326,8 +333,8 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_index_clear(&shared.done);
     nh_index_clear(&shared.rational);
     if (nh_interrupted()) return result; /* this result may not be the shortest */
-    nh_dag_set_simplified(dag, e, result);
-    nh_dag_set_simplified(dag, result, result);
+    nh_dag_set_simplified(dag, e, false, result);
+    nh_dag_set_simplified(dag, result, false, result);
     return result;
 }
 

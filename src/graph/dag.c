@@ -38,7 +38,9 @@ nh_dag *nh_dag_copy(const nh_dag *dag)
     c->bucket = copied(dag->bucket, dag->bucket_count, sizeof *c->bucket);
     c->name = copied(dag->name, c->name_capacity = dag->name_count, sizeof *c->name);
     c->memo = copied(dag->memo, dag->memo_capacity, sizeof *c->memo);
-    c->simplified = copied(dag->simplified, dag->simplified_capacity, sizeof *c->simplified);
+    for (int part = 0; part < 2; part++)
+        c->simplified[part] =
+            copied(dag->simplified[part], dag->simplified_capacity[part], sizeof **c->simplified);
     c->rule = copied(dag->rule, c->rule_capacity = dag->rule_count, sizeof *c->rule);
     c->power = copied(dag->power, c->power_capacity = dag->power_count, sizeof *c->power);
     c->names = nh_arena_create();
@@ -53,7 +55,8 @@ void nh_dag_free(nh_dag *dag)
     nh_free(dag->bucket);
     nh_free(dag->name);
     nh_free(dag->memo);
-    nh_free(dag->simplified);
+    nh_free(dag->simplified[0]);
+    nh_free(dag->simplified[1]);
     nh_free(dag->rule);
     nh_free(dag->power);
     nh_arena_free(dag->names);
@@ -133,21 +136,21 @@ nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const
 
 /* ---- simplest forms ---- */
 
-bool nh_dag_simplified(const nh_dag *dag, nh_ex e, nh_ex *out)
+bool nh_dag_simplified(const nh_dag *dag, nh_ex e, bool part, nh_ex *out)
 {
-    if (e >= dag->simplified_capacity || !dag->simplified[e]) return false;
-    *out = dag->simplified[e] - 1;
+    if (e >= dag->simplified_capacity[part] || !dag->simplified[part][e]) return false;
+    *out = dag->simplified[part][e] - 1;
     return true;
 }
 
-void nh_dag_set_simplified(nh_dag *dag, nh_ex e, nh_ex simple)
+void nh_dag_set_simplified(nh_dag *dag, nh_ex e, bool part, nh_ex simple)
 {
-    size_t old = dag->simplified_capacity;
+    size_t old = dag->simplified_capacity[part];
     if (e >= old) {
-        nh_grow(&dag->simplified, &dag->simplified_capacity, dag->node_count, sizeof *dag->simplified);
-        memset(dag->simplified + old, 0, (dag->simplified_capacity - old) * sizeof *dag->simplified);
+        nh_grow(&dag->simplified[part], &dag->simplified_capacity[part], dag->node_count, sizeof **dag->simplified);
+        memset(dag->simplified[part] + old, 0, (dag->simplified_capacity[part] - old) * sizeof **dag->simplified);
     }
-    dag->simplified[e] = simple + 1;
+    dag->simplified[part][e] = simple + 1;
 }
 
 /* ---- leaves ---- */
