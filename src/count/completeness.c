@@ -20,13 +20,23 @@ static void read_rows(nh_completeness *c, bool all)
     c->missing = row->rank > row->known_rank ? row->rank - row->known_rank : 0;
 }
 
-/* For generic parameters the bound can only be lower: the same products have to reach it. */
+/* Were the equations of all its degrees solved? */
+static bool has_orders(const nh_completeness *c)
+{
+    bool all = true;
+    for (size_t d = 0; d < c->degree; d++) all &= c->count.row[d].order > 0;
+    return all;
+}
+
+/* For generic parameters the bound can only be lower: the same products have to reach it.  Where not the products but
+ * the ranks agree, the solutions are needed. */
 static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
 {
     if (!model->system->parameters || !q->general || !c->degree || (c->regional && !q->regional_general)) return false;
     nh_count_question question = {.time = c->count.time,
                                   .generic = true,
                                   .degree = c->degree,
+                                  .bound = c->linear && has_orders(c) ? c->count.row : NULL,
                                   .work = q->work,
                                   .memory = q->memory,
                                   .known = q->known - (c->regional ? 0 : q->regional),

@@ -147,7 +147,11 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_graded_st
     size_t *total = nh_alloc_array(order + 1, sizeof *total), from;
     nh_differentials all, known;
     nh_count_differentials(c, &all, &known);
-    outcome result = totals(c, s, degree, state, total, &from, &all) ? COUNTED : TOO_MUCH;
+    outcome result = COUNTED;
+    if (c->q->bound) {
+        total[order] = c->q->bound[degree - 1].bound;
+        from = order;
+    } else if (!totals(c, s, degree, state, total, &from, &all)) result = TOO_MUCH;
     bool products =
         c->q->alone || result != COUNTED || nh_count_products(c, s->ring, s->coordinate, degree, total[order], out);
     if (result == COUNTED && !(products && nh_count_known_differ(c, s->ring, s->coordinate, &known))) result = UNLUCKY;
@@ -185,12 +189,13 @@ static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *be
     outcome o = COUNTED;
     bool any = false;
     c->most = c->q->work;
+    if (c->q->bound) order = c->q->bound[degree - 1].order;
     while (c->work < c->most && !nh_late()) {
         o = count_at(c, degree, order, state, &row);
         if (o != COUNTED) break;
         *out = row;
         any = row.bounded;
-        if (row.complete || row.settled || (row.functions && c->q->alone) ||
+        if (c->q->bound || row.complete || row.settled || (row.functions && c->q->alone) ||
             (row.functions && c->work > least_share * c->q->work))
             break;
         if (row.bounded && !row.functions && c->q->known) c->most = more_for_open * c->q->work;
@@ -220,7 +225,7 @@ static void degrees(nh_counter *c, nh_count *out)
         out->obstacle = c->equations->obstacle ? c->equations->obstacle : "no regular point was found modulo a prime";
         return;
     }
-    bool linear = !c->q->alone && !c->q->shape, long_series = c->equations->m > many_coordinates;
+    bool linear = !c->q->alone && !c->q->shape && !c->q->bound, long_series = c->equations->m > many_coordinates;
     if (linear && long_series) nh_count_linear(c, last, out);
     while (first + out->rows <= last && !nh_late()) {
         const nh_count_row *before = out->rows ? &out->row[out->rows - 1] : NULL;

@@ -77,6 +77,9 @@ typedef struct {
     /* counts this degree only, until all solutions are functions of the known integrals: row[0]; products are not
      * compared */
     bool alone;
+    /* the rows of the count for some values of the parameters, which bound those of generic ones: ranks, the symbol's
+     * among them, are only higher there.  NULL: the equations are solved */
+    const nh_count_row *bound;
     double work;            /* limit in products of residues; about 5e8 take a second */
     size_t known;
     /* known integrals in t, q, w; those that are not polynomial in the velocities are left out */
