@@ -168,6 +168,27 @@ Test(accuracy, the_checked_motion_is_as_accurate)
     mechanics_clear(&x);
 }
 
+/* z' = 40 x x' has a large factor and is determined at every point: no other coordinates are needed. */
+Test(accuracy, a_steep_surface_does_not_end_its_chart)
+{
+    mechanics x = mechanics_of_text("name: test\ncoordinates: [{name: x}, {name: y}, {name: z}]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - z\n"
+                                    "constraints: [\"z - 20*x^2 - y^2 = 0\"]\n", NH_CHART_AUTO);
+    cr_assert(x.model->chart->regular);
+    double q[3] = {1, 0.5, 20.25}, v[3] = {0, 0.3, 0.3};
+    nh_state initial = {.q = q, .v = v};
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    nh_ex e = x.model->E;
+    nh_validation_request request = {.model = x.model, .currents = 1, .current = &e, .initial = &initial, .until = 5, .outputs = 61, .options = &options};
+    nh_validation *r = nh_validate(&request, &error);
+    must(r != NULL, &error, "the validation");
+    cr_expect_str_eq(r->chart, x.model->chart->name);
+    cr_expect(r->current[0].small, "%g", r->current[0].drift[NH_DRIFT_RUNS - 1]);
+    nh_validation_free(r);
+    mechanics_clear(&x);
+}
+
 /* What is known of another motion may be too hopeful: the accuracy is reached without it. */
 Test(accuracy, what_was_measured_is_not_the_last_word)
 {

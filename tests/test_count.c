@@ -425,6 +425,33 @@ Test(count, known_integrals_are_compared)
     for (size_t d = 0; d < 4; d++) cr_assert(c.row[d].complete, "degree %zu: %zu of %zu", d + 1, c.row[d].known, c.row[d].bound);
 }
 
+/* Products of integrals that hold for all parameters, and the bound for these values, give what the equations for generic ones give. */
+Test(count, the_bound_for_some_values_is_one_for_generic_values)
+{
+    static const char text[] = "name: k\nparameters: [{name: m, value: 1.3}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                               "domain: {x: [0.5, 1.5], y: [0.5, 1.5]}\nlagrangian: (x'^2 + y'^2)/2 + m/sqrt(x^2 + y^2)\n"
+                               "known:\n  currents:\n    - {name: E, expr: (x'^2 + y'^2)/2 - m/sqrt(x^2 + y^2)}\n    - {name: L, expr: x*y' - y*x'}\n"
+                               "    - {name: A, expr: y'*(x*y' - y*x') - m*x/sqrt(x^2 + y^2)}\n    - {name: B, expr: x'*(y*x' - x*y') - m*y/sqrt(x^2 + y^2)}\n";
+    enum { degree = 3 };
+    problem p = problem_of(text);
+    nh_count_question q = {.degree = degree, .work = 1e10, .known = p.count, .current = p.known};
+    nh_count here = nh_count_integrals(p.model, &q);
+    q.generic = true;
+    nh_count solved = nh_count_integrals(p.model, &q);
+    q.bound = here.row;
+    nh_count bounded = nh_count_integrals(p.model, &q);
+    q.known--; /* without B */
+    nh_count fewer = nh_count_integrals(p.model, &q);
+    problem_clear(&p);
+    for (size_t d = 0; d < degree; d++) {
+        cr_assert(here.row[d].complete && solved.row[d].complete && bounded.row[d].complete, "degree %zu", d + 1);
+        cr_expect_eq(bounded.row[d].bound, solved.row[d].bound);
+        cr_expect_eq(bounded.row[d].known, solved.row[d].known);
+        cr_expect_eq(fewer.row[d].complete, d == 0, "degree %zu: %zu of %zu", d + 1, fewer.row[d].known, fewer.row[d].bound);
+    }
+    cr_expect_lt(bounded.work, solved.work);
+}
+
 Test(count, generic_parameters_have_no_more_than_special_ones)
 {
     const char *const text = "name: h\nparameters: [{name: b, value: 1}, {name: e, value: 3}]\ncoordinates: [{name: x}, {name: y}]\n"

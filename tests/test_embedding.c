@@ -344,6 +344,13 @@ Test(embedding, equally_good_velocities_leave_the_first_ones_free)
     check_chart(SPACE "constraints: [\"x' + y' + z' = 0\"]\n", 0, "z");
 }
 
+/* x' and y' have larger factors, which vanish somewhere. */
+Test(embedding, velocities_that_are_determined_everywhere_come_first)
+{
+    check_chart(SPACE "constraints: [\"z - 3*x^2 - 5*y^3 = 1\"]\ndomain: {x: [1, 2], y: [1, 2]}\n", 0, "z");
+    check_chart(SPACE4 "constraints: [\"z' = 7*x*x'\", \"s' = 9*y*y' + x*z'\"]\ndomain: {x: [1, 2], y: [1, 2]}\n", 0, "z s");
+}
+
 /* y' is named, and nowhere on the domain determined by x': another chart takes over.  Where it breaks down at points only, it stays. */
 Test(embedding, a_named_chart_that_breaks_down_everywhere_is_replaced)
 {

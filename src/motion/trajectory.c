@@ -67,7 +67,7 @@ static bool point_of_scene(void *context, double t, const double *z, double *poi
 static bool scene_is_steep(const nh_closed_subsystem *s, nh_closed_subsystem_run *run, const nh_motion *motion)
 {
     const nh_model *o = s->model;
-    if (o->chart->quasi || !o->k || s->smooth) return false;
+    if (o->chart->quasi || o->chart->regular || !o->k || s->smooth) return false;
     nh_ex *e = nh_alloc_array(o->m * o->n + 1, sizeof *e);
     double *factor = nh_alloc_array(o->m * o->n + 1, sizeof *factor);
     size_t n = 0;

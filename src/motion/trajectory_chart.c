@@ -35,7 +35,7 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
     size_t n = o->m * o->n;
     double *R = nh_alloc_array(n * (motion->count + 1) + 1, sizeof *R), *factor = R + n * motion->count;
     nh_chart_slopes(o->chart, factor);
-    bool good = !o->chart->quasi && o->k && nh_along(dynamics, motion, n, o->R, R),
+    bool good = !o->chart->quasi && !o->chart->regular && o->k && nh_along(dynamics, motion, n, o->R, R),
          *flag = nh_steep_entries(good ? motion->count : 0, n, R, factor, any);
     if (!good) flag = (nh_free(flag), nh_alloc_array(motion->count + 1, sizeof *flag));
     nh_free(R);

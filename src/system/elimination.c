@@ -480,6 +480,7 @@ nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *e
         } else {
             chart = build(&c, dependent, pivot, error);
             if (chart) chart->replaced = replaced;
+            if (chart && c.k) chart->regular = subset_score(&c, dependent).constant;
         }
     }
     nh_free(dependent);

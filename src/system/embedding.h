@@ -50,6 +50,7 @@ typedef struct {
     /* the dependent velocities that the user had in mind are not determined anywhere near the domain: others were
        chosen */
     bool replaced;
+    bool regular; /* of coordinate velocities: the dependent ones are determined at every point */
 } nh_chart;
 
 /* Nearer to a zero of its pivot the formulas of a chart of coordinate velocities lose too many digits. */
