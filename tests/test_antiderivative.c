@@ -106,6 +106,9 @@ Test(antiderivative, turning)
     check("x*sin(a*x)^2", 0, 9);
     check("1/(p + a*cos(x) + b*sin(x))", 0, 12);
     check("1/(c + p*cos(x))", -1.2, 1.2);
+    check("1/(a*cos(3*x/7) + b*sin(3*x/7))", 0, 1); /* no polynomials in the functions of x/7 */
+    check("1/(sqrt(2)*a*sin(3*k*x) + b*cos(3*k*x))", 0, 0.4);
+    check("1/(exp(5*x) + exp(-5*x))", -1, 1);
     check("cos(x)*sin(x/2)/(a*cos(x/2) + b*sin(x/2))", -1, 1);
     check("tan(x)", -1, 1);
     check("1/cos(x)^3", -1, 1);

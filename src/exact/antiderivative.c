@@ -344,6 +344,7 @@ bool nh_antiderivative(const nh_integration *in, nh_ex f, nh_ex *F)
     nh_arena *arena = nh_arena_create();
     nh_forms forms;
     nh_forms_init(&forms, in->dag, false, in->max_terms ? in->max_terms : default_terms);
+    forms.coarse = true;
     bool found = read(b, arena, &forms, f);
     bool done = false;
     if (found && in->elliptic) {

@@ -454,9 +454,13 @@ static void relate(nh_form *f)
 nh_quotient_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form)
 {
     *form = (nh_form){0};
+    bool coarse = forms->coarse;
+    forms->coarse = false;
     e = rewrite(forms, e);
+    forms->coarse = coarse;
     nh_kernels *k = &form->kernels;
     nh_kernels_init(k, forms->dag, forms->literal, opaque);
+    k->coarse = coarse;
     nh_kernels_collect(k, e);
     if (k->broken) return NH_FIELD_UNDEFINED;
     if (k->too_deep) return NH_FIELD_TOO_LARGE;

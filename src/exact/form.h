@@ -11,7 +11,7 @@
 /* The state that all normal forms of one computation share. */
 typedef struct {
     nh_dag *dag;             /* borrowed */
-    bool literal;            /* see kernel.h */
+    bool literal, coarse;    /* see kernel.h; coarse: arguments are not */
     size_t max_terms;
     int depth;
     nh_index rewritten, canonical;

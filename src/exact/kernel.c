@@ -300,13 +300,13 @@ static void settle(nh_kernels *k, size_t i, nh_num unit, size_t kernel)
     k->use[i].kernel = kernel;
 }
 
-/* A number as an argument is divided by no more than the others demand: sin(3/10) alone is no polynomial in
- * sin(1/10). */
+/* A number as an argument is divided by no more than the others demand: sin(3/10) alone is no polynomial in sin(1/10);
+ * in coarse tables every argument is. */
 static int64_t common_numerator(const nh_kernels *k, const nh_kernel_use *group, int64_t lcd)
 {
     int64_t common = 0;
     bool argument = group->family != NH_KERNEL_ROOT && group->family != NH_KERNEL_POWER; /* and no exponent */
-    if (!argument || !nh_is_number(k->dag, group->atom, 1)) return 1;
+    if (!argument || !(k->coarse || nh_is_number(k->dag, group->atom, 1))) return 1;
     for (size_t i = 0; i < k->uses; i++) {
         const nh_kernel_use *u = &k->use[i];
         if (u->settled || !same_group(u, group)) continue;

@@ -53,6 +53,9 @@ typedef struct {
 typedef struct {
     nh_dag *dag;     /* borrowed */
     bool literal;
+    /* sin(3 x) without sin(x) beside it is a kernel, and no polynomial of degree 3: for expressions that are compared
+     * with no others */
+    bool coarse;
     bool opaque;     /* inexact numbers are kernels of their own, not dyadic rationals */
     bool broken;     /* an expression was not a number */
     bool too_deep;   /* an expression was nested deeper than the stack bears */

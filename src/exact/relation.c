@@ -162,6 +162,7 @@ static bool collect_kernels(question *q)
 {
     nh_kernels *k = &q->form.kernels;
     nh_kernels_init(k, q->dag, false, true);
+    k->coarse = true;
     for (size_t j = 0; j < q->n; j++) nh_kernels_collect(k, q->e[j]);
     if (k->broken || k->too_deep) return false;
     nh_kernels_settle(k);
