@@ -450,6 +450,18 @@ Test(count, the_bound_for_some_values_is_one_for_generic_values)
         cr_expect_eq(fewer.row[d].complete, d == 0, "degree %zu: %zu of %zu", d + 1, fewer.row[d].known, fewer.row[d].bound);
     }
     cr_expect_lt(bounded.work, solved.work);
+    cr_expect_eq(bounded.weights, here.weights);
+}
+
+/* The constraint is integrable for k = 0 alone: the bound there is none for generic k, and the weights tell. */
+Test(count, brackets_of_other_ranks_are_seen)
+{
+    static const char text[] = "name: k\nparameters: [{name: k, value: 0}]\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                               "constraints: [\"z' = k*y*x'\"]\n";
+    nh_count here = count_in(text, 1, false, false), generic = count_in(text, 1, false, true);
+    cr_assert(!here.obstacle && !generic.obstacle);
+    cr_expect(here.leaf == 1 && here.weights == 2, "%zu, %zu", here.leaf, here.weights);
+    cr_expect(generic.leaf == 0 && generic.weights == 4, "%zu, %zu", generic.leaf, generic.weights);
 }
 
 Test(count, generic_parameters_have_no_more_than_special_ones)

@@ -28,8 +28,9 @@ static bool has_orders(const nh_completeness *c)
     return all;
 }
 
-/* For generic parameters the bound can only be lower: the same products have to reach it.  Where not the products but
- * the ranks agree, the solutions are needed. */
+/* The products of the same currents have to reach the bound for generic parameters, too.  The bound here is one there
+ * where brackets have the same ranks [docs/method.md, sec. 10]; else, and where not the products but the ranks agree,
+ * the equations are solved for random residues. */
 static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
 {
     if (!model->system->parameters || !q->general || !c->degree || (c->regional && !q->regional_general)) return false;
@@ -43,6 +44,10 @@ static bool holds_generically(const nh_model *model, const nh_completeness_quest
                                   .independent = q->independent - (c->regional ? 0 : q->regional),
                                   .current = q->current};
     nh_completeness generic = {.count = nh_count_integrals(model, &question)};
+    if (question.bound && (generic.count.weights != c->count.weights || generic.count.leaf != c->count.leaf)) {
+        question.bound = NULL;
+        generic.count = nh_count_integrals(model, &question);
+    }
     read_rows(&generic, q->all);
     return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
 }

@@ -247,6 +247,7 @@ static void degrees(nh_counter *c, nh_count *out)
         nh_count_linear(c, last, out);
     if (out->rows == 0) out->obstacle = c->equations->obstacle ? c->equations->obstacle : "the series are too long";
     out->step = c->frame ? c->frame->step : 0;
+    for (size_t j = 0; c->frame && j < c->frame->kept; j++) out->weights += c->frame->weight[j];
     out->leaf = c->frame ? c->frame->all - c->frame->kept : 0;
     out->prime = c->equations->point->field.p;
 }

@@ -43,6 +43,7 @@ typedef struct {
     size_t rows;
     nh_count_row row[NH_COUNT_HIGHEST_DEGREE]; /* of degrees 1, 2, .. */
     size_t step;            /* the largest weight: brackets of this length span everything */
+    size_t weights;         /* their sum over the coordinates: where it and `leaf` agree, so do all ranks of brackets */
     /* the first degree that is counted by the frequencies of linear equations; such rows are exact and not bounds, with
      * order 0; 0: none */
     size_t linear;
@@ -77,8 +78,8 @@ typedef struct {
     /* counts this degree only, until all solutions are functions of the known integrals: row[0]; products are not
      * compared */
     bool alone;
-    /* the rows of the count for some values of the parameters, which bound those of generic ones: ranks, the symbol's
-     * among them, are only higher there.  NULL: the equations are solved */
+    /* the rows of the count for some values of the parameters: bounds for generic ones where the weights are the same,
+     * because the ranks of the equations, of the symbol among them, are only higher then.  NULL: they are solved */
     const nh_count_row *bound;
     double work;            /* limit in products of residues; about 5e8 take a second */
     size_t known;
