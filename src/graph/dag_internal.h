@@ -59,8 +59,8 @@ struct nh_dag {
 /* The relation that a symbol satisfies, or NULL. */
 const nh_power_rule *nh_dag_power_rule(const nh_dag *dag, nh_ex symbol);
 
-/* The memo of nh_simplify; false where e is not there, otherwise *out.  `part`: before calls and roots are written as in
- * the source. */
+/* The memo of nh_simplify; false where e is not there, otherwise *out.  `part`: before calls and roots are written as
+ * in the source. */
 bool nh_dag_simplified(const nh_dag *dag, nh_ex e, bool part, nh_ex *out);
 void nh_dag_set_simplified(nh_dag *dag, nh_ex e, bool part, nh_ex simple);
 

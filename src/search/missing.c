@@ -5,29 +5,23 @@
 
 #include "base/budget.h"
 #include "base/progress.h"
-#include "count/construct.h"
-#include "count/construct_rates.h"
-#include "count/lift.h"
-#include "exact/normal.h"
-#include "integrals/echelon.h"
 #include "search/counted.h"
 #include "search/currents.h"
-#include "search/described.h"
-#include "search/naming.h"
+#include "search/missing_internal.h"
 #include "search/relations.h"
 #include "search/series_several.h"
-#include "search/stage_solver.h"
+
+typedef nh_missing_search search;
 
 /* ---- the count ---- */
 
-/* The proved currents in closed form, with room for more. */
-static size_t most_proved(const nh_analysis *r) { return r->count + r->furthers + r->pieces + 1; }
+size_t nh_missing_most_proved(const nh_analysis *r) { return r->count + r->furthers + r->pieces + 1; }
 
 /* Compares the proved currents with the bound for their number.  A degree that the user asks for may cost more. */
 static void count(nh_analysis *r, bool again)
 {
     enum { times_if_asked = 10 };
-    nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
+    nh_ex *phi = nh_alloc_array(nh_missing_most_proved(r), sizeof *phi);
     nh_completeness_question q = {.current = phi,
                                   .all = r->search == NH_SEARCH_COMPLETE,
                                   .again = again,
@@ -58,36 +52,7 @@ static void check(nh_analysis *r)
     }
 }
 
-/* ---- the construction ---- */
-
-/* What is sought: also functions of the currents found; integrals of the shape alone; with many-valued functions. */
-typedef struct {
-    bool further, secular, weights;
-    nh_count_shape shape;
-    const nh_construct_rates *rates;
-} manner;
-
-/* A construction without anything new: a later one finds no more, because more currents are known then. */
-typedef struct {
-    manner how; /* without the rates, which the model, the degree and the time determine */
-    bool time, rates, only, more, whole;
-    size_t degree, solutions;
-    double price, given, work;
-} barren;
-
-enum { most_barren = 128 };
-
-typedef struct {
-    nh_stage_solver solver;
-    size_t barrens;
-    barren barren[most_barren];
-    size_t cyclic;          /* how often cyclic coordinates can be dropped */
-    double work;            /* work that is left for this count */
-    size_t solutions;       /* the most that series had for the coordinates at hand */
-    double covered;         /* up to this price words were tried for these coordinates */
-    size_t aside;           /* currents that are only certified */
-    nh_current *set_aside;
-} search;
+/* ---- integrals that are missing ---- */
 
 /* Those that are not proved, or else the series. */
 static void set_aside(search *s, bool series)
@@ -122,314 +87,17 @@ static void take_back(search *s, size_t first)
     s->aside = first;
 }
 
-/* An integral polynomial in the velocities replaces a current that is not, and is a function of it and the others: it
- * is regular where these velocities vanish, and its field is shorter. */
-static bool take_place(search *s, const nh_current *f)
+/* Without time in the coefficients, which in a system without time gives functions of these only. */
+static const nh_completeness *simplest_kind(const nh_analysis *r)
 {
-    nh_analysis *r = s->solver.r;
-    for (size_t k = r->count; k-- > 0;) {
-        nh_current old = r->found[k];
-        if (old.series || old.energy || nh_counted_degree_of(r->model, old.phi) < INFINITY) continue;
-        if (old.proof.all_parameters && !f->proof.all_parameters) continue;
-        r->found[k] = r->found[--r->count];
-        bool takes = !nh_currents_known(s->solver.bench, f->phi);
-        if (takes) nh_currents_put(s->solver.bench, f);
-        takes = takes && nh_currents_known(s->solver.bench, old.phi);
-        if (takes) {
-            nh_described_fill(s->solver.bench, &r->found[r->count - 1]);
-            return true;
-        }
-        r->count -= r->count > 0 && r->found[r->count - 1].phi == f->phi;
-        nh_currents_put(s->solver.bench, &old);
-    }
-    return false;
+    bool timeless = r->completeness[NH_COMPLETE_IN_COORDINATES].counted;
+    return &r->completeness[timeless ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME];
 }
 
-/* A function of the currents found: it is checked as any other, and put into a list of its own. */
-static bool keep_further(search *s, size_t degree, nh_candidate *candidate, const nh_points *fit)
-{
-    nh_analysis *r = s->solver.r;
-    s->solver.bench->brief = true;
-    bool conserved = nh_currents_add(s->solver.bench, candidate, fit, true);
-    s->solver.bench->brief = false;
-    if (!conserved) return false;
-    nh_current *f = &r->found[--r->count];
-    if (!f->proof.proved || r->furthers == NH_MOST_FURTHER) return false;
-    if (!r->further) r->further = nh_arena_alloc(r->arena, NH_MOST_FURTHER * sizeof *r->further);
-    f->independence = NH_DEPENDENT;
-    nh_region open = nh_region_open(r->model, &s->solver.bench->terrain, f->phi, &r->options, r->arena);
-    if (open.count && nh_currents_continue(s->solver.bench, f))
-        open = nh_region_open(r->model, &s->solver.bench->terrain, f->phi, &r->options, r->arena);
-    f->region = nh_region_text(r->model->dag, &open, r->arena);
-    nh_current found = *f; /* at the place of the next current in the list */
-    if (!f->region && take_place(s, &found)) return true;
-    *f = found;
-    r->further[r->furthers++] = (nh_further_integral){*f, degree};
-    return true;
-}
-
-/* Chooses the null vector with the most complex term: the simpler terms are those of known integrals. */
-static bool lift_further(search *s, size_t degree, const nh_family *all)
-{
-    nh_analysis *r = s->solver.r;
-    bool found = false;
-    nh_solved x = nh_stage_solver_solve(&s->solver, 1, all);
-    if (x.nullspace && x.nullspace->dimension) {
-        nh_candidates *list = nh_echelon(r->model, x.fit, x.ansatz, x.nullspace, x.nullspace->dimension, &r->options);
-        for (size_t k = 0; k < list->count && !found; k++) {
-            bool leads = false;
-            for (size_t j = 0; j < list->candidate[k].count; j++) leads |= list->candidate[k].term[j] == all->term[0];
-            found = leads && keep_further(s, degree, &list->candidate[k], x.fit);
-        }
-        s->solver.bench->nears = 0; /* they are of the list */
-        nh_candidates_free(list);
-    }
-    nh_solved_clear(&x);
-    return found;
-}
-
-enum { most_constants = 10 };
-
-static bool is_constant_of_leaf(const nh_model *o, const nh_current *f)
-{
-    return f->proof.proved && !nh_counted_has_velocities(o, f->phi) && !nh_depends(o->dag, f->phi, o->system->t);
-}
-
-/* sqrt(x^2 + y^2) as x^2 + y^2: coefficients are polynomials in that. */
-static nh_ex without_root(nh_dag *d, nh_ex e)
-{
-    bool root = nh_kind_of(d, e) == NH_PRODUCT && nh_arity(d, e) == 1 && nh_exponent_of(d, e, 0) == nh_ratio(d, 1, 2);
-    return root ? nh_child(d, e, 0) : e;
-}
-
-/* Products of what is constant on the leaves of integrable constraints, 1 first: coefficients may depend on it. */
-static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
-{
-    enum { highest = 2 };
-    const nh_model *o = r->model;
-    size_t n = 0, first = 0;
-    out[n++] = nh_int(o->dag, 1);
-    for (size_t power = 0; power < highest; power++) {
-        size_t last = n;
-        for (size_t k = 0; k < r->count; k++)
-            for (size_t j = first; j < last && n < most_constants && is_constant_of_leaf(o, &r->found[k]); j++) {
-                nh_ex product = nh_mul(o->dag, out[j], without_root(o->dag, r->found[k].phi));
-                bool known = false;
-                for (size_t i = 0; i < n; i++) known |= out[i] == product;
-                if (!known) out[n++] = product;
-            }
-        first = last;
-    }
-    return n;
-}
-
-/* By linear equations modulo primes: exactly, and for all parameters where they occur as polynomials. */
-static nh_lift_result lift_exactly(search *s, bool time, size_t terms, const nh_ex *term)
-{
-    nh_lift_result exact = nh_lift(s->solver.r->model, time, terms, term, s->work);
-    s->work -= exact.work;
-    return exact;
-}
-
-static bool keep_lifted(search *s, const nh_lift_result *exact, size_t terms, const char *name)
-{
-    nh_analysis *r = s->solver.r;
-    bool found = exact->integral && nh_stage_solver_certify(&s->solver, exact->integral, name);
-    if (found) r->stage[r->stages - 1].columns = terms;
-    return found;
-}
-
-/* By doubles: the coefficients may be roots and the like.  Longer lists take seconds, and their small coefficients are
- * lost. */
-static bool lift_by_doubles(search *s, size_t degree, const nh_family *all, bool further, const char *name)
-{
-    enum { most_terms = 300 };
-    size_t before = s->solver.r->count;
-    if (all->terms > most_terms) return false;
-    nh_stage_solver_stage(&s->solver, name, 1, all);
-    return s->solver.r->count > before || (further && lift_further(s, degree, all));
-}
-
-/* Finds the coefficients of an integral's terms, which may be constants of the leaf.  Those of a few terms may be
- * quotients in the parameters, which the exact relation of their rates has (coefficients.c). */
-static bool lift(search *s, size_t degree, bool time, const nh_constructed *c, bool further)
-{
-    enum { a_few = 20 };
-    nh_analysis *r = s->solver.r;
-    nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
-    nh_ex constant[most_constants];
-    size_t constants = constants_of_leaf(r, constant), terms = 0, once = 0;
-    nh_ex *term = nh_arena_alloc(r->arena, constants * c->terms * sizeof *term),
-          *first_once = nh_arena_alloc(r->arena, constants * c->terms * sizeof *first_once);
-    for (size_t j = 0; j < c->terms; j++)
-        for (size_t k = 0; k < constants; k++) {
-            term[terms] = nh_mul(r->model->dag, c->term[j], constant[k]);
-            if (j || !k) first_once[once++] = term[terms];
-            terms++;
-        }
-    *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
-    s->solver.wide = true;
-    const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
-    nh_lift_result exact = further ? (nh_lift_result){0} : lift_exactly(s, time, once, first_once);
-    bool first = exact.general || once > a_few;
-    if (first && keep_lifted(s, &exact, once, name)) return true;
-    if (lift_by_doubles(s, degree, all, further, name)) return true;
-    return !first && keep_lifted(s, &exact, once, name);
-}
-
-static bool is_over(const search *s, bool further)
-{
-    return further ? nh_budget_spent() || nh_late() || s->solver.r->furthers == NH_MOST_FURTHER
-                   : nh_stage_solver_done(&s->solver);
-}
-
-/* The same question as before, as far as the work goes; NULL: it was not asked, or there was something new. */
-static const barren *asked_before(const search *s, const barren *now)
-{
-    for (size_t i = 0; i < s->barrens; i++) {
-        const barren *b = &s->barren[i];
-        if (b->how.further == now->how.further && b->how.secular == now->how.secular &&
-            b->how.weights == now->how.weights && b->how.shape == now->how.shape && b->time == now->time &&
-            b->rates == now->rates && b->only == now->only && b->degree == now->degree && b->price == now->price &&
-            b->given == now->given)
-            return b;
-    }
-    return NULL;
-}
-
-static void take(search *s, const barren *b, bool *more)
-{
-    s->work -= b->work;
-    if (b->solutions > s->solutions) s->solutions = b->solutions;
-    if (b->whole) s->covered = b->price;
-    *more = b->more;
-}
-
-/* Tries the words up to one price. */
-static bool construct_at(search *s, const nh_completeness *c, manner how, double price, bool *more)
-{
-    nh_analysis *r = s->solver.r;
-    bool further = how.further;
-    size_t degree = further ? c->incomplete_at : c->missing_at;
-    barren now = {.how = {how.further, how.secular, how.weights, how.shape, NULL},
-                  .time = c->count.time,
-                  .rates = how.rates != NULL,
-                  .only = how.rates && how.rates->only,
-                  .degree = degree,
-                  .price = price,
-                  .given = s->work};
-    const barren *before = asked_before(s, &now);
-    if (before) return take(s, before, more), false;
-    nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
-    bool general, found = false;
-    nh_construct_question q = {.time = c->count.time,
-                               .shape = how.shape,
-                               .further = further,
-                               .secular = how.secular,
-                               .weights = how.weights,
-                               .rates = how.rates,
-                               .degree = degree,
-                               .price = price,
-                               .most_words = (size_t)r->options.words,
-                               .work = s->work,
-                               .current = phi};
-    q.known = nh_counted_proved(r, phi, &general, &q.independent);
-    size_t regional = nh_counted_regional(r, phi + q.known, &general);
-    q.known += regional;
-    q.independent += regional;
-    nh_construction *x = nh_construct(r->model, &q);
-    now.work = x->work;
-    now.solutions = x->solutions;
-    now.whole = x->whole;
-    /* an integral that could not be proved may have a simpler form in words of a higher price */
-    now.more = !x->limited && (x->recognised < x->dimension || x->count);
-    take(s, &now, more);
-    for (size_t k = 0; k < x->count && !is_over(s, further); k++)
-        found |= lift(s, degree, q.time, &x->item[k], further);
-    if (!x->count && !nh_late() && s->barrens < most_barren) s->barren[s->barrens++] = now;
-    nh_construction_free(x);
-    nh_free(phi);
-    return found;
-}
-
-/* Of the simplest kind: without time in the coefficients, which in a system without time gives functions of these
- * only. */
 static bool lacks_further(const nh_analysis *r)
 {
-    const nh_completeness *c = &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME];
+    const nh_completeness *c = simplest_kind(r);
     return c->counted && c->incomplete_at && c->count.row[c->incomplete_at - 1].settled;
-}
-
-/* Raises the price of the words until something is found. */
-static bool construct_up_to(search *s, const nh_completeness *c, manner how, double dearest, double work)
-{
-    bool found = false, more = true;
-    s->work = work;
-    s->solutions = 0;
-    for (double price = 2; more && !found && price <= dearest && s->work > 0 && !is_over(s, how.further);
-         price += price < 4 ? 1 : 2)
-        if (how.weights || price > s->covered) found = construct_at(s, c, how, price, &more);
-    return found;
-}
-
-/* Is the number with time in the coefficients no larger than without? */
-static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
-{
-    const nh_completeness *first = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    return c != first && first->counted && first->missing_at == c->missing_at && c->missing_at &&
-           first->count.row[c->missing_at - 1].bound == c->count.row[c->missing_at - 1].bound;
-}
-
-/* Tries the shape first, the closed one before the other.  Where it has as many solutions as there are, more
- * coordinates give no others: *shape is then the one that is enough. */
-static bool construct_in_shapes(search *s, const nh_completeness *c, manner how, double dearest, double work,
-                                nh_count_shape *shape)
-{
-    static const nh_count_shape order[] = {NH_CLOSED_SHAPE, NH_NOT_CYCLIC, NH_EVERY_COORDINATE};
-    size_t degree = how.further ? c->incomplete_at : c->missing_at, all = c->count.row[degree - 1].bound;
-    bool found = false, enough = false;
-    for (size_t i = s->cyclic > 1 ? 0 : s->cyclic ? 1 : 2; i < sizeof order / sizeof *order && !found && !enough; i++) {
-        manner own = how;
-        own.shape = *shape = order[i];
-        if (own.shape != NH_EVERY_COORDINATE) own.rates = NULL;
-        s->covered = 0;
-        own.weights = true;
-        found = construct_up_to(s, c, own, dearest, work);
-        own.weights = false;
-        if (!found) found = construct_up_to(s, c, own, dearest, work);
-        enough = s->solutions == all;
-    }
-    return found;
-}
-
-/* Tries one kind of coefficients.  In t alone most coefficients are waves, which the words do not contain, and a count
- * that is not settled is mostly far too large. */
-static bool construct(search *s, const nh_completeness *c, bool further)
-{
-    /* parts of the work: for rare functions, and for integrals that the currents found determine */
-    static const double part = 0.25, further_part = 0.08;
-    double dearest = c->count.time ? 6 : 16, dearest_secular = 6,
-           work = s->solver.r->options.construct * (further ? further_part : 1);
-    bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) &&
-                              !adds_nothing(s->solver.r, c));
-    if (!wanted) return false;
-    size_t degree = further ? c->incomplete_at : c->missing_at;
-    nh_ex atom[NH_NAMING_ATOMS];
-    const nh_model *o = s->solver.r->model;
-    nh_construct_rates rates =
-        nh_construct_rates_of(o, degree, c->count.time, nh_naming_atoms(o, atom), atom, part * work);
-    manner any = {.further = further, .rates = &rates}, secular = any;
-    secular.secular = true;
-    work = fmax(work - rates.work, 0);
-    nh_construct_rates only = rates;
-    only.only = true;
-    manner by_rates = {.further = further, .rates = &only};
-    if (rates.count && construct_up_to(s, c, by_rates, dearest, further ? work : part * work)) return true;
-    s->covered = 0;
-    if (construct_in_shapes(s, c, any, dearest, work, &secular.shape)) return true;
-    s->covered = 0;
-    return (!further && nh_primitives_search(&s->solver, c->count.time, c->missing_at))
-        || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }
 
 static bool is_missing(const nh_analysis *r)
@@ -451,8 +119,10 @@ static void in_several(search *s)
         nh_stage_solver_series_of_positions(&s->solver);
     }
     bool found = r->count > before;
-    for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found && !nh_stage_solver_done(&s->solver); i++)
-        if (!adds_nothing(r, &r->completeness[i])) found = nh_series_in_several(&s->solver, &r->completeness[i]);
+    for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found && !nh_stage_solver_done(&s->solver); i++) {
+        c = &r->completeness[i];
+        if (!nh_missing_adds_nothing(r, c)) found = nh_series_in_several(&s->solver, c);
+    }
 }
 
 /* A series along one coordinate may be an integral that has a name, times integrals that were found in the meantime. */
@@ -482,9 +152,9 @@ static void look(nh_analysis *r)
     bool stale = false;
     for (bool found = true; found && !nh_late();) {
         bool again = found = false;
-        for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++) found = construct(&s, &r->completeness[i], false);
-        if (!found && lacks_further(r))
-            found = again = construct(&s, &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME], true);
+        for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++)
+            found = nh_missing_construct(&s, &r->completeness[i], false);
+        if (!found && lacks_further(r)) found = again = nh_missing_construct(&s, simplest_kind(r), true);
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
         if (found) count(r, stale = again);
     }

@@ -1,0 +1,48 @@
+/* missing_internal: the construction of integrals that the count misses, for the parts of missing.c. */
+#ifndef NH_MISSING_INTERNAL_H
+#define NH_MISSING_INTERNAL_H
+
+#include "count/construct.h"
+#include "count/construct_rates.h"
+#include "search/missing.h"
+#include "search/stage_solver.h"
+
+/* What is sought: also functions of the currents found; integrals of the shape alone; with many-valued functions. */
+typedef struct {
+    bool further, secular, weights;
+    nh_count_shape shape;
+    const nh_construct_rates *rates;
+} nh_missing_manner;
+
+/* A construction without anything new: a later one finds no more, because more currents are known then. */
+typedef struct {
+    nh_missing_manner how; /* without the rates, which the model, the degree and the time determine */
+    bool time, rates, only, more, whole;
+    size_t degree, solutions;
+    double price, given, work;
+} nh_missing_barren;
+
+enum { NH_MISSING_MOST_BARREN = 128 };
+
+typedef struct {
+    nh_stage_solver solver;
+    size_t barrens;
+    nh_missing_barren barren[NH_MISSING_MOST_BARREN];
+    size_t cyclic;          /* how often cyclic coordinates can be dropped */
+    double work;            /* work that is left for this count */
+    size_t solutions;       /* the most that series had for the coordinates at hand */
+    double covered;         /* up to this price words were tried for these coordinates */
+    size_t aside;           /* currents that are only certified */
+    nh_current *set_aside;
+} nh_missing_search;
+
+/* How many currents may be proved: those in closed form, with room for more. */
+size_t nh_missing_most_proved(const nh_analysis *r);
+
+/* Is the number with time in the coefficients no larger than without? */
+bool nh_missing_adds_nothing(const nh_analysis *r, const nh_completeness *c);
+
+/* Tries one kind of coefficients; `further`: integrals that are functions of the currents, too.  Was one found? */
+bool nh_missing_construct(nh_missing_search *search, const nh_completeness *c, bool further);
+
+#endif
