@@ -36,5 +36,7 @@ Test(total_derivative, nothing_else_goes)
     expect_left("x*y^2*y'", "x*y^2*y'");
     expect_left("exp(-t)*x*x'", "exp(-t)*x*x'");
     expect_left("y*cos(x)*x' + sin(x)*y' + x^3*y'", "x^3*y'");
-    expect_left("sqrt(1 + x'^2) + x*x'", "sqrt(1 + x'^2) + x*x'");
+    expect_left("sqrt(1 + x'^2) + x*x'", "sqrt(1 + x'^2)");
+    expect_left("(x' + y^2*y')^2", "(x' + y^2*y')^2");
+    expect_left("(y^2 + c*t)^2*(y' + c)^2/2", "(y^2 + c*t)^2*(y' + c)^2/2"); /* c y^4 y' is a part of the square */
 }

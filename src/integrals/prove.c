@@ -9,6 +9,7 @@
 #include "integrals/affine_field.h"
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"
+#include "integrals/noether_equation.h"
 #include "integrals/symmetry.h"
 
 /* patience: so many times longer may the proof of a certified current be */
@@ -177,19 +178,27 @@ nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool para
     return prove_zero(o, n, term, (nh_proof){0}, (nh_claim){.free = parameters_free}, options);
 }
 
+static bool is_identity(const nh_model *o, nh_ex e, nh_claim claim, const nh_options *options)
+{
+    e = claim.free ? with_symbols(o, claim.fixed, e) : nh_exact_values(o, e);
+    return nh_normal_is_zero(o->dag, e, (size_t)options->proof_terms) == NH_ZERO;
+}
+
 /* Are X_0(Phi) + A_i zeta^i and Y_j(Phi) - M_ij zeta^i zero?  Then so is Gamma(Phi) = X_0(Phi) + a^j Y_j(Phi), by M a =
- * A and without M^-1, which is what makes Gamma(Phi) long [docs/method.md, (6), (11)]. */
+ * A and without M^-1, which is what makes Gamma(Phi) long [docs/method.md, (6), (11)].  The former is shorter in all
+ * coordinates where L is invariant. */
 static bool equations_hold(const nh_model *o, nh_ex phi, const nh_ex *zeta, nh_claim claim, const nh_options *options)
 {
     nh_dag *d = o->dag;
+    nh_ex rate;
     bool holds = true;
     for (size_t j = 0; j <= o->n && holds; j++) {
         nh_ex e = j < o->n ? nh_model_Y(o, j, phi) : nh_model_X0(o, phi);
         for (size_t i = 0; i < o->n; i++)
             e = j < o->n ? nh_sub(d, e, nh_mul(d, o->M[i * o->n + j], zeta[i]))
                          : nh_add(d, e, nh_mul(d, o->A[i], zeta[i]));
-        holds = nh_normal_is_zero(d, claim.free ? with_symbols(o, claim.fixed, e) : nh_exact_values(o, e),
-                                  (size_t)options->proof_terms) == NH_ZERO;
+        bool short_too = j == o->n && nh_noether_equation(o, phi, zeta, &rate);
+        holds = (short_too && is_identity(o, rate, claim, options)) || is_identity(o, e, claim, options);
     }
     return holds;
 }

@@ -1,4 +1,4 @@
-/* L is split into its kinetic, its linear part and its potential; terms of the linear part are integrated. */
+/* The terms of L that are linear in the velocities, and those of the potential; the former are integrated. */
 #include "integrals/total_derivative.h"
 
 #include <string.h>
@@ -9,13 +9,13 @@
 #include "graph/diff.h"
 #include "graph/terms.h"
 
-enum { largest_form = 2000, longest = 3000, most_terms = 40 };
+enum { longest = 3000, most_terms = 40 };
 
 typedef struct {
     const nh_model *o;
     nh_dag *d;
     size_t m;
-    nh_ex *a, *rest; /* m coefficients of v^s and the potential, written out as sums; room for as many */
+    nh_ex *a, *rest; /* m coefficients of v^s and the terms without v, written out as sums; room for as many */
 } parts;
 
 static nh_ex canonical(const parts *x, nh_ex e) { return nh_canonical_sum(x->d, e); }
@@ -55,17 +55,30 @@ static bool take_away(parts *x, nh_ex F)
     return true;
 }
 
-static nh_ex kinetic(const nh_model *o, const nh_ex *v, const nh_ex *zero)
+/* Is it at most linear in all velocities? */
+static bool is_linear(const nh_model *o, nh_ex e)
 {
     nh_dag *d = o->dag;
-    nh_ex T = nh_int(d, 0);
-    for (size_t i = 0; i < o->m; i++)
-        for (size_t j = i; j < o->m; j++) {
-            nh_ex M = nh_diff(d, nh_diff(d, o->system->lagrangian, v[i]), v[j]);
-            M = nh_substitute(d, M, o->m, v, zero);
-            T = nh_add(d, T, nh_product(d, 4, (nh_ex[]){i == j ? nh_ratio(d, 1, 2) : nh_int(d, 1), M, v[i], v[j]}));
-        }
-    return T;
+    const nh_coordinate *coordinate = o->system->coordinate;
+    bool linear = true;
+    for (size_t i = 0; i < o->m && linear; i++) {
+        nh_ex slope = nh_diff(d, e, coordinate[i].v);
+        for (size_t j = 0; j < o->m && linear; j++) linear = !nh_depends(d, slope, coordinate[j].v);
+    }
+    return linear;
+}
+
+/* The terms of L, as it is written, that are at most linear in the velocities.  What squares add to these belongs to
+ * the squares: without it momenta in moving coordinates are longer. */
+static nh_ex linear_terms(const nh_model *o)
+{
+    nh_dag *d = o->dag;
+    nh_ex *term, sum = nh_int(d, 0);
+    size_t count = nh_terms_of(d, o->system->lagrangian, &term);
+    for (size_t i = count > 1; i < count; i++) /* the first one is L itself */
+        if (is_linear(o, term[i])) sum = nh_add(d, sum, term[i]);
+    nh_free(term);
+    return sum;
 }
 
 static int unknown_sign(void *context, nh_ex e)
@@ -98,31 +111,26 @@ static bool integrate(parts *x, size_t s)
 nh_ex nh_total_derivative_removed(const nh_model *o)
 {
     nh_dag *d = o->dag;
-    nh_ex L = o->system->lagrangian, *a = nh_alloc_array(5 * o->m + 2, sizeof *a), *rest = a + o->m + 1;
-    nh_ex *v = rest + o->m + 1, *zero = v + o->m, *linear = zero + o->m, out = L;
+    const nh_system *y = o->system;
+    nh_ex L = y->lagrangian;
+    if (!nh_complexity_within(d, L, longest)) return L;
+    nh_ex from = linear_terms(o), *a = nh_alloc_array(4 * o->m + 2, sizeof *a), *rest = a + o->m + 1,
+          *v = rest + o->m + 1, *zero = v + o->m;
     parts x = {.o = o, .d = d, .m = o->m, .a = a, .rest = rest};
     bool some = false, found = false;
-    for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v, zero[s] = nh_int(d, 0);
-    for (size_t s = 0; s < o->m && nh_complexity_within(d, L, longest); s++) {
-        linear[s] = nh_substitute(d, nh_diff(d, L, v[s]), o->m, v, zero);
-        some |= !nh_is_zero(d, linear[s]);
+    for (size_t s = 0; s < o->m; s++) {
+        v[s] = y->coordinate[s].v;
+        zero[s] = nh_int(d, 0);
+        some |= nh_depends(d, from, v[s]);
     }
-    if (!some) {
-        nh_free(a);
-        return L;
-    }
-    nh_ex potential = nh_substitute(d, L, o->m, v, zero);
-    for (size_t s = 0; s < o->m; s++) a[s] = canonical(&x, linear[s]);
-    a[o->m] = canonical(&x, potential);
-    for (size_t s = 0; s < o->m; s++) found |= integrate(&x, s);
+    for (size_t s = 0; s < o->m && some; s++) a[s] = canonical(&x, nh_diff(d, from, v[s]));
+    nh_ex potential = nh_substitute(d, from, o->m, v, zero);
+    if (some) a[o->m] = canonical(&x, potential);
+    for (size_t s = 0; s < o->m && some; s++) found |= integrate(&x, s);
     if (found) {
-        nh_ex T = kinetic(o, v, zero), all = nh_add(d, T, potential);
-        for (size_t s = 0; s < o->m; s++) all = nh_add(d, all, nh_mul(d, linear[s], v[s]));
-        if (nh_normal_is_zero(d, nh_sub(d, L, all), largest_form) == NH_ZERO) {
-            out = nh_add(d, T, nh_canonical_sum(d, potential) == a[o->m] ? potential : a[o->m]);
-            for (size_t s = 0; s < o->m; s++) out = nh_add(d, out, nh_mul(d, a[s], v[s]));
-        }
+        L = nh_add(d, nh_sub(d, L, from), canonical(&x, potential) == a[o->m] ? potential : a[o->m]);
+        for (size_t s = 0; s < o->m; s++) L = nh_add(d, L, nh_mul(d, a[s], v[s]));
     }
     nh_free(a);
-    return out;
+    return L;
 }

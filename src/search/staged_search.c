@@ -113,6 +113,7 @@ static const step steps[] = {
     {.run = nh_linear_motion_functions},     /* the same in coordinates that hide it */
     {.run = nh_rates_search},                /* before larger stages, whose null vectors are less short */
     {.stage = NH_STAGE_WORDS_POSITIONS},     /* times t and positions */
+    {.stage = NH_STAGE_MOMENTA},             /* times harmonics and functions, whatever L is */
     {.run = nh_isometries_search},           /* the same, whatever the coordinates */
     {.run = function_stages},                /* times one function */
     {.run = nh_velocity_turn_search},        /* two velocities and their energy */

@@ -171,6 +171,24 @@ static void stage_words_positions(nh_family_list *s)
     if (timely) nh_family_list_drive(s);
 }
 
+/* xi^s dL/dv^s, whatever L is, of fields with first harmonics of the angles and the system's functions beside t and
+ * positions: what is cyclic, or turns, in coordinates as Y = y + sin(h). */
+static void stage_momenta(nh_family_list *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_expr_set p = {0}, f = nh_expr_set_functions(s, false), tq = nh_expr_set_positions(s, true, true), w = tq;
+    for (size_t i = 0; i < s->w->waves; i++) {
+        nh_expr_set_put(&w, nh_call(d, NH_COS, s->w->wave[i]));
+        nh_expr_set_put(&w, nh_call(d, NH_SIN, s->w->wave[i]));
+    }
+    nh_expr_set_put_all(&w, f.n, f.e);
+    if (w.n == tq.n) return;
+    nh_expr_set_put_all(&p, s->w->momenta, s->w->momentum);
+    nh_family_list_product_of_sets(s, &p, &w);
+    nh_family_list_add(s, nh_family_list_polynomial(s, &tq, 1));
+    nh_family_list_add(s, nh_family_list_terms(s, &f));
+}
+
 static void stage_degree_2(nh_family_list *s)
 {
     enum { degree = 2 };
@@ -224,6 +242,7 @@ static const recipe stages[] = {
     [NH_STAGE_DRIVE] = {"momenta times 1, t and logarithms of t, positions, powers of t", nh_stage_drive},
     [NH_STAGE_WORDS_POSITIONS] = {"energy, momenta, velocities and forms times 1, t and the positions",
                                   stage_words_positions},
+    [NH_STAGE_MOMENTA] = {"momenta times t, positions, first harmonics of the angles and functions", stage_momenta},
     [NH_STAGE_DEGREE_2] = {"total degree 2 times the system's own functions", stage_degree_2},
     [NH_STAGE_WEIGHTS] = {"quadratic forms times positions", stage_weights},
     [NH_STAGE_WEIGHT_4] = {"weighted degree 4 in the frame of the kinetic energy", nh_stage_weight_4},
