@@ -9,6 +9,7 @@
 #include "exact/normal.h"
 #include "integrals/affine_field.h"
 #include "integrals/centre_of_mass.h"
+#include "integrals/noether_equation.h"
 #include "integrals/prove.h"
 
 #define BASE \
@@ -213,4 +214,29 @@ Test(linear_fields, fields_by_their_values)
     cr_expect(zeta[0] == formula(x.model, "-y") && zeta[1] == formula(x.model, "x") && zeta[2] == formula(x.model, "1") && zeta[3] == formula(x.model, "0"));
     cr_expect_not(nh_affine_field(x.model, x.model->E, &options, zeta));
     mechanics_clear(&x);
+}
+
+static nh_zero_verdict noether(const mechanics *m, const char *phi, size_t n, const char *const *field)
+{
+    nh_ex zeta[4], rate;
+    for (size_t i = 0; i < n; i++) zeta[i] = formula(m->model, field[i]);
+    cr_assert(nh_noether_equation(m->model, formula(m->model, phi), zeta, &rate));
+    return nh_normal_is_zero(m->model->dag, rate, 0);
+}
+
+/* In all coordinates, without and with a constraint that moves: a turn is found good, and another multiple of a component is not. */
+Test(linear_fields, the_equation_of_noether_in_all_coordinates)
+{
+    mechanics free = mechanics_of_text("name: a\ncoordinates: [y, z, {name: h, type: angle}]\n"
+                                       "lagrangian: (y'^2 + (z' + h'*cos(h))^2)*(1 + y^2 + (z + sin(h))^2)/2 + h'^2 - cos(2*t)*(y^2 + (z + sin(h))^2) - cos(h - t)\n", NH_CHART_AUTO);
+    static const char turn[] = "(1 + y^2 + (z + sin(h))^2)*(y*(z' + h'*cos(h)) - (z + sin(h))*y')";
+    cr_expect_eq(noether(&free, turn, 3, (const char *const[]){"-z - sin(h)", "y", "0"}), NH_ZERO);
+    cr_expect_neq(noether(&free, turn, 3, (const char *const[]){"-z - sin(h)", "2*y", "0"}), NH_ZERO);
+    mechanics_clear(&free);
+    mechanics bound = mechanics_of_text("name: b\nparameters: {c: 0.3}\ncoordinates: [x, y, z]\n"
+                                        "lagrangian: (x'^2 + (y' + c)^2 + z'^2)/2 - z^2 + 3*x*x'\nconstraints: [\"z' = 2*x*x' + 2*(y + c*t)*(y' + c)\"]\n", NH_CHART_AUTO);
+    cr_assert_eq(bound.model->n, 2);
+    /* the gauge term adds 3 x xi^x */
+    cr_expect_eq(noether(&bound, "x*(y' + c) - (y + c*t)*x'", 2, (const char *const[]){"-y - c*t", "x"}), NH_ZERO);
+    mechanics_clear(&bound);
 }

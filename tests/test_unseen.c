@@ -380,6 +380,21 @@ static const unseen UNSEEN[] = {
      "lagrangian: ((f^2 + y'^2)*(1 + (s^2 + y^2)^2) + (z' - 3*(y*f - s*y'))^2*(1 + z^2))/2 - cos(w*t)*z^2 - z^4\n"
      "known: {currents: [{name: turning, expr: \"(1 + (s^2 + y^2)^2)*(s*y' - y*f) + 3*(s^2 + y^2)*(1 + z^2)*(z' - 3*(y*f - s*y'))\"}]}\n",
      1},
+    /* c y' times the mass is a part of a square: taken away from it as a total derivative, it left longer momenta */
+    {"turn about a point that moves",
+     "parameters: [{name: c, value: 0.33}]\n"
+     "coordinates: [x, y, {name: phi, type: angle}]\n"
+     "lagrangian: (x'^2 + (y' + c)^2)*(2 + (x^2 + (y + c*t)^2)^2)/2 + phi'^2/4 + 2*cos(2*phi)\n"
+     "constraints: [\"phi - (x^2 + (y + c*t)^2)^2 = 1/5\"]\n"
+     "known: {currents: [{name: turning, expr: \"(x*(y' + c) - (y + c*t)*x')*(2 + (x^2 + (y + c*t)^2)^2)\"}]}\n",
+     3},
+    /* phi is cyclic beside z = y + 13/10 sin(phi); L has fourth powers of velocities, its inertia depends on time */
+    {"turn that an angle and time hide",
+     "coordinates: [{name: phi, type: angle}, x, y]\n"
+     "definitions: [\"f = y' + 13/10*phi'*cos(phi)\", \"z = y + 13/10*sin(phi)\"]\n"
+     "lagrangian: phi'^2*(2 + sin(2*t - x)^2)/2 + (x' - 2)^2/2 + f^2/2 + f^4/8 - z^2*(2*t - x) + t*z\n"
+     "known: {currents: [{name: turning, expr: \"phi'*(2 + sin(2*t - x)^2)\"}]}\n",
+     1},
 };
 enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 
