@@ -212,7 +212,8 @@ Test(linear_fields, fields_by_their_values)
     nh_ex turn = nh_add(d, p[2], nh_sub(d, nh_mul(d, formula(x.model, "x"), p[1]), nh_mul(d, formula(x.model, "y"), p[0])));
     cr_expect(nh_affine_field(x.model, turn, &options, zeta));
     cr_expect(zeta[0] == formula(x.model, "-y") && zeta[1] == formula(x.model, "x") && zeta[2] == formula(x.model, "1") && zeta[3] == formula(x.model, "0"));
-    cr_expect_not(nh_affine_field(x.model, x.model->E, &options, zeta));
+    cr_expect(nh_affine_field(x.model, x.model->E, &options, zeta) && zeta[0] == x.model->chart->w[0]);
+    cr_expect_not(nh_affine_field(x.model, nh_mul(d, x.model->E, x.model->E), &options, zeta));
     mechanics_clear(&x);
 }
 
@@ -239,4 +240,15 @@ Test(linear_fields, the_equation_of_noether_in_all_coordinates)
     /* the gauge term adds 3 x xi^x */
     cr_expect_eq(noether(&bound, "x*(y' + c) - (y + c*t)*x'", 2, (const char *const[]){"-y - c*t", "x"}), NH_ZERO);
     mechanics_clear(&bound);
+    mechanics moving = mechanics_of_text("name: m\nparameters: {c: 0.3}\ncoordinates: [x, y]\n"
+                                         "lagrangian: (x'^2*(1 + sin(x - 2*t)^2) + y'^2)/2 + y'^4/8 - c*cos(x - 2*t)*y\n", NH_CHART_AUTO);
+    static const char energy[] = "2*(1 + sin(x - 2*t)^2)*x' - (x'^2*(1 + sin(x - 2*t)^2) + y'^2)/2 - 3*y'^4/8 - c*cos(x - 2*t)*y";
+    nh_options options;
+    nh_options_default(&options);
+    nh_ex zeta[2];
+    cr_expect(nh_affine_field(moving.model, formula(moving.model, energy), &options, zeta));
+    cr_expect(zeta[0] == formula(moving.model, "2 - x'") && zeta[1] == formula(moving.model, "-y'"));
+    cr_expect_eq(noether(&moving, energy, 2, (const char *const[]){"2 - x'", "-y'"}), NH_ZERO);
+    cr_expect_neq(noether(&moving, energy, 2, (const char *const[]){"3 - x'", "-y'"}), NH_ZERO);
+    mechanics_clear(&moving);
 }

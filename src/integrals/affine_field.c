@@ -207,14 +207,41 @@ static bool fit_quadratic(const nh_model *o, nh_ex phi, const nh_options *option
     return good;
 }
 
+/* zeta^i = xi^i(t, q) - tau w^i with xi in the span of the words and a number tau: of an energy, also in coordinates
+ * that move.  `velocity`: the values of w, points x n. */
+static bool fit_with_time(const nh_model *o, size_t points, size_t width, const nh_ex *basis, const double *row,
+                          const double *velocity, const double *value, nh_ex *zeta)
+{
+    size_t all = width + 1;
+    nh_num *c = nh_alloc_array(all, sizeof *c), tau = nh_num_int(0);
+    nh_ex *with = nh_alloc_array(all, sizeof *with);
+    double *some = nh_alloc_array(points * all, sizeof *some);
+    memcpy(with, basis, width * sizeof *with);
+    memcpy(some, row, points * width * sizeof *some);
+    bool good = true;
+    for (size_t i = 0; i < o->n && good; i++) {
+        memcpy(some + points * width, velocity + i * points, points * sizeof *some);
+        good = coefficients(1, points, all, some, value + i * points, c);
+        if (good && i == 0) tau = c[width];
+        good = good && nh_num_equal(tau, c[width]) && !nh_num_is(tau, 0);
+        with[width] = o->chart->w[i];
+        if (good) zeta[i] = nh_linear(o->dag, all, c, with);
+    }
+    nh_free(some);
+    nh_free(with);
+    nh_free(c);
+    return good;
+}
+
 bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
 {
     size_t pairs = o->m * o->m;
-    nh_ex *word = nh_alloc_array(2 + 3 * o->m + pairs * NH_AFFINE_FIELD_WORDS, sizeof *word);
+    nh_ex *word = nh_alloc_array(2 + 3 * o->m + pairs * NH_AFFINE_FIELD_WORDS + o->n, sizeof *word);
     size_t width = affine(o, options, word), most = width + NH_AFFINE_FIELD_WORDS, points = most + spare_points;
     nh_ex *end = word + width;
     for (size_t p = 0; p < pairs; p++) end += nh_affine_field_words(o, p / o->m, p % o->m, end);
-    size_t words = (size_t)(end - word);
+    size_t fields = (size_t)(end - word), words = fields + o->n;
+    memcpy(end, o->chart->w, o->n * sizeof *end);
     double *value = nh_alloc_array(points * o->n + 1, sizeof *value),
            *row = nh_alloc_array(points * words, sizeof *row), *some = nh_alloc_array(points * most, sizeof *some);
     nh_ex *basis = nh_alloc_array(most, sizeof *basis);
@@ -222,7 +249,9 @@ bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh
     bool sampled = o->n > 0 && sample(o, phi, options, NULL, points, words, word, value, row),
          good = sampled && fit(o, points, width, basis, row, value, zeta);
     memcpy(some, row, points * width * sizeof *some);
-    for (size_t at = width; at < words && sampled && !good; at += NH_AFFINE_FIELD_WORDS) {
+    if (sampled && !good)
+        good = fit_with_time(o, points, width, basis, row, row + points * fields, value, zeta);
+    for (size_t at = width; at < fields && sampled && !good; at += NH_AFFINE_FIELD_WORDS) {
         memcpy(basis + width, word + at, NH_AFFINE_FIELD_WORDS * sizeof *basis);
         memcpy(some + points * width, row + points * at, points * NH_AFFINE_FIELD_WORDS * sizeof *some);
         good = fit(o, points, most, basis, some, value, zeta);

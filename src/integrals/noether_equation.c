@@ -35,26 +35,47 @@ static nh_ex without_velocities(const nh_model *o, nh_ex e)
     return e;
 }
 
+/* zeta^i + tau w^i does not depend on velocities; false: there is no such number. */
+static bool find_tau(const nh_model *o, const nh_ex *zeta, nh_ex *tau)
+{
+    nh_dag *d = o->dag;
+    *tau = o->n ? nh_neg(d, nh_diff(d, zeta[0], o->chart->w[0])) : nh_int(d, 0);
+    return nh_kind_of(d, *tau) == NH_NUMBER;
+}
+
+/* xi^s = R^s_i (zeta^i + tau w^i) + tau rho^s(w = 0), where rho is affine in w. */
+static nh_ex component(const nh_model *o, size_t s, const nh_ex *zeta, nh_ex tau)
+{
+    nh_dag *d = o->dag;
+    nh_ex sum = nh_is_zero(d, tau) ? tau : nh_mul(d, tau, without_velocities(o, o->rho[s]));
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex own = nh_add(d, zeta[i], nh_mul(d, tau, o->chart->w[i]));
+        sum = nh_add(d, sum, nh_mul(d, o->R[s * o->n + i], own));
+    }
+    return nh_simplify_short(d, sum, 0);
+}
+
 bool nh_noether_equation(const nh_model *o, nh_ex phi, const nh_ex *zeta, nh_ex *out)
 {
     nh_dag *d = o->dag;
     const nh_system *y = o->system;
-    nh_ex L = y->lagrangian, P = nh_int(d, 0), *xi = nh_alloc_array(o->m + 1, sizeof *xi);
-    bool good = !o->chart->implicit && nh_complexity_within(d, L, longest);
+    nh_ex L = y->lagrangian, tau, *xi = nh_alloc_array(2 * o->m + 1, sizeof *xi), *along = xi + o->m;
+    bool good = !o->chart->implicit && nh_complexity_within(d, L, longest) && find_tau(o, zeta, &tau);
+    nh_ex P = good ? nh_mul(d, tau, L) : 0;
     for (size_t s = 0; s < o->m && good; s++) {
-        nh_ex sum = nh_int(d, 0);
-        for (size_t i = 0; i < o->n; i++) sum = nh_add(d, sum, nh_mul(d, o->R[s * o->n + i], zeta[i]));
-        xi[s] = nh_simplify_short(d, sum, 0);
-        P = nh_add(d, P, nh_mul(d, xi[s], nh_diff(d, L, y->coordinate[s].v)));
+        xi[s] = component(o, s, zeta, tau);
+        along[s] = nh_sub(d, xi[s], nh_mul(d, tau, y->coordinate[s].v));
+        P = nh_add(d, P, nh_mul(d, along[s], nh_diff(d, L, y->coordinate[s].v)));
         good = !has_velocities(o, xi[s]);
+        for (size_t i = 0; i < o->n; i++) good &= !has_velocities(o, o->R[s * o->n + i]);
     }
     if (good) {
         nh_ex G = nh_simplify_short(d, without_velocities(o, nh_sub(d, phi, nh_model_compose(o, P))), 0);
-        *out = rate(o, G);
+        *out = nh_add(d, rate(o, G), nh_mul(d, tau, nh_diff(d, L, y->t)));
         for (size_t s = 0; s < o->m; s++) {
-            nh_ex q = nh_add(d, nh_diff(d, L, y->coordinate[s].q), y->has_forces ? y->force[s] : nh_int(d, 0));
-            *out = nh_add(d, *out, nh_mul(d, xi[s], q));
+            *out = nh_add(d, *out, nh_mul(d, xi[s], nh_diff(d, L, y->coordinate[s].q)));
             *out = nh_add(d, *out, nh_mul(d, rate(o, xi[s]), nh_diff(d, L, y->coordinate[s].v)));
+            if (y->has_forces) *out = nh_add(d, *out, nh_mul(d, along[s], y->force[s]));
         }
     }
     nh_free(xi);
