@@ -351,6 +351,19 @@ Test(embedding, velocities_that_are_determined_everywhere_come_first)
     check_chart(SPACE4 "constraints: [\"z' = 7*x*x'\", \"s' = 9*y*y' + x*z'\"]\ndomain: {x: [1, 2], y: [1, 2]}\n", 0, "z s");
 }
 
+/* y' = tan(x) z' has a factor 1 for y', too, and a pole: nothing is determined there. */
+Test(embedding, a_constraint_with_a_pole_has_no_chart_without)
+{
+    static const struct { const char *text; bool regular; } row[] = {{"z' = 7*x*x'", true}, {"y' = tan(x)*z'", false}, {"z' = y'/(x - 3)", false}, {"sin(x)*y' = cos(x)*z'", false}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        char text[1000];
+        snprintf(text, sizeof text, SPACE "constraints: [\"%s\"]\n", row[i].text);
+        embedded e = embed(text, NH_CHART_COORDINATES);
+        cr_expect_eq(e.chart->regular, row[i].regular, "%s", row[i].text);
+        embed_clear(&e);
+    }
+}
+
 /* y' is named, and nowhere on the domain determined by x': another chart takes over.  Where it breaks down at points only, it stays. */
 Test(embedding, a_named_chart_that_breaks_down_everywhere_is_replaced)
 {

@@ -250,3 +250,35 @@ static bool all_numbers(const nh_dag *dag, nh_ex e, bool (*good)(nh_num))
 bool nh_is_exact(const nh_dag *dag, nh_ex e) { return all_numbers(dag, e, nh_num_exact); }
 
 bool nh_is_short(const nh_dag *dag, nh_ex e) { return all_numbers(dag, e, nh_num_short); }
+
+/* ---- functions without singular points ---- */
+
+static bool depends_on_any(const nh_dag *dag, nh_ex e, size_t symbols, const nh_ex *symbol)
+{
+    bool any = false;
+    for (size_t k = 0; k < symbols && !any; k++) any = nh_depends(dag, e, symbol[k]);
+    return any;
+}
+
+bool nh_is_entire(const nh_dag *dag, nh_ex e, size_t symbols, const nh_ex *symbol)
+{
+    size_t most = nh_node_count(dag, e) + 1;
+    nh_ex *node = nh_alloc_array(most, sizeof *node);
+    bool good = true;
+    for (size_t i = nh_functions_in(dag, e, node, most); i-- > 0 && good;) {
+        nh_function f = nh_function_of(dag, node[i]);
+        good = f == NH_SIN || f == NH_COS || f == NH_EXP || f == NH_SINH || f == NH_COSH || f == NH_TANH ||
+               f == NH_ATAN || f == NH_ASINH || f == NH_PI || !depends_on_any(dag, node[i], symbols, symbol);
+    }
+    for (size_t i = nh_products_in(dag, e, node, most); i-- > 0 && good;)
+        for (size_t j = 0; j < nh_arity(dag, node[i]) && good; j++) {
+            nh_ex base = nh_child(dag, node[i], j), power = nh_exponent_of(dag, node[i], j);
+            bool whole = nh_kind_of(dag, power) == NH_NUMBER && nh_number_of(dag, power).q == 1 &&
+                         nh_number_of(dag, power).p > 0;
+            bool constant =
+                !depends_on_any(dag, base, symbols, symbol) && !depends_on_any(dag, power, symbols, symbol);
+            good = whole || constant;
+        }
+    nh_free(node);
+    return good;
+}

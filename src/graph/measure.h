@@ -24,4 +24,7 @@ size_t nh_nesting(const nh_dag *dag, nh_ex e);
 bool nh_is_exact(const nh_dag *dag, nh_ex e);
 bool nh_is_short(const nh_dag *dag, nh_ex e);
 
+/* Is e made of sums and products of whole powers of these symbols, and of functions that are analytic everywhere? */
+bool nh_is_entire(const nh_dag *dag, nh_ex e, size_t symbols, const nh_ex *symbol);
+
 #endif

@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "graph/diff.h"
+#include "graph/measure.h"
 #include "exact/walls.h"
 
 /* least slope of a current relative to its slope at the start: below it the state that it determines loses digits */
@@ -110,32 +111,6 @@ static nh_tape *frozen_tape(const nh_closed_subsystem *s, size_t n, const nh_ex 
     return tape;
 }
 
-/* Sums and products of whole powers of states and of functions that are analytic everywhere.  What follows from the
- * equations of motion where a chart of velocities holds, and is of this form, holds where it ends, too: both sides are
- * continuous, and the former places are dense. */
-static bool is_smooth(const nh_model *o, nh_ex e)
-{
-    size_t most = nh_node_count(o->dag, e) + 1;
-    nh_ex *node = nh_alloc_array(most, sizeof *node);
-    bool good = true;
-    for (size_t i = nh_functions_in(o->dag, e, node, most); i-- > 0 && good;) {
-        nh_function f = nh_function_of(o->dag, node[i]);
-        good = f == NH_SIN || f == NH_COS || f == NH_EXP || f == NH_SINH || f == NH_COSH || f == NH_TANH ||
-               f == NH_ATAN || f == NH_ASINH || f == NH_PI;
-    }
-    for (size_t i = nh_products_in(o->dag, e, node, most); i-- > 0 && good;)
-        for (size_t j = 0; j < nh_arity(o->dag, node[i]) && good; j++) {
-            nh_ex base = nh_child(o->dag, node[i], j), power = nh_exponent_of(o->dag, node[i], j);
-            bool whole = nh_kind_of(o->dag, power) == NH_NUMBER && nh_number_of(o->dag, power).q == 1 &&
-                         nh_number_of(o->dag, power).p > 0;
-            for (size_t k = 0; k < o->width && !whole && good; k++)
-                good =
-                    !nh_depends(o->dag, base, o->chart->symbol[k]) && !nh_depends(o->dag, power, o->chart->symbol[k]);
-        }
-    nh_free(node);
-    return good;
-}
-
 static void make_tapes(nh_closed_subsystem *s)
 {
     const nh_model *o = s->model;
@@ -147,7 +122,9 @@ static void make_tapes(nh_closed_subsystem *s)
     s->instructions_of_all = nh_tape_length(s->rate_of_all);
     bool zero = rows_at_zero(s, e);
     for (size_t i = 0; i < n && !zero; i++) e[i] = s->graph.row[s->state[i]];
-    for (size_t i = 0; i < n; i++) s->smooth = s->smooth && is_smooth(o, e[i]);
+    /* what follows from the equations of motion where a chart of velocities holds, and is entire, holds where it ends,
+       too: both sides are continuous, and the former places are dense */
+    for (size_t i = 0; i < n; i++) s->smooth = s->smooth && nh_is_entire(o->dag, e[i], o->width, o->chart->symbol);
     s->rate = n ? frozen_tape(s, n, e) : NULL;
     nh_ex wall[NH_MOST_WALLS];
     s->walls = nh_walls_between(o->dag, n, e, o->width, o->chart->symbol, wall);
@@ -179,7 +156,8 @@ nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *o, size_t n, con
     s->kept = s->graph.count;
     s->levels = s->graph.levels;
     s->smooth = !s->implicit && !s->levels && !o->chart->branch;
-    for (size_t i = 0; i < n; i++) s->smooth = s->smooth && is_smooth(o, watched[i]);
+    for (size_t i = 0; i < n; i++)
+        s->smooth = s->smooth && nh_is_entire(o->dag, watched[i], o->width, o->chart->symbol);
     sort_states(s, &s->graph);
     make_tapes(s);
     return s;

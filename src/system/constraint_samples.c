@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "graph/diff.h"
+#include "graph/measure.h"
 #include "system/domain.h"
 #include "system/embedding_internal.h"
 #include "system/sample.h"
@@ -23,8 +24,10 @@ static void cloud_tape(nh_constraint_samples *c)
         in[1 + i] = s->coordinate[i].q;
         in[1 + c->m + i] = s->coordinate[i].v;
     }
+    c->entire = true;
     for (size_t a = 0; a < c->k; a++) {
         out[a] = nh_sub(d, s->constraint[a].lhs, s->constraint[a].rhs);
+        c->entire = c->entire && nh_is_entire(d, out[a], c->width, in);
         for (size_t i = 0; i < c->m; i++) out[c->k + a + i * c->k] = nh_diff(d, out[a], in[1 + c->m + i]);
     }
     nh_ex *symbol = nh_alloc_array(s->parameters + 1, sizeof *symbol);

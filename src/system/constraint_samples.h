@@ -19,6 +19,7 @@ typedef struct {
     double *size;       /* k: the largest |df/dv| speed at points that need not satisfy the constraints */
     size_t count;
     uint64_t seed;
+    bool entire;        /* the constraints have no singular points */
     bool written;       /* with the parameters at the values of the file */
 } nh_constraint_samples;
 

@@ -30,7 +30,9 @@ static double volume(size_t rows, size_t columns, double *a)
 
 typedef struct {
     double least, largest; /* over the probes */
-    bool constant;         /* the determinant is the same everywhere: these velocities are determined at every point */
+    /* the determinant is the same everywhere, and the constraints have no poles: these velocities are determined at
+       every point */
+    bool constant;
 } score;
 
 static score subset_score(const nh_constraint_samples *c, const size_t *subset)
@@ -50,7 +52,7 @@ static score subset_score(const nh_constraint_samples *c, const size_t *subset)
         small = fmin(small, part);
         large = fmax(large, part);
     }
-    s.constant = c->count > 1 && small > large * (1 - same);
+    s.constant = c->count > 1 && small > large * (1 - same) && c->entire;
     nh_free(a);
     return s;
 }
