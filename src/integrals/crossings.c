@@ -123,11 +123,11 @@ static bool passage_at(finder *x, nh_ex g, double *z, passage *p)
     return passage_of(x, slope, rate, p);
 }
 
-/* Motions come to rest before they arrive, or the equations have a pole there; from two distances. */
-static bool ends(passage far, passage near, double slower, double stronger)
+/* Motions come to rest before they arrive, or the equations have a pole there; from the distances k - 1 and k. */
+static bool ends(passage far, passage near, size_t k, double slower, double stronger)
 {
     return !(fabs(near.speed) > slower * fabs(far.speed)) ||
-           near.strength * depth[2] > stronger * far.strength * depth[1];
+           near.strength * depth[k] > stronger * far.strength * depth[k - 1];
 }
 
 /* Motions begin in the user's interval for t, and go on from there. */
@@ -146,26 +146,29 @@ static bool is_reached(finder *x, nh_crossing *c)
     for (int side = 0; side < 2; side++) {
         if (!passage_at(x, c->wall, c->point[side][1], &far[side])
             || !passage_at(x, c->wall, c->point[side][2], &near[side])) return false;
-        if (ends(far[side], near[side], 0.5, 0.5)) return false;
+        if (ends(far[side], near[side], 2, 0.5, 0.5)) return false;
     }
     return near[1].speed < 0 || (c->touches ? near[0].speed < 0 : near[0].speed > 0);
 }
 
-/* In doubles, which are accurate enough to see that motions do not arrive from one side, by a wide margin. */
+/* In doubles, from all distances and by a wide margin: do motions not arrive from one side?  Where digits cancel the
+ * largest distance does not agree with the others. */
 static bool is_clearly_unreached(finder *x, size_t i, double s)
 {
     double f[NH_MOST_WALLS], slope[NH_MOST_WALLS];
-    passage p[2];
-    for (int side = 0; side < 2; side++) {
-        for (size_t k = 1; k < NH_CROSSING_DEPTHS; k++) {
+    passage p[NH_CROSSING_DEPTHS];
+    bool unreached = false;
+    for (int side = 0; side < 2 && !unreached; side++) {
+        unreached = true;
+        for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++) {
             if (!point_at(x, s + (side ? depth[k] : -depth[k]), false)) return false;
             evaluate(x, f, slope);
             nh_tape_eval(x->rates, x->rates_work, x->z, x->passing);
-            if (!passage_of(x, x->out + i * (1 + x->explicit_width) + 1, x->passing, &p[k - 1])) return false;
+            if (!passage_of(x, x->out + i * (1 + x->explicit_width) + 1, x->passing, &p[k])) return false;
+            unreached &= k == 0 || ends(p[k - 1], p[k], k, 0.125, 0.75);
         }
-        if (ends(p[0], p[1], 0.125, 0.75)) return true;
     }
-    return false;
+    return unreached;
 }
 
 static void keep(finder *x, size_t i, double s, bool touches)
