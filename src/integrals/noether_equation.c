@@ -59,7 +59,7 @@ bool nh_noether_equation(const nh_model *o, nh_ex phi, const nh_ex *zeta, nh_ex 
 {
     nh_dag *d = o->dag;
     const nh_system *y = o->system;
-    nh_ex L = y->lagrangian, tau, *xi = nh_alloc_array(2 * o->m + 1, sizeof *xi), *along = xi + o->m;
+    nh_ex L = y->lagrangian, tau = 0, *xi = nh_alloc_array(2 * o->m + 1, sizeof *xi), *along = xi + o->m;
     bool good = !o->chart->implicit && nh_complexity_within(d, L, longest) && find_tau(o, zeta, &tau);
     nh_ex P = good ? nh_mul(d, tau, L) : 0;
     for (size_t s = 0; s < o->m && good; s++) {
