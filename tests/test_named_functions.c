@@ -155,8 +155,21 @@ Test(named_functions, riemann)
     cr_assert(isnan(value("riemann_c(a, b, c, x)", NAN)));
 }
 
-/* y and y' of one place come from one computation, which is kept for a while: whatever else was asked in between, and in whatever order, each is
- * the double next to its ball. */
+/* The double next to the ball of 300 bits. */
+static void expect_next_to_ball(nh_function f, const double *argument, double got)
+{
+    arb_ptr x = _arb_vec_init(4);
+    arb_t ball;
+    arb_init(ball);
+    for (size_t k = 0; k < 4; k++) arb_set_d(x + k, argument[k]);
+    nh_named_value_ball(f, x, ball, 300);
+    cr_expect_eq(got, arf_get_d(arb_midref(ball), ARF_RND_NEAR), "%d at %g: %.17g", (int)f, argument[3], got);
+    arb_clear(ball);
+    _arb_vec_clear(x, 4);
+}
+
+/* Places of the same equation share a path with its series, and a few paths are kept: whatever else was asked in between, and in whatever order, each
+ * is the double next to its ball. */
 Test(named_functions, riemann_in_any_order)
 {
     enum { places = 40, functions = 4 }; /* some of them want the same row */
@@ -175,16 +188,24 @@ Test(named_functions, riemann_in_any_order)
     for (size_t i = 0; i < places; i += 8)
         for (size_t g = 0; g < functions; g++) {
             double u = (double)i;
-            arb_ptr x = _arb_vec_init(4);
-            arb_t ball;
-            arb_init(ball);
             const double argument[4] = {sin(u), cos(3 * u), sin(5 * u) / 2, 2 * sin(7 * u)};
-            for (size_t k = 0; k < 4; k++) arb_set_d(x + k, argument[k]);
-            nh_named_value_ball(f[g], x, ball, 200);
-            cr_expect_eq(first[g][i], arf_get_d(arb_midref(ball), ARF_RND_NEAR), "%zu at %zu: %.17g", g, i, first[g][i]);
-            arb_clear(ball);
-            _arb_vec_clear(x, 4);
+            expect_next_to_ball(f[g], argument, first[g][i]);
         }
+}
+
+/* One path to either side: the place 0, places at its first steps, and far beyond the series that are kept; no value where a place is not finite. */
+Test(named_functions, riemann_on_one_path)
+{
+    static const nh_function f[] = {NH_RIEMANN_C, NH_RIEMANN_C_PRIME, NH_RIEMANN_S, NH_RIEMANN_S_PRIME};
+    static const double size[] = {0, 1e-300, 1e-9, 0.14985, 0.149851, 0.7, 3.3, 47, 1e4, 1e9, 1e17, 1e19};
+    for (size_t g = 0; g < sizeof f / sizeof *f; g++)
+        for (size_t i = 0; i < sizeof size / sizeof *size; i++)
+            for (int side = -1; side <= 1; side += 2) {
+                const double argument[4] = {0.37, 1.21, -0.3, side * size[i]};
+                expect_next_to_ball(f[g], argument, nh_named_value(f[g], argument));
+            }
+    cr_expect(isnan(nh_named_value(NH_RIEMANN_C, (const double[]){1, 0, 0, INFINITY})));
+    cr_expect(isnan(nh_named_value(NH_RIEMANN_C, (const double[]){1, INFINITY, 0, 1})));
 }
 
 /* Zero, a pole, a cut and large arguments. */

@@ -43,3 +43,5 @@ void nh_foreign_memory_begin(void)
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, set_functions);
 }
+
+void nh_foreign_memory_end(void) { flint_cleanup(); }

@@ -6,4 +6,7 @@
 /* Takes effect at the first call in the process.  Functions that another program has already given to GMP remain. */
 void nh_foreign_memory_begin(void);
 
+/* Gives back what FLINT keeps for this thread; not after a run that was given up (nh_recovery_lost). */
+void nh_foreign_memory_end(void);
+
 #endif

@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "base/context_internal.h"
+#include "base/foreign_memory.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/recovery.h"
@@ -62,14 +63,24 @@ static void do_jobs(void *argument)
     for (size_t i; (i = atomic_fetch_add(&q->next, 1)) < q->jobs;) q->job(i, q->context);
 }
 
-static void *work(void *argument)
+static void work(queue *q)
 {
-    queue *q = argument;
     unsigned long before = worker;
     nh_context_enter(q->here);
     worker = atomic_fetch_add(&workers, 1) + 1;
     if (!do_rescued(&q->rescue, do_jobs, q)) atomic_store(&q->next, q->jobs);
     worker = before;
+}
+
+static void end_thread(void)
+{
+    if (!nh_recovery_lost()) nh_foreign_memory_end();
+}
+
+static void *help(void *argument)
+{
+    work(argument);
+    end_thread();
     return NULL;
 }
 
@@ -80,7 +91,7 @@ void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *co
     size_t wanted = threads < jobs ? threads : jobs, started = 0;
     if (wanted > most_threads) wanted = most_threads;
     for (size_t i = 1; i < wanted; i++)
-        if (pthread_create(&helper[started], NULL, work, &q) == 0) started++;
+        if (pthread_create(&helper[started], NULL, help, &q) == 0) started++;
     work(&q);
     for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);
     end_rescue(&q.rescue);
@@ -110,6 +121,7 @@ static void *do_aside(void *argument)
     nh_aside *a = argument;
     nh_context_enter(a->here);
     do_rescued(&a->rescue, a->job, a->context);
+    end_thread();
     return NULL;
 }
 
@@ -169,9 +181,10 @@ static void *go(void *argument)
     bool left = e->left;
     pthread_cond_signal(&e->ended);
     pthread_mutex_unlock(&e->lock);
-    if (!left) return NULL;
+    if (!left) return end_thread(), NULL;
     if (whole) e->release(e->context);
     errand_free(e);
+    end_thread();
     atomic_fetch_sub(&nh_context_here()->left_alone, 1);
     return NULL;
 }

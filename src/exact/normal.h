@@ -51,7 +51,4 @@ nh_ex nh_canonical(nh_dag *dag, nh_ex e, size_t max_terms);
  * branches of a constraint that is a polynomial in the symbol.  Declare it before the symbol is used. */
 void nh_relate(nh_dag *dag, nh_ex symbol, unsigned order, nh_ex value);
 
-/* Frees the caches of FLINT and Arb; call it last. */
-void nh_normal_cleanup(void);
-
 #endif

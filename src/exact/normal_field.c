@@ -288,6 +288,3 @@ void nh_quotient_field_flip_pair(nh_quotient_field *field, size_t pair)
         }
     }
 }
-
-/* Declared in normal.h, which does not include FLINT. */
-void nh_normal_cleanup(void) { flint_cleanup(); }

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/foreign_memory.h"
 #include "base/progress.h"
 #include "document/html.h"
 #include "document/unfinished.h"
 #include "evaluate/machine.h"
-#include "exact/normal.h"
 #include "library/answer_internal.h"
 
 const nh_answer_kind *nh_answer_kind_of(const char *command)
@@ -41,7 +41,7 @@ int nh_answer_code(bool partial, const nh_error *error)
 void nh_answer_cleanup(void)
 {
     nh_machine_cleanup();
-    nh_normal_cleanup();
+    nh_foreign_memory_end();
 }
 
 /* ---- a run that was ended before it had a result ---- */

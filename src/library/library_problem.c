@@ -4,10 +4,10 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "base/foreign_memory.h"
 #include "base/progress.h"
 #include "base/recovery.h"
 #include "base/text.h"
-#include "exact/normal.h"
 #include "library/catalogue.h"
 #include "library/library_internal.h"
 
@@ -240,7 +240,7 @@ void nh_problem_free(nh_problem *p)
     nh_system_free(p->system);
     nh_files_free(p->files);
     nh_arena_free(p->arena);
-    if (!nh_recovery_lost()) nh_normal_cleanup(); /* FLINT keeps memory for each thread */
+    if (!nh_recovery_lost()) nh_foreign_memory_end(); /* FLINT keeps memory for each thread */
 }
 
 const char *nh_problem_name(const nh_problem *p) { return p->system->name; }
