@@ -3,38 +3,54 @@
 
 #include <string.h>
 
+typedef enum { UNKNOWN, CONSTANT, VARYING } state;
+
 struct nh_jet_eval {
     nh_jet_point *point;
     const nh_jet_ring *ring;
     nh_dag *dag;
-    size_t nodes;
-    nh_residue **value;   /* per node; NULL: not known */
-    bool *varies;
-    /* nodes with a value, now or before; those computed that vary; those to be computed */
-    nh_ex *known, *changing, *stack;
-    size_t knowns, known_capacity, changes, change_capacity, stack_capacity;
+    nh_jet_table of;
+    nh_residue **value; /* of.value */
+    nh_arena *arena;    /* of the values */
+    /* nodes that have memory for a value; those computed that vary; those to be computed */
+    nh_ex *touched, *changing, *stack;
+    size_t touches, touched_capacity, changes, change_capacity, stack_capacity;
     bool unlucky;
 };
 
 nh_jet_eval *nh_jet_eval_create(nh_jet_point *point, const nh_jet_ring *ring)
 {
     nh_jet_eval *v = nh_alloc(sizeof *v);
-    *v = (nh_jet_eval){.point = point, .ring = ring, .dag = point->dag, .nodes = nh_dag_size(point->dag)};
-    v->value = nh_alloc_array(v->nodes + 1, sizeof *v->value);
-    v->varies = nh_alloc_array(v->nodes + 1, sizeof *v->varies);
+    size_t nodes = nh_dag_size(point->dag);
+    *v = (nh_jet_eval){.point = point, .ring = ring, .dag = point->dag, .arena = nh_arena_create()};
+    if (point->spare.nodes >= nodes) {
+        v->of = point->spare;
+        point->spare = (nh_jet_table){0};
+    } else {
+        v->of.nodes = nodes + nodes / 4; /* the graph may grow until the next evaluation */
+        v->of.value = nh_alloc_array(v->of.nodes, sizeof *v->of.value);
+        v->of.state = nh_alloc_array(v->of.nodes, sizeof *v->of.state);
+    }
+    v->value = v->of.value;
     return v;
 }
 
 void nh_jet_eval_free(nh_jet_eval *v)
 {
     if (!v) return;
-    for (size_t i = 0; i < v->knowns; i++) {
-        nh_free(v->value[v->known[i]]);
-        v->value[v->known[i]] = NULL;
+    for (size_t i = 0; i < v->touches; i++) {
+        v->value[v->touched[i]] = NULL;
+        v->of.state[v->touched[i]] = UNKNOWN;
     }
-    nh_free(v->known);
-    nh_free(v->value);
-    nh_free(v->varies);
+    nh_jet_table less = v->of;
+    if (v->of.nodes > v->point->spare.nodes) {
+        less = v->point->spare;
+        v->point->spare = v->of;
+    }
+    nh_free(less.value);
+    nh_free(less.state);
+    nh_arena_free(v->arena);
+    nh_free(v->touched);
     nh_free(v->changing);
     nh_free(v->stack);
     nh_free(v);
@@ -43,20 +59,19 @@ void nh_jet_eval_free(nh_jet_eval *v)
 /* Makes room for the value of a node: only a few nodes of a large graph have one. */
 static nh_residue *room(nh_jet_eval *v, nh_ex e)
 {
-    nh_grow(&v->known, &v->known_capacity, v->knowns + 1, sizeof *v->known);
-    v->known[v->knowns++] = e;
-    return v->value[e] = nh_alloc_array(v->ring->size, sizeof **v->value);
+    size_t size = v->ring->size * sizeof **v->value;
+    if (v->value[e]) return memset(v->value[e], 0, size);
+    nh_grow(&v->touched, &v->touched_capacity, v->touches + 1, sizeof *v->touched);
+    v->touched[v->touches++] = e;
+    return v->value[e] = nh_arena_alloc(v->arena, size);
 }
 
 void nh_jet_eval_set(nh_jet_eval *v, nh_ex symbol, const nh_residue *series, bool varies)
 {
-    for (size_t i = 0; varies && i < v->changes; i++) {
-        nh_free(v->value[v->changing[i]]);
-        v->value[v->changing[i]] = NULL;
-    }
+    for (size_t i = 0; varies && i < v->changes; i++) v->of.state[v->changing[i]] = UNKNOWN;
     if (varies) v->changes = 0;
-    memcpy(v->value[symbol] ? v->value[symbol] : room(v, symbol), series, v->ring->size * sizeof *series);
-    v->varies[symbol] = varies;
+    memcpy(room(v, symbol), series, v->ring->size * sizeof *series);
+    v->of.state[symbol] = varies ? VARYING : CONSTANT;
 }
 
 /* ---- one node ---- */
@@ -78,6 +93,10 @@ static void sum(nh_jet_eval *v, nh_ex e, nh_residue *out)
 static void whole_power(nh_jet_eval *v, const nh_residue *base, int64_t n, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
+    if (n == 2) {
+        nh_jet_mul(r, base, base, out);
+        return;
+    }
     if (base[0]) { /* by the recurrence */
         nh_residue at = nh_residue_power(r->field, base[0], (uint64_t)(n < 0 ? -n : n));
         nh_jet_power(r, base, nh_residue_of(r->field, n), n < 0 ? nh_residue_inverse(r->field, at) : at, out);
@@ -115,14 +134,17 @@ static void product(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
     nh_residue *factor = nh_alloc_array(2 * r->size, sizeof *factor), *both = factor + r->size;
-    nh_jet_constant(r, number(v, nh_constant_of(v->dag, e)), out);
     for (size_t i = 0; i < nh_arity(v->dag, e) && !v->unlucky; i++) {
         nh_num x = nh_number_of(v->dag, nh_exponent_of(v->dag, e, i));
-        bool plain = nh_num_is(x, 1);
-        if (!plain) power(v, nh_child(v->dag, e, i), x, factor);
-        nh_jet_mul(r, out, plain ? v->value[nh_child(v->dag, e, i)] : factor, both);
-        memcpy(out, both, r->size * sizeof *out);
+        const nh_residue *with = v->value[nh_child(v->dag, e, i)];
+        if (!nh_num_is(x, 1)) {
+            power(v, nh_child(v->dag, e, i), x, factor);
+            with = factor;
+        }
+        if (i > 0) nh_jet_mul(r, out, with, both);
+        memcpy(out, i > 0 ? both : with, r->size * sizeof *out);
     }
+    if (!nh_num_is(nh_constant_of(v->dag, e), 1)) nh_jet_scale(r, out, number(v, nh_constant_of(v->dag, e)));
     nh_free(factor);
 }
 
@@ -255,7 +277,7 @@ static void first_order(nh_jet_eval *v, const nh_jet_kernel *k, nh_residue *out)
     const nh_residue *u = v->value[nh_child(v->dag, k->key, k->place)];
     nh_residue *prime = nh_alloc_array(r->size, sizeof *prime);
     for (size_t i = 0; i < nh_arity(v->dag, k->key); i++)
-        v->unlucky |= i != k->place && v->varies[nh_child(v->dag, k->key, i)];
+        v->unlucky |= i != k->place && v->of.state[nh_child(v->dag, k->key, i)] == VARYING;
     nh_jet_constant(r, k->value, out);
     for (size_t order = 0; order < r->order; order++) {
         memcpy(prime, v->value[k->P], r->size * sizeof *prime);
@@ -299,7 +321,7 @@ static void compute(nh_jet_eval *v, nh_ex e)
 {
     nh_residue *out = room(v, e);
     switch (nh_kind_of(v->dag, e)) {
-    case NH_NUMBER: nh_jet_constant(v->ring, number(v, nh_number_of(v->dag, e)), out); return;
+    case NH_NUMBER: nh_jet_constant(v->ring, number(v, nh_number_of(v->dag, e)), out); break;
     case NH_SYMBOL: v->unlucky = true; return; /* the symbol is not set */
     case NH_SUM: sum(v, e, out); break;
     case NH_PRODUCT: product(v, e, out); break;
@@ -312,9 +334,10 @@ static void compute(nh_jet_eval *v, nh_ex e)
             else primitive(v, e, out);
         }
     }
-    v->varies[e] = false;
-    for (size_t i = 0; i < nh_arity(v->dag, e); i++) v->varies[e] |= v->varies[nh_child(v->dag, e, i)];
-    if (!v->varies[e]) return;
+    v->of.state[e] = CONSTANT;
+    for (size_t i = 0; nh_kind_of(v->dag, e) != NH_NUMBER && i < nh_arity(v->dag, e); i++)
+        if (v->of.state[nh_child(v->dag, e, i)] == VARYING) v->of.state[e] = VARYING;
+    if (v->of.state[e] != VARYING) return;
     nh_grow(&v->changing, &v->change_capacity, v->changes + 1, sizeof *v->changing);
     v->changing[v->changes++] = e;
 }
@@ -340,13 +363,13 @@ static void compute_all(nh_jet_eval *v, nh_ex e)
     while (depth && !v->unlucky) {
         nh_ex top = v->stack[depth - 1], child = top;
         size_t before = depth;
-        for (size_t i = 0; !v->value[top] && operand(v, top, i, &child); i++) {
-            if (v->value[child]) continue;
+        for (size_t i = 0; v->of.state[top] == UNKNOWN && operand(v, top, i, &child); i++) {
+            if (v->of.state[child] != UNKNOWN) continue;
             nh_grow(&v->stack, &v->stack_capacity, depth + 1, sizeof *v->stack);
             v->stack[depth++] = child;
         }
         if (depth > before) continue;
-        if (!v->value[top]) compute(v, top);
+        if (v->of.state[top] == UNKNOWN) compute(v, top);
         depth--;
     }
 }

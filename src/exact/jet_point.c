@@ -22,23 +22,10 @@ nh_jet_point *nh_jet_point_create(nh_dag *dag)
 void nh_jet_point_free(nh_jet_point *x)
 {
     if (!x) return;
+    nh_free(x->spare.value);
+    nh_free(x->spare.state);
     nh_free(x->kernel);
     nh_free(x);
-}
-
-/* Marks what is reachable from these expressions. */
-static void reach(const nh_dag *d, size_t n, const nh_ex *e, bool *wanted)
-{
-    nh_ex top = 0;
-    for (size_t k = 0; k < n; k++) {
-        wanted[e[k]] = true;
-        if (e[k] > top) top = e[k];
-    }
-    for (size_t i = n ? (size_t)top + 1 : 0; i-- > 0;) { /* operands stand before what is made of them */
-        nh_kind kind = nh_kind_of(d, (nh_ex)i);
-        if (!wanted[i] || kind == NH_NUMBER || kind == NH_SYMBOL) continue;
-        for (size_t k = 0; k < nh_arity(d, (nh_ex)i); k++) wanted[nh_child(d, (nh_ex)i, k)] = true;
-    }
 }
 
 /* ---- collecting the kernels ---- */
@@ -169,18 +156,16 @@ static bool note_product(nh_jet_point *x, nh_ex e)
 
 bool nh_jet_point_register(nh_jet_point *x, size_t n, const nh_ex *e)
 {
-    size_t size = nh_dag_size(x->dag);
-    bool *wanted = nh_alloc_array(size + 1, sizeof *wanted);
-    reach(x->dag, n, e, wanted);
-    for (size_t i = 0; i < size && !x->obstacle; i++) {
-        if (!wanted[i]) continue;
-        nh_kind kind = nh_kind_of(x->dag, (nh_ex)i);
-        if (kind == NH_FUNCTION) note_function(x, (nh_ex)i);
-        else if (kind == NH_PRODUCT) note_product(x, (nh_ex)i);
-        else if (kind == NH_NUMBER && !nh_num_exact(nh_number_of(x->dag, (nh_ex)i)))
+    nh_ex *node;
+    size_t count = nh_nodes_in(x->dag, n, e, &node);
+    for (size_t i = 0; i < count && !x->obstacle; i++) {
+        nh_kind kind = nh_kind_of(x->dag, node[i]);
+        if (kind == NH_FUNCTION) note_function(x, node[i]);
+        else if (kind == NH_PRODUCT) note_product(x, node[i]);
+        else if (kind == NH_NUMBER && !nh_num_exact(nh_number_of(x->dag, node[i])))
             x->obstacle = "numbers that are not exact";
     }
-    nh_free(wanted);
+    nh_free(node);
     return !x->obstacle;
 }
 

@@ -41,10 +41,18 @@ typedef struct {
     size_t place;          /* the index of the argument of f that varies */
 } nh_jet_kernel;
 
+/* For each node of a graph: the memory of its series, and what is known of it; all empty between two evaluations. */
+typedef struct {
+    size_t nodes;
+    nh_residue **value;
+    uint8_t *state;
+} nh_jet_table;
+
 typedef struct {
     nh_dag *dag;
     nh_prime field;
     uint64_t random;
+    nh_jet_table spare;     /* of an evaluation that ended: graphs are large, and few of their nodes are needed */
     nh_jet_kernel *kernel;
     size_t kernels, capacity;
     size_t pieces;          /* number of kernels |u| */

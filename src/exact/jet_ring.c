@@ -65,8 +65,11 @@ static void list_exponents(nh_jet_ring *r)
         size_t more = r->variables ? list(r->variables, r->weight, degree, current, 0, r->exponent + at * r->variables,
                                           SIZE_MAX - 1)
                                    : degree == 0;
-        for (size_t i = 0; i < more; i++) r->degree[at + i] = degree;
-        at += more;
+        for (size_t i = 0; i < more; i++, at++) {
+            r->degree[at] = degree;
+            for (size_t k = 0; k < r->variables; k++)
+                if (r->exponent[at * r->variables + k]) r->variables_in[at] |= UINT32_C(1) << k % 32;
+        }
     }
     r->first[r->order + 1] = at;
     nh_free(current);
@@ -181,6 +184,7 @@ nh_jet_ring *nh_jet_ring_create(nh_prime field, size_t variables, const size_t *
     r->size = nh_jet_ring_size(variables, weight, order, SIZE_MAX - 1);
     r->exponent = nh_arena_alloc(arena, r->size * variables + 1);
     r->degree = nh_arena_alloc(arena, (r->size + 1) * sizeof *r->degree);
+    r->variables_in = nh_arena_alloc(arena, (r->size + 1) * sizeof *r->variables_in);
     r->first = nh_arena_alloc(arena, (order + 2) * sizeof *r->first);
     r->inverse = nh_arena_alloc(arena, (order + 1) * sizeof *r->inverse);
     for (size_t k = 1; k <= order; k++) r->inverse[k] = nh_residue_inverse(field, (nh_residue)k);
@@ -204,6 +208,16 @@ bool nh_jet_is_constant(const nh_jet_ring *r, const nh_residue *a)
     return true;
 }
 
+/* The variables on which it depends, as bits.  Most series depend on a few of them, and so does what products and
+ * functions make of these: the other coefficients are 0. */
+static uint32_t variables_of(const nh_jet_ring *r, const nh_residue *a)
+{
+    uint32_t all = 0;
+    for (size_t e = 1; e < r->size; e++)
+        if (a[e]) all |= r->variables_in[e];
+    return all;
+}
+
 bool nh_jet_is_zero(const nh_jet_ring *r, const nh_residue *a) { return a[0] == 0 && nh_jet_is_constant(r, a); }
 
 void nh_jet_constant(const nh_jet_ring *r, nh_residue c, nh_residue *out)
@@ -224,17 +238,19 @@ void nh_jet_scale(const nh_jet_ring *r, nh_residue *a, nh_residue c)
 
 void nh_jet_mul(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b, nh_residue *out)
 {
-    bool constant = nh_jet_is_constant(r, a);
-    if (constant || nh_jet_is_constant(r, b)) {
+    uint32_t of_a = variables_of(r, a), of_b = variables_of(r, b);
+    if (!of_a || !of_b) {
         nh_jet_constant(r, 0, out);
-        nh_jet_add_multiple(r, out, constant ? a[0] : b[0], constant ? b : a);
+        nh_jet_add_multiple(r, out, of_a ? b[0] : a[0], of_a ? a : b);
         return;
     }
     for (size_t e = 0; e < r->size; e++) {
         uint64_t sum = 0;
+        out[e] = 0;
+        if (r->variables_in[e] & ~(of_a | of_b)) continue;
         for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++)
             sum = nh_residue_gather(r->field, sum, a[r->left[i]], b[r->right[i]]);
-        out[e] = (nh_residue)(sum % r->field.p);
+        out[e] = nh_residue_reduce(r->field, sum);
     }
 }
 
@@ -281,7 +297,8 @@ void nh_jet_power(const nh_jet_ring *r, const nh_residue *a, nh_residue s, nh_re
 {
     nh_prime f = r->field;
     nh_jet_constant(r, at, out);
-    if (nh_jet_is_constant(r, a)) return;
+    uint32_t variables = variables_of(r, a);
+    if (!variables) return;
     nh_residue *factor = nh_alloc_array((r->order + 1) * (r->order + 1), sizeof *factor),
                lead = nh_residue_inverse(f, a[0]);
     /* a E(y) = s E(a) y:  a_0 |e| y_e = sum over g != 0 of (s |g| - |e - g|) a_g y_(e-g) */
@@ -290,13 +307,14 @@ void nh_jet_power(const nh_jet_ring *r, const nh_residue *a, nh_residue s, nh_re
             factor[g * (r->order + 1) + h] = nh_residue_sub(f, nh_residue_mul(f, s, (nh_residue)g), (nh_residue)h);
     for (size_t e = 1; e < r->size; e++) {
         uint64_t sum = 0;
+        if (r->variables_in[e] & ~variables) continue;
         for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++) {
             size_t g = r->left[i], h = r->right[i];
             if (g && a[g] && out[h])
                 sum = nh_residue_gather(
                     f, sum, nh_residue_mul(f, a[g], factor[r->degree[g] * (r->order + 1) + r->degree[h]]), out[h]);
         }
-        out[e] = nh_residue_mul(f, (nh_residue)(sum % f.p), nh_residue_mul(f, lead, r->inverse[r->degree[e]]));
+        out[e] = nh_residue_mul(f, nh_residue_reduce(f, sum), nh_residue_mul(f, lead, r->inverse[r->degree[e]]));
     }
     nh_free(factor);
 }
@@ -307,7 +325,7 @@ static nh_residue step(const nh_jet_ring *r, const nh_residue *euler, const nh_r
     uint64_t sum = 0;
     for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++)
         sum = nh_residue_gather(r->field, sum, euler[r->left[i]], x[r->right[i]]);
-    return nh_residue_mul(r->field, (nh_residue)(sum % r->field.p), r->inverse[r->degree[e]]);
+    return nh_residue_mul(r->field, nh_residue_reduce(r->field, sum), r->inverse[r->degree[e]]);
 }
 
 void nh_jet_exponential(const nh_jet_ring *r, const nh_residue *u, nh_residue at, nh_residue *out)
@@ -315,7 +333,9 @@ void nh_jet_exponential(const nh_jet_ring *r, const nh_residue *u, nh_residue at
     nh_residue *euler = nh_alloc_array(r->size, sizeof *euler);
     nh_jet_euler(r, u, euler);
     nh_jet_constant(r, at, out);
-    for (size_t e = 1; e < r->size; e++) out[e] = step(r, euler, out, e);
+    uint32_t variables = variables_of(r, u);
+    for (size_t e = 1; e < r->size; e++)
+        if (!(r->variables_in[e] & ~variables)) out[e] = step(r, euler, out, e);
     nh_free(euler);
 }
 
@@ -326,7 +346,9 @@ void nh_jet_circle(const nh_jet_ring *r, const nh_residue *u, nh_residue sine, n
     nh_jet_euler(r, u, euler);
     nh_jet_constant(r, sine, sin);
     nh_jet_constant(r, cosine, cos);
+    uint32_t variables = variables_of(r, u);
     for (size_t e = 1; e < r->size; e++) {
+        if (r->variables_in[e] & ~variables) continue;
         nh_residue slope = step(r, euler, cos, e);
         cos[e] = nh_residue_negative(r->field, step(r, euler, sin, e));
         sin[e] = slope;

@@ -20,6 +20,7 @@ typedef struct {
     size_t *degree;          /* size: |e| */
     size_t *first;           /* order + 2: the first exponent of each |e| */
     uint32_t *up;            /* variables x size: e + 1_k, or UINT32_MAX */
+    uint32_t *variables_in;  /* size: bit k % 32 for each e_k that is not 0 */
     size_t *pairs;           /* size + 1: e = left + right are the pairs from pairs[e] to pairs[e + 1] */
     uint32_t *left, *right;
     nh_residue *inverse;     /* order + 1: of whole numbers */

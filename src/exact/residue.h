@@ -56,7 +56,7 @@ static inline nh_residue nh_residue_mul(nh_prime f, nh_residue a, nh_residue b)
     return nh_residue_reduce(f, (uint64_t)a * b);
 }
 
-/* sum + a b, for a sum below the bound; the caller reduces it by `% p` at the end. */
+/* sum + a b, for a sum below the bound; the caller reduces it by nh_residue_reduce at the end. */
 static inline uint64_t nh_residue_gather(nh_prime f, uint64_t sum, nh_residue a, nh_residue b)
 {
     sum += (uint64_t)a * b;

@@ -283,13 +283,13 @@ static int ascending(const void *a, const void *b)
 
 /* The cost depends on what is below e and not on the size of the graph: a search through all nodes would be quadratic
  * in large systems. */
-static size_t reach(const nh_dag *dag, nh_ex e, uint32_t **out)
+size_t nh_nodes_in(const nh_dag *dag, size_t n, const nh_ex *e, nh_ex **out)
 {
     found_nodes f = {0};
-    discover(&f, e);
+    for (size_t k = 0; k < n; k++) discover(&f, e[k]);
     for (size_t i = 0; i < f.count; i++) {
-        const nh_node *n = &dag->node[f.node[i]];
-        for (uint32_t j = 0; n->kind > NH_SYMBOL && j < n->count; j++) discover(&f, dag->arg[n->first + j]);
+        const nh_node *at = &dag->node[f.node[i]];
+        for (uint32_t j = 0; at->kind > NH_SYMBOL && j < at->count; j++) discover(&f, dag->arg[at->first + j]);
     }
     qsort(f.node, f.count, sizeof *f.node, ascending); /* children have smaller indices than their parents */
     nh_free(f.slot);
@@ -305,7 +305,7 @@ bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol)
     if (dag->node[e].kind <= NH_SYMBOL) return false;
     if (dag->name_count <= 64) return true;
     uint32_t *node;
-    size_t count = reach(dag, e, &node);
+    size_t count = nh_nodes_in(dag, 1, &e, &node);
     bool found = false;
     for (size_t i = 0; i < count && !found; i++) found = node[i] == symbol;
     nh_free(node);
@@ -315,7 +315,7 @@ bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol)
 static size_t of_kind(const nh_dag *dag, nh_ex e, nh_kind kind, nh_ex *out, size_t max)
 {
     uint32_t *node;
-    size_t count = reach(dag, e, &node), found = 0;
+    size_t count = nh_nodes_in(dag, 1, &e, &node), found = 0;
     for (size_t i = 0; i < count; i++) {
         if (dag->node[node[i]].kind != kind) continue;
         if (found < max) out[found] = node[i];
@@ -343,7 +343,7 @@ size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
 size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
 {
     uint32_t *node;
-    size_t count = reach(dag, e, &node), found = 0;
+    size_t count = nh_nodes_in(dag, 1, &e, &node), found = 0;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; dag->node[node[i]].kind == NH_PRODUCT && k < nh_arity(dag, node[i]); k++) {
             nh_ex base = nh_child(dag, node[i], k), power = nh_exponent_of(dag, node[i], k);
@@ -359,7 +359,7 @@ size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
 size_t nh_node_count(const nh_dag *dag, nh_ex e)
 {
     uint32_t *node;
-    size_t count = reach(dag, e, &node);
+    size_t count = nh_nodes_in(dag, 1, &e, &node);
     nh_free(node);
     return count;
 }
@@ -393,7 +393,7 @@ static nh_ex rebuild(nh_dag *dag, nh_ex e, const nh_ex *image)
 nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t count, const nh_ex *from, const nh_ex *to)
 {
     uint32_t *node;
-    size_t n = reach(dag, e, &node);
+    size_t n = nh_nodes_in(dag, 1, &e, &node);
     nh_ex *image = nh_alloc_array((size_t)e + 1, sizeof *image);
     for (size_t i = 0; i < n; i++) {
         nh_ex x = node[i];
@@ -422,7 +422,7 @@ nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t count, const nh_ex *from, const
 nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root)
 {
     uint32_t *node;
-    size_t n = reach(dag, e, &node);
+    size_t n = nh_nodes_in(dag, 1, &e, &node);
     nh_ex *image = nh_alloc_array((size_t)e + 1, sizeof *image);
     for (size_t i = 0; i < n; i++) {
         nh_ex x = node[i];

@@ -189,7 +189,9 @@ size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 /* The bases of half powers likewise, each once: u of sqrt(u), of u^(-1/2), of u^(3/2); at most `max` are counted. */
 size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
-/* Number of distinct nodes reachable from e. */
+/* The nodes below n expressions and these themselves, each once, ascending: children first.  The caller frees them. */
+size_t nh_nodes_in(const nh_dag *dag, size_t n, const nh_ex *e, nh_ex **out);
+/* Their number for one expression. */
 size_t nh_node_count(const nh_dag *dag, nh_ex e);
 
 /* e with from[i] replaced by to[i], all at once. */
