@@ -23,6 +23,7 @@ enum {
     SMALLEST_BLOCK = 64, /* rows; below it the calls cost more than the flops */
     ASIDE = 100,     /* columns, from which on the QR of a full block takes longer than to start a thread for it */
     PATIENT = 400,   /* columns: decompositions of fewer are not interrupted */
+    SMALL = 32,      /* equations, as motions solve them at each step */
     SVD = 12, PIVOTED = 3, EIGEN = 20 /* times m n min(m, n) multiplications */
 };
 
@@ -360,12 +361,13 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
     nh_work_add(NH_WORK_DENSE, product(n, n, n + nrhs));
     nh_effort_add(CALL + ROW * (double)n + FLOP * product(n, n, n + nrhs));
     lapack_int size = (lapack_int)n;
-    double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, '1', size, size, a, size);
-    lapack_int *swap = nh_alloc_array(n, sizeof *swap);
-    lapack_int info = LAPACKE_dgesv(LAPACK_COL_MAJOR, size, (lapack_int)nrhs, a, size, swap, b, size);
+    lapack_int few[SMALL], *swap = n > SMALL ? nh_alloc_array(n, sizeof *swap) : few;
+    /* _work: without the search for NaN, which is made above */
+    double norm = rcond ? LAPACKE_dlange_work(LAPACK_COL_MAJOR, '1', size, size, a, size, NULL) : 0;
+    lapack_int info = LAPACKE_dgesv_work(LAPACK_COL_MAJOR, size, (lapack_int)nrhs, a, size, swap, b, size);
     if (info == 0 && rcond)
         info = LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', size, a, size, norm, rcond);
-    nh_free(swap);
+    if (swap != few) nh_free(swap);
     return worked(info);
 }
 

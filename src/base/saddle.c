@@ -6,7 +6,13 @@
 #include "base/linalg.h"
 
 /* The power of two nearest to 1/sqrt(x) or below; 1 where x is not positive and finite. */
-static double root_scale(double x) { return x > 0 && isfinite(x) ? ldexp(1, -(int)ceil(log2(x) / 2)) : 1; }
+static double root_scale(double x)
+{
+    int power;
+    if (!(x > 0 && isfinite(x))) return 1;
+    bool exact = frexp(x, &power) == 0.5; /* 2^(power - 1) */
+    return ldexp(1, -(int)ceil((power - exact) / 2.0));
+}
 static double scale(double x) { return x > 0 && isfinite(x) ? ldexp(1, -ilogb(x)) : 1; }
 
 static double row_size(size_t m, const double *K, const double *s, size_t i)

@@ -1,5 +1,7 @@
 #include "integrals/crossings.h"
 
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
 #include <math.h>
 #include <string.h>
 
@@ -8,9 +10,9 @@
 #include "integrals/projected_points.h"
 #include "system/sample.h"
 
-enum { lines = 16, wanted = 6, steps_out = 31, grid = 2 * steps_out + 1, halvings = 80, bits = 192 };
+enum { lines = 16, wanted = 6, steps_out = 31, grid = 2 * steps_out + 1, most_steps = 200, bits = 192 };
 /* in half widths of the box: the lines reach 0.08 * 1.25^30 = 65 of them */
-static const double first_step = 0.08, ratio = 1.25;
+static const double first_step = 0.08, ratio = 1.25, digits = 4e-16;
 static const double depth[NH_CROSSING_DEPTHS] = {1.0 / (1 << 12), 1.0 / (1 << 24), 1.0 / (1LL << 36)};
 
 /* One line, and the walls' functions along it: z = origin + s direction, or the same for (t, q, v), with v projected
@@ -70,26 +72,36 @@ static bool at(finder *x, double s, double *f, double *slope)
     return true;
 }
 
-/* Where wall i's function (or its slope) changes its sign between a and b; false when it does so at a pole. */
-static bool halve(finder *x, size_t i, bool of_slope, double a, double b, double *where)
+/* A wall's function, or its slope, along the line. */
+typedef struct {
+    finder *x;
+    size_t wall;
+    bool of_slope, failed;
+} quantity;
+
+static double value_of(double s, void *context)
 {
-    double f[NH_MOST_WALLS], slope[NH_MOST_WALLS], fa = 0, fb = 0, largest;
-    for (int k = 0; k < 2; k++) {
-        if (!at(x, k ? b : a, f, slope)) return false;
-        *(k ? &fb : &fa) = of_slope ? slope[i] : f[i];
+    quantity *q = context;
+    double f[NH_MOST_WALLS], slope[NH_MOST_WALLS];
+    q->failed = q->failed || !at(q->x, s, f, slope);
+    return q->failed ? 0 : q->of_slope ? slope[q->wall] : f[q->wall]; /* 0 ends the search */
+}
+
+/* Where it changes its sign between a and b; false when it does so at a pole. */
+static bool find_change(quantity *q, double a, double b, double *where)
+{
+    double largest = fmax(fabs(value_of(a, q)), fabs(value_of(b, q)));
+    gsl_function function = {value_of, q};
+    gsl_root_fsolver *solver = nh_memory_got(gsl_root_fsolver_alloc(gsl_root_fsolver_brent));
+    bool good = !q->failed && gsl_root_fsolver_set(solver, &function, a, b) == GSL_SUCCESS, more = good;
+    for (int k = 0; k < most_steps && more && good; k++) {
+        good = gsl_root_fsolver_iterate(solver) == GSL_SUCCESS && !q->failed;
+        double low = gsl_root_fsolver_x_lower(solver), high = gsl_root_fsolver_x_upper(solver);
+        more = high - low > digits * fmax(fabs(low), fabs(high));
     }
-    largest = fmax(fabs(fa), fabs(fb));
-    for (int k = 0; k < halvings; k++) {
-        double middle = a + (b - a) / 2;
-        if (middle == a || middle == b) break;
-        if (!at(x, middle, f, slope)) return false;
-        double value = of_slope ? slope[i] : f[i];
-        bool left = value * fa > 0;
-        *(left ? &a : &b) = middle;
-        *(left ? &fa : &fb) = value;
-    }
-    *where = a + (b - a) / 2;
-    return fmax(fabs(fa), fabs(fb)) < 1e-4 * largest;
+    *where = gsl_root_fsolver_root(solver);
+    gsl_root_fsolver_free(solver);
+    return good && fabs(value_of(*where, q)) < 1e-4 * largest;
 }
 
 /* ---- do motions arrive there? ---- */
@@ -199,8 +211,9 @@ static void look_between(finder *x, size_t i, const double *s, const double *f, 
     double where, value[NH_MOST_WALLS], ignored[NH_MOST_WALLS];
     if (x->found[i] == wanted || !isfinite(f[0]) || !isfinite(f[1])) return;
     if (f[0] * f[1] < 0) {
-        if (halve(x, i, false, s[0], s[1], &where)) keep(x, i, where, false);
-    } else if (slope[0] * slope[1] < 0 && halve(x, i, true, s[0], s[1], &where) && at(x, where, value, ignored)) {
+        if (find_change(&(quantity){x, i, false, false}, s[0], s[1], &where)) keep(x, i, where, false);
+    } else if (slope[0] * slope[1] < 0 && find_change(&(quantity){x, i, true, false}, s[0], s[1], &where) &&
+               at(x, where, value, ignored)) {
         if (fabs(value[i]) < 1e-9 * fmax(fabs(f[0]), fabs(f[1]))) keep(x, i, where, true);
     }
 }
@@ -302,6 +315,7 @@ nh_crossings nh_crossings_find(const nh_model *o, const nh_walls *walls, uint64_
 {
     finder x = {.o = o, .walls = walls, .explicit_width = o->width - o->chart->implicit, .arena = arena};
     if (walls->count == 0) return x.list;
+    gsl_set_error_handler_off();
     create(&x);
     x.list.item = nh_arena_alloc(arena, 2 * walls->count * wanted * sizeof *x.list.item);
     for (size_t line = 0; line < lines; line++) {
