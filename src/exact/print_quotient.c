@@ -40,17 +40,20 @@ static nh_ex with_tangents(const nh_kernels *k, nh_ex e, int64_t *exponent)
 /* e * prod_g k_g^exponent[g]; the exponentials in one: exp(a) exp(b) = exp(a + b) */
 static nh_ex times_monomial(const nh_kernels *k, nh_ex e, const int64_t *exponent)
 {
-    nh_ex growth = nh_int(k->dag, 0);
+    nh_dag *dag = k->dag;
+    nh_ex growth = nh_int(dag, 0), *factor = nh_alloc_array(k->count + 2, sizeof *factor);
+    size_t n = 0;
+    factor[n++] = e;
     for (size_t g = 0; g < k->count; g++) {
         if (!exponent[g]) continue;
-        if (k->item[g].kind == NH_KERNEL_EXP) {
-            nh_ex argument = nh_mul(k->dag, nh_int(k->dag, exponent[g]), nh_kernel_argument(k, g));
-            growth = nh_add(k->dag, growth, argument);
-        } else {
-            e = nh_mul(k->dag, e, nh_kernel_power(k, g, exponent[g]));
-        }
+        if (k->item[g].kind == NH_KERNEL_EXP)
+            growth = nh_add(dag, growth, nh_mul(dag, nh_int(dag, exponent[g]), nh_kernel_argument(k, g)));
+        else factor[n++] = nh_kernel_power(k, g, exponent[g]);
     }
-    return nh_is_zero(k->dag, growth) ? e : nh_mul(k->dag, e, nh_call(k->dag, NH_EXP, growth));
+    if (!nh_is_zero(dag, growth)) factor[n++] = nh_call(dag, NH_EXP, growth);
+    if (n > 1) e = nh_product(dag, n, factor);
+    nh_free(factor);
+    return e;
 }
 
 /* ---- sums ---- */
