@@ -219,7 +219,7 @@ bool nh_count_space_add(nh_count_space *x, nh_prime field, const nh_residue *row
     while (at < x->width && !own[at]) at++;
     if (at == x->width) return false;
     nh_residue scale = nh_residue_inverse(field, own[at]);
-    for (size_t j = at; j < x->width; j++) own[j] = nh_residue_mul(field, own[j], scale);
+    nh_residue_scale(field, x->width - at, own + at, scale);
     x->rows++;
     return true;
 }

@@ -141,7 +141,7 @@ static void take_pivot(nh_graded_system *s, component *c, size_t i)
         c->cells[i][z].value = nh_residue_mul(s->f, c->cells[i][z].value, inverse);
         c->count[c->cells[i][z].column]--;
     }
-    for (size_t j = 0; j < s->before; j++) known[j] = nh_residue_mul(s->f, known[j], inverse);
+    nh_residue_scale(s->f, s->before, known, inverse);
     s->work += (double)(c->member[column].count + inverse_work);
     c->done[i] = c->pivoted[column] = true;
     c->pivot_row[c->rank] = i;
@@ -168,7 +168,8 @@ static void back_substitute(nh_graded_system *s, component *c)
         size_t i = c->pivot_row[t], u = c->unknown[c->pivot_column[t]];
         nh_residue *out = nh_graded_row(s, u / s->unknowns_of, s->first + u % s->unknowns_of);
         const nh_residue *known = s->known + c->equation[i] * s->before;
-        for (size_t j = 0; j < s->before; j++) out[j] = nh_residue_negative(s->f, known[j]);
+        memcpy(out, known, s->before * sizeof *out);
+        nh_residue_scale(s->f, s->before, out, (nh_residue)(s->f.p - 1));
         for (size_t z = 0; z < c->length[i]; z++) {
             size_t other = c->unknown[c->cells[i][z].column];
             if (other != u)

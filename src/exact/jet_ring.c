@@ -233,7 +233,7 @@ void nh_jet_add_multiple(const nh_jet_ring *r, nh_residue *sum, nh_residue c, co
 
 void nh_jet_scale(const nh_jet_ring *r, nh_residue *a, nh_residue c)
 {
-    for (size_t e = 0; e < r->size; e++) a[e] = nh_residue_mul(r->field, a[e], c);
+    nh_residue_scale(r->field, r->size, a, c);
 }
 
 void nh_jet_mul(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b, nh_residue *out)

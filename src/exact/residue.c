@@ -4,6 +4,8 @@
 #include <flint/nmod.h>
 #include <flint/ulong_extras.h>
 
+#include "base/clones.h"
+
 static nh_prime prime_of(uint64_t n) { return (nh_prime){n, ((uint64_t)1 << 62) / n * n, ((uint64_t)1 << 62) / n}; }
 
 nh_prime nh_prime_next(nh_prime f)
@@ -31,16 +33,36 @@ nh_prime nh_prime_at(size_t index)
     return f;
 }
 
-/* c x - floor(x floor(2^32 c / p) / 2^32) p is between 0 and 2 p (Shoup's multiplication). */
+/* x modulo p, for x below 2 p: the smaller of x and x - p, which is taken modulo 2^32. */
+static inline uint32_t once(uint32_t x, uint32_t p) { return x < x - p ? x : x - p; }
+
+/* c x - floor(x quotient / 2^32) p with quotient = floor(2^32 c / p) is between 0 and 2 p (Shoup's multiplication). */
+static inline uint32_t times(uint32_t c, uint32_t quotient, uint32_t x, uint32_t p)
+{
+    return once(c * x - (uint32_t)((uint64_t)quotient * x >> 32) * p, p);
+}
+
+static uint32_t quotient_of(nh_prime f, nh_residue c) { return (uint32_t)(((uint64_t)c << 32) / f.p); }
+
+NH_CLONES static void add_multiple(uint32_t p, uint32_t quotient, size_t n, nh_residue *restrict y,
+                                   const nh_residue *restrict x, nh_residue c)
+{
+    for (size_t i = 0; i < n; i++) y[i] = once(y[i] + times(c, quotient, x[i], p), p);
+}
+
+NH_CLONES static void scale(uint32_t p, uint32_t quotient, size_t n, nh_residue *y, nh_residue c)
+{
+    for (size_t i = 0; i < n; i++) y[i] = times(c, quotient, y[i], p);
+}
+
 void nh_residue_add_multiple(nh_prime f, size_t n, nh_residue *restrict y, const nh_residue *restrict x, nh_residue c)
 {
-    if (!c) return;
-    uint64_t quotient = ((uint64_t)c << 32) / f.p;
-    uint32_t p = (uint32_t)f.p;
-    for (size_t i = 0; i < n; i++) {
-        uint32_t r = c * x[i] - (uint32_t)(quotient * x[i] >> 32) * p, sum = y[i] + (r >= p ? r - p : r);
-        y[i] = sum >= p ? sum - p : sum;
-    }
+    if (c) add_multiple((uint32_t)f.p, quotient_of(f, c), n, y, x, c);
+}
+
+void nh_residue_scale(nh_prime f, size_t n, nh_residue *y, nh_residue c)
+{
+    scale((uint32_t)f.p, quotient_of(f, c), n, y, c);
 }
 
 nh_residue nh_residue_of(nh_prime f, int64_t value)

@@ -65,6 +65,8 @@ static inline uint64_t nh_residue_gather(nh_prime f, uint64_t sum, nh_residue a,
 
 /* y += c x, componentwise. */
 void nh_residue_add_multiple(nh_prime f, size_t n, nh_residue *restrict y, const nh_residue *restrict x, nh_residue c);
+/* y *= c */
+void nh_residue_scale(nh_prime f, size_t n, nh_residue *y, nh_residue c);
 
 nh_residue nh_residue_of(nh_prime f, int64_t value);
 nh_residue nh_residue_power(nh_prime f, nh_residue a, uint64_t exponent);
