@@ -562,6 +562,10 @@ Test(count, words_say_which_coefficients_are_meant)
     words_of("name: k\ncoordinates: [x, y]\ndomain: {x: [2, 3], y: [-2, -1]}\nlagrangian: (x'^2 + y'^2)/2 - abs(x - 2*y)^3 - x^4*abs(y)\n", false, &said);
     cr_expect_not_null(strstr(nh_text_string(&said), "Complete to degree 1 for y < 0 and x - 2*y > 0: no function"), "%s", nh_text_string(&said));
     nh_text_clear(&said);
+    /* z - atan(x) is conserved, and a coefficient */
+    words_of("name: l\ncoordinates: [x, y, z]\nconstraints: [\"z' = x'/(1 + x^2)\"]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - t*x^4 - x*y*z - y^4\n", false, &said);
+    cr_expect_not_null(strstr(nh_text_string(&said), "Complete to degree 2: but for functions of what the constraints keep constant, no function"), "%s", nh_text_string(&said));
+    nh_text_clear(&said);
     words_of(FREE_2, true, &said);
     cr_expect_not_null(strstr(nh_text_string(&said), "is a function of those found: there cannot be more independent ones."), "%s", nh_text_string(&said));
     nh_text_clear(&said);

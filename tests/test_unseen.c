@@ -395,6 +395,25 @@ static const unseen UNSEEN[] = {
      "lagrangian: phi'^2*(2 + sin(2*t - x)^2)/2 + (x' - 2)^2/2 + f^2/2 + f^4/8 - z^2*(2*t - x) + t*z\n"
      "known: {currents: [{name: turning, expr: \"phi'*(2 + sin(2*t - x)^2)\"}]}\n",
      1},
+    /* the energy of a frame whose rates have first harmonics of an angle */
+    {"turn of a frame, with its energy and an integrable constraint",
+     "parameters: [{name: c1, value: 0.56}, {name: c2, value: 0.41}]\n"
+     "coordinates: [y, {name: phi, type: angle}, {name: theta, type: angle}]\n"
+     "definitions: [\"f = theta' + c2 + phi'*c1*cos(phi)\", \"a = 18*t/25 - phi\", \"g = 100*phi' + 157*f*sin(a) - 72\"]\n"
+     "lagrangian: 141*cos(2*a)*cos(theta + c1*sin(phi) + t*c2)/100 + 97*y'^2/100 + (14*y^4 + 17)*g^2/500000 + 17*f^2/25\n"
+     "constraints: [\"f = 41*(25*phi' - 18)*sin(a)/2500\"]\n"
+     "known: {currents: [{name: level, expr: \"theta + c1*sin(phi) + c2*t - 41/100*cos(a)\"},\n"
+     "  {name: moving energy, expr: \"97*y'^2/100 - 141*cos(2*a)*cos(theta + c1*sin(phi) + t*c2)/100 - (14*y^4 + 17)*g^2/500000 - 17*f^2/25"
+     " + f*(34*(f)/25 + 157*(14*y^4 + 17)*g*sin(a)/250000) + (phi' - 18/25)*(14*y^4 + 17)*g/2500\"}]}\n",
+     2},
+    /* the constraint is a total derivative below exp(a x), of functions that the system does not show */
+    {"turn of nothing, with an integrable constraint",
+     "parameters: [{name: a, value: 0.6}, {name: b, value: 0.3}]\n"
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - x^4 - y^4/3 - x*y*z\n"
+     "constraints: [\"exp(a*x)*z' = exp(a*x)*(3*b*cos(t)*sin(y)^2 + 3*b*sin(t)*sin(2*y)*y' + x'/(1 + x^2))\"]\n"
+     "known: {currents: [{name: level, expr: \"z - 3*b*sin(y)^2*sin(t) - atan(x)\"}]}\n",
+     1},
 };
 enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 

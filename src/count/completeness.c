@@ -122,9 +122,11 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
                                            : "those found and of those that are constant in a region only";
     if (c->degree && c->count.row[c->degree - 1].bound == 1)
         nh_text_addf(out,
-                     "Complete to degree %zu%s%s: no function polynomial in the velocities of degree %s%zu, with any "
+                     "Complete to degree %zu%s%s: %sno function polynomial in the velocities of degree %s%zu, with any "
                      "functions of %s as coefficients, is conserved",
-                     c->degree, before, where, most, c->degree, coefficients);
+                     c->degree, before, where,
+                     c->count.leaf ? "but for functions of what the constraints keep constant, " : "", most, c->degree,
+                     coefficients);
     else if (c->degree)
         nh_text_addf(out,
                      "Complete to degree %zu%s%s: every integral polynomial in the velocities of degree %s%zu, with "

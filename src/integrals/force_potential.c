@@ -89,7 +89,7 @@ static nh_ex integrate(problem *p, int step)
     const nh_model *o = p->o;
     nh_dag *d = o->dag;
     size_t parameters = o->system->parameters, n = parameters + p->signs;
-    nh_ex U = nh_int(d, 0), *constant = nh_alloc_array(n + o->m + 1, sizeof *constant);
+    nh_ex U = nh_int(d, 0), *constant = nh_alloc_array(n + o->m + 2, sizeof *constant);
     memcpy(constant, o->parameter, parameters * sizeof *constant);
     memcpy(constant + parameters, p->value, p->signs * sizeof *constant);
     bool found = true;
@@ -99,6 +99,7 @@ static nh_ex integrate(problem *p, int step)
               rest = nh_simplify_short(d, nh_sub(d, p->force[i], nh_diff(d, U, q)), largest_form);
         for (size_t j = 0; j < o->m; j++)
             if (j != i) constant[constants++] = o->system->coordinate[j].q;
+        constant[constants++] = o->system->t;
         if (nh_is_zero(d, rest)) continue;
         nh_integration in = {.dag = d,
                              .x = q,

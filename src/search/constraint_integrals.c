@@ -1,5 +1,9 @@
 #include "search/constraint_integrals.h"
 
+#include "exact/normal.h"
+#include "graph/diff.h"
+#include "integrals/force_potential.h"
+
 enum { generic_count = 24, own_seed = 505 };
 
 static bool only_events(const nh_model *o, nh_ex e)
@@ -86,6 +90,57 @@ static void powers(const nh_model *o, alphabet *a)
     nh_free(product);
 }
 
+/* f = form_s v^s + rate for a constraint f = 0; false: it is not affine in the velocities. */
+static bool read_form(const nh_model *o, nh_ex f, nh_ex *form, nh_ex *rate)
+{
+    nh_dag *d = o->dag;
+    nh_ex *v = nh_alloc_array(2 * o->m, sizeof *v), *zero = v + o->m;
+    bool affine = true;
+    for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v, zero[s] = nh_int(d, 0);
+    for (size_t s = 0; s < o->m; s++) form[s] = nh_simplify_short(d, nh_diff(d, f, v[s]), 0);
+    for (size_t s = 0; s < o->m; s++)
+        for (size_t j = 0; j < o->m; j++) affine &= !nh_depends(d, form[s], v[j]);
+    *rate = nh_simplify_short(d, nh_substitute(d, f, o->m, v, zero), 0);
+    nh_free(v);
+    return affine;
+}
+
+/* F with form + rate dt = dF, or 0. */
+static nh_ex potential(const nh_stage_solver *x, const nh_ex *form, nh_ex rate)
+{
+    const nh_model *o = x->r->model;
+    nh_dag *d = o->dag;
+    nh_ex t = o->system->t, G = nh_int(d, 0),
+          F = nh_force_potential_of(o, x->ranges, (size_t)x->r->options.proof_terms, form);
+    if (!F) return 0;
+    nh_ex rest = nh_simplify_short(d, nh_sub(d, rate, nh_diff(d, F, t)), 0);
+    for (size_t s = 0; s < o->m; s++)
+        if (nh_depends(d, rest, o->system->coordinate[s].q)) return 0;
+    return nh_is_zero(d, rest) || nh_stage_solver_integral(x, t, rest, false, &G) ? nh_add(d, F, G) : 0;
+}
+
+/* Constraints that are total derivatives, as they are written or solved for one of the velocities: theta' = (phi' - 1)
+ * sin(phi - t) leaves theta + cos(phi - t) constant. */
+static void potentials(const nh_stage_solver *x, alphabet *a)
+{
+    const nh_model *o = x->r->model;
+    nh_dag *d = o->dag;
+    nh_ex *form = nh_alloc_array(2 * o->m, sizeof *form), *solved = form + o->m, rate;
+    for (size_t k = 0; k < o->system->constraints; k++) {
+        const nh_constraint *c = &o->system->constraint[k];
+        if (c->position || !read_form(o, nh_sub(d, c->lhs, c->rhs), form, &rate)) continue;
+        nh_ex F = potential(x, form, rate);
+        for (size_t s = 0; s < o->m && !F; s++) {
+            if (nh_kind_of(d, form[s]) == NH_NUMBER) continue;
+            nh_ex factor = nh_powi(d, form[s], -1);
+            for (size_t j = 0; j < o->m; j++) solved[j] = nh_simplify_short(d, nh_mul(d, factor, form[j]), 0);
+            F = potential(x, solved, nh_simplify_short(d, nh_mul(d, factor, rate), 0));
+        }
+        if (F) letter(o, a, F);
+    }
+    nh_free(form);
+}
+
 static void letters(const nh_stage_solver *x, alphabet *a)
 {
     const nh_model *o = x->r->model;
@@ -98,6 +153,7 @@ static void letters(const nh_stage_solver *x, alphabet *a)
         letter(o, a, nh_call(o->dag, NH_SIN, w.wave[i]));
     }
     powers(o, a);
+    potentials(x, a);
 }
 
 /* Quadratic in the coordinates, and functions; cubic, and coordinates times functions; of degree four, and squares of

@@ -172,7 +172,7 @@ static void stage_words_positions(nh_family_list *s)
 }
 
 /* xi^s dL/dv^s, whatever L is, of fields with first harmonics of the angles and the system's functions beside t and
- * positions: what is cyclic, or turns, in coordinates as Y = y + sin(h). */
+ * positions: what is cyclic, or turns, in coordinates as Y = y + sin(h); and the energy there, where these move. */
 static void stage_momenta(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
@@ -186,6 +186,7 @@ static void stage_momenta(nh_family_list *s)
     nh_expr_set_put_all(&p, s->w->momenta, s->w->momentum);
     nh_family_list_product_of_sets(s, &p, &w);
     nh_family_list_add(s, nh_family_list_polynomial(s, &tq, 1));
+    nh_expr_set_put(&f, s->o->E);
     nh_family_list_add(s, nh_family_list_terms(s, &f));
 }
 
@@ -242,7 +243,8 @@ static const recipe stages[] = {
     [NH_STAGE_DRIVE] = {"momenta times 1, t and logarithms of t, positions, powers of t", nh_stage_drive},
     [NH_STAGE_WORDS_POSITIONS] = {"energy, momenta, velocities and forms times 1, t and the positions",
                                   stage_words_positions},
-    [NH_STAGE_MOMENTA] = {"momenta times t, positions, first harmonics of the angles and functions", stage_momenta},
+    [NH_STAGE_MOMENTA] = {"momenta times t, positions, first harmonics of the angles and functions; energy",
+                          stage_momenta},
     [NH_STAGE_DEGREE_2] = {"total degree 2 times the system's own functions", stage_degree_2},
     [NH_STAGE_WEIGHTS] = {"quadratic forms times positions", stage_weights},
     [NH_STAGE_WEIGHT_4] = {"weighted degree 4 in the frame of the kinetic energy", nh_stage_weight_4},
