@@ -82,6 +82,21 @@ Test(dag, long_rationals_are_printed_exactly)
     nh_dag_free(d);
 }
 
+/* -1 times a sum whose numbers are too long to be multiplied into it; it was printed as parentheses without end. */
+Test(dag, minus_a_sum_of_long_numbers_is_printed)
+{
+    nh_dag *d = nh_dag_create();
+    nh_ex x = nh_symbol(d, "x"), y = nh_symbol(d, "y"),
+          sum = nh_sub(d, nh_mul(d, nh_ratio(d, 4611686018427387847, 3), x), nh_mul(d, nh_int(d, 2), y)), e = nh_mul(d, y, nh_neg(d, sum));
+    char *text = nh_print_string(d, nh_neg(d, sum)), *product = nh_print_string(d, e);
+    cr_expect_str_eq(text, "(6*y - 4611686018427387847*x)/3");
+    cr_expect_eq(parsed(d, text), nh_neg(d, sum), "%s", text);
+    cr_expect_eq(parsed(d, product), e, "%s", product);
+    nh_free(text);
+    nh_free(product);
+    nh_dag_free(d);
+}
+
 /* Beyond the range of doubles a number is neither 0 nor infinite, and leads back. */
 Test(dag, numbers_beyond_doubles_are_kept_and_printed)
 {

@@ -263,7 +263,7 @@ static bool scales_exactly(const nh_dag *dag, nh_num c, nh_ex sum)
     static const double longest = 4e18; /* of the numbers of a 64-bit rational */
     nh_num first = nh_constant_of(dag, sum);
     double size = fabs((double)first.p) * (double)first.q;
-    if (!nh_num_short(c)) return true;
+    if (!nh_num_short(c) || (c.q == 1 && (c.p == 1 || c.p == -1))) return true;
     for (size_t i = 0; i < nh_arity(dag, sum); i++) {
         nh_num k = nh_coefficient_of(dag, sum, i);
         size = fmax(size, fabs((double)k.p) * (double)k.q);
