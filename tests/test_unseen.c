@@ -414,6 +414,22 @@ static const unseen UNSEEN[] = {
      "constraints: [\"exp(a*x)*z' = exp(a*x)*(3*b*cos(t)*sin(y)^2 + 3*b*sin(t)*sin(2*y)*y' + x'/(1 + x^2))\"]\n"
      "known: {currents: [{name: level, expr: \"z - 3*b*sin(y)^2*sin(t) - atan(x)\"}]}\n",
      1},
+    /* the centre moves in a way that is not linear in t; Y is written with a square of another coordinate */
+    {"turn about a centre on a circle",
+     "parameters: [{name: a, value: 0.7}, {name: w, value: 1.3}]\n"
+     "coordinates: [x, y]\n"
+     "definitions: [\"X = x - a*cos(w*t)\", \"Y = y - t^3/3\"]\n"
+     "lagrangian: (X'^2 + Y'^2)*(1 + (X^2 + Y^2)^2)/2 - (X^2 + Y^2)^3*t\n"
+     "known: {currents: [{name: turning, expr: \"(1 + (X^2 + Y^2)^2)*(X*Y' - Y*X')\"}]}\n",
+     1},
+    {"turn about a centre that decays, with a constraint",
+     "parameters: [{name: a, value: 0.7}]\n"
+     "coordinates: [x, y, {name: h, type: angle}]\n"
+     "definitions: [\"X = x - exp(-t/5)\", \"Y = y - a*sin(h)^2\"]\n"
+     "lagrangian: (X'^2 + Y'^2)*(1 + (X^2 + Y^2)^2)/2 + h'^2/2*(2 + cos(h)) - (X^2 + Y^2)^2*t + cos(h)\n"
+     "constraints: [\"h' = (X*X' + Y*Y')*sin(t)\"]\n"
+     "known: {currents: [{name: turning, expr: \"(1 + (X^2 + Y^2)^2)*(X*Y' - Y*X')\"}]}\n",
+     1},
 };
 enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 

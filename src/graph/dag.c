@@ -291,7 +291,8 @@ size_t nh_nodes_in(const nh_dag *dag, size_t n, const nh_ex *e, nh_ex **out)
         const nh_node *at = &dag->node[f.node[i]];
         for (uint32_t j = 0; at->kind > NH_SYMBOL && j < at->count; j++) discover(&f, dag->arg[at->first + j]);
     }
-    if (f.count) qsort(f.node, f.count, sizeof *f.node, ascending); /* children have smaller indices than their parents */
+    /* children have smaller indices than their parents */
+    if (f.count) qsort(f.node, f.count, sizeof *f.node, ascending);
     nh_free(f.slot);
     *out = f.node;
     return f.count;

@@ -8,9 +8,11 @@
 #include "base/progress.h"
 #include "integrals/centre_of_mass.h"
 #include "integrals/exact_points.h"
+#include "integrals/places.h"
 #include "integrals/recognise.h"
 
 enum { spare_points = 4, tries_per_point = 4, most_denominator = 1000 };
+enum { most_waves = 12, most_written = NH_MOST_PLACES + most_waves };
 static const double small = 1e-10;    /* of a residual, relative to the components */
 static const double singular = 1e-12; /* of the basis at the points */
 
@@ -233,15 +235,74 @@ static bool fit_with_time(const nh_model *o, size_t points, size_t width, const 
     return good;
 }
 
+/* Sums of positions as the system shows them, with the sines and cosines in it. */
+static size_t written(const nh_model *o, nh_ex out[most_written])
+{
+    nh_dag *d = o->dag;
+    nh_ex call[most_waves];
+    size_t n = nh_places_of(o, out), calls = nh_functions_in(d, o->system->lagrangian, call, most_waves), waves = 0;
+    for (size_t i = 0; i < calls && i < most_waves && waves + 2 <= most_waves; i++) {
+        nh_function f = nh_function_of(d, call[i]);
+        bool moves = false, known = false;
+        for (size_t s = 0; s < o->m; s++) moves |= nh_depends(d, call[i], o->system->coordinate[s].v);
+        if ((f != NH_SIN && f != NH_COS) || moves) continue;
+        for (size_t k = 0; k < n; k++) known |= out[k] == call[i];
+        if (known) continue;
+        waves += 2;
+        out[n++] = call[i];
+        out[n++] = nh_call(d, f == NH_SIN ? NH_COS : NH_SIN, nh_child(d, call[i], 0));
+    }
+    return n;
+}
+
+/* Is the column a combination of the others? */
+static bool depends_on(size_t points, size_t width, const double *row, const double *column)
+{
+    double *a = nh_alloc_array(points * (width + 1), sizeof *a), *b = a + points * width, size = 0, rest = 0;
+    memcpy(a, row, points * width * sizeof *a);
+    memcpy(b, column, points * sizeof *b);
+    bool good = nh_least_squares(points, width, a, 1, b, points, singular) == (int)width;
+    for (size_t p = 0; p < points && good; p++) {
+        double e = column[p];
+        for (size_t k = 0; k < width; k++) e -= b[k] * row[k * points + p];
+        rest = fmax(rest, fabs(e));
+        size = fmax(size, fabs(column[p]));
+    }
+    nh_free(a);
+    return !good || rest <= small * size;
+}
+
+/* In coordinates that hide a symmetry, or move: components in the span of what the system shows, too. */
+static bool fit_written(const nh_model *o, size_t points, size_t width, const nh_ex *basis, const double *row,
+                        size_t words, const nh_ex *word, const double *column, const double *velocity,
+                        const double *value, nh_ex *zeta)
+{
+    nh_ex *all = nh_alloc_array(width + words + 1, sizeof *all);
+    double *some = nh_alloc_array(points * (width + words + 1), sizeof *some);
+    size_t n = width;
+    memcpy(all, basis, width * sizeof *all);
+    memcpy(some, row, points * width * sizeof *some);
+    for (size_t k = 0; k < words; k++) {
+        if (depends_on(points, n, some, column + k * points)) continue;
+        memcpy(some + n * points, column + k * points, points * sizeof *some);
+        all[n++] = word[k];
+    }
+    bool good = n > width && (fit(o, points, n, all, some, value, zeta) ||
+                              fit_with_time(o, points, n, all, some, velocity, value, zeta));
+    nh_free(some);
+    nh_free(all);
+    return good;
+}
+
 bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
 {
     size_t pairs = o->m * o->m;
-    nh_ex *word = nh_alloc_array(2 + 3 * o->m + pairs * NH_AFFINE_FIELD_WORDS + o->n, sizeof *word);
-    size_t width = affine(o, options, word), most = width + NH_AFFINE_FIELD_WORDS, points = most + spare_points;
+    nh_ex *word = nh_alloc_array(2 + 3 * o->m + pairs * NH_AFFINE_FIELD_WORDS + most_written + o->n, sizeof *word);
+    size_t width = affine(o, options, word), most = width + most_written, points = most + spare_points;
     nh_ex *end = word + width;
     for (size_t p = 0; p < pairs; p++) end += nh_affine_field_words(o, p / o->m, p % o->m, end);
-    size_t fields = (size_t)(end - word), words = fields + o->n;
-    memcpy(end, o->chart->w, o->n * sizeof *end);
+    size_t shown = (size_t)(end - word), more = written(o, end), fields = shown + more, words = fields + o->n;
+    memcpy(end + more, o->chart->w, o->n * sizeof *end);
     double *value = nh_alloc_array(points * o->n + 1, sizeof *value),
            *row = nh_alloc_array(points * words, sizeof *row), *some = nh_alloc_array(points * most, sizeof *some);
     nh_ex *basis = nh_alloc_array(most, sizeof *basis);
@@ -251,11 +312,14 @@ bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh
     memcpy(some, row, points * width * sizeof *some);
     if (sampled && !good)
         good = fit_with_time(o, points, width, basis, row, row + points * fields, value, zeta);
-    for (size_t at = width; at < fields && sampled && !good; at += NH_AFFINE_FIELD_WORDS) {
+    for (size_t at = width; at < shown && sampled && !good; at += NH_AFFINE_FIELD_WORDS) {
         memcpy(basis + width, word + at, NH_AFFINE_FIELD_WORDS * sizeof *basis);
         memcpy(some + points * width, row + points * at, points * NH_AFFINE_FIELD_WORDS * sizeof *some);
-        good = fit(o, points, most, basis, some, value, zeta);
+        good = fit(o, points, width + NH_AFFINE_FIELD_WORDS, basis, some, value, zeta);
     }
+    if (sampled && !good)
+        good = fit_written(o, points, width, basis, row, more, word + shown, row + points * shown,
+                           row + points * fields, value, zeta);
     if (sampled && !good) good = fit_quadratic(o, phi, options, points, most, word, row, value, zeta);
     nh_free(basis);
     nh_free(some);

@@ -5,6 +5,7 @@
 
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "integrals/places.h"
 #include "integrals/total_derivative.h"
 
 enum { least_entries = 24, entries_each = 3, seen_each = 512, least_seen = 4096, longest = 60 };
@@ -448,6 +449,7 @@ nh_dictionary nh_dictionary_of(nh_model *o)
                          .potential = take(&h),
                          .momentum = take(&h),
                          .position = take(&h),
+                         .place = take(&h),
                          .wave = take(&h),
                          .frame = take(&h),
                          .length = take(&h),
@@ -469,6 +471,9 @@ nh_dictionary nh_dictionary_of(nh_model *o)
         if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);
     for (size_t s = 0; s < o->m; s++)
         add_momentum(&h, nh_diff(o->dag, h.lagrangian, o->system->coordinate[s].v));
+    nh_ex place[NH_MOST_PLACES];
+    size_t places = nh_places_of(o, place);
+    for (size_t i = 0; i < places; i++) add(&h, &out.places, out.place, place[i]);
     potentials(&h);
     frame(&h);
     add_roots(&h);

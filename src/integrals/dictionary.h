@@ -11,6 +11,7 @@
  *     potential    the additive terms of L without velocities, and for angles their first derivatives
  *     frame        M = L D L^T: the forms (L^T w)_i, with the root of D_i's position factor where it is rational (p, q,
  *                  r of a top)
+ *     places       sums of positions and t that are not linear in them, as they are written: X = x + a z^2, x - a cos t
  *     energy       as one column, in whatever form it has
  *
  * [docs/method.md, sec. 4] */
@@ -22,8 +23,9 @@
 typedef struct {
     size_t velocities, forms, atoms, potentials, momenta;
     nh_ex *velocity, *form, *atom, *potential, *momentum; /* functions on the submanifold, in the chart */
-    size_t positions;
+    size_t positions, places;
     nh_ex *position;    /* the coordinates */
+    nh_ex *place;
     size_t frames;
     /* forms in which the kinetic energy is a sum of squares, each with a factor that depends on position; none when the
      * velocities themselves are such forms */

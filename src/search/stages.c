@@ -171,8 +171,9 @@ static void stage_words_positions(nh_family_list *s)
     if (timely) nh_family_list_drive(s);
 }
 
-/* xi^s dL/dv^s, whatever L is, of fields with first harmonics of the angles and the system's functions beside t and
- * positions: what is cyclic, or turns, in coordinates as Y = y + sin(h); and the energy there, where these move. */
+/* xi^s dL/dv^s, whatever L is, of fields with first harmonics of the angles, the system's functions and sums of
+ * positions as they are written, beside t and positions: what is cyclic, or turns, in coordinates as Y = y + sin(h);
+ * and the energy there, where these move. */
 static void stage_momenta(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
@@ -182,6 +183,7 @@ static void stage_momenta(nh_family_list *s)
         nh_expr_set_put(&w, nh_call(d, NH_SIN, s->w->wave[i]));
     }
     nh_expr_set_put_all(&w, f.n, f.e);
+    nh_expr_set_put_all(&w, s->w->places, s->w->place);
     if (w.n == tq.n) return;
     nh_expr_set_put_all(&p, s->w->momenta, s->w->momentum);
     nh_family_list_product_of_sets(s, &p, &w);
@@ -243,7 +245,7 @@ static const recipe stages[] = {
     [NH_STAGE_DRIVE] = {"momenta times 1, t and logarithms of t, positions, powers of t", nh_stage_drive},
     [NH_STAGE_WORDS_POSITIONS] = {"energy, momenta, velocities and forms times 1, t and the positions",
                                   stage_words_positions},
-    [NH_STAGE_MOMENTA] = {"momenta times t, positions, first harmonics of the angles and functions; energy",
+    [NH_STAGE_MOMENTA] = {"momenta times t, positions and sums of them, harmonics and functions; energy",
                           stage_momenta},
     [NH_STAGE_DEGREE_2] = {"total degree 2 times the system's own functions", stage_degree_2},
     [NH_STAGE_WEIGHTS] = {"quadratic forms times positions", stage_weights},
