@@ -101,6 +101,18 @@ Test(antiderivative, exponentials_and_logarithms)
     check("1/cosh(a*x)", -1, 2);
 }
 
+/* Integration by parts: what stands in the logarithm or the inverse function is not in a denominator before. */
+Test(antiderivative, logarithms_and_inverse_functions_by_parts)
+{
+    check("log(x^2 + 1)", -2, 2);
+    check("a*log(b*x)^2 + x*log(b*x)", 0.5, 2);
+    check("x^2*atan(a*x)", -2, 2);
+    check("asinh(x/a)", -2, 2);
+    check("x*asin(x/p)", -1, 1);
+    check("log(1 + x)^3", 0.5, 2);
+    check("(x + 1)*atanh(x/p)", -1, 1);
+}
+
 Test(antiderivative, turning)
 {
     check("x*sin(a*x)^2", 0, 9);
@@ -167,7 +179,7 @@ Test(antiderivative, roots_of_exponentials_and_powers)
 /* The error function, an elliptic integral, an exponential integral: none is elementary. */
 Test(antiderivative, not_elementary)
 {
-    static const char *const text[] = {"exp(-a*x^2)", "1/sqrt(1 + x^3)", "exp(x)/x", "cos(a*exp(-b*x))", "sin(x)/x"};
+    static const char *const text[] = {"exp(-a*x^2)", "1/sqrt(1 + x^3)", "exp(x)/x", "cos(a*exp(-b*x))", "sin(x)/x", "log(x)*atan(x)", "log(1 + exp(x))"};
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
         place p = {nh_dag_create(), 0.5, 2};
         nh_ex f, F;

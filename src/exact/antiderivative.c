@@ -334,7 +334,7 @@ static nh_ex without_fractions_below(const nh_integration *in, nh_ex f)
     return f;
 }
 
-bool nh_antiderivative(const nh_integration *in, nh_ex f, nh_ex *F)
+static bool elementary(const nh_integration *in, nh_ex f, nh_ex *F)
 {
     f = nh_simplify_short(in->dag, without_fractions_below(in, f), 0);
     *F = nh_mul(in->dag, f, in->x);
@@ -358,6 +358,50 @@ bool nh_antiderivative(const nh_integration *in, nh_ex f, nh_ex *F)
     nh_arena_free(arena);
     nh_free(b);
     return found;
+}
+
+/* The last of the logarithms and inverse functions of x in f, and f's degree in it with the leading coefficient; false:
+ * there is none, or f is not such a polynomial. */
+static bool leading_part(const nh_integration *in, nh_ex f, nh_ex *L, int64_t *degree, nh_ex *coefficient)
+{
+    enum { most = 16, highest_degree = 3 };
+    nh_dag *d = in->dag;
+    nh_ex call[most];
+    size_t n = nh_functions_in(d, f, call, most);
+    *L = 0;
+    for (size_t i = 0; i < n && n <= most; i++) {
+        nh_function g = nh_function_of(d, call[i]);
+        bool inverse = g == NH_LOG || g == NH_ATAN || g == NH_ATANH || g == NH_ASIN || g == NH_ACOS || g == NH_ASINH ||
+                       g == NH_ACOSH;
+        if (inverse && nh_depends(d, call[i], in->x)) *L = call[i];
+    }
+    if (!*L) return false;
+    nh_ex s = nh_symbol_fresh(d, "L");
+    *coefficient = nh_substitute(d, f, 1, L, &s);
+    for (*degree = 0; *degree <= highest_degree && nh_depends(d, *coefficient, s); ++*degree)
+        *coefficient = nh_simplify_short(
+            d, nh_mul(d, nh_ratio(d, 1, *degree + 1), nh_diff(d, *coefficient, s)), 0);
+    return *degree >= 1 && *degree <= highest_degree;
+}
+
+/* int a L^n dx = A L^n - int A (L^n)' dx, A = int a dx, where f = a L^n + ..: the rest has a lower degree. */
+static bool by_parts(const nh_integration *in, nh_ex f, int depth, nh_ex *F)
+{
+    nh_dag *d = in->dag;
+    nh_ex L, a, A, G;
+    int64_t n;
+    if (elementary(in, f, F)) return true;
+    if (depth == 0 || !leading_part(in, f, &L, &n, &a) || !by_parts(in, a, depth - 1, &A)) return false;
+    nh_ex part = nh_mul(d, A, nh_powi(d, L, n)), rest = nh_simplify_short(d, nh_sub(d, f, nh_diff(d, part, in->x)), 0);
+    if (!by_parts(in, rest, depth - 1, &G)) return false;
+    *F = nh_add(d, part, G);
+    return true;
+}
+
+bool nh_antiderivative(const nh_integration *in, nh_ex f, nh_ex *F)
+{
+    enum { most_parts = 4 };
+    return by_parts(in, f, most_parts, F);
 }
 
 /* log(1 + f) + log(1 - f), or their difference. */

@@ -12,8 +12,8 @@
  *                        quadratic polynomials
  *     elliptic integrals, where they are asked for, for the root of a + b sin(u)^2 or a + b cos(u), of u or u/2
  *
- * The c_j come from an exact linear system (relation.h), which also proves dF/dx = f.  That no F is found proves
- * nothing. */
+ * The c_j come from an exact linear system (relation.h), which also proves dF/dx = f.  Where there is no such F, powers
+ * of a logarithm or an inverse function are integrated by parts.  That no F is found proves nothing. */
 #ifndef NH_ANTIDERIVATIVE_H
 #define NH_ANTIDERIVATIVE_H
 
