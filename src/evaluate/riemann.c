@@ -40,8 +40,9 @@ static void add_product(mag_t out, const acb_t x, const mag_t by)
 }
 
 /* A bound of |y| for |z - at| <= radius: |y''| <= M |y| there, so that |y| <= (|y(at)| + radius |y'(at)|) exp(sqrt(M)
- * radius). */
-static void bound(mag_t out, acb_srcptr y, acb_srcptr p, const acb_t at, double radius, double left, double right)
+ * radius).  Not inlined: GCC 14 would take y for its first part, and warn. */
+__attribute__((noinline)) static void bound(mag_t out, acb_srcptr y, acb_srcptr p, const acb_t at, double radius,
+                                            double left, double right)
 {
     mag_t size, reach, growth, below;
     mag_init(size);
