@@ -219,7 +219,7 @@ void nh_riemann(acb_t out, bool second, bool prime, acb_srcptr argument, slong b
  *
  * Motions ask for values at thousands of places with the same a, b and c.  All of them are on one path from 0, which is
  * kept with its series: a value is then one sum.  What is kept is what would be computed again, so that values do not
- * depend on what was asked before.  Of a thread, so that no lock is needed. */
+ * depend on what was asked before.  Each thread keeps its own paths, and needs no lock. */
 
 enum { most_centres = 256, most_paths = 8 };
 
