@@ -9,8 +9,11 @@
 #include "base/progress.h"
 #include "exact/ball.h"
 #include "graph/diff.h"
+#include "exact/form.h"
 #include "exact/normal.h"
+#include "exact/print_quotient.h"
 #include "graph/print.h"
+#include "sweep.h"
 #include "typed.h"
 
 static nh_zero_verdict verdict_of(const char *text)
@@ -141,8 +144,11 @@ Test(normal, limits)
 {
     nh_dag *dag = nh_dag_create();
     nh_ex e = ex(dag, "(a+b+c+d+e+f+g+h)^30-(a+b)^30");
-    cr_expect_eq(nh_normal_is_zero(dag, e, 0), NH_TOO_LARGE);
+    cr_expect_eq(nh_normal_is_zero(dag, e, 0), NH_NONZERO, "its form is too long, a value is not");
     cr_expect_eq(nh_simplify(dag, e), e);
+    e = ex(dag, "((a+b+c+d)*(e+f+g+h)+x)^8-((a+b)*(e+f+g+h)+(c+d)*(e+f+g+h)+x)^8");
+    cr_expect_eq(nh_normal_is_zero(dag, e, 600), NH_TOO_LARGE, "no value differs from zero");
+    cr_expect_eq(nh_normal_is_zero(dag, nh_add(dag, e, ex(dag, "a/1000000")), 600), NH_NONZERO);
     e = ex(dag, "(a+b+c+d)^6-(a+b)^6");
     cr_expect_eq(nh_normal_is_zero(dag, e, 20), NH_TOO_LARGE);
     cr_expect_eq(nh_normal_is_zero(dag, e, 200), NH_NONZERO);
@@ -154,7 +160,7 @@ Test(normal, limits)
 }
 
 /* Nothing may hang or overflow the stack, whatever the verdict. */
-Test(normal, monsters, .timeout = 300)
+Test(normal, monsters, .timeout = 300, PLAIN_ONLY)
 {
     static const char *const text[] = {
         "(x^1000-y^1000)/(x^7-y^7)", "(sin(a)+cos(b)+sin(c)+cos(d)+sin(e)+x)^12-x", "(sqrt(a)+sqrt(b)+sqrt(c)+sqrt(d)+sqrt(e))^16-1",
@@ -442,7 +448,7 @@ static nh_ball *at_random_point(nh_dag *dag)
 }
 
 /* simplify(e) = e to 30 digits wherever both are defined; and never longer */
-Test(normal, random_simplification)
+Test(normal, random_simplification, PLAIN_ONLY)
 {
     enum { trials = 600 };
     int compared = 0;
@@ -467,6 +473,44 @@ Test(normal, random_simplification)
         nh_dag_free(dag);
     }
     cr_expect_gt(compared, trials * 2, "compared only %d times", compared);
+}
+
+/* A form that is not built because it would be too long is too long. */
+Test(normal, lengths_are_bounded_before_forms_are_built)
+{
+    enum { trials = 400 };
+    size_t bounds = 0, lengths = 0;
+    for (int i = 0; i < trials; i++) {
+        nh_dag *dag = nh_dag_create();
+        nh_ex e = random_expression(dag, 3);
+        if (i % 3 == 0) e = disguise(dag, e);
+        nh_forms forms;
+        nh_form form;
+        nh_forms_init(&forms, dag, i % 2, 1000);
+        nh_arena *arena = nh_arena_create();
+        bool fine = nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE;
+        for (size_t k = 0; k < form.kernels.count; k++) form.kernels.item[k].length = 1;
+        for (int factored = 0; factored < 2 && fine; factored++) {
+            nh_pieces pieces;
+            if (!nh_pieces_make(form.field, arena, form.value, factored, &pieces)) continue;
+            for (int way = 0; way < 3; way++) {
+                bool terms = way == 2;
+                nh_ex built = terms ? nh_print_quotient_terms(&form.kernels, &pieces) : nh_print_quotient_product(&form.kernels, &pieces, way);
+                size_t length = nh_complexity(dag, built), bound = terms ? nh_print_quotient_terms_least(&form.kernels, &pieces)
+                                                                         : nh_print_quotient_product_least(&form.kernels, &pieces, way);
+                char *text = bound > length ? nh_print_string(dag, built) : NULL;
+                cr_expect(bound <= length, "way %d: %zu > %zu, %s", way, bound, length, text);
+                nh_free(text);
+                bounds += bound;
+                lengths += length;
+            }
+        }
+        nh_arena_free(arena);
+        nh_form_clear(&form);
+        nh_forms_clear(&forms);
+        nh_dag_free(dag);
+    }
+    cr_expect(5 * bounds > lengths, "the bounds are %zu of %zu", bounds, lengths);
 }
 
 /* Written out e would have 2^45 factors, and as many paths lead down through its graph: whatever asks all parts must ask each once. */

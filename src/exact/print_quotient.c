@@ -174,3 +174,84 @@ nh_ex nh_print_quotient_terms(const nh_kernels *kernels, const nh_pieces *pieces
     nh_free(exponent);
     return sum;
 }
+
+/* ---- how long they are at least ---- */
+
+typedef struct {
+    const nh_kernels *k;
+    const nh_pieces *pieces;
+    bool mixes;  /* roots, powers and numbers merge with what stands beside them */
+    bool shared; /* a number in front of a sum may be multiplied into it */
+} least;
+
+static least least_of(const nh_kernels *k, const nh_pieces *pieces)
+{
+    bool unit = nh_num_is(pieces->constant, 1) || nh_num_is(pieces->constant, -1);
+    least l = {.k = k, .pieces = pieces, .shared = !unit};
+    for (size_t g = 0; g < k->count; g++) {
+        const nh_kernel *x = &k->item[g];
+        l.mixes |= x->kind == NH_KERNEL_ROOT || x->kind == NH_KERNEL_POWER;
+        l.mixes |= x->kind == NH_KERNEL_PLAIN && nh_kind_of(k->dag, x->atom) == NH_NUMBER;
+    }
+    return l;
+}
+
+/* What a power of a kernel adds to a product whatever else is in it. */
+static size_t least_of_power(const least *l, size_t g, int64_t exponent)
+{
+    const nh_kernel *x = &l->k->item[g];
+    size_t own = 0;
+    if (!exponent) return 0;
+    if (x->kind == NH_KERNEL_PLAIN) own = nh_kind_of(l->k->dag, x->atom) == NH_SYMBOL;
+    if (x->kind >= NH_KERNEL_SIN && x->kind <= NH_KERNEL_COSH) own = 2; /* the function and its argument */
+    return own && !l->mixes && exponent != 1 && exponent != -1 ? own + 2 : own;
+}
+
+/* The same of a product of powers, with the signs between them; `more` are added to the exponents. */
+static size_t least_of_monomial(const least *l, const int64_t *exponent, const int64_t *more)
+{
+    size_t length = 0;
+    for (size_t g = 0; g < l->k->count; g++) {
+        size_t own = least_of_power(l, g, exponent[g] + (more ? more[g] : 0));
+        if (own) length += own + (length > 0);
+    }
+    return length;
+}
+
+static size_t least_of_sum(const least *l, const nh_factor *f, bool collect)
+{
+    size_t length = f->terms - 1; /* signs between them */
+    if (f->terms < 2) return 0;
+    for (size_t i = 0; i < f->terms; i++) {
+        size_t own = collect ? 0 : least_of_monomial(l, f->exponent + i * l->pieces->generators, NULL);
+        bool number = own && !l->mixes && !l->shared && f->coefficient[i].p != 1 && f->coefficient[i].p != -1;
+        length += own ? own + (number ? 2 : 0) : 1;
+    }
+    return length;
+}
+
+size_t nh_print_quotient_product_least(const nh_kernels *kernels, const nh_pieces *pieces, bool collect)
+{
+    least l = least_of(kernels, pieces);
+    size_t length = 0;
+    for (size_t i = 0; i < pieces->factors; i++) length += least_of_sum(&l, &pieces->factor[i], collect);
+    return length;
+}
+
+size_t nh_print_quotient_terms_least(const nh_kernels *kernels, const nh_pieces *pieces)
+{
+    least l = least_of(kernels, pieces);
+    const nh_factor *top = NULL;
+    size_t others = 0, length = 0;
+    for (size_t i = 0; i < pieces->factors; i++) {
+        const nh_factor *f = &pieces->factor[i];
+        if (f->power > 0 && !top) top = f;
+        else others += least_of_sum(&l, f, false);
+    }
+    if (!top) return others;
+    for (size_t i = 0; i < top->terms; i++) {
+        size_t own = others + least_of_monomial(&l, top->exponent + i * pieces->generators, pieces->exponent);
+        length += (own ? own : 1) + (i > 0);
+    }
+    return length;
+}

@@ -12,4 +12,9 @@ nh_ex nh_print_quotient_product(const nh_kernels *kernels, const nh_pieces *piec
 /* The terms of the numerator, each over the denominator: for quotients that are not factored. */
 nh_ex nh_print_quotient_terms(const nh_kernels *kernels, const nh_pieces *pieces);
 
+/* Bounds from below of the lengths of these (nh_complexity), without building them: a form that is no shorter than what
+ * is there need not be. */
+size_t nh_print_quotient_product_least(const nh_kernels *kernels, const nh_pieces *pieces, bool collect);
+size_t nh_print_quotient_terms_least(const nh_kernels *kernels, const nh_pieces *pieces);
+
 #endif

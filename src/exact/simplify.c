@@ -52,11 +52,23 @@ static size_t most_terms_of(const nh_pieces *p)
     return most;
 }
 
+static void offer_product(contest *c, const nh_form *form, const nh_pieces *pieces, bool collect)
+{
+    if (nh_print_quotient_product_least(&form->kernels, pieces, collect) < c->length)
+        offer(c, nh_print_quotient_product(&form->kernels, pieces, collect));
+}
+
 static void offer_products(contest *c, const nh_form *form, const nh_pieces *pieces)
 {
-    offer(c, nh_print_quotient_product(&form->kernels, pieces, false));
+    offer_product(c, form, pieces, false);
     /* two terms have no common factors: these are in the monomial already */
-    if (most_terms_of(pieces) > 2) offer(c, nh_print_quotient_product(&form->kernels, pieces, true));
+    if (most_terms_of(pieces) > 2) offer_product(c, form, pieces, true);
+}
+
+static void offer_terms(contest *c, const nh_form *form, const nh_pieces *pieces)
+{
+    if (nh_print_quotient_terms_least(&form->kernels, pieces) < c->length)
+        offer(c, nh_print_quotient_terms(&form->kernels, pieces));
 }
 
 /* All ways to write one quotient.  A quotient of n terms has no shorter form than n unless they have factors. */
@@ -74,7 +86,7 @@ static void offer_quotient(contest *c, const nh_form *form, const nh_quotient *q
     }
     if (fits && terms <= c->length) {
         if (!irreducible) offer_products(c, form, &whole);
-        offer(c, nh_print_quotient_terms(&form->kernels, &whole));
+        offer_terms(c, form, &whole);
     }
     nh_arena_free(arena);
 }
