@@ -37,7 +37,7 @@ WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-
 USED     = -fno-sanitize=object-size$(comma)pointer-overflow$(comma)null
 SANE     = -fsanitize=$(if $(filter thread,$(SANITIZE)),thread,address$(comma)undefined -fno-sanitize-recover=all $(USED)) -fno-omit-frame-pointer
 # -g1: functions and lines, for whoever reads a call stack; -g for a debugger's variables, by CFLAGS=-g.
-OPT      = $(if $(SANITIZE),-O1 -g1 $(SANE),-O2 -g1)
+OPT      = $(if $(SANITIZE),-Og -g1 -Wno-maybe-uninitialized $(SANE),-O2 -g1)
 # A product and a sum are rounded one after the other, on every machine and in every build.
 # CFLAGS, CPPFLAGS and LDFLAGS of the environment and the command line come after the project's own.
 # Nothing of the folder where it is built stands in what is built: two builds give the same bytes.
@@ -251,7 +251,7 @@ $(BUILD)/%.o: %.c $(BUILD)/flags
 	@$(COMPILE) -c $< -o $@
 
 # The code of a test itself takes no time worth optimising, and four times as long to compile; of its arithmetic nobody wants to know.
-$(BUILD)/tests/test_%.o: OWN_CFLAGS += -O0 $(if $(SANITIZE),-fno-sanitize=undefined)
+$(BUILD)/tests/test_%.o: OWN_CFLAGS += -O0 -g0 $(if $(SANITIZE),-fno-sanitize=undefined)
 # Tests are linked, and linked anew, a hundred at a time.
 FAST_LINKER := $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 

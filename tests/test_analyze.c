@@ -338,7 +338,7 @@ Test(analyze, an_unknown_frequency_that_does_not_exist)
 }
 
 /* A thousandth of something: nothing of the unperturbed system survives but what is true. */
-Test(analyze, perturbed_systems)
+Test(analyze, perturbed_systems, PLAIN_ONLY)
 {
     static const char *const more[] = {" + 0.001*x'^2*x", " + 0.001*phi'*x'", " + 0.001*cos(phi)", " + 0.001*x*y", " + 0.001*x'^4"};
     for (size_t i = 0; i < 5; i++) {

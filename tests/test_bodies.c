@@ -129,7 +129,7 @@ static void check_tree(const tree *t, const char *text, const char *name)
     nh_system_free(s);
 }
 
-Test(bodies, every_joint_alone)
+Test(bodies, every_joint_alone, PLAIN_ONLY)
 {
     for (size_t k = 0; k < forms; k++) {
         if (!sweep_tries(k, 1, 2)) continue;
@@ -148,7 +148,7 @@ Test(bodies, every_joint_alone)
     }
 }
 
-Test(bodies, random_trees)
+Test(bodies, random_trees, PLAIN_ONLY)
 {
     for (uint64_t seed = 1; seed <= 12; seed++) {
         if (!sweep_tries(seed, 2, 6)) continue;

@@ -90,7 +90,7 @@ static bool same(const nh_analysis *a, const nh_analysis *b)
 Test(budget, ends_a_search_at_the_same_place_with_any_threads)
 {
     size_t i = 0;
-    for (double work = 20; work < 1000; work *= 4) {
+    for (double work = 5; work < 1000; work *= 4) {
         if (!sweep_tries(i++, 4, 4)) continue;
         nh_analysis *a = search("systems/car_with_trailer.yaml", work, 1e6, 1, 330), *b = search("systems/car_with_trailer.yaml", work, 1e6, 3, 330);
         cr_expect(same(a, b), "%g", work);

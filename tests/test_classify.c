@@ -208,7 +208,7 @@ static void expect_family(const char *file, size_t settings, const nh_setting *s
 static nh_setting at(const char *name, int64_t top, int64_t bottom) { return (nh_setting){.name = name, .value = (double)top / (double)bottom, .top = top, .bottom = bottom}; }
 
 /* [Hietarinta1987]: the three integrable Henon-Heiles systems. */
-Test(classify, henon_heiles)
+Test(classify, henon_heiles, PLAIN_ONLY)
 {
     expect_family("henon_heiles", 2, (nh_setting[]){at("A", 1, 1), at("B", 1, 1)}, 4, false, "2@2 1/3@2");
     expect_family("henon_heiles", 2, (nh_setting[]){at("A", 1, 1), at("B", 16, 1)}, 4, false, "2@2 16/3@4");
@@ -216,7 +216,7 @@ Test(classify, henon_heiles)
     expect_family("henon_heiles", 2, (nh_setting[]){at("A", 1, 1), at("B", 5, 7)}, 4, false, "2@2");
 }
 
-Test(classify, quartic_potentials)
+Test(classify, quartic_potentials, PLAIN_ONLY)
 {
     expect_family("quartic", 1, (nh_setting[]){at("mu", 1, 1)}, 4, false, "2@1 6@2 0@2");
     expect_family("quartic", 1, (nh_setting[]){at("mu", 8, 1)}, 4, false, "0@2 6@4");
@@ -224,7 +224,7 @@ Test(classify, quartic_potentials)
     expect_family("quartic", 1, (nh_setting[]){at("mu", 5, 1)}, 4, false, "0@2");
 }
 
-Test(classify, holt) { expect_family("holt", 0, NULL, 6, false, "3/4@3 9/2@4 12@6"); }
+Test(classify, holt, PLAIN_ONLY) { expect_family("holt", 0, NULL, 6, false, "3/4@3 9/2@4 12@6"); }
 
 /* Frequencies p : q give an integral of degree p + q - 1 or p + q. */
 Test(classify, oscillators) { expect_family("oscillators", 0, NULL, 4, false, "1@1 0@1 4@2 1/4@2 9@3 1/9@3 16@4 9/4@4 4/9@4 1/16@4"); }
@@ -265,7 +265,7 @@ Test(classify, complex_values_are_counted)
 }
 
 /* A surd in the equations: primes modulo which it does not exist say nothing. */
-Test(classify, surds_choose_the_primes)
+Test(classify, surds_choose_the_primes, PLAIN_ONLY)
 {
     for (int surd = 2; surd < 8; surd++) {
         char text[300];
@@ -299,7 +299,7 @@ static size_t theorems(const char *file, size_t settings, const nh_setting *sett
     return count;
 }
 
-Test(classify, enough_primes_leave_out_no_number)
+Test(classify, enough_primes_leave_out_no_number, PLAIN_ONLY)
 {
     nh_setting one[] = {at("A", 1, 1), at("B", 1, 1)};
     cr_expect_eq(theorems("henon_heiles", 2, one, 4, 150), 4);
@@ -397,7 +397,7 @@ static nh_system *random_family(const char *potential)
     return s;
 }
 
-Test(classify, nothing_is_found_where_there_is_nothing)
+Test(classify, nothing_is_found_where_there_is_nothing, PLAIN_ONLY)
 {
     uint64_t random = 20;
     for (int round = 0; round < 10; round++) {
@@ -412,7 +412,7 @@ Test(classify, nothing_is_found_where_there_is_nothing)
 }
 
 /* Separable in turned coordinates where the factor vanishes: at a rational value, or at two irrational ones. */
-Test(classify, planted_values_are_found)
+Test(classify, planted_values_are_found, PLAIN_ONLY)
 {
     uint64_t random = 33;
     for (int round = 0; round < 10; round++) {
@@ -453,7 +453,7 @@ Test(classify, obstacles_are_named)
 }
 
 /* A metric whose determinant vanishes at values that depend on the point: these are not special. */
-Test(classify, metrics_may_depend_on_the_parameter)
+Test(classify, metrics_may_depend_on_the_parameter, PLAIN_ONLY)
 {
     static const char text[] = "name: a\nparameters: {m: 0.4}\ncoordinates: [x, y]\nlagrangian: ((1 + m*x^2)*x'^2 + y'^2 + m*x*y*x'*y')/2 - y\n";
     nh_classification *c;

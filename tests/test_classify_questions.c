@@ -59,7 +59,7 @@ Test(questions, sleigh)
 }
 
 /* Suslov's flow keeps a measure only where the constraint's axis is a principal one. */
-Test(questions, suslov)
+Test(questions, suslov, PLAIN_ONLY)
 {
     expect(FAMILY("suslov"), "D", NH_OF_MEASURE, "0 | D = 0: 1 proved");
     expect(FAMILY("suslov"), "D", NH_OF_HAMILTONIZATION, "0 | D = 0: 1 proved");

@@ -99,7 +99,7 @@ static void check_old(const place *p, const char *old, const char *now)
     finished_clear(&is);
 }
 
-Test(cli, old_names_are_still_understood)
+Test(cli, old_names_are_still_understood, PLAIN_ONLY)
 {
     static const struct { const char *old, *now; } list[] = {
         {"help chart", "help benchmark"},
@@ -441,7 +441,7 @@ Test(cli, the_installed_program_works_from_anywhere, .timeout = 300, PLAIN_ONLY)
 
 /* ---- what a run prints ---- */
 
-Test(cli, settings_reach_the_result)
+Test(cli, settings_reach_the_result, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);

@@ -372,7 +372,7 @@ Test(cli_json, a_folder_that_cannot_be_written_keeps_its_file)
 }
 
 /* As on a full disk: the new file cannot be finished. */
-Test(cli_json, a_file_that_cannot_be_finished_leaves_the_old_one)
+Test(cli_json, a_file_that_cannot_be_finished_leaves_the_old_one, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);

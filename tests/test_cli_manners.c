@@ -445,7 +445,7 @@ Test(cli_manners, initial_values_as_newcomers_write_them)
 }
 
 /* Velocities as other programs and books write them, where a name stands and where an expression does. */
-Test(cli_manners, velocities_as_others_write_them)
+Test(cli_manners, velocities_as_others_write_them, PLAIN_ONLY)
 {
     static const char *const words[][2] = {{"v2", "x2"},   {"vx2", "x2"},    {"v_x2", "x2"},     {"x2dot", "x2"}, {"x2_dot", "x2"}, {"xdot2", "x2"},
                                            {"dx2", "x2"},  {"dotx2", "x2"},  {"dx2_dt", "x2"},   {"vy", "y"},     {"ydot", "y"}};

@@ -178,7 +178,7 @@ Test(cli_reduce, starts_where_the_action_is_not_free)
 }
 
 /* Euler's angles are singular where sin(theta) = 0: ways across that place are left out. */
-Test(cli_reduce, around_singular_angles)
+Test(cli_reduce, around_singular_angles, PLAIN_ONLY)
 {
     static const char *const interval[] = {"-1, 1", "-3, 3", "-0.3, 0.3"};
     place p = place_make();

@@ -9,6 +9,7 @@
 #include "count/one_side.h"
 #include "problem/analysis_file.h"
 #include "names.h"
+#include "sweep.h"
 
 /* ---- series ---- */
 
@@ -638,7 +639,7 @@ Test(count, linear_equations_are_counted_by_their_frequencies)
 }
 
 /* n equal masses between springs: sin(j pi/(2 n + 2)) are linearly independent over Q where n + 1 is prime, and for n = 20 three of them are in resonance: then there may be more of degree 2. */
-Test(count, chains_of_many_masses_say_what_is_missing)
+Test(count, chains_of_many_masses_say_what_is_missing, PLAIN_ONLY)
 {
     static const size_t masses[] = {40, 20};
     for (size_t k = 0; k < sizeof masses / sizeof *masses; k++) {

@@ -276,7 +276,7 @@ static void compare(nh_dag *d, nh_ex a, nh_ex b, const char *what)
     nh_free(right);
 }
 
-Test(dag, order_does_not_matter)
+Test(dag, order_does_not_matter, PLAIN_ONLY)
 {
     for (uint64_t seed = 1; seed <= 3000; seed++) {
         source s = source_create(seed);
@@ -292,7 +292,7 @@ Test(dag, order_does_not_matter)
     }
 }
 
-Test(dag, what_is_added_can_be_taken_away)
+Test(dag, what_is_added_can_be_taken_away, PLAIN_ONLY)
 {
     for (uint64_t seed = 1; seed <= 3000; seed++) {
         source s = source_create(seed);

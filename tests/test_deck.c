@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "scratch.h"
+#include "sweep.h"
 
 static char message[4096];
 
@@ -664,7 +665,7 @@ static void check_carets(const nh_deck *deck, const nh_deck_node *node, const ch
     }
 }
 
-Test(garbage, is_survived)
+Test(garbage, is_survived, PLAIN_ONLY)
 {
     static const char start[] = "name: x\nl: m/2*(x' +\n   y')\n\n   + z\np: [{n: 'a''b\n  c', v: 2}, \"q\\x41 r\"]\nf: >\n  a\n  b\n\n   c\ng: |\n x\n  y\n";
     static const char *const piece[] = {"'", "\"", ": ", "- ", "{", "}", "[", "]", ",", "|\n", ">", "&a", "*a", "\n", "\r\n", "\n  ", "\t", "#", "\\", "? ", "%"};

@@ -94,7 +94,7 @@ Test(documents, the_page_and_the_latex_document_say_the_same)
 }
 
 /* Places in the space of the parameters are formulas, the word of an option is code; the Lagrangian has a bar where constraints were inserted. */
-Test(documents, formulas_and_options_are_set_as_such)
+Test(documents, formulas_and_options_are_set_as_such, PLAIN_ONLY)
 {
     static const struct {
         const char *command, *wanted[4], *not;

@@ -48,7 +48,7 @@ static row judged(const char *path, const char *analysis, const char *name, doub
 }
 
 /* nu = 1/k and 1 are both frequencies of the ansatz. */
-Test(edges, frequencies_that_nearly_coincide)
+Test(edges, frequencies_that_nearly_coincide, PLAIN_ONLY)
 {
     size_t i = 0;
     for (double d = 1e-2; d > 1e-14; d /= 100) {

@@ -77,7 +77,7 @@ static void compare(const char *name, const char *more, const char *const *envir
     place_clear(&p);
 }
 
-Test(everywhere, threads)
+Test(everywhere, threads, PLAIN_ONLY)
 {
     for (size_t i = 0; i < 3; i++) {
         char name[20], more[20];

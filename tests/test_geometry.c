@@ -154,7 +154,7 @@ static void general_omega(const subject *which, mechanics *x)
     nh_points_free(points);
 }
 
-Test(geometry, the_general_formula_of_omega) { everywhere(general_omega); }
+Test(geometry, the_general_formula_of_omega, PLAIN_ONLY) { everywhere(general_omega); }
 
 static void zero(const mechanics *x, nh_ex e, const char *what, size_t i, size_t j)
 {
@@ -184,7 +184,7 @@ static void exact_omega(const subject *which, mechanics *x)
         }
 }
 
-Test(geometry, omega_has_the_closed_forms_identically) { everywhere(exact_omega); }
+Test(geometry, omega_has_the_closed_forms_identically, PLAIN_ONLY) { everywhere(exact_omega); }
 
 /* M from second derivatives of L, not from the momenta. */
 static void mass_matrix(const subject *which, mechanics *x)
@@ -212,7 +212,7 @@ static void mass_matrix(const subject *which, mechanics *x)
     nh_points_free(points);
 }
 
-Test(geometry, the_mass_matrix_is_the_projected_hessian) { everywhere(mass_matrix); }
+Test(geometry, the_mass_matrix_is_the_projected_hessian, PLAIN_ONLY) { everywhere(mass_matrix); }
 
 /* ---- alpha and Gamma ---- */
 
@@ -329,7 +329,7 @@ static void identities(const subject *which, mechanics *x)
     energy(which, x);
 }
 
-Test(geometry, identities) { everywhere(identities); }
+Test(geometry, identities, PLAIN_ONLY) { everywhere(identities); }
 
 /* Linear constraints do no work: the energy changes by the power of the applied forces, identically. */
 Test(geometry, energy_changes_by_the_power_of_the_forces)
@@ -514,7 +514,7 @@ static void check_kind(const kind *k, bool quasi)
     mechanics_clear(&x);
 }
 
-Test(geometry, kinds_of_constraints)
+Test(geometry, kinds_of_constraints, PLAIN_ONLY)
 {
     for (size_t i = 0; i < sizeof KINDS / sizeof *KINDS; i++) check_kind(&KINDS[i], false);
     for (size_t i = 0; i < sizeof KINDS / sizeof *KINDS; i++) /* the kind does not depend on the chart */

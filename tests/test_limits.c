@@ -162,7 +162,7 @@ static finished run_until_reported(const place *p, const char *question, double 
 }
 
 /* Before there is a result there is the system, and what was being done. */
-Test(limits, an_unfinished_run_says_what_it_knows)
+Test(limits, an_unfinished_run_says_what_it_knows, PLAIN_ONLY)
 {
     static const struct {
         const char *command, *system, *more, *title, *doing;
@@ -242,7 +242,7 @@ Test(limits, a_signal_ends_the_writing_at_once, PLAIN_ONLY)
 }
 
 /* A limit that comes while results are written takes nothing away: the reader of the pipe is slower than the limit, and has everything. */
-Test(limits, the_limit_lets_results_be_written)
+Test(limits, the_limit_lets_results_be_written, PLAIN_ONLY)
 {
     place p = place_with_systems();
     char command[700];

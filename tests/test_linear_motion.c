@@ -149,7 +149,7 @@ Test(linear_motion, chains_have_their_quadratic_integrals, PLAIN_ONLY)
 }
 
 /* Of three masses the frequencies are roots, sqrt((2 + sqrt(2)) k/m): waves are proved for all parameters, beside the quadratic integrals. */
-Test(linear_motion, waves_of_few_masses_have_roots_as_rates)
+Test(linear_motion, waves_of_few_masses_have_roots_as_rates, PLAIN_ONLY)
 {
     nh_analysis *r = ask("name: c\nparameters: [{name: m, value: 1.3}, {name: k, value: 2.1}]\ncoordinates: [x, y, z]\n"
                          "lagrangian: m/2*(x'^2 + y'^2 + z'^2) - k/2*(x^2 + (y - x)^2 + (z - y)^2 + z^2)\n");

@@ -157,7 +157,7 @@ Test(measure_conditions, crane, PLAIN_ONLY)
 }
 
 /* A condition that positive values can meet is not said to be met by none. */
-Test(measure_conditions, positive_values)
+Test(measure_conditions, positive_values, PLAIN_ONLY)
 {
     static const struct {
         const char *weight;

@@ -3,6 +3,7 @@
 #include "program.h"
 #include "random_expression.h"
 #include "scratch.h"
+#include "sweep.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
@@ -446,7 +447,7 @@ static void expect_values(const char *needs, const char *command, const char *be
     nh_text_clear(&p.code);
 }
 
-Test(named_functions, sympy_computes_the_same, .timeout = 60)
+Test(named_functions, sympy_computes_the_same, .timeout = 60, PLAIN_ONLY)
 {
     expect_values("/usr/bin/python3 -c 'import sympy' 2>/dev/null", "/usr/bin/python3", "import sympy as sp\n", &nh_source_sympy,
                   "print(complex(sp.N(%s)).real)\n", "", 22);

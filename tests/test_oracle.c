@@ -46,7 +46,7 @@ Test(oracle, sleigh_geometry)
     cJSON_Delete(data);
 }
 
-Test(oracle, sleigh_currents_and_symmetries)
+Test(oracle, sleigh_currents_and_symmetries, PLAIN_ONLY)
 {
     cJSON *data = oracle_read("tests/data/sleigh_oracle.json");
     const cJSON *set, *point;
@@ -119,7 +119,7 @@ Test(oracle, nonlinear_constraint_in_the_plane)
     cJSON_Delete(data);
 }
 
-Test(oracle, nonlinear_constraint_in_space_with_a_symmetry_of_case_2)
+Test(oracle, nonlinear_constraint_in_space_with_a_symmetry_of_case_2, PLAIN_ONLY)
 {
     cJSON *data = oracle_read("tests/data/nonlinear_oracle.json");
     const cJSON *system = oracle_get(data, "systems")->child->next;

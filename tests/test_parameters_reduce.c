@@ -187,7 +187,7 @@ static void sample(const char *const *name, size_t n, bool currents)
     }
 }
 
-Test(parameters_reduce, reductions_are_the_same_letter_for_letter)
+Test(parameters_reduce, reductions_are_the_same_letter_for_letter, PLAIN_ONLY)
 {
     static const char *const name[] = {"sleigh", "vertical_disk", "three_bodies", "cart_on_disc", "knife_edge", "routh_sphere", "veselova", "pendulum_in_space", "two_wheel_cart", "disc_on_slope"};
     sample(name, sizeof name / sizeof *name, false);

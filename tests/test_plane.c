@@ -203,7 +203,7 @@ static nh_system *family(const char *file, size_t settings, const nh_setting *se
 }
 
 /* [Hietarinta1987]: eps = 2 for every B, and (B, eps) = (1, 1/3), (16, 16/3). */
-Test(plane, henon_heiles)
+Test(plane, henon_heiles, PLAIN_ONLY)
 {
     nh_setting one = {.name = "A", .value = 1, .top = 1, .bottom = 1}, three = {.name = "A", .value = 3, .top = 3,
         .bottom = 1};
@@ -213,7 +213,7 @@ Test(plane, henon_heiles)
 
 /* x^4 + b x^2 y^2 + mu y^4, with x and y exchanged: every row of [Hietarinta1987] that is homogeneous of degree four
  * and even. */
-Test(plane, quartic_potentials)
+Test(plane, quartic_potentials, PLAIN_ONLY)
 {
     expect_plane(parsed("name: q\nparameters: {mu: 0.7, b: 0.4}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^4 - b*x^2*y^2 - mu*y^4\n"),
                  4, "1,0@2 2/1|1/1@1 6/1|1/1@2 0/1|0/1@1 12/1|16/1@2 3/4|1/16@2 6/1|8/1@4 3/4|1/8@4", "quartic");
@@ -276,7 +276,7 @@ Test(plane, nothing_is_found_where_there_is_nothing, PLAIN_ONLY)
     for (int round = 0; round < 6; round++) random_family(NOTHING, &random, none, sizeof none);
 }
 
-Test(plane, planted_curves_are_found)
+Test(plane, planted_curves_are_found, PLAIN_ONLY)
 {
     uint64_t random = 82;
     char expected[100];

@@ -73,7 +73,7 @@ Test(plane_sweep, curves_from_points_on_lines)
 }
 
 /* Lines share the work of their degree: what was not reached is not excluded. */
-Test(plane_sweep, work_ends_the_lines)
+Test(plane_sweep, work_ends_the_lines, PLAIN_ONLY)
 {
     cJSON *root = classified("henon_heiles.yaml --over B,eps --set A=1 --degree 3 --option plane=2 --option staircase=1e6");
     int height = key(degree(root, 3), "excluded_height")->valueint;

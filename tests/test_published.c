@@ -474,7 +474,7 @@ static size_t independent_and_proved(const nh_analysis *r)
 }
 
 /* Every current is constant along the motion with multipliers as well, which shares no code with the search. */
-Test(published, published_systems_are_complete_and_proved)
+Test(published, published_systems_are_complete_and_proved, PLAIN_ONLY)
 {
     for (size_t i = 0; i < PUBLISHED_COUNT; i++) {
         if (!sweep_tries(i, 20, 60)) continue;
@@ -491,7 +491,7 @@ Test(published, published_systems_are_complete_and_proved)
 }
 
 /* Coefficients over all parameters, not for the values of the file only. */
-Test(published, what_is_constructed_is_proved_for_all_parameters)
+Test(published, what_is_constructed_is_proved_for_all_parameters, PLAIN_ONLY)
 {
     nh_analysis *r = analysed(PUBLISHED[1].text, -1);
     for (size_t k = 0; k < r->count; k++) cr_expect(!r->found[k].proof.proved || r->found[k].proof.all_parameters, "Phi%zu", k + 1);

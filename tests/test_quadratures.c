@@ -201,7 +201,7 @@ Test(quadratures, skate_on_belt, PLAIN_ONLY)
     check(ask_file("systems/skate_on_belt.yaml"), "skate on a belt", 5, 6);
 }
 Test(quadratures, knife_edge, PLAIN_ONLY) { check(ask_file("systems/knife_edge.yaml"), "knife edge", 5, 6); }
-Test(quadratures, free_particle) { check(ask_file("systems/free_particle.yaml"), "free particle", 6, 7); }
+Test(quadratures, free_particle, PLAIN_ONLY) { check(ask_file("systems/free_particle.yaml"), "free particle", 6, 7); }
 
 /* The sleigh's third current [CechMusilova2014, sec. 4.2] for all values of the parameters, although its position needs k = 2. */
 Test(quadratures, time_of_the_sleigh, PLAIN_ONLY)
@@ -239,7 +239,7 @@ Test(quadratures, drag, PLAIN_ONLY)
 }
 
 /* Appell's and Hamel's constraint where it is a root of velocities: sqrt(x'^4 + x'^2 y'^2) is x' z', and x + x' z' is conserved on either branch. */
-Test(quadratures, a_root_of_velocities)
+Test(quadratures, a_root_of_velocities, PLAIN_ONLY)
 {
     all_proved(ask("name: cone\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - z\nconstraints: [\"z'^2 = x'^2 + y'^2\"]\n"
                    "domain: {\"x'\": [0.3, 1], \"z'\": [0.4, 1]}\n"), 5);
@@ -419,7 +419,7 @@ Test(quadratures, potentials_of_one_coordinate)
 }
 
 /* Forces that depend on the coordinates, or on a coordinate and the time, through one sum of them. */
-Test(quadratures, combined_coordinates)
+Test(quadratures, combined_coordinates, PLAIN_ONLY)
 {
     static const struct {
         const char *text;

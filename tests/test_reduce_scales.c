@@ -132,12 +132,12 @@ Test(reduce_scales, masses, PLAIN_ONLY)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1, 1e-9, 1}, false), same(&all[i], &(units){1, 1e9, 1}, false);
 }
 
-Test(reduce_scales, times)
+Test(reduce_scales, times, PLAIN_ONLY)
 {
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1, 1, 1e-9}, true), same(&all[i], &(units){1, 1, 1e8}, true);
 }
 
-Test(reduce_scales, masses_and_times)
+Test(reduce_scales, masses_and_times, PLAIN_ONLY)
 {
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1, 1e9, 1e8}, true), same(&all[i], &(units){1, 1e-9, 1e-9}, true);
 }
@@ -148,7 +148,7 @@ Test(reduce_scales, lengths, PLAIN_ONLY)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1e-9, 1, 1}, true), same(&all[i], &(units){1e9, 1, 1}, true);
 }
 
-Test(reduce_scales, all_of_them)
+Test(reduce_scales, all_of_them, PLAIN_ONLY)
 {
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1e9, 1e-9, 1e8}, true), same(&all[i], &(units){1e-9, 1e9, 1e-9}, true);
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "program.h"
+#include "sweep.h"
 
 /* A coin of radius R that rolls upright: a' and b' are constant, and  x' = R a' cos(b), y' = R a' sin(b). */
 static const char coin[] = "name: coin\nparameters: [{name: M, value: 1.7}, {name: J, value: 0.3}, {name: K, value: 0.2}, {name: R, value: 0.9}]\n"
@@ -123,7 +124,7 @@ Test(reduced_motion, every_stage_has_its_figures)
 
 /* Two driven wheels under a group for which the printed equations and the motion have different independent velocities: momenta of others have no column
  * and no figure, as some of them have the name of a printed one. */
-Test(reduced_motion, momenta_are_those_of_the_printed_equations)
+Test(reduced_motion, momenta_are_those_of_the_printed_equations, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "arm.yaml", "name: arm\nparameters: [{name: m, value: 1.2}, {name: l, value: 0.5}]\n"

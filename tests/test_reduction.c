@@ -480,7 +480,7 @@ static void twice_against_once(const char *name, nh_system *system, const size_t
     stage_close(&s);
 }
 
-Test(reduction, twice_reduced_motions_agree_with_once_reduced_ones)
+Test(reduction, twice_reduced_motions_agree_with_once_reduced_ones, PLAIN_ONLY)
 {
     nh_error error = {0};
     static const size_t ball[] = {0, 1}, turn[] = {2}, phi1[] = {2};
@@ -505,7 +505,7 @@ Test(reduction, ball_becomes_hamiltonian_after_the_second_stage)
 }
 
 /* N = SO(3), not abelian: momentum on coadjoint orbits of dimension two, curved mechanical connection. */
-Test(reduction, second_stage_with_a_rotation_group)
+Test(reduction, second_stage_with_a_rotation_group, PLAIN_ONLY)
 {
     nh_error error = {0};
     static const size_t cart[] = {0, 1, 4}, rotations[] = {3, 5, 6};

@@ -440,7 +440,7 @@ Test(reductions, joint_by_joint, PLAIN_ONLY)
 }
 
 /* More functions than a fixed buffer would hold. */
-Test(reductions, many_functions)
+Test(reductions, many_functions, PLAIN_ONLY)
 {
     char text[8000];
     int at = snprintf(text, sizeof text, "name: s\ncoordinates: [");

@@ -15,6 +15,7 @@
 #include "exact/relation_express.h"
 #include "exact/relation_unknown.h"
 #include "evaluate/tape.h"
+#include "sweep.h"
 #include "typed.h"
 
 enum { most = 24 };
@@ -399,7 +400,7 @@ static void build(nh_dag *dag, size_t n, nh_ex *e, nh_ex *expected)
     e[last] = nh_mul(dag, nh_div(dag, sum, nh_neg(dag, own)), ex(dag, "(1+tan(w)^2)*cos(w)^2"));
 }
 
-Test(relation, recovers_what_was_built)
+Test(relation, recovers_what_was_built, PLAIN_ONLY)
 {
     for (int round = 0; round < 60; round++) {
         nh_dag *dag = nh_dag_create();

@@ -371,7 +371,7 @@ static void compare_on(const char *path, nh_chart_choice choice)
     mechanics_clear(&x);
 }
 
-Test(scene, the_same_values_for_every_system)
+Test(scene, the_same_values_for_every_system, PLAIN_ONLY)
 {
     char *name[most_files];
     size_t n = list("systems", name), tried = 0;

@@ -276,7 +276,7 @@ static void all_of(size_t i)
     nh_analysis_free(r);
 }
 
-Test(series, one_linear_equation, .timeout = 200)
+Test(series, one_linear_equation, .timeout = 200, PLAIN_ONLY)
 {
     for (size_t i = 0; i < 5; i++)
         if (sweep_tries(i, 2, 6)) all_of(i);

@@ -6,6 +6,7 @@
 #include "graph/dag.h"
 #include "exact/solve.h"
 #include "random_expression.h"
+#include "sweep.h"
 
 enum { largest = 5 };
 
@@ -49,7 +50,7 @@ static void expect_solution(source *s, const nh_lu *lu, size_t n, const nh_ex *a
     }
 }
 
-Test(solve, random_matrices, .timeout = 120)
+Test(solve, random_matrices, .timeout = 120, PLAIN_ONLY)
 {
     size_t solved = 0;
     for (uint64_t seed = 1; seed <= 300; seed++) {

@@ -322,7 +322,7 @@ static void equations(const char *name, nh_system *system, size_t n, const size_
 }
 
 /* The constraint does not split along the chain in most of these. */
-Test(stages, equations_agree_with_the_accelerations)
+Test(stages, equations_agree_with_the_accelerations, PLAIN_ONLY)
 {
     nh_error error = {0};
     static const size_t all[] = {0, 1, 2, 3, 4, 5}, se2[] = {0, 1, 3}, circle_first[] = {0, 1, 2}, ball[] = {0, 1, 2}, one_two[] = {1, 2}, turn_first[] = {2, 0, 1}, psi_first[] = {0, 1, 2};

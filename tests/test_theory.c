@@ -228,7 +228,7 @@ Test(theory, nonlinear_constraint_as_printed_is_the_tabulated_one)
 }
 
 /* [Gamma, Z] = a Gamma + b Z with the printed functions and the tabulated fields. */
-Test(theory, a_genuine_case_2_has_the_printed_functions)
+Test(theory, a_genuine_case_2_has_the_printed_functions, PLAIN_ONLY)
 {
     cJSON *data = oracle_read("tests/data/nonlinear_oracle.json");
     const cJSON *set = oracle_get(oracle_get(data, "systems")->child->next, "sets")->child, *point;
@@ -786,7 +786,7 @@ Test(theory, the_whole_group_at_once_and_by_stages_as_printed_along_its_own_moti
 }
 
 /* Each subgroup normal in the one before, and not in the whole group: shifts along one line of the plane. */
-Test(theory, a_subnormal_chain_as_printed)
+Test(theory, a_subnormal_chain_as_printed, PLAIN_ONLY)
 {
     check_bundle("systems/euler_disk.yaml", " --chain 4;1;2;3", 1, 1, 2);
     check_bundle("systems/euler_disk.yaml", " --chain 4;1;2;3 --inner 1,4=1/3;2,4=-1/5;3,2=2/7;4,4=2;1,1=5/4", 1, 1, 2);

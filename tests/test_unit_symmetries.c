@@ -5,8 +5,9 @@
 #include "geometry/distribution.h"
 #include "integrals/symmetry.h"
 #include "graph/print.h"
-#include "reduced.h"
 #include "reduction/group.h"
+#include "reduced.h"
+#include "sweep.h"
 
 typedef struct {
     double length, mass, time;
@@ -128,5 +129,5 @@ static void in_all_units(void (*describe_it)(const mechanics *x, const char *con
     }
 }
 
-Test(unit_symmetries, words_know_none) { in_all_units(describe); }
-Test(unit_symmetries, groups_know_none) { in_all_units(describe_group); }
+Test(unit_symmetries, words_know_none, PLAIN_ONLY) { in_all_units(describe); }
+Test(unit_symmetries, groups_know_none, PLAIN_ONLY) { in_all_units(describe_group); }

@@ -456,7 +456,7 @@ static void expect_known(const unseen *u)
     nh_analysis_free(r);
 }
 
-Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed)
+Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed, PLAIN_ONLY)
 {
     for (size_t i = 0; i < COUNT; i++)
         if (sweep_tries(i + 1, 9, 36)) expect_known(&UNSEEN[i]);
