@@ -252,7 +252,7 @@ $(BUILD)/%.o: %.c $(BUILD)/flags
 
 # The code of a test itself takes no time worth optimising, and four times as long to compile; of its arithmetic nobody wants to know.
 $(BUILD)/tests/test_%.o: OWN_CFLAGS += -O0 -g0 $(if $(SANITIZE),-fno-sanitize=undefined)
-# Tests are linked, and linked anew, a hundred at a time.
+# Tests are linked, and linked anew, a hundred at a time; each test is a process, which loads what its program needs and no more.
 FAST_LINKER := $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 
 # They take what is installed, and Python's package, from the build.
@@ -260,7 +260,7 @@ $(if $(SANITIZE),,$(BUILD)/tests/test_docs $(BUILD)/tests/test_install $(BUILD)/
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/tests/criterion_start.o $(BUILD)/libnhsym.a
 	@echo "  link $@"
-	@$(LINK) $(FAST_LINKER) $< $(BUILD)/tests/criterion_start.o $(BUILD)/libnhsym.a $(LDLIBS) -lcriterion -o $@
+	@$(LINK) $(FAST_LINKER) $< $(BUILD)/tests/criterion_start.o $(BUILD)/libnhsym.a -Wl,--as-needed $(LDLIBS) -lcriterion -o $@
 
 # Built from a copy: setuptools leaves files beside its sources.
 wheel: library
