@@ -169,7 +169,7 @@ Test(named_search, equations_without_names, .timeout = 120, PLAIN_ONLY)
 #define INVERSE_SQUARE(potential, domain) \
     HEAD("{name: k, value: 0.8}, {name: w, value: 1.3}") "lagrangian: x'^2/2 - (" potential ")*x^2/2 - k/x^2\ndomain: {x: [0.5, 2], t: " domain "}\n"
 
-Test(named_search, products_of_named_functions, PLAIN_ONLY)
+Test(named_search, products_of_named_functions, WHOLE_ONLY)
 {
     expect_named(ask_text(INVERSE_SQUARE("w*t", "[0.5, 2]")), 2, "airy_", 2);
     expect_named(ask_text(INVERSE_SQUARE("-w*t^2", "[0.5, 1.5]")), 2, "bessel_", 2);

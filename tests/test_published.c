@@ -477,7 +477,7 @@ static size_t independent_and_proved(const nh_analysis *r)
 Test(published, published_systems_are_complete_and_proved, PLAIN_ONLY)
 {
     for (size_t i = 0; i < PUBLISHED_COUNT; i++) {
-        if (!sweep_tries(i, 20, 60)) continue;
+        if (!sweep_tries(i, 40, 120)) continue;
         const published *u = &PUBLISHED[i];
         nh_analysis *r = analysed(u->text, -1);
         const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];

@@ -196,7 +196,7 @@ Test(quadratures, constant_speed, PLAIN_ONLY)
 {
     check(ask_file("systems/constant_speed.yaml"), "constant speed", 5, 6);
 }
-Test(quadratures, skate_on_belt, PLAIN_ONLY)
+Test(quadratures, skate_on_belt, WHOLE_ONLY)
 {
     check(ask_file("systems/skate_on_belt.yaml"), "skate on a belt", 5, 6);
 }
@@ -291,7 +291,7 @@ Test(quadratures, drag_along_the_path)
 }
 
 /* A skate with friction that a slope pulls: linear equations one after another. */
-Test(quadratures, skate_on_slope, PLAIN_ONLY)
+Test(quadratures, skate_on_slope, WHOLE_ONLY)
 {
     check(ask("name: slope\nparameters: [{name: m, value: 2}, {name: J, value: 1}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"
               "coordinates: [{name: phi, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"

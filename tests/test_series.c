@@ -107,7 +107,7 @@ static void two_on(const char *name, const char *const shape[3], double low, dou
     nh_analysis_free(r);
 }
 
-Test(series, disk_on_a_short_interval, .timeout = 120, PLAIN_ONLY)
+Test(series, disk_on_a_short_interval, .timeout = 120, WHOLE_ONLY)
 {
     two_on("disk", disk, 1.0, 2.1);
 }
@@ -285,7 +285,7 @@ Test(series, one_linear_equation, .timeout = 200, PLAIN_ONLY)
 Test(series, more_than_one, .timeout = 200, PLAIN_ONLY)
 {
     for (size_t i = 5; i < driven_count; i++)
-        if (sweep_tries(i, 2, 5)) all_of(i);
+        if (sweep_tries(i, 4, 5)) all_of(i);
 }
 
 /* What is nearly linear has no integral, although doubles cannot tell it from one that has. */

@@ -465,8 +465,9 @@ Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed, PLAIN_ONLY
 /* No other test has these ways. */
 Test(unseen, hidden_turns, PLAIN_ONLY)
 {
+    size_t turns = 0;
     for (size_t i = 0; i < COUNT; i++)
-        if (!strncmp(UNSEEN[i].name, "turn ", 5)) expect_known(&UNSEEN[i]);
+        if (!strncmp(UNSEEN[i].name, "turn ", 5) && sweep_tries(turns++, 2, 4)) expect_known(&UNSEEN[i]);
 }
 
 /* z' = A z + b(t), where b has finitely many derivatives: each current is exp(-lambda t) (l . z + c(t)), and no series

@@ -51,7 +51,7 @@ Test(velocity_turn, hinged_skates, PLAIN_ONLY) { expect(SKATES("0.9", ""), 2, "e
 Test(velocity_turn, where_the_root_is_a_constant, WHOLE_ONLY) { expect(SKATES("0.8", ""), 2, "elliptic_pi"); }
 
 /* Two equal links, each with a skate at its middle: the angle between them changes by itself, so that all is elementary, also the heading and the time. */
-Test(velocity_turn, equal_links, PLAIN_ONLY)
+Test(velocity_turn, equal_links, WHOLE_ONLY)
 {
     static const char text[] =
         "name: links\nparameters: {m: 1, J: 0.2, l: 0.5}\ncoordinates: [x, y, {name: f, type: angle}, {name: u, type: angle}]\n"
