@@ -10,9 +10,15 @@
 #include "integrals/exact_points.h"
 #include "integrals/places.h"
 #include "integrals/recognise.h"
+#include "integrals/shown_coordinates.h"
 
 enum { spare_points = 4, tries_per_point = 4, most_denominator = 1000 };
-enum { most_waves = 12, most_written = NH_MOST_PLACES + most_waves };
+enum {
+    most_waves = 12,
+    most_plain = NH_MOST_PLACES + most_waves,
+    most_components = 42,
+    most_written = most_plain + most_components
+};
 static const double small = 1e-10;    /* of a residual, relative to the components */
 static const double singular = 1e-12; /* of the basis at the points */
 
@@ -235,12 +241,13 @@ static bool fit_with_time(const nh_model *o, size_t points, size_t width, const 
     return good;
 }
 
-/* Sums of positions as the system shows them, with the sines and cosines in it. */
+/* Sums of positions as the system shows them, the sines and cosines in it, and what fields have in such coordinates. */
 static size_t written(const nh_model *o, nh_ex out[most_written])
 {
     nh_dag *d = o->dag;
     nh_ex call[most_waves];
-    size_t n = nh_places_of(o, out), calls = nh_functions_in(d, o->system->lagrangian, call, most_waves), waves = 0;
+    size_t places = nh_places_of(o, out), n = places, waves = 0,
+           calls = nh_functions_in(d, o->system->lagrangian, call, most_waves);
     for (size_t i = 0; i < calls && i < most_waves && waves + 2 <= most_waves; i++) {
         nh_function f = nh_function_of(d, call[i]);
         bool moves = false, known = false;
@@ -252,7 +259,7 @@ static size_t written(const nh_model *o, nh_ex out[most_written])
         out[n++] = call[i];
         out[n++] = nh_call(d, f == NH_SIN ? NH_COS : NH_SIN, nh_child(d, call[i], 0));
     }
-    return n;
+    return n + nh_shown_components(o, places, out, most_components, out + n);
 }
 
 /* Is the column a combination of the others? */
@@ -294,14 +301,35 @@ static bool fit_written(const nh_model *o, size_t points, size_t width, const nh
     return good;
 }
 
+/* The same by polynomials in the positions alone, without t: of fewer columns more digits are left. */
+static bool fit_still(const nh_model *o, size_t points, size_t words, const nh_ex *word, const double *column,
+                      const double *value, nh_ex *zeta)
+{
+    nh_ex *all = nh_alloc_array(words + 1, sizeof *all), call;
+    double *some = nh_alloc_array(points * (words + 1), sizeof *some);
+    size_t n = 0;
+    for (size_t k = 0; k < words; k++) {
+        bool moves = nh_depends(o->dag, word[k], o->system->t) || nh_functions_in(o->dag, word[k], &call, 1);
+        for (size_t s = 0; s < o->n && !moves; s++) moves = nh_depends(o->dag, word[k], o->chart->w[s]);
+        if (moves || (n && depends_on(points, n, some, column + k * points))) continue;
+        memcpy(some + n * points, column + k * points, points * sizeof *some);
+        all[n++] = word[k];
+    }
+    bool good = fit(o, points, n, all, some, value, zeta);
+    nh_free(some);
+    nh_free(all);
+    return good;
+}
+
 bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
 {
     size_t pairs = o->m * o->m;
     nh_ex *word = nh_alloc_array(2 + 3 * o->m + pairs * NH_AFFINE_FIELD_WORDS + most_written + o->n, sizeof *word);
-    size_t width = affine(o, options, word), most = width + most_written, points = most + spare_points;
+    size_t width = affine(o, options, word);
     nh_ex *end = word + width;
     for (size_t p = 0; p < pairs; p++) end += nh_affine_field_words(o, p / o->m, p % o->m, end);
     size_t shown = (size_t)(end - word), more = written(o, end), fields = shown + more, words = fields + o->n;
+    size_t most = width + (more > most_plain ? more : most_plain), points = most + spare_points;
     memcpy(end + more, o->chart->w, o->n * sizeof *end);
     double *value = nh_alloc_array(points * o->n + 1, sizeof *value),
            *row = nh_alloc_array(points * words, sizeof *row), *some = nh_alloc_array(points * most, sizeof *some);
@@ -317,6 +345,7 @@ bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh
         memcpy(some + points * width, row + points * at, points * NH_AFFINE_FIELD_WORDS * sizeof *some);
         good = fit(o, points, width + NH_AFFINE_FIELD_WORDS, basis, some, value, zeta);
     }
+    if (sampled && !good && more) good = fit_still(o, points, fields, word, row, value, zeta);
     if (sampled && !good)
         good = fit_written(o, points, width, basis, row, more, word + shown, row + points * shown,
                            row + points * fields, value, zeta);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "graph/diff.h"
+#include "integrals/shown_coordinates.h"
 #include "search/stages_internal.h"
 
 void nh_expr_set_put(nh_expr_set *l, nh_ex e)
@@ -171,6 +172,19 @@ static void stage_words_positions(nh_family_list *s)
     if (timely) nh_family_list_drive(s);
 }
 
+/* The momenta of affine fields in the coordinates that the system shows. */
+static void shown(nh_family_list *s)
+{
+    nh_ex *u = nh_arena_alloc(s->arena, 2 * (s->o->m + 1) * sizeof *u), *P = u + s->o->m;
+    nh_expr_set p = {0}, w = {0};
+    if (!nh_shown_coordinates(s->o, s->w->places, s->w->place, u, P)) return;
+    nh_expr_set_put(&w, nh_int(s->o->dag, 1));
+    nh_expr_set_put(&w, s->o->system->t);
+    nh_expr_set_put_all(&w, s->o->m, u);
+    nh_expr_set_put_all(&p, s->o->m, P);
+    nh_family_list_product_of_sets(s, &p, &w);
+}
+
 /* xi^s dL/dv^s, whatever L is, of fields with first harmonics of the angles, the system's functions and sums of
  * positions as they are written, beside t and positions: what is cyclic, or turns, in coordinates as Y = y + sin(h);
  * and the energy there, where these move. */
@@ -187,6 +201,7 @@ static void stage_momenta(nh_family_list *s)
     if (w.n == tq.n) return;
     nh_expr_set_put_all(&p, s->w->momenta, s->w->momentum);
     nh_family_list_product_of_sets(s, &p, &w);
+    shown(s);
     nh_family_list_add(s, nh_family_list_polynomial(s, &tq, 1));
     nh_expr_set_put(&f, s->o->E);
     nh_family_list_add(s, nh_family_list_terms(s, &f));
