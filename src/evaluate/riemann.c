@@ -218,8 +218,8 @@ void nh_riemann(acb_t out, bool second, bool prime, acb_srcptr argument, slong b
 /* ---- at many real places ----
  *
  * Motions ask for values at thousands of places with the same a, b and c.  All of them are on one path from 0, which is
- * kept with its series: a value is then one sum.  What is kept is what would be computed again, so that values do not
- * depend on what was asked before.  Each thread keeps its own paths, and needs no lock. */
+ * kept with its series: a value is then one sum.  A kept series is the one that would be computed again, so that a
+ * value is the same whatever was asked before.  Each thread has its own paths and takes no lock. */
 
 enum { most_centres = 256, most_paths = 8 };
 

@@ -14,7 +14,8 @@
 
 typedef enum { NH_ZERO, NH_NONZERO, NH_TOO_LARGE } nh_zero_verdict;
 
-/* Is e identically zero?  `max_terms` bounds the size of intermediate polynomials (0: the default of 20000). */
+/* Is e identically zero?  `max_terms` bounds the size of intermediate polynomials (0: the default of 20000).  Where the
+ * form is long, a rigorous value at one place that is not zero says no. */
 nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms);
 
 /* The simplest equal expression that was found: the reduced quotient, with sin^2 or cos^2 eliminated, numerator and

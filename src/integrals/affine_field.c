@@ -279,6 +279,14 @@ static bool depends_on(size_t points, size_t width, const double *row, const dou
     return !good || rest <= small * size;
 }
 
+/* One column more, if it is no combination of those that are there. */
+static void append(size_t points, nh_ex word, const double *column, nh_ex *all, double *some, size_t *n)
+{
+    if (*n && depends_on(points, *n, some, column)) return;
+    memcpy(some + *n * points, column, points * sizeof *some);
+    all[(*n)++] = word;
+}
+
 /* In coordinates that hide a symmetry, or move: components in the span of what the system shows, too. */
 static bool fit_written(const nh_model *o, size_t points, size_t width, const nh_ex *basis, const double *row,
                         size_t words, const nh_ex *word, const double *column, const double *velocity,
@@ -289,11 +297,7 @@ static bool fit_written(const nh_model *o, size_t points, size_t width, const nh
     size_t n = width;
     memcpy(all, basis, width * sizeof *all);
     memcpy(some, row, points * width * sizeof *some);
-    for (size_t k = 0; k < words; k++) {
-        if (depends_on(points, n, some, column + k * points)) continue;
-        memcpy(some + n * points, column + k * points, points * sizeof *some);
-        all[n++] = word[k];
-    }
+    for (size_t k = 0; k < words; k++) append(points, word[k], column + k * points, all, some, &n);
     bool good = n > width && (fit(o, points, n, all, some, value, zeta) ||
                               fit_with_time(o, points, n, all, some, velocity, value, zeta));
     nh_free(some);
@@ -311,9 +315,7 @@ static bool fit_still(const nh_model *o, size_t points, size_t words, const nh_e
     for (size_t k = 0; k < words; k++) {
         bool moves = nh_depends(o->dag, word[k], o->system->t) || nh_functions_in(o->dag, word[k], &call, 1);
         for (size_t s = 0; s < o->n && !moves; s++) moves = nh_depends(o->dag, word[k], o->chart->w[s]);
-        if (moves || (n && depends_on(points, n, some, column + k * points))) continue;
-        memcpy(some + n * points, column + k * points, points * sizeof *some);
-        all[n++] = word[k];
+        if (!moves) append(points, word[k], column + k * points, all, some, &n);
     }
     bool good = fit(o, points, n, all, some, value, zeta);
     nh_free(some);
