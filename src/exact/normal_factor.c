@@ -1,6 +1,7 @@
 /* Quotients split into content, monomial and factors, for display. */
 #include <string.h>
 
+#include "base/memory.h"
 #include "exact/normal_quotient_internal.h"
 
 /* Factoring is for display: beyond these sizes the expanded form is shown. */
@@ -116,6 +117,22 @@ static bool cheap_to_factor(const nh_quotient_field *f, const fmpz_mpoly_t a)
     return fmpz_mpoly_max_bits(a) < 256 && fmpz_mpoly_max_bits(a) > -256;
 }
 
+/* Is a generator in one term only, to the first power?  Then a = A x + B is irreducible: the term A and B have no
+ * common factor, because `a` is without content. */
+static bool is_plainly_irreducible(const nh_quotient_field *f, const fmpz_mpoly_t a)
+{
+    uint64_t *count = nh_alloc_array((size_t)f->generators + 1, sizeof *count);
+    for (slong i = 0; i < a->length; i++) {
+        fmpz_mpoly_get_term_exp_ui(f->exponent, a, i, f->ctx);
+        for (slong g = 0; g < f->generators; g++)
+            if (f->exponent[g]) count[g] += f->exponent[g] == 1 ? 1 : 2;
+    }
+    bool found = false;
+    for (slong g = 0; g < f->generators && !found; g++) found = count[g] == 1;
+    nh_free(count);
+    return found;
+}
+
 /* a = A x + B is gcd(A, B) times an irreducible polynomial, which is split off.  Mechanics is linear in masses. */
 static bool take_linear(breaker *b, fmpz_mpoly_t a, int64_t sign)
 {
@@ -138,6 +155,10 @@ static bool take_linear(breaker *b, fmpz_mpoly_t a, int64_t sign)
 static void take_factors(breaker *b, fmpz_mpoly_t a, int64_t sign)
 {
     const fmpz_mpoly_ctx_struct *ctx = b->field->ctx;
+    if (is_plainly_irreducible(b->field, a)) {
+        add_factor(b, a, sign);
+        return;
+    }
     while (take_linear(b, a, sign)) continue;
     if (fmpz_mpoly_is_one(a, ctx)) return;
     fmpz_mpoly_factor_t f;

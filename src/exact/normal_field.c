@@ -200,7 +200,7 @@ void nh_quotient_cancel(nh_quotient_field *f, nh_quotient *q)
         fmpz_mpoly_t g;
         fmpz_mpoly_init(g, f->ctx);
         if (nh_quotient_field_spend(f, (double)(q->num->length + q->den->length)) &&
-            fmpz_mpoly_gcd(g, q->num, q->den, f->ctx) && !is_one(f, g)) {
+            nh_quotient_field_gcd(f, g, q->num, q->den) && !is_one(f, g)) {
             fmpz_mpoly_divexact(q->num, q->num, g, f->ctx);
             fmpz_mpoly_divexact(q->den, q->den, g, f->ctx);
         }

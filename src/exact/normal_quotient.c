@@ -81,7 +81,7 @@ const nh_quotient *nh_quotient_add(nh_quotient_field *field, const nh_quotient *
     fmpz_mpoly_init(left, field->ctx);
     fmpz_mpoly_init(right, field->ctx);
     bool cheap = nh_quotient_field_cheap_gcd(field, a->den, b->den);
-    if (!cheap || !fmpz_mpoly_gcd(g, a->den, b->den, field->ctx)) fmpz_mpoly_one(g, field->ctx);
+    if (!cheap || !nh_quotient_field_gcd(field, g, a->den, b->den)) fmpz_mpoly_one(g, field->ctx);
     fmpz_mpoly_divexact(left, b->den, g, field->ctx);
     fmpz_mpoly_divexact(right, a->den, g, field->ctx);
     nh_quotient_field_times(field, q->den, a->den, left);

@@ -1,5 +1,5 @@
-/* normal_quotient_internal: what normal_field.c (polynomials within limits, modulo relations), normal_quotient.c
- * (arithmetic) and normal_factor.c share; the only place that includes FLINT's polynomials. */
+/* normal_quotient_internal: what normal_field.c (polynomials within limits, modulo relations), normal_gcd.c,
+ * normal_quotient.c (arithmetic) and normal_factor.c share; the only place that includes FLINT's polynomials in several generators. */
 #ifndef NH_NORMAL_QUOTIENT_INTERNAL_H
 #define NH_NORMAL_QUOTIENT_INTERNAL_H
 
@@ -52,5 +52,8 @@ void nh_quotient_field_check_size(nh_quotient_field *field, const fmpz_mpoly_t a
 /* out = a b, unless that is too much. */
 void nh_quotient_field_times(nh_quotient_field *field, fmpz_mpoly_t out, const fmpz_mpoly_t a, const fmpz_mpoly_t b);
 bool nh_quotient_field_cheap_gcd(const nh_quotient_field *field, const fmpz_mpoly_t a, const fmpz_mpoly_t b);
+/* The greatest common divisor, with a positive leading coefficient; false: FLINT does not find it. */
+bool nh_quotient_field_gcd(const nh_quotient_field *field, fmpz_mpoly_t gcd, const fmpz_mpoly_t a,
+                           const fmpz_mpoly_t b);
 
 #endif

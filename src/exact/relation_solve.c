@@ -35,7 +35,7 @@ static void gcd(nh_quotient_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a, cons
 {
     double pairs = (double)a->length * (double)b->length;
     if ((f->work += pairs) > f->max_work) nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
-    if (pairs > gcd_pairs || !fine(f) || !fmpz_mpoly_gcd(g, a, b, f->ctx)) fmpz_mpoly_one(g, f->ctx);
+    if (pairs > gcd_pairs || !fine(f) || !nh_quotient_field_gcd(f, g, a, b)) fmpz_mpoly_one(g, f->ctx);
 }
 
 /* l = lcm of the denominators; returns whether it is 1. */
