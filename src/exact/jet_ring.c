@@ -45,15 +45,34 @@ static size_t degree_of(const nh_jet_ring *r, const uint8_t *e)
     return degree;
 }
 
+/* before[k][left][x]: how many exponents e_k, e_(k+1).. of weighted degree `left` have e_k < x. */
+static uint32_t *before(const nh_jet_ring *r, size_t k, size_t left)
+{
+    return r->before + (k * (r->order + 1) + left) * (r->order + 2);
+}
+
+static void count_before(nh_jet_ring *r)
+{
+    r->before = nh_arena_alloc(r->arena, (r->variables + 1) * (r->order + 1) * (r->order + 2) * sizeof *r->before);
+    for (size_t k = r->variables; k-- > 0;)
+        for (size_t left = 0; left <= r->order; left++) {
+            uint32_t *own = before(r, k, left), sum = 0;
+            for (size_t x = 0; x * r->weight[k] <= left; x++) {
+                size_t rest = left - x * r->weight[k];
+                sum += k + 1 < r->variables ? before(r, k + 1, rest)[rest / r->weight[k + 1] + 1] : rest == 0;
+                own[x + 1] = sum;
+            }
+        }
+}
+
 size_t nh_jet_ring_find(const nh_jet_ring *r, const uint8_t *e)
 {
-    size_t degree = degree_of(r, e), low = r->first[degree], high = r->first[degree + 1];
-    while (high - low > 1) {
-        size_t middle = (low + high) / 2;
-        if (memcmp(r->exponent + middle * r->variables, e, r->variables) <= 0) low = middle;
-        else high = middle;
+    size_t left = degree_of(r, e), at = r->first[left];
+    for (size_t k = 0; k < r->variables; k++) {
+        at += before(r, k, left)[e[k]];
+        left -= e[k] * r->weight[k];
     }
-    return low;
+    return at;
 }
 
 static void list_exponents(nh_jet_ring *r)
@@ -189,6 +208,7 @@ nh_jet_ring *nh_jet_ring_create(nh_prime field, size_t variables, const size_t *
     r->inverse = nh_arena_alloc(arena, (order + 1) * sizeof *r->inverse);
     for (size_t k = 1; k <= order; k++) r->inverse[k] = nh_residue_inverse(field, (nh_residue)k);
     list_exponents(r);
+    count_before(r);
     list_pairs(r);
     list_steps(r);
     return r;
@@ -231,10 +251,7 @@ void nh_jet_add_multiple(const nh_jet_ring *r, nh_residue *sum, nh_residue c, co
     nh_residue_add_multiple(r->field, r->size, sum, a, c);
 }
 
-void nh_jet_scale(const nh_jet_ring *r, nh_residue *a, nh_residue c)
-{
-    nh_residue_scale(r->field, r->size, a, c);
-}
+void nh_jet_scale(const nh_jet_ring *r, nh_residue *a, nh_residue c) { nh_residue_scale(r->field, r->size, a, c); }
 
 void nh_jet_mul(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b, nh_residue *out)
 {

@@ -19,6 +19,7 @@ typedef struct {
     uint8_t *exponent;       /* size x variables */
     size_t *degree;          /* size: |e| */
     size_t *first;           /* order + 2: the first exponent of each |e| */
+    uint32_t *before;        /* see nh_jet_ring_find */
     uint32_t *up;            /* variables x size: e + 1_k, or UINT32_MAX */
     uint32_t *variables_in;  /* size: bit k % 32 for each e_k that is not 0 */
     size_t *pairs;           /* size + 1: e = left + right are the pairs from pairs[e] to pairs[e + 1] */
