@@ -1,5 +1,6 @@
 /* normal_quotient_internal: what normal_field.c (polynomials within limits, modulo relations), normal_gcd.c,
- * normal_quotient.c (arithmetic) and normal_factor.c share; the only place that includes FLINT's polynomials in several generators. */
+ * normal_quotient.c (arithmetic) and normal_factor.c share; the only place that includes FLINT's polynomials in
+ * several generators. */
 #ifndef NH_NORMAL_QUOTIENT_INTERNAL_H
 #define NH_NORMAL_QUOTIENT_INTERNAL_H
 
