@@ -214,7 +214,7 @@ static void equation(nh_graded_system *s, size_t beta, const size_t *start, cons
             nh_residue v = power == 1 ? all->item[z].value : nh_residue_mul(s->f, all->item[z].value, power);
             if (u >= s->first) {
                 nh_grow(&s->symbol, &s->capacity, s->entries + 1, sizeof *s->symbol);
-                s->symbol[s->entries++] = (nh_graded_entry){number, a * s->unknowns_of + (u - s->first), v};
+                s->symbol[s->entries++] = (nh_graded_entry){(uint32_t)(a * s->unknowns_of + (u - s->first)), v};
             } else {
                 put_row(sum, v, nh_graded_row(s, a, u));
                 s->work += (double)s->N;
@@ -260,18 +260,21 @@ static size_t compress(nh_graded_system *s, nh_residue *out)
     size_t columns = s->before, wanted = columns - s->conditions + spare_rows;
     for (size_t q = 0; q < s->fresh_count; q++) /* the latest parameters first: they are eliminated */
         for (size_t j = 0; j < columns / 2; j++) {
-            nh_residue *row = s->fresh + q * columns, kept = row[j];
+            nh_residue *row = s->fresh[q], kept = row[j];
             row[j] = row[columns - 1 - j];
             row[columns - 1 - j] = kept;
         }
     if (s->fresh_count <= wanted) {
-        memcpy(out, s->fresh, s->fresh_count * columns * sizeof *out);
+        for (size_t q = 0; q < s->fresh_count; q++) memcpy(out + q * columns, s->fresh[q], columns * sizeof *out);
         return s->fresh_count;
     }
     uint64_t state = s->k + 1;
     nh_residue *mix = nh_alloc_array(wanted * s->fresh_count, sizeof *mix);
     for (size_t i = 0; i < wanted * s->fresh_count; i++) mix[i] = nh_residue_random(s->f, &state);
-    nh_residue_matrix_multiply(s->f, wanted, s->fresh_count, columns, mix, s->fresh, out);
+    memset(out, 0, wanted * columns * sizeof *out);
+    for (size_t i = 0; i < wanted; i++)
+        nh_residue_matrix_gather(s->f, columns, out + i * columns, s->fresh_count, mix + i * s->fresh_count,
+                                 (const nh_residue *const *)s->fresh);
     nh_free(mix);
     s->work += (double)wanted * (double)s->fresh_count * (double)columns;
     return wanted;

@@ -4,9 +4,9 @@
 
 #include "count/graded_solver.h"
 
-/* An entry of the symbol. */
+/* An entry of the symbol; there are millions of them. */
 typedef struct {
-    size_t equation, unknown;
+    uint32_t unknown;
     nh_residue value;
 } nh_graded_entry;
 
@@ -32,7 +32,7 @@ typedef struct {
     nh_graded_entry *symbol;          /* entries by equation */
     size_t *start;          /* equations + 1: index of the first entry of each */
     size_t entries, capacity;
-    nh_residue *fresh;      /* conditions found at this weight */
+    nh_residue **fresh;     /* conditions found at this weight: rows of `known` that are no longer needed there */
     size_t fresh_count;
 } nh_graded_system;
 

@@ -9,11 +9,11 @@
 enum { inverse_work = 40 }; /* an inverse modulo the prime takes as long as this many products */
 
 /* Adds a condition on the parameters, unless it is empty. */
-static void add_condition(nh_graded_system *s, const nh_residue *known)
+static void add_condition(nh_graded_system *s, nh_residue *known)
 {
     for (size_t j = 0; j < s->before; j++)
         if (known[j]) {
-            memcpy(s->fresh + s->fresh_count++ * s->before, known, s->before * sizeof *known);
+            s->fresh[s->fresh_count++] = known;
             return;
         }
 }
@@ -21,7 +21,7 @@ static void add_condition(nh_graded_system *s, const nh_residue *known)
 /* ---- one component of the symbol: sparse elimination, the shortest row and its rarest column first ---- */
 
 typedef struct {
-    size_t column;
+    uint32_t column;
     nh_residue value;
 } cell;
 
@@ -29,18 +29,53 @@ typedef struct {
     size_t count, capacity, *item;
 } row_list;
 
+/* Most components are small and there are thousands of them: one after the other uses the same memory. */
 typedef struct {
     size_t rows, columns, rank;
-    size_t *equation;       /* of each row */
-    size_t *unknown;        /* of each column */
-    cell **cells, *spare;   /* spare: a replaced row whose memory serves the next one */
+    size_t *equation;         /* of each row */
+    size_t *unknown;          /* of each column */
+    cell **cells, *spare;     /* spare: a replaced row whose memory serves the next one */
     size_t *room, spare_room; /* length of each row; room of the spare one */
-    size_t *length, *count; /* number of entries of each row; number of remaining rows that have this column */
-    bool *done, *pivoted;   /* rows used as pivots; columns */
+    size_t *length, *count;   /* number of entries of each row; number of remaining rows that have this column */
+    bool *done, *pivoted;     /* rows used as pivots; columns */
     size_t *pivot_row, *pivot_column;
-    row_list *member;       /* for each column: the rows that have it or had it, some more than once */
-    row_list queue;         /* a heap of length x rows + row, which also holds outdated entries of rows that changed */
+    nh_residue *inverse; /* by which the row's known part is still to be multiplied */
+    row_list *member;    /* for each column: the rows that have it or had it, some more than once */
+    row_list queue;      /* a heap of length x rows + row, which also holds outdated entries of rows that changed */
 } component;
+
+static void component_init(component *c, size_t rows, size_t columns)
+{
+    *c = (component){0};
+    c->cells = nh_alloc_array(rows + 1, sizeof *c->cells);
+    c->room = nh_alloc_array(rows + 1, sizeof *c->room);
+    c->length = nh_alloc_array(rows + 1, sizeof *c->length);
+    c->done = nh_alloc_array(rows + 1, sizeof *c->done);
+    c->inverse = nh_alloc_array(rows + 1, sizeof *c->inverse);
+    c->count = nh_alloc_array(columns + 1, sizeof *c->count);
+    c->pivoted = nh_alloc_array(columns + 1, sizeof *c->pivoted);
+    c->member = nh_alloc_array(columns + 1, sizeof *c->member);
+    c->pivot_row = nh_alloc_array(columns + 1, sizeof *c->pivot_row);
+    c->pivot_column = nh_alloc_array(columns + 1, sizeof *c->pivot_column);
+}
+
+static void component_clear(component *c, size_t rows, size_t columns)
+{
+    for (size_t i = 0; i < rows; i++) nh_free(c->cells[i]);
+    for (size_t j = 0; j < columns; j++) nh_free(c->member[j].item);
+    nh_free(c->queue.item);
+    nh_free(c->spare);
+    nh_free(c->cells);
+    nh_free(c->room);
+    nh_free(c->length);
+    nh_free(c->done);
+    nh_free(c->inverse);
+    nh_free(c->count);
+    nh_free(c->pivoted);
+    nh_free(c->member);
+    nh_free(c->pivot_row);
+    nh_free(c->pivot_column);
+}
 
 /* ---- the shortest remaining row: a binary heap whose least entry is taken ---- */
 
@@ -113,7 +148,7 @@ static void combine(nh_graded_system *s, component *c, size_t to, size_t from, n
     c->spare_room = room;
     queue_row(c, to);
     nh_residue_add_multiple(s->f, s->before, s->known + c->equation[to] * s->before,
-                            s->known + c->equation[from] * s->before, factor);
+                            s->known + c->equation[from] * s->before, nh_residue_mul(s->f, factor, c->inverse[from]));
     s->work += (double)(s->before + 8 * n); /* an entry costs more than a product, because its row is made anew */
 }
 
@@ -128,20 +163,18 @@ static const cell *find_cell(const component *c, size_t i, size_t column)
     return low < c->length[i] && c->cells[i][low].column == column ? &c->cells[i][low] : NULL;
 }
 
-/* Divides the row by its entry in the rarest column, and takes it as a pivot row. */
+/* Divides the row by its entry in the rarest column, its known part not yet, and takes it as a pivot row. */
 static void take_pivot(nh_graded_system *s, component *c, size_t i)
 {
     size_t at = 0;
     for (size_t z = 1; z < c->length[i]; z++)
         if (c->count[c->cells[i][z].column] < c->count[c->cells[i][at].column]) at = z;
     size_t column = c->cells[i][at].column;
-    nh_residue inverse = nh_residue_inverse(s->f, c->cells[i][at].value),
-               *known = s->known + c->equation[i] * s->before;
+    nh_residue inverse = c->inverse[i] = nh_residue_inverse(s->f, c->cells[i][at].value);
     for (size_t z = 0; z < c->length[i]; z++) {
         c->cells[i][z].value = nh_residue_mul(s->f, c->cells[i][z].value, inverse);
         c->count[c->cells[i][z].column]--;
     }
-    nh_residue_scale(s->f, s->before, known, inverse);
     s->work += (double)(c->member[column].count + inverse_work);
     c->done[i] = c->pivoted[column] = true;
     c->pivot_row[c->rank] = i;
@@ -169,7 +202,7 @@ static void back_substitute(nh_graded_system *s, component *c)
         nh_residue *out = nh_graded_row(s, u / s->unknowns_of, s->first + u % s->unknowns_of);
         const nh_residue *known = s->known + c->equation[i] * s->before;
         memcpy(out, known, s->before * sizeof *out);
-        nh_residue_scale(s->f, s->before, out, (nh_residue)(s->f.p - 1));
+        nh_residue_scale(s->f, s->before, out, nh_residue_negative(s->f, c->inverse[i]));
         for (size_t z = 0; z < c->length[i]; z++) {
             size_t other = c->unknown[c->cells[i][z].column];
             if (other != u)
@@ -191,8 +224,24 @@ static size_t root_of(size_t *parent, size_t x)
 
 static int by_column(const void *a, const void *b)
 {
-    size_t x = ((const cell *)a)->column, y = ((const cell *)b)->column;
+    uint32_t x = ((const cell *)a)->column, y = ((const cell *)b)->column;
     return (x > y) - (x < y);
+}
+
+/* Most rows have a few entries, in order but for some. */
+static void sort_cells(size_t n, cell *x)
+{
+    enum { few = 24 };
+    if (n > few) {
+        qsort(x, n, sizeof *x, by_column);
+        return;
+    }
+    for (size_t i = 1; i < n; i++) {
+        cell own = x[i];
+        size_t k = i;
+        for (; k > 0 && x[k - 1].column > own.column; k--) x[k] = x[k - 1];
+        x[k] = own;
+    }
 }
 
 /* Fills the rows with the entries of their equations; entries in one column are added. */
@@ -200,10 +249,11 @@ static void fill(nh_graded_system *s, component *c, const size_t *place)
 {
     for (size_t i = 0; i < c->rows; i++) {
         size_t from = s->start[c->equation[i]], to = s->start[c->equation[i] + 1], n = 0;
-        cell *x = c->cells[i] = nh_alloc_array(to - from + 1, sizeof *x);
-        c->room[i] = to - from + 1;
-        for (size_t z = from; z < to; z++) x[z - from] = (cell){place[s->symbol[z].unknown], s->symbol[z].value};
-        qsort(x, to - from, sizeof *x, by_column);
+        nh_grow(&c->cells[i], &c->room[i], to - from, sizeof *c->cells[i]);
+        cell *x = c->cells[i];
+        for (size_t z = from; z < to; z++)
+            x[z - from] = (cell){(uint32_t)place[s->symbol[z].unknown], s->symbol[z].value};
+        sort_cells(to - from, x);
         for (size_t z = 0; z < to - from; z++) {
             if (n && x[n - 1].column == x[z].column) x[n - 1].value = nh_residue_add(s->f, x[n - 1].value, x[z].value);
             else x[n++] = x[z];
@@ -220,33 +270,16 @@ static void fill(nh_graded_system *s, component *c, const size_t *place)
 
 static void solve_component(nh_graded_system *s, component *c, const size_t *place)
 {
-    c->cells = nh_alloc_array(c->rows + 1, sizeof *c->cells);
-    c->room = nh_alloc_array(c->rows + 1, sizeof *c->room);
-    c->length = nh_alloc_array(c->rows + 1, sizeof *c->length);
-    c->done = nh_alloc_array(c->rows + 1, sizeof *c->done);
-    c->count = nh_alloc_array(c->columns + 1, sizeof *c->count);
-    c->pivoted = nh_alloc_array(c->columns + 1, sizeof *c->pivoted);
-    c->member = nh_alloc_array(c->columns + 1, sizeof *c->member);
-    c->pivot_row = nh_alloc_array(c->columns + 1, sizeof *c->pivot_row);
-    c->pivot_column = nh_alloc_array(c->columns + 1, sizeof *c->pivot_column);
+    c->rank = c->queue.count = 0;
+    memset(c->done, 0, c->rows * sizeof *c->done);
+    memset(c->count, 0, c->columns * sizeof *c->count);
+    memset(c->pivoted, 0, c->columns * sizeof *c->pivoted);
+    for (size_t j = 0; j < c->columns; j++) c->member[j].count = 0;
     fill(s, c, place);
     eliminate(s, c);
     for (size_t i = 0; i < c->rows; i++)
         if (!c->done[i]) add_condition(s, s->known + c->equation[i] * s->before);
     back_substitute(s, c);
-    for (size_t i = 0; i < c->rows; i++) nh_free(c->cells[i]);
-    for (size_t j = 0; j < c->columns; j++) nh_free(c->member[j].item);
-    nh_free(c->queue.item);
-    nh_free(c->spare);
-    nh_free(c->room);
-    nh_free(c->member);
-    nh_free(c->cells);
-    nh_free(c->length);
-    nh_free(c->done);
-    nh_free(c->count);
-    nh_free(c->pivoted);
-    nh_free(c->pivot_row);
-    nh_free(c->pivot_column);
 }
 
 /* Sorts positions by `key` in [0, keys): those of a key begin at start[key]. */
@@ -258,6 +291,13 @@ static void group(size_t count, const size_t *key, size_t keys, size_t *start, s
     for (size_t i = 0; i < count; i++) out[start[key[i] + 1]++] = i;
 }
 
+static size_t widest(size_t count, const size_t *start)
+{
+    size_t most = 0;
+    for (size_t k = 0; k < count; k++) most = start[k + 1] - start[k] > most ? start[k + 1] - start[k] : most;
+    return most;
+}
+
 /* Finds the components of unknowns that occur together, and solves each for itself. */
 void nh_graded_solve_symbol(nh_graded_system *s)
 {
@@ -266,7 +306,7 @@ void nh_graded_solve_symbol(nh_graded_system *s)
            *number = nh_alloc_array(unknowns + 1, sizeof *number), *place = nh_alloc_array(unknowns + 1, sizeof *place);
     size_t *list = nh_alloc_array(s->equations + 1, sizeof *list), *of = nh_alloc_array(s->equations + 1, sizeof *of),
            *order = nh_alloc_array(s->equations + 1, sizeof *order);
-    s->fresh = nh_alloc_array(s->equations * s->before + 1, sizeof *s->fresh);
+    s->fresh = nh_alloc_array(s->equations + 1, sizeof *s->fresh);
     s->fresh_count = 0;
     for (size_t i = 0; i < unknowns; i++) parent[i] = i;
     for (size_t q = 0; q < s->equations; q++)
@@ -289,14 +329,18 @@ void nh_graded_solve_symbol(nh_graded_system *s)
     group(connected, of, components, rows, order);
     group(unknowns, number, components, columns, member);
     for (size_t i = 0; i < connected; i++) order[i] = list[order[i]];
+    component c;
+    size_t most_rows = widest(components, rows), most_columns = widest(components, columns);
+    component_init(&c, most_rows, most_columns);
     for (size_t k = 0; k < components && !s->over && !nh_late(); k++) {
-        component c = {.rows = rows[k + 1] - rows[k],
-                       .columns = columns[k + 1] - columns[k],
-                       .equation = order + rows[k],
-                       .unknown = member + columns[k]};
+        c.rows = rows[k + 1] - rows[k];
+        c.columns = columns[k + 1] - columns[k];
+        c.equation = order + rows[k];
+        c.unknown = member + columns[k];
         for (size_t j = 0; j < c.columns; j++) place[c.unknown[j]] = j;
         solve_component(s, &c, place);
     }
+    component_clear(&c, most_rows, most_columns);
     nh_free(member);
     nh_free(columns);
     nh_free(rows);
