@@ -429,7 +429,8 @@ static const unseen UNSEEN[] = {
      "lagrangian: (X'^2 + Y'^2)*(1 + (X^2 + Y^2)^2)/2 + h'^2/2*(2 + cos(h)) - (X^2 + Y^2)^2*t + cos(h)\n"
      "constraints: [\"h' = (X*X' + Y*Y')*sin(t)\"]\n"
      "known: {currents: [{name: turning, expr: \"(1 + (X^2 + Y^2)^2)*(X*Y' - Y*X')\"}]}\n",
-     1},    {"turn in curved coordinates, with a constraint, below a magnetic term and a total derivative",
+     1},
+    {"turn in curved coordinates, with a constraint, below a magnetic term and a total derivative",
      "parameters: {c: 0.7}\n"
      "coordinates: [x, y, z]\n"
      "lagrangian: ((x' - 2*y*y')^2 + y'^2 + z'^2)/2 + c*sin(z)*((x - y^2)*y' - y*(x' - 2*y*y')) + (x' - 2*y*y')*sin(y)"

@@ -319,7 +319,7 @@ bool nh_lift_coefficients(const nh_model *model, size_t terms, const nh_ex *term
 {
     enum { few = 4 };
     size_t parameters = model->system->parameters;
-    if (terms < 2 || !parameters || parameters > most_parameters) return false;
+    if (terms < 2 || parameters > most_parameters) return false;
     nh_ex *turned = nh_alloc_array(terms, sizeof *turned);
     bool found = false, time = has_time(model, terms, term);
     double work = 0;
@@ -328,7 +328,7 @@ bool nh_lift_coefficients(const nh_model *model, size_t terms, const nh_ex *term
         memcpy(turned, term, terms * sizeof *turned);
         turned[0] = term[first];
         turned[first] = term[0];
-        found = lift(model, time, true, terms, turned, most - work, &work, coefficient);
+        found = lift(model, time, parameters > 0, terms, turned, most - work, &work, coefficient);
         if (!found) continue;
         nh_ex swapped = coefficient[0];
         coefficient[0] = coefficient[first];

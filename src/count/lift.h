@@ -23,9 +23,9 @@ typedef struct {
  * in them, otherwise for the given values.  `time`: terms may depend on t.  `most`: limit of work. */
 nh_lift_result nh_lift(const nh_model *model, bool time, size_t terms, const nh_ex *term, double most);
 
-/* The coefficients of these terms in an integral for all parameters, where with one of the first few terms, or `pivot`,
- * as f_0 they are polynomials.  `like`: at the parameters' values they are these numbers, up to a factor.  False: there
- * are none. */
+/* The coefficients of these terms in an integral for all parameters, if there are any, where with one of the first few
+ * terms, or `pivot`, as f_0 they are polynomials.  `like`: at the parameters' values they are these numbers, up to a
+ * factor.  False: there are none. */
 bool nh_lift_coefficients(const nh_model *model, size_t terms, const nh_ex *term, const double *like, size_t pivot,
                           double most, nh_ex *coefficient);
 

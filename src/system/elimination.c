@@ -91,6 +91,8 @@ static bool written_explicitly(const nh_constraint_samples *c, size_t *out)
  * z = x^2 + y^2. */
 static bool better(score a, score b)
 {
+    bool a_usable = a.largest >= nh_chart_least_pivot, b_usable = b.largest >= nh_chart_least_pivot;
+    if (a_usable != b_usable) return a_usable; /* a chart that breaks down all over the sampling domain is none */
     if (a.constant != b.constant) {
         const score *constant = a.constant ? &a : &b, *other = a.constant ? &b : &a;
         return (constant->least > much_worse * other->least) == a.constant;
