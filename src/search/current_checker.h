@@ -11,13 +11,13 @@ typedef struct {
     nh_points *heldout, *generic; /* points that were used in no fit */
     nh_terrain terrain;           /* where motions cross walls; of the first current on */
     bool searched;
-    nh_ex *inverse;               /* the chart's velocities in coordinate velocities */
+    nh_ex *inverse; /* the chart's velocities in coordinate velocities */
     bool invertible;
-    bool brief;                   /* symmetries of the following currents are not wanted */
-    size_t refuted;               /* candidates so far that are certainly not conserved */
-    size_t nears;                 /* refuted candidates of the present list that are nearly conserved */
+    bool brief;     /* the following currents are functions of others: their symmetries are not wanted */
+    size_t refuted; /* candidates so far that are certainly not conserved */
+    size_t nears;   /* refuted candidates of the present list that are nearly conserved */
     nh_candidate *near[NH_MOST_ALMOST];
-    bool constructs;      /* what is found is of the construction, of which the terms are the simplest */
+    bool constructs; /* what is found is of the construction, of which the terms are the simplest */
 } nh_current_checker;
 
 #endif
