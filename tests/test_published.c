@@ -490,6 +490,19 @@ Test(published, published_systems_are_complete_and_proved, PLAIN_ONLY)
     }
 }
 
+/* A blade that slips sideways at a constant rate: the frequency of its integral is sqrt(0.4), and that less or more a whole number is none, because here only
+ * one combination of the velocities and the first harmonics has rates of the velocity of h. */
+Test(published, a_frequency_that_whole_numbers_do_not_shift)
+{
+    nh_analysis *r = analysed("parameters: {M: 2, J: 3, d: 1}\ncoordinates: [x, y, {name: h, type: angle}]\n"
+                              "lagrangian: M*(x'^2 + y'^2)/2 + J*h'^2/2\nconstraints: [\"x'*sin(h) - y'*cos(h) - d*h' = 0.3\"]\n", -1);
+    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    cr_expect(c->counted && c->degree >= 4 && !c->missing_at, "complete to degree %zu", c->degree);
+    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "Phi%zu", k + 1);
+    cr_expect_eq(independent_and_proved(r), 2);
+    nh_analysis_free(r);
+}
+
 /* Coefficients over all parameters, not for the values of the file only. */
 Test(published, what_is_constructed_is_proved_for_all_parameters, PLAIN_ONLY)
 {

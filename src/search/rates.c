@@ -37,6 +37,19 @@ static bool again(double x, double y, size_t count, double *re, double *im, size
     return false;
 }
 
+/* Of the frequencies y + whole numbers and their negatives, all of which are one rate where the base contains whole
+ * harmonics, the lowest that is an eigenvalue: with others the base has too few harmonics. */
+static double lowest(const nh_pencil *p, double y)
+{
+    double low = y;
+    for (size_t k = 0; k < p->dimension; k++) {
+        double other = fabs(p->im[k]), near = split_by_rounding * (other + y);
+        bool same = fabs(other - y - round(other - y)) < near || fabs(other + y - round(other + y)) < near;
+        if (same && other < low) low = other;
+    }
+    return low;
+}
+
 /* |Im| or Re of the pencil's eigenvalues, each once. */
 static size_t rates(const nh_model *o, const rate_context *c, double *re, double *im, size_t most)
 {
@@ -55,8 +68,7 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
         if (y < 0 || p->residual[k] > 1e-7 * hypot(x, y)) continue; /* relative: rates have units */
         if (y < split_by_rounding * fabs(x)) y = 0;
         if (fabs(x) < split_by_rounding * y) x = 0;
-        /* the base contains whole harmonics: nu, 1 - nu, 1 + nu, ... are one rate */
-        if (c->periodic) y = fabs(y - round(y));
+        if (c->periodic) y = lowest(p, y);
         if (fabs(x) + fabs(y) < 1e-6 * largest || again(x, y, count, re, im, seen)) continue;
         re[count] = x;
         im[count] = y;
