@@ -44,7 +44,7 @@ static bool depends(const nh_analysis *r, const nh_points *generic, nh_ex e)
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
     for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
     phi[r->count] = e;
-    nh_independence_test(r->model, generic, r->count + 1, phi, r->options.sure, r->options.doubt, kind, NULL);
+    nh_independence_test(r->model, generic, r->count + 1, phi, NULL, r->options.sure, r->options.doubt, kind, NULL);
     bool result = kind[r->count] == NH_DEPENDENT || kind[r->count] == NH_CONSTANT;
     nh_free(kind);
     nh_free(phi);

@@ -228,7 +228,7 @@ Test(distribution, the_functions_that_constraints_conserve)
             nh_ex pair[2] = {formula(r->model, FUNCTIONS[i].function), f->phi};
             nh_independence kind[2];
             nh_points *points = nh_points_create(r->model, 24, 1, 99, &error);
-            nh_independence_test(r->model, points, 2, pair, 1e-2, 1e-6, kind, NULL);
+            nh_independence_test(r->model, points, 2, pair, NULL, 1e-2, 1e-6, kind, NULL);
             cr_expect_eq(kind[1], NH_DEPENDENT, "%s is not a function of %s", f->name, FUNCTIONS[i].function);
             cr_expect_eq(f->local, FUNCTIONS[i].local);
             cr_expect_str_eq(f->meaning, "integral of the constraints");

@@ -133,7 +133,7 @@ static bool is_constant(const nh_model *o, const nh_points *generic, nh_ex phi, 
         proved = nh_normal_is_zero(o->dag, nh_diff(o->dag, phi, o->chart->symbol[j]), (size_t)options->proof_terms) ==
                  NH_ZERO;
     if (proved) return true;
-    nh_independence_test(o, generic, 1, &phi, options->sure, options->doubt, &kind, NULL);
+    nh_independence_test(o, generic, 1, &phi, NULL, options->sure, options->doubt, &kind, NULL);
     return kind == NH_CONSTANT;
 }
 

@@ -98,12 +98,14 @@ static void accept(frame *f, const double *rest)
 
 /* Is what is left below `doubt`, but more than rounding leaves, of currents without fitted numbers?  Where a light body
  * moves with a heavy one, energy and momentum differ by little. */
-static bool is_small_only(const nh_model *o, size_t k, const nh_ex *phi, const nh_independence *kind, double left)
+static bool is_small_only(const nh_model *o, size_t k, const nh_ex *phi, const bool *exact, const nh_independence *kind,
+                          double left)
 {
     static const double rounding = 1e-14;
-    bool exact = left > rounding && nh_is_exact(o->dag, phi[k]);
-    for (size_t i = 0; i < k && exact; i++) exact = kind[i] != NH_INDEPENDENT || nh_is_exact(o->dag, phi[i]);
-    return exact;
+    bool small = exact && left > rounding;
+    for (size_t i = 0; i <= k && small; i++)
+        if (i == k || kind[i] == NH_INDEPENDENT) small = exact[i] && nh_is_exact(o->dag, phi[i]);
+    return small;
 }
 
 /* Decides about phi[k] against the accepted ones before it in ball arithmetic, where doubles leave it open. */
@@ -119,8 +121,8 @@ static nh_independence decide(const nh_model *o, size_t k, const nh_ex *phi, con
     return rank.answer == NH_RANK_GROWS ? NH_INDEPENDENT : rank.answer == NH_RANK_STAYS ? NH_DEPENDENT : NH_DOUBTFUL;
 }
 
-void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, double sure,
-                          double doubt, nh_independence *out, double *fraction)
+void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, const bool *exact,
+                          double sure, double doubt, nh_independence *out, double *fraction)
 {
     size_t width = 1 + o->m + o->n, count = points->count;
     double *g = gradients(o, points, n, phi, width);
@@ -138,7 +140,7 @@ void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, 
         double m = median(usable, left);
         if (fraction) fraction[k] = usable ? m : 0;
         out[k] = still >= usable ? NH_CONSTANT : m > sure ? NH_INDEPENDENT : m < doubt ? NH_DEPENDENT : NH_DOUBTFUL;
-        if (out[k] == NH_DEPENDENT && is_small_only(o, k, phi, out, m)) out[k] = NH_DOUBTFUL;
+        if (out[k] == NH_DEPENDENT && is_small_only(o, k, phi, exact, out, m)) out[k] = NH_DOUBTFUL;
         if (out[k] == NH_DOUBTFUL) out[k] = decide(o, k, phi, out, doubt);
         if (out[k] == NH_INDEPENDENT && f.accepted < width) accept(&f, rest);
     }

@@ -37,7 +37,7 @@ void nh_integrals_of_constraints(nh_analysis *r)
     nh_points *points =
         n ? nh_points_create(r->model, generic_count, 1, (uint64_t)r->options.seed + own_seed, &ignored) : NULL;
     r->integral = nh_arena_alloc(r->arena, most * sizeof *r->integral);
-    if (points) nh_independence_test(r->model, points, n, phi, r->options.sure, r->options.doubt, kind, NULL);
+    if (points) nh_independence_test(r->model, points, n, phi, NULL, r->options.sure, r->options.doubt, kind, NULL);
     for (size_t i = 0; i < n && points; i++) {
         if (current[i] == r->count) continue;
         nh_current *f = &r->found[current[i]];

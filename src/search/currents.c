@@ -120,8 +120,13 @@ static void independence(nh_analysis *r, const nh_points *generic)
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
     double *fraction = nh_alloc_array(r->count + 1, sizeof *fraction);
-    for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
-    nh_independence_test(r->model, generic, r->count, phi, r->options.sure, r->options.doubt, kind, fraction);
+    bool *exact = nh_alloc_array(r->count + 1, sizeof *exact);
+    for (size_t k = 0; k < r->count; k++) {
+        phi[k] = r->found[k].phi;
+        exact[k] = r->found[k].proof.proved;
+    }
+    nh_independence_test(r->model, generic, r->count, phi, exact, r->options.sure, r->options.doubt, kind, fraction);
+    nh_free(exact);
     decide_ranks(r, phi, kind);
     r->independent = 0;
     for (size_t k = 0; k < r->count; k++) {
@@ -246,23 +251,29 @@ void nh_currents_put(nh_current_checker *b, const nh_current *found)
 }
 
 /* In doubles up to `doubt` of its gradient; from there to `sure` in ball arithmetic. */
-static bool is_known(const nh_current_checker *b, nh_ex current, double doubt)
+static bool is_known(const nh_current_checker *b, nh_ex current, bool own, double doubt)
 {
     const nh_analysis *r = b->result;
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
-    for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
+    bool *exact = nh_alloc_array(r->count + 1, sizeof *exact);
+    for (size_t k = 0; k < r->count; k++) {
+        phi[k] = r->found[k].phi;
+        exact[k] = r->found[k].proof.proved;
+    }
     phi[r->count] = current;
-    nh_independence_test(r->model, b->generic, r->count + 1, phi, r->options.sure, doubt, kind, NULL);
+    exact[r->count] = own;
+    nh_independence_test(r->model, b->generic, r->count + 1, phi, exact, r->options.sure, doubt, kind, NULL);
     bool old = kind[r->count] != NH_INDEPENDENT;
+    nh_free(exact);
     nh_free(kind);
     nh_free(phi);
     return old;
 }
 
-bool nh_currents_known(const nh_current_checker *b, nh_ex current)
+bool nh_currents_known(const nh_current_checker *b, nh_ex current, bool exact)
 {
-    return is_known(b, current, b->result->options.doubt);
+    return is_known(b, current, exact, b->result->options.doubt);
 }
 
 /* ---- the list ---- */
@@ -277,7 +288,7 @@ static bool add_piece(nh_current_checker *b, const nh_current *f)
     nh_independence *kind = nh_alloc_array(n + 1, sizeof *kind);
     for (size_t k = 0; k < n; k++) phi[k] = k < r->count ? r->found[k].phi : r->piece[k - r->count].phi;
     phi[n] = f->phi;
-    nh_independence_test(r->model, b->generic, n + 1, phi, r->options.sure, r->options.doubt, kind, NULL);
+    nh_independence_test(r->model, b->generic, n + 1, phi, NULL, r->options.sure, r->options.doubt, kind, NULL);
     if (!r->piece) r->piece = nh_arena_alloc(r->arena, NH_MOST_PIECES * sizeof *r->piece);
     bool independent = kind[n] == NH_INDEPENDENT;
     if (independent) r->piece[r->pieces++] = *f;
@@ -327,7 +338,7 @@ bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_po
         b->near[b->nears++] = candidate;
     /* exact coefficients are not those of the fit, by which it was compared, unless a function of others is wanted */
     bool again = f->moved || !certain || (f->exact && candidate->count > 1 && !b->brief);
-    if (!keeps(b, f, certain) || (again && nh_currents_known(b, f->phi))) return false;
+    if (!keeps(b, f, certain) || (again && nh_currents_known(b, f->phi, f->proof.proved))) return false;
     return keep(b, f);
 }
 
@@ -337,7 +348,7 @@ static bool add_related(nh_current_checker *b, nh_ex phi, double quotient)
     nh_analysis *r = b->result;
     nh_current *f = next_found(r);
     *f = (nh_current){.phi = phi, .exact = true, .quotient = quotient};
-    if (nh_currents_known(b, phi)) return false;
+    if (nh_currents_known(b, phi, true)) return false;
     f->heldout = heldout_residual(r->model, b->heldout, phi);
     f->proof = nh_prove_claim(r->model, phi, (nh_claim){.free = true, .related = true}, &r->options);
     return keeps(b, f, true) && keep(b, f);
@@ -348,7 +359,7 @@ size_t nh_currents_exchange_last(nh_current_checker *b, nh_ex phi, bool *exchang
     nh_analysis *r = b->result;
     nh_current last = r->found[--r->count];
     bool added = add_related(b, phi, last.quotient);
-    *exchanged = added && nh_currents_known(b, last.phi);
+    *exchanged = added && nh_currents_known(b, last.phi, last.proof.proved);
     if (!*exchanged) nh_currents_put(b, &last);
     return added && !*exchanged;
 }
@@ -359,7 +370,7 @@ bool nh_currents_add_series(nh_current_checker *b, nh_ex phi, const nh_series *s
     nh_current *f = next_found(r);
     bool several = series->variables > 1;
     *f = (nh_current){.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = !several, .refined = digits};
-    if (nh_currents_known(b, f->phi)) return false;
+    if (nh_currents_known(b, f->phi, f->proof.proved)) return false;
     f->heldout = heldout_residual(r->model, b->heldout, phi);
     if (several) {
         f->proof = (nh_proof){.digits = digits};
@@ -399,7 +410,7 @@ static void forget_known_almosts(nh_current_checker *b)
     nh_analysis *r = b->result;
     size_t kept = 0;
     for (size_t k = 0; k < r->almosts; k++)
-        if (!is_known(b, r->almost[k].phi, r->options.sure)) r->almost[kept++] = r->almost[k];
+        if (!is_known(b, r->almost[k].phi, false, r->options.sure)) r->almost[kept++] = r->almost[k];
     r->almosts = kept;
 }
 
@@ -409,7 +420,7 @@ static void name_pieces(nh_current_checker *b)
     nh_analysis *r = b->result;
     size_t kept = 0;
     for (size_t k = 0; k < r->pieces; k++) {
-        if (nh_currents_known(b, r->piece[k].phi)) continue;
+        if (nh_currents_known(b, r->piece[k].phi, r->piece[k].proof.proved)) continue;
         r->piece[kept] = r->piece[k];
         r->piece[kept].name = nh_currents_name(r, r->count + kept + 1);
         kept++;

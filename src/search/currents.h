@@ -26,8 +26,8 @@ void nh_currents_put(nh_current_checker *bench, const nh_current *found);
 /* "Phi3"; "Psi3" where the system has a symbol such as Phi1, and so on.  Belongs to the arena of the analysis. */
 const char *nh_currents_name(nh_analysis *analysis, size_t number);
 
-/* Is it a function of the currents found so far, or constant? */
-bool nh_currents_known(const nh_current_checker *bench, nh_ex phi);
+/* Is it a function of the currents found so far, or constant?  `exact`: its numbers do not come from a fit. */
+bool nh_currents_known(const nh_current_checker *bench, nh_ex phi, bool exact);
 
 /* Where the current holds, in words; NULL: everywhere.  A current that is not proved holds to so many digits. */
 const char *nh_currents_region(nh_current_checker *bench, nh_ex phi, double digits, bool *to_the_end);

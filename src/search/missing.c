@@ -80,7 +80,7 @@ static void take_back(search *s, size_t first)
     nh_analysis *r = s->solver.r;
     for (size_t k = first; k < s->aside; k++) {
         nh_current *f = &s->set_aside[k];
-        if (f->independence == NH_INDEPENDENT && nh_currents_known(s->solver.bench, f->phi)) continue;
+        if (f->independence == NH_INDEPENDENT && nh_currents_known(s->solver.bench, f->phi, f->proof.proved)) continue;
         r->independent += f->independence == NH_INDEPENDENT;
         nh_currents_put(s->solver.bench, f);
     }

@@ -27,9 +27,9 @@ static bool take_place(search *s, const nh_current *f)
         if (old.series || old.energy || nh_counted_degree_of(r->model, old.phi) < INFINITY) continue;
         if (old.proof.all_parameters && !f->proof.all_parameters) continue;
         r->found[k] = r->found[--r->count];
-        bool takes = !nh_currents_known(s->solver.bench, f->phi);
+        bool takes = !nh_currents_known(s->solver.bench, f->phi, f->proof.proved);
         if (takes) nh_currents_put(s->solver.bench, f);
-        takes = takes && nh_currents_known(s->solver.bench, old.phi);
+        takes = takes && nh_currents_known(s->solver.bench, old.phi, old.proof.proved);
         if (takes) {
             nh_described_fill(s->solver.bench, &r->found[r->count - 1]);
             return true;
@@ -314,6 +314,6 @@ bool nh_missing_construct(search *s, const nh_completeness *c, bool further)
     s->covered = 0;
     if (construct_in_shapes(s, c, any, dearest, work, &secular.shape)) return true;
     s->covered = 0;
-    return (!further && nh_primitives_search(&s->solver, c->count.time, c->missing_at))
-        || (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
+    return (!further && nh_primitives_search(&s->solver, c->count.time, c->missing_at)) ||
+           (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }

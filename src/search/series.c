@@ -127,7 +127,7 @@ static bool fresh(const problem *p, const nh_series_search *s)
     nh_independence *kind = nh_alloc_array(n + 1, sizeof *kind);
     bool news = false;
     for (size_t k = 0; k < n; k++) phi[k] = k < known ? r->found[k].phi : nh_series_near(s, k - known);
-    nh_independence_test(r->model, points, n, phi, r->options.sure, r->options.doubt, kind, NULL);
+    nh_independence_test(r->model, points, n, phi, NULL, r->options.sure, r->options.doubt, kind, NULL);
     for (size_t k = known; k < n; k++) news |= kind[k] == NH_INDEPENDENT || kind[k] == NH_DOUBTFUL;
     nh_free(kind);
     nh_free(phi);

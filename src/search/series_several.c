@@ -72,7 +72,7 @@ static void keep_new(problem *p)
     double *c = nh_arena_alloc(r->arena, p->f.count * block * sizeof *c);
     for (size_t k = 0; k < n; k++)
         phi[k] = k < known ? r->found[k].phi : nh_box_series_expression(p->series, &p->f, k - known);
-    nh_independence_test(r->model, p->points, n, phi, r->options.sure, r->options.doubt, kind, NULL);
+    nh_independence_test(r->model, p->points, n, phi, NULL, r->options.sure, r->options.doubt, kind, NULL);
     for (size_t k = 0; k < p->f.count; k++)
         if (kind[known + k] == NH_INDEPENDENT)
             memcpy(c + kept++ * block, p->f.coefficient + k * block, block * sizeof *c);

@@ -58,14 +58,23 @@ static size_t compare(nh_stage_solver *x, nh_candidates *list, nh_independence *
     size_t known = r->count, most = most_tested(r), n = list->count < most ? list->count : most, fresh = 0;
     nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
     nh_independence *all = nh_alloc_array(known + n + 1, sizeof *all);
-    for (size_t k = 0; k < known; k++) phi[k] = r->found[k].phi;
-    for (size_t k = 0; k < n; k++) phi[known + k] = rough(r->model, &list->candidate[k]);
-    nh_independence_test(r->model, x->bench->generic, known + n, phi, r->options.sure, r->options.doubt, all, NULL);
+    bool *exact = nh_alloc_array(known + n + 1, sizeof *exact);
+    for (size_t k = 0; k < known; k++) {
+        phi[k] = r->found[k].phi;
+        exact[k] = r->found[k].proof.proved;
+    }
+    for (size_t k = 0; k < n; k++) {
+        phi[known + k] = rough(r->model, &list->candidate[k]);
+        exact[known + k] = list->candidate[k].count == 1;
+    }
+    nh_independence_test(r->model, x->bench->generic, known + n, phi, exact, r->options.sure, r->options.doubt, all,
+                         NULL);
     for (size_t k = 0; k < n; k++) {
         kind[k] = all[known + k];
         fresh += kind[k] == NH_INDEPENDENT;
     }
     list->count = n;
+    nh_free(exact);
     nh_free(all);
     nh_free(phi);
     return fresh;
@@ -354,7 +363,7 @@ size_t nh_stage_solver_certify(nh_stage_solver *x, nh_ex e, const char *name)
 {
     nh_analysis *r = x->r;
     nh_num one = nh_num_int(1);
-    if (nh_kind_of(r->model->dag, e) == NH_NUMBER || nh_currents_known(x->bench, e)) return 0;
+    if (nh_kind_of(r->model->dag, e) == NH_NUMBER || nh_currents_known(x->bench, e, true)) return 0;
     if (nh_prove_digits(r->model, e, &r->options) < r->options.digits) return 0;
     nh_stage_record *note = nh_stage_solver_note(x, name);
     note->columns = 1;
