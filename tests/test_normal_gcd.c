@@ -101,3 +101,26 @@ Test(normal_gcd, leading_coefficients_that_vanish_at_the_point)
     fmpz_mpoly_clear(gcd, f->ctx);
     nh_quotient_field_free(f);
 }
+
+/* Powers of billions have no dense image. */
+Test(normal_gcd, sparse_polynomials_of_high_degree)
+{
+    nh_quotient_field *f = nh_quotient_field_create(generators, 10000);
+    fmpz_mpoly_t c, a, b, gcd;
+    fmpz_mpoly_init(c, f->ctx);
+    fmpz_mpoly_init(a, f->ctx);
+    fmpz_mpoly_init(b, f->ctx);
+    fmpz_mpoly_init(gcd, f->ctx);
+    cr_assert(fmpz_mpoly_set_str_pretty(c, "x1^4000000000 - x2", NULL, f->ctx) == 0);
+    cr_assert(fmpz_mpoly_set_str_pretty(a, "x1^4000000000 + x3", NULL, f->ctx) == 0);
+    cr_assert(fmpz_mpoly_set_str_pretty(b, "x4^2 + 7", NULL, f->ctx) == 0);
+    fmpz_mpoly_mul(a, a, c, f->ctx);
+    fmpz_mpoly_mul(b, b, c, f->ctx);
+    check_gcd(f, a, b, gcd);
+    cr_assert(fmpz_mpoly_equal(gcd, c, f->ctx));
+    fmpz_mpoly_clear(c, f->ctx);
+    fmpz_mpoly_clear(a, f->ctx);
+    fmpz_mpoly_clear(b, f->ctx);
+    fmpz_mpoly_clear(gcd, f->ctx);
+    nh_quotient_field_free(f);
+}

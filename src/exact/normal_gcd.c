@@ -64,20 +64,29 @@ static bool take_image(const polynomial *p, size_t g, nmod_t mod, nmod_poly_t ou
     return nmod_poly_degree(out) == p->degree[g];
 }
 
-/* Finds the generators that a common divisor may have; returns how many.  Where the leading coefficient of one
- * polynomial does not vanish at the point, neither does that of a divisor, whose image divides both images. */
+/* May a common divisor have the generator?  Where the leading coefficient of one polynomial does not vanish at the
+ * point, neither does that of a divisor, whose image divides both images. */
+static bool images_have_divisor(const polynomial *a, const polynomial *b, size_t g, nmod_t mod, nmod_poly_t x,
+                                nmod_poly_t y)
+{
+    bool full = take_image(a, g, mod, x);
+    full |= take_image(b, g, mod, y);
+    nmod_poly_gcd(x, x, y);
+    return !full || nmod_poly_degree(x) > 0;
+}
+
+/* Finds the generators that a common divisor may have; returns how many. */
 static size_t find_common(const polynomial *a, const polynomial *b, nmod_t mod, bool *common)
 {
+    enum { most_degree = 10000 }; /* images are dense */
     nmod_poly_t x, y;
     size_t count = 0;
     nmod_poly_init(x, prime);
     nmod_poly_init(y, prime);
     for (size_t g = 0; g < a->width; g++) {
         if (!a->degree[g] || !b->degree[g]) continue;
-        bool full = take_image(a, g, mod, x);
-        full |= take_image(b, g, mod, y);
-        nmod_poly_gcd(x, x, y);
-        count += common[g] = !full || nmod_poly_degree(x) > 0;
+        common[g] = a->degree[g] > most_degree || b->degree[g] > most_degree || images_have_divisor(a, b, g, mod, x, y);
+        count += common[g];
     }
     nmod_poly_clear(x);
     nmod_poly_clear(y);
@@ -109,8 +118,8 @@ static int by_group(const void *a, const void *b)
     return (x->index > y->index) - (x->index < y->index);
 }
 
-/* Of two groups that have one key by chance parts may stand between each other: a coefficient is then in pieces, and
- * has too many of them. */
+/* Where two groups have one key by chance (one in 2^64), their terms may alternate, and what divides all pieces may be
+ * too small: it is still a common divisor. */
 static void group_terms(polynomial *p, const bool *common)
 {
     p->common = common;
