@@ -10,7 +10,7 @@
 #include "integrals/rows.h"
 
 typedef struct {
-    size_t count;        /* terms with a coefficient, simplest first */
+    size_t count; /* terms with a coefficient, simplest first */
     nh_ex *term;
     double *coefficient; /* the pivot's is 1 */
     size_t pivot;        /* the most complex term */
@@ -20,7 +20,8 @@ typedef struct {
     /* where the relation needs values of several parameters, no relations among these are sought: a current for all
      * values may replace it */
     bool by_values;
-    size_t all;          /* every term of the echelon vector, before small ones were dropped */
+    bool only_new; /* with its final coefficients, too, it must not be a function of the known currents */
+    size_t all;    /* every term of the echelon vector, before small ones were dropped */
     nh_ex *all_term;
     double *all_coefficient, *all_size; /* size: |c_j b_j| relative to the largest */
 } nh_candidate;

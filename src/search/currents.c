@@ -336,8 +336,8 @@ bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_po
     b->refuted += nh_coefficients_refuted(f, &r->options);
     if (nh_coefficients_refuted(f, &r->options) && f->refined >= NH_LEAST_ALMOST && b->nears < NH_MOST_ALMOST)
         b->near[b->nears++] = candidate;
-    /* exact coefficients are not those of the fit, by which it was compared, unless a function of others is wanted */
-    bool again = f->moved || !certain || (f->exact && candidate->count > 1 && !b->brief);
+    /* exact coefficients are not those of the fit, by which it was compared */
+    bool again = f->moved || !certain || (f->exact && candidate->count > 1 && candidate->only_new);
     if (!keeps(b, f, certain) || (again && nh_currents_known(b, f->phi, f->proof.proved))) return false;
     return keep(b, f);
 }

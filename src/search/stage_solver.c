@@ -282,7 +282,7 @@ static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_solved *
             r->open += kind[k] == NH_INDEPENDENT;
             continue;
         }
-        c->by_values = true;
+        c->by_values = c->only_new = true;
         if (kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, s->fit, certain)) {
             bool exchanged;
             r->independent += 1 + without_values(x, s, pivots, pivot, pivot[k], &other, &exchanged);
