@@ -1,6 +1,8 @@
 /* Greatest common divisors of polynomials.  Images modulo a prime, of one generator each, bound the divisor's degrees
  * from above: most pairs turn out to have none.  Else it has few generators, and it divides all coefficients of both
  * polynomials in the others: many short polynomials, most of which need no more than a division. */
+#include <flint/fmpz_vec.h>
+#include <flint/nmod.h>
 #include <flint/nmod_poly.h>
 #include <stdlib.h>
 
