@@ -12,10 +12,9 @@
 typedef enum { NH_INDEPENDENT, NH_DEPENDENT, NH_CONSTANT, NH_DOUBTFUL } nh_independence;
 
 /* Classify phi[0..n-1] in the given order.  `sure` and `doubt`: remaining fractions above `sure` are independent
- * (1e-2), below `doubt` dependent (1e-6), among those that are `exact` (NULL: none is) below 1e-14: their numbers were
- * not fitted, not even recognised from a fit; between, ball arithmetic decides
- * (gradient_rank.h), and what it cannot evaluate is doubtful: not used against later ones.  `fraction` (n, may be NULL)
- * gets the medians. */
+ * (1e-2), below `doubt` dependent (1e-6), among those that are `exact` (n; NULL: none is) below 1e-14: their numbers
+ * were not fitted, nor recognised from a fit.  Between, ball arithmetic decides (gradient_rank.h), and what it cannot
+ * evaluate is doubtful: not used against later ones.  `fraction` (n, may be NULL) gets the medians. */
 void nh_independence_test(const nh_model *model, const nh_points *points, size_t n, const nh_ex *phi, const bool *exact,
                           double sure, double doubt, nh_independence *out, double *fraction);
 
