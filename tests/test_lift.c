@@ -62,22 +62,20 @@ Test(lift, coefficients_of_given_terms)
     }
 }
 
-/* Any of the first terms, or the pivot, may be the one with the coefficient 1; numbers that belong to another integral are refused. */
-Test(lift, coefficients_like_given_ones)
+/* The coefficients of x^2, x^4 and x'^2 are those of the energy where numbers like them are wanted; others are refused, and so is a question without work or
+ * with one term. */
+static void expect_energy(const char *text, const char *energy, const double *like, const double *other)
 {
-    static const char text[] = "name: row\nparameters: {m: 2, k: 3}\n" LINE "k*x^2/m - x^4\n";
     static const char *const terms[] = {"x^2", "x^4", "x'^2"};
-    static const double like[] = {0.75, 0.5, 0.25}, other[] = {0.75, 0.4, 0.25};
     nh_error error = {0};
-    nh_ex term[3], c[3], phi, energy;
+    nh_ex term[3], c[3], phi;
     nh_system *s = system_of(text);
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
     must(o != NULL, &error, "row");
     for (size_t j = 0; j < 3; j++) term[j] = nh_model_compose(o, expression_of(s, terms[j]));
     cr_assert(nh_lift_coefficients(o, 3, term, like, 2, 1e9, c));
     phi = nh_add(o->dag, nh_mul(o->dag, c[0], term[0]), nh_add(o->dag, nh_mul(o->dag, c[1], term[1]), nh_mul(o->dag, c[2], term[2])));
-    energy = nh_model_compose(o, expression_of(s, "x'^2/2 + k*x^2/m + x^4"));
-    phi = nh_sub(o->dag, nh_div(o->dag, phi, c[2]), nh_mul(o->dag, nh_int(o->dag, 2), energy));
+    phi = nh_sub(o->dag, nh_div(o->dag, phi, c[2]), nh_mul(o->dag, nh_int(o->dag, 2), nh_model_compose(o, expression_of(s, energy))));
     cr_expect_eq(nh_normal_is_zero(o->dag, phi, 0), NH_ZERO);
     cr_expect_not(nh_lift_coefficients(o, 3, term, other, 2, 1e9, c));
     cr_expect_not(nh_lift_coefficients(o, 3, term, like, 2, 10, c), "without work");
@@ -86,26 +84,11 @@ Test(lift, coefficients_like_given_ones)
     nh_system_free(s);
 }
 
-/* Without parameters, and with numbers of very different sizes. */
-Test(lift, coefficients_of_very_different_sizes)
+/* Any of the first terms, or the pivot, may be the one with the coefficient 1; also without parameters, and with numbers of very different sizes. */
+Test(lift, coefficients_like_given_ones)
 {
-    static const char text[] = "name: row\n" LINE "1.3e-9*x^2 - 3e9*x^4\n";
-    static const char *const terms[] = {"x^2", "x^4", "x'^2"};
-    static const double like[] = {1.3e-9, 3e9, 0.5}, other[] = {2e9, 3e9, 0.5};
-    nh_error error = {0};
-    nh_ex term[3], c[3], phi, energy;
-    nh_system *s = system_of(text);
-    nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
-    must(o != NULL, &error, "row");
-    for (size_t j = 0; j < 3; j++) term[j] = nh_model_compose(o, expression_of(s, terms[j]));
-    cr_assert(nh_lift_coefficients(o, 3, term, like, 2, 1e9, c));
-    phi = nh_add(o->dag, nh_mul(o->dag, c[0], term[0]), nh_add(o->dag, nh_mul(o->dag, c[1], term[1]), nh_mul(o->dag, c[2], term[2])));
-    energy = nh_model_compose(o, expression_of(s, "x'^2/2 + 1.3e-9*x^2 + 3e9*x^4"));
-    phi = nh_sub(o->dag, nh_div(o->dag, phi, c[2]), nh_mul(o->dag, nh_int(o->dag, 2), energy));
-    cr_expect_eq(nh_normal_is_zero(o->dag, phi, 0), NH_ZERO);
-    cr_expect_not(nh_lift_coefficients(o, 3, term, other, 2, 1e9, c));
-    nh_model_free(o);
-    nh_system_free(s);
+    expect_energy("name: row\nparameters: {m: 2, k: 3}\n" LINE "k*x^2/m - x^4\n", "x'^2/2 + k*x^2/m + x^4", (double[]){0.75, 0.5, 0.25}, (double[]){0.75, 0.4, 0.25});
+    expect_energy("name: row\n" LINE "1.3e-9*x^2 - 3e9*x^4\n", "x'^2/2 + 1.3e-9*x^2 + 3e9*x^4", (double[]){1.3e-9, 3e9, 0.5}, (double[]){2e9, 3e9, 0.5});
 }
 
 /* Along a motion the energy has no terms beyond its value: a pendulum on a cart, and a coin that rolls down a slope. */

@@ -115,16 +115,21 @@ static void decide_ranks(nh_analysis *r, const nh_ex *phi, nh_independence *kind
     nh_free(list);
 }
 
+void nh_currents_list(const nh_analysis *r, nh_ex *phi, bool *exact)
+{
+    for (size_t k = 0; k < r->count; k++) {
+        phi[k] = r->found[k].phi;
+        exact[k] = r->found[k].proof.proved;
+    }
+}
+
 static void independence(nh_analysis *r, const nh_points *generic)
 {
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
     double *fraction = nh_alloc_array(r->count + 1, sizeof *fraction);
     bool *exact = nh_alloc_array(r->count + 1, sizeof *exact);
-    for (size_t k = 0; k < r->count; k++) {
-        phi[k] = r->found[k].phi;
-        exact[k] = r->found[k].proof.proved;
-    }
+    nh_currents_list(r, phi, exact);
     nh_independence_test(r->model, generic, r->count, phi, exact, r->options.sure, r->options.doubt, kind, fraction);
     nh_free(exact);
     decide_ranks(r, phi, kind);
@@ -257,10 +262,7 @@ static bool is_known(const nh_current_checker *b, nh_ex current, bool own, doubl
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
     bool *exact = nh_alloc_array(r->count + 1, sizeof *exact);
-    for (size_t k = 0; k < r->count; k++) {
-        phi[k] = r->found[k].phi;
-        exact[k] = r->found[k].proof.proved;
-    }
+    nh_currents_list(r, phi, exact);
     phi[r->count] = current;
     exact[r->count] = own;
     nh_independence_test(r->model, b->generic, r->count + 1, phi, exact, r->options.sure, doubt, kind, NULL);

@@ -26,6 +26,9 @@ void nh_currents_put(nh_current_checker *bench, const nh_current *found);
 /* "Phi3"; "Psi3" where the system has a symbol such as Phi1, and so on.  Belongs to the arena of the analysis. */
 const char *nh_currents_name(nh_analysis *analysis, size_t number);
 
+/* Writes the currents found so far, and which of them have no fitted numbers, as independence.h asks for them. */
+void nh_currents_list(const nh_analysis *analysis, nh_ex *phi, bool *exact);
+
 /* Is it a function of the currents found so far, or constant?  `exact`: its numbers do not come from a fit. */
 bool nh_currents_known(const nh_current_checker *bench, nh_ex phi, bool exact);
 

@@ -59,10 +59,7 @@ static size_t compare(nh_stage_solver *x, nh_candidates *list, nh_independence *
     nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
     nh_independence *all = nh_alloc_array(known + n + 1, sizeof *all);
     bool *exact = nh_alloc_array(known + n + 1, sizeof *exact);
-    for (size_t k = 0; k < known; k++) {
-        phi[k] = r->found[k].phi;
-        exact[k] = r->found[k].proof.proved;
-    }
+    nh_currents_list(r, phi, exact);
     for (size_t k = 0; k < n; k++) {
         phi[known + k] = rough(r->model, &list->candidate[k]);
         exact[known + k] = list->candidate[k].count == 1;
