@@ -89,3 +89,34 @@ Test(automatic, a_limit_of_work_ends_both)
     cr_expect(!motion->complete && strstr(motion->note, "counted operations"), "%s", motion->note);
     nh_motion_free(motion);
 }
+
+/* Dry friction on a disk, z its velocity: when it has come to rest the steps only go around z = 0. */
+static bool chatter(double t, const double *z, double *rate, void *context)
+{
+    (void)t, (void)context;
+    double size = hypot(z[0], z[1]);
+    rate[0] = -z[0] / size;
+    rate[1] = -z[1] / size;
+    return true;
+}
+
+/* What would take a thousand times what is allowed ends after a small part of it; what is half as long as it would have to be does not. */
+Test(automatic, a_motion_that_hardly_advances_ends_early)
+{
+    static const double start[] = {0.3, 0.4}, times[] = {0, 1000};
+    nh_error error = {0};
+    nh_flow_problem problem = {.size = 2, .rate = chatter};
+    nh_flow_options options = {.rtol = 1e-7, .absolute = 1, .effort = 1e8};
+    nh_motion *motion = nh_method_flow(nh_method_find("GSL rk8pd"), &problem, start, 2, times, &options, &error);
+    cr_assert_not_null(motion, "%s", error.what);
+    cr_expect(!motion->complete && motion->limited && strstr(motion->note, "hardly advances at t = 0.5"), "%s", motion->note);
+    cr_expect_lt(motion->effort, options.effort / 8);
+    nh_motion_free(motion);
+    relaxing r = {.rate = 1, .wave = 20};
+    motion = moved(&r, 1000, 0, false, NULL);
+    double half = motion->effort / 2;
+    nh_motion_free(motion);
+    motion = moved(&r, 1000, half, false, NULL);
+    cr_expect(!motion->complete && strstr(motion->note, "was reached at") && motion->effort >= half, "%s", motion->note);
+    nh_motion_free(motion);
+}
