@@ -136,8 +136,9 @@ void nh_grow(void *array_pointer, size_t *capacity, size_t need, size_t size)
 }
 
 /* An arena is a list of blocks; the first is the one being filled.  Large requests get a block of their own behind
- * it, so that they do not waste its rest. */
-enum { ALIGNMENT = 16, BLOCK_SIZE = 16384, LARGE = BLOCK_SIZE / 4 };
+ * it, so that they do not waste its rest.  The first block is small, because most arenas hold little; each further one
+ * is larger. */
+enum { ALIGNMENT = 16, FIRST_BLOCK = 960, BLOCK_SIZE = 16384, LARGE = BLOCK_SIZE / 4 };
 
 typedef struct block block;
 struct block {
@@ -191,11 +192,14 @@ void *nh_arena_alloc(nh_arena *arena, size_t size)
         return alloc_large(arena, size);
     size = size ? (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT : ALIGNMENT;
     if (size > arena->capacity - arena->used) {
-        block *fresh = new_block(BLOCK_SIZE);
+        size_t room = arena->capacity ? 4 * arena->capacity : FIRST_BLOCK;
+        room = room < size ? 4 * size : room;
+        room = room > BLOCK_SIZE ? BLOCK_SIZE : room;
+        block *fresh = new_block(room);
         fresh->next = arena->first;
         arena->first = fresh;
         arena->used = 0;
-        arena->capacity = BLOCK_SIZE;
+        arena->capacity = room;
     }
     void *memory = arena->first->memory + arena->used;
     arena->used += size;
