@@ -33,7 +33,7 @@ static nh_motion *moved(relaxing *r, double until, double effort, bool guarded, 
     double times[] = {0, until / 2, until};
     nh_error error = {0};
     nh_flow_problem problem = {.size = 3, .context = r, .rate = relax, .guards = guarded, .guard = guarded ? at_half : NULL};
-    nh_flow_options options = {.rtol = 1e-9, .absolute = 1e-3, .effort = effort};
+    nh_flow_options options = {.rtol = 1e-9, .absolute = 1e-3, .effort = effort, .early = true};
     nh_motion *motion = nh_automatic(&problem, start, 3, times, &options, used, &error);
     cr_assert_not_null(motion, "%s", error.what);
     return motion;
@@ -106,7 +106,7 @@ Test(automatic, a_motion_that_hardly_advances_ends_early)
     static const double start[] = {0.3, 0.4}, times[] = {0, 1000};
     nh_error error = {0};
     nh_flow_problem problem = {.size = 2, .rate = chatter};
-    nh_flow_options options = {.rtol = 1e-7, .absolute = 1, .effort = 1e8};
+    nh_flow_options options = {.rtol = 1e-7, .absolute = 1, .effort = 1e8, .early = true};
     nh_motion *motion = nh_method_flow(nh_method_find("GSL rk8pd"), &problem, start, 2, times, &options, &error);
     cr_assert_not_null(motion, "%s", error.what);
     cr_expect(!motion->complete && motion->limited && strstr(motion->note, "hardly advances at t = 0.5"), "%s", motion->note);

@@ -61,6 +61,7 @@ typedef struct {
     const double *scale;
     double max_steps;        /* largest number of steps; 0: the default of 1e7 */
     double effort;           /* largest work in units of base/effort.h; 0: no limit */
+    bool early;              /* a motion for which it will not suffice by far ends before it is spent */
     bool (*cancelled)(void *context); /* called between steps: true ends the motion; may be NULL */
     void *cancel_context;
     double step;             /* the step of methods with a fixed step */

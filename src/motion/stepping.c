@@ -17,10 +17,11 @@ static const double default_max_steps = 1e7;
 static const double least_advance = 1e-10;
 /* such spans in a row that are allowed: steps are short near the zero of a velocity whose size is not known yet */
 enum { most_slow = 200 };
-/* A motion whose work is limited is looked at after each such part of the limit: where the work that is left suffices
- * for less than such a part of the time that is left, at the pace of the last part, the motion ends.  (The equations
+/* A motion that may end early is looked at after each such part of its limit of work: where the work that is left
+ * suffices for less than such a part of the time that is left, at the pace of the last part, it ends.  (The equations
  * of a ball that has reached the apex of a cone change at every step, for ever.) */
 static const double pace_part = 1.0 / 32, pace_hopeless = 1.0 / 64;
+enum { pace_steps = 1000 }; /* at least so many are looked at: the first steps of a motion are short */
 
 /* Output at the wanted times up to `now`; false when a state there is not finite. */
 static bool store_reached(nh_motion *motion, size_t count, const double *times, double now, const nh_stepper *stepper)
@@ -58,22 +59,23 @@ static void note_end(nh_motion *motion)
 typedef struct {
     double begin, seen; /* units of work before the motion, and when it was looked at last */
     double time, last;  /* where it was then, and where it ends */
+    size_t steps;       /* that it had made then */
 } pace;
 
 /* Would the work that is left not suffice by far? */
-static bool hopeless(pace *p, double now, double effort)
+static bool hopeless(pace *p, const nh_motion *motion, double effort)
 {
-    double used = nh_effort() - p->seen, part = effort * pace_part;
-    if (used < part) return false;
+    double used = nh_effort() - p->seen, now = motion->end_time;
+    if (used < effort * pace_part || motion->steps - p->steps < pace_steps) return false;
     double left = effort - (nh_effort() - p->begin), reached = fabs(now - p->time) * left / used;
-    *p = (pace){p->begin, nh_effort(), now, p->last};
+    *p = (pace){p->begin, nh_effort(), now, p->last, motion->steps};
     return reached < pace_hopeless * fabs(p->last - now);
 }
 
 /* Whether the motion may take another step. */
 static bool may_go_on(nh_motion *motion, const nh_flow_options *options, pace *p)
 {
-    if (options->effort > 0 && hopeless(p, motion->end_time, options->effort)) {
+    if (options->early && options->effort > 0 && hopeless(p, motion, options->effort)) {
         nh_motion_note(motion,
                        "the motion hardly advances at t = %.10g: the limit of %.2g counted operations would be reached "
                        "long before its end",
@@ -194,7 +196,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
     double singular = NAN;
     nh_step step = NH_STEP_ON;
     double mark = motion->end_time, least = least_advance * fabs(times[count - 1] - times[0]);
-    pace p = {before, before, mark, times[count - 1]};
+    pace p = {before, before, mark, times[count - 1], 0};
     for (int stuck = 0, slow = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, &p);) {
         double time = motion->end_time;
         tell(motion, count, times);

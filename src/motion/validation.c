@@ -160,6 +160,7 @@ static nh_flow_options options_of(const run *r, size_t which)
                              .absolute = fmax(r->options->absolute, DBL_MIN),
                              .max_steps = r->options->steps,
                              .effort = most_effort(r),
+                             .early = true,
                              .cancelled = nh_interrupted_callback};
 }
 
