@@ -81,6 +81,10 @@ OBJECTS = $(MODULES:%.c=$(BUILD)/%.o)
 CLI     = $(patsubst %.c,$(BUILD)/%.o,$(filter-out src/cli/mpi_main.c,$(wildcard src/cli/*.c))) $(BUILD)/fingerprint.o
 TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
 BENCHES = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/bench_*.c))
+# The code of a test needs no sanitizers: those of the library see what it does there, and to compile it twice took a twentieth of `make check`.
+# But some ask the compiler for them.
+OWN_TESTS := $(shell grep -lE '__SANITIZE_|NH_CHECKED' tests/test_*.c)
+SAME      = $(patsubst tests/%.c,build/tests/%.o,$(filter-out $(OWN_TESTS),$(wildcard tests/test_*.c)))
 
 SYSTEMS = 200
 STATES  = 50
@@ -91,7 +95,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE packages test-packages check-packages check-plain check-sanitized
+.PHONY: all library sleigh check check-all threads tests same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -105,13 +109,14 @@ sleigh: packages
 
 check: check-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) check-plain check-sanitized
+	@$(MAKE) --no-print-directory -j$(JOBS) SANITIZE=1 tests
 	@sh tests/run.sh build build-sanitize
 
 # Together: while one links the program, the other compiles.
 check-plain:
 	@$(MAKE) --no-print-directory all tests
 check-sanitized:
-	@$(MAKE) --no-print-directory SANITIZE=1 all tests
+	@$(MAKE) --no-print-directory SANITIZE=1 all
 
 check-all: export NHSYM_SWEEPS = all
 check-all: check
@@ -123,6 +128,8 @@ threads: test-packages
 
 # The benches are there to be measured: not under sanitizers.
 tests: $(TESTS) $(if $(SANITIZE),,$(BENCHES) library)
+
+same-tests: $(SAME)
 
 bench: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all tests $(BUILD)/tests/nhsym-shared
@@ -251,16 +258,27 @@ $(BUILD)/%.o: %.c $(BUILD)/flags
 	@$(COMPILE) -c $< -o $@
 
 # The code of a test itself takes no time worth optimising, and four times as long to compile; of its arithmetic nobody wants to know.
-$(BUILD)/tests/test_%.o: OWN_CFLAGS += -O0 -g0 $(if $(SANITIZE),-fno-sanitize=undefined)
+$(BUILD)/tests/test_%.o: OWN_CFLAGS += -O0 -g0
 # Tests are linked, and linked anew, a hundred at a time; each test is a process, which loads what its program needs and no more.
 FAST_LINKER := $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 
 # They take what is installed, and Python's package, from the build.
 $(if $(SANITIZE),,$(BUILD)/tests/test_docs $(BUILD)/tests/test_install $(BUILD)/tests/test_python: | $(BUILD)/$(SONAME))
 
+link_test = @echo "  link $@"; $(LINK) $(FAST_LINKER) $< $(BUILD)/tests/criterion_start.o $(BUILD)/libnhsym.a -Wl,--as-needed $(LDLIBS) -lcriterion -o $@
+
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/tests/criterion_start.o $(BUILD)/libnhsym.a
-	@echo "  link $@"
-	@$(LINK) $(FAST_LINKER) $< $(BUILD)/tests/criterion_start.o $(BUILD)/libnhsym.a -Wl,--as-needed $(LDLIBS) -lcriterion -o $@
+	$(link_test)
+
+ifneq ($(SANITIZE),)
+$(patsubst build/%.o,$(BUILD)/%,$(SAME)): $(BUILD)/tests/%: build/tests/%.o $(BUILD)/tests/criterion_start.o $(BUILD)/libnhsym.a
+	$(link_test)
+
+$(SAME): FORCE-same
+	@:
+FORCE-same:
+	@$(MAKE) --no-print-directory SANITIZE= same-tests
+endif
 
 # Built from a copy: setuptools leaves files beside its sources.
 wheel: library
@@ -323,4 +341,4 @@ uninstall: all library
 clean:
 	rm -rf build build-sanitize build-threads build-fuzz
 
--include $(OBJECTS:.o=.d) $(SHARED:.o=.d) $(CLI:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)
+-include $(OBJECTS:.o=.d) $(CLI:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)

@@ -13,11 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef __SANITIZE_ADDRESS__
-enum { SWEEP_SANITIZED = 1 };
-#else
-enum { SWEEP_SANITIZED = 0 };
-#endif
+/* Is the program linked with sanitizers?  The code of the tests is the same with and without. */
+bool sweep_sanitized(void);
 
 enum { most_files = 500 };
 
@@ -46,12 +43,13 @@ static inline bool sweep_whole(void)
 /* Is number i of a sweep tried?  One in so many is, under sanitizers one in so many others.  i + k begins at another place. */
 static inline bool sweep_tries(size_t i, size_t one_in, size_t one_in_sanitized)
 {
-    return sweep_whole() || i % (SWEEP_SANITIZED ? one_in_sanitized : one_in) == 0;
+    return sweep_whole() || i % (sweep_sanitized() ? one_in_sanitized : one_in) == 0;
 }
 
 /* Behind the name of a test that is one long computation, and of one whose code others run under sanitizers, with smaller systems.
- * No process is started for them; criterion_start.c enables them where all is tried. */
+ * No process is started for them; criterion_start.c enables the first where all is tried, and disables the others under sanitizers. */
+extern char sweep_plain_only[];
 #define WHOLE_ONLY .disabled = true
-#define PLAIN_ONLY .disabled = SWEEP_SANITIZED
+#define PLAIN_ONLY .data = sweep_plain_only
 
 #endif

@@ -179,7 +179,7 @@ static void compare(const batch *b, const char *language, const char *command, d
                     bool (*wanted)(const exported *e))
 {
     char line[SCRATCH + 400];
-    if (SWEEP_SANITIZED && !sweep_whole() && strcmp(language, "C")) return;
+    if (sweep_sanitized() && !sweep_whole() && strcmp(language, "C")) return;
     snprintf(line, sizeof line, "cd %s && %s", b->folder, command);
     FILE *pipe = popen(line, "r");
     cr_assert_not_null(pipe);
@@ -391,7 +391,7 @@ static void languages(size_t part)
     c_program(&b);
     compare(&b, "C", "${CC:-cc} -std=c99 -O0 -Wall -Wextra -Werror *.c -o c_code -lm && ./c_code", 1e-12, NULL);
     char command[SCRATCH + 200];
-    if (SWEEP_SANITIZED && !sweep_whole()) { /* of what was written in other languages the plain test tells as much */
+    if (sweep_sanitized() && !sweep_whole()) { /* of what was written in other languages the plain test tells as much */
         batch_clear(&b);
         return;
     }

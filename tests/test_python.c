@@ -14,7 +14,7 @@ Test(python, package)
     enum { least = 45 }; /* so many tests must pass, so that none is lost silently */
     char line[1000], said[20000] = "";
     int  passed = 0;
-    if (SWEEP_SANITIZED) {
+    if (sweep_sanitized()) {
         cr_log_warn("skipped: Python loads the library of the plain build");
         cr_skip_test("the plain build's");
     }

@@ -98,7 +98,7 @@ static void lose(command *what, size_t trials)
     char *expected = once(what, context, &error);
     cr_assert_not_null(expected, "%s", error.what);
     size_t total = allocations(what, context), refused = 0;
-    trials = SWEEP_SANITIZED ? (trials + 2) / 3 : trials;
+    trials = sweep_sanitized() ? (trials + 2) / 3 : trials;
     for (size_t i = 0; i < trials; i++) {
         nh_memory_fail_after(i % 2 ? i * total / trials : i * i);
         nh_error_clear(&error);

@@ -136,7 +136,7 @@ Test(tex, every_number_is_in_the_json, PLAIN_ONLY)
 /* Sets NAME.tex; false without pdflatex.  What the sanitized program writes, the plain one writes too. */
 static bool set_in_type(const place *p, const char *name)
 {
-    if (SWEEP_SANITIZED && !sweep_whole()) return true;
+    if (sweep_sanitized() && !sweep_whole()) return true;
     char command[400];
     snprintf(command, sizeof command,
              "command -v pdflatex >/dev/null && kpsewhich pgfplots.sty >/dev/null || exit 3\n"
@@ -279,7 +279,7 @@ static const char *next_number(const char *at, const char *before, double number
 Test(tex, coefficients_of_a_series_are_told)
 {
     place p = place_with_systems();
-    bool small = SWEEP_SANITIZED && !sweep_whole(); /* then Airy's equation */
+    bool small = sweep_sanitized() && !sweep_whole(); /* then Airy's equation */
     char line[200];
     write_here(&p, "airy.yaml", "name: airy\ncoordinates: [x]\nlagrangian: x'^2/2 - t*x^2/2\n");
     snprintf(line, sizeof line, "analyze %s --option named=0 --quiet --tex a.tex --json a.json --html a.html", small ? "airy.yaml" : "rolling_disk");
@@ -350,7 +350,7 @@ Test(tex, a_fragment_is_read_by_another_document)
     free(body);
     write_here(&p, "paper.tex", "\\documentclass{article}\\usepackage{amsmath,amssymb,longtable,pgfplots}\\pgfplotsset{compat=1.16}\n"
                                 "\\begin{document}\\section{Ours}\\input{body}\\section{Theirs}\\input{reduced}\\end{document}\n");
-    f = run_expecting(&p, SWEEP_SANITIZED && !sweep_whole() ? "export sleigh --to latex --of equations,submanifold,reduced"
+    f = run_expecting(&p, sweep_sanitized() && !sweep_whole() ? "export sleigh --to latex --of equations,submanifold,reduced"
                                                             : "export crane --to latex --of equations,submanifold,reduced", 0);
     write_here(&p, "exported.tex", f.out);
     finished_clear(&f);
