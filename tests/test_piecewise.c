@@ -7,6 +7,7 @@
 #include "catalogue.h"
 #include "graph/diff.h"
 #include "graph/print.h"
+#include "integrals/prove.h"
 #include "integrals/region.h"
 #include "scratch.h"
 #include "search/explicit_motion.h"
@@ -415,6 +416,36 @@ Test(piecewise, angles_are_proved_for_all_parameters, PLAIN_ONLY)
     cr_expect_eq(r->independent, 5);
     for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "%s", r->found[k].name);
     nh_analysis_free(r);
+}
+
+/* With sign(u) as a parameter the equations have no kink; what is found there holds on each side: drag of the square of the speed, dry friction. */
+Test(piecewise, the_sides_of_a_kink_are_searched)
+{
+    static const struct {
+        const char *text;
+        size_t independent, pieces;
+        const char *known; /* is constant on each side */
+    } side[] = {
+        {"parameters: {c: 0.3}\ncoordinates: [x]\nlagrangian: x'^2/2 - x^2/2\nforces: [\"x = -c*x'*abs(x')\"]\n", 0, 1,
+         "(2*c*(c*x'^2 + x*sign(x')) - 1)*exp(2*c*x*sign(x'))"},
+        {"parameters: {c: 0.3, g: 9.8, l: 0.7}\ncoordinates: [{name: a, type: angle}]\nlagrangian: l^2*a'^2/2 + g*l*cos(a)\nforces: [\"a = -c*a'*abs(a')\"]\n", 0, 1,
+         "(a'^2/2 - g*(cos(a) - 2*c/l^2*sign(a')*sin(a))/l/(1 + 4*c^2/l^4))*exp(2*c/l^2*a*sign(a'))"},
+        {"parameters: {f: 0.3, k: 2}\ncoordinates: [x]\nlagrangian: x'^2/2 - k*x^2/2\nforces: [\"x = -f*sign(x')\"]\n", 0, 2,
+         "(k*x + f*sign(x'))*cos(sqrt(k)*t) - sqrt(k)*x'*sin(sqrt(k)*t)"},
+    };
+    for (size_t i = 0; i < sizeof side / sizeof *side; i++) {
+        nh_analysis *r = analysed(side[i].text);
+        nh_error error = {0};
+        nh_ex e, phi;
+        cr_expect_eq(r->independent, side[i].independent, "%zu: %zu", i, r->independent);
+        cr_assert_eq(r->pieces, side[i].pieces, "%zu: %zu pieces", i, r->pieces);
+        cr_expect(r->completeness[NH_COMPLETE_IN_TIME].degree == 6 && !r->completeness[NH_COMPLETE_IN_TIME].missing_at, "%zu", i);
+        for (size_t k = 0; k < r->pieces; k++)
+            cr_expect(r->piece[k].proof.proved && r->piece[k].proof.all_parameters, "%s", r->piece[k].name);
+        cr_assert(nh_system_expression_text(r->system, "test", side[i].known, 0, NULL, &e, &error) && nh_analysis_file_to_chart(r->model, e, &phi, &error), "%s", error.what);
+        cr_expect_geq(nh_prove_digits(r->model, phi, &r->options), r->options.digits, "%s", side[i].known);
+        nh_analysis_free(r);
+    }
 }
 
 Test(piecewise, a_single_current_is_told_its_region)

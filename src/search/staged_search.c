@@ -11,6 +11,7 @@
 #include "search/stage_solver.h"
 #include "search/constraint_integrals.h"
 #include "search/quadratures.h"
+#include "search/sides.h"
 #include "search/stages.h"
 
 /* The part of a momentum with velocities, where there is another, which may come from a total derivative in L. */
@@ -154,6 +155,7 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
     nh_quadratures_search(&x);
     bool spent = nh_budget_spent();
     nh_budget_begin(INFINITY);
+    if (!nh_stage_solver_done(&x)) nh_sides_search(&x, nh_staged_search_run);
     nh_currents_finish(x.bench);
     how_it_ended(r, spent);
     nh_stage_solver_end(&x);

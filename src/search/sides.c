@@ -1,0 +1,146 @@
+#include "search/sides.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/budget.h"
+#include "base/progress.h"
+#include "exact/normal.h"
+#include "geometry/distribution.h"
+#include "search/missing.h"
+
+enum { most_sides = 4, nested = 4 };
+
+typedef struct {
+    const nh_model *o;
+    nh_dag *d;
+    size_t count;
+    nh_ex u[most_sides], symbol[most_sides];
+    int sign[most_sides]; /* where the model is sampled; 1 where it has both */
+    bool good;            /* there was room for all */
+} sides;
+
+static bool depends_on_state(const nh_model *o, nh_ex u)
+{
+    bool found = nh_depends(o->dag, u, o->system->t);
+    for (size_t s = 0; s < o->system->coordinates && !found; s++)
+        found = nh_depends(o->dag, u, o->system->coordinate[s].q) || nh_depends(o->dag, u, o->system->coordinate[s].v);
+    for (size_t i = 0; i < o->system->quasi && !found; i++) found = nh_depends(o->dag, u, o->system->quasi_velocity[i]);
+    return found;
+}
+
+/* The symbol for sign(u). */
+static nh_ex side_of(sides *x, nh_ex u)
+{
+    for (size_t k = 0; k < x->count; k++)
+        if (x->u[k] == u) return x->symbol[k];
+    if (x->count == most_sides) {
+        x->good = false;
+        return nh_int(x->d, 1);
+    }
+    x->u[x->count] = u;
+    x->sign[x->count] = nh_model_sign(x->o, u) < 0 ? -1 : 1;
+    return x->symbol[x->count++] = nh_symbol_fresh(x->d, "side");
+}
+
+/* e with symbols for the signs; the arguments of the outer ones contain symbols for the inner ones. */
+static nh_ex with_symbols(sides *x, nh_ex e)
+{
+    enum { most = 64 };
+    nh_dag *d = x->d;
+    nh_ex call[most], by[most];
+    for (size_t level = 0; level < nested; level++) {
+        size_t n = nh_functions_in(d, e, call, most), pieces = 0;
+        if (n > most) x->good = false;
+        for (size_t i = 0; i < n && i < most; i++) {
+            nh_function f = nh_function_of(d, call[i]);
+            nh_ex u = f == NH_ABS || f == NH_SIGN ? nh_child(d, call[i], 0) : 0, inner[2];
+            if (!u || nh_functions_in(d, u, inner, 2) > 1 || !depends_on_state(x->o, u)) continue;
+            call[pieces] = call[i];
+            by[pieces++] = nh_mul(d, side_of(x, u), f == NH_ABS ? u : nh_int(d, 1));
+        }
+        if (!pieces) break;
+        e = nh_substitute(d, e, pieces, call, by);
+    }
+    return e;
+}
+
+/* The system with symbols for the signs, which are parameters of it; it shares everything else. */
+static nh_system *without_kinks(sides *x, nh_arena *arena, const nh_system *system)
+{
+    nh_system *s = nh_arena_alloc(arena, sizeof *s);
+    *s = *system;
+    s->lagrangian = with_symbols(x, system->lagrangian);
+    s->force = nh_arena_alloc(arena, (s->coordinates + 1) * sizeof *s->force);
+    for (size_t i = 0; i < s->coordinates; i++) s->force[i] = with_symbols(x, system->force[i]);
+    s->constraint = nh_arena_alloc(arena, (s->constraints + 1) * sizeof *s->constraint);
+    for (size_t i = 0; i < s->constraints; i++) {
+        nh_constraint *c = &s->constraint[i];
+        *c = system->constraint[i];
+        c->lhs = with_symbols(x, c->lhs);
+        c->rhs = with_symbols(x, c->rhs);
+        if (c->position) c->level = with_symbols(x, c->level);
+    }
+    s->parameter = nh_arena_alloc(arena, (s->parameters + x->count + 1) * sizeof *s->parameter);
+    memcpy(s->parameter, system->parameter, s->parameters * sizeof *s->parameter);
+    for (size_t k = 0; k < x->count; k++)
+        s->parameter[s->parameters++] = (nh_parameter){
+            .name = "side", .unit = "", .symbol = x->symbol[k], .value = x->sign[k], .written = x->sign[k]};
+    s->currents = s->not_conserved = s->robustness_maps = 0;
+    return s;
+}
+
+/* e with the signs in their places; a root of one is real on one side only, and e is given for that on which the model
+ * is sampled. */
+static nh_ex with_signs(const sides *x, nh_ex e)
+{
+    enum { most = 64 };
+    nh_dag *d = x->d;
+    nh_ex base[most];
+    for (size_t j = x->count; j-- > 0;) {
+        nh_ex sign = nh_call(d, NH_SIGN, x->u[j]);
+        size_t n = nh_radicands_in(d, e, base, most);
+        for (size_t i = 0; i < n; i++)
+            if (i >= most || nh_depends(d, base[i], x->symbol[j])) sign = nh_int(d, x->sign[j]);
+        e = nh_substitute(d, e, 1, &x->symbol[j], &sign);
+    }
+    return nh_simplify_short(d, e, 0);
+}
+
+/* Each current of the system without kinks, with the signs in their places, as one of the system. */
+static void take(nh_stage_solver *solver, const sides *x, const nh_analysis *found)
+{
+    for (size_t k = 0; k < found->count && !nh_stage_solver_done(solver); k++) {
+        nh_ex e = found->found[k].phi;
+        if (found->found[k].series || !found->found[k].proof.proved) continue;
+        nh_stage_solver_certify(solver, with_signs(x, e), "the equations on one side of a kink");
+    }
+}
+
+void nh_sides_search(nh_stage_solver *solver, nh_whole_search *search)
+{
+    nh_analysis *r = solver->r;
+    sides x = {.o = r->model, .d = r->model->dag, .good = true};
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_system *system = without_kinks(&x, r->arena, r->system);
+    if (!x.count || !x.good || nh_late()) return;
+    nh_progress("the equations on one side of a kink", -1);
+    uint64_t seed = (uint64_t)r->options.seed;
+    nh_chart_choice choice = r->model->chart->quasi ? NH_CHART_AUTO : NH_CHART_COORDINATES;
+    nh_analysis *side = nh_arena_alloc(r->arena, sizeof *side);
+    *side = (nh_analysis){.arena = r->arena, .options = r->options, .system = system};
+    side->model = nh_model_create(system, nh_chart_create(system, choice, seed, &ignored), &ignored);
+    if (!side->model) return;
+    bool same = side->model->n == r->model->n;
+    for (size_t i = 0; i < r->model->n && same; i++) same = side->model->chart->w[i] == r->model->chart->w[i];
+    side->local_maximum = r->local_maximum;
+    side->constraint = nh_distribution_of(side->model);
+    if (same && search(side, &ignored)) {
+        if (!nh_late()) nh_missing_count(side, true);
+        nh_budget_begin(r->options.work);
+        take(solver, &x, side);
+        nh_budget_begin(INFINITY);
+    }
+    nh_model_free(side->model);
+}
