@@ -12,6 +12,7 @@
 #include "search/constraint_integrals.h"
 #include "search/quadratures.h"
 #include "search/sides.h"
+#include "search/slopes.h"
 #include "search/stages.h"
 
 /* The part of a momentum with velocities, where there is another, which may come from a total derivative in L. */
@@ -118,6 +119,7 @@ static const step steps[] = {
     {.run = nh_isometries_search},           /* the same, whatever the coordinates */
     {.run = function_stages},                /* times one function */
     {.run = nh_velocity_turn_search},        /* two velocities and their energy */
+    {.run = nh_slopes_search},               /* two velocities by themselves */
     {.run = nh_quadratures_complete},        /* where one integral is missing, or a linear one */
     {.run = nh_series_stages},               /* no closed form, of one coordinate */
     {.stage = NH_STAGE_DEGREE_2},            /* from here on of higher degree: columns by the hundred */
