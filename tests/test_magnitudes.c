@@ -77,3 +77,25 @@ Test(magnitudes, an_ion_in_a_trap_in_si_units, WHOLE_ONLY)
         "known: {currents: [{name: turning, expr: \"1.67262e-27*(x*y' - y*x') + 2.8035e-20*(x^2 + y^2)\"}]}\n",
         4, 4);
 }
+
+/* The constraint says how fast the body is: velocities of the usual size hardly ever fulfil it, whether it is slow or fast. */
+Test(magnitudes, a_body_of_any_constant_speed)
+{
+    static const double speed[] = {0.5, 0.01, 2, 3000};
+    for (size_t i = 0; i < sizeof speed / sizeof *speed; i++) {
+        char path[SCRATCH];
+        FILE *out = scratch_open(path);
+        cr_assert_not_null(out);
+        fprintf(out, "name: constant\nparameters: {c: %g, g: 9.8}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z\nconstraints: [\"x'^2 + y'^2 + z'^2 = c^2\"]\n", speed[i]);
+        fclose(out);
+        nh_error error = {0};
+        nh_analyze_request q = {.system_path = path, .no_figures = true};
+        nh_options_default(&q.options);
+        nh_analysis *r = nh_analysis_create(&q, &error);
+        remove(path);
+        cr_assert_not_null(r, "%g: %s", speed[i], error.what);
+        cr_expect_eq(r->independent, 5, "%g: %zu", speed[i], r->independent);
+        for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.proved, "%g: Phi%zu is not proved", speed[i], k + 1);
+        nh_analysis_free(r);
+    }
+}

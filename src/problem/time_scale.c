@@ -94,17 +94,38 @@ static void add(nh_system *s, nh_ex symbol, double low, double high)
     s->interval[s->intervals++] = (nh_interval){symbol, low, high};
 }
 
+/* Room for intervals of all that may get one. */
+static void make_room(nh_system *s)
+{
+    nh_interval *list = nh_arena_alloc(s->arena, (s->intervals + 1 + s->coordinates + s->quasi) * sizeof *list);
+    if (s->intervals) memcpy(list, s->interval, s->intervals * sizeof *list);
+    s->interval = list;
+}
+
+static void scale_velocities(nh_system *s, const nh_model *o, double factor)
+{
+    for (size_t i = 0; i < o->m; i++) {
+        double most = velocity * half_width(o, i) * factor;
+        add(s, s->coordinate[i].v, -most, most);
+    }
+    for (size_t i = 0; i < s->quasi; i++) add(s, s->quasi_velocity[i], -velocity * factor, velocity * factor);
+}
+
 double nh_time_scale_set(nh_system *s, const nh_model *o)
 {
     double Omega = omega(o), longest = 1;
     for (size_t i = 0; i < o->m; i++) longest = fmax(longest, half_width(o, i));
     if (!(Omega * longest > fast)) return 1;
-    nh_interval *list = nh_arena_alloc(s->arena, (s->intervals + 1 + 2 * o->m) * sizeof *list);
-    if (s->intervals) memcpy(list, s->interval, s->intervals * sizeof *list);
-    s->interval = list;
+    make_room(s);
     add(s, s->t, 0, 1 / Omega);
-    for (size_t i = 0; i < o->m; i++)
-        add(s, s->coordinate[i].v, -velocity * half_width(o, i) * Omega, velocity * half_width(o, i) * Omega);
-    for (size_t i = 0; i < s->quasi; i++) add(s, s->quasi_velocity[i], -velocity * Omega, velocity * Omega);
+    scale_velocities(s, o, Omega);
     return Omega;
+}
+
+bool nh_time_scale_velocities(nh_system *s, const nh_model *o, double factor)
+{
+    size_t before = s->intervals;
+    make_room(s);
+    scale_velocities(s, o, factor);
+    return s->intervals > before;
 }

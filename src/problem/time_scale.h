@@ -20,4 +20,7 @@
  * What was made of the system before has the old box. */
 double nh_time_scale_set(nh_system *system, const nh_model *model);
 
+/* Adds intervals for velocities that have none, so many times as large as by default; false: all have one. */
+bool nh_time_scale_velocities(nh_system *system, const nh_model *model, double factor);
+
 #endif
