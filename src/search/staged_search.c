@@ -10,6 +10,7 @@
 #include "integrals/prove.h"
 #include "search/stage_solver.h"
 #include "search/constraint_integrals.h"
+#include "search/frames.h"
 #include "search/quadratures.h"
 #include "search/sides.h"
 #include "search/slopes.h"
@@ -157,6 +158,7 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
     nh_quadratures_search(&x);
     bool spent = nh_budget_spent();
     nh_budget_begin(INFINITY);
+    if (!nh_stage_solver_done(&x)) nh_frames_search(&x);
     if (!nh_stage_solver_done(&x)) nh_sides_search(&x, nh_staged_search_run);
     nh_currents_finish(x.bench);
     how_it_ended(r, spent);
