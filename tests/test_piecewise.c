@@ -432,6 +432,7 @@ Test(piecewise, the_sides_of_a_kink_are_searched)
          "(a'^2/2 - g*(cos(a) - 2*c/l^2*sign(a')*sin(a))/l/(1 + 4*c^2/l^4))*exp(2*c/l^2*a*sign(a'))"},
         {"parameters: {f: 0.3, k: 2}\ncoordinates: [x]\nlagrangian: x'^2/2 - k*x^2/2\nforces: [\"x = -f*sign(x')\"]\n", 0, 2,
          "(k*x + f*sign(x'))*cos(sqrt(k)*t) - sqrt(k)*x'*sin(sqrt(k)*t)"},
+        {"parameters: {k: 0.7}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - k*abs(x*y)\n", 1, 1, "x'*y' + k*(x^2 + y^2)*sign(x*y)/2"},
     };
     for (size_t i = 0; i < sizeof side / sizeof *side; i++) {
         nh_analysis *r = analysed(side[i].text);
@@ -439,7 +440,7 @@ Test(piecewise, the_sides_of_a_kink_are_searched)
         nh_ex e, phi;
         cr_expect_eq(r->independent, side[i].independent, "%zu: %zu", i, r->independent);
         cr_assert_eq(r->pieces, side[i].pieces, "%zu: %zu pieces", i, r->pieces);
-        cr_expect(r->completeness[NH_COMPLETE_IN_TIME].degree == 6 && !r->completeness[NH_COMPLETE_IN_TIME].missing_at, "%zu", i);
+        cr_expect(r->completeness[NH_COMPLETE_IN_COORDINATES].degree == 6 && !r->completeness[NH_COMPLETE_IN_COORDINATES].missing_at, "%zu", i);
         for (size_t k = 0; k < r->pieces; k++)
             cr_expect(r->piece[k].proof.proved && r->piece[k].proof.all_parameters, "%s", r->piece[k].name);
         cr_assert(nh_system_expression_text(r->system, "test", side[i].known, 0, NULL, &e, &error) && nh_analysis_file_to_chart(r->model, e, &phi, &error), "%s", error.what);

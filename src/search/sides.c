@@ -107,14 +107,18 @@ static nh_ex with_signs(const sides *x, nh_ex e)
     return nh_simplify_short(d, e, 0);
 }
 
-/* Each current of the system without kinks, with the signs in their places, as one of the system. */
-static void take(nh_stage_solver *solver, const sides *x, const nh_analysis *found)
+/* One of the system without kinks, with the signs in their places, as a current of the system. */
+static void take(nh_stage_solver *solver, const sides *x, const nh_current *f)
 {
-    for (size_t k = 0; k < found->count && !nh_stage_solver_done(solver); k++) {
-        nh_ex e = found->found[k].phi;
-        if (found->found[k].series || !found->found[k].proof.proved) continue;
-        nh_stage_solver_certify(solver, with_signs(x, e), "the equations on one side of a kink");
-    }
+    if (f->series || !f->proof.proved || nh_stage_solver_done(solver)) return;
+    nh_stage_solver_certify(solver, with_signs(x, f->phi), "the equations on one side of a kink");
+}
+
+/* First those that are polynomials, and functions of the others there: the others may have a root of a sign. */
+static void take_all(nh_stage_solver *solver, const sides *x, const nh_analysis *found)
+{
+    for (size_t k = 0; k < found->furthers; k++) take(solver, x, &found->further[k].current);
+    for (size_t k = 0; k < found->count; k++) take(solver, x, &found->found[k]);
 }
 
 void nh_sides_search(nh_stage_solver *solver, nh_whole_search *search)
@@ -139,7 +143,7 @@ void nh_sides_search(nh_stage_solver *solver, nh_whole_search *search)
     if (same && search(side, &ignored)) {
         if (!nh_late()) nh_missing_count(side, true);
         nh_budget_begin(r->options.work);
-        take(solver, &x, side);
+        take_all(solver, &x, side);
         nh_budget_begin(INFINITY);
     }
     nh_model_free(side->model);
