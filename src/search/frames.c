@@ -91,13 +91,26 @@ static size_t with_angle(const frame *f, nh_ex angle)
     return n;
 }
 
+/* Does a sine or cosine of the angle multiply x' in a constraint? */
+static bool is_turned(const frame *f, size_t x, nh_ex angle)
+{
+    nh_ex sine = nh_call(f->d, NH_SIN, angle), cosine = nh_call(f->d, NH_COS, angle);
+    bool found = false;
+    for (size_t a = 0; a < f->system->constraints && !found; a++) {
+        const nh_constraint *c = &f->system->constraint[a];
+        nh_ex by = nh_diff(f->d, nh_sub(f->d, c->lhs, c->rhs), f->velocity[x]);
+        found = nh_depends(f->d, by, sine) || nh_depends(f->d, by, cosine);
+    }
+    return found;
+}
+
 /* Turns the first two velocities for which fewer constraints contain the angle. */
 static bool turn_pair(frame *f, nh_ex angle)
 {
     size_t before = with_angle(f, angle);
     for (size_t x = 0; x < f->m && before; x++)
-        for (size_t y = 0; y < f->m; y++) {
-            if (x == y || f->turned[x] || f->turned[y]) continue;
+        for (size_t y = 0; y < f->m && !f->turned[x] && is_turned(f, x, angle); y++) {
+            if (x == y || f->turned[y] || !is_turned(f, y, angle)) continue;
             turn(f, x, y, angle);
             if (with_angle(f, angle) < before) return true;
             turn_back(f, x, y);
@@ -188,12 +201,15 @@ static void hand_over(nh_stage_solver *to, const nh_analysis *from, size_t n, co
 
 void nh_frames_search(nh_stage_solver *solver)
 {
+    enum { many = 8 };               /* constraints of systems whose equations are too long to be integrated */
     static const double part = 0.04; /* of the work: what is short is found with much less */
     nh_analysis *r = solver->r;
     nh_stage_solver x;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!r->system->constraints || r->system->quasi || r->model->chart->implicit || nh_late()) return;
+    if (!r->system->constraints || r->system->constraints > many || r->system->quasi || r->model->chart->implicit ||
+        nh_late())
+        return;
     frame f = frame_of(r->arena, r->model);
     turn_all(&f);
     nh_system *system = f.turns ? system_in(&f, r->arena) : NULL;
