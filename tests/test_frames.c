@@ -8,6 +8,7 @@
 #include "commands/analyze.h"
 #include "integrals/prove.h"
 #include "problem/analysis_file.h"
+#include "sweep.h"
 
 static nh_analysis *analysed(const char *text)
 {
@@ -29,6 +30,7 @@ Test(frames, a_sleigh_by_its_centre_of_mass)
 {
     static const char *const constraint[] = {"-x'*sin(phi) + y'*cos(phi) = a*phi'", "x'*sin(phi) - y'*cos(phi) + a*phi' = 0"};
     for (size_t i = 0; i < sizeof constraint / sizeof *constraint; i++) {
+        if (!sweep_tries(i, 1, 2)) continue;
         char text[600];
         nh_error error = {0};
         nh_ex e, phi;
