@@ -43,7 +43,7 @@ static nh_ex side_of(sides *x, nh_ex u)
     return x->symbol[x->count++] = nh_symbol_fresh(x->d, "side");
 }
 
-/* e with symbols for the signs; the arguments of the outer ones contain symbols for the inner ones. */
+/* e with symbols for the signs, the outer ones first: their arguments are kept as they stand in the system. */
 static nh_ex with_symbols(sides *x, nh_ex e)
 {
     enum { most = 64 };
@@ -54,8 +54,8 @@ static nh_ex with_symbols(sides *x, nh_ex e)
         if (n > most) x->good = false;
         for (size_t i = 0; i < n && i < most; i++) {
             nh_function f = nh_function_of(d, call[i]);
-            nh_ex u = f == NH_ABS || f == NH_SIGN ? nh_child(d, call[i], 0) : 0, inner[2];
-            if (!u || nh_functions_in(d, u, inner, 2) > 1 || !depends_on_state(x->o, u)) continue;
+            nh_ex u = f == NH_ABS || f == NH_SIGN ? nh_child(d, call[i], 0) : 0;
+            if (!u || !depends_on_state(x->o, u)) continue;
             call[pieces] = call[i];
             by[pieces++] = nh_mul(d, side_of(x, u), f == NH_ABS ? u : nh_int(d, 1));
         }
