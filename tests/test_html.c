@@ -515,6 +515,17 @@ Test(html, upsilon_is_no_y)
     nh_text_clear(&mathml);
 }
 
+/* Behind a factor a bar without its form is an infix operator, and only the other grows with what is between them. */
+Test(html, both_bars_have_one_size)
+{
+    nh_text mathml;
+    nh_text_init(&mathml);
+    cr_assert(nh_typeset("c*th'^2*abs(th')", NH_MATHML, &mathml));
+    const char *left = strstr(nh_text_string(&mathml), "<mrow><mo form=\"prefix\">|</mo>");
+    cr_expect(left && strstr(left, "<mo form=\"postfix\">|</mo></mrow>"), "%s", nh_text_string(&mathml));
+    nh_text_clear(&mathml);
+}
+
 Test(html, formulas_are_set_as_they_are_written)
 {
     for (size_t i = 0; i < sizeof FORMULAS / sizeof *FORMULAS; i++) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "catalogue.h"
+#include "document/facts.h"
 #include "graph/diff.h"
 #include "graph/print.h"
 #include "integrals/prove.h"
@@ -439,6 +440,7 @@ Test(piecewise, the_sides_of_a_kink_are_searched)
         nh_error error = {0};
         nh_ex e, phi;
         cr_expect_eq(r->independent, side[i].independent, "%zu: %zu", i, r->independent);
+        if (!r->independent) cr_expect_str_eq(nh_facts_nothing(r), "Undecided: no current of all motions so far");
         cr_assert_eq(r->pieces, side[i].pieces, "%zu: %zu pieces", i, r->pieces);
         cr_expect(r->completeness[NH_COMPLETE_IN_COORDINATES].degree == 6 && !r->completeness[NH_COMPLETE_IN_COORDINATES].missing_at, "%zu", i);
         for (size_t k = 0; k < r->pieces; k++)

@@ -190,6 +190,7 @@ const char *nh_facts_which_branch(const nh_analysis *r, const nh_current *f)
 const char *nh_facts_nothing(const nh_analysis *r)
 {
     if (r->verdict == NH_NONE) return "No current in this ansatz";
+    if (r->pieces) return "Undecided: no current of all motions so far";
     return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far"
                                                                  : "Undecided: no candidate has a certificate";
 }

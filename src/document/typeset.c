@@ -14,7 +14,7 @@ static const nh_typeset_script scripts[] = {
                    {"<mover accent=\"true\">", "<mo>\u00a8</mo></mover>"},
                    "<mo>(</mo>",
                    "<mo>)</mo>",
-                   {"<mo>|</mo>", "<mo>|</mo>"},
+                   {"<mrow><mo form=\"prefix\">|</mo>", "<mo form=\"postfix\">|</mo></mrow>"},
                    "<mo>+</mo>",
                    "<mo>\u2212</mo>",
                    "<mo>=</mo>",
