@@ -2,27 +2,11 @@
 #include <criterion/criterion.h>
 
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
-#include "commands/analyze.h"
+#include "analysed.h"
 #include "integrals/prove.h"
 #include "problem/analysis_file.h"
 #include "sweep.h"
-
-static nh_analysis *analysed(const char *text)
-{
-    char path[] = "/tmp/nhsym-frames-XXXXXX.yaml";
-    int file = mkstemps(path, 5);
-    nh_error error = {0};
-    nh_analyze_request request = {.system_path = path, .no_figures = true};
-    nh_options_default(&request.options);
-    cr_assert(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text) && close(file) == 0);
-    nh_analysis *r = nh_analysis_create(&request, &error);
-    unlink(path);
-    cr_assert_not_null(r, "%s", error.what);
-    return r;
-}
 
 /* By its centre of mass the equations of the sleigh are long in x' and phi'; along the blade they are v' = a w^2, w' = -m a v w/(I + m a^2), whose motion
  * takes the time (I + m a^2) atanh(sqrt(m) v/r)/(sqrt(m) a r), r^2 = m v^2 + (I + m a^2) w^2. */
@@ -37,7 +21,7 @@ Test(frames, a_sleigh_by_its_centre_of_mass)
         snprintf(text, sizeof text,
                  "name: sleigh\nparameters: {m: 1.5, I: 0.4, a: 0.3}\ncoordinates: [x, y, {name: phi, type: angle}]\nlagrangian: m*(x'^2 + y'^2)/2 + I*phi'^2/2\nconstraints: [\"%s\"]\n",
                  constraint[i]);
-        nh_analysis *r = analysed(text);
+        nh_analysis *r = analysed_text(text);
         cr_assert_geq(r->independent, 3);
         bool timed = false;
         for (size_t k = 0; k < r->count; k++) {

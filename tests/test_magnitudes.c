@@ -1,6 +1,7 @@
 /* Bodies and units of very different sizes: what is proved does not depend on them. */
 #include <criterion/criterion.h>
 
+#include "analysed.h"
 #include "catalogue.h"
 #include "scratch.h"
 #include "sweep.h"
@@ -83,17 +84,9 @@ Test(magnitudes, a_body_of_any_constant_speed, PLAIN_ONLY)
 {
     static const double speed[] = {0.5, 0.01, 2, 3000};
     for (size_t i = 0; i < sizeof speed / sizeof *speed; i++) {
-        char path[SCRATCH];
-        FILE *out = scratch_open(path);
-        cr_assert_not_null(out);
-        fprintf(out, "name: constant\nparameters: {c: %g, g: 9.8}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z\nconstraints: [\"x'^2 + y'^2 + z'^2 = c^2\"]\n", speed[i]);
-        fclose(out);
-        nh_error error = {0};
-        nh_analyze_request q = {.system_path = path, .no_figures = true};
-        nh_options_default(&q.options);
-        nh_analysis *r = nh_analysis_create(&q, &error);
-        remove(path);
-        cr_assert_not_null(r, "%g: %s", speed[i], error.what);
+        char text[300];
+        snprintf(text, sizeof text, "name: constant\nparameters: {c: %g, g: 9.8}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z\nconstraints: [\"x'^2 + y'^2 + z'^2 = c^2\"]\n", speed[i]);
+        nh_analysis *r = analysed_text(text);
         cr_expect_eq(r->independent, 5, "%g: %zu", speed[i], r->independent);
         for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.proved, "%g: Phi%zu is not proved", speed[i], k + 1);
         nh_analysis_free(r);

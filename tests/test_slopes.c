@@ -2,27 +2,10 @@
 #include <criterion/criterion.h>
 
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
-#include "commands/analyze.h"
+#include "analysed.h"
 #include "integrals/prove.h"
 #include "problem/analysis_file.h"
-#include "scratch.h"
-
-static nh_analysis *analysed(const char *text)
-{
-    char path[] = "/tmp/nhsym-slopes-XXXXXX.yaml";
-    int file = mkstemps(path, 5);
-    nh_error error = {0};
-    nh_analyze_request request = {.system_path = path, .no_figures = true};
-    nh_options_default(&request.options);
-    cr_assert(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text) && close(file) == 0);
-    nh_analysis *r = nh_analysis_create(&request, &error);
-    unlink(path);
-    cr_assert_not_null(r, "%s", error.what);
-    return r;
-}
 
 /* The hodograph of a projectile with the drag k |v| v (J. Bernoulli 1719): w = 1/x'^2 and p = y'/x' have dw/dp = -(2 k/(m g)) sqrt(1 + p^2) where x' > 0. */
 Test(slopes, a_projectile_with_drag_has_its_hodograph)
@@ -36,7 +19,7 @@ Test(slopes, a_projectile_with_drag_has_its_hodograph)
                  "name: projectile\nparameters: {m: 1.4, k: 0.3, g: 9.8}\ncoordinates: [x, y]\nlagrangian: m*(x'^2 + y'^2)/2 - m*g*y\n"
                  "forces: [\"x = -k*x'*sqrt(x'^2 + y'^2)\", \"y = -k*y'*sqrt(x'^2 + y'^2)\"]\n%s",
                  places[i]);
-        nh_analysis *r = analysed(text);
+        nh_analysis *r = analysed_text(text);
         cr_assert_eq(r->count + r->pieces, 1, "%zu", i);
         const nh_current *f = r->count ? r->found : r->piece;
         cr_expect(f->proof.proved && f->proof.all_parameters, "%s", f->name);

@@ -110,12 +110,10 @@ static bool set_speeds(nh_analysis *r, nh_chart_choice choice, nh_error *error)
 {
     static const double factors[] = {0.25, 4, 0.03, 30, 1e-3, 1e3};
     size_t given = r->system->intervals;
-    bool changed = false;
     if (!r->system->constraints || can_be_sampled(r)) return true;
     for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
         r->system->intervals = given;
         if (!nh_time_scale_velocities(r->system, r->model, factors[i])) return true;
-        changed = true;
         nh_error ignored;
         nh_error_clear(&ignored);
         nh_model *other = model_of(r, choice, &ignored);
@@ -130,7 +128,6 @@ static bool set_speeds(nh_analysis *r, nh_chart_choice choice, nh_error *error)
         return true;
     }
     r->system->intervals = given;
-    if (!changed) return true;
     nh_model_free(r->model);
     r->model = model_of(r, choice, error);
     return r->model != NULL;

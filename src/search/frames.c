@@ -46,7 +46,6 @@ static frame frame_of(nh_arena *arena, const nh_model *o)
     f.map = copy(arena, f.m, f.u);
     f.back = copy(arena, f.m, f.velocity);
     f.solved = nh_arena_alloc(arena, (f.m + 1) * sizeof *f.solved);
-    memset(f.solved, 0, (f.m + 1) * sizeof *f.solved);
     f.turned = nh_arena_alloc(arena, (f.m + 1) * sizeof *f.turned);
     return f;
 }
