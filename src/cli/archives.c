@@ -1,5 +1,8 @@
 /* archives: settings for libraries that are linked into the program, made before these start. */
 #include <stdlib.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 /* OpenBLAS starts a thread per core when it is loaded, and each of them spins for 25 ms waiting for work.  This
  * setting makes it start none: blocks of work are shared out above it (base/parallel.h), with results that do not
@@ -14,6 +17,16 @@ __attribute__((constructor(101))) static void keep_blas_the_same(void)
 {
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) setenv("OPENBLAS_CORETYPE", "Haswell", 0);
+}
+#endif
+
+/* A search takes and gives back arrays of some megabytes thousands of times; memory that returns to the system each
+ * time comes back as pages to be cleared, for half of the system's share of the time. */
+#ifdef __GLIBC__
+__attribute__((constructor)) static void keep_memory(void)
+{
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    mallopt(M_TRIM_THRESHOLD, 512 << 20);
 }
 #endif
 

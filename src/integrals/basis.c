@@ -22,36 +22,49 @@ static size_t equilibrate(nh_basis *basis, size_t rows, size_t columns, const do
     return count;
 }
 
-/* Adds column `kept` of R.  The distance of each column from the span of all others, 1 / |row i of R^-1|, falls with
+/* Adds column `kept` of R^-1.  The distance of each column from the span of all others, 1 / |row i of R^-1|, falls with
  * it.  (A slowly growing dependence, cos x = T_0 + T_2 + ..., leaves no small pivot.) square[i]: |row i of R^-1|^2;
  * returns the column with the largest. */
-static size_t watch_rows(size_t kept, const double *r, size_t ld, double *square, double *y)
+static size_t watch_rows(size_t kept, const double *r, size_t ld, double *inverse, double *square)
 {
     size_t worst = kept;
-    double rest = r[kept + kept * ld];
+    double rest = r[kept + kept * ld], *y = inverse + kept * ld;
     memcpy(y, r + kept * ld, kept * sizeof *y);
     if (kept) nh_solve_triangle(kept, 1, r, ld, y, kept);
-    square[kept] = 1 / (rest * rest);
-    for (size_t i = 0; i < kept; i++) {
-        square[i] += y[i] / rest * (y[i] / rest);
+    y[kept] = 1;
+    square[kept] = 0;
+    for (size_t i = 0; i <= kept; i++) {
+        y[i] /= rest;
+        square[i] += y[i] * y[i];
         if (square[i] > square[worst]) worst = i;
     }
     return worst;
 }
 
-/* Gram-Schmidt, twice because of rounding, in the given order: a column that depends on those before it is dropped, so
- * that the caller's order (simplest first) decides which of dependent columns stay. q: rows x available, unit columns;
- * overwritten by the orthonormal ones that are kept. r receives the triangle with leading dimension `available`.
- * Returns a column that must be dropped first because it depends on the others far more than any later one does;
- * `available` when there is none. */
-static size_t keep_independent(nh_basis *basis, size_t rows, size_t available, double *q, double *r, double rank)
+/* The squares of the rows of the first `kept` columns of R^-1, summed in the same order as before. */
+static void sum_rows(size_t kept, size_t ld, const double *inverse, double *square)
 {
-    double *h = nh_alloc_array(2 * available, sizeof *h), *square = h + available,
-           *shadow = nh_alloc_array(rows + available, sizeof *shadow);
-    size_t kept = 0, *from = nh_alloc_array(available, sizeof *from), intruder = available;
-    basis->smallest_kept = 1;
-    for (size_t j = 0; j < available && intruder == available; j++) {
-        double *x = q + j * rows, *column = r + kept * available;
+    memset(square, 0, kept * sizeof *square);
+    for (size_t j = 0; j < kept; j++)
+        for (size_t i = 0; i <= j; i++) square[i] += inverse[i + j * ld] * inverse[i + j * ld];
+}
+
+/* Gram-Schmidt, twice because of rounding, in the given order: a column that depends on those before it is dropped, so
+ * that the caller's order (simplest first) decides which of dependent columns stay.  A column that depends on the
+ * others far more than any later one does is dropped too, and what came after it is done again without it.
+ * unit: rows x available, the columns listed in basis->column, which becomes the list of those that are kept; r
+ * receives the triangle with leading dimension `available`. */
+static void keep_independent(nh_basis *basis, size_t rows, size_t available, const double *unit, double *r, double rank)
+{
+    double *q = nh_alloc_array(rows * available, sizeof *q), *h = nh_alloc_array(2 * available, sizeof *h),
+           *square = h + available, *shadow = nh_alloc_array(rows, sizeof *shadow),
+           *inverse = nh_alloc_array(available * available, sizeof *inverse);
+    size_t kept = 0, *from = nh_alloc_array(available, sizeof *from);
+    bool *intruder = nh_alloc_array(available, sizeof *intruder);
+    for (size_t j = 0; j < available; j++) {
+        if (intruder[j]) continue;
+        double *x = q + kept * rows, *column = r + kept * available;
+        memcpy(x, unit + j * rows, rows * sizeof *x);
         memset(column, 0, available * sizeof *column);
         for (int pass = 0; pass < 2 && kept; pass++) {
             nh_multiply(1, kept, rows, x, q, h);
@@ -64,22 +77,30 @@ static size_t keep_independent(nh_basis *basis, size_t rows, size_t available, d
             basis->largest_dropped = fmax(basis->largest_dropped, rest);
             continue;
         }
-        basis->smallest_kept = fmin(basis->smallest_kept, rest);
         column[kept] = rest;
-        for (size_t i = 0; i < rows; i++) q[i + kept * rows] = x[i] / rest;
+        for (size_t i = 0; i < rows; i++) x[i] /= rest;
         from[kept] = j;
-        size_t worst = watch_rows(kept, r, available, square, shadow);
+        size_t worst = watch_rows(kept, r, available, inverse, square);
         if (sqrt(square[worst]) * rank > 1) {
             basis->largest_dropped = fmax(basis->largest_dropped, 1 / sqrt(square[worst]));
-            intruder = from[worst];
-        }
-        basis->column[kept++] = basis->column[j];
+            intruder[from[worst]] = true;
+            j = from[kept = worst];
+            sum_rows(kept, available, inverse, square);
+        } else
+            kept++;
+    }
+    basis->smallest_kept = 1;
+    for (size_t i = 0; i < kept; i++) {
+        basis->smallest_kept = fmin(basis->smallest_kept, r[i + i * available]);
+        basis->column[i] = basis->column[from[i]];
     }
     basis->count = kept;
+    nh_free(intruder);
     nh_free(from);
+    nh_free(inverse);
     nh_free(shadow);
     nh_free(h);
-    return intruder;
+    nh_free(q);
 }
 
 /* b is a triangle, and every column has a large distance from the span of the others (1/|row i of R^-1|): then it is
@@ -114,30 +135,21 @@ static bool already_independent(nh_basis *basis, size_t rows, size_t columns, co
     return false;
 }
 
-/* The independent columns of those listed in basis->column, with their triangle. */
+/* The independent columns of those listed in basis->column, with their triangle; false where one is not finite. */
 static bool choose_columns(nh_basis *basis, size_t rows, size_t available, const double *b, size_t ld, double rank)
 {
-    double *q = nh_alloc_array(rows * available, sizeof *q), *r = nh_alloc_array(available * available, sizeof *r);
-    size_t *candidate = nh_alloc_array(available, sizeof *candidate), intruder = 0;
-    memcpy(candidate, basis->column, available * sizeof *candidate);
-    for (bool again = true; again && available > 0;) {
-        memcpy(basis->column, candidate, available * sizeof *candidate);
-        basis->count = available;
-        nh_basis_gather(basis, rows, b, ld, q);
-        if (!isfinite(nh_norm(rows * available, q))) break;
-        intruder = keep_independent(basis, rows, available, q, r, rank);
-        again = intruder < available;
-        if (!again) break;
-        memmove(candidate + intruder, candidate + intruder + 1, (available - intruder - 1) * sizeof *candidate);
-        available--;
+    double *unit = nh_alloc_array(rows * available, sizeof *unit), *r = NULL;
+    nh_basis_gather(basis, rows, b, ld, unit);
+    bool good = isfinite(nh_norm(rows * available, unit));
+    if (good) {
+        r = nh_alloc_array(available * available, sizeof *r);
+        keep_independent(basis, rows, available, unit, r, rank);
+        basis->r = nh_alloc_array(basis->count * basis->count + 1, sizeof(double));
+        for (size_t j = 0; j < basis->count; j++)
+            memcpy(basis->r + j * basis->count, r + j * available, (j + 1) * sizeof *r);
     }
-    bool good = intruder == available && available > 0;
-    basis->r = nh_alloc_array(basis->count * basis->count + 1, sizeof(double));
-    for (size_t j = 0; j < basis->count && good; j++)
-        memcpy(basis->r + j * basis->count, r + j * available, (j + 1) * sizeof *r);
-    nh_free(candidate);
-    nh_free(q);
     nh_free(r);
+    nh_free(unit);
     return good;
 }
 
