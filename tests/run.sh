@@ -31,8 +31,8 @@ fi
 export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"
 # And its kernels are those that the program takes (src/cli/archives.c): for a processor that it does not know it would take its slowest.
 [ "$OPENBLAS_CORETYPE" ] || ! grep -qw avx2 /proc/cpuinfo 2>/dev/null || ! grep -qw fma /proc/cpuinfo || export OPENBLAS_CORETYPE=Haswell
-# A fifth of the time under the address sanitizer went into call stacks of thirty frames and memory held back; what is set already has the last word.
-export ASAN_OPTIONS="malloc_context_size=6:quarantine_size_mb=8:$ASAN_OPTIONS"
+# A third of the time under the address sanitizer went into call stacks of thirty frames and memory held back; what is set already has the last word (malloc_context_size=30 to see where a block came from).
+export ASAN_OPTIONS="malloc_context_size=1:quarantine_size_mb=8:$ASAN_OPTIONS"
 programs=$(for name in "$@"; do
     if [ -d "$name" ]; then ls "$name"/tests/test_*; else echo "$name"; fi
 done | grep -v '\.[a-z]*$')

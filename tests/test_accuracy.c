@@ -315,7 +315,7 @@ static nh_ensemble *stiff_ensemble(const char *text, const double start[4], doub
 }
 
 /* Van der Pol's oscillator while it relaxes: in batches the pair of order 8 would take a hundred thousand steps for what BDF does in some hundred. */
-Test(accuracy, members_of_a_stiff_ensemble_are_computed_alone, PLAIN_ONLY)
+Test(accuracy, members_of_a_stiff_ensemble_are_computed_alone, WHOLE_ONLY)
 {
     static const char *const stiff = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2\nforces: [\"x = 1000*(1 - x^2)*x'\"]\n";
     const double start[4] = {2, 0.5, 0, 0};

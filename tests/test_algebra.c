@@ -111,7 +111,7 @@ static const struct {
     {"rrrr", "R^4", 4},          {"f", "(an algebra of dimension 4)", 1},  {"d", "(an algebra of dimension 3)", 0},
 };
 
-Test(algebra, products_in_random_bases_are_named, PLAIN_ONLY)
+Test(algebra, products_in_random_bases_are_named, WHOLE_ONLY)
 {
     for (size_t i = 0; i < sizeof products / sizeof *products; i++)
         for (uint64_t seed = 1; seed <= 6; seed++) {

@@ -287,7 +287,7 @@ static const char *ansatz(const char *items)
 }
 
 /* A little friction: the energy is not conserved, and this is said; with a column that compensates it, that is a true current. */
-Test(analyze, friction, PLAIN_ONLY)
+Test(analyze, friction, WHOLE_ONLY)
 {
     const char *system = sleigh_with("forces:\n  - phi = -0.01*phi'\n", "");
     nh_analysis *r = ask((question){.system = system, .analysis = ansatz("  - terms: [omega^2, v^2, omega*v]\n")});

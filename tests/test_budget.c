@@ -87,7 +87,7 @@ static bool same(const nh_analysis *a, const nh_analysis *b)
     return equal;
 }
 
-Test(budget, ends_a_search_at_the_same_place_with_any_threads)
+Test(budget, ends_a_search_at_the_same_place_with_any_threads, PLAIN_ONLY)
 {
     size_t i = 0;
     for (double work = 5; work < 1000; work *= 4) {

@@ -55,7 +55,7 @@ Test(catalogue, analysis_files_find_everything_known, PLAIN_ONLY)
 }
 
 /* The field of the energy is d/dt, however long the inverse of the mass matrix is. */
-Test(catalogue, the_energy_belongs_to_time, PLAIN_ONLY)
+Test(catalogue, the_energy_belongs_to_time, WHOLE_ONLY)
 {
     nh_error error;
     nh_error_clear(&error);

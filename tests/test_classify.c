@@ -239,7 +239,7 @@ Test(classify, tops, WHOLE_ONLY)
 }
 
 /* On the level 0 of a momentum, which is a constraint that needs no force: the top of Goryachev and Chaplygin, of degree three.  [BorisovMamaev2005] */
-Test(classify, levels_are_constraints, PLAIN_ONLY)
+Test(classify, levels_are_constraints, WHOLE_ONLY)
 {
     expect_family("top_level", 0, NULL, 3, true, "C0 1@1 1/4@3");
 }
@@ -652,7 +652,7 @@ static const char skate[] =
     "lagrangian: m/2*((x' - a*h'*sin(h))^2 + (y' + a*h'*cos(h))^2) + I/2*h'^2\nconstraints: [\"y'*cos(h) = x'*sin(h)\"]\n";
 
 /* Without its mass the skate keeps equations of motion in the limit, but has none of its own. */
-Test(classify, a_value_without_inertia_is_degenerate)
+Test(classify, a_value_without_inertia_is_degenerate, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "a.yaml", skate);
@@ -664,7 +664,7 @@ Test(classify, a_value_without_inertia_is_degenerate)
 }
 
 /* Nor on a curve of two parameters; without moment of inertia it moves like a point. */
-Test(classify, a_curve_without_inertia_is_degenerate, PLAIN_ONLY)
+Test(classify, a_curve_without_inertia_is_degenerate, WHOLE_ONLY)
 {
     place p = place_make();
     write_here(&p, "a.yaml", skate);

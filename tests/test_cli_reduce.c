@@ -127,7 +127,7 @@ Test(cli_reduce, accuracy_chooses_methods, PLAIN_ONLY)
 }
 
 /* A dashpot that stops the relative motion of two masses within 1e-6: what is left when their common motion is divided out is stiff. */
-Test(cli_reduce, accuracy_of_a_stiff_reduced_motion, PLAIN_ONLY)
+Test(cli_reduce, accuracy_of_a_stiff_reduced_motion, WHOLE_ONLY)
 {
     static const char text[] = "name: dashpot\nparameters: [{name: c, value: 500000}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                                "lagrangian: (x'^2 + y'^2)/2 - (x - y)^2/2\nforces: [\"x = -c*(x' - y')\", \"y = c*(x' - y')\"]\n";

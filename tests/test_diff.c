@@ -267,7 +267,7 @@ Test(diff, deep_expressions_need_no_deep_stack, .timeout = 20, PLAIN_ONLY)
     nh_dag_free(d);
 }
 
-Test(diff, wide_expressions, .timeout = 20, PLAIN_ONLY)
+Test(diff, wide_expressions, .timeout = 20, WHOLE_ONLY)
 {
     enum { sum_terms = 100000, factors = 1000 };
     nh_dag *d = nh_dag_create();

@@ -187,7 +187,7 @@ static nh_system *bent(const nh_system *y, size_t s, size_t o)
     return new;
 }
 
-Test(group_same, in_coordinates_that_are_functions_of_others)
+Test(group_same, in_coordinates_that_are_functions_of_others, WHOLE_ONLY)
 {
     static const struct {
         const char *system;

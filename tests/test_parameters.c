@@ -300,7 +300,7 @@ static void expect_same_formulas(const char *system, const char *sets)
 }
 
 /* Which of two equally simple currents comes first, and their signs, follow from the formulas; numbers of many digits make no relation too long. */
-Test(parameters, order_and_signs_do_not_depend_on_the_values, PLAIN_ONLY)
+Test(parameters, order_and_signs_do_not_depend_on_the_values, WHOLE_ONLY)
 {
     expect_same_formulas("chaplygin_ball", "--set A=6 --set B=7 --set C=9 --set m=5 --set r=8");
     if (sweep_whole()) expect_same_formulas("chaplygin_ball", "--set A=1.4456 --set B=1.8124 --set C=2.0697 --set m=1.6325 --set r=0.58974");
@@ -337,7 +337,7 @@ Test(parameters, gauge_momenta_have_parameters_whatever_the_values, PLAIN_ONLY)
 }
 
 /* A hoop that rolls round a cone: its exponent and what it is a power of hold three parameters. */
-Test(parameters, an_exponent_of_three_parameters, PLAIN_ONLY)
+Test(parameters, an_exponent_of_three_parameters, WHOLE_ONLY)
 {
     place p = place_make();
     write_here(&p, "cone.yaml", "name: cone\ncoordinates: [r, {name: th, type: angle}, {name: psi, type: angle}]\nparameters: {m: 1.3, I: 0.7, al: 0.4, g: 9.81, R: 0.5}\n"

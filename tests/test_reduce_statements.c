@@ -294,6 +294,7 @@ Test(reduce_statements, momenta_beside_a_parameter_of_that_name, PLAIN_ONLY)
     IS_SILENT(TEXT(t), ") J = ");
     SAYS(TEXT(t), "    p_xi = K*p'\n");
     done(&t);
+    if (!sweep_whole()) return;
     t = tell_file("systems/snakeboard.yaml", 0, NULL);
     SAYS(TEXT(t), "    p_xi = ");
     done(&t);

@@ -212,7 +212,7 @@ static const struct {
      "SO(3) x SE(2) x SO(2)", "SE(2)", "SO(3)"},
 };
 
-Test(reductions, two_stages_with_affine_constraints_magnetic_terms_and_forces, PLAIN_ONLY)
+Test(reductions, two_stages_with_affine_constraints_magnetic_terms_and_forces, WHOLE_ONLY)
 {
     for (size_t i = 0; i < sizeof twice / sizeof *twice; i++) {
         nh_error error = {0};

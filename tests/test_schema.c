@@ -222,7 +222,7 @@ Test(schema, what_export_writes_fits, PLAIN_ONLY)
     place_clear(&p);
 }
 
-Test(schema, what_chart_writes_fits)
+Test(schema, what_chart_writes_fits, PLAIN_ONLY)
 {
     static const char *const lines[] = {"sleigh --budget 2s", "ball_on_turntable --until 3 --budget 500ms", "lagrange_top --until 2 --budget 300ms"};
     cJSON *schema = read_json("docs/schema/benchmark.json");

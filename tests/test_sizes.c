@@ -65,7 +65,7 @@ Test(sizes, oscillators, .timeout = 600, PLAIN_ONLY)
 }
 
 /* Many, and fewer in a sample. */
-static size_t many(void) { return sweep_whole() ? 40 : sweep_sanitized() ? 6 : 16; }
+static size_t many(void) { return sweep_whole() ? 40 : sweep_sanitized() ? 6 : 10; }
 
 /* In blocks of two each, and what is said about each takes no more than it has to: half of what may be computed is enough for all. */
 Test(sizes, many_oscillators, .timeout = 600, PLAIN_ONLY)
@@ -128,7 +128,7 @@ Test(sizes, ring_of_many, .timeout = 600, PLAIN_ONLY)
  * coordinates the series of a count would be gigabytes, products of all waves fill lists that no stage may have, and no state can be integrated alone. */
 Test(sizes, ring_of_pendula, .timeout = 600)
 {
-    size_t n = sweep_sanitized() ? 12 : 40;
+    size_t n = sweep_whole() ? 40 : sweep_sanitized() ? 10 : 24;
     nh_text text;
     nh_text_init(&text);
     nh_text_add(&text, "name: ring\nparameters: [{name: g, value: 0.7}, {name: k, value: 1.3}]\ncoordinates: [");

@@ -509,7 +509,7 @@ Test(statements, a_long_field_is_on_the_page, PLAIN_ONLY)
 }
 
 /* The multiplier of z'^2 = a^2 (x'^2 + y'^2) depends on the direction of the velocity, however small that is: nothing is fast here. */
-Test(statements, a_direction_is_no_rate, PLAIN_ONLY)
+Test(statements, a_direction_is_no_rate, WHOLE_ONLY)
 {
     place p = place_make();
     write_here(&p, "cone.yaml", "name: cone\nparameters: [{name: a, value: 0.4}, {name: g, value: 9.81}]\ncoordinates: [x, y, z]\n"
@@ -610,7 +610,7 @@ Test(statements, completeness_names_the_region)
 }
 
 /* Geodesics of SL(2): time by a logarithm that is real where others are than the test motion is: its drift was said to be 0. */
-Test(statements, what_is_not_real_has_no_drift, PLAIN_ONLY)
+Test(statements, what_is_not_real_has_no_drift, WHOLE_ONLY)
 {
     place p = place_make();
     write_here(&p, "sl2.yaml", "name: sl2\ncoordinates: [x, y, z]\ndomain: {y: [0.6, 1.3]}\nlagrangian: ((x'^2 + y'^2)/y^2 + (z' + x'/y)^2)/2\n");

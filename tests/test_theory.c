@@ -772,7 +772,7 @@ static void check_bundle(const char *file, const char *line, size_t stage, size_
     reduced_clear(&s);
 }
 
-Test(theory, the_whole_group_at_once_and_by_stages_as_printed_along_its_own_motion, PLAIN_ONLY)
+Test(theory, the_whole_group_at_once_and_by_stages_as_printed_along_its_own_motion, WHOLE_ONLY)
 {
     check_bundle("systems/euler_disk.yaml", "", 1, 1, 2);
     check_bundle("systems/euler_disk.yaml", " --group 1,2,3 --chain 1;2,3", 1, 2, 1);

@@ -63,7 +63,7 @@ Test(velocity_turn, equal_links, WHOLE_ONLY)
 Test(velocity_turn, with_a_spring_there_is_none, WHOLE_ONLY) { expect(SKATES("0.9", "lagrangian: -k*q^2/2\n"), 1, NULL); }
 
 /* With numbers in place of the parameters.  With one velocity as the first the root of its inertia jumps at q = 0, with the other one it does not. */
-Test(velocity_turn, numbers_as_parameters, PLAIN_ONLY)
+Test(velocity_turn, numbers_as_parameters, WHOLE_ONLY)
 {
     static const char text[] =
         "name: skates\ncoordinates: [x, y, {name: h, type: angle}, {name: q, type: angle}]\nlagrangian: (x'^2 + y'^2)/2 + h'^2/8 + (h' + q')^2/4\n"
