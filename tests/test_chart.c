@@ -300,7 +300,7 @@ Test(chart, the_discrete_problem, PLAIN_ONLY)
 }
 
 /* What is called wrong is an option. */
-Test(chart, thresholds_are_options, PLAIN_ONLY)
+Test(chart, thresholds_are_options, WHOLE_ONLY)
 {
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
@@ -342,7 +342,7 @@ static void check_document(const nh_benchmark *c)
     nh_free(text);
 }
 
-Test(chart, text_json_and_drawing)
+Test(chart, text_json_and_drawing, PLAIN_ONLY)
 {
     nh_benchmark *c = compare("systems/nonholonomic_particle.yaml", NULL, 4, 3);
     nh_text text, svg;

@@ -5,6 +5,7 @@
 #include "base/json.h"
 #include "motion/method.h"
 #include "program.h"
+#include "sweep.h"
 
 static const char *const pendulum =
     "name: pendulum\ncoordinates: [{name: phi, type: angle}]\nlagrangian: phi'^2/2 + cos(phi)\n";
@@ -58,7 +59,7 @@ static double period(double amplitude) /* 2 pi / agm(1, cos(amplitude/2)) */
 }
 
 /* Half a period of the pendulum by every method, as exactly as its order promises; the last row of the table is the event. */
-Test(events, half_a_period_by_every_method)
+Test(events, half_a_period_by_every_method, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "pendulum.yaml", pendulum);
@@ -166,7 +167,7 @@ Test(events, many_in_one_step)
 }
 
 /* x = exp(-t) beside a rate of 1e6, and dry friction, of which the first turn is at pi - atan(0.01/0.9). */
-Test(events, stiff_and_with_friction)
+Test(events, stiff_and_with_friction, PLAIN_ONLY)
 {
     static const char *const methods[] = {"auto", "bdf", "adams", "esdirk", "verner"};
     place p = place_make();

@@ -126,12 +126,13 @@ static size_t exact_squares(const nh_analysis *r)
  * force included.  Drag at one end takes them all and leaves complex rates, the search for whose names ends after little work. */
 Test(linear_motion, chains_have_their_quadratic_integrals, PLAIN_ONLY)
 {
-    size_t n = sweep_whole() ? 5 : 4;
+    enum { n = 5 };
     static const struct {
         const char *weight, *forces;
         size_t squares;
     } row[] = {{" + m*g*x", "", n}, {"", "forces: [\"x1 = -c*x1'\"]\n", 0}};
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        if (!sweep_tries(k, 2, 2)) continue;
         nh_text text;
         nh_text_init(&text);
         nh_text_add(&text, "name: c\nparameters: [{name: k, value: 2.1}, {name: m, value: 1.3}, {name: g, value: 9.8}, {name: c, value: 0.3}]\ncoordinates: [x1");

@@ -263,7 +263,7 @@ static double change_under_constraint(const nh_model *o, nh_ex in_velocities)
 }
 
 /* x' = x z'/y: at y = 0 the chart ends, and motions go through. sqrt(x^2/y^2 + 1) z' changes its sign there, sqrt(x^2 + y^2) z'/y does not. */
-Test(piecewise, motions_go_through_where_the_chart_ends)
+Test(piecewise, motions_go_through_where_the_chart_ends, PLAIN_ONLY)
 {
     static const struct {
         const char *text, *smooth; /* a current that has to be listed */

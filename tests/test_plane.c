@@ -269,7 +269,7 @@ static void random_family(planted what, uint64_t *random, char *expected, size_t
     nh_text_clear(&text);
 }
 
-Test(plane, nothing_is_found_where_there_is_nothing, PLAIN_ONLY)
+Test(plane, nothing_is_found_where_there_is_nothing, WHOLE_ONLY)
 {
     uint64_t random = 81;
     char none[100];

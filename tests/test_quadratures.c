@@ -247,7 +247,7 @@ Test(quadratures, a_root_of_velocities, PLAIN_ONLY)
 
 /* Area functions in place of logarithms, without a current below a fraction bar: integrals that are polynomial in the velocities, so that all are
  * polynomials in those found.  log(x'^2 (2 y (y + sqrt(1 + y^2)) + 1)) is 2 arsinh(y) and a constant of the motion. */
-Test(quadratures, polynomials_with_area_functions)
+Test(quadratures, polynomials_with_area_functions, PLAIN_ONLY)
 {
     static const struct {
         const char *constraint, *area;

@@ -34,7 +34,7 @@ static row analysed(random_system *r, const nh_options *options)
     return o;
 }
 
-Test(random, nothing_false_and_what_is_plain_is_found)
+Test(random, nothing_false_and_what_is_plain_is_found, PLAIN_ONLY)
 {
     nh_options options = quick_options();
     size_t tried = 0, known = 0, missing = 0, found = 0;

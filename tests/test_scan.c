@@ -175,7 +175,7 @@ Test(scan, a_step_is_located_by_bisection, PLAIN_ONLY)
     place_clear(&p);
 }
 
-Test(scan, numbers_of_analyze_by_their_path, PLAIN_ONLY)
+Test(scan, numbers_of_analyze_by_their_path, WHOLE_ONLY)
 {
     place p = place_make();
     write_here(&p, "o.yaml", "name: o\nparameters: {k: 2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + k*y^4)/2\n");

@@ -114,7 +114,7 @@ static const char *const LINES[] = {
     "routh_sphere --option work=1200", "henon_heiles --option work=600", "spherical_pendulum --option work=600", "rolling_disk --option work=1200", "contact_oscillator --option work=600",
 };
 
-Test(schema, what_analyze_writes_fits)
+Test(schema, what_analyze_writes_fits, PLAIN_ONLY)
 {
     cJSON *schema = read_json("docs/schema/analyze.json");
     place p = place_make();
@@ -355,7 +355,7 @@ static void reduce_fits(const place *p, const char *words)
 }
 
 /* Every shipped system; the other forms: an accuracy, chosen generators, a chain, the theory's objects, a limit. */
-Test(schema, what_reduce_writes_fits)
+Test(schema, what_reduce_writes_fits, PLAIN_ONLY)
 {
     static const char *const lines[] = {"vertical_disk --accuracy 1e-8", "vertical_disk --group 1,2 --equations", "vertical_disk --chain 3;4;1,2",
                                         "rolling_ball --weak", "rolling_disk --option work=100"};

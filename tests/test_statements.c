@@ -181,7 +181,7 @@ Test(statements, a_field_is_complete_in_every_report, PLAIN_ONLY)
 }
 
 /* Components of [Gamma,Z] outside of the distribution belong to the forms that are printed: those of the geometry, where it is shown. */
-Test(statements, the_forms_of_the_currents_are_those_of_the_geometry, PLAIN_ONLY)
+Test(statements, the_forms_of_the_currents_are_those_of_the_geometry, WHOLE_ONLY)
 {
     static const char sleigh[] = "name: own\nparameters: [{name: m, value: 2}, {name: J, value: 0.9}, {name: a, value: 0.6}]\n"
                                  "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: phi, type: angle}]\n"
@@ -581,7 +581,7 @@ Test(statements, a_root_is_printed_as_its_velocity)
 }
 
 /* What is constant in a region only is compared with the bound, too, and what is counted on one side says so. */
-Test(statements, completeness_names_the_region)
+Test(statements, completeness_names_the_region, WHOLE_ONLY)
 {
     static const struct {
         const char *system, *where, *words;

@@ -159,7 +159,7 @@ Test(stress, energy_by_fixed_steps, WHOLE_ONLY)
 }
 
 /* What would converge to a different motion is refused, with the reason. */
-Test(stress, a_refusal_is_told, PLAIN_ONLY)
+Test(stress, a_refusal_is_told, WHOLE_ONLY)
 {
     nh_robustness *s = map_over("systems/ball_on_turntable.yaml", NULL, 100);
     const nh_robustness_map *map = map_of(s, "long times by fixed steps");

@@ -243,7 +243,7 @@ Test(symmetry_space, a_skate_on_a_slope, PLAIN_ONLY)
 }
 
 /* Roots of numbers have residues modulo some primes alone: a point has to have all of these. */
-Test(symmetry_space, roots_of_numbers, PLAIN_ONLY)
+Test(symmetry_space, roots_of_numbers, WHOLE_ONLY)
 {
     static const char *const root_of[] = {"2", "3", "5", "7", "10", "13"};
     for (size_t i = 0; i < sizeof root_of / sizeof *root_of; i++) {
