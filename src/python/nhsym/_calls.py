@@ -119,12 +119,14 @@ class Context:
     def _run(self, work):
         if not _elsewhere():
             return work()
-        job = _Job(work)
-        _worker.put(job)
+        job, last = _Job(work), _Job(lambda: None)
         try:
-            job.done.wait()
+            _worker.put(job)
+            while not job.done.wait(0.1):  # a signal that comes just before a wait does not end it
+                pass
         except KeyboardInterrupt:
-            while not job.done.wait(0.02):  # again and again: it may not have begun
+            _worker.put(last)  # done after the job, or without it if it was not put
+            while not last.done.wait(0.02):  # again and again: it may not have begun
                 library().nh_context_interrupt(self.address)
             raise Interrupted(job.result) from None
         if job.failure:
