@@ -224,7 +224,7 @@ Test(schema, what_export_writes_fits, PLAIN_ONLY)
 
 Test(schema, what_chart_writes_fits, PLAIN_ONLY)
 {
-    static const char *const lines[] = {"sleigh --budget 2s", "ball_on_turntable --until 3 --budget 500ms", "lagrange_top --until 2 --budget 300ms"};
+    static const char *const lines[] = {"sleigh --budget 500ms", "ball_on_turntable --until 3 --budget 500ms", "lagrange_top --until 2 --budget 300ms"};
     cJSON *schema = read_json("docs/schema/benchmark.json");
     place p = place_make();
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
