@@ -677,7 +677,7 @@ Test(classify, a_curve_without_inertia_is_degenerate, WHOLE_ONLY)
 
 /* The family depends on time and the system at the value does not: it has as many with coefficients in t, x' and
  * t x' - x among them, and fewer without. */
-Test(classify, coefficients_in_time_at_a_value_without_time)
+Test(classify, coefficients_in_time_at_a_value_without_time, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "a.yaml", "name: a\nparameters: {k: 0.6}\ncoordinates: [x, y]\n"

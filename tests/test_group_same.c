@@ -153,7 +153,7 @@ static size_t perturbed(const char *name)
     return identity_of(s, 1).dimension;
 }
 
-Test(group_same, whatever_the_seed) { for_all(other_seeds, 0); }
+Test(group_same, whatever_the_seed, WHOLE_ONLY) { for_all(other_seeds, 0); }
 Test(group_same, whatever_the_coordinates_are_called_and_their_order) { for_all(other_names, 1); }
 Test(group_same, none_where_a_term_without_symmetry_is_added) { for_all(perturbed, 2); }
 

@@ -271,7 +271,7 @@ static void expect_defined(const char *text, const char *line)
 }
 
 /* Text, page and LaTeX leave no formula out; with less room they do, with all that only it needs, and the option that is named shows it. */
-Test(html, what_is_left_out_is_named_with_the_option_that_shows_it, PLAIN_ONLY)
+Test(html, what_is_left_out_is_named_with_the_option_that_shows_it, WHOLE_ONLY)
 {
     static const char *const lines[] = {"analyze car_trailers_3 --option work=1", "reduce car_trailers_3", "analyze crane --option work=1"};
     place p = place_with_systems();

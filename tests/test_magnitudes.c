@@ -84,6 +84,7 @@ Test(magnitudes, a_body_of_any_constant_speed, PLAIN_ONLY)
 {
     static const double speed[] = {0.5, 0.01, 2, 3000};
     for (size_t i = 0; i < sizeof speed / sizeof *speed; i++) {
+        if (!sweep_tries(i, 3, 4)) continue;
         char text[300];
         snprintf(text, sizeof text, "name: constant\nparameters: {c: %g, g: 9.8}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z\nconstraints: [\"x'^2 + y'^2 + z'^2 = c^2\"]\n", speed[i]);
         nh_analysis *r = analysed_text(text);

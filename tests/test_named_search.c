@@ -74,10 +74,10 @@ Test(named_search, bessel, PLAIN_ONLY)
         HEAD("{name: n, value: 0.3}") "lagrangian: t*(x'^2 - (1 - n^2/t^2)*x^2)/2\ndomain: {t: [1, 3]}\n",
     };
     for (size_t i = 0; i < sizeof systems / sizeof *systems; i++)
-        if (sweep_tries(i, 3, 4)) expect_named(ask_text(systems[i]), 2, "bessel_", 2);
+        if (sweep_tries(i, 4, 4)) expect_named(ask_text(systems[i]), 2, "bessel_", 2);
 }
 
-Test(named_search, kummer, PLAIN_ONLY)
+Test(named_search, kummer, WHOLE_ONLY)
 {
     expect_named(ask_text(HEAD("{name: a, value: 1.3}") "lagrangian: x'^2/2 + (t^2/4 + "
                                                         "a)*x^2/2\ndomain: {t: [0.5, 2]}\n"),

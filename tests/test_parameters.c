@@ -363,7 +363,7 @@ Test(parameters, a_root_with_parameters_below, PLAIN_ONLY)
 }
 
 /* |u| and sign(u) stand in the accelerations together. */
-Test(parameters, momenta_beside_a_kink, PLAIN_ONLY)
+Test(parameters, momenta_beside_a_kink, WHOLE_ONLY)
 {
     expect_names(&(named_case){
         "name: spring\ncoordinates: [x, y]\nparameters: {m: 1, M: 2, k: 3, l: 0.5}\n"

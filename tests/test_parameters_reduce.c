@@ -81,7 +81,7 @@ Test(parameters_reduce, brackets_in_words_have_symbols, PLAIN_ONLY)
 }
 
 /* The fields of joints: null vectors of conditions with parameters. */
-Test(parameters_reduce, fields_of_joints_have_symbols, PLAIN_ONLY)
+Test(parameters_reduce, fields_of_joints_have_symbols, WHOLE_ONLY)
 {
     cJSON *file = answer(helix, ""), *other = answer(helix, "--set h=0.31416 --set l=1.27 --set m=0.9");
     same(at(file, "joints"), at(other, "joints"), "fields of joints");

@@ -263,7 +263,7 @@ static double change_under_constraint(const nh_model *o, nh_ex in_velocities)
 }
 
 /* x' = x z'/y: at y = 0 the chart ends, and motions go through. sqrt(x^2/y^2 + 1) z' changes its sign there, sqrt(x^2 + y^2) z'/y does not. */
-Test(piecewise, motions_go_through_where_the_chart_ends, PLAIN_ONLY)
+Test(piecewise, motions_go_through_where_the_chart_ends, WHOLE_ONLY)
 {
     static const struct {
         const char *text, *smooth; /* a current that has to be listed */
@@ -295,7 +295,7 @@ Test(piecewise, motions_go_through_where_the_chart_ends, PLAIN_ONLY)
 }
 
 /* At the top z' = 0 the root of z'^2 = v^2 - x'^2 - y'^2 changes its sign: an arctangent with z' below is constant on both branches, and jumps. */
-Test(piecewise, motions_pass_from_branch_to_branch)
+Test(piecewise, motions_pass_from_branch_to_branch, PLAIN_ONLY)
 {
     static const char projectile[] =
         "parameters: [{name: m, value: 1}, {name: v, value: 1.5}, {name: g, value: 2}]\n"

@@ -102,7 +102,7 @@ Test(reduce, crane, PLAIN_ONLY)
 }
 
 /* The same numbers of a group whatever the seed: dimension, and the structure constants of the closed forms. */
-Test(reduce, structure_constants_do_not_depend_on_the_seed, PLAIN_ONLY)
+Test(reduce, structure_constants_do_not_depend_on_the_seed, WHOLE_ONLY)
 {
     double c[216];
     for (uint64_t seed = 1; seed <= 4; seed++) {

@@ -684,7 +684,7 @@ Test(reduced_objects, non_abelian_second_stage, PLAIN_ONLY)
 }
 
 /* Without constraints: a body with two masses that slide in it, rotations of all of it. */
-Test(reduced_objects, body_with_sliding_masses)
+Test(reduced_objects, body_with_sliding_masses, PLAIN_ONLY)
 {
     check("sliding masses", "name: slider\nparameters: [{name: A, value: 0.8}, {name: B, value: 1.1}, {name: C, value: 0.6}, {name: m, value: 0.3}]\n"
           "coordinates: [{name: u, type: length}, {name: v, type: length}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"

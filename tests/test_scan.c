@@ -76,7 +76,7 @@ Test(scan, the_sleigh_jumps_at_two, PLAIN_ONLY)
 }
 
 /* A value where the grid ends is told by its own name, not by its neighbour's. */
-Test(scan, values_at_the_ends_have_their_names, PLAIN_ONLY)
+Test(scan, values_at_the_ends_have_their_names, WHOLE_ONLY)
 {
     place p = place_with_systems();
     cJSON *root = scanned(&p, "scan sleigh --over k=1:4:7");

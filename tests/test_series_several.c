@@ -166,7 +166,7 @@ Test(series_several, two_shape_coordinates_of_an_edge, .timeout = 120, WHOLE_ONL
 }
 
 /* X = erf(x (1 + t/4)) moves freely: X' has a closed form, X - t X' has none. */
-Test(series_several, a_place_and_the_time, .timeout = 120, PLAIN_ONLY)
+Test(series_several, a_place_and_the_time, .timeout = 120, WHOLE_ONLY)
 {
     nh_analysis *r = ask_with("name: error function\ncoordinates: [x]\nlagrangian: exp(-2*x^2*(1 + t/4)^2)*((1 + t/4)*x' "
                               "+ x/4)^2/2\ndomain: {x: [-1, 1], t: [0, 1]}\n",

@@ -102,7 +102,7 @@ Test(stress, every_named_map_can_be_read)
             nh_system *system = nh_system_read(path, 0, NULL, &error);
             must(system != NULL, &error, path);
             for (size_t i = 0; i < system->robustness_maps; i++, named++) /* a name that does not fit fails here */
-                if (sweep_tries(named, 6, 20)) nh_robustness_free(map_within(path, system->robustness_map[i].name, 0, 1e-3));
+                if (sweep_tries(named, 10, 20)) nh_robustness_free(map_within(path, system->robustness_map[i].name, 0, 1e-3));
             nh_system_free(system);
         }
     }

@@ -468,7 +468,7 @@ static void expect_known(const unseen *u)
 Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed, PLAIN_ONLY)
 {
     for (size_t i = 0; i < COUNT; i++)
-        if (sweep_tries(i + 1, 12, 36)) expect_known(&UNSEEN[i]);
+        if (sweep_tries(i + 1, 20, 36)) expect_known(&UNSEEN[i]);
 }
 
 /* No other test has these ways. */
@@ -521,7 +521,7 @@ Test(unseen, linear_motion_that_is_driven_has_closed_forms, PLAIN_ONLY)
          "lagrangian: m/2*(x'^2 + y'^2) - k/2*(x^2 + (y - x)^2 + y^2) + F*y*exp(-c*t)*cos(w*t)^2\n", 4, true},
     };
     for (size_t i = 0; i < sizeof driven / sizeof *driven; i++) {
-        if (!sweep_tries(i, 1, 3)) continue;
+        if (!sweep_tries(i, 2, 3)) continue;
         char path[SCRATCH];
         FILE *out = scratch_open(path);
         cr_assert_not_null(out);

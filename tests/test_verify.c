@@ -15,6 +15,7 @@
 
 #include "commands/simulate.h"
 #include "commands/verify.h"
+#include "sweep.h"
 
 static const char SLEIGH[] = "systems/sleigh.yaml";
 
@@ -201,7 +202,7 @@ Test(simulate, the_closed_form_in_both_charts)
 
 /* Constant speed in gravity: where z' changes sign the chart of (x', y') ends, at the branch point of z' = +-sqrt(1 - x'^2 - y'^2), and the motion goes
  * on in all coordinates.  x' exp(-g z), y' exp(-g z) and the speed stay; z' follows from z' = tanh(c - g t) of the unit tangent. */
-Test(simulate, a_motion_leaves_its_chart_and_its_branch)
+Test(simulate, a_motion_leaves_its_chart_and_its_branch, PLAIN_ONLY)
 {
     static const char text[] = "name: rising\nparameters: [{name: g, value: 1.3}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
                                "lagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z\nconstraints:\n  - x'^2 + y'^2 + z'^2 = 1\n";
