@@ -257,7 +257,7 @@ $(BUILD)/%.o: %.c $(BUILD)/flags
 	@echo "  cc   $<"
 	@$(COMPILE) -c $< -o $@
 
-# The code of a test itself takes no time worth optimising, and four times as long to compile; of its arithmetic nobody wants to know.
+# The code of a test itself takes no time worth optimising, and four times as long to compile; of its arithmetic nobody wants to know.  A bench times the library, not itself.
 $(BUILD)/tests/test_%.o: OWN_CFLAGS += -O0 -g0
 $(BUILD)/tests/bench_%.o: OWN_CFLAGS += -O1 -g0
 # Tests are linked, and linked anew, a hundred at a time; each test is a process, which loads what its program needs and no more.

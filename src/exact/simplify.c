@@ -104,7 +104,8 @@ static void offer_form(contest *c, nh_form *form)
         nh_quotient_field_flip_pair(form->field, i);
         const nh_quotient *flipped = nh_quotient_again(form->field, q);
         if (nh_quotient_field_state_of(form->field) != NH_FIELD_FINE) return;
-        if (!nh_quotient_equal(form->field, q, flipped)) offer_quotient(c, form, flipped); /* it has no such square */
+        /* what has no such square is the same */
+        if (!nh_quotient_equal(form->field, q, flipped)) offer_quotient(c, form, flipped);
         if (c->length < before) q = flipped;
         else nh_quotient_field_flip_pair(form->field, i);
     }
