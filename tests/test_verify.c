@@ -2,19 +2,15 @@
 #include <criterion/criterion.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "document/simulation.h"
-#include "document/verification.h"
-#include "exact/normal.h"
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "commands/simulate.h"
 #include "commands/verify.h"
+#include "document/simulation.h"
+#include "document/verification.h"
+#include "exact/normal.h"
 #include "sweep.h"
 
 static const char SLEIGH[] = "systems/sleigh.yaml";
