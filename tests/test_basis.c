@@ -9,16 +9,17 @@
 
 enum { rows = 60, most = 40 };
 
-/* cos x, exp x and 1/(x + 3) are sums of Chebyshev polynomials: each is nearly one of those of low degree, and no pivot is small. */
+/* cos x, exp x and 1/(x + 3) are sums of Chebyshev polynomials: each is nearly one of those of low degree, and no pivot is small.  Some polynomials
+ * stand before what goes. */
 static size_t columns_of(double b[most][rows], int variant)
 {
     double grown = 1.2 + 0.3 * variant, pole = 2.3 + 0.4 * variant;
-    size_t n = 0, polynomials = 24;
+    size_t n = 0, polynomials = 24, before = (size_t)(2 * variant - 2);
     for (size_t k = 0; k < polynomials + 4; k++, n++)
         for (size_t i = 0; i < rows; i++) {
-            double x = 2 * (double)i / (rows - 1) - 1;
-            double f[] = {cos(grown * x), exp(x), 1 / (x + pole), sin(grown * x)};
-            b[n][i] = k < 2 ? f[k] : k < polynomials + 2 ? cos((double)(k - 2) * acos(x)) : f[k - polynomials];
+            double x = 2 * (double)i / (rows - 1) - 1, f[] = {cos(grown * x), exp(x), sin(grown * x), 1 / (x + pole)};
+            size_t degree = k < before ? k : k < before + 3 ? polynomials : k - 3;
+            b[n][i] = degree < polynomials ? cos((double)degree * acos(x)) : k < before + 3 ? f[k - before] : f[3];
         }
     return n;
 }
