@@ -213,6 +213,7 @@ struct nh_analysis {
     /* the last words of the warning that the energy is not conserved; NULL: none, or they are long */
     const char *energy_rate;
     bool partial;             /* the limit of work or time, or the user, ended the search */
+    bool derived;             /* of a system that the search made from the user's (search/other_system.h) */
     nh_timing timing;
 };
 

@@ -9,6 +9,7 @@
 #include "graph/diff.h"
 #include "integrals/prove.h"
 #include "search/currents.h"
+#include "search/other_system.h"
 #include "search/quadratures.h"
 #include "search/slopes.h"
 
@@ -167,8 +168,7 @@ static nh_ex with_solved(const frame *f, nh_ex e)
 /* The system with the remaining velocities as quasi-velocities; NULL: the constraints give no constant coefficients. */
 static nh_system *system_in(frame *f, nh_arena *arena)
 {
-    nh_system *s = nh_arena_alloc(arena, sizeof *s);
-    *s = *f->system;
+    nh_system *s = nh_other_system_copy(arena, f->system, 0, 0);
     for (size_t a = 0; a < s->constraints; a++) {
         nh_ex e = with_solved(f, constraint(f, a));
         if (!nh_is_zero(f->d, e) && !solve_for_one(f, e)) return NULL;
@@ -179,7 +179,7 @@ static nh_system *system_in(frame *f, nh_arena *arena)
         s->quasi_map[i] = with_solved(f, f->map[i]);
         if (!f->solved[i]) s->quasi_velocity[s->quasi++] = f->u[i];
     }
-    s->dependents = s->currents = s->not_conserved = s->robustness_maps = 0;
+    s->dependents = 0;
     return s;
 }
 
@@ -214,13 +214,8 @@ void nh_frames_search(nh_stage_solver *solver)
     nh_system *system = f.turns ? system_in(&f, r->arena) : NULL;
     if (!system) return;
     nh_progress("integration in velocities along and across headings", -1);
-    nh_analysis *other = nh_arena_alloc(r->arena, sizeof *other);
-    *other = (nh_analysis){.arena = r->arena, .options = r->options, .system = system};
-    nh_chart *chart = nh_chart_create(system, NH_CHART_AUTO, (uint64_t)r->options.seed, &ignored);
-    other->model = nh_model_create(system, chart, &ignored);
-    if (!other->model) return;
-    other->local_maximum = r->local_maximum;
-    other->constraint = r->constraint;
+    nh_analysis *other = nh_other_system_open(r, system, NH_CHART_AUTO);
+    if (!other) return;
     nh_budget_begin(part * r->options.work);
     if (other->model->chart->quasi && nh_stage_solver_begin(&x, other, &ignored)) {
         hand_over(&x, r, f.m, f.velocity, system->quasi_map);
@@ -230,5 +225,5 @@ void nh_frames_search(nh_stage_solver *solver)
         nh_stage_solver_end(&x);
     }
     nh_budget_begin(INFINITY);
-    nh_model_free(other->model);
+    nh_other_system_close(other);
 }

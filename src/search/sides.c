@@ -1,7 +1,6 @@
 #include "search/sides.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/budget.h"
 #include "base/progress.h"
@@ -68,25 +67,17 @@ static nh_ex with_symbols(sides *x, nh_ex e)
 /* The system with symbols for the signs, which are parameters of it; it shares everything else. */
 static nh_system *without_kinks(sides *x, nh_arena *arena, const nh_system *system)
 {
-    nh_system *s = nh_arena_alloc(arena, sizeof *s);
-    *s = *system;
+    nh_system *s = nh_other_system_copy(arena, system, most_sides, 0);
     s->lagrangian = with_symbols(x, system->lagrangian);
     s->force = nh_arena_alloc(arena, (s->coordinates + 1) * sizeof *s->force);
     for (size_t i = 0; i < s->coordinates; i++) s->force[i] = with_symbols(x, system->force[i]);
-    s->constraint = nh_arena_alloc(arena, (s->constraints + 1) * sizeof *s->constraint);
     for (size_t i = 0; i < s->constraints; i++) {
         nh_constraint *c = &s->constraint[i];
-        *c = system->constraint[i];
         c->lhs = with_symbols(x, c->lhs);
         c->rhs = with_symbols(x, c->rhs);
         if (c->position) c->level = with_symbols(x, c->level);
     }
-    s->parameter = nh_arena_alloc(arena, (s->parameters + x->count + 1) * sizeof *s->parameter);
-    memcpy(s->parameter, system->parameter, s->parameters * sizeof *s->parameter);
-    for (size_t k = 0; k < x->count; k++)
-        s->parameter[s->parameters++] = (nh_parameter){
-            .name = "side", .unit = "", .symbol = x->symbol[k], .value = x->sign[k], .written = x->sign[k]};
-    s->currents = s->not_conserved = s->robustness_maps = 0;
+    for (size_t k = 0; k < x->count; k++) nh_other_system_parameter(s, "side", x->symbol[k], x->sign[k]);
     return s;
 }
 
@@ -130,21 +121,16 @@ void nh_sides_search(nh_stage_solver *solver, nh_whole_search *search)
     nh_system *system = without_kinks(&x, r->arena, r->system);
     if (!x.count || !x.good || nh_late()) return;
     nh_progress("the equations on one side of a kink", -1);
-    uint64_t seed = (uint64_t)r->options.seed;
     nh_chart_choice choice = r->model->chart->quasi ? NH_CHART_AUTO : NH_CHART_COORDINATES;
-    nh_analysis *side = nh_arena_alloc(r->arena, sizeof *side);
-    *side = (nh_analysis){.arena = r->arena, .options = r->options, .system = system};
-    side->model = nh_model_create(system, nh_chart_create(system, choice, seed, &ignored), &ignored);
-    if (!side->model) return;
+    nh_analysis *side = nh_other_system_open(r, system, choice);
+    if (!side) return;
     bool same = side->model->n == r->model->n;
     for (size_t i = 0; i < r->model->n && same; i++) same = side->model->chart->w[i] == r->model->chart->w[i];
-    side->local_maximum = r->local_maximum;
-    side->constraint = nh_distribution_of(side->model);
     if (same && search(side, &ignored)) {
         if (!nh_late()) nh_missing_count(side, true);
         nh_budget_begin(r->options.work);
         take_all(solver, &x, side);
         nh_budget_begin(INFINITY);
     }
-    nh_model_free(side->model);
+    nh_other_system_close(side);
 }

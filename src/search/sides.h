@@ -2,10 +2,8 @@
 #ifndef NH_SIDES_H
 #define NH_SIDES_H
 
+#include "search/other_system.h"
 #include "search/stage_solver.h"
-
-/* The search of a whole analysis, which this one is a part of. */
-typedef bool nh_whole_search(nh_analysis *analysis, nh_error *error);
 
 /* Searches the system in which sign(u) is a parameter s, and |u| is s u: it has no kinks.  What is constant there for
  * all s is constant on each side of u = 0 with s = sign(u), and becomes a current of the solver's analysis where it can

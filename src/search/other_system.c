@@ -1,0 +1,42 @@
+#include "search/other_system.h"
+
+#include <string.h>
+
+nh_system *nh_other_system_copy(nh_arena *arena, const nh_system *system, size_t parameters, size_t constraints)
+{
+    nh_system *s = nh_arena_alloc(arena, sizeof *s);
+    *s = *system;
+    s->parameter = nh_arena_alloc(arena, (s->parameters + parameters + 1) * sizeof *s->parameter);
+    if (s->parameters) memcpy(s->parameter, system->parameter, s->parameters * sizeof *s->parameter);
+    s->constraint = nh_arena_alloc(arena, (s->constraints + constraints + 1) * sizeof *s->constraint);
+    if (s->constraints) memcpy(s->constraint, system->constraint, s->constraints * sizeof *s->constraint);
+    s->currents = s->not_conserved = s->robustness_maps = 0;
+    return s;
+}
+
+void nh_other_system_parameter(nh_system *s, const char *name, nh_ex symbol, double value)
+{
+    s->parameter[s->parameters++] =
+        (nh_parameter){.name = name, .unit = "", .symbol = symbol, .value = value, .written = value};
+}
+
+nh_analysis *nh_other_system_open(const nh_analysis *first, nh_system *system, nh_chart_choice choice)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_analysis *other = nh_arena_alloc(first->arena, sizeof *other);
+    *other = (nh_analysis){.arena = first->arena, .options = first->options, .system = system, .derived = true};
+    nh_chart *chart = nh_chart_create(system, choice, (uint64_t)first->options.seed, &ignored);
+    other->model = nh_model_create(system, chart, &ignored);
+    if (!other->model) return NULL;
+    other->local_maximum = 2 * other->model->m - other->model->k;
+    other->constraint = nh_distribution_of(other->model);
+    return other;
+}
+
+void nh_other_system_close(nh_analysis *other)
+{
+    if (!other) return;
+    nh_count_memory_free(other->counted);
+    nh_model_free(other->model);
+}
