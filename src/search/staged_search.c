@@ -11,6 +11,7 @@
 #include "search/stage_solver.h"
 #include "search/constraint_integrals.h"
 #include "search/frames.h"
+#include "search/integral_levels.h"
 #include "search/quadratures.h"
 #include "search/sides.h"
 #include "search/slopes.h"
@@ -159,6 +160,7 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
     bool spent = nh_budget_spent();
     nh_budget_begin(INFINITY);
     if (!nh_stage_solver_done(&x)) nh_frames_search(&x);
+    if (!nh_stage_solver_done(&x)) nh_integral_levels_search(&x);
     if (!nh_stage_solver_done(&x)) nh_sides_search(&x, nh_staged_search_run);
     nh_currents_finish(x.bench);
     how_it_ended(r, spent);
