@@ -183,6 +183,19 @@ bool nh_is_infinite_tangent(nh_dag *dag, nh_ex e)
            known_turn(dag, turn, &sine, &cosine) && nh_is_zero(dag, cosine);
 }
 
+/* A product without its positive numbers and roots of numbers. */
+static nh_ex without_numbers(nh_dag *dag, nh_ex a)
+{
+    if (nh_kind_of(dag, a) != NH_PRODUCT || nh_num_value(nh_constant_of(dag, a)) <= 0) return a;
+    nh_ex rest = nh_int(dag, 1);
+    for (size_t i = 0; i < nh_arity(dag, a); i++) {
+        nh_ex base = nh_child(dag, a, i);
+        bool positive = nh_kind_of(dag, base) == NH_NUMBER && nh_num_value(nh_number_of(dag, base)) > 0;
+        if (!positive) rest = nh_mul(dag, rest, nh_pow(dag, base, nh_exponent_of(dag, a, i)));
+    }
+    return rest;
+}
+
 nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a)
 {
     nh_ex e, sine, cosine;
@@ -197,6 +210,7 @@ nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a)
         if (f != NH_TAN) return f == NH_SIN ? sine : cosine;
         if (!nh_is_zero(dag, cosine)) return nh_div(dag, sine, cosine);
     }
+    if (f == NH_SIGN && (e = without_numbers(dag, a)) != a) return nh_call(dag, f, e);
     if (f == NH_EXP && is_call(dag, a, NH_LOG)) return nh_child(dag, a, 0);
     if (f == NH_LOG && is_call(dag, a, NH_EXP)) return nh_child(dag, a, 0);
     return nh_dag_intern(dag, NH_FUNCTION, f, 1, &a);
