@@ -6,8 +6,11 @@
 #include <math.h>
 
 #include "commands/analyze.h"
+#include "exact/normal.h"
+#include "graph/diff.h"
 #include "graph/print.h"
 #include "integrals/real_where.h"
+#include "problem/analysis_file.h"
 #include "search/explicit_motion.h"
 #include "search/motion_series.h"
 #include "sweep.h"
@@ -479,13 +482,32 @@ Test(quadratures, skate_on_slope_that_turns_slower, PLAIN_ONLY)
                         "forces: [\"x = -d*x'\", \"y = -d*y'\", \"phi = -d*phi'\"]\n"), "skate on a slope", 2, 6, 3);
 }
 
-/* Time as an elliptic integral of the place; of a genus above one; of an angle. */
+/* Time as an integral of a genus above one; as an elliptic integral of an angle, which has a name; of more than one. */
 Test(quadratures, one_dimension, PLAIN_ONLY)
 {
     check_integrals(ask("name: well\nparameters: [{name: m, value: 1.3}]\ncoordinates: [{name: x, type: length}]\nlagrangian: m/2*x'^2 - x^4/4 - x^6/6\n"), "well", 1, 3, 1);
-    check_integrals(ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*h'^2 + m*g*cos(h)\n"), "pendulum", 1, 3, 1);
+    check_integrals(ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*h'^2 + m*g*cos(h)\n"), "pendulum", 1, 3, 0);
     check_integrals(ask("name: central\nparameters: [{name: m, value: 1.3}, {name: k, value: 0.4}]\ncoordinates: [{name: r, type: length}, {name: p, type: angle}]\n"
                         "domain: {r: [0.5, 1.5]}\nlagrangian: m/2*(r'^2 + r^2*p'^2) - k*r^3\n"), "central force", 2, 5, 2);
+}
+
+/* sin(h/2)^2 is below E/(2 m g l) = (l h'^2 + 2 g (1 - cos h))/(4 g), and int dh/h' an elliptic integral of the first kind on either side of h' = 0. */
+Test(quadratures, time_of_the_pendulum)
+{
+    nh_analysis *r = ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}, {name: l, value: 0.7}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*l^2*h'^2 - m*g*l*(1 - cos(h))\n");
+    nh_error error = {0};
+    nh_ex e, claim, ratio;
+    cr_assert_eq(r->pieces, 1);
+    cr_expect(r->piece[0].proof.all_parameters);
+    cr_expect_not_null(strstr(r->piece[0].region, "h' = 0"), "%s", r->piece[0].region);
+    cr_assert(nh_system_expression_text(r->system, "test", "t*sqrt(l*h'^2 + 2*g*(1 - cos(h))) - 2*sqrt(l)*sign(h')*elliptic_f(h/2, 4*g/(l*h'^2 + 2*g*(1 - cos(h))))", 0, NULL, &e, &error) &&
+                  nh_analysis_file_to_chart(r->model, e, &claim, &error),
+              "%s", error.what);
+    nh_dag *d = r->model->dag;
+    ratio = nh_simplify(d, nh_div(d, nh_diff(d, r->piece[0].phi, r->system->t), nh_diff(d, claim, r->system->t)));
+    cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, r->piece[0].phi, nh_mul(d, ratio, claim)), 0), NH_ZERO);
+    cr_expect(nh_model_is_constant(r->model, ratio));
+    nh_analysis_free(r);
 }
 
 /* ---- their series ---- */
@@ -509,8 +531,8 @@ static nh_motion_series *series_of(const nh_analysis *r, double *z, double low, 
     return out;
 }
 
-/* 1/h' of the pendulum that starts with z, where h' keeps its sign. */
-static double pace(const double *z, double h) { return 1 / copysign(sqrt(z[2] * z[2] + 4 * (cos(h) - cos(z[1]))), z[2]); }
+/* 1/h' of the magnetic pendulum that starts with z, where h' keeps its sign. */
+static double pace(const double *z, double h) { return 1 / copysign(sqrt(z[2] * z[2] + 4 * (cos(h) - cos(z[1])) + 0.5 * (cos(2 * h) - cos(2 * z[1]))), z[2]); }
 
 /* Its integral, by Simpson's rule. */
 static double time_between(const double *z, double from, double to)
@@ -521,15 +543,16 @@ static double time_between(const double *z, double from, double to)
     return sum * width / 3;
 }
 
-/* The time of a pendulum, t' = 1/h', h'^2 = h'_0^2 + 2 g (cos h - cos h_0), on either side of the start nearly to where it turns. */
+/* The time of a pendulum with a magnet, t' = 1/h', h'^2 = h'_0^2 + 2 g (cos h - cos h_0) + 2 b (cos 2 h - cos 2 h_0), on either side of the start nearly to where it turns:
+ * at cos h = c, 2 g (c - c_0) + 4 b (c^2 - c_0^2) = -h'_0^2. */
 Test(quadratures, series_of_the_pendulum)
 {
-    nh_analysis *r = ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*h'^2 + m*g*cos(h)\n");
+    nh_analysis *r = ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}, {name: b, value: 0.25}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*h'^2 + m*g*cos(h) + m*b*cos(2*h)\n");
     cr_expect(r->motion->proved);
     double z[8];
     nh_motion_series *v = series_of(r, z, -3, 3);
     cr_assert(r->motion->parameter == 1 && v->integrals == 1);
-    double turns = acos(cos(z[1]) - z[2] * z[2] / 4), value = 0, h = z[1];
+    double turns = acos(sqrt(pow(2 + cos(z[1]), 2) - z[2] * z[2]) - 2), value = 0, h = z[1];
     cr_expect_lt(nh_motion_series_begin(v), -0.95 * turns, "%g of %g", nh_motion_series_begin(v), turns);
     cr_expect_gt(nh_motion_series_end(v), 0.95 * turns, "%g of %g", nh_motion_series_end(v), turns);
     for (int side = -1; side <= 1; side += 2, value = 0, h = z[1])

@@ -116,6 +116,26 @@ static nh_ex without_poles(const nh_explicit_curve *c, nh_ex e)
     return poles(c, sum) < before && !nh_explicit_too_long(c, sum) ? sum : e;
 }
 
+/* sign(c u) as sign(u) or -sign(u), for a constant c of parameters. */
+static nh_ex with_plain_signs(const nh_explicit_curve *c, nh_ex e)
+{
+    enum { most = 24 };
+    nh_dag *d = c->d;
+    nh_ex call[most], by[most];
+    size_t n = nh_functions_in(d, e, call, most), signs = 0;
+    for (size_t i = 0; i < n && n <= most; i++) {
+        nh_ex u = nh_child(d, call[i], 0), rest = nh_int(d, 1);
+        if (nh_function_of(d, call[i]) != NH_SIGN || nh_kind_of(d, u) != NH_PRODUCT) continue;
+        for (size_t f = 0; f < nh_arity(d, u); f++) {
+            nh_ex factor = nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f));
+            if (!nh_model_is_constant(c->o, factor)) rest = nh_mul(d, rest, factor);
+        }
+        int sign = nh_model_sign(c->o, nh_div(d, u, rest));
+        if (sign) by[signs] = nh_mul(d, nh_int(d, sign), nh_call(d, NH_SIGN, rest)), call[signs++] = call[i];
+    }
+    return nh_substitute(d, e, signs, call, by);
+}
+
 /* Drops formulas that still depend on unsolved states.  A constant that is not constant, to all digits, makes the whole
  * motion invalid. */
 static void conclude(nh_explicit_curve *c)
@@ -123,7 +143,8 @@ static void conclude(nh_explicit_curve *c)
     nh_explicit_motion *m = c->m;
     bool *known = nh_arena_alloc(c->arena, m->states * sizeof *known), constant = true;
     for (size_t j = 0; j < m->constants && constant; j++) {
-        nh_ex value = m->constant[j].value = nh_combined_coordinates_out(c->combined, c->d, m->constant[j].value);
+        nh_ex value = nh_combined_coordinates_out(c->combined, c->d, m->constant[j].value);
+        m->constant[j].value = value = with_plain_signs(c, value);
         if (m->constant[j].at_start) continue;
         nh_ex rate = nh_model_gamma(c->o, value);
         constant = nh_is_zero(c->d, rate) || nh_prove_digits(c->o, value, c->options) >= c->options->digits ||

@@ -69,14 +69,32 @@ static int most_on_sides(void *context, nh_ex e)
     return nh_explicit_mostly(p->curve, with_signs(p, e));
 }
 
+/* Elliptic integrals of the root of a radicand, with its sign: the root stands in none of them. */
+static nh_ex with_sign_of_root(nh_dag *d, nh_ex F, nh_ex root)
+{
+    enum { most = 64 };
+    nh_ex call[most], by[most], sign = nh_call(d, NH_SIGN, root);
+    size_t n = nh_functions_in(d, F, call, most), elliptic = 0;
+    for (size_t i = 0; i < n && i < most; i++) {
+        nh_function name = nh_function_of(d, call[i]);
+        if (name != NH_ELLIPTIC_F && name != NH_ELLIPTIC_EINC && name != NH_ELLIPTIC_PI) continue;
+        by[elliptic] = nh_mul(d, sign, call[i]);
+        call[elliptic++] = call[i];
+    }
+    return nh_substitute(d, F, elliptic, call, by);
+}
+
 /* int f ds, in which roots are written as such; its constant may be another one on either side of a zero of u. */
 static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
 {
     nh_dag *d = c->d;
     const nh_explicit_motion *m = c->m;
     if (nh_explicit_has_integral(c, f)) return false;
+    nh_ex own = 0; /* the root in f */
+    size_t roots = 0;
     for (size_t i = m->roots; i-- > 0;) {
         nh_ex root = nh_sqrt(d, c->radicand[i]);
+        if (nh_depends(d, f, m->root[i].symbol) && nh_depends(d, root, c->s)) own = m->root[i].symbol, roots++;
         f = nh_substitute(d, f, 1, &m->root[i].symbol, &root);
     }
     f = squares_out(c, f);
@@ -90,6 +108,7 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
                          .constants = c->symbols + p.sides,
                          .constant = constant,
                          .max_terms = (size_t)c->options->proof_terms,
+                         .elliptic = roots <= 1,
                          .sign = sign_on_sides,
                          .mostly = most_on_sides,
                          .context = &p};
@@ -98,7 +117,7 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
     if (!found) return false;
     for (size_t i = m->roots; i-- > 0;)
         *F = nh_substitute_root(d, *F, with_sides(&p, c->radicand[i]), m->root[i].symbol);
-    *F = with_signs(&p, *F);
+    *F = with_signs(&p, roots ? with_sign_of_root(d, *F, own) : *F);
     return true;
 }
 

@@ -326,7 +326,9 @@ static nh_ex in_other_roots(const nh_analysis *r, nh_ex e, bool general)
     const nh_model *o = r->model;
     nh_ex joined = shorter_roots(o, joined_roots(o->dag, signs_as_roots(o->dag, e)));
     nh_ex rooted = nh_simplify_short(o->dag, roots_of_the_equations(o, joined), 0);
-    if (e == rooted || !general || nh_prove_current(o, e, true, &r->options).all_parameters) return e;
+    bool shorter = nh_complexity(o->dag, rooted) < nh_complexity(o->dag, e);
+    if (e == rooted || !general) return e;
+    if (!shorter && nh_prove_current(o, e, true, &r->options).all_parameters) return e;
     return nh_prove_current(o, rooted, true, &r->options).all_parameters ? rooted : e;
 }
 
