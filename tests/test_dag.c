@@ -174,7 +174,8 @@ static const char *const EQUAL[][2] = {
     {"abs(-x)", "abs(x)"}, {"abs(x)^2", "x^2"}, {"abs(x)^3", "x^2*abs(x)"}, {"abs(x)*abs(x)*abs(x)", "abs(x)^3"},
     {"x^2/abs(x)^2", "1"}, {"exp(log(x))", "x"}, {"log(exp(x))", "x"}, {"sin(0)", "0"}, {"cos(0)", "1"}, {"exp(0)", "1"},
     {"log(1)", "0"}, {"sin(pi)", "0"}, {"cos(pi)", "-1"}, {"sin(pi/2)", "1"}, {"cos(-3*pi/2)", "0"}, {"sin(7*pi/2)", "-1"},
-    {"1/tan(pi/2)", "0"}, {"x/tan(-3*pi/2)^2", "0"}, {"tan(pi/4)", "1"}, {"tan(3*pi/4)", "-1"}, {"abs(-3/2)", "3/2"}, {"sign(-sqrt(2)*x/3)", "-sign(x)"}, {"sign(2*a*x)", "sign(a*x)"}, {"sign(2*sqrt(3))", "1"}, {"sign(-3/2)", "-1"}, {"cos(9223372036854775807*pi/2)", "0"}, {"sin(-3*pi/2)", "1"},
+    {"1/tan(pi/2)", "0"}, {"x/tan(-3*pi/2)^2", "0"}, {"tan(pi/4)", "1"}, {"tan(3*pi/4)", "-1"}, {"abs(-3/2)", "3/2"}, {"sign(-sqrt(2)*x/3)", "-sign(x)"}, {"sign(2*a*x)", "sign(a*x)"}, {"sign(2*sqrt(3))", "1"}, {"sin(2*atan(x))", "2*x/(1 + x^2)"}, {"cos(-2*atan(x))", "(1 - x^2)/(1 + x^2)"},
+    {"elliptic_f(-x, y)", "-elliptic_f(x, y)"}, {"elliptic_pi(n, -2*x, y)", "-elliptic_pi(n, 2*x, y)"}, {"sign(-3/2)", "-1"}, {"cos(9223372036854775807*pi/2)", "0"}, {"sin(-3*pi/2)", "1"},
     {"abs(2*x)^2", "4*x^2"}, {"sinh(-x)", "-sinh(x)"}, {"cosh(-x)", "cosh(x)"}, {"atan(-x)", "-atan(x)"},
 };
 

@@ -284,6 +284,20 @@ Test(named_functions, derivatives_are_complex_differences)
     nh_dag_free(d);
 }
 
+/* For an amplitude 2 atan(..) they are written without the sine. */
+Test(named_functions, derivatives_by_half_the_amplitude)
+{
+    static const char *const doubled[] = {"elliptic_f(2*atan(x), a)", "elliptic_einc(2*atan(x/3), a)", "elliptic_pi(a/4, 2*atan(2*x), a)", "elliptic_f(2*atan(a), x)"};
+    static const double h = 1e-30;
+    nh_dag *d = nh_dag_create();
+    nh_ex x = nh_symbol(d, "x");
+    for (size_t i = 0; i < sizeof doubled / sizeof *doubled; i++) {
+        nh_ex e = meant(d, doubled[i]), rate = nh_diff(d, e, x);
+        for (double spot = 0.07; spot < 0.9; spot += 0.2) near(real_at(d, rate, spot), cimag(at(d, e, CMPLX(spot, h))) / h, 1e-11, doubled[i]);
+    }
+    nh_dag_free(d);
+}
+
 /* With respect to an order: nobody knows, and nothing is claimed. */
 Test(named_functions, no_derivative_with_respect_to_orders)
 {

@@ -420,7 +420,7 @@ nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t count, const nh_ex *from, const
     return result;
 }
 
-nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root)
+static nh_ex substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root, int64_t most_order)
 {
     uint32_t *node;
     size_t n = nh_nodes_in(dag, 1, &e, &node);
@@ -433,8 +433,9 @@ nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root)
         for (size_t j = 0; j < nh_arity(dag, x); j++) {
             nh_ex b = nh_child(dag, x, j), y = nh_exponent_of(dag, x, j);
             nh_num power = dag->node[y].kind == NH_NUMBER ? nh_number_of(dag, y) : nh_num_int(1);
-            bool half = b == base && power.q == 2;
-            product = nh_mul(dag, product, half ? nh_powi(dag, root, power.p) : nh_pow(dag, image[b], image[y]));
+            bool rooted = b == base && power.q % 2 == 0 && power.q <= most_order;
+            product = nh_mul(dag, product, rooted ? nh_pow(dag, root, nh_ratio(dag, power.p, power.q / 2))
+                                                  : nh_pow(dag, image[b], image[y]));
         }
         image[x] = product;
     }
@@ -442,4 +443,11 @@ nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root)
     nh_free(image);
     nh_free(node);
     return result;
+}
+
+nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root) { return substitute_root(dag, e, base, root, 2); }
+
+nh_ex nh_substitute_positive_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root)
+{
+    return substitute_root(dag, e, base, root, INT64_MAX);
 }

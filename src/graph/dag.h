@@ -200,5 +200,7 @@ nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t n, const nh_ex *from, const nh_
 /* e with every half power of `base` written in `root`: base^(p/2) becomes root^p.  For base = root^2, and root of one
    sign. */
 nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root);
+/* The same of base^(p/(2 q)), which becomes root^(p/q), for a positive root. */
+nh_ex nh_substitute_positive_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root);
 
 #endif

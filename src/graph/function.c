@@ -183,6 +183,18 @@ bool nh_is_infinite_tangent(nh_dag *dag, nh_ex e)
            known_turn(dag, turn, &sine, &cosine) && nh_is_zero(dag, cosine);
 }
 
+/* sin(2 atan u) and cos(2 atan u) */
+static bool of_twice_an_arctangent(nh_dag *dag, nh_function f, nh_ex a, nh_ex *out)
+{
+    nh_num twice;
+    nh_ex inner = without_factor(dag, a, &twice);
+    if ((f != NH_SIN && f != NH_COS) || !nh_num_is(twice, 2) || !is_call(dag, inner, NH_ATAN)) return false;
+    nh_ex u = nh_child(dag, inner, 0), one = nh_int(dag, 1), square = nh_powi(dag, u, 2);
+    nh_ex above = f == NH_SIN ? nh_mul(dag, nh_int(dag, 2), u) : nh_sub(dag, one, square);
+    *out = nh_div(dag, above, nh_add(dag, one, square));
+    return true;
+}
+
 /* A product without its positive numbers and roots of numbers. */
 static nh_ex without_numbers(nh_dag *dag, nh_ex a)
 {
@@ -211,6 +223,7 @@ nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a)
         if (!nh_is_zero(dag, cosine)) return nh_div(dag, sine, cosine);
     }
     if (f == NH_SIGN && (e = without_numbers(dag, a)) != a) return nh_call(dag, f, e);
+    if (of_twice_an_arctangent(dag, f, a, &e)) return e;
     if (f == NH_EXP && is_call(dag, a, NH_LOG)) return nh_child(dag, a, 0);
     if (f == NH_LOG && is_call(dag, a, NH_EXP)) return nh_child(dag, a, 0);
     return nh_dag_intern(dag, NH_FUNCTION, f, 1, &a);
@@ -222,8 +235,22 @@ nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b)
     return nh_dag_intern(dag, NH_FUNCTION, f, 2, arg);
 }
 
+/* Incomplete elliptic integrals are odd in their amplitude. */
+static bool is_odd_at(nh_function f, size_t *at)
+{
+    *at = f == NH_ELLIPTIC_PI;
+    return f == NH_ELLIPTIC_F || f == NH_ELLIPTIC_EINC || f == NH_ELLIPTIC_PI;
+}
+
 nh_ex nh_call_any(nh_dag *dag, nh_function f, const nh_ex *argument)
 {
+    size_t at;
+    if (is_odd_at(f, &at) && looks_negative(dag, argument[at])) {
+        nh_ex other[3];
+        memcpy(other, argument, (size_t)table[f].arity * sizeof *other);
+        other[at] = nh_neg(dag, other[at]);
+        return nh_neg(dag, nh_call_any(dag, f, other));
+    }
     return table[f].arity == 1 ? nh_call(dag, f, argument[0])
                                : nh_dag_intern(dag, NH_FUNCTION, f, (size_t)table[f].arity, argument);
 }

@@ -83,6 +83,19 @@ static nh_ex read_or_nan(nh_dag *dag, const char *text, nh_function f, const nh_
     return text && nh_named_function_read(dag, text, f, f, argument, &out) ? out : nh_real(dag, NAN);
 }
 
+/* sqrt(1 - m sin(u)^2) for u = 2 atan(w), as sqrt((1 + w^2)^2 - 4 m w^2)/(1 + w^2): where w has a root, this radicand is
+ * the shorter one. */
+static nh_ex with_short_root(nh_dag *dag, nh_ex e, nh_ex u, nh_ex m)
+{
+    nh_ex one = nh_int(dag, 1), angle = nh_mul(dag, nh_ratio(dag, 1, 2), u);
+    bool twice = nh_kind_of(dag, angle) == NH_FUNCTION && nh_function_of(dag, angle) == NH_ATAN;
+    if (!twice) return e;
+    nh_ex square = nh_powi(dag, nh_child(dag, angle, 0), 2), sum = nh_add(dag, one, square);
+    nh_ex radicand = nh_sub(dag, one, nh_mul(dag, m, nh_powi(dag, nh_call(dag, NH_SIN, u), 2)));
+    nh_ex other = nh_sub(dag, nh_powi(dag, sum, 2), nh_product(dag, 3, (nh_ex[]){nh_int(dag, 4), m, square}));
+    return nh_substitute_root(dag, e, radicand, nh_div(dag, nh_sqrt(dag, other), sum));
+}
+
 nh_ex nh_named_function_rate(nh_dag *dag, nh_ex e, size_t i)
 {
     nh_function f = nh_function_of(dag, e), base = nh_named_function_base(f);
@@ -92,7 +105,10 @@ nh_ex nh_named_function_rate(nh_dag *dag, nh_ex e, size_t i)
     if (f >= NH_ELLIPTIC_K) {
         for (size_t k = 0; k < sizeof slope / sizeof *slope; k++)
             if (slope[k].f == f && slope[k].argument == i) text = slope[k].first;
-        return read_or_nan(dag, text, f, argument);
+        nh_ex rate = read_or_nan(dag, text, f, argument);
+        if (f == NH_ELLIPTIC_F || f == NH_ELLIPTIC_EINC) rate = with_short_root(dag, rate, argument[0], argument[1]);
+        if (f == NH_ELLIPTIC_PI) rate = with_short_root(dag, rate, argument[1], argument[2]);
+        return rate;
     }
     if (i < nh_function_constants(f)) return nh_real(dag, NAN);
     if (f == base) return nh_call_any(dag, f + 1, argument);
