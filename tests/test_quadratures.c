@@ -491,22 +491,51 @@ Test(quadratures, one_dimension, PLAIN_ONLY)
                         "domain: {r: [0.5, 1.5]}\nlagrangian: m/2*(r'^2 + r^2*p'^2) - k*r^3\n"), "central force", 2, 5, 2);
 }
 
-/* sin(h/2)^2 is below E/(2 m g l) = (l h'^2 + 2 g (1 - cos h))/(4 g), and int dh/h' an elliptic integral of the first kind on either side of h' = 0. */
-Test(quadratures, time_of_the_pendulum)
+/* A system of one coordinate, and t - int dx/x' times something that is constant. */
+typedef struct {
+    const char *lagrangian, *domain, *time;
+    bool all_parameters;
+} motion_in_time;
+
+/* Of a pendulum sin(x/2)^2 is below E/(2 g), E = x'^2/2 + g (1 - cos x).  Of x'^2 = k_0 + k_2 x^2 + k_4 x^4 the double of the amplitude's half has the tangent
+ * D^(1/4) x/x' [D = k_2^2 - 4 k_0 k_4] or (k_4/k_0)^(1/4) x.  The first one holds while k_0 k_4 < 0, which depends on the values of g and k. */
+static const motion_in_time in_time[] = {
+    {"m*x'^2/2 + m*g*cos(x)", "", "t*sqrt(x'^2 - 2*g*(cos(x) - 1)) - 2*elliptic_f(x/2, 4*g/(x'^2 - 2*g*(cos(x) - 1)))*sign(x')", true},
+    {"m*x'^2/2 - m*g*x^2/2 - m*k*x^4/4", "",
+     "2*t - elliptic_f(2*atan(sqrt(k)*x*(x^4 + g^2/k^2 + 2*g*x^2/k + 2*x'^2/k)^(1/4)/x'), (1 - g/sqrt(g^2 + k*(2*x'^2 + 2*g*x^2 + k*x^4)))/2)/(sqrt(k)*(x^4 + g^2/k^2 + 2*g*x^2/k + 2*x'^2/k)^(1/4))", false},
+    {"m*x'^2/2 - m*k*x^4/4", "", "2*t - sqrt(k)*(x^4 + 2*x'^2/k)^(3/4)*elliptic_f(2*atan(sqrt(k)*x*(x^4 + 2*x'^2/k)^(1/4)/x'), 1/2)/(2*x'^2 + k*x^4)", false},
+    {"m*x'^2/2 - m*g*x^2/2 + m*k*x^4/4", "domain: {x: [-0.3, 0.3], x': [2, 3]}\n",
+     "2*t - sqrt(2)*sqrt(2*x'^2 + 2*g*x^2 - k*x^4)*(k/(2*x'^2 + 2*g*x^2 - k*x^4))^(3/4)*sign(x')*elliptic_f(2*atan(x*(k/(2*x'^2 + 2*g*x^2 - k*x^4))^(1/4)), (g/(sqrt(k)*sqrt(2*x'^2 + 2*g*x^2 - k*x^4)) + 1)/2)/k", true},
+};
+
+Test(quadratures, times_that_are_elliptic_integrals)
 {
-    nh_analysis *r = ask("name: pendulum\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}, {name: l, value: 0.7}]\ncoordinates: [{name: h, type: angle}]\nlagrangian: m/2*l^2*h'^2 - m*g*l*(1 - cos(h))\n");
-    nh_error error = {0};
-    nh_ex e, claim, ratio;
-    cr_assert_eq(r->pieces, 1);
-    cr_expect(r->piece[0].proof.all_parameters);
-    cr_expect_not_null(strstr(r->piece[0].region, "h' = 0"), "%s", r->piece[0].region);
-    cr_assert(nh_system_expression_text(r->system, "test", "t*sqrt(l*h'^2 + 2*g*(1 - cos(h))) - 2*sqrt(l)*sign(h')*elliptic_f(h/2, 4*g/(l*h'^2 + 2*g*(1 - cos(h))))", 0, NULL, &e, &error) &&
-                  nh_analysis_file_to_chart(r->model, e, &claim, &error),
-              "%s", error.what);
-    nh_dag *d = r->model->dag;
-    ratio = nh_simplify(d, nh_div(d, nh_diff(d, r->piece[0].phi, r->system->t), nh_diff(d, claim, r->system->t)));
-    cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, r->piece[0].phi, nh_mul(d, ratio, claim)), 0), NH_ZERO);
-    cr_expect(nh_model_is_constant(r->model, ratio));
+    for (size_t i = 0; i < sizeof in_time / sizeof *in_time; i++) {
+        const motion_in_time *x = &in_time[i];
+        char text[500];
+        nh_error error = {0};
+        nh_ex e, claim;
+        snprintf(text, sizeof text, "name: time\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}, {name: k, value: 0.7}]\ncoordinates: [{name: x, type: %s}]\nlagrangian: %s\n%s", i ? "length" : "angle", x->lagrangian, x->domain);
+        nh_analysis *r = ask(text);
+        nh_dag *d = r->model->dag;
+        cr_assert_eq(r->pieces, 1, "%s: %zu", x->lagrangian, r->pieces);
+        const nh_current *f = &r->piece[0];
+        cr_expect(f->proof.proved && f->proof.all_parameters == x->all_parameters, "%s", x->lagrangian);
+        cr_expect_str_eq(f->region, "on each side of x' = 0, where it jumps", "%s: %s", x->lagrangian, f->region);
+        cr_assert(nh_system_expression_text(r->system, "test", x->time, 0, NULL, &e, &error) && nh_analysis_file_to_chart(r->model, e, &claim, &error), "%s: %s", x->lagrangian, error.what);
+        nh_ex ratio = nh_simplify(d, nh_div(d, nh_diff(d, f->phi, r->system->t), nh_diff(d, claim, r->system->t)));
+        cr_expect(nh_model_is_constant(r->model, ratio), "%s", x->lagrangian);
+        cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, f->phi, nh_mul(d, ratio, claim)), 0), NH_ZERO, "%s", x->lagrangian);
+        nh_analysis_free(r);
+    }
+}
+
+/* x'^2 = 2 E + g x^2 - k x^4/2 has an amplitude of the second kind for E > 0 and none for E < 0, where motions stay in one of the wells: there is no formula for both. */
+Test(quadratures, no_time_for_two_kinds_of_motions)
+{
+    nh_analysis *r = ask("name: wells\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}, {name: k, value: 0.7}]\ncoordinates: [x]\nlagrangian: m*x'^2/2 + m*g*x^2/2 - m*k*x^4/4\n");
+    cr_expect_eq(r->pieces, 0);
+    cr_expect_eq(r->motion->integrals, 1);
     nh_analysis_free(r);
 }
 

@@ -269,6 +269,63 @@ static void put_root_of_powers(builder *b, nh_ex Q, nh_ex root, int64_t n)
                                .to = {nh_call(d, NH_EXP, nh_mul(d, nh_int(d, n), log_y))}});
 }
 
+/* Q = k_0 + k_2 x^2 + k_4 x^4? */
+static bool is_even_quartic(const builder *b, nh_ex Q, nh_ex k[5])
+{
+    nh_dag *d = b->d;
+    nh_ex slope = Q, zero = nh_int(d, 0);
+    for (int i = 0; i <= 4; i++) {
+        k[i] = nh_simplify_short(d, nh_substitute(d, slope, 1, &b->in->x, &zero), 0);
+        slope = nh_simplify_short(d, nh_mul(d, nh_ratio(d, 1, i + 1), nh_diff(d, slope, b->in->x)), 0);
+        if (i % 2 && !nh_is_zero(d, k[i])) return false;
+    }
+    return nh_is_zero(d, slope) && !nh_is_zero(d, k[4]);
+}
+
+/* int dx/sqrt(Q), Q = k_0 + k_2 x^2 + k_4 x^4.  For k_0 k_4 < 0, with D = k_2^2 - 4 k_0 k_4, and for k_0 k_4 > 0:
+ *
+ *     F(2 atan(D^(1/4) x/sqrt(Q)) | 1/2 + k_2/(2 sqrt(D)))/(2 D^(1/4)),
+ *     F(2 atan((k_4/k_0)^(1/4) x) | 1/2 - k_2/(4 sqrt(k_0 k_4)))/(2 (k_0 k_4)^(1/4))
+ *
+ * because 1 - m sin^2 of the amplitude is the square of (k_0 - k_4 x^4)/(Q + sqrt(D) x^2), and Q over the square of
+ * sqrt(k_0) + sqrt(k_4) x^2.  The root may have either sign in the first. */
+bool nh_antiderivative_elliptic_quartic(const builder *b, nh_ex f, nh_ex *F)
+{
+    const nh_kernel *kernel = b->form.kernels.item;
+    nh_dag *d = b->d;
+    nh_ex x = b->in->x, half = nh_ratio(d, 1, 2), quarter = nh_ratio(d, 1, 4), k[5];
+    for (size_t i = 0; i < b->letters; i++) {
+        const letter *u = &b->letter[i];
+        if (u->kind != NH_KERNEL_ROOT || kernel[u->index].unit.q != 2) continue;
+        nh_ex Q = kernel[u->index].atom, c = nh_simplify_short(d, nh_mul(d, f, u->e), 0);
+        if (nh_depends(d, c, x) || !is_even_quartic(b, Q, k)) continue;
+        nh_ex ends = nh_simplify_short(d, nh_mul(d, k[0], k[4]), 0);
+        int side = nh_antiderivative_sign(b, ends);
+        if (side < 0) {
+            bool down = nh_antiderivative_sign(b, k[4]) < 0;
+            nh_ex size = down ? nh_neg(d, k[4]) : k[4], middle = nh_simplify_short(d, nh_div(d, k[2], size), 0);
+            nh_ex D = nh_simplify_short(d, nh_div(d, nh_mul(d, nh_int(d, 4), k[0]), k[4]), 0);
+            D = nh_simplify_short(d, nh_sub(d, nh_powi(d, middle, 2), D), 0);
+            nh_ex root = nh_mul(d, nh_sqrt(d, size), nh_pow(d, D, quarter));
+            nh_ex m = nh_mul(d, half, nh_add(d, nh_int(d, 1), nh_div(d, middle, nh_sqrt(d, D))));
+            nh_ex angle = nh_mul(d, nh_int(d, 2), nh_call(d, NH_ATAN, nh_div(d, nh_mul(d, root, x), u->e)));
+            nh_ex value = nh_mul(d, half, nh_div(d, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){angle, m}), root));
+            *F = nh_mul(d, c, down ? value : nh_neg(d, value));
+            return true;
+        }
+        if (side > 0 && nh_antiderivative_sign(b, k[0]) > 0) {
+            nh_ex ratio = nh_simplify_short(d, nh_div(d, k[4], k[0]), 0), root = nh_pow(d, ratio, quarter);
+            nh_ex middle = nh_simplify_short(d, nh_div(d, k[2], k[0]), 0);
+            nh_ex m = nh_mul(d, half, nh_sub(d, nh_int(d, 1), nh_div(d, nh_mul(d, half, middle), nh_powi(d, root, 2))));
+            nh_ex angle = nh_mul(d, nh_int(d, 2), nh_call(d, NH_ATAN, nh_mul(d, root, x)));
+            nh_ex value = nh_mul(d, half, nh_div(d, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){angle, m}), root));
+            *F = nh_mul(d, c, nh_div(d, value, nh_sqrt(d, k[0])));
+            return true;
+        }
+    }
+    return false;
+}
+
 void nh_antiderivative_put_elliptic(builder *b)
 {
     const nh_kernel *k = b->form.kernels.item;

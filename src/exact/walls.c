@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "exact/normal.h"
+#include "graph/named_function.h"
 
 enum { most_nested = 6 };
 
@@ -86,6 +87,14 @@ static void put_poles(nh_walls *w, nh_dag *d, nh_ex v, int depth)
     }
 }
 
+/* Where 1 - m sin(u)^2 vanishes for an amplitude u = 2 atan(..): another branch goes on there. */
+static void put_branch(nh_walls *w, nh_dag *d, nh_ex e)
+{
+    nh_ex angle = nh_mul(d, nh_ratio(d, 1, 2), nh_child(d, e, 0));
+    bool twice = nh_kind_of(d, angle) == NH_FUNCTION && nh_function_of(d, angle) == NH_ATAN;
+    if (twice) put_factors(w, d, nh_simplify_short(d, nh_powi(d, nh_named_function_rate(d, e, 0), -2), 0), false, 0);
+}
+
 static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
 {
     size_t n = nh_arity(d, e);
@@ -105,6 +114,7 @@ static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
         put_factors(w, d, nh_sub(d, one, nh_powi(d, last, 2)), false, 0);
         break;
     case NH_HYP2F1: case NH_HYP2F1_PRIME: put_factors(w, d, nh_sub(d, one, last), false, 0); break;
+    case NH_ELLIPTIC_F: put_branch(w, d, e); break;
     default: break;
     }
     w->cutting = false;

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "graph/diff.h"
-#include "graph/measure.h"
 #include "graph/monomials.h"
 #include "graph/terms.h"
 #include "exact/normal.h"
@@ -11,6 +10,7 @@
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"
 #include "integrals/noether_equation.h"
+#include "integrals/rate_form.h"
 #include "integrals/symmetry.h"
 
 /* patience: so many times longer may the proof of a certified current be */
@@ -44,64 +44,6 @@ static void cancel(const nh_model *o, size_t n, const nh_ex *term, const nh_opti
     nh_ball_free(ball);
     double most = options->bits * log10(2);
     proof->digits = proof->points == 0 ? 0 : fmax(0, fmin(least, most));
-}
-
-/* sign(u) as |u|/u, of which the normal form knows the square. */
-static nh_ex without_signs(nh_dag *d, nh_ex e)
-{
-    enum { most = 32 };
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, e, call, most), signs = 0;
-    for (size_t i = 0; i < n && n <= most; i++) {
-        if (nh_function_of(d, call[i]) != NH_SIGN) continue;
-        nh_ex u = nh_child(d, call[i], 0);
-        by[signs] = nh_div(d, nh_call(d, NH_ABS, u), u);
-        call[signs++] = call[i];
-    }
-    return signs ? nh_substitute(d, e, signs, call, by) : e;
-}
-
-/* sin(2 a) and cos(2 a) by a, where sin(a) or cos(a) stands in e: equal radicands then have one form. */
-static nh_ex in_half_angles(nh_dag *d, nh_ex e)
-{
-    enum { most = 32 };
-    nh_ex call[most], by[most], whole[most], one = nh_int(d, 1), two = nh_int(d, 2);
-    size_t n = nh_functions_in(d, e, call, most), doubled = 0;
-    for (size_t i = 0; i < n && n <= most; i++)
-        for (size_t k = 0; k < n; k++) {
-            nh_function f = nh_function_of(d, call[i]), g = nh_function_of(d, call[k]);
-            bool waves = (f == NH_SIN || f == NH_COS) && (g == NH_SIN || g == NH_COS);
-            nh_ex half = waves ? nh_child(d, call[k], 0) : 0;
-            if (!waves || nh_child(d, call[i], 0) != nh_mul(d, two, half)) continue;
-            nh_ex sine = nh_call(d, NH_SIN, half);
-            whole[doubled] = call[i];
-            by[doubled++] = f == NH_COS ? nh_sub(d, one, nh_mul(d, two, nh_powi(d, sine, 2)))
-                                        : nh_product(d, 3, (nh_ex[]){two, sine, nh_call(d, NH_COS, half)});
-            break;
-        }
-    return nh_substitute(d, e, doubled, whole, by);
-}
-
-/* sqrt(u^2 v) as |u| sqrt(v), where |u| stands in e: nothing else says that they belong together. */
-static nh_ex squares_out(nh_dag *d, nh_ex e)
-{
-    enum { most = 32 };
-    nh_ex call[most], base[most];
-    size_t calls = nh_functions_in(d, e, call, most), n = nh_radicands_in(d, e, base, most);
-    for (size_t i = 0; i < calls && calls <= most; i++) {
-        if (nh_function_of(d, call[i]) != NH_ABS) continue;
-        nh_ex u = nh_child(d, call[i], 0);
-        for (size_t k = 0; k < n && n <= most; k++) {
-            nh_ex whole = nh_simplify_short(d, base[k], 0);
-            nh_ex rest = nh_simplify_short(d, nh_div(d, whole, nh_powi(d, u, 2)), 0);
-            if (nh_complexity(d, rest) >= nh_complexity(d, whole)) continue;
-            nh_ex inverse = nh_simplify_short(d, nh_powi(d, rest, -1), 0);
-            bool below = nh_complexity(d, inverse) < nh_complexity(d, rest);
-            nh_ex root = below ? nh_powi(d, nh_sqrt(d, inverse), -1) : nh_sqrt(d, rest);
-            e = nh_substitute_root(d, e, base[k], nh_mul(d, call[i], root));
-        }
-    }
-    return e;
 }
 
 static nh_ex with_symbols(const nh_model *o, const nh_ex *fixed, nh_ex e)
@@ -175,6 +117,16 @@ static bool prove_sum(const nh_model *o, nh_ex sum, nh_claim claim, size_t limit
     return !claim.rounded && ((claim.free && symbols == NH_TOO_LARGE) || values == NH_TOO_LARGE);
 }
 
+/* The same for the values of these parameters only. */
+static nh_proof with_values(const nh_model *o, nh_proof proof, const bool *which)
+{
+    bool any = false;
+    for (size_t i = 0; i < o->system->parameters; i++) any |= which[i];
+    if (!any || !(proof.all_parameters || proof.fixed)) return proof;
+    const nh_ex *own = nh_fixed_those(o, which);
+    return holding(proof, proof.fixed ? nh_fixed_both(o, proof.fixed, own) : own);
+}
+
 /* `proof`: known results of earlier steps. */
 static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_proof proof, nh_claim claim,
                            const nh_options *options)
@@ -182,8 +134,8 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     nh_dag *d = o->dag;
     nh_ex sum = nh_int(d, 0), *valued = nh_alloc_array(n + 1, sizeof *valued);
     for (size_t i = 0; i < n; i++) sum = nh_add(d, sum, term[i]);
-    nh_ex unsigned_sum = without_signs(d, sum);
-    sum = unsigned_sum == sum ? sum : squares_out(d, in_half_angles(d, unsigned_sum));
+    bool *decisive = nh_alloc_array(o->system->parameters + 1, sizeof *decisive);
+    sum = nh_rate_form(o, sum, decisive);
     size_t limit = (size_t)options->proof_terms;
     bool longer = !proof.proved && prove_sum(o, sum, claim, limit, &proof);
     bool exact = true;
@@ -194,6 +146,8 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     cancel(o, n, valued, options, &proof);
     if (longer && !proof.proved && proof.points > 0 && proof.digits >= options->digits)
         prove_sum(o, sum, claim, patience * limit, &proof);
+    if (proof.proved) proof = with_values(o, proof, decisive);
+    nh_free(decisive);
     /* numbers too long for exact rationals were rounded to doubles when the rate was formed */
     double doubt = options->digits / 2;
     proof.rounded = !exact;

@@ -64,6 +64,15 @@ static void put_values(nh_model *o, const nh_ex *fixed, size_t n, nh_ex *e)
     for (size_t i = 0; i < n && e; i++) e[i] = nh_simplify_short(o->dag, nh_fixed_values(o, fixed, e[i]), 0);
 }
 
+/* Does a parameter stand in e that is fixed? */
+static bool has_fixed(const nh_model *o, const nh_ex *fixed, nh_ex e)
+{
+    bool found = false;
+    for (size_t i = 0; i < o->system->parameters && !found; i++)
+        found = nh_fixed_has(o, fixed, i) && nh_depends(o->dag, e, o->parameter[i]);
+    return found;
+}
+
 static void normalise(nh_model *o, nh_current *f)
 {
     nh_dag *d = o->dag;
@@ -76,7 +85,9 @@ static void normalise(nh_model *o, nh_current *f)
     if (nh_is_short(d, f->phi) && nh_complexity(d, f->phi) <= longest)
         f->phi = shortest(d, nh_canonical_sign(d, f->phi) < 0 ? nh_neg(d, f->phi) : f->phi);
     nh_ex Z0 = nh_symmetry_components(o, f->phi, zeta);
-    put_values(o, f->proof.fixed, f->proof.fixed ? o->n : 0, zeta);
+    /* where the current is shown with such a symbol its unit is */
+    bool valued = f->proof.fixed && !has_fixed(o, f->proof.fixed, f->phi);
+    put_values(o, f->proof.fixed, valued ? o->n : 0, zeta);
     nh_ex unit = unit_of(o, Z0, zeta);
     nh_free(zeta);
     f->phi = shortest(d, nh_div(d, f->phi, unit));

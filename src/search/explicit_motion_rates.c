@@ -69,7 +69,7 @@ static int most_on_sides(void *context, nh_ex e)
     return nh_explicit_mostly(p->curve, with_signs(p, e));
 }
 
-/* Elliptic integrals of the root of a radicand, with its sign: the root stands in none of them. */
+/* Elliptic integrals of the root of a radicand, with its sign where it does not stand in them. */
 static nh_ex with_sign_of_root(nh_dag *d, nh_ex F, nh_ex root)
 {
     enum { most = 64 };
@@ -77,7 +77,8 @@ static nh_ex with_sign_of_root(nh_dag *d, nh_ex F, nh_ex root)
     size_t n = nh_functions_in(d, F, call, most), elliptic = 0;
     for (size_t i = 0; i < n && i < most; i++) {
         nh_function name = nh_function_of(d, call[i]);
-        if (name != NH_ELLIPTIC_F && name != NH_ELLIPTIC_EINC && name != NH_ELLIPTIC_PI) continue;
+        bool integral = name == NH_ELLIPTIC_F || name == NH_ELLIPTIC_EINC || name == NH_ELLIPTIC_PI;
+        if (!integral || nh_depends(d, call[i], root)) continue;
         by[elliptic] = nh_mul(d, sign, call[i]);
         call[elliptic++] = call[i];
     }
