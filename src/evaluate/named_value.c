@@ -187,7 +187,8 @@ static void value(acb_t out, nh_function f, acb_srcptr x, slong bits)
     if (f == NH_BESSEL_K_PRIME) acb_neg(out, out);
 }
 
-void nh_named_value_ball(nh_function f, arb_srcptr argument, arb_t out, slong bits)
+/* False: it is not real, which more bits do not change. */
+static bool real_value(nh_function f, arb_srcptr argument, arb_t out, slong bits)
 {
     size_t n = nh_function_arity(f);
     acb_t all;
@@ -195,10 +196,17 @@ void nh_named_value_ball(nh_function f, arb_srcptr argument, arb_t out, slong bi
     acb_init(all);
     for (size_t i = 0; i < n; i++) acb_set_arb(x + i, argument + i);
     value(all, f, x, bits);
-    if (arb_contains_zero(acb_imagref(all))) arb_set(out, acb_realref(all));
+    bool real = arb_contains_zero(acb_imagref(all));
+    if (real) arb_set(out, acb_realref(all));
     else arb_indeterminate(out);
     _acb_vec_clear(x, (slong)n);
     acb_clear(all);
+    return real;
+}
+
+void nh_named_value_ball(nh_function f, arb_srcptr argument, arb_t out, slong bits)
+{
+    real_value(f, argument, out, bits);
 }
 
 /* The double with all digits of a ball, or with an absolute error below the smallest double; NaN: it is too wide. */
@@ -219,9 +227,10 @@ double nh_named_value(nh_function f, const double *argument)
     arb_init(all);
     for (size_t i = 0; i < n; i++) arb_set_d(x + i, argument[i]);
     /* a path to Riemann's z takes a part of the digits */
-    for (slong bits = riemann ? 2 * least_bits : least_bits; bits <= most_bits && isnan(out); bits *= 2) {
+    bool real = true;
+    for (slong bits = riemann ? 2 * least_bits : least_bits; bits <= most_bits && isnan(out) && real; bits *= 2) {
         if (riemann) nh_riemann_at(all, f >= NH_RIEMANN_S, (f - NH_RIEMANN_C) % 2, argument, bits);
-        else nh_named_value_ball(f, x, all, bits);
+        else real = real_value(f, x, all, bits);
         out = rounded(all);
     }
     _arb_vec_clear(x, (slong)n);

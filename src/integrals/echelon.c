@@ -242,7 +242,7 @@ void nh_echelon_refine(const nh_model *model, const nh_points *points, nh_candid
     const double cuts[] = {options->support, 1e-3 * options->support, 1e-6 * options->support, 0};
     for (size_t i = 0; i < sizeof cuts / sizeof *cuts; i++) {
         select_support(c, cuts[i]);
-        if (refit(model, points, c, options)) break;
+        if (refit(model, points, c, options) || c->count == c->all) break; /* lower cuts leave all terms, too */
     }
 }
 
