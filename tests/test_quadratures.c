@@ -539,6 +539,14 @@ Test(quadratures, no_time_for_two_kinds_of_motions)
     nh_analysis_free(r);
 }
 
+/* The same with the tangent of half an angle and the area tangent: a bead on a hoop that turns, and a spring whose force is a sine of the area. */
+Test(quadratures, times_by_half_arguments, PLAIN_ONLY)
+{
+    check_integrals(ask("name: hoop\nparameters: [{name: m, value: 0.3}, {name: R, value: 0.5}, {name: W, value: 2}, {name: g, value: 9.8}]\ncoordinates: [{name: h, type: angle}]\n"
+                        "domain: {h: [-0.6, 0.6], \"h'\": [-0.8, 0.8]}\nlagrangian: m*R^2*(h'^2 + W^2*sin(h)^2)/2 + m*g*R*cos(h)\n"), "hoop", 1, 3, 0);
+    check_integrals(ask("name: spring\nparameters: [{name: a, value: 1.1}]\ncoordinates: [x]\nlagrangian: x'^2/2 - a*cosh(x)\n"), "spring", 1, 3, 0);
+}
+
 /* ---- their series ---- */
 
 /* From the start of the checked motion: z = (t, q, w). */

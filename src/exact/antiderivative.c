@@ -347,10 +347,11 @@ static bool elementary(const nh_integration *in, nh_ex f, nh_ex *F)
     forms.coarse = true;
     bool found = read(b, arena, &forms, f);
     bool done = false;
-    if (found && in->elliptic) done = nh_antiderivative_elliptic_quartic(b, f, F);
+    if (found && in->elliptic) done = nh_antiderivative_elliptic_quartic(b, f, false, F);
     if (found && !done && in->elliptic) {
         nh_antiderivative_put_elliptic(b);
         done = b->count > 0 && combine(b, f, F); /* few, before the many that are elementary */
+        done = done || nh_antiderivative_elliptic_quartic(b, f, true, F);
     }
     if (found && !done) candidates(b);
     found = done || (found && !b->full && combine(b, f, F));

@@ -46,8 +46,9 @@ void nh_antiderivative_put_roots(nh_antiderivative_builder *builder);
 
 /* The elliptic integrals of roots of a + c sin(u)^2, and what is elementary in integrals with such a root and poles. */
 void nh_antiderivative_put_elliptic(nh_antiderivative_builder *builder);
-/* int f dx, f a constant over the root of k_0 + k_2 x^2 + k_4 x^4. */
-bool nh_antiderivative_elliptic_quartic(const nh_antiderivative_builder *builder, nh_ex f, nh_ex *F);
+/* int f dx, f a constant over the root of k_0 + k_2 x^2 + k_4 x^4; `halves`: of such a form in tan(u/2) or
+ * tanh(u/2). */
+bool nh_antiderivative_elliptic_quartic(const nh_antiderivative_builder *builder, nh_ex f, bool halves, nh_ex *F);
 
 /* The sign of e; 0: it changes, or is not known. */
 int nh_antiderivative_sign(const nh_antiderivative_builder *builder, nh_ex e);

@@ -165,21 +165,28 @@ static void put_elliptic_pole(builder *b, const radical *r, nh_ex a, nh_ex c, nh
     else nh_antiderivative_put(b, nh_call(d, NH_ATAN, f));
 }
 
-/* Those of Q = k_0 + k_1 cos u = (k_0 + k_1)(1 - m sin(u/2)^2), and of poles p_0 + p_1 cos u. */
+/* Those of Q = k_0 + k_1 cos u = (k_0 + k_1)(1 - m sin(u/2)^2), and of poles p_0 + p_1 cos u; from u = pi on where Q is
+ * positive only there. */
 static void put_elliptic_of_half(builder *b, const radical *r, const nh_ex k[3], nh_ex angle)
 {
     nh_dag *d = b->d;
-    nh_ex a = nh_simplify_short(d, nh_add(d, k[0], k[1]), 0), two = nh_int(d, 2);
-    if (nh_antiderivative_sign(b, a) <= 0) return;
-    nh_ex m = nh_simplify_short(d, nh_div(d, nh_mul(d, two, k[1]), a), 0), half = nh_mul(d, nh_ratio(d, 1, 2), angle);
+    nh_ex two = nh_int(d, 2), first = k[1], a = nh_simplify_short(d, nh_add(d, k[0], first), 0);
+    bool turned = nh_antiderivative_sign(b, a) <= 0;
+    if (turned) {
+        first = nh_neg(d, first);
+        a = nh_simplify_short(d, nh_add(d, k[0], first), 0);
+        angle = nh_sub(d, angle, nh_pi(d));
+        if (nh_antiderivative_sign(b, a) <= 0) return;
+    }
+    nh_ex m = nh_simplify_short(d, nh_div(d, nh_mul(d, two, first), a), 0), half = nh_mul(d, nh_ratio(d, 1, 2), angle);
     nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){half, m}));
     nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_EINC, (nh_ex[]){half, m}));
     for (size_t j = 0; j < b->divisors; j++) {
         nh_ex p[3], e = in_variable(b, r, b->divisor[j].e);
         if (nh_depends(d, e, b->in->x) || coefficients_of(b, r->x, e, p) != 1) continue;
-        nh_ex sum = nh_simplify_short(d, nh_add(d, p[0], p[1]), 0);
+        nh_ex slope = turned ? nh_neg(d, p[1]) : p[1], sum = nh_simplify_short(d, nh_add(d, p[0], slope), 0);
         if (nh_is_zero(d, sum)) continue; /* a pole at u = 0 is a function of the first two kinds */
-        nh_ex n = nh_simplify_short(d, nh_div(d, nh_mul(d, two, p[1]), sum), 0);
+        nh_ex n = nh_simplify_short(d, nh_div(d, nh_mul(d, two, slope), sum), 0);
         nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_PI, (nh_ex[]){n, half, m}));
     }
 }
@@ -196,7 +203,14 @@ static void put_elliptic(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex si
     if (kind == 1) put_elliptic_of_half(b, &r, k, angle);
     if (kind != 2 || !nh_is_zero(d, k[1])) return;
     nh_ex a = nh_simplify_short(d, nh_add(d, k[0], k[2]), 0), c = nh_neg(d, k[2]);
-    if (nh_antiderivative_sign(b, a) <= 0) return;
+    if (nh_antiderivative_sign(b, a) <= 0) {
+        if (nh_antiderivative_sign(b, k[0]) <= 0) return; /* a quarter turn further: k_0 (1 - m sin^2) */
+        nh_ex quarter = nh_sub(d, angle, nh_mul(d, nh_ratio(d, 1, 2), nh_pi(d)));
+        nh_ex turned[] = {quarter, nh_simplify_short(d, nh_neg(d, nh_div(d, k[2], k[0])), 0)};
+        nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_F, turned));
+        nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_EINC, turned));
+        return;
+    }
     nh_ex argument[] = {angle, nh_simplify_short(d, nh_neg(d, nh_div(d, c, a)), 0)};
     nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_F, argument));
     nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_EINC, argument));
@@ -269,59 +283,106 @@ static void put_root_of_powers(builder *b, nh_ex Q, nh_ex root, int64_t n)
                                .to = {nh_call(d, NH_EXP, nh_mul(d, nh_int(d, n), log_y))}});
 }
 
-/* Q = k_0 + k_2 x^2 + k_4 x^4? */
-static bool is_even_quartic(const builder *b, nh_ex Q, nh_ex k[5])
+/* Q = k_0 + k_2 y^2 + k_4 y^4? */
+static bool is_even_quartic(const builder *b, nh_ex y, nh_ex Q, nh_ex k[5])
 {
     nh_dag *d = b->d;
     nh_ex slope = Q, zero = nh_int(d, 0);
     for (int i = 0; i <= 4; i++) {
-        k[i] = nh_simplify_short(d, nh_substitute(d, slope, 1, &b->in->x, &zero), 0);
-        slope = nh_simplify_short(d, nh_mul(d, nh_ratio(d, 1, i + 1), nh_diff(d, slope, b->in->x)), 0);
+        k[i] = nh_simplify_short(d, nh_substitute(d, slope, 1, &y, &zero), 0);
+        slope = nh_simplify_short(d, nh_mul(d, nh_ratio(d, 1, i + 1), nh_diff(d, slope, y)), 0);
         if (i % 2 && !nh_is_zero(d, k[i])) return false;
     }
     return nh_is_zero(d, slope) && !nh_is_zero(d, k[4]);
 }
 
-/* int dx/sqrt(Q), Q = k_0 + k_2 x^2 + k_4 x^4.  For k_0 k_4 < 0, with D = k_2^2 - 4 k_0 k_4, and for k_0 k_4 > 0:
+/* int dy/root, root^2 = Q = k_0 + k_2 y^2 + k_4 y^4.  For k_0 k_4 < 0, with D = k_2^2 - 4 k_0 k_4, and for positive k_0
+ * and k_4:
  *
- *     F(2 atan(D^(1/4) x/sqrt(Q)) | 1/2 + k_2/(2 sqrt(D)))/(2 D^(1/4)),
- *     F(2 atan((k_4/k_0)^(1/4) x) | 1/2 - k_2/(4 sqrt(k_0 k_4)))/(2 (k_0 k_4)^(1/4))
+ *     F(2 atan(D^(1/4) y/root) | 1/2 + k_2/(2 sqrt(D)))/(2 D^(1/4)),  of the sign of k_0,
+ *     F(2 atan((k_4/k_0)^(1/4) y) | 1/2 - k_2/(4 sqrt(k_0 k_4)))/(2 (k_0 k_4)^(1/4))
  *
- * because 1 - m sin^2 of the amplitude is the square of (k_0 - k_4 x^4)/(Q + sqrt(D) x^2), and Q over the square of
- * sqrt(k_0) + sqrt(k_4) x^2.  The root may have either sign in the first. */
-bool nh_antiderivative_elliptic_quartic(const builder *b, nh_ex f, nh_ex *F)
+ * because 1 - m sin^2 of the amplitude is the square of (k_0 - k_4 y^4)/(Q + sqrt(D) y^2), and Q over the square of
+ * sqrt(k_0) + sqrt(k_4) y^2.  The root may have either sign in the first.  0: neither. */
+static nh_ex first_kind_of_quartic(const builder *b, const nh_ex k[5], nh_ex y, nh_ex root)
+{
+    nh_dag *d = b->d;
+    nh_ex half = nh_ratio(d, 1, 2), quarter = nh_ratio(d, 1, 4), two = nh_int(d, 2), size, m, tangent;
+    int first = nh_antiderivative_sign(b, k[0]), last = nh_antiderivative_sign(b, k[4]);
+    if (first * last < 0) {
+        nh_ex unit = last < 0 ? nh_neg(d, k[4]) : k[4], middle = nh_simplify_short(d, nh_div(d, k[2], unit), 0);
+        nh_ex ends = nh_simplify_short(d, nh_div(d, nh_mul(d, nh_int(d, 4), k[0]), k[4]), 0);
+        nh_ex D = nh_simplify_short(d, nh_sub(d, nh_powi(d, middle, 2), ends), 0);
+        size = nh_mul(d, nh_sqrt(d, unit), nh_pow(d, D, quarter));
+        m = nh_mul(d, half, nh_add(d, nh_int(d, 1), nh_div(d, middle, nh_sqrt(d, D))));
+        tangent = nh_div(d, nh_mul(d, size, y), root);
+        if (first < 0) size = nh_neg(d, size);
+    } else if (first > 0 && last > 0) {
+        nh_ex ratio = nh_simplify_short(d, nh_div(d, k[4], k[0]), 0), middle = nh_div(d, k[2], k[0]);
+        middle = nh_mul(d, half, nh_simplify_short(d, middle, 0));
+        size = nh_mul(d, nh_pow(d, ratio, quarter), nh_sqrt(d, k[0]));
+        m = nh_mul(d, half, nh_sub(d, nh_int(d, 1), nh_div(d, middle, nh_sqrt(d, ratio))));
+        tangent = nh_mul(d, nh_pow(d, ratio, quarter), y);
+    } else {
+        return 0;
+    }
+    nh_ex angle = nh_mul(d, two, nh_call(d, NH_ATAN, tangent));
+    return nh_div(d, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){angle, m}), nh_mul(d, two, size));
+}
+
+/* y = tan(u/2), with 1 + y^2 = 2/(1 + cos u), or y = tanh(u/2), with 1 - y^2 = 1/cosh(u/2)^2, and the root times that:
+ * of a form in cos u or cosh u of degree two it is that of a quartic, and dy/root is u'/2 dx over the first root. */
+typedef struct {
+    nh_ex y, back, factor, rate; /* rate: u'/2 */
+    nh_ex P;                     /* of the root in y; it still depends on x where it is no function of y */
+} half_argument;
+
+static bool half_argument_of(const builder *b, const letter *l, nh_ex Q, half_argument *h)
+{
+    nh_dag *d = b->d;
+    nh_ex one = nh_int(d, 1), y = nh_symbol_fresh(d, "y"), square = nh_powi(d, y, 2), half = nh_ratio(d, 1, 2);
+    if (l->kind != NH_KERNEL_COS && l->kind != NH_KERNEL_EXP) return false;
+    nh_ex u = nh_child(d, l->e, 0), rate = nh_simplify_short(d, nh_diff(d, u, b->in->x), 0);
+    if (nh_depends(d, rate, b->in->x)) return false;
+    *h = (half_argument){.y = y, .rate = nh_mul(d, half, rate)};
+    if (l->kind == NH_KERNEL_COS) {
+        nh_ex sine = nh_kernel_power(&b->form.kernels, b->form.kernels.item[l->index].partner, 1);
+        h->back = nh_call(d, NH_TAN, nh_mul(d, half, u));
+        h->factor = nh_add(d, one, square);
+        nh_ex to[] = {nh_div(d, nh_sub(d, one, square), h->factor), nh_div(d, nh_mul(d, nh_int(d, 2), y), h->factor)};
+        h->P = nh_substitute(d, Q, 2, (nh_ex[]){l->e, sine}, to);
+    } else {
+        nh_ex z = nh_symbol_fresh(d, "z"), quotient = nh_div(d, nh_add(d, one, y), nh_sub(d, one, y));
+        radical r = {.x = z, .count = 1, .from = {b->in->x}, .to = {nh_div(d, nh_call(d, NH_LOG, z), rate)}};
+        h->back = nh_call(d, NH_TANH, nh_mul(d, half, u));
+        h->factor = nh_sub(d, one, square);
+        h->P = nh_substitute(d, in_variable(b, &r, Q), 1, &z, &quotient);
+    }
+    h->P = nh_simplify_short(d, nh_canonical(d, nh_mul(d, h->P, nh_powi(d, h->factor, 2)), 0), 0);
+    return !nh_depends(d, h->P, b->in->x);
+}
+
+bool nh_antiderivative_elliptic_quartic(const builder *b, nh_ex f, bool halves, nh_ex *F)
 {
     const nh_kernel *kernel = b->form.kernels.item;
     nh_dag *d = b->d;
-    nh_ex x = b->in->x, half = nh_ratio(d, 1, 2), quarter = nh_ratio(d, 1, 4), k[5];
+    nh_ex k[5], x = b->in->x;
     for (size_t i = 0; i < b->letters; i++) {
         const letter *u = &b->letter[i];
         if (u->kind != NH_KERNEL_ROOT || kernel[u->index].unit.q != 2) continue;
-        nh_ex Q = kernel[u->index].atom, c = nh_simplify_short(d, nh_mul(d, f, u->e), 0);
-        if (nh_depends(d, c, x) || !is_even_quartic(b, Q, k)) continue;
-        nh_ex ends = nh_simplify_short(d, nh_mul(d, k[0], k[4]), 0);
-        int side = nh_antiderivative_sign(b, ends);
-        if (side < 0) {
-            bool down = nh_antiderivative_sign(b, k[4]) < 0;
-            nh_ex size = down ? nh_neg(d, k[4]) : k[4], middle = nh_simplify_short(d, nh_div(d, k[2], size), 0);
-            nh_ex D = nh_simplify_short(d, nh_div(d, nh_mul(d, nh_int(d, 4), k[0]), k[4]), 0);
-            D = nh_simplify_short(d, nh_sub(d, nh_powi(d, middle, 2), D), 0);
-            nh_ex root = nh_mul(d, nh_sqrt(d, size), nh_pow(d, D, quarter));
-            nh_ex m = nh_mul(d, half, nh_add(d, nh_int(d, 1), nh_div(d, middle, nh_sqrt(d, D))));
-            nh_ex angle = nh_mul(d, nh_int(d, 2), nh_call(d, NH_ATAN, nh_div(d, nh_mul(d, root, x), u->e)));
-            nh_ex value = nh_mul(d, half, nh_div(d, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){angle, m}), root));
-            *F = nh_mul(d, c, down ? value : nh_neg(d, value));
-            return true;
+        nh_ex Q = kernel[u->index].atom, c = nh_simplify_short(d, nh_mul(d, f, u->e), 0), value = 0;
+        if (nh_depends(d, c, x)) continue;
+        if (!halves) value = is_even_quartic(b, x, Q, k) ? first_kind_of_quartic(b, k, x, u->e) : 0;
+        for (size_t j = 0; j < b->letters && halves && !value; j++) {
+            half_argument h;
+            if (!half_argument_of(b, &b->letter[j], Q, &h) || !is_even_quartic(b, h.y, h.P, k)) continue;
+            nh_ex factor = nh_substitute(d, h.factor, 1, &h.y, &h.back);
+            value = first_kind_of_quartic(b, k, h.back, nh_mul(d, factor, u->e));
+            if (value) value = nh_div(d, value, h.rate);
         }
-        if (side > 0 && nh_antiderivative_sign(b, k[0]) > 0) {
-            nh_ex ratio = nh_simplify_short(d, nh_div(d, k[4], k[0]), 0), root = nh_pow(d, ratio, quarter);
-            nh_ex middle = nh_simplify_short(d, nh_div(d, k[2], k[0]), 0);
-            nh_ex m = nh_mul(d, half, nh_sub(d, nh_int(d, 1), nh_div(d, nh_mul(d, half, middle), nh_powi(d, root, 2))));
-            nh_ex angle = nh_mul(d, nh_int(d, 2), nh_call(d, NH_ATAN, nh_mul(d, root, x)));
-            nh_ex value = nh_mul(d, half, nh_div(d, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){angle, m}), root));
-            *F = nh_mul(d, c, nh_div(d, value, nh_sqrt(d, k[0])));
-            return true;
-        }
+        if (!value) continue;
+        *F = nh_mul(d, c, value);
+        return true;
     }
     return false;
 }

@@ -445,7 +445,10 @@ static nh_ex substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root, int64
     return result;
 }
 
-nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root) { return substitute_root(dag, e, base, root, 2); }
+nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root)
+{
+    return substitute_root(dag, e, base, root, 2);
+}
 
 nh_ex nh_substitute_positive_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root)
 {

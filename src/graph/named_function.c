@@ -83,8 +83,8 @@ static nh_ex read_or_nan(nh_dag *dag, const char *text, nh_function f, const nh_
     return text && nh_named_function_read(dag, text, f, f, argument, &out) ? out : nh_real(dag, NAN);
 }
 
-/* sqrt(1 - m sin(u)^2) for u = 2 atan(w), as sqrt((1 + w^2)^2 - 4 m w^2)/(1 + w^2): where w has a root, this radicand is
- * the shorter one. */
+/* sqrt(1 - m sin(u)^2) for u = 2 atan(w), as sqrt((1 + w^2)^2 - 4 m w^2)/(1 + w^2): where w has a root, this radicand
+ * is the shorter one. */
 static nh_ex with_short_root(nh_dag *dag, nh_ex e, nh_ex u, nh_ex m)
 {
     nh_ex one = nh_int(dag, 1), angle = nh_mul(dag, nh_ratio(dag, 1, 2), u);

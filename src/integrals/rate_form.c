@@ -40,9 +40,9 @@ static nh_ex in_half_angles(nh_dag *d, nh_ex e)
     return nh_substitute(d, e, doubled, whole, by);
 }
 
-/* sqrt(e) in another form: where e is c u^2 with a constant c, and u has one sign on the domain, without the square below
- * the root; of a constant over e' as one over a root.  0: there is none.  `decisive`: the parameters on which that sign
- * depends. */
+/* sqrt(e) in another form: where e is c u^2 with a constant c, and u has one sign on the domain, without the square
+ * below the root; of a constant over e' as one over a root.  0: there is none.  `decisive`: the parameters on which
+ * that sign depends. */
 static nh_ex root_of(const nh_model *o, nh_ex e, bool *decisive)
 {
     nh_dag *d = o->dag;
@@ -80,7 +80,7 @@ static nh_ex squares_out(const nh_model *o, nh_ex e, bool *decisive)
     return e;
 }
 
-/* The powers k/4 and k/2 of N/D with those of N and D, where both are positive: sums of quotients have one form then. */
+/* The powers k/4 and k/2 of N/D with those of N and D, where both are positive: sums of quotients have one form. */
 static nh_ex fourth_roots(const nh_model *o, nh_ex e)
 {
     enum { most = 64 };
