@@ -19,7 +19,8 @@ static nh_ex without_signs(nh_dag *d, nh_ex e)
     return signs ? nh_substitute(d, e, signs, call, by) : e;
 }
 
-/* sin(2 a) and cos(2 a) by a, where sin(a) or cos(a) stands in e: equal radicands then have one form. */
+/* sin and cos of 2 a, and of 2 a + pi, by those of a, where one of these stands in e: equal radicands then have one
+ * form. */
 static nh_ex in_half_angles(nh_dag *d, nh_ex e)
 {
     enum { most = 32 };
@@ -29,12 +30,14 @@ static nh_ex in_half_angles(nh_dag *d, nh_ex e)
         for (size_t k = 0; k < n; k++) {
             nh_function f = nh_function_of(d, call[i]), g = nh_function_of(d, call[k]);
             bool waves = (f == NH_SIN || f == NH_COS) && (g == NH_SIN || g == NH_COS);
-            nh_ex half = waves ? nh_child(d, call[k], 0) : 0;
-            if (!waves || nh_child(d, call[i], 0) != nh_mul(d, two, half)) continue;
-            nh_ex sine = nh_call(d, NH_SIN, half);
+            if (!waves) continue;
+            nh_ex half = nh_child(d, call[k], 0), apart = nh_sub(d, nh_child(d, call[i], 0), nh_mul(d, two, half));
+            if (!nh_is_zero(d, apart) && apart != nh_pi(d)) continue;
+            nh_ex sign = nh_int(d, nh_is_zero(d, apart) ? 1 : -1), sine = nh_call(d, NH_SIN, half);
+            nh_ex value = f == NH_COS ? nh_sub(d, one, nh_mul(d, two, nh_powi(d, sine, 2)))
+                                      : nh_product(d, 3, (nh_ex[]){two, sine, nh_call(d, NH_COS, half)});
             whole[doubled] = call[i];
-            by[doubled++] = f == NH_COS ? nh_sub(d, one, nh_mul(d, two, nh_powi(d, sine, 2)))
-                                        : nh_product(d, 3, (nh_ex[]){two, sine, nh_call(d, NH_COS, half)});
+            by[doubled++] = nh_mul(d, sign, value);
             break;
         }
     return nh_substitute(d, e, doubled, whole, by);

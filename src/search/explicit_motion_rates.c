@@ -55,6 +55,28 @@ static nh_ex squares_out(const nh_explicit_curve *c, nh_ex f)
     return f;
 }
 
+/* Is it real at all points?  An elliptic integral can leave the real numbers where its amplitude goes on. */
+static bool is_real(const nh_explicit_curve *c, nh_ex F)
+{
+    nh_ex here = nh_explicit_at_points(c, F);
+    double *value = nh_alloc_array(c->points->count + 1, sizeof *value);
+    bool real = true;
+    nh_points_evaluate(c->points, c->o, 1, &here, value);
+    for (size_t p = 0; p < c->points->count; p++) real &= isfinite(value[p]);
+    nh_free(value);
+    return real;
+}
+
+static bool has_elliptic_integral(const nh_explicit_curve *c, nh_ex F)
+{
+    enum { most = 64 };
+    nh_ex call[most];
+    size_t n = nh_functions_in(c->d, F, call, most), found = 0;
+    for (size_t i = 0; i < n && i < most; i++)
+        found += nh_function_of(c->d, call[i]) >= NH_ELLIPTIC_F && nh_function_of(c->d, call[i]) <= NH_ELLIPTIC_PI;
+    return found > 0;
+}
+
 static nh_ex with_sides(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->calls, p->call, p->by); }
 static nh_ex with_signs(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->sides, p->side, p->sign); }
 static int sign_on_sides(void *context, nh_ex e)
@@ -119,7 +141,7 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
     for (size_t i = m->roots; i-- > 0;)
         *F = nh_substitute_root(d, *F, with_sides(&p, c->radicand[i]), m->root[i].symbol);
     *F = with_signs(&p, roots ? with_sign_of_root(d, *F, own) : *F);
-    return true;
+    return !has_elliptic_integral(c, *F) || is_real(c, *F);
 }
 
 /* A name for int f ds, which is 0 where the motion starts. */
