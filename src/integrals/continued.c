@@ -106,19 +106,20 @@ static bool is_constant(const nh_model *o, nh_ex e)
     return nh_normal_is_zero(o->dag, nh_model_gamma(o, e), 0) == NH_ZERO;
 }
 
-/* Coordinates, exponentials, sines and cosines in e. */
+/* Coordinates, exponentials, sines, cosines and tangents in e. */
 static size_t letters_of(const nh_model *o, nh_ex e, size_t most, nh_ex *letter)
 {
     enum { most_calls = 8 };
     nh_dag *d = o->dag;
     nh_ex call[most_calls];
     size_t calls = nh_functions_in(d, e, call, most_calls), count = 0;
-    for (size_t i = 0; i < calls && calls <= most_calls && count + 1 < most; i++) {
+    for (size_t i = 0; i < calls && calls <= most_calls && count + 2 < most; i++) {
         nh_function f = nh_function_of(d, call[i]);
         if (f == NH_EXP) letter[count++] = call[i];
         if (f != NH_SIN && f != NH_COS && f != NH_TAN) continue;
         letter[count++] = nh_call(d, NH_SIN, nh_child(d, call[i], 0));
         letter[count++] = nh_call(d, NH_COS, nh_child(d, call[i], 0));
+        letter[count++] = nh_call(d, NH_TAN, nh_child(d, call[i], 0));
     }
     for (size_t i = 1; i <= o->m && count < most; i++)
         if (nh_depends(d, e, o->chart->symbol[i])) letter[count++] = o->chart->symbol[i];
