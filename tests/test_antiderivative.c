@@ -205,6 +205,24 @@ Test(antiderivative, elliptic)
     check_kind("cos(x)/((16/7 + 3/2*cos(x) - 2/9*cos(x)^2)*sqrt(2 - sin(x)^2))", true, -1, 1.5);
 }
 
+/* Roots of even quartics, with ends of two signs and of one, real roots and complex ones; of quartics in the tangent and the area tangent of half an argument; and of
+ * what is positive about u = pi or a quarter turn only. */
+Test(antiderivative, elliptic_by_quartics)
+{
+    check_kind("1/sqrt(4 - x^2 - x^4)", true, -1.2, 1.2);
+    check_kind("c/sqrt(4 + x^2 - x^4)", true, -1.5, 1.5);
+    check_kind("1/sqrt(x^4 - x^2 - 3)", true, 1.7, 5);
+    check_kind("1/sqrt(p + a*x^2 + b*x^4)", true, -3, 3);
+    check_kind("1/sqrt(3 - 2*x^2 + x^4)", true, -3, 3);
+    check_kind("1/sqrt(9 - 7*x^2 + x^4)", true, -1.1, 1.1);
+    check_kind("1/sqrt(p + a*cosh(2*x))", true, -2, 2);
+    check_kind("1/sqrt(7 - a*cosh(x))", true, -1, 1);
+    check_kind("1/sqrt(9 + cos(x) + 2*cos(x)^2)", true, -2.5, 2.5);
+    check_kind("1/sqrt(3 + cos(x/3) + 2*cos(x/3)^2)", true, -2, 2);
+    check_kind("1/sqrt(1 - 3*cos(x))", true, 1.6, 4.6);
+    check_kind("1/sqrt(1/2 - cos(x)^2)", true, 1, 2);
+}
+
 /* They are candidates where they are asked for; and two roots are of a higher genus. */
 Test(antiderivative, not_elliptic)
 {

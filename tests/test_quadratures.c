@@ -546,7 +546,7 @@ Test(quadratures, no_time_for_two_kinds_of_motions)
 }
 
 /* The same with the tangent of half an angle and the area tangent: a bead on a hoop that turns, and a spring whose force is a sine of the area. */
-Test(quadratures, times_by_half_arguments, PLAIN_ONLY)
+Test(quadratures, times_by_half_arguments, WHOLE_ONLY)
 {
     check_integrals(ask("name: hoop\nparameters: [{name: m, value: 0.3}, {name: R, value: 0.5}, {name: W, value: 2}, {name: g, value: 9.8}]\ncoordinates: [{name: h, type: angle}]\n"
                         "domain: {h: [-0.6, 0.6], \"h'\": [-0.8, 0.8]}\nlagrangian: m*R^2*(h'^2 + W^2*sin(h)^2)/2 + m*g*R*cos(h)\n"), "hoop", 1, 3, 0);

@@ -347,14 +347,15 @@ static bool elementary(const nh_integration *in, nh_ex f, nh_ex *F)
     forms.coarse = true;
     bool found = read(b, arena, &forms, f);
     bool done = false;
-    if (found && in->elliptic) done = nh_antiderivative_elliptic_quartic(b, f, false, F);
-    if (found && !done && in->elliptic) {
+    if (found && in->elliptic) {
         nh_antiderivative_put_elliptic(b);
         done = b->count > 0 && combine(b, f, F); /* few, before the many that are elementary */
-        done = done || nh_antiderivative_elliptic_quartic(b, f, true, F);
     }
     if (found && !done) candidates(b);
-    found = done || (found && !b->full && combine(b, f, F));
+    done = done || (found && !b->full && combine(b, f, F));
+    for (int halves = 0; found && !done && in->elliptic && halves <= 1; halves++)
+        done = nh_antiderivative_elliptic_quartic(b, f, halves, F);
+    found = done;
     nh_form_clear(&b->form);
     nh_forms_clear(&forms);
     nh_arena_free(arena);
