@@ -289,11 +289,12 @@ static bool is_even_quartic(const builder *b, nh_ex y, nh_ex Q, nh_ex k[5])
     nh_dag *d = b->d;
     nh_ex slope = Q, zero = nh_int(d, 0);
     for (int i = 0; i <= 4; i++) {
-        k[i] = nh_simplify_short(d, nh_substitute(d, slope, 1, &y, &zero), 0);
+        k[i] = slope;
         slope = nh_simplify_short(d, nh_mul(d, nh_ratio(d, 1, i + 1), nh_diff(d, slope, y)), 0);
-        if (i % 2 && !nh_is_zero(d, k[i])) return false;
     }
-    return nh_is_zero(d, slope) && !nh_is_zero(d, k[4]);
+    if (!nh_is_zero(d, slope)) return false; /* it is no polynomial, and may have no value at 0 */
+    for (int i = 0; i <= 4; i++) k[i] = nh_simplify_short(d, nh_substitute(d, k[i], 1, &y, &zero), 0);
+    return nh_is_zero(d, k[1]) && nh_is_zero(d, k[3]) && !nh_is_zero(d, k[4]);
 }
 
 /* int dy/root, root^2 = Q = k_0 + k_2 y^2 + k_4 y^4.  For k_0 k_4 < 0, with D = k_2^2 - 4 k_0 k_4, and for positive k_0

@@ -177,6 +177,8 @@ bool nh_is_named_function(nh_function f);
 const char *nh_function_arguments(nh_function f);
 /* How many of its first arguments must be constant: derivatives with respect to orders have no closed form. */
 size_t nh_function_constants(nh_function f);
+/* Of an amplitude and a parameter, the last two arguments: F, E, and Pi with a number before them. */
+bool nh_is_incomplete_elliptic(nh_function f);
 bool nh_is_zero(const nh_dag *dag, nh_ex e);
 bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value);
 /* Does `symbol` occur in `e`? (not through rules of implicit symbols, see diff.h) */

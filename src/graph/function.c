@@ -48,6 +48,10 @@ const char *nh_function_name(nh_function f) { return table[f].name; }
 size_t nh_function_arity(nh_function f) { return (size_t)table[f].arity; }
 const char *nh_function_arguments(nh_function f) { return table[f].arguments; }
 bool nh_is_named_function(nh_function f) { return table[f].arguments != NULL; }
+bool nh_is_incomplete_elliptic(nh_function f)
+{
+    return f == NH_ELLIPTIC_F || f == NH_ELLIPTIC_EINC || f == NH_ELLIPTIC_PI;
+}
 
 size_t nh_function_constants(nh_function f)
 {
@@ -235,18 +239,11 @@ nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b)
     return nh_dag_intern(dag, NH_FUNCTION, f, 2, arg);
 }
 
-/* Incomplete elliptic integrals are odd in their amplitude. */
-static bool is_odd_at(nh_function f, size_t *at)
-{
-    *at = f == NH_ELLIPTIC_PI;
-    return f == NH_ELLIPTIC_F || f == NH_ELLIPTIC_EINC || f == NH_ELLIPTIC_PI;
-}
-
 nh_ex nh_call_any(nh_dag *dag, nh_function f, const nh_ex *argument)
 {
-    size_t at;
-    if (is_odd_at(f, &at) && looks_negative(dag, argument[at])) {
-        nh_ex other[3];
+    size_t at = (size_t)table[f].arity - 2; /* the amplitude, in which elliptic integrals are odd */
+    if (nh_is_incomplete_elliptic(f) && looks_negative(dag, argument[at])) {
+        nh_ex other[NH_MOST_ARGUMENTS];
         memcpy(other, argument, (size_t)table[f].arity * sizeof *other);
         other[at] = nh_neg(dag, other[at]);
         return nh_neg(dag, nh_call_any(dag, f, other));

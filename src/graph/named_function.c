@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "graph/parse.h"
 
 /* The second derivative, in the letters of the arguments, f and g = f'
@@ -48,6 +49,17 @@ static const struct {
     {NH_ELLIPTIC_PI, 2,
      "(elliptic_einc(u, m)/(m - 1) + f - m*sin(2*u)/(2*(m - 1)*sqrt(1 - m*sin(u)^2)))/(2*(n - m))"},
 };
+
+bool nh_named_function_has_elliptic(const nh_dag *dag, nh_ex e)
+{
+    nh_ex *node;
+    bool found = false;
+    size_t n = nh_nodes_in(dag, 1, &e, &node);
+    for (size_t i = 0; i < n && !found; i++)
+        found = nh_kind_of(dag, node[i]) == NH_FUNCTION && nh_is_incomplete_elliptic(nh_function_of(dag, node[i]));
+    nh_free(node);
+    return found;
+}
 
 nh_function nh_named_function_base(nh_function f) { return f < NH_ELLIPTIC_K ? f - (f - NH_LEGENDRE_P) % 2 : f; }
 
@@ -106,9 +118,8 @@ nh_ex nh_named_function_rate(nh_dag *dag, nh_ex e, size_t i)
         for (size_t k = 0; k < sizeof slope / sizeof *slope; k++)
             if (slope[k].f == f && slope[k].argument == i) text = slope[k].first;
         nh_ex rate = read_or_nan(dag, text, f, argument);
-        if (f == NH_ELLIPTIC_F || f == NH_ELLIPTIC_EINC) rate = with_short_root(dag, rate, argument[0], argument[1]);
-        if (f == NH_ELLIPTIC_PI) rate = with_short_root(dag, rate, argument[1], argument[2]);
-        return rate;
+        size_t m = nh_arity(dag, e) - 1;
+        return nh_is_incomplete_elliptic(f) ? with_short_root(dag, rate, argument[m - 1], argument[m]) : rate;
     }
     if (i < nh_function_constants(f)) return nh_real(dag, NAN);
     if (f == base) return nh_call_any(dag, f + 1, argument);

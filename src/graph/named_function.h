@@ -20,6 +20,9 @@ nh_ex nh_named_function_rate(nh_dag *dag, nh_ex e, size_t i);
 bool nh_named_function_read(nh_dag *dag, const char *text, nh_function f, nh_function other, const nh_ex *argument,
                             nh_ex *out);
 
+/* Does an incomplete elliptic integral stand in e? */
+bool nh_named_function_has_elliptic(const nh_dag *dag, nh_ex e);
+
 /* The function f for f and for f_prime; any function from the elliptic integrals on in the list is returned itself. */
 nh_function nh_named_function_base(nh_function f);
 

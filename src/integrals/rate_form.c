@@ -3,6 +3,7 @@
 #include "exact/normal.h"
 #include "exact/square.h"
 #include "graph/measure.h"
+#include "graph/named_function.h"
 
 /* sign(u) as |u|/u, of which the normal form knows the square. */
 static nh_ex without_signs(nh_dag *d, nh_ex e)
@@ -105,22 +106,10 @@ static nh_ex fourth_roots(const nh_model *o, nh_ex e)
     return e;
 }
 
-static bool has_elliptic_integrals(nh_dag *d, nh_ex e)
-{
-    enum { most = 32 };
-    nh_ex call[most];
-    size_t n = nh_functions_in(d, e, call, most), found = 0;
-    for (size_t i = 0; i < n && i < most; i++) {
-        nh_function f = nh_function_of(d, call[i]);
-        found += f == NH_ELLIPTIC_F || f == NH_ELLIPTIC_EINC || f == NH_ELLIPTIC_PI;
-    }
-    return found > 0;
-}
-
 nh_ex nh_rate_form(const nh_model *o, nh_ex e, bool *decisive)
 {
     nh_dag *d = o->dag;
     nh_ex positive = without_signs(d, e);
-    if (positive == e && !has_elliptic_integrals(d, e)) return e;
+    if (positive == e && !nh_named_function_has_elliptic(d, e)) return e;
     return squares_out(o, fourth_roots(o, in_half_angles(d, positive)), decisive);
 }

@@ -7,6 +7,7 @@
 #include "exact/square.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
+#include "graph/named_function.h"
 #include "search/explicit_motion_internal.h"
 
 enum { most_sides = 8 };
@@ -67,16 +68,6 @@ static bool is_real(const nh_explicit_curve *c, nh_ex F)
     return real;
 }
 
-static bool has_elliptic_integral(const nh_explicit_curve *c, nh_ex F)
-{
-    enum { most = 64 };
-    nh_ex call[most];
-    size_t n = nh_functions_in(c->d, F, call, most), found = 0;
-    for (size_t i = 0; i < n && i < most; i++)
-        found += nh_function_of(c->d, call[i]) >= NH_ELLIPTIC_F && nh_function_of(c->d, call[i]) <= NH_ELLIPTIC_PI;
-    return found > 0;
-}
-
 static nh_ex with_sides(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->calls, p->call, p->by); }
 static nh_ex with_signs(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->sides, p->side, p->sign); }
 static int sign_on_sides(void *context, nh_ex e)
@@ -91,15 +82,15 @@ static int most_on_sides(void *context, nh_ex e)
     return nh_explicit_mostly(p->curve, with_signs(p, e));
 }
 
-/* Elliptic integrals of the root of a radicand, with its sign where it does not stand in them. */
-static nh_ex with_sign_of_root(nh_dag *d, nh_ex F, nh_ex root)
+/* Elliptic integrals of the root of a radicand, with its sign where it does not stand in them; those in f are there
+ * already. */
+static nh_ex with_sign_of_root(nh_dag *d, nh_ex f, nh_ex F, nh_ex root)
 {
     enum { most = 64 };
     nh_ex call[most], by[most], sign = nh_call(d, NH_SIGN, root);
     size_t n = nh_functions_in(d, F, call, most), elliptic = 0;
     for (size_t i = 0; i < n && i < most; i++) {
-        nh_function name = nh_function_of(d, call[i]);
-        bool integral = name == NH_ELLIPTIC_F || name == NH_ELLIPTIC_EINC || name == NH_ELLIPTIC_PI;
+        bool integral = nh_is_incomplete_elliptic(nh_function_of(d, call[i])) && !nh_depends(d, f, call[i]);
         if (!integral || nh_depends(d, call[i], root)) continue;
         by[elliptic] = nh_mul(d, sign, call[i]);
         call[elliptic++] = call[i];
@@ -140,8 +131,8 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
     if (!found) return false;
     for (size_t i = m->roots; i-- > 0;)
         *F = nh_substitute_root(d, *F, with_sides(&p, c->radicand[i]), m->root[i].symbol);
-    *F = with_signs(&p, roots ? with_sign_of_root(d, *F, own) : *F);
-    return !has_elliptic_integral(c, *F) || is_real(c, *F);
+    *F = with_signs(&p, roots ? with_sign_of_root(d, f, *F, own) : *F);
+    return !nh_named_function_has_elliptic(d, *F) || is_real(c, *F);
 }
 
 /* A name for int f ds, which is 0 where the motion starts. */
