@@ -62,6 +62,18 @@ bool nh_model_is_constant(const nh_model *o, nh_ex e)
     return true;
 }
 
+nh_ex nh_model_without_constants(const nh_model *o, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    if (nh_kind_of(d, e) != NH_PRODUCT) return e;
+    nh_ex rest = nh_int(d, 1);
+    for (size_t f = 0; f < nh_arity(d, e); f++) {
+        nh_ex factor = nh_pow(d, nh_child(d, e, f), nh_exponent_of(d, e, f));
+        if (!nh_model_is_constant(o, factor)) rest = nh_mul(d, rest, factor);
+    }
+    return rest;
+}
+
 nh_ex nh_model_along(const nh_model *o, const nh_field *f, nh_ex e)
 {
     nh_dag *d = o->dag;

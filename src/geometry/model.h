@@ -83,6 +83,8 @@ nh_ex nh_model_Y(const nh_model *model, size_t i, nh_ex e);
 nh_ex nh_model_gamma(const nh_model *model, nh_ex e);
 /* Does e depend on parameters only: on no variable of the chart, nor on t? */
 bool nh_model_is_constant(const nh_model *model, nh_ex e);
+/* A product without its factors that do, and without its number; what is no product stays. */
+nh_ex nh_model_without_constants(const nh_model *model, nh_ex e);
 
 /* Omega(Z, X) for the basis fields, from the general formula
  *     Omega(A,B) = A(p_s) B^s - B(p_s) A^s - A(E) B^0 + B(E) A^0

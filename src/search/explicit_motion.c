@@ -124,12 +124,9 @@ static nh_ex with_plain_signs(const nh_explicit_curve *c, nh_ex e)
     nh_ex call[most], by[most];
     size_t n = nh_functions_in(d, e, call, most), signs = 0;
     for (size_t i = 0; i < n && n <= most; i++) {
-        nh_ex u = nh_child(d, call[i], 0), rest = nh_int(d, 1);
-        if (nh_function_of(d, call[i]) != NH_SIGN || nh_kind_of(d, u) != NH_PRODUCT) continue;
-        for (size_t f = 0; f < nh_arity(d, u); f++) {
-            nh_ex factor = nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f));
-            if (!nh_model_is_constant(c->o, factor)) rest = nh_mul(d, rest, factor);
-        }
+        if (nh_function_of(d, call[i]) != NH_SIGN) continue;
+        nh_ex u = nh_child(d, call[i], 0), rest = nh_model_without_constants(c->o, u);
+        if (rest == u) continue;
         int sign = nh_model_sign(c->o, nh_div(d, u, rest));
         if (sign) by[signs] = nh_mul(d, nh_int(d, sign), nh_call(d, NH_SIGN, rest)), call[signs++] = call[i];
     }

@@ -22,19 +22,6 @@ typedef struct {
     double value[most_levels];
 } levels;
 
-/* A product without its constant factors. */
-static nh_ex without_constants(const nh_model *o, nh_ex e)
-{
-    nh_dag *d = o->dag;
-    if (nh_kind_of(d, e) != NH_PRODUCT) return e;
-    nh_ex rest = nh_int(d, 1);
-    for (size_t f = 0; f < nh_arity(d, e); f++) {
-        nh_ex factor = nh_pow(d, nh_child(d, e, f), nh_exponent_of(d, e, f));
-        if (!nh_model_is_constant(o, factor)) rest = nh_mul(d, rest, factor);
-    }
-    return rest;
-}
-
 /* Is it linear in the velocities, perhaps with a part without them, and does it contain one? */
 static bool is_linear(const nh_model *o, nh_ex phi)
 {
@@ -78,9 +65,9 @@ static void gather(levels *x)
         bool usable = !f->series && f->proof.all_parameters && f->has_in_velocities &&
                       f->independence == NH_INDEPENDENT && !nh_depends(x->d, f->phi, x->o->system->t);
         if (!usable || nh_complexity(x->d, f->in_velocities) > longest || !is_linear(x->o, f->phi)) continue;
-        double value = value_of(x, without_constants(x->o, f->phi));
+        double value = value_of(x, nh_model_without_constants(x->o, f->phi));
         if (!isnormal(value)) continue;
-        x->integral[x->count] = without_constants(x->o, f->in_velocities);
+        x->integral[x->count] = nh_model_without_constants(x->o, f->in_velocities);
         x->value[x->count] = value;
         x->symbol[x->count++] = nh_symbol_fresh(x->d, "level");
     }
