@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "exact/residue_matrix.h"
+#include "exact/row_sum.h"
 
 static nh_residue *random_matrix(nh_prime f, size_t count, uint64_t seed)
 {
@@ -29,20 +30,20 @@ Test(residue_matrix, numbers_below_2_62_are_reduced)
 Test(residue_matrix, rows_are_added_with_factors)
 {
     nh_prime f = nh_prime_at(2);
-    static const size_t SIZE[] = {1, 3, 7, 511, 512, 513, 1100}, COUNT[] = {0, 1, 4, 5, 8, 9, 41};
+    static const size_t SIZE[] = {1, 3, 7, 8, 9, 15, 16, 17, 31, 511, 512, 513, 1100}, COUNT[] = {0, 1, 4, 5, 8, 9, 41, 64, 67, 150};
     for (size_t i = 0; i < sizeof SIZE / sizeof *SIZE; i++)
         for (size_t k = 0; k < sizeof COUNT / sizeof *COUNT; k++)
             for (int largest = 0; largest < 2; largest++) {
                 size_t n = SIZE[i], count = COUNT[k];
                 nh_residue *a = random_matrix(f, n * count, 5), *c = random_matrix(f, count, 6), *y = random_matrix(f, n, 7), *sum = random_matrix(f, n, 7);
-                const nh_residue *row[64];
+                const nh_residue *row[150];
                 for (size_t t = 0; t < n * count && largest; t++) a[t] = (nh_residue)(f.p - 1);
                 for (size_t t = 0; t < count; t++) {
                     row[t] = a + t * n;
                     if (largest) c[t] = (nh_residue)(f.p - 1);
                     for (size_t j = 0; j < n; j++) sum[j] = (nh_residue)((sum[j] + (uint64_t)c[t] * a[t * n + j]) % f.p);
                 }
-                nh_residue_matrix_gather(f, n, y, count, c, row);
+                nh_row_sum_add(f, n, y, count, c, row);
                 cr_assert_eq(memcmp(y, sum, n * sizeof *y), 0, "%zu rows of %zu", count, n);
                 nh_free(sum);
                 nh_free(y);

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "exact/residue_matrix.h"
+#include "exact/row_sum.h"
 
 enum { each = 4 }; /* functionals on a curve */
 
@@ -84,7 +84,7 @@ void nh_count_lines_values(const nh_count_lines *l, const nh_jet_ring *ring, siz
     for (size_t j = 0; j < l->lines; j++) {
         memset(sum, 0, orders * N * sizeof *sum);
         for (size_t k = 0; k < orders; k++)
-            nh_residue_matrix_gather(ring->field, N, sum + k * N, ring->first[k + 1] - ring->first[k],
+            nh_row_sum_add(ring->field, N, sum + k * N, ring->first[k + 1] - ring->first[k],
                                      l->curve + j * l->size + ring->first[k], row + ring->first[k]);
         for (size_t s = 0; s < N; s++) {
             for (size_t k = 0; k < orders; k++) own[k] = sum[k * N + s];

@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "exact/residue_matrix.h"
+#include "exact/row_sum.h"
 
 enum { spare_rows = 8, no_alpha = -1 };
 
@@ -221,7 +222,7 @@ static void equation(nh_graded_system *s, size_t beta, const size_t *start, cons
             }
         }
     }
-    nh_residue_matrix_gather(s->f, s->N, s->known + number * s->N, sum->count, sum->factor, sum->row);
+    nh_row_sum_add(s->f, s->N, s->known + number * s->N, sum->count, sum->factor, sum->row);
 }
 
 static void equations(nh_graded_system *s)
@@ -273,7 +274,7 @@ static size_t compress(nh_graded_system *s, nh_residue *out)
     for (size_t i = 0; i < wanted * s->fresh_count; i++) mix[i] = nh_residue_random(s->f, &state);
     memset(out, 0, wanted * columns * sizeof *out);
     for (size_t i = 0; i < wanted; i++)
-        nh_residue_matrix_gather(s->f, columns, out + i * columns, s->fresh_count, mix + i * s->fresh_count,
+        nh_row_sum_add(s->f, columns, out + i * columns, s->fresh_count, mix + i * s->fresh_count,
                                  (const nh_residue *const *)s->fresh);
     nh_free(mix);
     s->work += (double)wanted * (double)s->fresh_count * (double)columns;
@@ -323,7 +324,7 @@ static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t ra
             for (size_t q = 0; q < rank; q++) factor[q] = nh_residue_negative(s->f, x[columns - 1 - pivots[q]]);
             for (size_t j = 0; j < kept; j++) x[j] = x[from[j]];
             memset(x + kept, 0, (s->N - kept) * sizeof *x);
-            nh_residue_matrix_gather(s->f, among, x, rank, factor, row);
+            nh_row_sum_add(s->f, among, x, rank, factor, row);
         }
     s->work += (double)s->alphas * (double)left * (double)rank * (double)(among + 1);
     s->N = kept;

@@ -1,78 +1,18 @@
-/* Sums of rows in halves of 32 bits, and Gauss and Jordan's elimination in panels of columns on top of them.
+/* Gauss and Jordan's elimination in panels of columns, on top of sums of rows.
  *
  * A panel with the pivots A[R, C] = B replaces, of all columns from its first on,
  *
  *     A[R] by B^-1 A[R],      A[i] by A[i] - A[i, C] A[R]   for the other rows i
  *
  * so that most of the work consists of sums of many rows. */
-#include "base/clones.h"
 #include "exact/residue_matrix.h"
 
 #include <string.h>
 
 #include "base/memory.h"
+#include "exact/row_sum.h"
 
-enum { panel_width = 32, block = 512 };
-
-/* ---- sums of rows ---- */
-
-/* low + 2^32 high += two sums of four products, each below 2^62. */
-NH_CLONES static void add_eight(size_t n, uint64_t *restrict low, uint64_t *restrict high, const nh_residue *restrict f,
-                                const nh_residue *const *row)
-{
-    const nh_residue *restrict a = row[0], *restrict b = row[1], *restrict c = row[2], *restrict d = row[3],
-                               *restrict e = row[4], *restrict g = row[5], *restrict h = row[6], *restrict k = row[7];
-    uint64_t fa = f[0], fb = f[1], fc = f[2], fd = f[3], fe = f[4], fg = f[5], fh = f[6], fk = f[7];
-    for (size_t j = 0; j < n; j++) {
-        uint64_t first = fa * a[j] + fb * b[j] + fc * c[j] + fd * d[j],
-                 second = fe * e[j] + fg * g[j] + fh * h[j] + fk * k[j];
-        low[j] += (first & UINT32_MAX) + (second & UINT32_MAX);
-        high[j] += (first >> 32) + (second >> 32);
-    }
-}
-
-/* (low + 2^32 high) mod p, both below 2^61 */
-NH_CLONES static void fold(nh_prime field, size_t n, const uint64_t *restrict low, const uint64_t *restrict high,
-                           nh_residue *restrict y)
-{
-    uint64_t carry = ((uint64_t)1 << 32) % field.p;
-    for (size_t j = 0; j < n; j++)
-        y[j] = nh_residue_reduce(field, nh_residue_reduce(field, low[j]) + nh_residue_reduce(field, high[j]) * carry);
-}
-
-/* Sums the columns from `from` on, at most a block of them. */
-static void gather_block(nh_prime field, size_t from, size_t n, nh_residue *y, size_t count, const nh_residue *factor,
-                         const nh_residue *const *row)
-{
-    enum { together = 8 };
-    static const nh_residue zero[block] = {0};
-    uint64_t low[block], high[block];
-    memset(high, 0, n * sizeof *high);
-    for (size_t j = 0; j < n; j++) low[j] = y[from + j];
-    for (size_t t = 0; t < count; t += together) {
-        nh_residue f[together] = {0};
-        const nh_residue *r[together];
-        for (size_t i = 0; i < together; i++) {
-            bool used = t + i < count;
-            f[i] = used ? factor[t + i] : 0;
-            r[i] = used ? row[t + i] + from : zero;
-        }
-        add_eight(n, low, high, f, r);
-    }
-    fold(field, n, low, high, y + from);
-}
-
-void nh_residue_matrix_gather(nh_prime field, size_t n, nh_residue *y, size_t count, const nh_residue *factor,
-                              const nh_residue *const *row)
-{
-    enum { few = 4 };
-    if (count <= few) {
-        for (size_t t = 0; t < count; t++) nh_residue_add_multiple(field, n, y, row[t], factor[t]);
-        return;
-    }
-    for (size_t from = 0; from < n; from += block)
-        gather_block(field, from, n - from < block ? n - from : block, y, count, factor, row);
-}
+enum { panel_width = 32 };
 
 void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, const nh_residue *a, const nh_residue *b,
                                 nh_residue *out)
@@ -80,7 +20,7 @@ void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, co
     const nh_residue **row = nh_alloc_array(k + 1, sizeof *row);
     for (size_t t = 0; t < k; t++) row[t] = b + t * n;
     memset(out, 0, m * n * sizeof *out);
-    for (size_t i = 0; i < m; i++) nh_residue_matrix_gather(field, n, out + i * n, k, a + i * k, row);
+    for (size_t i = 0; i < m; i++) nh_row_sum_add(field, n, out + i * n, k, a + i * k, row);
     nh_free(row);
 }
 
@@ -160,7 +100,7 @@ static void apply_pivots(elimination *x, bool above)
     memset(x->part, 0, k * n * sizeof *x->part);
     for (size_t t = 0; t < k; t++) row[t] = x->a + (x->rank + t) * x->columns + x->first;
     for (size_t i = 0; i < k; i++)
-        nh_residue_matrix_gather(x->field, n, x->part + i * n, k, x->pivots + i * 2 * k + k, row);
+        nh_row_sum_add(x->field, n, x->part + i * n, k, x->pivots + i * 2 * k + k, row);
     for (size_t i = 0; i < k; i++)
         memcpy(x->a + (x->rank + i) * x->columns + x->first, x->part + i * n, n * sizeof *x->part);
     for (size_t i = above ? 0 : x->rank + k; i < x->rows; i++) {
@@ -169,7 +109,7 @@ static void apply_pivots(elimination *x, bool above)
         if (i >= x->rank && i < x->rank + k) continue;
         for (size_t t = 0; t < k; t++)
             any |= (factor[t] = nh_residue_negative(x->field, own[x->pivot[x->rank + t]])) != 0;
-        if (any) nh_residue_matrix_gather(x->field, n, own + x->first, k, factor, row);
+        if (any) nh_row_sum_add(x->field, n, own + x->first, k, factor, row);
     }
 }
 

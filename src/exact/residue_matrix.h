@@ -1,15 +1,9 @@
-/* residue_matrix: dense linear algebra modulo a prime of 31 bits.
- *
- * Four products of residues fit into 64 bits: sums of them are added up in two halves of 32 bits, in loops that the
- * compiler vectorises, and divided once.  Matrices lie row by row. */
+/* residue_matrix: dense linear algebra modulo a prime of 31 bits.  Matrices lie row by row.
+ */
 #ifndef NH_RESIDUE_MATRIX_H
 #define NH_RESIDUE_MATRIX_H
 
 #include "exact/residue.h"
-
-/* y += sum over t < count of factor_t row_t, componentwise, of n residues each. */
-void nh_residue_matrix_gather(nh_prime field, size_t n, nh_residue *y, size_t count, const nh_residue *factor,
-                              const nh_residue *const *row);
 
 /* out = a b  (m x k times k x n); `out` is neither of them. */
 void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, const nh_residue *a, const nh_residue *b,
