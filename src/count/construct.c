@@ -222,9 +222,10 @@ nh_construct_outcome nh_construct_recognise(nh_construction *out, nh_construct_a
                                             const nh_construct_question *question)
 {
     nh_counter *c = a->counter;
-    nh_construct_news x;
-    bool good = nh_construct_news_open(&x, a, question) && in_frame(a) && nh_construct_values(a), scarce = true;
-    if (good) {
+    nh_construct_news x = {0};
+    bool scarce = c->work + nh_construct_columns(a) < c->q->work,
+         good = !scarce || (nh_construct_news_open(&x, a, question) && in_frame(a) && nh_construct_values(a));
+    if (good && scarce) {
         nh_construct_words_choose(a);
         scarce = nh_construct_words_scarce(a, out->order, a->kept, a->chosen) && c->work < c->q->work && !nh_late();
     }

@@ -34,6 +34,8 @@ size_t nh_construct_order(const nh_construct_attempt *attempt, size_t degree);
 /* There must be fewer functions of some of the coordinates than coefficients, or every function would be a combination
  * of them.  `word`: which words; NULL: all. */
 bool nh_construct_words_scarce(const nh_construct_attempt *attempt, size_t order, size_t words, const size_t *word);
+/* Gives words and solutions their columns.  Returns the work to choose a basis, if the words are independent. */
+double nh_construct_columns(nh_construct_attempt *attempt);
 /* Computes the values of words and solutions.  False: another point is needed. */
 bool nh_construct_values(nh_construct_attempt *attempt);
 /* Chooses a basis of the words' span, and rewrites all values in terms of it. */

@@ -131,14 +131,21 @@ static bool word_values(nh_construct_attempt *a)
     return good;
 }
 
-bool nh_construct_values(nh_construct_attempt *a)
+double nh_construct_columns(nh_construct_attempt *a)
 {
     const nh_jet_ring *ring = a->series->ring;
-    a->width = a->words->words;
+    size_t words = a->words->words;
+    a->width = words;
     for (size_t part = 0; part < a->parts; part++) {
         a->first[part] = a->width;
         a->width += a->solution[part]->alphas * a->solution[part]->total[ring->order];
     }
+    return (double)a->width * (double)words * (double)a->lines.count / NH_CONSTRUCT_ROWS_TOGETHER;
+}
+
+bool nh_construct_values(nh_construct_attempt *a)
+{
+    const nh_jet_ring *ring = a->series->ring;
     a->value = nh_alloc_array(a->lines.count * a->width, sizeof *a->value);
     if (!word_values(a)) return false;
     for (size_t part = 0; part < a->parts; part++) {

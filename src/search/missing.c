@@ -87,11 +87,12 @@ static void take_back(search *s, size_t first)
     s->aside = first;
 }
 
+static bool is_timeless(const nh_analysis *r) { return r->completeness[NH_COMPLETE_IN_COORDINATES].counted; }
+
 /* Without time in the coefficients, which in a system without time gives functions of these only. */
 static const nh_completeness *simplest_kind(const nh_analysis *r)
 {
-    bool timeless = r->completeness[NH_COMPLETE_IN_COORDINATES].counted;
-    return &r->completeness[timeless ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME];
+    return &r->completeness[is_timeless(r) ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME];
 }
 
 static bool lacks_further(const nh_analysis *r)
@@ -138,6 +139,12 @@ static bool integrate_series(search *s)
     return found;
 }
 
+static bool look_further(search *s)
+{
+    nh_analysis *r = s->solver.r;
+    return lacks_further(r) && nh_missing_construct(s, simplest_kind(r), true);
+}
+
 static void look(nh_analysis *r)
 {
     search s = {0};
@@ -151,10 +158,13 @@ static void look(nh_analysis *r)
     s.cyclic = nh_jet_equations_cyclic_rounds(r->model);
     bool stale = false;
     for (bool found = true; found && !nh_late();) {
-        bool again = found = false;
-        for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++)
-            found = nh_missing_construct(&s, &r->completeness[i], false);
-        if (!found && lacks_further(r)) found = again = nh_missing_construct(&s, simplest_kind(r), true);
+        bool again = false;
+        found = nh_missing_construct(&s, &r->completeness[NH_COMPLETE_IN_COORDINATES], false);
+        /* Functions of the currents are few, and what has time in it may be a product of them and of waves. */
+        if (!found && is_timeless(r)) found = again = look_further(&s);
+        if (!found && stale) count(r, stale = false);
+        if (!found) found = nh_missing_construct(&s, &r->completeness[NH_COMPLETE_IN_TIME], false);
+        if (!found && !is_timeless(r)) found = again = look_further(&s);
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
         if (found) count(r, stale = again);
     }

@@ -145,9 +145,13 @@ static bool lift_by_doubles(search *s, size_t degree, const nh_family *all, bool
     return s->solver.r->count > before || (further && lift_further(s, degree, all));
 }
 
+/* FOUND, a function of the currents (which may be found again with every price of the words), or neither: simpler words
+ * may do better. */
+typedef enum { LIFT_FOUND, LIFT_KNOWN, LIFT_FAILED } lifted;
+
 /* Finds the coefficients of an integral's terms, which may be constants of the leaf.  Those of a few terms may be
  * quotients in the parameters, which the exact relation of their rates has (coefficients.c). */
-static bool lift(search *s, size_t degree, bool time, const nh_constructed *c, bool further)
+static lifted lift(search *s, size_t degree, bool time, const nh_constructed *c, bool further)
 {
     enum { a_few = 20 };
     nh_analysis *r = s->solver.r;
@@ -167,9 +171,26 @@ static bool lift(search *s, size_t degree, bool time, const nh_constructed *c, b
     const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
     nh_lift_result exact = further ? (nh_lift_result){0} : lift_exactly(s, time, once, first_once);
     bool first = exact.general || once > a_few;
-    if (first && keep_lifted(s, &exact, once, name)) return true;
-    if (lift_by_doubles(s, degree, all, further, name)) return true;
-    return !first && keep_lifted(s, &exact, once, name);
+    if (first && keep_lifted(s, &exact, once, name)) return LIFT_FOUND;
+    if (exact.integral && nh_currents_known(s->solver.bench, exact.integral, true)) return LIFT_KNOWN;
+    if (lift_by_doubles(s, degree, all, further, name)) return LIFT_FOUND;
+    return !first && keep_lifted(s, &exact, once, name) ? LIFT_FOUND : LIFT_FAILED;
+}
+
+/* Were these terms refused before? If not, they are from now on. */
+static bool is_refused(search *s, const nh_constructed *c, bool further)
+{
+    for (size_t i = 0; i < s->refusals; i++) {
+        const nh_missing_refused *a = &s->refused[i];
+        if (a->further == further && a->terms == c->terms && !memcmp(a->term, c->term, c->terms * sizeof *c->term))
+            return true;
+    }
+    if (s->refusals < NH_MISSING_MOST_REFUSED) {
+        nh_ex *term = nh_arena_alloc(s->solver.r->arena, c->terms * sizeof *term);
+        memcpy(term, c->term, c->terms * sizeof *term);
+        s->refused[s->refusals++] = (nh_missing_refused){c->terms, term, further};
+    }
+    return false;
 }
 
 static bool is_over(const search *s, bool further)
@@ -196,6 +217,7 @@ static void take(search *s, const barren *b, bool *more)
 {
     s->work -= b->work;
     if (b->solutions > s->solutions) s->solutions = b->solutions;
+    if (b->recognised && b->solutions > s->recognised) s->recognised = b->solutions;
     if (b->whole) s->covered = b->price;
     *more = b->more;
 }
@@ -237,10 +259,16 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     now.solutions = x->solutions;
     now.whole = x->whole;
     /* an integral that could not be proved may have a simpler form in words of a higher price */
-    now.more = !x->limited && (x->recognised < x->dimension || x->count);
+    size_t unproved = 0;
+    for (size_t k = 0; k < x->count && !is_over(s, further); k++) {
+        if (is_refused(s, &x->item[k], further)) continue;
+        lifted l = lift(s, degree, q.time, &x->item[k], further);
+        found |= l == LIFT_FOUND;
+        unproved += l == LIFT_FAILED;
+    }
+    now.recognised = !x->limited && x->recognised == x->dimension && !unproved;
+    now.more = !x->limited && !now.recognised;
     take(s, &now, more);
-    for (size_t k = 0; k < x->count && !is_over(s, further); k++)
-        found |= lift(s, degree, q.time, &x->item[k], further);
     if (!x->count && !nh_late() && s->barrens < NH_MISSING_MOST_BARREN) s->barren[s->barrens++] = now;
     nh_construction_free(x);
     nh_free(phi);
@@ -310,10 +338,13 @@ bool nh_missing_construct(search *s, const nh_completeness *c, bool further)
     nh_construct_rates only = rates;
     only.only = true;
     manner by_rates = {.further = further, .rates = &only};
+    bool before = c->count.time && !further;
+    if (before && nh_primitives_search(&s->solver, true, degree)) return true;
     if (rates.count && construct_up_to(s, c, by_rates, dearest, further ? work : part * work)) return true;
-    s->covered = 0;
+    s->covered = s->recognised = 0;
     if (construct_in_shapes(s, c, any, dearest, work, &secular.shape)) return true;
     s->covered = 0;
-    return (!further && nh_primitives_search(&s->solver, c->count.time, c->missing_at)) ||
-           (!c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
+    bool others = s->recognised < c->count.row[degree - 1].bound;
+    return (!further && !before && nh_primitives_search(&s->solver, c->count.time, c->missing_at)) ||
+           (others && !c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }

@@ -18,19 +18,30 @@ typedef struct {
 typedef struct {
     nh_missing_manner how; /* without the rates, which the model, the degree and the time determine */
     bool time, rates, only, more, whole;
+    bool recognised; /* all solutions, and those that are new are functions of the currents */
     size_t degree, solutions;
     double price, given, work;
 } nh_missing_barren;
 
-enum { NH_MISSING_MOST_BARREN = 128 };
+enum { NH_MISSING_MOST_BARREN = 128, NH_MISSING_MOST_REFUSED = 32 };
+
+/* Terms from which no integral could be made. */
+typedef struct {
+    size_t terms;
+    const nh_ex *term;
+    bool further;
+} nh_missing_refused;
 
 typedef struct {
     nh_stage_solver solver;
     size_t barrens;
     nh_missing_barren barren[NH_MISSING_MOST_BARREN];
+    size_t refusals;
+    nh_missing_refused refused[NH_MISSING_MOST_REFUSED];
     size_t cyclic;          /* how often cyclic coordinates can be dropped */
     double work;            /* work that is left for this count */
     size_t solutions;       /* the most that series had for the coordinates at hand */
+    size_t recognised;      /* the most of which all were recognised */
     double covered;         /* up to this price words were tried for these coordinates */
     size_t aside;           /* currents that are only certified */
     nh_current *set_aside;
