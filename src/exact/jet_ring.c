@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact/row_sum.h"
+
 /* ---- exponents ---- */
 
 /* Exponents of one weighted degree, in lexicographic order. */
@@ -253,12 +255,30 @@ void nh_jet_add_multiple(const nh_jet_ring *r, nh_residue *sum, nh_residue c, co
 
 void nh_jet_scale(const nh_jet_ring *r, nh_residue *a, nh_residue c) { nh_residue_scale(r->field, r->size, a, c); }
 
+/* Series in one variable of weight 1: out = sum_i a_i z^i b, whose rows are b after so many zeros. */
+static void multiply_along_line(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b, nh_residue *out)
+{
+    size_t n = r->size;
+    const nh_residue **row = nh_alloc_array(n, sizeof *row);
+    nh_residue *shifted = nh_alloc_array(2 * n, sizeof *shifted);
+    memcpy(shifted + n, b, n * sizeof *b);
+    for (size_t i = 0; i < n; i++) row[i] = shifted + n - i;
+    nh_jet_constant(r, 0, out);
+    nh_row_sum_add(r->field, n, out, n, a, row);
+    nh_free(shifted);
+    nh_free(row);
+}
+
 void nh_jet_mul(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b, nh_residue *out)
 {
     uint32_t of_a = variables_of(r, a), of_b = variables_of(r, b);
     if (!of_a || !of_b) {
         nh_jet_constant(r, 0, out);
         nh_jet_add_multiple(r, out, of_a ? b[0] : a[0], of_a ? a : b);
+        return;
+    }
+    if (r->variables == 1 && r->weight[0] == 1) {
+        multiply_along_line(r, a, b, out);
         return;
     }
     for (size_t e = 0; e < r->size; e++) {

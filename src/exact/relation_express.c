@@ -34,7 +34,7 @@ static bool variables_of(const nh_dag *dag, size_t n, const nh_ex *e, size_t par
 static nh_relation_last last(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
                              bool *support)
 {
-    enum { most = 64, most_columns = 64 };
+    enum { most = 64, most_columns = 160 };
     nh_ex variable[most];
     nh_relation_columns q = {.dag = dag, .columns = n, .rows = 1, .entry = e, .variable = variable};
     bool few = n <= most_columns && variables_of(dag, n, e, parameters, parameter, most, variable, &q.variables);
