@@ -69,6 +69,7 @@ typedef struct {
     size_t count;
     uint8_t *exponent; /* count x known */
     size_t *before, *factor; /* each product is product number `before` times integral number `factor`; except for 1 */
+    bool *is_factor;         /* of another product: it is `before` one */
 } nh_count_monomials;
 
 /* The products up to a degree. */

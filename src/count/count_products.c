@@ -38,6 +38,7 @@ static void find_factors(nh_count_monomials *p, size_t known)
         less[k]--;
         while (before-- > 0 && memcmp(p->exponent + before * known, less, known) != 0) {}
         p->before[i] = before;
+        p->is_factor[before] = true;
         p->factor[i] = k;
     }
     nh_free(less);
@@ -49,6 +50,7 @@ nh_count_monomials nh_count_monomials_list(const nh_counter *c, size_t degree)
     p.exponent = nh_alloc(p.count * c->known + 1);
     p.before = nh_alloc_array(p.count + 1, sizeof *p.before);
     p.factor = nh_alloc_array(p.count + 1, sizeof *p.factor);
+    p.is_factor = nh_alloc_array(p.count + 1, sizeof *p.is_factor);
     if (p.count) list(c, degree, p.exponent);
     find_factors(&p, c->known);
     return p;
@@ -56,18 +58,10 @@ nh_count_monomials nh_count_monomials_list(const nh_counter *c, size_t degree)
 
 void nh_count_monomials_clear(nh_count_monomials *p)
 {
+    nh_free(p->is_factor);
     nh_free(p->factor);
     nh_free(p->before);
     nh_free(p->exponent);
-}
-
-/* All products at one choice of velocities. */
-static void multiply_products(const nh_jet_ring *ring, const nh_count_monomials *p, const nh_residue *phi,
-                              nh_residue *out)
-{
-    nh_jet_constant(ring, 1, out);
-    for (size_t i = 1; i < p->count; i++)
-        nh_jet_mul(ring, out + p->before[i] * ring->size, phi + p->factor[i] * ring->size, out + i * ring->size);
 }
 
 /* ---- functionals ---- */
@@ -99,6 +93,32 @@ void nh_count_functionals_clear(nh_count_functionals *f)
     nh_free(f->w);
 }
 
+static nh_residue dot(nh_prime field, size_t n, const nh_residue *a, const nh_residue *b)
+{
+    uint64_t sum = 0;
+    for (size_t i = 0; i < n; i++) sum = nh_residue_gather(field, sum, a[i], b[i]);
+    return nh_residue_reduce(field, sum);
+}
+
+/* The functional sum_e weight_e of all products along a line, at one choice of velocities.  That of f phi_k is the one
+ * with the weights sum_e weight_e phi_k,e-i of f: the series of most products, which are no factors, are not made. */
+static void values_along(const nh_jet_ring *line, const nh_count_monomials *p, size_t known, const nh_residue *phi,
+                         const nh_residue *weight, nh_residue *product, size_t stride, nh_residue *out)
+{
+    size_t n = line->size;
+    nh_residue *times = nh_alloc_array(known * n + 1, sizeof *times);
+    for (size_t k = 0; k < known; k++)
+        for (size_t i = 0; i < n; i++) times[k * n + i] = dot(line->field, n - i, weight + i, phi + k * n);
+    nh_jet_constant(line, 1, product);
+    out[0] = weight[0];
+    for (size_t i = 1; i < p->count; i++) {
+        const nh_residue *before = product + p->before[i] * n;
+        out[i * stride] = dot(line->field, n, before, times + p->factor[i] * n);
+        if (p->is_factor[i]) nh_jet_mul(line, before, phi + p->factor[i] * n, product + i * n);
+    }
+    nh_free(times);
+}
+
 bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate,
                              const nh_count_monomials *p, const nh_count_functionals *f, nh_residue *out)
 {
@@ -114,15 +134,8 @@ bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_re
         nh_jet_eval *v = nh_jet_equations_eval(x, line, q);
         nh_jet_equations_velocities(x, v, line, f->w + j * f->n);
         good = c->known == 0 || nh_jet_eval_all(v, c->known, c->current, phi);
-        if (good) multiply_products(line, p, phi, product);
-        for (size_t i = 0; i < p->count && good; i++) {
-            nh_residue sum = 0;
-            for (size_t e = 0; e < line->size; e++)
-                sum = nh_residue_add(
-                    ring->field, sum,
-                    nh_residue_mul(ring->field, f->weight[j * line->size + e], product[i * line->size + e]));
-            out[i * f->count + j] = sum;
-        }
+        if (good)
+            values_along(line, p, c->known, phi, f->weight + j * line->size, product, f->count, out + j);
         c->work += (double)p->count * (double)line->pairs[line->size] + (double)all * (double)ring->size;
         nh_jet_eval_free(v);
     }
@@ -164,7 +177,7 @@ static bool has_own_degree(const nh_counter *c, const uint8_t *exponent, size_t 
     return own;
 }
 
-/* The rank of the first rows: those of products of lower degree, or all. */
+/* The rank of the rows of all products, or of those of currents of lower degree. */
 static size_t rank_of(const nh_counter *c, nh_prime field, const nh_count_monomials *p, size_t columns,
                       const nh_residue *value, size_t degree, bool lower)
 {
@@ -195,7 +208,9 @@ bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue 
     nh_residue *value = nh_alloc_array(p.count * f.count, sizeof *value);
     bool good = nh_count_product_values(c, ring, coordinate, &p, &f, value);
     out->known = rank_of(c, ring->field, &p, f.count, value, degree, false);
-    out->lower = rank_of(c, ring->field, &p, f.count, value, degree, true);
+    bool own = false;
+    for (size_t k = 0; k < c->known; k++) own |= c->degree[k] == degree;
+    out->lower = own ? rank_of(c, ring->field, &p, f.count, value, degree, true) : out->known;
     nh_free(value);
     nh_count_functionals_clear(&f);
     nh_count_monomials_clear(&p);
