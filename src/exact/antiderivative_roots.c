@@ -165,6 +165,17 @@ static void put_elliptic_pole(builder *b, const radical *r, nh_ex a, nh_ex c, nh
     else nh_antiderivative_put(b, nh_call(d, NH_ATAN, f));
 }
 
+/* An angle u or u - pi/2 as an amplitude: itself, or without half turns, where elliptic integrals with m > 1 are real
+ * on all of a motion about u = pi, too. */
+static nh_ex amplitude(const builder *b, nh_ex u, bool turned)
+{
+    nh_dag *d = b->d;
+    nh_ex sine = nh_call(d, NH_SIN, u), cosine = nh_call(d, NH_COS, u);
+    if (!b->in->within_half_turn) return turned ? nh_sub(d, u, nh_mul(d, nh_ratio(d, 1, 2), nh_pi(d))) : u;
+    if (turned) return nh_neg(d, nh_call(d, NH_ATAN, nh_div(d, cosine, sine)));
+    return nh_call(d, NH_ATAN, nh_div(d, sine, cosine));
+}
+
 /* Those of Q = k_0 + k_1 cos u = (k_0 + k_1)(1 - m sin(u/2)^2), and of poles p_0 + p_1 cos u; from u = pi on where Q is
  * positive only there. */
 static void put_elliptic_of_half(builder *b, const radical *r, const nh_ex k[3], nh_ex angle)
@@ -175,10 +186,10 @@ static void put_elliptic_of_half(builder *b, const radical *r, const nh_ex k[3],
     if (turned) {
         first = nh_neg(d, first);
         a = nh_simplify_short(d, nh_add(d, k[0], first), 0);
-        angle = nh_sub(d, angle, nh_pi(d));
         if (nh_antiderivative_sign(b, a) <= 0) return;
     }
-    nh_ex m = nh_simplify_short(d, nh_div(d, nh_mul(d, two, first), a), 0), half = nh_mul(d, nh_ratio(d, 1, 2), angle);
+    nh_ex half = amplitude(b, nh_mul(d, nh_ratio(d, 1, 2), angle), turned);
+    nh_ex m = nh_simplify_short(d, nh_div(d, nh_mul(d, two, first), a), 0);
     nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){half, m}));
     nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_EINC, (nh_ex[]){half, m}));
     for (size_t j = 0; j < b->divisors; j++) {
@@ -205,12 +216,13 @@ static void put_elliptic(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex si
     nh_ex a = nh_simplify_short(d, nh_add(d, k[0], k[2]), 0), c = nh_neg(d, k[2]);
     if (nh_antiderivative_sign(b, a) <= 0) {
         if (nh_antiderivative_sign(b, k[0]) <= 0) return; /* a quarter turn further: k_0 (1 - m sin^2) */
-        nh_ex quarter = nh_sub(d, angle, nh_mul(d, nh_ratio(d, 1, 2), nh_pi(d)));
+        nh_ex quarter = amplitude(b, angle, true);
         nh_ex turned[] = {quarter, nh_simplify_short(d, nh_neg(d, nh_div(d, k[2], k[0])), 0)};
         nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_F, turned));
         nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_EINC, turned));
         return;
     }
+    angle = amplitude(b, angle, false);
     nh_ex argument[] = {angle, nh_simplify_short(d, nh_neg(d, nh_div(d, c, a)), 0)};
     nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_F, argument));
     nh_antiderivative_put(b, nh_call_any(d, NH_ELLIPTIC_EINC, argument));
@@ -297,6 +309,21 @@ static bool is_even_quartic(const builder *b, nh_ex y, nh_ex Q, nh_ex k[5])
     return nh_is_zero(d, k[1]) && nh_is_zero(d, k[3]) && !nh_is_zero(d, k[4]);
 }
 
+static nh_ex first_kind_of_wells(const builder *b, const nh_ex k[5], nh_ex y, nh_ex root)
+{
+    nh_dag *d = b->d;
+    nh_ex two = nh_int(d, 2), four = nh_int(d, 4), half = nh_ratio(d, 1, 2), unit = nh_neg(d, k[4]);
+    nh_ex D = nh_sub(d, nh_powi(d, k[2], 2), nh_product(d, 3, (nh_ex[]){four, k[0], k[4]}));
+    D = nh_simplify_short(d, D, 0);
+    if (nh_antiderivative_sign(b, D) <= 0) return 0;
+    nh_ex apart = nh_sqrt(d, D), square = nh_mul(d, half, nh_add(d, k[2], apart));
+    if (nh_antiderivative_sign(b, square) <= 0) return 0;
+    nh_ex above = nh_add(d, nh_add(d, apart, k[2]), nh_product(d, 3, (nh_ex[]){two, k[4], nh_powi(d, y, 2)}));
+    nh_ex tangent = nh_div(d, above, nh_product(d, 3, (nh_ex[]){two, nh_sqrt(d, unit), root}));
+    nh_ex F = nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){nh_call(d, NH_ATAN, tangent), nh_div(d, apart, square)});
+    return nh_neg(d, nh_div(d, nh_mul(d, nh_call(d, NH_SIGN, y), F), nh_sqrt(d, square)));
+}
+
 /* int dy/root, root^2 = Q = k_0 + k_2 y^2 + k_4 y^4.  For k_0 k_4 < 0, with D = k_2^2 - 4 k_0 k_4, and for positive k_0
  * and k_4:
  *
@@ -304,7 +331,11 @@ static bool is_even_quartic(const builder *b, nh_ex y, nh_ex Q, nh_ex k[5])
  *     F(2 atan((k_4/k_0)^(1/4) y) | 1/2 - k_2/(4 sqrt(k_0 k_4)))/(2 (k_0 k_4)^(1/4))
  *
  * because 1 - m sin^2 of the amplitude is the square of (k_0 - k_4 y^4)/(Q + sqrt(D) y^2), and Q over the square of
- * sqrt(k_0) + sqrt(k_4) y^2.  The root may have either sign in the first.  0: neither. */
+ * sqrt(k_0) + sqrt(k_4) y^2.  For k_4 < 0, whatever the sign of k_0, from the largest zero of Q to 0 or another zero
+ *
+ *     -sign(y) F(atan((sqrt(D) + k_2 + 2 k_4 y^2)/(2 sqrt(-k_4) root)) | sqrt(D)/s^2)/s,   s^2 = (k_2 + sqrt(D))/2
+ *
+ * where 1 - m sin^2 is -k_4 y^2/s^2.  The root may have either sign in the first and the last.  0: none of them. */
 static nh_ex first_kind_of_quartic(const builder *b, const nh_ex k[5], nh_ex y, nh_ex root)
 {
     nh_dag *d = b->d;
@@ -325,7 +356,7 @@ static nh_ex first_kind_of_quartic(const builder *b, const nh_ex k[5], nh_ex y, 
         m = nh_mul(d, half, nh_sub(d, nh_int(d, 1), nh_div(d, middle, nh_sqrt(d, ratio))));
         tangent = nh_mul(d, nh_pow(d, ratio, quarter), y);
     } else {
-        return 0;
+        return last < 0 ? first_kind_of_wells(b, k, y, root) : 0;
     }
     nh_ex angle = nh_mul(d, two, nh_call(d, NH_ATAN, tangent));
     return nh_div(d, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){angle, m}), nh_mul(d, two, size));

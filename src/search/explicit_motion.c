@@ -89,11 +89,22 @@ static bool satisfied(const nh_explicit_curve *c, const bool *known)
     return good;
 }
 
-/* How many quotients in e can be infinite on the curve. */
+static nh_ex without_elliptic(nh_dag *d, nh_ex e)
+{
+    enum { most = 64 };
+    nh_ex call[most], one[most];
+    size_t n = nh_functions_in(d, e, call, most), count = 0;
+    for (size_t i = 0; i < n && i < most; i++)
+        if (nh_is_incomplete_elliptic(nh_function_of(d, call[i]))) one[count] = nh_int(d, 1), call[count++] = call[i];
+    return nh_substitute(d, e, count, call, one);
+}
+
+/* How many quotients in e can be infinite on the curve; in amplitudes they may be. */
 static size_t poles(const nh_explicit_curve *c, nh_ex e)
 {
     enum { most = 64 };
     nh_ex product[most], tangent[most];
+    e = without_elliptic(c->d, e);
     size_t count = 0, n = nh_products_in(c->d, e, product, most), f = nh_functions_in(c->d, e, tangent, most);
     for (size_t i = 0; i < n && i < most; i++)
         for (size_t k = 0; k < nh_arity(c->d, product[i]); k++) {

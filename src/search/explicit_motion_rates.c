@@ -126,13 +126,18 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
                          .sign = sign_on_sides,
                          .mostly = most_on_sides,
                          .context = &p};
-    bool found = nh_antiderivative(&in, with_sides(&p, f), F);
+    /* amplitudes of elliptic integrals as they are, else those that jump */
+    bool found = false;
+    for (int within = 0; within < 2 && !found; within++) {
+        in.within_half_turn = within;
+        if (!nh_antiderivative(&in, with_sides(&p, f), F)) break;
+        for (size_t i = m->roots; i-- > 0;)
+            *F = nh_substitute_root(d, *F, with_sides(&p, c->radicand[i]), m->root[i].symbol);
+        *F = with_signs(&p, roots ? with_sign_of_root(d, f, *F, own) : *F);
+        found = !nh_named_function_has_elliptic(d, *F) || is_real(c, *F);
+    }
     nh_free(constant);
-    if (!found) return false;
-    for (size_t i = m->roots; i-- > 0;)
-        *F = nh_substitute_root(d, *F, with_sides(&p, c->radicand[i]), m->root[i].symbol);
-    *F = with_signs(&p, roots ? with_sign_of_root(d, f, *F, own) : *F);
-    return !nh_named_function_has_elliptic(d, *F) || is_real(c, *F);
+    return found;
 }
 
 /* A name for int f ds, which is 0 where the motion starts. */

@@ -5,6 +5,7 @@
 #include "exact/square.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
+#include "graph/named_function.h"
 #include "graph/terms.h"
 #include "integrals/exact_points.h"
 
@@ -320,10 +321,11 @@ static nh_ex without_a_divisor(const nh_model *o, nh_ex e)
     return core;
 }
 
-/* A form of a constant without signs, its roots joined. */
+/* A form of a constant without signs, its roots joined.  The time of a swing has signs. */
 static nh_ex in_other_roots(const nh_analysis *r, nh_ex e, bool general)
 {
     const nh_model *o = r->model;
+    if (nh_named_function_has_elliptic(o->dag, e) && nh_prove_current(o, e, true, &r->options).all_parameters) return e;
     nh_ex joined = shorter_roots(o, joined_roots(o->dag, signs_as_roots(o->dag, e)));
     nh_ex rooted = nh_simplify_short(o->dag, roots_of_the_equations(o, joined), 0);
     bool shorter = nh_complexity(o->dag, rooted) < nh_complexity(o->dag, e);
