@@ -187,17 +187,15 @@ bool nh_is_infinite_tangent(nh_dag *dag, nh_ex e)
            known_turn(dag, turn, &sine, &cosine) && nh_is_zero(dag, cosine);
 }
 
-/* sin and cos of atan u and 2 atan u */
-static bool of_an_arctangent(nh_dag *dag, nh_function f, nh_ex a, nh_ex *out)
+/* sin(2 atan u) and cos(2 atan u) */
+static bool of_twice_an_arctangent(nh_dag *dag, nh_function f, nh_ex a, nh_ex *out)
 {
-    nh_num times;
-    nh_ex inner = without_factor(dag, a, &times), one = nh_int(dag, 1);
-    bool twice = nh_num_is(times, 2);
-    if ((f != NH_SIN && f != NH_COS) || !(twice || nh_num_is(times, 1)) || !is_call(dag, inner, NH_ATAN)) return false;
-    nh_ex u = nh_child(dag, inner, 0), square = nh_powi(dag, u, 2), sum = nh_add(dag, one, square);
-    nh_ex above = f == NH_SIN ? u : one;
-    if (twice) above = f == NH_SIN ? nh_mul(dag, nh_int(dag, 2), u) : nh_sub(dag, one, square);
-    *out = nh_div(dag, above, twice ? sum : nh_sqrt(dag, sum));
+    nh_num twice;
+    nh_ex inner = without_factor(dag, a, &twice);
+    if ((f != NH_SIN && f != NH_COS) || !nh_num_is(twice, 2) || !is_call(dag, inner, NH_ATAN)) return false;
+    nh_ex u = nh_child(dag, inner, 0), one = nh_int(dag, 1), square = nh_powi(dag, u, 2);
+    nh_ex above = f == NH_SIN ? nh_mul(dag, nh_int(dag, 2), u) : nh_sub(dag, one, square);
+    *out = nh_div(dag, above, nh_add(dag, one, square));
     return true;
 }
 
@@ -229,7 +227,7 @@ nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a)
         if (!nh_is_zero(dag, cosine)) return nh_div(dag, sine, cosine);
     }
     if (f == NH_SIGN && (e = without_numbers(dag, a)) != a) return nh_call(dag, f, e);
-    if (of_an_arctangent(dag, f, a, &e)) return e;
+    if (of_twice_an_arctangent(dag, f, a, &e)) return e;
     if (f == NH_EXP && is_call(dag, a, NH_LOG)) return nh_child(dag, a, 0);
     if (f == NH_LOG && is_call(dag, a, NH_EXP)) return nh_child(dag, a, 0);
     return nh_dag_intern(dag, NH_FUNCTION, f, 1, &a);

@@ -95,13 +95,28 @@ static nh_ex read_or_nan(nh_dag *dag, const char *text, nh_function f, const nh_
     return text && nh_named_function_read(dag, text, f, f, argument, &out) ? out : nh_real(dag, NAN);
 }
 
+static bool is_arctangent(const nh_dag *dag, nh_ex e)
+{
+    return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == NH_ATAN;
+}
+
+/* The sine and the cosine of u = atan(w) or -atan(w) as w/sqrt(1 + w^2) and 1/sqrt(1 + w^2), which stand in squares. */
+static nh_ex without_arctangent(nh_dag *dag, nh_ex e, nh_ex u)
+{
+    nh_ex angle = is_arctangent(dag, u) ? u : nh_neg(dag, u), one = nh_int(dag, 1);
+    if (!is_arctangent(dag, angle)) return e;
+    nh_ex w = nh_child(dag, angle, 0), root = nh_sqrt(dag, nh_add(dag, one, nh_powi(dag, w, 2)));
+    nh_ex wave[] = {nh_call(dag, NH_SIN, angle), nh_call(dag, NH_COS, angle)},
+          by[] = {nh_div(dag, w, root), nh_div(dag, one, root)};
+    return nh_substitute(dag, e, 2, wave, by);
+}
+
 /* sqrt(1 - m sin(u)^2) for u = 2 atan(w), as sqrt((1 + w^2)^2 - 4 m w^2)/(1 + w^2): where w has a root, this radicand
  * is the shorter one. */
 static nh_ex with_short_root(nh_dag *dag, nh_ex e, nh_ex u, nh_ex m)
 {
     nh_ex one = nh_int(dag, 1), angle = nh_mul(dag, nh_ratio(dag, 1, 2), u);
-    bool twice = nh_kind_of(dag, angle) == NH_FUNCTION && nh_function_of(dag, angle) == NH_ATAN;
-    if (!twice) return e;
+    if (!is_arctangent(dag, angle)) return without_arctangent(dag, e, u);
     nh_ex square = nh_powi(dag, nh_child(dag, angle, 0), 2), sum = nh_add(dag, one, square);
     nh_ex radicand = nh_sub(dag, one, nh_mul(dag, m, nh_powi(dag, nh_call(dag, NH_SIN, u), 2)));
     nh_ex other = nh_sub(dag, nh_powi(dag, sum, 2), nh_product(dag, 3, (nh_ex[]){nh_int(dag, 4), m, square}));
