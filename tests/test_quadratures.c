@@ -542,6 +542,19 @@ Test(quadratures, times_that_are_elliptic_integrals)
     }
 }
 
+/* The energy of the motion along x, which the whole energy gives with the currents of the fall, has the time of x. */
+Test(quadratures, parts_that_move_by_themselves)
+{
+    nh_analysis *r = ask("name: parts\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [x, z]\nlagrangian: m*(x'^2 + z'^2)/2 - m*x^4/4 - m*g*z\n");
+    cr_expect_eq(r->independent, 3);
+    cr_assert_eq(r->pieces, 1);
+    const nh_current *f = &r->piece[0];
+    cr_expect(f->proof.proved && nh_depends(r->model->dag, f->phi, r->system->t));
+    cr_expect(!nh_depends(r->model->dag, f->phi, r->system->coordinate[1].q) && !nh_depends(r->model->dag, f->phi, r->model->chart->w[1]));
+    cr_expect_str_eq(f->region, "on each side of x' = 0, where it jumps");
+    nh_analysis_free(r);
+}
+
 /* The same with the tangent of half an angle and the area tangent: a bead on a hoop that turns, and a spring whose force is a sine of the area. */
 Test(quadratures, times_by_half_arguments, WHOLE_ONLY)
 {

@@ -44,12 +44,14 @@ static const nh_ex *special_values(const nh_analysis *r)
 }
 
 /* The currents in closed form; `general`: that hold for all values of the parameters. */
-static size_t gather(const nh_analysis *r, bool general, nh_ex *current)
+static size_t gather(const nh_stage_solver *x, bool general, nh_ex **current)
 {
+    const nh_analysis *r = x->r;
     size_t n = 0;
+    nh_ex *list = *current = nh_arena_alloc(r->arena, (r->count + r->model->m + r->model->n + 1) * sizeof *list);
     for (size_t k = 0; k < r->count; k++)
-        if (!r->found[k].series && (r->found[k].proof.all_parameters || !general)) current[n++] = r->found[k].phi;
-    return n;
+        if (!r->found[k].series && (r->found[k].proof.all_parameters || !general)) list[n++] = r->found[k].phi;
+    return nh_quadratures_with_parts(r, x->ranges, n, list);
 }
 
 /* Is it better?  More states are; then no integrals without closed form; then no roots; then time as the parameter;
@@ -157,8 +159,8 @@ void nh_quadratures_complete(nh_stage_solver *x)
     const nh_model *o = r->model;
     size_t states = 1 + o->m + o->n;
     if (o->chart->implicit) return;
-    nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current);
-    size_t n = gather(r, true, current);
+    nh_ex *current;
+    size_t n = gather(x, true, &current);
     nh_explicit_request request = {
         .points = x->ranges, .currents = n, .current = current, .linear = true, .options = &r->options};
     bool open = !nh_counted_covers(&x->counted, 1, false);
@@ -177,12 +179,12 @@ void nh_quadratures_search(nh_stage_solver *x)
     size_t states = 1 + o->m + o->n, count = 0;
     if (o->chart->implicit || nh_budget_spent()) return;
     nh_progress("integration of one equation after another", nh_budget_part());
-    nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current),
-          *special = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *special);
-    nh_explicit_request request = {.points = x->ranges, .current = current, .options = &r->options}, valued = request;
-    request.currents = gather(r, true, current);
+    nh_ex *current, *special;
+    nh_explicit_request request = {.points = x->ranges, .options = &r->options}, valued = request;
+    request.currents = gather(x, true, &current);
+    request.current = current;
+    valued.currents = gather(x, false, &special);
     valued.current = special;
-    valued.currents = gather(r, false, special);
     valued.fixed = special_values(r);
     const nh_explicit_motion **tried = nh_arena_alloc(r->arena, 2 * states * sizeof *tried),
                              *best = try_all(x, request, NULL, &count, tried);

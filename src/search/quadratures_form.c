@@ -241,7 +241,7 @@ static nh_ex areas_of_logarithms(const nh_model *o, nh_ex e)
 }
 
 /* Most are not, which doubles show: a rate that is nowhere as small as rounding. */
-static bool is_conserved(const nh_model *o, nh_ex e)
+bool nh_quadratures_conserves(const nh_model *o, nh_ex e)
 {
     enum { rounding = 1000000000 }; /* one part in so many */
     nh_dag *d = o->dag;
@@ -261,7 +261,7 @@ static nh_ex without_factors(const nh_model *o, nh_ex e)
     nh_ex rest = n ? nh_int(d, 1) : e;
     for (size_t f = 0; f < n; f++) {
         nh_ex factor = nh_pow(d, nh_child(d, e, f), nh_exponent_of(d, e, f));
-        if (f == longest || !is_conserved(o, factor)) rest = nh_mul(d, rest, factor);
+        if (f == longest || !nh_quadratures_conserves(o, factor)) rest = nh_mul(d, rest, factor);
     }
     return rest;
 }
@@ -311,7 +311,7 @@ static nh_ex without_a_divisor(const nh_model *o, nh_ex e)
         nh_ex multiplier[most];
         size_t n = multipliers_of(d, sum ? nh_child(d, core, i) : core, most, multiplier);
         for (size_t k = 0; k < n; k++) {
-            if (nh_model_is_constant(o, multiplier[k]) || !is_conserved(o, multiplier[k])) continue;
+            if (nh_model_is_constant(o, multiplier[k]) || !nh_quadratures_conserves(o, multiplier[k])) continue;
             nh_ex whole = without_factors(o, times(d, core, multiplier[k]));
             bool divided = nh_complexity(d, nh_powi(d, multiplier[k], -1)) < nh_complexity(d, multiplier[k]);
             bool short_enough = nh_complexity(d, whole) < (divided ? length : length + a_few);
