@@ -563,6 +563,39 @@ Test(quadratures, times_by_half_arguments, WHOLE_ONLY)
     check_integrals(ask("name: spring\nparameters: [{name: a, value: 1.1}]\ncoordinates: [x]\nlagrangian: x'^2/2 - a*cosh(x)\n"), "spring", 1, 3, 0);
 }
 
+/* h'^2 of a bead on a hoop that turns slowly. */
+static double square_of_speed(double energy, double h) { return energy + 4 * pow(sin(h), 2) + 28 * cos(h); }
+
+/* It swings, or turns over the top, where the formula jumps: here between, with t(h) by Simpson's rule. */
+Test(quadratures, a_bead_that_swings_or_turns_over)
+{
+    nh_analysis *r = ask("name: hoop\ncoordinates: [{name: h, type: angle}]\nlagrangian: (h'^2 + 4*sin(h)^2)/2 + 14*cos(h)\n");
+    const nh_model *o = r->model;
+    cr_assert_eq(r->pieces, 1);
+    const nh_current *f = &r->piece[0];
+    cr_expect(strstr(f->region, "on each side of cos(h/2) = 0, where it jumps") && strstr(f->region, "on each side of h' = 0, where it jumps"), "%s", f->region);
+    nh_ex in[] = {r->system->t, o->system->coordinate[0].q, o->chart->w[0]};
+    nh_tape *tape = nh_tape_create(o->dag, 3, in, 1, &f->phi, 0, NULL, NULL);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (int turns = 0; turns < 2; turns++) {
+        enum { parts = 200 };
+        double energy = turns ? 60 : 0, part = 2.0 / parts, z[3] = {0, -1, sqrt(square_of_speed(energy, -1))}, first, last;
+        nh_tape_eval(tape, work, z, &first);
+        for (int i = 0; i < parts; i++) {
+            double middle = sqrt(square_of_speed(energy, z[1] + part / 2)), end = sqrt(square_of_speed(energy, z[1] + part));
+            z[0] += part / 6 * (1 / z[2] + 4 / middle + 1 / end);
+            z[1] += part;
+            z[2] = end;
+        }
+        nh_tape_eval(tape, work, z, &last);
+        cr_expect_float_eq(last, first, 1e-7 * (1 + fabs(first)), "%g, then %g", first, last);
+        cr_expect(fabs(z[0]) > 0.1 && isfinite(last));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_analysis_free(r);
+}
+
 /* ---- their series ---- */
 
 /* From the start of the checked motion: z = (t, q, w). */

@@ -309,19 +309,24 @@ static bool is_even_quartic(const builder *b, nh_ex y, nh_ex Q, nh_ex k[5])
     return nh_is_zero(d, k[1]) && nh_is_zero(d, k[3]) && !nh_is_zero(d, k[4]);
 }
 
-static nh_ex first_kind_of_wells(const builder *b, const nh_ex k[5], nh_ex y, nh_ex root)
+/* With the sign of k_0, or that of k_4, only known to be positive, or negative: that of the other one may change. */
+static nh_ex first_kind_of_either_sign(const builder *b, const nh_ex k[5], nh_ex y, nh_ex root)
 {
     nh_dag *d = b->d;
     nh_ex two = nh_int(d, 2), four = nh_int(d, 4), half = nh_ratio(d, 1, 2), unit = nh_neg(d, k[4]);
+    bool ends = nh_antiderivative_sign(b, k[4]) < 0; /* the motion ends at the largest zero of Q */
+    if (!ends && nh_antiderivative_sign(b, k[0]) <= 0) return 0;
     nh_ex D = nh_sub(d, nh_powi(d, k[2], 2), nh_product(d, 3, (nh_ex[]){four, k[0], k[4]}));
     D = nh_simplify_short(d, D, 0);
     if (nh_antiderivative_sign(b, D) <= 0) return 0;
     nh_ex apart = nh_sqrt(d, D), square = nh_mul(d, half, nh_add(d, k[2], apart));
     if (nh_antiderivative_sign(b, square) <= 0) return 0;
     nh_ex above = nh_add(d, nh_add(d, apart, k[2]), nh_product(d, 3, (nh_ex[]){two, k[4], nh_powi(d, y, 2)}));
-    nh_ex tangent = nh_div(d, above, nh_product(d, 3, (nh_ex[]){two, nh_sqrt(d, unit), root}));
+    nh_ex tangent = ends ? nh_div(d, above, nh_product(d, 3, (nh_ex[]){two, nh_sqrt(d, unit), root}))
+                         : nh_mul(d, nh_sqrt(d, nh_div(d, square, k[0])), y);
     nh_ex F = nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){nh_call(d, NH_ATAN, tangent), nh_div(d, apart, square)});
-    return nh_neg(d, nh_div(d, nh_mul(d, nh_call(d, NH_SIGN, y), F), nh_sqrt(d, square)));
+    nh_ex value = nh_div(d, F, nh_sqrt(d, square));
+    return ends ? nh_neg(d, nh_mul(d, nh_call(d, NH_SIGN, y), value)) : value;
 }
 
 /* int dy/root, root^2 = Q = k_0 + k_2 y^2 + k_4 y^4.  For k_0 k_4 < 0, with D = k_2^2 - 4 k_0 k_4, and for positive k_0
@@ -335,7 +340,12 @@ static nh_ex first_kind_of_wells(const builder *b, const nh_ex k[5], nh_ex y, nh
  *
  *     -sign(y) F(atan((sqrt(D) + k_2 + 2 k_4 y^2)/(2 sqrt(-k_4) root)) | sqrt(D)/s^2)/s,   s^2 = (k_2 + sqrt(D))/2
  *
- * where 1 - m sin^2 is -k_4 y^2/s^2.  The root may have either sign in the first and the last.  0: none of them. */
+ * where 1 - m sin^2 is -k_4 y^2/s^2; and for k_0 > 0, whatever the sign of k_4, if D and s^2 are positive,
+ *
+ *     F(atan(s y/sqrt(k_0)) | sqrt(D)/s^2)/s
+ *
+ * because Q = k_0 (1 + s^2 y^2/k_0) (1 + (s^2 - sqrt(D)) y^2/k_0).  The root may have either sign where it stands in
+ * the amplitude.  0: none of them. */
 static nh_ex first_kind_of_quartic(const builder *b, const nh_ex k[5], nh_ex y, nh_ex root)
 {
     nh_dag *d = b->d;
@@ -356,7 +366,7 @@ static nh_ex first_kind_of_quartic(const builder *b, const nh_ex k[5], nh_ex y, 
         m = nh_mul(d, half, nh_sub(d, nh_int(d, 1), nh_div(d, middle, nh_sqrt(d, ratio))));
         tangent = nh_mul(d, nh_pow(d, ratio, quarter), y);
     } else {
-        return last < 0 ? first_kind_of_wells(b, k, y, root) : 0;
+        return first_kind_of_either_sign(b, k, y, root);
     }
     nh_ex angle = nh_mul(d, two, nh_call(d, NH_ATAN, tangent));
     return nh_div(d, nh_call_any(d, NH_ELLIPTIC_F, (nh_ex[]){angle, m}), nh_mul(d, two, size));
