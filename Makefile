@@ -95,7 +95,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized
+.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -126,36 +126,38 @@ threads: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) SANITIZE=thread all build-threads/tests/bench_contexts
 	@OPENBLAS_NUM_THREADS=1 sh tests/threads.sh build-threads
 
-# The benches are there to be measured: not under sanitizers.
-tests: $(TESTS) $(if $(SANITIZE),,$(BENCHES) library)
+tests: $(TESTS) $(if $(SANITIZE),,library $(if $(NHSYM_SWEEPS),benches))
+
+# Measurements are built where they run, and with the long sweeps; not under sanitizers.
+benches: $(BENCHES) library
 
 same-tests: $(SAME)
 
 bench: test-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) all tests $(BUILD)/tests/nhsym-shared
+	@$(MAKE) --no-print-directory -j$(JOBS) all benches $(BUILD)/tests/nhsym-shared
 	@sh tests/bench.sh $(BUILD) docs/performance.md
 
 # A page of docs/: what tests/pages says of it, and what a program prints.
 page = @{ cat tests/pages/$@.md && $(1); } >$(BUILD)/$@.md; code=$$?; mv $(BUILD)/$@.md docs/
 
 catalogue: test-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@$(MAKE) --no-print-directory -j$(JOBS) benches
 	$(call page,$(BUILD)/tests/bench_catalogue systems); $(MAKE) --no-print-directory pictures || code=1; tail -n 1 docs/$@.md; exit $$code
 
 pictures: test-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@$(MAKE) --no-print-directory -j$(JOBS) benches
 	@$(BUILD)/tests/bench_pictures systems docs/catalogue
 
 classification: test-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@$(MAKE) --no-print-directory -j$(JOBS) benches
 	$(call page,$(BUILD)/tests/bench_classify); tail -n 1 docs/$@.md; exit $$code
 
 papers: test-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) all tests
+	@$(MAKE) --no-print-directory -j$(JOBS) all benches
 	$(call page,$(BUILD)/tests/bench_papers); tail -n 1 docs/$@.md; exit $$code
 
 reductions: test-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@$(MAKE) --no-print-directory -j$(JOBS) benches
 	$(call page,$(BUILD)/tests/bench_reductions systems $(STATES)); tail -n 1 docs/$@.md; exit $$code
 
 # One row per system, made anew when the program or the system is newer.
@@ -166,11 +168,11 @@ $(ROWS)/%.row: systems/%.yaml $(BUILD)/tests/bench_parameters
 	@$(BUILD)/tests/bench_parameters $< $(SEED) >$@
 
 parameters: test-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@$(MAKE) --no-print-directory -j$(JOBS) benches
 	@$(MAKE) --no-print-directory -k -j$(JOBS) $(PARAMETER_ROWS); code=$$?; sh tests/parameters.sh $(ROWS) >$(BUILD)/parameters.md && mv $(BUILD)/parameters.md docs/ || code=1; tail -n 1 docs/parameters.md; exit $$code
 
 random perturbed: test-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@$(MAKE) --no-print-directory -j$(JOBS) benches
 	@$(BUILD)/tests/bench_$@ $(if $(filter random,$@),$(SYSTEMS),systems) $(SEED)
 
 # Between its two marks in the page.

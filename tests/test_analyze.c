@@ -207,7 +207,7 @@ Test(analyze, the_sleigh_in_quasi_velocities)
     }
 }
 
-Test(analyze, the_sleigh_in_coordinate_velocities, PLAIN_ONLY)
+Test(analyze, the_sleigh_in_coordinate_velocities, WHOLE_ONLY)
 {
     for (size_t i = 0; i < SET_COUNT; i++) {
         if (!sweep_tries(i, 1, 3)) continue;
@@ -662,7 +662,7 @@ Test(analyze, kovalevskaya, .timeout = 120, PLAIN_ONLY)
 }
 
 /* What is found in Cartesian coordinates must be found in polar ones: vectors have the harmonics of a cyclic angle there. */
-Test(analyze, polar_coordinates, .timeout = 120, PLAIN_ONLY)
+Test(analyze, polar_coordinates, .timeout = 120, WHOLE_ONLY)
 {
 #define SPHERICAL "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\ndomain: {r: [0.5, 2], th: [0.4, 2.6]}\n"
 #define POLAR "coordinates: [{name: r, type: length}, {name: ph, type: angle}]\ndomain: {r: [0.5, 2]}\n"

@@ -152,7 +152,7 @@ Test(chart, no_two_methods_agree, WHOLE_ONLY)
     nh_benchmark_free(c);
 }
 
-Test(chart, a_time_that_nobody_chose_is_shortened_until_two_methods_agree, PLAIN_ONLY)
+Test(chart, a_time_that_nobody_chose_is_shortened_until_two_methods_agree, WHOLE_ONLY)
 {
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};

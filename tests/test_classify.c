@@ -689,7 +689,7 @@ Test(classify, coefficients_in_time_at_a_value_without_time, PLAIN_ONLY)
 }
 
 /* The analysis at a value has the last word: its lower bounds, and its currents where the count leaves the value open. */
-Test(classify, the_analysis_at_a_value_decides, PLAIN_ONLY)
+Test(classify, the_analysis_at_a_value_decides, WHOLE_ONLY)
 {
     place p = place_make();
     write_here(&p, "a.yaml", "name: a\nparameters: {g: 1}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - g*y\nconstraints: [\"z' = y*x'\"]\n");

@@ -434,7 +434,7 @@ static double counted_degree(const place *p, const char *work, const char *asked
 }
 
 /* --degree: a count may take ten times the work, and no more: it comes as far as another one with ten times as much. */
-Test(cli_json, a_degree_that_is_asked_for_may_cost_ten_times_the_work, PLAIN_ONLY)
+Test(cli_json, a_degree_that_is_asked_for_may_cost_ten_times_the_work, WHOLE_ONLY)
 {
     static const char *const works[] = {"1e4", "1e5", "1e6"};
     place p = place_with_project();

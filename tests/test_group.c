@@ -7,6 +7,7 @@
 
 #include "reduction/group.h"
 #include "reduction/subspace.h"
+#include "sweep.h"
 
 static nh_options options_of(uint64_t seed)
 {
@@ -48,7 +49,7 @@ static reducible make_known(const expected *k, uint64_t seed)
     return reducible_make(s, seed, &error);
 }
 
-Test(group, dimension_and_algebra_without_an_ansatz)
+Test(group, dimension_and_algebra_without_an_ansatz, PLAIN_ONLY)
 {
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         const expected *e = &known[i];

@@ -206,7 +206,7 @@ Test(linear_motion, drives_are_integrated)
 }
 
 /* A gyroscope's force, damping and a follower force: the root of a complex number by roots of real ones, whatever the sign of its real part. */
-Test(linear_motion, complex_coordinates, PLAIN_ONLY)
+Test(linear_motion, complex_coordinates, WHOLE_ONLY)
 {
     static const char *const more[] = {"- a*(x^2 + y^2)/2\nforces: [\"x = -c*x'\", \"y = -c*y'\"]\n", "+ a*(x^2 + y^2)/2\nforces: [\"x = -c*x'\", \"y = -c*y'\"]\n",
                                        "- a*(x^2 + y^2)/2\nforces: [\"x = -c*y\", \"y = c*x\"]\n"};

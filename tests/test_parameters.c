@@ -78,7 +78,7 @@ Test(parameters, a_claim_is_verified_with_the_values_that_it_needs, PLAIN_ONLY)
 }
 
 /* The relation of the rates is the proof, where the sum of the rates is too long for one. */
-Test(parameters, momenta_of_three_bodies_hold_for_all_masses, PLAIN_ONLY)
+Test(parameters, momenta_of_three_bodies_hold_for_all_masses, WHOLE_ONLY)
 {
     cJSON *root = answer("analyze three_bodies --json -");
     const cJSON *item;

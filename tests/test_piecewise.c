@@ -359,7 +359,7 @@ Test(piecewise, an_impulse_is_no_passage, PLAIN_ONLY)
 
 /* P. Winternitz, J. A. Smorodinsky, M. Uhlir and I. Fris, Yad. Fiz. 4 (1966) 625, their fourth potential in Cartesian coordinates: of its integrals one holds
  * everywhere, the other on the side of y = 0 on which sqrt(r + x) sqrt(r - x) is y, or -y. */
-Test(piecewise, roots_whose_product_has_none, PLAIN_ONLY)
+Test(piecewise, roots_whose_product_has_none, WHOLE_ONLY)
 {
     static const char *const domain[2] = {"[0.4, 1]", "[-1, -0.4]"}, *const region[2] = {"for y > 0", "for y < 0"};
     for (size_t i = 0; i < 2; i++) {

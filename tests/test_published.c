@@ -530,7 +530,7 @@ Test(published, a_root_that_the_system_has_is_no_second_letter, PLAIN_ONLY)
 }
 
 /* Coefficients of constructed integrals that are quotients in the parameters: W m R/(I + m R^2). */
-Test(published, quotients_of_parameters_in_what_is_constructed, PLAIN_ONLY)
+Test(published, quotients_of_parameters_in_what_is_constructed, WHOLE_ONLY)
 {
     nh_analysis *r = analysed_row("vertical disk on a turntable");
     cr_expect_eq(independent_and_proved(r), 5);

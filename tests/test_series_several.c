@@ -128,7 +128,7 @@ static void rate_is_bounded(const nh_analysis *r, const nh_current *f)
     nh_ball_free(ball);
 }
 
-Test(series_several, a_free_particle_in_isothermal_coordinates, .timeout = 120)
+Test(series_several, a_free_particle_in_isothermal_coordinates, .timeout = 120, PLAIN_ONLY)
 {
     nh_analysis *r = ask(plane);
     cr_expect_eq(r->independent, 3u);

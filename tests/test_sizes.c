@@ -105,7 +105,7 @@ Test(sizes, chains, .timeout = 600, WHOLE_ONLY)
 }
 
 /* The total momentum, the centre of mass, the energy. */
-Test(sizes, ring_of_many, .timeout = 600, PLAIN_ONLY)
+Test(sizes, ring_of_many, .timeout = 600, WHOLE_ONLY)
 {
     static const char *const wanted[] = {"m*(x1' + ", "m*(t*(x1' + "};
     nh_text text;

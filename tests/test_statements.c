@@ -295,7 +295,7 @@ Test(statements, rounding_is_no_rate)
 
 /* Of an integral of the constraints every term of the Noether equations vanishes: what rounding leaves has no size to be
  * compared with. */
-Test(statements, a_residual_without_a_size_is_decided_exactly, PLAIN_ONLY)
+Test(statements, a_residual_without_a_size_is_decided_exactly, WHOLE_ONLY)
 {
     place p = place_make();
     write_here(&p, "ball.yaml", "name: ball\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - 1.9*y^2 - 3.1*z^2\n"

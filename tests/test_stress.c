@@ -38,7 +38,7 @@ static size_t with_status(const nh_robustness_map *map, size_t method, nh_run_re
 }
 
 /* Where the two methods of the reference end elsewhere nothing is right or silently wrong: here a constraint is singular at cos(a) = 0, and chaos. */
-Test(stress, no_reference_that_two_methods_do_not_confirm, PLAIN_ONLY)
+Test(stress, no_reference_that_two_methods_do_not_confirm, WHOLE_ONLY)
 {
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};

@@ -569,7 +569,7 @@ Test(unseen, stages_that_have_a_system_of_their_own)
          "domain: {h: [0.8, 1.8]}\n", 4},
     };
     for (size_t i = 0; i < sizeof ROW / sizeof *ROW; i++) {
-        if (!sweep_tries(i + 2, 2, 3)) continue;
+        if (!sweep_tries(i + 2, 3, 3)) continue;
         char path[SCRATCH];
         FILE *out = scratch_open(path);
         cr_assert_not_null(out);
