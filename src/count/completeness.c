@@ -28,26 +28,25 @@ static bool has_orders(const nh_completeness *c)
     return all;
 }
 
-/* The products of the same currents have to reach the bound for generic parameters, too.  The bound here is one there
- * where brackets have the same ranks [docs/method.md, sec. 10]; else, and where not the products but the ranks agree,
- * the equations are solved for random residues. */
+/* The products of the same currents have to reach the bound for generic parameters, too.  Those that are independent
+ * here are so there, and the bound here is one there where brackets have the same ranks [docs/method.md, sec. 10];
+ * else, and where not the products but the ranks agree, all is counted for random residues. */
 static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
 {
     if (!model->system->parameters || !q->general || !c->degree || (c->regional && !q->regional_general)) return false;
     nh_count_question question = {.time = c->count.time,
                                   .generic = true,
                                   .degree = c->degree,
-                                  .bound = c->linear && has_orders(c) ? c->count.row : NULL,
                                   .work = q->work,
                                   .memory = q->memory,
                                   .known = q->known - (c->regional ? 0 : q->regional),
                                   .independent = q->independent - (c->regional ? 0 : q->regional),
                                   .current = q->current};
-    nh_completeness generic = {.count = nh_count_integrals(model, &question)};
-    if (question.bound && (generic.count.weights != c->count.weights || generic.count.leaf != c->count.leaf)) {
-        question.bound = NULL;
-        generic.count = nh_count_integrals(model, &question);
+    if (c->linear && has_orders(c)) {
+        nh_count brackets = nh_count_brackets(model, &question);
+        if (!brackets.obstacle && brackets.weights == c->count.weights && brackets.leaf == c->count.leaf) return true;
     }
+    nh_completeness generic = {.count = nh_count_integrals(model, &question)};
     read_rows(&generic, q->all);
     return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
 }

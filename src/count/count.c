@@ -148,10 +148,7 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_graded_st
     nh_differentials all, known;
     nh_count_differentials(c, &all, &known);
     outcome result = COUNTED;
-    if (c->q->bound) {
-        total[order] = c->q->bound[degree - 1].bound;
-        from = order;
-    } else if (!totals(c, s, degree, state, total, &from, &all)) result = TOO_MUCH;
+    if (!totals(c, s, degree, state, total, &from, &all)) result = TOO_MUCH;
     bool products =
         c->q->alone || result != COUNTED || nh_count_products(c, s->ring, s->coordinate, degree, total[order], out);
     if (result == COUNTED && !(products && nh_count_known_differ(c, s->ring, s->coordinate, &known))) result = UNLUCKY;
@@ -189,13 +186,12 @@ static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *be
     outcome o = COUNTED;
     bool any = false;
     c->most = c->q->work;
-    if (c->q->bound) order = c->q->bound[degree - 1].order;
     while (c->work < c->most && !nh_late()) {
         o = count_at(c, degree, order, state, &row);
         if (o != COUNTED) break;
         *out = row;
         any = row.bounded;
-        if (c->q->bound || row.complete || row.settled || (row.functions && c->q->alone) ||
+        if (row.complete || row.settled || (row.functions && c->q->alone) ||
             (row.functions && c->work > least_share * c->q->work))
             break;
         if (row.bounded && !row.functions && c->q->known) c->most = more_for_open * c->q->work;
@@ -217,15 +213,30 @@ bool nh_count_regular_point(nh_counter *c, size_t attempt)
     return nh_count_take_known(c) && (c->frame = nh_adapted_frame_create(x)) != NULL;
 }
 
+/* The first regular point; how many were tried before. */
+static size_t first_point(nh_counter *c, nh_count *out)
+{
+    size_t attempt = 0;
+    while (attempt < NH_COUNT_POINTS && !c->equations->obstacle && !nh_count_regular_point(c, attempt)) attempt++;
+    if (c->equations->obstacle) out->obstacle = c->equations->obstacle;
+    else if (!c->frame) out->obstacle = "no regular point was found modulo a prime";
+    return attempt;
+}
+
+static void read_frame(const nh_counter *c, nh_count *out)
+{
+    if (!c->frame) return;
+    out->step = c->frame->step;
+    for (size_t j = 0; j < c->frame->kept; j++) out->weights += c->frame->weight[j];
+    out->leaf = c->frame->all - c->frame->kept;
+}
+
 static void degrees(nh_counter *c, nh_count *out)
 {
-    size_t last = c->q->degree ? c->q->degree : NH_COUNT_HIGHEST_DEGREE, first = c->q->alone ? last : 1, attempt = 0;
-    while (attempt < NH_COUNT_POINTS && !c->equations->obstacle && !nh_count_regular_point(c, attempt)) attempt++;
-    if (!c->frame || c->equations->obstacle) {
-        out->obstacle = c->equations->obstacle ? c->equations->obstacle : "no regular point was found modulo a prime";
-        return;
-    }
-    bool linear = !c->q->alone && !c->q->shape && !c->q->bound, long_series = c->equations->m > many_coordinates;
+    size_t last = c->q->degree ? c->q->degree : NH_COUNT_HIGHEST_DEGREE, first = c->q->alone ? last : 1,
+           attempt = first_point(c, out);
+    if (out->obstacle) return;
+    bool linear = !c->q->alone && !c->q->shape, long_series = c->equations->m > many_coordinates;
     if (linear && long_series) nh_count_linear(c, last, out);
     while (first + out->rows <= last && !nh_late()) {
         const nh_count_row *before = out->rows ? &out->row[out->rows - 1] : NULL;
@@ -246,9 +257,7 @@ static void degrees(nh_counter *c, nh_count *out)
     if (linear && !long_series && out->rows < last && c->frame && !c->equations->obstacle && !nh_late())
         nh_count_linear(c, last, out);
     if (out->rows == 0) out->obstacle = c->equations->obstacle ? c->equations->obstacle : "the series are too long";
-    out->step = c->frame ? c->frame->step : 0;
-    for (size_t j = 0; c->frame && j < c->frame->kept; j++) out->weights += c->frame->weight[j];
-    out->leaf = c->frame ? c->frame->all - c->frame->kept : 0;
+    read_frame(c, out);
     out->prime = c->equations->point->field.p;
 }
 
@@ -346,6 +355,18 @@ const char *nh_count_where(const nh_model *model)
     const char *where = nh_region_text(model->dag, &x->side, model->arena);
     nh_jet_equations_free(x);
     return where;
+}
+
+nh_count nh_count_brackets(const nh_model *model, const nh_count_question *question)
+{
+    nh_count out = {.generic = question->generic};
+    nh_counter c;
+    nh_counter_open(&c, model, question);
+    out.time = c.equations->time;
+    first_point(&c, &out);
+    read_frame(&c, &out);
+    nh_counter_close(&c);
+    return out;
 }
 
 nh_count nh_count_integrals(const nh_model *model, const nh_count_question *question)

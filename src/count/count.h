@@ -78,9 +78,6 @@ typedef struct {
     /* counts this degree only, until all solutions are functions of the known integrals: row[0]; products are not
      * compared */
     bool alone;
-    /* the rows of the count for some values of the parameters: bounds for generic ones where the weights are the same,
-     * because the ranks of the equations, of the symbol among them, are only higher then.  NULL: they are solved */
-    const nh_count_row *bound;
     double work;            /* limit in products of residues; about 5e8 take a second */
     size_t known;
     /* known integrals in t, q, w; those that are not polynomial in the velocities are left out */
@@ -102,6 +99,10 @@ typedef struct {
  * into out; none when there are too many products. */
 size_t nh_count_relations(const nh_model *model, size_t known, const nh_ex *current, size_t degree, nh_arena *arena,
                           size_t most, nh_count_relation *out);
+
+/* Only what the brackets of the frame's fields give at a regular point: step, weights and leaf, or the obstacle.  There
+ * are no rows. */
+nh_count nh_count_brackets(const nh_model *model, const nh_count_question *question);
 
 /* For equations that are defined piece by piece: where integrals are counted, as "for x > 0 and y < 0", on the sides on
  * which the chart's first probe lies; NULL: everywhere.  In the model's arena. */
