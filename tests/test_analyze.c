@@ -529,7 +529,7 @@ Test(analyze, a_nonlinear_constraint, PLAIN_ONLY)
 
 /* A disturbance of 1e-9 breaks the rotation: no double sees it, the refined coefficients do. */
 /* Z = Z^0 Gamma + relative, component by component; of a boost the relative part is t d/dx + d/dx'. */
-Test(analyze, symmetries_relative_to_the_motion)
+Test(analyze, symmetries_relative_to_the_motion, PLAIN_ONLY)
 {
     static const char text[] = "name: pair\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                                "parameters: [{name: m, value: 1.3}, {name: n, value: 0.7}]\nlagrangian: m*x'^2/2 + n*y'^2/2 - (x - y)^4/4 - (x - y)^2\n";

@@ -568,7 +568,7 @@ Test(quadratures, times_by_half_arguments, WHOLE_ONLY)
 static double square_of_speed(double energy, double h) { return energy + 4 * pow(sin(h), 2) + 28 * cos(h); }
 
 /* It swings, or turns over the top, where the formula jumps: here between, with t(h) by Simpson's rule. */
-Test(quadratures, a_bead_that_swings_or_turns_over)
+Test(quadratures, a_bead_that_swings_or_turns_over, PLAIN_ONLY)
 {
     nh_analysis *r = ask("name: hoop\ncoordinates: [{name: h, type: angle}]\nlagrangian: (h'^2 + 4*sin(h)^2)/2 + 14*cos(h)\n");
     const nh_model *o = r->model;
