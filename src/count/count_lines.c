@@ -85,7 +85,7 @@ void nh_count_lines_values(const nh_count_lines *l, const nh_jet_ring *ring, siz
         memset(sum, 0, orders * N * sizeof *sum);
         for (size_t k = 0; k < orders; k++)
             nh_row_sum_add(ring->field, N, sum + k * N, ring->first[k + 1] - ring->first[k],
-                                     l->curve + j * l->size + ring->first[k], row + ring->first[k]);
+                           l->curve + j * l->size + ring->first[k], row + ring->first[k]);
         for (size_t s = 0; s < N; s++) {
             for (size_t k = 0; k < orders; k++) own[k] = sum[k * N + s];
             nh_count_line_values(l, j, ring->field, own, out + s, stride);

@@ -275,7 +275,7 @@ static size_t compress(nh_graded_system *s, nh_residue *out)
     memset(out, 0, wanted * columns * sizeof *out);
     for (size_t i = 0; i < wanted; i++)
         nh_row_sum_add(s->f, columns, out + i * columns, s->fresh_count, mix + i * s->fresh_count,
-                                 (const nh_residue *const *)s->fresh);
+                       (const nh_residue *const *)s->fresh);
     nh_free(mix);
     s->work += (double)wanted * (double)s->fresh_count * (double)columns;
     return wanted;

@@ -1,5 +1,4 @@
-/* residue_matrix: dense linear algebra modulo a prime of 31 bits.  Matrices lie row by row.
- */
+/* residue_matrix: dense linear algebra modulo a prime of 31 bits.  Matrices lie row by row. */
 #ifndef NH_RESIDUE_MATRIX_H
 #define NH_RESIDUE_MATRIX_H
 

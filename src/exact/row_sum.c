@@ -22,18 +22,27 @@ typedef struct {
     const nh_residue *factor, *const *row;
 } row_sum;
 
-/* y_j, one by one */
-static void add_single(const row_sum *s, size_t n, nh_residue *y)
+/* Where there are no lanes, and for a few columns. */
+static void add_plain(const row_sum *s, size_t n, nh_residue *y)
 {
-    for (size_t j = 0; j < n; j++) {
-        uint64_t low = y[j], high = 0;
-        for (size_t t = 0; t < s->count; t++) {
-            uint64_t product = (uint64_t)s->factor[t] * s->row[t][j];
-            low += product & UINT32_MAX;
-            high += product >> 32;
+    enum { block = 256 };
+    uint64_t low[block], high[block];
+    for (size_t from = 0; from < n; from += block) {
+        size_t columns = n - from < block ? n - from : block;
+        for (size_t j = 0; j < columns; j++) low[j] = y[from + j], high[j] = 0;
+        for (size_t t = 0; t < s->count; t += together) {
+            const nh_residue *f = s->factor + t, *a = s->row[t] + from, *b = s->row[t + 1] + from,
+                             *c = s->row[t + 2] + from, *d = s->row[t + 3] + from;
+            for (size_t j = 0; j < columns; j++) {
+                uint64_t sum = (uint64_t)f[0] * a[j] + (uint64_t)f[1] * b[j] + (uint64_t)f[2] * c[j] +
+                               (uint64_t)f[3] * d[j];
+                low[j] += sum & UINT32_MAX;
+                high[j] += sum >> 32;
+            }
         }
-        y[j] = nh_residue_reduce(s->field, nh_residue_reduce(s->field, low) +
-                                               nh_residue_reduce(s->field, high) * s->carry);
+        for (size_t j = 0; j < columns; j++)
+            y[from + j] = nh_residue_reduce(
+                s->field, nh_residue_reduce(s->field, low[j]) + nh_residue_reduce(s->field, high[j]) * s->carry);
     }
 }
 
@@ -86,7 +95,7 @@ SUM(4, FOUR)
 
 typedef void add_columns(const row_sum *s, size_t from, const nh_residue *y, nh_residue *out);
 
-/* For n columns: the fastest that this processor has, and how many columns it takes together; NULL: one by one. */
+/* For n columns: the fastest that this processor has, and how many columns it takes together; NULL: add_plain. */
 static add_columns *fastest(size_t n, size_t *width)
 {
 #ifdef HAS_LANES
@@ -105,7 +114,7 @@ static void add(const row_sum *s, size_t n, nh_residue *y)
     size_t width;
     add_columns *columns = fastest(n, &width);
     if (!columns) {
-        add_single(s, n, y);
+        add_plain(s, n, y);
         return;
     }
     /* The last columns are among the others, too, where n is no multiple of the width: they are made first. */
