@@ -177,20 +177,23 @@ static lifted lift(search *s, size_t degree, bool time, const nh_constructed *c,
     return !first && keep_lifted(s, &exact, once, name) ? LIFT_FOUND : LIFT_FAILED;
 }
 
-/* Were these terms refused before? If not, they are from now on. */
-static bool is_refused(search *s, const nh_constructed *c, bool further)
+/* These terms, where they were tried before. */
+static const nh_missing_refused *refused_before(const search *s, const nh_constructed *c, bool further)
 {
     for (size_t i = 0; i < s->refusals; i++) {
         const nh_missing_refused *a = &s->refused[i];
         if (a->further == further && a->terms == c->terms && !memcmp(a->term, c->term, c->terms * sizeof *c->term))
-            return true;
+            return a;
     }
-    if (s->refusals < NH_MISSING_MOST_REFUSED) {
-        nh_ex *term = nh_arena_alloc(s->solver.r->arena, c->terms * sizeof *term);
-        memcpy(term, c->term, c->terms * sizeof *term);
-        s->refused[s->refusals++] = (nh_missing_refused){c->terms, term, further};
-    }
-    return false;
+    return NULL;
+}
+
+static void refuse(search *s, const nh_constructed *c, bool further, bool known)
+{
+    if (s->refusals == NH_MISSING_MOST_REFUSED) return;
+    nh_ex *term = nh_arena_alloc(s->solver.r->arena, c->terms * sizeof *term);
+    memcpy(term, c->term, c->terms * sizeof *term);
+    s->refused[s->refusals++] = (nh_missing_refused){c->terms, term, further, known};
 }
 
 static bool is_over(const search *s, bool further)
@@ -259,15 +262,19 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
     now.solutions = x->solutions;
     now.whole = x->whole;
     /* an integral that could not be proved may have a simpler form in words of a higher price */
-    size_t unproved = 0;
+    size_t unproved = 0, unproved_again = 0;
     for (size_t k = 0; k < x->count && !is_over(s, further); k++) {
-        if (is_refused(s, &x->item[k], further)) continue;
+        const nh_missing_refused *old = refused_before(s, &x->item[k], further);
+        unproved_again += old && !old->known;
+        if (old) continue;
         lifted l = lift(s, degree, q.time, &x->item[k], further);
+        if (l != LIFT_FOUND) refuse(s, &x->item[k], further, l == LIFT_KNOWN);
         found |= l == LIFT_FOUND;
         unproved += l == LIFT_FAILED;
     }
-    now.recognised = !x->limited && x->recognised == x->dimension && !unproved;
-    now.more = !x->limited && !now.recognised;
+    bool all = x->recognised == x->dimension;
+    now.recognised = !x->limited && all && !unproved && !unproved_again;
+    now.more = !x->limited && (!all || unproved);
     take(s, &now, more);
     if (!x->count && !nh_late() && s->barrens < NH_MISSING_MOST_BARREN) s->barren[s->barrens++] = now;
     nh_construction_free(x);

@@ -25,11 +25,11 @@ typedef struct {
 
 enum { NH_MISSING_MOST_BARREN = 128, NH_MISSING_MOST_REFUSED = 32 };
 
-/* Terms from which no integral could be made. */
+/* Terms that were tried: no integral could be made from them, or a function of the currents (`known`). */
 typedef struct {
     size_t terms;
     const nh_ex *term;
-    bool further;
+    bool further, known;
 } nh_missing_refused;
 
 typedef struct {
