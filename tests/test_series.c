@@ -297,6 +297,24 @@ Test(series, a_small_term_is_seen, .timeout = 120)
     nh_analysis_free(r);
 }
 
+/* Series of one coordinate each are left until no closed form of them was constructed: none is lost. */
+Test(series, of_one_coordinate_of_two, .timeout = 200, PLAIN_ONLY)
+{
+    nh_analysis *r = ask("name: turn\n"
+                         "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}, "
+                         "{name: h, type: length}, {name: u, type: length}]\n"
+                         "lagrangian: (x'^2 + y'^2 + z'^2 + h'^2 + u'^2)/2 - u^4/4\n"
+                         "constraints:\n  - z' - sin(h^2)*x' - h*y' = 0\ndomain: {h: [0.6, 1.9]}\n");
+    size_t alone = 0, h = 3;
+    cr_expect(r->postponed && r->independent == 6, "%zu independent", r->independent);
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_series *s = r->found[k].series;
+        alone += s && s->variables == 1 && s->variable[0] == r->system->coordinate[h].q;
+    }
+    cr_expect_eq(alone, 1u);
+    nh_analysis_free(r);
+}
+
 /* The variable and the interval stand in every output. */
 Test(series, the_interval_of_time_is_said_everywhere, .timeout = 120)
 {

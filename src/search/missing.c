@@ -109,6 +109,15 @@ static bool is_missing(const nh_analysis *r)
     return some;
 }
 
+/* Where no closed form of them was found. */
+static void postponed_series(search *s)
+{
+    s->solver.words = nh_dictionary_of(s->solver.r->model);
+    s->solver.counted.on = true;
+    nh_stage_solver_series_in_each(&s->solver);
+    s->solver.counted.on = false;
+}
+
 /* What has no closed form: of the kind that comes first, unless only the other may have more. */
 static void in_several(search *s)
 {
@@ -126,13 +135,14 @@ static void in_several(search *s)
     }
 }
 
-/* A series along one coordinate may be an integral that has a name, times integrals that were found in the meantime. */
+/* A series along one coordinate, made or postponed, may be an integral that has a name, times integrals that were
+   found in the meantime. */
 static bool integrate_series(search *s)
 {
     nh_analysis *r = s->solver.r;
     size_t series = 0, before = s->aside;
     for (size_t k = 0; k < r->count; k++) series += r->found[k].series && r->found[k].independence == NH_INDEPENDENT;
-    if (!series || !r->furthers || nh_late()) return false;
+    if (!(series || r->postponed) || !r->furthers || nh_late()) return false;
     set_aside(s, true);
     bool found = nh_primitives_search(&s->solver, true, 1);
     take_back(s, before);
@@ -171,6 +181,7 @@ static void look(nh_analysis *r)
     if (stale && !nh_late()) count(r, false);
     bool integrated = integrate_series(&s);
     size_t before = r->independent;
+    if (r->postponed && !nh_late()) postponed_series(&s);
     in_several(&s);
     if ((integrated || r->independent > before) && r->independent >= r->local_maximum) { /* nothing is missing then */
         r->search = NH_SEARCH_COMPLETE;
@@ -191,7 +202,7 @@ void nh_missing_count(nh_analysis *r, bool construct)
 {
     if (!r->counted) r->counted = nh_count_memory_create();
     count(r, false);
-    if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r)) && !nh_late()) look(r);
+    if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r) || r->postponed) && !nh_late()) look(r);
     nh_count_memory_free(r->counted);
     r->counted = NULL;
     check(r);

@@ -176,12 +176,18 @@ static void search(problem *p, const char *what)
     if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == r->system->t)) return;
     snprintf(name, sizeof name, "%s with coefficients that are series in %s", what,
              nh_name_of(r->model->dag, p->variable));
-    nh_stage_record *note = nh_stage_solver_note(p->x, name);
     nh_series_search *s = nh_series_open(r->model, p->variable, p->words, p->word, &r->options);
+    bool news = nh_series_count(s) && fresh(p, s);
+    if (news && p->x->postpones) {
+        r->postponed = true;
+        nh_series_close(s);
+        return;
+    }
+    nh_stage_record *note = nh_stage_solver_note(p->x, name);
     note->columns = nh_series_words(s);
     note->sectors = 1;
     note->dimension = nh_series_count(s);
-    if (note->dimension && fresh(p, s)) {
+    if (news) {
         bool reached = nh_series_extend(s, -INFINITY, r->arena, &space);
         /* to the end of the motions, if that is not too far */
         nh_series_space longer;

@@ -19,6 +19,7 @@ typedef struct {
     size_t forms;
     /* the present stage has few columns for its purpose: it may have as many as any ansatz */
     bool wide;
+    bool postpones; /* new series are left to the construction, which may find closed forms of them */
 } nh_stage_solver;
 
 /* Points for the ranges of columns, and a current checker; no stages yet. */

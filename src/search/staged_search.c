@@ -154,6 +154,7 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
     if (!nh_stage_solver_done(&x)) force_potential(&x);
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !nh_stage_solver_done(&x); i++) {
         x.counted.on = i > 1;
+        x.postpones = i + 1 == sizeof steps / sizeof *steps && r->options.construct > 0;
         run_step(&x, &steps[i]);
     }
     nh_quadratures_search(&x);
