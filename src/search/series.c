@@ -150,8 +150,10 @@ static void named(problem *p, const char *what)
     nh_analysis *r = p->x->r;
     nh_ex *phi = nh_arena_alloc(r->arena, NH_MOST_NAMED * sizeof *phi);
     nh_family *family = nh_arena_alloc(r->arena, sizeof *family);
+    nh_family words = {.kind = NH_TERMS, .terms = p->words, .term = p->word};
     p->equation = NULL;
     if (p->full || r->options.named == 0 || nh_stage_solver_done(p->x)) return;
+    if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == r->system->t)) return;
     size_t n = nh_named_coefficients(r->model, p->variable, p->words, p->word, p->x->words.forms, p->x->words.form,
                                      r->arena, phi, &p->equation);
     if (!n && !p->equation)
