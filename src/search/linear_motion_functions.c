@@ -23,8 +23,9 @@ enum {
     most_letters = 10, /* of one coordinate */
     most_words = 200,
     most_functions = 12, /* u */
-    spare = 12,          /* points beyond the number of columns, */
-    tries = 40,          /* and how many are tried for each: at half of them a root has no value, */
+    rows_of_point = 3,   /* so that there are more points than words, which may be constant along motions */
+    spare = 12,          /* rows beyond the number of columns, */
+    tries = 40,          /* and how many points are tried for each: at half of them a root has no value, */
     most_sets = 4,       /* or at all of them, when it is one of the parameters' residues */
     longest = 3000       /* symbols of u'' */
 };
@@ -184,10 +185,11 @@ static void find_words(problem *p, bool timed)
 
 /* ---- relations at points ---- */
 
-/* The words, their derivatives and the drives at a random point, into `row`.  False: it is singular. */
-static bool values_at(problem *p, const nh_ex *taken, uint64_t seed, nh_residue *row)
+/* The words, their derivatives and the drives at a random point, into the first row; into the next ones their
+ * derivatives along the motion, over k!, between which the same relations hold.  False: it is singular. */
+static bool values_at(problem *p, const nh_ex *taken, uint64_t seed, nh_residue *rows)
 {
-    enum { order = 2 };
+    enum { order = 2 + rows_of_point - 1 };
     nh_jet_equations *x = p->equations;
     size_t one = 1, all = p->words + p->drives;
     uint64_t random = seed + 1;
@@ -207,12 +209,16 @@ static bool values_at(problem *p, const nh_ex *taken, uint64_t seed, nh_residue 
         good = nh_jet_eval_all(eval, all, taken, series);
         nh_jet_eval_free(eval);
     }
-    for (size_t j = 0; j < p->words && good; j++) {
-        row[j] = nh_residue_add(p->field, series[j * size + 2], series[j * size + 2]);
-        row[p->words + j] = series[j * size + 1];
-        row[2 * p->words + j] = series[j * size];
+    for (size_t k = 0; k < rows_of_point && good; k++) {
+        nh_residue *row = rows + k * p->columns;
+        for (size_t j = 0; j < p->words; j++) {
+            const nh_residue *s = series + j * size + k;
+            row[j] = nh_residue_mul(p->field, (k + 2) * (k + 1), s[2]);
+            row[p->words + j] = nh_residue_mul(p->field, k + 1, s[1]);
+            row[2 * p->words + j] = s[0];
+        }
+        for (size_t j = 0; j < p->drives; j++) row[3 * p->words + j] = series[(p->words + j) * size + k];
     }
-    for (size_t k = 0; k < p->drives && good; k++) row[3 * p->words + k] = series[(p->words + k) * size];
     nh_free(series);
     nh_free(q);
     nh_free(v);
@@ -270,7 +276,7 @@ static bool find_relations(problem *p)
     nh_jet_equations *x = p->equations;
     size_t all = p->words + p->drives, rows = 0, n = p->columns = 3 * p->words + p->drives, wanted = n + spare;
     nh_ex *taken = nh_alloc_array(all + 1, sizeof *taken);
-    nh_residue *value = nh_alloc_array(wanted * n + 1, sizeof *value);
+    nh_residue *value = nh_alloc_array((wanted + rows_of_point) * n + 1, sizeof *value);
     for (size_t i = 0; i < all && !x->obstacle; i++) {
         taken[i] = i < p->words ? p->word[i] : p->drive[i - p->words];
         nh_jet_equations_take(x, true, &taken[i]);
@@ -280,11 +286,11 @@ static bool find_relations(problem *p)
     for (p->parameters = 1; rows < wanted && p->parameters <= most_sets && good; p->parameters++) {
         rows = 0;
         for (uint64_t seed = 1; rows < wanted && seed <= tries * (rows + spare) && good && !nh_late(); seed++) {
-            rows += values_at(p, taken, seed, value + rows * n);
+            rows += values_at(p, taken, seed, value + rows * n) ? rows_of_point : 0;
             good = !x->obstacle;
         }
     }
-    good = good && rows == wanted;
+    good = good && rows >= wanted;
     if (good) drop_dependent(p, rows, value);
     if (good) null_space(p, rows, value);
     nh_work_add(NH_WORK_RESIDUE, (double)rows * (x->products + (double)(n * n) / 4));
@@ -445,7 +451,8 @@ static bool search_words(nh_stage_solver *x, bool timed)
 
 void nh_linear_motion_functions(nh_stage_solver *x)
 {
-    if (x->r->model->chart->implicit) return;
+    /* all currents of such equations are functions of those that are linear in (u, u'), with functions of t */
+    if (x->r->model->chart->implicit || nh_counted_covers(&x->counted, 1, true)) return;
     nh_progress("linear equations that the coordinates hide", nh_budget_part());
     if (!search_words(x, false)) search_words(x, true);
 }
