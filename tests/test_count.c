@@ -543,7 +543,9 @@ static void words_of(const char *text, bool all, nh_text *out)
 {
     problem p = problem_of(text);
     nh_completeness c[NH_COMPLETENESS_KINDS];
-    nh_completeness_of(p.model, &(nh_completeness_question){.known = p.count, .current = p.known, .general = true, .all = all, .degree = 2, .work = 2e8}, c);
+    nh_completeness_question q = {.known = p.count, .current = p.known, .general = true, .all = all, .degree = 2, .work = 2e8};
+    nh_completeness_of(p.model, &q, c);
+    nh_completeness_generic(p.model, &q, c);
     nh_text_init(out);
     nh_completeness_words(c, 0, out);
     problem_clear(&p);

@@ -98,8 +98,14 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
             *c = (nh_completeness){0};
             continue;
         }
-        c->generic = !q->again && holds_generically(model, q, c);
     }
+}
+
+void nh_completeness_generic(const nh_model *model, const nh_completeness_question *q,
+                             nh_completeness c[NH_COMPLETENESS_KINDS])
+{
+    for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++)
+        c[kind].generic = c[kind].counted && holds_generically(model, q, &c[kind]);
 }
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }

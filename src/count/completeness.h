@@ -23,7 +23,7 @@ typedef struct {
     bool regional, only_regional;
     /* there can be no other functionally independent integrals: all are functions of the known ones */
     bool all;
-    bool generic;           /* completeness also for algebraically independent parameters */
+    bool generic;           /* completeness also for algebraically independent parameters, as far as it was asked */
     size_t missing_at;      /* the lowest degree at which the bound is not reached, or 0 */
     size_t missing;         /* at most so many functionally independent integrals are missing there */
     /* the lowest degree at which the known integrals and their products are fewer than the bound, or 0 */
@@ -41,7 +41,7 @@ typedef struct {
     bool general;           /* their number without those of a region; all of them hold for all parameters */
     bool regional_general;
     bool all;               /* it is known that there are no more functionally independent ones */
-    /* counts only the kind that comes first, for the parameters' values, and leaves the rest unchanged */
+    /* counts only the kind that comes first, and leaves the rest unchanged */
     bool again;
     size_t degree;          /* highest degree; 0: chosen here */
     double work;
@@ -51,10 +51,14 @@ typedef struct {
 /* The degree up to which a kind is counted by default. */
 size_t nh_completeness_degree(const nh_model *model, bool time);
 
-/* Counts every kind.  A kind that cannot be counted, or whose work does not suffice, says so in its entry; there is no
+/* Counts every kind, for the parameters' values.  A kind that cannot be counted, or whose work does not suffice, says so in its entry; there is no
  * other error.  [docs/method.md, sec. 10] */
 void nh_completeness_of(const nh_model *model, const nh_completeness_question *question,
                         nh_completeness out[NH_COMPLETENESS_KINDS]);
+
+/* Sets `generic` of every kind, for the question that was counted. */
+void nh_completeness_generic(const nh_model *model, const nh_completeness_question *question,
+                             nh_completeness completeness[NH_COMPLETENESS_KINDS]);
 
 /* Writes what is proved, in sentences; nothing when nothing was counted.  `uncertain`: the number of currents that are
  * certified numerically and not proved. */

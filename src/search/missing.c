@@ -17,23 +17,40 @@ typedef nh_missing_search search;
 
 size_t nh_missing_most_proved(const nh_analysis *r) { return r->count + r->furthers + r->pieces + 1; }
 
-/* Compares the proved currents with the bound for their number.  A degree that the user asks for may cost more. */
-static void count(nh_analysis *r, bool again)
+/* The proved currents, into phi.  A degree that the user asks for may cost more. */
+static nh_completeness_question question(const nh_analysis *r, bool again, nh_ex *phi)
 {
     enum { times_if_asked = 10 };
-    nh_ex *phi = nh_alloc_array(nh_missing_most_proved(r), sizeof *phi);
     nh_completeness_question q = {.current = phi,
                                   .all = r->search == NH_SEARCH_COMPLETE,
                                   .again = again,
                                   .degree = (size_t)r->options.degree,
                                   .work = r->options.count_work * (r->options.degree ? times_if_asked : 1),
                                   .memory = r->counted};
-    nh_progress("how many integrals there are", -1);
     q.known = nh_counted_proved(r, phi, &q.general, &q.independent);
     q.regional = nh_counted_regional(r, phi + q.known, &q.regional_general);
     q.known += q.regional;
     q.independent += q.regional;
+    return q;
+}
+
+/* Compares the proved currents with the bound for their number. */
+static void count(nh_analysis *r, bool again)
+{
+    nh_ex *phi = nh_alloc_array(nh_missing_most_proved(r), sizeof *phi);
+    nh_completeness_question q = question(r, again, phi);
+    nh_progress("how many integrals there are", -1);
     nh_completeness_of(r->model, &q, r->completeness);
+    if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
+    nh_free(phi);
+}
+
+/* Whether this holds for generic parameters, too. */
+static void generalize(nh_analysis *r)
+{
+    nh_ex *phi = nh_alloc_array(nh_missing_most_proved(r), sizeof *phi);
+    nh_completeness_question q = question(r, false, phi);
+    nh_completeness_generic(r->model, &q, r->completeness);
     if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
     nh_free(phi);
 }
@@ -179,11 +196,14 @@ static void look(nh_analysis *r)
         if (found) count(r, stale = again);
     }
     if (stale && !nh_late()) count(r, false);
-    bool integrated = integrate_series(&s);
+    if (integrate_series(&s) && !nh_late()) {
+        if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
+        count(r, false);
+    }
     size_t before = r->independent;
     if (r->postponed && !nh_late()) postponed_series(&s);
     in_several(&s);
-    if ((integrated || r->independent > before) && r->independent >= r->local_maximum) { /* nothing is missing then */
+    if (r->independent > before && r->independent >= r->local_maximum) { /* nothing is missing then */
         r->search = NH_SEARCH_COMPLETE;
         if (!nh_late()) count(r, false);
     }
@@ -203,6 +223,7 @@ void nh_missing_count(nh_analysis *r, bool construct)
     if (!r->counted) r->counted = nh_count_memory_create();
     count(r, false);
     if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r) || r->postponed) && !nh_late()) look(r);
+    if (!nh_late()) generalize(r);
     nh_count_memory_free(r->counted);
     r->counted = NULL;
     check(r);
