@@ -12,6 +12,7 @@ struct nh_jet_eval {
     nh_jet_table of;
     nh_residue **value; /* of.value */
     nh_arena *arena;    /* of the values */
+    nh_residue *factor; /* room for two series, of products */
     /* nodes that have memory for a value; those computed that vary; those to be computed */
     nh_ex *touched, *changing, *stack;
     size_t touches, touched_capacity, changes, change_capacity, stack_capacity;
@@ -32,6 +33,7 @@ nh_jet_eval *nh_jet_eval_create(nh_jet_point *point, const nh_jet_ring *ring)
         v->of.state = nh_alloc_array(v->of.nodes, sizeof *v->of.state);
     }
     v->value = v->of.value;
+    v->factor = nh_arena_alloc(v->arena, 2 * ring->size * sizeof *v->factor);
     return v;
 }
 
@@ -133,7 +135,7 @@ static void power(nh_jet_eval *v, nh_ex base, nh_num exponent, nh_residue *out)
 static void product(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
-    nh_residue *factor = nh_alloc_array(2 * r->size, sizeof *factor), *both = factor + r->size;
+    nh_residue *factor = v->factor, *both = factor + r->size;
     for (size_t i = 0; i < nh_arity(v->dag, e) && !v->unlucky; i++) {
         nh_num x = nh_number_of(v->dag, nh_exponent_of(v->dag, e, i));
         const nh_residue *with = v->value[nh_child(v->dag, e, i)];
@@ -145,7 +147,6 @@ static void product(nh_jet_eval *v, nh_ex e, nh_residue *out)
         memcpy(out, i > 0 ? both : with, r->size * sizeof *out);
     }
     if (!nh_num_is(nh_constant_of(v->dag, e), 1)) nh_jet_scale(r, out, number(v, nh_constant_of(v->dag, e)));
-    nh_free(factor);
 }
 
 /* tan = sin/cos, and the hyperbolic functions by exp: numerator and denominator */

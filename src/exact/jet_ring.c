@@ -271,13 +271,14 @@ static void multiply_along_line(const nh_jet_ring *r, const nh_residue *a, const
 
 void nh_jet_mul(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b, nh_residue *out)
 {
+    enum { short_line = 12 };
     uint32_t of_a = variables_of(r, a), of_b = variables_of(r, b);
     if (!of_a || !of_b) {
         nh_jet_constant(r, 0, out);
         nh_jet_add_multiple(r, out, of_a ? b[0] : a[0], of_a ? a : b);
         return;
     }
-    if (r->variables == 1 && r->weight[0] == 1) {
+    if (r->variables == 1 && r->weight[0] == 1 && r->size > short_line) {
         multiply_along_line(r, a, b, out);
         return;
     }
