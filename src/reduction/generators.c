@@ -191,26 +191,34 @@ static size_t for_all_parameters(const nh_kinetic *k, const nh_generators *found
     return n;
 }
 
+/* Of one library: `good` is false with a message after a breakdown; `more`: its generators were taken; `full`: it has
+ * no room for more columns. */
+typedef struct {
+    bool good, more, full;
+} outcome;
+
 /* Takes the generators of one library when they are more than the known ones, or as many and more of them hold for all
- * parameters; *good is false with a message after a breakdown. */
-static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, int level, size_t together,
-                        const nh_joint_fields *joints, const nh_options *options, nh_error *error, bool *good)
+ * parameters. */
+static outcome one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, int level, size_t together,
+                           const nh_joint_fields *joints, const nh_options *options, nh_error *error)
 {
+    outcome o = {0};
     nh_generator_fit s = {.k = k, .options = options, .m = k->m};
     nh_generators found = {.level = level};
     nh_library_init(&s.l, k, jets, level, together, most_columns);
+    o.full = s.l.count >= most_columns;
     if (joints->count) nh_library_put_before(&s.l, k, joints->count, joints->component);
     found.columns = s.n = s.l.count;
     nh_generator_fit_scale(&s);
-    *good = s.n == 0 || nh_generator_fit_solve(&s, error);
-    if (*good && s.d) make_generators(&s, &found);
+    o.good = s.n == 0 || nh_generator_fit_solve(&s, error);
+    if (o.good && s.d) make_generators(&s, &found);
     found.last_null = s.last_null;
     found.first_other = s.first_other;
     nh_generator_fit_clear(&s);
-    bool more = *good && (found.count > out->count || !out->level ||
-                          (found.count == out->count && for_all_parameters(k, &found) > for_all_parameters(k, out)));
-    if (more) *out = found;
-    return more;
+    o.more = o.good && (found.count > out->count || !out->level ||
+                        (found.count == out->count && for_all_parameters(k, &found) > for_all_parameters(k, out)));
+    if (o.more) *out = found;
+    return o;
 }
 
 static bool complete(const nh_generators *found, const nh_jets *jets)
@@ -244,16 +252,19 @@ bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *
     bool good = true, enough = false;
     for (int level = 1;
          level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && (nh_budget_spent() || nh_late())); level++) {
-        bool more = false;
-        for (size_t together = 2; together <= (jets ? 3 : 2) && good && !enough; together++) {
-            more |= one_library(out, k, jets, level, together, &joints, options, error, &good);
+        bool more = false, full = false; /* more products would find no room */
+        for (size_t together = 2; together <= (jets ? 3 : 2) && good && !enough && !full; together++) {
+            outcome o = one_library(out, k, jets, level, together, &joints, options, error);
+            more |= o.more;
+            full = o.full;
+            good = o.good;
             enough = complete(out, jets);
         }
         enough |= !more && !jets;
         if (level > 1 || (enough && for_all_parameters(k, out) == out->count) || !good || !k->model->system->chain)
             continue;
         nh_joint_fields_init(&joints, k->model->system); /* simple fields are found without these */
-        one_library(out, k, jets, level, 3, &joints, options, error, &good);
+        good = one_library(out, k, jets, level, 3, &joints, options, error).good;
         enough = complete(out, jets);
     }
     if (good && out->count < k->m && !complete(out, jets)) cyclic(out, k, options);
