@@ -28,7 +28,6 @@ static bool start(nh_explicit_curve *c, const nh_explicit_request *request)
     c->current = nh_arena_alloc(c->arena, (n + 1) * sizeof *c->current);
     c->used = nh_arena_alloc(c->arena, (n + 1) * sizeof *c->used);
     c->view = nh_arena_alloc(c->arena, (n + 1) * sizeof *c->view);
-    for (size_t j = 0; j < n; j++) c->view[j].in = nh_arena_alloc(c->arena, states * sizeof *c->view[j].in);
     m->constant = nh_arena_alloc(c->arena, most_constants * sizeof *m->constant);
     m->root = nh_arena_alloc(c->arena, most_roots * sizeof *m->root);
     m->integral = nh_arena_alloc(c->arena, most_integrals * sizeof *m->integral);
@@ -173,6 +172,12 @@ static void conclude(nh_explicit_curve *c)
     m->proved = constant && satisfied(c, known);
 }
 
+void nh_explicit_forms_clear(nh_explicit_forms *forms)
+{
+    nh_free(forms->form);
+    *forms = (nh_explicit_forms){0};
+}
+
 nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o, const nh_explicit_request *request,
                                              size_t parameter)
 {
@@ -182,7 +187,8 @@ nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o,
                            .d = o->dag,
                            .points = request->points,
                            .options = request->options,
-                           .fixed = request->fixed};
+                           .fixed = request->fixed,
+                           .forms = request->forms};
     bool linear = request->linear;
     c.m = nh_arena_alloc(arena, sizeof *c.m);
     *c.m = (nh_explicit_motion){.states = 1 + o->m + o->n, .parameter = parameter, .fixed = request->fixed};

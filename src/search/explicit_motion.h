@@ -56,6 +56,14 @@ typedef struct nh_explicit_motion {
     const char *region; /* where the constants are constant (integrals/region.h); NULL: along every motion */
 } nh_explicit_motion;
 
+/* What is known of expressions from other motions of the same model: currents are mostly the same ones. */
+typedef struct {
+    size_t count, capacity;
+    struct nh_explicit_form **form; /* in the heap, what it points to in the arena */
+} nh_explicit_forms;
+
+void nh_explicit_forms_clear(nh_explicit_forms *forms);
+
 /* What the motions are solved from. */
 typedef struct {
     const nh_points *points; /* signs are those there */
@@ -66,6 +74,7 @@ typedef struct {
     const nh_explicit_motion *rival; /* a motion that needs more such integrals is of no use; NULL: none */
     bool combined; /* with combined coordinates (search/combined_coordinates.h), NULL where there are none */
     const nh_options *options;
+    nh_explicit_forms *forms; /* of all requests with this arena */
 } nh_explicit_request;
 
 /* With this state as parameter.  With combined coordinates the constants alone are of use: `value` is in them.  NULL

@@ -270,14 +270,25 @@ typedef struct {
 } choice;
 static const double position = 0.5, symbol = 1e-6;
 
+static nh_explicit_form *form_of(nh_explicit_curve *c, nh_ex e)
+{
+    nh_explicit_forms *known = c->forms;
+    for (size_t i = 0; i < known->count; i++)
+        if (known->form[i]->e == e) return known->form[i];
+    nh_grow(&known->form, &known->capacity, known->count + 1, sizeof *known->form);
+    nh_explicit_form *f = known->form[known->count++] = nh_arena_alloc(c->arena, sizeof *f);
+    f->e = e;
+    f->in = nh_arena_alloc(c->arena, c->m->states * sizeof *f->in);
+    return f;
+}
+
 static nh_explicit_view *view(nh_explicit_curve *c, size_t j)
 {
     nh_explicit_view *v = &c->view[j];
     size_t last;
     if (v->read) return v;
-    memset(v->in, 0, c->m->states * sizeof *v->in);
-    v->e = nh_explicit_along(c, c->current[j]);
-    v->unknowns = nh_explicit_unknowns(c, v->e, &last);
+    v->form = form_of(c, nh_explicit_along(c, c->current[j]));
+    v->unknowns = nh_explicit_unknowns(c, v->form->e, &last);
     v->read = true;
     return v;
 }
@@ -285,15 +296,17 @@ static nh_explicit_view *view(nh_explicit_curve *c, size_t j)
 static void consider(nh_explicit_curve *c, size_t j, int degree, size_t most_unknowns, choice *best)
 {
     nh_explicit_view *v = view(c, j);
+    nh_explicit_form *f = v->form;
     if (v->unknowns == 0) c->used[j] = true;
-    if (v->unknowns == 0 || v->unknowns > most_unknowns || nh_explicit_too_long(c, v->e)) return;
+    if (v->unknowns == 0 || v->unknowns > most_unknowns || nh_explicit_too_long(c, f->e)) return;
     for (size_t u = c->m->states; u-- > 0;) {
-        if (c->solved[u] || !nh_depends(c->d, v->e, c->m->state[u])) continue;
-        if (!v->in[u].degree) v->in[u].degree = nh_explicit_degree(c, v->e, c->m->state[u], v->in[u].k) + 1;
-        if (v->in[u].degree != degree + 1) continue;
+        if (c->solved[u] || !nh_depends(c->d, f->e, c->m->state[u])) continue;
         double cost =
-            (double)v->unknowns + (u <= c->o->m) * position + (double)nh_complexity(c->d, v->e) * symbol;
-        if (cost < best->cost) *best = (choice){.current = j, .state = u, .cost = cost, .k = v->in[u].k};
+            (double)v->unknowns + (u <= c->o->m) * position + (double)nh_complexity(c->d, f->e) * symbol;
+        if (cost >= best->cost) continue;
+        if (!f->in[u].degree) f->in[u].degree = nh_explicit_degree(c, f->e, c->m->state[u], f->in[u].k) + 1;
+        if (f->in[u].degree == degree + 1)
+            *best = (choice){.current = j, .state = u, .cost = cost, .k = f->in[u].k};
     }
 }
 

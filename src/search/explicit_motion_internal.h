@@ -7,22 +7,27 @@
 
 enum { most_constants = 24, most_roots = 4, most_integrals = 8, most_symbols = 60 };
 
-/* A current along the curve, until another state is solved. */
-typedef struct {
-    bool read;
+/* An expression as a polynomial in each of the states, as far as that was asked for. */
+typedef struct nh_explicit_form {
     nh_ex e;
-    size_t unknowns; /* states that are not solved and that it depends on */
     struct {
         int degree; /* one more than nh_explicit_degree; 0: not asked for */
         nh_ex k[3];
     } *in;          /* per state */
+} nh_explicit_form;
+
+/* A current along the curve, until another state is solved. */
+typedef struct {
+    bool read;
+    size_t unknowns; /* states that are not solved and that it depends on */
+    nh_explicit_form *form;
 } nh_explicit_view;
 
 /* du/ds = r = A u + B of the state u, read anew when another state is solved. */
 typedef struct {
-    bool read, linear, refused; /* refused: it could not be integrated */
+    bool read, made, linear, refused; /* made: read at some time; refused: it could not be integrated */
     size_t state, length;
-    nh_ex r, A, B;
+    nh_ex own, speed, r, A, B; /* r = own/speed */
 } nh_explicit_equation;
 
 typedef struct {
@@ -42,6 +47,7 @@ typedef struct {
     size_t currents, most_named;
     nh_ex *current;
     nh_explicit_view *view; /* per current */
+    nh_explicit_forms *forms;
     bool *used;
     size_t symbols; /* parameters of the system, then the constants */
     nh_ex symbol[most_symbols];

@@ -185,7 +185,11 @@ static void read_equation(nh_explicit_curve *c, size_t u, nh_ex speed)
 {
     nh_ex own = nh_explicit_along(c, c->rate[u]), k[3];
     nh_explicit_equation *q = &c->equation[u], before = *q;
-    *q = (nh_explicit_equation){.read = true, .state = u};
+    if (before.made && before.own == own && before.speed == speed) { /* what was solved does not stand in it */
+        q->read = true;
+        return;
+    }
+    *q = (nh_explicit_equation){.read = true, .made = true, .state = u, .own = own, .speed = speed};
     if (nh_explicit_too_long(c, own) || depends_on_many(c, own, speed)) return;
     q->r = nh_explicit_split_roots(c, nh_explicit_simple(c, nh_div(c->d, own, speed)));
     size_t last = u, n = nh_explicit_unknowns(c, q->r, &last);

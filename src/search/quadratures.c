@@ -161,15 +161,21 @@ void nh_quadratures_complete(nh_stage_solver *x)
     if (o->chart->implicit) return;
     nh_ex *current;
     size_t n = gather(x, true, &current);
-    nh_explicit_request request = {
-        .points = x->ranges, .currents = n, .current = current, .linear = true, .options = &r->options};
+    nh_explicit_forms forms = {0};
+    nh_explicit_request request = {.points = x->ranges,
+                                   .currents = n,
+                                   .current = current,
+                                   .linear = true,
+                                   .options = &r->options,
+                                   .forms = &forms};
     bool open = !nh_counted_covers(&x->counted, 1, false);
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
         const nh_explicit_motion *m = nh_explicit_motion_along(r->arena, o, &request, i);
         if (!m || (m->known < states && !open)) continue;
         harvest(x, 1, &m);
-        if (m->known == states) return;
+        if (m->known == states) break;
     }
+    nh_explicit_forms_clear(&forms);
 }
 
 void nh_quadratures_search(nh_stage_solver *x)
@@ -180,7 +186,8 @@ void nh_quadratures_search(nh_stage_solver *x)
     if (o->chart->implicit || nh_budget_spent()) return;
     nh_progress("integration of one equation after another", nh_budget_part());
     nh_ex *current, *special;
-    nh_explicit_request request = {.points = x->ranges, .options = &r->options}, valued = request;
+    nh_explicit_forms forms = {0};
+    nh_explicit_request request = {.points = x->ranges, .options = &r->options, .forms = &forms}, valued = request;
     request.currents = gather(x, true, &current);
     request.current = current;
     valued.currents = gather(x, false, &special);
@@ -197,6 +204,7 @@ void nh_quadratures_search(nh_stage_solver *x)
     if (!nh_stage_solver_done(x)) try_all(x, request, NULL, &count, tried);
     if (!nh_stage_solver_done(x) && valued.fixed) try_all(x, valued, NULL, &count, tried);
     harvest(x, count, tried);
+    nh_explicit_forms_clear(&forms);
     if (!best || best->known <= 1) return;
     nh_explicit_motion *m = nh_arena_alloc(r->arena, sizeof *m);
     *m = *best;
