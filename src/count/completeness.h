@@ -51,8 +51,8 @@ typedef struct {
 /* The degree up to which a kind is counted by default. */
 size_t nh_completeness_degree(const nh_model *model, bool time);
 
-/* Counts every kind, for the parameters' values.  A kind that cannot be counted, or whose work does not suffice, says so in its entry; there is no
- * other error.  [docs/method.md, sec. 10] */
+/* Counts every kind, for the parameters' values.  A kind that cannot be counted, or whose work does not suffice, says
+ * so in its entry; there is no other error.  [docs/method.md, sec. 10] */
 void nh_completeness_of(const nh_model *model, const nh_completeness_question *question,
                         nh_completeness out[NH_COMPLETENESS_KINDS]);
 

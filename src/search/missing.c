@@ -222,7 +222,8 @@ void nh_missing_count(nh_analysis *r, bool construct)
 {
     if (!r->counted) r->counted = nh_count_memory_create();
     count(r, false);
-    if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r) || r->postponed) && !nh_late()) look(r);
+    bool wanted = is_missing(r) || lacks_further(r) || r->postponed;
+    if (construct && r->options.construct > 0 && wanted && !nh_late()) look(r);
     if (!nh_late()) generalize(r);
     nh_count_memory_free(r->counted);
     r->counted = NULL;
