@@ -26,8 +26,15 @@ typedef struct {
 } cell;
 
 typedef struct {
-    size_t count, capacity, *item;
+    size_t count, capacity;
+    uint32_t *item;
 } row_list;
+
+/* Keys length x 2^32 + row. */
+typedef struct {
+    size_t count, capacity;
+    uint64_t *key;
+} row_queue;
 
 /* Most components are small and there are thousands of them: one after the other uses the same memory. */
 typedef struct {
@@ -41,7 +48,7 @@ typedef struct {
     size_t *pivot_row, *pivot_column;
     nh_residue *inverse; /* by which the row's known part is still to be multiplied */
     row_list *member;    /* for each column: the rows that have it or had it, some more than once */
-    row_list queue;      /* a heap of length x rows + row, which also holds outdated entries of rows that changed */
+    row_queue queue;     /* a heap, which also holds outdated entries of rows that changed */
 } component;
 
 static void component_init(component *c, size_t rows, size_t columns)
@@ -63,7 +70,7 @@ static void component_clear(component *c, size_t rows, size_t columns)
 {
     for (size_t i = 0; i < rows; i++) nh_free(c->cells[i]);
     for (size_t j = 0; j < columns; j++) nh_free(c->member[j].item);
-    nh_free(c->queue.item);
+    nh_free(c->queue.key);
     nh_free(c->spare);
     nh_free(c->cells);
     nh_free(c->room);
@@ -79,32 +86,29 @@ static void component_clear(component *c, size_t rows, size_t columns)
 
 /* ---- the shortest remaining row: a binary heap whose least entry is taken ---- */
 
-static void append(row_list *l, size_t x)
-{
-    nh_grow(&l->item, &l->capacity, l->count + 1, sizeof *l->item);
-    l->item[l->count++] = x;
-}
-
 static void queue_row(component *c, size_t i)
 {
-    row_list *q = &c->queue;
-    size_t key = c->length[i] * c->rows + i, at = q->count;
+    row_queue *q = &c->queue;
+    uint64_t key = (uint64_t)c->length[i] << 32 | i;
+    size_t at = q->count;
     if (!c->length[i]) return;
-    append(q, key);
-    for (; at > 0 && q->item[(at - 1) / 2] > key; at = (at - 1) / 2) q->item[at] = q->item[(at - 1) / 2];
-    q->item[at] = key;
+    if (q->count == q->capacity) nh_grow(&q->key, &q->capacity, q->count + 1, sizeof *q->key);
+    q->count++;
+    for (; at > 0 && q->key[(at - 1) / 2] > key; at = (at - 1) / 2) q->key[at] = q->key[(at - 1) / 2];
+    q->key[at] = key;
 }
 
-static size_t least_of_queue(row_list *q)
+static uint64_t least_of_queue(row_queue *q)
 {
-    size_t least = q->item[0], key = q->item[--q->count], at = 0;
+    uint64_t least = q->key[0], key = q->key[--q->count];
+    size_t at = 0;
     for (size_t next = 1; next < q->count; next = 2 * at + 1) {
-        if (next + 1 < q->count && q->item[next + 1] < q->item[next]) next++;
-        if (q->item[next] >= key) break;
-        q->item[at] = q->item[next];
+        if (next + 1 < q->count && q->key[next + 1] < q->key[next]) next++;
+        if (q->key[next] >= key) break;
+        q->key[at] = q->key[next];
         at = next;
     }
-    q->item[at] = key;
+    q->key[at] = key;
     return least;
 }
 
@@ -112,13 +116,20 @@ static size_t least_of_queue(row_list *q)
 static size_t shortest_row(component *c)
 {
     while (c->queue.count) {
-        size_t key = least_of_queue(&c->queue), i = key % c->rows;
-        if (!c->done[i] && c->length[i] == key / c->rows) return i;
+        uint64_t key = least_of_queue(&c->queue);
+        size_t i = (uint32_t)key;
+        if (!c->done[i] && c->length[i] == key >> 32) return i;
     }
     return SIZE_MAX;
 }
 
 /* ---- elimination ---- */
+
+static void append(row_list *l, size_t x)
+{
+    if (l->count == l->capacity) nh_grow(&l->item, &l->capacity, l->count + 1, sizeof *l->item);
+    l->item[l->count++] = (uint32_t)x;
+}
 
 /* to := to + factor * from, both sorted by column */
 static void combine(nh_graded_system *s, component *c, size_t to, size_t from, nh_residue factor)
