@@ -28,6 +28,13 @@ static bool has_orders(const nh_completeness *c)
     return all;
 }
 
+/* In a few coordinates the highest degree is worth some seconds. */
+static double first_work(const nh_model *model, const nh_completeness_question *q, bool time)
+{
+    enum { few_coordinates = 4, times = 10 };
+    return !time && !q->degree && model->m <= few_coordinates ? times * q->work : 0;
+}
+
 /* The products of the same currents have to reach the bound for generic parameters, too.  Those that are independent
  * here are so there, and the bound here is one there where brackets have the same ranks [docs/method.md, sec. 10];
  * else, and where not the products but the ranks agree, all is counted for random residues. */
@@ -38,6 +45,7 @@ static bool holds_generically(const nh_model *model, const nh_completeness_quest
                                   .generic = true,
                                   .degree = c->degree,
                                   .work = q->work,
+                                  .first_work = first_work(model, q, c->count.time),
                                   .memory = q->memory,
                                   .known = q->known - (c->regional ? 0 : q->regional),
                                   .independent = q->independent - (c->regional ? 0 : q->regional),
@@ -89,6 +97,7 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
         nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME,
                                       .degree = q->degree ? q->degree : chosen,
                                       .work = q->work,
+                                      .first_work = first_work(model, q, kind == NH_COMPLETE_IN_TIME),
                                       .memory = q->memory,
                                       .known = q->known,
                                       .independent = q->independent,

@@ -2,6 +2,7 @@
  * number of known ones or no longer changes. */
 #include "count/count_internal.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/progress.h"
@@ -185,12 +186,13 @@ static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *be
     nh_graded_state *state[2] = {NULL, NULL};
     outcome o = COUNTED;
     bool any = false;
-    c->most = c->q->work;
+    c->most = fmax(c->q->work, c->q->first_work);
     while (c->work < c->most && !nh_late()) {
         o = count_at(c, degree, order, state, &row);
         if (o != COUNTED) break;
         *out = row;
         any = row.bounded;
+        if (any) c->most = c->q->work;
         if (row.complete || row.settled || (row.functions && c->q->alone) ||
             (row.functions && c->work > least_share * c->q->work))
             break;

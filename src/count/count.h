@@ -79,6 +79,7 @@ typedef struct {
      * compared */
     bool alone;
     double work;            /* limit in products of residues; about 5e8 take a second */
+    double first_work;      /* the same until a degree has a bound at all, where it is larger */
     size_t known;
     /* known integrals in t, q, w; those that are not polynomial in the velocities are left out */
     const nh_ex *current;
