@@ -538,6 +538,25 @@ Test(count, numbers_that_are_not_settled_are_said)
     problem_clear(&p);
 }
 
+/* A degree without a bound may take more work than one whose bound still falls: more degrees, with the same numbers. */
+Test(count, a_first_bound_may_take_more_work)
+{
+    problem p = problem_of("name: s\ncoordinates: [{name: x}, {name: y}, {name: f, type: angle}]\n"
+                           "constraints: [\"x'*sin(f) = y'*cos(f)\"]\nlagrangian: (x'^2 + y'^2 + f'^2)/2 - x^3*y\n");
+    size_t more = 0;
+    for (double work = 1e3; work < 1e7; work *= 2) {
+        nh_count_question q = {.degree = 4, .work = work, .known = p.count, .current = p.known}, patient = q;
+        patient.first_work = 10 * work;
+        nh_count a = nh_count_integrals(p.model, &q), b = nh_count_integrals(p.model, &patient);
+        cr_expect_geq(b.rows, a.rows);
+        more += b.rows - a.rows;
+        for (size_t d = 0; d < a.rows; d++)
+            if (a.row[d].bounded && b.row[d].bounded) cr_expect_eq(a.row[d].bound, b.row[d].bound);
+    }
+    cr_expect_gt(more, 0u);
+    problem_clear(&p);
+}
+
 /* What is said of a system, nothing of which is known; `all`: there can be no more independent integrals. */
 static void words_of(const char *text, bool all, nh_text *out)
 {
