@@ -90,9 +90,7 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
 {
     for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) {
         nh_completeness *c = &out[kind];
-        if (q->again &&
-            kind != (out[NH_COMPLETE_IN_COORDINATES].counted ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME))
-            continue;
+        if (q->kinds && !(q->kinds >> kind & 1)) continue;
         size_t chosen = nh_completeness_degree(model, kind == NH_COMPLETE_IN_TIME);
         nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME,
                                       .degree = q->degree ? q->degree : chosen,

@@ -41,8 +41,7 @@ typedef struct {
     bool general;           /* their number without those of a region; all of them hold for all parameters */
     bool regional_general;
     bool all;               /* it is known that there are no more functionally independent ones */
-    /* counts only the kind that comes first, and leaves the rest unchanged */
-    bool again;
+    unsigned kinds;         /* bit k: of kind k; 0: all.  The others are left as they are */
     size_t degree;          /* highest degree; 0: chosen here */
     double work;
     nh_count_memory *memory; /* keeps counts for the next call; NULL: nothing is kept */

@@ -18,12 +18,12 @@ typedef nh_missing_search search;
 size_t nh_missing_most_proved(const nh_analysis *r) { return r->count + r->furthers + r->pieces + 1; }
 
 /* The proved currents, into phi.  A degree that the user asks for may cost more. */
-static nh_completeness_question question(const nh_analysis *r, bool again, nh_ex *phi)
+static nh_completeness_question question(const nh_analysis *r, unsigned kinds, nh_ex *phi)
 {
     enum { times_if_asked = 10 };
     nh_completeness_question q = {.current = phi,
                                   .all = r->search == NH_SEARCH_COMPLETE,
-                                  .again = again,
+                                  .kinds = kinds,
                                   .degree = (size_t)r->options.degree,
                                   .work = r->options.count_work * (r->options.degree ? times_if_asked : 1),
                                   .memory = r->counted};
@@ -34,11 +34,11 @@ static nh_completeness_question question(const nh_analysis *r, bool again, nh_ex
     return q;
 }
 
-/* Compares the proved currents with the bound for their number. */
-static void count(nh_analysis *r, bool again)
+/* Compares the proved currents with the bound for their number: for these kinds (bits), or for all (0). */
+static void count(nh_analysis *r, unsigned kinds)
 {
     nh_ex *phi = nh_alloc_array(nh_missing_most_proved(r), sizeof *phi);
-    nh_completeness_question q = question(r, again, phi);
+    nh_completeness_question q = question(r, kinds, phi);
     nh_progress("how many integrals there are", -1);
     nh_completeness_of(r->model, &q, r->completeness);
     if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
@@ -49,7 +49,7 @@ static void count(nh_analysis *r, bool again)
 static void generalize(nh_analysis *r)
 {
     nh_ex *phi = nh_alloc_array(nh_missing_most_proved(r), sizeof *phi);
-    nh_completeness_question q = question(r, false, phi);
+    nh_completeness_question q = question(r, 0, phi);
     nh_completeness_generic(r->model, &q, r->completeness);
     if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
     nh_free(phi);
@@ -166,6 +166,15 @@ static bool integrate_series(search *s)
     return found;
 }
 
+/* Counts a kind anew where currents were found since.  A system that depends on time has only one. */
+static void refresh(search *s, int kind)
+{
+    nh_analysis *r = s->solver.r;
+    bool old = s->stale >> kind & 1;
+    s->stale &= ~(1u << kind);
+    if (old && r->completeness[kind].counted && !nh_late()) count(r, 1u << kind);
+}
+
 static bool look_further(search *s)
 {
     nh_analysis *r = s->solver.r;
@@ -183,29 +192,28 @@ static void look(nh_analysis *r)
     s.solver.bench->constructs = true;
     set_aside(&s, false);
     s.cyclic = nh_jet_equations_cyclic_rounds(r->model);
-    bool stale = false;
     for (bool found = true; found && !nh_late();) {
-        bool again = false;
+        refresh(&s, NH_COMPLETE_IN_COORDINATES);
         found = nh_missing_construct(&s, &r->completeness[NH_COMPLETE_IN_COORDINATES], false);
         /* Functions of the currents are few, and what has time in it may be a product of them and of waves. */
-        if (!found && is_timeless(r)) found = again = look_further(&s);
-        if (!found && stale) count(r, stale = false);
+        if (!found && is_timeless(r)) found = look_further(&s);
+        if (!found) refresh(&s, NH_COMPLETE_IN_TIME);
         if (!found) found = nh_missing_construct(&s, &r->completeness[NH_COMPLETE_IN_TIME], false);
-        if (!found && !is_timeless(r)) found = again = look_further(&s);
+        if (!found && !is_timeless(r)) found = look_further(&s);
+        if (found) s.stale = ~0u;
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-        if (found) count(r, stale = again);
     }
-    if (stale && !nh_late()) count(r, false);
+    for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) refresh(&s, kind);
     if (integrate_series(&s) && !nh_late()) {
         if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-        count(r, false);
+        count(r, 0);
     }
     size_t before = r->independent;
     if (r->postponed && !nh_late()) postponed_series(&s);
     in_several(&s);
     if (r->independent > before && r->independent >= r->local_maximum) { /* nothing is missing then */
         r->search = NH_SEARCH_COMPLETE;
-        if (!nh_late()) count(r, false);
+        if (!nh_late()) count(r, 0);
     }
     take_back(&s, 0);
     nh_budget_begin(INFINITY);
@@ -221,7 +229,7 @@ static void look(nh_analysis *r)
 void nh_missing_count(nh_analysis *r, bool construct)
 {
     if (!r->counted) r->counted = nh_count_memory_create();
-    count(r, false);
+    count(r, 0);
     bool wanted = is_missing(r) || lacks_further(r) || r->postponed;
     if (construct && r->options.construct > 0 && wanted && !nh_late()) look(r);
     if (!nh_late()) generalize(r);

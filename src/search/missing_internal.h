@@ -38,6 +38,7 @@ typedef struct {
     nh_missing_barren barren[NH_MISSING_MOST_BARREN];
     size_t refusals;
     nh_missing_refused refused[NH_MISSING_MOST_REFUSED];
+    unsigned stale;         /* bit k: currents were found after kind k was counted */
     size_t cyclic;          /* how often cyclic coordinates can be dropped */
     double work;            /* work that is left for this count */
     size_t solutions;       /* the most that series had for the coordinates at hand */
