@@ -126,9 +126,10 @@ static bool is_missing(const nh_analysis *r)
     return some;
 }
 
-/* Where no closed form of them was found. */
+/* Where no closed form of them was found; that this was tried costs them nothing of the work. */
 static void postponed_series(search *s)
 {
+    if (nh_budget_spent()) nh_budget_begin(s->solver.r->options.work);
     s->solver.words = nh_dictionary_of(s->solver.r->model);
     s->solver.counted.on = true;
     nh_stage_solver_series_in_each(&s->solver);
