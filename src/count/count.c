@@ -240,7 +240,7 @@ static void degrees(nh_counter *c, nh_count *out)
     if (out->obstacle) return;
     bool linear = !c->q->alone && !c->q->shape, long_series = c->equations->m > many_coordinates;
     if (linear && long_series) nh_count_linear(c, last, out);
-    while (first + out->rows <= last && !nh_late()) {
+    while (first + out->rows <= last && !out->more && !nh_late()) {
         const nh_count_row *before = out->rows ? &out->row[out->rows - 1] : NULL;
         outcome o = count_degree(c, first + out->rows, before, &out->row[out->rows]);
         if (o == UNLUCKY && !c->equations->obstacle) {
@@ -254,9 +254,10 @@ static void degrees(nh_counter *c, nh_count *out)
                                               : "work";
             break;
         }
-        out->rows++;
+        const nh_count_row *row = &out->row[out->rows++];
+        out->more = c->q->until_missing && first + out->rows <= last && row->bounded && !row->functions;
     }
-    if (linear && !long_series && out->rows < last && c->frame && !c->equations->obstacle && !nh_late())
+    if (linear && !long_series && out->rows < last && !out->more && c->frame && !c->equations->obstacle && !nh_late())
         nh_count_linear(c, last, out);
     if (out->rows == 0) out->obstacle = c->equations->obstacle ? c->equations->obstacle : "the series are too long";
     read_frame(c, out);

@@ -55,6 +55,7 @@ typedef struct {
     const char *where;
     const char *obstacle;   /* why nothing was counted, or NULL */
     const char *end;        /* why no higher degree was counted, or NULL */
+    bool more;              /* higher degrees were left out, because functions are missing */
 } nh_count;
 
 /* Keeps the solutions of a system for further questions about it with other known integrals.  It saves time, and does
@@ -78,6 +79,7 @@ typedef struct {
     /* counts this degree only, until all solutions are functions of the known integrals: row[0]; products are not
      * compared */
     bool alone;
+    bool until_missing;     /* no degrees beyond the first one at which functions are missing */
     double work;            /* limit in products of residues; about 5e8 take a second */
     double first_work;      /* the same until a degree has a bound at all, where it is larger */
     size_t known;

@@ -18,12 +18,11 @@ typedef nh_missing_search search;
 size_t nh_missing_most_proved(const nh_analysis *r) { return r->count + r->furthers + r->pieces + 1; }
 
 /* The proved currents, into phi.  A degree that the user asks for may cost more. */
-static nh_completeness_question question(const nh_analysis *r, unsigned kinds, nh_ex *phi)
+static nh_completeness_question question(const nh_analysis *r, nh_ex *phi)
 {
     enum { times_if_asked = 10 };
     nh_completeness_question q = {.current = phi,
                                   .all = r->search == NH_SEARCH_COMPLETE,
-                                  .kinds = kinds,
                                   .degree = (size_t)r->options.degree,
                                   .work = r->options.count_work * (r->options.degree ? times_if_asked : 1),
                                   .memory = r->counted};
@@ -34,22 +33,32 @@ static nh_completeness_question question(const nh_analysis *r, unsigned kinds, n
     return q;
 }
 
-/* Compares the proved currents with the bound for their number: for these kinds (bits), or for all (0). */
-static void count(nh_analysis *r, unsigned kinds)
+/* Compares the proved currents with the bound for their number, for these kinds (bits; 0: all).  While integrals are
+ * sought, the lowest degree that misses some is enough. */
+static void count(nh_analysis *r, unsigned kinds, bool until_missing)
 {
     nh_ex *phi = nh_alloc_array(nh_missing_most_proved(r), sizeof *phi);
-    nh_completeness_question q = question(r, kinds, phi);
+    nh_completeness_question q = question(r, phi);
+    q.kinds = kinds;
+    q.until_missing = until_missing;
     nh_progress("how many integrals there are", -1);
     nh_completeness_of(r->model, &q, r->completeness);
     if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
     nh_free(phi);
 }
 
+/* The degrees that were left out. */
+static void count_the_rest(nh_analysis *r)
+{
+    for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++)
+        if (r->completeness[kind].count.more && !nh_late()) count(r, 1u << kind, false);
+}
+
 /* Whether this holds for generic parameters, too. */
 static void generalize(nh_analysis *r)
 {
     nh_ex *phi = nh_alloc_array(nh_missing_most_proved(r), sizeof *phi);
-    nh_completeness_question q = question(r, 0, phi);
+    nh_completeness_question q = question(r, phi);
     nh_completeness_generic(r->model, &q, r->completeness);
     if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
     nh_free(phi);
@@ -173,7 +182,7 @@ static void refresh(search *s, int kind)
     nh_analysis *r = s->solver.r;
     bool old = s->stale >> kind & 1;
     s->stale &= ~(1u << kind);
-    if (old && r->completeness[kind].counted && !nh_late()) count(r, 1u << kind);
+    if (old && r->completeness[kind].counted && !nh_late()) count(r, 1u << kind, true);
 }
 
 static bool look_further(search *s)
@@ -207,14 +216,14 @@ static void look(nh_analysis *r)
     for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) refresh(&s, kind);
     if (integrate_series(&s) && !nh_late()) {
         if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-        count(r, 0);
+        count(r, 0, true);
     }
     size_t before = r->independent;
     if (r->postponed && !nh_late()) postponed_series(&s);
     in_several(&s);
     if (r->independent > before && r->independent >= r->local_maximum) { /* nothing is missing then */
         r->search = NH_SEARCH_COMPLETE;
-        if (!nh_late()) count(r, 0);
+        if (!nh_late()) count(r, 0, true);
     }
     take_back(&s, 0);
     nh_budget_begin(INFINITY);
@@ -230,9 +239,10 @@ static void look(nh_analysis *r)
 void nh_missing_count(nh_analysis *r, bool construct)
 {
     if (!r->counted) r->counted = nh_count_memory_create();
-    count(r, 0);
+    count(r, 0, true);
     bool wanted = is_missing(r) || lacks_further(r) || r->postponed;
     if (construct && r->options.construct > 0 && wanted && !nh_late()) look(r);
+    if (construct || r->options.degree) count_the_rest(r);
     if (!nh_late()) generalize(r);
     nh_count_memory_free(r->counted);
     r->counted = NULL;

@@ -9,7 +9,8 @@
 
 #include "search/currents.h"
 
-/* Fill result->completeness; with `construct`, look for what is missing, and count again. */
+/* Fill result->completeness; with `construct`, look for what is missing, and count again.  Without it no degrees are
+ * counted beyond the first one that misses some, unless the user asks for one. */
 void nh_missing_count(nh_analysis *result, bool construct);
 
 #endif
