@@ -557,6 +557,27 @@ Test(count, a_first_bound_may_take_more_work)
     problem_clear(&p);
 }
 
+/* While integrals are sought the lowest degree that misses some is enough; what is said of it is the same. */
+Test(count, degrees_end_where_functions_are_missing)
+{
+    static const char *const kind[] = {"(x'^2 + y'^2)/2 - x^2/2 - y^2/2", "(x'^2 + y'^2)/2 - x^4/4 - y^4/4", "(x'^2 + y'^2)/2 - x^4*y"};
+    static const bool more[] = {true, true, false}; /* of the last one everything is known */
+    for (size_t i = 0; i < sizeof kind / sizeof *kind; i++) {
+        char text[400];
+        snprintf(text, sizeof text, "name: s\ncoordinates: [x, y]\nlagrangian: %s\nknown: {currents: [{name: E, expr: %s}]}\n", kind[i],
+                 i == 2 ? "(x'^2 + y'^2)/2 + x^4*y" : "1 + 1");
+        problem p = problem_of(text);
+        nh_count_question q = {.degree = 4, .work = 2e8, .known = p.count, .current = p.known}, brief = q;
+        brief.until_missing = true;
+        nh_count a = nh_count_integrals(p.model, &q), b = nh_count_integrals(p.model, &brief);
+        cr_expect_eq(a.rows, 4u);
+        cr_expect(!a.more && b.more == more[i] && (b.rows < a.rows) == more[i], "%s: %zu of %zu rows", kind[i], b.rows, a.rows);
+        for (size_t d = 0; d < b.rows; d++)
+            cr_expect(b.row[d].bound == a.row[d].bound && b.row[d].functions == a.row[d].functions && (b.row[d].functions || d + 1 == b.rows));
+        problem_clear(&p);
+    }
+}
+
 /* What is said of a system, nothing of which is known; `all`: there can be no more independent integrals. */
 static void words_of(const char *text, bool all, nh_text *out)
 {
