@@ -78,7 +78,7 @@ model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1)
 say "# Performance" "" \
     "Written by \`make bench\`; every table names the command that made it. Times are those of the machine below, which may have had" \
     "other work: measure again before you rely on a number. Ratios within a table vary less than times." "" \
-    "Machine: ${model:-unknown processor}, $(nproc 2>/dev/null || echo '?') cores; $(${CC:-gcc} --version | head -n 1); optimisation -O2." ""
+    "Machine: ${model:-unknown processor}, $(nproc 2>/dev/null || echo '?') cores; $(${CC:-gcc} --version | head -n 1); optimisation -O2. Measured on $(date +%F)." ""
 
 say "## A whole run" "" \
     "\`build/tests/bench_run 20 -- build/nhsym analyze sleigh -- build/nhsym analyze sleigh --no-analysis -- build/nhsym version -- build/tests/nhsym-shared version\`" "" \
