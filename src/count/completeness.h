@@ -41,7 +41,7 @@ typedef struct {
     bool general;           /* their number without those of a region; all of them hold for all parameters */
     bool regional_general;
     bool all;               /* it is known that there are no more functionally independent ones */
-    bool until_missing;     /* no degrees beyond the first one at which functions are missing (count.more) */
+    size_t until_missing;   /* no degrees beyond the first one, from this one on, that misses functions; 0: all */
     unsigned kinds;         /* bit k: of kind k; 0: all.  The others are left as they are */
     size_t degree;          /* highest degree; 0: chosen here */
     double work;

@@ -255,7 +255,8 @@ static void degrees(nh_counter *c, nh_count *out)
             break;
         }
         const nh_count_row *row = &out->row[out->rows++];
-        out->more = c->q->until_missing && first + out->rows <= last && row->bounded && !row->functions;
+        out->more = c->q->until_missing && row->degree >= c->q->until_missing && row->degree < last && row->bounded &&
+                    !row->functions;
     }
     if (linear && !long_series && out->rows < last && !out->more && c->frame && !c->equations->obstacle && !nh_late())
         nh_count_linear(c, last, out);

@@ -79,7 +79,7 @@ typedef struct {
     /* counts this degree only, until all solutions are functions of the known integrals: row[0]; products are not
      * compared */
     bool alone;
-    bool until_missing;     /* no degrees beyond the first one at which functions are missing */
+    size_t until_missing;   /* no degrees beyond the first one, from this one on, that misses functions; 0: all */
     double work;            /* limit in products of residues; about 5e8 take a second */
     double first_work;      /* the same until a degree has a bound at all, where it is larger */
     size_t known;

@@ -35,7 +35,7 @@ static nh_completeness_question question(const nh_analysis *r, nh_ex *phi)
 
 /* Compares the proved currents with the bound for their number, for these kinds (bits; 0: all).  While integrals are
  * sought, the lowest degree that misses some is enough. */
-static void count(nh_analysis *r, unsigned kinds, bool until_missing)
+static void count(nh_analysis *r, unsigned kinds, size_t until_missing)
 {
     nh_ex *phi = nh_alloc_array(nh_missing_most_proved(r), sizeof *phi);
     nh_completeness_question q = question(r, phi);
@@ -51,7 +51,7 @@ static void count(nh_analysis *r, unsigned kinds, bool until_missing)
 static void count_the_rest(nh_analysis *r)
 {
     for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++)
-        if (r->completeness[kind].count.more && !nh_late()) count(r, 1u << kind, false);
+        if (r->completeness[kind].count.more && !nh_late()) count(r, 1u << kind, 0);
 }
 
 /* Whether this holds for generic parameters, too. */
@@ -182,7 +182,7 @@ static void refresh(search *s, int kind)
     nh_analysis *r = s->solver.r;
     bool old = s->stale >> kind & 1;
     s->stale &= ~(1u << kind);
-    if (old && r->completeness[kind].counted && !nh_late()) count(r, 1u << kind, true);
+    if (old && r->completeness[kind].counted && !nh_late()) count(r, 1u << kind, 1);
 }
 
 static bool look_further(search *s)
@@ -216,14 +216,14 @@ static void look(nh_analysis *r)
     for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) refresh(&s, kind);
     if (integrate_series(&s) && !nh_late()) {
         if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-        count(r, 0, true);
+        count(r, 0, 1);
     }
     size_t before = r->independent;
     if (r->postponed && !nh_late()) postponed_series(&s);
     in_several(&s);
     if (r->independent > before && r->independent >= r->local_maximum) { /* nothing is missing then */
         r->search = NH_SEARCH_COMPLETE;
-        if (!nh_late()) count(r, 0, true);
+        if (!nh_late()) count(r, 0, 1);
     }
     take_back(&s, 0);
     nh_budget_begin(INFINITY);
@@ -239,7 +239,7 @@ static void look(nh_analysis *r)
 void nh_missing_count(nh_analysis *r, bool construct)
 {
     if (!r->counted) r->counted = nh_count_memory_create();
-    count(r, 0, true);
+    count(r, 0, construct ? 1 : 2); /* of degree two the symmetries of an ansatz are told */
     bool wanted = is_missing(r) || lacks_further(r) || r->postponed;
     if (construct && r->options.construct > 0 && wanted && !nh_late()) look(r);
     if (construct || r->options.degree) count_the_rest(r);
