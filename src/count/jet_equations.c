@@ -7,11 +7,17 @@
 #include "exact/kernel.h"
 #include "count/one_side.h"
 #include "exact/normal.h"
+#include "graph/diff.h"
 #include "integrals/exact_points.h"
 
 enum { largest_form = 2000, most_nodes = 4000 };
 
 /* ---- expressions ---- */
+
+size_t nh_jet_equations_monomials(size_t n) { return 1 + n + n * (n + 1) / 2; }
+
+/* The index of w^i w^j, i <= j. */
+static size_t quadratic(size_t n, size_t i, size_t j) { return 1 + n + i * n - i * (i - 1) / 2 - i + j; }
 
 static nh_ex canonical(nh_jet_equations *x, nh_ex e)
 {
@@ -125,10 +131,33 @@ static double products(const nh_jet_equations *x)
     factors *f = nh_alloc(sizeof *f);
     count_factors(x, x->m, x->rho, f);
     count_factors(x, x->n * x->n, x->M, f);
-    count_factors(x, x->n, x->A, f);
-    double out = f->fixed + (monomials + n + 1) * f->moving + n * n * (n + monomials);
+    count_factors(x, x->n * nh_jet_equations_monomials(x->n), x->coefficient, f);
+    double out = f->fixed + (n + 2) * f->moving + n * n * (n + monomials);
     nh_free(f);
     return out;
+}
+
+/* A = sum over the monomials mu = 1, w^i, w^i w^j of coefficients times mu, if it is such a polynomial. */
+static void find_coefficients(nh_jet_equations *x)
+{
+    nh_dag *d = x->dag;
+    size_t n = x->n;
+    nh_ex *zero = nh_alloc_array(n + 1, sizeof *zero), half = nh_ratio(d, 1, 2);
+    nh_ex *c = x->coefficient = nh_arena_alloc(x->arena, (n * nh_jet_equations_monomials(n) + 1) * sizeof *c);
+    for (size_t i = 0; i < n; i++) zero[i] = nh_int(d, 0);
+    for (size_t l = 0; l < n; l++) {
+        nh_ex A = x->A[l];
+        c[l] = nh_canonical(d, nh_substitute(d, A, n, x->w, zero), largest_form);
+        for (size_t i = 0; i < n; i++) {
+            nh_ex slope = nh_diff(d, A, x->w[i]);
+            c[(1 + i) * n + l] = nh_canonical(d, nh_substitute(d, slope, n, x->w, zero), largest_form);
+            for (size_t j = i; j < n; j++) {
+                nh_ex e = nh_substitute(d, nh_diff(d, slope, x->w[j]), n, x->w, zero);
+                c[quadratic(n, i, j) * n + l] = nh_canonical(d, i == j ? nh_mul(d, half, e) : e, largest_form);
+            }
+        }
+    }
+    nh_free(zero);
 }
 
 nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool generic)
@@ -142,8 +171,11 @@ nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool gen
     x->rho = take(x, o->m, o->rho);
     x->M = take(x, o->n * o->n, o->M);
     x->A = take(x, o->n, o->A);
+    if (!x->obstacle) find_coefficients(x);
+    if (!x->obstacle && !nh_jet_point_register(x->point, o->n * nh_jet_equations_monomials(o->n), x->coefficient))
+        x->obstacle = x->point->obstacle;
     x->complete = true;
-    x->products = products(x);
+    x->products = x->obstacle ? 0 : products(x);
     x->time = time || depends_on_time(x);
     x->coordinates = o->m + x->time;
     x->coordinate = o->chart->symbol + !x->time; /* t, q */
@@ -170,7 +202,8 @@ static void register_again(nh_jet_equations *x)
     nh_jet_point_free(x->point);
     x->point = nh_jet_point_create(x->dag);
     if (!nh_jet_point_register(x->point, x->m, x->rho) || !nh_jet_point_register(x->point, x->n * x->n, x->M) ||
-        !nh_jet_point_register(x->point, x->n, x->A))
+        !nh_jet_point_register(x->point, x->n, x->A) ||
+        !nh_jet_point_register(x->point, x->n * nh_jet_equations_monomials(x->n), x->coefficient))
         x->obstacle = x->point->obstacle;
     x->products = products(x);
 }
@@ -260,17 +293,6 @@ void nh_jet_equations_velocities(nh_jet_equations *x, nh_jet_eval *v, const nh_j
     for (size_t i = 0; i < x->n; i++) set_constant(v, ring, x->w[i], w[i], true);
 }
 
-/* w = a e_i + b e_j */
-static void two_velocities(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, size_t i, nh_residue a,
-                           size_t j, nh_residue b)
-{
-    nh_residue *w = nh_alloc_array(x->n + 1, sizeof *w);
-    w[i] = a;
-    if (b) w[j] = b;
-    nh_jet_equations_velocities(x, v, ring, w);
-    nh_free(w);
-}
-
 static void random_velocities(nh_jet_equations *x, const nh_jet_ring *ring, nh_residue *w)
 {
     uint64_t random = x->point->random + 99;
@@ -282,18 +304,22 @@ static bool same(const nh_jet_ring *ring, size_t count, const nh_residue *a, con
     return memcmp(a, b, count * ring->size * sizeof *a) == 0;
 }
 
-/* b is at 0 in `part`, then R_1, .. R_n: m series each. */
-static bool linear_parts(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue *part)
+/* b is at 0 in `part`, then R_1, .. R_n: one series for each of the rates. */
+static bool linear_parts(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, size_t rates, const nh_ex *rho,
+                         nh_residue *part)
 {
-    size_t block = x->m * ring->size;
-    nh_residue minus = (nh_residue)(ring->field.p - 1);
-    bool good = nh_jet_eval_all(v, x->m, x->rho, part);
+    size_t block = rates * ring->size;
+    nh_residue minus = (nh_residue)(ring->field.p - 1), *w = nh_alloc_array(x->n + 1, sizeof *w);
+    bool good = nh_jet_eval_all(v, rates, rho, part);
     for (size_t i = 0; i < x->n && good; i++) {
         nh_residue *R = part + (1 + i) * block;
-        two_velocities(x, v, ring, i, 1, i, 0);
-        good = nh_jet_eval_all(v, x->m, x->rho, R);
+        w[i] = 1;
+        nh_jet_equations_velocities(x, v, ring, w);
+        w[i] = 0;
+        good = nh_jet_eval_all(v, rates, rho, R);
         nh_residue_add_multiple(ring->field, block, R, part, minus);
     }
+    nh_free(w);
     return good;
 }
 
@@ -305,7 +331,7 @@ bool nh_jet_equations_fields(nh_jet_equations *x, const nh_jet_ring *ring, const
     nh_residue *part = nh_alloc_array((x->n + 3) * block, sizeof *part), *expected = part + (x->n + 1) * block,
                *value = expected + block;
     nh_residue *w = nh_alloc_array(x->n + 1, sizeof *w);
-    bool good = linear_parts(x, v, ring, part);
+    bool good = linear_parts(x, v, ring, x->m, x->rho, part);
     random_velocities(x, ring, w);
     nh_jet_equations_velocities(x, v, ring, w);
     if (good && nh_jet_eval_all(v, x->m, x->rho, value)) {
@@ -328,67 +354,39 @@ bool nh_jet_equations_fields(nh_jet_equations *x, const nh_jet_ring *ring, const
 
 /* ---- accelerations ---- */
 
-size_t nh_jet_equations_monomials(size_t n) { return 1 + n + n * (n + 1) / 2; }
-
-/* The index of w^i w^j, i <= j. */
-static size_t quadratic(size_t n, size_t i, size_t j) { return 1 + n + i * n - i * (i - 1) / 2 - i + j; }
-
-/* The coefficients of A in w: polynomial + l per component, monomials in between: [mu][l]. */
-static bool polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue *part)
+/* At random velocities A and M must agree with the polynomials; at the point alone. */
+static bool is_polynomial(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate,
+                          const nh_residue *part, const nh_residue *M)
 {
-    nh_prime f = ring->field;
-    size_t n = x->n, block = n * ring->size;
-    nh_residue minus = (nh_residue)(f.p - 1), half = nh_residue_inverse(f, 2);
-    nh_residue *up = nh_alloc_array(block + 1, sizeof *up), *down = nh_alloc_array(block + 1, sizeof *down);
-    bool good = nh_jet_eval_all(v, n, x->A, part);
-    for (size_t i = 0; i < n && good; i++) {
-        nh_residue *linear = part + (1 + i) * block, *square = part + quadratic(n, i, i) * block;
-        two_velocities(x, v, ring, i, 1, i, 0);
-        good = nh_jet_eval_all(v, n, x->A, up);
-        two_velocities(x, v, ring, i, minus, i, 0);
-        good = good && nh_jet_eval_all(v, n, x->A, down);
-        nh_residue_add_multiple(f, block, linear, up, half);
-        nh_residue_add_multiple(f, block, linear, down, nh_residue_negative(f, half));
-        nh_residue_add_multiple(f, block, square, up, half);
-        nh_residue_add_multiple(f, block, square, down, half);
-        nh_residue_add_multiple(f, block, square, part, minus);
-    }
-    for (size_t i = 0; i < n && good; i++)
-        for (size_t j = i + 1; j < n && good; j++) {
-            nh_residue *mixed = part + quadratic(n, i, j) * block;
-            two_velocities(x, v, ring, i, 1, j, 1);
-            good = nh_jet_eval_all(v, n, x->A, mixed);
-            size_t taken[5] = {0, 1 + i, 1 + j, quadratic(n, i, i), quadratic(n, j, j)};
-            for (size_t k = 0; k < 5; k++) nh_residue_add_multiple(f, block, mixed, part + taken[k] * block, minus);
+    size_t n = x->n, e = ring->size;
+    nh_jet_ring *point = nh_jet_ring_create(ring->field, ring->variables, ring->weight, 0);
+    nh_residue *q = nh_alloc_array(x->coordinates + 1, sizeof *q), *w = nh_alloc_array(n + 1, sizeof *w),
+               *value = nh_alloc_array(n * n + n + 1, sizeof *value);
+    for (size_t k = 0; k < x->coordinates; k++) q[k] = coordinate[k * e];
+    nh_jet_eval *v = nh_jet_equations_eval(x, point, q);
+    random_velocities(x, point, w);
+    nh_jet_equations_velocities(x, v, point, w);
+    bool good = nh_jet_eval_all(v, n, x->A, value) && nh_jet_eval_all(v, n * n, x->M, value + n), same_A = true,
+         same_M = true;
+    for (size_t l = 0; l < n && good; l++) {
+        nh_residue sum = part[l * e];
+        for (size_t i = 0; i < n; i++) {
+            sum = nh_residue_add(ring->field, sum, nh_residue_mul(ring->field, part[((1 + i) * n + l) * e], w[i]));
+            for (size_t j = i; j < n; j++)
+                sum = nh_residue_add(ring->field, sum,
+                                     nh_residue_mul(ring->field, part[(quadratic(n, i, j) * n + l) * e],
+                                                    nh_residue_mul(ring->field, w[i], w[j])));
         }
-    nh_free(down);
-    nh_free(up);
-    return good;
-}
-
-/* At random velocities A and M must agree with the polynomials. */
-static bool is_polynomial(nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, const nh_residue *part,
-                          const nh_residue *M)
-{
-    size_t n = x->n, block = n * ring->size;
-    nh_residue *w = nh_alloc_array(n + 1, sizeof *w), *expected = nh_alloc_array((1 + n) * block + 1, sizeof *expected),
-               *value = nh_alloc_array(n * block + 1, sizeof *value);
-    random_velocities(x, ring, w);
-    nh_jet_equations_velocities(x, v, ring, w);
-    memcpy(expected, part, block * sizeof *expected);
-    for (size_t i = 0; i < n; i++) nh_residue_add_multiple(ring->field, block, expected, part + (1 + i) * block, w[i]);
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = i; j < n; j++)
-            nh_residue_add_multiple(ring->field, block, expected, part + quadratic(n, i, j) * block,
-                                    nh_residue_mul(ring->field, w[i], w[j]));
-    bool good = nh_jet_eval_all(v, n, x->A, value);
-    if (good && !same(ring, n, expected, value))
-        x->obstacle = "forces or inertia that are not polynomial in the velocities of degree two";
-    good = good && nh_jet_eval_all(v, n * n, x->M, value);
-    if (good && !same(ring, n * n, M, value)) x->obstacle = "a kinetic energy that is not quadratic in the velocities";
+        same_A = same_A && sum == value[l];
+    }
+    for (size_t i = 0; i < n * n && good; i++) same_M = same_M && value[n + i] == M[i * e];
+    if (!same_A) x->obstacle = "forces or inertia that are not polynomial in the velocities of degree two";
+    else if (!same_M) x->obstacle = "a kinetic energy that is not quadratic in the velocities";
+    nh_jet_eval_free(v);
     nh_free(value);
-    nh_free(expected);
     nh_free(w);
+    nh_free(q);
+    nh_jet_ring_free(point);
     return good && !x->obstacle;
 }
 
@@ -398,8 +396,8 @@ bool nh_jet_equations_accelerations(nh_jet_equations *x, const nh_jet_ring *ring
     size_t n = x->n, count = nh_jet_equations_monomials(n), e = ring->size;
     nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
     nh_residue *part = nh_alloc_array(count * n * e + 1, sizeof *part), *M = nh_alloc_array(n * n * e + 1, sizeof *M);
-    bool good =
-        nh_jet_eval_all(v, n * n, x->M, M) && polynomial(x, v, ring, part) && is_polynomial(x, v, ring, part, M);
+    bool good = nh_jet_eval_all(v, n * n, x->M, M) && nh_jet_eval_all(v, count * n, x->coefficient, part) &&
+                is_polynomial(x, ring, coordinate, part, M);
     for (size_t l = 0; l < n && good; l++)
         for (size_t mu = 0; mu < count; mu++)
             memcpy(out + (l * count + mu) * e, part + (mu * n + l) * e, e * sizeof *out);

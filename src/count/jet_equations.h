@@ -2,7 +2,7 @@
  *
  *     q^s' = b^s + R^s_i w^i,    M_ij w^j' = A_i,    A_i polynomial in w of degree two      [docs/method.md, sec. 2]
  *
- * The coefficients in w are found from values at w = 0, +-e_i, e_i + e_j, and checked at random velocities.  Time is
+ * The coefficients in w are found by differentiation, and checked at random velocities.  Time is
  * the first coordinate where it is asked for, or occurs.  Equations with |u| and sign(u) are taken on one side of every
  * u = 0. */
 #ifndef NH_JET_EQUATIONS_H
@@ -21,8 +21,9 @@ typedef struct {
     bool generic;            /* parameters are indeterminates */
     size_t coordinates, n, m; /* m coordinates: without time */
     const nh_ex *coordinate, *w;
-    /* rho (m), M (n x n), A (n), in canonical form, with parameters at their values unless generic */
-    nh_ex *rho, *M, *A;
+    /* rho (m), M (n x n), A (n), in canonical form, with parameters at their values unless generic; the coefficients of
+     * A in w (monomials x n) */
+    nh_ex *rho, *M, *A, *coefficient;
     double products;         /* products of series, about, that they take at a point */
     size_t fields;           /* n, and one more when b is not zero or time is a coordinate */
     /* the values of the coordinates at the point, then those of the parameters, which matter when these are
