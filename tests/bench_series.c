@@ -70,7 +70,7 @@ static double measure(const task *t)
     nh_counter c;
     bool regular = false;
     if (!o) return NAN;
-    nh_counter_open(&c, o, &q);
+    nh_counter_open(&c, o, &q, false);
     nh_count_series *s = NULL;
     for (size_t point = 0; point < NH_COUNT_POINTS && !s; point++)
         if (nh_count_regular_point(&c, point)) s = nh_count_series_create(&c, t->degree + 2, INFINITY, &regular);

@@ -394,7 +394,7 @@ Test(count, coordinates_that_closed_equations_do_not_need_are_dropped)
     for (size_t i = 0; i < sizeof SHAPE / sizeof *SHAPE; i++) {
         nh_count_question q = {.shape = SHAPE[i], .degree = 2, .alone = true, .work = 1e10};
         nh_counter c;
-        nh_counter_open(&c, p.model, &q);
+        nh_counter_open(&c, p.model, &q, false);
         cr_expect_eq(c.equations->coordinates, UNKNOWN_COORDINATES[i], "%zu: %zu", i, c.equations->coordinates);
         nh_counter_close(&c);
         nh_count n = nh_count_integrals(p.model, &q);

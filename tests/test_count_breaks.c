@@ -21,7 +21,7 @@ static bool totals_at(const nh_model *o, size_t degree, size_t order, size_t att
 {
     nh_count_question q = {.degree = degree, .work = 1e12};
     nh_counter c;
-    nh_counter_open(&c, o, &q);
+    nh_counter_open(&c, o, &q, false);
     bool regular = nh_count_regular_point(&c, attempt);
     nh_count_series *s = regular ? nh_count_series_create(&c, order, INFINITY, &regular) : NULL;
     memset(total, 0, (order + 1) * sizeof *total);
@@ -75,7 +75,7 @@ Test(breaks, a_lower_order_is_a_beginning)
         nh_model *o = model_of(y);
         nh_count_question q = {.degree = degree, .work = 1e12};
         nh_counter c;
-        nh_counter_open(&c, o, &q);
+        nh_counter_open(&c, o, &q, false);
         bool regular = false;
         for (size_t attempt = 0; !regular; attempt++)
             if (nh_count_regular_point(&c, attempt)) nh_count_series_free(nh_count_series_create(&c, 1, INFINITY, &regular));

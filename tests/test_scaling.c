@@ -178,7 +178,7 @@ Test(scaling, solutions_continue_from_a_lower_order)
     nh_count_question q = {.degree = 2, .work = 2e9};
     nh_counter c;
     bool regular = false;
-    nh_counter_open(&c, p.o, &q);
+    nh_counter_open(&c, p.o, &q, false);
     for (size_t attempt = 0; !regular; attempt++)
         if (nh_count_regular_point(&c, attempt)) nh_count_series_free(nh_count_series_create(&c, 1, 2e9, &regular));
     nh_count_series *few = nh_count_series_create(&c, 6, 2e9, &regular), *many = nh_count_series_create(&c, 9, 2e9, &regular);

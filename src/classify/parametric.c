@@ -145,7 +145,7 @@ void nh_parametric_open(nh_parametric *f, const nh_model *model, const size_t pa
 {
     *f = (nh_parametric){.parameter = parameter[0], .second = parameter[1], .third = parameter[2], .shape = shape,
                          .linear = linear};
-    nh_counter_open(&f->counter, model, question);
+    nh_counter_open(&f->counter, model, question, false);
     nh_jet_equations *x = f->counter.equations;
     f->index = nh_alloc_array(x->coordinates + 1, sizeof *f->index);
     f->factor = nh_alloc_array(most_factors, sizeof *f->factor);

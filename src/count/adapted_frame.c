@@ -261,7 +261,7 @@ static bool correct(nh_adapted_frame *x, const nh_jet_ring *r)
 /* Directions, weights and corrections by series up to this order: brackets of weight w are exact at the point up to
  * order + 1, and h_j,alpha, which takes at most w_j - 2 derivatives of what enters it, is when w_j is.  `settled`: all
  * directions are found, or series of this order show no more.  False: another point is needed. */
-static bool grow_to(nh_adapted_frame *x, size_t order, bool *settled)
+static bool grow_to(nh_adapted_frame *x, size_t order, bool corrected, bool *settled)
 {
     nh_jet_equations *o = x->equations;
     size_t all = x->all, fields = o->fields;
@@ -287,7 +287,7 @@ static bool grow_to(nh_adapted_frame *x, size_t order, bool *settled)
     }
     good = good && l.count == all;
     if (good && *settled) set_matrices(x, &l);
-    if (good && *settled && x->step > 2) good = correct(x, r);
+    if (good && *settled && x->step > 2 && corrected) good = correct(x, r);
     frame_list_clear(&l);
     nh_free(unit);
     nh_free(X);
@@ -296,7 +296,7 @@ static bool grow_to(nh_adapted_frame *x, size_t order, bool *settled)
     return good;
 }
 
-nh_adapted_frame *nh_adapted_frame_create(nh_jet_equations *equations)
+static nh_adapted_frame *create(nh_jet_equations *equations, bool corrected)
 {
     nh_arena *arena = nh_arena_create();
     nh_adapted_frame *x = nh_arena_alloc(arena, sizeof *x);
@@ -306,10 +306,22 @@ nh_adapted_frame *nh_adapted_frame_create(nh_jet_equations *equations)
     x->from = nh_arena_alloc(arena, (all * all + 1) * sizeof *x->from);
     x->weight = nh_arena_alloc(arena, (all + 1) * sizeof *x->weight);
     bool settled = false, good = true;
-    for (size_t order = 1; good && !settled; order = 2 * order + 1) good = grow_to(x, order, &settled);
+    for (size_t order = 1; good && !settled; order = 2 * order + 1) good = grow_to(x, order, corrected, &settled);
     if (good) return x;
     nh_arena_free(arena);
     return NULL;
+}
+
+nh_adapted_frame *nh_adapted_frame_create(nh_jet_equations *equations) { return create(equations, true); }
+
+bool nh_adapted_frame_across(nh_jet_equations *equations, size_t *across, nh_residue *covector)
+{
+    nh_adapted_frame *x = create(equations, false);
+    if (!x) return false;
+    *across = x->all - x->kept;
+    memcpy(covector, x->from + x->kept * x->all, *across * x->all * sizeof *covector);
+    nh_adapted_frame_free(x);
+    return true;
 }
 
 void nh_adapted_frame_free(nh_adapted_frame *frame)

@@ -33,6 +33,10 @@ typedef struct {
 nh_adapted_frame *nh_adapted_frame_create(nh_jet_equations *equations);
 void nh_adapted_frame_free(nh_adapted_frame *frame);
 
+/* Only the leaf at the chosen point: the number of directions across it, and as many covectors along q (`coordinates`
+ * components each, room for a square) that vanish on it.  False: another point is needed. */
+bool nh_adapted_frame_across(nh_jet_equations *equations, size_t *across, nh_residue *covector);
+
 /* Writes, in a ring with the frame's weights, the coordinates q as series in z (`all` of them) and the fields along z
  * (fields x kept). */
 bool nh_adapted_frame_series(const nh_adapted_frame *frame, const nh_jet_ring *ring, nh_residue *coordinate,

@@ -299,7 +299,7 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
                            .current = question->current};
     nh_counter c;
     *out = (nh_construction){.arena = arena, .whole = question->weights};
-    nh_counter_open(&c, model, &q);
+    nh_counter_open(&c, model, &q, false);
     nh_closed_words *words = NULL;
     nh_scalings scalings = {0};
     nh_velocity_frame frame = nh_velocity_frame_of(c.equations);

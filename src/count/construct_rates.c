@@ -299,14 +299,14 @@ static bool ask(const naming *x, const nh_model *model, const nh_count_question 
     nh_ex taken[most_atoms];
     nh_counter c;
     bool good = true;
-    nh_counter_open(&c, model, q);
+    nh_counter_open(&c, model, q, false);
     for (size_t i = 0; i < x->atoms && good; i++) {
         taken[i] = x->atom[i];
         good = !c.equations->obstacle && nh_jet_equations_take(c.equations, true, &taken[i]);
     }
     if (!good) { /* their obstacle is none of the equations' */
         nh_counter_close(&c);
-        nh_counter_open(&c, model, q);
+        nh_counter_open(&c, model, q, false);
     }
     rates_somewhere(&c, q->degree, &out->rates, &out->seen);
     good = good && out->seen.count && c.equations->point->field.p == out->seen.field.p &&

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/progress.h"
+#include "count/turned_translations.h"
 #include "graph/diff.h"
 
 enum { most_parameters = 4000, largest_series = 20000, steps_beyond = 1, many_coordinates = 6 };
@@ -115,7 +116,8 @@ void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known
     nh_free(known->row);
 }
 
-typedef enum { COUNTED, UNLUCKY, TOO_MUCH } outcome;
+/* EXTENDED: with integrals that are linear in coordinates that were left out. */
+typedef enum { COUNTED, UNLUCKY, TOO_MUCH, EXTENDED } outcome;
 
 /* Residues stand for any solutions of the equations of named functions.  If they give more independent functions than
  * the bound allows, the functions themselves are related in ways that other solutions are not. */
@@ -137,6 +139,29 @@ static void read_totals(const nh_counter *c, const size_t *total, size_t from, n
     if (out->bounded && same < from) same = from;
     out->reached = same;
     out->settled = out->bounded && order - same >= c->frame->step + steps_beyond;
+}
+
+/* Would no higher order be needed if nothing was left out? */
+static bool is_enough(const nh_counter *c, const nh_count_row *row)
+{
+    return row->complete || row->settled || (row->functions && c->q->alone) ||
+           (row->functions && c->work > least_share * c->q->work);
+}
+
+/* At the end, or when it may be near. */
+static bool is_time_for_extensions(const nh_counter *c, const nh_count_row *row)
+{
+    enum { share = 10 };
+    return row->bounded && c->equations->left && !c->unextended && (is_enough(c, row) || share * c->work > c->most);
+}
+
+/* Higher orders may show that no integral is linear in what was left out. */
+static bool is_last(const nh_counter *c, const nh_count_row *row)
+{
+    enum { patience = 4 };
+    if (c->equations->left && !c->unextended)
+        return row->settled && row->order - row->reached >= patience * (c->frame->step + steps_beyond);
+    return is_enough(c, row);
 }
 
 /* Counts one degree at one order; `state` of both parities is that of the order before. */
@@ -161,6 +186,11 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_graded_st
     /* another point is needed, without these currents */
     if (result == COUNTED && shows_too_many(c, out)) c->unnamed = true, result = UNLUCKY;
     read_totals(c, total, from, out);
+    if (result == COUNTED && is_time_for_extensions(c, out)) {
+        bool extended;
+        if (!nh_count_extended(c, s, degree, state, &extended)) result = UNLUCKY;
+        else c->unextended = !extended;
+    }
     nh_count_differentials_clear(&all, &known);
     nh_free(total);
     nh_count_series_free(s);
@@ -187,20 +217,20 @@ static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *be
     outcome o = COUNTED;
     bool any = false;
     c->most = fmax(c->q->work, c->q->first_work);
+    c->unextended = false;
     while (c->work < c->most && !nh_late()) {
         o = count_at(c, degree, order, state, &row);
         if (o != COUNTED) break;
         *out = row;
         any = row.bounded;
         if (any) c->most = c->q->work;
-        if (row.complete || row.settled || (row.functions && c->q->alone) ||
-            (row.functions && c->work > least_share * c->q->work))
-            break;
+        if (is_last(c, &row)) break;
         if (row.bounded && !row.functions && c->q->known) c->most = more_for_open * c->q->work;
-        order = (row.bounded ? row.reached : order) + step + steps_beyond;
+        order = (row.bounded && !row.settled ? row.reached : order) + step + steps_beyond;
     }
     nh_graded_state_free(state[0]);
     nh_graded_state_free(state[1]);
+    if (any && o != UNLUCKY && c->equations->left && !c->unextended) return EXTENDED;
     return o == UNLUCKY ? UNLUCKY : any ? COUNTED : TOO_MUCH;
 }
 
@@ -233,6 +263,17 @@ static void read_frame(const nh_counter *c, nh_count *out)
     out->leaf = c->frame->all - c->frame->kept;
 }
 
+/* Starts again in all coordinates. */
+static void take_every_coordinate(nh_counter *c, const nh_count_question *q, nh_count *out)
+{
+    const nh_model *model = c->equations->model;
+    double work = c->work;
+    nh_counter_close(c);
+    nh_counter_open(c, model, q, false);
+    c->work = work;
+    if (c->equations->obstacle) out->obstacle = c->equations->obstacle;
+}
+
 static void degrees(nh_counter *c, nh_count *out)
 {
     size_t last = c->q->degree ? c->q->degree : NH_COUNT_HIGHEST_DEGREE, first = c->q->alone ? last : 1,
@@ -243,6 +284,12 @@ static void degrees(nh_counter *c, nh_count *out)
     while (first + out->rows <= last && !out->more && !nh_late()) {
         const nh_count_row *before = out->rows ? &out->row[out->rows - 1] : NULL;
         outcome o = count_degree(c, first + out->rows, before, &out->row[out->rows]);
+        if (o == EXTENDED) {
+            take_every_coordinate(c, c->q, out);
+            attempt = out->obstacle ? 0 : first_point(c, out);
+            if (out->obstacle) return;
+            continue;
+        }
         if (o == UNLUCKY && !c->equations->obstacle) {
             do attempt++;
             while (attempt < NH_COUNT_POINTS && !nh_count_regular_point(c, attempt));
@@ -291,6 +338,19 @@ static bool has_named(const nh_dag *dag, nh_ex e)
     return found;
 }
 
+/* Leaves out coordinates that no known integral depends on. */
+static void leave_translations(nh_counter *c)
+{
+    nh_jet_equations *x = c->equations;
+    nh_ex *translated = nh_alloc_array(x->m + 1, sizeof *translated);
+    size_t count = nh_turned_translations(x, translated);
+    bool free = true;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < c->q->known && free; k++) free = !nh_depends(x->dag, c->q->current[k], translated[i]);
+    if (count && free) nh_jet_equations_leave(x, count, translated);
+    nh_free(translated);
+}
+
 /* The known integrals that can be followed; an obstacle in one of them is no obstacle for the equations. */
 static void register_known(nh_counter *c)
 {
@@ -318,7 +378,7 @@ static void register_known(nh_counter *c)
     }
 }
 
-void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_question *question)
+void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_question *question, bool turned)
 {
     *c = (nh_counter){.q = question,
                       .most = question->work,
@@ -328,6 +388,8 @@ void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_questi
         while (more && question->shape == NH_CLOSED_SHAPE) more = nh_jet_equations_drop_cyclic(c->equations);
     }
     if (!c->equations->obstacle) nh_jet_equations_drop(c->equations, question->idle, question->idle_coordinate);
+    if (turned && question->shape == NH_EVERY_COORDINATE && !question->idle && !c->equations->obstacle)
+        leave_translations(c);
     c->current = nh_alloc_array(question->known + 1, sizeof *c->current);
     c->degree = nh_alloc_array(question->known + 1, sizeof *c->degree);
     c->index = nh_alloc_array(question->known + 1, sizeof *c->index);
@@ -365,7 +427,7 @@ nh_count nh_count_brackets(const nh_model *model, const nh_count_question *quest
 {
     nh_count out = {.generic = question->generic};
     nh_counter c;
-    nh_counter_open(&c, model, question);
+    nh_counter_open(&c, model, question, true);
     out.time = c.equations->time;
     first_point(&c, &out);
     read_frame(&c, &out);
@@ -377,7 +439,7 @@ nh_count nh_count_integrals(const nh_model *model, const nh_count_question *ques
 {
     nh_count out = {.generic = question->generic};
     nh_counter c;
-    nh_counter_open(&c, model, question);
+    nh_counter_open(&c, model, question, true);
     out.time = c.equations->time;
     if (c.equations->obstacle) out.obstacle = c.equations->obstacle;
     else degrees(&c, &out);

@@ -17,13 +17,16 @@ typedef struct {
     bool *named;             /* has named functions, which stand for any solutions of their equations */
     nh_ex *rate;             /* Gamma of these: it must vanish for every such solution */
     bool unnamed;            /* currents with named functions are left out */
+    /* the equations left coordinates out (turned_translations.h), and no integral of this degree is linear in them */
+    bool unextended;
     double work, most; /* products of residues so far, and at most */
 } nh_counter;
 
 enum { NH_COUNT_POINTS = 200 }; /* number of points that are tried */
 
-/* Opens the equations, and those known integrals that can be followed in them; an obstacle is in the equations. */
-void nh_counter_open(nh_counter *counter, const nh_model *model, const nh_count_question *question);
+/* Opens the equations, and those known integrals that can be followed in them; an obstacle is in the equations.
+ * `turned`: coordinates may be left out (turned_translations.h) of which no known integral is a function. */
+void nh_counter_open(nh_counter *counter, const nh_model *model, const nh_count_question *question, bool turned);
 void nh_counter_close(nh_counter *counter);
 
 /* Moves to another point; false: it is singular. */
@@ -127,6 +130,17 @@ bool nh_count_space_add(nh_count_space *rows, nh_prime field, const nh_residue *
 /* The rank of the products up to a degree, at most `bound`, goes to row->known and row->lower.  False as above. */
 bool nh_count_products(nh_counter *counter, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree,
                        size_t bound, nh_count_row *row);
+
+/* Can a solution be linear in coordinates that were left out?  A limit of work says yes.  `state`: of both parities at
+ * this order, or NULL.  False: another point is needed. */
+bool nh_count_extended(nh_counter *counter, const nh_count_series *series, size_t degree, nh_graded_state *state[2],
+                       bool *extended);
+
+/* Whether solutions can be extended, as it was found before within the same limit of work; and keeps it.  The problem
+ * has the rates of what was left out. */
+bool nh_count_recall_extended(const nh_counter *counter, const nh_graded_problem *problem, bool *extended,
+                              double *work);
+void nh_count_remember_extended(nh_counter *counter, const nh_graded_problem *problem, bool extended, double work);
 
 /* Adds the differentials of all solutions, or of the known integrals of any degree. */
 void nh_count_solutions_differ(const nh_graded_count *count, nh_prime field, nh_differentials *d);

@@ -1,13 +1,14 @@
 /* Keeps the solutions of a count: the same equations are asked again whenever more integrals are known. */
 #include <string.h>
 
+#include "base/progress.h"
 #include "count/count_internal.h"
 
 /* Of one parity at one order. */
 typedef struct {
     uint64_t key;
     size_t *total, injective_at, rows; /* rows: differentials of the solutions */
-    bool injective;
+    bool injective, extended;
     nh_residue *row;
     double work;
 } answer;
@@ -58,6 +59,7 @@ static uint64_t key_of(const nh_graded_problem *p, const nh_differentials *d)
     for (size_t i = 0; i < sizeof number / sizeof *number; i++) key = mix(key, number[i]);
     for (size_t k = 0; k < r->variables; k++) key = mix(key, r->weight[k]);
     key = mix_residues(key, p->fields * r->variables * r->size, p->field);
+    key = mix_residues(key, p->left * p->fields * r->size, p->left_rate);
     key = mix_residues(key, p->n * nh_jet_equations_monomials(p->n) * r->size, p->rate);
     return mix_residues(key, d->n, d->w);
 }
@@ -67,6 +69,25 @@ static const answer *recall(const nh_count_memory *m, uint64_t key)
     for (size_t i = 0; m && i < m->count; i++)
         if (m->item[i].key == key) return &m->item[i];
     return NULL;
+}
+
+bool nh_count_recall_extended(const nh_counter *c, const nh_graded_problem *p, bool *extended, double *work)
+{
+    nh_differentials none = {0};
+    const answer *a = recall(c->q->memory, mix(key_of(p, &none), p->left));
+    if (!a || a->work >= p->most_work) return false;
+    *extended = a->extended;
+    *work = a->work;
+    return true;
+}
+
+void nh_count_remember_extended(nh_counter *c, const nh_graded_problem *p, bool extended, double work)
+{
+    nh_differentials none = {0};
+    nh_count_memory *m = c->q->memory;
+    if (!m || nh_late()) return;
+    nh_grow(&m->item, &m->capacity, m->count + 1, sizeof *m->item);
+    m->item[m->count++] = (answer){.key = mix(key_of(p, &none), p->left), .extended = extended, .work = work};
 }
 
 static void remember(nh_count_memory *m, uint64_t key, const nh_graded_count *g, const nh_differentials *d,

@@ -121,7 +121,7 @@ size_t nh_count_relations(const nh_model *model, size_t known, const nh_ex *curr
     nh_counter c;
     size_t relations = 0;
     bool done = false;
-    nh_counter_open(&c, model, &q);
+    nh_counter_open(&c, model, &q, false);
     for (size_t point = 0; point < NH_COUNT_POINTS && !done && !c.equations->obstacle; point++)
         done = nh_count_regular_point(&c, point) && at_point(&c, degree, arena, most, &relations, out);
     nh_counter_close(&c);

@@ -81,6 +81,29 @@ static void lengthen(nh_graded_state *state, const nh_graded_problem *p)
     if (!s->over && 4 * (s->N - s->conditions) <= s->N) nh_graded_substitute_all(s);
 }
 
+size_t nh_graded_state_order(const nh_graded_state *state) { return state->order; }
+
+const nh_residue *nh_graded_state_solutions(nh_graded_state *state, const nh_graded_problem *p, size_t *count,
+                                            size_t *stride, double *work)
+{
+    nh_graded_system *s = &state->s;
+    nh_graded_problem all = *p;
+    double before = s->work;
+    all.keep = true;
+    all.most_work += s->work;
+    s->p = &all;
+    s->r = p->ring;
+    s->k = state->order - 1;
+    nh_graded_substitute_all(s);
+    s->p = p;
+    bool good = !s->over;
+    s->over = false;
+    *work += s->work - before;
+    *count = s->N;
+    *stride = s->stride;
+    return good ? s->row : NULL;
+}
+
 /* The system at its first weight, or at the first that was not solved yet. */
 static nh_graded_state *open_state(const nh_graded_problem *p, nh_graded_state *old, nh_graded_count *out)
 {
@@ -114,11 +137,16 @@ nh_graded_count *nh_graded_continue(const nh_graded_problem *p, nh_graded_state 
     nh_graded_state *state = open_state(p, kept ? *kept : NULL, out);
     nh_graded_system *s = &state->s;
     out->unknowns = s->alphas * s->r->size;
-    for (s->k = state->order; s->k < out->order && !s->over; s->k++) nh_graded_solve_weight(s, out);
+    for (s->k = state->order; s->k < out->order && !s->over; s->k++) {
+        nh_graded_solve_weight(s, out);
+        if (p->left && !nh_graded_is_extended(s)) break; /* more equations do not change that */
+    }
     saved before = {0};
     bool again = kept && !p->keep && !s->over && out->order > 0;
     if (again) before = save(s);
-    if (!s->over) nh_graded_finish(s, out);
+    if (!s->over && !p->left) nh_graded_finish(s, out);
+    if (!s->over && p->left) nh_graded_substitute_all(s);
+    out->extended = nh_graded_is_extended(s);
     out->solved = !s->over;
     out->work = s->work;
     if (again) restore(s, &before);

@@ -51,7 +51,7 @@ static uint64_t code(size_t n, size_t degree, const int *e)
     return c;
 }
 
-static int find_alpha(const nh_graded_system *s, const int *e)
+int nh_graded_find_alpha(const nh_graded_system *s, const int *e)
 {
     size_t n = s->p->n;
     uint64_t wanted = code(n, s->p->degree, e);
@@ -74,7 +74,7 @@ static void add_term(nh_graded_system *s, bool derivative, size_t index, const n
     int *e = nh_alloc_array(n + 1, sizeof *e);
     for (size_t b = 0; b < s->betas; b++) {
         for (size_t i = 0; i < n; i++) e[i] = s->beta[b * n + i] - shift[i];
-        t->alpha[b] = find_alpha(s, e);
+        t->alpha[b] = nh_graded_find_alpha(s, e);
     }
     nh_free(e);
 }
@@ -109,7 +109,7 @@ void nh_graded_list_terms(nh_graded_system *s)
 
 static void more_room(nh_graded_system *s)
 {
-    size_t rows = s->alphas * s->r->size, old = s->stride;
+    size_t rows = s->alphas * s->r->size, all = rows + s->extensions, old = s->stride;
     if (s->N < old) return;
     size_t stride = old ? 2 * old : 64;
     if (stride > s->p->most_parameters) stride = s->p->most_parameters;
@@ -117,10 +117,10 @@ static void more_room(nh_graded_system *s)
         s->over = true;
         return;
     }
-    nh_residue *wider = nh_alloc_array(rows * stride, sizeof *wider),
+    nh_residue *wider = nh_alloc_array(all * stride, sizeof *wider),
                *conditions = nh_alloc_array(s->conditions * stride + 1, sizeof *conditions);
-    for (size_t i = 0; old && i < rows; i++) /* coefficients of higher weights are zero so far and take no memory */
-        if (i % s->r->size < s->r->first[s->k + 2])
+    for (size_t i = 0; old && i < all; i++) /* coefficients of higher weights are zero so far and take no memory */
+        if (i >= rows || i % s->r->size < s->r->first[s->k + 2])
             memcpy(wider + i * stride, s->row + i * old, s->N * sizeof *wider);
     for (size_t i = 0; old && i < s->conditions; i++)
         memcpy(conditions + i * stride, s->condition + i * old, s->reached * sizeof *conditions);
@@ -139,14 +139,7 @@ void nh_graded_parameter(nh_graded_system *s, size_t alpha, size_t exponent)
 
 /* ---- the equations of weight k ---- */
 
-/* The known part of an equation: known coefficients, each times a residue. */
-typedef struct {
-    size_t count, factors, rows; /* factors, rows: room */
-    nh_residue *factor;
-    const nh_residue **row;
-} sum_of_rows;
-
-static void put_row(sum_of_rows *sum, nh_residue factor, const nh_residue *row)
+void nh_graded_sum_add(nh_graded_sum *sum, nh_residue factor, const nh_residue *row)
 {
     nh_grow(&sum->factor, &sum->factors, sum->count + 1, sizeof *sum->factor);
     nh_grow(&sum->row, &sum->rows, sum->count + 1, sizeof *sum->row);
@@ -199,7 +192,7 @@ static void list_products(nh_graded_system *s, size_t from, size_t exponents, pr
 
 /* The equation of beta and the e-th exponent of the weight: its known part, and its entries of the symbol. */
 static void equation(nh_graded_system *s, size_t beta, const size_t *start, const products *all, size_t number,
-                     sum_of_rows *sum)
+                     nh_graded_sum *sum)
 {
     size_t n = s->p->n, exponents = s->r->first[s->k + 1] - s->r->first[s->k];
     sum->count = 0;
@@ -217,11 +210,12 @@ static void equation(nh_graded_system *s, size_t beta, const size_t *start, cons
                 nh_grow(&s->symbol, &s->capacity, s->entries + 1, sizeof *s->symbol);
                 s->symbol[s->entries++] = (nh_graded_entry){(uint32_t)(a * s->unknowns_of + (u - s->first)), v};
             } else {
-                put_row(sum, v, nh_graded_row(s, a, u));
+                nh_graded_sum_add(sum, v, nh_graded_row(s, a, u));
                 s->work += (double)s->N;
             }
         }
     }
+    if (s->extensions) nh_graded_extend(s, beta, s->r->first[s->k] + number % exponents, sum);
     nh_row_sum_add(s->f, s->N, s->known + number * s->N, sum->count, sum->factor, sum->row);
 }
 
@@ -237,7 +231,7 @@ static void equations(nh_graded_system *s)
     s->known = nh_alloc_array(s->equations * s->N + 1, sizeof *s->known);
     s->start = nh_alloc_array(s->equations + 1, sizeof *s->start);
     list_products(s, from, count, &all);
-    sum_of_rows sum = {0};
+    nh_graded_sum sum = {0};
     for (size_t q = 0; q < s->equations && !s->over && !nh_late() && s->work < s->p->most_work; q++) {
         s->start[q] = s->entries;
         equation(s, q / count, all.start + q % count, &all, q, &sum);
@@ -297,6 +291,23 @@ size_t nh_graded_coefficients_left(const nh_graded_system *s, uint32_t *out)
     return jets ? count : last;
 }
 
+/* The row without the parameters that are pivots, for which the conditions stand. */
+typedef struct {
+    size_t columns, rank, kept, among;
+    const size_t *pivot, *from;
+    const nh_residue **condition;
+    nh_residue *factor;
+} substitution;
+
+static void substitute_in(const nh_graded_system *s, const substitution *u, nh_residue *x)
+{
+    for (size_t q = 0; q < u->rank; q++)
+        u->factor[q] = nh_residue_negative(s->f, x[u->columns - 1 - u->pivot[q]]);
+    for (size_t j = 0; j < u->kept; j++) x[j] = x[u->from[j]];
+    memset(x + u->kept, 0, (s->N - u->kept) * sizeof *x);
+    nh_row_sum_add(s->f, u->among, x, u->rank, u->factor, u->condition);
+}
+
 /* Eliminates the parameters that are pivots: each coefficient keeps its entries at the others, plus what its entries at
  * the pivots contribute.  Echelon form in the parameters, the latest first. */
 static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t rank, const size_t *pivots)
@@ -318,14 +329,10 @@ static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t ra
         row[q] = condition + q * among;
         for (size_t j = 0; j < among; j++) condition[q * among + j] = echelon[q * columns + columns - 1 - from[j]];
     }
+    substitution u = {columns, rank, kept, among, pivots, from, row, factor};
     for (size_t a = 0; a < s->alphas; a++)
-        for (size_t i = 0; i < left; i++) {
-            nh_residue *x = nh_graded_row(s, a, exponent[i]);
-            for (size_t q = 0; q < rank; q++) factor[q] = nh_residue_negative(s->f, x[columns - 1 - pivots[q]]);
-            for (size_t j = 0; j < kept; j++) x[j] = x[from[j]];
-            memset(x + kept, 0, (s->N - kept) * sizeof *x);
-            nh_row_sum_add(s->f, among, x, rank, factor, row);
-        }
+        for (size_t i = 0; i < left; i++) substitute_in(s, &u, nh_graded_row(s, a, exponent[i]));
+    for (size_t i = 0; i < s->extensions; i++) substitute_in(s, &u, nh_graded_extension(s, i));
     s->work += (double)s->alphas * (double)left * (double)rank * (double)(among + 1);
     s->N = kept;
     nh_free(row);
@@ -364,7 +371,7 @@ static void use_conditions(nh_graded_system *s)
     size_t rank = nh_residue_matrix_echelon(s->f, count, columns, columns, all, pivot);
     s->work += (double)count * (double)columns * (double)rank;
     s->reached = columns;
-    if (!is_last(s) && (s->p->keep || 4 * (s->N - rank) <= s->N) && may_substitute(s, rank)) {
+    if (!is_last(s) && (s->p->keep || s->extensions || 4 * (s->N - rank) <= s->N) && may_substitute(s, rank)) {
         substitute(s, all, rank, pivot);
         s->conditions = 0;
     } else {
@@ -424,6 +431,7 @@ void nh_graded_start(nh_graded_system *s)
     monomials(p->n, p->degree + 1, other, s->beta);
     nh_graded_list_terms(s);
     if (p->from) start_from(s);
+    nh_graded_extensions_start(s);
     for (size_t a = 0; a < s->alphas && !s->over && !p->from; a++) nh_graded_parameter(s, a, 0);
 }
 

@@ -28,6 +28,9 @@ typedef struct {
     /* solutions of the same problem up to a lower order, to be continued; or 0 of them: start from the point */
     size_t from, from_order, from_size; /* their number; order; coefficients of their series */
     const nh_residue *from_series;      /* alphas x from_size x from */
+    /* Phi + sum_j a_j (a combination of given solutions), for coordinates a_j on which nothing depends; or 0 of them */
+    size_t left, given, stride;
+    const nh_residue *left_rate, *solution; /* left x fields series: a_j'; alphas x size x stride, of which given */
 } nh_graded_problem;
 
 typedef struct {
@@ -41,6 +44,7 @@ typedef struct {
     /* alphas x (1 + variables) x N(order): c_alpha(0) and its derivatives along the coordinates, for every solution */
     nh_residue *jet;
     nh_residue *series;         /* alphas x size x N(order), when they are kept: c_alpha */
+    bool extended;              /* some combination of the a_j times the given solutions can be part of one */
     double work;
     nh_arena *arena;
 } nh_graded_count;
@@ -55,6 +59,12 @@ nh_graded_count *nh_graded_solve(const nh_graded_problem *problem);
 typedef struct nh_graded_state nh_graded_state;
 nh_graded_count *nh_graded_continue(const nh_graded_problem *problem, nh_graded_state **state);
 void nh_graded_state_free(nh_graded_state *state);
+size_t nh_graded_state_order(const nh_graded_state *state);
+
+/* The solutions of the problem that the state comes from: alphas x size x *stride, of which *count.  NULL: beyond its
+ * limit of work.  They are the state's, until it is continued. */
+const nh_residue *nh_graded_state_solutions(nh_graded_state *state, const nh_graded_problem *problem, size_t *count,
+                                            size_t *stride, double *work);
 
 /* Frees what the count holds. */
 void nh_graded_count_clear(nh_graded_count *count);

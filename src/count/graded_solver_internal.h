@@ -19,7 +19,11 @@ typedef struct {
     uint8_t *alpha, *beta;  /* exponents of w */
     struct nh_graded_term *t;
     size_t N, before, stride; /* number of parameters now, and before this weight; room for them in a row */
-    nh_residue *row;        /* alphas x size x stride: every coefficient in terms of the parameters */
+    /* alphas x size x stride: every coefficient in terms of the parameters; then the factors of the a_j times given
+     * solutions (left x given) */
+    nh_residue *row;
+    size_t extensions;      /* their number */
+    bool *moves;            /* left x fields: a_j' is not zero along this field */
     nh_residue *condition;  /* conditions x stride: on the first `reached` parameters; not used yet */
     size_t conditions, reached;
     double work;
@@ -41,6 +45,30 @@ static inline nh_residue *nh_graded_row(const nh_graded_system *s, size_t alpha,
 {
     return s->row + (alpha * s->r->size + exponent) * s->stride;
 }
+
+/* The factor of a product of a_j and a given solution. */
+static inline nh_residue *nh_graded_extension(const nh_graded_system *s, size_t index)
+{
+    return s->row + (s->alphas * s->r->size + index) * s->stride;
+}
+
+/* The known part of an equation: known coefficients, each times a residue. */
+typedef struct {
+    size_t count, factors, rows; /* factors, rows: room */
+    nh_residue *factor;
+    const nh_residue **row;
+} nh_graded_sum;
+void nh_graded_sum_add(nh_graded_sum *sum, nh_residue factor, const nh_residue *row);
+
+/* The alpha whose exponents are these, or -1. */
+int nh_graded_find_alpha(const nh_graded_system *system, const int *exponents);
+
+/* Each product's factor becomes a parameter. */
+void nh_graded_extensions_start(nh_graded_system *system);
+/* Adds sum_j a_j' (given solutions) to the equation of beta and this exponent. */
+void nh_graded_extend(nh_graded_system *system, size_t beta, size_t exponent, nh_graded_sum *sum);
+/* Is a factor left that need not vanish? */
+bool nh_graded_is_extended(const nh_graded_system *system);
 
 /* Makes this coefficient a new parameter. */
 void nh_graded_parameter(nh_graded_system *system, size_t alpha, size_t exponent);

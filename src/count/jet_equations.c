@@ -203,31 +203,62 @@ static void register_again(nh_jet_equations *x)
     x->point = nh_jet_point_create(x->dag);
     if (!nh_jet_point_register(x->point, x->m, x->rho) || !nh_jet_point_register(x->point, x->n * x->n, x->M) ||
         !nh_jet_point_register(x->point, x->n, x->A) ||
-        !nh_jet_point_register(x->point, x->n * nh_jet_equations_monomials(x->n), x->coefficient))
+        !nh_jet_point_register(x->point, x->n * nh_jet_equations_monomials(x->n), x->coefficient) ||
+        !nh_jet_point_register(x->point, x->left, x->left_rate))
         x->obstacle = x->point->obstacle;
     x->products = products(x);
 }
 
-void nh_jet_equations_drop(nh_jet_equations *x, size_t count, const nh_ex *list)
+static void without(nh_jet_equations *x, size_t count, const nh_ex *list, bool rates)
 {
     nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate),
-          *rho = nh_arena_alloc(x->arena, (x->m + 1) * sizeof *rho);
+          *rho = nh_arena_alloc(x->arena, (x->m + 1) * sizeof *rho),
+          *left = nh_arena_alloc(x->arena, (count + 1) * sizeof *left);
     size_t kept = 0;
     if (x->time) coordinate[0] = x->coordinate[0];
     for (size_t s = 0; s < x->m; s++) {
         nh_ex q = x->coordinate[x->time + s];
         bool dropped = false;
         for (size_t i = 0; i < count; i++) dropped |= list[i] == q;
+        if (dropped && rates) left[x->left++] = x->rho[s];
         if (dropped) continue;
         coordinate[x->time + kept] = q;
         rho[kept++] = x->rho[s];
     }
     bool some = kept < x->m;
+    if (rates) x->left_rate = left;
     x->coordinate = coordinate;
     x->rho = rho;
     x->m = kept;
     x->coordinates = kept + x->time;
-    if (some) register_again(x);
+    if (some && !rates) register_again(x);
+}
+
+void nh_jet_equations_drop(nh_jet_equations *x, size_t count, const nh_ex *list) { without(x, count, list, false); }
+
+/* Equations that contain a coordinate without depending on it are shorter without it. */
+static nh_ex *settled(nh_jet_equations *x, size_t n, const nh_ex *e, nh_ex q)
+{
+    nh_ex *own = nh_arena_alloc(x->arena, (n + 1) * sizeof *own), zero = nh_int(x->dag, 0);
+    for (size_t i = 0; i < n; i++) {
+        own[i] = e[i];
+        if (nh_depends(x->dag, e[i], q) && nh_normal_is_zero(x->dag, nh_diff(x->dag, e[i], q), 0) == NH_ZERO)
+            own[i] = nh_canonical(x->dag, nh_substitute(x->dag, e[i], 1, &q, &zero), largest_form);
+    }
+    return own;
+}
+
+void nh_jet_equations_leave(nh_jet_equations *x, size_t count, const nh_ex *list)
+{
+    without(x, count, list, true);
+    for (size_t s = 0; s < x->m; s++) {
+        nh_ex q = x->coordinate[x->time + s];
+        if (!occurs(x, x->left, x->left_rate, q)) continue;
+        x->M = settled(x, x->n * x->n, x->M, q);
+        x->A = settled(x, x->n, x->A, q);
+        x->coefficient = settled(x, x->n * nh_jet_equations_monomials(x->n), x->coefficient, q);
+    }
+    register_again(x);
 }
 
 bool nh_jet_equations_drop_cyclic(nh_jet_equations *x)
@@ -350,6 +381,20 @@ bool nh_jet_equations_fields(nh_jet_equations *x, const nh_jet_ring *ring, const
     nh_free(part);
     nh_jet_eval_free(v);
     return good && !x->obstacle;
+}
+
+bool nh_jet_equations_left(nh_jet_equations *x, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out)
+{
+    nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
+    nh_residue *part = nh_alloc_array((x->n + 1) * x->left * ring->size + 1, sizeof *part);
+    bool good = linear_parts(x, v, ring, x->left, x->left_rate, part);
+    for (size_t a = 0; a < x->left; a++)
+        for (size_t i = 0; i < x->fields; i++)
+            memcpy(out + (a * x->fields + i) * ring->size,
+                   part + ((i < x->n ? 1 + i : 0) * x->left + a) * ring->size, ring->size * sizeof *out);
+    nh_free(part);
+    nh_jet_eval_free(v);
+    return good;
 }
 
 /* ---- accelerations ---- */

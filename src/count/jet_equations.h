@@ -26,6 +26,8 @@ typedef struct {
     nh_ex *rho, *M, *A, *coefficient;
     double products;         /* products of series, about, that they take at a point */
     size_t fields;           /* n, and one more when b is not zero or time is a coordinate */
+    size_t left;             /* cyclic coordinates that were left out, and their rates */
+    const nh_ex *left_rate;
     /* the values of the coordinates at the point, then those of the parameters, which matter when these are
      * indeterminates, and of t when it is no coordinate */
     nh_residue *at;
@@ -43,6 +45,10 @@ void nh_jet_equations_drop(nh_jet_equations *equations, size_t count, const nh_e
 /* Drops the rates of cyclic coordinates: the equations that are left are closed.  False where no coordinate is
  * cyclic. */
 bool nh_jet_equations_drop_cyclic(nh_jet_equations *equations);
+/* The same, but keeps their rates, whose series are written by nh_jet_equations_left: left x fields. */
+void nh_jet_equations_leave(nh_jet_equations *equations, size_t count, const nh_ex *coordinate);
+bool nh_jet_equations_left(nh_jet_equations *equations, const nh_jet_ring *ring, const nh_residue *coordinate,
+                           nh_residue *out);
 /* How often nh_jet_equations_drop_cyclic drops coordinates, which may be cyclic only after others were dropped. */
 size_t nh_jet_equations_cyclic_rounds(const nh_model *model);
 void nh_jet_equations_free(nh_jet_equations *equations);
