@@ -42,7 +42,7 @@
     X(named,            1,      0,      1,     whole, "",         "coefficients without elementary form: 1: named functions (Legendre, Gauss, Bessel, ..) are tried before a series; 0: they are not") \
     X(series_degree,    256,     8,      4096,  whole, "",         "largest degree of a Chebyshev series of a coefficient without closed form; where it needs more, its interval is shorter") \
     X(degree,           0,       0,      12,    whole, "",         "integrals polynomial in the velocities are counted up to this degree; 0: 6 for two coordinates, 4 up to four, 2 for more") \
-    X(count_work,       2e8,     0,      1e15,  real,  "products", "of residues that one count may take; where a bound still falls, five times as many; for --degree, and for the first bound in up to four coordinates, ten times") \
+    X(count_work,       2e8,     0,      1e15,  real,  "products", "of residues that one count may take; where a bound still falls, and for the first bound, five times as many; for --degree, and for the first bound in up to four coordinates, ten times") \
     X(construct,        2e9,     0,      1e15,  real,  "products", "of residues that constructing what one count misses may take; 0: nothing is constructed") \
     X(words,            2000,    1,      20000, whole, "words",    "functions of the coordinates that the coefficients of a missing integral are made of, at most") \
     X(quadrature_length, 400,    10,     1e6,   whole, "symbols",  "longer formulas are not integrated for explicit motions")                \

@@ -276,7 +276,11 @@ static bool grow_to(nh_adapted_frame *x, size_t order, bool corrected, bool *set
     frame_list l;
     frame_list_init(&l, r, all, all);
     bool good = nh_jet_equations_fields(o, r, q, X);
-    *settled = (good && grow(&l, fields, X)) || order == highest_order || r->order < order;
+    *settled = good && grow(&l, fields, X);
+    if (good && !*settled && (order == highest_order || r->order < order)) {
+        o->obstacle = "brackets of the fields that take too long series";
+        good = false;
+    }
     x->kept = l.count;
     x->step = l.count ? l.weight[l.count - 1] : 0;
     memcpy(x->weight, l.weight, l.count * sizeof *x->weight);

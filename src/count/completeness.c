@@ -28,11 +28,11 @@ static bool has_orders(const nh_completeness *c)
     return all;
 }
 
-/* In a few coordinates the highest degree is worth some seconds. */
+/* The degrees that are counted by default are worth some seconds. */
 static double first_work(const nh_model *model, const nh_completeness_question *q, bool time)
 {
-    enum { few_coordinates = 4, times = 10 };
-    return !time && !q->degree && model->m <= few_coordinates ? times * q->work : 0;
+    enum { few_coordinates = 4, times = 10, times_for_many = 5 };
+    return time || q->degree ? 0 : (model->m <= few_coordinates ? times : times_for_many) * q->work;
 }
 
 /* The products of the same currents have to reach the bound for generic parameters, too.  Those that are independent

@@ -9,7 +9,7 @@
 #include "count/turned_translations.h"
 #include "graph/diff.h"
 
-enum { most_parameters = 4000, largest_series = 20000, steps_beyond = 1, many_coordinates = 6 };
+enum { few_steps = 3, most_parameters = 4000, largest_series = 20000, steps_beyond = 1, many_coordinates = 6 };
 /* part of the work for the number of integrals of a degree whose rank is known already */
 static const double least_share = 0.5;
 static const double more_for_open = 5; /* times the work, for a degree whose bound still falls */
@@ -226,7 +226,8 @@ static outcome count_degree(nh_counter *c, size_t degree, const nh_count_row *be
         if (any) c->most = c->q->work;
         if (is_last(c, &row)) break;
         if (row.bounded && !row.functions && c->q->known) c->most = more_for_open * c->q->work;
-        order = (row.bounded && !row.settled ? row.reached : order) + step + steps_beyond;
+        if (!row.bounded) order += step < few_steps ? step + steps_beyond : few_steps;
+        else order = (row.settled ? order : row.reached) + step + steps_beyond;
     }
     nh_graded_state_free(state[0]);
     nh_graded_state_free(state[1]);
