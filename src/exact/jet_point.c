@@ -229,13 +229,23 @@ static nh_residue signed_power(nh_prime f, nh_residue base, int64_t exponent)
     return exponent < 0 ? nh_residue_inverse(f, r) : r;
 }
 
+/* A random residue that depends on the kernel's place in the list: the same whatever is registered behind it, and
+ * whatever is evaluated before. */
+static nh_residue draw(const nh_jet_point *x, const nh_jet_kernel *k, unsigned which)
+{
+    enum { most = 4 };
+    uint64_t state = x->random + most * ((uint64_t)(k - x->kernel) + 1) + which;
+    state = nh_residue_random(x->field, &state) * (state | 1); /* far from those of other kernels and points */
+    return nh_residue_random(x->field, &state);
+}
+
 bool nh_jet_point_root(nh_jet_point *x, nh_ex radicand, nh_residue value, nh_num exponent, nh_residue *out)
 {
     nh_jet_kernel *k = find(x, NH_JET_ROOT, radicand);
     bool fresh = !k->chosen;
     if (fresh && !nh_residue_root(x->field, value, k->order, &k->value)) return false;
     bool turn = fresh && x->conjugates && k->order % 2 == 0 && nh_kind_of(x->dag, radicand) == NH_NUMBER;
-    if (turn && nh_residue_random(x->field, &x->random) % 2 == 0) k->value = nh_residue_negative(x->field, k->value);
+    if (turn && draw(x, k, 0) % 2 == 0) k->value = nh_residue_negative(x->field, k->value);
     k->chosen = true;
     *out = signed_power(x->field, k->value, exponent.p * (int64_t)(k->order / (uint64_t)exponent.q));
     return true;
@@ -245,7 +255,7 @@ bool nh_jet_point_root(nh_jet_point *x, nh_ex radicand, nh_residue value, nh_num
 static bool choose_angle(nh_jet_point *x, nh_jet_kernel *k)
 {
     nh_prime f = x->field;
-    nh_residue u = nh_residue_random(f, &x->random), square = nh_residue_mul(f, u, u),
+    nh_residue u = draw(x, k, 0), square = nh_residue_mul(f, u, u),
                bottom = nh_residue_add(f, 1, square);
     if (!bottom) return false;
     nh_residue inverse = nh_residue_inverse(f, bottom);
@@ -295,7 +305,7 @@ bool nh_jet_point_exponential(nh_jet_point *x, nh_ex argument, nh_residue *out)
     for (size_t i = 0; i < parts.count; i++) {
         nh_jet_kernel *k = find(x, NH_JET_EXPONENTIAL, parts.item[i].atom);
         nh_num c = parts.item[i].coefficient;
-        if (!k->chosen) k->value = nh_residue_random(x->field, &x->random), k->chosen = true;
+        if (!k->chosen) k->value = draw(x, k, 0), k->chosen = true;
         *out =
             nh_residue_mul(x->field, *out, signed_power(x->field, k->value, c.p * (int64_t)(k->order / (uint64_t)c.q)));
     }
@@ -306,7 +316,7 @@ bool nh_jet_point_exponential(nh_jet_point *x, nh_ex argument, nh_residue *out)
 nh_residue nh_jet_point_free_value(nh_jet_point *x, nh_ex primitive)
 {
     nh_jet_kernel *k = find(x, NH_JET_FREE, primitive);
-    if (!k->chosen) k->value = nh_residue_random(x->field, &x->random), k->chosen = true;
+    if (!k->chosen) k->value = draw(x, k, 0), k->chosen = true;
     return k->value;
 }
 
@@ -315,7 +325,6 @@ const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *x, nh_ex f)
     nh_jet_kernel *k = find(x, NH_JET_FIRST_ORDER, f);
     if (!k) k = find(x, NH_JET_SOLUTION, base_of(x->dag, f));
     if (!k->chosen)
-        k->value = nh_residue_random(x->field, &x->random), k->sine = nh_residue_random(x->field, &x->random),
-        k->chosen = true;
+        k->value = draw(x, k, 0), k->sine = draw(x, k, 1), k->chosen = true;
     return k;
 }

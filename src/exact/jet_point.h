@@ -51,7 +51,7 @@ typedef struct {
 typedef struct {
     nh_dag *dag;
     nh_prime field;
-    uint64_t random;
+    uint64_t random;        /* the seed of this point */
     nh_jet_table spare;     /* of an evaluation that ended: graphs are large, and few of their nodes are needed */
     nh_jet_kernel *kernel;
     size_t kernels, capacity;
