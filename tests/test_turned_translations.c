@@ -36,6 +36,16 @@ static const char COUNTER[] = HEAD("phi, psi, x, y", "w, u") "    - phi' = w\n  
 /* The wheel is on a spring: what turns the plane moves from one leaf to another. */
 static const char SPRING[] = HEAD("phi, psi, x, y", "w, u") "    - phi' = w\n    - psi' = w\n" PLANAR
     "constraints: [\"y'*cos(phi) = x'*sin(phi)\", \"psi' = phi'\"]\nlagrangian: " KINETIC " + psi'^2 - psi^2/2\n";
+/* Without velocities of the user's own: x', which is turned into y' = x' tan(phi), or into one of two free rates. */
+static const char PLAIN[] = "name: turned\ncoordinates: [phi, x, y]\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
+    "lagrangian: " KINETIC " + phi'*(y'*cos(phi) - x'*sin(phi)) + phi'^2\n";
+static const char LINKS[] = "name: turned\ncoordinates: [x, y, phi, psi]\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
+    "lagrangian: " KINETIC " + psi'^2/2 + ((x' - phi'*sin(phi) - psi'*sin(psi))^2 + (y' + phi'*cos(phi) + psi'*cos(psi))^2)/2\n";
+/* A wheel that rolls upright, with a mass on a spring beside it. */
+static const char BESIDE[] = "name: turned\ncoordinates: [x, y, phi, q]\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
+    "lagrangian: " KINETIC " + ((x' - q'*sin(phi) - q*phi'*cos(phi))^2 + (y' + q'*cos(phi) - q*phi'*sin(phi))^2)/2 - q^2\n";
+/* It is heavier northwards: nothing turns. */
+static const char HEAVY[] = "name: turned\ncoordinates: [phi, x, y]\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\nlagrangian: " KINETIC " + y'^2\n";
 /* A north. */
 static const char COMPASS[] = HEAD("phi, x, y", "w, u") "    - phi' = w\n" PLANAR
     "constraints: [\"y'*cos(phi) = x'*sin(phi)\"]\nlagrangian: " KINETIC " + cos(phi)\n";
@@ -68,7 +78,7 @@ static size_t left_by(const char *text, bool time)
 
 Test(turned_translations, are_found)
 {
-    static const char *const TEXT[] = {SLEIGH, SHEARED, TRAILER, COUNTER, WHEEL};
+    static const char *const TEXT[] = {SLEIGH, SHEARED, TRAILER, COUNTER, WHEEL, PLAIN, LINKS, BESIDE};
     for (size_t i = 0; i < sizeof TEXT / sizeof *TEXT; i++)
         for (int time = 0; time < 2; time++) cr_expect_eq(left_by(TEXT[i], time), 2, "%s", TEXT[i]);
     cr_expect_eq(left_by(HYPERBOLIC, false), 1);
@@ -76,7 +86,7 @@ Test(turned_translations, are_found)
 
 Test(turned_translations, need_a_symmetry_that_turns_them_on_the_leaf)
 {
-    static const char *const TEXT[] = {SPRING, COMPASS, SLOPE};
+    static const char *const TEXT[] = {SPRING, COMPASS, SLOPE, HEAVY};
     for (size_t i = 0; i < sizeof TEXT / sizeof *TEXT; i++) cr_expect_eq(left_by(TEXT[i], false), 0, "%s", TEXT[i]);
 }
 
@@ -105,9 +115,11 @@ static void same_number(const char *text, bool time, size_t degree)
 
 Test(turned_translations, do_not_change_the_number)
 {
-    static const char *const TEXT[] = {SLEIGH, SHEARED, TRAILER, COUNTER, WHEEL, HYPERBOLIC};
+    static const char *const TEXT[] = {SLEIGH, SHEARED, TRAILER, COUNTER, WHEEL, HYPERBOLIC, PLAIN, BESIDE};
     for (size_t i = 0; i < sizeof TEXT / sizeof *TEXT; i++) same_number(TEXT[i], false, 3);
+    same_number(LINKS, false, 2);
     same_number(SLEIGH, true, 2);
+    same_number(PLAIN, true, 2);
     same_number(WHEEL, true, 2);
 }
 
