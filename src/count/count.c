@@ -11,7 +11,7 @@
 
 enum { few_steps = 3, most_parameters = 4000, largest_series = 20000, steps_beyond = 1, many_coordinates = 6 };
 /* part of the work for the number of integrals of a degree whose rank is known already */
-static const double least_share = 0.5;
+static const double least_share = 0.25;
 static const double more_for_open = 5; /* times the work, for a degree whose bound still falls */
 
 /* ---- the number ---- */
