@@ -129,6 +129,7 @@ Test(turned_translations, integrals_linear_in_what_was_left_out_are_counted)
     nh_system *s = system_of(HYPERBOLIC);
     nh_model *o = model_of(s);
     nh_count c = count_of(o, false, 3, false);
+    cr_expect_eq(c.without, 0); /* all coordinates were taken in the end */
     static const size_t BOUND[] = {4, 10, 20};
     for (size_t d = 0; d < 3; d++) cr_expect_eq(c.row[d].bound, BOUND[d], "degree %zu: %zu", d + 1, c.row[d].bound);
     nh_model_free(o);
@@ -146,6 +147,9 @@ Test(turned_translations, make_the_series_shorter)
     cr_expect_eq(c.equations->left, 2);
     cr_expect_eq(c.equations->m, 2);
     nh_counter_close(&c);
+    nh_count counted = count_of(o, false, 2, false);
+    cr_expect_eq(counted.without, 2);
+    cr_expect(!strcmp(counted.without_name[0], "x") && !strcmp(counted.without_name[1], "y"));
     nh_model_free(o);
     nh_system_free(s);
 }

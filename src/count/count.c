@@ -262,6 +262,11 @@ static void read_frame(const nh_counter *c, nh_count *out)
     out->step = c->frame->step;
     for (size_t j = 0; j < c->frame->kept; j++) out->weights += c->frame->weight[j];
     out->leaf = c->frame->all - c->frame->kept;
+    const nh_jet_equations *x = c->equations;
+    const char **name = nh_arena_alloc(x->model->arena, (x->left + 1) * sizeof *name);
+    for (size_t i = 0; i < x->left; i++) name[i] = nh_name_of(x->dag, x->left_coordinate[i]);
+    out->without = x->left;
+    out->without_name = name;
 }
 
 /* Starts again in all coordinates. */

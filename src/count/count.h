@@ -48,6 +48,8 @@ typedef struct {
      * order 0; 0: none */
     size_t linear;
     size_t leaf;            /* coordinates across the leaves of integrable constraints */
+    size_t without;         /* so many coordinates were left out, because no integral of the last degree depends on them */
+    const char *const *without_name;
     uint64_t prime;
     double work;            /* work so far in products of residues, about */
     /* "for x > 0 and y < 0": the equations are defined piece by piece and were counted on this side; NULL:

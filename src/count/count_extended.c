@@ -1,8 +1,8 @@
 /* Integrals that are linear in coordinates that were left out. */
 #include "count/count_internal.h"
 
-/* The solutions of one parity, and whether they can be extended. */
-static bool search(nh_graded_problem p, nh_graded_state *state, double *work)
+/* The solutions of one parity, and whether they can be extended; `certain`: no limit was reached. */
+static bool search(nh_graded_problem p, nh_graded_state *state, double *work, bool *certain)
 {
     nh_graded_problem without = p;
     nh_graded_count *g = NULL;
@@ -17,10 +17,12 @@ static bool search(nh_graded_problem p, nh_graded_state *state, double *work)
         *work += g->work;
     }
     bool found = !p.solution;
+    *certain = !found;
     if (p.solution && p.given) {
         p.most_work -= *work;
         nh_graded_count *more = nh_graded_solve(&p);
         found = !more->solved || more->extended;
+        *certain = more->solved;
         *work += more->work;
         nh_graded_count_clear(more);
     }
@@ -30,11 +32,11 @@ static bool search(nh_graded_problem p, nh_graded_state *state, double *work)
 
 static bool extended(nh_counter *c, const nh_graded_problem *p, nh_graded_state *state)
 {
-    bool found;
+    bool found, certain;
     double work = 0;
     if (!nh_count_recall_extended(c, p, &found, &work)) {
-        found = search(*p, state, &work);
-        nh_count_remember_extended(c, p, found, work);
+        found = search(*p, state, &work, &certain);
+        if (certain) nh_count_remember_extended(c, p, found, work);
     }
     c->work += work;
     return found;

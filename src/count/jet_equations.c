@@ -213,20 +213,20 @@ static void without(nh_jet_equations *x, size_t count, const nh_ex *list, bool r
 {
     nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate),
           *rho = nh_arena_alloc(x->arena, (x->m + 1) * sizeof *rho),
-          *left = nh_arena_alloc(x->arena, (count + 1) * sizeof *left);
+          *left = nh_arena_alloc(x->arena, (2 * count + 1) * sizeof *left), *left_rate = left + count;
     size_t kept = 0;
     if (x->time) coordinate[0] = x->coordinate[0];
     for (size_t s = 0; s < x->m; s++) {
         nh_ex q = x->coordinate[x->time + s];
         bool dropped = false;
         for (size_t i = 0; i < count; i++) dropped |= list[i] == q;
-        if (dropped && rates) left[x->left++] = x->rho[s];
+        if (dropped && rates) left[x->left] = q, left_rate[x->left++] = x->rho[s];
         if (dropped) continue;
         coordinate[x->time + kept] = q;
         rho[kept++] = x->rho[s];
     }
     bool some = kept < x->m;
-    if (rates) x->left_rate = left;
+    if (rates) x->left_coordinate = left, x->left_rate = left_rate;
     x->coordinate = coordinate;
     x->rho = rho;
     x->m = kept;

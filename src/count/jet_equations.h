@@ -27,7 +27,7 @@ typedef struct {
     double products;         /* products of series, about, that they take at a point */
     size_t fields;           /* n, and one more when b is not zero or time is a coordinate */
     size_t left;             /* cyclic coordinates that were left out, and their rates */
-    const nh_ex *left_rate;
+    const nh_ex *left_coordinate, *left_rate;
     /* the values of the coordinates at the point, then those of the parameters, which matter when these are
      * indeterminates, and of t when it is no coordinate */
     nh_residue *at;

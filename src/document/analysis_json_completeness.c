@@ -64,6 +64,8 @@ static nh_json *put_count(nh_json *to, const char *key, const nh_completeness *c
                                               : "for these values");
     nh_json_put_number(item, "step", (double)c->count.step);
     nh_json_put_number(item, "leaf", (double)c->count.leaf);
+    nh_json *without = nh_json_put_array(item, "without");
+    for (size_t i = 0; i < c->count.without; i++) nh_json_add_text(without, c->count.without_name[i]);
     if (c->missing_at) nh_json_put_number(item, "missing_at", (double)c->missing_at);
     else nh_json_put_null(item, "missing_at");
     nh_json_put_number(item, "missing", (double)c->missing);
