@@ -52,7 +52,9 @@ static bool holds_generically(const nh_model *model, const nh_completeness_quest
                                   .current = q->current};
     if (c->linear && has_orders(c)) {
         nh_count brackets = nh_count_brackets(model, &question);
-        if (!brackets.obstacle && brackets.weights == c->count.weights && brackets.leaf == c->count.leaf) return true;
+        if (!brackets.obstacle && brackets.weights == c->count.weights && brackets.leaf == c->count.leaf &&
+            brackets.without == c->count.without)
+            return true;
     }
     nh_completeness generic = {.count = nh_count_integrals(model, &question)};
     read_rows(&generic, q->all);
