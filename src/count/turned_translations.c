@@ -182,14 +182,16 @@ static bool sample_at_point(algebra *g, uint64_t *random)
     return good;
 }
 
-/* False: no points were found. */
+/* False: no points were found, or the linear system is too large, with more than about ten cyclic coordinates. */
 static bool sample(algebra *g)
 {
+    enum { largest = 300000 };
     nh_jet_equations *x = g->x;
     size_t taken = 0, equations = g->m + g->n * g->n + g->n;
     uint64_t random = 161803;
     g->field = nh_jet_point_prime(x->point, 0);
     g->unknowns = g->cyclic * g->cyclic + g->m;
+    if (samples * equations * g->unknowns > largest) return false;
     g->row = nh_arena_alloc(g->arena, (samples * equations * g->unknowns + 1) * sizeof *g->row);
     for (size_t a = 0; a < attempts && taken < points && !x->obstacle; a++) {
         nh_jet_equations_choose(x, g->field, 31 + a);
