@@ -239,7 +239,7 @@ static void look(nh_analysis *r)
 void nh_missing_count(nh_analysis *r, bool construct)
 {
     if (!r->counted) r->counted = nh_count_memory_create();
-    count(r, 0, construct ? 1 : 2); /* of degree two the symmetries of an ansatz are told */
+    count(r, 0, construct ? 1 : 2); /* with an ansatz the report gives the number of integrals of degree two as well */
     bool wanted = is_missing(r) || lacks_further(r) || r->postponed;
     if (construct && r->options.construct > 0 && wanted && !nh_late()) look(r);
     if (construct || r->options.degree) count_the_rest(r);
