@@ -1,11 +1,14 @@
 /* Cyclic coordinates that the count leaves out: which they are, and that the number of integrals stays the same. */
 #include <criterion/criterion.h>
+#include <glob.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "count/count_internal.h"
 #include "count/turned_translations.h"
 #include "names.h"
+#include "sweep.h"
 
 static nh_model *model_of(nh_system *s)
 {
@@ -63,7 +66,7 @@ static size_t left_by(const char *text, bool time)
     nh_system *s = system_of(text);
     nh_model *o = model_of(s);
     nh_jet_equations *x = nh_jet_equations_create(o, time, false);
-    nh_ex out[8];
+    nh_ex out[32];
     cr_assert_null(x->obstacle, "%s", x->obstacle);
     size_t count = nh_turned_translations(x, out);
     for (size_t i = 0; i < count; i++) {
@@ -152,4 +155,47 @@ Test(turned_translations, make_the_series_shorter)
     cr_expect(!strcmp(counted.without_name[0], "x") && !strcmp(counted.without_name[1], "y"));
     nh_model_free(o);
     nh_system_free(s);
+}
+
+/* The limit for the size of the linear system for symmetries: 24 free particles would have 600 unknowns. */
+Test(turned_translations, are_not_sought_where_the_system_is_too_large)
+{
+    char coordinates[256] = "x0", lagrangian[512] = "x0'^2/2", text[1024];
+    for (int i = 1; i < 24; i++) {
+        snprintf(coordinates + strlen(coordinates), sizeof coordinates - strlen(coordinates), ", x%d", i);
+        snprintf(lagrangian + strlen(lagrangian), sizeof lagrangian - strlen(lagrangian), " + x%d'^2/2", i);
+    }
+    snprintf(text, sizeof text, "name: free\ncoordinates: [%s]\nlagrangian: %s\n", coordinates, lagrangian);
+    cr_expect_eq(left_by(text, false), 0);
+}
+
+/* Shipped systems that leave coordinates out, counted with and without them. */
+Test(turned_translations, sweep_the_numbers_of_shipped_systems_stay_the_same, WHOLE_ONLY)
+{
+    glob_t files;
+    size_t compared = 0;
+    cr_assert_eq(glob("systems/*.yaml", 0, NULL, &files), 0);
+    for (size_t i = 0; i < files.gl_pathc; i++) {
+        nh_error error = {0};
+        nh_system *s = nh_system_read(files.gl_pathv[i], 0, NULL, &error);
+        cr_assert_not_null(s, "%s", error.what);
+        nh_model *o = model_of(s);
+        for (int time = 0; time < 2; time++) {
+            nh_count_question q = {.time = time, .degree = 2, .work = 3e8};
+            nh_count with = nh_count_integrals(o, &q);
+            nh_ex left;
+            if (with.obstacle || !with.without) continue;
+            cr_assert(nh_symbol_find(o->dag, with.without_name[0], &left));
+            q.known = 1;
+            q.current = &left;
+            nh_count every = nh_count_integrals(o, &q);
+            for (size_t d = 0; d < with.rows && d < every.rows; d++, compared++) /* more orders may only lower a number */
+                cr_expect(with.row[d].bound == every.row[d].bound || !with.row[d].settled || !every.row[d].settled,
+                          "%s, degree %zu: %zu and %zu", files.gl_pathv[i], d + 1, with.row[d].bound, every.row[d].bound);
+        }
+        nh_model_free(o);
+        nh_system_free(s);
+    }
+    cr_expect_geq(compared, 20, "%zu", compared);
+    globfree(&files);
 }
