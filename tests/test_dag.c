@@ -440,6 +440,68 @@ Test(dag, is_copied_for_each_thread)
     nh_dag_free(d);
 }
 
+typedef struct {
+    nh_dag *original, *copy[4];
+    nh_ex e[4][3];
+} brought;
+
+static void make_and_keep(size_t index, void *context)
+{
+    brought *b = context;
+    nh_dag *d = b->copy[index] = nh_dag_copy(b->original);
+    char text[80];
+    snprintf(text, sizeof text, "%zu*z%zu*exp(x)/(3 + x^2)^(1/3) - 1/7*atan2(x, w)", index + 2, index);
+    b->e[index][0] = parsed(d, text);
+    b->e[index][1] = parsed(d, "sin(x)^2/(1 + x)");
+    b->e[index][2] = nh_mul(d, nh_pow(d, nh_number(d, nh_num_decimal(0.1)), nh_symbol(d, "x")), b->e[index][0]);
+}
+
+/* Expressions of copies in the graph that these were made from: as if they had been made there; what it had is the
+ * same, whatever it has made since. */
+Test(dag, expressions_of_copies_are_brought_back)
+{
+    brought b = {.original = nh_dag_create()};
+    nh_dag *d = b.original;
+    nh_ex x = nh_symbol(d, "x"), e = parsed(d, "sin(x)^2/(1 + x)");
+    nh_symbol(d, "w");
+    for (size_t i = 0; i < 4; i++) {
+        char name[8];
+        snprintf(name, sizeof name, "z%zu", i);
+        nh_symbol(d, name);
+    }
+    nh_parallel(4, 2, make_and_keep, &b);
+    parsed(d, "w^5 - tan(x)");
+    for (size_t i = 0; i < 4; i++) {
+        char text[80], *there = nh_print_string(b.copy[i], b.e[i][0]), *here;
+        nh_dag_bring(d, b.copy[i], 3, b.e[i]);
+        nh_dag_free(b.copy[i]);
+        snprintf(text, sizeof text, "%zu*z%zu*exp(x)/(3 + x^2)^(1/3) - 1/7*atan2(x, w)", i + 2, i);
+        here = nh_print_string(d, b.e[i][0]);
+        cr_expect_eq(b.e[i][0], parsed(d, text), "%s", text);
+        cr_expect_eq(b.e[i][1], e);
+        cr_expect_eq(b.e[i][2], nh_mul(d, nh_pow(d, nh_ratio(d, 1, 10), x), b.e[i][0]));
+        cr_expect_str_eq(here, there);
+        nh_free(here);
+        nh_free(there);
+    }
+    nh_dag_free(d);
+}
+
+/* A symbol that was made in a copy is a new one, the same in all expressions that are brought together. */
+Test(dag, new_symbols_of_copies_stay_apart)
+{
+    nh_dag *d = nh_dag_create(), *copy = nh_dag_copy(d);
+    nh_ex own = nh_symbol_fresh(copy, "C"), e[2] = {nh_mul(copy, own, nh_int(copy, 5)), nh_call(copy, NH_SIN, own)},
+          other = nh_symbol_fresh(d, "C");
+    nh_dag_bring(d, copy, 2, e);
+    nh_dag_free(copy);
+    nh_ex C = nh_child(d, e[1], 0);
+    cr_expect_eq(e[0], nh_mul(d, nh_int(d, 5), C));
+    cr_expect_neq(C, other);
+    cr_expect_str_eq(nh_name_of(d, C), "C");
+    nh_dag_free(d);
+}
+
 static void look(size_t index, void *worker) { ((unsigned long *)worker)[index] = nh_parallel_worker(); }
 
 /* A sanitized build ends where an expression is made there. */

@@ -32,9 +32,10 @@ nh_dag *nh_dag_copy(const nh_dag *dag)
 {
     nh_dag *c = nh_alloc(sizeof *c);
     *c = *dag;
+    c->copied = dag->node_count;
     c->worker = nh_parallel_worker();
-    c->node = copied(dag->node, c->node_capacity = dag->node_count, sizeof *c->node);
-    c->arg = copied(dag->arg, c->arg_capacity = dag->arg_count, sizeof *c->arg);
+    c->all.node = copied(dag->all.node, c->node_capacity = dag->node_count, sizeof *c->all.node);
+    c->all.arg = copied(dag->all.arg, c->arg_capacity = dag->arg_count, sizeof *c->all.arg);
     c->bucket = copied(dag->bucket, dag->bucket_count, sizeof *c->bucket);
     c->name = copied(dag->name, c->name_capacity = dag->name_count, sizeof *c->name);
     c->memo = copied(dag->memo, dag->memo_capacity, sizeof *c->memo);
@@ -50,8 +51,8 @@ nh_dag *nh_dag_copy(const nh_dag *dag)
 void nh_dag_free(nh_dag *dag)
 {
     if (!dag) return;
-    nh_free(dag->node);
-    nh_free(dag->arg);
+    nh_free(dag->all.node);
+    nh_free(dag->all.arg);
     nh_free(dag->bucket);
     nh_free(dag->name);
     nh_free(dag->memo);
@@ -87,8 +88,8 @@ static void rehash(nh_dag *dag)
     dag->bucket_count *= 2;
     memset(dag->bucket, 0, dag->bucket_count * sizeof *dag->bucket);
     for (uint32_t i = 0; i < dag->node_count; i++) {
-        uint32_t *head = &dag->bucket[dag->node[i].hash & (dag->bucket_count - 1)];
-        dag->node[i].next = *head;
+        uint32_t *head = &dag->bucket[dag->all.node[i].hash & (dag->bucket_count - 1)];
+        dag->all.node[i].next = *head;
         *head = i + 1;
     }
 }
@@ -99,7 +100,7 @@ static uint64_t mask_of(const nh_dag *dag, unsigned kind, size_t count, const ui
     if (kind == NH_NUMBER) return 0;
     if (kind == NH_SYMBOL) return (uint64_t)1 << (arg[0] % 64);
     uint64_t mask = 0;
-    for (size_t i = 0; i < count; i++) mask |= dag->node[arg[i]].mask;
+    for (size_t i = 0; i < count; i++) mask |= dag->all.node[arg[i]].mask;
     return mask;
 }
 
@@ -109,22 +110,22 @@ nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const
     if (NH_CHECKED && dag->worker != nh_parallel_worker()) abort();
     nh_work_add(NH_WORK_NODE, 1);
     uint64_t hash = hash_of(kind, op, count, arg);
-    for (uint32_t i = dag->bucket[hash & (dag->bucket_count - 1)]; i; i = dag->node[i - 1].next) {
-        const nh_node *n = &dag->node[i - 1];
+    for (uint32_t i = dag->bucket[hash & (dag->bucket_count - 1)]; i; i = dag->all.node[i - 1].next) {
+        const nh_node *n = &dag->all.node[i - 1];
         if (n->hash == hash && n->kind == kind && n->op == op && n->count == count
-            && (count == 0 || !memcmp(dag->arg + n->first, arg, count * sizeof *arg)))
+            && (count == 0 || !memcmp(dag->all.arg + n->first, arg, count * sizeof *arg)))
             return i - 1;
     }
     /* the graph is full */
     if (dag->node_count >= UINT32_MAX - 1 || dag->arg_count + count > UINT32_MAX) nh_alloc(SIZE_MAX);
     if (dag->node_count >= dag->bucket_count) rehash(dag);
-    nh_grow(&dag->node, &dag->node_capacity, dag->node_count + 1, sizeof *dag->node);
-    nh_grow(&dag->arg, &dag->arg_capacity, dag->arg_count + count, sizeof *dag->arg);
+    nh_grow(&dag->all.node, &dag->node_capacity, dag->node_count + 1, sizeof *dag->all.node);
+    nh_grow(&dag->all.arg, &dag->arg_capacity, dag->arg_count + count, sizeof *dag->all.arg);
     uint32_t self = (uint32_t)dag->node_count++;
-    nh_node *n = &dag->node[self];
+    nh_node *n = &dag->all.node[self];
     *n = (nh_node){.kind = (uint8_t)kind, .op = (uint8_t)op, .count = (uint32_t)count,
                    .first = (uint32_t)dag->arg_count, .hash = hash};
-    if (count) memcpy(dag->arg + dag->arg_count, arg, count * sizeof *arg);
+    if (count) memcpy(dag->all.arg + dag->arg_count, arg, count * sizeof *arg);
     dag->arg_count += count;
     /* Children of numbers and symbols are table indices, not nodes. */
     n->mask = mask_of(dag, kind, count, arg);
@@ -167,16 +168,6 @@ nh_ex nh_number(nh_dag *dag, nh_num value)
     return nh_dag_intern(dag, NH_NUMBER, 0, 6, word);
 }
 
-nh_num nh_number_of(const nh_dag *dag, nh_ex e)
-{
-    const uint32_t *word = dag->arg + dag->node[e].first;
-    nh_num value;
-    memcpy(&value.p, word, 8);
-    memcpy(&value.q, word + 2, 8);
-    memcpy(&value.d, word + 4, 8);
-    return value;
-}
-
 nh_ex nh_int(nh_dag *dag, int64_t value) { return nh_number(dag, nh_num_int(value)); }
 nh_ex nh_ratio(nh_dag *dag, int64_t p, int64_t q) { return nh_number(dag, nh_num_ratio(p, q)); }
 nh_ex nh_real(nh_dag *dag, double value) { return nh_number(dag, nh_num_real(value)); }
@@ -209,41 +200,13 @@ nh_ex nh_symbol(nh_dag *dag, const char *name)
 
 nh_ex nh_symbol_fresh(nh_dag *dag, const char *name) { return new_symbol(dag, name, true); }
 
-const char *nh_name_of(const nh_dag *dag, nh_ex e) { return dag->name[dag->arg[dag->node[e].first]].text; }
+const char *nh_name_of(const nh_dag *dag, nh_ex e) { return dag->name[dag->all.arg[dag->all.node[e].first]].text; }
 
 /* ---- looking ---- */
 
-nh_kind nh_kind_of(const nh_dag *dag, nh_ex e) { return (nh_kind)dag->node[e].kind; }
-nh_function nh_function_of(const nh_dag *dag, nh_ex e) { return (nh_function)dag->node[e].op; }
-
-/* Sums are stored as [constant, term, coefficient, ...], products as [coefficient, base, exponent, ...]. */
-size_t nh_arity(const nh_dag *dag, nh_ex e)
-{
-    const nh_node *n = &dag->node[e];
-    if (n->kind == NH_FUNCTION) return n->count;
-    return n->kind == NH_SUM || n->kind == NH_PRODUCT ? n->count / 2 : 0;
-}
-
-nh_num nh_constant_of(const nh_dag *dag, nh_ex e) { return nh_number_of(dag, dag->arg[dag->node[e].first]); }
-
-nh_ex nh_child(const nh_dag *dag, nh_ex e, size_t i)
-{
-    const nh_node *n = &dag->node[e];
-    return dag->arg[n->first + (n->kind == NH_FUNCTION ? i : 1 + 2 * i)];
-}
-
-nh_num nh_coefficient_of(const nh_dag *dag, nh_ex e, size_t i)
-{
-    return nh_number_of(dag, dag->arg[dag->node[e].first + 2 + 2 * i]);
-}
-
-nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i) { return dag->arg[dag->node[e].first + 2 + 2 * i]; }
-
-bool nh_is_zero(const nh_dag *dag, nh_ex e) { return nh_is_number(dag, e, 0); }
-
 bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value)
 {
-    return dag->node[e].kind == NH_NUMBER && nh_num_is(nh_number_of(dag, e), value);
+    return dag->all.node[e].kind == NH_NUMBER && nh_num_is(nh_number_of(dag, e), value);
 }
 
 /* The indices of all nodes below `e`, each once, children first. */
@@ -288,8 +251,8 @@ size_t nh_nodes_in(const nh_dag *dag, size_t n, const nh_ex *e, nh_ex **out)
     found_nodes f = {0};
     for (size_t k = 0; k < n; k++) discover(&f, e[k]);
     for (size_t i = 0; i < f.count; i++) {
-        const nh_node *at = &dag->node[f.node[i]];
-        for (uint32_t j = 0; at->kind > NH_SYMBOL && j < at->count; j++) discover(&f, dag->arg[at->first + j]);
+        const nh_node *at = &dag->all.node[f.node[i]];
+        for (uint32_t j = 0; at->kind > NH_SYMBOL && j < at->count; j++) discover(&f, dag->all.arg[at->first + j]);
     }
     /* children have smaller indices than their parents */
     if (f.count) qsort(f.node, f.count, sizeof *f.node, ascending);
@@ -302,8 +265,8 @@ size_t nh_nodes_in(const nh_dag *dag, size_t n, const nh_ex *e, nh_ex **out)
 bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol)
 {
     if (e == symbol) return true;
-    if (e < symbol || !(dag->node[e].mask & dag->node[symbol].mask)) return false;
-    if (dag->node[e].kind <= NH_SYMBOL) return false;
+    if (e < symbol || !(dag->all.node[e].mask & dag->all.node[symbol].mask)) return false;
+    if (dag->all.node[e].kind <= NH_SYMBOL) return false;
     if (dag->name_count <= 64) return true;
     uint32_t *node;
     size_t count = nh_nodes_in(dag, 1, &e, &node);
@@ -318,7 +281,7 @@ static size_t of_kind(const nh_dag *dag, nh_ex e, nh_kind kind, nh_ex *out, size
     uint32_t *node;
     size_t count = nh_nodes_in(dag, 1, &e, &node), found = 0;
     for (size_t i = 0; i < count; i++) {
-        if (dag->node[node[i]].kind != kind) continue;
+        if (dag->all.node[node[i]].kind != kind) continue;
         if (found < max) out[found] = node[i];
         found++;
     }
@@ -346,7 +309,7 @@ size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
     uint32_t *node;
     size_t count = nh_nodes_in(dag, 1, &e, &node), found = 0;
     for (size_t i = 0; i < count; i++)
-        for (size_t k = 0; dag->node[node[i]].kind == NH_PRODUCT && k < nh_arity(dag, node[i]); k++) {
+        for (size_t k = 0; dag->all.node[node[i]].kind == NH_PRODUCT && k < nh_arity(dag, node[i]); k++) {
             nh_ex base = nh_child(dag, node[i], k), power = nh_exponent_of(dag, node[i], k);
             bool half = nh_kind_of(dag, power) == NH_NUMBER && nh_num_short(nh_number_of(dag, power)) &&
                         nh_number_of(dag, power).q == 2;
@@ -367,28 +330,48 @@ size_t nh_node_count(const nh_dag *dag, nh_ex e)
 
 /* ---- substitution ---- */
 
-static nh_ex rebuild(nh_dag *dag, nh_ex e, const nh_ex *image)
+/* The expression e of `from` with images in `dag` for its parts. */
+static nh_ex rebuild_in(nh_dag *dag, const nh_dag *from, nh_ex e, const nh_ex *image)
 {
-    nh_kind kind = nh_kind_of(dag, e);
-    size_t n = nh_arity(dag, e);
+    nh_kind kind = nh_kind_of(from, e);
+    size_t n = nh_arity(from, e);
     if (kind == NH_FUNCTION) {
         nh_ex argument[NH_MOST_ARGUMENTS];
-        for (size_t i = 0; i < n; i++) argument[i] = image[nh_child(dag, e, i)];
-        return nh_call_any(dag, nh_function_of(dag, e), argument);
+        for (size_t i = 0; i < n; i++) argument[i] = image[nh_child(from, e, i)];
+        return nh_call_any(dag, nh_function_of(from, e), argument);
     }
     nh_ex *part = nh_alloc_array(n + 1, sizeof *part), result;
     nh_num *scale = nh_alloc_array(n + 1, sizeof *scale);
     for (size_t i = 0; i < n; i++) {
-        part[i] = image[nh_child(dag, e, i)];
-        if (kind == NH_SUM) scale[i] = nh_coefficient_of(dag, e, i);
-        else part[i] = nh_pow(dag, part[i], image[nh_exponent_of(dag, e, i)]);
+        part[i] = image[nh_child(from, e, i)];
+        if (kind == NH_SUM) scale[i] = nh_coefficient_of(from, e, i);
+        else part[i] = nh_pow(dag, part[i], image[nh_exponent_of(from, e, i)]);
     }
-    part[n] = nh_number(dag, nh_constant_of(dag, e));
+    part[n] = nh_number(dag, nh_constant_of(from, e));
     scale[n] = nh_num_int(1);
     result = kind == NH_SUM ? nh_linear(dag, n + 1, scale, part) : nh_product(dag, n + 1, part);
     nh_free(scale);
     nh_free(part);
     return result;
+}
+
+static nh_ex rebuild(nh_dag *dag, nh_ex e, const nh_ex *image) { return rebuild_in(dag, dag, e, image); }
+
+void nh_dag_bring(nh_dag *dag, const nh_dag *copy, size_t n, nh_ex *e)
+{
+    nh_ex *node, *image = nh_alloc_array(copy->node_count, sizeof *image);
+    size_t count = nh_nodes_in(copy, n, e, &node);
+    for (size_t i = 0; i < count; i++) {
+        nh_ex x = node[i];
+        nh_kind kind = nh_kind_of(copy, x);
+        if (x < copy->copied) image[x] = x;
+        else if (kind == NH_NUMBER) image[x] = nh_number(dag, nh_number_of(copy, x));
+        else if (kind == NH_SYMBOL) image[x] = nh_symbol_fresh(dag, nh_name_of(copy, x));
+        else image[x] = rebuild_in(dag, copy, x, image);
+    }
+    for (size_t i = 0; i < n; i++) e[i] = image[e[i]];
+    nh_free(image);
+    nh_free(node);
 }
 
 nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t count, const nh_ex *from, const nh_ex *to)
@@ -405,11 +388,11 @@ nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t count, const nh_ex *from, const
             image[x] = to[j];
             replaced = true;
         }
-        if (replaced || dag->node[x].kind <= NH_SYMBOL) continue;
+        if (replaced || dag->all.node[x].kind <= NH_SYMBOL) continue;
         bool changed = false;
-        const nh_node *y = &dag->node[x];
+        const nh_node *y = &dag->all.node[x];
         for (uint32_t j = 0; j < y->count; j++) {
-            nh_ex child = dag->arg[y->first + j];
+            nh_ex child = dag->all.arg[y->first + j];
             changed |= image[child] != child;
         }
         if (changed) image[x] = rebuild(dag, x, image);
@@ -427,12 +410,12 @@ static nh_ex substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root, int64
     nh_ex *image = nh_alloc_array((size_t)e + 1, sizeof *image);
     for (size_t i = 0; i < n; i++) {
         nh_ex x = node[i];
-        image[x] = dag->node[x].kind > NH_SYMBOL ? rebuild(dag, x, image) : x;
-        if (dag->node[x].kind != NH_PRODUCT) continue;
+        image[x] = dag->all.node[x].kind > NH_SYMBOL ? rebuild(dag, x, image) : x;
+        if (dag->all.node[x].kind != NH_PRODUCT) continue;
         nh_ex product = nh_number(dag, nh_constant_of(dag, x));
         for (size_t j = 0; j < nh_arity(dag, x); j++) {
             nh_ex b = nh_child(dag, x, j), y = nh_exponent_of(dag, x, j);
-            nh_num power = dag->node[y].kind == NH_NUMBER ? nh_number_of(dag, y) : nh_num_int(1);
+            nh_num power = dag->all.node[y].kind == NH_NUMBER ? nh_number_of(dag, y) : nh_num_int(1);
             bool rooted = b == base && power.q % 2 == 0 && power.q <= most_order;
             product = nh_mul(dag, product, rooted ? nh_pow(dag, root, nh_ratio(dag, power.p, power.q / 2))
                                                   : nh_pow(dag, image[b], image[y]));

@@ -18,6 +18,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 typedef uint32_t nh_ex; /* an expression of one graph */
 typedef struct nh_dag nh_dag;
@@ -113,9 +114,10 @@ nh_num nh_num_mul(nh_num a, nh_num b);
 nh_num nh_num_inv(nh_num a); /* of the rational 0: not-a-number */
 nh_num nh_num_pow(nh_num a, int64_t n);
 double nh_num_value(nh_num a);
-bool nh_num_is(nh_num a, int64_t p);
+static inline bool nh_num_is(nh_num a, int64_t p) { return a.q == 1 && a.p == p; }
 bool nh_num_exact(nh_num a); /* is it a rational? */
-bool nh_num_short(nh_num a); /* is it a rational of 64 bits?  Then p and q can be used */
+/* is it a rational of 64 bits?  Then p and q can be used */
+static inline bool nh_num_short(nh_num a) { return a.q > 0; }
 bool nh_num_equal(nh_num a, nh_num b);
 int64_t nh_gcd(int64_t a, int64_t b); /* not negative; the arguments are not INT64_MIN, as no p or q of a number is */
 
@@ -125,6 +127,9 @@ nh_dag *nh_dag_create(void);
  * so threads derive further expressions at the same time, each in a copy.  `dag` has to outlive it; the caller frees
  * it. */
 nh_dag *nh_dag_copy(const nh_dag *dag);
+/* Replaces n expressions of a copy of `dag` by the same ones in `dag`.  Symbols that were made in the copy are new
+ * ones. */
+void nh_dag_bring(nh_dag *dag, const nh_dag *copy, size_t n, nh_ex *e);
 void nh_dag_free(nh_dag *dag);
 size_t nh_dag_size(const nh_dag *dag); /* number of nodes made so far; indices are below it */
 
@@ -157,17 +162,79 @@ bool nh_split_turn(nh_dag *dag, nh_ex a, nh_ex *rest, nh_ex *sine, nh_ex *cosine
 nh_ex nh_linear(nh_dag *dag, size_t n, const nh_num *coefficient, const nh_ex *term);
 nh_ex nh_product(nh_dag *dag, size_t n, const nh_ex *factor);
 
+/* The nodes of a graph, for the functions below, which are called so often that they are inline. */
+typedef struct {
+    uint8_t kind, op; /* op: the function */
+    uint32_t count, first; /* arguments: arg[first .. first+count-1] */
+    uint32_t next;    /* hash chain: index + 1 */
+    uint64_t hash, mask;
+} nh_node;
+
+typedef struct {
+    nh_node *node;
+    uint32_t *arg; /* sums: constant, term, coefficient, ...; products: coefficient, base, exponent, ... */
+} nh_dag_nodes; /* a graph begins with it */
+
+static inline const nh_node *nh_node_of(const nh_dag *dag, nh_ex e) { return ((const nh_dag_nodes *)dag)->node + e; }
+
+/* The i-th of its arguments. */
+static inline nh_ex nh_argument_of(const nh_dag *dag, nh_ex e, size_t i)
+{
+    const nh_dag_nodes *all = (const nh_dag_nodes *)dag;
+    return all->arg[all->node[e].first + i];
+}
+
 /* Properties of a node. */
-nh_kind nh_kind_of(const nh_dag *dag, nh_ex e);
-nh_num nh_number_of(const nh_dag *dag, nh_ex e);        /* of a number */
-const char *nh_name_of(const nh_dag *dag, nh_ex e);     /* of a symbol */
-nh_function nh_function_of(const nh_dag *dag, nh_ex e); /* of a function */
+static inline nh_kind nh_kind_of(const nh_dag *dag, nh_ex e) { return (nh_kind)nh_node_of(dag, e)->kind; }
+
+/* Of a number. */
+static inline nh_num nh_number_of(const nh_dag *dag, nh_ex e)
+{
+    const uint32_t *word = ((const nh_dag_nodes *)dag)->arg + nh_node_of(dag, e)->first;
+    nh_num value;
+    memcpy(&value.p, word, 8);
+    memcpy(&value.q, word + 2, 8);
+    memcpy(&value.d, word + 4, 8);
+    return value;
+}
+
+const char *nh_name_of(const nh_dag *dag, nh_ex e); /* of a symbol */
+
+/* Of a function. */
+static inline nh_function nh_function_of(const nh_dag *dag, nh_ex e) { return (nh_function)nh_node_of(dag, e)->op; }
+
 /* Sum: number of terms besides the constant; product: number of factors; function: number of arguments. */
-size_t nh_arity(const nh_dag *dag, nh_ex e);
-nh_num nh_constant_of(const nh_dag *dag, nh_ex e); /* the constant of a sum, the coefficient of a product */
-nh_ex nh_child(const nh_dag *dag, nh_ex e, size_t i); /* term, base of a factor, or argument */
-nh_num nh_coefficient_of(const nh_dag *dag, nh_ex e, size_t i); /* of the i-th term of a sum */
-nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i);     /* of the i-th factor of a product */
+static inline size_t nh_arity(const nh_dag *dag, nh_ex e)
+{
+    const nh_node *n = nh_node_of(dag, e);
+    if (n->kind == NH_FUNCTION) return n->count;
+    return n->kind == NH_SUM || n->kind == NH_PRODUCT ? n->count / 2 : 0;
+}
+
+/* The constant of a sum, the coefficient of a product. */
+static inline nh_num nh_constant_of(const nh_dag *dag, nh_ex e)
+{
+    return nh_number_of(dag, nh_argument_of(dag, e, 0));
+}
+
+/* Term, base of a factor, or argument. */
+static inline nh_ex nh_child(const nh_dag *dag, nh_ex e, size_t i)
+{
+    return nh_argument_of(dag, e, nh_kind_of(dag, e) == NH_FUNCTION ? i : 1 + 2 * i);
+}
+
+/* Of the i-th term of a sum. */
+static inline nh_num nh_coefficient_of(const nh_dag *dag, nh_ex e, size_t i)
+{
+    return nh_number_of(dag, nh_argument_of(dag, e, 2 + 2 * i));
+}
+
+/* Of the i-th factor of a product. */
+static inline nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i)
+{
+    return nh_argument_of(dag, e, 2 + 2 * i);
+}
+
 const char *nh_function_name(nh_function f);
 size_t nh_function_arity(nh_function f);
 /* what to write in place of a function's name in other languages: "write 1/tan(...)"; or NULL */
@@ -179,7 +246,12 @@ const char *nh_function_arguments(nh_function f);
 size_t nh_function_constants(nh_function f);
 /* Of an amplitude and a parameter, the last two arguments: F, E, and Pi with a number before them. */
 bool nh_is_incomplete_elliptic(nh_function f);
-bool nh_is_zero(const nh_dag *dag, nh_ex e);
+/* The numbers 0 and 1 are the first nodes of every graph. */
+static inline bool nh_is_zero(const nh_dag *dag, nh_ex e)
+{
+    (void)dag;
+    return e == 0;
+}
 bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value);
 /* Does `symbol` occur in `e`? (not through rules of implicit symbols, see diff.h) */
 bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol);

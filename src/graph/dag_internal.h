@@ -6,13 +6,6 @@
 #include "graph/dag.h"
 
 typedef struct {
-    uint8_t kind, op; /* op: the function */
-    uint32_t count, first; /* arguments: arg[first .. first+count-1] */
-    uint32_t next;    /* hash chain: index + 1 */
-    uint64_t hash, mask;
-} nh_node;
-
-typedef struct {
     const char *text;
     nh_ex symbol;
     bool hidden; /* not found by name */
@@ -35,9 +28,8 @@ typedef struct {
 } nh_power_rule;
 
 struct nh_dag {
-    nh_node *node;
+    nh_dag_nodes all; /* first */
     size_t node_count, node_capacity;
-    uint32_t *arg;
     size_t arg_count, arg_capacity;
     uint32_t *bucket;
     size_t bucket_count;
@@ -53,6 +45,7 @@ struct nh_dag {
     size_t rule_count, rule_capacity;
     nh_power_rule *power;
     size_t power_count, power_capacity;
+    size_t copied;        /* so many nodes are those of the graph that this one is a copy of */
     unsigned long worker; /* nh_parallel_worker() where it was made: expressions are made nowhere else */
 };
 

@@ -166,10 +166,10 @@ static nh_ex diff_symbol(const nh_dag *d, nh_ex u, nh_ex x)
 /* With rules, an expression without x may depend on it through an implicit symbol. */
 static bool constant_in(const nh_dag *d, nh_ex e, nh_ex x)
 {
-    uint64_t mask = d->node[e].mask;
-    if (mask & d->node[x].mask) return false;
+    uint64_t mask = d->all.node[e].mask;
+    if (mask & d->all.node[x].mask) return false;
     for (size_t i = 0; i < d->rule_count; i++)
-        if (d->rule[i].x == x && (mask & d->node[d->rule[i].u].mask)) return false;
+        if (d->rule[i].x == x && (mask & d->all.node[d->rule[i].u].mask)) return false;
     return true;
 }
 
@@ -192,9 +192,9 @@ typedef struct {
 static bool push_needed(const nh_dag *dag, todo *t, nh_ex e, nh_ex x)
 {
     size_t before = t->count;
-    const nh_node *n = &dag->node[e];
+    const nh_node *n = &dag->all.node[e];
     for (uint32_t i = 0; i < n->count; i++) {
-        nh_ex child = dag->arg[n->first + i], ignored;
+        nh_ex child = dag->all.arg[n->first + i], ignored;
         if (known(dag, child, x, &ignored)) continue;
         nh_grow(&t->list, &t->capacity, t->count + 1, sizeof *t->list);
         t->list[t->count++] = child;

@@ -131,16 +131,12 @@ nh_num nh_num_decimal(double value)
 
 bool nh_num_exact(nh_num a) { return a.q != 0; }
 
-bool nh_num_short(nh_num a) { return a.q > 0; }
-
 /* Rounded once: a decimal of 17 digits gives back the double that it was printed from. */
 double nh_num_value(nh_num a)
 {
     if (a.q <= 0) return a.d;
     return a.q == 1 ? (double)a.p : (double)((long double)a.p / (long double)a.q);
 }
-
-bool nh_num_is(nh_num a, int64_t p) { return a.q == 1 && a.p == p; }
 
 bool nh_num_equal(nh_num a, nh_num b)
 {
