@@ -517,6 +517,36 @@ Test(count, a_bound_that_falls_gets_more_work)
     problem_clear(&p);
 }
 
+/* The parts of a weight are the same for every number of threads, and so is the place where a limit of work is reached. */
+Test(count, numbers_of_threads_change_nothing)
+{
+    const char *const text[] = {FREE_3, "name: s\nparameters: [{name: g, value: 0.9}]\ncoordinates: [{name: x}, {name: y}, {name: f, type: angle}]\n"
+                                        "constraints: [\"x'*sin(f) = y'*cos(f)\"]\nlagrangian: (x'^2 + y'^2 + f'^2)/2 - g*x\n"
+                                        "known: {currents: [{name: f, expr: f'}, {name: E, expr: (x'^2 + y'^2 + f'^2)/2 + g*x}]}\n"};
+    double most = 0;
+    for (size_t i = 0; i < 2; i++)
+        for (double work = 1e5; work < 2e9; work *= 6) {
+            problem p = problem_of(text[i]);
+            nh_count_question q = {.time = true, .degree = 4, .work = work, .threads = 1, .known = p.count, .current = p.known};
+            nh_count one = nh_count_integrals(p.model, &q);
+            most = one.work > most ? one.work : most;
+            for (q.threads = 2; q.threads <= 5; q.threads += 3) {
+                nh_count c = nh_count_integrals(p.model, &q);
+                cr_assert_eq(c.rows, one.rows);
+                cr_expect_eq(c.work, one.work, "%zu threads, at most %g: %.0f and %.0f", q.threads, work, c.work, one.work);
+                cr_expect(c.end == one.end || (c.end && one.end && !strcmp(c.end, one.end)));
+                for (size_t d = 0; d < c.rows; d++) {
+                    cr_expect_eq(c.row[d].bound, one.row[d].bound);
+                    cr_expect_eq(c.row[d].rank, one.row[d].rank);
+                    cr_expect_eq(c.row[d].order, one.row[d].order);
+                    cr_expect_eq(c.row[d].settled, one.row[d].settled);
+                }
+            }
+            problem_clear(&p);
+        }
+    cr_expect_gt(most, 1e7, "%g: too little for several parts", most);
+}
+
 /* Too little work: what the series so far allow is said, and that it is not settled. */
 Test(count, numbers_that_are_not_settled_are_said)
 {

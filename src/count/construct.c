@@ -294,6 +294,7 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
                            .idle_coordinate = question->rates ? question->rates->idle_coordinate : NULL,
                            .degree = question->degree,
                            .work = question->work,
+                           .threads = question->threads,
                            .known = question->known,
                            .independent = question->independent,
                            .current = question->current};

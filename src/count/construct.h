@@ -27,6 +27,7 @@ typedef struct {
     double price;           /* highest price of a word */
     size_t most_words;
     double work;            /* limit, in products of residues */
+    size_t threads;         /* 0: one */
     size_t known;
     const nh_ex *current;
     size_t independent;      /* number of `current` */

@@ -75,7 +75,8 @@ nh_graded_problem nh_count_problem(const nh_counter *c, const nh_count_series *s
                                .degree = degree,
                                .parity = parity,
                                .most_parameters = most_parameters,
-                               .most_work = c->most - c->work};
+                               .most_work = c->most - c->work,
+                               .threads = c->q->threads};
 }
 
 /* N for each order, the sum over both parities where they separate; injective_at: the larger of theirs.  False: beyond

@@ -60,8 +60,8 @@ typedef struct {
     bool more;              /* higher degrees were left out, because functions are missing */
 } nh_count;
 
-/* Keeps the solutions of a system for further questions about it with other known integrals.  It saves time, and does
- * not change an answer. */
+/* Keeps the solutions of a system for further questions about it with other known integrals, on any thread.  It saves
+ * time, and does not change an answer. */
 typedef struct nh_count_memory nh_count_memory;
 nh_count_memory *nh_count_memory_create(void);
 void nh_count_memory_free(nh_count_memory *memory);
@@ -77,6 +77,7 @@ typedef struct {
     size_t idle;            /* cyclic coordinates that are left out beside those of the shape */
     const nh_ex *idle_coordinate;
     nh_count_memory *memory; /* NULL: nothing is kept */
+    size_t threads;         /* 0: one; the answer does not depend on it */
     size_t degree;          /* highest degree; 0: as high as `work` allows */
     /* counts this degree only, until all solutions are functions of the known integrals: row[0]; products are not
      * compared */

@@ -13,17 +13,17 @@ void nh_graded_extensions_start(nh_graded_system *s)
 }
 
 /* Adds the products of one series of a_j' and the solutions' coefficients of alpha, at one exponent. */
-static void add_products(nh_graded_system *s, const nh_residue *rate, size_t alpha, size_t exponent, nh_residue *sum)
+static void add_products(const nh_graded_system *s, const nh_residue *rate, size_t alpha, size_t exponent,
+                         nh_residue *sum)
 {
     const nh_jet_ring *r = s->r;
     for (size_t z = r->pairs[exponent]; z < r->pairs[exponent + 1]; z++)
         if (rate[r->left[z]])
             nh_residue_add_multiple(s->f, s->p->given, sum,
                                     s->p->solution + (alpha * r->size + r->right[z]) * s->p->stride, rate[r->left[z]]);
-    s->work += (double)((r->pairs[exponent + 1] - r->pairs[exponent]) * s->p->given);
 }
 
-void nh_graded_extend(nh_graded_system *s, size_t beta, size_t exponent, nh_graded_sum *sum)
+void nh_graded_extend(const nh_graded_system *s, size_t beta, size_t exponent, nh_graded_sum *sum)
 {
     const nh_graded_problem *p = s->p;
     int *e = nh_alloc_array(p->n + 1, sizeof *e);
@@ -34,13 +34,14 @@ void nh_graded_extend(nh_graded_system *s, size_t beta, size_t exponent, nh_grad
             if (!s->moves[j * p->fields + i]) continue;
             for (size_t l = 0; l < p->n; l++) e[l] = s->beta[beta * p->n + l] - (l == i);
             int alpha = nh_graded_find_alpha(s, e);
-            if (alpha >= 0)
-                add_products(s, p->left_rate + (j * p->fields + i) * s->r->size, (size_t)alpha, exponent, product);
+            if (alpha < 0) continue;
+            add_products(s, p->left_rate + (j * p->fields + i) * s->r->size, (size_t)alpha, exponent, product);
+            sum->work += (double)((s->r->pairs[exponent + 1] - s->r->pairs[exponent]) * p->given);
         }
         for (size_t k = 0; k < p->given; k++)
             if (product[k]) nh_graded_sum_add(sum, product[k], nh_graded_extension(s, j * p->given + k));
     }
-    s->work += (double)(s->extensions * s->N);
+    sum->work += (double)(s->extensions * s->N);
     nh_free(product);
     nh_free(e);
 }

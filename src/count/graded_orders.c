@@ -12,7 +12,6 @@ struct nh_graded_state {
 
 static void system_clear(nh_graded_system *s)
 {
-    nh_free(s->symbol);
     nh_free(s->condition);
     nh_free(s->row);
     nh_arena_free(s->arena);

@@ -9,15 +9,7 @@
 #include "exact/residue_matrix.h"
 #include "exact/row_sum.h"
 
-enum { spare_rows = 8, no_alpha = -1 };
-
-/* One term of Gamma: `series` times d/dz_index (derivative) or d/dw^index, which adds the exponent `shift` to alpha. */
-typedef struct nh_graded_term {
-    bool derivative;
-    size_t index;
-    const nh_residue *series;
-    int *alpha;             /* per target monomial beta: the alpha that it comes from, or no_alpha */
-} term;
+enum { spare_rows = 8 };
 
 /* ---- monomials in the velocities ---- */
 
@@ -55,54 +47,13 @@ int nh_graded_find_alpha(const nh_graded_system *s, const int *e)
 {
     size_t n = s->p->n;
     uint64_t wanted = code(n, s->p->degree, e);
-    if (wanted == UINT64_MAX) return no_alpha;
+    if (wanted == UINT64_MAX) return -1;
     for (size_t a = 0; a < s->alphas; a++) {
         bool same = true;
         for (size_t i = 0; i < n && same; i++) same = s->alpha[a * n + i] == e[i];
         if (same) return (int)a;
     }
-    return no_alpha;
-}
-
-/* The index of alpha = beta - shift. */
-static void add_term(nh_graded_system *s, bool derivative, size_t index, const nh_residue *series, const int *shift)
-{
-    size_t n = s->p->n;
-    if (nh_jet_is_zero(s->r, series)) return;
-    term *t = &s->t[s->terms++];
-    *t = (term){derivative, index, series, nh_arena_alloc(s->arena, (s->betas + 1) * sizeof *t->alpha)};
-    int *e = nh_alloc_array(n + 1, sizeof *e);
-    for (size_t b = 0; b < s->betas; b++) {
-        for (size_t i = 0; i < n; i++) e[i] = s->beta[b * n + i] - shift[i];
-        t->alpha[b] = nh_graded_find_alpha(s, e);
-    }
-    nh_free(e);
-}
-
-void nh_graded_list_terms(nh_graded_system *s)
-{
-    const nh_graded_problem *p = s->p;
-    size_t n = p->n, m = s->r->variables, e = s->r->size, count = 1 + n + n * (n + 1) / 2;
-    int *shift = nh_alloc_array(n + 1, sizeof *shift);
-    s->t = nh_arena_alloc(s->arena, (p->fields * m + n * count + 1) * sizeof *s->t);
-    for (size_t i = 0; i < p->fields; i++) {
-        memset(shift, 0, (n + 1) * sizeof *shift);
-        if (i < n) shift[i] = 1;
-        for (size_t k = 0; k < m; k++) add_term(s, true, k, p->field + (i * m + k) * e, shift);
-    }
-    for (size_t l = 0; l < n; l++)
-        for (size_t mu = 0, i = 0, j = 0; mu < count; mu++) {
-            memset(shift, 0, (n + 1) * sizeof *shift);
-            shift[l]--;
-            if (mu > 0 && mu <= n) shift[mu - 1]++;
-            if (mu > n) {
-                shift[i]++;
-                shift[j]++;
-                if (++j == n) j = ++i;
-            }
-            add_term(s, false, l, p->rate + (l * count + mu) * e, shift);
-        }
-    nh_free(shift);
+    return -1;
 }
 
 /* ---- rows ---- */
@@ -135,113 +86,6 @@ void nh_graded_parameter(nh_graded_system *s, size_t alpha, size_t exponent)
 {
     more_room(s);
     if (!s->over) nh_graded_row(s, alpha, exponent)[s->N++] = 1;
-}
-
-/* ---- the equations of weight k ---- */
-
-void nh_graded_sum_add(nh_graded_sum *sum, nh_residue factor, const nh_residue *row)
-{
-    nh_grow(&sum->factor, &sum->factors, sum->count + 1, sizeof *sum->factor);
-    nh_grow(&sum->row, &sum->rows, sum->count + 1, sizeof *sum->row);
-    sum->factor[sum->count] = factor;
-    sum->row[sum->count++] = row;
-}
-
-/* The products of a term at the exponents of one weight, without those that are 0, the same for all beta: `value` times
- * the coefficient of `exponent`. */
-typedef struct {
-    uint32_t exponent;
-    nh_residue value;
-} product;
-
-typedef struct {
-    size_t count, capacity, *start; /* start[i x (exponents + 1) + e]: first product of term i and the e-th exponent */
-    product *item;
-} products;
-
-/* False: it has exponents beyond weight k + 1, which the coordinates do not have. */
-static bool list_products_of(nh_graded_system *s, const term *t, size_t e, products *out)
-{
-    const nh_jet_ring *r = s->r;
-    size_t m = r->variables, last = r->first[s->k + 2];
-    for (size_t z = r->pairs[e]; z < r->pairs[e + 1]; z++) {
-        nh_residue v = t->series[r->left[z]];
-        if (!v) continue;
-        uint32_t u = t->derivative ? r->up[t->index * r->size + r->right[z]] : r->right[z];
-        if (u == UINT32_MAX || u >= last) return false;
-        if (t->derivative) v = nh_residue_mul(s->f, v, r->exponent[u * m + t->index]);
-        nh_grow(&out->item, &out->capacity, out->count + 1, sizeof *out->item);
-        out->item[out->count++] = (product){u, v};
-    }
-    return true;
-}
-
-static void list_products(nh_graded_system *s, size_t from, size_t exponents, products *out)
-{
-    out->start = nh_alloc_array(s->terms * (exponents + 1) + 1, sizeof *out->start);
-    s->work += (double)s->terms * (double)(s->r->pairs[from + exponents] - s->r->pairs[from]);
-    for (size_t i = 0; i < s->terms && !s->over; i++) {
-        size_t *start = out->start + i * (exponents + 1);
-        start[0] = out->count;
-        for (size_t e = 0; e < exponents && !s->over; e++) {
-            s->over |= !list_products_of(s, &s->t[i], from + e, out);
-            start[e + 1] = out->count;
-        }
-    }
-}
-
-/* The equation of beta and the e-th exponent of the weight: its known part, and its entries of the symbol. */
-static void equation(nh_graded_system *s, size_t beta, const size_t *start, const products *all, size_t number,
-                     nh_graded_sum *sum)
-{
-    size_t n = s->p->n, exponents = s->r->first[s->k + 1] - s->r->first[s->k];
-    sum->count = 0;
-    for (size_t i = 0; i < s->terms; i++) {
-        const term *t = &s->t[i];
-        const size_t *from = start + i * (exponents + 1);
-        if (t->alpha[beta] == no_alpha) continue;
-        size_t a = (size_t)t->alpha[beta];
-        nh_residue power = t->derivative ? 1 : s->alpha[a * n + t->index];
-        s->work += (double)(from[1] - from[0]) + 1;
-        for (size_t z = from[0]; z < from[1] && power; z++) {
-            size_t u = all->item[z].exponent;
-            nh_residue v = power == 1 ? all->item[z].value : nh_residue_mul(s->f, all->item[z].value, power);
-            if (u >= s->first) {
-                nh_grow(&s->symbol, &s->capacity, s->entries + 1, sizeof *s->symbol);
-                s->symbol[s->entries++] = (nh_graded_entry){(uint32_t)(a * s->unknowns_of + (u - s->first)), v};
-            } else {
-                nh_graded_sum_add(sum, v, nh_graded_row(s, a, u));
-                s->work += (double)s->N;
-            }
-        }
-    }
-    if (s->extensions) nh_graded_extend(s, beta, s->r->first[s->k] + number % exponents, sum);
-    nh_row_sum_add(s->f, s->N, s->known + number * s->N, sum->count, sum->factor, sum->row);
-}
-
-static void equations(nh_graded_system *s)
-{
-    const nh_jet_ring *r = s->r;
-    size_t from = r->first[s->k], to = r->first[s->k + 1], count = to - from;
-    products all = {0};
-    s->first = to;
-    s->unknowns_of = r->first[s->k + 2] - to;
-    s->equations = s->betas * count;
-    s->entries = 0;
-    s->known = nh_alloc_array(s->equations * s->N + 1, sizeof *s->known);
-    s->start = nh_alloc_array(s->equations + 1, sizeof *s->start);
-    list_products(s, from, count, &all);
-    nh_graded_sum sum = {0};
-    for (size_t q = 0; q < s->equations && !s->over && !nh_late() && s->work < s->p->most_work; q++) {
-        s->start[q] = s->entries;
-        equation(s, q / count, all.start + q % count, &all, q, &sum);
-    }
-    s->over |= s->work >= s->p->most_work || nh_late();
-    s->start[s->equations] = s->entries;
-    nh_free(sum.row);
-    nh_free(sum.factor);
-    nh_free(all.start);
-    nh_free(all.item);
 }
 
 /* ---- conditions on the parameters ---- */
@@ -390,7 +234,7 @@ static void use_conditions(nh_graded_system *s)
 void nh_graded_solve_weight(nh_graded_system *s, nh_graded_count *out)
 {
     s->before = s->N;
-    equations(s);
+    nh_graded_equations(s);
     s->fresh = NULL;
     size_t before = s->N;
     if (!s->over) nh_graded_solve_symbol(s);
@@ -404,6 +248,7 @@ void nh_graded_solve_weight(nh_graded_system *s, nh_graded_count *out)
     nh_free(s->fresh);
     nh_free(s->known);
     nh_free(s->start);
+    nh_free(s->symbol);
 }
 
 /* The given solutions become the parameters. */

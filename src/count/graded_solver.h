@@ -24,6 +24,7 @@ typedef struct {
     nh_parity parity;           /* parity of |alpha|; a system splits where every term of Gamma changes it */
     size_t most_parameters;     /* beyond so many parameters at a time, or so much work, the solver gives up */
     double most_work;           /* limit in products of residues */
+    size_t threads;             /* 0: one */
     bool keep;                  /* all coefficients of the solutions are wanted, not only their first jets */
     /* solutions of the same problem up to a lower order, to be continued; or 0 of them: start from the point */
     size_t from, from_order, from_size; /* their number; order; coefficients of their series */

@@ -35,7 +35,6 @@ typedef struct {
     nh_residue *known;      /* equations x N */
     nh_graded_entry *symbol;          /* entries by equation */
     size_t *start;          /* equations + 1: index of the first entry of each */
-    size_t entries, capacity;
     nh_residue **fresh;     /* conditions found at this weight: rows of `known` that are no longer needed there */
     size_t fresh_count;
 } nh_graded_system;
@@ -52,11 +51,18 @@ static inline nh_residue *nh_graded_extension(const nh_graded_system *s, size_t 
     return s->row + (s->alphas * s->r->size + index) * s->stride;
 }
 
+/* A weight is solved in parts, on several threads.  How many parts there are, and so the work of each, depends on the
+ * number of products, and not on the number of threads: the limit of work is reached with one thread where it is with
+ * several. */
+enum { NH_GRADED_PARTS = 8 };
+size_t nh_graded_parts(double products);
+
 /* The known part of an equation: known coefficients, each times a residue. */
 typedef struct {
     size_t count, factors, rows; /* factors, rows: room */
     nh_residue *factor;
     const nh_residue **row;
+    double work; /* of all sums so far */
 } nh_graded_sum;
 void nh_graded_sum_add(nh_graded_sum *sum, nh_residue factor, const nh_residue *row);
 
@@ -66,7 +72,7 @@ int nh_graded_find_alpha(const nh_graded_system *system, const int *exponents);
 /* Each product's factor becomes a parameter. */
 void nh_graded_extensions_start(nh_graded_system *system);
 /* Adds sum_j a_j' (given solutions) to the equation of beta and this exponent. */
-void nh_graded_extend(nh_graded_system *system, size_t beta, size_t exponent, nh_graded_sum *sum);
+void nh_graded_extend(const nh_graded_system *system, size_t beta, size_t exponent, nh_graded_sum *sum);
 /* Is a factor left that need not vanish? */
 bool nh_graded_is_extended(const nh_graded_system *system);
 
@@ -82,6 +88,9 @@ void nh_graded_solve_symbol(nh_graded_system *system);
 void nh_graded_start(nh_graded_system *system);
 /* w^i X_i^k d/dz_k,  X_0^k d/dz_k,  and the rates' monomials times d/dw^l, with the series of the ring. */
 void nh_graded_list_terms(nh_graded_system *system);
+
+/* Writes the equations of weight s->k: known parts and entries of the symbol. */
+void nh_graded_equations(nh_graded_system *system);
 
 /* The equations of weight s->k solved, and the conditions that come from them used or kept; out: N, whether the symbol
    was injective. */

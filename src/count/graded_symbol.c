@@ -3,19 +3,47 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "count/graded_solver_internal.h"
 
-enum { inverse_work = 40 }; /* an inverse modulo the prime takes as long as this many products */
+/* an inverse modulo the prime takes as long as so many products, and an entry of a row as long as these */
+enum { inverse_work = 40, cell_work = 50 };
 
-/* Adds a condition on the parameters, unless it is empty. */
-static void add_condition(nh_graded_system *s, nh_residue *known)
+/* Is the known part of an equation without unknowns a condition on the parameters? */
+static bool is_condition(const nh_graded_system *s, size_t equation)
 {
+    const nh_residue *known = s->known + equation * s->before;
     for (size_t j = 0; j < s->before; j++)
-        if (known[j]) {
-            s->fresh[s->fresh_count++] = known;
-            return;
-        }
+        if (known[j]) return true;
+    return false;
+}
+
+/* ---- parts: components one after another, and what is left of them ---- */
+
+/* An unknown that follows from those in its cells (itself among them) and from the known part of an equation, which is
+ * still to be multiplied by `inverse`. */
+typedef struct {
+    size_t component, unknown, equation, from, to;
+    nh_residue inverse;
+} pivot;
+
+typedef struct {
+    size_t first, end; /* components */
+    size_t pivots, pivot_room, cells, cell_room, frees, free_room, conditions, condition_room;
+    pivot *pivot;
+    nh_graded_entry *cell;
+    size_t *free;      /* unknowns that become parameters: free_to[component] is the end of those of a component */
+    size_t *condition; /* equations */
+    double work;
+} part;
+
+static void part_clear(part *p)
+{
+    nh_free(p->pivot);
+    nh_free(p->cell);
+    nh_free(p->free);
+    nh_free(p->condition);
 }
 
 /* ---- one component of the symbol: sparse elimination, the shortest row and its rarest column first ---- */
@@ -30,11 +58,11 @@ typedef struct {
     uint32_t *item;
 } row_list;
 
-/* Keys length x 2^32 + row. */
+/* The remaining rows by their length, in lists: a row's number plus 1, or 0 at the end. */
 typedef struct {
-    size_t count, capacity;
-    uint64_t *key;
-} row_queue;
+    size_t least; /* no row is shorter */
+    uint32_t *first, *next, *previous;
+} lengths;
 
 /* Most components are small and there are thousands of them: one after the other uses the same memory. */
 typedef struct {
@@ -48,7 +76,8 @@ typedef struct {
     size_t *pivot_row, *pivot_column;
     nh_residue *inverse; /* by which the row's known part is still to be multiplied */
     row_list *member;    /* for each column: the rows that have it or had it, some more than once */
-    row_queue queue;     /* a heap, which also holds outdated entries of rows that changed */
+    lengths rest;
+    double work;         /* of all components so far */
 } component;
 
 static void component_init(component *c, size_t rows, size_t columns)
@@ -64,13 +93,18 @@ static void component_init(component *c, size_t rows, size_t columns)
     c->member = nh_alloc_array(columns + 1, sizeof *c->member);
     c->pivot_row = nh_alloc_array(columns + 1, sizeof *c->pivot_row);
     c->pivot_column = nh_alloc_array(columns + 1, sizeof *c->pivot_column);
+    c->rest.first = nh_alloc_array(columns + 1, sizeof *c->rest.first);
+    c->rest.next = nh_alloc_array(rows + 1, sizeof *c->rest.next);
+    c->rest.previous = nh_alloc_array(rows + 1, sizeof *c->rest.previous);
 }
 
 static void component_clear(component *c, size_t rows, size_t columns)
 {
     for (size_t i = 0; i < rows; i++) nh_free(c->cells[i]);
     for (size_t j = 0; j < columns; j++) nh_free(c->member[j].item);
-    nh_free(c->queue.key);
+    nh_free(c->rest.first);
+    nh_free(c->rest.next);
+    nh_free(c->rest.previous);
     nh_free(c->spare);
     nh_free(c->cells);
     nh_free(c->room);
@@ -84,43 +118,34 @@ static void component_clear(component *c, size_t rows, size_t columns)
     nh_free(c->pivot_column);
 }
 
-/* ---- the shortest remaining row: a binary heap whose least entry is taken ---- */
+/* ---- the shortest remaining row ---- */
 
-static void queue_row(component *c, size_t i)
+static void list_row(component *c, size_t i)
 {
-    row_queue *q = &c->queue;
-    uint64_t key = (uint64_t)c->length[i] << 32 | i;
-    size_t at = q->count;
-    if (!c->length[i]) return;
-    if (q->count == q->capacity) nh_grow(&q->key, &q->capacity, q->count + 1, sizeof *q->key);
-    q->count++;
-    for (; at > 0 && q->key[(at - 1) / 2] > key; at = (at - 1) / 2) q->key[at] = q->key[(at - 1) / 2];
-    q->key[at] = key;
+    lengths *l = &c->rest;
+    size_t length = c->length[i];
+    if (!length) return;
+    l->next[i] = l->first[length];
+    l->previous[i] = 0;
+    if (l->next[i]) l->previous[l->next[i] - 1] = (uint32_t)i + 1;
+    l->first[length] = (uint32_t)i + 1;
+    if (length < l->least) l->least = length;
 }
 
-static uint64_t least_of_queue(row_queue *q)
+static void unlist_row(component *c, size_t i)
 {
-    uint64_t least = q->key[0], key = q->key[--q->count];
-    size_t at = 0;
-    for (size_t next = 1; next < q->count; next = 2 * at + 1) {
-        if (next + 1 < q->count && q->key[next + 1] < q->key[next]) next++;
-        if (q->key[next] >= key) break;
-        q->key[at] = q->key[next];
-        at = next;
-    }
-    q->key[at] = key;
-    return least;
+    lengths *l = &c->rest;
+    if (l->previous[i]) l->next[l->previous[i] - 1] = l->next[i];
+    else l->first[c->length[i]] = l->next[i];
+    if (l->next[i]) l->previous[l->next[i] - 1] = l->previous[i];
 }
 
 /* SIZE_MAX: no row has entries. */
 static size_t shortest_row(component *c)
 {
-    while (c->queue.count) {
-        uint64_t key = least_of_queue(&c->queue);
-        size_t i = (uint32_t)key;
-        if (!c->done[i] && c->length[i] == key >> 32) return i;
-    }
-    return SIZE_MAX;
+    lengths *l = &c->rest;
+    while (l->least <= c->columns && !l->first[l->least]) l->least++;
+    return l->least <= c->columns ? l->first[l->least] - 1 : SIZE_MAX;
 }
 
 /* ---- elimination ---- */
@@ -132,7 +157,7 @@ static void append(row_list *l, size_t x)
 }
 
 /* to := to + factor * from, both sorted by column */
-static void combine(nh_graded_system *s, component *c, size_t to, size_t from, nh_residue factor)
+static void combine(const nh_graded_system *s, component *c, size_t to, size_t from, nh_residue factor)
 {
     size_t x = 0, y = 0, n = 0, na = c->length[to], nb = c->length[from];
     nh_grow(&c->spare, &c->spare_room, na + nb, sizeof *c->spare);
@@ -152,15 +177,16 @@ static void combine(nh_graded_system *s, component *c, size_t to, size_t from, n
         }
     }
     size_t room = c->room[to];
+    unlist_row(c, to);
     c->room[to] = c->spare_room;
     c->cells[to] = out;
     c->length[to] = n;
     c->spare = a;
     c->spare_room = room;
-    queue_row(c, to);
+    list_row(c, to);
     nh_residue_add_multiple(s->f, s->before, s->known + c->equation[to] * s->before,
                             s->known + c->equation[from] * s->before, nh_residue_mul(s->f, factor, c->inverse[from]));
-    s->work += (double)(s->before + 8 * n); /* an entry costs more than a product, because its row is made anew */
+    c->work += (double)(s->before + 8 * n); /* an entry costs more than a product, because its row is made anew */
 }
 
 static const cell *find_cell(const component *c, size_t i, size_t column)
@@ -175,7 +201,7 @@ static const cell *find_cell(const component *c, size_t i, size_t column)
 }
 
 /* Divides the row by its entry in the rarest column, its known part not yet, and takes it as a pivot row. */
-static void take_pivot(nh_graded_system *s, component *c, size_t i)
+static void take_pivot(const nh_graded_system *s, component *c, size_t i)
 {
     size_t at = 0;
     for (size_t z = 1; z < c->length[i]; z++)
@@ -186,7 +212,8 @@ static void take_pivot(nh_graded_system *s, component *c, size_t i)
         c->cells[i][z].value = nh_residue_mul(s->f, c->cells[i][z].value, inverse);
         c->count[c->cells[i][z].column]--;
     }
-    s->work += (double)(c->member[column].count + inverse_work);
+    c->work += (double)(c->member[column].count + inverse_work);
+    unlist_row(c, i);
     c->done[i] = c->pivoted[column] = true;
     c->pivot_row[c->rank] = i;
     c->pivot_column[c->rank++] = column;
@@ -197,31 +224,42 @@ static void take_pivot(nh_graded_system *s, component *c, size_t i)
     }
 }
 
-static void eliminate(nh_graded_system *s, component *c)
+static void eliminate(const nh_graded_system *s, component *c)
 {
     for (size_t best; (best = shortest_row(c)) != SIZE_MAX && !nh_late();) take_pivot(s, c, best);
 }
 
-/* Columns without a pivot become parameters; the others follow from them, last pivot first. */
-static void back_substitute(nh_graded_system *s, component *c)
+/* ---- what is left of a component ---- */
+
+static void keep_pivots(const component *c, size_t number, part *p)
 {
-    for (size_t j = 0; j < c->columns && !s->over; j++)
-        if (!c->pivoted[j])
-            nh_graded_parameter(s, c->unknown[j] / s->unknowns_of, s->first + c->unknown[j] % s->unknowns_of);
-    for (size_t t = c->rank; t-- > 0 && !s->over;) {
-        size_t i = c->pivot_row[t], u = c->unknown[c->pivot_column[t]];
-        nh_residue *out = nh_graded_row(s, u / s->unknowns_of, s->first + u % s->unknowns_of);
-        const nh_residue *known = s->known + c->equation[i] * s->before;
-        memcpy(out, known, s->before * sizeof *out);
-        nh_residue_scale(s->f, s->before, out, nh_residue_negative(s->f, c->inverse[i]));
-        for (size_t z = 0; z < c->length[i]; z++) {
-            size_t other = c->unknown[c->cells[i][z].column];
-            if (other != u)
-                nh_residue_add_multiple(s->f, s->N, out,
-                                        nh_graded_row(s, other / s->unknowns_of, s->first + other % s->unknowns_of),
-                                        nh_residue_negative(s->f, c->cells[i][z].value));
-            s->work += (double)s->N;
-        }
+    for (size_t t = 0; t < c->rank; t++) {
+        size_t i = c->pivot_row[t], from = p->cells;
+        nh_grow(&p->cell, &p->cell_room, from + c->length[i], sizeof *p->cell);
+        for (size_t z = 0; z < c->length[i]; z++)
+            p->cell[p->cells++] = (nh_graded_entry){(uint32_t)c->unknown[c->cells[i][z].column], c->cells[i][z].value};
+        nh_grow(&p->pivot, &p->pivot_room, p->pivots + 1, sizeof *p->pivot);
+        p->pivot[p->pivots++] = (pivot){.component = number,
+                                        .unknown = c->unknown[c->pivot_column[t]],
+                                        .equation = c->equation[i],
+                                        .from = from,
+                                        .to = p->cells,
+                                        .inverse = c->inverse[i]};
+    }
+}
+
+/* Columns without a pivot become parameters, rows without entries conditions. */
+static void keep_rest(const nh_graded_system *s, const component *c, part *p)
+{
+    for (size_t j = 0; j < c->columns; j++) {
+        if (c->pivoted[j]) continue;
+        nh_grow(&p->free, &p->free_room, p->frees + 1, sizeof *p->free);
+        p->free[p->frees++] = c->unknown[j];
+    }
+    for (size_t i = 0; i < c->rows; i++) {
+        if (c->done[i] || !is_condition(s, c->equation[i])) continue;
+        nh_grow(&p->condition, &p->condition_room, p->conditions + 1, sizeof *p->condition);
+        p->condition[p->conditions++] = c->equation[i];
     }
 }
 
@@ -256,7 +294,7 @@ static void sort_cells(size_t n, cell *x)
 }
 
 /* Fills the rows with the entries of their equations; entries in one column are added. */
-static void fill(nh_graded_system *s, component *c, const size_t *place)
+static void fill(const nh_graded_system *s, component *c, const size_t *place)
 {
     for (size_t i = 0; i < c->rows; i++) {
         size_t from = s->start[c->equation[i]], to = s->start[c->equation[i] + 1], n = 0;
@@ -275,22 +313,20 @@ static void fill(nh_graded_system *s, component *c, const size_t *place)
             c->count[x[z].column]++;
             append(&c->member[x[z].column], i);
         }
-        queue_row(c, i);
+        list_row(c, i);
     }
 }
 
-static void solve_component(nh_graded_system *s, component *c, const size_t *place)
+static void solve_component(const nh_graded_system *s, component *c, const size_t *place)
 {
-    c->rank = c->queue.count = 0;
+    c->rank = c->rest.least = 0;
+    memset(c->rest.first, 0, (c->columns + 1) * sizeof *c->rest.first);
     memset(c->done, 0, c->rows * sizeof *c->done);
     memset(c->count, 0, c->columns * sizeof *c->count);
     memset(c->pivoted, 0, c->columns * sizeof *c->pivoted);
     for (size_t j = 0; j < c->columns; j++) c->member[j].count = 0;
     fill(s, c, place);
     eliminate(s, c);
-    for (size_t i = 0; i < c->rows; i++)
-        if (!c->done[i]) add_condition(s, s->known + c->equation[i] * s->before);
-    back_substitute(s, c);
 }
 
 /* Sorts positions by `key` in [0, keys): those of a key begin at start[key]. */
@@ -309,56 +345,152 @@ static size_t widest(size_t count, const size_t *start)
     return most;
 }
 
-/* Finds the components of unknowns that occur together, and solves each for itself. */
-void nh_graded_solve_symbol(nh_graded_system *s)
+/* Components of unknowns that occur together: the equations and the unknowns of component k are those from rows[k] and
+ * from columns[k] on. */
+typedef struct {
+    nh_graded_system *s;
+    size_t count, parts;
+    size_t *rows, *columns, *equation, *unknown;
+    size_t *place;           /* of each unknown, in its component */
+    size_t *free_to, *width; /* of each component: the end of its free unknowns; how many parameters it is about */
+    part part[NH_GRADED_PARTS];
+} symbol;
+
+static symbol find_components(nh_graded_system *s)
 {
-    size_t unknowns = s->alphas * s->unknowns_of, components = 0, connected = 0;
+    size_t unknowns = s->alphas * s->unknowns_of, connected = 0;
+    symbol x = {.s = s,
+                .place = nh_alloc_array(unknowns + 1, sizeof *x.place),
+                .unknown = nh_alloc_array(unknowns + 1, sizeof *x.unknown),
+                .equation = nh_alloc_array(s->equations + 1, sizeof *x.equation)};
     size_t *parent = nh_alloc_array(unknowns + 1, sizeof *parent),
-           *number = nh_alloc_array(unknowns + 1, sizeof *number), *place = nh_alloc_array(unknowns + 1, sizeof *place);
-    size_t *list = nh_alloc_array(s->equations + 1, sizeof *list), *of = nh_alloc_array(s->equations + 1, sizeof *of),
-           *order = nh_alloc_array(s->equations + 1, sizeof *order);
-    s->fresh = nh_alloc_array(s->equations + 1, sizeof *s->fresh);
-    s->fresh_count = 0;
+           *number = nh_alloc_array(unknowns + 1, sizeof *number),
+           *list = nh_alloc_array(s->equations + 1, sizeof *list), *of = nh_alloc_array(s->equations + 1, sizeof *of);
     for (size_t i = 0; i < unknowns; i++) parent[i] = i;
     for (size_t q = 0; q < s->equations; q++)
         for (size_t z = s->start[q] + 1; z < s->start[q + 1]; z++)
             parent[root_of(parent, s->symbol[z].unknown)] = root_of(parent, s->symbol[z - 1].unknown);
     for (size_t i = 0; i < unknowns; i++)
-        if (root_of(parent, i) == i) number[i] = components++;
+        if (root_of(parent, i) == i) number[i] = x.count++;
     for (size_t i = 0; i < unknowns; i++) number[i] = number[root_of(parent, i)]; /* a root keeps its number */
     for (size_t q = 0; q < s->equations; q++) {
         if (s->start[q] == s->start[q + 1]) {
-            add_condition(s, s->known + q * s->before);
+            if (is_condition(s, q)) s->fresh[s->fresh_count++] = s->known + q * s->before;
         } else {
             list[connected] = q;
             of[connected++] = number[s->symbol[s->start[q]].unknown];
         }
     }
-    size_t *rows = nh_alloc_array(components + 3, sizeof *rows),
-           *columns = nh_alloc_array(components + 3, sizeof *columns),
-           *member = nh_alloc_array(unknowns + 1, sizeof *member);
-    group(connected, of, components, rows, order);
-    group(unknowns, number, components, columns, member);
-    for (size_t i = 0; i < connected; i++) order[i] = list[order[i]];
-    component c;
-    size_t most_rows = widest(components, rows), most_columns = widest(components, columns);
-    component_init(&c, most_rows, most_columns);
-    for (size_t k = 0; k < components && !s->over && !nh_late(); k++) {
-        c.rows = rows[k + 1] - rows[k];
-        c.columns = columns[k + 1] - columns[k];
-        c.equation = order + rows[k];
-        c.unknown = member + columns[k];
-        for (size_t j = 0; j < c.columns; j++) place[c.unknown[j]] = j;
-        solve_component(s, &c, place);
-    }
-    component_clear(&c, most_rows, most_columns);
-    nh_free(member);
-    nh_free(columns);
-    nh_free(rows);
-    nh_free(order);
+    x.rows = nh_alloc_array(x.count + 3, sizeof *x.rows);
+    x.columns = nh_alloc_array(x.count + 3, sizeof *x.columns);
+    x.free_to = nh_alloc_array(x.count + 1, sizeof *x.free_to);
+    x.width = nh_alloc_array(x.count + 1, sizeof *x.width);
+    group(connected, of, x.count, x.rows, x.equation);
+    group(unknowns, number, x.count, x.columns, x.unknown);
+    for (size_t i = 0; i < connected; i++) x.equation[i] = list[x.equation[i]];
     nh_free(of);
     nh_free(list);
-    nh_free(place);
     nh_free(number);
     nh_free(parent);
+    return x;
+}
+
+static void symbol_clear(symbol *x)
+{
+    for (size_t i = 0; i < x->parts; i++) part_clear(&x->part[i]);
+    nh_free(x->rows);
+    nh_free(x->columns);
+    nh_free(x->equation);
+    nh_free(x->unknown);
+    nh_free(x->place);
+    nh_free(x->free_to);
+    nh_free(x->width);
+}
+
+/* Parts with about as many equations each. */
+static void divide(symbol *x)
+{
+    const nh_graded_system *s = x->s;
+    size_t equations = x->rows[x->count], k = 0;
+    x->parts = nh_graded_parts((double)s->start[s->equations] * ((double)s->before + cell_work));
+    for (size_t i = 0; i < x->parts; i++) {
+        x->part[i].first = k;
+        while (k < x->count && (i + 1 == x->parts || x->rows[k] * x->parts < equations * (i + 1))) k++;
+        x->part[i].end = k;
+    }
+}
+
+static void eliminate_part(size_t index, void *context)
+{
+    symbol *x = context;
+    part *p = &x->part[index];
+    component c;
+    size_t rows = widest(p->end - p->first, x->rows + p->first),
+           columns = widest(p->end - p->first, x->columns + p->first);
+    component_init(&c, rows, columns);
+    for (size_t k = p->first; k < p->end && !nh_late(); k++) {
+        c.rows = x->rows[k + 1] - x->rows[k];
+        c.columns = x->columns[k + 1] - x->columns[k];
+        c.equation = x->equation + x->rows[k];
+        c.unknown = x->unknown + x->columns[k];
+        for (size_t j = 0; j < c.columns; j++) x->place[c.unknown[j]] = j;
+        solve_component(x->s, &c, x->place);
+        keep_pivots(&c, k, p);
+        keep_rest(x->s, &c, p);
+        x->free_to[k] = p->frees;
+    }
+    p->work = c.work;
+    component_clear(&c, rows, columns);
+}
+
+static void take_parameters_and_conditions(symbol *x)
+{
+    nh_graded_system *s = x->s;
+    for (size_t i = 0; i < x->parts; i++) {
+        const part *p = &x->part[i];
+        for (size_t k = p->first, j = 0; k < p->end && !s->over; k++) {
+            for (; j < x->free_to[k] && !s->over; j++)
+                nh_graded_parameter(s, p->free[j] / s->unknowns_of, s->first + p->free[j] % s->unknowns_of);
+            x->width[k] = s->N;
+        }
+        for (size_t j = 0; j < p->conditions; j++)
+            s->fresh[s->fresh_count++] = s->known + p->condition[j] * s->before;
+    }
+}
+
+/* The unknowns with a pivot follow from the others, last pivot first. */
+static void back_substitute(size_t index, void *context)
+{
+    symbol *x = context;
+    const nh_graded_system *s = x->s;
+    part *p = &x->part[index];
+    for (size_t t = p->pivots; t-- > 0;) {
+        const pivot *v = &p->pivot[t];
+        size_t width = x->width[v->component];
+        nh_residue *out = nh_graded_row(s, v->unknown / s->unknowns_of, s->first + v->unknown % s->unknowns_of);
+        memcpy(out, s->known + v->equation * s->before, s->before * sizeof *out);
+        nh_residue_scale(s->f, s->before, out, nh_residue_negative(s->f, v->inverse));
+        for (size_t z = v->from; z < v->to; z++) {
+            size_t other = p->cell[z].unknown;
+            if (other != v->unknown)
+                nh_residue_add_multiple(s->f, width, out,
+                                        nh_graded_row(s, other / s->unknowns_of, s->first + other % s->unknowns_of),
+                                        nh_residue_negative(s->f, p->cell[z].value));
+        }
+        p->work += (double)((v->to - v->from) * width);
+    }
+}
+
+void nh_graded_solve_symbol(nh_graded_system *s)
+{
+    s->fresh = nh_alloc_array(s->equations + 1, sizeof *s->fresh);
+    s->fresh_count = 0;
+    symbol x = find_components(s);
+    divide(&x);
+    nh_parallel(x.parts, s->p->threads, eliminate_part, &x);
+    s->over |= nh_late();
+    if (!s->over) take_parameters_and_conditions(&x);
+    if (!s->over) nh_parallel(x.parts, s->p->threads, back_substitute, &x);
+    for (size_t i = 0; i < x.parts; i++) s->work += x.part[i].work;
+    symbol_clear(&x);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/json.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "commands/analyze.h"
 #include "document/analysis_json.h"
@@ -57,7 +58,10 @@ static char *count_document(const nh_scan_numbers_request *q, size_t settings, c
     char *text = NULL;
     if (model) {
         size_t degree = chosen_degree(q, model);
-        nh_count_question question = {.degree = degree, .work = q->options.count_work, .generic = generic};
+        nh_count_question question = {.degree = degree,
+                                      .work = q->options.count_work,
+                                      .threads = nh_threads(q->options.threads),
+                                      .generic = generic};
         nh_count c = nh_count_integrals(model, &question);
         text = count_json(&c, degree);
         if (c.obstacle) nh_fail(error, NH_NUMERIC, "", "%s", c.obstacle);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "exact/walls.h"
 #include "graph/diff.h"
@@ -135,6 +136,7 @@ static news look_for_news(nh_counted *x, size_t degree, size_t kind)
                            .degree = degree,
                            .work = r->options.count_work,
                            .memory = r->counted,
+                           .threads = nh_threads(r->options.threads),
                            .current = phi};
     q.known = nh_counted_proved(r, phi, &general, &q.independent);
     nh_count c = nh_count_integrals(r->model, &q);
