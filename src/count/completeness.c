@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "base/parallel.h"
+
 /* The highest degree that the rows settle, and what is missing at the next one. */
 static void read_rows(nh_completeness *c, bool all)
 {
@@ -47,6 +49,7 @@ static bool holds_generically(const nh_model *model, const nh_completeness_quest
                                   .work = q->work,
                                   .first_work = first_work(model, q, c->count.time),
                                   .memory = q->memory,
+                                  .threads = q->threads,
                                   .known = q->known - (c->regional ? 0 : q->regional),
                                   .independent = q->independent - (c->regional ? 0 : q->regional),
                                   .current = q->current};
@@ -87,35 +90,84 @@ size_t nh_completeness_degree(const nh_model *model, bool time)
     return coordinates <= two ? highest : coordinates <= few ? high : low;
 }
 
-void nh_completeness_of(const nh_model *model, const nh_completeness_question *q,
-                        nh_completeness out[NH_COMPLETENESS_KINDS])
+static void count_kind(const nh_model *model, const nh_completeness_question *q, int kind, nh_completeness *c)
 {
+    size_t chosen = nh_completeness_degree(model, kind == NH_COMPLETE_IN_TIME);
+    nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME,
+                                  .degree = q->degree ? q->degree : chosen,
+                                  .until_missing = q->until_missing,
+                                  .work = q->work,
+                                  .first_work = first_work(model, q, kind == NH_COMPLETE_IN_TIME),
+                                  .memory = q->memory,
+                                  .threads = q->threads,
+                                  .known = q->known,
+                                  .independent = q->independent,
+                                  .current = q->current};
+    *c = completeness(model, q, question);
+    if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) *c = (nh_completeness){0};
+}
+
+static void generalize_kind(const nh_model *model, const nh_completeness_question *q, int kind, nh_completeness *c)
+{
+    (void)kind;
+    c->generic = c->counted && holds_generically(model, q, c);
+}
+
+/* ---- all kinds at the same time, each in a copy of the model ---- */
+
+typedef void for_kind(const nh_model *model, const nh_completeness_question *q, int kind, nh_completeness *c);
+
+typedef struct {
+    const nh_model *model;
+    const nh_completeness_question *q;
+    for_kind *work;
+    nh_completeness *out;
+    nh_dag *dag[NH_COMPLETENESS_KINDS];
+    nh_model *copy[NH_COMPLETENESS_KINDS];
+} kinds;
+
+static void do_kind(size_t kind, void *context)
+{
+    kinds *x = context;
+    if (x->q->kinds && !(x->q->kinds >> kind & 1)) return;
+    x->dag[kind] = nh_dag_copy(x->model->dag);
+    x->copy[kind] = nh_model_copy(x->model, x->dag[kind]);
+    x->work(x->copy[kind], x->q, (int)kind, &x->out[kind]);
+}
+
+/* Texts that are in the memory of a copy. */
+static void keep_texts(nh_arena *arena, nh_count *c)
+{
+    const char **name = nh_arena_alloc(arena, (c->without + 1) * sizeof *name);
+    for (size_t i = 0; i < c->without; i++) name[i] = nh_arena_strdup(arena, c->without_name[i]);
+    c->without_name = name;
+    if (c->where) c->where = nh_arena_strdup(arena, c->where);
+}
+
+static void do_kinds(const nh_model *model, const nh_completeness_question *q, for_kind *work, nh_completeness *out)
+{
+    kinds x = {.model = model, .q = q, .work = work, .out = out};
+    nh_parallel(NH_COMPLETENESS_KINDS, q->threads, do_kind, &x);
     for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) {
-        nh_completeness *c = &out[kind];
-        if (q->kinds && !(q->kinds >> kind & 1)) continue;
-        size_t chosen = nh_completeness_degree(model, kind == NH_COMPLETE_IN_TIME);
-        nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME,
-                                      .degree = q->degree ? q->degree : chosen,
-                                      .until_missing = q->until_missing,
-                                      .work = q->work,
-                                      .first_work = first_work(model, q, kind == NH_COMPLETE_IN_TIME),
-                                      .memory = q->memory,
-                                      .known = q->known,
-                                      .independent = q->independent,
-                                      .current = q->current};
-        *c = completeness(model, q, question);
-        if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) {
-            *c = (nh_completeness){0};
-            continue;
-        }
+        if (!x.copy[kind]) continue;
+        keep_texts(model->arena, &out[kind].count);
+        nh_model_copy_free(x.copy[kind]);
+        nh_dag_free(x.dag[kind]);
     }
 }
 
-void nh_completeness_generic(const nh_model *model, const nh_completeness_question *q,
-                             nh_completeness c[NH_COMPLETENESS_KINDS])
+void nh_completeness_of(const nh_model *model, const nh_completeness_question *question,
+                        nh_completeness out[NH_COMPLETENESS_KINDS])
 {
-    for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++)
-        c[kind].generic = c[kind].counted && holds_generically(model, q, &c[kind]);
+    do_kinds(model, question, count_kind, out);
+}
+
+void nh_completeness_generic(const nh_model *model, const nh_completeness_question *question,
+                             nh_completeness completeness[NH_COMPLETENESS_KINDS])
+{
+    nh_completeness_question every = *question;
+    every.kinds = 0;
+    do_kinds(model, &every, generalize_kind, completeness);
 }
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }

@@ -45,6 +45,7 @@ typedef struct {
     unsigned kinds;         /* bit k: of kind k; 0: all.  The others are left as they are */
     size_t degree;          /* highest degree; 0: chosen here */
     double work;
+    size_t threads;         /* 0: one */
     nh_count_memory *memory; /* keeps counts for the next call; NULL: nothing is kept */
 } nh_completeness_question;
 

@@ -1,11 +1,13 @@
 /* Keeps the solutions of a count: the same equations are asked again whenever more integrals are known. */
+#include <stdatomic.h>
 #include <string.h>
 
 #include "base/progress.h"
 #include "count/count_internal.h"
 
 /* Of one parity at one order. */
-typedef struct {
+typedef struct answer {
+    struct answer *next;
     uint64_t key;
     size_t *total, injective_at, rows; /* rows: differentials of the solutions */
     bool injective, extended;
@@ -13,24 +15,22 @@ typedef struct {
     double work;
 } answer;
 
+/* Threads add answers at its head, and none is removed before the end. */
 struct nh_count_memory {
-    nh_arena *arena;
-    size_t count, capacity;
-    answer *item;
+    answer *_Atomic first;
 };
 
-nh_count_memory *nh_count_memory_create(void)
-{
-    nh_count_memory *m = nh_alloc(sizeof *m);
-    *m = (nh_count_memory){.arena = nh_arena_create()};
-    return m;
-}
+nh_count_memory *nh_count_memory_create(void) { return nh_alloc(sizeof(nh_count_memory)); }
 
 void nh_count_memory_free(nh_count_memory *m)
 {
     if (!m) return;
-    nh_arena_free(m->arena);
-    nh_free(m->item);
+    for (answer *a = m->first, *next; a; a = next) {
+        next = a->next;
+        nh_free(a->total);
+        nh_free(a->row);
+        nh_free(a);
+    }
     nh_free(m);
 }
 
@@ -66,9 +66,18 @@ static uint64_t key_of(const nh_graded_problem *p, const nh_differentials *d)
 
 static const answer *recall(const nh_count_memory *m, uint64_t key)
 {
-    for (size_t i = 0; m && i < m->count; i++)
-        if (m->item[i].key == key) return &m->item[i];
-    return NULL;
+    const answer *a = m ? m->first : NULL;
+    while (a && a->key != key) a = a->next;
+    return a;
+}
+
+static void keep(nh_count_memory *m, answer a)
+{
+    answer *kept = nh_alloc(sizeof *kept);
+    *kept = a;
+    kept->next = m->first;
+    while (!atomic_compare_exchange_weak(&m->first, &kept->next, kept)) {
+    }
 }
 
 bool nh_count_recall_extended(const nh_counter *c, const nh_graded_problem *p, bool *extended, double *work)
@@ -84,10 +93,8 @@ bool nh_count_recall_extended(const nh_counter *c, const nh_graded_problem *p, b
 void nh_count_remember_extended(nh_counter *c, const nh_graded_problem *p, bool extended, double work)
 {
     nh_differentials none = {0};
-    nh_count_memory *m = c->q->memory;
-    if (!m || nh_late()) return;
-    nh_grow(&m->item, &m->capacity, m->count + 1, sizeof *m->item);
-    m->item[m->count++] = (answer){.key = mix(key_of(p, &none), p->left), .extended = extended, .work = work};
+    if (!c->q->memory || nh_late()) return;
+    keep(c->q->memory, (answer){.key = mix(key_of(p, &none), p->left), .extended = extended, .work = work});
 }
 
 static void remember(nh_count_memory *m, uint64_t key, const nh_graded_count *g, const nh_differentials *d,
@@ -100,12 +107,11 @@ static void remember(nh_count_memory *m, uint64_t key, const nh_graded_count *g,
                 .injective_at = g->injective_at,
                 .rows = d->rows - before,
                 .work = g->work};
-    a.total = nh_arena_alloc(m->arena, (g->order + 1) * sizeof *a.total);
+    a.total = nh_alloc_array(g->order + 1, sizeof *a.total);
     memcpy(a.total, g->total, (g->order + 1) * sizeof *a.total);
-    a.row = nh_arena_alloc(m->arena, a.rows * width * sizeof *a.row + 1);
+    a.row = nh_alloc_array(a.rows * width + 1, sizeof *a.row);
     memcpy(a.row, d->row + before * width, a.rows * width * sizeof *a.row);
-    nh_grow(&m->item, &m->capacity, m->count + 1, sizeof *m->item);
-    m->item[m->count++] = a;
+    keep(m, a);
 }
 
 bool nh_count_solve(nh_counter *c, const nh_graded_problem *p, nh_graded_state **state, size_t *total,

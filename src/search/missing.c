@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/budget.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "search/counted.h"
 #include "search/currents.h"
@@ -25,6 +26,7 @@ static nh_completeness_question question(const nh_analysis *r, nh_ex *phi)
                                   .all = r->search == NH_SEARCH_COMPLETE,
                                   .degree = (size_t)r->options.degree,
                                   .work = r->options.count_work * (r->options.degree ? times_if_asked : 1),
+                                  .threads = nh_threads(r->options.threads),
                                   .memory = r->counted};
     q.known = nh_counted_proved(r, phi, &q.general, &q.independent);
     q.regional = nh_counted_regional(r, phi + q.known, &q.regional_general);
