@@ -18,6 +18,7 @@
 #include "commands/figures.h"
 #include "search/constraint_integrals.h"
 #include "search/staged_search.h"
+#include "search/symmetries.h"
 #include "search/missing.h"
 #include "search/motion_series.h"
 #include "search/routes.h"
@@ -364,6 +365,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     watch_deadline(r);
     if (!nh_late()) nh_missing_count(r, r->stages > 0);
     if (!nh_late()) nh_agreement_find(r);
+    if (!nh_interrupted()) nh_symmetries_find(r);
     conclude(r);
     nh_integrals_of_constraints(r);
     nh_branch_compare(r);

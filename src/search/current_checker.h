@@ -13,7 +13,6 @@ typedef struct {
     bool searched;
     nh_ex *inverse; /* the chart's velocities in coordinate velocities */
     bool invertible;
-    bool brief;     /* symmetries of the following currents are not wanted */
     size_t refuted; /* candidates so far that are certainly not conserved */
     size_t nears;   /* refuted candidates of the present list that are nearly conserved */
     nh_candidate *near[NH_MOST_ALMOST];

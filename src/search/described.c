@@ -93,36 +93,6 @@ static void normalise(nh_model *o, nh_current *f)
     f->phi = shortest(d, nh_div(d, f->phi, unit));
 }
 
-/* The same in a field, time first. */
-static void put_values_in_field(nh_model *o, const nh_ex *fixed, nh_field *z)
-{
-    if (!z->space) return;
-    put_values(o, fixed, 1, &z->time);
-    put_values(o, fixed, o->m, z->space);
-    put_values(o, fixed, o->n, z->velocity);
-}
-
-static void put_values_in_symmetry(nh_model *o, const nh_ex *fixed, nh_symmetry *z)
-{
-    put_values(o, fixed, 1, &z->Z0);
-    put_values(o, fixed, o->n, z->zeta);
-    put_values(o, fixed, o->n, z->W);
-    put_values_in_field(o, fixed, &z->field);
-    put_values_in_field(o, fixed, &z->relative);
-    put_values_in_field(o, fixed, &z->bracket);
-    put_values(o, fixed, o->m, z->coordinate_rate);
-    put_values(o, fixed, o->m, z->relative_rate);
-    put_values(o, fixed, o->k, z->bracket_form);
-}
-
-static bool with_symmetry(nh_analysis *r, const nh_points *points, nh_current *f, nh_error *error)
-{
-    nh_model *o = r->model;
-    f->has_symmetry = nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error);
-    if (f->has_symmetry && f->proof.fixed) put_values_in_symmetry(o, f->proof.fixed, &f->symmetry);
-    return f->has_symmetry;
-}
-
 /* ---- what it is ---- */
 
 /* Does the current change when an angle makes one turn?  Then it is defined only locally; not where turns count,
@@ -215,11 +185,7 @@ void nh_current_in_velocities(const nh_current_checker *b, nh_current *f)
 void nh_described_fill(nh_current_checker *b, nh_current *f)
 {
     nh_analysis *r = b->result;
-    nh_error trouble;
-    nh_error_clear(&trouble);
     if (!f->series) normalise(r->model, f);
-    if (!b->brief && !with_symmetry(r, b->generic, f, &trouble))
-        nh_analysis_warn(r, "no symmetry could be computed: %s", trouble.what);
     f->local = is_local(r->model, b->generic, f->phi, f->series);
     find_meaning(r, b->generic, f);
     nh_current_in_velocities(b, f);

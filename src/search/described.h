@@ -1,12 +1,11 @@
-/* described: the description of a current: simplest multiple, symmetry, meaning, formula. */
+/* described: the description of a current: simplest multiple, meaning, formula. */
 #ifndef NH_DESCRIBED_H
 #define NH_DESCRIBED_H
 
 #include "search/current_checker.h"
 
-/* Normalise a current, so that the simplest component of its symmetry has the coefficient one; fill in the symmetry,
- * whether it is local (many-valued on an angle), what it means and its form in velocities.  A symmetry that cannot be
- * computed is a warning of the result. */
+/* Normalise a current, so that the simplest component of its symmetry has the coefficient one; fill in whether it is
+ * local (many-valued on an angle), what it means and its form in velocities. */
 void nh_described_fill(nh_current_checker *bench, nh_current *found);
 
 /* found->phi in the coordinates' velocities, where the chart allows that; without the unknown branch of a constraint

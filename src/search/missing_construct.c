@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/budget.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "count/lift.h"
 #include "exact/normal.h"
@@ -44,9 +45,7 @@ static bool take_place(search *s, const nh_current *f)
 static bool keep_further(search *s, size_t degree, nh_candidate *candidate, const nh_points *fit)
 {
     nh_analysis *r = s->solver.r;
-    s->solver.bench->brief = true;
     bool conserved = nh_currents_add(s->solver.bench, candidate, fit, true);
-    s->solver.bench->brief = false;
     if (!conserved) return false;
     nh_current *f = &r->found[--r->count];
     if (!f->proof.proved || r->furthers == NH_MOST_FURTHER) return false;
@@ -252,6 +251,7 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
                                .price = price,
                                .most_words = (size_t)r->options.words,
                                .work = s->work,
+                               .threads = nh_threads(r->options.threads),
                                .current = phi};
     q.known = nh_counted_proved(r, phi, &general, &q.independent);
     size_t regional = nh_counted_regional(r, phi + q.known, &general);

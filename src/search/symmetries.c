@@ -1,0 +1,124 @@
+/* Each symmetry is derived in a copy of the model; its expressions are brought back from there. */
+#include "search/symmetries.h"
+
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "exact/normal.h"
+#include "integrals/fixed.h"
+
+enum { together = 8, most_components = 16 };
+
+/* ---- the components ---- */
+
+/* n expressions: an array, or `one` of them. */
+typedef struct {
+    nh_ex **array, *one;
+    size_t n;
+} component;
+
+static size_t list_field(const nh_model *o, nh_field *z, component *out)
+{
+    if (!z->space) return 0;
+    out[0] = (component){.one = &z->time, .n = 1};
+    out[1] = (component){.array = &z->space, .n = o->m};
+    out[2] = (component){.array = &z->velocity, .n = o->n};
+    return 3;
+}
+
+static size_t list(const nh_model *o, nh_symmetry *z, component *out)
+{
+    size_t n = 0;
+    out[n++] = (component){.one = &z->Z0, .n = 1};
+    out[n++] = (component){.array = &z->zeta, .n = o->n};
+    out[n++] = (component){.array = &z->W, .n = o->n};
+    out[n++] = (component){.array = &z->coordinate_rate, .n = o->m};
+    out[n++] = (component){.array = &z->bracket_form, .n = o->k};
+    if (z->relative_rate) out[n++] = (component){.array = &z->relative_rate, .n = o->m};
+    n += list_field(o, &z->field, out + n);
+    n += list_field(o, &z->relative, out + n);
+    return n + list_field(o, &z->bracket, out + n);
+}
+
+static void put_values(nh_model *o, const nh_ex *fixed, nh_symmetry *z)
+{
+    component c[most_components];
+    for (size_t k = list(o, z, c); k-- > 0;)
+        for (size_t i = 0; i < c[k].n; i++) {
+            nh_ex *e = c[k].one ? c[k].one : &(*c[k].array)[i];
+            *e = nh_simplify_short(o->dag, nh_fixed_values(o, fixed, *e), 0);
+        }
+}
+
+/* From a copy into the model. */
+static void bring(nh_model *o, const nh_model *copy, nh_symmetry *z)
+{
+    component c[most_components];
+    size_t components = list(o, z, c), total = 0;
+    for (size_t k = 0; k < components; k++) total += c[k].n;
+    nh_ex *all = nh_arena_alloc(o->arena, (total + 1) * sizeof *all);
+    for (size_t k = 0, at = 0; k < components; at += c[k++].n)
+        memcpy(all + at, c[k].one ? c[k].one : *c[k].array, c[k].n * sizeof *all);
+    nh_dag_bring(o->dag, copy->dag, total, all);
+    for (size_t k = 0, at = 0; k < components; at += c[k++].n)
+        if (c[k].one) *c[k].one = all[at];
+        else *c[k].array = all + at;
+}
+
+/* ---- several at a time ---- */
+
+typedef struct {
+    nh_current *current;
+    nh_dag *dag;
+    nh_model *model;
+    nh_error trouble;
+} task;
+
+typedef struct {
+    const nh_analysis *r;
+    const nh_points *points;
+    task task[together];
+} tasks;
+
+static void find(size_t index, void *context)
+{
+    tasks *x = context;
+    task *t = &x->task[index];
+    nh_current *f = t->current;
+    t->dag = nh_dag_copy(x->r->model->dag);
+    t->model = nh_model_copy(x->r->model, t->dag);
+    nh_error_clear(&t->trouble);
+    f->has_symmetry = nh_symmetry_of(t->model, x->points, f->phi, x->r->options.same, &f->symmetry, &t->trouble);
+    if (f->has_symmetry && f->proof.fixed) put_values(t->model, f->proof.fixed, &f->symmetry);
+}
+
+static void find_all(nh_analysis *r, const nh_points *points, size_t n, nh_current *current)
+{
+    for (size_t first = 0; first < n; first += together) {
+        size_t count = n - first < together ? n - first : together;
+        tasks x = {.r = r, .points = points};
+        for (size_t k = 0; k < count; k++) x.task[k].current = &current[first + k];
+        nh_parallel(count, nh_threads(r->options.threads), find, &x);
+        for (size_t k = 0; k < count; k++) {
+            task *t = &x.task[k];
+            if (t->current->has_symmetry) bring(r->model, t->model, &t->current->symmetry);
+            else nh_analysis_warn(r, "no symmetry could be computed: %s", t->trouble.what);
+            nh_model_copy_free(t->model);
+            nh_dag_free(t->dag);
+        }
+    }
+}
+
+void nh_symmetries_find(nh_analysis *r)
+{
+    enum { generic_count = 24 };
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    nh_progress("the symmetries", -1);
+    nh_points *points = nh_points_create(r->model, generic_count, 1, (uint64_t)r->options.seed + 202, &trouble);
+    if (!points) nh_analysis_warn(r, "no symmetry could be computed: %s", trouble.what);
+    if (points) find_all(r, points, r->count, r->found);
+    if (points) find_all(r, points, r->pieces, r->piece);
+    nh_points_free(points);
+}
