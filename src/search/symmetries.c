@@ -95,6 +95,7 @@ static void find(size_t index, void *context)
 
 static void find_all(nh_analysis *r, const nh_points *points, size_t n, nh_current *current)
 {
+    if (n) nh_model_G(r->model); /* every symmetry needs it: once is enough */
     for (size_t first = 0; first < n; first += together) {
         size_t count = n - first < together ? n - first : together;
         tasks x = {.r = r, .points = points};
