@@ -385,6 +385,24 @@ static const char *const ROLLING_DISK =
     "constraints:\n  - x' - h'*sin(h)*sin(p) + p'*cos(h)*cos(p) + s'*cos(p) = 0\n"
     "  - y' + h'*sin(h)*cos(p) + p'*cos(h)*sin(p) + s'*sin(p) = 0\n";
 
+/* Where the equations depend on time, a count without time in the coefficients is none. */
+Test(count, equations_that_depend_on_time_are_not_counted_twice)
+{
+    const char *const driven = "name: d\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - x^2/2 + x*cos(t)\n";
+    for (int k = 0; k < 2; k++) {
+        problem p = problem_of(k ? driven : FREE_1);
+        nh_count_question q = {.timeless = true, .degree = 2, .work = 1e9};
+        nh_count c = nh_count_integrals(p.model, &q);
+        cr_expect_eq(c.time, k == 1);
+        cr_expect_eq(c.rows, k ? 0u : 2u);
+        nh_completeness both[NH_COMPLETENESS_KINDS];
+        nh_completeness_of(p.model, &(nh_completeness_question){.degree = 2, .work = 1e9, .threads = 2}, both);
+        cr_expect_eq(both[NH_COMPLETE_IN_COORDINATES].counted, k == 0);
+        cr_expect(both[NH_COMPLETE_IN_TIME].counted && both[NH_COMPLETE_IN_TIME].count.rows == 2);
+        problem_clear(&p);
+    }
+}
+
 /* The heading enters only the rates of the place of the contact; the spin and the place enter nothing. */
 Test(count, coordinates_that_closed_equations_do_not_need_are_dropped)
 {

@@ -94,6 +94,7 @@ static void count_kind(const nh_model *model, const nh_completeness_question *q,
 {
     size_t chosen = nh_completeness_degree(model, kind == NH_COMPLETE_IN_TIME);
     nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME,
+                                  .timeless = kind == NH_COMPLETE_IN_COORDINATES,
                                   .degree = q->degree ? q->degree : chosen,
                                   .until_missing = q->until_missing,
                                   .work = q->work,

@@ -449,7 +449,7 @@ nh_count nh_count_integrals(const nh_model *model, const nh_count_question *ques
     nh_counter_open(&c, model, question, true);
     out.time = c.equations->time;
     if (c.equations->obstacle) out.obstacle = c.equations->obstacle;
-    else degrees(&c, &out);
+    else if (!question->timeless || !out.time) degrees(&c, &out);
     out.where = nh_region_text(model->dag, &c.equations->side, model->arena);
     out.work = c.work;
     nh_counter_close(&c);

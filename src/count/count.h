@@ -73,6 +73,7 @@ typedef enum { NH_EVERY_COORDINATE, NH_NOT_CYCLIC, NH_CLOSED_SHAPE } nh_count_sh
 
 typedef struct {
     bool time, generic;
+    bool timeless;          /* nothing is counted where the equations depend on time: there are no rows */
     nh_count_shape shape;   /* known integrals that depend on other coordinates are left out */
     size_t idle;            /* cyclic coordinates that are left out beside those of the shape */
     const nh_ex *idle_coordinate;
