@@ -200,9 +200,14 @@ static void interrupt(int number)
     cJSON *root = json ? cJSON_Parse(json) : NULL;
     cr_assert_not_null(root);
     cr_expect(cJSON_IsTrue(cJSON_GetObjectItem(root, "partial")));
-    bool told = false;
-    for (const cJSON *w = cJSON_GetObjectItem(root, "warnings")->child; w; w = w->next) told |= strstr(w->valuestring, "interrupted") != NULL;
+    bool told = false, bare = false;
+    for (const cJSON *w = cJSON_GetObjectItem(root, "warnings")->child; w; w = w->next) {
+        told |= strstr(w->valuestring, "interrupted") != NULL;
+        bare |= strstr(w->valuestring, "without the symmetries") != NULL;
+    }
     cr_expect(told);
+    const cJSON *first = cJSON_GetArrayItem(cJSON_GetObjectItem(root, "currents"), 0);
+    cr_expect_eq(bare, first && cJSON_IsNull(cJSON_GetObjectItem(first, "symmetry")));
     cJSON_Delete(root);
     free(json);
     finished_clear(&f);

@@ -318,7 +318,9 @@ static void say_what_ended_it(nh_analysis *r)
     const char *option = nh_ended_option();
     nh_ended_words(words, sizeof words);
     r->partial = true;
-    nh_analysis_warn(r, "%s: the results are partial%s%s%s", words,
+    bool bare = r->count && !r->found[0].has_symmetry;
+    nh_analysis_warn(r, "%s: the results are partial%s%s%s%s", words,
+                     bare ? ", without the symmetries of the currents" : "",
                      r->validation ? "" : ", and no motion was computed", option ? "; raise the limit by " : "",
                      option ? option : "");
 }
