@@ -239,6 +239,8 @@ const char *nh_function_name(nh_function f);
 size_t nh_function_arity(nh_function f);
 /* what to write in place of a function's name in other languages: "write 1/tan(...)"; or NULL */
 const char *nh_function_elsewhere(const char *name);
+/* The function whose name is nearest to `word`; NULL: none is near. */
+const char *nh_function_nearest(const char *word);
 bool nh_is_named_function(nh_function f);
 /* The letters that stand for the arguments of a named function: "n, x"; NULL for the others. */
 const char *nh_function_arguments(nh_function f);

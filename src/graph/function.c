@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "graph/dag.h"
+#include "base/text.h"
 #include "graph/dag_internal.h"
 
 #define NAMED(f, name, arity, arguments) [NH_##f] = {name, arity, 0, -1, -1, NULL, arguments}
@@ -56,6 +57,13 @@ bool nh_is_incomplete_elliptic(nh_function f)
 size_t nh_function_constants(nh_function f)
 {
     return table[f].arguments && f < NH_ELLIPTIC_K ? (size_t)table[f].arity - 1 : 0;
+}
+
+const char *nh_function_nearest(const char *word)
+{
+    const char *list[NH_FUNCTION_COUNT + 1] = {"sqrt"};
+    for (int f = 0; f < NH_FUNCTION_COUNT; f++) list[1 + f] = nh_function_name((nh_function)f);
+    return nh_text_nearest(word, list, NH_FUNCTION_COUNT + 1);
 }
 
 /* Names of functions in other languages, and what to write instead. */

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/text.h"
 #include "graph/measure.h"
 #include "graph/num_long.h"
 
@@ -286,13 +285,6 @@ static bool square_root(parser *p, size_t at, nh_ex *out)
     return true;
 }
 
-static const char *nearest_function(const char *word)
-{
-    const char *list[NH_FUNCTION_COUNT + 1] = {"sqrt"};
-    for (int f = 0; f < NH_FUNCTION_COUNT; f++) list[1 + f] = nh_function_name((nh_function)f);
-    return nh_text_nearest(word, list, NH_FUNCTION_COUNT + 1);
-}
-
 /* The caller does not know the name, or has explained why it cannot stand here. */
 static bool unresolved(parser *p, const char *word, size_t at)
 {
@@ -302,7 +294,7 @@ static bool unresolved(parser *p, const char *word, size_t at)
     fault->offset = at;
     if (unknown) snprintf(fault->what, sizeof fault->what, "unknown %s `%s`", called ? "function" : "name", word);
     const char *instead = unknown && called ? nh_function_elsewhere(word) : NULL,
-               *near = unknown && called ? nearest_function(word) : NULL; /* nearer than the coordinate s is to sn(x) */
+               *near = unknown && called ? nh_function_nearest(word) : NULL; /* nearer than the coordinate s is to sn(x) */
     if (instead) return hint(p, "%s", instead);
     if (near) return hint(p, "did you mean `%s`?", near);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
