@@ -82,9 +82,9 @@ static void judge(nh_linear_row *row)
     for (size_t i = 0; e && i < e->eigenvalues; i++) {
         const nh_eigenvalue *z = &e->eigenvalue[i];
         all += z->times;
-        if (z->re > z->error) row->positive += z->times;
-        else if (z->re < -z->error) negative += z->times;
-        else if (hypot(z->re, z->im) <= z->error) zero += z->times;
+        if (z->re > z->radius) row->positive += z->times;
+        else if (z->re < -z->radius) negative += z->times;
+        else if (hypot(z->re, z->im) <= z->radius) zero += z->times;
     }
     row->verdict = !e                                     ? NH_LINEAR_UNKNOWN
                    : e->residual > 0 || e->changes        ? NH_LINEAR_UNSTEADY

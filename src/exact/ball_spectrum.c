@@ -14,9 +14,9 @@
 #include "base/memory.h"
 #include "base/progress.h"
 
-enum { pellet_bits = 64, head_bits = 128 };
+enum { pellet_bits = 64, head_bits = 320, bits_each = 32 };
 
-long nh_ball_spectrum_bits(size_t n) { return head_bits + 64 * ((long)n + 2); }
+long nh_ball_spectrum_bits(size_t n) { return head_bits + bits_each * (long)n; }
 
 /* ---- Pellet's discs ---- */
 
@@ -149,8 +149,8 @@ static size_t enclose(const clusters *x, const arb_poly_t p, double equal, long 
         if (!good) break;
         double re = arf_get_d(arb_midref(acb_realref(c)), ARF_RND_NEAR),
                im = arf_get_d(arb_midref(acb_imagref(c)), ARF_RND_NEAR), r = fmax(exp2(log2_r), fmax(least * x->scale, DBL_MIN));
-        for (size_t j = 0; j < count; j++) good &= hypot(out[j].re - re, out[j].im - im) > 2 * (out[j].error + r);
-        out[count++] = (nh_eigenvalue){re, im, r + shown * hypot(re, im), s};
+        for (size_t j = 0; j < count; j++) good &= hypot(out[j].re - re, out[j].im - im) > 2 * (out[j].radius + r);
+        out[count++] = (nh_eigenvalue){re, im, r, r + shown * hypot(re, im), s};
     }
     acb_clear(c);
     return good ? count : 0;
@@ -166,7 +166,7 @@ static int by_real_part(const void *a, const void *b)
 
 size_t nh_ball_spectrum(const arb_mat_t A, long bits, nh_eigenvalue *out)
 {
-    static const double joined[] = {1e-15, 1e-12, 1e-9, 1e-6};
+    static const double joined[] = {1e-40, 1e-15, 1e-12, 1e-9, 1e-6};
     size_t n = (size_t)arb_mat_nrows(A), count = 0;
     if (n == 0) return 0;
     acb_mat_t matrix;

@@ -4,10 +4,10 @@
 
 #include "exact/ball_arb.h"
 
-/* `times` eigenvalues, counted with multiplicity, lie within `error` of re + i im, the rounding of re and im to 15
- * digits included.  im is exactly 0 where a single eigenvalue is real. */
+/* `times` eigenvalues, counted with multiplicity, lie within `radius` of a number that re and im round to doubles, and
+ * within `error` of re + i im as 15 digits write them.  im is exactly 0 where a single eigenvalue is real. */
 typedef struct {
-    double re, im, error;
+    double re, im, radius, error;
     size_t times;
 } nh_eigenvalue;
 

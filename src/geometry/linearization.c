@@ -138,7 +138,8 @@ static double largest_rate(const nh_linear_work *w, const nh_linear_equations *e
 {
     double largest = 0;
     for (size_t i = 0; i < e->s + e->n; i++)
-        if (e->closed[i] && !nh_linear_vanishes(rate(w, e, i), 1)) largest = fmax(largest, nh_ball_upper(rate(w, e, i)));
+        if (e->closed[i] && !nh_linear_vanishes(rate(w, e, i), 1))
+            largest = fmax(largest, fabs(arf_get_d(arb_midref(rate(w, e, i)), ARF_RND_NEAR)));
     return largest;
 }
 
@@ -242,9 +243,7 @@ static void decide(nh_linear_work *w, nh_linear_equations *e)
     closed_matrix(w, e, closed);
     e->eigenvalues = nh_ball_spectrum(closed, w->bits, e->eigenvalue);
     e->residual = largest_rate(w, e);
-    for (size_t i = 0; i < e->m; i++) e->moves |= e->v[i] != 0;
-    for (size_t i = 0; i < e->s && e->residual > 0; i++)
-        if (e->closed[i] && e->v[e->position[i]] != 0) e->moves = true;
+    for (size_t i = 0; i < e->m; i++) e->moves |= e->residual == 0 && e->v[i] != 0;
     e->changes = changes(w, e, closed);
     arb_mat_clear(closed);
 }
@@ -277,7 +276,7 @@ nh_linear_equations *nh_linearization_at(nh_linearization *l, const double *para
 {
     size_t m = l->m;
     nh_linear_equations *e = NULL;
-    nh_linear_work w = {.l = l, .bits = nh_ball_spectrum_bits(2 * m), .q = _arb_vec_init((slong)m),
+    nh_linear_work w = {.l = l, .bits = nh_ball_spectrum_bits(2 * m - l->k), .q = _arb_vec_init((slong)m),
                         .v = _arb_vec_init((slong)m), .a = _arb_vec_init((slong)m),
                         .dependent = nh_alloc_array(m + l->k + 1, sizeof *w.dependent),
                         .fixed = nh_alloc_array(m + 1, sizeof *w.fixed)};

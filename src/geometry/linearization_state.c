@@ -241,7 +241,8 @@ static bool start_velocities(nh_linear_work *w, const nh_linear_state *state, nh
     bool *free = nh_alloc_array(m + 1, sizeof *free), any = false;
     for (size_t i = 0; i < m; i++) any |= free[i] = !state->given[m + i];
     bool good = newton(w, l->k, l->f, l->F, free, w->v, &step);
-    if (good && any) good = least_energy(w, free) && newton(w, l->k, l->f, l->F, free, w->v, &step);
+    /* without a metric the shortest ones stay */
+    if (good && any && least_energy(w, free)) good = newton(w, l->k, l->f, l->F, free, w->v, &step);
     double by = good ? left(w, l->k, l->f, &worst) : 0;
     if (good && by > converged(w)) {
         good = newton(w, l->k, l->f, l->F, NULL, w->v, &step);
