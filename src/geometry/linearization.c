@@ -68,7 +68,6 @@ static void derivatives(nh_linearization *l)
     memcpy(in, l->q, m * sizeof *in);
     memcpy(in + m, l->v, m * sizeof *in);
     l->walls = nh_walls_between(d, m + k, balance, 2 * m, in, l->wall);
-    for (size_t i = 0; i < m + k; i++) l->timed |= nh_depends(d, balance[i], l->system->t);
 }
 
 nh_linearization *nh_linearization_create(nh_system *system)
@@ -143,7 +142,7 @@ static double largest_rate(const nh_linear_work *w, const nh_linear_equations *e
     return largest;
 }
 
-/* Another state of a steady motion: the coordinates that are left out move on for the time tau. */
+/* Another state of a steady motion: time and the coordinates that are left out move on by tau. */
 static bool move_on(nh_linear_work *w, const nh_linear_equations *e, const arb_srcptr q, double tau)
 {
     size_t m = w->l->m;
@@ -152,6 +151,8 @@ static bool move_on(nh_linear_work *w, const nh_linear_equations *e, const arb_s
     arb_t t;
     arb_init(t);
     arb_set_d(t, tau);
+    arb_add(w->t, w->begin, t, w->bits);
+    nh_ball_set_arb(w->ball, w->l->system->t, w->t);
     for (size_t i = 0; i < m; i++) free[i] = true;
     for (size_t i = 0; i < e->s; i++) free[e->position[i]] = !e->closed[i];
     for (size_t i = 0; i < m; i++) {
@@ -184,7 +185,7 @@ static bool changes(nh_linear_work *w, const nh_linear_equations *e, const arb_m
 {
     static const double times[] = {0.375, -1.125};
     size_t m = w->l->m;
-    bool other = w->l->timed;
+    bool other = false;
     arb_ptr q = _arb_vec_init((slong)m), v = _arb_vec_init((slong)m);
     _arb_vec_set(q, w->q, (slong)m);
     _arb_vec_set(v, w->v, (slong)m);
@@ -229,6 +230,7 @@ static void fill(const nh_linear_work *w, nh_linear_equations *e)
     e->position = nh_alloc_array(e->s + 1, sizeof *e->position);
     memcpy(e->velocity, w->dependent + k, e->n * sizeof *e->velocity);
     memcpy(e->position, w->fixed + (m - e->s), e->s * sizeof *e->position);
+    e->t = arf_get_d(arb_midref(w->begin), ARF_RND_NEAR);
     e->q = vector(m, w->q), e->v = vector(m, w->v), e->a = vector(m, w->a);
     e->M = numbers(e, w->M), e->C = numbers(e, w->C), e->N = numbers(e, w->N), e->A = numbers(e, w->A);
     e->R = numbers(e, w->R), e->S = numbers(e, w->S), e->T = numbers(e, w->T);
@@ -261,6 +263,8 @@ static void set_parameters(nh_linear_work *w, const double *parameter)
 static void work_clear(nh_linear_work *w)
 {
     slong m = (slong)w->l->m;
+    arb_clear(w->t);
+    arb_clear(w->begin);
     arb_mat_struct *const all[] = {w->R, w->S, w->T, w->M, w->C, w->N, w->A};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) arb_mat_clear(all[i]);
     _arb_vec_clear(w->q, m);
@@ -282,6 +286,8 @@ nh_linear_equations *nh_linearization_at(nh_linearization *l, const double *para
                         .fixed = nh_alloc_array(m + 1, sizeof *w.fixed)};
     arb_mat_struct *const all[] = {w.R, w.S, w.T, w.M, w.C, w.N, w.A};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) arb_mat_init(all[i], 0, 0);
+    arb_init(w.t);
+    arb_init(w.begin);
     w.ball = nh_ball_create(l->dag, w.bits);
     set_parameters(&w, parameter);
     if (nh_linear_start(&w, state, error) && nh_linear_matrices(&w, error)) {

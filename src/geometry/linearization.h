@@ -54,7 +54,7 @@ typedef struct {
     size_t size;            /* how many are */
     double residual;        /* the largest rate of one of these; 0 where all vanish */
     bool moves;             /* a coordinate that is left out moves */
-    bool changes;           /* the closed part of A is another one at other states of the motion, or depends on t */
+    bool changes;           /* the closed part of A is another one at other states of the motion */
     size_t eigenvalues;     /* of the closed part of A; 0 where none were enclosed */
     nh_eigenvalue *eigenvalue;
 } nh_linear_equations;

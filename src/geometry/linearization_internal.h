@@ -19,7 +19,6 @@ struct nh_linearization {
     nh_ex *c_q, *c_v;           /* k x m: derivatives of F a + g */
     size_t walls;
     nh_ex *wall;
-    bool timed;                 /* t occurs */
 };
 
 /* One evaluation. */
@@ -27,6 +26,7 @@ typedef struct {
     const nh_linearization *l;
     nh_ball *ball;
     long bits;
+    arb_t begin, t;         /* the time of the state, and of one beside it */
     arb_ptr q, v, a;        /* m each: the state, as mid-points, and its accelerations */
     size_t n, s;
     bool chosen;            /* are these chosen?  At other states they stay */

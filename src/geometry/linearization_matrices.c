@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "geometry/linearization_internal.h"
 
 /* ---- matrices of balls ---- */
@@ -115,6 +116,41 @@ static void put(arb_mat_t out, size_t row, size_t column, const arb_mat_t a)
 
 /* ---- the steps ---- */
 
+/* Says why there are no accelerations: velocities with neither inertia nor constraint, or dependent constraints. */
+static bool undetermined(nh_linear_work *w, const arb_mat_t K, const arb_mat_t F, nh_error *error)
+{
+    size_t m = w->l->m, k = w->l->k, *order = nh_alloc_array(2 * m + 1, sizeof *order), *pivot = order + m;
+    const nh_coordinate *c = w->l->system->coordinate;
+    arb_mat_t both;
+    nh_text names;
+    nh_text_init(&names);
+    arb_mat_init(both, (slong)(k + m), (slong)m);
+    put(both, 0, 0, F);
+    put(both, k, 0, K);
+    for (size_t j = 0; j < m; j++) order[j] = m - 1 - j;
+    size_t rank = nh_linear_eliminate(both, m, order, pivot, w->bits);
+    for (size_t j = 0; j < m && rank < m; j++) {
+        bool moves = j == pivot[rank];
+        for (size_t r = 0; r < rank && !moves; r++)
+            moves = pivot[r] == j && !nh_linear_vanishes(arb_mat_entry(both, r, pivot[rank]), 1);
+        if (moves) nh_text_addf(&names, "%s%s'", names.length ? ", " : "", c[j].name);
+    }
+    if (rank < m) {
+        nh_fail(error, NH_NUMERIC, "", "the accelerations are not determined at this state: a motion in %s alone has no "
+                "inertia there", nh_text_string(&names));
+        nh_error_hint(error, "coordinates are singular there, as Euler's angles may be: take a state beside it, or other "
+                      "coordinates");
+    } else {
+        nh_fail(error, NH_NUMERIC, "", "the accelerations and multipliers are not determined at this state: the "
+                "constraints depend on each other there");
+        nh_error_hint(error, "take a state beside it");
+    }
+    nh_text_clear(&names);
+    arb_mat_clear(both);
+    nh_free(order);
+    return false;
+}
+
 /* K a + F^T mu = -h, F a = -g */
 static bool accelerations(nh_linear_work *w, const arb_mat_t K, const arb_mat_t F, nh_error *error)
 {
@@ -144,10 +180,7 @@ static bool accelerations(nh_linear_work *w, const arb_mat_t K, const arb_mat_t 
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) arb_mat_clear(all[i]);
     if (good) return true;
     if (!finite) return nh_fail(error, NH_NUMERIC, "", "the equations of motion have no value at this state");
-    nh_fail(error, NH_NUMERIC, "", "the accelerations and multipliers are not determined at this state: the mass matrix "
-            "bordered by the constraints is singular");
-    return nh_error_hint(error, "constraints may depend on each other there, coordinates be singular (Euler's angles), "
-                         "or a coordinate have no inertia");
+    return undetermined(w, K, F, error);
 }
 
 /* The first rows of E, from the second column block on, with opposite sign, into the rows of the dependent

@@ -275,7 +275,8 @@ bool nh_linear_start(nh_linear_work *w, const nh_linear_state *state, nh_error *
     const nh_linearization *l = w->l;
     size_t m = l->m;
     bool good = true;
-    nh_ball_set_expression(w->ball, l->system->t, state->value[0]);
+    good = nh_ball_eval(w->ball, state->value[0], w->begin);
+    nh_ball_set_arb(w->ball, l->system->t, w->begin);
     for (size_t i = 0; i < 2 * m && good; i++) {
         arb_ptr x = i < m ? w->q + i : w->v + (i - m);
         good = nh_ball_eval(w->ball, state->value[1 + i], x);
