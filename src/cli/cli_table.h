@@ -27,8 +27,8 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
     X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export", "initial state")                                       \
-    X(opt_at,          "at",          required_argument, "\"x'=4, lean=0\"",   "linearize", "the state; what is not given is 0 or follows from the constraints") \
-    X(opt_project,     "project",     no_argument,       "",                   "simulate benchmark reduce linearize", "project the initial velocities onto the constraints")            \
+    X(opt_at, "at", required_argument, "\"x'=4, lean=0\"", "linearize", "the state; what is not given is 0, or follows") \
+    X(opt_project, "project", no_argument, "", "simulate benchmark reduce linearize", "project the initial velocities onto the constraints") \
     X(opt_initial_table, "initial-table", required_argument, "FILE",           "simulate", "a motion per row of a CSV file: initial states and parameters by name") \
     X(opt_method,      "method",      required_argument, "NAME",               "simulate benchmark", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
     X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing")                                                       \
@@ -41,15 +41,15 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_ensemble,    "ensemble",    required_argument, "N",                  "simulate", "N motions at once, from states around the initial state")             \
     X(opt_spread,      "spread",      required_argument, "S",                  "simulate", "relative spread of initial states")                                                       \
     X(opt_robustness, "robustness",  no_argument,       "",                   "benchmark", "maps of where the methods fail")                                          \
-    X(opt_over,        "over",        required_argument, "RANGES",             "simulate benchmark classify scan linearize", "values or ranges of parameters; repeatable")    \
+    X(opt_over, "over", required_argument, "RANGES", "simulate benchmark classify scan linearize", "values or ranges of parameters; repeatable") \
     X(opt_shape,       "shape",       no_argument,       "",                   "classify", "only integrals whose coefficients do not depend on cyclic coordinates") \
     X(opt_of,          "of",          required_argument, "WORDS", "verify scan classify export show", "the results to compute")         \
     X(opt_number,      "number",      required_argument, "NAME",               "scan", "a number by its path in the JSON, as in group.dimension; repeatable")          \
     X(opt_workers,     "workers",     required_argument, "N",                  "scan", "processes that share the work; it does not change the result")                 \
     X(opt_chunk,       "chunk",       required_argument, "I/N",                "scan", "only part I of N, for job arrays; then once without it")                       \
     X(opt_budget,      "budget",      required_argument, "TIME",               "benchmark", "time to spend on measurements: 5s, 200ms")                                          \
-    X(opt_svg,         "svg",         required_argument, "FILE",               "benchmark simulate linearize", "write a picture")                                         \
-    X(opt_pdf,         "pdf",         required_argument, "FILE",               "benchmark simulate linearize", "the same picture as PDF, by the program rsvg-convert")                                         \
+    X(opt_svg, "svg", required_argument, "FILE", "benchmark simulate linearize", "write a picture") \
+    X(opt_pdf, "pdf", required_argument, "FILE", "benchmark simulate linearize", "the same picture as PDF, by the program rsvg-convert") \
     X(opt_csv, "csv", required_argument, "FILE", "benchmark simulate reduce scan linearize", "write a comma-separated table") \
     X(opt_group,       "group",       required_argument, "FIELDS",             "reduce export", "\"1, 2\" or \"x=1; theta=1\": the group to divide out")                        \
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
@@ -124,7 +124,7 @@ const char *nh_cli_command_near(const char *word);
     X(reduce,   "SYSTEM|FILE", "the symmetry group and the reduced equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
     X(classify, "SYSTEM|FILE", "at which values of a parameter more is conserved", "nhsym classify penning_trap --over w --degree 2") \
     X(scan,     "SYSTEM|FILE", "numbers over a grid of parameters, and jumps", "nhsym scan sleigh --over k=1:4:61 -o scan") \
-    X(linearize, "SYSTEM|FILE", "linear equations of motion at a state, their eigenvalues", "nhsym linearize double_pendulum --at \"q=pi\"") \
+    X(linearize, "SYSTEM|FILE", "linear equations at a state, and stability", "nhsym linearize sleigh --at \"v=1\"") \
     X(export,   "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code") \
     X(list,     "",            "list the available systems", "nhsym list")                                                                                  \
     X(show,     "SYSTEM|FILE", "print a system file; a robot description as one", "nhsym show sleigh")                                                                                   \

@@ -15,15 +15,15 @@ const char *nh_linearized_word(nh_linear_verdict v)
 const char *nh_linearized_sentence(nh_linear_verdict v)
 {
     static const char *const sentence[] = {
-        "The state is not steady, or its linear equations change with time: their matrix is that of this moment, and its "
-        "eigenvalues do not decide about stability.",
+        "The state is not steady, or its linear equations change with time: their matrix is that of this moment, and "
+        "its eigenvalues do not decide about stability.",
         "No eigenvalues were enclosed.",
         "Unstable: an eigenvalue has a positive real part.",
         "Asymptotically stable in the variables of the matrix: all eigenvalues have negative real parts.",
-        "All eigenvalues but 0 have negative real parts. Where the eigenvalue 0 stands for a family of steady motions of "
-        "as many dimensions, the motion is stable, and motions nearby tend to the family (Lyapunov and Malkin).",
-        "Marginal: no eigenvalue has a positive real part, but some have none. The linear equations do not decide about "
-        "stability."};
+        "All eigenvalues but 0 have negative real parts. Where the eigenvalue 0 stands for a family of steady motions "
+        "of as many dimensions, the motion is stable, and motions nearby tend to the family (Lyapunov and Malkin).",
+        "Marginal: no eigenvalue has a positive real part, but some have none. The linear equations do not decide "
+        "about stability."};
     return sentence[v];
 }
 

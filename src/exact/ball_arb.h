@@ -3,7 +3,9 @@
 #define NH_BALL_ARB_H
 
 #include "evaluate/arb.h"
-#include "exact/ball.h"
+#include "graph/dag.h"
+
+typedef struct nh_ball nh_ball; /* exact/ball.h */
 
 /* The value of e; false when it is not finite or a symbol has no value. */
 bool nh_ball_eval(nh_ball *ball, nh_ex e, arb_t out);

@@ -2,6 +2,7 @@
 #ifndef NH_BALL_INTERNAL_H
 #define NH_BALL_INTERNAL_H
 
+#include "exact/ball.h"
 #include "exact/ball_arb.h"
 
 /* Converts a number of the graph, to the ball's bits. */

@@ -148,7 +148,8 @@ static size_t enclose(const clusters *x, const arb_poly_t p, double equal, long 
         good = disc(p, c, s, bits, &log2_r);
         if (!good) break;
         double re = arf_get_d(arb_midref(acb_realref(c)), ARF_RND_NEAR),
-               im = arf_get_d(arb_midref(acb_imagref(c)), ARF_RND_NEAR), r = fmax(exp2(log2_r), fmax(least * x->scale, DBL_MIN));
+               im = arf_get_d(arb_midref(acb_imagref(c)), ARF_RND_NEAR),
+               r = fmax(exp2(log2_r), fmax(least * x->scale, DBL_MIN));
         for (size_t j = 0; j < count; j++) good &= hypot(out[j].re - re, out[j].im - im) > 2 * (out[j].radius + r);
         out[count++] = (nh_eigenvalue){re, im, r, r + shown * hypot(re, im), s};
     }

@@ -1,6 +1,6 @@
 /* linearization: the equations of motion in all coordinates, linearised at a state.
  *
- *     K v' + h + F^T mu = 0,   f(t, q, v) = 0,   P(q) = 0        [geometry/bordered.h]; P: constraints between positions
+ *     K v' + h + F^T mu = 0,   f(t, q, v) = 0,   P(q) = 0     [geometry/bordered.h]; P: constraints between positions
  *
  * At a state (q0, v0) with its accelerations and multipliers let w be the velocities of n independent coordinates, x
  * those of the coordinates that the constraints leave free in dq.  With B = df/dq:

@@ -2,6 +2,7 @@
 #ifndef NH_LINEARIZATION_INTERNAL_H
 #define NH_LINEARIZATION_INTERNAL_H
 
+#include "exact/ball.h"
 #include "exact/ball_arb.h"
 #include "geometry/linearization.h"
 

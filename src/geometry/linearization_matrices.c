@@ -136,10 +136,10 @@ static bool undetermined(nh_linear_work *w, const arb_mat_t K, const arb_mat_t F
         if (moves) nh_text_addf(&names, "%s%s'", names.length ? ", " : "", c[j].name);
     }
     if (rank < m) {
-        nh_fail(error, NH_NUMERIC, "", "the accelerations are not determined at this state: a motion in %s alone has no "
-                "inertia there", nh_text_string(&names));
-        nh_error_hint(error, "coordinates are singular there, as Euler's angles may be: take a state beside it, or other "
-                      "coordinates");
+        nh_fail(error, NH_NUMERIC, "", "the accelerations are not determined at this state: a motion in %s alone has "
+                "no inertia there", nh_text_string(&names));
+        nh_error_hint(error, "coordinates are singular there, as Euler's angles may be: take a state beside it, or "
+                      "other coordinates");
     } else {
         nh_fail(error, NH_NUMERIC, "", "the accelerations and multipliers are not determined at this state: the "
                 "constraints depend on each other there");
@@ -349,7 +349,7 @@ bool nh_linear_matrices(nh_linear_work *w, nh_error *error)
     if (good && !(positions(w, F, B) && forces(w, K, E, H)))
         good = nh_fail(error, NH_NUMERIC, "", "the linear equations have no value at this state");
     if (good && !state_matrix(w))
-        good = nh_fail(error, NH_NUMERIC, "", "a velocity that the constraints leave free has no inertia at this state");
+        good = nh_fail(error, NH_NUMERIC, "", "a velocity that the constraints leave free has no inertia there");
     w->chosen |= good;
     arb_mat_struct *const all[] = {K, F, B, E, H};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) arb_mat_clear(all[i]);

@@ -267,7 +267,7 @@ static bool smooth(nh_linear_work *w, nh_error *error)
     if (good) return true;
     nh_fail(error, NH_NUMERIC, "", "the equations of motion have a kink or a jump at this state: there are no linear "
             "equations");
-    return nh_error_hint(error, "terms such as abs(x), sign(x) and sqrt(x) are not smooth at x = 0: take a state beside it");
+    return nh_error_hint(error, "abs(x), sign(x) and sqrt(x) are not smooth at x = 0: take a state beside it");
 }
 
 bool nh_linear_start(nh_linear_work *w, const nh_linear_state *state, nh_error *error)

@@ -456,7 +456,8 @@ bool nh_analysis_file_resolve(nh_analysis_file *a, const nh_model *model, nh_err
     nh_ex taken;
     r.extra = nh_analysis_file_take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0),
                                     sizeof *r.extra);
-    if (model->M && !nh_symbol_find(model->dag, "E", &taken)) r.extra[r.extras++] = (nh_named){.name = "E", .value = model->E};
+    if (model->M && !nh_symbol_find(model->dag, "E", &taken))
+        r.extra[r.extras++] = (nh_named){.name = "E", .value = model->E};
     if (model->M && !nh_symbol_find(model->dag, "Lbar", &taken))
         r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
     r.own = r.extras;
