@@ -125,7 +125,7 @@ typedef struct {
     const char *over;       /* one such map, over one or two ranges: "a=1e-9:1, omega=1:9" */
 } nh_comparison;
 NH_API nh_benchmark    *nh_benchmark_methods(nh_problem *problem, const nh_comparison *comparison, nh_error *error);
-/* At the state `initial` of the question, 0 where it is not given; over: NULL, or values of a quantity: "x'=0:10:101". */
+/* At the state `initial` of the question, 0 where it is not given; over: NULL, or values: "x'=0:10:101". */
 NH_API nh_linearized   *nh_linearize(nh_problem *problem, const char *over, nh_error *error);
 
 NH_API void nh_analysis_free(nh_analysis *analysis);
@@ -139,7 +139,8 @@ NH_API void nh_export_free(nh_export *export_);
 
 /* The documents of the command line.  A reduction's LaTeX are its equations; a simulation's text is its table.  CSV:
  * simulation, reduction, benchmark, linearized; SVG: simulation, benchmark, linearized; else NULL with an error. */
-typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX, NH_FORMAT_CSV, NH_FORMAT_SVG } nh_format;
+typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX, NH_FORMAT_CSV,
+               NH_FORMAT_SVG } nh_format;
 NH_API char *nh_analysis_document(const nh_analysis *analysis, nh_format format, nh_error *error);
 NH_API char *nh_simulation_document(const nh_simulation *simulation, nh_format format, nh_error *error);
 NH_API char *nh_reduction_document(const nh_reduction *reduction, nh_format format, nh_error *error);
