@@ -103,6 +103,7 @@ typedef struct nh_reduction    nh_reduction;    /* the symmetry group and the re
 typedef struct nh_verification nh_verification; /* of one current or field */
 typedef struct nh_classified   nh_classified;   /* the values of one parameter at which there are more currents */
 typedef struct nh_benchmark    nh_benchmark;    /* integrators compared on one motion */
+typedef struct nh_linearized   nh_linearized;   /* the linear equations at a state, or along a family of states */
 typedef struct nh_export       nh_export;       /* equations, currents and reductions as code */
 NH_API nh_analysis     *nh_analyze(nh_problem *problem, nh_error *error);
 NH_API nh_simulation   *nh_simulate(nh_problem *problem, nh_error *error);
@@ -124,6 +125,8 @@ typedef struct {
     const char *over;       /* one such map, over one or two ranges: "a=1e-9:1, omega=1:9" */
 } nh_comparison;
 NH_API nh_benchmark    *nh_benchmark_methods(nh_problem *problem, const nh_comparison *comparison, nh_error *error);
+/* At the state `initial` of the question, 0 where it is not given; over: NULL, or values: "x'=0:10:101". */
+NH_API nh_linearized   *nh_linearize(nh_problem *problem, const char *over, nh_error *error);
 
 NH_API void nh_analysis_free(nh_analysis *analysis);
 NH_API void nh_simulation_free(nh_simulation *simulation);
@@ -131,10 +134,11 @@ NH_API void nh_reduction_free(nh_reduction *reduction);
 NH_API void nh_verification_free(nh_verification *verification);
 NH_API void nh_classified_free(nh_classified *classified);
 NH_API void nh_benchmark_free(nh_benchmark *benchmark);
+NH_API void nh_linearized_free(nh_linearized *linearized);
 NH_API void nh_export_free(nh_export *export_);
 
 /* The documents of the command line.  A reduction's LaTeX are its equations; a simulation's text is its table.  CSV:
- * simulation, reduction, benchmark; SVG: simulation, benchmark; else NULL with an error.  nh_string_free frees them. */
+ * simulation, reduction, benchmark, linearized; SVG: simulation, benchmark, linearized; else NULL with an error. */
 typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX, NH_FORMAT_CSV,
                NH_FORMAT_SVG } nh_format;
 NH_API char *nh_analysis_document(const nh_analysis *analysis, nh_format format, nh_error *error);
@@ -143,7 +147,8 @@ NH_API char *nh_reduction_document(const nh_reduction *reduction, nh_format form
 NH_API char *nh_verification_document(const nh_verification *verification, nh_format format, nh_error *error);
 NH_API char *nh_classified_document(const nh_classified *classified, nh_format format, nh_error *error);
 NH_API char *nh_benchmark_document(const nh_benchmark *benchmark, nh_format format, nh_error *error);
-NH_API void  nh_string_free(char *string);
+NH_API char *nh_linearized_document(const nh_linearized *linearized, nh_format format, nh_error *error);
+NH_API void  nh_string_free(char *string); /* frees strings of all functions */
 /* language: "c", "python", "sympy", "matlab", "latex" or "json".  NULL, or parts: "equations, currents"; inputs:
  * parameters, "u, tau"; prefix: what all names begin with, instead of the system's name. */
 NH_API nh_export *nh_export_functions(nh_problem *problem, const char *language, const char *parts, const char *inputs,

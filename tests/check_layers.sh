@@ -81,7 +81,7 @@ behind=$(for source in src/base/*.c src/library/*.c; do [ -f "$build/${source%.c
     $NF ~ /^nh_/ && $NF !~ /^nh_cli_/ && !($NF in defined) && !($NF in told) { told[$NF] = 1; sub(/:.*/, "", $1); print $1 ": takes " $NF ", which stands behind src/library" }' >>"$offences"
 
 # ---- nhsym.h can be read at one sitting ----
-awk 'END { if (NR > 200) print FILENAME ": has " NR " lines; at most 200" }' src/nhsym.h >>"$offences"
+awk 'END { if (NR > 210) print FILENAME ": has " NR " lines; at most 210" }' src/nhsym.h >>"$offences"
 
 # ---- cited sources and sections exist ----
 grep -noE '\[[A-Za-z]*:? ?[A-Z][A-Za-z]+[0-9]{4}[a-z]?' src/*/*.c src/*/*.h tests/*.c tests/*.h tests/*.sh README.md docs/*.md | grep -v '^docs/references.md' |

@@ -1,4 +1,4 @@
-/* docs/schema: the JSON of analyze, verify, classify, scan, export, benchmark, simulate and reduce is checked by the part of JSON Schema
+/* docs/schema: the JSON of analyze, verify, classify, scan, export, benchmark, simulate, reduce and linearize is checked by the part of JSON Schema
  * that these files use. */
 #include <cjson/cJSON.h>
 
@@ -296,6 +296,30 @@ Test(schema, what_simulate_writes_fits)
 }
 
 /* A current, a false one, fields of both kinds, a branch, the geometry. */
+/* At a state, along a family, and where one value has no equations. */
+Test(schema, what_linearize_writes_fits)
+{
+    static const char *const asked[] = {"double_pendulum --at p=pi", "rolling_disk --over h=0,1"};
+    cJSON *schema = read_json("docs/schema/linearize.json");
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "linearize %s --json -", asked[i]);
+        finished f = run(&p, line);
+        cr_assert(f.code == 0, "%s: %s", line, f.err);
+        cJSON *root = cJSON_Parse(f.out);
+        verdict v = {""};
+        cr_expect(fits(schema, root, "", &v), "%s: %s", asked[i], v.fault);
+        cJSON *rows = cJSON_GetObjectItem(root, "rows");
+        cJSON_AddNumberToObject(rows ? cJSON_GetArrayItem(rows, 1) : root, "more", 1);
+        cr_expect_not(fits(schema, root, "", &v), "an unknown key");
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    cJSON_Delete(schema);
+    place_clear(&p);
+}
+
 Test(schema, what_verify_writes_fits)
 {
     static const struct {

@@ -11,23 +11,24 @@ bool nh_word_among(const char *words, const char *word);
 
 /*    code           name           argument            shown as             of the commands      meaning */
 #define NH_CLI_OPTION_TABLE(X)                                                                                                                                     \
-    X(opt_set,         "set",         required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan export", "set a parameter; repeatable")      \
-    X(opt_wheel,       "wheel",       required_argument, "LINK[=RADIUS]",      "analyze verify simulate benchmark reduce classify scan export show", "robots: this link rolls on the plane z = 0; repeatable") \
-    X(opt_base,        "base",        required_argument, "fixed|planar|floating", "analyze verify simulate benchmark reduce classify scan export show", "robots: how the root link is carried; planar with wheels, else fixed") \
+    X(opt_set,         "set",         required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan linearize export", "set a parameter; repeatable")      \
+    X(opt_wheel,       "wheel",       required_argument, "LINK[=RADIUS]",      "analyze verify simulate benchmark reduce classify scan linearize export show", "robots: this link rolls on the plane z = 0; repeatable") \
+    X(opt_base,        "base",        required_argument, "fixed|planar|floating", "analyze verify simulate benchmark reduce classify scan linearize export show", "robots: how the root link is carried; planar with wheels, else fixed") \
     X(opt_on,          "on",          required_argument, "\"p_x = 0\"",         "analyze verify classify", "on this level of an integral linear in the velocities, p_x: the momentum of x; repeatable") \
     X(opt_analysis,    "analysis",    required_argument, "FILE",               "analyze simulate benchmark", "read ansatz and motion from this analysis file")                              \
     X(opt_no_analysis, "no-analysis", no_argument,       "",                   "analyze simulate benchmark", "ignore analysis files; the program chooses ansatz and motion")     \
     X(opt_velocities, "velocities",  required_argument, "auto|quasi|coordinates", "analyze verify simulate benchmark export", "velocities of the computation")                  \
-    X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate benchmark reduce classify scan export", "write the result as JSON; `-`: print it, and nothing else") \
-    X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan", "write the result as one self-contained page") \
-    X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan export", "write the result as a LaTeX document")                                 \
+    X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate benchmark reduce classify scan linearize export", "write the result as JSON; `-`: print it, and nothing else") \
+    X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan linearize", "write the result as one self-contained page") \
+    X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan linearize export", "write the result as a LaTeX document")                                 \
     X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "LaTeX without a preamble, to include in another document")                      \
-    X('o',             "output",      required_argument, "DIR",                "analyze verify simulate reduce classify benchmark scan export", "-o: write all files into a folder")                      \
+    X('o',             "output",      required_argument, "DIR",                "analyze verify simulate reduce classify benchmark scan linearize export", "-o: write all files into a folder")                      \
     X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \
     X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
     X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export", "initial state")                                       \
-    X(opt_project,     "project",     no_argument,       "",                   "simulate benchmark reduce", "project the initial velocities onto the constraints")            \
+    X(opt_at, "at", required_argument, "\"x'=4, lean=0\"", "linearize", "the state; all else is 0 or follows") \
+    X(opt_project, "project", no_argument, "", "simulate benchmark reduce linearize", "project the initial velocities onto the constraints") \
     X(opt_initial_table, "initial-table", required_argument, "FILE",           "simulate", "a motion per row of a CSV file: initial states and parameters by name") \
     X(opt_method,      "method",      required_argument, "NAME",               "simulate benchmark", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
     X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing")                                                       \
@@ -40,16 +41,16 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_ensemble,    "ensemble",    required_argument, "N",                  "simulate", "N motions at once, from states around the initial state")             \
     X(opt_spread,      "spread",      required_argument, "S",                  "simulate", "relative spread of initial states")                                                       \
     X(opt_robustness, "robustness",  no_argument,       "",                   "benchmark", "maps of where the methods fail")                                          \
-    X(opt_over,        "over",        required_argument, "RANGES",             "simulate benchmark classify scan", "values or ranges of parameters; repeatable")    \
+    X(opt_over, "over", required_argument, "RANGES", "simulate benchmark classify scan linearize", "values or ranges of parameters; repeatable") \
     X(opt_shape,       "shape",       no_argument,       "",                   "classify", "only integrals whose coefficients do not depend on cyclic coordinates") \
     X(opt_of,          "of",          required_argument, "WORDS", "verify scan classify export show", "the results to compute")         \
     X(opt_number,      "number",      required_argument, "NAME",               "scan", "a number by its path in the JSON, as in group.dimension; repeatable")          \
     X(opt_workers,     "workers",     required_argument, "N",                  "scan", "processes that share the work; it does not change the result")                 \
     X(opt_chunk,       "chunk",       required_argument, "I/N",                "scan", "only part I of N, for job arrays; then once without it")                       \
     X(opt_budget,      "budget",      required_argument, "TIME",               "benchmark", "time to spend on measurements: 5s, 200ms")                                          \
-    X(opt_svg,         "svg",         required_argument, "FILE",               "benchmark simulate", "write a picture")                                         \
-    X(opt_pdf,         "pdf",         required_argument, "FILE",               "benchmark simulate", "the same picture as PDF, by the program rsvg-convert")                                         \
-    X(opt_csv, "csv", required_argument, "FILE", "benchmark simulate reduce scan", "write a comma-separated table") \
+    X(opt_svg, "svg", required_argument, "FILE", "benchmark simulate linearize", "write a picture") \
+    X(opt_pdf, "pdf", required_argument, "FILE", "benchmark simulate linearize", "the same picture as PDF, by the program rsvg-convert") \
+    X(opt_csv, "csv", required_argument, "FILE", "benchmark simulate reduce scan linearize", "write a comma-separated table") \
     X(opt_group,       "group",       required_argument, "FIELDS",             "reduce export", "\"1, 2\" or \"x=1; theta=1\": the group to divide out")                        \
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
     X(opt_inner,       "inner",       required_argument, "\"1,4=1/2; 4,4=3\"",  "reduce", "the inner product of generators that chooses the lifts by stages; else orthonormal") \
@@ -64,13 +65,13 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_columns,     "columns",     required_argument, "N",                  "analyze", "number of columns of the largest ansatz")                                          \
     X(opt_degree,      "degree",      required_argument, "D",                  "analyze classify scan", "count integrals polynomial in the velocities up to this degree")        \
     X(opt_threads,     "threads",     required_argument, "N",                  "analyze", "number of threads; it does not change the result")                      \
-    X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze verify simulate benchmark reduce classify scan export", "time limit: the run ends then, with partial results") \
-    X(opt_max_memory,  "max-memory",  required_argument, "SIZE",               "analyze verify simulate benchmark reduce classify scan export", "the same for the memory: 500M, 2G") \
-    X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan export", "set an option that `nhsym explain options` lists")    \
-    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate benchmark reduce classify scan export", "show the current step on standard error")           \
-    X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan export new", "-q: no summary and no remarks; tables and code are printed unless a file holds the result") \
-    X('v',             "verbose",     no_argument,       "",                   "analyze simulate benchmark reduce classify scan", "-v: a longer summary")                                    \
-    X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan export", "no colours; NO_COLOR does the same")       \
+    X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze verify simulate benchmark reduce classify scan linearize export", "time limit: the run ends then, with partial results") \
+    X(opt_max_memory,  "max-memory",  required_argument, "SIZE",               "analyze verify simulate benchmark reduce classify scan linearize export", "the same for the memory: 500M, 2G") \
+    X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan linearize export", "set an option that `nhsym explain options` lists")    \
+    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate benchmark reduce classify scan linearize export", "show the current step on standard error")           \
+    X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize export new", "-q: no summary and no remarks; tables and code are printed unless a file holds the result") \
+    X('v',             "verbose",     no_argument,       "",                   "analyze simulate benchmark reduce classify scan linearize", "-v: a longer summary")                                    \
+    X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize export", "no colours; NO_COLOR does the same")       \
     X('h',             "help",        no_argument,       "",                   "", "-h: list the options of the command")                                               \
     X(opt_version,     "version",     no_argument,       "",                   "", "print the version")
 
@@ -81,6 +82,8 @@ bool nh_word_among(const char *words, const char *word);
     X("over", "benchmark", "maps of where the methods fail over these ranges: a=1e-9:1, omega=1:9; repeatable")   \
     X("over", "classify", "the parameter, or up to three of them: B,eps")                                         \
     X("over", "scan", "the grid: values of a parameter, k=1:4:61 or k=1,2,5/2; repeatable")                       \
+    X("over", "linearize", "values of a parameter, a coordinate or a velocity: \"x'=0:10:101\"") \
+    X("project", "linearize", "move positions and velocities onto the constraints") \
     X("of", "verify", "the field is a symmetry of this: constraint, or equations (of motion)")                    \
     X("of", "classify", "the question: currents, measure, hamiltonization, symmetries or constraints")            \
     X("of", "scan", "which numbers: count (of integrals), analyze or reduce")                                     \
@@ -95,6 +98,8 @@ bool nh_word_among(const char *words, const char *word);
     X("method", "benchmark", "only this integrator of those that `nhsym explain methods` lists; repeatable")      \
     X("svg", "benchmark", "write a picture: error against time")                                                  \
     X("svg", "simulate", "write a picture: the columns over time, or a section")                                  \
+    X("csv", "linearize", "write a table: an eigenvalue per row, or a value of --over per row") \
+    X("svg", "linearize", "write a picture: the eigenvalues in the plane, or over a parameter") \
     X("to", "reduce", "print the reduced equations as code, or the motions as csv")                               \
     X("input", "simulate", "a parameter over time: an expression of t, or FILE.csv:COLUMN")                       \
     X("input", "export", "parameters that are arguments of the code: \"u, v\"")
@@ -119,6 +124,7 @@ const char *nh_cli_command_near(const char *word);
     X(reduce,   "SYSTEM|FILE", "the symmetry group and the reduced equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
     X(classify, "SYSTEM|FILE", "at which values of a parameter more is conserved", "nhsym classify penning_trap --over w --degree 2") \
     X(scan,     "SYSTEM|FILE", "numbers over a grid of parameters, and jumps", "nhsym scan sleigh --over k=1:4:61 -o scan") \
+    X(linearize, "SYSTEM|FILE", "linear equations at a state, and stability", "nhsym linearize sleigh --at \"v=1\"") \
     X(export,   "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code") \
     X(list,     "",            "list the available systems", "nhsym list")                                                                                  \
     X(show,     "SYSTEM|FILE", "print a system file; a robot description as one", "nhsym show sleigh")                                                                                   \

@@ -96,6 +96,12 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     return one_system(cli, example, error) ? documented(cli, error) : NH_USAGE;
 }
 
+int nh_cli_linearize(nh_cli *cli, nh_error *error)
+{
+    static const char example[] = "nhsym linearize double_pendulum --at \"q=pi\"";
+    return one_system(cli, example, error) ? documented(cli, error) : NH_USAGE;
+}
+
 int nh_cli_classify(nh_cli *cli, nh_error *error)
 {
     if (cli->operands > 1) return one_system(cli, "nhsym classify penning_trap --over w --degree 2", error), NH_USAGE;

@@ -221,7 +221,7 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
         return nh_request_option(&cli->ask, name, value, error);
     case opt_max_seconds: return nh_request_option(&cli->ask, "max_seconds", value, error);
     case opt_max_memory: return size(value, &cli->ask.options.max_memory, error);
-    case opt_initial: cli->ask.initial = joined(cli, cli->ask.initial, value); return true;
+    case opt_at: case opt_initial: cli->ask.initial = joined(cli, cli->ask.initial, value); return true;
     case opt_initial_table: cli->ask.table = nh_option_value_file(value); return true;
     case opt_method: return nh_request_methods(&cli->ask, value, error);
     case opt_project: return cli->ask.project = true;

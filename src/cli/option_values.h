@@ -14,6 +14,7 @@ enum {
     opt_current,
     opt_field,
     opt_initial,
+    opt_at,
     opt_project,
     opt_method,
     opt_initial_table,

@@ -2,13 +2,8 @@
 #ifndef NH_BALL_INTERNAL_H
 #define NH_BALL_INTERNAL_H
 
-#include "evaluate/arb.h"
 #include "exact/ball.h"
-
-/* The value of e; false when it is not finite or a symbol has no value. */
-bool nh_ball_eval(nh_ball *ball, nh_ex e, arb_t out);
-
-void nh_ball_set_arb(nh_ball *ball, nh_ex symbol, const arb_t value);
+#include "exact/ball_arb.h"
 
 /* Converts a number of the graph, to the ball's bits. */
 void nh_ball_set_number(const nh_ball *ball, arb_t out, nh_num c);
@@ -16,9 +11,6 @@ void nh_ball_set_number(const nh_ball *ball, arb_t out, nh_num c);
 /* Products of words in a product of two numbers of so many bits; numbers count as longer, for the other operations on
  * them. */
 double nh_ball_products(long bits);
-
-/* A rigorous upper bound of |v|. */
-double nh_ball_upper(const arb_t v);
 
 /* log10 of rigorous bounds of |v|. */
 double nh_ball_log10_upper(const arb_t v);

@@ -102,6 +102,13 @@ nh_benchmark *nh_benchmark_methods(nh_problem *p, const nh_comparison *c, nh_err
     return result_of(p, "benchmark", &q, c ? c->methods : NULL, error);
 }
 
+nh_linearized *nh_linearize(nh_problem *p, const char *over, nh_error *error)
+{
+    nh_request q = p->request;
+    q.over = over;
+    return result_of(p, "linearize", &q, NULL, error);
+}
+
 /* ---- functions in other languages ---- */
 
 nh_export *nh_export_functions(nh_problem *p, const char *language, const char *parts, const char *inputs,
@@ -239,6 +246,11 @@ char *nh_classified_document(const nh_classified *c, nh_format format, nh_error 
 char *nh_benchmark_document(const nh_benchmark *b, nh_format format, nh_error *error)
 {
     return document("benchmark", b, 1, format, error);
+}
+
+char *nh_linearized_document(const nh_linearized *x, nh_format format, nh_error *error)
+{
+    return document("linearize", x, 1, format, error);
 }
 
 void nh_string_free(char *string) { nh_free(string); }

@@ -263,13 +263,12 @@ bool nh_analysis_file_watches(reader *r, const nh_deck_node *list, const char *w
 /* ---- the motion ---- */
 
 /* A number, or an expression of the parameters. */
-static bool number_at(reader *r, const nh_deck_node *node, const char *name, double *out)
+static bool number_at(reader *r, const nh_deck_node *node, const char *name, nh_ex *e, double *out)
 {
     const nh_model *o = r->model;
-    nh_ex e;
     if (!nh_deck_is(r->a->deck, node, NH_DECK_SCALAR, "an initial value", r->error)) return false;
-    if (!nh_system_expression(o->system, r->a->deck, node, r->extras, r->extra, &e, r->error)) return false;
-    *out = nh_model_number(o, e);
+    if (!nh_system_expression(o->system, r->a->deck, node, r->extras, r->extra, e, r->error)) return false;
+    *out = nh_model_number(o, *e);
     if (isfinite(*out)) return true;
     nh_deck_fail(r->a->deck, node, 0, r->error, "the initial value of `%s` must be a number", name);
     return nh_error_hint(r->error, "only parameters can be used here");
@@ -311,6 +310,23 @@ static void velocities_of(const nh_system *s, const double *quasi, nh_state *sta
     nh_free(in);
 }
 
+/* The same as expressions. */
+static void exact_velocities(const nh_system *s, const nh_ex *quasi, nh_analysis_file *a)
+{
+    size_t m = s->coordinates, n = 1 + m + s->quasi;
+    nh_ex *from = nh_alloc_array(2 * n, sizeof *from), *to = from + n;
+    from[0] = s->t;
+    for (size_t i = 0; i < m; i++) from[1 + i] = s->coordinate[i].q;
+    memcpy(to, a->exact, (1 + m) * sizeof *to);
+    memcpy(from + 1 + m, s->quasi_velocity, s->quasi * sizeof *from);
+    memcpy(to + 1 + m, quasi, s->quasi * sizeof *to);
+    for (size_t i = 0; i < m; i++) {
+        a->exact[1 + m + i] = nh_substitute(s->dag, s->quasi_map[i], n, from, to);
+        a->written[m + i] = true;
+    }
+    nh_free(from);
+}
+
 static bool unknown_state(reader *r, const nh_deck_node *key)
 {
     const nh_system *s = r->model->system;
@@ -330,24 +346,35 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     const nh_system *s = r->model->system;
     nh_state *state = &r->a->initial;
     double *quasi = nh_analysis_file_take(r, s->quasi, sizeof *quasi);
+    size_t m = s->coordinates;
+    nh_ex *exact = r->a->exact = nh_analysis_file_take(r, 1 + 2 * m, sizeof *exact), e,
+          *quasi_exact = nh_analysis_file_take(r, s->quasi, sizeof *exact);
+    r->a->written = nh_analysis_file_take(r, 2 * m, sizeof *r->a->written);
+    for (size_t i = 0; i < 1 + 2 * m; i++) exact[i] = nh_int(s->dag, 0);
+    for (size_t i = 0; i < s->quasi; i++) quasi_exact[i] = nh_int(s->dag, 0);
     bool any_quasi = false, any_velocity = false;
     state->given = nh_analysis_file_take(r, s->coordinates, sizeof *state->given);
     for (size_t i = 0; i < map->count; i++) {
         const char *name = map->key[i]->text;
         double value;
         bool known = !strcmp(name, "t");
-        if (!number_at(r, map->item[i], name, &value)) return one_value(r, map->item[i]);
-        if (known) state->t = value;
+        if (!number_at(r, map->item[i], name, &e, &value)) return one_value(r, map->item[i]);
+        if (known) state->t = value, exact[0] = e;
         for (size_t j = 0; j < s->coordinates && !known; j++) {
             bool velocity = !strcmp(name, nh_name_of(s->dag, s->coordinate[j].v));
             known = velocity || !strcmp(name, s->coordinate[j].name);
-            if (known) (velocity ? state->v : state->q)[j] = value;
+            if (known) {
+                (velocity ? state->v : state->q)[j] = value;
+                exact[1 + velocity * m + j] = e;
+                r->a->written[velocity * m + j] = true;
+            }
             if (velocity) state->given[j] = true;
             any_velocity |= velocity;
         }
         for (size_t j = 0; j < s->quasi && !known; j++)
             if (!strcmp(name, nh_name_of(s->dag, s->quasi_velocity[j]))) {
                 quasi[j] = value;
+                quasi_exact[j] = e;
                 known = any_quasi = true;
             }
         if (!known) return unknown_state(r, map->key[i]);
@@ -355,7 +382,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     if (any_quasi && any_velocity)
         return nh_deck_fail(r->a->deck, map, 0, r->error,
                             "give either coordinate velocities or quasi-velocities, not both");
-    if (any_quasi) velocities_of(s, quasi, state);
+    if (any_quasi) velocities_of(s, quasi, state), exact_velocities(s, quasi_exact, r->a);
     if (any_quasi) state->given = NULL;
     r->a->has_initial = true;
     return true;
@@ -429,8 +456,9 @@ bool nh_analysis_file_resolve(nh_analysis_file *a, const nh_model *model, nh_err
     nh_ex taken;
     r.extra = nh_analysis_file_take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0),
                                     sizeof *r.extra);
-    if (!nh_symbol_find(model->dag, "E", &taken)) r.extra[r.extras++] = (nh_named){.name = "E", .value = model->E};
-    if (!nh_symbol_find(model->dag, "Lbar", &taken))
+    if (model->M && !nh_symbol_find(model->dag, "E", &taken))
+        r.extra[r.extras++] = (nh_named){.name = "E", .value = model->E};
+    if (model->M && !nh_symbol_find(model->dag, "Lbar", &taken))
         r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
     r.own = r.extras;
     return read_unknowns(&r) &&

@@ -45,6 +45,10 @@ typedef struct {
     nh_figure_request *figure;
     bool has_initial, has_until;
     nh_state initial;
+    /* the same as expressions of the parameters: t, q, v; and which of q and v were given (2m), all velocities where
+       quasi-velocities were */
+    nh_ex *exact;
+    bool *written;
     double until;
 } nh_analysis_file;
 
@@ -55,7 +59,7 @@ nh_analysis_file *nh_analysis_file_start(const char *name, const char *state, nh
 void nh_analysis_file_free(nh_analysis_file *analysis);
 
 /* Read ansatz, unknowns, initial state and scene in the names of the model's system; expressions are brought to its
-   chart. */
+   chart.  For an initial state a model with only its system, graph, m and parameters is enough. */
 bool nh_analysis_file_resolve(nh_analysis_file *analysis, const nh_model *model, nh_error *error);
 
 /* Any expression of the system (coordinate velocities, quasi-velocities) as a function of the model's chart. */

@@ -414,6 +414,77 @@ class Benchmark(Result):
         return columns(self.json["motion"], keys)
 
 
+@explains_arguments
+class Linearization(Result):
+    """The linear equations of motion M dw' + C dw + K dx = 0 at a state: `eigenvalues`, `errors`, `M`, `C`, `K`, `A`, `verdict` and what the JSON has; over a family of
+    states `table` (a row per value), `changes`, and `at(i)`, the equations at value number i."""
+
+    _kind = "linearized"
+
+    def _of(self, key, row=None):
+        return numpy.array((self.json if row is None else self.json["rows"][row])[key], dtype=float)
+
+    def at(self, i):
+        """M, C, K, A and the eigenvalues at value number i of a family, by name."""
+        row = self.json["rows"][i]
+        if "eigenvalues" not in row:
+            raise UsageError("there are no linear equations at %s = %r: %s" % (self.json["over"], row["value"], row["why"]), "")
+        return dict({key: self._of(key, i) for key in "MCKA"}, eigenvalues=_spectrum(row)[0])
+
+    @property
+    def eigenvalues(self):
+        """Complex numbers, as often as they occur; of a family an array per value."""
+        return _spectrum(self.json)[0] if self.json["over"] is None else [_spectrum(row)[0] for row in self.json["rows"]]
+
+    @property
+    def errors(self):
+        """Bounds of the errors of `eigenvalues`."""
+        return _spectrum(self.json)[1] if self.json["over"] is None else [_spectrum(row)[1] for row in self.json["rows"]]
+
+    @property
+    def M(self):
+        return self._of("M")
+
+    @property
+    def C(self):
+        return self._of("C")
+
+    @property
+    def K(self):
+        return self._of("K")
+
+    @property
+    def A(self):
+        """The matrix of (dx, dw)'."""
+        return self._of("A")
+
+    @property
+    def table(self):
+        if self.json["over"] is None:
+            return columns(self.json["eigenvalues"], ["re", "im", "error", "times"])
+        return columns(self.json["rows"], ["value", "verdict", "positive", "why"])
+
+    @property
+    def csv(self):
+        """A row per eigenvalue, or per value of a family, as --csv writes it."""
+        return self._document(CSV)
+
+    def plot(self):
+        """A picture (SVG): the eigenvalues in the plane, or over a parameter.  In a notebook it is shown."""
+        return Picture([self._document(SVG)], ["eigenvalues"])
+
+    def __repr__(self):
+        if self.json["over"] is None:
+            return "<Linearization of %s: %s, %d eigenvalues>" % (self._problem.name, self.json["verdict"], len(self.eigenvalues))
+        return "<Linearization of %s over %s: %d changes>" % (self._problem.name, self.json["over"], len(self.json["changes"]))
+
+
+def _spectrum(row):
+    """The eigenvalues of a row of the JSON, and bounds of their errors."""
+    pairs = [(complex(z["re"], z["im"]), z["error"]) for z in row.get("eigenvalues", []) for _ in range(int(z["times"]))]
+    return numpy.array([z for z, _ in pairs], dtype=complex), numpy.array([error for _, error in pairs])
+
+
 # ---- symmetry ----
 
 class Reduction(Result):

@@ -12,7 +12,7 @@ from ._arguments import entries_of, explained, explains_arguments, no_attribute,
 from ._calls import Context, Interrupted, free_later
 from ._library import Comparison, ErrorRecord, InputError, Question, UsageError, error_of, library, taken
 from .formula import text_of
-from .results import Analysis, Benchmark, Classification, Reduction, Simulation, Verification, _arrays, array_of
+from .results import Analysis, Benchmark, Classification, Linearization, Reduction, Simulation, Verification, _arrays, array_of
 
 
 def _robot(source, wheels, base):
@@ -336,6 +336,13 @@ class System:
         words = [_bytes(_list("method", method)), _bytes(_pairs("over", over))]
         asked = Comparison(0 if seconds is None else _positive("seconds", seconds), words[0], bool(robustness), words[1])
         return p.call(lambda error: library().nh_benchmark_methods(p.address, asked, error), progress, lambda a: Benchmark(a, p))
+
+    def linearize(self, at=None, over=None, project=False, options=None, progress=None):
+        """The linear equations of motion at the state at={"x'": 5} (what is left out is 0, or follows from the constraints), or over="x'=0:10:101", values of a parameter, a
+        coordinate or a velocity; project: positions and velocities that violate the constraints are moved onto them."""
+        p = self._ask(dict(initial=_pairs("at", at), options=options, project=project or None))
+        over = _bytes(_pairs("over", over))
+        return p.call(lambda error: library().nh_linearize(p.address, over, error), progress, lambda a: Linearization(a, p))
 
     # ---- functions in other languages ----
 

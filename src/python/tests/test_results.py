@@ -163,3 +163,17 @@ def test_documents(analysis, sleigh, tmp_path):
         analysis.save(tmp_path / "result.doc")
     assert sleigh.verify("m*v").latex.startswith("%")
     assert "currents" in dir(analysis) and "verdict" in repr(nhsym.Record(analysis.json))
+
+
+def test_linear_equations_at_a_state_and_along_a_family():
+    pendulum = nhsym.system("double_pendulum")
+    up = pendulum.linearize({"p": "pi", "q": "pi"})
+    assert up.verdict == "unstable" and up.velocities == ["p'", "q'"]
+    n = len(up.M)
+    A = numpy.block([[numpy.zeros((n, n)), numpy.eye(n)], [-numpy.linalg.solve(up.M, up.K), -numpy.linalg.solve(up.M, up.C)]])
+    assert numpy.allclose(A, up.A, atol=1e-12)
+    assert numpy.allclose(sorted(numpy.linalg.eigvals(A).real), sorted(up.eigenvalues.real), atol=1e-12)
+    assert (up.errors < 1e-13).all() and up.plot()._repr_svg_().startswith("<svg") and up.csv.startswith("re,im")
+    family = pendulum.linearize({"p": "pi", "q": "pi"}, over={"g": "-1,1"})
+    assert [change["positive_after"] for change in family.changes] == [2] and len(family.at(0)["eigenvalues"]) == 4
+    assert list(family.table["verdict"]) == ["marginal", "unstable"]
