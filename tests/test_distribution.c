@@ -237,3 +237,62 @@ Test(distribution, the_functions_that_constraints_conserve)
         nh_analysis_free(r);
     }
 }
+
+/* ---- the same for every seed ---- */
+
+static void describe(const nh_distribution *d, nh_text *out)
+{
+    const nh_growth *g = &d->growth;
+    nh_text_addf(out, "%s, %zu hidden, growth", nh_constraint_type_name(d->type), d->hidden);
+    for (size_t i = 0; i < g->length; i++) nh_text_addf(out, " %zu", g->rank[i]);
+    nh_text_addf(out, " of %zu, %s%s", g->dimension, g->proved ? "proved" : "not proved", g->cut ? ", cut" : "");
+    for (size_t i = 0; i < g->length_there; i++) nh_text_addf(out, "%s%zu", i ? " " : "; there ", g->rank_there[i]);
+}
+
+static char *distribution_of(const char *path, nh_chart_choice choice, uint64_t seed)
+{
+    nh_error error = {0};
+    nh_text text;
+    nh_text_init(&text);
+    nh_system *system = nh_system_read(path, 0, NULL, &error);
+    must(system != NULL, &error, path);
+    nh_chart *chart = nh_chart_create(system, choice, seed, &error);
+    nh_model *model = chart ? nh_model_create(system, chart, &error) : NULL;
+    must(model != NULL, &error, path);
+    nh_distribution d = nh_distribution_of(model);
+    describe(&d, &text);
+    nh_model_free(model);
+    nh_system_free(system);
+    char *copy = strdup(nh_text_string(&text));
+    nh_text_clear(&text);
+    return copy;
+}
+
+static void same_for_seeds(const char *path, uint64_t seeds)
+{
+    char *first = distribution_of(path, NH_CHART_COORDINATES, 1);
+    for (uint64_t seed = 2; seed <= seeds; seed++) {
+        char *other = distribution_of(path, NH_CHART_COORDINATES, seed);
+        cr_expect_str_eq(other, first, "%s, seed %zu: %s; seed 1: %s", path, (size_t)seed, other, first);
+        free(other);
+    }
+    if (getenv("NHSYM_PRINT")) fprintf(stderr, "%s: %s\n", path, first);
+    free(first);
+}
+
+Test(distribution, growth_is_the_same_for_every_seed)
+{
+    char *name[most_files];
+    size_t count = list("systems", name);
+    for (size_t i = 0; i < count; i++) {
+        char path[300];
+        snprintf(path, sizeof path, "systems/%s.yaml", name[i]);
+        if (sweep_tries(i + 1, 20, 40)) same_for_seeds(path, sweep_whole() ? 10 : 3);
+        free(name[i]);
+    }
+}
+
+Test(distribution, bicycle)
+{
+    same_for_seeds("tests/data/bicycle_floating.yaml", 10);
+}
