@@ -53,6 +53,11 @@ static bool note(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex key, uint64_t o
     return !x->obstacle;
 }
 
+bool nh_jet_point_is_pi(const nh_jet_point *x, nh_ex e)
+{
+    return nh_kind_of(x->dag, e) == NH_FUNCTION && nh_function_of(x->dag, e) == NH_PI;
+}
+
 static bool note_parts(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex argument)
 {
     nh_parts parts;
@@ -62,6 +67,8 @@ static bool note_parts(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex argument)
         if (!nh_num_short(p->coefficient))
             x->obstacle = "an angle or exponent that is no rational multiple of its parts";
         else note(x, kind, p->atom, (uint64_t)p->coefficient.q);
+        if (!x->obstacle && kind == NH_JET_CIRCLE && nh_jet_point_is_pi(x, p->atom))
+            note(x, kind, p->atom, 2); /* so that the root of 1 has i as a power, and sines are cosines */
     }
     nh_free(parts.item);
     return !x->obstacle;
@@ -157,11 +164,6 @@ static bool note_product(nh_jet_point *x, nh_ex e)
 
 /* ---- angles that are rational multiples of pi ---- */
 
-bool nh_jet_point_is_pi(const nh_jet_point *x, nh_ex e)
-{
-    return nh_kind_of(x->dag, e) == NH_FUNCTION && nh_function_of(x->dag, e) == NH_PI;
-}
-
 /* The order of the root of 1 that e^(i pi/order) is; 1: there are no such angles. */
 static uint64_t unity_of(const nh_jet_point *x)
 {
@@ -176,7 +178,7 @@ static void check_unity(nh_jet_point *x)
 {
     uint64_t unity = unity_of(x);
     if (unity > most_unity) x->obstacle = "multiples of pi with large denominators";
-    for (size_t i = 0; i < x->kernels && unity > 2 && !x->obstacle; i++) {
+    for (size_t i = 0; i < x->kernels && unity > 4 && !x->obstacle; i++) {
         const nh_jet_kernel *k = &x->kernel[i];
         nh_ex symbol;
         if (k->kind != NH_JET_ROOT || nh_symbols_in(x->dag, k->key, &symbol, 1)) continue;
@@ -371,14 +373,14 @@ static bool choose_unity(nh_jet_point *x, nh_jet_kernel *k)
     nh_prime f = x->field;
     uint64_t unity = 2 * k->order;
     bool good = false;
-    if (unity == 2) return k->value = (nh_residue)(f.p - 1), k->sine = 0, k->chosen = true;
     for (unsigned tries = 0; tries < most_tries && !good && (f.p + 1) % unity == 0; tries++) {
         nh_residue c, s;
         if (!random_angle(x, k, tries)) continue;
         multiple(f, k, (f.p + 1) / unity, &c, &s);
         k->value = c;
         k->sine = s;
-        good = is_primitive(f, k, unity);
+        multiple(f, k, unity / 4, &c, &s);
+        good = s == 1 && is_primitive(f, k, unity); /* i, and not -i: sin(pi/10) = cos(4 pi/10) */
         for (size_t i = 0; i < x->kernels && good; i++)
             if (x->kernel[i].kind == NH_JET_ROOT && x->kernel[i].order % 2 == 0 &&
                 nh_kind_of(x->dag, x->kernel[i].key) == NH_NUMBER)

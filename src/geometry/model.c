@@ -106,15 +106,7 @@ nh_tape *nh_model_tape(const nh_model *o, size_t count, const nh_ex *out)
                           o->parameter_value);
 }
 
-nh_ex nh_model_values(const nh_model *o, nh_ex e)
-{
-    size_t n = o->system->parameters;
-    nh_ex *value = nh_alloc_array(n + 1, sizeof *value);
-    for (size_t i = 0; i < n; i++) value[i] = nh_number(o->dag, nh_num_decimal(o->parameter_value[i]));
-    e = nh_substitute(o->dag, e, n, o->parameter, value);
-    nh_free(value);
-    return e;
-}
+nh_ex nh_model_values(const nh_model *o, nh_ex e) { return nh_system_values(o->system, o->dag, e); }
 
 double nh_model_number(const nh_model *o, nh_ex e)
 {
