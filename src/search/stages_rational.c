@@ -1,0 +1,75 @@
+/* Stages for Lagrangians with velocities in denominators, as 1/(x' + x^2), and logarithms of them.
+ *
+ * Where L is a function of D = x' + f(x), D satisfies D' = lambda(x) D along the motion (a Darboux factor), so that
+ * quotients by D have short rates: for L = 1/(x' + x^2) the rate of x/D is 1, that of 1/D is x/D. */
+#include "graph/diff.h"
+
+#include "search/stages_internal.h"
+
+enum { most_denominators = 3, most_variables = 7 };
+
+/* Is e affine in the velocities of the chart, and not free of them? */
+static bool is_affine(const nh_model *o, nh_ex e)
+{
+    bool moves = false, affine = true;
+    for (size_t i = 0; i < o->n && affine; i++) {
+        nh_ex slope = nh_diff(o->dag, e, o->chart->w[i]);
+        moves |= !nh_is_zero(o->dag, slope);
+        for (size_t j = 0; j < o->n && affine; j++) affine = !nh_depends(o->dag, slope, o->chart->w[j]);
+    }
+    return moves && affine;
+}
+
+/* The denominators, arguments of logarithms and roots in the Lagrangian that are affine in the velocities. */
+static nh_expr_set denominators(const nh_family_list *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_expr_set out = {0};
+    nh_ex *node;
+    size_t count = nh_nodes_in(d, 1, &s->o->Lbar, &node);
+    for (size_t i = 0; i < count; i++) {
+        nh_kind kind = nh_kind_of(d, node[i]);
+        bool log = kind == NH_FUNCTION && nh_function_of(d, node[i]) == NH_LOG;
+        for (size_t k = 0; (log || kind == NH_PRODUCT) && k < nh_arity(d, node[i]); k++) {
+            nh_ex exponent = log ? 0 : nh_exponent_of(d, node[i], k);
+            bool below = log || (nh_kind_of(d, exponent) == NH_NUMBER &&
+                                 (nh_number_of(d, exponent).p < 0 || nh_number_of(d, exponent).q > 1));
+            nh_ex D = nh_child(d, node[i], k);
+            if (below && out.n < most_denominators && is_affine(s->o, D)) nh_expr_set_put(&out, D);
+        }
+    }
+    nh_free(node);
+    return out;
+}
+
+/* Quotients of monomials in time, positions and velocities, up to degree two, by the denominators and their squares;
+ * their logarithms; polynomials in time and positions. */
+void nh_stage_rational(nh_family_list *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_expr_set D = denominators(s), over = {0}, u = {0}, tq = nh_expr_set_positions(s, false, true), rest = {0};
+    if (!D.n) return;
+    for (size_t i = 0; i < D.n; i++) {
+        nh_expr_set_put(&over, nh_powi(d, D.e[i], -1));
+        nh_expr_set_put(&over, nh_powi(d, D.e[i], -2));
+        nh_expr_set_put(&rest, nh_call(d, NH_LOG, D.e[i]));
+    }
+    nh_expr_set_put_all(&u, tq.n, tq.e);
+    nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
+    nh_expr_set_put(&rest, s->o->E);
+    nh_family part[2] = {nh_family_list_terms(s, &over), nh_family_list_polynomial(s, &u, u.n > most_variables ? 1 : 2)};
+    nh_family_list_add(s, nh_family_list_product(s, 2, part));
+    nh_family_list_add(s, nh_family_list_polynomial(s, &tq, 2));
+    nh_family_list_add(s, nh_family_list_terms(s, &rest));
+}
+
+/* Quotients of 1 and positions by the denominators, 1 and the system's functions: what oscillates or grows with time. */
+nh_expr_set nh_expr_set_quotients(const nh_family_list *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_expr_set D = denominators(s), q = nh_expr_set_positions(s, true, false), out = {0};
+    for (size_t i = 0; i < D.n; i++)
+        for (size_t j = 0; j < q.n; j++) nh_expr_set_put(&out, nh_div(d, q.e[j], D.e[i]));
+    if (out.n) nh_expr_set_put(&out, nh_int(d, 1));
+    return out;
+}
