@@ -27,6 +27,9 @@ static const member MEMBERS[] = {
     {"[Carinena2005]", "coordinates: [x, y]\nlagrangian: 1/(x' + x^2) + 1/(y' + y^2)\n", NULL, 4, {"x/(x' + x^2) - y/(y' + y^2)", "t - y/(y' + y^2)"}},
     {"[Musielak2008]", "coordinates: [x]\nlagrangian: log(x' + x)\n", "-2*x' - x", 2, {"t - x/(x' + x)", "exp(t)*(x' + x)"}},
     {"[Musielak2008]", "coordinates: [x]\nlagrangian: 1/(x' + x)\n", "-3*x'/2 - x/2", 2, {"exp(t/2)*(x' + x)", "exp(t)*(x' + x/2)"}},
+    {"[HarkoLoboMak2014]", "coordinates: [x]\nlagrangian: x'^2/2\nforces: [\"x = -3*x*x' - x^3\"]\n", "-3*x*x' - x^3", 2, {"t - x/(x' + x^2)", "(2*x' + x^2)/(x' + x^2)^2"}},
+    {"[HarkoLoboMak2014]", "coordinates: [x]\nlagrangian: x'^2/2\nforces: [\"x = -5*x*x' - 2*x^3\"]\n", "-5*x*x' - 2*x^3", 1, {"(x' + x^2/2)/(x' + 2*x^2)^4", NULL}},
+    {"[HarkoLoboMak2014]", "coordinates: [x]\nlagrangian: x'^2/2\nforces: [\"x = -4*(x + x^3)*x' - 3*(x^2/2 + x^4/4)*(x + x^3)\"]\n", NULL, 1, {"(x' + x^2/2 + x^4/4)/(x' + 3*x^2/2 + 3*x^4/4)^3", NULL}},
     {"[Musielak2008]", "coordinates: [x]\nlagrangian: 1/x'\n", "0", 2, {"t - x/x'", "x'"}},
 };
 

@@ -2,8 +2,8 @@
  *
  * Where L is a function of D = x' + f(x), D satisfies D' = lambda(x) D along the motion (a Darboux factor), so that
  * quotients by D have short rates: for L = 1/(x' + x^2) the rate of x/D is 1, that of 1/D is x/D. */
+#include "exact/normal.h"
 #include "graph/diff.h"
-
 #include "search/stages_internal.h"
 
 enum { most_denominators = 3, most_variables = 7 };
@@ -20,7 +20,31 @@ static bool is_affine(const nh_model *o, nh_ex e)
     return moves && affine;
 }
 
-/* The denominators, arguments of logarithms and roots in the Lagrangian that are affine in the velocities. */
+/* x'' + f(x) x' + g(x) = 0 with (g/f)' = c (1 - c) f (Chiellini's condition, [HarkoLoboMak2014]) has the Darboux factors
+ * D = x' + h/c and x' + h/(1 - c), h = g/f, with D' = -c f D and -(1 - c) f D.  Writes both, and the power of the first
+ * times one of the second that is constant.  False: there are none with rational c. */
+static bool chiellini(const nh_family_list *s, nh_ex out[3])
+{
+    const nh_model *o = s->o;
+    nh_dag *d = o->dag;
+    if (o->m != 1 || o->n != 1 || o->k || nh_depends(d, o->a[0], o->system->t)) return false;
+    nh_ex w = o->chart->w[0], zero = nh_int(d, 0), f = nh_simplify(d, nh_neg(d, nh_diff(d, o->a[0], w))),
+          g = nh_neg(d, nh_substitute(d, o->a[0], 1, &w, &zero));
+    if (nh_is_zero(d, f) || nh_is_zero(d, g) || nh_depends(d, f, w)) return false;
+    nh_ex h = nh_simplify(d, nh_div(d, g, f)),
+          product = nh_simplify(d, nh_div(d, nh_diff(d, h, o->system->coordinate[0].q), f)),
+          root = nh_simplify(d, nh_sqrt(d, nh_sub(d, nh_int(d, 1), nh_mul(d, nh_int(d, 4), product)))),
+          c = nh_div(d, nh_add(d, nh_int(d, 1), root), nh_int(d, 2)), other = nh_sub(d, nh_int(d, 1), c);
+    if (nh_kind_of(d, c) != NH_NUMBER || !nh_num_short(nh_number_of(d, c)) || nh_is_zero(d, other)) return false;
+    out[0] = nh_add(d, w, nh_div(d, h, c));
+    out[1] = nh_add(d, w, nh_div(d, h, other));
+    nh_num power = nh_number_of(d, c); /* D_0^(1 - c) D_1^-c, to a whole power */
+    out[2] = nh_mul(d, nh_powi(d, out[0], power.q - power.p), nh_powi(d, out[1], -power.p));
+    return true;
+}
+
+/* The denominators, arguments of logarithms and roots in the Lagrangian that are affine in the velocities, and the Darboux
+ * factors of an equation of Lienard's kind. */
 static nh_expr_set denominators(const nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
@@ -39,6 +63,8 @@ static nh_expr_set denominators(const nh_family_list *s)
         }
     }
     nh_free(node);
+    nh_ex factor[3];
+    if (chiellini(s, factor)) nh_expr_set_put_all(&out, 2, factor);
     return out;
 }
 
@@ -56,6 +82,8 @@ void nh_stage_rational(nh_family_list *s)
     }
     nh_expr_set_put_all(&u, tq.n, tq.e);
     nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
+    nh_ex factor[3];
+    if (chiellini(s, factor)) nh_expr_set_put(&rest, factor[2]);
     nh_expr_set_put(&rest, s->o->E);
     nh_family part[2] = {nh_family_list_terms(s, &over), nh_family_list_polynomial(s, &u, u.n > most_variables ? 1 : 2)};
     nh_family_list_add(s, nh_family_list_product(s, 2, part));
