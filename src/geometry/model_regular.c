@@ -16,6 +16,7 @@
 #include "base/linalg.h"
 #include "base/text.h"
 #include "exact/generic_value.h"
+#include "geometry/first_order.h"
 #include "graph/diff.h"
 
 /* The mass matrix at those probes where it is finite. */
@@ -218,6 +219,7 @@ static size_t typical(const masses *a, size_t *rank, double *null, bool *everywh
 bool nh_model_singular(const nh_model *o, nh_error *error)
 {
     const nh_deck_node *where = nh_deck_get(nh_deck_root(o->system->deck), "lagrangian");
+    if (!nh_first_order_refuse(o, error)) return false;
     masses a = masses_of(o);
     if (a.count == 0) {
         masses_clear(&a);
