@@ -168,12 +168,13 @@ static bool note_product(nh_jet_point *x, nh_ex e)
 static uint64_t unity_of(const nh_jet_point *x)
 {
     for (size_t i = 0; i < x->kernels; i++)
-        if (x->kernel[i].kind == NH_JET_CIRCLE && nh_jet_point_is_pi(x, x->kernel[i].key)) return 2 * x->kernel[i].order;
+        if (x->kernel[i].kind == NH_JET_CIRCLE && nh_jet_point_is_pi(x, x->kernel[i].key))
+            return 2 * x->kernel[i].order;
     return 1;
 }
 
-/* Roots of constants lie in the same field as cosines of pi/n, as sqrt(5) = 4 cos(pi/5) - 1 does.  The relation is known
- * for square roots of whole numbers (choose_unity). */
+/* Roots of constants lie in the same field as cosines of pi/n, as sqrt(5) = 4 cos(pi/5) - 1 does.  The relation is
+ * known for square roots of whole numbers (choose_unity). */
 static void check_unity(nh_jet_point *x)
 {
     uint64_t unity = unity_of(x);
@@ -365,8 +366,8 @@ static bool agrees(nh_jet_point *x, const nh_jet_kernel *k, uint64_t unity, nh_e
     return sum == (D == m ? root : nh_residue_add(f, root, root));
 }
 
-/* e^(i pi/order) for the kernel of pi: a root of 1 of order 2 order on the circle, and one for which the square roots of
- * numbers have the values that they have. */
+/* e^(i pi/order) for the kernel of pi: a root of 1 of order 2 order on the circle, and one for which the square roots
+ * of numbers have the values that they have. */
 static bool choose_unity(nh_jet_point *x, nh_jet_kernel *k)
 {
     enum { most_tries = 400 };

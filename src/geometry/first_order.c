@@ -63,8 +63,10 @@ static void write_instead(const nh_model *o, const nh_ex *velocity, nh_error *er
     const char *name = free_name(y);
     nh_text text;
     nh_text_init(&text);
-    nh_text_addf(&text, "write these equations as constraints beside a coordinate that moves by itself: coordinates [.., %s], "
-                        "lagrangian: %s'^2/2, constraints: [", name, name);
+    nh_text_addf(&text,
+                 "write these equations as constraints beside a coordinate that moves by itself: coordinates [.., %s], "
+                 "lagrangian: %s'^2/2, constraints: [",
+                 name, name);
     for (size_t i = 0; i < o->m && text.length < most; i++) {
         char *e = nh_print_short(o->dag, velocity[i], most);
         nh_text_addf(&text, "%s\"%s' = %s\"", i ? ", " : "", y->coordinate[i].name, e ? e : "");
@@ -75,9 +77,10 @@ static void write_instead(const nh_model *o, const nh_ex *velocity, nh_error *er
     if (text.length < most) nh_error_hint(error, "%s", nh_text_string(&text));
     else
         nh_error_hint(error,
-                      "with L = a_i q_i' - H they are omega_ij q_j' = dH/dq_i, omega_ij = da_j/dq_i - da_i/dq_j: solve them "
-                      "for q' and write them as constraints beside a coordinate that moves by itself: coordinates "
-                      "[.., %s], lagrangian: %s'^2/2, constraints: [\"%s' = ..\", ..]", name, name, y->coordinate[0].name);
+                      "with L = a_i q_i' - H they are omega_ij q_j' = dH/dq_i, omega_ij = da_j/dq_i - da_i/dq_j: solve "
+                      "them for q' and write them as constraints beside a coordinate that moves by itself: coordinates "
+                      "[.., %s], lagrangian: %s'^2/2, constraints: [\"%s' = ..\", ..]",
+                      name, name, y->coordinate[0].name);
     nh_text_clear(&text);
 }
 
@@ -88,8 +91,8 @@ bool nh_first_order_refuse(const nh_model *o, nh_error *error)
     bool linear = is_linear(o, a), solved = linear && solve(o, a, velocity);
     if (solved) {
         nh_deck_fail(o->system->deck, where, 0, error,
-                     "the Lagrangian is linear in the velocities: no velocity has inertia, and its equations of motion are "
-                     "of first order");
+                     "the Lagrangian is linear in the velocities: no velocity has inertia, and its equations of motion "
+                     "are of first order");
         write_instead(o, velocity, error);
     } else if (linear) {
         nh_deck_fail(o->system->deck, where, 0, error,

@@ -267,7 +267,8 @@ static void look_for_drops(const space *x, size_t generators, const nh_ex *field
         for (size_t r = s == o->m ? 0 : s; r < (s == o->m ? o->m : s + 1); r++) {
             inside &= chart->low[1 + r] <= 0 && chart->high[1 + r] >= 0;
             zero[count++] = o->system->coordinate[r].q;
-            for (size_t i = 0; i < generators * x->N && !present; i++) present = nh_depends(x->d, field[i], zero[count - 1]);
+            for (size_t i = 0; i < generators * x->N && !present; i++)
+                present = nh_depends(x->d, field[i], zero[count - 1]);
         }
         if (!inside || !present) continue;
         nh_closure_growth c = nh_closure_growth_at(o, generators, x->N, x->symbol, field, count, zero,

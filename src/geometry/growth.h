@@ -7,8 +7,8 @@
  *
  * The ranks are computed at random points modulo two primes (closure.h): lower bounds that almost every point reaches.
  * Where the last rank r is below N, exact elimination proves that nothing was missed: r of the brackets span an
- * involutive distribution that contains D, and every entry that must vanish is zero by normal form.  Where a normal form
- * is too large `proved` is false, unless as many functions are known to be constant (distribution.c).
+ * involutive distribution that contains D, and every entry that must vanish is zero by normal form.  Where a normal
+ * form is too large `proved` is false, unless as many functions are known to be constant (distribution.c).
  *
  * Functions without residues (velocities that are given implicitly, Bessel functions, ..): the ranks at the model's
  * probes decide, where the smallest singular value that counts is far above rounding; `by_numbers`. */

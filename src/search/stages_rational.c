@@ -20,8 +20,8 @@ static bool is_affine(const nh_model *o, nh_ex e)
     return moves && affine;
 }
 
-/* x'' + f(x) x' + g(x) = 0 with (g/f)' = c (1 - c) f (Chiellini's condition, [HarkoLoboMak2014]) has the Darboux factors
- * D = x' + h/c and x' + h/(1 - c), h = g/f, with D' = -c f D and -(1 - c) f D.  Writes both, and the power of the first
+/* x'' + f(x) x' + g(x) = 0 with (g/f)' = c (1 - c) f (Chiellini's condition, [HarkoLoboMak2014]) has the Darboux
+ * factors D = x' + h/c and x' + h/(1 - c), h = g/f, with D' = -c f D and -(1 - c) f D.  Writes both, and the power of the first
  * times one of the second that is constant.  False: there are none with rational c. */
 static bool chiellini(const nh_family_list *s, nh_ex out[3])
 {
@@ -43,8 +43,8 @@ static bool chiellini(const nh_family_list *s, nh_ex out[3])
     return true;
 }
 
-/* The denominators, arguments of logarithms and roots in the Lagrangian that are affine in the velocities, and the Darboux
- * factors of an equation of Lienard's kind. */
+/* The denominators, arguments of logarithms and roots in the Lagrangian that are affine in the velocities, and the
+ * Darboux factors of an equation of Lienard's kind. */
 static nh_expr_set denominators(const nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
@@ -85,13 +85,14 @@ void nh_stage_rational(nh_family_list *s)
     nh_ex factor[3];
     if (chiellini(s, factor)) nh_expr_set_put(&rest, factor[2]);
     nh_expr_set_put(&rest, s->o->E);
-    nh_family part[2] = {nh_family_list_terms(s, &over), nh_family_list_polynomial(s, &u, u.n > most_variables ? 1 : 2)};
+    size_t degree = u.n > most_variables ? 1 : 2;
+    nh_family part[2] = {nh_family_list_terms(s, &over), nh_family_list_polynomial(s, &u, degree)};
     nh_family_list_add(s, nh_family_list_product(s, 2, part));
     nh_family_list_add(s, nh_family_list_polynomial(s, &tq, 2));
     nh_family_list_add(s, nh_family_list_terms(s, &rest));
 }
 
-/* Quotients of 1 and positions by the denominators, 1 and the system's functions: what oscillates or grows with time. */
+/* Quotients of 1 and positions by the denominators, and 1: what oscillates or grows with time. */
 nh_expr_set nh_expr_set_quotients(const nh_family_list *s)
 {
     nh_dag *d = s->o->dag;

@@ -40,7 +40,11 @@ static void add_constraint(nh_system *s, const nh_wheel *w, const nh_ex *row, nh
     for (size_t i = 0; i < s->coordinates; i++) sum = nh_add(d, sum, nh_mul(d, row[i], s->coordinate[i].v));
     char *text = nh_print_string(d, sum);
     s->constraint[s->constraints++] = (nh_constraint){
-        .text = nh_arena_printf(s->arena, "%s = 0", text), .lhs = sum, .rhs = nh_int(d, 0), .level = level, .node = w->node};
+        .text = nh_arena_printf(s->arena, "%s = 0", text),
+        .lhs = sum,
+        .rhs = nh_int(d, 0),
+        .level = level,
+        .node = w->node};
     nh_free(text);
 }
 

@@ -7,8 +7,8 @@
  *     knife-edge    a . (v + w x c) = 0
  *     rolling       u = v + w x (c - r n_a) = 0,   n_a = (n - (n.a) a) / |n - (n.a) a|
  *
- * The last component of u is the rate of the height n . (p + c - r n_a): n . n_a = sqrt(1 - (n.a)^2) changes at the rate
- * n . (w x n_a), as the axle turns with w.
+ * The last component of u is the rate of the height n . (p + c - r n_a): n . n_a = sqrt(1 - (n.a)^2) changes at the
+ * rate n . (w x n_a), as the axle turns with w.
  *
  * u is the velocity of the point of contact; n_a, in the wheel's plane, points up from there to the centre
  * [NeimarkFufaev1972, ch. III].  Its components are taken along a x n (forward), n x (a x n) (sideways) and n. */
