@@ -21,8 +21,8 @@ static bool is_affine(const nh_model *o, nh_ex e)
 }
 
 /* x'' + f(x) x' + g(x) = 0 with (g/f)' = c (1 - c) f (Chiellini's condition, [HarkoLoboMak2014]) has the Darboux
- * factors D = x' + h/c and x' + h/(1 - c), h = g/f, with D' = -c f D and -(1 - c) f D.  Writes both, and the power of the first
- * times one of the second that is constant.  False: there are none with rational c. */
+ * factors D = x' + h/c and x' + h/(1 - c), h = g/f, with D' = -c f D and -(1 - c) f D.  Writes both, and the power of
+ * the first times one of the second that is constant.  False: there are none with rational c. */
 static bool chiellini(const nh_family_list *s, nh_ex out[3])
 {
     const nh_model *o = s->o;
