@@ -6,7 +6,9 @@
 
 #include <stdio.h>
 
+#include "exact/generic_value.h"
 #include "geometry/distribution.h"
+#include "graph/diff.h"
 #include "commands/analyze.h"
 
 enum { most_coordinates = 6 };
@@ -207,7 +209,7 @@ static const struct {
     {THREE "constraints: [\"z' = y*x'\"]\n", NULL, 0, 0, false},
     {THREE "constraints: [\"z' = z*x'\"]\n", "z*exp(-x)", 1, 1, false},
     {THREE "constraints: [\"z' = cos(x)*x' + t*y' + y\"]\n", "z - t*y - sin(x)", 1, 1, false},
-    {THREE "constraints: [\"z' = (z + x)*(x' + y') - x'\"]\n", NULL, 1, 0, false}, /* (z + x)*exp(-x - y) is in no ansatz */
+    {THREE "constraints: [\"z' = (z + x)*(x' + y') - x'\"]\n", "(z + x)*exp(-x - y)", 1, 1, false},
     {"coordinates: [{name: p, type: angle}, {name: q, type: angle}, z]\nlagrangian: p'^2 + q'^2 + z'^2/2\nconstraints: [\"p' = 3*q' + 2*z*z'\"]\n", "p - 3*q - z^2", 1, 1, true},
     {THREE "constraints: [\"x'^2 + y'^2 = 4\", \"z' = x'*y + x*y'\"]\n", "z - x*y", 1, 1, false},
     {"coordinates: [x, y, z, u]\nlagrangian: x'^2 + y'^2 + z'^2 + u'^2\nconstraints: [\"z' = y*x'\", \"u' = x'*y + y'*x + z' - y*x'\"]\n", "u - x*y", 1, 1, false},
@@ -236,4 +238,129 @@ Test(distribution, the_functions_that_constraints_conserve)
         }
         nh_analysis_free(r);
     }
+}
+
+/* ---- the same for every seed ---- */
+
+static void describe(const nh_distribution *d, nh_text *out)
+{
+    const nh_growth *g = &d->growth;
+    nh_text_addf(out, "%s, %zu hidden, growth", nh_constraint_type_name(d->type), d->hidden);
+    for (size_t i = 0; i < g->length; i++) nh_text_addf(out, " %zu", g->rank[i]);
+    nh_text_addf(out, " of %zu, %s%s", g->dimension, g->proved ? "proved" : "not proved", g->cut ? ", cut" : "");
+    for (size_t i = 0; i < g->length_there; i++) nh_text_addf(out, "%s%zu", i ? " " : "; there ", g->rank_there[i]);
+}
+
+static char *distribution_of(const char *path, nh_chart_choice choice, uint64_t seed)
+{
+    nh_error error = {0};
+    nh_text text;
+    nh_text_init(&text);
+    nh_system *system = nh_system_read(path, 0, NULL, &error);
+    must(system != NULL, &error, path);
+    nh_chart *chart = nh_chart_create(system, choice, seed, &error);
+    nh_model *model = chart ? nh_model_create(system, chart, &error) : NULL;
+    must(model != NULL, &error, path);
+    nh_distribution d = nh_distribution_of(model);
+    describe(&d, &text);
+    nh_model_free(model);
+    nh_system_free(system);
+    char *copy = strdup(nh_text_string(&text));
+    nh_text_clear(&text);
+    return copy;
+}
+
+static void same_for_seeds(const char *path, uint64_t seeds)
+{
+    char *first = distribution_of(path, NH_CHART_COORDINATES, 1);
+    for (uint64_t seed = 2; seed <= seeds; seed++) {
+        char *other = distribution_of(path, NH_CHART_COORDINATES, seed);
+        cr_expect_str_eq(other, first, "%s, seed %zu: %s; seed 1: %s", path, (size_t)seed, other, first);
+        free(other);
+    }
+    free(first);
+}
+
+Test(distribution, growth_is_the_same_for_every_seed)
+{
+    char *name[most_files];
+    size_t count = list("systems", name);
+    for (size_t i = 0; i < count; i++) {
+        char path[300];
+        snprintf(path, sizeof path, "systems/%s.yaml", name[i]);
+        if (sweep_tries(i + 1, 20, 40)) same_for_seeds(path, sweep_whole() ? 10 : 3);
+        free(name[i]);
+    }
+}
+
+/* The coefficients of this bicycle's brackets differ by many orders of magnitude from seed to seed. */
+Test(distribution, the_heights_of_a_bicycle_are_hidden_constraints)
+{
+    const char *path = "tests/data/bicycle_floating.yaml";
+    for (uint64_t seed = 1; seed <= 10; seed++) {
+        if (!sweep_tries(seed - 1, 5, 10)) continue;
+        char *found = distribution_of(path, NH_CHART_COORDINATES, seed);
+        cr_expect_str_eq(found, "linear, 2 hidden, growth 3 5 7 of 9, proved", "seed %zu: %s", (size_t)seed, found);
+        free(found);
+    }
+}
+
+/* The program knows the heights because it made the constraints: their rates are the constraints. */
+Test(distribution, a_wheel_knows_its_height)
+{
+    mechanics x = mechanics_of_file("tests/data/bicycle_floating.yaml", NH_CHART_COORDINATES, 0, NULL);
+    const nh_system *y = x.system;
+    nh_ex v[20];
+    size_t heights = 0, width = y->coordinates;
+    for (size_t s = 0; s < width; s++) v[s] = y->coordinate[s].v;
+    for (size_t a = 0; a < y->constraints; a++) {
+        const nh_constraint *c = &y->constraint[a];
+        if (!c->level) continue;
+        nh_ex rate = nh_sub(y->dag, c->rhs, c->lhs);
+        for (size_t s = 0; s < width; s++) rate = nh_add(y->dag, rate, nh_mul(y->dag, nh_diff(y->dag, c->level, y->coordinate[s].q), v[s]));
+        nh_ex q[40];
+        for (size_t s = 0; s < width; s++) q[s] = y->coordinate[s].q, q[width + s] = v[s];
+        cr_expect(!nh_generic_nonzero(y->dag, 1, &rate, 2 * width, q), "constraint %zu", a);
+        cr_expect(nh_generic_nonzero(y->dag, 1, &c->level, 2 * width, q));
+        heights++;
+    }
+    cr_expect_eq(heights, 2);
+    mechanics_clear(&x);
+}
+
+/* Parameters and decimals are exact: a small bracket is a bracket. */
+Test(distribution, small_brackets_count)
+{
+    static const struct {
+        const char *constraint;
+        size_t length, rank[3];
+    } cases[] = {{"z' = x*y' + (1 + 1e-12)*y*x'", 2, {2, 3}},
+                 {"z' = x*y' + (1 + 1e-40)*y*x'", 2, {2, 3}},
+                 {"z' = x*y' + (1 + 0)*y*x'", 1, {2}},
+                 {"z' = x*y' + y*x' + 1e-20*sin(x)*cos(pi/7)*y'", 2, {2, 3}},
+                 {"z' = x*y' + y*x' + 1e-20*(cos(pi/5) - 1/4 - sqrt(5)/4)*x*y'", 1, {2}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400];
+        snprintf(text, sizeof text, "name: small\ncoordinates: [x, y, z]\nlagrangian: x'^2 + y'^2 + z'^2\nconstraints: [\"%s\"]\n", cases[i].constraint);
+        mechanics x = mechanics_of_text(text, NH_CHART_COORDINATES);
+        nh_distribution d = nh_distribution_of(x.model);
+        cr_expect(d.growth.length == cases[i].length && !d.growth.by_numbers, "%s", cases[i].constraint);
+        for (size_t j = 0; j < cases[i].length; j++) cr_expect_eq(d.growth.rank[j], cases[i].rank[j], "%s: %zu", cases[i].constraint, d.growth.rank[j]);
+        mechanics_clear(&x);
+    }
+}
+
+/* Inertia 1e-15 times as large as another is inertia; without any the message stays. */
+Test(distribution, small_inertia_counts)
+{
+    mechanics x = mechanics_of_text("name: light\ncoordinates: [x, y]\nlagrangian: (x' + y')^2/2 + 1e-15*y'^2/2 - x^2/2\n", NH_CHART_COORDINATES);
+    mechanics_clear(&x);
+    nh_error error = {0};
+    nh_system *system = nh_system_parse("test.yaml", "name: none\ncoordinates: [x, y]\nlagrangian: (x' + y')^2/2 - x^2/2\n", 0, NULL, &error);
+    nh_model *model = nh_model_create(system, nh_chart_create(system, NH_CHART_COORDINATES, 1, &error), &error);
+    cr_expect_null(model);
+    char message[2600];
+    nh_error_format(&error, message, sizeof message);
+    cr_expect(strstr(message, "rank 1 of 2"), "%s", message);
+    nh_system_free(system);
 }

@@ -115,7 +115,7 @@ static void compare(const nh_analysis *r, const nh_current *f)
 static void rate_is_bounded(const nh_analysis *r, const nh_current *f)
 {
     nh_ball *ball = nh_ball_create(r->model->dag, 200);
-    nh_ex rate = nh_exact_values(r->model, nh_model_gamma(r->model, f->phi));
+    nh_ex rate = nh_model_values(r->model, nh_model_gamma(r->model, f->phi));
     uint64_t state = 5;
     double z[5], middle, radius, largest = 0;
     for (size_t p = 0; p < 20; p++) {

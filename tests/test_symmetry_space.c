@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "integrals/bracket_fields.h"
-#include "integrals/closure.h"
+#include "geometry/closure.h"
 #include "integrals/symmetry.h"
 #include "exact/relation_space.h"
 #include "mechanics.h"

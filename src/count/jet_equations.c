@@ -23,7 +23,7 @@ static nh_ex canonical(nh_jet_equations *x, nh_ex e)
 {
     nh_region *side = x->complete ? NULL : &x->side;
     e = nh_one_side_of_roots(x->model, nh_one_side(x->model, e, side), side);
-    e = nh_canonical(x->dag, x->generic ? e : nh_exact_values(x->model, e), largest_form);
+    e = nh_canonical(x->dag, x->generic ? e : nh_model_values(x->model, e), largest_form);
     nh_ex without = nh_one_side_of_roots(x->model, e, side);
     return without == e ? e : nh_canonical(x->dag, without, largest_form);
 }

@@ -66,7 +66,7 @@ void nh_facts_constraint(const nh_analysis *r, nh_text *out)
         if (g->where) nh_text_addf(out, ", at %s = 0 ", nh_name_of(r->model->dag, g->where));
         ranks(out, g->where ? "" : ", at the origin ", g->length_there, g->rank_there);
     }
-    nh_text_addf(out, ")%s", g->proved ? "" : " (by numbers)");
+    nh_text_addf(out, ")%s", g->proved ? "" : g->by_numbers ? " (by numbers)" : " (modulo primes)");
 }
 
 /* The signs of one form of report. */

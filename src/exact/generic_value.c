@@ -1,5 +1,7 @@
 #include "exact/generic_value.h"
 
+#include <string.h>
+
 #include "base/memory.h"
 #include "exact/form.h"
 #include "exact/jet_eval.h"
@@ -84,24 +86,89 @@ static bool solve(problem *x)
     return found;
 }
 
-bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables, const nh_ex *variable)
+/* Prepares expressions; false: they have no residues. */
+static bool prepare(problem *x, nh_dag *dag, size_t n, const nh_ex *e, nh_ex *own)
 {
-    nh_ex *own = nh_alloc_array(n + 1, sizeof *own);
-    size_t *one = nh_alloc_array(variables + 1, sizeof *one);
-    problem x = {.point = nh_jet_point_create(dag), .n = n, .e = own, .variables = variables, .variable = variable};
     nh_forms forms;
-    for (size_t k = 0; k < variables; k++) one[k] = 1;
+    *x = (problem){.point = nh_jet_point_create(dag), .n = n, .e = own};
     nh_forms_init(&forms, dag, false, canonical_length);
     for (size_t i = 0; i < n; i++) own[i] = nh_form_rewrite(&forms, e[i]);
     nh_forms_clear(&forms);
-    bool found = variables && list_constants(&x, dag) && nh_jet_point_register(x.point, n, own);
-    /* a prime modulo which the numbers have their roots */
-    nh_jet_ring *ring = nh_jet_ring_create(nh_jet_point_prime(x.point, 0), variables, one, order);
-    x.ring = ring;
-    found = found && solve(&x);
-    nh_jet_ring_free(ring);
-    nh_jet_point_free(x.point);
+    return nh_jet_point_register(x->point, n, own);
+}
+
+/* The ring of series at the index-th prime modulo which the numbers have their roots. */
+static nh_jet_ring *ring_at(const problem *x, size_t index)
+{
+    size_t *one = nh_alloc_array(x->variables + 1, sizeof *one);
+    for (size_t k = 0; k < x->variables; k++) one[k] = 1;
+    nh_jet_ring *ring = nh_jet_ring_create(nh_jet_point_prime(x->point, index), x->variables, one, order);
     nh_free(one);
+    return ring;
+}
+
+bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables, const nh_ex *variable)
+{
+    problem x;
+    nh_ex *own = nh_alloc_array(n + 1, sizeof *own);
+    bool found = prepare(&x, dag, n, e, own) && variables;
+    x.variables = variables;
+    x.variable = variable;
+    if (found && list_constants(&x, dag)) {
+        nh_jet_ring *ring = ring_at(&x, 0);
+        x.ring = ring;
+        found = solve(&x);
+        nh_jet_ring_free(ring);
+    } else {
+        found = false;
+    }
+    nh_jet_point_free(x.point);
     nh_free(own);
     return found;
+}
+
+/* ---- ranks ---- */
+
+/* The rank at one regular point; false: there is none, or functions are related in ways that are not known. */
+static bool rank_at(problem *x, size_t rows, size_t columns, size_t *rank)
+{
+    size_t size = x->ring->size;
+    nh_residue *value = nh_alloc_array(x->n * size + 1, sizeof *value), *a = nh_alloc_array(x->n + 1, sizeof *a);
+    bool done = false, good = false;
+    for (uint64_t seed = 1; seed <= most_points && !done; seed++) {
+        nh_jet_eval *v = at_point(x, seed);
+        done = nh_jet_eval_all(v, x->n, x->e, value);
+        good = done && unrelated(x, v);
+        nh_jet_eval_free(v);
+    }
+    for (size_t i = 0; i < x->n; i++) a[i] = value[i * size];
+    if (good) *rank = nh_residue_matrix_rank(x->ring->field, rows, columns, a);
+    nh_free(a);
+    nh_free(value);
+    return good;
+}
+
+bool nh_generic_rank(nh_dag *dag, size_t rows, size_t columns, const nh_ex *e, size_t *rank)
+{
+    enum { primes = 2 };
+    problem x;
+    nh_ex *own = nh_alloc_array(rows * columns + 1, sizeof *own), variable[most_symbols];
+    bool good = prepare(&x, dag, rows * columns, e, own) && list_constants(&x, dag);
+    x.variables = x.constants ? x.constants : 1;
+    if (x.constants) memcpy(variable, x.constant, sizeof variable);
+    else variable[0] = nh_symbol_fresh(dag, "x");
+    x.variable = variable;
+    x.constants = 0;
+    *rank = 0;
+    for (size_t index = 0; index < primes && good; index++) {
+        size_t here = 0;
+        nh_jet_ring *ring = ring_at(&x, index);
+        x.ring = ring;
+        good = rank_at(&x, rows, columns, &here);
+        *rank = here > *rank ? here : *rank;
+        nh_jet_ring_free(ring);
+    }
+    nh_jet_point_free(x.point);
+    nh_free(own);
+    return good;
 }

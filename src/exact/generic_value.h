@@ -11,4 +11,8 @@
 /* Is one of n expressions not identically zero in these variables and all other symbols?  False: not known. */
 bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables, const nh_ex *variable);
 
+/* The rank of a matrix of expressions (row by row) at random residues of all symbols, modulo two primes: a lower bound
+ * of the rank at almost all values, which almost all residues reach.  False: not known, some entry has no residues. */
+bool nh_generic_rank(nh_dag *dag, size_t rows, size_t columns, const nh_ex *e, size_t *rank);
+
 #endif

@@ -389,7 +389,8 @@ bool nh_jet_eval_all(nh_jet_eval *v, size_t n, const nh_ex *e, nh_residue *out)
 static bool belongs(const nh_jet_eval *v, const nh_jet_kernel *k, bool real)
 {
     if (k->kind == NH_JET_CIRCLE || k->kind == NH_JET_EXPONENTIAL)
-        return (k->kind == NH_JET_EXPONENTIAL) == real && nh_kind_of(v->dag, k->key) != NH_NUMBER;
+        return (k->kind == NH_JET_EXPONENTIAL) == real && nh_kind_of(v->dag, k->key) != NH_NUMBER &&
+               !(k->kind == NH_JET_CIRCLE && nh_jet_point_is_pi(v->point, k->key));
     if (k->kind != NH_JET_FREE) return false;
     nh_function f = nh_function_of(v->dag, k->key);
     if (f == NH_ABS || f == NH_SIGN || f == NH_PI) return false;

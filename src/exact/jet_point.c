@@ -1,6 +1,7 @@
 /* Residues for the functions in expressions, chosen such that the relations between them hold. */
 #include "exact/jet_point.h"
 
+#include <flint/ulong_extras.h>
 #include <gmp.h>
 
 #include "base/memory.h"
@@ -11,6 +12,7 @@
 #include "graph/num_long.h"
 
 static const uint64_t most_order = (uint64_t)1 << 40; /* largest common denominator of the multiples of one atom */
+static const uint64_t most_unity = (uint64_t)1 << 20; /* the same for pi in angles: few primes have such roots of 1 */
 
 nh_jet_point *nh_jet_point_create(nh_dag *dag)
 {
@@ -51,16 +53,22 @@ static bool note(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex key, uint64_t o
     return !x->obstacle;
 }
 
+bool nh_jet_point_is_pi(const nh_jet_point *x, nh_ex e)
+{
+    return nh_kind_of(x->dag, e) == NH_FUNCTION && nh_function_of(x->dag, e) == NH_PI;
+}
+
 static bool note_parts(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex argument)
 {
     nh_parts parts;
     nh_parts_make(x->dag, false, argument, &parts);
     for (size_t i = 0; i < parts.count && !x->obstacle; i++) {
         const nh_part *p = &parts.item[i];
-        bool pi = nh_kind_of(x->dag, p->atom) == NH_FUNCTION && nh_function_of(x->dag, p->atom) == NH_PI;
-        if (!nh_num_short(p->coefficient) || (pi && kind == NH_JET_CIRCLE))
+        if (!nh_num_short(p->coefficient))
             x->obstacle = "an angle or exponent that is no rational multiple of its parts";
         else note(x, kind, p->atom, (uint64_t)p->coefficient.q);
+        if (!x->obstacle && kind == NH_JET_CIRCLE && nh_jet_point_is_pi(x, p->atom))
+            note(x, kind, p->atom, 2); /* so that the root of 1 has i as a power, and sines are cosines */
     }
     nh_free(parts.item);
     return !x->obstacle;
@@ -154,6 +162,33 @@ static bool note_product(nh_jet_point *x, nh_ex e)
     return !x->obstacle;
 }
 
+/* ---- angles that are rational multiples of pi ---- */
+
+/* The order of the root of 1 that e^(i pi/order) is; 1: there are no such angles. */
+static uint64_t unity_of(const nh_jet_point *x)
+{
+    for (size_t i = 0; i < x->kernels; i++)
+        if (x->kernel[i].kind == NH_JET_CIRCLE && nh_jet_point_is_pi(x, x->kernel[i].key))
+            return 2 * x->kernel[i].order;
+    return 1;
+}
+
+/* Roots of constants lie in the same field as cosines of pi/n, as sqrt(5) = 4 cos(pi/5) - 1 does.  The relation is
+ * known for square roots of whole numbers (choose_unity). */
+static void check_unity(nh_jet_point *x)
+{
+    uint64_t unity = unity_of(x);
+    if (unity > most_unity) x->obstacle = "multiples of pi with large denominators";
+    for (size_t i = 0; i < x->kernels && unity > 4 && !x->obstacle; i++) {
+        const nh_jet_kernel *k = &x->kernel[i];
+        nh_ex symbol;
+        if (k->kind != NH_JET_ROOT || nh_symbols_in(x->dag, k->key, &symbol, 1)) continue;
+        bool whole = nh_kind_of(x->dag, k->key) == NH_NUMBER && nh_num_short(nh_number_of(x->dag, k->key)) &&
+                     nh_number_of(x->dag, k->key).q == 1 && nh_number_of(x->dag, k->key).p > 0;
+        if (!whole) x->obstacle = "roots of constants beside angles that are multiples of pi";
+    }
+}
+
 bool nh_jet_point_register(nh_jet_point *x, size_t n, const nh_ex *e)
 {
     nh_ex *node;
@@ -166,6 +201,7 @@ bool nh_jet_point_register(nh_jet_point *x, size_t n, const nh_ex *e)
             x->obstacle = "numbers that are not exact";
     }
     nh_free(node);
+    check_unity(x);
     return !x->obstacle;
 }
 
@@ -189,8 +225,9 @@ static bool has_roots(const nh_jet_point *x, nh_prime field)
 nh_prime nh_jet_point_prime(const nh_jet_point *x, size_t index)
 {
     enum { most = 3000 };
-    nh_prime f = nh_prime_at(0);
-    for (size_t tried = 0, found = 0; tried < most; tried++, f = nh_prime_next(f))
+    uint64_t unity = unity_of(x); /* the circle has p + 1 points */
+    nh_prime f = nh_prime_next((nh_prime){0}, unity);
+    for (size_t tried = 0, found = 0; tried < most && f.p; tried++, f = nh_prime_next(f, unity))
         if (has_roots(x, f) && found++ == index) return f;
     return nh_prime_at(index);
 }
@@ -220,6 +257,27 @@ bool nh_jet_point_number(const nh_jet_point *x, nh_num a, nh_residue *out)
     mpq_clear(q);
     if (bottom) *out = nh_residue_mul(x->field, top, nh_residue_inverse(x->field, bottom));
     return bottom != 0;
+}
+
+bool nh_jet_point_vanish(nh_jet_point *x, size_t n, const nh_ex *symbol)
+{
+    nh_ex *zero = nh_alloc_array(n + 1, sizeof *zero);
+    bool good = true;
+    for (size_t i = 0; i < n; i++) zero[i] = nh_int(x->dag, 0);
+    for (size_t i = 0; i < x->kernels && good; i++) {
+        nh_jet_kernel *k = &x->kernel[i];
+        nh_ex there = n ? nh_substitute(x->dag, k->key, n, symbol, zero) : k->key;
+        if (there == k->key || k->kind == NH_JET_ROOT) continue;
+        bool number = nh_kind_of(x->dag, there) == NH_NUMBER;
+        good = number && nh_jet_point_number(x, nh_number_of(x->dag, there), &k->value);
+        k->chosen = true;
+        if (k->kind == NH_JET_FREE) continue; /* such as log(1 + x) = 0 */
+        good = good && k->value == 0 && (k->kind == NH_JET_CIRCLE || k->kind == NH_JET_EXPONENTIAL);
+        k->value = 1;
+        k->sine = 0;
+    }
+    nh_free(zero);
+    return good;
 }
 
 /* base^exponent for a base that is not 0 */
@@ -252,16 +310,84 @@ bool nh_jet_point_root(nh_jet_point *x, nh_ex radicand, nh_residue value, nh_num
 }
 
 /* A rational point of the circle: ((1 - u^2), 2 u)/(1 + u^2). */
-static bool choose_angle(nh_jet_point *x, nh_jet_kernel *k)
+static bool random_angle(const nh_jet_point *x, nh_jet_kernel *k, unsigned which)
 {
     nh_prime f = x->field;
-    nh_residue u = draw(x, k, 0), square = nh_residue_mul(f, u, u),
+    nh_residue u = draw(x, k, which), square = nh_residue_mul(f, u, u),
                bottom = nh_residue_add(f, 1, square);
     if (!bottom) return false;
     nh_residue inverse = nh_residue_inverse(f, bottom);
     k->value = nh_residue_mul(f, nh_residue_sub(f, 1, square), inverse);
     k->sine = nh_residue_mul(f, nh_residue_add(f, u, u), inverse);
-    return k->chosen = true;
+    return true;
+}
+
+static void turn(nh_prime f, const nh_jet_kernel *k, int64_t times, nh_residue *c, nh_residue *s);
+
+/* The multiple of the angle of k: cosine and sine. */
+static void multiple(nh_prime f, const nh_jet_kernel *k, uint64_t times, nh_residue *c, nh_residue *s)
+{
+    *c = 1;
+    *s = 0;
+    turn(f, k, (int64_t)times, c, s);
+}
+
+/* Is the angle of k, of which `unity` times is a full turn, no full turn any earlier? */
+static bool is_primitive(nh_prime f, const nh_jet_kernel *k, uint64_t unity)
+{
+    n_factor_t factors;
+    bool good = true;
+    n_factor_init(&factors);
+    n_factor(&factors, unity, 1);
+    for (int i = 0; i < factors.num && good; i++) {
+        nh_residue c, s;
+        multiple(f, k, unity / factors.p[i], &c, &s);
+        good = c != 1 || s != 0;
+    }
+    return good;
+}
+
+/* Gauss's sum: sqrt(D) = sum over a of (D/a) cos(2 pi a/D) for the discriminant D > 0 of a quadratic field. */
+static bool agrees(nh_jet_point *x, const nh_jet_kernel *k, uint64_t unity, nh_ex radicand)
+{
+    nh_prime f = x->field;
+    uint64_t m = (uint64_t)nh_number_of(x->dag, radicand).p, D = m % 4 == 1 ? m : 4 * m;
+    nh_residue sum = 0, root;
+    if (unity % D || !n_is_squarefree(m)) return unity % D != 0;
+    for (uint64_t a = 1; a < D; a++) {
+        uint64_t odd = a % 2 ? a : a + D; /* a and D are not both even where the symbol is not 0 */
+        nh_residue c, s;
+        if (odd % 2 == 0) continue;
+        int symbol = n_jacobi((mp_limb_signed_t)D, odd);
+        multiple(f, k, unity / D * a, &c, &s);
+        if (symbol) sum = symbol > 0 ? nh_residue_add(f, sum, c) : nh_residue_sub(f, sum, c);
+    }
+    if (!nh_jet_point_root(x, radicand, nh_residue_of(f, (int64_t)m), (nh_num){.p = 1, .q = 2}, &root)) return false;
+    return sum == (D == m ? root : nh_residue_add(f, root, root));
+}
+
+/* e^(i pi/order) for the kernel of pi: a root of 1 of order 2 order on the circle, and one for which the square roots
+ * of numbers have the values that they have. */
+static bool choose_unity(nh_jet_point *x, nh_jet_kernel *k)
+{
+    enum { most_tries = 400 };
+    nh_prime f = x->field;
+    uint64_t unity = 2 * k->order;
+    bool good = false;
+    for (unsigned tries = 0; tries < most_tries && !good && (f.p + 1) % unity == 0; tries++) {
+        nh_residue c, s;
+        if (!random_angle(x, k, tries)) continue;
+        multiple(f, k, (f.p + 1) / unity, &c, &s);
+        k->value = c;
+        k->sine = s;
+        multiple(f, k, unity / 4, &c, &s);
+        good = s == 1 && is_primitive(f, k, unity); /* i, and not -i: sin(pi/10) = cos(4 pi/10) */
+        for (size_t i = 0; i < x->kernels && good; i++)
+            if (x->kernel[i].kind == NH_JET_ROOT && x->kernel[i].order % 2 == 0 &&
+                nh_kind_of(x->dag, x->kernel[i].key) == NH_NUMBER)
+                good = agrees(x, k, unity, x->kernel[i].key);
+    }
+    return k->chosen = good;
 }
 
 /* (c, s) := the angle that is the sum of (c, s) and `times` times that of k. */
@@ -290,7 +416,8 @@ bool nh_jet_point_circle(nh_jet_point *x, nh_ex argument, nh_residue *sine, nh_r
     for (size_t i = 0; i < parts.count && good; i++) {
         nh_jet_kernel *k = find(x, NH_JET_CIRCLE, parts.item[i].atom);
         nh_num c = parts.item[i].coefficient;
-        good = k->chosen || choose_angle(x, k);
+        if (!k->chosen) k->chosen = nh_jet_point_is_pi(x, k->key) ? choose_unity(x, k) : random_angle(x, k, 0);
+        good = k->chosen;
         if (good) turn(x->field, k, c.p * (int64_t)(k->order / (uint64_t)c.q), cosine, sine);
     }
     nh_free(parts.item);

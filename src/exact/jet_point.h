@@ -4,6 +4,8 @@
  * and other primitives.  A choice of residues for these is a point when it satisfies the relations between them:
  *
  *     sin, cos     of an atom: a rational point of the circle; of its rational multiples: multiples of one angle
+ *     sin, cos     of pi/n: a point of the circle that is a root of 1 of order 2 n, such that square roots of whole
+ *                  numbers are the sums of cosines that they are (Gauss)
  *     exp          of an atom: any residue; of its rational multiples: powers of one residue
  *     roots        of one radicand: powers of one root; square roots are squares themselves, so that sqrt(a b) =
  *                  sqrt(a) sqrt(b)
@@ -73,8 +75,15 @@ bool nh_jet_point_register(nh_jet_point *point, size_t n, const nh_ex *e);
  * primes, of the first primes. */
 nh_prime nh_jet_point_prime(const nh_jet_point *point, size_t index);
 
+/* Is e the number pi?  Its sine and cosine are no free residues. */
+bool nh_jet_point_is_pi(const nh_jet_point *point, nh_ex e);
+
 /* Forgets all values; the next ones follow from prime and seed. */
 void nh_jet_point_choose(nh_jet_point *point, nh_prime field, uint64_t seed);
+
+/* Gives functions of these symbols the values that they have where the symbols vanish; the others stay random.  False
+ * where one has no value there that is known: sin(x y + z) at x = 0 is related to other kernels. */
+bool nh_jet_point_vanish(nh_jet_point *point, size_t n, const nh_ex *symbol);
 
 /* Residues of a number and of kernels, for evaluation.  False where this point has no such value: take another
  * point. */

@@ -8,11 +8,14 @@
 
 static nh_prime prime_of(uint64_t n) { return (nh_prime){n, ((uint64_t)1 << 62) / n * n, ((uint64_t)1 << 62) / n}; }
 
-nh_prime nh_prime_next(nh_prime f)
+nh_prime nh_prime_next(nh_prime f, uint64_t order)
 {
-    uint64_t n = f.p;
-    do n -= 12;
-    while (n % 5 == 1 || n % 7 == 1 || !n_is_prime(n));
+    const uint64_t top = (uint64_t)1 << 31;
+    uint64_t step = order / n_gcd(order, 12) * 12, n = f.p ? f.p : top - 1 - top % step + step;
+    do {
+        if (n < top / 2 + step) return (nh_prime){0};
+        n -= step;
+    } while (n % 5 == 1 || n % 7 == 1 || !n_is_prime(n));
     return prime_of(n);
 }
 
@@ -28,8 +31,8 @@ nh_prime nh_prime_with_units(size_t index)
 
 nh_prime nh_prime_at(size_t index)
 {
-    nh_prime f = nh_prime_next((nh_prime){.p = ((uint64_t)1 << 31) + 3}); /* 11 modulo 12 */
-    for (size_t found = 0; found < index; found++) f = nh_prime_next(f);
+    nh_prime f = nh_prime_next((nh_prime){0}, 1);
+    for (size_t found = 0; found < index; found++) f = nh_prime_next(f, 1);
     return f;
 }
 

@@ -22,8 +22,9 @@ typedef struct {
 
 /* The `index`-th such prime below 2^31, from above. */
 nh_prime nh_prime_at(size_t index);
-/* The one below it. */
-nh_prime nh_prime_next(nh_prime f);
+/* The next one below f (p = 0: the first) that is -1 modulo `order`: the circle x^2 + y^2 = 1 has p + 1 points, and
+ * angles whose multiple is a full turn.  p = 0: there is none above 2^30. */
+nh_prime nh_prime_next(nh_prime f, uint64_t order);
 
 /* The `index`-th prime that is 1 modulo 12: there -1 and -3 have square roots, which they have modulo none of the
  * others. For equations without roots: nh_residue_root needs the others. */

@@ -1,7 +1,8 @@
 #include "geometry/distribution.h"
 
-#include "graph/diff.h"
+#include "exact/generic_value.h"
 #include "exact/normal.h"
+#include "graph/diff.h"
 #include "system/embedding.h"
 
 const char *nh_constraint_type_name(nh_constraint_type type)
@@ -159,6 +160,24 @@ static nh_growth growth(const nh_model *o, const nh_distribution *out)
     return g;
 }
 
+/* A lower bound of the number of independent functions of (t, q) that are known to be constant: levels of constraints
+ * between positions, heights of wheels. */
+static size_t known_integrals(const nh_model *o)
+{
+    const nh_system *y = o->system;
+    size_t width = 1 + o->m, rows = 0, rank = 0;
+    nh_ex *e = nh_alloc_array(o->k * width + 1, sizeof *e);
+    for (size_t a = 0; a < o->k; a++) {
+        if (!y->constraint[a].level) continue;
+        for (size_t j = 0; j < width; j++)
+            e[rows * width + j] = nh_model_values(o, nh_diff(o->dag, y->constraint[a].level, o->chart->symbol[j]));
+        rows++;
+    }
+    bool known = rows && nh_generic_rank(o->dag, rows, width, e, &rank);
+    nh_free(e);
+    return known ? rank : 0;
+}
+
 nh_distribution nh_distribution_of(const nh_model *o)
 {
     nh_distribution out = {.type = NH_UNCONSTRAINED, .growth.proved = true};
@@ -168,6 +187,8 @@ nh_distribution nh_distribution_of(const nh_model *o)
     out.rheonomic = is_rheonomic(o);
     out.growth = growth(o, &out);
     if (!out.growth.cut) out.integrals = out.growth.dimension - out.growth.rank[out.growth.length - 1];
+    if (!out.growth.proved && out.integrals && !out.growth.by_numbers && out.growth.space != NH_ON_STATES)
+        out.growth.proved = known_integrals(o) == out.integrals;
     out.holonomic = out.type != NH_NONLINEAR && out.integrals == o->k;
     for (size_t a = 0; a < o->k; a++) out.positions += o->system->constraint[a].position;
     out.hidden = out.integrals > out.positions ? out.integrals - out.positions : 0;

@@ -220,63 +220,63 @@ static void generic_ranks(const space *x, size_t generators, const nh_ex *field,
     nh_free(b.field);
 }
 
-static bool differs(const nh_growth *g, const brackets *b, const size_t *rank)
+/* The ranks modulo primes; false: the fields have no residues. */
+static bool residue_ranks(const space *x, size_t generators, const nh_ex *field, nh_growth *g)
 {
-    for (size_t j = 0; j < b->stages && j < NH_MOST_GROWTH; j++)
-        if (rank[j] != g->rank[j < g->length ? j : g->length - 1]) return true;
+    nh_closure_growth c = nh_closure_growth_of(x->o, generators, x->N, x->symbol, field);
+    if (c.obstacle) return false;
+    g->length = c.length;
+    memcpy(g->rank, c.rank, sizeof g->rank);
+    g->cut = c.cut;
+    return true;
+}
+
+/* ---- special places ---- */
+
+/* Another growth vector than the generic one?  Beyond their ends both stay as they are. */
+static bool differs(const nh_growth *g, const nh_closure_growth *c)
+{
+    for (size_t j = 0; j < c->length; j++)
+        if (c->rank[j] != g->rank[j < g->length ? j : g->length - 1]) return true;
     return false;
 }
 
-/* Ranks, with repetitions, at a special point, up to the final generic one. */
-static void keep_there(nh_growth *g, const brackets *b, const size_t *rank, nh_ex where)
+/* Ranks, with repetitions, at a special place, up to the final generic one. */
+static void keep_there(nh_growth *g, const nh_closure_growth *c, nh_ex where)
 {
+    size_t last = g->rank[g->length - 1];
     g->drops = true;
     g->where = where;
-    for (size_t j = 0; j < b->stages && j < NH_MOST_GROWTH; j++) {
-        g->rank_there[g->length_there++] = rank[j];
-        if (rank[j] == g->rank[g->length - 1]) break;
-    }
-    while (g->length_there > 1 && g->rank_there[g->length_there - 1] == g->rank_there[g->length_there - 2] &&
-           g->rank_there[g->length_there - 1] != g->rank[g->length - 1])
-        g->length_there--;
+    for (size_t j = 0; j < c->length && (j == 0 || c->rank[j - 1] != last); j++)
+        g->rank_there[g->length_there++] = c->rank[j];
+    size_t *end = g->rank_there + g->length_there;
+    for (; g->length_there > 1 && end[-1] == end[-2] && end[-1] != last; end--) g->length_there--;
 }
 
-/* A probe with one coordinate, or all of them (s = m), at zero.  False where the domain does not reach it. */
-static bool special_point(const nh_model *o, size_t probe, size_t s, double *z)
-{
-    const nh_chart *c = o->chart;
-    memcpy(z, c->probe + probe * o->width, o->width * sizeof *z);
-    for (size_t r = s == o->m ? 0 : s; r < (s == o->m ? o->m : s + 1); r++) {
-        if (c->low[1 + r] > 0 || c->high[1 + r] < 0) return false;
-        z[1 + r] = 0;
-    }
-    return c->implicit == 0 || nh_chart_complete(c, z);
-}
-
-/* All brackets, up to two stages beyond the generic growth; their number at least doubles with every stage. */
+/* Each coordinate at zero, and all of them, where the domain reaches there: all brackets, up to two stages beyond the
+ * generic growth; their number at least doubles with every stage. */
 static void look_for_drops(const space *x, size_t generators, const nh_ex *field, nh_growth *g)
 {
     const nh_model *o = x->o;
-    size_t rank[NH_MOST_GROWTH + 1], probe = 0;
-    brackets b = {0};
-    if (g->length > deepest || g->cut) return;
-    for (size_t i = 0; i < generators; i++) push(&b, x->N, field + i * x->N);
-    b.first[++b.stages] = b.count;
-    while (b.stages < g->length + stages_beyond && b.count < most_fields) next_stage(x, &b, generators);
-    nh_tape *tape = nh_model_tape(o, b.count * x->N, b.field);
-    while (probe < o->chart->probes &&
-           (!ranks_at(x, &b, tape, o->chart->probe + probe * o->width, rank) || differs(g, &b, rank)))
-        probe++;
-    double *z = nh_alloc_array(o->width + 1, sizeof *z);
-    /* otherwise it is rounding, and the rank is unknown */
-    for (size_t s = 0; s <= o->m && !g->drops && probe < o->chart->probes; s++) {
-        if (!special_point(o, probe, s, z) || !ranks_at(x, &b, tape, z, rank)) continue;
-        if (rank[0] == g->rank[0] && differs(g, &b, rank))
-            keep_there(g, &b, rank, s < o->m ? o->system->coordinate[s].q : 0);
+    const nh_chart *chart = o->chart;
+    if (g->length > deepest || g->cut || g->by_numbers) return;
+    nh_ex *zero = nh_alloc_array(o->m + 1, sizeof *zero);
+    for (size_t s = 0; s <= o->m && !g->drops; s++) {
+        size_t count = 0;
+        bool inside = true, present = false;
+        for (size_t r = s == o->m ? 0 : s; r < (s == o->m ? o->m : s + 1); r++) {
+            inside &= chart->low[1 + r] <= 0 && chart->high[1 + r] >= 0;
+            zero[count++] = o->system->coordinate[r].q;
+            for (size_t i = 0; i < generators * x->N && !present; i++)
+                present = nh_depends(x->d, field[i], zero[count - 1]);
+        }
+        if (!inside || !present) continue;
+        nh_closure_growth c = nh_closure_growth_at(o, generators, x->N, x->symbol, field, count, zero,
+                                                   g->length + stages_beyond);
+        if (!c.obstacle && c.length && c.rank[0] == g->rank[0] && differs(g, &c))
+            keep_there(g, &c, s < o->m ? o->system->coordinate[s].q : 0);
     }
-    nh_free(z);
-    nh_tape_free(tape);
-    nh_free(b.field);
+    nh_free(zero);
 }
 
 /* ---- a proof that nothing is missing ---- */
@@ -333,7 +333,8 @@ nh_growth nh_growth_of(const nh_model *o, size_t count, size_t N, const nh_ex *s
                .unit = nh_alloc_array(N + 1, sizeof(double))};
     for (size_t s = 0; s < N; s++) x.unit[s] = nh_chart_symbol_unit(o->system, symbol[s]);
     nh_growth g = {.dimension = N - shift};
-    generic_ranks(&x, count, field, &g);
+    g.by_numbers = !residue_ranks(&x, count, field, &g);
+    if (g.by_numbers) generic_ranks(&x, count, field, &g);
     look_for_drops(&x, count, field, &g);
     nh_free(x.unit);
     size_t last = g.rank[g.length - 1];

@@ -5,26 +5,26 @@
  * The ranks at generic points are the growth vector.  Where they stop growing D^j is involutive; it is the smallest
  * involutive distribution that contains D, and N - r_j independent functions are constant along D (Frobenius).
  *
- * A rank at a point, where the smallest singular value that counts is far above rounding, is a lower bound; the largest
- * over the model's probes is taken as the generic rank.  Where the last rank r is below N, exact elimination proves
- * that nothing was missed: r of the brackets span an involutive distribution that contains D, and every entry that must
- * vanish is zero by normal form.  Where a normal form is too large the values at the probes decide, and `proved` is
- * false. */
+ * The ranks are computed at random points modulo two primes (closure.h): lower bounds that almost every point reaches.
+ * Where the last rank r is below N, exact elimination proves that nothing was missed: r of the brackets span an
+ * involutive distribution that contains D, and every entry that must vanish is zero by normal form.  Where a normal
+ * form is too large `proved` is false, unless as many functions are known to be constant (distribution.c).
+ *
+ * Functions without residues (velocities that are given implicitly, Bessel functions, ..): the ranks at the model's
+ * probes decide, where the smallest singular value that counts is far above rounding; `by_numbers`. */
 #ifndef NH_GROWTH_H
 #define NH_GROWTH_H
 
-#include "geometry/model.h"
+#include "geometry/closure.h"
 
 /* The space: the coordinates, with time before them, with the velocities of the chart after them. */
 typedef enum { NH_ON_POSITIONS, NH_ON_EVENTS, NH_ON_STATES } nh_growth_space;
-
-enum { NH_MOST_GROWTH = 40 };
 
 typedef struct {
     nh_growth_space space;
     size_t dimension;                         /* N */
     size_t length, rank[NH_MOST_GROWTH];      /* generic ranks, strictly increasing */
-    bool proved;
+    bool proved, by_numbers;
     bool cut;                                 /* formulas became too large: the ranks may grow further */
     /* at an examined place of the sampling domain the ranks grow differently */
     bool drops;

@@ -106,6 +106,8 @@ nh_tape *nh_model_tape(const nh_model *o, size_t count, const nh_ex *out)
                           o->parameter_value);
 }
 
+nh_ex nh_model_values(const nh_model *o, nh_ex e) { return nh_system_values(o->system, o->dag, e); }
+
 double nh_model_number(const nh_model *o, nh_ex e)
 {
     double value;

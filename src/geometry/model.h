@@ -106,6 +106,9 @@ nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);
 /* 1 or -1 where e, a function on the submanifold, has one sign at all probes of the chart; else 0. */
 int nh_model_sign(const nh_model *model, nh_ex e);
 
+/* e with the parameters at their given values, decimals being the ratios that they are written as. */
+nh_ex nh_model_values(const nh_model *model, nh_ex e);
+
 /* The value of an expression of the parameters. */
 double nh_model_number(const nh_model *model, nh_ex e);
 

@@ -15,6 +15,8 @@
 
 #include "base/linalg.h"
 #include "base/text.h"
+#include "exact/generic_value.h"
+#include "geometry/first_order.h"
 #include "graph/diff.h"
 
 /* The mass matrix at those probes where it is finite. */
@@ -30,8 +32,8 @@ static void masses_clear(masses *a)
     nh_free(a->at);
 }
 
-/* K (m x m) and R (m x n, row-major), for models that have no mass matrix yet. */
-static nh_tape *factors(const nh_model *o)
+/* K (m x m) and R (m x n, row-major), for models that have no mass matrix yet; to be freed. */
+static nh_ex *factors(const nh_model *o)
 {
     nh_dag *d = o->dag;
     size_t m = o->m, n = o->n;
@@ -42,9 +44,28 @@ static nh_tape *factors(const nh_model *o)
             e[r * m + s] = e[s * m + r] = nh_model_compose(o, nh_diff(d, p, o->system->coordinate[s].v));
         for (size_t i = 0; i < n; i++) e[m * m + r * n + i] = nh_model_Y(o, i, o->rho[r]);
     }
-    nh_tape *tape = nh_model_tape(o, m * m + m * n, e);
+    return e;
+}
+
+/* Is M regular at almost all places, by its rank modulo primes?  False: it is not, or not known. */
+static bool regular_exactly(const nh_model *o)
+{
+    nh_dag *d = o->dag;
+    size_t m = o->m, n = o->n, rank = 0;
+    nh_ex *M = nh_alloc_array(n * n + 1, sizeof *M), *e = o->M ? NULL : factors(o);
+    for (size_t i = 0; i < n * n; i++) {
+        nh_ex sum = nh_int(d, 0);
+        for (size_t r = 0; r < m && e; r++)
+            for (size_t s = 0; s < m; s++) {
+                nh_ex *R = e + m * m, left = R[r * n + i / n], right = R[s * n + i % n];
+                sum = nh_add(d, sum, nh_mul(d, e[r * m + s], nh_mul(d, left, right)));
+            }
+        M[i] = nh_model_values(o, o->M ? o->M[i] : sum);
+    }
+    bool regular = nh_generic_rank(d, n, n, M, &rank) && rank == n;
     nh_free(e);
-    return tape;
+    nh_free(M);
+    return regular;
 }
 
 /* R^T K R from the values of the tape of `factors`. */
@@ -70,7 +91,8 @@ static masses masses_of(const nh_model *o)
     masses a = {.n = n,
                 .M = nh_alloc_array(o->chart->probes * n * n + 1, sizeof *a.M),
                 .at = nh_alloc_array(o->chart->probes + 1, sizeof *a.at)};
-    nh_tape *tape = o->M ? nh_model_tape(o, total, o->M) : factors(o);
+    nh_ex *own = o->M ? NULL : factors(o);
+    nh_tape *tape = nh_model_tape(o, total, o->M ? o->M : own);
     nh_tape_work *work = nh_tape_work_create(tape);
     double *value = nh_alloc_array(total + 1, sizeof *value);
     for (size_t p = 0; p < o->chart->probes; p++) {
@@ -81,6 +103,7 @@ static masses masses_of(const nh_model *o)
         if (nh_all_finite(n * n, M)) a.at[a.count++] = o->chart->probe + p * o->width;
     }
     nh_free(value);
+    nh_free(own);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     return a;
@@ -196,6 +219,7 @@ static size_t typical(const masses *a, size_t *rank, double *null, bool *everywh
 bool nh_model_singular(const nh_model *o, nh_error *error)
 {
     const nh_deck_node *where = nh_deck_get(nh_deck_root(o->system->deck), "lagrangian");
+    if (!nh_first_order_refuse(o, error)) return false;
     masses a = masses_of(o);
     if (a.count == 0) {
         masses_clear(&a);
@@ -228,7 +252,8 @@ bool nh_model_singular(const nh_model *o, nh_error *error)
             : "keep `domain:` away from there");
 }
 
-/* Where M is singular at every probe: scaled to a unit diagonal, it has a singular value of the size of rounding. */
+/* Where M is singular at every probe: scaled to a unit diagonal, it has a singular value of the size of rounding.  Its
+ * rank modulo primes then decides: small inertia is inertia. */
 bool nh_model_regular(const nh_model *o, nh_error *error)
 {
     static const double rounding = 1e-14; /* times n */
@@ -244,5 +269,5 @@ bool nh_model_regular(const nh_model *o, nh_error *error)
     bool regular = a.count < 2 || found < a.count;
     nh_free(unit);
     masses_clear(&a);
-    return regular || nh_model_singular(o, error);
+    return regular || regular_exactly(o) || nh_model_singular(o, error);
 }

@@ -87,7 +87,7 @@ static bool fit(const nh_model *o, size_t points, size_t width, const nh_ex *bas
 static nh_ex valued(const nh_model *o, const change *other, nh_ex e)
 {
     if (other) e = nh_substitute(o->dag, e, 1, &o->parameter[other->parameter], &other->value);
-    return nh_exact_values(o, e);
+    return nh_model_values(o, e);
 }
 
 /* Values of zeta (points x n) and of the words (points x words), column by column; false where there are too few. */
@@ -190,7 +190,7 @@ static bool fit_quadratic(const nh_model *o, nh_ex phi, const nh_options *option
     for (size_t z = 0; z < all && good; z++) coefficient[z] = nh_number(d, c[z]);
     bool powers = good;
     for (size_t k = 0; k < o->system->parameters && powers; k++) {
-        nh_ex p = o->parameter[k], p0 = nh_exact_values(o, p);
+        nh_ex p = o->parameter[k], p0 = nh_model_values(o, p);
         if (!nh_depends(d, phi, p) || nh_kind_of(d, p0) != NH_NUMBER || nh_is_zero(d, p0)) continue;
         change other = {k, nh_mul(d, p0, nh_number(d, ratio))};
         powers = sample(o, phi, options, &other, points, words, word, other_value, other_row);

@@ -33,7 +33,7 @@ static nh_ex coefficient_of(const nh_model *o, nh_ex e, const unsigned char *gam
         }
     }
     e = nh_substitute(d, e, o->n, o->chart->w, zero);
-    return nh_exact_values(o, nh_div(d, e, nh_int(d, factorial)));
+    return nh_model_values(o, nh_div(d, e, nh_int(d, factorial)));
 }
 
 static polynomial polynomial_of(const nh_model *o, nh_ex e, size_t degree, nh_arena *arena)

@@ -5,16 +5,6 @@
 #include "base/linalg.h"
 #include "system/sample.h"
 
-nh_ex nh_exact_values(const nh_model *o, nh_ex e)
-{
-    size_t n = o->system->parameters;
-    nh_ex *value = nh_alloc_array(n + 1, sizeof *value);
-    for (size_t i = 0; i < n; i++) value[i] = nh_number(o->dag, nh_num_decimal(o->parameter_value[i]));
-    e = nh_substitute(o->dag, e, n, o->parameter, value);
-    nh_free(value);
-    return e;
-}
-
 /* Solves for the implicit velocities to the ball's precision: the chord iteration u := u - J^-1 f(u) with J^-1 from
  * doubles gains about 15 digits a step. */
 static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
@@ -35,7 +25,7 @@ static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
         for (size_t j = 0; j < k; j++) {
             nh_ex entry = nh_symbol_fresh(d, "J");
             nh_ball_set_double(ball, entry, inverse[i + j * k]);
-            next[i] = nh_sub(d, next[i], nh_mul(d, entry, nh_exact_values(o, c->residual[j])));
+            next[i] = nh_sub(d, next[i], nh_mul(d, entry, nh_model_values(o, c->residual[j])));
         }
     }
     for (int step = 0; step < 3 + nh_ball_bits(ball) / 40 && regular; step++) {

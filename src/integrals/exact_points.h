@@ -5,9 +5,6 @@
 #include "exact/ball.h"
 #include "geometry/model.h"
 
-/* e with the parameters at their given values, decimals being the ratios that they are written as. */
-nh_ex nh_exact_values(const nh_model *model, nh_ex e);
-
 /* Set the ball's symbols (t, q, w, u) to a random point with short rational coordinates; implicit velocities are solved
  * for with the ball's precision.  False when the constraints have no solution there.  `state` is that of nh_random. */
 bool nh_exact_point(const nh_model *model, nh_ball *ball, uint64_t *state);

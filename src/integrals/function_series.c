@@ -66,10 +66,10 @@ nh_series_search *nh_series_open(const nh_model *o, nh_ex variable, size_t words
     x->slope = nh_alloc_array(words + 1, sizeof *x->slope);
     memcpy(x->word, word, words * sizeof *word);
     for (size_t i = 0; i < words; i++) {
-        x->value[i] = nh_exact_values(o, word[i]);
-        x->slope[i] = nh_exact_values(o, nh_model_gamma(o, word[i]));
+        x->value[i] = nh_model_values(o, word[i]);
+        x->slope[i] = nh_model_values(o, nh_model_gamma(o, word[i]));
     }
-    x->variable_slope = nh_exact_values(o, nh_model_gamma(o, variable));
+    x->variable_slope = nh_model_values(o, nh_model_gamma(o, variable));
     x->ball = nh_ball_create(o->dag, nh_ball_ode_bits(options->digits));
     nh_ball_ode_problem problem = {.words = words,
                                    .value = x->value,

@@ -110,7 +110,7 @@ static bool prove_sum(const nh_model *o, nh_ex sum, nh_claim claim, size_t limit
     if (!proof->proved && claim.free && !claim.rounded)
         symbols = is_zero(o, with_symbols(o, claim.fixed, sum), limit);
     if (symbols == NH_ZERO) *proof = holding(*proof, claim.fixed);
-    if (!proof->proved && !claim.rounded) values = is_zero(o, nh_exact_values(o, sum), limit);
+    if (!proof->proved && !claim.rounded) values = is_zero(o, nh_model_values(o, sum), limit);
     proof->proved = proof->proved || (!claim.rounded && values == NH_ZERO);
     if (proof->proved && symbols == NH_NONZERO)
         proof->fixed = nh_fixed_least(o, 1, &sum, vanishes, &(zero_problem){o, sum, limit});
@@ -140,7 +140,7 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     bool longer = !proof.proved && prove_sum(o, sum, claim, limit, &proof);
     bool exact = true;
     for (size_t i = 0; i < n; i++) {
-        valued[i] = nh_exact_values(o, term[i]);
+        valued[i] = nh_model_values(o, term[i]);
         exact = exact && nh_is_exact(d, valued[i]);
     }
     cancel(o, n, valued, options, &proof);
@@ -179,7 +179,7 @@ nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool para
 
 static bool is_identity(const nh_model *o, nh_ex e, nh_claim claim, const nh_options *options)
 {
-    e = claim.free ? with_symbols(o, claim.fixed, e) : nh_exact_values(o, e);
+    e = claim.free ? with_symbols(o, claim.fixed, e) : nh_model_values(o, e);
     return nh_normal_is_zero(o->dag, e, (size_t)options->proof_terms) == NH_ZERO;
 }
 
@@ -254,7 +254,7 @@ double nh_prove_digits(const nh_model *o, nh_ex phi, const nh_options *options)
     nh_ex *term = nh_alloc_array(n, sizeof *term);
     nh_proof proof = {0};
     nh_rate_terms(o, phi, term);
-    for (size_t i = 0; i < n; i++) term[i] = nh_exact_values(o, term[i]);
+    for (size_t i = 0; i < n; i++) term[i] = nh_model_values(o, term[i]);
     cancel(o, n, term, options, &proof);
     nh_free(term);
     return proof.digits;
@@ -268,7 +268,7 @@ nh_proof nh_prove_claim(const nh_model *o, nh_ex phi, nh_claim claim, const nh_o
     nh_rate_terms(o, phi, term);
     for (size_t j = 0; j < n; j++) length += nh_complexity(o->dag, term[j]);
     nh_proof proof = {0};
-    claim.rounded = !nh_is_exact(o->dag, nh_exact_values(o, phi));
+    claim.rounded = !nh_is_exact(o->dag, nh_model_values(o, phi));
     if (claim.rounded) claim.related = false;
     if (claim.related) proof = holding(proof, claim.fixed);
     else if (claim.free && length > long_rate && nh_symmetry_is_energy(o, phi)) proof = holding(proof, NULL);

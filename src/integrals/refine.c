@@ -50,7 +50,7 @@ static bool rates(const nh_model *o, size_t n, const nh_ex *term, nh_ex *rate)
 {
     bool exact = true;
     for (size_t j = 0; j < n && exact; j++) {
-        rate[j] = nh_exact_values(o, nh_model_gamma(o, term[j]));
+        rate[j] = nh_model_values(o, nh_model_gamma(o, term[j]));
         exact = nh_is_exact(o->dag, rate[j]);
     }
     return exact;

@@ -82,7 +82,7 @@ static bool prepare(problem *p, const nh_ex *term)
     for (size_t j = 0; j < p->n; j++) p->term[j] = nh_symbolise_decimals(p->o->dag, term[j], &p->theta);
     if (p->theta.count == 0 || p->theta.overflow) return false;
     for (size_t j = 0; j < p->n && exact; j++) {
-        p->rate[j] = nh_exact_values(p->o, nh_model_gamma(p->o, p->term[j]));
+        p->rate[j] = nh_model_values(p->o, nh_model_gamma(p->o, p->term[j]));
         exact = nh_is_exact(p->o->dag, p->rate[j]) && isfinite(p->c[j]);
     }
     for (size_t i = 0; i < p->theta.count; i++) p->value[i] = nh_num_decimal(p->theta.value[i]);

@@ -77,7 +77,7 @@ static bool cancels(const nh_model *o, nh_ball *ball, size_t n, const nh_ex *fac
         size_t terms = nh_terms_of(d, e[i], &of);
         nh_grow(&term, &capacity, count + terms, sizeof *term);
         for (size_t k = terms > 1; k < terms; k++)
-            term[count++] = nh_exact_values(o, factor ? nh_mul(d, factor[i], of[k]) : of[k]);
+            term[count++] = nh_model_values(o, factor ? nh_mul(d, factor[i], of[k]) : of[k]);
         nh_free(of);
     }
     for (size_t i = 0; i < count && good; i++) {

@@ -179,7 +179,7 @@ bool nh_chaplygin_flat(const nh_slice *s, const nh_ex *U)
     enum { largest_form = 4000 };
     for (size_t i = 0; i < s->n * s->n * s->n; i++)
         if (!nh_is_zero(s->dag, U[i])
-            && nh_normal_is_zero(s->dag, nh_exact_values(s->kinetic->model, U[i]), largest_form) != NH_ZERO)
+            && nh_normal_is_zero(s->dag, nh_model_values(s->kinetic->model, U[i]), largest_form) != NH_ZERO)
             return false;
     return true;
 }

@@ -128,7 +128,8 @@ static void potentials(const nh_stage_solver *x, alphabet *a)
     nh_ex *form = nh_alloc_array(2 * o->m, sizeof *form), *solved = form + o->m, rate;
     for (size_t k = 0; k < o->system->constraints; k++) {
         const nh_constraint *c = &o->system->constraint[k];
-        if (c->position || !read_form(o, nh_sub(d, c->lhs, c->rhs), form, &rate)) continue;
+        if (c->level && !c->position) letter(o, a, nh_model_compose(o, c->level));
+        if (c->position || c->level || !read_form(o, nh_sub(d, c->lhs, c->rhs), form, &rate)) continue;
         nh_ex F = potential(x, form, rate);
         for (size_t s = 0; s < o->m && !F; s++) {
             if (nh_kind_of(d, form[s]) == NH_NUMBER) continue;

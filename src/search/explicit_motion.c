@@ -155,7 +155,7 @@ static void conclude(nh_explicit_curve *c)
         if (m->constant[j].at_start) continue;
         nh_ex rate = nh_model_gamma(c->o, value);
         constant = nh_is_zero(c->d, rate) || nh_prove_digits(c->o, value, c->options) >= c->options->digits ||
-                   nh_explicit_vanishes(c, nh_exact_values(c->o, rate));
+                   nh_explicit_vanishes(c, nh_model_values(c->o, rate));
     }
     m->is_known = known;
     m->value = c->value;

@@ -84,7 +84,7 @@ static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
         for (size_t f = 0; f < nh_arity(d, u); f++)
             if (nh_model_is_constant(o, nh_child(d, u, f)) && nh_model_is_constant(o, nh_exponent_of(d, u, f)))
                 c = nh_mul(d, c, nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f)));
-        nh_ex valued = nh_exact_values(o, c);
+        nh_ex valued = nh_model_values(o, c);
         if (nh_kind_of(d, valued) != NH_NUMBER || nh_num_value(nh_number_of(d, valued)) <= 0) continue;
         by[logs] = nh_call(d, NH_LOG, nh_div(d, u, c));
         call[logs++] = call[i];
@@ -137,7 +137,7 @@ static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
             nh_ex ratio = nh_simplify_short(d, nh_div(d, own[i], theirs[j]), 0);
             bool parametric = own[i] != theirs[j] && nh_model_is_constant(o, ratio);
             if (!parametric || !nh_square_split(d, ratio, &s, &rest)) continue;
-            nh_ex value = nh_exact_values(o, s);
+            nh_ex value = nh_model_values(o, s);
             if (rest != nh_int(d, 1) || nh_kind_of(d, value) != NH_NUMBER) continue;
             if (nh_num_value(nh_number_of(d, value)) < 0) s = nh_neg(d, s);
             e = nh_substitute_root(d, e, own[i], nh_mul(d, s, nh_pow(d, theirs[j], half)));

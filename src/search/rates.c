@@ -391,6 +391,7 @@ static void rates_in_time(nh_stage_solver *x)
     if (!found && changes) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_GROWING});
     if (o->system->has_forces) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_SQUARES});
     rates_of(x, t, "t", sizeof larger / sizeof *larger, larger);
+    rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_RATIONAL});
 }
 
 static void rates_along(nh_stage_solver *x, const nh_coordinate *c)

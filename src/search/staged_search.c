@@ -112,6 +112,7 @@ static const step steps[] = {
     {.run = nh_linear_fields_search},        /* before stages whose coefficients would be masses and lengths */
     {.stage = NH_STAGE_WORDS},               /* the energy, momenta, velocities and positions by themselves */
     {.stage = NH_STAGE_DRIVE},               /* with what a force of t adds to them */
+    {.stage = NH_STAGE_RATIONAL},            /* velocities in denominators */
     {.run = stages_of_many},                 /* and angular momenta, where everything else is too large */
     {.run = nh_linear_motion_search},        /* before the pencil, which has the rates of linear motion by rounding */
     {.run = nh_linear_motion_functions},     /* the same in coordinates that hide it */

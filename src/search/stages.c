@@ -269,6 +269,7 @@ static const recipe stages[] = {
                              nh_stage_separation},
     [NH_STAGE_TIME] = {"squares of positions and velocities times functions of time", nh_stage_time},
     [NH_STAGE_HALF_ANGLES] = {"squares of the frame times lengths and half angles", nh_stage_half_angles},
+    [NH_STAGE_RATIONAL] = {"quotients by the denominators of the Lagrangian", nh_stage_rational},
 };
 
 static nh_stage cook(const recipe *r, nh_arena *arena, const nh_model *o, const nh_dictionary *w)
@@ -403,6 +404,7 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
         l = nh_expr_set_functions(&s, true);
         nh_expr_set_put(&l, o->E);
         break;
+    case NH_PENCIL_RATIONAL: l = nh_expr_set_quotients(&s); break;
     case NH_PENCIL_PRODUCTS: l = pencil_products(&s); break;
     case NH_PENCIL_FRAME:
         if (w->frames == o->n) l = frame_products(&s);

@@ -21,7 +21,8 @@ typedef enum {
     NH_STAGE_WEIGHT_4,
     NH_STAGE_SEPARATION,
     NH_STAGE_TIME,
-    NH_STAGE_HALF_ANGLES
+    NH_STAGE_HALF_ANGLES,
+    NH_STAGE_RATIONAL
 } nh_stage_name;
 
 /* Stage `index`, an nh_stage_name, for this dictionary, in the arena; false when there are no more.  A stage may
@@ -47,6 +48,7 @@ typedef enum {
     NH_PENCIL_SQUARES,   /* squares of velocities and functions: energies that friction takes */
     NH_PENCIL_QUADRATIC, /* squares of velocities and lengths, and functions: what breathes in an oscillator with other
                             forces */
+    NH_PENCIL_RATIONAL,  /* quotients by denominators that are affine in the velocities */
     NH_PENCIL_CUBIC /* cubes of them, and functions times lengths: Runge-Lenz vectors seen from a frame that turns */
 } nh_pencil_base;
 

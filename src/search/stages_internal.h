@@ -66,6 +66,12 @@ void nh_stage_turns(nh_family_list *families);
 /* Degree four with weights, in the frame of the kinetic energy. */
 void nh_stage_weight_4(nh_family_list *families);
 
+/* ---- stages_rational.c ---- */
+
+/* Quotients by those factors of the Lagrangian's denominators that are affine in the velocities; none without them. */
+void nh_stage_rational(nh_family_list *families);
+nh_expr_set nh_expr_set_quotients(const nh_family_list *families);
+
 /* ---- stages_separation.c ---- */
 
 /* Squares of velocities with coefficients of higher degree in the positions; the energy and functions with lower

@@ -10,7 +10,7 @@
 #include "base/option.h"
 #include "exact/relation_space.h"
 #include "integrals/bracket_fields.h"
-#include "integrals/closure.h"
+#include "geometry/closure.h"
 
 typedef struct {
     const char *name;

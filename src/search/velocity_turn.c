@@ -122,7 +122,7 @@ static nh_ex at(const problem *p, nh_ex form, const nh_ex w[2])
 static bool integral(const problem *p, bool general, nh_ex f, nh_ex *F)
 {
     return of_s_alone(p, f) &&
-           nh_stage_solver_integral(p->x, p->s, general ? f : nh_exact_values(p->o, f), true, F);
+           nh_stage_solver_integral(p->x, p->s, general ? f : nh_model_values(p->o, f), true, F);
 }
 
 /* dx/dt = alpha ds/dt + beta n_j w^j:   x C - C int alpha ds - K int beta D ds */
@@ -143,7 +143,7 @@ static bool alone(const problem *p, nh_ex D, bool general)
     nh_ex zero = nh_int(d, 0), v = p->rate_of_s, F;
     nh_ex h = short_form(p, nh_div(d, nh_model_gamma(p->o, v), nh_mul(d, v, v)));
     if (!of_s_alone(p, h) || nh_depends(d, h, p->w[0]) || nh_depends(d, h, p->w[1])) return false;
-    if (!nh_stage_solver_integral(p->x, p->s, general ? h : nh_exact_values(p->o, h), false, &F)) return false;
+    if (!nh_stage_solver_integral(p->x, p->s, general ? h : nh_model_values(p->o, h), false, &F)) return false;
     nh_ex g = nh_antiderivative_factor(d, F), l[] = {nh_diff(d, v, p->w[0]), nh_diff(d, v, p->w[1])};
     apart y = {.v = v, .D = D, .C = nh_mul(d, g, v), .e = {nh_neg(d, l[1]), l[0]}, .unit = {zero, zero}, .n = zero};
     for (size_t i = 0; i < 2; i++)
@@ -171,7 +171,7 @@ static bool turn(const problem *p, bool general)
     nh_ex D = root_of(p, determinant), side = nh_int(d, nh_model_sign(p->o, p->M[0]));
     if (alone(p, D, general)) return true;
     if (!speed_of_turn(p, N, D, &f)) return false;
-    if (!nh_stage_solver_integral(p->x, p->s, general ? f : nh_exact_values(p->o, f), true, &F)) return false;
+    if (!nh_stage_solver_integral(p->x, p->s, general ? f : nh_model_values(p->o, f), true, &F)) return false;
     nh_ex scale = nh_powi(d, root_of(p, nh_mul(d, side, p->M[0])), -1), cosine = nh_call(d, NH_COS, F),
           sine = nh_call(d, NH_SIN, F);
     nh_ex u[] = {nh_mul(d, scale, N), nh_product(d, 3, (nh_ex[]){scale, D, p->w[1]})};

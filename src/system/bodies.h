@@ -135,7 +135,8 @@ void nh_chain_bias(const nh_chain *chain, const nh_chain_scope *scope, nh_ex *ou
 /* Of one body about the origin of its frame. */
 nh_inertia nh_body_inertia(nh_dag *dag, const nh_body *body);
 
-/* The conditions of a wheel, linear in the rates, as expressions that vanish: at most 3; returns how many. */
-size_t nh_wheel_conditions(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel, nh_ex out[3]);
+/* The conditions of a wheel, linear in the rates, as expressions that vanish: at most 3; returns how many.  level[k]:
+ * the function whose rate condition k is (the height of the point of contact), or 0. */
+size_t nh_wheel_conditions(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel, nh_ex out[3], nh_ex level[3]);
 
 #endif

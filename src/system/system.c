@@ -276,6 +276,18 @@ void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const do
     *values = v;
 }
 
+nh_ex nh_system_values(const nh_system *s, nh_dag *dag, nh_ex e)
+{
+    nh_ex *symbol = nh_alloc_array(2 * s->parameters + 1, sizeof *symbol), *value = symbol + s->parameters;
+    for (size_t i = 0; i < s->parameters; i++) {
+        symbol[i] = s->parameter[i].symbol;
+        value[i] = nh_number(dag, nh_num_decimal(s->parameter[i].value));
+    }
+    e = nh_substitute(dag, e, s->parameters, symbol, value);
+    nh_free(symbol);
+    return e;
+}
+
 double nh_system_number(const nh_system *s, nh_ex e)
 {
     const nh_ex *symbols;

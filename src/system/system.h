@@ -30,6 +30,7 @@ typedef struct {
     const char *text;
     nh_ex lhs, rhs;  /* f = lhs - rhs */
     bool position;   /* it was an equation between positions, level = 0: lhs and rhs are its time derivative */
+    /* without `position`: a function of positions that is known to have the rate f, the height of a wheel; or 0 */
     nh_ex level;
     const nh_deck_node *node;
 } nh_constraint;
@@ -162,6 +163,8 @@ bool nh_system_expression_part(const nh_system *system, const char *where, const
 
 /* Parameter symbols and values as parallel arrays owned by the arena. */
 void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const double **values);
+/* e, of this graph, with the parameters at their given values, decimals being the ratios that they are written as. */
+nh_ex nh_system_values(const nh_system *system, nh_dag *dag, nh_ex e);
 /* The value of an expression in the parameters. */
 double nh_system_number(const nh_system *system, nh_ex e);
 

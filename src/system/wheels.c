@@ -7,6 +7,9 @@
  *     knife-edge    a . (v + w x c) = 0
  *     rolling       u = v + w x (c - r n_a) = 0,   n_a = (n - (n.a) a) / |n - (n.a) a|
  *
+ * The last component of u is the rate of the height n . (p + c - r n_a): n . n_a = sqrt(1 - (n.a)^2) changes at the
+ * rate n . (w x n_a), as the axle turns with w.
+ *
  * u is the velocity of the point of contact; n_a, in the wheel's plane, points up from there to the centre
  * [NeimarkFufaev1972, ch. III].  Its components are taken along a x n (forward), n x (a x n) (sideways) and n. */
 #include <string.h>
@@ -18,6 +21,7 @@ typedef struct {
     nh_pose pose;         /* of the frame before the turn, in the ground's frame */
     nh_twist twist;       /* relative to the surface; w with the turn */
     nh_ex n[3];           /* the surface's normal */
+    nh_ex height;         /* of the frame's origin above the surface */
     nh_ex tangent[2][3];  /* the surface's own axes across it */
 } station;
 
@@ -69,6 +73,7 @@ static station stand(const nh_chain *c, nh_dag *d, const nh_wheel *w, size_t ski
     nh_chain_frame(c, d, w->on, 0, &ground, &surface);
     nh_pose relative = nh_pose_between(d, &ground, &s.pose);
     surface = nh_twist_inwards(d, &relative, &surface);
+    s.height = relative.p[w->normal];
     for (int i = 0; i < 3; i++) {
         s.twist.v[i] = nh_sub(d, s.twist.v[i], surface.v[i]);
         s.twist.w[i] = nh_sub(d, s.twist.w[i], surface.w[i]);
@@ -99,9 +104,10 @@ static void up_in_the_wheel(const station *s, const nh_wheel *w, nh_ex up[3])
     for (int i = 0; i < 3; i++) up[i] = nh_tidy(d, nh_div(d, nh_sub(d, s->n[i], nh_mul(d, lean, w->axis[i])), size));
 }
 
-size_t nh_wheel_conditions(const nh_chain *c, nh_dag *d, const nh_wheel *w, nh_ex out[3])
+size_t nh_wheel_conditions(const nh_chain *c, nh_dag *d, const nh_wheel *w, nh_ex out[3], nh_ex level[3])
 {
     bool rolls = w->kind == NH_WHEEL_ROLLING;
+    level[0] = level[1] = level[2] = 0;
     station s = stand(c, d, w, rolls ? own_turns(c, d, w) : 0);
     if (!rolls) {
         out[0] = slip(&s, w->at, w->axis);
@@ -117,5 +123,6 @@ size_t nh_wheel_conditions(const nh_chain *c, nh_dag *d, const nh_wheel *w, nh_e
     }
     memcpy(direction[2], s.n, sizeof s.n);
     for (int k = 0; k < 3; k++) out[k] = slip(&s, contact, direction[k]);
+    level[2] = nh_add(d, s.height, nh_dot(d, s.n, contact));
     return 3;
 }
