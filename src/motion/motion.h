@@ -42,6 +42,10 @@ typedef struct {
     size_t guards;
     /* Guard functions: a change of sign ends the motion.  May be NULL when guards is 0. */
     bool (*guard)(double t, const double *z, double *value, void *context);
+    /* of the guards, the last ones: there the state is described anew by `renew`, and the motion goes on (turns.h) */
+    size_t turns;
+    bool (*renew)(double *z, void *context);
+    bool own_guards; /* in parts of such a motion: the other guards end it */
     size_t walls;
     /* Functions that change their sign where the rates have a kink or a jump: steps end there (kinks.h).  May be NULL
        when walls is 0. */

@@ -31,6 +31,7 @@ typedef struct {
     nh_ex lhs, rhs;  /* f = lhs - rhs */
     bool position;   /* it was an equation between positions, level = 0: lhs and rhs are its time derivative */
     nh_ex level;
+    nh_ex framed;    /* with orientations: lhs - rhs in the symbols of angular velocities (system/orientation.h) */
     const nh_deck_node *node;
 } nh_constraint;
 
@@ -80,6 +81,8 @@ typedef struct {
     nh_ex *value;      /* per coordinate, in t, parameters and the symbols */
 } nh_known_motion;
 
+typedef struct nh_orientation nh_orientation;
+
 typedef struct {
     nh_arena *arena;
     nh_dag *dag;
@@ -116,6 +119,13 @@ typedef struct {
     size_t quasi;            /* number of quasi-velocities, 0 without a chart */
     nh_ex *quasi_velocity;   /* symbols */
     nh_ex *quasi_map;        /* velocity of each coordinate */
+    size_t orientations;     /* system/orientation.h */
+    nh_orientation *orientation;
+    /* with orientations: the Lagrangian in the symbols of angular velocities, the Lagrangian that it was made of, and the
+     * rates along the frame as functions of the quasi-velocities (NULL: not known) */
+    nh_ex framed, framed_of;
+    nh_ex *quasi_framed;
+    nh_named *framed_definition; /* the definitions in these symbols */
 } nh_system;
 
 /* Read a system file; `settings` override parameter values.  NULL on failure. */

@@ -6,7 +6,8 @@
 
 #include "system/system.h"
 
-enum { NH_NO_VELOCITIES = 1, NH_NO_QUASI = 2 };
+/* NH_FRAMED: angular velocities of orientations are symbols of their own. */
+enum { NH_NO_VELOCITIES = 1, NH_NO_QUASI = 2, NH_FRAMED = 4 };
 
 /* An expression (lhs NULL) or an equation, after the first `skip` bytes of the scalar `node`, with errors pointing into
    it. */

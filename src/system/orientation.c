@@ -1,0 +1,258 @@
+#include "system/orientation.h"
+
+#include <string.h>
+
+#include "base/text.h"
+#include "graph/parse.h"
+#include "system/embedding_internal.h"
+
+static const char *const axes[] = {"x", "y", "z"};
+
+/* ---- names ---- */
+
+static bool new_name(nh_system_reader *r, const nh_deck_node *place, const char *text)
+{
+    nh_deck_node node = *place;
+    node.kind = NH_DECK_SCALAR;
+    node.text = text;
+    return nh_system_new_name(r, &node);
+}
+
+/* `velocities: [p, q, r]`, or NAME_wx, NAME_wy, NAME_wz. */
+static bool words_of(nh_system_reader *r, const nh_deck_node *item, nh_orientation *o)
+{
+    nh_arena *arena = r->system->arena;
+    const nh_deck_node *list = item && item->kind == NH_DECK_MAP ? nh_deck_get(item, "velocities") : NULL;
+    if (list && !nh_deck_is(r->deck, list, NH_DECK_LIST, "velocities", r->error)) return false;
+    if (list && list->count != 3) {
+        nh_deck_fail(r->deck, list, 0, r->error, "an orientation has three angular velocities, not %zu", list->count);
+        return nh_error_hint(r->error, "for example: velocities: [omega_x, omega_y, omega_z]");
+    }
+    for (int k = 0; k < 3; k++) {
+        const nh_deck_node *place = list ? list->item[k] : o->node;
+        if (list && !nh_deck_is(r->deck, place, NH_DECK_SCALAR, "a name", r->error)) return false;
+        o->word[k] = list ? place->text : nh_arena_printf(arena, "%s_w%s", o->name, axes[k]);
+        if (!new_name(r, place, o->word[k])) return false;
+        o->omega[k] = nh_symbol(r->system->dag, o->word[k]);
+    }
+    for (int k = 0; k < 9; k++) {
+        o->entry[k] = nh_arena_printf(arena, "%s_%s%s", o->name, axes[k / 3], axes[k % 3]);
+        if (!new_name(r, o->node, o->entry[k])) return false;
+        nh_symbol(r->system->dag, o->entry[k]); /* taken */
+    }
+    return true;
+}
+
+static bool frame_of(nh_system_reader *r, const nh_deck_node *item, nh_orientation *o)
+{
+    const nh_deck_node *node = item && item->kind == NH_DECK_MAP ? nh_deck_get(item, "frame") : NULL;
+    if (!node) return true;
+    if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "frame", r->error)) return false;
+    o->space = !strcmp(node->text, "space");
+    return o->space || !strcmp(node->text, "body") ||
+           nh_deck_fail(r->deck, node, 0, r->error,
+                        "`%s` is no frame of angular velocities; expected body or space", node->text);
+}
+
+bool nh_orientation_declare(nh_system_reader *r, const nh_deck_node *item, const nh_deck_node *name, const char *doc)
+{
+    nh_system *s = r->system;
+    nh_orientation *o = &s->orientation[s->orientations];
+    *o = (nh_orientation){.name = name->text, .node = name, .first = s->coordinates};
+    if (!nh_system_new_name(r, name) || !frame_of(r, item, o)) return false;
+    for (int k = 0; k < 3; k++) {
+        nh_coordinate *c = &s->coordinate[s->coordinates];
+        *c = (nh_coordinate){.name = nh_arena_printf(s->arena, "%s_%d", o->name, k + 1), .unit = "", .doc = doc};
+        c->type = NH_PLAIN;
+        if (!new_name(r, name, c->name)) return false;
+        c->q = nh_symbol(s->dag, c->name);
+        s->coordinates++;
+    }
+    if (!words_of(r, item, o)) return false;
+    s->orientations++;
+    return true;
+}
+
+nh_orientation *nh_orientation_named(const nh_system *s, const char *name)
+{
+    for (size_t i = 0; i < s->orientations; i++)
+        if (!strcmp(s->orientation[i].name, name)) return &s->orientation[i];
+    return NULL;
+}
+
+const nh_orientation *nh_orientation_of(const nh_system *s, size_t coordinate)
+{
+    for (size_t i = 0; i < s->orientations; i++)
+        if (coordinate - s->orientation[i].first < 3) return &s->orientation[i];
+    return NULL;
+}
+
+bool nh_orientation_word(const nh_system *s, const char *word, bool framed, bool *velocity, nh_ex *out)
+{
+    for (size_t i = 0; i < s->orientations; i++) {
+        const nh_orientation *o = &s->orientation[i];
+        for (int k = 0; k < 9; k++) {
+            *velocity = k < 3 && !strcmp(o->word[k], word);
+            if (*velocity) return *out = framed ? o->framed[k] : o->rate[k], true;
+            if (!strcmp(o->entry[k], word)) return *out = o->matrix[k], true;
+        }
+    }
+    return false;
+}
+
+/* ---- matrices ---- */
+
+/* The matrix of x -> s cross x. */
+static void cross_matrix(nh_dag *d, const nh_ex s[3], nh_ex out[9])
+{
+    for (int i = 0; i < 9; i++) out[i] = nh_int(d, 0);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[3 * k + j] = s[i];
+        out[3 * j + k] = nh_neg(d, s[i]);
+    }
+}
+
+static void build(nh_system *y, nh_orientation *o)
+{
+    nh_dag *d = y->dag;
+    nh_ex s[3], v[3], turn[9], square = nh_int(d, 0), one = nh_int(d, 1);
+    for (int k = 0; k < 3; k++) {
+        s[k] = y->coordinate[o->first + (size_t)k].q;
+        v[k] = y->coordinate[o->first + (size_t)k].v;
+        square = nh_add(d, square, nh_powi(d, s[k], 2));
+        o->framed[k] = nh_symbol_fresh(d, o->word[k]);
+    }
+    cross_matrix(d, s, turn);
+    nh_ex inner = nh_sub(d, one, square), outer = nh_add(d, one, square), over = nh_powi(d, outer, -2),
+          two = nh_int(d, 2), quarter = nh_ratio(d, 1, 4);
+    nh_ex own[9]; /* F of the body */
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            nh_ex ss = nh_mul(d, s[i], s[j]), same = nh_int(d, i == j), w = turn[3 * i + j];
+            nh_ex even = nh_add(d, nh_mul(d, inner, same), nh_mul(d, two, ss)), odd = nh_mul(d, two, w);
+            own[3 * i + j] = nh_mul(d, quarter, nh_add(d, even, odd));
+            o->map[3 * i + j] = nh_mul(d, quarter, o->space ? nh_sub(d, even, odd) : nh_add(d, even, odd));
+            nh_ex twice = nh_sub(d, ss, nh_mul(d, square, same)); /* [s]^2 */
+            nh_ex sum = nh_add(d, nh_mul(d, nh_int(d, 8), twice), nh_product(d, 3, (nh_ex[]){nh_int(d, 4), inner, w}));
+            o->matrix[3 * i + j] = nh_add(d, same, nh_mul(d, sum, over));
+        }
+    for (int k = 0; k < 3; k++) { /* w = F^-1 s' = 16 F^T s'/(1 + s.s)^2 */
+        o->rate[k] = o->body[k] = nh_int(d, 0);
+        for (int i = 0; i < 3; i++) {
+            o->rate[k] = nh_add(d, o->rate[k], nh_mul(d, o->map[3 * i + k], v[i]));
+            o->body[k] = nh_add(d, o->body[k], nh_mul(d, own[3 * i + k], v[i]));
+        }
+        o->rate[k] = nh_product(d, 3, (nh_ex[]){nh_int(d, 16), over, o->rate[k]});
+        o->body[k] = nh_product(d, 3, (nh_ex[]){nh_int(d, 16), over, o->body[k]});
+    }
+    for (int k = 0; k < 3; k++) { /* R^T w for components in space */
+        o->framed_body[k] = o->space ? nh_int(d, 0) : o->framed[k];
+        for (int i = 0; i < 3 && o->space; i++)
+            o->framed_body[k] = nh_add(d, o->framed_body[k], nh_mul(d, o->matrix[3 * i + k], o->framed[i]));
+    }
+}
+
+void nh_orientations_build(nh_system *s)
+{
+    for (size_t i = 0; i < s->orientations; i++) build(s, &s->orientation[i]);
+}
+
+nh_ex nh_orientation_framed(const nh_system *s, nh_ex e)
+{
+    for (size_t i = 0; i < s->orientations; i++) {
+        const nh_orientation *o = &s->orientation[i];
+        nh_ex v[3], to[3];
+        for (size_t k = 0; k < 3; k++) {
+            v[k] = s->coordinate[o->first + k].v;
+            to[k] = nh_int(s->dag, 0);
+            for (int j = 0; j < 3; j++)
+                to[k] = nh_add(s->dag, to[k], nh_mul(s->dag, o->map[3 * k + (size_t)j], o->framed[j]));
+        }
+        e = nh_substitute(s->dag, e, 3, v, to);
+    }
+    return e;
+}
+
+nh_ex nh_orientation_written(const nh_system *s, nh_ex e)
+{
+    for (size_t i = 0; i < s->orientations; i++)
+        e = nh_substitute(s->dag, e, 3, s->orientation[i].framed, s->orientation[i].rate);
+    return e;
+}
+
+void nh_orientation_map(const nh_system *s, const nh_ex *framed, nh_ex *out)
+{
+    for (size_t i = 0; i < s->coordinates; i++) {
+        const nh_orientation *o = nh_orientation_of(s, i);
+        if (!o) {
+            out[i] = framed[i];
+            continue;
+        }
+        out[i] = nh_int(s->dag, 0);
+        for (size_t k = 0; k < 3; k++)
+            out[i] = nh_add(s->dag, out[i], nh_mul(s->dag, o->map[3 * (i - o->first) + k], framed[o->first + k]));
+    }
+}
+
+/* ---- velocities where the file chooses none ---- */
+
+/* The system whose velocities are those along the frame: the velocity symbols of an orientation's coordinates stand for
+ * its angular velocities. */
+static nh_system along_frame(nh_system_reader *r)
+{
+    nh_system *s = r->system, copy = *s;
+    copy.orientations = 0;
+    copy.constraint = nh_system_take(r, s->constraints, sizeof *copy.constraint);
+    for (size_t a = 0; a < s->constraints; a++) {
+        nh_ex f = s->constraint[a].framed;
+        for (size_t i = 0; i < s->orientations; i++) {
+            const nh_orientation *o = &s->orientation[i];
+            for (size_t k = 0; k < 3; k++)
+                f = nh_substitute(s->dag, f, 1, &o->framed[k], &s->coordinate[o->first + k].v);
+        }
+        copy.constraint[a] = s->constraint[a];
+        copy.constraint[a].lhs = f;
+        copy.constraint[a].rhs = nh_int(s->dag, 0);
+    }
+    return copy;
+}
+
+/* The quasi-velocity that belongs to the rate along the frame with this number: an angular velocity, or v_x. */
+static bool quasi_of(nh_system_reader *r, size_t i, nh_ex *out)
+{
+    nh_system *s = r->system;
+    const nh_orientation *o = nh_orientation_of(s, i);
+    if (o) return *out = o->omega[i - o->first], true;
+    const char *name = nh_arena_printf(s->arena, "v_%s", s->coordinate[i].name);
+    if (!new_name(r, r->root, name)) return false;
+    *out = nh_symbol(s->dag, name);
+    return true;
+}
+
+bool nh_orientation_velocities(nh_system_reader *r)
+{
+    nh_system *s = r->system, frame = along_frame(r);
+    size_t m = s->coordinates;
+    nh_chart *c = nh_embedding_coordinates(&frame, 1, r->error);
+    if (!c) return false;
+    if (c->implicit) {
+        nh_chart_free(c);
+        nh_deck_fail(r->deck, s->constraint[0].node, 0, r->error,
+                     "constraints that are not linear in the velocities need `velocities:` beside an orientation");
+        return nh_error_hint(r->error, "velocities: {names: [..], map: [\"%s = ..\", ..]}", s->orientation[0].word[0]);
+    }
+    s->quasi_velocity = nh_system_take(r, c->n, sizeof *s->quasi_velocity);
+    s->quasi_framed = nh_system_take(r, m, sizeof *s->quasi_framed);
+    s->quasi_map = nh_system_take(r, m, sizeof *s->quasi_map);
+    bool good = true;
+    for (size_t j = 0; j < c->n && good; j++) {
+        good = quasi_of(r, c->free[j], &s->quasi_velocity[j]);
+        s->quasi = j + 1;
+    }
+    for (size_t i = 0; i < m && good; i++)
+        s->quasi_framed[i] = nh_substitute(s->dag, c->rho[i], c->n, c->w, s->quasi_velocity);
+    if (good) nh_orientation_map(s, s->quasi_framed, s->quasi_map);
+    nh_chart_free(c);
+    return good;
+}
