@@ -218,16 +218,11 @@ static nh_system along_frame(nh_system_reader *r)
     return copy;
 }
 
-/* The quasi-velocity that belongs to the rate along the frame with this number: an angular velocity, or v_x. */
-static bool quasi_of(nh_system_reader *r, size_t i, nh_ex *out)
+/* The velocity that belongs to the rate along the frame with this number. */
+static nh_ex velocity_of(const nh_system *s, size_t i)
 {
-    nh_system *s = r->system;
     const nh_orientation *o = nh_orientation_of(s, i);
-    if (o) return *out = o->omega[i - o->first], true;
-    const char *name = nh_arena_printf(s->arena, "v_%s", s->coordinate[i].name);
-    if (!new_name(r, r->root, name)) return false;
-    *out = nh_symbol(s->dag, name);
-    return true;
+    return o ? o->omega[i - o->first] : s->coordinate[i].v;
 }
 
 bool nh_orientation_velocities(nh_system_reader *r)
@@ -245,14 +240,11 @@ bool nh_orientation_velocities(nh_system_reader *r)
     s->quasi_velocity = nh_system_take(r, c->n, sizeof *s->quasi_velocity);
     s->quasi_framed = nh_system_take(r, m, sizeof *s->quasi_framed);
     s->quasi_map = nh_system_take(r, m, sizeof *s->quasi_map);
-    bool good = true;
-    for (size_t j = 0; j < c->n && good; j++) {
-        good = quasi_of(r, c->free[j], &s->quasi_velocity[j]);
-        s->quasi = j + 1;
-    }
-    for (size_t i = 0; i < m && good; i++)
+    for (size_t j = 0; j < c->n; j++) s->quasi_velocity[j] = velocity_of(s, c->free[j]);
+    s->quasi = c->n;
+    for (size_t i = 0; i < m; i++)
         s->quasi_framed[i] = nh_substitute(s->dag, c->rho[i], c->n, c->w, s->quasi_velocity);
-    if (good) nh_orientation_map(s, s->quasi_framed, s->quasi_map);
+    nh_orientation_map(s, s->quasi_framed, s->quasi_map);
     nh_chart_free(c);
-    return good;
+    return true;
 }

@@ -165,7 +165,10 @@ size_t nh_system_state_names(const nh_system *s, const char **names)
         names[n++] = s->coordinate[i].name;
         names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
     }
-    for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
+    for (size_t i = 0; i < s->quasi; i++) {
+        const char *name = nh_name_of(s->dag, s->quasi_velocity[i]);
+        if (!s->orientations || !strchr(name, '\'')) names[n++] = name; /* beside angular velocities: listed already */
+    }
     return n;
 }
 
