@@ -100,6 +100,7 @@ typedef struct {
     double *event_state; /* events x size */
     /* the motion stopped at the last zero, which is the last output as well; then it is complete */
     bool stopped;
+    size_t smooth;       /* rows before the state is described anew for the first time (turns.h); 0: all */
     double searched;     /* up to this time a part of the integrator has recorded the zeros already (NAN: nowhere) */
     char note[256];   /* remarks in sentences, such as why the motion ended early */
 } nh_motion;

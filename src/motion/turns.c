@@ -80,6 +80,7 @@ nh_motion *nh_turns_flow(nh_turns_part *run, const void *method, const nh_flow_p
         for (size_t i = before; i < motion->count; i++)
             problem->renew(motion->state + i * size, problem->context);
         more = turned && ahead && motion->count < count;
+        if (turned && !motion->smooth) motion->smooth = motion->count;
         if (turned) motion->guard_hit = -1;
         memcpy(z, motion->end_state, size * sizeof *z);
         problem->renew(z, problem->context);

@@ -125,7 +125,8 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
                                .scale = sizes->state,
                                .max_steps = fmin(enough, most_steps(r)),
                                .cancelled = nh_interrupted_callback};
-    nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
+    size_t rows = reduced->smooth ? reduced->smooth : reduced->count;
+    nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, rows, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
         v->violation = full->violation;
@@ -142,6 +143,10 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
                      "the multiplier form gives a different motion: states differ by %.2g; errors grow along this "
                      "motion, or it passes a state at which the equations do not determine it",
                      v->state_difference);
+        else if (rows < reduced->count && !v->note[0])
+            snprintf(v->note, sizeof v->note,
+                     "the multiplier form was compared up to t = %.4g, where the coordinates of an orientation become "
+                     "their shadow", reduced->time[rows - 1]);
     } else {
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s",
                  full ? full->motion->note : ignored.what);

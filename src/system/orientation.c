@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "exact/normal.h"
+#include "graph/diff.h"
 #include "graph/parse.h"
 #include "system/embedding_internal.h"
 
@@ -38,7 +40,7 @@ static bool words_of(nh_system_reader *r, const nh_deck_node *item, nh_orientati
     for (int k = 0; k < 9; k++) {
         o->entry[k] = nh_arena_printf(arena, "%s_%s%s", o->name, axes[k / 3], axes[k % 3]);
         if (!new_name(r, o->node, o->entry[k])) return false;
-        nh_symbol(r->system->dag, o->entry[k]); /* taken */
+        o->entry_symbol[k] = nh_symbol(r->system->dag, o->entry[k]);
     }
     return true;
 }
@@ -193,6 +195,99 @@ void nh_orientation_map(const nh_system *s, const nh_ex *framed, nh_ex *out)
         for (size_t k = 0; k < 3; k++)
             out[i] = nh_add(s->dag, out[i], nh_mul(s->dag, o->map[3 * (i - o->first) + k], framed[o->first + k]));
     }
+}
+
+/* ---- printed formulas ---- */
+
+/* The coefficients c_0 and c_ij of e = c_0 + c_ij R_ij where e is linear in the entries.  They follow from the first
+ * terms of (1 + s.s)^2 e = p + d_i s_i + h_ij s_i s_j/2 + .. at s = 0, T = c_xx + c_yy + c_zz:
+ *
+ *     p = c_0 + T,   d_i = 4 (c_kj - c_jk),   h_ij = 8 (c_ij + c_ji),   h_ii/2 = 2 p - 8 T + 8 c_ii. */
+static void coefficients_of(nh_dag *d, const nh_ex s[3], nh_ex e, nh_ex *c0, nh_ex c[9])
+{
+    nh_ex zero[3] = {nh_int(d, 0), nh_int(d, 0), nh_int(d, 0)}, square = nh_int(d, 1), first[3], half[9], sum = zero[0];
+    for (int i = 0; i < 3; i++) square = nh_add(d, square, nh_powi(d, s[i], 2));
+    nh_ex F = nh_simplify(d, nh_mul(d, e, nh_powi(d, square, 2))), p = nh_substitute(d, F, 3, s, zero);
+    for (int i = 0; i < 3; i++) {
+        nh_ex slope = nh_diff(d, F, s[i]);
+        first[i] = nh_substitute(d, slope, 3, s, zero);
+        for (int j = 0; j < 3; j++)
+            half[3 * i + j] = nh_div(d, nh_substitute(d, nh_diff(d, slope, s[j]), 3, s, zero), nh_int(d, 2));
+        sum = nh_add(d, sum, half[4 * i]);
+    }
+    nh_ex T = nh_div(d, nh_sub(d, nh_mul(d, nh_int(d, 6), p), sum), nh_int(d, 16)), eight = nh_int(d, 8);
+    *c0 = nh_simplify(d, nh_sub(d, p, T));
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        nh_ex own = nh_add(d, nh_sub(d, half[4 * i], nh_mul(d, nh_int(d, 2), p)), nh_mul(d, eight, T)),
+              odd = nh_div(d, first[i], eight), even = nh_div(d, half[3 * j + k], eight);
+        c[4 * i] = nh_simplify(d, nh_div(d, own, eight));
+        c[3 * k + j] = nh_simplify(d, nh_add(d, even, odd));
+        c[3 * j + k] = nh_simplify(d, nh_sub(d, even, odd));
+    }
+}
+
+/* e by the entries of one orientation, where it is linear in them: that is proved. */
+static nh_ex shown_by(const nh_system *y, const nh_orientation *o, nh_ex e)
+{
+    enum { longest = 4000, terms = 4000 };
+    nh_dag *d = y->dag;
+    nh_ex s[3], c0, c[9];
+    bool any = false;
+    for (size_t k = 0; k < 3; k++) {
+        s[k] = y->coordinate[o->first + k].q;
+        any |= nh_depends(d, e, s[k]);
+    }
+    if (!any || !nh_complexity_within(d, e, longest)) return e;
+    coefficients_of(d, s, e, &c0, c);
+    nh_ex shown = c0, same = c0;
+    for (int k = 0; k < 9; k++) {
+        shown = nh_add(d, shown, nh_mul(d, c[k], o->entry_symbol[k]));
+        same = nh_add(d, same, nh_mul(d, c[k], o->matrix[k]));
+    }
+    return nh_normal_is_zero(d, nh_sub(d, e, same), terms) == NH_ZERO ? nh_simplify_short(d, shown, 0) : e;
+}
+
+/* The largest parts of e that are linear in the entries. */
+typedef struct {
+    const nh_system *system;
+    const nh_orientation *orientation;
+    size_t parts, visits;
+    nh_ex part[64], shown[64];
+} parts_of;
+
+static void collect(parts_of *p, nh_ex e)
+{
+    enum { most_visits = 2000 };
+    nh_dag *d = p->system->dag;
+    nh_kind kind = nh_kind_of(d, e);
+    bool any = false;
+    for (size_t k = 0; k < 3; k++) any |= nh_depends(d, e, p->system->coordinate[p->orientation->first + k].q);
+    if (!any || p->parts == sizeof p->part / sizeof *p->part || ++p->visits > most_visits || kind == NH_SYMBOL) return;
+    nh_ex shown = shown_by(p->system, p->orientation, e);
+    if (shown != e) {
+        p->part[p->parts] = e;
+        p->shown[p->parts++] = shown;
+        return;
+    }
+    for (size_t i = 0; i < nh_arity(d, e); i++) collect(p, nh_child(d, e, i));
+}
+
+nh_ex nh_orientation_shown(const nh_system *s, nh_ex e)
+{
+    for (size_t i = 0; i < s->orientations; i++) {
+        parts_of p = {.system = s, .orientation = &s->orientation[i]};
+        collect(&p, e);
+        e = nh_substitute(s->dag, e, p.parts, p.part, p.shown);
+    }
+    return e;
+}
+
+nh_ex nh_orientation_unshown(const nh_system *s, nh_ex e)
+{
+    for (size_t i = 0; i < s->orientations; i++)
+        e = nh_substitute(s->dag, e, 9, s->orientation[i].entry_symbol, s->orientation[i].matrix);
+    return e;
 }
 
 /* ---- velocities where the file chooses none ---- */

@@ -25,6 +25,7 @@ struct nh_orientation {
     bool space;         /* the angular velocities are components in space */
     const char *word[3], *entry[9]; /* names of the angular velocities and of the matrix entries */
     nh_ex matrix[9];    /* row-major */
+    nh_ex entry_symbol[9]; /* symbols that stand for these in printed formulas */
     nh_ex map[9];       /* F */
     nh_ex rate[3];      /* the angular velocities as functions of coordinates and their velocities */
     nh_ex body[3];      /* the same in the body */
@@ -48,6 +49,10 @@ bool nh_orientation_word(const nh_system *system, const char *word, bool framed,
 nh_ex nh_orientation_framed(const nh_system *system, nh_ex e);
 /* The symbols of the angular velocities, written in coordinates and their velocities. */
 nh_ex nh_orientation_written(const nh_system *system, nh_ex e);
+
+/* For printed formulas: what is linear in the matrix entries is written in their symbols; and back. */
+nh_ex nh_orientation_shown(const nh_system *system, nh_ex e);
+nh_ex nh_orientation_unshown(const nh_system *system, nh_ex e);
 
 /* Where the file chooses no velocities: those of the other coordinates and the angular velocities, without those that
  * the constraints determine. */
