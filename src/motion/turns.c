@@ -16,18 +16,34 @@ void nh_turns_guard(const nh_system *y, const double *q, double *value)
     for (size_t i = 0; i < y->orientations; i++) value[i] = farthest - square_of(q + y->orientation[i].first);
 }
 
+/* s := -s/(s.s), and its rate. */
+static void to_shadow(double *s, double *rate)
+{
+    double square = square_of(s), along = rate ? s[0] * rate[0] + s[1] * rate[1] + s[2] * rate[2] : 0;
+    for (int k = 0; k < 3 && rate; k++) rate[k] = (2 * along * s[k] / square - rate[k]) / square;
+    for (int k = 0; k < 3; k++) s[k] /= -square;
+}
+
 bool nh_turns_renew(const nh_system *y, double *q, double *v)
 {
     bool any = false;
     for (size_t i = 0; i < y->orientations; i++) {
-        double *s = q + y->orientation[i].first, *rate = v ? v + y->orientation[i].first : NULL, square = square_of(s);
-        if (!(square >= farthest)) continue;
-        double along = rate ? s[0] * rate[0] + s[1] * rate[1] + s[2] * rate[2] : 0;
-        for (int k = 0; k < 3 && rate; k++) rate[k] = (2 * along * s[k] / square - rate[k]) / square;
-        for (int k = 0; k < 3; k++) s[k] /= -square;
+        size_t first = y->orientation[i].first;
+        if (!(square_of(q + first) >= farthest)) continue;
+        to_shadow(q + first, v ? v + first : NULL);
         any = true;
     }
     return any;
+}
+
+void nh_turns_nearest(const nh_system *y, const double *to, double *q, double *v)
+{
+    for (size_t i = 0; i < y->orientations; i++) {
+        size_t first = y->orientation[i].first;
+        double *s = q + first, square = square_of(s), here[3], there[3];
+        for (int k = 0; k < 3; k++) here[k] = s[k] - to[first + (size_t)k], there[k] = -s[k] / square - to[first + (size_t)k];
+        if (square_of(there) < square_of(here)) to_shadow(s, v ? v + first : NULL);
+    }
 }
 
 /* Adds the rows, zeros and costs of the next part, whose first row is the last state of the motion. */

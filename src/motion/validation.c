@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "motion/automatic.h"
 #include "motion/sizes.h"
+#include "motion/turns.h"
 
 typedef struct {
     const nh_model *model;
@@ -198,6 +199,8 @@ static void multistep(run *r, const nh_motion *motion, const sizes_of_all *sizes
     if (other) other->count = count;
     v->multistep = count > 1 && nh_states_in_coordinates(r->dynamics, &head, own) &&
                    nh_states_in_coordinates(r->dynamics, other, its);
+    for (size_t i = 0; i < count && v->multistep; i++)
+        nh_turns_nearest(r->model->system, own + i * states, its + i * states, its + i * states + r->model->m);
     for (size_t i = 0; i < count * states && v->multistep; i++)
         v->multistep_difference = fmax(v->multistep_difference, beside(own[i] - its[i], sizes->state[i % states]));
     nh_free(own);
