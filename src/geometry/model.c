@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
-#include "geometry/frame.h"
+#include "geometry/model_internal.h"
 #include "system/embedding.h"
 
 static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }
@@ -226,7 +226,8 @@ static void mass_matrix(nh_model *o)
     for (size_t i = 0; i < n; i++)
         for (size_t j = i; j < n; j++) {
             nh_ex M = nh_int(d, 0);
-            for (size_t s = 0; s < o->m; s++) M = nh_add(d, M, nh_mul(d, nh_model_Y(o, i, o->frame_p[s]), o->frame_R[s * n + j]));
+            for (size_t s = 0; s < o->m; s++)
+                M = nh_add(d, M, nh_mul(d, nh_model_Y(o, i, o->frame_p[s]), o->frame_R[s * n + j]));
             o->M[i * n + j] = o->M[j * n + i] = M;
         }
 }

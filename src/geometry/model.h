@@ -40,7 +40,7 @@ typedef struct {
     size_t m, n, k;         /* coordinates, independent velocities, constraints */
     nh_ex *rho, *R;         /* m velocities; m x n, R[s*n + i] = d rho^s/dw^i */
     nh_ex *p, E, Lbar;      /* m momenta; energy; constrained Lagrangian */
-    /* rates, slopes and momenta along the frame (geometry/frame.h); those of the coordinates where there is none */
+    /* rates, slopes and momenta along the frame (model_internal.h); those of the coordinates where there is none */
     bool framed;
     nh_ex *frame_rho, *frame_R, *frame_p;
     nh_ex *pbar;            /* n: p_s R^s_i, so that alpha(Z) = Lbar Z^0 + pbar_i zeta^i */

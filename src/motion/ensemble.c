@@ -143,14 +143,10 @@ static void watch_pivots(batch *b)
 static void watch_turns(batch *b)
 {
     const nh_closed_subsystem *s = b->p->out->scene;
-    const nh_system *y = s->model->system;
-    if (!y->orientations) return;
-    double *q = nh_alloc_array(s->states + 1, sizeof *q);
-    for (size_t l = 0; l < b->members; l++) {
-        for (size_t i = 0; i < b->kept; i++) q[s->state[i]] = b->z[i * lanes + l];
-        if (b->alive[l] && nh_turns_renew(y, q, NULL)) leave_out(b, l);
+    for (size_t l = 0; l < b->members && s->model->system->orientations; l++) {
+        for (size_t i = 0; i < b->kept; i++) b->whole[s->state[i]] = b->z[i * lanes + l];
+        if (b->alive[l] && nh_turns_renew(s->model->system, b->whole, NULL)) leave_out(b, l);
     }
-    nh_free(q);
 }
 
 static void store(batch *b, size_t output)

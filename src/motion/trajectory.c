@@ -14,7 +14,6 @@
 #include "graph/print.h"
 #include "graph/terms.h"
 #include "motion/sizes.h"
-#include "system/orientation.h"
 
 /* The largest |z| along a motion; of states that are zero all along it, their size by sizes.h.  States of a chart that
  * breaks down have no such size. */

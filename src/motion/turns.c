@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "motion/events.h"
-#include "system/orientation.h"
 
 static const double farthest = 3; /* s.s: a turn by 240 degrees */
 
@@ -41,7 +40,10 @@ void nh_turns_nearest(const nh_system *y, const double *to, double *q, double *v
     for (size_t i = 0; i < y->orientations; i++) {
         size_t first = y->orientation[i].first;
         double *s = q + first, square = square_of(s), here[3], there[3];
-        for (int k = 0; k < 3; k++) here[k] = s[k] - to[first + (size_t)k], there[k] = -s[k] / square - to[first + (size_t)k];
+        for (size_t k = 0; k < 3; k++) {
+            here[k] = s[k] - to[first + k];
+            there[k] = -s[k] / square - to[first + k];
+        }
         if (square_of(there) < square_of(here)) to_shadow(s, v ? v + first : NULL);
     }
 }
@@ -94,7 +96,7 @@ nh_motion *nh_turns_flow(nh_turns_part *run, const void *method, const nh_flow_p
         if (!turned && part->note[0]) nh_motion_note(motion, "%s", part->note);
         nh_motion_free(part);
         for (size_t i = before; i < motion->count; i++)
-            problem->renew(motion->state + i * size, problem->context);
+            if (problem->renew(motion->state + i * size, problem->context) && !motion->smooth) motion->smooth = i;
         more = turned && ahead && motion->count < count;
         if (turned && !motion->smooth) motion->smooth = motion->count;
         if (turned) motion->guard_hit = -1;

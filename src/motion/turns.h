@@ -17,8 +17,8 @@ bool nh_turns_renew(const nh_system *system, double *q, double *v);
 /* Of s and its shadow, the one that is nearer to that of `to`: for comparisons of two motions. */
 void nh_turns_nearest(const nh_system *system, const double *to, double *q, double *v);
 
-typedef nh_motion *nh_turns_part(const void *method, const nh_flow_problem *problem, const double *initial, size_t count,
-                                 const double *times, const nh_flow_options *options, nh_error *error);
+typedef nh_motion *nh_turns_part(const void *method, const nh_flow_problem *problem, const double *initial,
+                                 size_t count, const double *times, const nh_flow_options *options, nh_error *error);
 /* A motion in parts, each by `part`.  Its rows are described anew, too, where a guard is negative. */
 nh_motion *nh_turns_flow(nh_turns_part *part, const void *method, const nh_flow_problem *problem, const double *initial,
                          size_t count, const double *times, const nh_flow_options *options, nh_error *error);

@@ -8,7 +8,6 @@
 #include "graph/parse.h"
 #include "evaluate/tape.h"
 #include "system/deck_build.h"
-#include "system/orientation.h"
 
 /* ---- before the system ---- */
 

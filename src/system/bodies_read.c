@@ -5,7 +5,6 @@
 #include "base/text.h"
 #include "graph/parse.h"
 #include "system/bodies_tree.h"
-#include "system/orientation.h"
 
 typedef nh_system_reader reader;
 

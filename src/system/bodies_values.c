@@ -3,7 +3,6 @@
 
 #include "graph/diff.h"
 #include "system/bodies_tree.h"
-#include "system/orientation.h"
 
 typedef nh_system_reader reader;
 
@@ -179,8 +178,8 @@ static bool euler_axes(reader *r, const nh_deck_node *item, int axis[3])
     nh_deck_fail(r->deck, node, 0, r->error, "`%s` are not three axes, each different from the one before", text);
     return nh_error_hint(
         r->error,
-        "for example zyx (the default; singular where the second angle is pi/2), zxz (singular where it is 0), or none: "
-        "an orientation, which is nowhere singular");
+        "for example zyx (the default; singular where the second angle is pi/2), zxz (singular where it is 0), or "
+        "none: an orientation, which is nowhere singular");
 }
 
 static bool axes_of_joint(reader *r, const nh_joint *j, nh_screw *s)

@@ -9,7 +9,6 @@
 #include "exact/normal.h"
 #include "graph/print.h"
 #include "system/embedding_internal.h"
-#include "system/orientation.h"
 
 /* ---- roots on a chart ---- */
 

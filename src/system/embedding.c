@@ -11,7 +11,6 @@
 #include "exact/solve.h"
 #include "system/domain.h"
 #include "system/embedding_internal.h"
-#include "system/orientation.h"
 #include "system/levels.h"
 #include "system/sample.h"
 

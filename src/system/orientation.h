@@ -16,12 +16,14 @@
 #ifndef NH_ORIENTATION_H
 #define NH_ORIENTATION_H
 
-#include "system/system_internal.h"
+#include "system/deck.h"
+#include "graph/dag.h"
 
-struct nh_orientation {
+typedef struct {
     const char *name;
     const nh_deck_node *node;
-    size_t first;       /* its coordinates are first, first + 1, first + 2 */
+    nh_ex q[3], v[3];   /* its coordinates and their velocities */
+    size_t first;       /* these are the system's coordinates first, first + 1, first + 2 */
     bool space;         /* the angular velocities are components in space */
     const char *word[3], *entry[9]; /* names of the angular velocities and of the matrix entries */
     nh_ex matrix[9];    /* row-major */
@@ -32,32 +34,12 @@ struct nh_orientation {
     nh_ex framed[3];    /* symbols that stand for `rate` in nh_system.framed and in framed constraints */
     nh_ex framed_body[3]; /* those in the body */
     nh_ex omega[3];     /* quasi-velocities */
-};
+} nh_orientation;
 
-/* Declares the orientation that the map `item` of the file describes (NULL: one with default names): its coordinates
- * come next.  The caller has room for three coordinates. */
-bool nh_orientation_declare(nh_system_reader *r, const nh_deck_node *item, const nh_deck_node *name, const char *doc);
-/* After all velocities have symbols: matrices and angular velocities. */
-void nh_orientations_build(nh_system *system);
-/* The orientation of this name, or of which this is a coordinate; or NULL. */
-nh_orientation *nh_orientation_named(const nh_system *system, const char *name);
-const nh_orientation *nh_orientation_of(const nh_system *system, size_t coordinate);
-
-/* A word that is an angular velocity or a matrix entry: `framed` gives the symbol of the angular velocity. */
-bool nh_orientation_word(const nh_system *system, const char *word, bool framed, bool *velocity, nh_ex *out);
-/* Velocities of orientations' coordinates, written in the angular velocities' symbols. */
-nh_ex nh_orientation_framed(const nh_system *system, nh_ex e);
-/* The symbols of the angular velocities, written in coordinates and their velocities. */
-nh_ex nh_orientation_written(const nh_system *system, nh_ex e);
-
-/* For printed formulas: what is linear in the matrix entries is written in their symbols; and back. */
-nh_ex nh_orientation_shown(const nh_system *system, nh_ex e);
-nh_ex nh_orientation_unshown(const nh_system *system, nh_ex e);
-
-/* Where the file chooses no velocities: those of the other coordinates and the angular velocities, without those that
- * the constraints determine. */
-bool nh_orientation_velocities(nh_system_reader *r);
-/* From rates along the frame (m: of other coordinates their velocities) to those of the coordinates (m). */
-void nh_orientation_map(const nh_system *system, const nh_ex *framed, nh_ex *out);
+/* All expressions, from q, v and the names. */
+void nh_orientation_build(nh_dag *dag, nh_orientation *orientation);
+/* For printed formulas: parts that are linear in the matrix entries are written in their symbols; that they are equal
+ * is proved. */
+nh_ex nh_orientation_in_entries(nh_dag *dag, const nh_orientation *orientation, nh_ex e);
 
 #endif

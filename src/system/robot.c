@@ -162,7 +162,8 @@ static bool base_type(reader *r, const nh_deck_node *base, const nh_deck_node *b
     if (base && !nh_deck_is(r->deck, base, NH_DECK_SCALAR, "base", r->error)) return false;
     for (int i = 0; i < 4; i++)
         if (!strcmp(*out, words[i])) return true;
-    nh_deck_fail(r->deck, base, 0, r->error, "`%s` is not a kind of base; expected fixed, planar, floating or free", *out);
+    nh_deck_fail(r->deck, base, 0, r->error, "`%s` is not a kind of base; expected fixed, planar, floating or free",
+                 *out);
     const char *near = nh_text_nearest(*out, words, 4);
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
 }

@@ -7,7 +7,6 @@
 #include "graph/diff.h"
 #include "graph/parse.h"
 #include "graph/print.h"
-#include "system/orientation.h"
 #include "system/system_internal.h"
 
 /* ---- names ---- */

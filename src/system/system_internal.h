@@ -62,4 +62,13 @@ bool nh_system_read_chain(nh_system_reader *r);
 size_t nh_system_most_wheel_constraints(const nh_system *system);
 void nh_system_add_wheel_constraints(nh_system_reader *r);
 
+/* Declares the orientation that the map `item` of the file describes (NULL: one with default names): its coordinates
+ * come next.  The caller has room for three coordinates. */
+bool nh_orientation_declare(nh_system_reader *r, const nh_deck_node *item, const nh_deck_node *name, const char *doc);
+/* After all velocities have symbols: matrices and angular velocities. */
+void nh_orientation_build_all(nh_system *system);
+/* Where the file chooses no velocities: those of the other coordinates and the angular velocities, without those that
+ * the constraints determine (frame_velocities.c). */
+bool nh_orientation_velocities(nh_system_reader *r);
+
 #endif

@@ -4,7 +4,6 @@
 #include "base/text.h"
 #include "graph/diff.h"
 #include "system/dimension.h"
-#include "system/orientation.h"
 #include "system/system_internal.h"
 
 /* As many as degrees of freedom? */

@@ -6,7 +6,6 @@
 #include "base/text.h"
 #include "graph/diff.h"
 #include "graph/parse.h"
-#include "system/orientation.h"
 #include "system/reach.h"
 #include "system/robot.h"
 #include "system/system_internal.h"
@@ -188,7 +187,7 @@ static bool read_coordinates(reader *r)
     /* after all coordinates: symbols are printed in the order of declaration */
     for (size_t i = 0; i < s->coordinates; i++)
         s->coordinate[i].v = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s'", s->coordinate[i].name));
-    nh_orientations_build(s);
+    nh_orientation_build_all(s);
     return true;
 }
 
@@ -251,7 +250,8 @@ static bool read_definitions(reader *r)
         d->text = node->text;
         nh_named *framed = &s->framed_definition[s->definitions];
         *framed = *d;
-        if (s->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value)) return false;
+        if (s->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value))
+            return false;
         s->definitions++;
     }
     return true;
@@ -299,8 +299,8 @@ static bool read_framed(reader *r, const nh_deck_node *node, nh_constraint *c, b
 {
     nh_system *s = r->system;
     nh_ex lhs = c->lhs, rhs = c->rhs;
-    if (moving && !nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI | NH_FRAMED, 0, NULL, &lhs, &rhs, r->error))
-        return false;
+    unsigned how = NH_NO_QUASI | NH_FRAMED;
+    if (moving && !nh_system_read_expression(s, r->deck, node, 0, how, 0, NULL, &lhs, &rhs, r->error)) return false;
     c->framed = nh_orientation_framed(s, nh_sub(s->dag, lhs, rhs));
     return true;
 }

@@ -11,7 +11,6 @@
 #include "graph/print.h"
 #include "evaluate/tape.h"
 #include "system/bodies_tree.h"
-#include "system/orientation.h"
 #include "system/sample.h"
 
 enum { sample_points = 6 };
@@ -81,7 +80,7 @@ static void add_constraint(nh_system *s, const nh_wheel *w, const nh_ex *row)
     nh_dag *d = s->dag;
     nh_ex sum = row[s->coordinates];
     for (size_t i = 0; i < s->coordinates; i++) sum = nh_add(d, sum, nh_mul(d, row[i], velocity_of(s, i)));
-    char *text = nh_print_string(d, sum);
+    char *text = nh_print_string(d, nh_orientation_shown(s, sum));
     s->constraint[s->constraints++] = (nh_constraint){
         .text = nh_arena_printf(s->arena, "%s = 0", text), .lhs = nh_orientation_written(s, sum), .rhs = nh_int(d, 0),
         .framed = sum, .node = w->node};

@@ -1,13 +1,14 @@
-/* frame: the frame of a model's configuration space in which its equations are written (Hamel's equations).
+/* model_internal: the frame of a model's configuration space in which its equations are written (Hamel's equations).
  *
- * Fields e_a, one for each coordinate, and their dual forms beta^a: of an orientation (system/orientation.h) those of its
- * angular velocities, of any other coordinate d/dq^a.  With the rates u^a along them and p_a = dL/du^a,
+ * Fields e_a, one for each coordinate, and their dual forms beta^a: of an orientation (system/orientation.h) those of
+ * its angular velocities, of any other coordinate d/dq^a.  With the rates u^a along them and p_a = dL/du^a,
  *
- *     theta = p_a beta^a,   dtheta = dp_a ^ beta^a + p_a dbeta^a,   dbeta^a(e_b, e_c) = -C^a_bc,   [e_b, e_c] = C^a_bc e_a,
+ *     theta = p_a beta^a,   dtheta = dp_a ^ beta^a + p_a dbeta^a,
+ *     dbeta^a(e_b, e_c) = -C^a_bc,   [e_b, e_c] = C^a_bc e_a,
  *
  * so that the matrices of docs/method.md, sec. 2, keep their form, with one more term p_a dbeta^a. */
-#ifndef NH_FRAME_H
-#define NH_FRAME_H
+#ifndef NH_MODEL_INTERNAL_H
+#define NH_MODEL_INTERNAL_H
 
 #include "geometry/model.h"
 

@@ -1,7 +1,6 @@
-#include "geometry/frame.h"
+#include "geometry/model_internal.h"
 
 #include "graph/diff.h"
-#include "system/orientation.h"
 
 static const nh_orientation *turned(const nh_model *o, size_t a)
 {
