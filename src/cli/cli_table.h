@@ -13,7 +13,7 @@ bool nh_word_among(const char *words, const char *word);
 #define NH_CLI_OPTION_TABLE(X)                                                                                                                                     \
     X(opt_set,         "set",         required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan linearize export", "set a parameter; repeatable")      \
     X(opt_wheel,       "wheel",       required_argument, "LINK[=RADIUS]",      "analyze verify simulate benchmark reduce classify scan linearize export show", "robots: this link rolls on the plane z = 0; repeatable") \
-    X(opt_base,        "base",        required_argument, "fixed|planar|floating", "analyze verify simulate benchmark reduce classify scan linearize export show", "robots: how the root link is carried; planar with wheels, else fixed") \
+    X(opt_base,        "base",        required_argument, "fixed|planar|floating|free", "analyze verify simulate benchmark reduce classify scan linearize export show", "robots: how the root link is carried; planar with wheels, else fixed") \
     X(opt_on,          "on",          required_argument, "\"p_x = 0\"",         "analyze verify classify", "on this level of an integral linear in the velocities, p_x: the momentum of x; repeatable") \
     X(opt_analysis,    "analysis",    required_argument, "FILE",               "analyze simulate benchmark", "read ansatz and motion from this analysis file")                              \
     X(opt_no_analysis, "no-analysis", no_argument,       "",                   "analyze simulate benchmark", "ignore analysis files; the program chooses ansatz and motion")     \

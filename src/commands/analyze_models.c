@@ -92,7 +92,8 @@ bool nh_analyze_models(nh_analysis *r, const nh_analyze_request *q, nh_error *er
                          nh_chart_least_pivot, r->model->chart->name);
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (r->model->chart->quasi && r->system->constraints)
+    /* beside angular velocities the coordinates of an orientation have no velocities worth printing */
+    if (r->model->chart->quasi && r->system->constraints && !r->system->orientations)
         r->other = model_of(r, NH_CHART_COORDINATES, &ignored);
     if (ignored.code != NH_OK) nh_analysis_warn(r, "the chart of coordinate velocities: %s", ignored.what);
     r->local_maximum = 2 * r->model->m - r->model->k;

@@ -5,6 +5,7 @@
 
 #include "commands/reduce_internal.h"
 #include "motion/automatic.h"
+#include "motion/turns.h"
 
 /* The sizes to which differences are relative.  All angles have one size together, and so have the other coordinates,
  * whose errors rotations mix: the largest of them, or the largest as the metric compares them, sqrt(K_rr / K_ss)
@@ -78,13 +79,15 @@ static double distance(const nh_kinetic *k, const double *a, const double *b, co
 size_t nh_reduction_reliable(const nh_kinetic *k, size_t count, const double *a, size_t a_stride, const double *b,
                              size_t b_stride, double allowed, double *farthest)
 {
-    double *size = nh_alloc_array(k->m + 1, sizeof *size);
+    double *size = nh_alloc_array(2 * k->m + 1, sizeof *size), *own = size + k->m;
     size_t n = count;
     *farthest = 0;
     for (size_t i = 0; i < count; i++) {
         /* a motion may start from zeros */
         for (size_t next = i; next < count && next <= i + 1; next++) grow(k, b + next * b_stride, size);
-        double off = distance(k, a + i * a_stride, b + i * b_stride, size);
+        memcpy(own, a + i * a_stride, k->m * sizeof *own);
+        nh_turns_nearest(k->model->system, b + i * b_stride, own, NULL);
+        double off = distance(k, own, b + i * b_stride, size);
         if (!(off <= allowed) && i < n) n = i;
         *farthest = fmax(*farthest, off);
     }

@@ -241,7 +241,7 @@ static bool energy_in_all_velocities(const nh_analysis *r, const nh_current *f, 
     const nh_system *s = r->system;
     bool itself = f->energy && (!strcmp(f->meaning, "energy") || !strncmp(f->meaning, "minus", 5));
     size_t length = itself ? nh_complexity(d, f->phi) : 0;
-    if (length <= NH_SYMMETRY_LENGTHY) return false;
+    if (length <= NH_SYMMETRY_LENGTHY || s->orientations) return false;
     *E = nh_neg(d, s->lagrangian);
     for (size_t i = 0; i < r->model->m; i++) {
         nh_ex v = s->coordinate[i].v;

@@ -20,6 +20,7 @@ nh_ex nh_constraint_without_poles(const nh_model *o, size_t a)
 }
 
 struct nh_bordered {
+    const nh_system *system;
     size_t m, k;
     nh_tape *tape; /* K, h, F, g, f */
     nh_tape_work *work;
@@ -71,7 +72,8 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     }
     nh_bordered_expressions(o, out, out + m * m, out + m * m + m, out + m * m + m + k * m, out + m * m + m + k * m + k);
     nh_bordered *b = nh_alloc(sizeof *b);
-    *b = (nh_bordered){.m = m,
+    *b = (nh_bordered){.system = y,
+                       .m = m,
                        .k = k,
                        .in = nh_alloc_array(1 + 2 * m, sizeof *b->in),
                        .out = nh_alloc_array(total + 1, sizeof *b->out)};
@@ -127,6 +129,7 @@ static void normalise(size_t m, size_t k, const double *unit, double *F)
 }
 
 size_t nh_bordered_coordinates(const nh_bordered *b) { return b->m; }
+const nh_system *nh_bordered_system(const nh_bordered *b) { return b->system; }
 
 size_t nh_bordered_constraints(const nh_bordered *b) { return b->k; }
 

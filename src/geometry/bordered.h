@@ -23,6 +23,7 @@ void nh_bordered_free(nh_bordered *bordered);
 void nh_bordered_jit(nh_bordered *bordered, double patience);
 const char *nh_bordered_words(const nh_bordered *bordered);
 size_t nh_bordered_coordinates(const nh_bordered *bordered); /* m */
+const nh_system *nh_bordered_system(const nh_bordered *bordered);
 size_t nh_bordered_constraints(const nh_bordered *bordered); /* k */
 
 /* Functions of t and the state (q, v) that change their sign where these equations have a kink (exact/walls.h). */

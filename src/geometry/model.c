@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "geometry/model_internal.h"
 #include "system/embedding.h"
 
 static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }
@@ -128,7 +129,7 @@ typedef struct {
 
 static bool is_large(const nh_model *o)
 {
-    return !o->chart->implicit && !nh_complexity_within(o->dag, o->system->lagrangian, large_length);
+    return !o->chart->implicit && !nh_complexity_within(o->dag, nh_frame_lagrangian(o), large_length);
 }
 
 const nh_chain *nh_model_chain(const nh_model *o, nh_ex *rest)
@@ -149,8 +150,9 @@ static slopes slopes_of(const nh_model *o)
     s.dv = s.dq + o->m;
     for (size_t i = 0; i < o->m; i++) symbol[i] = y->coordinate[i].q, symbol[o->m + i] = y->coordinate[i].v;
     if (s.large) nh_gradient(d, y->lagrangian, 2 * o->m, symbol, s.dq);
+    nh_ex L = nh_frame_lagrangian(o);
     for (size_t i = 0; i < o->m && !s.large; i++)
-        s.dq[i] = nh_diff(d, y->lagrangian, symbol[i]), s.dv[i] = nh_diff(d, y->lagrangian, symbol[o->m + i]);
+        s.dq[i] = nh_diff(d, L, symbol[i]), s.dv[i] = nh_diff(d, L, nh_frame_rate(o, i));
     if (!s.large) return s;
     s.tau = nh_symbol_fresh(d, "tau");
     nh_diff_rule(d, y->t, s.tau, nh_int(d, 1));
@@ -185,32 +187,37 @@ static void inertial_forces(nh_model *o, slopes *slope)
 static void momenta(nh_model *o, const slopes *slope)
 {
     nh_dag *d = o->dag;
-    const nh_system *y = o->system;
-    o->Lbar = simple(o, nh_model_compose(o, y->lagrangian));
+    o->Lbar = simple(o, nh_frame_compose(o, nh_frame_lagrangian(o)));
     o->E = nh_int(d, 0);
     for (size_t s = 0; s < o->m; s++) {
-        o->p[s] = simple(o, nh_model_compose(o, slope->dv[s]));
-        o->E = nh_add(d, o->E, nh_mul(d, o->p[s], o->rho[s]));
-        for (size_t i = 0; i < o->n; i++) o->R[s * o->n + i] = nh_model_Y(o, i, o->rho[s]);
+        o->frame_p[s] = simple(o, nh_frame_compose(o, slope->dv[s]));
+        o->E = nh_add(d, o->E, nh_mul(d, o->frame_p[s], o->frame_rho[s]));
+        for (size_t i = 0; i < o->n; i++) {
+            o->R[s * o->n + i] = nh_model_Y(o, i, o->rho[s]);
+            if (o->framed) o->frame_R[s * o->n + i] = nh_model_Y(o, i, o->frame_rho[s]);
+        }
     }
+    if (o->framed) nh_frame_covector(o, o->frame_p, o->p);
     o->E = simple(o, nh_sub(d, o->E, o->Lbar));
     for (size_t i = 0; i < o->n; i++) {
         nh_ex sum = nh_int(d, 0);
-        for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_mul(d, o->p[s], o->R[s * o->n + i]));
+        for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_mul(d, o->frame_p[s], o->frame_R[s * o->n + i]));
         o->pbar[i] = simple(o, sum);
     }
 }
 
-/* dL/dq^s + Q_s, composed. */
+/* dL/dq^s + Q_s along the frame, composed. */
 static nh_ex applied_force(const nh_model *o, const slopes *slope, size_t s)
 {
-    return nh_model_compose(o, nh_add(o->dag, slope->dq[s], o->system->force[s]));
+    if (!o->framed) return nh_model_compose(o, nh_add(o->dag, slope->dq[s], o->system->force[s]));
+    nh_ex force = nh_model_compose(o, simple(o, nh_frame_along(o, s, o->system->force)));
+    return nh_add(o->dag, nh_frame_compose(o, nh_frame_along(o, s, slope->dq)), force);
 }
 
 /* X_0(p_s) */
 static nh_ex rate_of_momentum(const nh_model *o, const slopes *slope, size_t s)
 {
-    return slope->large ? nh_diff(o->dag, o->p[s], slope->tau) : nh_model_X0(o, o->p[s]);
+    return slope->large ? nh_diff(o->dag, o->p[s], slope->tau) : nh_model_X0(o, o->frame_p[s]);
 }
 
 /* M_ij = Y_i(p_s) R^s_j, not simplified. */
@@ -221,7 +228,8 @@ static void mass_matrix(nh_model *o)
     for (size_t i = 0; i < n; i++)
         for (size_t j = i; j < n; j++) {
             nh_ex M = nh_int(d, 0);
-            for (size_t s = 0; s < o->m; s++) M = nh_add(d, M, nh_mul(d, nh_model_Y(o, i, o->p[s]), o->R[s * n + j]));
+            for (size_t s = 0; s < o->m; s++)
+                M = nh_add(d, M, nh_mul(d, nh_model_Y(o, i, o->frame_p[s]), o->frame_R[s * n + j]));
             o->M[i * n + j] = o->M[j * n + i] = M;
         }
 }
@@ -230,7 +238,7 @@ static void mass_matrix(nh_model *o)
 static nh_ex along(const nh_model *o, nh_ex *known, size_t i, size_t s)
 {
     nh_ex *e = &known[i * o->m + s];
-    return *e ? *e : (*e = nh_model_X(o, i, o->p[s]));
+    return *e ? *e : (*e = nh_model_X(o, i, o->frame_p[s]));
 }
 
 /* A_i */
@@ -239,12 +247,13 @@ static nh_ex force_along(const nh_model *o, const slopes *slope, size_t i)
     nh_dag *d = o->dag;
     nh_ex A = nh_int(d, 0);
     for (size_t s = 0; s < o->m; s++) {
-        nh_ex R = o->R[s * o->n + i];
+        nh_ex R = o->frame_R[s * o->n + i];
         if (nh_is_zero(d, R)) continue;
         nh_ex force = slope->inertial ? nh_add(d, slope->inertial[s], nh_model_compose(o, o->system->force[s]))
                                       : nh_sub(d, applied_force(o, slope, s), rate_of_momentum(o, slope, s));
         A = nh_add(d, A, nh_mul(d, R, force));
     }
+    A = nh_add(d, A, nh_frame_turn(o, o->frame_R + i, o->n, o->frame_rho, 1));
     return simple(o, A);
 }
 
@@ -254,10 +263,10 @@ static nh_ex gyroscopic(const nh_model *o, nh_ex *X, size_t i, size_t j)
     nh_dag *d = o->dag;
     nh_ex G = nh_int(d, 0);
     for (size_t s = 0; s < o->m; s++) {
-        G = nh_add(d, G, nh_mul(d, along(o, X, i, s), o->R[s * o->n + j]));
-        G = nh_sub(d, G, nh_mul(d, along(o, X, j, s), o->R[s * o->n + i]));
+        G = nh_add(d, G, nh_mul(d, along(o, X, i, s), o->frame_R[s * o->n + j]));
+        G = nh_sub(d, G, nh_mul(d, along(o, X, j, s), o->frame_R[s * o->n + i]));
     }
-    return G;
+    return nh_add(d, G, nh_frame_turn(o, o->frame_R + i, o->n, o->frame_R + j, o->n));
 }
 
 static void matrices(nh_model *o, const slopes *slope)
@@ -303,14 +312,36 @@ static bool accelerations(nh_model *o, nh_error *error)
     return true;
 }
 
-/* dL/dq^s + Q_s - Gamma(p_s), of bodies and joints without the derivatives of p_s by position. */
+/* p_a dbeta^a(e_s, rho) */
+static nh_ex turn_along(const nh_model *o, size_t s)
+{
+    nh_ex zero = nh_int(o->dag, 0), *e = nh_alloc_array(o->m + 1, sizeof *e);
+    for (size_t a = 0; a < o->m; a++) e[a] = a == s ? nh_int(o->dag, 1) : zero;
+    nh_ex turn = o->framed ? nh_frame_turn(o, e, 1, o->frame_rho, 1) : zero;
+    nh_free(e);
+    return turn;
+}
+
+/* dL/dq^s + Q_s - Gamma(p_s) along the frame, of bodies and joints without the derivatives of p_s by position. */
 static nh_ex unbalanced(const nh_model *o, const slopes *slope, size_t s)
 {
     nh_dag *d = o->dag;
-    if (!slope->inertial) return nh_sub(d, applied_force(o, slope, s), nh_model_gamma(o, o->p[s]));
+    if (!slope->inertial) {
+        nh_ex c = nh_sub(d, applied_force(o, slope, s), nh_model_gamma(o, o->frame_p[s]));
+        return nh_add(d, c, turn_along(o, s));
+    }
     nh_ex c = nh_add(d, slope->inertial[s], nh_model_compose(o, o->system->force[s]));
     for (size_t i = 0; i < o->n; i++) c = nh_sub(d, c, nh_mul(d, o->a[i], nh_model_Y(o, i, o->p[s])));
     return c;
+}
+
+/* The reaction and df/dv in coordinates, from those along the frame. */
+static void reaction_and_slopes(nh_model *o, const nh_ex *c, const nh_ex *nu)
+{
+    nh_frame_covector(o, c, o->reaction);
+    for (size_t s = 0; s < o->m; s++) o->reaction[s] = nh_neg(o->dag, o->reaction[s]);
+    for (size_t a = 0; a < o->k; a++) nh_frame_covector(o, nu + a * o->m, o->nu + a * o->m);
+    for (size_t s = 0; s < o->k * o->m; s++) o->nu[s] = simple(o, o->nu[s]);
 }
 
 /* Solves c_s = mu_a df^a/dv^s for the multipliers mu_a, by its normal equations. */
@@ -319,25 +350,24 @@ static bool multipliers(nh_model *o, const slopes *slope, nh_error *error)
     nh_dag *d = o->dag;
     const nh_system *y = o->system;
     size_t k = o->k, m = o->m;
-    nh_ex *c = take(o, m);
+    nh_ex *c = take(o, m), *nu = o->framed ? take(o, k * m) : o->nu;
     for (size_t s = 0; s < m; s++) o->reaction[s] = nh_int(d, 0);
     if (k == 0) return true;
     for (size_t s = 0; s < m; s++) {
         c[s] = unbalanced(o, slope, s);
         if (m <= 12) c[s] = simple(o, c[s]);
         o->reaction[s] = nh_neg(d, c[s]);
-        for (size_t a = 0; a < k; a++)
-            o->nu[a * m + s] =
-                simple(o, nh_model_compose(o, nh_diff(d, nh_chart_constraint(o->chart, a), y->coordinate[s].v)));
+        for (size_t a = 0; a < k; a++) nu[a * m + s] = simple(o, nh_frame_slope(o, a, s));
     }
+    if (o->framed) reaction_and_slopes(o, c, nu);
     /* normal equations (nu nu^T) mu = nu c: regular wherever the constraints are independent, in every chart */
     nh_ex *N = take(o, k * k), *b = take(o, k);
     for (size_t a = 0; a < k; a++) {
         b[a] = nh_int(d, 0);
-        for (size_t s = 0; s < m; s++) b[a] = nh_add(d, b[a], nh_mul(d, o->nu[a * m + s], c[s]));
+        for (size_t s = 0; s < m; s++) b[a] = nh_add(d, b[a], nh_mul(d, nu[a * m + s], c[s]));
         for (size_t e = 0; e < k; e++) {
             nh_ex sum = nh_int(d, 0);
-            for (size_t s = 0; s < m; s++) sum = nh_add(d, sum, nh_mul(d, o->nu[a * m + s], o->nu[e * m + s]));
+            for (size_t s = 0; s < m; s++) sum = nh_add(d, sum, nh_mul(d, nu[a * m + s], nu[e * m + s]));
             N[a * k + e] = simple(o, sum);
         }
     }
@@ -394,6 +424,8 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     o->mu = take(o, k);
     o->nu = take(o, k * m);
     o->reaction = take(o, m);
+    nh_frame_open(o);
+    if (is_large(o)) o->chart->framed = NULL, nh_frame_open(o);
     slopes slope = slopes_of(o);
     if (!slope.large) o->G = take(o, n * n);
     momenta(o, &slope);

@@ -40,6 +40,9 @@ typedef struct {
     size_t m, n, k;         /* coordinates, independent velocities, constraints */
     nh_ex *rho, *R;         /* m velocities; m x n, R[s*n + i] = d rho^s/dw^i */
     nh_ex *p, E, Lbar;      /* m momenta; energy; constrained Lagrangian */
+    /* rates, slopes and momenta along the frame (model_internal.h); those of the coordinates where there is none */
+    bool framed;
+    nh_ex *frame_rho, *frame_R, *frame_p;
     nh_ex *pbar;            /* n: p_s R^s_i, so that alpha(Z) = Lbar Z^0 + pbar_i zeta^i */
     nh_ex *M, *A;           /* mass matrix, n x n (row-major); forces, n: M w' = A */
     nh_ex *G;               /* n x n; call nh_model_G */

@@ -103,7 +103,7 @@ static const char pattern[] =
     "  - {name: J, value: 0.5, unit: kg m^2, doc: moment of inertia}\n"
     "  - {name: b, value: 3, unit: m/s^2, doc: acceleration down the slope}\n"
     "\n"
-    "coordinates:                 # type: angle, length or number\n"
+    "coordinates:                 # type: angle, length, number or orientation\n"
     "  - {name: phi, type: angle, doc: heading}\n"
     "  - {name: x, type: length, unit: m, doc: down the slope}\n"
     "  - {name: y, type: length, unit: m, doc: across it}\n"

@@ -133,12 +133,12 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     nh_guard_verdict verdict =
         flag >= 0 ? nh_guards_judge(&work->guards, before, *time, NV_DATA_S(work->state), motion) : NH_GUARD_KEPT;
     nh_kink_verdict kink =
-        flag >= 0 && verdict == NH_GUARD_KEPT
+        flag >= 0 && (verdict == NH_GUARD_KEPT || verdict == NH_GUARD_TURN)
             ? nh_kinks_judge(&work->kinks, work->problem, before, work->old, *time, NV_DATA_S(work->state), motion)
             : NH_KINK_NONE;
     if (kink == NH_KINK_BACK) verdict = NH_GUARD_BACK;
     if (kink == NH_KINK_CROSSED) flag = reset(work->arkode, *time, work->state);
-    if (verdict != NH_GUARD_KEPT) {
+    if (verdict != NH_GUARD_KEPT && verdict != NH_GUARD_TURN) {
         memcpy(NV_DATA_S(work->state), work->old, bytes);
         work->now = *time = before;
         flag = reset(work->arkode, before, work->state);
@@ -146,7 +146,8 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     }
     if (flag >= 0) nh_sizes_follow(&work->sizes, *time, NV_DATA_S(work->state));
     if (kink == NH_KINK_END) return NH_STEP_FAILED;
-    if (flag >= 0) return *time == work->times[work->count - 1] ? NH_STEP_LAST : NH_STEP_ON;
+    bool last = verdict == NH_GUARD_TURN || *time == work->times[work->count - 1];
+    if (flag >= 0) return last ? NH_STEP_LAST : NH_STEP_ON;
     nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", motion->end_time, work->sundials.message);
     return NH_STEP_FAILED;
 }

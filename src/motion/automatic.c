@@ -36,6 +36,10 @@ static bool guard(double t, const double *z, double *value, void *context)
 {
     return ((attempt *)context)->problem->guard(t, z, value, ((attempt *)context)->problem->context);
 }
+static bool renew(double *z, void *context)
+{
+    return ((attempt *)context)->problem->renew(z, ((attempt *)context)->problem->context);
+}
 static bool wall(double t, const double *z, double *value, void *context)
 {
     return ((attempt *)context)->problem->wall(t, z, value, ((attempt *)context)->problem->context);
@@ -101,6 +105,8 @@ nh_motion *nh_automatic(const nh_flow_problem *problem, const double *initial, s
                                .rate = rate,
                                .guards = problem->guards,
                                .guard = problem->guard ? guard : NULL,
+                               .turns = problem->turns,
+                               .renew = problem->renew ? renew : NULL,
                                .walls = problem->walls,
                                .wall = problem->wall ? wall : NULL};
     nh_flow_options how = *options;

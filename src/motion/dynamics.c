@@ -6,6 +6,7 @@
 #include "base/linalg.h"
 #include "graph/diff.h"
 #include "exact/walls.h"
+#include "motion/turns.h"
 
 /* ---- equations of motion on the constraint submanifold ---- */
 
@@ -224,14 +225,31 @@ static bool walls_of(double t, const double *z, double *value, void *context)
     return true;
 }
 
+/* The pivot, and the guards of orientations. */
+static bool guards_of(double t, const double *z, double *value, void *context)
+{
+    nh_dynamics *d = context;
+    if (d->constraint && !pivot_of(t, z, value, d)) return false;
+    nh_turns_guard(d->model->system, z, value + (d->constraint ? 1 : 0));
+    return true;
+}
+
+static bool renew(double *z, void *context)
+{
+    return nh_turns_renew(((nh_dynamics *)context)->model->system, z, NULL);
+}
+
 nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
 {
+    size_t turns = d->model->chart->quasi ? d->model->system->orientations : 0;
     return (nh_flow_problem){.size = d->size,
                              .context = d,
                              .rate = rate_of,
                              .jacobian = d->jacobian ? jacobian_of : NULL,
-                             .guards = d->constraint ? 1 : 0,
-                             .guard = d->constraint ? pivot_of : NULL,
+                             .guards = (d->constraint ? 1 : 0) + turns,
+                             .guard = turns ? guards_of : d->constraint ? pivot_of : NULL,
+                             .turns = turns,
+                             .renew = turns ? renew : NULL,
                              .walls = d->walls,
                              .wall = walls_of};
 }
@@ -439,11 +457,28 @@ static bool bordered_walls(double t, const double *z, double *value, void *conte
     return nh_bordered_wall(context, t, z, value), true;
 }
 
+static bool bordered_guards(double t, const double *z, double *value, void *context)
+{
+    (void)t;
+    nh_turns_guard(nh_bordered_system(context), z, value);
+    return true;
+}
+
+static bool bordered_renew(double *z, void *context)
+{
+    return nh_turns_renew(nh_bordered_system(context), z, z + nh_bordered_coordinates(context));
+}
+
 nh_flow_problem nh_bordered_flow(nh_bordered *b)
 {
+    size_t turns = nh_bordered_system(b)->orientations;
     return (nh_flow_problem){.size = 2 * nh_bordered_coordinates(b),
                              .context = b,
                              .rate = bordered_rate,
+                             .guards = turns,
+                             .guard = turns ? bordered_guards : NULL,
+                             .turns = turns,
+                             .renew = turns ? bordered_renew : NULL,
                              .walls = nh_bordered_walls(b),
                              .wall = bordered_walls};
 }

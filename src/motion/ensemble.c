@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "motion/sizes.h"
 #include "motion/tableau.h"
+#include "motion/turns.h"
 #include "system/sample.h"
 
 enum { lanes = NH_ENSEMBLE_BATCH, first_steps = 20 }; /* first_steps: too few to extrapolate the work of the others */
@@ -138,6 +139,16 @@ static void watch_pivots(batch *b)
     }
 }
 
+/* A member whose orientation comes to its shadow goes on alone. */
+static void watch_turns(batch *b)
+{
+    const nh_closed_subsystem *s = b->p->out->scene;
+    for (size_t l = 0; l < b->members && s->model->system->orientations; l++) {
+        for (size_t i = 0; i < b->kept; i++) b->whole[s->state[i]] = b->z[i * lanes + l];
+        if (b->alive[l] && nh_turns_renew(s->model->system, b->whole, NULL)) leave_out(b, l);
+    }
+}
+
 static void store(batch *b, size_t output)
 {
     nh_ensemble *e = b->p->out;
@@ -191,6 +202,7 @@ static bool go_to(batch *b, double target, long *steps)
             nh_sizes_follow(&b->sizes, b->t, b->z);
             b->h = last ? (fabs(b->h * growth) > fabs(wanted) ? b->h * growth : wanted) : b->h * growth;
             watch_pivots(b);
+            watch_turns(b);
         } else {
             if (leave_out_the_slow(b)) growth = 1;
             b->h *= growth;

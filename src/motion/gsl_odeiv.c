@@ -182,7 +182,8 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
     bool last = *time == work->times[work->count - 1];
     nh_guard_verdict verdict =
         flag == GSL_SUCCESS ? nh_guards_judge(&work->guards, work->before, *time, work->state, motion) : NH_GUARD_KEPT;
-    if (verdict != NH_GUARD_KEPT) return go_back(work, verdict, time);
+    if (verdict == NH_GUARD_TURN) last = true;
+    else if (verdict != NH_GUARD_KEPT) return go_back(work, verdict, time);
     if (*time == target && fabs(work->h) < fabs(wanted)) work->h = wanted; /* the step was cut to end there */
     if (flag == GSL_SUCCESS && back_from_wall(work, motion, time)) return NH_STEP_ON;
     if (work->kinks.held) return NH_STEP_FAILED;

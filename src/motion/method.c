@@ -1,5 +1,6 @@
 #include "motion/cvode.h"
 #include "motion/method.h"
+#include "motion/turns.h"
 
 #include <string.h>
 #include <strings.h>
@@ -75,9 +76,10 @@ bool nh_method_given(const char *word, const nh_method **out, nh_error *error)
                 : nh_error_hint(error, "`nhsym explain methods` lists them");
 }
 
-nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count,
+static nh_motion *part_by(const void *by, const nh_flow_problem *problem, const double *initial, size_t count,
                           const double *times, const nh_flow_options *options, nh_error *error)
 {
+    const nh_method *method = by;
     nh_flow_options own = *options;
     switch (method->family) {
     case NH_METHOD_GSL_ODEIV:
@@ -88,6 +90,13 @@ nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *proble
         own.method = (nh_flow_method)method->kind;
         return nh_cvode(problem, initial, count, times, &own, error);
     }
+}
+
+nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count,
+                          const double *times, const nh_flow_options *options, nh_error *error)
+{
+    return problem->turns ? nh_turns_flow(part_by, method, problem, initial, count, times, options, error)
+                          : part_by(method, problem, initial, count, times, options, error);
 }
 
 nh_motion *nh_method_steps(const nh_method *method, nh_programs *programs, const double *initial, size_t count,

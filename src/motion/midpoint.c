@@ -1,4 +1,5 @@
 #include "motion/midpoint.h"
+#include "motion/turns.h"
 
 #include <float.h>
 #include <math.h>
@@ -373,6 +374,7 @@ static bool step_once(midpoint_work *k, double h)
 static nh_step midpoint_advance(double *time, nh_motion *motion, void *context)
 {
     midpoint_work *k = context;
+    nh_turns_renew(nh_programs_model(k->programs)->system, k->z0, NULL);
     double target = k->times[motion->count];
     if (!k->left) k->left = (size_t)fmax(1, ceil(fabs(target - *time) / k->step * (1 - 1e-12)));
     double h = (target - *time) / (double)k->left;

@@ -42,6 +42,10 @@ typedef struct {
     size_t guards;
     /* Guard functions: a change of sign ends the motion.  May be NULL when guards is 0. */
     bool (*guard)(double t, const double *z, double *value, void *context);
+    /* of the guards, the last ones: there the state is described anew by `renew`, and the motion goes on (turns.h) */
+    size_t turns;
+    bool (*renew)(double *z, void *context);
+    bool own_guards; /* in parts of such a motion: the other guards end it */
     size_t walls;
     /* Functions that change their sign where the rates have a kink or a jump: steps end there (kinks.h).  May be NULL
        when walls is 0. */
@@ -96,6 +100,7 @@ typedef struct {
     double *event_state; /* events x size */
     /* the motion stopped at the last zero, which is the last output as well; then it is complete */
     bool stopped;
+    size_t smooth;       /* rows before the state is described anew for the first time (turns.h); 0: all */
     double searched;     /* up to this time a part of the integrator has recorded the zeros already (NAN: nowhere) */
     char note[256];   /* remarks in sentences, such as why the motion ended early */
 } nh_motion;

@@ -1,4 +1,5 @@
 #include "motion/relaxation.h"
+#include "motion/turns.h"
 
 #include <float.h>
 #include <math.h>
@@ -112,6 +113,7 @@ static bool relaxed(relaxation_work *k, double *h)
 static nh_step relaxation_advance(double *time, nh_motion *motion, void *context)
 {
     relaxation_work *k = context;
+    nh_turns_renew(nh_programs_model(k->programs)->system, k->z, NULL);
     double target = k->times[motion->count], left = target - *time,
            steps = fmax(1, ceil(fabs(left) / k->step * (1 - 1e-3)));
     double h = left / steps, passed = h, exact = 4 * DBL_EPSILON * fmax(fabs(target), fabs(left));

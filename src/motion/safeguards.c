@@ -29,7 +29,7 @@ static long changed(nh_guards *g, double t, const double *z)
 {
     const nh_flow_problem *p = g->problem;
     bool good = p->guard(t, z, g->value, p->context);
-    for (size_t i = 0; i < p->guards; i++) {
+    for (size_t i = p->turns && !p->own_guards ? p->guards - p->turns : 0; i < p->guards; i++) {
         if (!good || !isfinite(g->value[i])) return (long)i;
         if (!(fabs(g->sign[i]) > 0)) g->sign[i] = g->value[i];
         if (g->value[i] * g->sign[i] < 0 || (g->value[i] == 0 && g->sign[i] != 0)) return (long)i;
@@ -48,6 +48,10 @@ nh_guard_verdict nh_guards_judge(nh_guards *g, double before, double now, const 
         /* this was the first half of the way to the change */
         else if (way > 0.999 * g->longest) g->longest /= 2;
         return NH_GUARD_KEPT;
+    }
+    if (guard >= (long)(g->problem->guards - g->problem->turns) && isfinite(g->value[guard])) {
+        motion->guard_hit = guard;
+        return NH_GUARD_TURN;
     }
     g->longest = way / 2;
     if (way > g->least) return NH_GUARD_BACK;

@@ -7,7 +7,7 @@
 
 #include "motion/motion.h"
 
-typedef enum { NH_GUARD_KEPT, NH_GUARD_BACK, NH_GUARD_END } nh_guard_verdict;
+typedef enum { NH_GUARD_KEPT, NH_GUARD_BACK, NH_GUARD_END, NH_GUARD_TURN } nh_guard_verdict;
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -21,7 +21,8 @@ void nh_guards_begin(nh_guards *guards, const nh_flow_problem *problem, const nh
                      size_t count, const double *times);
 void nh_guards_clear(nh_guards *guards);
 /* A step led from `before` to the state z at `now`.  KEPT: go on.  BACK: undo it, and make none that is longer than
- * guards->longest.  END: undo it, and the motion ends there (the note names the guard). */
+ * guards->longest.  END: undo it, and the motion ends there (the note names the guard).  TURN: the motion ends behind
+ * it. */
 nh_guard_verdict nh_guards_judge(nh_guards *guards, double before, double now, const double *z, nh_motion *motion);
 
 #endif

@@ -118,7 +118,7 @@ bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double
     nh_flow_options how = *options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!method || method->family == NH_METHOD_CVODE || !problem.guards ||
+    if (!method || method->family == NH_METHOD_CVODE || problem.guards <= problem.turns ||
         !nh_may_leave_chart(nh_dynamics_model(dynamics)))
         return false;
     how.method = NH_ADAMS;
@@ -237,6 +237,14 @@ static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
     return nh_meets_pivot(dynamics, j->method, z0, ends, &j->how);
 }
 
+/* Orientations are described anew along a motion of all states only. */
+static bool turns(const nh_closed_subsystem *s)
+{
+    for (size_t i = 0; i < s->kept + s->levels; i++)
+        if (s->state[i] < s->model->m && nh_orientation_of(s->model->system, s->state[i])) return true;
+    return false;
+}
+
 /* The motion of the subsystem's states.  Where it cannot be used, *failed is the index of the current that did not
  * determine its state, or of the last one in use; -1: none. */
 static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *failed, nh_error *error)
@@ -256,7 +264,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
     nh_closed_subsystem_run_jit(run, j->q->options->compile);
-    bool starts = s->kept && nh_closed_subsystem_run_failed(run) < 0 && (s->smooth || !j->leave);
+    bool starts = s->kept && nh_closed_subsystem_run_failed(run) < 0 && (s->smooth || !j->leave) && !turns(s);
     nh_motion *motion =
         starts ? nh_automatic_or(j->method, &problem, small, j->q->count, j->q->times, &j->how, &j->used, error) : NULL;
     bool good = motion && !(nh_may_leave_chart(j->q->model) &&

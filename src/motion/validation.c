@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "motion/automatic.h"
 #include "motion/sizes.h"
+#include "motion/turns.h"
 
 typedef struct {
     const nh_model *model;
@@ -125,7 +126,8 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
                                .scale = sizes->state,
                                .max_steps = fmin(enough, most_steps(r)),
                                .cancelled = nh_interrupted_callback};
-    nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
+    size_t rows = reduced->smooth ? reduced->smooth : reduced->count;
+    nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, rows, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
         v->violation = full->violation;
@@ -142,6 +144,10 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
                      "the multiplier form gives a different motion: states differ by %.2g; errors grow along this "
                      "motion, or it passes a state at which the equations do not determine it",
                      v->state_difference);
+        else if (rows < reduced->count && !v->note[0])
+            snprintf(v->note, sizeof v->note,
+                     "the multiplier form was compared up to t = %.4g, where the coordinates of an orientation become "
+                     "their shadow", reduced->time[rows - 1]);
     } else {
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s",
                  full ? full->motion->note : ignored.what);
@@ -193,6 +199,8 @@ static void multistep(run *r, const nh_motion *motion, const sizes_of_all *sizes
     if (other) other->count = count;
     v->multistep = count > 1 && nh_states_in_coordinates(r->dynamics, &head, own) &&
                    nh_states_in_coordinates(r->dynamics, other, its);
+    for (size_t i = 0; i < count && v->multistep; i++)
+        nh_turns_nearest(r->model->system, own + i * states, its + i * states, its + i * states + r->model->m);
     for (size_t i = 0; i < count * states && v->multistep; i++)
         v->multistep_difference = fmax(v->multistep_difference, beside(own[i] - its[i], sizes->state[i % states]));
     nh_free(own);

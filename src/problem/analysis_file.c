@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "graph/parse.h"
+#include "evaluate/tape.h"
 #include "system/deck_build.h"
 
 /* ---- before the system ---- */
@@ -341,6 +342,30 @@ static bool unknown_state(reader *r, const nh_deck_node *key)
     return nh_error_hint(r->error, "it has %.150s", all);
 }
 
+/* The velocities of an orientation's coordinates, from its angular velocities. */
+static void turn(const nh_system *s, const nh_orientation *o, const double *omega, const nh_ex *omega_exact,
+                 nh_analysis_file *a)
+{
+    nh_state *state = &a->initial;
+    nh_ex in[3], *q = a->exact + 1 + o->first, *v = q + s->coordinates;
+    double F[9];
+    for (size_t k = 0; k < 3; k++) in[k] = s->coordinate[o->first + k].q;
+    nh_tape *tape = nh_tape_create(s->dag, 3, in, 9, o->map, 0, NULL, NULL);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, state->q + o->first, F);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    for (size_t i = 0; i < 3; i++) {
+        state->v[o->first + i] = F[3 * i] * omega[0] + F[3 * i + 1] * omega[1] + F[3 * i + 2] * omega[2];
+        state->given[o->first + i] = a->written[s->coordinates + o->first + i] = true;
+        v[i] = nh_int(s->dag, 0);
+        for (size_t k = 0; k < 3; k++) {
+            nh_ex slope = nh_substitute(s->dag, o->map[3 * i + k], 3, in, q);
+            v[i] = nh_add(s->dag, v[i], nh_mul(s->dag, slope, omega_exact[k]));
+        }
+    }
+}
+
 static bool read_initial(reader *r, const nh_deck_node *map)
 {
     const nh_system *s = r->model->system;
@@ -352,7 +377,10 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     r->a->written = nh_analysis_file_take(r, 2 * m, sizeof *r->a->written);
     for (size_t i = 0; i < 1 + 2 * m; i++) exact[i] = nh_int(s->dag, 0);
     for (size_t i = 0; i < s->quasi; i++) quasi_exact[i] = nh_int(s->dag, 0);
-    bool any_quasi = false, any_velocity = false;
+    double *turning = nh_analysis_file_take(r, 3 * s->orientations, sizeof *turning);
+    nh_ex *turning_exact = nh_analysis_file_take(r, 3 * s->orientations, sizeof *turning_exact);
+    for (size_t i = 0; i < 3 * s->orientations; i++) turning_exact[i] = nh_int(s->dag, 0);
+    bool any_quasi = false, any_velocity = false, *turns = nh_analysis_file_take(r, s->orientations, sizeof *turns);
     state->given = nh_analysis_file_take(r, s->coordinates, sizeof *state->given);
     for (size_t i = 0; i < map->count; i++) {
         const char *name = map->key[i]->text;
@@ -371,6 +399,12 @@ static bool read_initial(reader *r, const nh_deck_node *map)
             if (velocity) state->given[j] = true;
             any_velocity |= velocity;
         }
+        for (size_t j = 0; j < 3 * s->orientations && !known; j++)
+            if (!strcmp(name, s->orientation[j / 3].word[j % 3])) {
+                turning[j] = value;
+                turning_exact[j] = e;
+                known = turns[j / 3] = any_velocity = true;
+            }
         for (size_t j = 0; j < s->quasi && !known; j++)
             if (!strcmp(name, nh_name_of(s->dag, s->quasi_velocity[j]))) {
                 quasi[j] = value;
@@ -382,6 +416,8 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     if (any_quasi && any_velocity)
         return nh_deck_fail(r->a->deck, map, 0, r->error,
                             "give either coordinate velocities or quasi-velocities, not both");
+    for (size_t i = 0; i < s->orientations; i++)
+        if (turns[i]) turn(s, &s->orientation[i], turning + 3 * i, turning_exact + 3 * i, r->a);
     if (any_quasi) velocities_of(s, quasi, state), exact_velocities(s, quasi_exact, r->a);
     if (any_quasi) state->given = NULL;
     r->a->has_initial = true;

@@ -21,6 +21,14 @@ void nh_observables_add(nh_observables *t, const char *name, nh_track_kind kind,
     t->track[t->count++] = (nh_track){name, kind, value};
 }
 
+/* Of a coordinate: beside angular velocities it is listed already. */
+static bool is_velocity(const nh_system *s, nh_ex w)
+{
+    for (size_t i = 0; i < s->coordinates; i++)
+        if (s->coordinate[i].v == w) return true;
+    return false;
+}
+
 void nh_observables_add_states(nh_observables *t)
 {
     const nh_model *o = t->model;
@@ -29,7 +37,8 @@ void nh_observables_add_states(nh_observables *t)
     for (size_t i = 0; i < o->m; i++)
         nh_observables_add(t, nh_name_of(o->dag, s->coordinate[i].v), NH_TRACK_STATE, o->rho[i]);
     for (size_t i = 0; i < o->n && o->chart->quasi; i++)
-        nh_observables_add(t, nh_name_of(o->dag, o->chart->w[i]), NH_TRACK_STATE, o->chart->w[i]);
+        if (!is_velocity(s, o->chart->w[i]))
+            nh_observables_add(t, nh_name_of(o->dag, o->chart->w[i]), NH_TRACK_STATE, o->chart->w[i]);
 }
 
 void nh_observables_add_watches(nh_observables *t, const nh_analysis_file *a)

@@ -171,7 +171,7 @@ static void find_meaning(nh_analysis *r, const nh_points *points, nh_current *f)
 void nh_current_in_velocities(const nh_current_checker *b, nh_current *f)
 {
     nh_model *o = b->result->model;
-    bool invertible = b->invertible;
+    bool invertible = b->invertible && !o->framed; /* angular velocities are what one reads */
     nh_ex *v = nh_alloc_array(o->chart->implicit + 1, sizeof *v);
     for (size_t a = 0; a < o->chart->implicit; a++) v[a] = o->system->coordinate[o->chart->dependent[a]].v;
     f->has_in_velocities = invertible;

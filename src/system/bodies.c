@@ -21,6 +21,11 @@ nh_pose nh_screw_pose(nh_dag *d, const nh_screw *s)
     nh_ex along[3], path = s->turns ? nh_mul(d, s->pitch, s->s) : s->s;
     for (int i = 0; i < 3; i++) along[i] = nh_mul(d, path, s->axis[i]);
     if (!s->turns) return nh_pose_shift(d, along);
+    if (s->oriented) {
+        nh_pose turned = nh_pose_identity(d);
+        if (s->matrix) memcpy(turned.R, s->matrix, sizeof turned.R);
+        return turned;
+    }
     nh_pose a = nh_pose_turn(d, s->axis, s->s);
     memcpy(a.p, along, sizeof a.p);
     return a;
@@ -130,12 +135,13 @@ static void build_metric(nh_chain *c, nh_dag *d, nh_arena *arena, nh_ex moment[3
 /* ---- energies ---- */
 
 /* 1/2 S_kl s_k' s_l' */
-static nh_ex kinetic_energy(const nh_chain *c, nh_dag *d)
+static nh_ex kinetic_energy(const nh_chain *c, nh_dag *d, bool framed)
 {
     nh_ex sum = nh_int(d, 0);
     for (size_t k = 0; k < c->screws; k++)
         for (size_t l = k; l < c->screws; l++) {
-            nh_ex rates = nh_mul(d, c->screw[k].rate, c->screw[l].rate),
+            const nh_screw *a = &c->screw[k], *b = &c->screw[l];
+            nh_ex rates = framed ? nh_mul(d, a->framed, b->framed) : nh_mul(d, a->rate, b->rate),
                   term = nh_mul(d, c->metric[k * c->screws + l], rates);
             sum = nh_add(d, sum, k == l ? nh_mul(d, nh_ratio(d, 1, 2), term) : term);
         }
@@ -167,13 +173,15 @@ static void metric_of_coordinates(nh_chain *c, const nh_chain_scope *o)
 void nh_chain_build(nh_chain *c, const nh_chain_scope *o)
 {
     nh_ex moment[3];
-    for (size_t k = 0; k < c->screws; k++) c->screw[k].rate = rate_of(o, c->screw[k].s);
+    for (size_t k = 0; k < c->screws; k++)
+        if (!c->screw[k].oriented) c->screw[k].rate = c->screw[k].framed = rate_of(o, c->screw[k].s);
     c->m = o->m;
     c->metric = nh_arena_alloc(o->arena, (c->screws * c->screws + 1) * sizeof *c->metric);
     c->K = nh_arena_alloc(o->arena, (o->m * o->m + 1) * sizeof *c->K);
     build_poses(c, o->dag);
     build_metric(c, o->dag, o->arena, moment);
-    c->kinetic = kinetic_energy(c, o->dag);
+    c->kinetic = kinetic_energy(c, o->dag, false);
+    c->framed = kinetic_energy(c, o->dag, true);
     c->potential = nh_tidy(o->dag, nh_neg(o->dag, nh_dot(o->dag, c->gravity, moment)));
     metric_of_coordinates(c, o);
 }

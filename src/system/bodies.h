@@ -56,7 +56,12 @@ typedef struct {
     nh_ex pitch;      /* translation per radian */
     /* displacement, and its derivative with respect to t: a coordinate and its velocity, or expressions in them */
     nh_ex s, rate;
-    long coordinate;  /* index of the coordinate that s is; -1: s is an expression */
+    long coordinate;  /* index of the coordinate that s is; -1: s is an expression, or the turn an orientation's */
+    /* of an orientation (system/orientation.h): three screws about the body's axes, the first of which makes the whole
+     * turn */
+    bool oriented;
+    const nh_ex *matrix; /* NULL: it is the turn by s */
+    nh_ex framed;        /* its rate; of an orientation in the symbols of angular velocities */
     double low, high; /* its sampling interval, away from a pole of Euler's angles; both 0: the default */
 } nh_screw;
 
@@ -67,6 +72,7 @@ typedef struct {
     size_t child;
     nh_pose placement; /* of the joint's frame in the parent's frame */
     size_t screws, first; /* chain->screw[first .. first + screws - 1] */
+    long orientation;     /* of its three turns (an index), or -1 */
     const nh_deck_node *node;
 } nh_joint;
 
@@ -104,6 +110,7 @@ typedef struct {
     nh_ex gravity[3];
     nh_ex *metric;    /* screws x screws: S_kl */
     nh_ex kinetic, potential;
+    nh_ex framed;     /* the kinetic energy in the symbols of angular velocities */
     size_t m;
     nh_ex *K;         /* m x m: the metric in the coordinates' velocities, as far as the rates depend on these */
 } nh_chain;

@@ -178,7 +178,7 @@ static bool read_joint(reader *r, const nh_deck_node *item, size_t index)
     }
     long kind = nh_system_word(r, type, "a type of joint", NH_JOINT_KINDS, kind_names);
     if (kind < 0) return false;
-    *j = (nh_joint){.kind = (nh_joint_kind)kind, .node = item, .first = c->screws};
+    *j = (nh_joint){.kind = (nh_joint_kind)kind, .node = item, .first = c->screws, .orientation = -1};
     if (!fitting_keys(r, item, j->kind) || !carries(r, item, j, index)) return false;
     if (!nh_system_text_of(r, item, "name", c->body[j->child].name, &j->name) ||
         !nh_system_text_of(r, item, "doc", "", &j->doc))
@@ -289,7 +289,46 @@ static bool coordinate_of(reader *r, const nh_joint *j, size_t k, const nh_deck_
     return true;
 }
 
-static bool coordinates_of(reader *r, const nh_joint *j)
+/* An orientation instead of three angles: with `angles: none`, or where one name stands for all three. */
+static bool turns_by_orientation(reader *r, const nh_joint *j, const nh_deck_node *names, bool *out)
+{
+    const nh_deck_node *angles = nh_deck_get(j->node, "angles");
+    bool none = angles && angles->kind == NH_DECK_SCALAR && !strcmp(angles->text, "none"),
+         may = j->kind == NH_JOINT_SPHERICAL || j->kind == NH_JOINT_FREE;
+    *out = may && (none || (!angles && names && names->count == j->screws - 2));
+    if (!*out || !names || names->count == j->screws - 2) return true;
+    nh_deck_fail(r->deck, names, 0, r->error, "with `angles: none` a joint of type %s has %zu name%s, not %zu",
+                 kind_names[j->kind], j->screws - 2, j->screws == 3 ? "" : "s", names->count);
+    return nh_error_hint(r->error, "one name for the orientation: coordinates: [%s]",
+                         j->screws == 3 ? "R" : "x, y, z, R");
+}
+
+/* The coordinates of a joint whose last three screws are the turns of an orientation. */
+static bool oriented(reader *r, nh_joint *j, const nh_deck_node *names)
+{
+    nh_system *s = r->system;
+    size_t shifts = j->screws - 3;
+    nh_deck_node fallback = *j->node;
+    fallback.kind = NH_DECK_SCALAR;
+    for (size_t k = 0; k < j->screws; k++) s->chain->screw[j->first + k].coordinate = -1;
+    for (size_t k = 0; k < shifts; k++) {
+        fallback.text = names ? NULL : default_name(r, j, k);
+        if (!coordinate_of(r, j, k, names ? names->item[k] : &fallback)) return false;
+    }
+    fallback.text = shifts ? nh_arena_printf(s->arena, "%s_R", j->name) : j->name;
+    const nh_deck_node *name = names ? names->item[shifts] : &fallback;
+    if (!nh_deck_is(r->deck, name, NH_DECK_SCALAR, "a name", r->error)) return false;
+    nh_orientation *known = nh_orientation_named(s, name->text);
+    if (!known && !nh_orientation_declare(r, NULL, name, j->doc)) return false;
+    j->orientation = known ? known - s->orientation : (long)s->orientations - 1;
+    for (size_t i = 0; i < s->chain->joints; i++)
+        if (&s->chain->joint[i] != j && s->chain->joint[i].orientation == j->orientation)
+            return nh_deck_fail(r->deck, name, 0, r->error, "`%s` is already the orientation of another joint",
+                                name->text);
+    return true;
+}
+
+static bool coordinates_of(reader *r, nh_joint *j)
 {
     const nh_deck_node *names = nh_deck_get(j->node, "coordinates"), *values = nh_deck_get(j->node, "values");
     nh_chain *c = r->system->chain;
@@ -298,6 +337,9 @@ static bool coordinates_of(reader *r, const nh_joint *j)
     if (names && !nh_deck_is(r->deck, names, NH_DECK_LIST, "coordinates", r->error)) return false;
     if (values && !nh_deck_is(r->deck, values, NH_DECK_LIST, "values", r->error)) return false;
     const nh_deck_node *list = names ? names : values;
+    bool turns;
+    if (!values && !turns_by_orientation(r, j, names, &turns)) return false;
+    if (!values && turns) return oriented(r, j, names);
     if (list && list->count != j->screws)
         return nh_deck_fail(
             r->deck, list, 0, r->error, "a joint of type %s has %zu degree%s of freedom, but %zu %s given here",
@@ -314,7 +356,7 @@ static bool coordinates_of(reader *r, const nh_joint *j)
 
 bool nh_system_read_joint_coordinates(reader *r)
 {
-    const nh_chain *c = r->system->chain;
+    nh_chain *c = r->system->chain;
     for (size_t i = 0; c && i < c->joints; i++)
         if (!coordinates_of(r, &c->joint[i])) return false;
     return true;

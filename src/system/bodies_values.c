@@ -178,7 +178,8 @@ static bool euler_axes(reader *r, const nh_deck_node *item, int axis[3])
     nh_deck_fail(r->deck, node, 0, r->error, "`%s` are not three axes, each different from the one before", text);
     return nh_error_hint(
         r->error,
-        "for example zyx (the default; singular where the second angle is pi/2) or zxz (singular where it is 0)");
+        "for example zyx (the default; singular where the second angle is pi/2), zxz (singular where it is 0), or "
+        "none: an orientation, which is nowhere singular");
 }
 
 static bool axes_of_joint(reader *r, const nh_joint *j, nh_screw *s)
@@ -204,8 +205,10 @@ static bool axes_of_joint(reader *r, const nh_joint *j, nh_screw *s)
         return true;
     case NH_JOINT_SPHERICAL:
     case NH_JOINT_FREE: {
-        if (!euler_axes(r, j->node, axis)) return false;
+        if (j->orientation >= 0) axis[0] = 0, axis[2] = 2;
+        else if (!euler_axes(r, j->node, axis)) return false;
         for (size_t k = 0; k < j->screws; k++) unit_vector(d, k + 3 < j->screws ? (int)k : axis[k % 3], s[k].axis);
+        if (j->orientation >= 0) return true;
         bool same = axis[0] == axis[2];
         s[j->screws - 2].low = same ? 0.4 : -1.2; /* away from the pole */
         s[j->screws - 2].high = same ? 2.7 : 1.2;
@@ -246,6 +249,16 @@ static bool joint_values(reader *r, nh_joint *j)
     for (size_t k = 0; k < j->screws; k++) {
         screw[k].turns = nh_joint_turns(j, k);
         screw[k].pitch = pitch;
+        if (j->orientation >= 0 && k + 3 >= j->screws) {
+            const nh_orientation *o = &s->orientation[j->orientation];
+            size_t axis = k + 3 - j->screws;
+            screw[k].oriented = true;
+            screw[k].matrix = axis ? NULL : o->matrix;
+            screw[k].s = nh_int(s->dag, 0);
+            screw[k].rate = o->body[axis];
+            screw[k].framed = o->framed_body[axis];
+            continue;
+        }
         if (!values) s->coordinate[screw[k].coordinate].counted |= screw[k].turns && !nh_is_zero(s->dag, pitch);
         if (values && !value_of(r, values->item[k], &screw[k].s)) return false;
         if (!values) screw[k].s = s->coordinate[screw[k].coordinate].q;

@@ -111,7 +111,7 @@ nh_ex nh_chart_shown(const nh_chart *c, nh_ex e)
         if (shorter != e) shorter = nh_simplify_short(d, shorter, 0);
         if (nh_complexity(d, shorter) < nh_complexity(d, e)) e = shorter;
     }
-    return e;
+    return nh_orientation_shown(c->system, e);
 }
 
 nh_ex nh_chart_in_velocities(const nh_chart *c, nh_ex shown)
@@ -119,7 +119,7 @@ nh_ex nh_chart_in_velocities(const nh_chart *c, nh_ex shown)
     const nh_system *s = c->system;
     for (size_t k = 0; k < c->roots; k++)
         shown = nh_substitute(s->dag, shown, 1, &c->root_of[k].symbol, &s->coordinate[c->root_of[k].coordinate].v);
-    return shown;
+    return nh_orientation_unshown(s, shown);
 }
 
 nh_ex nh_chart_composed(const nh_chart *c, nh_ex shown, const nh_chart *other)

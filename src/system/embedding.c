@@ -331,6 +331,7 @@ static nh_chart *quasi_chart(nh_system *s, uint64_t seed, nh_error *error)
     c->quasi = true;
     memcpy(c->w, s->quasi_velocity, s->quasi * sizeof *c->w);
     memcpy(c->rho, s->quasi_map, s->coordinates * sizeof *c->rho);
+    c->framed = s->quasi_framed;
     nh_embedding_symbols(c);
     probes_of_quasi(c, seed);
     if (nh_embedding_ranks(s, seed, error) && chart_satisfies(c, error) && velocities_independent(c, error)) return c;
@@ -373,6 +374,22 @@ static void choose_rows(const nh_chart *c, const nh_ex *R, bool *used)
     for (size_t k = 0; k < m && found < c->n; k++) used[k] = true;
 }
 
+/* Where each velocity of the chart is a rate along the frame. */
+static bool inverse_along_frame(const nh_chart *c, nh_ex *out)
+{
+    const nh_system *s = c->system;
+    size_t found = 0;
+    for (size_t i = 0; i < c->n && c->framed; i++)
+        for (size_t a = 0; a < s->coordinates; a++) {
+            if (c->framed[a] != c->w[i]) continue;
+            const nh_orientation *o = nh_orientation_of(s, a);
+            out[i] = o ? o->rate[a - o->first] : s->coordinate[a].v;
+            found++;
+            break;
+        }
+    return c->n && found == c->n;
+}
+
 bool nh_chart_inverse(const nh_chart *c, nh_ex *out)
 {
     const nh_system *s = c->system;
@@ -382,6 +399,7 @@ bool nh_chart_inverse(const nh_chart *c, nh_ex *out)
         memcpy(out, c->w, n * sizeof *out);
         return true;
     }
+    if (inverse_along_frame(c, out)) return true;
     nh_ex *R = nh_alloc_array(m * n + n * n + n + 1, sizeof *R), *N = R + m * n, *b = N + n * n;
     nh_ex *zero = nh_alloc_array(n + 1, sizeof *zero);
     bool affine = true, *used = nh_alloc_array(m + 1, sizeof *used);

@@ -30,6 +30,7 @@ typedef struct {
     size_t n, implicit;
     nh_ex *w;                 /* n velocities of the chart */
     nh_ex *rho;               /* m: coordinate velocities as functions of (t, q, w, u) */
+    nh_ex *framed;            /* the same of the rates along the frame (system/orientation.h); NULL: there is none */
     /* k coordinate indices, coordinate charts only; those of implicit velocities, or of a root with two branches, come
        first */
     size_t *dependent;

@@ -156,21 +156,23 @@ static const nh_deck_node *root_body(reader *r, size_t *count)
 
 static bool base_type(reader *r, const nh_deck_node *base, const nh_deck_node *body, const char **out)
 {
-    static const char *const words[] = {"fixed", "planar", "floating"};
+    static const char *const words[] = {"fixed", "planar", "floating", "free"};
     bool rolls = r->wheels->count > 0 && strcmp(body->text, "world");
     *out = base ? base->text : rolls ? "planar" : "fixed";
     if (base && !nh_deck_is(r->deck, base, NH_DECK_SCALAR, "base", r->error)) return false;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         if (!strcmp(*out, words[i])) return true;
-    nh_deck_fail(r->deck, base, 0, r->error, "`%s` is not a kind of base; expected fixed, planar or floating", *out);
-    const char *near = nh_text_nearest(*out, words, 3);
+    nh_deck_fail(r->deck, base, 0, r->error, "`%s` is not a kind of base; expected fixed, planar, floating or free",
+                 *out);
+    const char *near = nh_text_nearest(*out, words, 4);
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
 }
 
 /* A joint `base` between the ground and the root; NULL where it is not needed. */
 static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node **out)
 {
-    static const char *const plane[] = {"x", "y", "heading"}, *const space[] = {"x", "y", "z", "yaw", "pitch", "roll"};
+    static const char *const plane[] = {"x", "y", "heading"}, *const space[] = {"x", "y", "z", "yaw", "pitch", "roll"},
+                            *const turned[] = {"x", "y", "z", "R"};
     size_t roots;
     const char *type;
     char height[height_size];
@@ -191,7 +193,9 @@ static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node *
         nh_deck_put(r->deck, joint, "at", at);
     }
     if (!strcmp(kind, "planar")) put_coordinates(r, joint, 3, plane, body);
-    if (!strcmp(kind, "free")) put_coordinates(r, joint, 6, space, body);
+    bool angles = !strcmp(type, "floating");
+    if (!strcmp(kind, "free")) put_coordinates(r, joint, angles ? 6 : 4, angles ? space : turned, body);
+    if (!strcmp(kind, "free") && !angles) nh_deck_put(r->deck, joint, "angles", nh_deck_word_at(r->deck, "none", body));
     *out = joint;
     return true;
 }

@@ -1,6 +1,7 @@
 /* robot: what a file with bodies leaves to be completed.
  *
- *     base: planar                  how the body without a joint is carried: fixed, planar or floating
+ *     base: planar                  the body without a joint is carried: fixed, planar, floating (angles),
+ *                                   free (an orientation)
  *     wheels: [left, {body: right, radius: 0.1}]
  *
  * The body that is the child of no joint gets a joint: of the type `base`; without it, where the bodies are those of a

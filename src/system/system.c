@@ -77,7 +77,8 @@ static const char *suggest(const scope *s, const char *name, nh_parse_fault *fau
 {
     const nh_system *y = s->system;
     size_t n = 0,
-           max = 2 + s->extras + y->definitions + y->parameters + 2 * y->coordinates + y->quasi + NH_FUNCTION_COUNT;
+           max = 2 + s->extras + y->definitions + y->parameters + 2 * y->coordinates + y->quasi + 12 * y->orientations +
+               NH_FUNCTION_COUNT;
     const char **list = nh_alloc_array(max, sizeof *list);
     for (size_t i = 0; i < s->extras; i++) list[n++] = s->extra[i].name;
     for (size_t i = 0; i < y->definitions; i++) list[n++] = y->definition[i].name;
@@ -86,6 +87,8 @@ static const char *suggest(const scope *s, const char *name, nh_parse_fault *fau
     for (size_t i = 0; i < y->coordinates && y->coordinate[i].v; i++)
         list[n++] = nh_name_of(y->dag, y->coordinate[i].v);
     for (size_t i = 0; i < y->quasi; i++) list[n++] = nh_name_of(y->dag, y->quasi_velocity[i]);
+    for (size_t i = 0; i < 12 * y->orientations; i++)
+        list[n++] = i % 12 < 9 ? y->orientation[i / 12].entry[i % 12] : y->orientation[i / 12].word[i % 12 - 9];
     list[n++] = "sqrt";
     for (int f = 0; f < NH_FUNCTION_COUNT; f++) list[n++] = nh_function_name((nh_function)f);
     snprintf(fault->what, sizeof fault->what, "unknown name `%s`", name);
@@ -128,7 +131,17 @@ static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault 
         *out = y->t;
         return true;
     }
-    if (in_named(s->extras, s->extra, name, out) || in_named(y->definitions, y->definition, name, out)) return true;
+    if (in_named(s->extras, s->extra, name, out)) return true;
+    const nh_named *definition = s->forbid & NH_FRAMED ? y->framed_definition : y->definition;
+    bool velocity;
+    for (size_t i = 0; i < y->quasi && y->orientations && !(s->forbid & NH_NO_QUASI); i++)
+        if (!strcmp(nh_name_of(y->dag, y->quasi_velocity[i]), name)) return *out = y->quasi_velocity[i], true;
+    if (nh_orientation_word(y, name, s->forbid & NH_FRAMED, &velocity, out)) {
+        if (!velocity || !(s->forbid & NH_NO_VELOCITIES)) return true;
+        snprintf(fault->what, sizeof fault->what, "the angular velocity `%s` cannot be used here", name);
+        return false;
+    }
+    if (in_named(y->definitions, definition, name, out)) return true;
     for (size_t i = 0; i < y->parameters; i++) {
         if (strcmp(y->parameter[i].name, name)) continue;
         *out = y->parameter[i].symbol;

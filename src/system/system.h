@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "graph/dag.h"
 #include "system/bodies.h"
+#include "system/orientation.h"
 #include "system/shape.h"
 
 typedef enum { NH_ANGLE, NH_LENGTH, NH_PLAIN } nh_coordinate_type;
@@ -32,6 +33,7 @@ typedef struct {
     bool position;   /* it was an equation between positions, level = 0: lhs and rhs are its time derivative */
     /* without `position`: a function of positions that is known to have the rate f, the height of a wheel; or 0 */
     nh_ex level;
+    nh_ex framed;    /* with orientations: lhs - rhs in the symbols of angular velocities (system/orientation.h) */
     const nh_deck_node *node;
 } nh_constraint;
 
@@ -117,6 +119,13 @@ typedef struct {
     size_t quasi;            /* number of quasi-velocities, 0 without a chart */
     nh_ex *quasi_velocity;   /* symbols */
     nh_ex *quasi_map;        /* velocity of each coordinate */
+    size_t orientations;     /* system/orientation.h */
+    nh_orientation *orientation;
+    /* with orientations: the Lagrangian in the symbols of angular velocities, the Lagrangian that it was made of, and
+     * the rates along the frame as functions of the quasi-velocities (NULL: not known) */
+    nh_ex framed, framed_of;
+    nh_ex *quasi_framed;
+    nh_named *framed_definition; /* the definitions in these symbols */
 } nh_system;
 
 /* Read a system file; `settings` override parameter values.  NULL on failure. */
@@ -173,5 +182,22 @@ bool nh_system_refuse_level(const nh_system *system, size_t level, bool proved, 
 
 /* The index of a coordinate by name, or -1. */
 long nh_system_coordinate(const nh_system *system, const char *name);
+
+/* ---- orientations (system_orientation.c) ---- */
+
+/* The orientation of this name, or of which this is a coordinate; or NULL. */
+nh_orientation *nh_orientation_named(const nh_system *system, const char *name);
+const nh_orientation *nh_orientation_of(const nh_system *system, size_t coordinate);
+/* A word that is an angular velocity or a matrix entry: `framed` gives the symbol of the angular velocity. */
+bool nh_orientation_word(const nh_system *system, const char *word, bool framed, bool *velocity, nh_ex *out);
+/* Velocities of orientations' coordinates, written in the angular velocities' symbols. */
+nh_ex nh_orientation_framed(const nh_system *system, nh_ex e);
+/* The symbols of the angular velocities, written in coordinates and their velocities. */
+nh_ex nh_orientation_written(const nh_system *system, nh_ex e);
+/* From rates along the frame (m: of other coordinates their velocities) to those of the coordinates (m). */
+void nh_orientation_map(const nh_system *system, const nh_ex *framed, nh_ex *out);
+/* For printed formulas: in the symbols of matrix entries; and back. */
+nh_ex nh_orientation_shown(const nh_system *system, nh_ex e);
+nh_ex nh_orientation_unshown(const nh_system *system, nh_ex e);
 
 #endif

@@ -6,7 +6,8 @@
 
 #include "system/system.h"
 
-enum { NH_NO_VELOCITIES = 1, NH_NO_QUASI = 2 };
+/* NH_FRAMED: angular velocities of orientations are symbols of their own. */
+enum { NH_NO_VELOCITIES = 1, NH_NO_QUASI = 2, NH_FRAMED = 4 };
 
 /* An expression (lhs NULL) or an equation, after the first `skip` bytes of the scalar `node`, with errors pointing into
    it. */
@@ -60,5 +61,14 @@ bool nh_system_read_joint_coordinates(nh_system_reader *r);
 bool nh_system_read_chain(nh_system_reader *r);
 size_t nh_system_most_wheel_constraints(const nh_system *system);
 void nh_system_add_wheel_constraints(nh_system_reader *r);
+
+/* Declares the orientation that the map `item` of the file describes (NULL: one with default names): its coordinates
+ * come next.  The caller has room for three coordinates. */
+bool nh_orientation_declare(nh_system_reader *r, const nh_deck_node *item, const nh_deck_node *name, const char *doc);
+/* After all velocities have symbols: matrices and angular velocities. */
+void nh_orientation_build_all(nh_system *system);
+/* Where the file chooses no velocities: those of the other coordinates and the angular velocities, without those that
+ * the constraints determine (frame_velocities.c). */
+bool nh_orientation_velocities(nh_system_reader *r);
 
 #endif

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "graph/diff.h"
 #include "system/dimension.h"
 #include "system/system_internal.h"
 
@@ -34,22 +35,59 @@ static long velocity_on_left(nh_system_reader *r, const nh_deck_node *node, cons
     return -1;
 }
 
+/* The same, or the angular velocity of an orientation, which then is framed. */
+static long rate_on_left(nh_system_reader *r, const nh_deck_node *node, const char *name, bool *framed)
+{
+    const nh_system *s = r->system;
+    for (size_t i = 0; i < 3 * s->orientations; i++) {
+        const nh_orientation *o = &s->orientation[i / 3];
+        if (!strcmp(name, o->word[i % 3])) return framed[o->first + i % 3] = true, (long)(o->first + i % 3);
+    }
+    return velocity_on_left(r, node, name);
+}
+
+/* Of each orientation the map gives the angular velocities, or the velocities of its coordinates. */
+static bool map_framed(nh_system_reader *r, const nh_deck_node *map, const bool *framed)
+{
+    nh_system *s = r->system;
+    bool all = true;
+    for (size_t i = 0; i < s->orientations; i++) {
+        const nh_orientation *o = &s->orientation[i];
+        const bool *f = framed + o->first;
+        if (f[0] != f[1] || f[0] != f[2])
+            return nh_deck_fail(r->deck, map, 0, r->error, "the velocities' map has to give %s, %s and %s", o->word[0],
+                                o->word[1], o->word[2]);
+        all &= f[0];
+    }
+    if (!all) {
+        bool any = false;
+        for (size_t i = 0; i < s->coordinates; i++) any |= framed[i];
+        return !any || nh_deck_fail(r->deck, map, 0, r->error,
+                                    "the velocities' map gives the angular velocities of some orientations, and "
+                                    "coordinates' velocities of others: give the same of all");
+    }
+    s->quasi_framed = nh_system_take(r, s->coordinates, sizeof *s->quasi_framed);
+    memcpy(s->quasi_framed, s->quasi_map, s->coordinates * sizeof *s->quasi_framed);
+    nh_orientation_map(s, s->quasi_framed, s->quasi_map);
+    return true;
+}
+
 bool nh_system_read_chart(nh_system_reader *r)
 {
     static const char *const keys[] = {"names", "map"};
     const nh_deck_node *chart = nh_deck_get(r->root, "velocities"), *map;
     nh_system *s = r->system;
     size_t n;
-    if (!chart) return true;
+    if (!chart) return !s->orientations || nh_orientation_velocities(r);
     if (!nh_deck_only(r->deck, chart, keys, 2, r->error) || !count_quasi(r, chart)) return false;
     if (!nh_system_list_of(r, chart, "map", &map, &n)) return false;
     s->quasi_map = nh_system_take(r, s->coordinates, sizeof *s->quasi_map);
-    bool *given = nh_system_take(r, s->coordinates, sizeof *given);
+    bool *given = nh_system_take(r, s->coordinates, sizeof *given), *framed = nh_system_take(r, s->coordinates, 1);
     for (size_t i = 0; i < n; i++) {
         const char *name;
         if (!nh_system_assignment_name(r, map->item[i], "a line `x' = ...` of the velocities' map", &name))
             return false;
-        long index = velocity_on_left(r, map->item[i], name);
+        long index = rate_on_left(r, map->item[i], name, framed);
         if (index < 0) return false;
         if (given[index]) return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` is given twice", name);
         given[index] = true;
@@ -64,7 +102,15 @@ bool nh_system_read_chart(nh_system_reader *r)
         if (!given[i])
             return nh_deck_fail(r->deck, map ? map : chart, 0, r->error,
                                 "the velocities' map does not say what `%s'` is", s->coordinate[i].name);
-    return true;
+    return !s->orientations || map_framed(r, map, framed);
+}
+
+/* A torque along an angular velocity w: its power is torque w = torque dw/dv^s v^s. */
+static void add_torque(nh_system *s, nh_ex w, nh_ex torque)
+{
+    for (size_t i = 0; i < s->coordinates; i++)
+        s->force[i] = nh_add(s->dag, s->force[i], nh_mul(s->dag, torque, nh_diff(s->dag, w, s->coordinate[i].v)));
+    s->has_forces = true;
 }
 
 bool nh_system_read_forces(nh_system_reader *r)
@@ -80,6 +126,13 @@ bool nh_system_read_forces(nh_system_reader *r)
         nh_ex value;
         if (!nh_system_assignment_name(r, list->item[i], "a force `coordinate = expression`", &name)) return false;
         long index = nh_system_coordinate(s, name);
+        bool turns;
+        nh_ex rate;
+        if (index < 0 && nh_orientation_word(s, name, false, &turns, &rate) && turns) {
+            if (!nh_system_read_right_side(r, list->item[i], NH_NO_QUASI, &value)) return false;
+            add_torque(s, rate, value);
+            continue;
+        }
         if (index < 0) {
             nh_deck_fail(r->deck, list->item[i], 0, r->error, "`%s` is not a coordinate", name);
             return nh_system_hint_coordinates(s, name, r->error);
@@ -111,7 +164,10 @@ size_t nh_system_state_names(const nh_system *s, const char **names)
         names[n++] = s->coordinate[i].name;
         names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
     }
-    for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
+    for (size_t i = 0; i < s->quasi; i++) {
+        const char *name = nh_name_of(s->dag, s->quasi_velocity[i]);
+        if (!s->orientations || !strchr(name, '\'')) names[n++] = name; /* beside angular velocities: listed already */
+    }
     return n;
 }
 

@@ -112,7 +112,7 @@ static bool read_parameters(reader *r)
 
 static bool read_type(reader *r, const nh_deck_node *node, nh_coordinate_type *out)
 {
-    static const char *const names[] = {"angle", "length", "number"};
+    static const char *const names[] = {"angle", "length", "number", "orientation"};
     static const nh_coordinate_type types[] = {NH_ANGLE, NH_LENGTH, NH_PLAIN};
     *out = NH_PLAIN;
     if (!node) return true;
@@ -122,8 +122,9 @@ static bool read_type(reader *r, const nh_deck_node *node, nh_coordinate_type *o
         *out = types[i];
         return true;
     }
-    nh_deck_fail(r->deck, node, 0, r->error, "unknown type `%s`; expected angle, length or number", node->text);
-    const char *near = nh_text_nearest(node->text, names, 3);
+    nh_deck_fail(r->deck, node, 0, r->error, "unknown type `%s`; expected angle, length, number or orientation",
+                 node->text);
+    const char *near = nh_text_nearest(node->text, names, 4);
     if (near) return nh_error_hint(r->error, "did you mean `%s`?", near);
     nh_unit_fault fault;
     return nh_is_unit(node->text, &fault)
@@ -135,6 +136,7 @@ static bool read_coordinates(reader *r)
 {
     enum { most_coordinates = 100 };
     static const char *const keys[] = {"name", "type", "doc", "unit"};
+    static const char *const orientation_keys[] = {"name", "type", "doc", "velocities", "frame"};
     const nh_deck_node *list = nh_deck_get(r->root, "coordinates");
     size_t n = list ? list->count : 0;
     nh_system *s = r->system;
@@ -150,23 +152,33 @@ static bool read_coordinates(reader *r)
         return nh_error_hint(
             r->error, "the program inverts matrices of this size symbolically: remove coordinates that do not move");
     }
-    s->coordinate = nh_system_take(r, n + (s->chain ? s->chain->screws : 0), sizeof *s->coordinate);
+    size_t most = 3 * n + (s->chain ? s->chain->screws : 0);
+    s->coordinate = nh_system_take(r, most, sizeof *s->coordinate);
+    s->orientation = nh_system_take(r, most, sizeof *s->orientation);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i], *name = item;
-        nh_coordinate *c = &s->coordinate[i];
+        nh_coordinate *c = &s->coordinate[s->coordinates];
         *c = (nh_coordinate){.unit = "", .doc = "", .type = NH_PLAIN};
         if (item->kind != NH_DECK_SCALAR) {
             if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a coordinate {name: ..., type: ...}", r->error)) return false;
-            if (!nh_deck_only(r->deck, item, keys, 4, r->error)) return false;
+            const nh_deck_node *type = nh_deck_get(item, "type");
+            bool turns = type && type->kind == NH_DECK_SCALAR && !strcmp(type->text, "orientation");
+            if (!nh_deck_only(r->deck, item, turns ? orientation_keys : keys, turns ? 5 : 4, r->error)) return false;
             name = nh_deck_get(item, "name");
             if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this coordinate has no `name`");
+            if (turns) {
+                const char *doc;
+                if (!nh_system_text_of(r, item, "doc", "", &doc) || !nh_orientation_declare(r, item, name, doc))
+                    return false;
+                continue;
+            }
             if (!read_type(r, nh_deck_get(item, "type"), &c->type)) return false;
             if (!nh_system_text_of(r, item, "doc", "", &c->doc) || !read_unit(r, item, &c->unit)) return false;
         }
         if (!nh_system_new_name(r, name)) return false;
         c->name = name->text;
         c->q = nh_symbol(s->dag, c->name);
-        s->coordinates = i + 1;
+        s->coordinates++;
     }
     if (!nh_system_read_joint_coordinates(r)) return false;
     if (s->coordinates == 0)
@@ -175,6 +187,7 @@ static bool read_coordinates(reader *r)
     /* after all coordinates: symbols are printed in the order of declaration */
     for (size_t i = 0; i < s->coordinates; i++)
         s->coordinate[i].v = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s'", s->coordinate[i].name));
+    nh_orientation_build_all(s);
     return true;
 }
 
@@ -224,6 +237,8 @@ static bool read_definitions(reader *r)
     const nh_named *fixed = s->definition;
     s->definition = nh_system_take(r, s->definitions + n, sizeof *s->definition);
     if (s->definitions) memcpy(s->definition, fixed, s->definitions * sizeof *fixed);
+    s->framed_definition = nh_system_take(r, s->definitions + n, sizeof *s->definition);
+    if (s->definitions) memcpy(s->framed_definition, fixed, s->definitions * sizeof *fixed);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *node = list->item[i];
         nh_named *d = &s->definition[s->definitions];
@@ -233,6 +248,10 @@ static bool read_definitions(reader *r)
         if (!nh_system_new_name(r, &name)) return false;
         if (!nh_system_read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
         d->text = node->text;
+        nh_named *framed = &s->framed_definition[s->definitions];
+        *framed = *d;
+        if (s->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value))
+            return false;
         s->definitions++;
     }
     return true;
@@ -242,7 +261,10 @@ static bool read_lagrangian(reader *r)
 {
     const nh_deck_node *node = nh_deck_get(r->root, "lagrangian");
     nh_system *s = r->system;
-    if (s->chain) s->lagrangian = nh_sub(s->dag, s->chain->kinetic, s->chain->potential);
+    if (s->chain) {
+        s->lagrangian = s->framed_of = nh_sub(s->dag, s->chain->kinetic, s->chain->potential);
+        s->framed = nh_sub(s->dag, s->chain->framed, s->chain->potential);
+    }
     if (!node && s->chain) return true;
     if (!node) {
         nh_deck_fail(r->deck, NULL, 0, r->error, "this system has no `lagrangian`");
@@ -251,7 +273,12 @@ static bool read_lagrangian(reader *r)
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the lagrangian", r->error)) return false;
     nh_ex written;
     if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, &written, r->error)) return false;
-    s->lagrangian = s->chain ? nh_add(s->dag, s->lagrangian, written) : written;
+    s->lagrangian = s->framed_of = s->chain ? nh_add(s->dag, s->lagrangian, written) : written;
+    if (!s->orientations) return true;
+    unsigned how = NH_NO_QUASI | NH_FRAMED;
+    if (!nh_system_read_expression(s, r->deck, node, 0, how, 0, NULL, NULL, &written, r->error)) return false;
+    written = nh_orientation_framed(s, written);
+    s->framed = s->chain ? nh_add(s->dag, s->framed, written) : written;
     return true;
 }
 
@@ -265,6 +292,17 @@ static void differentiate_position(nh_system *s, nh_constraint *c)
     c->rhs = nh_int(s->dag, 0);
     c->position = true;
     c->level = f;
+}
+
+/* The constraint in the symbols of angular velocities. */
+static bool read_framed(reader *r, const nh_deck_node *node, nh_constraint *c, bool moving)
+{
+    nh_system *s = r->system;
+    nh_ex lhs = c->lhs, rhs = c->rhs;
+    unsigned how = NH_NO_QUASI | NH_FRAMED;
+    if (moving && !nh_system_read_expression(s, r->deck, node, 0, how, 0, NULL, &lhs, &rhs, r->error)) return false;
+    c->framed = nh_orientation_framed(s, nh_sub(s->dag, lhs, rhs));
+    return true;
 }
 
 static bool read_constraints(reader *r)
@@ -294,6 +332,7 @@ static bool read_constraints(reader *r)
                                                                  : "this equation never holds: is a name missing?");
         }
         if (!moving) differentiate_position(s, c);
+        if (s->orientations && !read_framed(r, node, c, moving)) return false;
         s->constraints++;
     }
     return true;

@@ -8,13 +8,19 @@
 #include "graph/print.h"
 #include "system/bodies_tree.h"
 
+/* The velocity of a coordinate, or the symbol of an orientation's angular velocity. */
+static nh_ex velocity_of(const nh_system *s, size_t i)
+{
+    const nh_orientation *o = nh_orientation_of(s, i);
+    return o ? o->framed[i - o->first] : s->coordinate[i].v;
+}
 
 /* Coefficients of the velocities and what is left without them: m + 1, simplified where they are short. */
 static void coefficients(const nh_system *s, nh_ex e, nh_ex *row)
 {
     nh_ex rest = e;
     for (size_t i = 0; i < s->coordinates; i++) {
-        nh_ex v = s->coordinate[i].v, zero = nh_int(s->dag, 0);
+        nh_ex v = velocity_of(s, i), zero = nh_int(s->dag, 0);
         row[i] = nh_tidy(s->dag, nh_diff(s->dag, e, v));
         rest = nh_substitute(s->dag, rest, 1, &v, &zero);
     }
@@ -37,15 +43,25 @@ static void add_constraint(nh_system *s, const nh_wheel *w, const nh_ex *row, nh
 {
     nh_dag *d = s->dag;
     nh_ex sum = row[s->coordinates];
-    for (size_t i = 0; i < s->coordinates; i++) sum = nh_add(d, sum, nh_mul(d, row[i], s->coordinate[i].v));
-    char *text = nh_print_string(d, sum);
+    for (size_t i = 0; i < s->coordinates; i++) sum = nh_add(d, sum, nh_mul(d, row[i], velocity_of(s, i)));
+    char *text = nh_print_string(d, nh_orientation_shown(s, sum));
     s->constraint[s->constraints++] = (nh_constraint){
         .text = nh_arena_printf(s->arena, "%s = 0", text),
-        .lhs = sum,
+        .lhs = nh_orientation_written(s, sum),
         .rhs = nh_int(d, 0),
         .level = level,
+        .framed = sum,
         .node = w->node};
     nh_free(text);
+}
+
+static void exchange_rates(nh_chain *c)
+{
+    for (size_t k = 0; k < c->screws; k++) {
+        nh_ex rate = c->screw[k].rate;
+        c->screw[k].rate = c->screw[k].framed;
+        c->screw[k].framed = rate;
+    }
 }
 
 size_t nh_system_most_wheel_constraints(const nh_system *s) { return s->chain ? 3 * s->chain->wheels : 0; }
@@ -59,7 +75,9 @@ void nh_system_add_wheel_constraints(nh_system_reader *r)
     nh_ex *row = nh_alloc_array(3 * c->wheels * width, sizeof *row);
     for (size_t i = 0; i < c->wheels; i++) {
         nh_ex condition[3], level[3];
+        exchange_rates(s->chain);
         size_t n = nh_wheel_conditions(c, s->dag, &c->wheel[i], condition, level);
+        exchange_rates(s->chain);
         for (size_t k = 0; k < n; k++) {
             coefficients(s, condition[k], row + rows * width);
             if (!says_something(s, rows + 1, row)) continue;

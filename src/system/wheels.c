@@ -58,9 +58,9 @@ static void add_turns(const nh_chain *c, nh_dag *d, const nh_wheel *wheel, size_
         const nh_screw *s = &c->screw[j->first + k];
         nh_pose step = nh_screw_pose(d, s);
         nh_ex axis[3];
+        turned = nh_pose_product(d, &turned, &step); /* which leaves the screw's own axis alone */
         nh_rotate(d, turned.R, false, s->axis, axis);
         for (int i = 0; i < 3; i++) w[i] = nh_add(d, w[i], nh_mul(d, axis[i], s->rate));
-        turned = nh_pose_product(d, &turned, &step);
     }
 }
 
@@ -104,6 +104,15 @@ static void up_in_the_wheel(const station *s, const nh_wheel *w, nh_ex up[3])
     for (int i = 0; i < 3; i++) up[i] = nh_tidy(d, nh_div(d, nh_sub(d, s->n[i], nh_mul(d, lean, w->axis[i])), size));
 }
 
+/* Does an orientation carry the wheel?  Forward and sideways would then be directions of its frame, in which no
+ * component of the velocity has a coefficient without a zero. */
+static bool on_orientation(const nh_chain *c, const nh_wheel *w)
+{
+    for (long b = (long)w->body; b != NH_GROUND; b = c->joint[c->body[b].joint].parent)
+        if (c->joint[c->body[b].joint].orientation >= 0) return true;
+    return false;
+}
+
 size_t nh_wheel_conditions(const nh_chain *c, nh_dag *d, const nh_wheel *w, nh_ex out[3], nh_ex level[3])
 {
     bool rolls = w->kind == NH_WHEEL_ROLLING;
@@ -117,7 +126,7 @@ size_t nh_wheel_conditions(const nh_chain *c, nh_dag *d, const nh_wheel *w, nh_e
     up_in_the_wheel(&s, w, up);
     for (int i = 0; i < 3; i++) contact[i] = nh_sub(d, w->at[i], nh_mul(d, w->radius, up[i]));
     memcpy(direction, s.tangent, sizeof s.tangent);
-    if (!w->ball) {
+    if (!w->ball && !on_orientation(c, w)) {
         nh_cross(d, w->axis, s.n, direction[0]);
         nh_cross(d, s.n, direction[0], direction[1]);
     }
