@@ -185,12 +185,13 @@ static void accented(const writer *w, const char *text, size_t length, const cha
     if (accent) add(w, accent[1]);
 }
 
-/* A stem, with the digits at the end, or the part behind an underscore, as its index, which may have an index too; an
- * accent belongs to the stem. */
-static void name(const writer *w, const char *text, const char *const accent[2])
+/* A stem, with the digits at the end, or the part behind an underscore, as its index; an accent belongs to the stem.
+ * An index p_1 or phi_1 has an index too, but words such as left_joint stand together. */
+static void name(const writer *w, const char *text, bool index, const char *const accent[2])
 {
     size_t length = strlen(text), base = length ? strcspn(text + 1, "_") + 1 : 0, below;
-    if (base == length)
+    if (index && base < length && base > 1 && !nh_typeset_is_greek(text, base)) base = length;
+    if (base == length && !strchr(text, '_'))
         while (base > 1 && isdigit((unsigned char)text[base - 1])) base--;
     below = base + (base < length && text[base] == '_' && base + 1 < length);
     if (base == length || below == length || isdigit((unsigned char)text[0])) {
@@ -203,7 +204,7 @@ static void name(const writer *w, const char *text, const char *const accent[2])
     add(w, w->s->base[1]);
     add(w, w->s->below[1]);
     add(w, w->s->group[0]);
-    name(w, text + below, NULL);
+    name(w, text + below, true, NULL);
     add(w, w->s->group[1]);
     add(w, w->s->below[2]);
 }
@@ -211,7 +212,7 @@ static void name(const writer *w, const char *text, const char *const accent[2])
 static void dotted(const writer *w, const nh_formula_node *e)
 {
     if (!strcmp(e->text, "pi") && !e->primes) add(w, w->s->pi);
-    else name(w, e->text, e->primes == 0 ? NULL : e->primes == 2 ? w->s->ddot : w->s->dot);
+    else name(w, e->text, false, e->primes == 0 ? NULL : e->primes == 2 ? w->s->ddot : w->s->dot);
 }
 
 void nh_typeset_plain(const char *text, nh_text *out)

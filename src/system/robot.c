@@ -82,6 +82,15 @@ static bool known_body(reader *r, const nh_deck_node *word, const char *body)
                 : nh_error_hint(r->error, "a wheel is a body that a joint turns");
 }
 
+/* The body of a name, which may be the link's own in the robot description, as in l.wheel for l_wheel. */
+static const char *body_of(reader *r, const char *word)
+{
+    for (size_t i = 0; r->rims && i < r->rims->count; i++)
+        if (!strcmp(text_of(r->rims->item[i], "written"), word)) return r->rims->key[i]->text;
+    const char *converted = nh_urdf_name(r->deck->arena, word);
+    return entry(r->bodies, "name", word) || !entry(r->bodies, "name", converted) ? word : converted;
+}
+
 /* An entry that is only a name, or of a body with a circle; others stay as they are. */
 static bool read_wheel(reader *r, const nh_deck_node *item)
 {
@@ -90,8 +99,7 @@ static bool read_wheel(reader *r, const nh_deck_node *item)
     bool short_form = item->kind == NH_DECK_SCALAR ||
                       (word && word->kind == NH_DECK_SCALAR && r->rims && (!*type || !strcmp(type, "rolling")));
     if (!short_form) return nh_deck_append(r->deck, r->wheels, item), true;
-    const char *body = word->text, *converted = nh_urdf_name(r->deck->arena, word->text);
-    if (!entry(r->bodies, "name", body) && entry(r->bodies, "name", converted)) body = converted;
+    const char *body = body_of(r, word->text);
     nh_deck_node *wheel =
         item->kind == NH_DECK_MAP ? nh_deck_copy(r->deck, item, "body") : nh_deck_new_at(r->deck, NH_DECK_MAP, item);
     nh_deck_put(r->deck, wheel, "body", nh_deck_word_at(r->deck, body, word));
@@ -181,8 +189,9 @@ static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node *
     if (!base_type(r, base, body, &type)) return false;
     nh_deck_node *joint = nh_deck_new_at(r->deck, NH_DECK_MAP, body);
     const char *kind = !strcmp(type, "floating") ? "free" : type;
-    nh_deck_put(r->deck, joint, "name",
-                nh_deck_word_at(r->deck, entry(r->joints, "name", "base") ? "base_joint" : "base", body));
+    const char *name = "base";
+    while (entry(r->joints, "name", name)) name = nh_arena_printf(r->deck->arena, "%s_joint", name);
+    nh_deck_put(r->deck, joint, "name", nh_deck_word_at(r->deck, name, body));
     nh_deck_put(r->deck, joint, "type", nh_deck_word_at(r->deck, kind, body));
     nh_deck_put(r->deck, joint, "child", body);
     if (!strcmp(kind, "planar") && height_of(r, height)) {

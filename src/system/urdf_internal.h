@@ -10,17 +10,24 @@ typedef struct {
     double p[3], R[9]; /* a position and a rotation, row by row */
 } nh_urdf_pose;
 
+typedef struct nh_urdf_notes nh_urdf_notes; /* one kind of note */
+
 typedef struct {
     nh_deck *deck;
     nh_error *error;
-    nh_deck_node *notes; /* notes on parts that were left out or replaced */
+    nh_urdf_notes *notes; /* on parts that were left out or replaced */
 } nh_urdf_reader;
 
 bool nh_urdf_fail(nh_urdf_reader *u, size_t at, const char *format, ...) __attribute__((format(printf, 3, 4)));
-void nh_urdf_note(nh_urdf_reader *u, size_t at, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* Notes of one kind become one line: "FILE:LINE: KIND: ITEM (3), ITEM", with the line of the first item. */
+void nh_urdf_note(nh_urdf_reader *u, size_t at, const char *kind, const char *item, ...)
+    __attribute__((format(printf, 4, 5)));
+/* The lines, in the order in which their kinds came. */
+nh_deck_node *nh_urdf_notes_list(nh_urdf_reader *u);
 
-/* Refuse attributes and, unless `children` is NULL, child elements that are not among these words (blanks between
- * them); other elements are noted where they resemble none of them.  `ignored`: children without a meaning here. */
+/* Note attributes and child elements that are not among these words (blanks between them).  One that resembles a known
+ * word which is missing is refused as misspelt: its meaning would be lost.  `ignored`: children that have no meaning
+ * here, and no note. */
 bool nh_urdf_only(nh_urdf_reader *u, const nh_xml *element, const char *attributes, const char *children,
                   const char *ignored);
 
