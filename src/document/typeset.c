@@ -190,8 +190,9 @@ static void accented(const writer *w, const char *text, size_t length, const cha
 static void name(const writer *w, const char *text, bool index, const char *const accent[2])
 {
     size_t length = strlen(text), base = length ? strcspn(text + 1, "_") + 1 : 0, below;
-    if (index && base < length && base > 1 && !nh_typeset_is_greek(text, base)) base = length;
-    if (base == length && !strchr(text, '_'))
+    bool together = index && base < length && base > 1 && !nh_typeset_is_greek(text, base);
+    if (together) base = length;
+    if (base == length && !together)
         while (base > 1 && isdigit((unsigned char)text[base - 1])) base--;
     below = base + (base < length && text[base] == '_' && base + 1 < length);
     if (base == length || below == length || isdigit((unsigned char)text[0])) {

@@ -138,4 +138,8 @@ nh_inertia nh_body_inertia(nh_dag *dag, const nh_body *body);
 /* The conditions of a wheel, linear in the rates, as expressions that vanish: at most 3; returns how many. */
 size_t nh_wheel_conditions(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel, nh_ex out[3]);
 
+/* Of a rolling wheel: how high its lowest point is above its surface.  Does it turn about its own axle? */
+nh_ex nh_wheel_height(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel);
+bool nh_wheel_turns(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel);
+
 #endif

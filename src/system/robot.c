@@ -109,24 +109,17 @@ static bool read_wheel(reader *r, const nh_deck_node *item)
 
 /* ---- the joint that carries the root ---- */
 
-/* The height of the root's origin at which the wheels touch the plane z = 0: that of the first; others are compared
-   with it. */
+/* The height of the root's origin at which the first wheel touches the plane z = 0. */
 static bool height_of(reader *r, char out[height_size])
 {
-    const double close = 1e-6;
     double height = NAN;
-    for (size_t i = 0; i < r->wheels->count; i++) {
+    for (size_t i = 0; i < r->wheels->count && isnan(height); i++) {
         const nh_deck_node *rim = nh_deck_get(r->rims, text_of(r->wheels->item[i], "body"));
         double radius, centre;
         if (!nh_text_to_number(text_of(r->wheels->item[i], "radius"), &radius) ||
             !nh_text_to_number(text_of(rim, "height"), &centre))
             continue;
-        if (isnan(height)) height = radius - centre;
-        if (fabs(radius - centre - height) > close * (fabs(radius) + fabs(centre)))
-            note(r, r->wheels->item[i],
-                 nh_arena_printf(r->deck->arena,
-                                 "the wheel `%s` does not touch the plane where the first one does: it is %.3g off",
-                                 text_of(r->wheels->item[i], "body"), fabs(radius - centre - height)));
+        height = radius - centre;
     }
     snprintf(out, height_size, "%.12g", height);
     return !isnan(height) && strtod(out, NULL) != 0;
@@ -175,6 +168,32 @@ static bool base_type(reader *r, const nh_deck_node *base, const nh_deck_node *b
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
 }
 
+/* Links that could roll, and none is named. */
+static const char *idle_wheels(reader *r)
+{
+    const char *list = NULL;
+    for (size_t i = 0; r->rims && !r->wheels->count && i < r->rims->count; i++)
+        if (*text_of(r->rims->item[i], "like"))
+            list = list ? nh_arena_printf(r->deck->arena, "%s,%s", list, r->rims->key[i]->text) : r->rims->key[i]->text;
+    return list;
+}
+
+/* Who gives neither wheels nor a base may not have thought of them. */
+static void note_fixed(reader *r, const nh_deck_node *body)
+{
+    const char *idle = idle_wheels(r);
+    if (idle)
+        note(r, body,
+             nh_arena_printf(r->deck->arena,
+                             "`%s` is fixed to the ground, and links that look like wheels turn in the air: --wheel %s lets "
+                             "them roll",
+                             body->text, idle));
+    else if (strcmp(body->text, "world"))
+        note(r, body,
+             nh_arena_printf(r->deck->arena, "`%s` is fixed to the ground: --base floating or planar lets it move",
+                             body->text));
+}
+
 /* A joint `base` between the ground and the root; NULL where it is not needed. */
 static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node **out)
 {
@@ -187,6 +206,7 @@ static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node *
         return nh_deck_fail(r->deck, base, 0, r->error, "`base` has nothing to carry: every body has a joint");
     if (!body) return roots < 2;
     if (!base_type(r, base, body, &type)) return false;
+    if (!base && !strcmp(type, "fixed")) note_fixed(r, body);
     nh_deck_node *joint = nh_deck_new_at(r->deck, NH_DECK_MAP, body);
     const char *kind = !strcmp(type, "floating") ? "free" : type;
     const char *name = "base";

@@ -399,6 +399,23 @@ static const joint *carrier(const reader *r, const char *body)
     return NULL;
 }
 
+/* Is an axis of a body level, at zero displacements? */
+static bool lies(const double axis[3], const double R[9])
+{
+    const double level = 0.1;
+    double up = R[6] * axis[0] + R[7] * axis[1] + R[8] * axis[2];
+    return fabs(up) < level * sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+}
+
+static bool looks_like_wheel(const nh_deck_node *rim)
+{
+    static const char *const words[] = {"wheel", "Wheel", "WHEEL"};
+    const char *name = nh_deck_get(rim, "written")->text;
+    bool named = false;
+    for (int i = 0; i < 3; i++) named |= strstr(name, words[i]) != NULL;
+    return named || nh_deck_get(rim, "cylinder");
+}
+
 static bool put_rims(reader *r)
 {
     for (size_t i = 0; i < r->links; i++) {
@@ -408,7 +425,11 @@ static bool put_rims(reader *r)
         for (size_t steps = 0; at && steps <= r->count; steps++, at = carrier(r, at->parent))
             zero = nh_urdf_product(&at->origin, &zero);
         bool turns = mine && (mine->kind == REVOLUTE || mine->kind == CONTINUOUS);
-        if (!nh_urdf_rim(&r->u, r->link[i], own, turns ? mine->direction : NULL, &zero, r->rims)) return false;
+        nh_deck_node *rim = nh_urdf_rim(&r->u, r->link[i], turns ? mine->direction : NULL, &zero);
+        if (!rim) return false;
+        if (mine && mine->kind == CONTINUOUS && lies(mine->direction, zero.R) && looks_like_wheel(rim))
+            nh_deck_put(r->u.deck, rim, "like", nh_deck_word(r->u.deck, "wheel", r->link[i]->begin, r->link[i]->end));
+        nh_deck_put(r->u.deck, r->rims, own, rim);
     }
     return true;
 }

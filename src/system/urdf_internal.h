@@ -46,9 +46,8 @@ nh_urdf_pose nh_urdf_product(const nh_urdf_pose *a, const nh_urdf_pose *b);
 /* <inertial>: mass, centre, inertia and its axes into a body. */
 bool nh_urdf_inertial(nh_urdf_reader *u, const nh_xml *inertial, nh_deck_node *body, double *mass);
 
-/* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, into
-   `rims`. */
-bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const double *axis, const nh_urdf_pose *zero,
-                 nh_deck_node *rims);
+/* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, as an entry of
+ * NH_URDF_RIMS; `cylinder` stands in it where there is one about the axis. */
+nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *axis, const nh_urdf_pose *zero);
 
 #endif

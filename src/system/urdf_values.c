@@ -379,8 +379,7 @@ static const nh_xml *round_child(const nh_xml *link, const char *kind)
     return shape;
 }
 
-bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const double *axis, const nh_urdf_pose *zero,
-                 nh_deck_node *rims)
+nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *axis, const nh_urdf_pose *zero)
 {
     const nh_xml *shape = round_child(link, "collision"), *round;
     nh_deck_node *rim = nh_deck_new(u->deck, NH_DECK_MAP, link->begin, link->end);
@@ -391,17 +390,16 @@ bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const 
     if (!axis || !shape) {
         nh_deck_put(u->deck, rim, "why", nh_deck_word(u->deck, "it has no cylinder or sphere", link->begin, link->end));
         put_height(u, link, zero->p[2], rim);
-        nh_deck_put(u->deck, rims, name, rim);
-        return true;
+        return rim;
     }
     round = round_shape(shape);
     const nh_xml_attribute *a = nh_urdf_need(u, round, "radius");
     nh_deck_node *words = nh_deck_new(u->deck, NH_DECK_LIST, round->begin, round->end);
-    if (!a || !nh_urdf_numbers(u, a, 1, &radius, words) || !nh_urdf_origin(u, shape, NULL, NULL, &origin)) return false;
+    if (!a || !nh_urdf_numbers(u, a, 1, &radius, words) || !nh_urdf_origin(u, shape, NULL, NULL, &origin)) return NULL;
     if ((origin.p[0] != 0 || origin.p[1] != 0 || origin.p[2] != 0)) {
         const nh_xml_attribute *xyz = nh_xml_get(nh_xml_child(shape, "origin", NULL), "xyz");
         nh_deck_node *at = nh_deck_new(u->deck, NH_DECK_LIST, xyz->begin, xyz->end);
-        if (!nh_urdf_numbers(u, xyz, 3, origin.p, at)) return false;
+        if (!nh_urdf_numbers(u, xyz, 3, origin.p, at)) return NULL;
         nh_deck_put(u->deck, rim, "at", at);
     }
     double along = 0, size = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
@@ -411,8 +409,9 @@ bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const 
             u->deck, rim, "why",
             nh_deck_word(u->deck, "the axis of its cylinder is not that of its joint", round->begin, round->end));
     else nh_deck_put(u->deck, rim, "radius", words->item[0]);
+    if (nh_deck_get(rim, "radius") && strcmp(round->name, "sphere"))
+        nh_deck_put(u->deck, rim, round->name, nh_deck_word(u->deck, "yes", round->begin, round->end));
     nh_urdf_pose centre = nh_urdf_product(zero, &origin);
     put_height(u, round, centre.p[2], rim);
-    nh_deck_put(u->deck, rims, name, rim);
-    return true;
+    return rim;
 }

@@ -19,6 +19,7 @@ typedef struct {
     nh_twist twist;       /* relative to the surface; w with the turn */
     nh_ex n[3];           /* the surface's normal */
     nh_ex tangent[2][3];  /* the surface's own axes across it */
+    nh_ex place;          /* of the frame's origin along the normal, from the surface on */
 } station;
 
 static bool same(const nh_ex a[3], const nh_ex b[3]) { return !memcmp(a, b, 3 * sizeof *a); }
@@ -68,6 +69,7 @@ static station stand(const nh_chain *c, nh_dag *d, const nh_wheel *w, size_t ski
     nh_chain_frame(c, d, (long)w->body, skip, &s.pose, &s.twist);
     nh_chain_frame(c, d, w->on, 0, &ground, &surface);
     nh_pose relative = nh_pose_between(d, &ground, &s.pose);
+    s.place = relative.p[w->normal];
     surface = nh_twist_inwards(d, &relative, &surface);
     for (int i = 0; i < 3; i++) {
         s.twist.v[i] = nh_sub(d, s.twist.v[i], surface.v[i]);
@@ -99,6 +101,23 @@ static void up_in_the_wheel(const station *s, const nh_wheel *w, nh_ex up[3])
     for (int i = 0; i < 3; i++) up[i] = nh_tidy(d, nh_div(d, nh_sub(d, s->n[i], nh_mul(d, lean, w->axis[i])), size));
 }
 
+static void contact_of(const station *s, const nh_wheel *w, nh_ex contact[3])
+{
+    nh_ex up[3];
+    up_in_the_wheel(s, w, up);
+    for (int i = 0; i < 3; i++) contact[i] = nh_sub(s->dag, w->at[i], nh_mul(s->dag, w->radius, up[i]));
+}
+
+nh_ex nh_wheel_height(const nh_chain *c, nh_dag *d, const nh_wheel *w)
+{
+    nh_ex contact[3];
+    station s = stand(c, d, w, own_turns(c, d, w));
+    contact_of(&s, w, contact);
+    return nh_add(d, s.place, nh_dot(d, s.n, contact));
+}
+
+bool nh_wheel_turns(const nh_chain *c, nh_dag *d, const nh_wheel *w) { return own_turns(c, d, w) > 0; }
+
 size_t nh_wheel_conditions(const nh_chain *c, nh_dag *d, const nh_wheel *w, nh_ex out[3])
 {
     bool rolls = w->kind == NH_WHEEL_ROLLING;
@@ -107,9 +126,8 @@ size_t nh_wheel_conditions(const nh_chain *c, nh_dag *d, const nh_wheel *w, nh_e
         out[0] = slip(&s, w->at, w->axis);
         return 1;
     }
-    nh_ex up[3], contact[3], direction[3][3];
-    up_in_the_wheel(&s, w, up);
-    for (int i = 0; i < 3; i++) contact[i] = nh_sub(d, w->at[i], nh_mul(d, w->radius, up[i]));
+    nh_ex contact[3], direction[3][3];
+    contact_of(&s, w, contact);
     memcpy(direction, s.tangent, sizeof s.tangent);
     if (!w->ball) {
         nh_cross(d, w->axis, s.n, direction[0]);
