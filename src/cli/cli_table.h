@@ -27,7 +27,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
     X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export", "initial state")                                       \
-    X(opt_project,     "project",     no_argument,       "",                   "simulate benchmark reduce", "project the initial velocities onto the constraints")            \
+    X(opt_project,     "project",     no_argument,       "",                   "simulate benchmark reduce", "project the initial positions and velocities onto the constraints") \
     X(opt_initial_table, "initial-table", required_argument, "FILE",           "simulate", "a motion per row of a CSV file: initial states and parameters by name") \
     X(opt_method,      "method",      required_argument, "NAME",               "simulate benchmark", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
     X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing")                                                       \

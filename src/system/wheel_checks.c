@@ -21,10 +21,12 @@ static bool moves(const nh_system *s, nh_ex e)
     return any;
 }
 
-/* Wheels whose height above their surface is a number that is not 0. */
+/* Wheels whose height above their surface is a number that is not 0.  Without gravity heights may mean nothing. */
 static const char *lifted(const nh_system *s)
 {
     const nh_chain *c = s->chain;
+    if (nh_is_zero(s->dag, c->gravity[0]) && nh_is_zero(s->dag, c->gravity[1]) && nh_is_zero(s->dag, c->gravity[2]))
+        return NULL;
     nh_text list;
     const char *first = NULL;
     nh_text_init(&list);
@@ -38,8 +40,8 @@ static const char *lifted(const nh_system *s)
         add_name(&list, w, c);
         if (!first)
             first = nh_arena_printf(
-                s->arena, "%s is %.4g %s it: move its joint by %.4g along the normal, or add %.4g to the radius",
-                c->body[w->body].name, fabs(h), h > 0 ? "above" : "below", -h, h);
+                s->arena, "%s is %.4g %s it: move its joint by %.4g along the normal, or change its radius",
+                c->body[w->body].name, fabs(h), h > 0 ? "above" : "below", -h);
     }
     const char *out = NULL;
     if (list.length)
