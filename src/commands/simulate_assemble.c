@@ -7,7 +7,7 @@
 
 enum { most_shown = 6 };
 
-/* "b by 0.41, c by 1.2"; given: only of positions that were given, or only of the others. */
+/* "b by 0.41, c by 1.2 (although it was given)" */
 static void add_moves(const nh_simulation *s, const nh_state *now, const double *before, nh_text *out)
 {
     size_t shown = 0, more = 0;
@@ -48,8 +48,8 @@ const char *nh_simulate_violation(const nh_simulation *s, const nh_state *at, bo
     const char *words = a ? nh_assembly_violated(a, at->t, at->q, &value, &distance) : NULL, *out = NULL;
     if (words)
         out = nh_arena_printf(s->arena,
-                              "the initial position does not satisfy %s: the error is about %.2g; along the motion %s stays "
-                              "%.6g; %s",
+                              "the initial position does not satisfy %s: the error is about %.2g; along the motion %s "
+                              "stays %.6g; %s",
                               words, distance, strchr(words, '=') ? "left side minus right side" : "its height", value,
                               projected ? "--project found no position near it that does"
                                         : "--project moves it to the nearest position that does");

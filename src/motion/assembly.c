@@ -221,7 +221,8 @@ static double distance(const nh_assembly *a, const double *q)
 static void nearest(nh_assembly *a, double t, double *q)
 {
     size_t m = a->m, n = a->count;
-    double *next = nh_alloc_array(2 * m + n, sizeof *next), *step = next + m, *right = step + m, before = distance(a, q);
+    double *next = nh_alloc_array(2 * m + n, sizeof *next), *step = next + m, *right = step + m;
+    double before = distance(a, q);
     memcpy(next, q, m * sizeof *q);
     bool good = true;
     for (int i = 0; i < most_steps && good && values(a, t, next) < 1; i++) {

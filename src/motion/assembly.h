@@ -23,8 +23,8 @@ void nh_assembly_free(nh_assembly *assembly);
  * where it vanishes. e counts as zero relative to its terms, or to its change by a small part of each coordinate. */
 const char *nh_assembly_violated(nh_assembly *assembly, double t, const double *q, double *value, double *distance);
 
-/* Moves q to the nearest position that satisfies all equations; coordinates that are `held` (m flags; NULL: none) do not
- * move.  False where none was found; q is then as before. */
+/* Moves q to the nearest position that satisfies all equations; coordinates that are `held` (m flags; NULL: none) do
+ * not move.  False where none was found; q is then as before. */
 bool nh_assembly_move(nh_assembly *assembly, double t, const bool *held, double *q);
 
 #endif

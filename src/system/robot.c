@@ -185,8 +185,8 @@ static void note_fixed(reader *r, const nh_deck_node *body)
     if (idle)
         note(r, body,
              nh_arena_printf(r->deck->arena,
-                             "`%s` is fixed to the ground, and links that look like wheels turn in the air: --wheel %s lets "
-                             "them roll",
+                             "`%s` is fixed to the ground, and links that look like wheels turn in the air: "
+                             "--wheel %s lets them roll",
                              body->text, idle));
     else if (strcmp(body->text, "world"))
         note(r, body,

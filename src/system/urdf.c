@@ -30,8 +30,9 @@ typedef struct {
     size_t count, links;
     joint *joint;
     const nh_xml **link;
-    const char **written; /* names of the links in the file; the last one is that of a root that is named only as a parent, or NULL */
-    char **own;           /* as in system files */
+    /* names of the links in the file; the last one is that of a root that is named only as a parent, or NULL */
+    const char **written;
+    char **own; /* as in system files */
 } reader;
 
 static bool has_coordinate(const joint *j)
@@ -42,19 +43,12 @@ static bool has_coordinate(const joint *j)
 /* Has the joint several coordinates, with names NAME_x and the like? */
 static bool has_many(const joint *j) { return j->kind >= PLANAR; }
 
-/* Is the word NAME_x, or the like? */
-static bool is_part(const char *word, const char *name)
-{
-    size_t n = strlen(name);
-    return !strncmp(word, name, n) && word[n] == '_' && word[n + 1] && !word[n + 2];
-}
-
 /* Would a name, or those of several coordinates that begin with it, be one of the joint's? */
 static bool collides(const joint *j, const char *name, bool many)
 {
     if (!has_coordinate(j) && !has_many(j)) return false;
     if (many == has_many(j)) return !strcmp(j->name, name);
-    return many ? is_part(j->name, name) : is_part(name, j->name);
+    return many ? nh_urdf_is_part(j->name, name) : nh_urdf_is_part(name, j->name);
 }
 
 /* A name for a parameter, or for the coordinates of joint `own`, that no other coordinate has. */
@@ -62,9 +56,11 @@ static char *free_name(reader *r, char *name, size_t own)
 {
     bool many = own < r->count && has_many(&r->joint[own]);
     nh_arena *arena = r->u.deck->arena;
-    if (!many && (nh_is_reserved(name) || !strcmp(name, "g"))) return free_name(r, nh_arena_printf(arena, "%s_joint", name), own);
+    if (!many && (nh_is_reserved(name) || !strcmp(name, "g")))
+        return free_name(r, nh_arena_printf(arena, "%s_joint", name), own);
     for (size_t i = 0; i < r->count; i++)
-        if (i != own && collides(&r->joint[i], name, many)) return free_name(r, nh_arena_printf(arena, "%s_", name), own);
+        if (i != own && collides(&r->joint[i], name, many))
+            return free_name(r, nh_arena_printf(arena, "%s_", name), own);
     return name;
 }
 
@@ -179,7 +175,8 @@ static bool manners_of(reader *r, joint *j)
             nh_urdf_note(&r->u, dynamics->begin, "damping is left out of the joints", "%s", written_name(j));
     }
     if (mimic && (j->kind == FIXED || has_many(j)))
-        nh_urdf_note(&r->u, mimic->begin, "passed over", "<mimic> of a %s joint", nh_xml_get(j->element, "type")->value);
+        nh_urdf_note(&r->u, mimic->begin, nh_urdf_passed_over, "<mimic> of a %s joint",
+                     nh_xml_get(j->element, "type")->value);
     if (!mimic || j->kind == FIXED || has_many(j)) return true;
     const nh_xml_attribute *name =
         nh_urdf_only(&r->u, mimic, "joint multiplier offset", "", "") ? nh_urdf_need(&r->u, mimic, "joint") : NULL;
@@ -286,7 +283,8 @@ static bool put_damping(reader *r, const joint *j)
 
 /* ---- joints as entries ---- */
 
-/* "left-hip, revolute, from -1.57 to 1.57, effort 10": the name where it is another one in the system; limits are notes, not constraints. */
+/* "left-hip, revolute, from -1.57 to 1.57, effort 10": the name where it is another one in the system; limits are
+ * notes, not constraints. */
 static const char *doc_of(reader *r, const joint *j)
 {
     static const char *const keys[] = {"lower", "upper", "effort", "velocity"}, *const words[] = {", from ", " to ",
@@ -362,7 +360,8 @@ static void split_plane(reader *r, const joint *j, nh_deck_node *turn)
 
 static bool put_joint(reader *r, const joint *j)
 {
-    static const char *const types[KINDS] = {"fixed", "revolute", "revolute", "prismatic", "planar", "free", "spherical", "spherical"},
+    static const char *const types[KINDS] = {"fixed",  "revolute", "revolute",  "prismatic",
+                                             "planar", "free",     "spherical", "spherical"},
                              *const letters[] = {"x", "y", "z"};
     nh_deck *deck = r->u.deck;
     nh_deck_node *out = nh_deck_new(deck, NH_DECK_MAP, j->element->begin, j->element->end);
@@ -399,23 +398,6 @@ static const joint *carrier(const reader *r, const char *body)
     return NULL;
 }
 
-/* Is an axis of a body level, at zero displacements? */
-static bool lies(const double axis[3], const double R[9])
-{
-    const double level = 0.1;
-    double up = R[6] * axis[0] + R[7] * axis[1] + R[8] * axis[2];
-    return fabs(up) < level * sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
-}
-
-static bool looks_like_wheel(const nh_deck_node *rim)
-{
-    static const char *const words[] = {"wheel", "Wheel", "WHEEL"};
-    const char *name = nh_deck_get(rim, "written")->text;
-    bool named = false;
-    for (int i = 0; i < 3; i++) named |= strstr(name, words[i]) != NULL;
-    return named || nh_deck_get(rim, "cylinder");
-}
-
 static bool put_rims(reader *r)
 {
     for (size_t i = 0; i < r->links; i++) {
@@ -425,10 +407,9 @@ static bool put_rims(reader *r)
         for (size_t steps = 0; at && steps <= r->count; steps++, at = carrier(r, at->parent))
             zero = nh_urdf_product(&at->origin, &zero);
         bool turns = mine && (mine->kind == REVOLUTE || mine->kind == CONTINUOUS);
-        nh_deck_node *rim = nh_urdf_rim(&r->u, r->link[i], turns ? mine->direction : NULL, &zero);
+        nh_deck_node *rim = nh_urdf_rim(&r->u, r->link[i], turns ? mine->direction : NULL, &zero,
+                                        mine && mine->kind == CONTINUOUS);
         if (!rim) return false;
-        if (mine && mine->kind == CONTINUOUS && lies(mine->direction, zero.R) && looks_like_wheel(rim))
-            nh_deck_put(r->u.deck, rim, "like", nh_deck_word(r->u.deck, "wheel", r->link[i]->begin, r->link[i]->end));
         nh_deck_put(r->u.deck, r->rims, own, rim);
     }
     return true;
@@ -436,67 +417,16 @@ static bool put_rims(reader *r)
 
 /* ---- all of it ---- */
 
-static bool is_robot(reader *r)
-{
-    static const struct {
-        const char *name, *what;
-    } others[] = {{"sdf", "SDF, Gazebo's format"}, {"mujoco", "MJCF, MuJoCo's format"}, {"COLLADA", "a mesh"}};
-    if (!strcmp(r->robot->name, "robot")) return true;
-    nh_urdf_fail(&r->u, r->robot->begin, "a robot description begins with <robot>, not with <%s>", r->robot->name);
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (!strcmp(r->robot->name, others[i].name))
-            return nh_error_hint(r->u.error, "this is %s; only URDF is read", others[i].what);
-    return nh_error_hint(
-        r->u.error,
-        "files in XML are robot descriptions (URDF), other systems are YAML: `nhsym new skate` writes an example");
-}
-
-/* The link of <parent> or <child>, or "". */
-static const char *end_of(const nh_xml *element, const char *key)
-{
-    const nh_xml_attribute *a = nh_xml_get(nh_xml_child(element, key, NULL), "link");
-    return a ? a->value : "";
-}
-
-static bool is_among(const char *name, size_t count, const char *const *names)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!strcmp(name, names[i])) return true;
-    return false;
-}
-
-/* A link that is a parent alone and stands nowhere, as `world` often does, is a frame where everything else hangs on
- * it. Returns its name, or NULL; a name that resembles a link's is a misspelt one. */
-static const char *implicit_root(reader *r)
-{
-    const char *found = NULL;
-    const nh_xml *first = nh_xml_child(r->robot, "joint", NULL);
-    for (const nh_xml *e = first; e; e = nh_xml_child(r->robot, "joint", e)) {
-        const char *name = end_of(e, "parent");
-        if (!*name || is_among(name, r->links, r->written)) continue;
-        if (found && strcmp(found, name)) return NULL;
-        found = name;
-    }
-    for (const nh_xml *e = first; found && e; e = nh_xml_child(r->robot, "joint", e))
-        if (!strcmp(end_of(e, "child"), found)) return NULL;
-    for (size_t i = 0; found && i < r->links; i++) {
-        const nh_xml *e = first;
-        while (e && strcmp(end_of(e, "child"), r->written[i])) e = nh_xml_child(r->robot, "joint", e);
-        if (!e) return NULL;
-    }
-    return found && strcmp(found, "world") && nh_text_nearest(found, r->written, r->links) ? NULL : found;
-}
-
 /* The body of the root that has no element. */
 static void put_root(reader *r)
 {
     const nh_xml *at = nh_xml_child(r->robot, "joint", NULL);
-    while (strcmp(end_of(at, "parent"), r->written[r->links])) at = nh_xml_child(r->robot, "joint", at);
+    while (strcmp(nh_urdf_end(at, "parent"), r->written[r->links])) at = nh_xml_child(r->robot, "joint", at);
     nh_deck_node *body = nh_deck_new(r->u.deck, NH_DECK_MAP, at->begin, at->end);
     nh_deck_put(r->u.deck, body, "name", nh_deck_word(r->u.deck, r->own[r->links], at->begin, at->end));
     nh_deck_append(r->u.deck, r->bodies, body);
-    nh_urdf_note(&r->u, nh_xml_child(at, "parent", NULL)->begin, "a frame without mass stands for the link that is missing", "%s",
-                 r->written[r->links]);
+    nh_urdf_note(&r->u, nh_xml_child(at, "parent", NULL)->begin,
+                 "a frame without mass stands for the link that is missing", "%s", r->written[r->links]);
 }
 
 static bool collect(reader *r)
@@ -519,22 +449,10 @@ static bool collect(reader *r)
         if (link) r->link[n] = e, r->written[n++] = name->value;
         else r->joint[m].element = e, words[m++] = name->value;
     }
-    r->written[n] = implicit_root(r);
+    r->written[n] = nh_urdf_implicit_root(r->robot, r->links, r->written);
     nh_urdf_names(arena, n + (r->written[n] != NULL), r->written, r->own);
     nh_urdf_names(arena, m, words, names);
     for (size_t i = 0; i < m; i++) r->joint[i].name = names[i];
-    return true;
-}
-
-/* By their names in the file. */
-static bool distinct(reader *r)
-{
-    for (size_t i = 0; i < r->count; i++) {
-        const nh_xml_attribute *name = nh_xml_get(r->joint[i].element, "name");
-        for (size_t k = 0; k < i; k++)
-            if (!strcmp(name->value, nh_xml_get(r->joint[k].element, "name")->value))
-                return nh_urdf_fail(&r->u, name->begin, "there are two joints `%s`", name->value);
-    }
     return true;
 }
 
@@ -542,7 +460,9 @@ static bool read_robot(reader *r)
 {
     enum { most = 1000 };
     const char *ignored = "material transmission sensor ros2_control plugin mujoco";
-    if (!is_robot(r) || !nh_urdf_only(&r->u, r->robot, "name version", "link joint", ignored) || !collect(r)) return false;
+    if (!nh_urdf_is_robot(&r->u, r->robot) ||
+        !nh_urdf_only(&r->u, r->robot, "name version", "link joint", ignored) || !collect(r))
+        return false;
     if (!r->links) {
         nh_urdf_fail(&r->u, r->robot->begin, "this robot has no <link>");
         return nh_xml_get(r->robot, "xmlns:xacro")
@@ -553,7 +473,7 @@ static bool read_robot(reader *r)
         return nh_urdf_fail(&r->u, r->robot->begin, "this robot has more than %d links or joints", most);
     for (size_t i = 0; i < r->count; i++)
         if (!read_joint(r, r->joint[i].element, &r->joint[i])) return false;
-    if (!distinct(r)) return false;
+    if (!nh_urdf_distinct_joints(&r->u, r->robot)) return false;
     for (size_t i = 0; i < r->count; i++)
         if (has_coordinate(&r->joint[i]) || has_many(&r->joint[i])) r->joint[i].name = free_name(r, r->joint[i].name, i);
     for (size_t i = 0; i < r->links; i++)

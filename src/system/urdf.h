@@ -10,8 +10,9 @@
 #include "system/deck.h"
 
 /* A key of the root that no file has: {link: {written: .., radius: .., at: [..], height: ..} or {.., why: ..}}, the
- * circles of links that could be wheels; `written` is the link's name in the description, `like: wheel` stands where it looks like a wheel, `height` that of the centre
- * above the root link's origin at zero displacements, `why` the reason why there is none. */
+ * circles of links that could be wheels; `written` is the link's name in the description, `like: wheel` stands where it
+ * looks like a wheel, `height` that of the centre above the root link's origin at zero displacements, `why` the reason
+ * why there is none. */
 #define NH_URDF_RIMS " rims"
 
 /* The root of a deck that holds XML.  NULL with a message. */

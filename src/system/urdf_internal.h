@@ -25,6 +25,8 @@ void nh_urdf_note(nh_urdf_reader *u, size_t at, const char *kind, const char *it
 /* The lines, in the order in which their kinds came. */
 nh_deck_node *nh_urdf_notes_list(nh_urdf_reader *u);
 
+extern const char nh_urdf_passed_over[]; /* a kind of note */
+
 /* Note attributes and child elements that are not among these words (blanks between them).  One that resembles a known
  * word which is missing is refused as misspelt: its meaning would be lost.  `ignored`: children that have no meaning
  * here, and no note. */
@@ -47,7 +49,19 @@ nh_urdf_pose nh_urdf_product(const nh_urdf_pose *a, const nh_urdf_pose *b);
 bool nh_urdf_inertial(nh_urdf_reader *u, const nh_xml *inertial, nh_deck_node *body, double *mass);
 
 /* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, as an entry of
- * NH_URDF_RIMS; `cylinder` stands in it where there is one about the axis. */
-nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *axis, const nh_urdf_pose *zero);
+ * NH_URDF_RIMS.  Does the joint turn without end? */
+nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *axis, const nh_urdf_pose *zero,
+                          bool continuous);
+
+/* Is the word NAME_x, or the like? */
+bool nh_urdf_is_part(const char *word, const char *name);
+/* Is the root <robot>?  Are the names of all joints, which must be there, different? */
+bool nh_urdf_is_robot(nh_urdf_reader *u, const nh_xml *robot);
+bool nh_urdf_distinct_joints(nh_urdf_reader *u, const nh_xml *robot);
+/* The link that a joint's <parent> or <child> names, or "". */
+const char *nh_urdf_end(const nh_xml *element, const char *key);
+/* A link that is a parent alone and stands nowhere, as `world` often does, is a frame where everything else hangs on
+ * it. Returns its name, or NULL; a name that resembles a link's is a misspelt one. */
+const char *nh_urdf_implicit_root(const nh_xml *robot, size_t links, const char *const *written);
 
 #endif

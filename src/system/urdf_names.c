@@ -59,3 +59,9 @@ void nh_urdf_names(nh_arena *arena, size_t count, const char *const *written, ch
         own[i] = k == SIZE_MAX ? name : own[k];
     }
 }
+
+bool nh_urdf_is_part(const char *word, const char *name)
+{
+    size_t n = strlen(name);
+    return !strncmp(word, name, n) && word[n] == '_' && word[n + 1] && !word[n + 2];
+}

@@ -41,7 +41,7 @@ static bool among(const char *word, size_t count, const char *const *names)
     return false;
 }
 
-static const char passed_over[] = "passed over";
+const char nh_urdf_passed_over[] = "passed over";
 
 static bool only_attributes(nh_urdf_reader *u, const nh_xml *element, const char *list)
 {
@@ -56,7 +56,7 @@ static bool only_attributes(nh_urdf_reader *u, const nh_xml *element, const char
             nh_urdf_fail(u, a->at, "<%s> has no attribute `%s`", element->name, a->name);
             return nh_error_hint(u->error, "did you mean `%s`?", near);
         }
-        nh_urdf_note(u, a->at, passed_over, "<%s %s>", element->name, a->name);
+        nh_urdf_note(u, a->at, nh_urdf_passed_over, "<%s %s>", element->name, a->name);
     }
     return true;
 }
@@ -79,7 +79,7 @@ bool nh_urdf_only(nh_urdf_reader *u, const nh_xml *element, const char *attribut
             nh_urdf_fail(u, child->begin, "<%s> has no element <%s>", element->name, child->name);
             return nh_error_hint(u->error, "did you mean <%s>?", near);
         }
-        nh_urdf_note(u, child->begin, passed_over, "<%s>", child->name);
+        nh_urdf_note(u, child->begin, nh_urdf_passed_over, "<%s>", child->name);
     }
     return true;
 }
@@ -265,13 +265,13 @@ static bool check_inertia(nh_urdf_reader *u, const nh_xml *inertia, const double
     }
     if (!semidefinite(I, size, least))
         nh_urdf_note(u, inertia->begin,
-                     "no body has these inertias, as one principal moment is negative: check ixy, ixz, iyz of the links",
-                     "%s", link_name(inertia));
+                     "no body has these inertias, as one principal moment is negative: check ixy, ixz, iyz of the "
+                     "links", "%s", link_name(inertia));
     else if (!semidefinite(rest, size, least))
         nh_urdf_note(
             u, inertia->begin,
-            "no body has these inertias, as one principal moment is larger than the sum of the other two: check the links",
-            "%s", link_name(inertia));
+            "no body has these inertias, as one principal moment is larger than the sum of the other two: check the "
+            "links", "%s", link_name(inertia));
     return true;
 }
 
@@ -295,8 +295,8 @@ static bool lower_half(nh_urdf_reader *u, const nh_xml *inertia, const double I[
         double value = 0;
         if (a && !nh_urdf_numbers(u, a, 1, &value, NULL)) return false;
         if (value != 0 && value != I[entry[i].of])
-            nh_urdf_note(u, a->begin, "the matrix of inertia is symmetric, and its upper half is taken", "%s differs from %s",
-                         entry[i].name, entry[i].upper);
+            nh_urdf_note(u, a->begin, "the matrix of inertia is symmetric, and its upper half is taken",
+                         "%s differs from %s", entry[i].name, entry[i].upper);
     }
     return true;
 }
@@ -379,14 +379,35 @@ static const nh_xml *round_child(const nh_xml *link, const char *kind)
     return shape;
 }
 
-nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *axis, const nh_urdf_pose *zero)
+/* Is an axis of a body level, at zero displacements? */
+static bool lies(const double axis[3], const double R[9])
+{
+    const double level = 0.1;
+    double up = R[6] * axis[0] + R[7] * axis[1] + R[8] * axis[2];
+    return fabs(up) < level * sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+}
+
+static bool named_wheel(const char *name)
+{
+    static const char *const words[] = {"wheel", "Wheel", "WHEEL"};
+    bool named = false;
+    for (int i = 0; i < 3; i++) named |= strstr(name, words[i]) != NULL;
+    return named;
+}
+
+nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *axis, const nh_urdf_pose *zero,
+                          bool continuous)
 {
     const nh_xml *shape = round_child(link, "collision"), *round;
     nh_deck_node *rim = nh_deck_new(u->deck, NH_DECK_MAP, link->begin, link->end);
     nh_urdf_pose origin;
     double radius;
-    nh_deck_put(u->deck, rim, "written", nh_deck_word(u->deck, nh_xml_get(link, "name")->value, link->begin, link->end));
+    const char *written = nh_xml_get(link, "name")->value;
+    nh_deck_put(u->deck, rim, "written", nh_deck_word(u->deck, written, link->begin, link->end));
     if (!shape) shape = round_child(link, "visual");
+    bool cylinder = shape && !strcmp(round_shape(shape)->name, "cylinder");
+    if (continuous && lies(axis, zero->R) && (cylinder || named_wheel(written)))
+        nh_deck_put(u->deck, rim, "like", nh_deck_word(u->deck, "wheel", link->begin, link->end));
     if (!axis || !shape) {
         nh_deck_put(u->deck, rim, "why", nh_deck_word(u->deck, "it has no cylinder or sphere", link->begin, link->end));
         put_height(u, link, zero->p[2], rim);
@@ -409,8 +430,6 @@ nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *a
             u->deck, rim, "why",
             nh_deck_word(u->deck, "the axis of its cylinder is not that of its joint", round->begin, round->end));
     else nh_deck_put(u->deck, rim, "radius", words->item[0]);
-    if (nh_deck_get(rim, "radius") && strcmp(round->name, "sphere"))
-        nh_deck_put(u->deck, rim, round->name, nh_deck_word(u->deck, "yes", round->begin, round->end));
     nh_urdf_pose centre = nh_urdf_product(zero, &origin);
     put_height(u, round, centre.p[2], rim);
     return rim;
