@@ -15,8 +15,9 @@ static void add_moves(const nh_simulation *s, const nh_state *now, const double 
         double by = now->q[i] - before[i];
         if (!(fabs(by) > 1e-12 * (1 + fabs(before[i])))) continue;
         if (shown == most_shown) more++;
-        else nh_text_addf(out, "%s%s by %.4g%s", shown++ ? ", " : "", s->system->coordinate[i].name, by,
-                          now->placed && now->placed[i] ? " (although it was given)" : "");
+        else
+            nh_text_addf(out, "%s%s by %.4g%s", shown++ ? ", " : "", s->system->coordinate[i].name, by,
+                         now->placed && now->placed[i] ? " (although it was given)" : "");
     }
     if (more) nh_text_addf(out, " and %zu more", more);
 }

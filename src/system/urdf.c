@@ -16,9 +16,9 @@ typedef struct {
     char *name, *parent, *child; /* as in system files */
     const nh_deck_node *axis;    /* its words; NULL: x, the default */
     double direction[3];
-    const char *mimics;          /* the name that the file gives, or NULL */
+    const char *mimics; /* the name that the file gives, or NULL */
     const nh_xml *mimic;
-    double factor, offset;       /* its coordinate is factor times that of the joint that it follows, plus offset */
+    double factor, offset; /* its coordinate is factor times that of the joint that it follows, plus offset */
     double damping;
     nh_urdf_pose origin;
 } joint;
@@ -407,8 +407,8 @@ static bool put_rims(reader *r)
         for (size_t steps = 0; at && steps <= r->count; steps++, at = carrier(r, at->parent))
             zero = nh_urdf_product(&at->origin, &zero);
         bool turns = mine && (mine->kind == REVOLUTE || mine->kind == CONTINUOUS);
-        nh_deck_node *rim = nh_urdf_rim(&r->u, r->link[i], turns ? mine->direction : NULL, &zero,
-                                        mine && mine->kind == CONTINUOUS);
+        nh_deck_node *rim =
+            nh_urdf_rim(&r->u, r->link[i], turns ? mine->direction : NULL, &zero, mine && mine->kind == CONTINUOUS);
         if (!rim) return false;
         nh_deck_put(r->u.deck, r->rims, own, rim);
     }
@@ -460,8 +460,8 @@ static bool read_robot(reader *r)
 {
     enum { most = 1000 };
     const char *ignored = "material transmission sensor ros2_control plugin mujoco";
-    if (!nh_urdf_is_robot(&r->u, r->robot) ||
-        !nh_urdf_only(&r->u, r->robot, "name version", "link joint", ignored) || !collect(r))
+    if (!nh_urdf_is_robot(&r->u, r->robot) || !nh_urdf_only(&r->u, r->robot, "name version", "link joint", ignored) ||
+        !collect(r))
         return false;
     if (!r->links) {
         nh_urdf_fail(&r->u, r->robot->begin, "this robot has no <link>");
@@ -475,7 +475,8 @@ static bool read_robot(reader *r)
         if (!read_joint(r, r->joint[i].element, &r->joint[i])) return false;
     if (!nh_urdf_distinct_joints(&r->u, r->robot)) return false;
     for (size_t i = 0; i < r->count; i++)
-        if (has_coordinate(&r->joint[i]) || has_many(&r->joint[i])) r->joint[i].name = free_name(r, r->joint[i].name, i);
+        if (has_coordinate(&r->joint[i]) || has_many(&r->joint[i]))
+            r->joint[i].name = free_name(r, r->joint[i].name, i);
     for (size_t i = 0; i < r->links; i++)
         if (!read_link(r, i)) return false;
     if (r->written[r->links]) put_root(r);

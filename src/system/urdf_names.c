@@ -10,7 +10,7 @@
 static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/* Letters that are not Latin: Greek ones by their names, others by their numbers, as in u53F0. */
+/* Letters that are not Latin: Greek ones by their names, others by their numbers, which end before the next letter. */
 static size_t put_letter(nh_text *out, const char *at)
 {
     size_t length;
@@ -18,8 +18,10 @@ static size_t put_letter(nh_text *out, const char *at)
     const char *word = nh_name_of_letter(at, &length);
     if (word) return nh_text_add(out, word), length;
     length = nh_utf8_decode(at, strlen(at), &code);
-    nh_text_addf(out, "u%04X", (unsigned)code);
-    return length ? length : 1;
+    if (!length) return nh_text_add(out, "_"), 1;
+    nh_name_add_code(out, code);
+    if (at[length] && strchr("0123456789ABCDEF", at[length])) nh_text_add(out, "_");
+    return length;
 }
 
 char *nh_urdf_name(nh_arena *arena, const char *name)
@@ -54,7 +56,8 @@ void nh_urdf_names(nh_arena *arena, size_t count, const char *const *written, ch
         if (own[i]) continue;
         char *plain = nh_urdf_name(arena, written[i]), *name = plain;
         size_t k = i;
-        while (k-- > 0 && strcmp(written[k], written[i])) {} /* the same name twice is a fault that is found later */
+        while (k-- > 0 && strcmp(written[k], written[i])) {
+        } /* the same name twice is a fault that is found later */
         for (int n = 2; k == SIZE_MAX && taken(own, count, name); n++) name = nh_arena_printf(arena, "%s_%d", plain, n);
         own[i] = k == SIZE_MAX ? name : own[k];
     }

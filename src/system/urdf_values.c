@@ -266,12 +266,14 @@ static bool check_inertia(nh_urdf_reader *u, const nh_xml *inertia, const double
     if (!semidefinite(I, size, least))
         nh_urdf_note(u, inertia->begin,
                      "no body has these inertias, as one principal moment is negative: check ixy, ixz, iyz of the "
-                     "links", "%s", link_name(inertia));
+                     "links",
+                     "%s", link_name(inertia));
     else if (!semidefinite(rest, size, least))
         nh_urdf_note(
             u, inertia->begin,
             "no body has these inertias, as one principal moment is larger than the sum of the other two: check the "
-            "links", "%s", link_name(inertia));
+            "links",
+            "%s", link_name(inertia));
     return true;
 }
 

@@ -39,9 +39,9 @@ static const char *lifted(const nh_system *s)
         if (!(fabs(h) > rounding * fabs(r))) continue;
         add_name(&list, w, c);
         if (!first)
-            first = nh_arena_printf(
-                s->arena, "%s is %.4g %s it: move its joint by %.4g along the normal, or change its radius",
-                c->body[w->body].name, fabs(h), h > 0 ? "above" : "below", -h);
+            first = nh_arena_printf(s->arena,
+                                    "%s is %.4g %s it: move its joint by %.4g along the normal, or change its radius",
+                                    c->body[w->body].name, fabs(h), h > 0 ? "above" : "below", -h);
     }
     const char *out = NULL;
     if (list.length)
