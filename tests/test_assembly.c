@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "program.h"
+#include "sweep.h"
 
 static const char linkage[] = "parameters: {l1: 0.5, l2: 1.2, l3: 1, d: 1.1}\n"
                               "coordinates: [{name: a, type: angle}, {name: b, type: angle}, {name: c, type: angle}]\n"
