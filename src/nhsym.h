@@ -79,7 +79,7 @@ typedef struct {
     const char *watch;         /* observables of a simulation: "y, T = m/2*v^2" */
     const char *method;        /* of a simulation: an integrator that `nhsym explain methods` lists; NULL: the one that suits */
     const char *options;       /* of docs/options.md: "seed=3, samples=500" */
-    bool        project;       /* initial velocities that violate the constraints are moved onto them */
+    bool        project;       /* an initial state that violates the constraints is moved onto them */
 } nh_question;
 
 /* The systems that have a name, a line for each: name, blanks, title.  Free the string by nh_string_free. */

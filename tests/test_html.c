@@ -516,6 +516,30 @@ Test(html, upsilon_is_no_y)
 }
 
 /* Behind a factor a bar without its form is an infix operator, and only the other grows with what is between them. */
+/* Names of robots have several underscores, and characters by their numbers. */
+Test(html, words_of_names_stand_together)
+{
+    static const struct {
+        const char *name, *mathml, *latex, *legend;
+    } cases[] = {
+        {"wheel_left_joint", "<mrow><mi mathvariant=\"normal\">left_joint</mi></mrow></msub>", "\\mathrm{wheel}_{\\mathrm{left\\_joint}}", "wheel_left_joint"},
+        {"p_phi_1", "<mrow><msub><mrow><mi>\u03c6</mi></mrow><mrow><mn>1</mn></mrow></msub></mrow>", "p_{\\varphi _{1}}", "p_phi_1"},
+        {"x_2", "<msub><mrow><mi>x</mi></mrow><mrow><mn>2</mn></mrow></msub>", "x_{2}", "x\u2082"},
+        {"uni80A9", "<mi mathvariant=\"normal\">\u80a9</mi>", "\\mathrm{uni80A9}", "\u80a9"},
+        {"uni8098", "<mi mathvariant=\"normal\">\u8098</mi>", "\\mathrm{uni8098}", "\u8098"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_text mathml, latex, legend;
+        nh_text_init(&mathml), nh_text_init(&latex), nh_text_init(&legend);
+        cr_assert(nh_typeset(cases[i].name, NH_MATHML, &mathml) && nh_typeset(cases[i].name, NH_LATEX, &latex), "%s", cases[i].name);
+        nh_typeset_plain(cases[i].name, &legend);
+        cr_expect(strstr(nh_text_string(&mathml), cases[i].mathml), "%s: %s", cases[i].name, nh_text_string(&mathml));
+        cr_expect_str_eq(nh_text_string(&latex), cases[i].latex, "%s: %s", cases[i].name, nh_text_string(&latex));
+        cr_expect_str_eq(nh_text_string(&legend), cases[i].legend, "%s: %s", cases[i].name, nh_text_string(&legend));
+        nh_text_clear(&mathml), nh_text_clear(&latex), nh_text_clear(&legend);
+    }
+}
+
 Test(html, both_bars_have_one_size)
 {
     nh_text mathml;

@@ -238,6 +238,12 @@ Test(simulate, tables_of_initial_states_and_parameters)
         {"x, \"w\"\n2,1\n# a comment\n\n1+1,3\n", "", "member,w,t,x,x_dot,E\n0,1,0,2,0,2\n0,1,1,", "", 0},
         {"x\n2\n1\n", "--method relaxation-8", "member,t,x,x_dot,E\n0,0,2,0,8\n", "", 0},
         {"x\n3\n", "--json -", "{\n\t\"schema\":\t1,\n\t\"version\":\t", "", 0},
+        {"x;w\r\n1,5;1\r\n-2e0;2\r\n", "", "member,w,t,x,x_dot,E\n0,1,0,1.5,0,1.125\n", "", 0}, /* as spreadsheets write it where the comma is the decimal point */
+        {"\xef\xbb\xbfx\tx_dot\n0,5\t\n2\t1\n", "", "member,t,x,x_dot,E\n0,0,0.5,0,0.5\n", "", 0},
+        {",x,x_dot\n0,1.5,0\n1,2,1\n", "", "member,t,x,x_dot,E\n0,0,1.5,0,4.5\n", "", 0}, /* pandas numbers the rows */
+        {"\"\";\"x\"\n\"a;b\";\"1,5\"\n", "", "member,t,x,x_dot,E\n0,0,1.5,0,4.5\n", "", 0},
+        {"x;w\n1,234;1.5\n", "", "", "starts.csv:2: decimals stand behind a comma in `1,234` and behind a point in `1.5` of line 2", 3},
+        {"x;w\n2;1\n1\n", "", "", "starts.csv:3: this line has 1 fields, but the line of names has 2", 3},
         {"xx\n2\n", "", "", "starts.csv: the column `xx` is not a coordinate, velocity or parameter of spring\nhint: did you mean `x`?", 3},
         {"x,w\n2,1\n1\n", "", "", "starts.csv:3: this line has 1 fields, but the line of names has 2", 3},
         {"x,w\n2,one\n", "", "", "starts.csv:2: `w` needs a number, found `one`", 3},

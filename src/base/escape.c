@@ -20,6 +20,16 @@ size_t nh_utf8_decode(const char *text, size_t left, uint32_t *code)
     return *code < least[length] || surrogate || *code > 0x10FFFF ? 0 : length;
 }
 
+void nh_utf8_add(nh_text *out, uint32_t code)
+{
+    static const unsigned char lead[] = {0, 0, 0xC0, 0xE0, 0xF0};
+    size_t length = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+    char bytes[4];
+    for (size_t i = length; i-- > 1; code >>= 6) bytes[i] = (char)(0x80 | (code & 0x3F));
+    bytes[0] = (char)(lead[length] | code);
+    nh_text_add_n(out, bytes, length);
+}
+
 bool nh_is_invisible(uint32_t code)
 {
     if (code < 0x20) return code != '\t' && code != '\n' && code != '\r';

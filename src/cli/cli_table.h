@@ -28,7 +28,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
     X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export", "initial state")                                       \
     X(opt_at, "at", required_argument, "\"x'=4, lean=0\"", "linearize", "the state; all else is 0 or follows") \
-    X(opt_project, "project", no_argument, "", "simulate benchmark reduce linearize", "project the initial velocities onto the constraints") \
+    X(opt_project, "project", no_argument, "", "simulate benchmark reduce linearize", "project the initial positions and velocities onto the constraints") \
     X(opt_initial_table, "initial-table", required_argument, "FILE",           "simulate", "a motion per row of a CSV file: initial states and parameters by name") \
     X(opt_method,      "method",      required_argument, "NAME",               "simulate benchmark", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
     X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing")                                                       \

@@ -244,42 +244,6 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     return true;
 }
 
-/* The distance of the initial position from a constraint between positions, |f|/|df/dq|: the equations of motion
- * contain only its time derivative, which keeps f constant. f counts as zero relative to its terms, or to its change by
- * a small part of each coordinate. */
-static const char *words_violation(const nh_simulation *s, const nh_state *at)
-{
-    static const double small = 1e-6;
-    const nh_model *o = s->model;
-    size_t m = o->m;
-    nh_ex *e = nh_arena_alloc(s->arena, (m + 2) * sizeof *e), *in = nh_arena_alloc(s->arena, (m + 1) * sizeof *in);
-    double *value = nh_arena_alloc(s->arena, (m + 2) * sizeof *value),
-           *z = nh_arena_alloc(s->arena, (m + 1) * sizeof *z);
-    in[0] = o->system->t;
-    z[0] = at->t;
-    for (size_t i = 0; i < m; i++) in[1 + i] = o->system->coordinate[i].q, z[1 + i] = at->q[i];
-    for (size_t a = 0; a < o->system->constraints; a++) {
-        const nh_constraint *c = &o->system->constraint[a];
-        double slope = 0, size = 0;
-        if (!c->position) continue;
-        e[0] = c->level, e[m + 1] = nh_terms_moduli(o->dag, c->level);
-        for (size_t i = 0; i < m; i++) e[1 + i] = nh_diff(o->dag, c->level, in[1 + i]);
-        nh_tape *tape =
-            nh_tape_create(o->dag, m + 1, in, m + 2, e, o->system->parameters, o->parameter, o->parameter_value);
-        nh_tape_work *work = nh_tape_work_create(tape);
-        nh_tape_eval(tape, work, z, value);
-        nh_tape_work_free(work);
-        nh_tape_free(tape);
-        for (size_t i = 0; i < m; i++) slope = hypot(slope, value[1 + i]), size += fabs(value[1 + i] * at->q[i]);
-        if (fabs(value[0]) > small * (size + value[m + 1]))
-            return nh_arena_printf(s->arena,
-                                   "the initial position does not satisfy %s: the error is about %.2g; along the "
-                                   "motion left side minus right side stays %.6g",
-                                   c->text, fabs(value[0]) / slope, value[0]);
-    }
-    return NULL;
-}
-
 static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
@@ -290,7 +254,7 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
     s->arena = arena;
     s->table = q->table;
     if (nh_simulate_read(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
-    if (times) s->violation = words_violation(s, &initial);
+    if (times) s->violation = nh_simulate_violation(s, &initial, q->project);
     if (times && choose_columns(s, q, error) && nh_simulate_events(s, q, error) &&
         integrate(s, q, &initial, count, times, error))
         return s;

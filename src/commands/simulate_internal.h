@@ -23,4 +23,12 @@ bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *request, cons
 bool nh_simulate_row_start(nh_simulation *s, const nh_simulate_row *row, nh_dynamics *dynamics, double time,
                            bool project, double *z, nh_error *error);
 
+/* Moves a position to the nearest one that satisfies the constraints between positions and lets wheels touch their
+ * surface; positions that are given (initial->placed) move only where the others cannot do it alone.  Sets
+ * s->assembled. */
+void nh_simulate_assemble(nh_simulation *s, nh_state *initial);
+/* The constraint between positions that the initial position violates, and by how much, in the simulation's memory;
+ * NULL: none. */
+const char *nh_simulate_violation(const nh_simulation *s, const nh_state *initial, bool projected);
+
 #endif

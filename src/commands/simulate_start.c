@@ -116,13 +116,21 @@ static bool choose_initial(nh_simulation *s, nh_state *initial)
     *initial = (nh_state){.q = nh_arena_alloc(s->arena, o->m * sizeof(double)),
                           .v = nh_arena_alloc(s->arena, o->m * sizeof(double))};
     memcpy(z, o->chart->probe, o->width * sizeof *z);
-    if (!depends_on_time(o)) z[0] = 0;
+    double t = depends_on_time(o) ? z[0] : 0;
+    z[0] = t;
     if (!round_point(o, z) || !velocities_at(o, z, initial->v)) {
         memcpy(z, o->chart->probe, o->width * sizeof *z);
+        z[0] = t;
         velocities_at(o, z, initial->v);
     }
     initial->t = z[0];
     memcpy(initial->q, z + 1, o->m * sizeof(double));
+    nh_simulate_assemble(s, initial);
+    if (s->assembled) { /* the probe satisfies the constraints between velocities alone */
+        s->assembled = NULL;
+        memcpy(z + 1, initial->q, o->m * sizeof(double));
+        if (!nh_chart_complete(o->chart, z) || !velocities_at(o, z, initial->v)) return false;
+    }
     s->begin = words_of_point(s, z);
     return true;
 }
@@ -145,9 +153,13 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, nh_state *
     if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
     if (!(s->system = nh_system_read(q->system_path, count + q->settings, setting, error))) return false;
     bool good = resolve(s, q, &own, error);
-    const nh_analysis_file *first = own ? own : s->analysis;
-    if (good && first && first->has_initial && needs_other_chart(s, &first->initial))
+    nh_analysis_file *first = own ? own : s->analysis;
+    if (good && q->project && first && first->has_initial) nh_simulate_assemble(s, &first->initial);
+    if (good && first && first->has_initial && needs_other_chart(s, &first->initial)) {
         good = resolve_again(s, q, &own, error);
+        first = own ? own : s->analysis;
+        if (good && q->project) nh_simulate_assemble(s, &first->initial);
+    }
     if (!good) {
         nh_analysis_file_free(own);
         return false;

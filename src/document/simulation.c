@@ -308,6 +308,7 @@ static void put_motion(const nh_simulation *s, nh_json *root)
     nh_json_put_number(stats, "seconds", s->motion->seconds);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < s->system->notes; i++) nh_json_add_text(warnings, s->system->note[i]);
+    if (s->assembled) nh_json_add_text(warnings, s->assembled);
     if (s->violation) nh_json_add_text(warnings, s->violation);
     if (s->motion->note[0]) nh_json_add_text(warnings, s->motion->note);
 }

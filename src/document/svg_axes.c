@@ -132,12 +132,12 @@ static void subscript(const nh_svg_canvas *c, const char *text, size_t length)
     nh_text_clear(&name);
 }
 
-/* In E_T the T becomes an index. */
+/* In E_T the T becomes an index, in wheel_left_joint left_joint. */
 void nh_svg_label(const nh_svg_canvas *c, double x, double y, const char *anchor, const char *class, const char *text)
 {
-    static const char alphanumeric[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+    static const char of_names[] = "_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
     const char *bar = strchr(text, '_');
-    size_t index = bar && bar > text ? strspn(bar + 1, alphanumeric) : 0;
+    size_t index = bar && bar > text ? strspn(bar + 1, of_names) : 0;
     nh_text_addf(c->out,
                  "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" font-size=\"12\" fill=\"#808080\" "
                  "font-family=\"sans-serif\">",

@@ -1,7 +1,9 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "document/typeset_internal.h"
+#include "graph/parse.h"
 
 static const nh_typeset_script scripts[] = {
     [NH_MATHML] = {{"<mrow>", "</mrow>"},
@@ -156,6 +158,24 @@ bool nh_typeset_is_greek(const char *text, size_t length)
     return greek_letter(text, length) < sizeof greek / sizeof *greek;
 }
 
+/* The name with the characters whose numbers are in it. */
+static void put_characters(const char *text, size_t length, nh_text *out)
+{
+    uint32_t code;
+    for (size_t i = 0, n; i < length; i += n ? n : 1) {
+        n = nh_name_code(text + i, &code);
+        if (n && i + n <= length) nh_utf8_add(out, code);
+        else nh_text_add_n(out, text + i, 1), n = 1;
+    }
+}
+
+static bool has_code(const char *text)
+{
+    uint32_t code;
+    while (*text && !nh_name_code(text, &code)) text++;
+    return *text;
+}
+
 /* A letter, or a word set upright.  Names consist of letters, digits and _ only. */
 static void word(const writer *w, const char *text, size_t length)
 {
@@ -169,8 +189,9 @@ static void word(const writer *w, const char *text, size_t length)
     bool digits = length && isdigit((unsigned char)text[0]);
     const char *const *around = digits ? w->s->number : length == 1 ? w->s->italic : w->s->upright;
     add(w, around[0]);
-    for (size_t i = 0; i < length; i++) {
-        if (text[i] == '_' && w->form == NH_LATEX) add(w, "\\_");
+    if (w->form == NH_MATHML) put_characters(text, length, w->out);
+    for (size_t i = 0; i < length && w->form == NH_LATEX; i++) {
+        if (text[i] == '_') add(w, "\\_");
         else nh_text_add_n(w->out, text + i, 1);
     }
     add(w, around[1]);
@@ -185,12 +206,14 @@ static void accented(const writer *w, const char *text, size_t length, const cha
     if (accent) add(w, accent[1]);
 }
 
-/* A stem, with the digits at the end, or the part behind an underscore, as its index, which may have an index too; an
- * accent belongs to the stem. */
-static void name(const writer *w, const char *text, const char *const accent[2])
+/* A stem, with the digits at the end, or the part behind an underscore, as its index; an accent belongs to the stem.
+ * An index p_1 or phi_1 has an index too, but words such as left_joint stand together. */
+static void name(const writer *w, const char *text, bool index, const char *const accent[2])
 {
     size_t length = strlen(text), base = length ? strcspn(text + 1, "_") + 1 : 0, below;
-    if (base == length)
+    bool together = index && base < length && base > 1 && !nh_typeset_is_greek(text, base);
+    if (together) base = length;
+    if (base == length && !together && !has_code(text))
         while (base > 1 && isdigit((unsigned char)text[base - 1])) base--;
     below = base + (base < length && text[base] == '_' && base + 1 < length);
     if (base == length || below == length || isdigit((unsigned char)text[0])) {
@@ -203,7 +226,7 @@ static void name(const writer *w, const char *text, const char *const accent[2])
     add(w, w->s->base[1]);
     add(w, w->s->below[1]);
     add(w, w->s->group[0]);
-    name(w, text + below, NULL);
+    name(w, text + below, true, NULL);
     add(w, w->s->group[1]);
     add(w, w->s->below[2]);
 }
@@ -211,10 +234,10 @@ static void name(const writer *w, const char *text, const char *const accent[2])
 static void dotted(const writer *w, const nh_formula_node *e)
 {
     if (!strcmp(e->text, "pi") && !e->primes) add(w, w->s->pi);
-    else name(w, e->text, e->primes == 0 ? NULL : e->primes == 2 ? w->s->ddot : w->s->dot);
+    else name(w, e->text, false, e->primes == 0 ? NULL : e->primes == 2 ? w->s->ddot : w->s->dot);
 }
 
-void nh_typeset_plain(const char *text, nh_text *out)
+static void plain(const char *text, nh_text *out)
 {
     size_t length = strcspn(text, "'_0123456789, =.(");
     if (nh_typeset_is_greek(text, length)) {
@@ -234,6 +257,15 @@ void nh_typeset_plain(const char *text, nh_text *out)
     for (; *text; text++)
         if (*text == '\'') nh_text_add(out, "\u2032");
         else nh_text_add_n(out, text, 1);
+}
+
+void nh_typeset_plain(const char *text, nh_text *out)
+{
+    nh_text characters;
+    nh_text_init(&characters);
+    put_characters(text, strlen(text), &characters);
+    plain(nh_text_string(&characters), out);
+    nh_text_clear(&characters);
 }
 
 /* 1.5e-7 as 1.5 times a power of ten. */

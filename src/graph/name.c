@@ -1,7 +1,9 @@
 /* name: names of the language, and the name that is suggested for a text that is no name. */
 #include <ctype.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "base/text.h"
 #include "graph/parse.h"
 
@@ -60,4 +62,19 @@ bool nh_name_hint(nh_error *error, const char *text)
     else nh_error_hint(error, "%s", rule);
     nh_text_clear(&name);
     return false;
+}
+
+static const char before_code[] = "uni";
+
+void nh_name_add_code(nh_text *out, uint32_t code) { nh_text_addf(out, "%s%04X", before_code, (unsigned)code); }
+
+size_t nh_name_code(const char *at, uint32_t *code)
+{
+    enum { least = 4, most = 6 };
+    size_t head = strlen(before_code);
+    if (strncmp(at, before_code, head) != 0) return 0;
+    size_t digits = strspn(at + head, "0123456789ABCDEF");
+    *code = digits >= least && digits <= most ? (uint32_t)strtoul(at + head, NULL, 16) : 0;
+    bool surrogate = *code >= 0xD800 && *code <= 0xDFFF;
+    return *code < 0x80 || *code > 0x10FFFF || surrogate || nh_is_invisible(*code) ? 0 : head + digits;
 }

@@ -9,7 +9,10 @@
 #ifndef NH_PARSE_H
 #define NH_PARSE_H
 
+#include <stdint.h>
+
 #include "base/error.h"
+#include "base/text.h"
 #include "graph/dag.h"
 
 typedef struct {
@@ -29,6 +32,10 @@ bool nh_parse(nh_dag *dag, const char *text, nh_resolve *resolve, void *context,
 bool nh_parse_equation(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *lhs, nh_ex *rhs,
                        nh_parse_fault *fault);
 
+/* A character that names cannot have stands in them by its number, as uni53F0 (so fonts name it): writes it, and reads
+ * it: the length of such a word at `at`, or 0. */
+void nh_name_add_code(nh_text *out, uint32_t code);
+size_t nh_name_code(const char *at, uint32_t *code);
 /* Is the text a name of the language: a letter or _, then letters, digits and _? */
 bool nh_is_name(const char *text);
 /* The ASCII text for the Greek letter or subscript digit at this place ("phi", "1"), and its length in bytes there;

@@ -265,6 +265,7 @@ static void simulation_notes(const nh_answer *a, bool verbose, bool printed, nh_
 {
     const nh_simulation *s = a->part[0];
     if (s && printed) put_notes(a->request, s, verbose, out);
+    if (s && s->assembled) nh_text_addf(out, "nhsym: %s\n", s->assembled);
     if (s && s->violation) nh_text_addf(out, "warning: %s\n", s->violation);
 }
 

@@ -10,6 +10,7 @@ typedef struct {
     double t;
     double *q, *v; /* m entries each */
     bool *given;   /* of each velocity: was it given?  The constraints determine the others.  NULL: all were given */
+    bool *placed;  /* of each position: was it given?  NULL: none was */
 } nh_state;
 
 /* Equations of motion on the constraint submanifold: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot

@@ -382,6 +382,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     for (size_t i = 0; i < 3 * s->orientations; i++) turning_exact[i] = nh_int(s->dag, 0);
     bool any_quasi = false, any_velocity = false, *turns = nh_analysis_file_take(r, s->orientations, sizeof *turns);
     state->given = nh_analysis_file_take(r, s->coordinates, sizeof *state->given);
+    state->placed = nh_analysis_file_take(r, s->coordinates, sizeof *state->placed);
     for (size_t i = 0; i < map->count; i++) {
         const char *name = map->key[i]->text;
         double value;
@@ -397,6 +398,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
                 r->a->written[velocity * m + j] = true;
             }
             if (velocity) state->given[j] = true;
+            else if (known) state->placed[j] = true;
             any_velocity |= velocity;
         }
         for (size_t j = 0; j < 3 * s->orientations && !known; j++)
@@ -430,8 +432,8 @@ static bool read_validate(reader *r)
     const nh_deck_node *map = nh_deck_get(r->root, "validate"), *node;
     nh_analysis_file *a = r->a;
     size_t m = r->model->m;
-    a->initial =
-        (nh_state){0, nh_analysis_file_take(r, m, sizeof(double)), nh_analysis_file_take(r, m, sizeof(double)), NULL};
+    a->initial = (nh_state){.q = nh_analysis_file_take(r, m, sizeof(double)),
+                            .v = nh_analysis_file_take(r, m, sizeof(double))};
     if (!map) return true;
     if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "validate", r->error) || !nh_deck_only(a->deck, map, keys, 3, r->error))
         return false;

@@ -1,6 +1,7 @@
-/* table: reads comma-separated values: a line of names, then rows with as many fields. */
+/* table: reads separated values: a line of names, then rows with as many fields. */
 #include "problem/table.h"
 
+#include <stdint.h>
 #include <string.h>
 
 #include "base/files.h"
@@ -8,66 +9,115 @@
 
 enum { most_bytes = 1 << 28 };
 
-/* The field at *at, without blanks and quotes around it; *at moves behind the comma, or to the end. */
-static const char *next_field(nh_arena *arena, const char **at, bool *more)
+/* The field at *at, without blanks and quotes around it; *at moves behind the separator, or to the end. */
+static const char *next_field(nh_arena *arena, const char **at, char separator, bool *more)
 {
-    const char *c = *at + strspn(*at, " \t");
+    const char *blanks = separator == '\t' ? " " : " \t", *c = *at + strspn(*at, blanks);
     bool quoted = *c == '"';
     size_t n = 0;
     char *out = nh_arena_alloc(arena, strlen(c) + 1);
     if (quoted) c++;
-    while (*c && (quoted ? *c != '"' || c[1] == '"' : *c != ',')) {
+    while (*c && (quoted ? *c != '"' || c[1] == '"' : *c != separator)) {
         if (quoted && *c == '"') c++;
         out[n++] = *c++;
     }
-    if (quoted) c += strcspn(c, ",");
-    while (!quoted && n && (out[n - 1] == ' ' || out[n - 1] == '\t')) n--;
+    while (quoted && *c && *c != separator) c++;
+    while (!quoted && n && strchr(blanks, out[n - 1])) n--;
     out[n] = 0;
-    *more = *c == ',';
+    *more = *c == separator;
     *at = c + *more;
     return out;
 }
 
-static size_t fields_of(const char *line)
+static size_t fields_of(const char *line, char separator)
 {
     size_t n = 1;
     bool quoted = false;
     for (; *line; line++) {
         if (*line == '"') quoted = !quoted;
-        n += *line == ',' && !quoted;
+        n += *line == separator && !quoted;
     }
     return n;
 }
 
-static void read_fields(nh_arena *arena, const char *line, const char **out)
+/* What separates the names of a line: semicolons, otherwise commas, otherwise tabs. */
+static char separator_of(const char *line)
 {
-    bool more = true;
-    for (size_t i = 0; more; i++) out[i] = next_field(arena, &line, &more);
+    return fields_of(line, ';') > 1 ? ';' : fields_of(line, ',') == 1 && fields_of(line, '\t') > 1 ? '\t' : ',';
 }
 
-static bool read_line(nh_arena *arena, nh_table *t, const char *line, size_t number, nh_error *error)
+static void read_fields(nh_arena *arena, const char *line, const nh_table *t, char separator, const char **out)
 {
-    size_t fields = fields_of(line);
-    if (!t->columns) {
-        t->columns = fields;
-        t->name = nh_arena_alloc(arena, fields * sizeof *t->name);
-        read_fields(arena, line, t->name);
-        return true;
+    bool more = true;
+    size_t skipped = t->index;
+    for (size_t i = 0; more; i++) {
+        const char *field = next_field(arena, &line, separator, &more);
+        if (i >= skipped) out[i - skipped] = field;
     }
-    if (fields != t->columns)
+}
+
+/* The line of names.  The first column is left out where it has no name: tables of pandas begin with the numbers of
+ * their rows. */
+static void read_names(nh_arena *arena, nh_table *t, const char *line, char separator)
+{
+    size_t fields = fields_of(line, separator);
+    t->name = nh_arena_alloc(arena, fields * sizeof *t->name);
+    read_fields(arena, line, t, separator, t->name);
+    t->index = fields > 1 && (!*t->name[0] || !strcmp(t->name[0], "Unnamed: 0"));
+    t->columns = fields - t->index;
+    t->name += t->index;
+}
+
+static bool read_line(nh_arena *arena, nh_table *t, const char *line, char separator, size_t number, nh_error *error)
+{
+    size_t fields = fields_of(line, separator);
+    if (fields != t->columns + t->index)
         return nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, number),
-                       "this line has %zu fields, but the line of names has %zu", fields, t->columns);
+                       "this line has %zu fields, but the line of names has %zu", fields, t->columns + t->index);
     t->line[t->rows] = number;
-    read_fields(arena, line, t->cell + t->rows++ * t->columns);
+    read_fields(arena, line, t, separator, t->cell + t->rows++ * t->columns);
+    return true;
+}
+
+/* Has a number the comma of decimals, 0,5 or -1,2e3? */
+static bool has_comma(const char *cell)
+{
+    size_t sign = strspn(cell, "+-"), whole = strspn(cell + sign, "0123456789");
+    const char *comma = cell + sign + whole;
+    return sign < 2 && whole && *comma == ',' && comma[strspn(comma + 1, "0123456789eE+-") + 1] == 0 && comma[1];
+}
+
+/* Between semicolons or tabs, 0,5 is a number unless another one of the file has a point: then 1,234 may be a
+ * thousand. */
+static bool read_commas(nh_arena *arena, nh_table *t, nh_error *error)
+{
+    size_t point = SIZE_MAX, comma = SIZE_MAX, cells = t->rows * t->columns;
+    double value;
+    for (size_t i = 0; i < cells; i++) {
+        if (has_comma(t->cell[i])) comma = comma == SIZE_MAX ? i : comma;
+        else if (strchr(t->cell[i], '.') && nh_text_to_number(t->cell[i], &value)) point = i;
+    }
+    if (comma < SIZE_MAX && point < SIZE_MAX) {
+        nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, t->line[comma / t->columns]),
+                "decimals stand behind a comma in `%s` and behind a point in `%s` of line %zu", t->cell[comma],
+                t->cell[point], t->line[point / t->columns]);
+        return nh_error_hint(error, "write all numbers with a point, without marks between thousands");
+    }
+    for (size_t i = 0; i < cells && comma < SIZE_MAX; i++) {
+        if (!has_comma(t->cell[i])) continue;
+        char *cell = nh_arena_strdup(arena, t->cell[i]);
+        *strchr(cell, ',') = '.';
+        t->cell[i] = cell;
+    }
     return true;
 }
 
 /* Cuts the text at the ends of its lines. */
 static bool read_lines(nh_arena *arena, nh_table *t, char *text, nh_error *error)
 {
-    size_t lines = 1, number = 0;
-    for (const char *c = text; *c; c++) lines += *c == '\n';
-    size_t fields = fields_of(text);
+    size_t lines = 1, number = 0, fields = 0;
+    char separator = 0;
+    for (const char *c = text; *c; c++) lines += *c == '\n', fields += *c == ',' || *c == ';' || *c == '\t';
     t->line = nh_arena_alloc(arena, lines * sizeof *t->line);
     t->cell = nh_arena_alloc(arena, (fields + lines) * sizeof *t->cell);
     for (char *rest = text, *line; (line = strsep(&rest, "\n"));) {
@@ -76,9 +126,10 @@ static bool read_lines(nh_arena *arena, nh_table *t, char *text, nh_error *error
         if (!line[strspn(line, " \t")] || *line == '#') continue;
         if (t->columns && (t->rows + 1) * t->columns > fields + lines)
             return nh_fail(error, NH_INPUT, t->path, "the lines have different numbers of fields");
-        if (!read_line(arena, t, line, number, error)) return false;
+        if (!separator) read_names(arena, t, line, separator = separator_of(line));
+        else if (!read_line(arena, t, line, separator, number, error)) return false;
     }
-    return true;
+    return separator == ',' || read_commas(arena, t, error);
 }
 
 nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error)

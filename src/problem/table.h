@@ -1,4 +1,5 @@
-/* table: files of comma-separated values with a line of names: initial states, and inputs over time. */
+/* table: files of values with a line of names: initial states, and inputs over time.  Semicolons, commas or tabs
+ * separate them, as in the line of names; numbers between semicolons or tabs may have a decimal comma. */
 #ifndef NH_TABLE_H
 #define NH_TABLE_H
 
@@ -8,6 +9,7 @@
 typedef struct {
     const char *path;
     size_t columns, rows;
+    size_t index;        /* 1: a first column without a name, the numbers of rows, is left out; otherwise 0 */
     const char **name;   /* columns */
     const char **cell;   /* rows x columns, row by row: text, which may be empty */
     size_t *line;        /* rows: in the file, from 1 */

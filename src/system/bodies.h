@@ -146,4 +146,8 @@ nh_inertia nh_body_inertia(nh_dag *dag, const nh_body *body);
  * the function whose rate condition k is (the height of the point of contact), or 0. */
 size_t nh_wheel_conditions(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel, nh_ex out[3], nh_ex level[3]);
 
+/* Of a rolling wheel: how high its lowest point is above its surface.  Does it turn about its own axle? */
+nh_ex nh_wheel_height(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel);
+bool nh_wheel_turns(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel);
+
 #endif

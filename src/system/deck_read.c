@@ -339,6 +339,8 @@ nh_deck *nh_deck_parse(const char *name, const char *text, size_t length, nh_err
     if (!check_bytes(name, text, length, error))
         return NULL;
     nh_deck *deck = nh_deck_create(name, text, length);
+    if (nh_xml_looks(deck)) /* its end is a tag: strings of C ending with NUL were written */
+        while (deck->length && !deck->source[deck->length - 1]) deck->length--;
     if (nh_deck_check_text(deck, error) &&
         (nh_xml_looks(deck) ? (deck->root = nh_urdf_read(deck, error)) != NULL : build(deck, error)))
         return deck;

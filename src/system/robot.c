@@ -82,6 +82,15 @@ static bool known_body(reader *r, const nh_deck_node *word, const char *body)
                 : nh_error_hint(r->error, "a wheel is a body that a joint turns");
 }
 
+/* The body of a name, which may be the link's own in the robot description, as in l.wheel for l_wheel. */
+static const char *body_of(reader *r, const char *word)
+{
+    for (size_t i = 0; r->rims && i < r->rims->count; i++)
+        if (!strcmp(text_of(r->rims->item[i], "written"), word)) return r->rims->key[i]->text;
+    const char *converted = nh_urdf_name(r->deck->arena, word);
+    return entry(r->bodies, "name", word) || !entry(r->bodies, "name", converted) ? word : converted;
+}
+
 /* An entry that is only a name, or of a body with a circle; others stay as they are. */
 static bool read_wheel(reader *r, const nh_deck_node *item)
 {
@@ -90,8 +99,7 @@ static bool read_wheel(reader *r, const nh_deck_node *item)
     bool short_form = item->kind == NH_DECK_SCALAR ||
                       (word && word->kind == NH_DECK_SCALAR && r->rims && (!*type || !strcmp(type, "rolling")));
     if (!short_form) return nh_deck_append(r->deck, r->wheels, item), true;
-    const char *body = word->text, *converted = nh_urdf_name(r->deck->arena, word->text);
-    if (!entry(r->bodies, "name", body) && entry(r->bodies, "name", converted)) body = converted;
+    const char *body = body_of(r, word->text);
     nh_deck_node *wheel =
         item->kind == NH_DECK_MAP ? nh_deck_copy(r->deck, item, "body") : nh_deck_new_at(r->deck, NH_DECK_MAP, item);
     nh_deck_put(r->deck, wheel, "body", nh_deck_word_at(r->deck, body, word));
@@ -101,24 +109,17 @@ static bool read_wheel(reader *r, const nh_deck_node *item)
 
 /* ---- the joint that carries the root ---- */
 
-/* The height of the root's origin at which the wheels touch the plane z = 0: that of the first; others are compared
-   with it. */
+/* The height of the root's origin at which the first wheel touches the plane z = 0. */
 static bool height_of(reader *r, char out[height_size])
 {
-    const double close = 1e-6;
     double height = NAN;
-    for (size_t i = 0; i < r->wheels->count; i++) {
+    for (size_t i = 0; i < r->wheels->count && isnan(height); i++) {
         const nh_deck_node *rim = nh_deck_get(r->rims, text_of(r->wheels->item[i], "body"));
         double radius, centre;
         if (!nh_text_to_number(text_of(r->wheels->item[i], "radius"), &radius) ||
             !nh_text_to_number(text_of(rim, "height"), &centre))
             continue;
-        if (isnan(height)) height = radius - centre;
-        if (fabs(radius - centre - height) > close * (fabs(radius) + fabs(centre)))
-            note(r, r->wheels->item[i],
-                 nh_arena_printf(r->deck->arena,
-                                 "the wheel `%s` does not touch the plane where the first one does: it is %.3g off",
-                                 text_of(r->wheels->item[i], "body"), fabs(radius - centre - height)));
+        height = radius - centre;
     }
     snprintf(out, height_size, "%.12g", height);
     return !isnan(height) && strtod(out, NULL) != 0;
@@ -168,6 +169,32 @@ static bool base_type(reader *r, const nh_deck_node *base, const nh_deck_node *b
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
 }
 
+/* Links that could roll, and none is named. */
+static const char *idle_wheels(reader *r)
+{
+    const char *list = NULL;
+    for (size_t i = 0; r->rims && !r->wheels->count && i < r->rims->count; i++)
+        if (*text_of(r->rims->item[i], "like"))
+            list = list ? nh_arena_printf(r->deck->arena, "%s,%s", list, r->rims->key[i]->text) : r->rims->key[i]->text;
+    return list;
+}
+
+/* Who gives neither wheels nor a base may not have thought of them. */
+static void note_fixed(reader *r, const nh_deck_node *body)
+{
+    const char *idle = idle_wheels(r);
+    if (idle)
+        note(r, body,
+             nh_arena_printf(r->deck->arena,
+                             "`%s` is fixed to the ground, and links that look like wheels turn in the air: "
+                             "--wheel %s lets them roll",
+                             body->text, idle));
+    else if (strcmp(body->text, "world"))
+        note(r, body,
+             nh_arena_printf(r->deck->arena, "`%s` is fixed to the ground: --base floating or planar lets it move",
+                             body->text));
+}
+
 /* A joint `base` between the ground and the root; NULL where it is not needed. */
 static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node **out)
 {
@@ -181,10 +208,12 @@ static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node *
         return nh_deck_fail(r->deck, base, 0, r->error, "`base` has nothing to carry: every body has a joint");
     if (!body) return roots < 2;
     if (!base_type(r, base, body, &type)) return false;
+    if (!base && !strcmp(type, "fixed")) note_fixed(r, body);
     nh_deck_node *joint = nh_deck_new_at(r->deck, NH_DECK_MAP, body);
     const char *kind = !strcmp(type, "floating") ? "free" : type;
-    nh_deck_put(r->deck, joint, "name",
-                nh_deck_word_at(r->deck, entry(r->joints, "name", "base") ? "base_joint" : "base", body));
+    const char *name = "base";
+    while (entry(r->joints, "name", name)) name = nh_arena_printf(r->deck->arena, "%s_joint", name);
+    nh_deck_put(r->deck, joint, "name", nh_deck_word_at(r->deck, name, body));
     nh_deck_put(r->deck, joint, "type", nh_deck_word_at(r->deck, kind, body));
     nh_deck_put(r->deck, joint, "child", body);
     if (!strcmp(kind, "planar") && height_of(r, height)) {

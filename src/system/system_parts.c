@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "graph/diff.h"
+#include "system/wheel_checks.h"
 #include "system/dimension.h"
 #include "system/system_internal.h"
 
@@ -147,12 +148,13 @@ bool nh_system_read_forces(nh_system_reader *r)
 bool nh_system_read_notes(nh_system_reader *r)
 {
     const nh_deck_node *list;
-    const char **more;
-    size_t n, found = nh_dimension_check(r->system, &more);
+    const char **more, *of_wheels[2];
+    size_t n, found = nh_dimension_check(r->system, &more), wheels = nh_wheel_checks(r->system, of_wheels);
     if (!nh_system_list_of(r, r->root, "notes", &list, &n)) return false;
-    r->system->note = nh_system_take(r, n + found, sizeof *r->system->note);
+    r->system->note = nh_system_take(r, n + found + wheels, sizeof *r->system->note);
     for (size_t i = 0; i < n; i++) r->system->note[r->system->notes++] = list->item[i]->text;
     for (size_t i = 0; i < found; i++) r->system->note[r->system->notes++] = more[i];
+    for (size_t i = 0; i < wheels; i++) r->system->note[r->system->notes++] = of_wheels[i];
     return true;
 }
 

@@ -144,6 +144,9 @@ static bool read_coordinates(reader *r)
     else if (!nh_system_list_of(r, r->root, "coordinates", &list, &n)) return false;
     if (n + (s->chain ? s->chain->screws : 0) == 0) {
         nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
+        if (s->chain)
+            return nh_error_hint(r->error, "every joint is fixed: --base floating (or `base: floating`) lets the body that "
+                                           "carries all others move");
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
     if (n > most_coordinates) {

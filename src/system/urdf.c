@@ -8,7 +8,7 @@
 #include "graph/parse.h"
 #include "system/urdf_internal.h"
 
-typedef enum { FIXED, REVOLUTE, CONTINUOUS, PRISMATIC, PLANAR, FLOATING, KINDS } joint_kind;
+typedef enum { FIXED, REVOLUTE, CONTINUOUS, PRISMATIC, PLANAR, FLOATING, SPHERICAL, BALL, KINDS } joint_kind;
 
 typedef struct {
     const nh_xml *element;
@@ -16,9 +16,9 @@ typedef struct {
     char *name, *parent, *child; /* as in system files */
     const nh_deck_node *axis;    /* its words; NULL: x, the default */
     double direction[3];
-    const char *mimics;          /* the name that the file gives, or NULL */
+    const char *mimics; /* the name that the file gives, or NULL */
     const nh_xml *mimic;
-    double factor, offset;       /* its coordinate is factor times that of the joint that it follows, plus offset */
+    double factor, offset; /* its coordinate is factor times that of the joint that it follows, plus offset */
     double damping;
     nh_urdf_pose origin;
 } joint;
@@ -30,30 +30,36 @@ typedef struct {
     size_t count, links;
     joint *joint;
     const nh_xml **link;
+    /* names of the links in the file; the last one is that of a root that is named only as a parent, or NULL */
+    const char **written;
+    char **own; /* as in system files */
 } reader;
-
-char *nh_urdf_name(nh_arena *arena, const char *name)
-{
-    bool letter = (*name >= 'a' && *name <= 'z') || (*name >= 'A' && *name <= 'Z');
-    /* `ground` is the fixed frame */
-    char *out = nh_arena_printf(arena, "%s%s%s", letter ? "" : "link_", name, strcmp(name, "ground") ? "" : "_link");
-    for (char *c = out; *c; c++)
-        if (!((*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9'))) *c = '_';
-    return out;
-}
 
 static bool has_coordinate(const joint *j)
 {
     return (j->kind == REVOLUTE || j->kind == CONTINUOUS || j->kind == PRISMATIC) && !j->mimics;
 }
 
-/* A name for a parameter, or for the coordinate of joint `own`, that no other coordinate has. */
+/* Has the joint several coordinates, with names NAME_x and the like? */
+static bool has_many(const joint *j) { return j->kind >= PLANAR; }
+
+/* Would a name, or those of several coordinates that begin with it, be one of the joint's? */
+static bool collides(const joint *j, const char *name, bool many)
+{
+    if (!has_coordinate(j) && !has_many(j)) return false;
+    if (many == has_many(j)) return !strcmp(j->name, name);
+    return many ? nh_urdf_is_part(j->name, name) : nh_urdf_is_part(name, j->name);
+}
+
+/* A name for a parameter, or for the coordinates of joint `own`, that no other coordinate has. */
 static char *free_name(reader *r, char *name, size_t own)
 {
+    bool many = own < r->count && has_many(&r->joint[own]);
     nh_arena *arena = r->u.deck->arena;
-    if (nh_is_reserved(name) || !strcmp(name, "g")) name = nh_arena_printf(arena, "%s_joint", name);
+    if (!many && (nh_is_reserved(name) || !strcmp(name, "g")))
+        return free_name(r, nh_arena_printf(arena, "%s_joint", name), own);
     for (size_t i = 0; i < r->count; i++)
-        if (i != own && has_coordinate(&r->joint[i]) && !strcmp(name, r->joint[i].name))
+        if (i != own && collides(&r->joint[i], name, many))
             return free_name(r, nh_arena_printf(arena, "%s_", name), own);
     return name;
 }
@@ -75,20 +81,19 @@ static void parameter(reader *r, const char *name, const nh_xml_attribute *value
     nh_deck_append(deck, r->parameters, p);
 }
 
-static bool read_link(reader *r, const nh_xml *link)
+static bool read_link(reader *r, size_t index)
 {
     nh_deck *deck = r->u.deck;
-    const char *known = "inertial visual collision",
-               *ignored = "contact sensor self_collision_checking material gazebo verbose";
-    if (!nh_urdf_only(&r->u, link, "name type", known, ignored)) return false;
-    const nh_xml_attribute *name = nh_urdf_need(&r->u, link, "name");
+    const nh_xml *link = r->link[index];
+    const char *ignored = "visual collision contact sensor self_collision_checking collision_checking material verbose";
+    if (!nh_urdf_only(&r->u, link, "name type", "inertial", ignored)) return false;
+    const nh_xml_attribute *name = nh_xml_get(link, "name");
     const nh_xml *inertial = nh_xml_child(link, "inertial", NULL);
-    if (!name) return false;
     if (inertial && nh_xml_child(link, "inertial", inertial))
         return nh_urdf_fail(&r->u, nh_xml_child(link, "inertial", inertial)->begin,
                             "the link `%s` has a second <inertial>", name->value);
     nh_deck_node *body = nh_deck_new(deck, NH_DECK_MAP, link->begin, link->end);
-    char *own = nh_urdf_name(deck->arena, name->value);
+    char *own = r->own[index];
     nh_deck_put(deck, body, "name", nh_deck_word(deck, own, name->begin, name->end));
     double mass = 0;
     if (inertial && !nh_urdf_inertial(&r->u, inertial, body, &mass)) return false;
@@ -106,7 +111,8 @@ static bool read_link(reader *r, const nh_xml *link)
 
 static bool kind_of(reader *r, const nh_xml *element, joint_kind *out)
 {
-    static const char *const names[KINDS] = {"fixed", "revolute", "continuous", "prismatic", "planar", "floating"};
+    static const char *const names[KINDS] = {"fixed",  "revolute", "continuous", "prismatic",
+                                             "planar", "floating", "spherical",  "ball"};
     const nh_xml_attribute *type = nh_urdf_need(&r->u, element, "type");
     for (int k = 0; type && k < KINDS; k++)
         if (!strcmp(type->value, names[k])) return *out = (joint_kind)k, true;
@@ -128,13 +134,10 @@ static bool link_of(reader *r, const nh_xml *element, const char *key, char **ou
     }
     const nh_xml_attribute *a = nh_urdf_only(&r->u, end, "link", "", "") ? nh_urdf_need(&r->u, end, "link") : NULL;
     if (!a) return false;
-    const char **names = nh_arena_alloc(r->u.deck->arena, (r->links + 1) * sizeof *names);
-    for (size_t i = 0; i < r->links; i++) {
-        names[i] = nh_xml_get(r->link[i], "name") ? nh_xml_get(r->link[i], "name")->value : "";
-        if (!strcmp(names[i], a->value)) return *out = nh_urdf_name(r->u.deck->arena, a->value), true;
-    }
+    for (size_t i = 0; i <= r->links; i++)
+        if (r->written[i] && !strcmp(r->written[i], a->value)) return *out = r->own[i], true;
     nh_urdf_fail(&r->u, a->begin, "there is no link `%s`", a->value);
-    const char *near = nh_text_nearest(a->value, names, r->links);
+    const char *near = nh_text_nearest(a->value, r->written, r->links);
     return near ? nh_error_hint(r->u.error, "did you mean `%s`?", near)
                 : nh_error_hint(r->u.error, "every link is an element <link name=\"..\">");
 }
@@ -143,7 +146,7 @@ static bool axis_of(reader *r, joint *j)
 {
     const nh_xml *axis = nh_xml_child(j->element, "axis", NULL);
     j->direction[0] = 1;
-    if (!axis || j->kind == FIXED || j->kind == FLOATING) return true;
+    if (!axis || j->kind == FIXED || j->kind > PLANAR) return true;
     const nh_xml_attribute *xyz = nh_urdf_only(&r->u, axis, "xyz", "", "") ? nh_urdf_need(&r->u, axis, "xyz") : NULL;
     if (!xyz) return false;
     nh_deck_node *words = nh_deck_new(r->u.deck, NH_DECK_LIST, xyz->begin, xyz->end);
@@ -152,6 +155,8 @@ static bool axis_of(reader *r, joint *j)
     bool zero = j->direction[0] == 0 && j->direction[1] == 0 && j->direction[2] == 0;
     return !zero || nh_urdf_fail(&r->u, xyz->begin, "an axis cannot be zero");
 }
+
+static const char *written_name(const joint *j) { return nh_xml_get(j->element, "name")->value; }
 
 /* <dynamics>, <mimic>. */
 static bool manners_of(reader *r, joint *j)
@@ -165,13 +170,14 @@ static bool manners_of(reader *r, joint *j)
             !nh_urdf_number(&r->u, dynamics, "friction", 0, &friction))
             return false;
         if (friction != 0)
-            nh_urdf_note(&r->u, dynamics->begin, "the dry friction of the joint `%s` is left out", j->name);
-        if (j->damping != 0 && (j->kind == PLANAR || j->kind == FLOATING))
-            nh_urdf_note(&r->u, dynamics->begin, "the damping of the joint `%s` is left out", j->name);
+            nh_urdf_note(&r->u, dynamics->begin, "dry friction is left out of the joints", "%s", written_name(j));
+        if (j->damping != 0 && has_many(j))
+            nh_urdf_note(&r->u, dynamics->begin, "damping is left out of the joints", "%s", written_name(j));
     }
-    if (!mimic) return true;
-    if (j->kind == FIXED || j->kind == PLANAR || j->kind == FLOATING)
-        return nh_urdf_fail(&r->u, mimic->begin, "only a joint with one degree of freedom can follow another");
+    if (mimic && (j->kind == FIXED || has_many(j)))
+        nh_urdf_note(&r->u, mimic->begin, nh_urdf_passed_over, "<mimic> of a %s joint",
+                     nh_xml_get(j->element, "type")->value);
+    if (!mimic || j->kind == FIXED || has_many(j)) return true;
     const nh_xml_attribute *name =
         nh_urdf_only(&r->u, mimic, "joint multiplier offset", "", "") ? nh_urdf_need(&r->u, mimic, "joint") : NULL;
     j->mimic = mimic;
@@ -182,13 +188,10 @@ static bool manners_of(reader *r, joint *j)
 
 static bool read_joint(reader *r, const nh_xml *element, joint *j)
 {
-    const char *known = "origin parent child axis calibration dynamics limit mimic safety_controller",
-               *ignored = "hardwareInterface gear gazebo";
-    *j = (joint){.element = element, .factor = 1};
-    if (!nh_urdf_only(&r->u, element, "name type", known, ignored)) return false;
-    const nh_xml_attribute *name = nh_urdf_need(&r->u, element, "name");
-    if (!name || !kind_of(r, element, &j->kind)) return false;
-    j->name = nh_urdf_name(r->u.deck->arena, name->value);
+    const char *known = "origin parent child axis dynamics mimic",
+               *ignored = "calibration limit safety_controller hardwareInterface gear";
+    *j = (joint){.element = element, .factor = 1, .name = j->name};
+    if (!nh_urdf_only(&r->u, element, "name type", known, ignored) || !kind_of(r, element, &j->kind)) return false;
     return link_of(r, element, "parent", &j->parent) && link_of(r, element, "child", &j->child) && axis_of(r, j) &&
            manners_of(r, j) && nh_urdf_origin(&r->u, element, NULL, NULL, &j->origin);
 }
@@ -212,7 +215,11 @@ static bool follow(reader *r, const joint *j, joint **end, double *factor, doubl
         *offset += *factor * at->offset;
         *factor *= at->factor;
         joint *next = named(r, at->mimics);
-        if (!next || next->kind == FIXED || next->kind == PLANAR || next->kind == FLOATING) {
+        if (next && next->kind == FIXED) { /* it stays at 0 */
+            *end = NULL;
+            return true;
+        }
+        if (!next || has_many(next)) {
             const char **names = nh_arena_alloc(r->u.deck->arena, (r->count + 1) * sizeof *names);
             size_t n = 0;
             for (size_t i = 0; i < r->count; i++)
@@ -242,8 +249,9 @@ static bool put_value(reader *r, const joint *j, nh_deck_node *out)
     if (!follow(r, j, &end, &factor, &offset)) return false;
     nh_text_number(factor, a, sizeof a);
     nh_text_number(offset, b, sizeof b);
-    const char *text = offset == 0 ? nh_arena_printf(r->u.deck->arena, "(%s)*%s", a, end->name)
-                                   : nh_arena_printf(r->u.deck->arena, "(%s)*%s + (%s)", a, end->name, b);
+    const char *text = !end          ? b
+                       : offset == 0 ? nh_arena_printf(r->u.deck->arena, "(%s)*%s", a, end->name)
+                                     : nh_arena_printf(r->u.deck->arena, "(%s)*%s + (%s)", a, end->name, b);
     nh_deck_node *list = nh_deck_new(r->u.deck, NH_DECK_LIST, j->mimic->begin, j->mimic->end);
     nh_deck_append(r->u.deck, list, nh_deck_word(r->u.deck, text, j->mimic->begin, j->mimic->end));
     nh_deck_put(r->u.deck, out, "values", list);
@@ -259,11 +267,12 @@ static bool put_damping(reader *r, const joint *j)
     joint *end;
     double factor, offset;
     char square[32];
-    if (j->damping == 0 || j->kind == FIXED || j->kind == PLANAR || j->kind == FLOATING) return true;
+    if (j->damping == 0 || j->kind == FIXED || has_many(j)) return true;
     if (!follow(r, j, &end, &factor, &offset)) return false;
+    if (!end) return true;
     const nh_xml_attribute *a = nh_xml_get(dynamics, "damping");
     const char *word = free_name(r, nh_arena_printf(deck->arena, "damping_%s", j->name), r->count);
-    parameter(r, word, a, NULL, nh_arena_printf(deck->arena, "damping of %s", nh_xml_get(j->element, "name")->value));
+    parameter(r, word, a, NULL, nh_arena_printf(deck->arena, "damping of %s", written_name(j)));
     nh_text_number(factor * factor, square, sizeof square);
     const char *ratio = factor * factor == 1 ? "" : nh_arena_printf(deck->arena, "%s*", square);
     nh_deck_append(deck, r->forces,
@@ -274,7 +283,8 @@ static bool put_damping(reader *r, const joint *j)
 
 /* ---- joints as entries ---- */
 
-/* "revolute, from -1.57 to 1.57, effort 10": limits are notes, not constraints. */
+/* "left-hip, revolute, from -1.57 to 1.57, effort 10": the name where it is another one in the system; limits are
+ * notes, not constraints. */
 static const char *doc_of(reader *r, const joint *j)
 {
     static const char *const keys[] = {"lower", "upper", "effort", "velocity"}, *const words[] = {", from ", " to ",
@@ -283,6 +293,7 @@ static const char *doc_of(reader *r, const joint *j)
     const nh_xml *limit = nh_xml_child(j->element, "limit", NULL);
     nh_text text;
     nh_text_init(&text);
+    if (strcmp(j->name, written_name(j))) nh_text_addf(&text, "%s, ", written_name(j));
     nh_text_add(&text, nh_xml_get(j->element, "type")->value);
     for (int i = 0; i < 4; i++) {
         const nh_xml_attribute *a = nh_xml_get(limit, keys[i]);
@@ -349,7 +360,8 @@ static void split_plane(reader *r, const joint *j, nh_deck_node *turn)
 
 static bool put_joint(reader *r, const joint *j)
 {
-    static const char *const types[KINDS] = {"fixed", "revolute", "revolute", "prismatic", "planar", "free"},
+    static const char *const types[KINDS] = {"fixed",  "revolute", "revolute",  "prismatic",
+                                             "planar", "free",     "spherical", "spherical"},
                              *const letters[] = {"x", "y", "z"};
     nh_deck *deck = r->u.deck;
     nh_deck_node *out = nh_deck_new(deck, NH_DECK_MAP, j->element->begin, j->element->end);
@@ -368,7 +380,7 @@ static bool put_joint(reader *r, const joint *j)
         nh_deck_put(deck, out, "parent", word_for(r, j, j->parent));
         nh_urdf_origin(&r->u, j->element, out, "at", &ignored);
         if (plane) nh_deck_put(deck, out, "axis", word_for(r, j, letters[along]));
-        else if (j->kind != FIXED && j->kind != FLOATING)
+        else if (j->kind != FIXED && !has_many(j))
             nh_deck_put(deck, out, "axis", j->axis ? j->axis : word_for(r, j, "x"));
     }
     if (j->mimics && !put_value(r, j, out)) return false;
@@ -390,73 +402,84 @@ static bool put_rims(reader *r)
 {
     for (size_t i = 0; i < r->links; i++) {
         nh_urdf_pose zero = {.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-        const char *own = nh_urdf_name(r->u.deck->arena, nh_xml_get(r->link[i], "name")->value);
+        const char *own = r->own[i];
         const joint *mine = carrier(r, own), *at = mine;
         for (size_t steps = 0; at && steps <= r->count; steps++, at = carrier(r, at->parent))
             zero = nh_urdf_product(&at->origin, &zero);
         bool turns = mine && (mine->kind == REVOLUTE || mine->kind == CONTINUOUS);
-        if (!nh_urdf_rim(&r->u, r->link[i], own, turns ? mine->direction : NULL, &zero, r->rims)) return false;
+        nh_deck_node *rim =
+            nh_urdf_rim(&r->u, r->link[i], turns ? mine->direction : NULL, &zero, mine && mine->kind == CONTINUOUS);
+        if (!rim) return false;
+        nh_deck_put(r->u.deck, r->rims, own, rim);
     }
     return true;
 }
 
 /* ---- all of it ---- */
 
-static bool is_robot(reader *r)
+/* The body of the root that has no element. */
+static void put_root(reader *r)
 {
-    static const struct {
-        const char *name, *what;
-    } others[] = {{"sdf", "SDF, Gazebo's format"}, {"mujoco", "MJCF, MuJoCo's format"}, {"COLLADA", "a mesh"}};
-    if (!strcmp(r->robot->name, "robot")) return true;
-    nh_urdf_fail(&r->u, r->robot->begin, "a robot description begins with <robot>, not with <%s>", r->robot->name);
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (!strcmp(r->robot->name, others[i].name))
-            return nh_error_hint(r->u.error, "this is %s; only URDF is read", others[i].what);
-    return nh_error_hint(
-        r->u.error,
-        "files in XML are robot descriptions (URDF), other systems are YAML: `nhsym new skate` writes an example");
+    const nh_xml *at = nh_xml_child(r->robot, "joint", NULL);
+    while (strcmp(nh_urdf_end(at, "parent"), r->written[r->links])) at = nh_xml_child(r->robot, "joint", at);
+    nh_deck_node *body = nh_deck_new(r->u.deck, NH_DECK_MAP, at->begin, at->end);
+    nh_deck_put(r->u.deck, body, "name", nh_deck_word(r->u.deck, r->own[r->links], at->begin, at->end));
+    nh_deck_append(r->u.deck, r->bodies, body);
+    nh_urdf_note(&r->u, nh_xml_child(at, "parent", NULL)->begin,
+                 "a frame without mass stands for the link that is missing", "%s", r->written[r->links]);
 }
 
-static void collect(reader *r)
+static bool collect(reader *r)
 {
+    nh_arena *arena = r->u.deck->arena;
     for (const nh_xml *e = r->robot->first; e; e = e->next)
         r->links += !strcmp(e->name, "link"), r->count += !strcmp(e->name, "joint");
-    r->link = nh_arena_alloc(r->u.deck->arena, (r->links + 1) * sizeof *r->link);
-    r->joint = nh_arena_alloc(r->u.deck->arena, (r->count + 1) * sizeof *r->joint);
-    size_t n = 0;
-    for (const nh_xml *e = r->robot->first; e; e = e->next)
-        if (!strcmp(e->name, "link")) r->link[n++] = e;
-}
-
-/* By their names in the file. */
-static bool distinct(reader *r)
-{
-    for (size_t i = 0; i < r->count; i++) {
-        const nh_xml_attribute *name = nh_xml_get(r->joint[i].element, "name");
-        for (size_t k = 0; k < i; k++)
-            if (!strcmp(name->value, nh_xml_get(r->joint[k].element, "name")->value))
-                return nh_urdf_fail(&r->u, name->begin, "there are two joints `%s`", name->value);
+    r->link = nh_arena_alloc(arena, (r->links + 1) * sizeof *r->link);
+    r->joint = nh_arena_alloc(arena, (r->count + 1) * sizeof *r->joint);
+    r->written = nh_arena_alloc(arena, (r->links + 1) * sizeof *r->written);
+    r->own = nh_arena_alloc(arena, (r->links + 1) * sizeof *r->own);
+    const char **words = nh_arena_alloc(arena, (r->count + 1) * sizeof *words);
+    char **names = nh_arena_alloc(arena, (r->count + 1) * sizeof *names);
+    size_t n = 0, m = 0;
+    for (const nh_xml *e = r->robot->first; e; e = e->next) {
+        bool link = !strcmp(e->name, "link");
+        if (!link && strcmp(e->name, "joint")) continue;
+        const nh_xml_attribute *name = nh_urdf_need(&r->u, e, "name");
+        if (!name) return false;
+        if (link) r->link[n] = e, r->written[n++] = name->value;
+        else r->joint[m].element = e, words[m++] = name->value;
     }
+    r->written[n] = nh_urdf_implicit_root(r->robot, r->links, r->written);
+    nh_urdf_names(arena, n + (r->written[n] != NULL), r->written, r->own);
+    nh_urdf_names(arena, m, words, names);
+    for (size_t i = 0; i < m; i++) r->joint[i].name = names[i];
     return true;
 }
 
 static bool read_robot(reader *r)
 {
     enum { most = 1000 };
-    const char *ignored = "material transmission gazebo sensor ros2_control plugin mujoco";
-    if (!is_robot(r) || !nh_urdf_only(&r->u, r->robot, "name version", "link joint", ignored)) return false;
-    collect(r);
-    if (!r->links) return nh_urdf_fail(&r->u, r->robot->begin, "this robot has no <link>");
+    const char *ignored = "material transmission sensor ros2_control plugin mujoco";
+    if (!nh_urdf_is_robot(&r->u, r->robot) || !nh_urdf_only(&r->u, r->robot, "name version", "link joint", ignored) ||
+        !collect(r))
+        return false;
+    if (!r->links) {
+        nh_urdf_fail(&r->u, r->robot->begin, "this robot has no <link>");
+        return nh_xml_get(r->robot, "xmlns:xacro")
+                   ? nh_error_hint(r->u.error, "if its links are made by xacro: xacro robot.urdf.xacro > robot.urdf")
+                   : false;
+    }
     if (r->links > most || r->count > most)
         return nh_urdf_fail(&r->u, r->robot->begin, "this robot has more than %d links or joints", most);
-    size_t n = 0;
-    for (const nh_xml *e = r->robot->first; e; e = e->next)
-        if (!strcmp(e->name, "joint") && !read_joint(r, e, &r->joint[n++])) return false;
-    if (!distinct(r)) return false;
     for (size_t i = 0; i < r->count; i++)
-        if (has_coordinate(&r->joint[i])) r->joint[i].name = free_name(r, r->joint[i].name, i);
+        if (!read_joint(r, r->joint[i].element, &r->joint[i])) return false;
+    if (!nh_urdf_distinct_joints(&r->u, r->robot)) return false;
+    for (size_t i = 0; i < r->count; i++)
+        if (has_coordinate(&r->joint[i]) || has_many(&r->joint[i]))
+            r->joint[i].name = free_name(r, r->joint[i].name, i);
     for (size_t i = 0; i < r->links; i++)
-        if (!read_link(r, r->link[i])) return false;
+        if (!read_link(r, i)) return false;
+    if (r->written[r->links]) put_root(r);
     for (size_t i = 0; i < r->count; i++)
         if (!put_joint(r, &r->joint[i])) return false;
     return put_rims(r);
@@ -466,7 +489,7 @@ const nh_deck_node *nh_urdf_read(nh_deck *deck, nh_error *error)
 {
     reader r = {.u = {.deck = deck, .error = error}, .robot = nh_xml_read(deck, error)};
     if (!r.robot) return NULL;
-    nh_deck_node **const list[] = {&r.u.notes, &r.bodies, &r.joints, &r.parameters, &r.forces};
+    nh_deck_node **const list[] = {&r.bodies, &r.joints, &r.parameters, &r.forces};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         *list[i] = nh_deck_new(deck, NH_DECK_LIST, r.robot->begin, r.robot->end);
     r.rims = nh_deck_new(deck, NH_DECK_MAP, r.robot->begin, r.robot->end);
@@ -483,7 +506,7 @@ const nh_deck_node *nh_urdf_read(nh_deck *deck, nh_error *error)
     nh_deck_put(deck, r.root, "bodies", r.bodies);
     nh_deck_put(deck, r.root, "joints", r.joints);
     if (r.forces->count) nh_deck_put(deck, r.root, "forces", r.forces);
-    if (r.u.notes->count) nh_deck_put(deck, r.root, "notes", r.u.notes);
+    if (r.u.notes) nh_deck_put(deck, r.root, "notes", nh_urdf_notes_list(&r.u));
     nh_deck_put(deck, r.root, NH_URDF_RIMS, r.rims);
     return r.root;
 }

@@ -9,15 +9,18 @@
 #include "base/memory.h"
 #include "system/deck.h"
 
-/* A key of the root that no file has: {link: {radius: .., at: [..], height: ..} or {why: ..}}, the circles of links
- * that could be wheels; `height` is that of the centre above the root link's origin at zero displacements, `why` the
- * reason why there is none. */
+/* A key of the root that no file has: {link: {written: .., radius: .., at: [..], height: ..} or {.., why: ..}}, the
+ * circles of links that could be wheels; `written` is the link's name in the description, `like: wheel` stands where it
+ * looks like a wheel, `height` that of the centre above the root link's origin at zero displacements, `why` the reason
+ * why there is none. */
 #define NH_URDF_RIMS " rims"
 
 /* The root of a deck that holds XML.  NULL with a message. */
 const nh_deck_node *nh_urdf_read(nh_deck *deck, nh_error *error);
 
-/* A link's name as that of a body: letters, digits and _ (as names are in system files). */
+/* A link's name as that of a body: letters, digits and _ (as names are in system files).  Two may become the same. */
 char *nh_urdf_name(nh_arena *arena, const char *name);
+/* The same for all links, or all joints: different names stay different, and those that are names already stay. */
+void nh_urdf_names(nh_arena *arena, size_t count, const char *const *written, char **own);
 
 #endif

@@ -10,17 +10,26 @@ typedef struct {
     double p[3], R[9]; /* a position and a rotation, row by row */
 } nh_urdf_pose;
 
+typedef struct nh_urdf_notes nh_urdf_notes; /* one kind of note */
+
 typedef struct {
     nh_deck *deck;
     nh_error *error;
-    nh_deck_node *notes; /* notes on parts that were left out or replaced */
+    nh_urdf_notes *notes; /* on parts that were left out or replaced */
 } nh_urdf_reader;
 
 bool nh_urdf_fail(nh_urdf_reader *u, size_t at, const char *format, ...) __attribute__((format(printf, 3, 4)));
-void nh_urdf_note(nh_urdf_reader *u, size_t at, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* Notes of one kind become one line: "FILE:LINE: KIND: ITEM (3), ITEM", with the line of the first item. */
+void nh_urdf_note(nh_urdf_reader *u, size_t at, const char *kind, const char *item, ...)
+    __attribute__((format(printf, 4, 5)));
+/* The lines, in the order in which their kinds came. */
+nh_deck_node *nh_urdf_notes_list(nh_urdf_reader *u);
 
-/* Refuse attributes and, unless `children` is NULL, child elements that are not among these words (blanks between
- * them); other elements are noted where they resemble none of them.  `ignored`: children without a meaning here. */
+extern const char nh_urdf_passed_over[]; /* a kind of note */
+
+/* Note attributes and child elements that are not among these words (blanks between them).  One that resembles a known
+ * word which is missing is refused as misspelt: its meaning would be lost.  `ignored`: children that have no meaning
+ * here, and no note. */
 bool nh_urdf_only(nh_urdf_reader *u, const nh_xml *element, const char *attributes, const char *children,
                   const char *ignored);
 
@@ -39,9 +48,20 @@ nh_urdf_pose nh_urdf_product(const nh_urdf_pose *a, const nh_urdf_pose *b);
 /* <inertial>: mass, centre, inertia and its axes into a body. */
 bool nh_urdf_inertial(nh_urdf_reader *u, const nh_xml *inertial, nh_deck_node *body, double *mass);
 
-/* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, into
-   `rims`. */
-bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const double *axis, const nh_urdf_pose *zero,
-                 nh_deck_node *rims);
+/* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, as an entry of
+ * NH_URDF_RIMS.  Does the joint turn without end? */
+nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *axis, const nh_urdf_pose *zero,
+                          bool continuous);
+
+/* Is the word NAME_x, or the like? */
+bool nh_urdf_is_part(const char *word, const char *name);
+/* Is the root <robot>?  Are the names of all joints, which must be there, different? */
+bool nh_urdf_is_robot(nh_urdf_reader *u, const nh_xml *robot);
+bool nh_urdf_distinct_joints(nh_urdf_reader *u, const nh_xml *robot);
+/* The link that a joint's <parent> or <child> names, or "". */
+const char *nh_urdf_end(const nh_xml *element, const char *key);
+/* A link that is a parent alone and stands nowhere, as `world` often does, is a frame where everything else hangs on
+ * it. Returns its name, or NULL; a name that resembles a link's is a misspelt one. */
+const char *nh_urdf_implicit_root(const nh_xml *robot, size_t links, const char *const *written);
 
 #endif

@@ -21,19 +21,6 @@ bool nh_urdf_fail(nh_urdf_reader *u, size_t at, const char *format, ...)
     return nh_deck_fail_at(u->deck, at, u->error, "%s", what);
 }
 
-void nh_urdf_note(nh_urdf_reader *u, size_t at, const char *format, ...)
-{
-    char what[sizeof u->error->what];
-    size_t line, column;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    nh_deck_place(u->deck, at, &line, &column);
-    const char *text = nh_arena_printf(u->deck->arena, "%s:%zu: %s", u->deck->name, line, what);
-    nh_deck_append(u->deck, u->notes, nh_deck_word(u->deck, text, at, at));
-}
-
 /* Words with blanks between them as an array. */
 static size_t words_of(const char *list, char out[most_words][word_size], const char *names[most_words])
 {
@@ -54,6 +41,8 @@ static bool among(const char *word, size_t count, const char *const *names)
     return false;
 }
 
+const char nh_urdf_passed_over[] = "passed over";
+
 static bool only_attributes(nh_urdf_reader *u, const nh_xml *element, const char *list)
 {
     char text[most_words][word_size];
@@ -61,11 +50,13 @@ static bool only_attributes(nh_urdf_reader *u, const nh_xml *element, const char
     size_t n = words_of(list, text, names);
     for (size_t i = 0; i < element->attributes; i++) {
         const nh_xml_attribute *a = &element->attribute[i];
-        if (among(a->name, n, names) || strchr(a->name, ':')) continue;
-        nh_urdf_fail(u, a->at, "<%s> has no attribute `%s`", element->name, a->name);
+        if (among(a->name, n, names) || strchr(a->name, ':') || !strcmp(a->name, "xmlns")) continue;
         const char *near = nh_text_nearest(a->name, names, n);
-        if (near) return nh_error_hint(u->error, "did you mean `%s`?", near);
-        return nh_error_hint(u->error, "known attributes: %s", *list ? list : "none");
+        if (near && !nh_xml_get(element, near)) {
+            nh_urdf_fail(u, a->at, "<%s> has no attribute `%s`", element->name, a->name);
+            return nh_error_hint(u->error, "did you mean `%s`?", near);
+        }
+        nh_urdf_note(u, a->at, nh_urdf_passed_over, "<%s %s>", element->name, a->name);
     }
     return true;
 }
@@ -76,20 +67,19 @@ bool nh_urdf_only(nh_urdf_reader *u, const nh_xml *element, const char *attribut
     char text[most_words][word_size], other[most_words][word_size];
     const char *names[most_words], *others[most_words];
     if (!only_attributes(u, element, attributes)) return false;
-    if (!children) return true;
     size_t n = words_of(children, text, names), m = words_of(ignored, other, others);
     for (const nh_xml *child = element->first; child; child = child->next) {
         if (among(child->name, n, names) || among(child->name, m, others)) continue;
-        const char *near = nh_text_nearest(child->name, names, n);
         if (!strncmp(child->name, "xacro:", 6)) {
             nh_urdf_fail(u, child->begin, "<%s> belongs to xacro: this file must be expanded first", child->name);
             return nh_error_hint(u->error, "xacro robot.urdf.xacro > robot.urdf");
         }
-        if (near) {
+        const char *near = nh_text_nearest(child->name, names, n);
+        if (near && (!element->parent || !nh_xml_child(element, near, NULL))) { /* a root has many links and joints */
             nh_urdf_fail(u, child->begin, "<%s> has no element <%s>", element->name, child->name);
             return nh_error_hint(u->error, "did you mean <%s>?", near);
         }
-        nh_urdf_note(u, child->begin, "the element <%s> has no meaning here and is ignored", child->name);
+        nh_urdf_note(u, child->begin, nh_urdf_passed_over, "<%s>", child->name);
     }
     return true;
 }
@@ -108,16 +98,19 @@ const nh_xml_attribute *nh_urdf_need(nh_urdf_reader *u, const nh_xml *element, c
 
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
+/* "0.1, 0, 2": a comma before a blank separates, too. */
+static bool separates(const char *at) { return is_blank(*at) || (*at == ',' && (is_blank(at[1]) || !at[1])); }
+
 bool nh_urdf_numbers(nh_urdf_reader *u, const nh_xml_attribute *a, size_t count, double *value, nh_deck_node *words)
 {
     size_t found = 0;
     for (const char *at = a->value; *at;) {
         size_t length = 0, begin = a->begin + (size_t)(at - a->value);
-        while (at[length] && !is_blank(at[length])) length++;
+        while (at[length] && !separates(at + length)) length++;
         if (length) {
             const char *text = nh_arena_strndup(u->deck->arena, at, length);
             double x;
-            if (strstr(text, "${")) {
+            if (strstr(text, "${") || strstr(text, "$(")) {
                 nh_urdf_fail(u, begin, "`%s` belongs to xacro: this file must be expanded first", text);
                 return nh_error_hint(u->error, "xacro robot.urdf.xacro > robot.urdf");
             }
@@ -128,7 +121,7 @@ bool nh_urdf_numbers(nh_urdf_reader *u, const nh_xml_attribute *a, size_t count,
             found++;
             at += length;
         }
-        while (is_blank(*at)) at++;
+        while (*at && separates(at)) at++;
     }
     if (found == count) return true;
     nh_urdf_fail(u, a->begin, "`%s` has %zu number%s, not %zu", a->name, count, count == 1 ? "" : "s", found);
@@ -215,7 +208,7 @@ static bool rotation(nh_urdf_reader *u, const nh_xml_attribute *rpy, nh_deck_nod
         const nh_deck_node *word = words->item[k];
         const char *part = as_part_of_pi(u, word->text, angle[k], &angle[k]);
         if (angle[k] == 0) continue;
-        if (part && map) nh_urdf_note(u, word->begin, "the angle %s is taken for %s", word->text, part);
+        if (part && map) nh_urdf_note(u, word->begin, "angles are taken exactly", "%s for %s", word->text, part);
         nh_deck_node *step = nh_deck_new_at(u->deck, NH_DECK_MAP, word);
         nh_deck_put(u->deck, step, axes[k], part ? nh_deck_word_at(u->deck, part, word) : word);
         nh_deck_append(u->deck, turns, step);
@@ -243,28 +236,53 @@ bool nh_urdf_origin(nh_urdf_reader *u, const nh_xml *element, nh_deck_node *map,
 
 /* ---- inertias ---- */
 
-/* Of a body: all principal moments are at least 0, and none is larger than the sum of the others.  The second is noted
-   alone: many files get it wrong. */
+static const char *link_name(const nh_xml *inertia)
+{
+    const nh_xml_attribute *name = nh_xml_get(inertia->parent->parent, "name");
+    return name ? name->value : "";
+}
+
+/* Is the symmetric matrix xx, xy, xz, yy, yz, zz positive semidefinite, up to `least` < 0 of its size? */
+static bool semidefinite(const double I[6], double size, double least)
+{
+    double xx = I[0], xy = I[1], xz = I[2], yy = I[3], yz = I[4], zz = I[5], l = least * size;
+    double determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    return xx >= l && yy >= l && zz >= l && xx * yy - xy * xy >= l * size && xx * zz - xz * xz >= l * size &&
+           yy * zz - yz * yz >= l * size && determinant >= l * size * size;
+}
+
+/* Of a body: all principal moments are at least 0, and none is larger than the sum of the others.  Many files get it
+ * wrong, and robots move with them as they are written: notes.  A negative moment about an axis of the frame is an
+ * error. */
 static bool check_inertia(nh_urdf_reader *u, const nh_xml *inertia, const double I[6])
 {
-    double xx = I[0], xy = I[1], xz = I[2], yy = I[3], yz = I[4], zz = I[5], size = fabs(xx) + fabs(yy) + fabs(zz),
-           least = -1e-9 * size;
-    double determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-    bool good = xx >= 0 && yy >= 0 && zz >= 0 && xx * yy - xy * xy >= least * size &&
-                xx * zz - xz * xz >= least * size && yy * zz - yz * yz >= least * size &&
-                determinant >= least * size * size;
-    if (!good) {
-        nh_urdf_fail(u, inertia->begin, "no body has this inertia: a principal moment is negative");
-        return nh_error_hint(u->error, "ixx, iyy and izz are positive, and products such as ixy smaller than these");
+    const double least = -1e-9;
+    double size = fabs(I[0]) + fabs(I[3]) + fabs(I[5]), half = (I[0] + I[3] + I[5]) / 2;
+    double rest[6] = {half - I[0], -I[1], -I[2], half - I[3], -I[4], half - I[5]};
+    if (I[0] < least * size || I[3] < least * size || I[5] < least * size) {
+        nh_urdf_fail(u, inertia->begin, "no body has this inertia: a moment of inertia is negative");
+        return nh_error_hint(u->error, "ixx, iyy and izz are positive");
     }
-    /* of trace/2 - I, which must not be negative either */
-    double trace = xx + yy + zz, a = trace / 2 - xx, b = trace / 2 - yy, c = trace / 2 - zz;
-    bool possible = a >= least && b >= least && c >= least && a * b - xy * xy >= least * size &&
-                    a * c - xz * xz >= least * size && b * c - yz * yz >= least * size;
-    if (!possible)
+    if (!semidefinite(I, size, least))
         nh_urdf_note(u, inertia->begin,
-                     "no body has this inertia: one principal moment is larger than the sum of the other two");
+                     "no body has these inertias, as one principal moment is negative: check ixy, ixz, iyz of the "
+                     "links",
+                     "%s", link_name(inertia));
+    else if (!semidefinite(rest, size, least))
+        nh_urdf_note(
+            u, inertia->begin,
+            "no body has these inertias, as one principal moment is larger than the sum of the other two: check the "
+            "links",
+            "%s", link_name(inertia));
     return true;
+}
+
+/* Residues of computations, as in ixy="2e-35", would hide symmetries: an entry that is 0 up to the rounding of the
+ * others, or of mass times square metre. */
+static bool is_rounding(const double I[6], double x, double mass)
+{
+    const double of_others = 1e-12, of_square = 1e-15;
+    return x != 0 && fabs(x) <= of_others * (fabs(I[0]) + fabs(I[3]) + fabs(I[5])) + of_square * fabs(mass);
 }
 
 /* The matrix is symmetric, and URDF has its upper half. Converters write the other one as well, equal or zero. */
@@ -279,13 +297,13 @@ static bool lower_half(nh_urdf_reader *u, const nh_xml *inertia, const double I[
         double value = 0;
         if (a && !nh_urdf_numbers(u, a, 1, &value, NULL)) return false;
         if (value != 0 && value != I[entry[i].of])
-            nh_urdf_note(u, a->begin, "%s differs from %s, which is taken: the matrix of inertia is symmetric",
-                         entry[i].name, entry[i].upper);
+            nh_urdf_note(u, a->begin, "the matrix of inertia is symmetric, and its upper half is taken",
+                         "%s differs from %s", entry[i].name, entry[i].upper);
     }
     return true;
 }
 
-static bool inertia_of(nh_urdf_reader *u, const nh_xml *inertia, nh_deck_node *body)
+static bool inertia_of(nh_urdf_reader *u, const nh_xml *inertia, double mass, nh_deck_node *body)
 {
     static const char *const names[] = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
     static const int place[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
@@ -302,7 +320,14 @@ static bool inertia_of(nh_urdf_reader *u, const nh_xml *inertia, nh_deck_node *b
         if (a && !nh_urdf_numbers(u, a, 1, &I[i], words)) return false;
         entry[i] = words->item[0];
     }
-    if (!check_inertia(u, inertia, I) || !lower_half(u, inertia, I)) return false;
+    if (!lower_half(u, inertia, I)) return false;
+    for (int i = 0; i < 6; i++) {
+        if (!is_rounding(I, I[i], mass)) continue;
+        nh_urdf_note(u, entry[i]->begin, "moments of inertia are taken for 0", "%s", entry[i]->text);
+        entry[i] = nh_deck_word_at(u->deck, "0", entry[i]);
+        I[i] = 0;
+    }
+    if (!check_inertia(u, inertia, I)) return false;
     bool products = I[1] != 0 || I[2] != 0 || I[4] != 0;
     if (!products && I[0] == 0 && I[3] == 0 && I[5] == 0) return true;
     nh_deck_node *rows = nh_deck_new(u->deck, NH_DECK_LIST, inertia->begin, inertia->end);
@@ -328,7 +353,7 @@ bool nh_urdf_inertial(nh_urdf_reader *u, const nh_xml *inertial, nh_deck_node *b
     const nh_xml_attribute *value = nh_urdf_only(u, weight, "value", "", "") ? nh_urdf_need(u, weight, "value") : NULL;
     if (!value || !nh_urdf_numbers(u, value, 1, mass, NULL)) return false;
     if (*mass < 0) return nh_urdf_fail(u, value->begin, "a mass cannot be negative, but it is %.10g here", *mass);
-    return nh_urdf_origin(u, inertial, body, "center", &ignored) && (!inertia || inertia_of(u, inertia, body));
+    return nh_urdf_origin(u, inertial, body, "center", &ignored) && (!inertia || inertia_of(u, inertia, *mass, body));
 }
 
 /* ---- circles ---- */
@@ -356,28 +381,48 @@ static const nh_xml *round_child(const nh_xml *link, const char *kind)
     return shape;
 }
 
-bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const double *axis, const nh_urdf_pose *zero,
-                 nh_deck_node *rims)
+/* Is an axis of a body level, at zero displacements? */
+static bool lies(const double axis[3], const double R[9])
+{
+    const double level = 0.1;
+    double up = R[6] * axis[0] + R[7] * axis[1] + R[8] * axis[2];
+    return fabs(up) < level * sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+}
+
+static bool named_wheel(const char *name)
+{
+    static const char *const words[] = {"wheel", "Wheel", "WHEEL"};
+    bool named = false;
+    for (int i = 0; i < 3; i++) named |= strstr(name, words[i]) != NULL;
+    return named;
+}
+
+nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *axis, const nh_urdf_pose *zero,
+                          bool continuous)
 {
     const nh_xml *shape = round_child(link, "collision"), *round;
     nh_deck_node *rim = nh_deck_new(u->deck, NH_DECK_MAP, link->begin, link->end);
     nh_urdf_pose origin;
     double radius;
+    const char *written = nh_xml_get(link, "name")->value;
+    nh_deck_put(u->deck, rim, "written", nh_deck_word(u->deck, written, link->begin, link->end));
     if (!shape) shape = round_child(link, "visual");
+    bool cylinder = shape && !strcmp(round_shape(shape)->name, "cylinder");
+    if (continuous && lies(axis, zero->R) && (cylinder || named_wheel(written)))
+        nh_deck_put(u->deck, rim, "like", nh_deck_word(u->deck, "wheel", link->begin, link->end));
     if (!axis || !shape) {
         nh_deck_put(u->deck, rim, "why", nh_deck_word(u->deck, "it has no cylinder or sphere", link->begin, link->end));
         put_height(u, link, zero->p[2], rim);
-        nh_deck_put(u->deck, rims, name, rim);
-        return true;
+        return rim;
     }
     round = round_shape(shape);
     const nh_xml_attribute *a = nh_urdf_need(u, round, "radius");
     nh_deck_node *words = nh_deck_new(u->deck, NH_DECK_LIST, round->begin, round->end);
-    if (!a || !nh_urdf_numbers(u, a, 1, &radius, words) || !nh_urdf_origin(u, shape, NULL, NULL, &origin)) return false;
+    if (!a || !nh_urdf_numbers(u, a, 1, &radius, words) || !nh_urdf_origin(u, shape, NULL, NULL, &origin)) return NULL;
     if ((origin.p[0] != 0 || origin.p[1] != 0 || origin.p[2] != 0)) {
         const nh_xml_attribute *xyz = nh_xml_get(nh_xml_child(shape, "origin", NULL), "xyz");
         nh_deck_node *at = nh_deck_new(u->deck, NH_DECK_LIST, xyz->begin, xyz->end);
-        if (!nh_urdf_numbers(u, xyz, 3, origin.p, at)) return false;
+        if (!nh_urdf_numbers(u, xyz, 3, origin.p, at)) return NULL;
         nh_deck_put(u->deck, rim, "at", at);
     }
     double along = 0, size = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
@@ -389,6 +434,5 @@ bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const 
     else nh_deck_put(u->deck, rim, "radius", words->item[0]);
     nh_urdf_pose centre = nh_urdf_product(zero, &origin);
     put_height(u, round, centre.p[2], rim);
-    nh_deck_put(u->deck, rims, name, rim);
-    return true;
+    return rim;
 }

@@ -113,6 +113,23 @@ static bool on_orientation(const nh_chain *c, const nh_wheel *w)
     return false;
 }
 
+static void contact_of(const station *s, const nh_wheel *w, nh_ex contact[3])
+{
+    nh_ex up[3];
+    up_in_the_wheel(s, w, up);
+    for (int i = 0; i < 3; i++) contact[i] = nh_sub(s->dag, w->at[i], nh_mul(s->dag, w->radius, up[i]));
+}
+
+nh_ex nh_wheel_height(const nh_chain *c, nh_dag *d, const nh_wheel *w)
+{
+    nh_ex contact[3];
+    station s = stand(c, d, w, own_turns(c, d, w));
+    contact_of(&s, w, contact);
+    return nh_add(d, s.height, nh_dot(d, s.n, contact));
+}
+
+bool nh_wheel_turns(const nh_chain *c, nh_dag *d, const nh_wheel *w) { return own_turns(c, d, w) > 0; }
+
 size_t nh_wheel_conditions(const nh_chain *c, nh_dag *d, const nh_wheel *w, nh_ex out[3], nh_ex level[3])
 {
     bool rolls = w->kind == NH_WHEEL_ROLLING;
@@ -122,9 +139,8 @@ size_t nh_wheel_conditions(const nh_chain *c, nh_dag *d, const nh_wheel *w, nh_e
         out[0] = slip(&s, w->at, w->axis);
         return 1;
     }
-    nh_ex up[3], contact[3], direction[3][3];
-    up_in_the_wheel(&s, w, up);
-    for (int i = 0; i < 3; i++) contact[i] = nh_sub(d, w->at[i], nh_mul(d, w->radius, up[i]));
+    nh_ex contact[3], direction[3][3];
+    contact_of(&s, w, contact);
     memcpy(direction, s.tangent, sizeof s.tangent);
     if (!w->ball && !on_orientation(c, w)) {
         nh_cross(d, w->axis, s.n, direction[0]);

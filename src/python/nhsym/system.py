@@ -314,7 +314,7 @@ class System:
                  project=False):
         """A motion: initial={"phi": 0, "omega": 2} (left out: a state on the constraints); watch=["y"] or {"T": "m/2*v^2"}; accuracy: the largest allowed error;
         method: an integrator by name, as `nhsym explain methods` lists them; events=["y = 0, falling, stop"]: zeros that are recorded, or end the motion; section="x": a
-        Poincare section, whose points are `section_table`; project: initial velocities that violate the constraints are moved onto them."""
+        Poincare section, whose points are `section_table`; project: an initial state that violates the constraints is moved onto them."""
         p = self._ask(dict(initial=_pairs("initial", initial), until=until, step=step, accuracy=accuracy, method=method, watch=_list("watch", watch), options=options, project=project or None))
         events, section = _bytes(_list("events", events, "; ")), _bytes(section if section is None else text_of(section))
         return p.call(lambda error: library().nh_simulate_zeros(p.address, events, section, error), progress, lambda a: Simulation(a, p))
