@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/declared.h"
 #include "graph/measure.h"
 #include "graph/num_long.h"
 
@@ -71,7 +72,7 @@ static bool is_word(char c) { return isalnum((unsigned char)c) || c == '_'; }
 static bool find_function(const char *name, nh_function *out)
 {
     for (int f = 0; f < NH_FUNCTION_COUNT; f++) {
-        if (f == NH_PI || strcmp(name, nh_function_name((nh_function)f))) continue;
+        if (f == NH_PI || f == NH_UNSPECIFIED || strcmp(name, nh_function_name((nh_function)f))) continue;
         *out = (nh_function)f;
         return true;
     }
@@ -82,6 +83,13 @@ bool nh_is_reserved(const char *name)
 {
     nh_function f;
     return find_function(name, &f) || !strcmp(name, "pi") || !strcmp(name, "t") || !strcmp(name, "sqrt");
+}
+
+/* Does a name begin here, possibly with a Greek letter? */
+static bool begins_name(parser *p)
+{
+    char word[max_name + 2];
+    return nh_name_spelled(p->text + p->at, word, sizeof word) && is_letter(*word);
 }
 
 static bool expression(parser *p, nh_ex *out);
@@ -129,7 +137,6 @@ static bool unexpected(parser *p, const char *wanted)
     fail(p, p->at, "`%c` cannot stand here; %s was expected", c, wanted);
     if (c == ',' || c == '"') return hint_separator(p);
     if (c == '\\') return hint(p, "formulas are no LaTeX: write x', sqrt(x), cos(phi), a/b");
-    if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*') return hint(p, "powers are written with ^: x^2");
     if ((c == '<' || c == '>') && p->equation)
         return hint(p, "only equations can be written: where a motion is looked at, `domain:` says");
     if (c == '=' && p->equation) return hint(p, "an equation has one `=` between two expressions");
@@ -142,7 +149,7 @@ static bool unexpected(parser *p, const char *wanted)
 static bool no_operator(parser *p, const char *closing)
 {
     char c = peek(p);
-    if (!is_word(c) && c != '(') return unexpected(p, closing);
+    if (!is_word(c) && !begins_name(p) && c != '(') return unexpected(p, closing);
     fail(p, p->at, "an operator is missing before this");
     return hint(p, "there is no implicit multiplication: write `*`");
 }
@@ -312,15 +319,27 @@ static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
     return hint(p, "write `%s*(`", word);
 }
 
+/* V(x), V'(x), V''(x) of a function that the file declares. */
+static bool declared_call(parser *p, const char *word, size_t f, nh_ex *out)
+{
+    enum { most_primes = 8 };
+    size_t primes = strspn(p->text + p->at, "'");
+    nh_ex argument;
+    if (primes > most_primes) return fail(p, p->at, "derivatives up to order %d can be written", most_primes);
+    p->at += primes;
+    if (!arguments(p, word, 1, &argument)) return false;
+    *out = nh_declared_call(p->dag, f, primes, argument);
+    return true;
+}
+
 static bool name(parser *p, nh_ex *out)
 {
-    size_t start = p->at, n = strspn(p->text + start, WORD);
-    char word[max_name + 2];
-    if (n > max_name) return fail(p, start, "a name longer than %d characters", max_name);
-    memcpy(word, p->text + start, n);
-    word[n] = 0;
-    p->at += n;
+    size_t declared, start = p->at;
+    char word[max_name + 3];
+    p->at += nh_name_spelled(p->text + start, word, max_name + 2);
+    if (strlen(word) > max_name) return fail(p, start, "a name longer than %d characters", max_name);
     nh_function f;
+    if (nh_declared_find(p->dag, word, &declared)) return declared_call(p, word, declared, out);
     if (!strcmp(word, "sqrt")) return square_root(p, start, out);
     if (find_function(word, &f)) return call(p, f, word, start, out);
     if (!strcmp(word, "pi")) {
@@ -348,7 +367,7 @@ static bool atom(parser *p, nh_ex *out)
 {
     char c = peek(p);
     if (isdigit((unsigned char)c) || (c == '.' && isdigit((unsigned char)p->text[p->at + 1]))) return number(p, out);
-    if (is_letter(c)) return name(p, out);
+    if (begins_name(p)) return name(p, out);
     if (c != '(') return unexpected(p, "a number, a name or `(`");
     p->at++;
     return expression(p, out) && close_parenthesis(p);
@@ -364,10 +383,11 @@ static bool real_power(const nh_dag *dag, nh_ex base, nh_ex exponent)
 static bool power(parser *p, nh_ex *out)
 {
     if (!atom(p, out)) return false;
-    if (peek(p) != '^') return true;
+    bool twice = peek(p) == '*' && p->text[p->at + 1] == '*';
+    if (peek(p) != '^' && !twice) return true;
     size_t at = p->at;
     nh_ex base = *out, exponent;
-    p->at++;
+    p->at += 1 + twice;
     /* a parenthesis counts its own depth; a^b^c is no deeper than a^(b^c), as which it is printed */
     bool counted = peek(p) != '(';
     if (counted && !deeper(p)) return false;

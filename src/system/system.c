@@ -129,6 +129,7 @@ static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault 
         return true;
     }
     if (in_named(s->extras, s->extra, name, out) || in_named(y->definitions, y->definition, name, out)) return true;
+    name = nh_system_state_name(y, name);
     for (size_t i = 0; i < y->parameters; i++) {
         if (strcmp(y->parameter[i].name, name)) continue;
         *out = y->parameter[i].symbol;
@@ -259,9 +260,21 @@ bool nh_system_expression_text(const nh_system *system, const char *where, const
 
 long nh_system_coordinate(const nh_system *system, const char *name)
 {
+    const char *spelled = nh_deck_spelled(system->arena, name);
     for (size_t i = 0; i < system->coordinates; i++)
-        if (!strcmp(system->coordinate[i].name, name)) return (long)i;
+        if (!strcmp(system->coordinate[i].name, spelled)) return (long)i;
     return -1;
+}
+
+const char *nh_system_state_name(const nh_system *s, const char *name)
+{
+    static const char dot[] = "_dot";
+    size_t length = strlen(name), tail = sizeof dot - 1;
+    nh_ex taken;
+    if (length <= tail || strcmp(name + length - tail, dot) || nh_symbol_find(s->dag, name, &taken)) return name;
+    if (in_named(s->definitions, s->definition, name, &taken)) return name;
+    long q = nh_system_coordinate(s, nh_arena_strndup(s->arena, name, length - tail));
+    return q < 0 ? name : nh_arena_printf(s->arena, "%s'", s->coordinate[q].name);
 }
 
 void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const double **values)
