@@ -1,5 +1,7 @@
 /* Springs, dampers, actuators and points of bodies against hand-written systems of the same mechanism: the equations agree at rest, at
  * zero, where bodies are aligned, and at random states; energy is lost at the rate 2 R; forces at points do the work that they should. */
+#include <stdio.h>
+
 #include "graph/diff.h"
 #include "mechanics.h"
 #include "sweep.h"

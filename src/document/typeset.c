@@ -262,8 +262,15 @@ void nh_typeset_function(const writer *w, const char *text)
 {
     static const char *const known[] = {"sin", "cos", "tan", "sinh", "cosh", "tanh", "exp"};
     static const char *const inverse[][2] = {{"asin", "arcsin"}, {"acos", "arccos"}, {"atan", "arctan"}, {"log", "ln"}};
-    const char *shown = text;
+    const char *shown = text, *primes = text + strcspn(text, "'");
     bool command = false;
+    if (*primes) { /* V'(r) */
+        if (w->form == NH_MATHML) nh_text_addf(w->out, "<msup><mi mathvariant=\"normal\">%.*s</mi><mo>", (int)(primes - text), text);
+        else nh_text_addf(w->out, "\\operatorname{%.*s}", (int)(primes - text), text);
+        for (; *primes; primes++) nh_text_add(w->out, w->form == NH_MATHML ? "\u2032" : "'");
+        if (w->form == NH_MATHML) nh_text_add(w->out, "</mo></msup>");
+        return;
+    }
     for (size_t i = 0; i < sizeof inverse / sizeof *inverse; i++)
         if (!strcmp(text, inverse[i][0])) shown = inverse[i][1], command = true;
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) command |= !strcmp(text, known[i]);

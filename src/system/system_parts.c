@@ -100,11 +100,12 @@ bool nh_system_read_notes(nh_system_reader *r)
     if (!nh_system_list_of(r, r->root, "notes", &list, &n)) return false;
     r->system->note = nh_system_take(r, n + r->notes + found + 1, sizeof *r->system->note);
     for (size_t i = 0; i < n; i++) r->system->note[r->system->notes++] = list->item[i]->text;
-    const char *free = nh_declared_unspecified(r->system->dag);
-    if (free)
+    const char *open = nh_declared_unspecified(r->system->dag);
+    if (open)
         r->system->note[r->system->notes++] = nh_arena_printf(
-            r->system->arena, "the function %s has no value: what is proved holds for every %s; samples and motions take a stand-in",
-            free, free);
+            r->system->arena, "the function %s has no value: what is proved holds for every %s, completeness for almost every one; samples and "
+            "motions take a stand-in",
+            open, open);
     for (size_t i = 0; i < r->notes; i++) r->system->note[r->system->notes++] = r->note[i];
     for (size_t i = 0; i < found; i++) r->system->note[r->system->notes++] = more[i];
     return true;
