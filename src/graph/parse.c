@@ -305,7 +305,10 @@ static bool unresolved(parser *p, const char *word, size_t at)
     if (instead) return hint(p, "%s", instead);
     if (near) return hint(p, "did you mean `%s`?", near);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
-    return hint(p, "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs and those of `nhsym explain functions`");
+    return hint(p,
+                "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs, those of `nhsym explain functions`, and those "
+                "that a system declares: functions: [\"%.40s(x)\"]",
+                word);
 }
 
 /* Reads a name that is not the language's own: the caller resolves it. */

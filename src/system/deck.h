@@ -51,6 +51,8 @@ const nh_deck_node *nh_deck_named(nh_deck *deck, const char *short_for, const nh
 /* A name, possibly with a prime, in ASCII where it has Greek letters (nh_name_spelled); any other text is returned
    itself. */
 const char *nh_deck_spelled(nh_arena *arena, const char *text);
+/* The same for every name of an expression. */
+const char *nh_deck_spelled_all(nh_arena *arena, const char *text);
 const nh_deck_node *nh_deck_root(const nh_deck *deck);
 const char *nh_deck_name(const nh_deck *deck);
 

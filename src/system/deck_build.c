@@ -14,6 +14,21 @@ const char *nh_deck_spelled(nh_arena *arena, const char *text)
     return nh_arena_printf(arena, "%s%s", name, prime ? "'" : "");
 }
 
+const char *nh_deck_spelled_all(nh_arena *arena, const char *text)
+{
+    char name[256];
+    nh_text out;
+    nh_text_init(&out);
+    for (size_t n; *text; text += n ? n : 1) {
+        n = nh_name_spelled(text, name, sizeof name);
+        if (n) nh_text_add(&out, name);
+        else nh_text_add_n(&out, text, 1);
+    }
+    const char *copy = nh_arena_strdup(arena, nh_text_string(&out));
+    nh_text_clear(&out);
+    return copy;
+}
+
 nh_deck_node *nh_deck_new(nh_deck *deck, nh_deck_kind kind, size_t begin, size_t end)
 {
     nh_deck_node *node = nh_arena_alloc(deck->arena, sizeof *node);

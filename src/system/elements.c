@@ -116,6 +116,9 @@ static bool read_place(reader *r, const nh_deck_node *node, place *p)
     map.key = keys;
     map.item = items;
     p->body = nh_system_body_word(r, &map, "place", NH_NOBODY);
+    if (p->body == NH_NOBODY && !r->error->hint[0])
+        nh_error_hint(r->error, "points are declared: points: [{name: %s, body: %s, at: [0, 0, 1]}]", first->text,
+                      r->system->chain->body[0].name);
     for (int i = 0; p->body != NH_NOBODY && node->kind == NH_DECK_LIST && i < 3; i++)
         if (!nh_system_constant(r, node->item[1 + i], "a position", &p->at[i])) return false;
     return p->body != NH_NOBODY;
@@ -263,6 +266,15 @@ static bool read_quantity(reader *r, const nh_deck_node *item, const char *key, 
     return nh_error_hint(r->error, "for example %s: %s", key, example);
 }
 
+/* A key that belongs elsewhere; `with`: where this key stands beside it, NULL: where `between` does not. */
+static bool no_other_word(reader *r, const nh_deck_node *item, const char *key, const char *with, const char *cure)
+{
+    const nh_deck_node *node = nh_deck_get(item, key);
+    if (!node || (with ? !nh_deck_get(item, with) : nh_deck_get(item, "between") != NULL)) return true;
+    nh_deck_fail(r->deck, node, 0, r->error, "`%s` has no meaning here", key);
+    return nh_error_hint(r->error, "%s", cure);
+}
+
 /* k (d - rest)^2/2; with the rest length 0 between points this is a polynomial of their positions. */
 static bool read_spring(reader *r, const nh_deck_node *item)
 {
@@ -273,6 +285,10 @@ static bool read_spring(reader *r, const nh_deck_node *item)
     along a;
     nh_ex k, rest = nh_int(d, 0), square;
     if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a spring {joint: ..., stiffness: ...}", r->error)) return false;
+    if (!no_other_word(r, item, "rest", "between", "the length at rest of a spring between places is its `length`") ||
+        !no_other_word(r, item, "length", NULL, "the place of rest of a spring along a joint is its `rest`") ||
+        !no_other_word(r, item, "damping", "damping", "a damper is an entry of its own: dampers: [{joint: .., damping: ..}]"))
+        return false;
     if (nh_deck_get(item, "between") ? !nh_deck_only(r->deck, item, of_points, 5, r->error)
                                      : !nh_deck_only(r->deck, item, of_joint, 6, r->error))
         return false;
@@ -322,9 +338,12 @@ static bool read_force(reader *r, const nh_deck_node *node, nh_ex *out)
 static bool read_components(reader *r, const nh_deck_node *item, const nh_deck_node *node, nh_ex out[3])
 {
     long body = nh_system_body_word(r, item, "in", NH_GROUND);
-    if (body == NH_NOBODY || !nh_deck_is(r->deck, node, NH_DECK_LIST, "the components of a vector", r->error)) return false;
-    if (node->count != 3)
-        return nh_deck_fail(r->deck, node, 0, r->error, "a force has three components here, not %zu", node->count);
+    if (body == NH_NOBODY) return false;
+    if (node->kind != NH_DECK_LIST || node->count != 3) {
+        nh_deck_fail(r->deck, node, 0, r->error, "three components were expected here");
+        return nh_error_hint(r->error, "for example [0, 0, %s], along x, y and z of the ground, or of the body under `in`",
+                             node->kind == NH_DECK_SCALAR ? node->text : "u");
+    }
     for (int i = 0; i < 3; i++)
         if (!read_force(r, node->item[i], &out[i])) return false;
     if (body != NH_GROUND) nh_rotate(r->system->dag, r->system->chain->body[body].pose.R, false, out, out);

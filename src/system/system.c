@@ -269,6 +269,7 @@ long nh_system_coordinate(const nh_system *system, const char *name)
 const char *nh_system_state_name(const nh_system *s, const char *name)
 {
     static const char dot[] = "_dot";
+    name = nh_deck_spelled(s->arena, name);
     size_t length = strlen(name), tail = sizeof dot - 1;
     nh_ex taken;
     if (length <= tail || strcmp(name + length - tail, dot) || nh_symbol_find(s->dag, name, &taken)) return name;

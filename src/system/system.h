@@ -135,7 +135,7 @@ bool nh_system_motions(nh_system *system, size_t *count, nh_known_motion **out, 
    the result. */
 size_t nh_system_state_names(const nh_system *system, const char **names);
 
-/* x' for x_dot where x is a coordinate and nothing is named x_dot, as in the tables that simulate writes; else `name`. */
+/* In ASCII (nh_deck_spelled), and x' for x_dot where x is a coordinate and nothing is named x_dot, as in the tables that simulate writes; else `name`. */
 const char *nh_system_state_name(const nh_system *system, const char *name);
 
 /* The coordinate whose velocity `word` may mean, as others write it: of x1 that is x1dot, x1_dot, dotx1, xdot1, dx1,
