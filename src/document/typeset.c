@@ -265,8 +265,9 @@ void nh_typeset_function(const writer *w, const char *text)
     const char *shown = text, *primes = text + strcspn(text, "'");
     bool command = false;
     if (*primes) { /* V'(r) */
-        if (w->form == NH_MATHML) nh_text_addf(w->out, "<msup><mi mathvariant=\"normal\">%.*s</mi><mo>", (int)(primes - text), text);
-        else nh_text_addf(w->out, "\\operatorname{%.*s}", (int)(primes - text), text);
+        nh_text_add(w->out, w->form == NH_MATHML ? "<msup><mi mathvariant=\"normal\">" : "\\operatorname{");
+        nh_text_add_n(w->out, text, (size_t)(primes - text));
+        nh_text_add(w->out, w->form == NH_MATHML ? "</mi><mo>" : "}");
         for (; *primes; primes++) nh_text_add(w->out, w->form == NH_MATHML ? "\u2032" : "'");
         if (w->form == NH_MATHML) nh_text_add(w->out, "</mo></msup>");
         return;

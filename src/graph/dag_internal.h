@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "graph/dag.h"
+#include "graph/declared.h"
 
 typedef struct {
     const char *text;
@@ -30,7 +31,7 @@ typedef struct {
 /* A function of one argument that a file declares, see declared.h. */
 typedef struct {
     const char *name;
-    nh_ex variable, value;
+    nh_ex variable, value[NH_DECLARED_PRIMES + 1]; /* with its derivatives */
     bool given; /* it has a value */
 } nh_declared;
 

@@ -1,19 +1,20 @@
 #include "graph/declared.h"
 
 #include "graph/dag_internal.h"
-#include "graph/diff.h"
 
-size_t nh_declare(nh_dag *dag, const char *name)
+size_t nh_declared_add(nh_dag *dag, const char *name)
 {
     nh_grow(&dag->declared, &dag->declared_capacity, dag->declared_count + 1, sizeof *dag->declared);
     dag->declared[dag->declared_count] = (nh_declared){.name = nh_arena_strdup(dag->names, name)};
     return dag->declared_count++;
 }
 
-void nh_declare_value(nh_dag *dag, size_t f, nh_ex variable, nh_ex value)
+void nh_declared_give(nh_dag *dag, size_t f, nh_ex variable, const nh_ex *value)
 {
     nh_declared *own = &dag->declared[f];
-    *own = (nh_declared){.name = own->name, .variable = variable, .value = value, .given = true};
+    own->variable = variable;
+    memcpy(own->value, value, sizeof own->value);
+    own->given = true;
 }
 
 bool nh_declared_find(const nh_dag *dag, const char *name, size_t *f)
@@ -26,11 +27,9 @@ bool nh_declared_find(const nh_dag *dag, const char *name, size_t *f)
 nh_ex nh_declared_call(nh_dag *dag, size_t f, size_t n, nh_ex x)
 {
     const nh_declared own = dag->declared[f];
-    nh_ex value = own.value;
     if (!own.given)
         return nh_call_any(dag, NH_UNSPECIFIED, (nh_ex[]){nh_int(dag, (int64_t)f), nh_int(dag, (int64_t)n), x});
-    for (size_t i = 0; i < n; i++) value = nh_diff(dag, value, own.variable);
-    return nh_substitute(dag, value, 1, &own.variable, &x);
+    return nh_substitute(dag, own.value[n], 1, &own.variable, &x);
 }
 
 size_t nh_declared_name(const nh_dag *dag, nh_ex call, const char **name)

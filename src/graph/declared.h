@@ -10,13 +10,16 @@
 
 #include "graph/dag.h"
 
+enum { NH_DECLARED_PRIMES = 8 }; /* the highest derivative that can be written */
+
 /* Declares a function; its number counts from 0.  The name is copied. */
-size_t nh_declare(nh_dag *dag, const char *name);
-/* Gives it the value `value` of the symbol `variable`, before it is called. */
-void nh_declare_value(nh_dag *dag, size_t f, nh_ex variable, nh_ex value);
+size_t nh_declared_add(nh_dag *dag, const char *name);
+/* Gives it a value, an expression of the symbol `variable`, before it is called: `value` has NH_DECLARED_PRIMES + 1
+   derivatives from the order 0 on. */
+void nh_declared_give(nh_dag *dag, size_t f, nh_ex variable, const nh_ex *value);
 /* The number of the function of this name; false: there is none. */
 bool nh_declared_find(const nh_dag *dag, const char *name, size_t *f);
-/* Its n-th derivative at x. */
+/* Its n-th derivative at x; of one with a value up to the order NH_DECLARED_PRIMES. */
 nh_ex nh_declared_call(nh_dag *dag, size_t f, size_t n, nh_ex x);
 /* How an unspecified call is written before its argument: "V", "V'", "V''"; returns the order of the derivative. */
 size_t nh_declared_name(const nh_dag *dag, nh_ex call, const char **name);

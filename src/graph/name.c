@@ -69,6 +69,17 @@ size_t nh_name_spelled(const char *text, char *out, size_t room)
     }
 }
 
+const char *nh_name_of_sign(const char *at)
+{
+    static const char *const signs[][2] = {
+        {"\u2019", "'"},  {"\u2018", "'"},  {"\u2032", "'"},   {"\u00b4", "'"},         {"\u00b7", "*"},
+        {"\u22c5", "*"},  {"\u00d7", "*"},  {"\u2212", "-"},   {"\u2013", "-"},         {"\u00f7", "/"},
+        {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00bd", "1/2"}, {"\u221a", "sqrt(...)"}, {"\u00b0", "*pi/180"}};
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
+        if (!strncmp(at, signs[i][0], strlen(signs[i][0]))) return signs[i][1];
+    return NULL;
+}
+
 /* A name similar to the text: letters by their names, `_` for blanks and hyphens, leading digits moved to the end.
  * False where the text is an expression or has characters without a name. */
 static bool similar_name(const char *text, nh_text *out)

@@ -95,18 +95,6 @@ static bool begins_name(parser *p)
 static bool expression(parser *p, nh_ex *out);
 static bool unary(parser *p, nh_ex *out);
 
-/* Typographic signs, as word processors and books use them, and the ASCII text for each. */
-static const char *plain_sign(const char *at)
-{
-    static const char *const signs[][2] = {
-        {"\u2019", "'"},  {"\u2018", "'"},  {"\u2032", "'"},   {"\u00b4", "'"},         {"\u00b7", "*"},
-        {"\u22c5", "*"},  {"\u00d7", "*"},  {"\u2212", "-"},   {"\u2013", "-"},         {"\u00f7", "/"},
-        {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00bd", "1/2"}, {"\u221a", "sqrt(...)"}, {"\u00b0", "*pi/180"}};
-    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
-        if (!strncmp(at, signs[i][0], strlen(signs[i][0]))) return signs[i][1];
-    return NULL;
-}
-
 /* A hint for common mistakes: 9,81 for 9.81; two equations in one text; a quote at one end only. */
 static bool hint_separator(parser *p)
 {
@@ -126,7 +114,7 @@ static bool unexpected(parser *p, const char *wanted)
     if (!c) return fail(p, p->at, "the expression ends here, but %s was expected", wanted);
     if ((unsigned char)c >= 0x80) {
         size_t length;
-        const char *plain = plain_sign(p->text + p->at), *letter = nh_name_of_letter(p->text + p->at, &length);
+        const char *plain = nh_name_of_sign(p->text + p->at), *letter = nh_name_of_letter(p->text + p->at, &length);
         fail(p, p->at, "a character that the expression language does not have; %s was expected", wanted);
         if (plain) return hint(p, "write `%s`", plain);
         return hint(p, "names consist of the letters a-z, A-Z, digits and _%s%s%s", letter ? ": write `" : "",
@@ -306,8 +294,8 @@ static bool unresolved(parser *p, const char *word, size_t at)
     if (near) return hint(p, "did you mean `%s`?", near);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
     return hint(p,
-                "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs, those of `nhsym explain functions`, and those "
-                "that a system declares: functions: [\"%.40s(x)\"]",
+                "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs, those of `nhsym explain functions`, and "
+                "those that a system declares: functions: [\"%.40s(x)\"]",
                 word);
 }
 
@@ -325,10 +313,10 @@ static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
 /* V(x), V'(x), V''(x) of a function that the file declares. */
 static bool declared_call(parser *p, const char *word, size_t f, nh_ex *out)
 {
-    enum { most_primes = 8 };
     size_t primes = strspn(p->text + p->at, "'");
     nh_ex argument;
-    if (primes > most_primes) return fail(p, p->at, "derivatives up to order %d can be written", most_primes);
+    if (primes > NH_DECLARED_PRIMES)
+        return fail(p, p->at, "derivatives up to order %d can be written", NH_DECLARED_PRIMES);
     p->at += primes;
     if (!arguments(p, word, 1, &argument)) return false;
     *out = nh_declared_call(p->dag, f, primes, argument);

@@ -39,6 +39,8 @@ const char *nh_name_of_letter(const char *at, size_t *length);
  * theta for the Greek letter and for \theta, theta_1 for theta_{1}.  Returns how many bytes of the text it takes, 0:
  * there is none. */
 size_t nh_name_spelled(const char *text, char *out, size_t room);
+/* The ASCII text for a typographic sign, as word processors and books use them, at this place; NULL: there is none. */
+const char *nh_name_of_sign(const char *at);
 /* Adds to the fault what a name is made of, and a name similar to the text.  Returns false. */
 bool nh_name_hint(nh_error *error, const char *text);
 /* Is the name taken by a function, `pi` or `t`? */

@@ -244,9 +244,8 @@ bool nh_system_read_tree(reader *r)
         const nh_deck_node *other = nh_deck_get(r->root, others[i]);
         if (bodies || !other) continue;
         nh_deck_fail(r->deck, other, 0, r->error, "`%s` needs `bodies:`, but the file has none", others[i]);
-        return i > 2 ? nh_error_hint(r->error, "without bodies, a spring is a term -k/2*x^2 of the Lagrangian, a damper "
-                                               "stands in `dissipation: c/2*x'^2`, an actuator in `forces:`")
-                     : false;
+        return i > 2 && nh_error_hint(r->error, "without bodies, a spring is a term -k/2*x^2 of the Lagrangian, a "
+                                                "damper stands in `dissipation: c/2*x'^2`, an actuator in `forces:`");
     }
     if (!bodies) return true;
     r->system->chain = nh_system_take(r, 1, sizeof *r->system->chain);

@@ -2,7 +2,7 @@
  *
  * All but forces at a point act along a displacement d(t, q): that of a joint, a coordinate, or the distance of two
  * points.  A spring adds -k (d - rest)^2/2 to the Lagrangian, a damper c d'^2/2 to Rayleigh's function R, whose forces
- * are -dR/dq^s' [Goldstein2002, sec. 1.5], and an actuator with the force u gives the forces u dd/dq^s.  A force F at
+ * are -dR/dq^s' and an actuator with the force u gives the forces u dd/dq^s.  A force F at
  * a point p gives F . dp/dq^s, a torque T on a body with the angular velocity w gives T . dw/dq^s'. */
 #include <math.h>
 #include <string.h>
@@ -153,8 +153,8 @@ static void carry(reader *r, const place *p, long ancestor, nh_ex out[3])
 typedef struct {
     const nh_deck_node *node; /* the element */
     bool distance;
-    nh_ex d;       /* the displacement of a joint or coordinate */
-    nh_ex square;  /* of a distance */
+    nh_ex d;      /* the displacement of a joint or coordinate */
+    nh_ex square; /* of a distance */
 } along;
 
 /* The square of the distance of two places, in the frame of the last body that carries both. */
@@ -171,7 +171,8 @@ static bool read_distance(reader *r, const nh_deck_node *node, along *a)
     }
     if (!read_place(r, node->item[0], &end[0]) || !read_place(r, node->item[1], &end[1])) return false;
     if (end[0].body == end[1].body)
-        return nh_deck_fail(r->deck, node, 0, r->error, "both places are fixed to the same body: their distance is constant");
+        return nh_deck_fail(r->deck, node, 0, r->error,
+                            "both places are fixed to the same body: their distance is constant");
     long common = end[0].body;
     while (!is_below(r->system->chain, end[1].body, common))
         common = r->system->chain->joint[r->system->chain->body[common].joint].parent;
@@ -207,7 +208,8 @@ static bool read_along(reader *r, const nh_deck_node *item, const char *what, al
     for (int i = 0; i < 3; i++) {
         given[i] = nh_deck_get(item, ways[i]);
         if (one && given[i])
-            return nh_deck_fail(r->deck, given[i], 0, r->error, "a %s has one of `joint`, `coordinate` and `between`", what);
+            return nh_deck_fail(r->deck, given[i], 0, r->error, "a %s has one of `joint`, `coordinate` and `between`",
+                                what);
         if (given[i]) one = given[i];
     }
     if (!one) {
@@ -227,21 +229,19 @@ static bool read_along(reader *r, const nh_deck_node *item, const char *what, al
     return true;
 }
 
-static nh_ex displacement(reader *r, const along *a)
-{
-    return a->distance ? nh_sqrt(r->system->dag, a->square) : a->d;
-}
+static nh_ex displacement(reader *r, const along *a) { return a->distance ? nh_sqrt(r->system->dag, a->square) : a->d; }
 
 /* Are two places at one point where all coordinates and t are 0, where people start? */
 static bool coincide_at_zero(reader *r, const along *a)
 {
+    static const double none = 1e-24; /* the square of a length by rounding */
     nh_system *s = r->system;
     nh_ex *from = nh_system_take(r, 2 * (s->coordinates + 1), sizeof *from), *to = from + s->coordinates + 1;
     if (!a->distance) return false;
     from[s->coordinates] = s->t;
     for (size_t i = 0; i < s->coordinates; i++) from[i] = s->coordinate[i].q;
     for (size_t i = 0; i <= s->coordinates; i++) to[i] = nh_int(s->dag, 0);
-    return fabs(nh_system_number(s, nh_substitute(s->dag, a->square, s->coordinates + 1, from, to))) < 1e-24;
+    return fabs(nh_system_number(s, nh_substitute(s->dag, a->square, s->coordinates + 1, from, to))) < none;
 }
 
 /* An element between two points acts along their line, which has no direction where they coincide. */
@@ -249,9 +249,11 @@ static void note_if_singular(reader *r, const along *a, const char *what, const 
 {
     if (!coincide_at_zero(r, a)) return;
     const nh_deck_node *n = a->node;
-    r->note[r->notes++] = nh_arena_printf(
-        r->system->arena, "%s:%zu: where all coordinates are 0, the two places of this %s coincide: its force has no direction there%s",
-        nh_deck_name(n->deck), n->line, what, cure);
+    r->note[r->notes++] =
+        nh_arena_printf(r->system->arena,
+                        "%s:%zu: where all coordinates are 0, the two places of this %s coincide: its "
+                        "force has no direction there%s",
+                        nh_deck_name(n->deck), n->line, what, cure);
 }
 
 /* ---- elements ---- */
@@ -287,18 +289,19 @@ static bool read_spring(reader *r, const nh_deck_node *item)
     if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a spring {joint: ..., stiffness: ...}", r->error)) return false;
     if (!no_other_word(r, item, "rest", "between", "the length at rest of a spring between places is its `length`") ||
         !no_other_word(r, item, "length", NULL, "the place of rest of a spring along a joint is its `rest`") ||
-        !no_other_word(r, item, "damping", "damping", "a damper is an entry of its own: dampers: [{joint: .., damping: ..}]"))
+        !no_other_word(r, item, "damping", "damping",
+                       "a damper is an entry of its own: dampers: [{joint: .., damping: ..}]"))
         return false;
     if (nh_deck_get(item, "between") ? !nh_deck_only(r->deck, item, of_points, 5, r->error)
                                      : !nh_deck_only(r->deck, item, of_joint, 6, r->error))
         return false;
-    if (!read_along(r, item, "spring", &a) || !read_quantity(r, item, "stiffness", "a stiffness", "100", &k)) return false;
+    if (!read_along(r, item, "spring", &a) || !read_quantity(r, item, "stiffness", "a stiffness", "100", &k))
+        return false;
     const nh_deck_node *at = nh_deck_get(item, a.distance ? "length" : "rest");
     if (at && !nh_system_function_of_time(r, at, a.distance ? "a length" : "the place of rest", &rest)) return false;
     if (a.distance && nh_is_zero(d, rest)) square = a.square;
     else square = nh_powi(d, nh_sub(d, displacement(r, &a), rest), 2);
-    if (a.distance && !nh_is_zero(d, rest))
-        note_if_singular(r, &a, "spring", "; with length: 0 it vanishes there");
+    if (a.distance && !nh_is_zero(d, rest)) note_if_singular(r, &a, "spring", "; with length: 0 it vanishes there");
     s->lagrangian = nh_sub(d, s->lagrangian, nh_mul(d, nh_ratio(d, 1, 2), nh_mul(d, k, square)));
     return true;
 }
@@ -341,7 +344,8 @@ static bool read_components(reader *r, const nh_deck_node *item, const nh_deck_n
     if (body == NH_NOBODY) return false;
     if (node->kind != NH_DECK_LIST || node->count != 3) {
         nh_deck_fail(r->deck, node, 0, r->error, "three components were expected here");
-        return nh_error_hint(r->error, "for example [0, 0, %s], along x, y and z of the ground, or of the body under `in`",
+        return nh_error_hint(r->error,
+                             "for example [0, 0, %s], along x, y and z of the ground, or of the body under `in`",
                              node->kind == NH_DECK_SCALAR ? node->text : "u");
     }
     for (int i = 0; i < 3; i++)
@@ -411,7 +415,8 @@ static bool read_actuator(reader *r, const nh_deck_node *item)
     if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "an actuator {joint: ..., force: ...}", r->error)) return false;
     if (nh_deck_get(item, "body")) return nh_deck_only(r->deck, item, of_body, 5, r->error) && read_torque(r, item);
     bool point = nh_deck_get(item, "point") != NULL;
-    if (point ? !nh_deck_only(r->deck, item, of_point, 5, r->error) : !nh_deck_only(r->deck, item, of_joint, 6, r->error))
+    if (point ? !nh_deck_only(r->deck, item, of_point, 5, r->error)
+              : !nh_deck_only(r->deck, item, of_joint, 6, r->error))
         return false;
     const nh_deck_node *force = nh_deck_get(item, "force");
     if (!force) {
@@ -424,9 +429,9 @@ static bool read_actuator(reader *r, const nh_deck_node *item)
     d = displacement(r, &a);
     bool moves = false;
     for (size_t i = 0; i < s->coordinates; i++) moves |= !nh_is_zero(s->dag, nh_diff(s->dag, d, s->coordinate[i].q));
-    if (!moves) return nh_deck_fail(r->deck, item, 0, r->error, "no coordinate moves this joint: a force cannot act on it");
-    for (size_t i = 0; i < s->coordinates; i++)
-        push(r, i, nh_mul(s->dag, u, nh_diff(s->dag, d, s->coordinate[i].q)));
+    if (!moves)
+        return nh_deck_fail(r->deck, item, 0, r->error, "no coordinate moves this joint: a force cannot act on it");
+    for (size_t i = 0; i < s->coordinates; i++) push(r, i, nh_mul(s->dag, u, nh_diff(s->dag, d, s->coordinate[i].q)));
     return true;
 }
 

@@ -49,8 +49,9 @@ typedef struct {
 
 typedef struct {
     const char *name;
-    const char *input;       /* an expression of t and the parameters, instead of a value; NULL: none; of a function, whose
-                                name is "V(r)": its value */
+    /* an expression of t and the parameters, instead of a value; of a function, whose name is "V(r)": its value; NULL:
+     * none */
+    const char *input;
     double value;
     const nh_deck *deck;     /* where it was written: NULL for the command line */
     const nh_deck_node *key;
@@ -135,7 +136,8 @@ bool nh_system_motions(nh_system *system, size_t *count, nh_known_motion **out, 
    the result. */
 size_t nh_system_state_names(const nh_system *system, const char **names);
 
-/* In ASCII (nh_deck_spelled), and x' for x_dot where x is a coordinate and nothing is named x_dot, as in the tables that simulate writes; else `name`. */
+/* In ASCII (nh_deck_spelled), and x' for x_dot where x is a coordinate and nothing is named x_dot, as in the tables
+ * that simulate writes; else `name`. */
 const char *nh_system_state_name(const nh_system *system, const char *name);
 
 /* The coordinate whose velocity `word` may mean, as others write it: of x1 that is x1dot, x1_dot, dotx1, xdot1, dx1,

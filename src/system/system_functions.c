@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "graph/declared.h"
+#include "graph/diff.h"
 #include "graph/parse.h"
 #include "system/system_internal.h"
 
@@ -40,9 +41,10 @@ static bool fail_form(reader *r, const nh_deck_node *node)
 static bool only_argument(reader *r, nh_ex value, nh_ex variable, const char **other)
 {
     const nh_system *s = r->system;
-    nh_ex symbol[64];
-    size_t n = nh_symbols_in(s->dag, value, symbol, 64);
-    for (size_t i = 0; i < n && i < 64; i++) {
+    enum { most = 64 };
+    nh_ex symbol[most];
+    size_t n = nh_symbols_in(s->dag, value, symbol, most);
+    for (size_t i = 0; i < n && i < most; i++) {
         bool good = symbol[i] == variable;
         for (size_t k = 0; k < s->parameters; k++) good |= symbol[i] == s->parameter[k].symbol;
         *other = nh_name_of(s->dag, symbol[i]);
@@ -52,6 +54,14 @@ static bool only_argument(reader *r, nh_ex value, nh_ex variable, const char **o
 }
 
 static const char outside[] = "the value of `%s` contains `%s`, which is neither its argument `%s` nor a parameter";
+
+/* The value and its derivatives. */
+static void give(nh_dag *dag, size_t f, nh_ex variable, nh_ex value)
+{
+    nh_ex all[NH_DECLARED_PRIMES + 1] = {value};
+    for (size_t i = 1; i <= NH_DECLARED_PRIMES; i++) all[i] = nh_diff(dag, all[i - 1], variable);
+    nh_declared_give(dag, f, variable, all);
+}
 
 /* The value in the file. */
 static bool value_in_file(reader *r, const head *h, size_t f, const nh_deck_node *node, size_t skip)
@@ -64,7 +74,7 @@ static bool value_in_file(reader *r, const head *h, size_t f, const nh_deck_node
         return false;
     if (!only_argument(r, value, variable, &other))
         return nh_deck_fail(r->deck, node, skip, r->error, outside, h->name, other, h->variable);
-    nh_declare_value(r->system->dag, f, variable, value);
+    give(r->system->dag, f, variable, value);
     return true;
 }
 
@@ -87,7 +97,7 @@ static bool read_function(reader *r, const nh_deck_node *item)
     nh_deck_node own = *name;
     own.text = h.name;
     if (!nh_system_new_name(r, &own)) return false;
-    size_t f = nh_declare(r->system->dag, h.name);
+    size_t f = nh_declared_add(r->system->dag, h.name);
     if (item->kind == NH_DECK_SCALAR) return !h.value || value_in_file(r, &h, f, item, h.value);
     return !value || value_in_file(r, &h, f, value, 0);
 }
@@ -112,7 +122,7 @@ static bool apply(reader *r, const nh_setting *setting)
         return false;
     if (!only_argument(r, value, extra.value, &other))
         return nh_fail(r->error, NH_USAGE, "", outside, h.name, other, h.variable);
-    nh_declare_value(s->dag, f, extra.value, value);
+    give(s->dag, f, extra.value, value);
     return true;
 }
 

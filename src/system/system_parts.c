@@ -102,10 +102,11 @@ bool nh_system_read_notes(nh_system_reader *r)
     for (size_t i = 0; i < n; i++) r->system->note[r->system->notes++] = list->item[i]->text;
     const char *open = nh_declared_unspecified(r->system->dag);
     if (open)
-        r->system->note[r->system->notes++] = nh_arena_printf(
-            r->system->arena, "the function %s has no value: what is proved holds for every %s, completeness for almost every one; samples and "
-            "motions take a stand-in",
-            open, open);
+        r->system->note[r->system->notes++] =
+            nh_arena_printf(r->system->arena,
+                            "the function %s has no value: what is proved holds for every %s, completeness for almost "
+                            "every one; samples and motions take a stand-in",
+                            open, open);
     for (size_t i = 0; i < r->notes; i++) r->system->note[r->system->notes++] = r->note[i];
     for (size_t i = 0; i < found; i++) r->system->note[r->system->notes++] = more[i];
     return true;
