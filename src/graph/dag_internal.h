@@ -4,7 +4,6 @@
 
 #include "base/memory.h"
 #include "graph/dag.h"
-#include "graph/declared.h"
 
 typedef struct {
     const char *text;
@@ -31,8 +30,8 @@ typedef struct {
 /* A function of one argument that a file declares, see declared.h. */
 typedef struct {
     const char *name;
-    nh_ex variable, value[NH_DECLARED_PRIMES + 1]; /* with its derivatives */
-    bool given; /* it has a value */
+    nh_ex variable;
+    const nh_ex *value; /* with its derivatives; NULL: unspecified */
 } nh_declared;
 
 struct nh_dag {

@@ -13,8 +13,8 @@ void nh_declared_give(nh_dag *dag, size_t f, nh_ex variable, const nh_ex *value)
 {
     nh_declared *own = &dag->declared[f];
     own->variable = variable;
-    memcpy(own->value, value, sizeof own->value);
-    own->given = true;
+    nh_ex *copy = nh_arena_alloc(dag->names, (NH_DECLARED_PRIMES + 1) * sizeof *copy);
+    own->value = memcpy(copy, value, (NH_DECLARED_PRIMES + 1) * sizeof *copy);
 }
 
 bool nh_declared_find(const nh_dag *dag, const char *name, size_t *f)
@@ -27,7 +27,7 @@ bool nh_declared_find(const nh_dag *dag, const char *name, size_t *f)
 nh_ex nh_declared_call(nh_dag *dag, size_t f, size_t n, nh_ex x)
 {
     const nh_declared own = dag->declared[f];
-    if (!own.given)
+    if (!own.value)
         return nh_call_any(dag, NH_UNSPECIFIED, (nh_ex[]){nh_int(dag, (int64_t)f), nh_int(dag, (int64_t)n), x});
     return nh_substitute(dag, own.value[n], 1, &own.variable, &x);
 }
@@ -41,6 +41,6 @@ size_t nh_declared_name(const nh_dag *dag, nh_ex call, const char **name)
 const char *nh_declared_unspecified(const nh_dag *dag)
 {
     for (size_t i = 0; i < dag->declared_count; i++)
-        if (!dag->declared[i].given) return dag->declared[i].name;
+        if (!dag->declared[i].value) return dag->declared[i].name;
     return NULL;
 }
