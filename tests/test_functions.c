@@ -133,6 +133,16 @@ Test(functions, currents_hold_for_every_function)
     }
 }
 
+/* The argument hides a coordinate or parameter of its name; t is the time, and another argument where it is called. */
+Test(functions, arguments)
+{
+    nh_system *s = parsed("parameters: {a: 2, r: 7}\nfunctions: [\"F(t) = a*t^3\", {name: G, of: x, value: \"F'(x) + x\"}, {name: H, of: r, value: a*r}]\ncoordinates: [x, y]\nlagrangian: x'^2/2 + y'^2/2\n");
+    static const char *const same[][2] = {{"F(t)", "a*t^3"}, {"F'(y)", "3*a*y^2"}, {"F'''(x*y)", "6*a"}, {"G(y)", "3*a*y^2 + y"}, {"H(y)", "a*y"}, {"H'(x)", "a"}};
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) cr_expect_eq(reading(s, same[i][0]), reading(s, same[i][1]), "%s", same[i][0]);
+    cr_expect_null(nh_declared_unspecified(s->dag));
+    nh_system_free(s);
+}
+
 /* V(r) = -k/r is Kepler's problem: by the command line, in the file, in an analysis file. */
 Test(functions, values)
 {

@@ -38,6 +38,11 @@ size_t nh_declared_name(const nh_dag *dag, nh_ex call, const char **name)
     return (size_t)nh_number_of(dag, nh_child(dag, call, 1)).p;
 }
 
+void nh_declared_names(nh_dag *dag, const nh_dag *from)
+{
+    for (size_t i = 0; i < from->declared_count; i++) nh_declared_add(dag, from->declared[i].name);
+}
+
 const char *nh_declared_unspecified(const nh_dag *dag)
 {
     for (size_t i = 0; i < dag->declared_count; i++)

@@ -23,6 +23,8 @@ bool nh_declared_find(const nh_dag *dag, const char *name, size_t *f);
 nh_ex nh_declared_call(nh_dag *dag, size_t f, size_t n, nh_ex x);
 /* How an unspecified call is written before its argument: "V", "V'", "V''"; returns the order of the derivative. */
 size_t nh_declared_name(const nh_dag *dag, nh_ex call, const char **name);
+/* Declares the functions of another graph, without their values. */
+void nh_declared_names(nh_dag *dag, const nh_dag *from);
 /* The name of a function without a value, or NULL. */
 const char *nh_declared_unspecified(const nh_dag *dag);
 

@@ -63,11 +63,17 @@ static void give(nh_dag *dag, size_t f, nh_ex variable, nh_ex value)
     nh_declared_give(dag, f, variable, all);
 }
 
+/* The symbol of the argument, which hides what else has its name; t is t. */
+static nh_ex argument_of(const nh_system *s, const char *name)
+{
+    return strcmp(name, "t") ? nh_symbol_fresh(s->dag, name) : s->t;
+}
+
 /* The value in the file. */
 static bool value_in_file(reader *r, const head *h, size_t f, const nh_deck_node *node, size_t skip)
 {
     const char *other;
-    nh_ex value, variable = nh_symbol_fresh(r->system->dag, h->variable);
+    nh_ex value, variable = argument_of(r->system, h->variable);
     nh_named extra = {.name = h->variable, .value = variable};
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the value of a function", r->error) ||
         !nh_system_read_expression(r->system, r->deck, node, skip, NH_NO_QUASI, 1, &extra, NULL, &value, r->error))
@@ -116,7 +122,7 @@ static bool apply(reader *r, const nh_setting *setting)
         nh_fail(r->error, NH_USAGE, "", "`%s` is not a function of %s", setting->name, s->name);
         return nh_error_hint(r->error, "functions are declared in the system file: functions: [\"V(r)\"]");
     }
-    nh_named extra = {.name = h.variable, .value = nh_symbol_fresh(s->dag, h.variable)};
+    nh_named extra = {.name = h.variable, .value = argument_of(s, h.variable)};
     if (!nh_system_expression_text(s, nh_arena_printf(s->arena, "--set %s", setting->name), setting->input, 1, &extra,
                                    &value, r->error))
         return false;
