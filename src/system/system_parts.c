@@ -104,9 +104,9 @@ bool nh_system_read_notes(nh_system_reader *r)
     if (open)
         r->system->note[r->system->notes++] =
             nh_arena_printf(r->system->arena,
-                            "the function %s has no value: what is proved holds for every %s, completeness for almost "
-                            "every one; samples and motions take a stand-in",
-                            open, open);
+                            "a function has no value (%s): what is proved holds for all such functions, completeness "
+                            "for almost all; samples and motions take a stand-in",
+                            open);
     for (size_t i = 0; i < r->notes; i++) r->system->note[r->system->notes++] = r->note[i];
     for (size_t i = 0; i < found; i++) r->system->note[r->system->notes++] = more[i];
     return true;
