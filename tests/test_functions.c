@@ -8,6 +8,7 @@
 #include "graph/print.h"
 #include "mechanics.h"
 #include "program.h"
+#include "evaluate/named_value.h"
 
 static const char central[] = "name: central\nparameters: [{name: m, value: 1}]\nfunctions: [\"V(r)\"]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                               "lagrangian: m/2*(x'^2 + y'^2) - V(sqrt(x^2 + y^2))\n";
@@ -131,6 +132,23 @@ Test(functions, currents_hold_for_every_function)
         cr_expect(r->model->system->notes > 0);
         nh_analysis_free(r);
     }
+}
+
+/* The stand-in is one function: each order is the derivative of the one before, in doubles, balls and complex numbers; two functions differ. */
+Test(functions, stand_in)
+{
+    const double h = 1e-3;
+    for (int f = 0; f < 3; f++)
+        for (int n = 0; n < 5; n++)
+            for (double x = -2; x < 3; x += 0.7) {
+                double at[5], own = nh_named_value(NH_UNSPECIFIED, (double[]){f, n + 1, x});
+                for (int k = 0; k < 5; k++) at[k] = nh_named_value(NH_UNSPECIFIED, (double[]){f, n, x + (k - 2) * h});
+                double slope = (8 * (at[3] - at[1]) - (at[4] - at[0])) / (12 * h);
+                cr_expect_float_eq(slope, own, 1e-9, "%d, %d, %g: %.17g, %.17g", f, n, x, slope, own);
+                double _Complex z = nh_named_value_complex(NH_UNSPECIFIED, (double _Complex[]){f, n, x});
+                cr_expect_float_eq((double)z, at[2], 1e-14);
+                cr_expect(fabs(nh_named_value(NH_UNSPECIFIED, (double[]){f + 1, n, x}) - at[2]) > 1e-6);
+            }
 }
 
 /* The argument hides a coordinate or parameter of its name; t is the time, and another argument where it is called. */
