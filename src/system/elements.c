@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "graph/diff.h"
+#include "graph/print.h"
 #include "system/bodies_tree.h"
 
 typedef nh_system_reader reader;
@@ -55,6 +56,16 @@ static void in_ground(reader *r, const place *p, nh_ex out[3])
     if (p->body != NH_GROUND) nh_pose_point(r->system->dag, &c->body[p->body].pose, p->at, out);
 }
 
+/* "hand_x = l*cos(a)", for readers; of a long expression the name. */
+static const char *as_equation(nh_system *s, const char *name, nh_ex value)
+{
+    enum { longest = 300 };
+    char *shown = nh_print_short(s->dag, value, longest);
+    const char *text = shown ? nh_arena_printf(s->arena, "%s = %s", name, shown) : name;
+    nh_free(shown);
+    return text;
+}
+
 /* NAME_x, NAME_y and NAME_z become definitions. */
 static bool read_point(reader *r, const nh_deck_node *item)
 {
@@ -80,7 +91,7 @@ static bool read_point(reader *r, const nh_deck_node *item)
         nh_deck_node component = *name;
         component.text = nh_arena_printf(s->arena, "%s_%s", name->text, letters[i]);
         if (!nh_system_new_name(r, &component)) return false;
-        const char *text = nh_arena_printf(s->arena, "%s: component %s of a point", component.text, letters[i]);
+        const char *text = as_equation(s, component.text, position[i]);
         s->definition[s->definitions++] = (nh_named){.name = component.text, .text = text, .value = position[i]};
     }
     return true;
