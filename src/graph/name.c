@@ -41,11 +41,12 @@ static const char *latex_letter(const char *at, size_t *length)
         "lambda", "mu",   "nu",    "xi",    "pi",      "rho",   "sigma", "tau",   "upsilon", "phi",
         "chi",   "psi",   "omega", "Gamma", "Delta",   "Theta", "Lambda", "Xi",   "Pi",   "Sigma",
         "Phi",   "Psi",   "Omega"};
+    if (*at != '\\') return NULL;
     size_t variant = !strncmp(at, "\\var", 4) ? 3 : 0, n = 0;
     const char *word = at + 1 + variant;
     while (isalpha((unsigned char)word[n])) n++;
     *length = 1 + variant + n;
-    for (size_t i = 0; *at == '\\' && i < sizeof names / sizeof *names; i++)
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strlen(names[i]) == n && !strncmp(word, names[i], n)) return names[i];
     return NULL;
 }
