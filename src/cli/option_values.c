@@ -62,6 +62,10 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     const char *value;
     if (!assignment(cli, text, "set", &name, &value, error)) return false;
     double x;
+    if (strchr(name, '(')) { /* of a function */
+        cli->ask.setting[cli->ask.settings++] = (nh_setting){.name = name, .input = value};
+        return true;
+    }
     if (!nh_text_to_ratio(value, &x)) {
         nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
         return nh_error_hint_number(error, value);

@@ -92,7 +92,7 @@ static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error
     size_t count = q->third ? 3 : q->second ? 2 : 1, parameter[3];
     nh_system *s = nh_system_read(q->system_path, q->settings, q->setting, error);
     if (!s) return false;
-    bool good = true;
+    bool good = nh_system_needs_values(s, "a classification", error);
     for (size_t k = 0; k < count && good; k++) {
         static const double apart[] = {1, 1.0313, 0.9527};
         good = nh_classified_parameter(s, name[k], &parameter[k], error);

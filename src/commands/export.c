@@ -258,7 +258,8 @@ nh_export *nh_export_create(const nh_export_request *q, nh_error *error)
     if (q->name) x->name = nh_arena_strdup(arena, q->name);
     bool good = read_parts(x, q->of, &wanted, error);
     if (good) x->system = x->own = nh_system_read(q->system_path, q->settings, q->setting, error);
-    good = good && x->own && read_inputs(x, q->input, error) && gather(x, q, wanted, error);
+    good = good && x->own && nh_system_needs_values(x->own, "the code", error) && read_inputs(x, q->input, error) &&
+           gather(x, q, wanted, error);
     if (good && nh_interrupted()) x->partial = true;
     if (good) return x;
     nh_export_free(x);

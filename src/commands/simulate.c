@@ -36,7 +36,7 @@ static bool read_watch(nh_simulation *s, const char *typed, nh_error *error)
                                        extras, extra, &e, error))
             return false;
         if (!nh_analysis_file_to_chart(o, e, &e, error)) return false;
-        nh_observables_add(&s->columns, name, NH_TRACK_WATCH, e);
+        nh_observables_add(&s->columns, nh_deck_spelled_all(s->arena, name), NH_TRACK_WATCH, e);
     }
     if (s->columns.count) return true;
     nh_fail(error, NH_USAGE, "", "--watch names no quantity");

@@ -152,7 +152,7 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, nh_state *
     if (count) memcpy(setting, s->analysis->setting, count * sizeof *setting);
     if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
     if (!(s->system = nh_system_read(q->system_path, count + q->settings, setting, error))) return false;
-    bool good = resolve(s, q, &own, error);
+    bool good = nh_system_needs_values(s->system, "a motion", error) && resolve(s, q, &own, error);
     nh_analysis_file *first = own ? own : s->analysis;
     if (good && q->project && first && first->has_initial) nh_simulate_assemble(s, &first->initial);
     if (good && first && first->has_initial && needs_other_chart(s, &first->initial)) {

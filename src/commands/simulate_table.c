@@ -7,20 +7,6 @@
 
 typedef enum { COLUMN_STATE, COLUMN_PARAMETER } column_kind;
 
-/* x_dot is x', as in the tables that simulate writes. */
-static const char *state_name(nh_arena *arena, const nh_system *s, const char *name)
-{
-    static const char dot[] = "_dot";
-    size_t length = strlen(name), tail = sizeof dot - 1;
-    for (size_t i = 0; i < s->coordinates; i++) {
-        const char *own = s->coordinate[i].name;
-        if (!strcmp(own, name)) return name;
-        if (strlen(own) + tail == length && !strncmp(own, name, length - tail) && !strcmp(name + length - tail, dot))
-            return nh_arena_printf(arena, "%s'", own);
-    }
-    return name;
-}
-
 static bool is_parameter(const nh_system *s, const char *name)
 {
     for (size_t i = 0; i < s->parameters; i++)
@@ -108,7 +94,7 @@ bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *q, const 
     bool good = true;
     *out = (nh_simulate_rows){.row = nh_arena_alloc(arena, t->rows * sizeof *out->row)};
     for (size_t j = 0; j < t->columns && good; j++) {
-        name[j] = state_name(arena, s, t->name[j]);
+        name[j] = nh_system_state_name(s, t->name[j]);
         kind[j] = is_parameter(s, name[j]) ? COLUMN_PARAMETER : COLUMN_STATE;
         out->parameters += kind[j] == COLUMN_PARAMETER;
         if (kind[j] == COLUMN_STATE) good = is_state(arena, t, s, name[j], error);

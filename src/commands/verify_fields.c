@@ -25,7 +25,7 @@ static bool component(nh_verification *v, const char *typed, size_t begin, size_
                                   "a component `name=expression` was expected, found `%.*s`", (int)(end - begin),
                                   typed + begin);
     while (n && typed[begin + n - 1] == ' ') n--;
-    char *name = nh_arena_strndup(v->arena, typed + begin, n);
+    const char *name = nh_system_state_name(v->system, nh_arena_strndup(v->arena, typed + begin, n));
     long index = nh_system_coordinate(v->system, name);
     bool is_time = !strcmp(name, "Z0") || !strcmp(name, "t");
     nh_ex e, *to = is_time ? &g->time : index >= 0 ? &g->space[index] : NULL;

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "document/source_internal.h"
+#include "graph/declared.h"
 #include "graph/num_long.h"
 
 static void put(nh_source *w, nh_ex e, int around);
@@ -213,9 +214,14 @@ static void put_function(nh_source *w, nh_ex e)
         return;
     }
     w->sign |= f == NH_SIGN;
-    nh_text_addf(w->out, "%s(", w->language->plain ? nh_function_name(f) : w->language->call[f]);
-    for (size_t i = 0; i < nh_arity(w->dag, e); i++) {
-        if (i) nh_text_add(w->out, ", ");
+    bool unspecified = f == NH_UNSPECIFIED;
+    const char *name = w->language->plain ? nh_function_name(f) : w->language->call[f];
+    size_t order = unspecified ? nh_declared_name(w->dag, e, &name) : 0;
+    nh_text_add(w->out, name);
+    while (order-- > 0) nh_text_add(w->out, "'");
+    nh_text_add(w->out, "(");
+    for (size_t i = unspecified ? 2 : 0; i < nh_arity(w->dag, e); i++) {
+        if (i && !unspecified) nh_text_add(w->out, ", ");
         put(w, nh_child(w->dag, e, i), NH_IN_SUM);
     }
     nh_text_add(w->out, ")");

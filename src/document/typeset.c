@@ -294,8 +294,16 @@ void nh_typeset_function(const writer *w, const char *text)
 {
     static const char *const known[] = {"sin", "cos", "tan", "sinh", "cosh", "tanh", "exp"};
     static const char *const inverse[][2] = {{"asin", "arcsin"}, {"acos", "arccos"}, {"atan", "arctan"}, {"log", "ln"}};
-    const char *shown = text;
+    const char *shown = text, *primes = text + strcspn(text, "'");
     bool command = false;
+    if (*primes) { /* V'(r) */
+        nh_text_add(w->out, w->form == NH_MATHML ? "<msup><mi mathvariant=\"normal\">" : "\\operatorname{");
+        nh_text_add_n(w->out, text, (size_t)(primes - text));
+        nh_text_add(w->out, w->form == NH_MATHML ? "</mi><mo>" : "}");
+        for (; *primes; primes++) nh_text_add(w->out, w->form == NH_MATHML ? "\u2032" : "'");
+        if (w->form == NH_MATHML) nh_text_add(w->out, "</mo></msup>");
+        return;
+    }
     for (size_t i = 0; i < sizeof inverse / sizeof *inverse; i++)
         if (!strcmp(text, inverse[i][0])) shown = inverse[i][1], command = true;
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) command |= !strcmp(text, known[i]);

@@ -69,7 +69,12 @@ static nh_formula_node *name(reader *r)
     while (isalnum((unsigned char)*r->at) || *r->at == '_') r->at++;
     nh_formula_node *s = make(r, NH_FORMULA_NODE_NAME, NULL);
     s->text = nh_arena_strndup(r->arena, begin, (size_t)(r->at - begin));
+    const char *primes = r->at;
     for (; *r->at == '\''; r->at++) s->primes++;
+    if (*primes == '\'' && *r->at == '(') { /* the derivative of a function: V'(r) */
+        s->text = nh_arena_strndup(r->arena, begin, (size_t)(r->at - begin));
+        s->primes = 0;
+    }
     if (s->primes || !take(r, '(')) return s;
     s->kind = NH_FORMULA_NODE_CALL;
     return arguments(r, s) ? s : NULL;

@@ -145,6 +145,32 @@ static void airy(acb_t out, nh_function f, acb_srcptr x, slong bits)
                      f == NH_AIRY_BI_PRIME ? out : NULL, x, bits);
 }
 
+/* A stand-in for the unspecified function number x[0]: the derivative of order x[1] at x[2] of a sum of three waves.
+ * Its derivatives below the sixth satisfy no linear relation. */
+static void stand_in(acb_t out, acb_srcptr x, slong bits)
+{
+    static const double size[] = {0.8125, 0.5625, 0.3125}, often[] = {0.6171875, 1.1328125, 1.7890625};
+    long number = lround(arf_get_d(arb_midref(acb_realref(x)), ARF_RND_NEAR)),
+         order = lround(arf_get_d(arb_midref(acb_realref(x + 1)), ARF_RND_NEAR));
+    acb_t angle, factor;
+    acb_init(angle);
+    acb_init(factor);
+    acb_zero(out);
+    for (int k = 0; k < 3; k++) {
+        acb_set_d(factor, often[k] + (double)(number % 8) / 32);
+        acb_mul(angle, factor, x + 2, bits);
+        acb_add_si(angle, angle, k + number, bits);
+        (order % 2 ? acb_cos : acb_sin)(angle, angle, bits);
+        if (order % 4 > 1) acb_neg(angle, angle);
+        acb_pow_ui(factor, factor, (ulong)order, bits);
+        acb_mul(angle, angle, factor, bits);
+        acb_set_d(factor, size[k]);
+        acb_addmul(out, angle, factor, bits);
+    }
+    acb_clear(angle);
+    acb_clear(factor);
+}
+
 static void value(acb_t out, nh_function f, acb_srcptr x, slong bits)
 {
     which part = (f - NH_LEGENDRE_P) % 2 ? PRIME : PLAIN;
@@ -182,6 +208,7 @@ static void value(acb_t out, nh_function f, acb_srcptr x, slong bits)
     case NH_ELLIPTIC_F: acb_elliptic_f(out, x, x + 1, 0, bits); break;
     case NH_ELLIPTIC_EINC: acb_elliptic_e_inc(out, x, x + 1, 0, bits); break;
     case NH_ELLIPTIC_PI: acb_elliptic_pi_inc(out, x, x + 1, x + 2, 0, bits); break;
+    case NH_UNSPECIFIED: stand_in(out, x, bits); break;
     default: acb_indeterminate(out); break;
     }
     if (f == NH_BESSEL_K_PRIME) acb_neg(out, out);

@@ -313,9 +313,30 @@ static void solution(nh_jet_eval *v, nh_ex e, nh_residue *out)
     nh_free(f);
 }
 
+/* The n-th derivative of an unspecified function at u = u_0 + w: sum_k V^(n+k)(u_0) w^k/k! with random derivatives at
+ * the residue u_0, the same wherever the argument has this value. */
+static void unspecified(nh_jet_eval *v, nh_ex e, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    int64_t f = nh_number_of(v->dag, nh_child(v->dag, e, 0)).p, n = nh_number_of(v->dag, nh_child(v->dag, e, 1)).p;
+    const nh_residue *u = v->value[nh_child(v->dag, e, 2)];
+    nh_residue *w = nh_alloc_array(2 * r->size, sizeof *w), *next = w + r->size, at = u[0];
+    memcpy(w, u, r->size * sizeof *w);
+    w[0] = 0;
+    nh_jet_constant(r, 0, out);
+    for (size_t k = r->order + 1; k-- > 0;) {
+        nh_jet_mul(r, out, w, next);
+        nh_jet_scale(r, next, nh_residue_inverse(r->field, (nh_residue)(k + 1)));
+        memcpy(out, next, r->size * sizeof *out);
+        out[0] = nh_jet_point_derivative(v->point, f, n + (int64_t)k, at);
+    }
+    nh_free(w);
+}
+
 static bool is_solution(const nh_jet_eval *v, nh_ex e)
 {
-    return nh_kind_of(v->dag, e) == NH_FUNCTION && nh_is_named_function(nh_function_of(v->dag, e));
+    nh_function f = nh_kind_of(v->dag, e) == NH_FUNCTION ? nh_function_of(v->dag, e) : NH_PI;
+    return nh_is_named_function(f) && f != NH_UNSPECIFIED;
 }
 
 static void compute(nh_jet_eval *v, nh_ex e)
@@ -330,6 +351,7 @@ static void compute(nh_jet_eval *v, nh_ex e)
         switch (nh_function_of(v->dag, e)) {
         case NH_SIN: case NH_COS: case NH_TAN: circular(v, e, out); break;
         case NH_EXP: case NH_SINH: case NH_COSH: case NH_TANH: exponential(v, e, out); break;
+        case NH_UNSPECIFIED: unspecified(v, e, out); break;
         default:
             if (is_solution(v, e)) solution(v, e, out);
             else primitive(v, e, out);

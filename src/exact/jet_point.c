@@ -138,6 +138,7 @@ static bool note_function(nh_jet_point *x, nh_ex e)
     case NH_LOG:
     case NH_ATAN2:
     case NH_PI: return note(x, NH_JET_FREE, e, 1);
+    case NH_UNSPECIFIED: return true; /* its values need no relations */
     default:
         if (x->solutions && nh_is_named_function(nh_function_of(x->dag, e)) && note_first_order(x, e))
             return !x->obstacle;
@@ -454,4 +455,15 @@ const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *x, nh_ex f)
     if (!k->chosen)
         k->value = draw(x, k, 0), k->sine = draw(x, k, 1), k->chosen = true;
     return k;
+}
+
+nh_residue nh_jet_point_derivative(const nh_jet_point *x, int64_t f, int64_t order, nh_residue at)
+{
+    const uint64_t word[] = {(uint64_t)f, (uint64_t)order, at};
+    uint64_t state = x->random;
+    for (size_t i = 0; i < sizeof word / sizeof *word; i++) {
+        state ^= word[i] + 1;
+        state = nh_residue_random(x->field, &state) * (state | 1); /* as in draw() */
+    }
+    return nh_residue_random(x->field, &state);
 }

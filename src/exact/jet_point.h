@@ -95,5 +95,7 @@ bool nh_jet_point_exponential(nh_jet_point *point, nh_ex argument, nh_residue *o
 nh_residue nh_jet_point_free_value(nh_jet_point *point, nh_ex primitive);
 /* The kernel of f, for f and for f' where its equation is of second order, with its residues chosen. */
 const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *point, nh_ex f);
+/* A random residue for the derivative of this order of the unspecified function number f at the residue `at`. */
+nh_residue nh_jet_point_derivative(const nh_jet_point *point, int64_t f, int64_t order, nh_residue at);
 
 #endif

@@ -44,6 +44,7 @@ nh_dag *nh_dag_copy(const nh_dag *dag)
             copied(dag->simplified[part], dag->simplified_capacity[part], sizeof **c->simplified);
     c->rule = copied(dag->rule, c->rule_capacity = dag->rule_count, sizeof *c->rule);
     c->power = copied(dag->power, c->power_capacity = dag->power_count, sizeof *c->power);
+    c->declared = copied(dag->declared, c->declared_capacity = dag->declared_count, sizeof *c->declared);
     c->names = nh_arena_create();
     return c;
 }
@@ -60,6 +61,7 @@ void nh_dag_free(nh_dag *dag)
     nh_free(dag->simplified[1]);
     nh_free(dag->rule);
     nh_free(dag->power);
+    nh_free(dag->declared);
     nh_arena_free(dag->names);
     nh_free(dag);
 }

@@ -88,6 +88,7 @@ typedef enum {
     NH_ELLIPTIC_F,
     NH_ELLIPTIC_EINC,
     NH_ELLIPTIC_PI, /* elliptic integrals */
+    NH_UNSPECIFIED, /* a function that a file declares without a value (declared.h) */
     NH_FUNCTION_COUNT
 } nh_function;
 #undef X

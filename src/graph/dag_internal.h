@@ -27,6 +27,13 @@ typedef struct {
     unsigned order;
 } nh_power_rule;
 
+/* A function of one argument that a file declares, see declared.h. */
+typedef struct {
+    const char *name;
+    nh_ex variable;
+    const nh_ex *value; /* with its derivatives; NULL: unspecified */
+} nh_declared;
+
 struct nh_dag {
     nh_dag_nodes all; /* first */
     size_t node_count, node_capacity;
@@ -45,6 +52,8 @@ struct nh_dag {
     size_t rule_count, rule_capacity;
     nh_power_rule *power;
     size_t power_count, power_capacity;
+    nh_declared *declared;
+    size_t declared_count, declared_capacity;
     size_t copied;        /* so many nodes are those of the graph that this one is a copy of */
     unsigned long worker; /* nh_parallel_worker() where it was made: expressions are made nowhere else */
 };

@@ -42,6 +42,7 @@ static const struct {
     NAMED(ELLIPTIC_F, "elliptic_f", 2, "u, m"),
     NAMED(ELLIPTIC_EINC, "elliptic_einc", 2, "u, m"),
     NAMED(ELLIPTIC_PI, "elliptic_pi", 3, "n, u, m"),
+    NAMED(UNSPECIFIED, "an unspecified function", 3, "f, n, x"), /* no name of the language */
 };
 #undef X
 
@@ -56,7 +57,7 @@ bool nh_is_incomplete_elliptic(nh_function f)
 
 size_t nh_function_constants(nh_function f)
 {
-    return table[f].arguments && f < NH_ELLIPTIC_K ? (size_t)table[f].arity - 1 : 0;
+    return table[f].arguments && (f < NH_ELLIPTIC_K || f == NH_UNSPECIFIED) ? (size_t)table[f].arity - 1 : 0;
 }
 
 const char *nh_function_nearest(const char *word)

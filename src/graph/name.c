@@ -35,6 +35,54 @@ const char *nh_name_of_letter(const char *at, size_t *length)
     return NULL;
 }
 
+/* "\\theta": the length of the command, and the name of the Greek letter; NULL: it is none. */
+static const char *latex_letter(const char *at, size_t *length)
+{
+    static const char *const names[] = {
+        "alpha", "beta",  "gamma", "delta", "epsilon", "zeta",  "eta",   "theta", "iota", "kappa",
+        "lambda", "mu",   "nu",    "xi",    "pi",      "rho",   "sigma", "tau",   "upsilon", "phi",
+        "chi",   "psi",   "omega", "Gamma", "Delta",   "Theta", "Lambda", "Xi",   "Pi",   "Sigma",
+        "Phi",   "Psi",   "Omega"};
+    if (*at != '\\') return NULL;
+    size_t variant = !strncmp(at, "\\var", 4) ? 3 : 0, n = 0;
+    const char *word = at + 1 + variant;
+    while (isalpha((unsigned char)word[n])) n++;
+    *length = 1 + variant + n;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strlen(names[i]) == n && !strncmp(word, names[i], n)) return names[i];
+    return NULL;
+}
+
+size_t nh_name_spelled(const char *text, char *out, size_t room)
+{
+    size_t used = 0, length;
+    bool brace = false;
+    *out = 0;
+    for (const char *at = text;; at += length) {
+        const char *word = latex_letter(at, &length);
+        if (!word) word = nh_name_of_letter(at, &length);
+        if (!word && (is_letter(*at) || isdigit((unsigned char)*at))) word = at, length = 1;
+        bool opens = *at == '{' && !brace && at > text && at[-1] == '_', closes = *at == '}' && brace;
+        if (opens || closes) brace = opens, word = "", length = 1;
+        if (!word) return brace ? 0 : (size_t)(at - text);
+        size_t n = word == at ? 1 : strlen(word);
+        if (used + n + 1 > room) n = room - 1 - used;
+        memcpy(out + used, word, n);
+        out[used += n] = 0;
+    }
+}
+
+const char *nh_name_of_sign(const char *at)
+{
+    static const char *const signs[][2] = {
+        {"\u2019", "'"},  {"\u2018", "'"},  {"\u2032", "'"},   {"\u00b4", "'"},         {"\u00b7", "*"},
+        {"\u22c5", "*"},  {"\u00d7", "*"},  {"\u2212", "-"},   {"\u2013", "-"},         {"\u00f7", "/"},
+        {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00bd", "1/2"}, {"\u221a", "sqrt(...)"}, {"\u00b0", "*pi/180"}};
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
+        if (!strncmp(at, signs[i][0], strlen(signs[i][0]))) return signs[i][1];
+    return NULL;
+}
+
 /* A name similar to the text: letters by their names, `_` for blanks and hyphens, leading digits moved to the end.
  * False where the text is an expression or has characters without a name. */
 static bool similar_name(const char *text, nh_text *out)

@@ -129,6 +129,10 @@ nh_ex nh_named_function_rate(nh_dag *dag, nh_ex e, size_t i)
     nh_ex argument[NH_MOST_ARGUMENTS];
     const char *text = NULL;
     for (size_t k = 0; k < nh_arity(dag, e); k++) argument[k] = nh_child(dag, e, k);
+    if (f == NH_UNSPECIFIED) {
+        if (i == 2) argument[1] = nh_add(dag, argument[1], nh_int(dag, 1));
+        return i == 2 ? nh_call_any(dag, f, argument) : nh_real(dag, NAN);
+    }
     if (f >= NH_ELLIPTIC_K) {
         for (size_t k = 0; k < sizeof slope / sizeof *slope; k++)
             if (slope[k].f == f && slope[k].argument == i) text = slope[k].first;

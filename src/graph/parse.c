@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/declared.h"
 #include "graph/measure.h"
 #include "graph/num_long.h"
 
@@ -71,7 +72,7 @@ static bool is_word(char c) { return isalnum((unsigned char)c) || c == '_'; }
 static bool find_function(const char *name, nh_function *out)
 {
     for (int f = 0; f < NH_FUNCTION_COUNT; f++) {
-        if (f == NH_PI || strcmp(name, nh_function_name((nh_function)f))) continue;
+        if (f == NH_PI || f == NH_UNSPECIFIED || strcmp(name, nh_function_name((nh_function)f))) continue;
         *out = (nh_function)f;
         return true;
     }
@@ -84,20 +85,15 @@ bool nh_is_reserved(const char *name)
     return find_function(name, &f) || !strcmp(name, "pi") || !strcmp(name, "t") || !strcmp(name, "sqrt");
 }
 
+/* Does a name begin here, possibly with a Greek letter? */
+static bool begins_name(parser *p)
+{
+    char word[max_name + 2];
+    return nh_name_spelled(p->text + p->at, word, sizeof word) && is_letter(*word);
+}
+
 static bool expression(parser *p, nh_ex *out);
 static bool unary(parser *p, nh_ex *out);
-
-/* Typographic signs, as word processors and books use them, and the ASCII text for each. */
-static const char *plain_sign(const char *at)
-{
-    static const char *const signs[][2] = {
-        {"\u2019", "'"},  {"\u2018", "'"},  {"\u2032", "'"},   {"\u00b4", "'"},         {"\u00b7", "*"},
-        {"\u22c5", "*"},  {"\u00d7", "*"},  {"\u2212", "-"},   {"\u2013", "-"},         {"\u00f7", "/"},
-        {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u00bd", "1/2"}, {"\u221a", "sqrt(...)"}, {"\u00b0", "*pi/180"}};
-    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
-        if (!strncmp(at, signs[i][0], strlen(signs[i][0]))) return signs[i][1];
-    return NULL;
-}
 
 /* A hint for common mistakes: 9,81 for 9.81; two equations in one text; a quote at one end only. */
 static bool hint_separator(parser *p)
@@ -118,7 +114,7 @@ static bool unexpected(parser *p, const char *wanted)
     if (!c) return fail(p, p->at, "the expression ends here, but %s was expected", wanted);
     if ((unsigned char)c >= 0x80) {
         size_t length;
-        const char *plain = plain_sign(p->text + p->at), *letter = nh_name_of_letter(p->text + p->at, &length);
+        const char *plain = nh_name_of_sign(p->text + p->at), *letter = nh_name_of_letter(p->text + p->at, &length);
         fail(p, p->at, "a character that the expression language does not have; %s was expected", wanted);
         if (plain) return hint(p, "write `%s`", plain);
         return hint(p, "names consist of the letters a-z, A-Z, digits and _%s%s%s", letter ? ": write `" : "",
@@ -129,7 +125,6 @@ static bool unexpected(parser *p, const char *wanted)
     fail(p, p->at, "`%c` cannot stand here; %s was expected", c, wanted);
     if (c == ',' || c == '"') return hint_separator(p);
     if (c == '\\') return hint(p, "formulas are no LaTeX: write x', sqrt(x), cos(phi), a/b");
-    if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*') return hint(p, "powers are written with ^: x^2");
     if ((c == '<' || c == '>') && p->equation)
         return hint(p, "only equations can be written: where a motion is looked at, `domain:` says");
     if (c == '=' && p->equation) return hint(p, "an equation has one `=` between two expressions");
@@ -142,7 +137,7 @@ static bool unexpected(parser *p, const char *wanted)
 static bool no_operator(parser *p, const char *closing)
 {
     char c = peek(p);
-    if (!is_word(c) && c != '(') return unexpected(p, closing);
+    if (!is_word(c) && !begins_name(p) && c != '(') return unexpected(p, closing);
     fail(p, p->at, "an operator is missing before this");
     return hint(p, "there is no implicit multiplication: write `*`");
 }
@@ -298,7 +293,10 @@ static bool unresolved(parser *p, const char *word, size_t at)
     if (instead) return hint(p, "%s", instead);
     if (near) return hint(p, "did you mean `%s`?", near);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
-    return hint(p, "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs and those of `nhsym explain functions`");
+    return hint(p,
+                "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs, those of `nhsym explain functions`, and "
+                "those that a system declares: functions: [\"%.40s(x)\"]",
+                word);
 }
 
 /* Reads a name that is not the language's own: the caller resolves it. */
@@ -312,15 +310,27 @@ static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
     return hint(p, "write `%s*(`", word);
 }
 
+/* V(x), V'(x), V''(x) of a function that the file declares. */
+static bool declared_call(parser *p, const char *word, size_t f, nh_ex *out)
+{
+    size_t primes = strspn(p->text + p->at, "'");
+    nh_ex argument;
+    if (primes > NH_DECLARED_PRIMES)
+        return fail(p, p->at, "derivatives up to order %d can be written", NH_DECLARED_PRIMES);
+    p->at += primes;
+    if (!arguments(p, word, 1, &argument)) return false;
+    *out = nh_declared_call(p->dag, f, primes, argument);
+    return true;
+}
+
 static bool name(parser *p, nh_ex *out)
 {
-    size_t start = p->at, n = strspn(p->text + start, WORD);
-    char word[max_name + 2];
-    if (n > max_name) return fail(p, start, "a name longer than %d characters", max_name);
-    memcpy(word, p->text + start, n);
-    word[n] = 0;
-    p->at += n;
+    size_t declared, start = p->at;
+    char word[max_name + 3];
+    p->at += nh_name_spelled(p->text + start, word, max_name + 2);
+    if (strlen(word) > max_name) return fail(p, start, "a name longer than %d characters", max_name);
     nh_function f;
+    if (nh_declared_find(p->dag, word, &declared)) return declared_call(p, word, declared, out);
     if (!strcmp(word, "sqrt")) return square_root(p, start, out);
     if (find_function(word, &f)) return call(p, f, word, start, out);
     if (!strcmp(word, "pi")) {
@@ -348,7 +358,7 @@ static bool atom(parser *p, nh_ex *out)
 {
     char c = peek(p);
     if (isdigit((unsigned char)c) || (c == '.' && isdigit((unsigned char)p->text[p->at + 1]))) return number(p, out);
-    if (is_letter(c)) return name(p, out);
+    if (begins_name(p)) return name(p, out);
     if (c != '(') return unexpected(p, "a number, a name or `(`");
     p->at++;
     return expression(p, out) && close_parenthesis(p);
@@ -364,10 +374,11 @@ static bool real_power(const nh_dag *dag, nh_ex base, nh_ex exponent)
 static bool power(parser *p, nh_ex *out)
 {
     if (!atom(p, out)) return false;
-    if (peek(p) != '^') return true;
+    bool twice = peek(p) == '*' && p->text[p->at + 1] == '*';
+    if (peek(p) != '^' && !twice) return true;
     size_t at = p->at;
     nh_ex base = *out, exponent;
-    p->at++;
+    p->at += 1 + twice;
     /* a parenthesis counts its own depth; a^b^c is no deeper than a^(b^c), as which it is printed */
     bool counted = peek(p) != '(';
     if (counted && !deeper(p)) return false;

@@ -4,6 +4,7 @@
  *     unary      = [-|+] unary | power        power = atom [ ^ unary ]       (right associative)
  *     atom       = number | name | function ( ... ) | ( expression )
  *
+ * A power may also be written a**b, and names with Greek letters (nh_name_spelled).
  * A decimal number is the exact rational it looks like, if that fits.  Names are resolved by the caller.  Parentheses,
  * calls, signs and powers may be nested 200 deep. */
 #ifndef NH_PARSE_H
@@ -41,6 +42,12 @@ bool nh_is_name(const char *text);
 /* The ASCII text for the Greek letter or subscript digit at this place ("phi", "1"), and its length in bytes there;
  * NULL: there is none. */
 const char *nh_name_of_letter(const char *at, size_t *length);
+/* The name at the beginning of the text as letters, digits and _ in `out` (room > 1 bytes, cut where it is longer):
+ * theta for the Greek letter and for \theta, theta_1 for theta_{1}.  Returns how many bytes of the text it takes, 0:
+ * there is none. */
+size_t nh_name_spelled(const char *text, char *out, size_t room);
+/* The ASCII text for a typographic sign, as word processors and books use them, at this place; NULL: there is none. */
+const char *nh_name_of_sign(const char *at);
 /* Adds to the fault what a name is made of, and a name similar to the text.  Returns false. */
 bool nh_name_hint(nh_error *error, const char *text);
 /* Is the name taken by a function, `pi` or `t`? */

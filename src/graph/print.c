@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/declared.h"
 #include "graph/measure.h"
 #include "graph/num_long.h"
 
@@ -291,11 +292,15 @@ static bool opens_sum(const nh_dag *dag, nh_ex e)
 
 static void put_function(printer *p, nh_ex e)
 {
-    nh_text_add(p->out, nh_function_name(nh_function_of(p->dag, e)));
+    bool unspecified = nh_function_of(p->dag, e) == NH_UNSPECIFIED;
+    const char *name = nh_function_name(nh_function_of(p->dag, e));
+    size_t order = unspecified ? nh_declared_name(p->dag, e, &name) : 0;
+    nh_text_add(p->out, name);
+    while (order-- > 0) nh_text_add(p->out, "'");
     if (nh_arity(p->dag, e) == 0) return;
     nh_text_add(p->out, "(");
-    for (size_t i = 0; i < nh_arity(p->dag, e); i++) {
-        if (i) nh_text_add(p->out, ", ");
+    for (size_t i = unspecified ? 2 : 0; i < nh_arity(p->dag, e); i++) {
+        if (i && !unspecified) nh_text_add(p->out, ", ");
         put(p, nh_child(p->dag, e, i), in_sum);
     }
     nh_text_add(p->out, ")");

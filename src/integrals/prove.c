@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "graph/declared.h"
 #include "graph/diff.h"
 #include "graph/monomials.h"
 #include "graph/terms.h"
@@ -154,6 +155,8 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     proof.sided = proof.proved && nh_model_paired_roots(o, sum) != sum;
     if (!exact && doubt > double_digits) doubt = double_digits;
     proof.refuted = !proof.proved && proof.points > 0 && proof.digits < doubt;
+    /* digits of a stand-in say nothing of other functions */
+    if (!proof.proved && nh_declared_unspecified(d)) proof.digits = fmin(proof.digits, double_digits);
     nh_free(valued);
     return proof;
 }

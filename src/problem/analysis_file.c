@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "graph/declared.h"
 #include "graph/parse.h"
 #include "evaluate/tape.h"
 #include "system/deck_build.h"
@@ -49,6 +50,10 @@ static bool read_settings(nh_analysis_file *a, const nh_deck_node *map, nh_error
     a->setting = nh_arena_alloc(a->arena, (map->count + 1) * sizeof *a->setting);
     for (size_t i = 0; i < map->count; i++) {
         a->setting[i] = (nh_setting){.name = map->key[i]->text, .deck = a->deck, .key = map->key[i]};
+        if (strchr(map->key[i]->text, '(') && map->item[i]->kind == NH_DECK_SCALAR) { /* of a function */
+            a->setting[i].input = map->item[i]->text;
+            continue;
+        }
         if (!nh_deck_number(a->deck, map->item[i], "the value of a parameter", &a->setting[i].value, error))
             return false;
     }
@@ -196,7 +201,8 @@ static bool name_is_free(reader *r, const nh_deck_node *node, const char *name)
                                 i < r->own ? "`%s` is defined already: E is the energy, Lbar the constrained Lagrangian"
                                            : "`%s` is declared twice",
                                 name);
-    bool used = nh_symbol_find(r->model->dag, name, &taken);
+    size_t function;
+    bool used = nh_symbol_find(r->model->dag, name, &taken) || nh_declared_find(r->model->dag, name, &function);
     for (size_t i = 0; i < s->definitions; i++) used |= !strcmp(s->definition[i].name, name);
     return !used || nh_deck_fail(deck, node, 0, r->error, "`%s` is already a name of the system", name);
 }
@@ -230,7 +236,8 @@ static bool read_assignment(reader *r, const nh_deck_node *node, bool visible, n
     if (!equal) return nh_deck_fail(deck, node, 0, r->error, "%s was expected, but there is no `=`", what);
     size_t n = (size_t)(equal - node->text);
     while (n && node->text[n - 1] == ' ') n--;
-    *out = (nh_named){.name = nh_arena_strndup(r->a->arena, node->text, n), .text = equal + 1 + strspn(equal + 1, " ")};
+    *out = (nh_named){.name = nh_deck_spelled(r->a->arena, nh_arena_strndup(r->a->arena, node->text, n)),
+                      .text = equal + 1 + strspn(equal + 1, " ")};
     if (visible ? !name_is_free(r, node, out->name)
                 : n == 0 && !nh_deck_fail(deck, node, 0, r->error, "there is no name before the `=`"))
         return false;
@@ -384,7 +391,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     state->given = nh_analysis_file_take(r, s->coordinates, sizeof *state->given);
     state->placed = nh_analysis_file_take(r, s->coordinates, sizeof *state->placed);
     for (size_t i = 0; i < map->count; i++) {
-        const char *name = map->key[i]->text;
+        const char *name = nh_system_state_name(s, map->key[i]->text);
         double value;
         bool known = !strcmp(name, "t");
         if (!number_at(r, map->item[i], name, &e, &value)) return one_value(r, map->item[i]);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "graph/declared.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "graph/print.h"
@@ -371,6 +372,7 @@ bool nh_currents_add_series(nh_current_checker *b, nh_ex phi, const nh_series *s
     nh_analysis *r = b->result;
     nh_current *f = next_found(r);
     bool several = series->variables > 1;
+    if (nh_declared_unspecified(r->model->dag)) return false; /* of the stand-in */
     *f = (nh_current){.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = !several, .refined = digits};
     if (nh_currents_known(b, f->phi, f->proof.proved)) return false;
     f->heldout = heldout_residual(r->model, b->heldout, phi);

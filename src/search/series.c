@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "graph/declared.h"
 #include "graph/diff.h"
 #include "graph/print.h"
 #include "integrals/function_series.h"
@@ -175,6 +176,7 @@ static void search(problem *p, const char *what)
     nh_series_space space;
     nh_family words = {.kind = NH_TERMS, .terms = p->words, .term = p->word};
     if (p->full || nh_stage_solver_done(p->x)) return;
+    if (nh_declared_unspecified(r->model->dag)) return; /* a series would be that of its stand-in */
     if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == r->system->t)) return;
     snprintf(name, sizeof name, "%s with coefficients that are series in %s", what,
              nh_name_of(r->model->dag, p->variable));

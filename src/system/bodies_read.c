@@ -238,12 +238,14 @@ static bool sort_joints(reader *r)
 bool nh_system_read_tree(reader *r)
 {
     const nh_deck_node *bodies = nh_deck_get(r->root, "bodies"), *joints = nh_deck_get(r->root, "joints");
-    static const char *const others[] = {"gravity", "wheels"};
+    static const char *const others[] = {"gravity", "wheels", "points", "springs", "dampers", "actuators"};
     if (!bodies && joints) return nh_deck_fail(r->deck, joints, 0, r->error, "the file has joints, but no `bodies:`");
-    for (int i = 0; i < 2; i++) {
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         const nh_deck_node *other = nh_deck_get(r->root, others[i]);
-        if (!bodies && other)
-            return nh_deck_fail(r->deck, other, 0, r->error, "`%s` needs `bodies:`, but the file has none", others[i]);
+        if (bodies || !other) continue;
+        nh_deck_fail(r->deck, other, 0, r->error, "`%s` needs `bodies:`, but the file has none", others[i]);
+        return i > 2 && nh_error_hint(r->error, "without bodies, a spring is a term -k/2*x^2 of the Lagrangian, a "
+                                                "damper stands in `dissipation: c/2*x'^2`, an actuator in `forces:`");
     }
     if (!bodies) return true;
     r->system->chain = nh_system_take(r, 1, sizeof *r->system->chain);

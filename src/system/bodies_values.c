@@ -10,22 +10,38 @@ static const char *const axis_names[] = {"x", "y", "z", "-x", "-y", "-z"};
 
 /* ---- expressions ---- */
 
-/* An expression in parameters alone. */
-static bool constant(reader *r, const nh_deck_node *node, const char *what, nh_ex *out)
+/* The first of t (unless it may occur), the coordinates and the velocities that e contains, or false. */
+static bool moving(const nh_system *s, nh_ex e, bool time, nh_ex *out)
+{
+    *out = s->t;
+    if (!time && nh_depends(s->dag, e, s->t)) return true;
+    for (size_t i = 0; i < 2 * s->coordinates; i++) {
+        const nh_coordinate *c = &s->coordinate[i / 2];
+        *out = i % 2 ? c->v : c->q;
+        if (nh_depends(s->dag, e, *out)) return true;
+    }
+    return false;
+}
+
+static bool fixed(reader *r, const nh_deck_node *node, const char *what, bool time, nh_ex *out)
 {
     const nh_system *s = r->system;
+    nh_ex varies;
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, what, r->error)) return false;
     if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, out, r->error)) return false;
-    nh_ex moving = nh_depends(s->dag, *out, s->t) ? s->t : 0;
-    bool moves = nh_depends(s->dag, *out, s->t);
-    for (size_t i = 0; i < s->coordinates && !moves; i++)
-        for (int v = 0; v < 2 && !moves; v++) {
-            moving = v ? s->coordinate[i].v : s->coordinate[i].q;
-            moves = nh_depends(s->dag, *out, moving);
-        }
-    if (!moves) return true;
-    nh_deck_fail(r->deck, node, 0, r->error, "%s must be constant, but `%s` varies", what, nh_name_of(s->dag, moving));
-    return nh_error_hint(r->error, "use only numbers and parameters");
+    if (!moving(s, *out, time, &varies)) return true;
+    nh_deck_fail(r->deck, node, 0, r->error, "%s must be constant, but `%s` varies", what, nh_name_of(s->dag, varies));
+    return nh_error_hint(r->error, time ? "use only numbers, parameters and t" : "use only numbers and parameters");
+}
+
+bool nh_system_constant(reader *r, const nh_deck_node *node, const char *what, nh_ex *out)
+{
+    return fixed(r, node, what, false, out);
+}
+
+bool nh_system_function_of_time(reader *r, const nh_deck_node *node, const char *what, nh_ex *out)
+{
+    return fixed(r, node, what, true, out);
 }
 
 static bool constant_of(reader *r, const nh_deck_node *map, const char *key, const char *what, int64_t fallback,
@@ -33,16 +49,16 @@ static bool constant_of(reader *r, const nh_deck_node *map, const char *key, con
 {
     const nh_deck_node *node = nh_deck_get(map, key);
     *out = nh_int(r->system->dag, fallback);
-    return !node || constant(r, node, what, out);
+    return !node || nh_system_constant(r, node, what, out);
 }
 
-static bool vector(reader *r, const nh_deck_node *list, const char *what, nh_ex out[3])
+bool nh_system_vector(reader *r, const nh_deck_node *list, const char *what, nh_ex out[3])
 {
     if (!nh_deck_is(r->deck, list, NH_DECK_LIST, what, r->error)) return false;
     if (list->count != 3)
         return nh_deck_fail(r->deck, list, 0, r->error, "%s has three components, not %zu", what, list->count);
     for (int i = 0; i < 3; i++)
-        if (!constant(r, list->item[i], what, &out[i])) return false;
+        if (!nh_system_constant(r, list->item[i], what, &out[i])) return false;
     return true;
 }
 
@@ -50,7 +66,7 @@ static bool vector_of(reader *r, const nh_deck_node *map, const char *key, const
 {
     const nh_deck_node *node = nh_deck_get(map, key);
     for (int i = 0; i < 3; i++) out[i] = nh_int(r->system->dag, 0);
-    return !node || vector(r, node, what, out);
+    return !node || nh_system_vector(r, node, what, out);
 }
 
 static void unit_vector(nh_dag *d, int axis, nh_ex out[3])
@@ -69,7 +85,7 @@ static bool direction(reader *r, const nh_deck_node *node, const char *what, nh_
             nh_error_hint(r->error, "any other direction is a list of three components: [1, 0, 1]");
         return axis >= 0;
     }
-    if (!vector(r, node, what, out)) return false;
+    if (!nh_system_vector(r, node, what, out)) return false;
     nh_ex square = nh_tidy(d, nh_dot(d, out, out));
     if (nh_is_zero(d, square)) return nh_deck_fail(r->deck, node, 0, r->error, "a direction cannot be zero");
     nh_ex length = nh_sqrt(d, square);
@@ -95,7 +111,7 @@ static bool turn(reader *r, const nh_deck_node *map, nh_pose *a)
     for (size_t i = 0; i < map->count; i++) {
         nh_ex angle, axis[3];
         unit_vector(d, (int)nh_system_word(r, map->key[i], "an axis", 6, axis_names), axis);
-        if (!constant(r, map->item[i], "the angle of a rotation", &angle)) return false;
+        if (!nh_system_constant(r, map->item[i], "the angle of a rotation", &angle)) return false;
         nh_pose step = nh_pose_turn(d, axis, angle);
         *a = nh_pose_product(d, a, &step);
     }
@@ -127,7 +143,7 @@ static bool inertia_of(reader *r, const nh_deck_node *item, nh_ex I[9])
     bool matrix = node->kind == NH_DECK_LIST && node->count == 3 && node->item[0]->kind == NH_DECK_LIST;
     if (matrix) {
         for (int i = 0; i < 3; i++)
-            if (!vector(r, node->item[i], "a row of the inertia", I + 3 * i)) return false;
+            if (!nh_system_vector(r, node->item[i], "a row of the inertia", I + 3 * i)) return false;
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < i; j++)
                 if (!nh_is_zero(d, nh_tidy(d, nh_sub(d, I[3 * i + j], I[3 * j + i]))))
@@ -137,8 +153,8 @@ static bool inertia_of(reader *r, const nh_deck_node *item, nh_ex I[9])
                         j + 1, j + 1, i + 1);
     } else {
         nh_ex moment[3];
-        if (node->kind != NH_DECK_LIST && !constant(r, node, "the inertia", &moment[0])) return false;
-        if (node->kind == NH_DECK_LIST && !vector(r, node, "the inertia", moment)) return false;
+        if (node->kind != NH_DECK_LIST && !nh_system_constant(r, node, "the inertia", &moment[0])) return false;
+        if (node->kind == NH_DECK_LIST && !nh_system_vector(r, node, "the inertia", moment)) return false;
         for (int i = 0; i < 3; i++) I[4 * i] = moment[node->kind == NH_DECK_LIST ? i : 0];
     }
     if (!rotation_of(r, item, &turned)) return false;
@@ -359,8 +375,8 @@ static bool read_gravity(reader *r)
     nh_ex *g = r->system->chain->gravity;
     for (int i = 0; i < 3; i++) g[i] = nh_int(d, 0);
     if (!node) return true;
-    if (node->kind == NH_DECK_LIST) return vector(r, node, "gravity", g);
-    if (!constant(r, node, "gravity", &g[2])) return false;
+    if (node->kind == NH_DECK_LIST) return nh_system_vector(r, node, "gravity", g);
+    if (!nh_system_constant(r, node, "gravity", &g[2])) return false;
     g[2] = nh_neg(d, g[2]);
     return true;
 }

@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 typedef enum { NH_DECK_SCALAR, NH_DECK_LIST, NH_DECK_MAP } nh_deck_kind;
 
@@ -47,6 +48,11 @@ bool nh_deck_rename(nh_deck *deck, const nh_deck_node *map, const char *old, con
 /* A map {x: 1, y: {unit: m}}, or a list [x: 1, y: {unit: m}], as the list [{name: x, KEY: 1}, {name: y, unit: m}] that
  * it abbreviates (KEY: short_for); a scalar, and other items of a list, are not changed. */
 const nh_deck_node *nh_deck_named(nh_deck *deck, const char *short_for, const nh_deck_node *node);
+/* A name, possibly with a prime, in ASCII where it has Greek letters (nh_name_spelled); any other text is returned
+   itself. */
+const char *nh_deck_spelled(nh_arena *arena, const char *text);
+/* The same for every name of an expression. */
+const char *nh_deck_spelled_all(nh_arena *arena, const char *text);
 const nh_deck_node *nh_deck_root(const nh_deck *deck);
 const char *nh_deck_name(const nh_deck *deck);
 

@@ -3,6 +3,32 @@
 
 #include <string.h>
 
+#include "graph/parse.h"
+
+const char *nh_deck_spelled(nh_arena *arena, const char *text)
+{
+    char name[256];
+    size_t n = nh_name_spelled(text, name, sizeof name);
+    bool prime = !strcmp(text + n, "'"), whole = n && (prime || !text[n]) && strlen(name) < sizeof name - 1;
+    if (!whole || !strncmp(text, name, n) || !nh_is_name(name)) return text;
+    return nh_arena_printf(arena, "%s%s", name, prime ? "'" : "");
+}
+
+const char *nh_deck_spelled_all(nh_arena *arena, const char *text)
+{
+    char name[256];
+    nh_text out;
+    nh_text_init(&out);
+    for (size_t n; *text; text += n ? n : 1) {
+        n = nh_name_spelled(text, name, sizeof name);
+        if (n) nh_text_add(&out, name);
+        else nh_text_add_n(&out, text, 1);
+    }
+    const char *copy = nh_arena_strdup(arena, nh_text_string(&out));
+    nh_text_clear(&out);
+    return copy;
+}
+
 nh_deck_node *nh_deck_new(nh_deck *deck, nh_deck_kind kind, size_t begin, size_t end)
 {
     nh_deck_node *node = nh_arena_alloc(deck->arena, sizeof *node);
@@ -82,7 +108,7 @@ static nh_deck_node *word_between(nh_deck *deck, size_t begin, size_t end)
     while (begin < end && nh_deck_is_space(deck->source[begin])) begin++;
     while (begin < end && nh_deck_is_space(deck->source[end - 1])) end--;
     nh_deck_node *node = nh_deck_new(deck, NH_DECK_SCALAR, begin, end);
-    node->text = nh_arena_strndup(deck->arena, deck->source + begin, end - begin);
+    node->text = nh_deck_spelled(deck->arena, nh_arena_strndup(deck->arena, deck->source + begin, end - begin));
     return node;
 }
 

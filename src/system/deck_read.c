@@ -212,6 +212,15 @@ static bool check_value(builder *b, const nh_deck_node *key, const nh_deck_node 
     return nh_error_hint(b->error, "%s", comma_hint);
 }
 
+/* A name with Greek letters is the same in ASCII, except in texts for readers and in units. */
+static void spell(nh_deck *deck, const nh_deck_node *node, const nh_deck_node *key)
+{
+    static const char *const texts[] = {"title", "doc", "unit", "source"};
+    for (size_t i = 0; key && i < sizeof texts / sizeof *texts; i++)
+        if (!strcmp(key->text, texts[i])) return;
+    if (node->kind == NH_DECK_SCALAR) ((nh_deck_node *)node)->text = nh_deck_spelled(deck->arena, node->text);
+}
+
 static bool read_node(builder *b, yaml_event_t *event, size_t depth);
 
 /* The items of a list, or the keys and values of a map, until `stop`. */
@@ -232,6 +241,7 @@ static bool read_children(builder *b, nh_deck_node *node, yaml_event_type_t stop
             return false;
         bool at_value = node->kind == NH_DECK_MAP && (b->used - bottom) % 2 == 0;
         bool at_key = node->kind == NH_DECK_MAP && !at_value;
+        spell(b->deck, b->stack[b->used - 1], at_value ? b->stack[b->used - 2] : NULL);
         if (at_key && !check_key(b, b->stack[b->used - 1]))
             return false;
         if (at_value && !check_value(b, b->stack[b->used - 2], b->stack[b->used - 1]))

@@ -221,6 +221,7 @@ size_t nh_dimension_check(nh_system *s, const char ***out)
     size_t count = 0;
     const nh_deck_node *root = nh_deck_root(s->deck), *lagrangian = nh_deck_get(root, "lagrangian"),
                        *forces = nh_deck_get(root, "forces");
+    if (!forces) forces = nh_deck_get(root, "dissipation");
     const char **note = *out = nh_arena_alloc(s->arena, (s->constraints + s->coordinates + 2) * sizeof *note);
     if (s->chain || !lagrangian || !any_unit(s)) return 0;
     nh_text fault;

@@ -1,6 +1,7 @@
 /* motions: closed forms of a system's motions, as its file knows them (known: motions:). */
 #include <string.h>
 
+#include "graph/declared.h"
 #include "graph/diff.h"
 #include "system/system_internal.h"
 
@@ -146,6 +147,7 @@ static nh_system *names_of(const nh_system *s)
                      .definitions = s->definitions,
                      .quasi = s->quasi};
     n->t = nh_symbol(n->dag, "t");
+    nh_declared_names(n->dag, s->dag);
     n->parameter = nh_arena_alloc(arena, (s->parameters + 1) * sizeof *n->parameter);
     n->coordinate = nh_arena_alloc(arena, (s->coordinates + 1) * sizeof *n->coordinate);
     n->definition = nh_arena_alloc(arena, (s->definitions + 1) * sizeof *n->definition);

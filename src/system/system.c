@@ -131,9 +131,10 @@ static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault 
         *out = y->t;
         return true;
     }
-    if (in_named(s->extras, s->extra, name, out)) return true;
     const nh_named *definition = s->forbid & NH_FRAMED ? y->framed_definition : y->definition;
     bool velocity;
+    if (in_named(s->extras, s->extra, name, out) || in_named(y->definitions, definition, name, out)) return true;
+    name = nh_system_state_name(y, name);
     for (size_t i = 0; i < y->quasi && y->orientations && !(s->forbid & NH_NO_QUASI); i++)
         if (!strcmp(nh_name_of(y->dag, y->quasi_velocity[i]), name)) return *out = y->quasi_velocity[i], true;
     if (nh_orientation_word(y, name, s->forbid & NH_FRAMED, &velocity, out)) {
@@ -141,7 +142,6 @@ static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault 
         snprintf(fault->what, sizeof fault->what, "the angular velocity `%s` cannot be used here", name);
         return false;
     }
-    if (in_named(y->definitions, definition, name, out)) return true;
     for (size_t i = 0; i < y->parameters; i++) {
         if (strcmp(y->parameter[i].name, name)) continue;
         *out = y->parameter[i].symbol;
@@ -272,9 +272,22 @@ bool nh_system_expression_text(const nh_system *system, const char *where, const
 
 long nh_system_coordinate(const nh_system *system, const char *name)
 {
+    const char *spelled = nh_deck_spelled(system->arena, name);
     for (size_t i = 0; i < system->coordinates; i++)
-        if (!strcmp(system->coordinate[i].name, name)) return (long)i;
+        if (!strcmp(system->coordinate[i].name, spelled)) return (long)i;
     return -1;
+}
+
+const char *nh_system_state_name(const nh_system *s, const char *name)
+{
+    static const char dot[] = "_dot";
+    name = nh_deck_spelled(s->arena, name);
+    size_t length = strlen(name), tail = sizeof dot - 1;
+    nh_ex taken;
+    if (length <= tail || strcmp(name + length - tail, dot) || nh_symbol_find(s->dag, name, &taken)) return name;
+    if (in_named(s->definitions, s->definition, name, &taken)) return name;
+    long q = nh_system_coordinate(s, nh_arena_strndup(s->arena, name, length - tail));
+    return q < 0 ? name : nh_arena_printf(s->arena, "%s'", s->coordinate[q].name);
 }
 
 void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const double **values)

@@ -52,7 +52,9 @@ typedef struct {
 
 typedef struct {
     const char *name;
-    const char *input;       /* an expression of t and the parameters, instead of a value; NULL: none */
+    /* an expression of t and the parameters, instead of a value; of a function, whose name is "V(r)": its value; NULL:
+     * none */
+    const char *input;
     double value;
     const nh_deck *deck;     /* where it was written: NULL for the command line */
     const nh_deck_node *key;
@@ -144,6 +146,10 @@ bool nh_system_motions(nh_system *system, size_t *count, nh_known_motion **out, 
    the result. */
 size_t nh_system_state_names(const nh_system *system, const char **names);
 
+/* In ASCII (nh_deck_spelled), and x' for x_dot where x is a coordinate and nothing is named x_dot, as in the tables
+ * that simulate writes; else `name`. */
+const char *nh_system_state_name(const nh_system *system, const char *name);
+
 /* The coordinate whose velocity `word` may mean, as others write it: of x1 that is x1dot, x1_dot, dotx1, xdot1, dx1,
  * dx1/dt, vx1, v_x1, and v1 where no other name ends in 1.  NULL: none, or `near`, the nearest name in letters (or
  * NULL), begins with v as well. */
@@ -176,6 +182,9 @@ void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const do
 nh_ex nh_system_values(const nh_system *system, nh_dag *dag, nh_ex e);
 /* The value of an expression in the parameters. */
 double nh_system_number(const nh_system *system, nh_ex e);
+
+/* Refuses a system with a function without a value: `what` needs numbers.  Returns false then. */
+bool nh_system_needs_values(const nh_system *system, const char *what, nh_error *error);
 
 /* Refuses a level (0, 1, ..) that motions leave, or of which that is not decided.  Returns false. */
 bool nh_system_refuse_level(const nh_system *system, size_t level, bool proved, nh_error *error);

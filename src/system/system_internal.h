@@ -25,6 +25,9 @@ typedef struct {
     const nh_deck_node *root;
     nh_error *error;
     bool exact; /* a parameter was given an exact value or a formula */
+    nh_ex dissipation;  /* Rayleigh's function */
+    const char **note;  /* of springs and dampers */
+    size_t notes;
 } nh_system_reader;
 
 /* In order: zeroed memory of the system (count + 1 elements); the list under a key (absent: empty); the text under a
@@ -40,6 +43,9 @@ bool nh_system_assignment_name(nh_system_reader *r, const nh_deck_node *node, co
 bool nh_system_read_right_side(nh_system_reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out);
 /* Gives parameters the values of a request; those with exact values and inputs become definitions. */
 bool nh_system_apply_settings(nh_system_reader *r, size_t count, const nh_setting *setting);
+/* `functions:`, and those settings that give a value to one: "V(r)". */
+bool nh_system_read_functions(nh_system_reader *r, size_t count, const nh_setting *setting);
+bool nh_system_is_function_setting(const nh_setting *setting);
 bool nh_system_new_name(nh_system_reader *r, const nh_deck_node *node); /* is it free and well formed? */
 bool nh_system_read_chart(nh_system_reader *r);
 bool nh_system_read_forces(nh_system_reader *r);
@@ -59,6 +65,12 @@ bool nh_system_read_levels(nh_system_reader *r);
 bool nh_system_read_tree(nh_system_reader *r);
 bool nh_system_read_joint_coordinates(nh_system_reader *r);
 bool nh_system_read_chain(nh_system_reader *r);
+/* Positions of `points:` as definitions.  And `springs:`, `dampers:`, `actuators:` and `dissipation:`, which change the
+ * Lagrangian and the forces (elements.c). */
+bool nh_system_read_points(nh_system_reader *r);
+bool nh_system_read_elements(nh_system_reader *r);
+/* Are the first `length` characters NAME_x, NAME_y or NAME_z of a point of the file? */
+bool nh_system_is_point(const nh_system_reader *r, const char *name, size_t length);
 size_t nh_system_most_wheel_constraints(const nh_system *system);
 void nh_system_add_wheel_constraints(nh_system_reader *r);
 

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "graph/diff.h"
 #include "system/wheel_checks.h"
+#include "graph/declared.h"
 #include "system/dimension.h"
 #include "system/system_internal.h"
 
@@ -27,10 +28,10 @@ static bool count_quasi(nh_system_reader *r, const nh_deck_node *chart)
 /* Which coordinate's velocity is on the left side "x'"? */
 static long velocity_on_left(nh_system_reader *r, const nh_deck_node *node, const char *name)
 {
-    size_t n = strlen(name);
     const nh_system *s = r->system;
+    const char *own = nh_system_state_name(s, name);
     for (size_t i = 0; i < s->coordinates; i++)
-        if (n && !strcmp(name, nh_name_of(s->dag, s->coordinate[i].v))) return (long)i;
+        if (!strcmp(own, nh_name_of(s->dag, s->coordinate[i].v))) return (long)i;
     nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not the velocity of a coordinate", name);
     if (nh_system_coordinate(s, name) >= 0) nh_error_hint(r->error, "write `%s' = ...`", name);
     return -1;
@@ -121,7 +122,7 @@ bool nh_system_read_forces(nh_system_reader *r)
     nh_system *s = r->system;
     s->force = nh_system_take(r, s->coordinates, sizeof *s->force);
     for (size_t i = 0; i < s->coordinates; i++) s->force[i] = nh_int(s->dag, 0);
-    if (!nh_system_list_of(r, r->root, "forces", &list, &n)) return false;
+    if (!nh_system_read_elements(r) || !nh_system_list_of(r, r->root, "forces", &list, &n)) return false;
     for (size_t i = 0; i < n; i++) {
         const char *name;
         nh_ex value;
@@ -151,8 +152,16 @@ bool nh_system_read_notes(nh_system_reader *r)
     const char **more, *of_wheels[2];
     size_t n, found = nh_dimension_check(r->system, &more), wheels = nh_wheel_checks(r->system, of_wheels);
     if (!nh_system_list_of(r, r->root, "notes", &list, &n)) return false;
-    r->system->note = nh_system_take(r, n + found + wheels, sizeof *r->system->note);
+    r->system->note = nh_system_take(r, n + r->notes + found + wheels + 1, sizeof *r->system->note);
     for (size_t i = 0; i < n; i++) r->system->note[r->system->notes++] = list->item[i]->text;
+    const char *open = nh_declared_unspecified(r->system->dag);
+    if (open)
+        r->system->note[r->system->notes++] =
+            nh_arena_printf(r->system->arena,
+                            "a function has no value (%s): what is proved holds for all such functions, completeness "
+                            "for almost all; samples and motions take a stand-in",
+                            open);
+    for (size_t i = 0; i < r->notes; i++) r->system->note[r->system->notes++] = r->note[i];
     for (size_t i = 0; i < found; i++) r->system->note[r->system->notes++] = more[i];
     for (size_t i = 0; i < wheels; i++) r->system->note[r->system->notes++] = of_wheels[i];
     return true;
@@ -237,8 +246,9 @@ static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
     nh_system *s = r->system;
     const char **names = nh_system_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
     size_t n = nh_system_state_names(s, names);
+    const char *own = nh_system_state_name(s, key->text);
     for (size_t i = 0; i < n; i++)
-        if (!strcmp(names[i], key->text)) return nh_symbol_find(s->dag, key->text, out);
+        if (!strcmp(names[i], own)) return nh_symbol_find(s->dag, own, out);
     nh_deck_fail(r->deck, key, 0, r->error, "`%s` is not a coordinate, a velocity or t", key->text);
     const char *near = nh_text_nearest(key->text, names, n), *q = nh_system_velocity_meant(s, key->text, near);
     if (q) return nh_error_hint(r->error, NH_VELOCITY_IS_WRITTEN, q, q);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "graph/declared.h"
 #include "graph/diff.h"
 #include "graph/parse.h"
 #include "system/reach.h"
@@ -17,7 +18,8 @@ static const char *const top_keys[] = {
     "name",        "title",     "source",     "parameters", "coordinates", "definitions", "lagrangian",
     "constraints", "dependent", "velocities", "forces",     "domain",      "known",       "doc",
     "bodies",      "joints",    "gravity",    "wheels",     "symmetry",    "draw",        "robustness",
-    "include",     "urdf",      "base",       "notes",      "levels"};
+    "include",     "urdf",      "base",       "notes",      "levels",      "points",      "springs",
+    "dampers",     "actuators", "dissipation", "functions"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 void *nh_system_take(reader *r, size_t count, size_t size)
@@ -59,7 +61,8 @@ bool nh_system_new_name(reader *r, const nh_deck_node *node)
         return nh_error_hint(r->error, "choose another name, for instance `%s1`", name);
     }
     nh_ex taken;
-    if (nh_symbol_find(s->dag, name, &taken))
+    size_t function;
+    if (nh_symbol_find(s->dag, name, &taken) || nh_declared_find(s->dag, name, &function))
         return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", name);
     for (size_t i = 0; i < s->definitions; i++)
         if (!strcmp(s->definition[i].name, name))
@@ -220,7 +223,7 @@ bool nh_system_assignment_name(reader *r, const nh_deck_node *node, const char *
     if (!equal) return nh_deck_fail(r->deck, node, 0, r->error, "%s was expected, but there is no `=`", what);
     size_t n = (size_t)(equal - node->text);
     while (n && node->text[n - 1] == ' ') n--;
-    *name = nh_arena_strndup(r->system->arena, node->text, n);
+    *name = nh_deck_spelled(r->system->arena, nh_arena_strndup(r->system->arena, node->text, n));
     return true;
 }
 
@@ -231,31 +234,56 @@ bool nh_system_read_right_side(reader *r, const nh_deck_node *node, unsigned for
     return nh_system_read_expression(r->system, r->deck, node, skip, forbid, 0, NULL, NULL, out, r->error);
 }
 
-static bool read_definitions(reader *r)
+/* Does a name occur in the text: that of a point's position, or of a definition that waits? */
+static bool waits(const reader *r, const char *text, size_t waiting, const char *const *wait)
 {
-    const nh_deck_node *list;
-    size_t n;
+    static const char word[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
+    for (size_t n; *text; text += n ? n : 1) {
+        n = strspn(text, word);
+        if (n && nh_system_is_point(r, text, n)) return true;
+        for (size_t i = 0; i < waiting && n; i++)
+            if (strlen(wait[i]) == n && !strncmp(text, wait[i], n)) return true;
+    }
+    return false;
+}
+
+static bool read_definition(reader *r, const nh_deck_node *node, const char *name_text)
+{
+    nh_system *s = r->system;
+    nh_named *d = &s->definition[s->definitions];
+    nh_deck_node name = *node;
+    name.text = d->name = name_text;
+    if (!nh_system_new_name(r, &name)) return false;
+    if (!nh_system_read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
+    d->text = node->text;
+    nh_named *framed = &s->framed_definition[s->definitions];
+    *framed = *d;
+    if (s->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value)) return false;
+    s->definitions++;
+    return true;
+}
+
+/* Those with positions of points wait for these, which follow from bodies and joints, whose numbers may need the
+ * others: `late` reads the first, else the others. */
+static bool read_definitions(reader *r, bool late)
+{
+    const nh_deck_node *list, *points = nh_deck_get(r->root, "points");
+    size_t n, waiting = 0;
     nh_system *s = r->system;
     if (!nh_system_list_of(r, r->root, "definitions", &list, &n)) return false;
+    const char **wait = nh_system_take(r, n, sizeof *wait);
     const nh_named *fixed = s->definition;
-    s->definition = nh_system_take(r, s->definitions + n, sizeof *s->definition);
-    if (s->definitions) memcpy(s->definition, fixed, s->definitions * sizeof *fixed);
-    s->framed_definition = nh_system_take(r, s->definitions + n, sizeof *s->definition);
-    if (s->definitions) memcpy(s->framed_definition, fixed, s->definitions * sizeof *fixed);
+    size_t most = s->definitions + n + 3 * (points ? points->count : 0);
+    if (!late) s->definition = nh_system_take(r, most, sizeof *fixed);
+    if (!late && s->definitions) memcpy(s->definition, fixed, s->definitions * sizeof *fixed);
+    if (!late) s->framed_definition = nh_system_take(r, most, sizeof *fixed);
+    if (!late && s->definitions) memcpy(s->framed_definition, fixed, s->definitions * sizeof *fixed);
     for (size_t i = 0; i < n; i++) {
-        const nh_deck_node *node = list->item[i];
-        nh_named *d = &s->definition[s->definitions];
-        if (!nh_system_assignment_name(r, node, "a definition `name = expression`", &d->name)) return false;
-        nh_deck_node name = *node;
-        name.text = d->name;
-        if (!nh_system_new_name(r, &name)) return false;
-        if (!nh_system_read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
-        d->text = node->text;
-        nh_named *framed = &s->framed_definition[s->definitions];
-        *framed = *d;
-        if (s->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value))
-            return false;
-        s->definitions++;
+        const char *name;
+        if (!nh_system_assignment_name(r, list->item[i], "a definition `name = expression`", &name)) return false;
+        bool waited = s->chain && points && waits(r, strchr(list->item[i]->text, '='), waiting, wait);
+        if (waited) wait[waiting++] = name;
+        if (waited == late && !read_definition(r, list->item[i], name)) return false;
     }
     return true;
 }
@@ -415,8 +443,10 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
         return false;
     s->t = nh_symbol(s->dag, "t");
     if (!read_parameters(r) || !nh_system_apply_settings(r, settings, setting)) return false;
-    return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) && read_definitions(r) &&
-           nh_system_read_chain(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r) &&
+    return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) &&
+           nh_system_read_functions(r, settings, setting) && read_definitions(r, false) && nh_system_read_chain(r) &&
+           nh_system_read_points(r) &&
+           read_definitions(r, true) && read_lagrangian(r) && read_constraints(r) && read_dependent(r) &&
            nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) &&
            nh_system_read_levels(r) && nh_system_read_symmetry(r) &&
            nh_system_read_drawing(r)

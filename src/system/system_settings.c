@@ -81,8 +81,10 @@ bool nh_system_apply_settings(reader *r, size_t count, const nh_setting *setting
     s->definition = nh_system_take(r, count, sizeof *s->definition);
     for (size_t k = 0; k < count; k++) {
         nh_parameter *found = NULL;
+        const char *name = nh_deck_spelled(s->arena, setting[k].name);
+        if (nh_system_is_function_setting(&setting[k])) continue;
         for (size_t i = 0; i < s->parameters; i++)
-            if (!strcmp(s->parameter[i].name, setting[k].name)) found = &s->parameter[i];
+            if (!strcmp(s->parameter[i].name, name)) found = &s->parameter[i];
         if (found && (setting[k].bottom > 0 || setting[k].formula || setting[k].input)) {
             if (!(setting[k].input ? make_input : fix)(r, found, &setting[k])) return false;
             continue;
