@@ -393,7 +393,7 @@ Test(linalg, bordered_equations_do_not_depend_on_units)
                                             {1, 0.2, 0, 0, 0.2, 2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0}};                   /* without inertia along the last */
     static const double F[k * m] = {1, 0, 0.3, 0.2, 0, 1, -0.7, 0.4}, h[m] = {1, -2, 0.5, 0.7}, g[k] = {0.3, -1}, none[k * m] = {0};
     static const int of_coordinate[m] = {-60, 41, 0, 17}, of_constraint[k] = {33, -28};
-    double work[(m + k) * (m + k + 2) + 1], a[m], mu[k], rcond, K2[m * m], F2[k * m], h2[m], g2[k], a2[m], mu2[k], rcond2;
+    double work[(m + k) * (m + k + 4) + 1], a[m], mu[k], rcond, K2[m * m], F2[k * m], h2[m], g2[k], a2[m], mu2[k], rcond2;
     cr_assert_leq(nh_saddle_work(m, k), sizeof work / sizeof *work);
     for (size_t which = 0; which < 3; which++) {
         const double *K = metrics[which];
