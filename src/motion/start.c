@@ -217,6 +217,7 @@ static bool not_finite(const nh_state *state, nh_error *error)
  * follow.  Where the given ones do not allow that, all that were not given change, as little as possible. */
 static bool velocities(nh_start *c, const nh_state *state, bool project, double *v, nh_error *error)
 {
+    enum { most_steps = 40 };
     const nh_chart *chart = c->model->chart;
     size_t m = c->m, which = 0;
     double t = state->t, *nearest = nh_alloc_array(m + 1, sizeof *nearest), left = INFINITY;
@@ -231,9 +232,11 @@ static bool velocities(nh_start *c, const nh_state *state, bool project, double 
     if (!good && isfinite(left)) {
         size_t last = which;
         for (size_t s = 0; s < m; s++) nearest[s] = state->given && !state->given[s] ? 0 : state->v[s];
-        bool found = nearest_given(c, t, state->q, state->given, nearest);
+        bool found = false;
         for (size_t s = 0; s < m; s++) c->some[s] = state->given && !state->given[s];
-        found = found && satisfy(c, t, state->q, c->some, nearest, &last) <= on_constraint;
+        for (int i = 0; i < most_steps && !found; i++) /* one step where the constraints are linear */
+            found = nearest_given(c, t, state->q, state->given, nearest) &&
+                    satisfy(c, t, state->q, c->some, nearest, &last) <= on_constraint;
         good = project && found;
         if (good) memcpy(v, nearest, m * sizeof *v);
         else refuse(c, state, which, v, found ? nearest : NULL, error);

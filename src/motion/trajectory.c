@@ -1,5 +1,6 @@
 #include "motion/automatic.h"
 #include "motion/cvode.h"
+#include "motion/singular_start.h"
 #include "motion/singular_terms.h"
 #include "motion/trajectory.h"
 
@@ -463,6 +464,7 @@ static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error)
     nh_free(j.y0);
     if (j.used) out->method = j.used->name;
     if (out->motion) return out;
+    nh_explain_start(q->model, q->initial, error);
     nh_trajectory_free(out);
     return NULL;
 }

@@ -9,6 +9,7 @@
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "motion/automatic.h"
+#include "motion/singular_start.h"
 #include "motion/sizes.h"
 
 typedef struct {
@@ -432,6 +433,7 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     nh_free(r.z0);
     nh_free(r.y0);
     if (good) return v;
+    nh_explain_start(o, q->initial, error);
     nh_validation_free(v);
     return NULL;
 }
