@@ -119,6 +119,17 @@ static bool shortest(const saddle *x)
     return good;
 }
 
+/* Where all coefficients of a constraint vanish, it has a singular point, and says nothing about the accelerations. */
+static bool has_empty_row(const saddle *x)
+{
+    for (size_t c = 0; c < x->k; c++) {
+        bool empty = true;
+        for (size_t j = 0; j < x->m; j++) empty = empty && x->F[c + j * x->k] == 0;
+        if (empty) return true;
+    }
+    return false;
+}
+
 static bool solve(saddle *x, double *rcond, double *work)
 {
     size_t m = x->m, k = x->k, n = m + k;
@@ -130,7 +141,7 @@ static bool solve(saddle *x, double *rcond, double *work)
     fill(x);
     bool good = nh_solve(n, x->matrix, x->columns, x->right, rcond);
     if (!k || (good && !pivot_vanishes(x))) return good;
-    return shortest(x);
+    return !has_empty_row(x) && shortest(x);
 }
 
 bool nh_saddle_solve(size_t m, size_t k, const double *K, const double *F, const double *h, const double *g, double *a,

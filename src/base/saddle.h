@@ -7,7 +7,7 @@
  * condition number no other scaling makes smaller by more than the factor m when K is positive [VanDerSluis1969], and
  * rows of F of size one.  So a light body beside a heavy one, or another unit of length, does not make the matrix look
  * singular.  The factors are powers of two: scaling rounds nothing.  Rows of F that depend on each other and agree are
- * harmless: then a is the same, and mu the shortest (in this scaling). */
+ * harmless, unless one is zero: then a is the same, and mu the shortest (in this scaling). */
 #ifndef NH_SADDLE_H
 #define NH_SADDLE_H
 

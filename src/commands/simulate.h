@@ -71,6 +71,7 @@ struct nh_simulation {
     const char *begin;
     /* which constraint between positions the initial position violates, and by how much; NULL: none */
     const char *violation;
+    const char *chosen; /* the velocities under `dependent:` are not determined at the start: which were taken; or NULL */
     /* parameters and bodies without influence on the observables, in words; empty: all of them have */
     const char *idle;
     bool compared;        /* the whole model was integrated too, because the motion is short */

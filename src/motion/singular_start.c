@@ -216,6 +216,17 @@ static void find_cause(const place *p, nh_bordered *b, double least, bool *named
     nh_free(z);
 }
 
+static void say_constraints(const nh_system *y, size_t k, const double *row, double part, nh_text *out)
+{
+    size_t count = 0, last = 0;
+    for (size_t a = 0; a < k; a++)
+        if (fabs(row[a]) > part) count++, last = a;
+    const char *text = y->constraint[last].text;
+    if (count == 1 && text)
+        nh_text_addf(out, "the coefficients of the velocities in the constraint `%.120s` vanish", text);
+    else nh_text_addf(out, "the constraints are not independent of each other there");
+}
+
 static bool by_matrix(const place *p, bool *named, nh_text *out)
 {
     static const double singular = 1e-11, takes_part = 0.3;
@@ -231,7 +242,7 @@ static bool by_matrix(const place *p, bool *named, nh_text *out)
         for (size_t s = 0; s < m; s++) most = fmax(most, fabs(vector[s]));
         for (size_t a = 0; a < k; a++) reaction = fmax(reaction, fabs(vector[m + a]));
         if (out->length) nh_text_addf(out, ": ");
-        if (reaction > most) nh_text_addf(out, "the constraints depend on each other there, or have no solution");
+        if (reaction > most) say_constraints(y, k, vector + m, takes_part * reaction, out);
         else nh_text_addf(out, "the mass matrix is singular, without inertia in");
         for (size_t s = 0, count = 0; s < m && reaction <= most; s++)
             if (fabs(vector[s]) > takes_part * most)

@@ -355,9 +355,13 @@ static bool fit(nh_dynamics *d, const nh_state *state, bool project, double *z, 
 
 bool nh_dynamics_start_all(nh_dynamics *d, const nh_state *state, bool project, double *z, double *v, nh_error *error)
 {
-    if (!nh_dynamics_watched(d->model))
-        return fit(d, state, project, z, error) &&
+    if (!nh_dynamics_watched(d->model)) {
+        nh_state moved = {.t = state->t, .q = state->q, .v = v};
+        bool first = project && !d->model->chart->quasi && d->model->k;
+        return (!first || velocities(start_of(d), state, true, v, error)) &&
+               fit(d, first ? &moved : state, project, z, error) &&
                (nh_dynamics_velocities(d, state->t, z, v) || not_finite(state, error));
+    }
     bool good = velocities(start_of(d), state, project, v, error);
     memcpy(z, state->q, d->m * sizeof *z);
     for (size_t i = 0; i < d->n && good; i++) z[d->m + i] = v[d->model->chart->free[i]];
@@ -404,11 +408,11 @@ bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
     return root < 0;
 }
 
-/* Gaussian elimination with complete pivoting of F (k x m, by rows) among the columns that are allowed: which columns,
- * and the smallest pivot relative to the largest. */
+/* Gaussian elimination with complete pivoting of F (k x m, by rows, whose length is 1) among the columns that are
+ * allowed: which columns, and the smallest pivot. */
 static double eliminate(size_t k, size_t m, const double *F, const bool *allowed, size_t *column)
 {
-    double *a = nh_alloc_array(k * m + 1, sizeof *a), first = 0, last = 0;
+    double *a = nh_alloc_array(k * m + 1, sizeof *a), last = 0;
     bool *used = nh_alloc_array(m + k + 1, sizeof *used), *done = used + m;
     memcpy(a, F, k * m * sizeof *a);
     for (size_t step = 0; step < k; step++) {
@@ -419,7 +423,6 @@ static double eliminate(size_t k, size_t m, const double *F, const bool *allowed
                 if (!done[i] && !used[j] && (!allowed || allowed[j]) && fabs(a[i * m + j]) > last)
                     last = fabs(a[i * m + j]), row = i, at = j;
         if (!(last > 0)) break;
-        if (step == 0) first = last;
         done[row] = used[at] = true;
         column[step] = at;
         for (size_t i = 0; i < k; i++) {
@@ -429,7 +432,7 @@ static double eliminate(size_t k, size_t m, const double *F, const bool *allowed
     }
     nh_free(used);
     nh_free(a);
-    return last > 0 ? last / first : 0;
+    return last;
 }
 
 /* ---- another chart ---- */
