@@ -66,11 +66,12 @@ static void start_vehicle(const vehicle *c, mechanics *x, nh_dynamics *d, nh_bor
     nh_free(q);
 }
 
-/* Is a trailer's own velocity x' possible there?  Across it the car does not move. */
-static bool possible(const vehicle *c, size_t which)
+/* A wheel that lies flat on the ground has no lowest point.  A car that moves has no velocity x' across itself, or with its steering across. */
+static bool possible(const vehicle *c, size_t which, bool moving)
 {
-    double yaw = PLACES[which % places], steer = PLACES[which / places % places];
-    return strcmp(c->file, "trailer") || (fabs(cos(yaw)) > 0.1 && fabs(cos(steer)) > 0.1);
+    double yaw = PLACES[which % places], steer = PLACES[which / places % places], last = PLACES[which / places / places];
+    if (!strcmp(c->file, "bicycle") && fabs(cos(last)) < 0.1) return false;
+    return !moving || strcmp(c->file, "trailer") || (fabs(cos(yaw)) > 0.1 && fabs(cos(steer)) > 0.1);
 }
 
 static void start_everywhere(const vehicle *c, size_t settings, const nh_setting *setting, size_t one_in)
@@ -82,7 +83,7 @@ static void start_everywhere(const vehicle *c, size_t settings, const nh_setting
     nh_bordered *b = nh_bordered_create(x.model);
     for (size_t i = 0; i < places * places * places; i++)
         for (int moving = 0; moving < 2; moving++)
-            if (sweep_tries(i, one_in, 5 * one_in) && (!moving || possible(c, i))) start_vehicle(c, &x, d, b, i, moving ? 2 : 0);
+            if (sweep_tries(i, one_in, 5 * one_in) && possible(c, i, moving)) start_vehicle(c, &x, d, b, i, moving ? 2 : 0);
     nh_bordered_free(b);
     nh_dynamics_free(d);
     mechanics_clear(&x);
@@ -201,7 +202,7 @@ static void compare_with_ida(const nh_simulation *s, double allowed, const char 
 /* Through phi = pi/2, where y' does not follow, and from there, by every kind of method. */
 Test(starts, motions_go_through_the_singular_places_of_charts)
 {
-    static const char *const methods[] = {NULL, "adams", "rk8pd", "bdf", "verner", "rkf45", "msadams", "esdirk", "dormand-prince"};
+    static const char *const methods[] = {NULL, "adams", "rk8pd", "bdf", "verner", "rkf45", "msadams", "dormand-prince"};
     static const char *const from[] = {"phi=pi/2, phi'=1.5, y'=0.4", "phi'=2, x'=0.3", "phi=pi/2", "phi=-pi/2, phi'=0.1, y'=1"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
         for (size_t j = 0; j < sizeof from / sizeof *from; j++) {

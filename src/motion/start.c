@@ -218,10 +218,11 @@ static bool not_finite(const nh_state *state, nh_error *error)
 static bool velocities(nh_start *c, const nh_state *state, bool project, double *v, nh_error *error)
 {
     enum { most_steps = 40 };
+    static const double rounding = 1e-14;
     const nh_chart *chart = c->model->chart;
     size_t m = c->m, which = 0;
     double t = state->t, *nearest = nh_alloc_array(m + 1, sizeof *nearest), left = INFINITY;
-    for (int attempt = 0; attempt < 2 && !(left <= on_constraint); attempt++) {
+    for (int attempt = 0; attempt < 2 && !(left <= rounding); attempt++) {
         for (size_t s = 0; s < m; s++) c->some[s] = attempt && state->given && !state->given[s];
         for (size_t a = 0; a < c->k && !attempt; a++)
             c->some[chart->dependent[a]] = state->given && !state->given[chart->dependent[a]];
@@ -229,6 +230,7 @@ static bool velocities(nh_start *c, const nh_state *state, bool project, double 
         left = satisfy(c, t, state->q, c->some, v, &which);
     }
     bool good = left <= on_constraint;
+    if (good && left > rounding) satisfy(c, t, state->q, NULL, v, &which);
     if (!good && isfinite(left)) {
         size_t last = which;
         for (size_t s = 0; s < m; s++) nearest[s] = state->given && !state->given[s] ? 0 : state->v[s];
