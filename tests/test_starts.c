@@ -202,11 +202,11 @@ static void compare_with_ida(const nh_simulation *s, double allowed, const char 
 /* Through phi = pi/2, where y' does not follow, and from there, by every kind of method. */
 Test(starts, motions_go_through_the_singular_places_of_charts)
 {
-    static const char *const methods[] = {NULL, "adams", "rk8pd", "bdf", "verner", "rkf45", "msadams", "dormand-prince"};
+    static const char *const methods[] = {NULL, "adams", "rk8pd", "bdf", "verner", "rkf45", "dormand-prince", "msadams"};
     static const char *const from[] = {"phi=pi/2, phi'=1.5, y'=0.4", "phi'=2, x'=0.3", "phi=pi/2", "phi=-pi/2, phi'=0.1, y'=1"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
         for (size_t j = 0; j < sizeof from / sizeof *from; j++) {
-            if (!sweep_tries(i * 4 + j, 3, 11)) continue;
+            if (!sweep_tries(i * 4 + j, 3, 11) || (i == sizeof methods / sizeof *methods - 1 && !sweep_whole())) continue;
             char what[120];
             nh_error error = {0};
             snprintf(what, sizeof what, "%s by %s", from[j], methods[i] ? methods[i] : "the automatic choice");
