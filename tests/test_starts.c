@@ -142,7 +142,7 @@ static double violation_along(const nh_simulation *s)
 Test(starts, a_leaning_bicycle_steers_straight)
 {
     nh_error error = {0};
-    nh_simulation *s = motion_of(FOLDER "bicycle.yaml", "z=0.3*cos(0.01), roll=0.01, roll'=0.05, steer'=0, qr'=5", 1e-6, NULL, 0.31, &error);
+    nh_simulation *s = motion_of(FOLDER "bicycle.yaml", "z=0.3*cos(0.01), roll=0.01, roll'=0.05, steer'=0, qr'=5", 1e-13, NULL, 0.31, &error);
     must(s != NULL, &error, "the bicycle");
     cr_expect_float_eq(value_of(s, 0, "x'"), 1.5, 1e-13, "x' = %.17g", value_of(s, 0, "x'"));
     cr_expect_float_eq(value_of(s, 0, "yaw'"), 0, 1e-13, "yaw' = %g", value_of(s, 0, "yaw'"));

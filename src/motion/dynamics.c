@@ -119,7 +119,7 @@ void nh_dynamics_free(nh_dynamics *d)
     nh_tape_work_free(d->velocity_work);
     nh_tape_work_free(d->constraint_work);
     nh_tape_work_free(d->wall_work);
-    nh_start_free(d->start);
+    nh_dynamics_start_free(d->start);
     nh_free(d->slope);
     nh_free(d->point);
     nh_free(d->out);

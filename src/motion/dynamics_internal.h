@@ -1,4 +1,4 @@
-/* dynamics_internal: shared by dynamics.c and start.c. */
+/* dynamics_internal: shared by dynamics.c and dynamics_start.c. */
 #ifndef NH_DYNAMICS_INTERNAL_H
 #define NH_DYNAMICS_INTERNAL_H
 
@@ -24,7 +24,7 @@ struct nh_dynamics {
     nh_start *start;     /* made for the first start */
 };
 
-void nh_start_free(nh_start *start);
+void nh_dynamics_start_free(nh_start *start);
 
 /* rho and R of a model (R column-major, m x n), as functions of the chart's point. */
 nh_tape *nh_dynamics_velocity_tape(const nh_model *model);

@@ -182,12 +182,15 @@ static bool by_position(const place *p, nh_text *out)
 static double least_value(const place *p, nh_bordered *b, double t, const double *q, const double *v, double *vector)
 {
     size_t m = p->model->m, k = p->model->k, n = m + k;
-    double *K = nh_alloc_array(m * m + m + k * m + 2 * k + 2 * n * n + n + m + 1, sizeof *K), *h = K + m * m, *F = h + m,
-           *g = F + k * m, *f = g + k, *matrix = f + k, *vt = matrix + n * n, *sigma = vt + n * n, *scale = sigma + n;
+    static const double without_inertia = 1e-9;
+    double *K = nh_alloc_array(m * m + m + k * m + 2 * k + 2 * n * n + n + m + 1, sizeof *K), *h = K + m * m,
+           *F = h + m, *g = F + k * m, *f = g + k, *matrix = f + k, *vt = matrix + n * n, *sigma = vt + n * n,
+           *scale = sigma + n;
     double least = 0, usual = 0;
     bool good = nh_bordered_terms(b, t, q, v, K, h, F, g, f);
     for (size_t s = 0; s < m; s++) usual = fmax(usual, fabs(K[s * (m + 1)]));
-    for (size_t s = 0; s < m; s++) scale[s] = 1 / sqrt(fmax(fabs(K[s * (m + 1)]), 1e-9 * (usual > 0 ? usual : 1)));
+    usual = without_inertia * (usual > 0 ? usual : 1);
+    for (size_t s = 0; s < m; s++) scale[s] = 1 / sqrt(fmax(fabs(K[s * (m + 1)]), usual));
     for (size_t s = 0; s < m; s++) {
         for (size_t r = 0; r < m; r++) matrix[r + s * n] = K[r + s * m] * scale[r] * scale[s];
         for (size_t a = 0; a < k; a++) matrix[m + a + s * n] = matrix[s + (m + a) * n] = F[a + s * k] * scale[s];
@@ -203,7 +206,7 @@ static double least_value(const place *p, nh_bordered *b, double t, const double
 /* Which entries of the state make the matrix regular when they change alone? */
 static void find_cause(const place *p, nh_bordered *b, double least, bool *named)
 {
-    static const double moved = 0.01, regular = 1e3;
+    static const double moved = 0.01, regular = 1e3, rounding = 1e-12;
     size_t m = p->model->m;
     double *z = nh_alloc_array(2 * m + m + p->model->k, sizeof *z), *vector = z + 2 * m;
     for (size_t i = 0; i < 1 + 2 * m; i++) {
@@ -211,7 +214,7 @@ static void find_cause(const place *p, nh_bordered *b, double least, bool *named
         memcpy(z + m, p->v, m * sizeof *z);
         if (i) z[i - 1] += moved * nh_chart_unit(p->model->system, (i - 1) % m);
         double t = p->state->t + (i ? 0 : moved);
-        named[i] = least_value(p, b, t, z, z + m, vector) > regular * fmax(least, 1e-12);
+        named[i] = least_value(p, b, t, z, z + m, vector) > regular * fmax(least, rounding);
     }
     nh_free(z);
 }
@@ -263,12 +266,13 @@ static const char *angle(const nh_model *o, const bool *named)
     for (size_t i = 0; i < 1 + 2 * o->m; i++) {
         if (!named[i]) continue;
         count++;
-        if (i > 0 && i <= o->m && o->system->coordinate[i - 1].type == NH_ANGLE) name = o->system->coordinate[i - 1].name;
+        const nh_coordinate *c = i > 0 && i <= o->m ? &o->system->coordinate[i - 1] : NULL;
+        if (c && c->type == NH_ANGLE) name = c->name;
     }
     return count == 1 ? name : NULL;
 }
 
-void nh_explain_start(const nh_model *o, const nh_state *state, nh_error *error)
+void nh_singular_start_explain(const nh_model *o, const nh_state *state, nh_error *error)
 {
     if (error->code != NH_NUMERIC) return;
     place p = {.model = o, .state = state, .v = nh_alloc_array(o->m + 1, sizeof *p.v)};

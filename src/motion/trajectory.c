@@ -464,7 +464,7 @@ static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error)
     nh_free(j.y0);
     if (j.used) out->method = j.used->name;
     if (out->motion) return out;
-    nh_explain_start(q->model, q->initial, error);
+    nh_singular_start_explain(q->model, q->initial, error);
     nh_trajectory_free(out);
     return NULL;
 }

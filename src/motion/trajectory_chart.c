@@ -55,7 +55,8 @@ static void settle_all(nh_bordered *b, nh_motion *motion)
     double *work = nh_alloc_array(2 * m + 1, sizeof *work);
     if (size != 2 * m) return nh_free(work);
     for (size_t i = 1; i < motion->count; i++) settle(b, m, motion->time[i], motion->state + i * size, work);
-    for (size_t i = 0; i < motion->events; i++) settle(b, m, motion->event[i].time, motion->event_state + i * size, work);
+    for (size_t i = 0; i < motion->events; i++)
+        settle(b, m, motion->event[i].time, motion->event_state + i * size, work);
     if (motion->end_state) settle(b, m, motion->end_time, motion->end_state, work);
     nh_free(work);
 }

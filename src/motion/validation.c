@@ -433,7 +433,7 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     nh_free(r.z0);
     nh_free(r.y0);
     if (good) return v;
-    nh_explain_start(o, q->initial, error);
+    nh_singular_start_explain(o, q->initial, error);
     nh_validation_free(v);
     return NULL;
 }

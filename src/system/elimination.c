@@ -173,31 +173,6 @@ static void copy_probes(nh_chart *chart, const nh_constraint_samples *c)
     chart->probes = c->count;
 }
 
-/* nh_pivot_score: a divisor that vanishes where the motion starts is the last choice. */
-static double score_at_start(void *context, nh_ex e)
-{
-    static const double last_choice = 1e-6;
-    const nh_chart *c = context;
-    const nh_system *s = c->system;
-    double least = nh_embedding_score(context, e), value = 0, size = 0;
-    if (!s->start || least == 0) return least;
-    const nh_ex *symbols;
-    const double *values;
-    nh_ex *in = nh_alloc_array(1 + 2 * s->coordinates, sizeof *in);
-    in[0] = s->t;
-    for (size_t i = 0; i < s->coordinates; i++)
-        in[1 + i] = s->coordinate[i].q, in[1 + s->coordinates + i] = s->coordinate[i].v;
-    nh_system_bindings(s, &symbols, &values);
-    nh_tape *tape = nh_tape_create(s->dag, 1 + 2 * s->coordinates, in, 1, &e, s->parameters, symbols, values);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, s->start, &value);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(in);
-    size = isfinite(value) ? fabs(value) : 0;
-    return size > last_choice * least ? fmin(least, size) : last_choice * least;
-}
-
 /* Linear in the dependent velocities: v_dep = -G^-1 f(v_dep = 0), G = df/dv_dep. */
 static bool solve_linear(nh_chart *chart, const nh_constraint_samples *c, const nh_ex *G, const nh_ex *f)
 {
@@ -207,7 +182,7 @@ static bool solve_linear(nh_chart *chart, const nh_constraint_samples *c, const 
           *b = nh_alloc_array(c->k + 1, sizeof *b);
     for (size_t a = 0; a < c->k; a++) u[a] = s->coordinate[chart->dependent[a]].v;
     for (size_t a = 0; a < c->k; a++) b[a] = nh_neg(d, nh_substitute(d, f[a], c->k, u, zero));
-    nh_lu *lu = nh_lu_create(d, c->k, G, score_at_start, chart, NULL);
+    nh_lu *lu = nh_lu_create(d, c->k, G, nh_embedding_score_at_start, chart, NULL);
     if (lu) nh_lu_solve(lu, b, b);
     for (size_t a = 0; a < c->k && lu; a++) chart->rho[chart->dependent[a]] = nh_simplify(d, b[a]);
     bool good = lu != NULL;

@@ -1,6 +1,6 @@
-/* start: the velocities at the start of a motion.
+/* dynamics_start: the velocities at the start of a motion.
  *
- * They come from the constraints themselves, F v + b = 0 at (t, q), in all coordinates, not from a chart, whose formulas
+ * They come from the constraints themselves, F v + b = 0 at (t, q), in all coordinates, not from a chart: its formulas
  * may be 0/0 at a regular state.  Velocities are measured by the diagonal of the kinetic energy, s_i = K_ii^(-1/2), and
  * rows of F by their length, so that no unit matters; rows that depend on others there are left out by a rank decision
  * (pivoted QR), and are harmless where they agree with the others. */
@@ -62,7 +62,7 @@ static nh_start *create(const nh_model *o)
     return c;
 }
 
-void nh_start_free(nh_start *c)
+void nh_dynamics_start_free(nh_start *c)
 {
     if (!c) return;
     nh_tape_work_free(c->work);
@@ -482,7 +482,7 @@ bool nh_dynamics_other_dependents(const nh_model *o, const nh_state *state, size
     else memcpy(dependent, o->chart->dependent, k * sizeof *dependent);
     nh_free(own);
     nh_free(F);
-    nh_start_free(c);
+    nh_dynamics_start_free(c);
     return other;
 }
 
