@@ -44,7 +44,7 @@ static const char *words_chosen(const nh_simulation *s, const size_t *dependent)
     }
     const char *out = nh_arena_printf(s->arena,
                                       "at the initial state the constraints do not determine the velocities under "
-                                      "`dependent:`; %s are taken instead",
+                                      "`dependent:`; the program takes %s instead",
                                       nh_text_string(&words));
     nh_text_clear(&words);
     return same ? NULL : out;
