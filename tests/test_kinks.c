@@ -67,12 +67,15 @@ static void random_state(const nh_model *o, uint64_t *seed, double *z)
 /* In the velocities of the chart, or in all coordinates. */
 static double drift_by(nh_dynamics *d, const nh_method *method, bool everywhere, const double *z0, double tolerance, size_t n, const nh_ex *e)
 {
-    double times[OUTPUTS], value[3 * OUTPUTS];
+    double times[OUTPUTS], value[3 * OUTPUTS], y0[2 * 8];
     nh_error error = {0};
+    size_t m = nh_dynamics_model(d)->m;
+    cr_assert(m <= 8 && nh_dynamics_velocities(d, BEGIN, z0, y0 + m));
+    memcpy(y0, z0, m * sizeof *y0);
     for (size_t i = 0; i < OUTPUTS; i++) times[i] = BEGIN + (END - BEGIN) * (double)i / (OUTPUTS - 1);
     nh_flow_options options = {.rtol = tolerance, .absolute = 1e-3, .max_steps = 1e5};
     nh_flow_problem problem = nh_dynamics_problem(d);
-    nh_motion *motion = everywhere ? nh_motion_everywhere(d, method, z0, OUTPUTS, times, &options, NULL, NULL, &error) : nh_method_flow(method, &problem, z0, OUTPUTS, times, &options, &error);
+    nh_motion *motion = everywhere ? nh_motion_everywhere(d, method, y0, OUTPUTS, times, &options, NULL, NULL, &error) : nh_method_flow(method, &problem, z0, OUTPUTS, times, &options, &error);
     must(motion != NULL, &error, method->name);
     cr_expect(nh_along(d, motion, n, e, value));
     double drift = drift_of(motion->count, n, value);

@@ -383,6 +383,23 @@ Test(linalg, one_thread)
     cr_assert(!openblas_get_num_threads || openblas_get_num_threads() == 1);
 }
 
+/* Rows that depend on each other are harmless where they agree: the accelerations are those of the independent rows. */
+Test(linalg, bordered_equations_with_rows_that_agree)
+{
+    enum { m = 3, k = 2 };
+    static const double K[m * m] = {2, 0.5, 0, 0.5, 1, 0.2, 0, 0.2, 3}, h[m] = {1, -1, 0.5}, first[m] = {1, 2, -1};
+    double F[k * m], g[k] = {0.6, 1.8}, work[(m + k) * (m + k + 4) + 1], a[m], one[m], rcond;
+    for (size_t j = 0; j < m; j++) F[j * k] = first[j], F[1 + j * k] = 3 * first[j];
+    cr_assert(nh_saddle_solve(m, 1, K, first, h, g, one, NULL, &rcond, work));
+    cr_assert(nh_saddle_solve(m, k, K, F, h, g, a, NULL, &rcond, work));
+    for (size_t j = 0; j < m; j++) cr_expect_float_eq(a[j], one[j], 1e-13, "%zu: %g", j, a[j] - one[j]);
+    g[1] = 1.7;
+    cr_expect(!nh_saddle_solve(m, k, K, F, h, g, a, NULL, &rcond, work), "rows that contradict each other");
+    g[1] = 0;
+    for (size_t j = 0; j < m; j++) F[1 + j * k] = 0;
+    cr_expect(!nh_saddle_solve(m, k, K, F, h, g, a, NULL, &rcond, work), "a row of zeros");
+}
+
 /* [K F^T; F 0]: units of coordinates and constraints, powers of two here, change the solution by these factors and by no rounding, nor its condition;
  * the equations are satisfied, also by a K that is not positive or has a coordinate that only a constraint holds. */
 Test(linalg, bordered_equations_do_not_depend_on_units)
@@ -393,7 +410,7 @@ Test(linalg, bordered_equations_do_not_depend_on_units)
                                             {1, 0.2, 0, 0, 0.2, 2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0}};                   /* without inertia along the last */
     static const double F[k * m] = {1, 0, 0.3, 0.2, 0, 1, -0.7, 0.4}, h[m] = {1, -2, 0.5, 0.7}, g[k] = {0.3, -1}, none[k * m] = {0};
     static const int of_coordinate[m] = {-60, 41, 0, 17}, of_constraint[k] = {33, -28};
-    double work[(m + k) * (m + k + 2) + 1], a[m], mu[k], rcond, K2[m * m], F2[k * m], h2[m], g2[k], a2[m], mu2[k], rcond2;
+    double work[(m + k) * (m + k + 4) + 1], a[m], mu[k], rcond, K2[m * m], F2[k * m], h2[m], g2[k], a2[m], mu2[k], rcond2;
     cr_assert_leq(nh_saddle_work(m, k), sizeof work / sizeof *work);
     for (size_t which = 0; which < 3; which++) {
         const double *K = metrics[which];

@@ -38,8 +38,8 @@ bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t,
     *f = (nh_formulation){.name = "all coordinates", .size = 2 * o->m, .bordered = nh_bordered_create(o)};
     f->problem = nh_bordered_flow(f->bordered);
     sized(f, o->m, chart->scale[0], arena);
-    nh_motion start = {.count = 1, .size = chart->size, .time = &t, .state = chart->z0};
-    return nh_formulation_states(chart, &start, f->z0) ||
+    memcpy(f->z0, chart->z0, o->m * sizeof *f->z0);
+    return nh_dynamics_velocities(chart->dynamics, t, chart->z0, f->z0 + o->m) ||
            nh_fail(error, NH_NUMERIC, "", "the velocities cannot be found at the initial state");
 }
 

@@ -72,6 +72,8 @@ struct nh_simulation {
     /* which constraint between positions the initial position violates, and by how much; NULL: none */
     const char *violation;
     const char *assembled; /* how --project has moved the initial position, in words; NULL: it has not */
+    /* where the velocities under `dependent:` are not determined at the start: which were taken; or NULL */
+    const char *chosen;
     /* parameters and bodies without influence on the observables, in words; empty: all of them have */
     const char *idle;
     bool compared;        /* the whole model was integrated too, because the motion is short */

@@ -29,18 +29,45 @@ static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_
                            nh_analysis_file_resolve(*own, s->model, error));
 }
 
+/* "`dependent: [x, y]` does not follow .." */
+static const char *words_chosen(const nh_simulation *s, const size_t *dependent)
+{
+    const nh_model *o = s->model;
+    bool same = true;
+    nh_text words;
+    nh_text_init(&words);
+    for (size_t a = 0; a < o->k; a++) {
+        bool named = false;
+        for (size_t b = 0; b < o->k; b++) named |= s->system->dependent[b] == dependent[a];
+        same = same && named;
+        nh_text_addf(&words, "%s%s'", a ? ", " : "", o->system->coordinate[dependent[a]].name);
+    }
+    const char *out = nh_arena_printf(s->arena,
+                                      "at the initial state the constraints do not determine the velocities under "
+                                      "`dependent:`; the program takes %s instead",
+                                      nh_text_string(&words));
+    nh_text_clear(&words);
+    return same ? NULL : out;
+}
+
 /* Chooses, by the initial state, the branch of a quadratic constraint, and the dependent velocities, where those of the
- * chart do not follow from the constraints there. */
+ * chart do not follow from the constraints there, or its formulas are 0/0. */
 static bool needs_other_chart(nh_simulation *s, const nh_state *at)
 {
-    size_t *dependent = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof *dependent);
-    if (nh_dynamics_other_branch(s->model, at)) {
-        s->system->branch = -s->model->chart->branch;
+    const nh_model *o = s->model;
+    size_t *dependent = nh_arena_alloc(s->arena, (o->m + 1) * sizeof *dependent);
+    double *start = nh_arena_alloc(s->arena, (1 + 2 * o->m) * sizeof *start);
+    if (nh_dynamics_other_branch(o, at)) {
+        s->system->branch = -o->chart->branch;
         return true;
     }
-    if (!nh_dynamics_other_dependents(s->model, at, dependent)) return false;
+    start[0] = at->t;
+    memcpy(start + 1, at->q, o->m * sizeof *start);
+    if (!nh_dynamics_other_dependents(o, at, dependent, start + 1 + o->m)) return false;
+    if (s->system->dependents) s->chosen = words_chosen(s, dependent);
     s->system->dependent = dependent;
-    s->system->dependents = s->model->k;
+    s->system->dependents = o->k;
+    s->system->start = start;
     return true;
 }
 

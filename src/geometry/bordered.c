@@ -29,6 +29,7 @@ struct nh_bordered {
     nh_tape_work *wall_work;
     double *in, *out;
     double *terms, *saddle, *right; /* values of the tape; work memory and right-hand side of the solution */
+    double *two;                    /* two right-hand sides, and their solutions without multipliers */
     double *unit;                   /* m: size of each velocity, so that those of lengths and angles compare */
 };
 
@@ -80,6 +81,7 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     b->terms = nh_alloc_array(total + 1, sizeof *b->terms);
     b->saddle = nh_alloc_array(nh_saddle_work(m, k), sizeof *b->saddle);
     b->right = nh_alloc_array(m + k, sizeof *b->right);
+    b->two = nh_alloc_array(2 * (m + k) + 2 * m, sizeof *b->two);
     b->unit = nh_alloc_array(m + 1, sizeof *b->unit);
     for (size_t s = 0; s < m; s++) b->unit[s] = nh_chart_unit(y, s);
     b->tape = nh_tape_create(d, 1 + 2 * m, in, total, out, y->parameters, o->parameter, o->parameter_value);
@@ -109,6 +111,7 @@ void nh_bordered_free(nh_bordered *b)
     nh_free(b->terms);
     nh_free(b->saddle);
     nh_free(b->right);
+    nh_free(b->two);
     nh_free(b->unit);
     nh_free(b);
 }
@@ -166,6 +169,22 @@ bool nh_bordered_accelerations(nh_bordered *b, double t, const double *q, const 
     double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
     return nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f) &&
            nh_saddle_solve(m, k, b->terms, F, h, g, acceleration, NULL, NULL, b->saddle);
+}
+
+bool nh_bordered_rates(nh_bordered *b, double t, const double *q, const double *v, double *acceleration, double *change)
+{
+    size_t m = b->m, k = b->k;
+    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k, *two = b->two, *solution = two + 2 * (m + k);
+    memset(change, 0, m * sizeof *change);
+    if (!k) return nh_bordered_accelerations(b, t, q, v, acceleration);
+    if (!nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f)) return false;
+    memcpy(two, h, m * sizeof *h);
+    memset(two + m, 0, m * sizeof *two);
+    memcpy(two + 2 * m, g, 2 * k * sizeof *g); /* g, f */
+    if (!nh_saddle_solve_two(m, k, b->terms, F, two, two + 2 * m, solution, b->saddle)) return false;
+    memcpy(acceleration, solution, m * sizeof *acceleration);
+    memcpy(change, solution + m, m * sizeof *change);
+    return true;
 }
 
 void nh_bordered_accelerations_batch(nh_bordered *b, size_t count, const double *const *in, size_t stride, double *to)

@@ -36,6 +36,9 @@ bool nh_bordered_terms(nh_bordered *bordered, double t, const double *q, const d
 
 /* v' (m values).  False when not finite or the bordered matrix is singular. */
 bool nh_bordered_accelerations(nh_bordered *bordered, double t, const double *q, const double *v, double *acceleration);
+/* Also the least change of v (m values), in the metric K, after which the constraints hold, to first order. */
+bool nh_bordered_rates(nh_bordered *bordered, double t, const double *q, const double *v, double *acceleration,
+                       double *change);
 
 /* The accelerations at count <= NH_BATCH states: in[j] is input j of t, q, v at each of them (1 + 2m inputs); v' of
  * coordinate s at state j goes to to[s*stride + j], NAN where there is none. */

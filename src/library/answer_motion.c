@@ -250,6 +250,7 @@ static void put_events(const nh_simulation *s, nh_text *out)
 static void put_notes(const nh_request *q, const nh_simulation *s, bool verbose, nh_text *out)
 {
     if (s->begin) nh_text_addf(out, "nhsym: no initial state is given: --initial \"%s\"\n", s->begin);
+    if (s->chosen) nh_text_addf(out, "nhsym: %s\n", s->chosen);
     if (s->scene && (q->watch || q->scene)) put_scene(s, out);
     if (verbose && s->trajectory)
         nh_text_addf(out, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation,

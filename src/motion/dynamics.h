@@ -39,18 +39,25 @@ void nh_dynamics_end_early(nh_dynamics *dynamics, double t, const double *z);
 bool nh_dynamics_watched(const nh_model *model);
 const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);
 
-/* (q, w) of a state, w by Gauss-Newton on rho(t, q, w) = v over the velocities that are given (of least norm where
- * these leave a choice); refuses a velocity off the constraints, saying by how much, unless `project` is set.  z has m
- * + n entries. */
+/* (q, w) of a state, z of m + n entries.  Velocities that are given are kept; the others follow from the constraints in
+ * all coordinates (of least norm where these leave a choice, by the diagonal of the kinetic energy), in charts of
+ * quasi-velocities and of implicit ones by Gauss-Newton on rho(t, q, w) = v.  Refuses velocities off the constraints,
+ * saying by how much, unless `project` is set, which takes the nearest.  nh_dynamics_start_all also writes v (m). */
 bool nh_dynamics_start(nh_dynamics *dynamics, const nh_state *state, bool project, double *z, nh_error *error);
+bool nh_dynamics_start_all(nh_dynamics *dynamics, const nh_state *state, bool project, double *z, double *v,
+                           nh_error *error);
+/* v (m) at z = (q, w), dependent velocities from the constraints.  False where w does not determine them. */
+bool nh_dynamics_velocities(nh_dynamics *dynamics, double t, const double *z, double *v);
+/* Are the chart's formulas regular at z, where the velocities are v? */
+bool nh_dynamics_holds(nh_dynamics *dynamics, double t, const double *z, const double *v);
 
 /* Does the state lie on the other branch of a quadratic constraint than the chart?  Only velocities that are given say
    so. */
 bool nh_dynamics_other_branch(const nh_model *model, const nh_state *state);
 
-/* Do the constraints leave the chart's dependent velocities undetermined there, but determine others?  Writes which (k
- * coordinates). */
-bool nh_dynamics_other_dependents(const nh_model *model, const nh_state *state, size_t *dependent);
+/* Do the formulas of the chart not hold at the state, whose velocities are completed to v (m)?  Writes the k dependent
+ * coordinates that the constraints determine there: the chart's own, where only its formulas are singular. */
+bool nh_dynamics_other_dependents(const nh_model *model, const nh_state *state, size_t *dependent, double *v);
 
 /* The point (t, q, w, u) that belongs to (t, z); width entries.  False when the implicit velocities cannot be found. */
 bool nh_dynamics_point(nh_dynamics *dynamics, double t, const double *z, double *point);

@@ -343,7 +343,7 @@ static void compute_alone(const plan *p, const nh_trajectory_request *request, l
     q.method = NULL;
     /* finding the smallest model again takes longer than the motion, and most members are here because a chart ends */
     q.smallest = false;
-    nh_trajectory *t = nh_along(d, &start, o->m, o->rho, v) ? nh_trajectory_create(&q, &error) : NULL;
+    nh_trajectory *t = nh_dynamics_velocities(d, q.times[0], start.state, v) ? nh_trajectory_create(&q, &error) : NULL;
     l->done = true;
     l->reached = t ? t->motion->count : 0;
     if (t) l->evaluations = t->motion->evaluations;

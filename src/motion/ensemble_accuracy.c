@@ -195,7 +195,9 @@ static void compute_alone(search *s, const nh_trajectory_request *request, size_
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
     nh_trajectory *t =
-        nh_along(d, &start, o->m, o->rho, z + o->m) ? nh_trajectory_accurate(&q, s->eps, ways, a, &error) : NULL;
+        nh_dynamics_velocities(d, start.time[0], start.state, z + o->m)
+            ? nh_trajectory_accurate(&q, s->eps, ways, a, &error)
+            : NULL;
     if (!s->scaled) share_terms(s, &q, t);
     size_t reached = t ? t->motion->count : 0;
     bool before = arrived(e, member);

@@ -1,5 +1,6 @@
 #include "motion/automatic.h"
 #include "motion/cvode.h"
+#include "motion/singular_start.h"
 #include "motion/singular_terms.h"
 #include "motion/trajectory.h"
 
@@ -97,7 +98,7 @@ typedef struct {
     nh_trajectory *out;
     const nh_method *method; /* NULL: automatic */
     const nh_method *used;   /* of the last motion */
-    double *z0;
+    double *z0, *y0; /* (q, w) and (q, v) at the start */
     nh_clock_limit time_limit;
     nh_flow_options how;
     bool leave; /* the chart ends on the way */
@@ -380,7 +381,7 @@ static void in_all_states(job *j, nh_error *error)
         if (q->events) watch(j, nh_along_values_of(j->dynamics, true, 2 * q->events, j->watched));
         watch_singular(j, NULL, in_coordinates);
         j->out->formulation = "all coordinates, accelerations from the bordered system";
-        motion = nh_motion_everywhere(j->dynamics, fixed_steps(j) ? NULL : j->method, j->z0, q->count, q->times,
+        motion = nh_motion_everywhere(j->dynamics, fixed_steps(j) ? NULL : j->method, j->y0, q->count, q->times,
                                       &j->how, j->out->machine, &j->used, error);
     }
     j->out->motion = motion;
@@ -437,6 +438,7 @@ static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error)
              .dynamics = nh_dynamics_create(q->model),
              .out = out,
              .z0 = nh_alloc_array(size + 1, sizeof *j.z0),
+             .y0 = nh_alloc_array(2 * q->model->m + 1, sizeof *j.y0),
              .method = q->method,
              .used = q->method,
              .time_limit = nh_clock_limit_in(q->max_seconds > 0 ? q->max_seconds : INFINITY)};
@@ -452,12 +454,14 @@ static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error)
     open_watch(&j);
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error)) {
+    double *v0 = j.y0 + q->model->m;
+    if (nh_dynamics_start_all(j.dynamics, q->initial, q->project, j.z0, v0, error)) {
+        memcpy(j.y0, j.z0, q->model->m * sizeof *j.y0);
         nh_dynamics_end_early(j.dynamics, q->times[0], j.z0);
         bool other =
             q->velocities == NH_OTHER_VELOCITIES && q->other && !fixed_steps(&j) && nh_may_leave_chart(q->model);
-        j.leave =
-            (q->velocities == NH_ALL_COORDINATES && nh_may_leave_chart(q->model)) || meets_pivot(&j, j.dynamics, j.z0);
+        j.leave = (q->velocities == NH_ALL_COORDINATES && nh_may_leave_chart(q->model)) ||
+                  !nh_dynamics_holds(j.dynamics, q->times[0], j.z0, v0) || meets_pivot(&j, j.dynamics, j.z0);
         bool scene = q->smallest && !fixed_steps(&j);
         if (!(scene && in_scene(&j, &ignored)) && !(other && in_other_velocities(&j, &ignored)))
             in_all_states(&j, error);
@@ -465,8 +469,10 @@ static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error)
     close_watch(&j);
     nh_dynamics_free(j.dynamics);
     nh_free(j.z0);
+    nh_free(j.y0);
     if (j.used) out->method = j.used->name;
     if (out->motion) return out;
+    nh_singular_start_explain(q->model, q->initial, error);
     nh_trajectory_free(out);
     return NULL;
 }

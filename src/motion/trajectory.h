@@ -97,10 +97,11 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
 /* The same from `count` rows of n slopes, which the factors free of their units. */
 bool *nh_steep_entries(size_t count, size_t n, const double *R, const double *factor, bool *any);
 
-/* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: the one that
+/* The motion in all coordinates, from (q, v) of 2m entries, with accelerations from the bordered system; it keeps the
+ * constraints.  `method` NULL: the one that
  * suits (automatic.h), *used where `used` is not NULL.  `machine`: NH_TRAJECTORY_MACHINE bytes for how the equations
  * were evaluated, or NULL. */
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count,
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *initial, size_t count,
                                 const double *times, const nh_flow_options *options, char *machine,
                                 const nh_method **used, nh_error *error);
 

@@ -42,7 +42,26 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
     return flag;
 }
 
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count,
+/* Moves velocities onto the constraints. */
+static void settle(nh_bordered *b, size_t m, double t, double *state, double *work)
+{
+    if (!nh_bordered_rates(b, t, state, state + m, work, work + m)) return;
+    for (size_t s = 0; s < m; s++) state[m + s] += work[m + s];
+}
+
+static void settle_all(nh_bordered *b, nh_motion *motion)
+{
+    size_t m = nh_bordered_coordinates(b), size = motion->size;
+    double *work = nh_alloc_array(2 * m + 1, sizeof *work);
+    if (size != 2 * m) return nh_free(work);
+    for (size_t i = 1; i < motion->count; i++) settle(b, m, motion->time[i], motion->state + i * size, work);
+    for (size_t i = 0; i < motion->events; i++)
+        settle(b, m, motion->event[i].time, motion->event_state + i * size, work);
+    if (motion->end_state) settle(b, m, motion->end_time, motion->end_state, work);
+    nh_free(work);
+}
+
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *initial, size_t count,
                                 const double *times, const nh_flow_options *given, char *machine,
                                 const nh_method **used, nh_error *error)
 {
@@ -52,17 +71,14 @@ nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, 
     nh_bordered_jit(b, nh_dynamics_patience(dynamics));
     nh_flow_problem problem = nh_bordered_flow(b);
     nh_flow_options options = *given;
-    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = given->scale ? nh_alloc_array(2 * m, sizeof *scale) : NULL;
-    nh_motion first = {.count = 1, .size = m + o->n, .time = (double *)times, .state = (double *)z0};
-    memcpy(y, z0, m * sizeof *y);
+    double *scale = given->scale ? nh_alloc_array(2 * m, sizeof *scale) : NULL;
     for (size_t s = 0; s < 2 * m && scale; s++) scale[s] = given->scale[0];
     options.scale = scale;
-    bool good = nh_along(dynamics, &first, m, o->rho, y + m);
-    nh_motion *motion = good ? nh_automatic_or(method, &problem, y, count, times, &options, used, error) : NULL;
+    nh_motion *motion = nh_automatic_or(method, &problem, initial, count, times, &options, used, error);
+    if (motion) settle_all(b, motion);
     const char *words = nh_bordered_words(b);
     if (machine) snprintf(machine, NH_TRAJECTORY_MACHINE, "%s", words ? words : "interpreted");
     nh_free(scale);
-    nh_free(y);
     nh_bordered_free(b);
     return motion;
 }

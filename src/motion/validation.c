@@ -9,6 +9,7 @@
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "motion/automatic.h"
+#include "motion/singular_start.h"
 #include "motion/sizes.h"
 #include "motion/turns.h"
 
@@ -18,7 +19,7 @@ typedef struct {
     nh_validation *out;
     const nh_options *options;
     size_t outputs;
-    double *times, *z0;
+    double *times, *z0, *y0; /* z0: (q, w), y0: (q, v) at the start */
     size_t watches;
     const nh_observable *watch;
     const nh_valid *valid;
@@ -175,7 +176,7 @@ static nh_motion *motion_by(run *r, const nh_method *method, const nh_flow_optio
 {
     nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
     if (r->everywhere)
-        return nh_motion_everywhere(r->dynamics, method, r->z0, r->outputs, r->times, options, NULL, used, error);
+        return nh_motion_everywhere(r->dynamics, method, r->y0, r->outputs, r->times, options, NULL, used, error);
     return nh_automatic_or(method, &problem, r->z0, r->outputs, r->times, options, used, error);
 }
 
@@ -424,10 +425,13 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
              .current = q->current};
     r.times = nh_alloc_array(q->outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
+    r.y0 = nh_alloc_array(2 * o->m + 1, sizeof *r.y0);
     for (size_t i = 0; i < q->outputs; i++)
         r.times[i] = q->initial->t + (q->until - q->initial->t) * (double)i / (double)(q->outputs - 1);
-    bool good = nh_dynamics_start(r.dynamics, q->initial, false, r.z0, error) &&
-                (!(q->accuracy > 0) || choose(&r, q, &tolerance, error));
+    bool good = nh_dynamics_start_all(r.dynamics, q->initial, false, r.z0, r.y0 + o->m, error);
+    memcpy(r.y0, r.z0, o->m * sizeof *r.y0);
+    r.everywhere = good && !nh_dynamics_holds(r.dynamics, q->initial->t, r.z0, r.y0 + o->m);
+    good = good && (!(q->accuracy > 0) || choose(&r, q, &tolerance, error));
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++)
         v->tolerance[i] = fmin(1e-3, tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
     good = good && all_runs(&r, q, error);
@@ -435,7 +439,9 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     nh_dynamics_free(r.dynamics);
     nh_free(r.times);
     nh_free(r.z0);
+    nh_free(r.y0);
     if (good) return v;
+    nh_singular_start_explain(o, q->initial, error);
     nh_validation_free(v);
     return NULL;
 }

@@ -182,7 +182,7 @@ static bool solve_linear(nh_chart *chart, const nh_constraint_samples *c, const 
           *b = nh_alloc_array(c->k + 1, sizeof *b);
     for (size_t a = 0; a < c->k; a++) u[a] = s->coordinate[chart->dependent[a]].v;
     for (size_t a = 0; a < c->k; a++) b[a] = nh_neg(d, nh_substitute(d, f[a], c->k, u, zero));
-    nh_lu *lu = nh_lu_create(d, c->k, G, nh_embedding_score, chart, NULL);
+    nh_lu *lu = nh_lu_create(d, c->k, G, nh_embedding_score_at_start, chart, NULL);
     if (lu) nh_lu_solve(lu, b, b);
     for (size_t a = 0; a < c->k && lu; a++) chart->rho[chart->dependent[a]] = nh_simplify(d, b[a]);
     bool good = lu != NULL;

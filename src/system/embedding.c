@@ -181,6 +181,30 @@ double nh_embedding_score(void *context, nh_ex e)
     return least + 1e-12 * most;
 }
 
+double nh_embedding_score_at_start(void *context, nh_ex e)
+{
+    static const double last_choice = 1e-6;
+    const nh_chart *c = context;
+    const nh_system *s = c->system;
+    double least = nh_embedding_score(context, e), value = 0, size = 0;
+    if (!s->start || least == 0) return least;
+    const nh_ex *symbols;
+    const double *values;
+    nh_ex *in = nh_alloc_array(1 + 2 * s->coordinates, sizeof *in);
+    in[0] = s->t;
+    for (size_t i = 0; i < s->coordinates; i++)
+        in[1 + i] = s->coordinate[i].q, in[1 + s->coordinates + i] = s->coordinate[i].v;
+    nh_system_bindings(s, &symbols, &values);
+    nh_tape *tape = nh_tape_create(s->dag, 1 + 2 * s->coordinates, in, 1, &e, s->parameters, symbols, values);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, s->start, &value);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(in);
+    size = isfinite(value) ? fabs(value) : 0;
+    return size > last_choice * least ? fmin(least, size) : last_choice * least;
+}
+
 double nh_chart_pivot_score(void *chart, nh_ex e) { return nh_embedding_score(chart, e); }
 
 /* ---- the user's quasi-velocities ---- */

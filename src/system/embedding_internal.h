@@ -17,6 +17,8 @@ void nh_branches_note(nh_chart *chart);  /* and other dependent velocities are r
 nh_chart *nh_embedding_new(nh_system *system, const char *name, size_t n, size_t implicit);
 void nh_embedding_symbols(nh_chart *chart);          /* symbol, low, high from w and u */
 double nh_embedding_score(void *chart, nh_ex e);     /* nh_pivot_score over the probes */
+/* The same; a divisor that vanishes where the motion starts (system->start) is the last choice. */
+double nh_embedding_score_at_start(void *chart, nh_ex e);
 /* Is a value of this size zero at the points, or only small in its units (the mass of an electron)?  It is evaluated
  * with so many digits that no cancellation of decimals is left. */
 bool nh_embedding_vanishes(const nh_system *system, size_t width, const nh_ex *symbol, size_t points,

@@ -118,6 +118,8 @@ typedef struct {
     int branch;              /* of a quadratic constraint: the sign of its root, or 0: the domain chooses */
     size_t dependents;       /* 0 when the user named none */
     size_t *dependent;       /* coordinate indices */
+    /* (t, q, q') at which formulas of dependent velocities must be regular; NULL: none */
+    const double *start;
     size_t quasi;            /* number of quasi-velocities, 0 without a chart */
     nh_ex *quasi_velocity;   /* symbols */
     nh_ex *quasi_map;        /* velocity of each coordinate */
