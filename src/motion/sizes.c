@@ -20,7 +20,6 @@ static const double drowned = 1e-3;
  * implicit methods may be far longer than the time in which the rates change by rounding. */
 static const double rest = 0.1, several = 4;
 static const double grown = 1e3; /* a size that grows so much in one step of the iteration is not known yet */
-static const double negligible = 1e-9; /* part of its later size below which a state may be zero but for rounding */
 /* size of a state that nothing moves so far, as a part of the smallest size */
 static const double nothing = 1e-6;
 
@@ -73,7 +72,7 @@ static void measure_rounding(nh_sizes *s, double t, const double *z, const doubl
 }
 
 /* A state whose rate grows so much is zero for the moment, if rounding is what it has. */
-static bool suspect(double own, double tau, double rate) { return own < negligible * fabs(tau * rate); }
+static bool suspect(double own, double tau, double rate) { return grown * own < fabs(tau * rate); }
 
 /* Is what the suspects have no more than the rounding of the other states makes of them? */
 static bool are_zero(nh_sizes *s, double t, double tau, const double *z, const double *to, const double *rate)
@@ -100,7 +99,8 @@ static bool moves_on(nh_sizes *s, double t, double tau, const double *z, double 
     for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * f[i];
     if (!rate_at(s, t + tau, to, rate)) return false;
     for (size_t i = 0; i < n; i++) {
-        if (s->size[i] == 0 || fabs(tau * (rate[i] - f[i])) <= s->size[i]) continue;
+        bool known = fabs(z[i]) + fabs(tau * s->start[i]) > s->size[i] / grown; /* or it moved only with the others */
+        if (s->size[i] == 0 || fabs(tau * (rate[i] - f[i])) <= (known ? 1 : several) * s->size[i]) continue;
         if (!suspect(s->size[i], tau, rate[i])) return false;
         any = true;
     }
@@ -132,19 +132,31 @@ static bool sizes_within(nh_sizes *s, double t, double tau, const double *z, con
 
 static void allocate(nh_sizes *s, const nh_flow_problem *problem)
 {
-    *s = (nh_sizes){.problem = problem, .size = nh_alloc_array(11 * problem->size, sizeof *s->size)};
+    *s = (nh_sizes){.problem = problem, .size = nh_alloc_array(12 * problem->size, sizeof *s->size)};
     s->rounding = s->size + problem->size;
-    s->work = s->rounding + problem->size;
+    s->reach = s->rounding + problem->size;
+    s->work = s->reach + problem->size;
+}
+
+/* Measures rounding with what the states can be: where the sizes of the others make more of a state within tau, its error
+ * is that of its rate, and an error of all rates that depend on it.  At the start that holds for all states, which
+ * may be far smaller than their sizes; later for those that lost digits so. */
+static void measure(nh_sizes *s, double t, const double *z, double least)
+{
+    measure_rounding(s, t, z, s->reach, s->rounding);
+    for (size_t i = 0; i < s->problem->size; i++) {
+        double made = s->tau * s->rounding[i];
+        s->reach[i] = fmax(s->reach[i], made > least * s->size[i] ? made / (disturbance * DBL_EPSILON) : s->size[i]);
+    }
 }
 
 /* Sizes of states that are still zero: as large as the others can make them within tau; of those that nothing moves,
  * small relative to all others. */
-static void fill(nh_sizes *s, double t, const double *z)
+static void fill(nh_sizes *s)
 {
     double least = INFINITY;
-    measure_rounding(s, t, z, s->size, s->rounding);
     for (size_t i = 0; i < s->problem->size; i++) {
-        if (!(s->size[i] > 0)) s->size[i] = s->tau * s->rounding[i] / (disturbance * DBL_EPSILON);
+        if (!(s->size[i] > 0)) s->size[i] = s->reach[i];
         if (s->size[i] > 0) least = fmin(least, s->size[i]);
     }
     if (isinf(least)) least = 1;
@@ -161,7 +173,7 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     s->part = part;
     s->least = least;
     s->last = begin;
-    double *f = s->work + 8 * n, *to = s->work + n, tau = end - begin;
+    double *f = s->start = s->work + 8 * n, *to = s->work + n, tau = end - begin;
     if (!rate_at(s, begin, z, f)) return false;
     for (int i = 0; i < most_shorter && !sizes_within(s, begin, tau, z, f); i++) tau *= shorter;
     tau *= within;
@@ -169,8 +181,9 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     sizes_within(s, begin, tau, z, f);
     /* where nothing is zero for the moment, the rates have the rounding that they will have */
     for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * s->work[i];
-    measure_rounding(s, begin + tau, to, s->size, s->rounding);
-    fill(s, begin, z);
+    memcpy(s->reach, s->size, n * sizeof *s->reach);
+    for (int level = 0; level < least_levels; level++) measure(s, begin + tau, to, 0);
+    fill(s);
     return true;
 }
 
@@ -201,7 +214,7 @@ void nh_sizes_follow(nh_sizes *s, double t, const double *z)
         if (fabs(z[i]) > s->size[i]) s->size[i] = fabs(z[i]); /* false also for NAN */
     s->followed++;
     if (s->followed % between_measures == 0 || (s->followed & (s->followed - 1)) == 0)
-        measure_rounding(s, t, z, s->size, s->rounding);
+        measure(s, t, z, drowned);
 }
 
 double nh_sizes_absolute(const nh_sizes *s, double rtol, size_t i)

@@ -21,7 +21,8 @@ typedef struct {
     const nh_flow_problem *problem;
     double part;             /* nh_flow_options.absolute */
     double *size, *rounding; /* of each state, and of its rate */
-    double *work;
+    double *reach;           /* what the sizes of the others can make of each state within tau */
+    double *work, *start;    /* start: the rates there */
     const double *least;     /* nh_flow_options.least */
     double tau;              /* the time in which the right-hand side changes by about its own size at the start */
     double step;             /* the last one */
