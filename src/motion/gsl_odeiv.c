@@ -287,7 +287,8 @@ nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *probl
                               .state = work.between ? between_state : explicit_state,
                               .stuck = explicit_stuck,
                               .step_effort = step_units[method],
-                              .rate = work.between ? NULL : rate_of_problem,
+                              .rate = rate_of_problem,
+                              .dense = work.between != NULL,
                               .rate_context = &work};
         nh_motion_run(motion, count, times, options, &stepper);
         motion->evaluations = work.evaluations;
