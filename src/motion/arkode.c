@@ -159,7 +159,7 @@ static bool state_inside(pairs_work *work, double time, double *state)
     nh_flow_options options = *work->options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    options.watch = NULL;
+    options.watch = NULL, options.singular = NULL;
     nh_motion *motion = nh_arkode(NH_ESDIRK_5, work->problem, work->old, 2, times, &options, &ignored);
     bool good = motion && motion->complete;
     if (good) memcpy(state, motion->state + work->problem->size, work->problem->size * sizeof *state);
