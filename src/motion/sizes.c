@@ -145,9 +145,19 @@ static void measure(nh_sizes *s, double t, const double *z, double least)
 {
     measure_rounding(s, t, z, s->reach, s->rounding);
     for (size_t i = 0; i < s->problem->size; i++) {
-        double made = s->tau * s->rounding[i];
+        double made = s->pace * s->rounding[i];
         s->reach[i] = fmax(s->reach[i], made > least * s->size[i] ? made / (disturbance * DBL_EPSILON) : s->size[i]);
     }
+}
+
+/* The time, at most tau, in which no state that is not zero at the start could change by more than its size: on the slow manifold of a stiff system tau is far longer than its fast times. */
+static double pace_of(const nh_sizes *s, const double *z)
+{
+    double pace = s->tau;
+    for (size_t i = 0; i < s->problem->size; i++)
+        if (grown * fabs(z[i]) > s->size[i])
+            pace = fmin(pace, disturbance * DBL_EPSILON * s->size[i] / s->rounding[i]); /* not by infinity, nor NAN */
+    return pace;
 }
 
 /* Sizes of states that are still zero: as large as the others can make them within tau; of those that nothing moves,
@@ -182,6 +192,8 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     /* where nothing is zero for the moment, the rates have the rounding that they will have */
     for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * s->work[i];
     memcpy(s->reach, s->size, n * sizeof *s->reach);
+    measure_rounding(s, begin + tau, to, s->size, s->rounding);
+    s->pace = pace_of(s, z);
     for (int level = 0; level < least_levels; level++) measure(s, begin + tau, to, 0);
     fill(s);
     return true;
@@ -220,7 +232,7 @@ void nh_sizes_follow(nh_sizes *s, double t, const double *z)
 double nh_sizes_absolute(const nh_sizes *s, double rtol, size_t i)
 {
     double own = rtol * s->part * s->size[i], rounding = s->step * s->rounding[i];
-    double most = fmax(rest * rtol * s->size[i], several * s->tau * s->rounding[i]);
+    double most = fmax(rest * rtol * s->size[i], several * s->pace * s->rounding[i]);
     if (rounding < drowned * s->size[i]) rounding = fmin(rounding, most);
     return fmax(own, rounding);
 }

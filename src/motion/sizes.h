@@ -25,6 +25,7 @@ typedef struct {
     double *work, *start;    /* start: the rates there */
     const double *least;     /* nh_flow_options.least */
     double tau;              /* the time in which the right-hand side changes by about its own size at the start */
+    double pace;             /* at most tau: not longer than the fast times of a stiff system, either */
     double step;             /* the last one */
     double last;             /* time of the last state */
     long followed, evaluations;
