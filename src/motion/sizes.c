@@ -8,7 +8,7 @@
 #include "base/linalg.h"
 #include "base/memory.h"
 
-enum { most_shorter = 60, least_levels = 4, most_levels = 8, between_measures = 32 };
+enum { most_shorter = 60, least_levels = 4, most_levels = 64, between_measures = 32 };
 static const double shorter = 0.25;          /* factor from one tau that is tried to the next */
 static const double within = 0.25;           /* part of the tau that is found, which is used */
 /* from one state of a line to the next, as a part of the sizes; fourth differences are so many times the noise, at most */
@@ -89,6 +89,22 @@ static bool are_zero(nh_sizes *s, double t, double tau, const double *z, const d
     return all;
 }
 
+/* Rates of states that are zero so far are zero, too, where rounding is what they have. */
+static void clear_drowned(nh_sizes *s, double t, double tau, const double *z, double *rate)
+{
+    size_t n = s->problem->size;
+    double *size = nh_alloc_array(2 * n, sizeof *size), *rounding = size + n;
+    bool any = false;
+    for (size_t i = 0; i < n; i++) {
+        any |= s->size[i] == 0 && rate[i] != 0;
+        size[i] = fmax(s->size[i], fabs(tau * rate[i]));
+    }
+    if (any) measure_rounding(s, t, z, size, rounding);
+    for (size_t i = 0; i < n && any; i++)
+        if (s->size[i] == 0 && drowned * fabs(rate[i]) <= rounding[i]) rate[i] = 0;
+    nh_free(size);
+}
+
 /* One step of Picard's iteration: replaces the rates f by those at z + tau f, and enlarges the sizes by them.  False:
  * they are not defined, or differ from f by more than the sizes allow. */
 static bool moves_on(nh_sizes *s, double t, double tau, const double *z, double *f, bool *more)
@@ -98,6 +114,7 @@ static bool moves_on(nh_sizes *s, double t, double tau, const double *z, double 
     bool any = false;
     for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * f[i];
     if (!rate_at(s, t + tau, to, rate)) return false;
+    clear_drowned(s, t + tau, tau, to, rate);
     for (size_t i = 0; i < n; i++) {
         bool known = fabs(z[i]) + fabs(tau * s->start[i]) > s->size[i] / grown; /* or it moved only with the others */
         if (s->size[i] == 0 || fabs(tau * (rate[i] - f[i])) <= (known ? 1 : several) * s->size[i]) continue;
@@ -120,9 +137,10 @@ static bool sizes_within(nh_sizes *s, double t, double tau, const double *z, con
 {
     size_t n = s->problem->size;
     bool good = true, more = true;
-    for (size_t i = 0; i < n; i++)
-        s->size[i] = fmax(fmax(fabs(z[i]), fabs(tau * f[i])), s->least ? s->least[i] : 0);
     memcpy(s->work, f, n * sizeof *f);
+    for (size_t i = 0; i < n; i++) s->size[i] = fmax(fabs(z[i]), s->least ? s->least[i] : 0);
+    clear_drowned(s, t, tau, z, s->work);
+    for (size_t i = 0; i < n; i++) s->size[i] = fmax(s->size[i], fabs(tau * s->work[i]));
     for (int level = 0; level < most_levels && more && good; level++) {
         more = level + 1 < least_levels;
         good = moves_on(s, t, tau, z, s->work, &more);
