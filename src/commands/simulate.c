@@ -188,10 +188,35 @@ static bool use_method(nh_simulation *s, const nh_simulate_request *q, const dou
     if (!method->order) return true;
     request->programs = s->programs = nh_programs_create(s->model);
     request->step = (times[1] - times[0]) / q->options.fixed_steps;
+    s->fixed_step = fabs(request->step);
     const char *refused = nh_method_refused(method, s->programs);
     if (!refused) return true;
     nh_fail(error, NH_NUMERIC, "", "the method `%s` cannot be used here: %s", method->word, refused);
     return nh_error_hint(error, "`nhsym explain methods` lists the others");
+}
+
+/* A note where steps of a fixed length are so long that what the motion conserves changes by a part of its size. */
+static void note_drift(nh_simulation *s, const nh_trajectory_request *q)
+{
+    static const double gross = 0.01;
+    nh_motion *motion = s->motion;
+    size_t n = q->n, worst = n;
+    double most = gross, *size = nh_alloc_array(n + 1, sizeof *size);
+    nh_dynamics *d = nh_dynamics_create(s->model);
+    bool known = nh_trajectory_sizes(d, motion, n, q->e, size);
+    for (size_t k = 0; k < n && known; k++) {
+        double drift = 0;
+        if (!(size[k] > 0) || !nh_dependency_graph_conserved(s->model, q->e[k])) continue;
+        for (size_t i = 0; i < motion->count; i++) drift = fmax(drift, fabs(s->value[i * n + k] - s->value[k]));
+        if (drift > most * size[k]) most = drift / size[k], worst = k;
+    }
+    if (worst < n)
+        nh_motion_note(motion,
+                       "%.60s is conserved, but changes by %.2g of its size along this motion: the fixed step %g is "
+                       "too long; give a shorter --step or more fixed_steps, or leave --method out",
+                       s->columns.track[worst].name, most, s->fixed_step);
+    nh_dynamics_free(d);
+    nh_free(size);
 }
 
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count,
@@ -232,6 +257,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
+    if (s->fixed_step > 0 && s->motion->size == s->model->m + s->model->n) note_drift(s, &request);
     /* the smallest model was tried */
     if (!s->trajectory->scene && request.smallest && !(q->method && q->method->order))
         s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller subsystem reaches the end",

@@ -89,7 +89,7 @@ struct nh_simulation {
     double *value;        /* motion->count x columns.count, row by row */
     nh_programs *programs; /* for a method with fixed steps */
     nh_trajectory *trajectory; /* owns the last two */
-    double tolerance;
+    double tolerance, fixed_step; /* fixed_step: of a method that has one; 0: steps follow the tolerance */
     nh_ensemble *ensemble;     /* an ensemble instead of motion, value and trajectory; NULL: one motion */
     bool checked, held;        /* an accuracy was requested; it was reached */
     const char *why;           /* then: by which method, or why not */

@@ -255,6 +255,9 @@ static void put_notes(const nh_request *q, const nh_simulation *s, bool verbose,
         nh_text_addf(out, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation,
                      s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
     if (s->events) put_events(s, out);
+    if (s->fixed_step > 0)
+        nh_text_addf(out, "nhsym: fixed steps of %g (the output spacing divided by the option fixed_steps)\n",
+                     s->fixed_step);
     if (s->motion && s->motion->complete && s->motion->note[0]) nh_text_addf(out, "nhsym: %s\n", s->motion->note);
     if (s->held) nh_text_addf(out, "nhsym: %s\n", s->why);
     if (s->ensemble && s->ensemble->alone && !s->checked)

@@ -188,7 +188,8 @@ static bool rate_of_problem(double t, const double *z, double *rate, void *conte
 static void pairs_stuck(nh_motion *motion, void *context)
 {
     (void)context;
-    nh_motion_note(motion, "the steps vanish near t = %.10g: the solution is singular there", motion->end_time);
+    nh_motion_note(motion, "the steps vanish near t = %.10g: none is as exact as the tolerance there",
+                   motion->end_time);
 }
 
 /* Newton's iteration with a dense matrix, made anew for every step.  With an old matrix the steps after a short one,

@@ -226,7 +226,8 @@ static bool between_state(double time, double *state, void *context)
 static void explicit_stuck(nh_motion *motion, void *context)
 {
     (void)context;
-    nh_motion_note(motion, "the steps vanish near t = %.10g: the solution is singular there", motion->end_time);
+    nh_motion_note(motion, "the steps vanish near t = %.10g: none is as exact as the tolerance there",
+                   motion->end_time);
 }
 
 /* A first step that changes the state by a hundredth of its size; the error control takes it from there. */

@@ -11,7 +11,8 @@
 enum { most_shorter = 60, least_levels = 4, most_levels = 64, between_measures = 32 };
 static const double shorter = 0.25;          /* factor from one tau that is tried to the next */
 static const double within = 0.25;           /* part of the tau that is found, which is used */
-/* from one state of a line to the next, as a part of the sizes; fourth differences are so many times the noise, at most */
+/* from one state of a line to the next, as a part of the sizes; the noise is at most so many times less than fourth
+ * differences */
 static const double apart = 0x1p-27, noise = 4;
 static const double disturbance = 4;         /* roundings of each state, whose effect on the rates is measured */
 /* a state has no digits if its rounding in a step is a larger part of its size */
@@ -156,9 +157,9 @@ static void allocate(nh_sizes *s, const nh_flow_problem *problem)
     s->work = s->reach + problem->size;
 }
 
-/* Measures rounding with what the states can be: where the sizes of the others make more of a state within tau, its error
- * is that of its rate, and an error of all rates that depend on it.  At the start that holds for all states, which
- * may be far smaller than their sizes; later for those that lost digits so. */
+/* Measures rounding with what the states can be: where the sizes of the others make more of a state within tau, its
+ * error is that of its rate, and an error of all rates that depend on it.  At the start that holds for all states,
+ * which may be far smaller than their sizes; later for those that lost digits so. */
 static void measure(nh_sizes *s, double t, const double *z, double least)
 {
     measure_rounding(s, t, z, s->reach, s->rounding);
@@ -168,7 +169,8 @@ static void measure(nh_sizes *s, double t, const double *z, double least)
     }
 }
 
-/* The time, at most tau, in which no state that is not zero at the start could change by more than its size: on the slow manifold of a stiff system tau is far longer than its fast times. */
+/* The time, at most tau, in which no state that is not zero at the start could change by more than its size: on the
+ * slow manifold of a stiff system tau is far longer than its fast times. */
 static double pace_of(const nh_sizes *s, const double *z)
 {
     double pace = s->tau;
