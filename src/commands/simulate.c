@@ -219,6 +219,29 @@ static void note_drift(nh_simulation *s, const nh_trajectory_request *q)
     nh_free(size);
 }
 
+/* Curves through the rows of a short table would be polygons. */
+static void draw_finely(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *request)
+{
+    enum { enough = 800 };
+    const nh_motion *m = s->motion;
+    if (!q->picture || s->fixed_step > 0 || m->count < 2 || m->count >= enough) return;
+    nh_trajectory_request fine = *request;
+    nh_options options = *request->options;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    double *times = nh_alloc_array(enough, sizeof *times), begin = m->time[0], span = m->time[m->count - 1] - begin;
+    for (size_t i = 0; i < enough; i++) times[i] = begin + span * (double)i / (enough - 1);
+    options.tolerance = s->tolerance;
+    fine.options = &options, fine.method = nh_method_find(s->method);
+    fine.count = enough, fine.times = times;
+    fine.events = 0;
+    s->drawn = nh_trajectory_create(&fine, &ignored);
+    if (s->drawn && !s->drawn->motion->complete) nh_trajectory_free(s->drawn), s->drawn = NULL;
+    nh_free(times);
+}
+
+const nh_trajectory *nh_simulation_drawn(const nh_simulation *s) { return s->drawn ? s->drawn : s->trajectory; }
+
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count,
                       const double *times, nh_error *error)
 {
@@ -258,6 +281,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
     if (s->fixed_step > 0 && s->motion->size == s->model->m + s->model->n) note_drift(s, &request);
+    draw_finely(s, q, &request);
     /* the smallest model was tried */
     if (!s->trajectory->scene && request.smallest && !(q->method && q->method->order))
         s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller subsystem reaches the end",
@@ -398,6 +422,7 @@ void nh_simulation_free(nh_simulation *s)
 {
     if (!s) return;
     nh_trajectory_free(s->trajectory);
+    nh_trajectory_free(s->drawn);
     nh_programs_free(s->programs);
     nh_ensemble_free(s->ensemble);
     nh_choice_close(&s->ways);

@@ -21,7 +21,7 @@ nh_simulate_request nh_answer_motion(const nh_request *q)
                                  .settings = q->settings, .setting = q->setting, .chart = q->velocities,
                                  .initial = q->initial, .from = q->from, .project = q->project, .step = q->step,
                                  .watch = q->watch, .event = q->event, .section = q->section, .axes = q->axes,
-                                 .scene = q->scene, .draw = q->draw,
+                                 .scene = q->scene, .draw = q->draw, .picture = q->picture,
                                  .method = q->methods ? q->method[0] : NULL, .methods = q->methods, .only = q->method,
                                  .accuracy = q->accuracy, .ensemble = q->ensemble,
                                  .spread = q->spread > 0 ? q->spread : usual_spread,
