@@ -432,3 +432,16 @@ Test(simulate, a_fixed_step_is_named_and_watched)
     finished_clear(&f);
     place_clear(&p);
 }
+
+Test(simulate, the_end_may_be_an_expression)
+{
+    place p = place_make();
+    write_here(&p, "spring.yaml", oscillator);
+    finished f = run_shell(&p, "$N simulate spring.yaml --initial 'x=1' --until '2*pi' --step 10 --watch x");
+    cr_expect(f.code == 0 && strstr(f.out, "\n6.283185307179586,"), "%s%s", f.out, f.err);
+    finished_clear(&f);
+    f = run_shell(&p, "$N simulate spring.yaml --until 1/0; $N simulate spring.yaml --until k");
+    cr_expect(strstr(f.err, "needs a number, found `1/0`") && strstr(f.err, "needs a number, found `k`"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
