@@ -43,7 +43,7 @@ typedef struct {
     const char *axes;    /* "y, y'": the columns of the picture; NULL: chosen */
     bool scene;                              /* the same with the observables of the analysis file */
     bool draw;                               /* also follows what is drawn (one motion with all columns) */
-    bool picture;                            /* curves are drawn: they have more points than the table, if that has few */
+    bool picture;                            /* curves are drawn: with more points than a short table has */
     /* projects: moves velocities that violate the constraints onto them */
     bool until_given, tolerance_given, project;
     double step;                             /* output spacing; 0: a hundredth of the time */
