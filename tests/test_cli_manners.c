@@ -388,7 +388,7 @@ Test(cli_manners, a_slip_of_the_hand_is_named)
         {"export sleigh --language pyton", "nhsym: there is no option `--language`\nhint: did you mean `--to`?\n"},
         {"simulate sleigh --format svg", "nhsym: there is no option `--format`\nhint: did you mean `--svg`?\n"},
         {"export sleigh --to tex", "nhsym: --to: there is no language `tex`\nhint: did you mean `latex`?\n"},
-        {"simulate sleigh --method ida", "nhsym: there is no method `ida`\nhint: did you mean `bdf`? `nhsym explain methods` lists them\n"},
+        {"simulate sleigh --method ida", "nhsym: there is no method `ida`\nhint: the nearest one here is `bdf`: backward differentiation, for stiff equations; `nhsym explain methods` lists them\n"},
         {"simulate sleigh --method cvdoe", "nhsym: there is no method `cvdoe`\nhint: did you mean `bdf`? `nhsym explain methods` lists them\n"},
         {"simulate sleigh --velocities quas", "nhsym: there are no velocities `quas`\nhint: did you mean `quasi`?\n"},
         {"verify sleigh --field x=1 --of equation", "nhsym: --of does not know `equation`\nhint: did you mean `equations`?\n"},

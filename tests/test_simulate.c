@@ -398,3 +398,56 @@ Test(simulate, the_table_as_a_file)
     }
     place_clear(&p);
 }
+
+static size_t occurrences(const char *text, char c)
+{
+    size_t n = 0;
+    for (; text && *text; text++) n += *text == c;
+    return n;
+}
+
+/* x = cos(2 t) with three rows: the picture is a curve, the table keeps its rows. */
+Test(simulate, pictures_are_curves_though_tables_are_short)
+{
+    place p = place_make();
+    write_here(&p, "spring.yaml", oscillator);
+    finished f = run_shell(&p, "$N simulate spring.yaml --initial 'x=1' --until 3 --step 1.5 --svg a.svg --csv a.csv -q; cat a.csv; echo; cat a.svg");
+    char *svg = strstr(f.out, "<svg");
+    cr_assert(f.code == 0 && svg, "%s", f.err);
+    cr_expect(occurrences(svg, 'L') > 300, "%zu corners", occurrences(svg, 'L'));
+    *svg = 0;
+    cr_expect_eq(occurrences(f.out, '\n'), 5, "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* A step of a third of the period: the energy is gone. */
+Test(simulate, a_fixed_step_is_named_and_watched)
+{
+    static const char kepler[] = "name: orbit\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2)\n";
+    place p = place_make();
+    write_here(&p, "orbit.yaml", kepler);
+    finished f = run_shell(&p, "$N simulate orbit.yaml --initial \"x=0.1, y'=4.3588989435\" --until 62.8 --step 6.28 --method midpoint");
+    cr_expect(f.code == 0 && strstr(f.err, "fixed steps of 0.628") && strstr(f.err, "is conserved, but changes by"), "%s", f.err);
+    finished_clear(&f);
+    f = run_shell(&p, "$N simulate orbit.yaml --initial \"x=1, y'=1\" --until 6.28 --step 0.0628 --method midpoint");
+    cr_expect(f.code == 0 && strstr(f.err, "fixed steps of 0.00628") && !strstr(f.err, "conserved"), "%s", f.err);
+    finished_clear(&f);
+    f = run_shell(&p, "$N simulate orbit.yaml --initial \"x=1, y'=1\" --method leapfrog");
+    cr_expect(f.code == 2 && strstr(f.err, "the nearest one here is `dalembert`: discrete Lagrange-d'Alembert"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(simulate, the_end_may_be_an_expression)
+{
+    place p = place_make();
+    write_here(&p, "spring.yaml", oscillator);
+    finished f = run_shell(&p, "$N simulate spring.yaml --initial 'x=1' --until '2*pi' --step 10 --watch x");
+    cr_expect(f.code == 0 && strstr(f.out, "\n6.283185307179586,"), "%s%s", f.out, f.err);
+    finished_clear(&f);
+    f = run_shell(&p, "$N simulate spring.yaml --until 1/0; $N simulate spring.yaml --until k");
+    cr_expect(strstr(f.err, "needs a number, found `1/0`") && strstr(f.err, "needs a number, found `k`"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}

@@ -137,6 +137,7 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
                NH_USAGE;
     if (!one_table(cli, error)) return NH_USAGE;
     cli->ask.draw = nh_cli_wants_document(cli) != NULL; /* before the folder wants all of them */
+    cli->ask.picture = cli->ask.draw || cli->svg || cli->pdf || cli->folder;
     return documented(cli, error);
 }
 

@@ -188,11 +188,59 @@ static bool use_method(nh_simulation *s, const nh_simulate_request *q, const dou
     if (!method->order) return true;
     request->programs = s->programs = nh_programs_create(s->model);
     request->step = (times[1] - times[0]) / q->options.fixed_steps;
+    s->fixed_step = fabs(request->step);
     const char *refused = nh_method_refused(method, s->programs);
     if (!refused) return true;
     nh_fail(error, NH_NUMERIC, "", "the method `%s` cannot be used here: %s", method->word, refused);
     return nh_error_hint(error, "`nhsym explain methods` lists the others");
 }
+
+/* A note where steps of a fixed length are so long that what the motion conserves changes by a part of its size. */
+static void note_drift(nh_simulation *s, const nh_trajectory_request *q)
+{
+    static const double gross = 0.01;
+    nh_motion *motion = s->motion;
+    size_t n = q->n, worst = n;
+    double most = gross, *size = nh_alloc_array(n + 1, sizeof *size);
+    nh_dynamics *d = nh_dynamics_create(s->model);
+    bool known = nh_trajectory_sizes(d, motion, n, q->e, size);
+    for (size_t k = 0; k < n && known; k++) {
+        double drift = 0;
+        if (!(size[k] > 0) || !nh_dependency_graph_conserved(s->model, q->e[k])) continue;
+        for (size_t i = 0; i < motion->count; i++) drift = fmax(drift, fabs(s->value[i * n + k] - s->value[k]));
+        if (drift > most * size[k]) most = drift / size[k], worst = k;
+    }
+    if (worst < n)
+        nh_motion_note(motion,
+                       "%.60s is conserved, but changes by %.2g of its size along this motion: the fixed step %g is "
+                       "too long; give a shorter --step or more fixed_steps, or leave --method out",
+                       s->columns.track[worst].name, most, s->fixed_step);
+    nh_dynamics_free(d);
+    nh_free(size);
+}
+
+/* Curves through the rows of a short table would be polygons. */
+static void draw_finely(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *request)
+{
+    enum { enough = 800 };
+    const nh_motion *m = s->motion;
+    if (!q->picture || s->fixed_step > 0 || m->count < 2 || m->count >= enough) return;
+    nh_trajectory_request fine = *request;
+    nh_options options = *request->options;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    double *times = nh_alloc_array(enough, sizeof *times), begin = m->time[0], span = m->time[m->count - 1] - begin;
+    for (size_t i = 0; i < enough; i++) times[i] = begin + span * (double)i / (enough - 1);
+    options.tolerance = s->tolerance;
+    fine.options = &options, fine.method = nh_method_find(s->method);
+    fine.count = enough, fine.times = times;
+    fine.events = 0;
+    s->drawn = nh_trajectory_create(&fine, &ignored);
+    if (s->drawn && !s->drawn->motion->complete) nh_trajectory_free(s->drawn), s->drawn = NULL;
+    nh_free(times);
+}
+
+const nh_trajectory *nh_simulation_drawn(const nh_simulation *s) { return s->drawn ? s->drawn : s->trajectory; }
 
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count,
                       const double *times, nh_error *error)
@@ -232,6 +280,8 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
+    if (s->fixed_step > 0 && s->motion->size == s->model->m + s->model->n) note_drift(s, &request);
+    draw_finely(s, q, &request);
     /* the smallest model was tried */
     if (!s->trajectory->scene && request.smallest && !(q->method && q->method->order))
         s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller subsystem reaches the end",
@@ -336,6 +386,7 @@ void nh_simulation_free(nh_simulation *s)
 {
     if (!s) return;
     nh_trajectory_free(s->trajectory);
+    nh_trajectory_free(s->drawn);
     nh_programs_free(s->programs);
     nh_ensemble_free(s->ensemble);
     nh_choice_close(&s->ways);

@@ -43,6 +43,7 @@ typedef struct {
     const char *axes;    /* "y, y'": the columns of the picture; NULL: chosen */
     bool scene;                              /* the same with the observables of the analysis file */
     bool draw;                               /* also follows what is drawn (one motion with all columns) */
+    bool picture;                            /* curves are drawn: with more points than a short table has */
     /* projects: moves velocities that violate the constraints onto them */
     bool until_given, tolerance_given, project;
     double step;                             /* output spacing; 0: a hundredth of the time */
@@ -92,7 +93,8 @@ struct nh_simulation {
     double *value;        /* motion->count x columns.count, row by row */
     nh_programs *programs; /* for a method with fixed steps */
     nh_trajectory *trajectory; /* owns the last two */
-    double tolerance;
+    nh_trajectory *drawn;      /* the same motion with more outputs, for pictures; NULL: the table has enough */
+    double tolerance, fixed_step; /* fixed_step: of a method that has one; 0: steps follow the tolerance */
     nh_ensemble *ensemble;     /* an ensemble instead of motion, value and trajectory; NULL: one motion */
     bool checked, held;        /* an accuracy was requested; it was reached */
     const char *why;           /* then: by which method, or why not */
@@ -115,6 +117,8 @@ nh_simulation *nh_simulation_create(const nh_simulate_request *request, nh_error
  * for messages; NULL: --initial. */
 nh_analysis_file *nh_simulate_initial(const char *from, const char *initial, nh_error *error);
 
+/* The motion that pictures show. */
+const nh_trajectory *nh_simulation_drawn(const nh_simulation *simulation);
 /* Are both columns positions of one kind of unit, so that a picture of one against the other has one scale? */
 bool nh_simulation_is_path(const nh_simulation *simulation, size_t x, size_t y);
 

@@ -14,7 +14,8 @@ enum { most_curves = 7, most_members = 60 }; /* as many as on the page */
 static double *values_of(const nh_simulation *s, int column, size_t member, size_t *count)
 {
     const nh_ensemble *e = s->ensemble;
-    const nh_motion *m = s->motion;
+    const nh_trajectory *t = s->has_section || e ? s->trajectory : nh_simulation_drawn(s);
+    const nh_motion *m = t ? t->motion : NULL;
     size_t most = e ? e->count : s->has_section ? m->events : m->count, k = column < 0 ? 0 : (size_t)column;
     double *out = nh_alloc_array(most + 1, sizeof *out);
     *count = 0;
@@ -25,7 +26,7 @@ static double *values_of(const nh_simulation *s, int column, size_t member, size
                                                                      : m->time[i])
                           : e                    ? e->value[(member * e->count + i) * e->n + k]
                           : s->has_section       ? s->trajectory->event_value[i * s->columns.count + k]
-                                                 : s->value[i * s->columns.count + k];
+                                                 : t->value[i * s->columns.count + k];
     }
     return out;
 }
@@ -111,14 +112,15 @@ void nh_motion_plot_clear(nh_motion_plot *plot)
 static size_t curves_of_motion(const nh_simulation *s, nh_curve curve[most_curves])
 {
     const nh_observables *t = &s->columns;
+    const nh_trajectory *drawn = nh_simulation_drawn(s);
     bool watched = t->count && t->track[0].kind == NH_TRACK_WATCH;
     size_t n = 0, last = watched ? t->count : s->model->m;
     for (size_t k = 0; k < last && n < most_curves; k++)
         curve[n++] = (nh_curve){.name = t->track[k].name,
-                                .count = s->motion->count,
-                                .x = s->motion->time,
+                                .count = drawn->motion->count,
+                                .x = drawn->motion->time,
                                 .x_stride = 1,
-                                .y = s->value + k,
+                                .y = drawn->value + k,
                                 .y_stride = t->count};
     return n;
 }

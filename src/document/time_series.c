@@ -37,7 +37,8 @@ nh_time_series *nh_time_series_of_analysis(const nh_analysis *r)
 nh_time_series *nh_time_series_of_simulation(const nh_simulation *s)
 {
     if (!s->motion) return NULL;
-    return make(s->model, &s->columns, s->motion->count, s->motion->time, s->value, s->columns.count);
+    const nh_trajectory *t = nh_simulation_drawn(s);
+    return make(s->model, &s->columns, t->motion->count, t->motion->time, t->value, s->columns.count);
 }
 
 void nh_time_series_free(nh_time_series *c)

@@ -21,7 +21,7 @@ nh_simulate_request nh_answer_motion(const nh_request *q)
                                  .settings = q->settings, .setting = q->setting, .chart = q->velocities,
                                  .initial = q->initial, .from = q->from, .project = q->project, .step = q->step,
                                  .watch = q->watch, .event = q->event, .section = q->section, .axes = q->axes,
-                                 .scene = q->scene, .draw = q->draw,
+                                 .scene = q->scene, .draw = q->draw, .picture = q->picture,
                                  .method = q->methods ? q->method[0] : NULL, .methods = q->methods, .only = q->method,
                                  .accuracy = q->accuracy, .ensemble = q->ensemble,
                                  .spread = q->spread > 0 ? q->spread : usual_spread,
@@ -256,6 +256,9 @@ static void put_notes(const nh_request *q, const nh_simulation *s, bool verbose,
         nh_text_addf(out, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation,
                      s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
     if (s->events) put_events(s, out);
+    if (s->fixed_step > 0)
+        nh_text_addf(out, "nhsym: fixed steps of %g (the output spacing divided by the option fixed_steps)\n",
+                     s->fixed_step);
     if (s->motion && s->motion->complete && s->motion->note[0]) nh_text_addf(out, "nhsym: %s\n", s->motion->note);
     if (s->held) nh_text_addf(out, "nhsym: %s\n", s->why);
     if (s->ensemble && s->ensemble->alone && !s->checked)

@@ -28,6 +28,7 @@ typedef struct {
     bool limited, seed_given, samples_given, tolerance_given, until_given; /* in `options` */
     bool documents, json, csv;   /* will be written: a document or a JSON; a JSON; a table */
     bool draw;                   /* a document that draws the motion */
+    bool picture;                /* that, or a picture alone */
     /* additions to the system file */
     size_t wheels, ons;
     const char **wheel, *base, **on; /* --wheel, each; --base; --on, each */

@@ -160,7 +160,7 @@ static bool state_inside(pairs_work *work, double time, double *state)
     nh_flow_options options = *work->options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    options.watch = NULL;
+    options.watch = NULL, options.singular = NULL;
     nh_motion *motion = nh_arkode(NH_ESDIRK_5, work->problem, work->old, 2, times, &options, &ignored);
     bool good = motion && motion->complete;
     if (good) memcpy(state, motion->state + work->problem->size, work->problem->size * sizeof *state);
@@ -189,7 +189,8 @@ static bool rate_of_problem(double t, const double *z, double *rate, void *conte
 static void pairs_stuck(nh_motion *motion, void *context)
 {
     (void)context;
-    nh_motion_note(motion, "the steps vanish near t = %.10g: the solution is singular there", motion->end_time);
+    nh_motion_note(motion, "the steps vanish near t = %.10g: none is as exact as the tolerance there",
+                   motion->end_time);
 }
 
 /* Newton's iteration with a dense matrix, made anew for every step.  With an old matrix the steps after a short one,

@@ -127,7 +127,7 @@ static void explain(int flag, const cvode_work *work, nh_motion *motion)
     else if (flag == CV_ERR_FAILURE)
         nh_motion_note(
             motion,
-            "no step near t = %.10g is small enough for the tolerance %g: the solution jumps or is singular there; "
+            "no step near t = %.10g is small enough for the tolerance %g: the solution may jump or be singular there; "
             "use other coordinates or a larger tolerance",
             t, work->rtol);
     else if (flag == CV_CONV_FAILURE || flag == CV_LSETUP_FAIL || flag == CV_LSOLVE_FAIL)

@@ -239,7 +239,7 @@ nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_o
                                   .value = signed_value,
                                   .context = c,
                                   .closer = refinements,
-                                  .inside = nh_inside_step_state,
+                                  .inside = nh_inside_step_dense,
                                   .inside_context = inside};
     c->raw = nh_alloc_array(2 * n, sizeof *c->raw);
     c->pending = nh_alloc_array(n, sizeof *c->pending);

@@ -227,7 +227,8 @@ static bool between_state(double time, double *state, void *context)
 static void explicit_stuck(nh_motion *motion, void *context)
 {
     (void)context;
-    nh_motion_note(motion, "the steps vanish near t = %.10g: the solution is singular there", motion->end_time);
+    nh_motion_note(motion, "the steps vanish near t = %.10g: none is as exact as the tolerance there",
+                   motion->end_time);
 }
 
 /* A first step that changes the state by a hundredth of its size; the error control takes it from there. */
@@ -288,7 +289,8 @@ nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *probl
                               .state = work.between ? between_state : explicit_state,
                               .stuck = explicit_stuck,
                               .step_effort = step_units[method],
-                              .rate = work.between ? NULL : rate_of_problem,
+                              .rate = rate_of_problem,
+                              .dense = work.between != NULL,
                               .rate_context = &work};
         nh_motion_run(motion, count, times, options, &stepper);
         motion->evaluations = work.evaluations;

@@ -71,7 +71,11 @@ bool nh_method_given(const char *word, const nh_method **out, nh_error *error)
     const char *near = elsewhere(word, true);
     if (!near) near = nh_text_nearest(word, word_of, nh_method_count() + 1);
     if (!near) near = elsewhere(word, false);
+    const nh_method *same = elsewhere(word, true) ? nh_method_find(near) : NULL;
     nh_fail(error, NH_USAGE, "", "there is no method `%s`", word);
+    if (same)
+        return nh_error_hint(error, "the nearest one here is `%s`: %s; `nhsym explain methods` lists them", near,
+                             same->about);
     return near ? nh_error_hint(error, "did you mean `%s`? `nhsym explain methods` lists them", near)
                 : nh_error_hint(error, "`nhsym explain methods` lists them");
 }

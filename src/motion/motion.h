@@ -123,6 +123,7 @@ typedef struct {
      * where they are wanted. */
     bool (*rate)(double t, const double *z, double *rate, void *rate_context);
     void *rate_context;
+    bool dense; /* `state` gives such states, too, but each costs a step */
     double step_effort;   /* units of one step, beside the right-hand sides and the effort that is counted elsewhere */
     /* Writes the note: the last NH_STUCK_AFTER steps did not move the time, or very many hardly did. */
     void (*stuck)(nh_motion *motion, void *context);

@@ -8,13 +8,19 @@
 #include "base/linalg.h"
 #include "base/memory.h"
 
-enum { most_shorter = 60, most_levels = 8, between_measures = 32 };
+enum { most_shorter = 60, least_levels = 4, most_levels = 64, between_measures = 32 };
 static const double shorter = 0.25;          /* factor from one tau that is tried to the next */
 static const double within = 0.25;           /* part of the tau that is found, which is used */
+/* from one state of a line to the next, as a part of the sizes; the noise is at most so many times less than fourth
+ * differences */
+static const double apart = 0x1p-27, noise = 4;
 static const double disturbance = 4;         /* roundings of each state, whose effect on the rates is measured */
-/* a state has no digits if its rounding in a step is a larger part of its size; the part of the tolerance that the
- * rounding of another state may be */
-static const double drowned = 1e-3, rest = 0.1;
+/* a state has no digits if its rounding in a step is a larger part of its size */
+static const double drowned = 1e-3;
+/* The part of the tolerance that the rounding of another state may be, or the rounding of so many times tau: steps of
+ * implicit methods may be far longer than the time in which the rates change by rounding. */
+static const double rest = 0.1, several = 4;
+static const double grown = 1e3; /* a size that grows so much in one step of the iteration is not known yet */
 /* size of a state that nothing moves so far, as a part of the smallest size */
 static const double nothing = 1e-6;
 
@@ -24,53 +30,163 @@ static bool rate_at(nh_sizes *s, double t, const double *z, double *rate)
     return s->problem->rate(t, z, rate, s->problem->context) && nh_all_finite(s->problem->size, rate);
 }
 
-/* Writes z + tau f to `to`, and the rates there; false: they are not defined, or differ too much from f. */
-static bool step_is_short(nh_sizes *s, double t, double tau, const double *z, const double *f, double *to, double *rate)
+/* Is there a kink or a jump between the two states? */
+static bool across_wall(nh_sizes *s, double t, const double *a, const double *b)
 {
-    for (size_t i = 0; i < s->problem->size; i++) to[i] = z[i] + tau * f[i];
-    if (!rate_at(s, t + tau, to, rate)) return false;
-    for (size_t i = 0; i < s->problem->size; i++) {
-        double own = fmax(fmax(fabs(z[i]), fabs(tau * f[i])), s->least ? s->least[i] : 0);
-        if (own > 0 && !(fabs(tau * (rate[i] - f[i])) <= own)) return false;
+    const nh_flow_problem *p = s->problem;
+    if (!p->walls) return false;
+    double *of_a = nh_alloc_array(2 * p->walls, sizeof *of_a), *of_b = of_a + p->walls;
+    bool across = !p->wall(t, a, of_a, p->context) || !p->wall(t, b, of_b, p->context);
+    for (size_t i = 0; i < p->walls && !across; i++) across = !(of_a[i] * of_b[i] > 0);
+    nh_free(of_a);
+    return across;
+}
+
+/* Rounding of the rates, the largest so far: their change by rounding of states of these sizes, and what their fourth
+ * differences along a short line say about the rounding inside their evaluation (More and Wild 2011, SIAM Journal on
+ * Scientific Computing 33, 1292: computational noise).  Neither is seen in states that differ by single roundings: a
+ * difference of large terms is a multiple of their last digit. */
+static void measure_rounding(nh_sizes *s, double t, const double *z, const double *size, double *rounding)
+{
+    enum { points = 5 };
+    static const double binomial[points] = {1, -4, 6, -4, 1};
+    size_t n = s->problem->size;
+    double *moved = s->work + 3 * n, *f = moved + n, *last = f + n, *fourth = last + n, *linear = fourth + n;
+    uint64_t random = 0x9e3779b97f4a7c15u + (uint64_t)s->followed;
+    memset(fourth, 0, 2 * n * sizeof *fourth);
+    for (int k = 0; k < points; k++) {
+        uint64_t same = random;
+        for (size_t i = 0; i < n; i++) {
+            same = same * 6364136223846793005u + 1442695040888963407u;
+            /* unequal changes: equal ones of several states may be a symmetry */
+            moved[i] = z[i] + k * apart * size[i] * ((double)(int64_t)same * 0x1p-63);
+        }
+        if (!rate_at(s, t, moved, f)) return;
+        for (size_t i = 0; i < n; i++) {
+            if (k > 0) linear[i] = fmax(linear[i], fabs(f[i] - last[i]));
+            last[i] = f[i], fourth[i] += binomial[k] * f[i];
+        }
     }
+    if (across_wall(s, t, z, moved)) return;
+    for (size_t i = 0; i < n; i++)
+        rounding[i] = fmax(rounding[i], fmax(linear[i] * (disturbance * DBL_EPSILON / apart), fabs(fourth[i]) / noise));
+}
+
+/* A state whose rate grows so much is zero for the moment, if rounding is what it has. */
+static bool suspect(double own, double tau, double rate) { return grown * own < fabs(tau * rate); }
+
+/* Is what the suspects have no more than the rounding of the other states makes of them? */
+static bool are_zero(nh_sizes *s, double t, double tau, const double *z, const double *to, const double *rate)
+{
+    size_t n = s->problem->size;
+    double *size = nh_alloc_array(2 * n, sizeof *size), *rounding = size + n;
+    bool all = true;
+    for (size_t i = 0; i < n; i++) size[i] = suspect(s->size[i], tau, rate[i]) ? 0 : s->size[i];
+    measure_rounding(s, t, z, size, rounding);
+    measure_rounding(s, t + tau, to, size, rounding);
+    for (size_t i = 0; i < n; i++)
+        if (suspect(s->size[i], tau, rate[i])) all &= drowned * s->size[i] <= fabs(tau) * rounding[i];
+    nh_free(size);
+    return all;
+}
+
+/* Rates of states that are zero so far are zero, too, where rounding is what they have. */
+static void clear_drowned(nh_sizes *s, double t, double tau, const double *z, double *rate)
+{
+    size_t n = s->problem->size;
+    double *size = nh_alloc_array(2 * n, sizeof *size), *rounding = size + n;
+    bool any = false;
+    for (size_t i = 0; i < n; i++) {
+        any |= s->size[i] == 0 && rate[i] != 0;
+        size[i] = fmax(s->size[i], fabs(tau * rate[i]));
+    }
+    if (any) measure_rounding(s, t, z, size, rounding);
+    for (size_t i = 0; i < n && any; i++)
+        if (s->size[i] == 0 && drowned * fabs(rate[i]) <= rounding[i]) rate[i] = 0;
+    nh_free(size);
+}
+
+/* One step of Picard's iteration: replaces the rates f by those at z + tau f, and enlarges the sizes by them.  False:
+ * they are not defined, or differ from f by more than the sizes allow. */
+static bool moves_on(nh_sizes *s, double t, double tau, const double *z, double *f, bool *more)
+{
+    size_t n = s->problem->size;
+    double *to = s->work + n, *rate = s->work + 2 * n;
+    bool any = false;
+    for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * f[i];
+    if (!rate_at(s, t + tau, to, rate)) return false;
+    clear_drowned(s, t + tau, tau, to, rate);
+    for (size_t i = 0; i < n; i++) {
+        bool known = fabs(z[i]) + fabs(tau * s->start[i]) > s->size[i] / grown; /* or it moved only with the others */
+        if (s->size[i] == 0 || fabs(tau * (rate[i] - f[i])) <= (known ? 1 : several) * s->size[i]) continue;
+        if (!suspect(s->size[i], tau, rate[i])) return false;
+        any = true;
+    }
+    if (any && !are_zero(s, t, tau, z, to, rate)) return false;
+    for (size_t i = 0; i < n; i++) {
+        double size = fmax(s->size[i], fabs(tau * rate[i]));
+        *more |= size > grown * s->size[i];
+        s->size[i] = size;
+    }
+    memcpy(f, rate, n * sizeof *f);
     return true;
 }
 
-static void enlarge(nh_sizes *s, double tau, const double *f)
-{
-    for (size_t i = 0; i < s->problem->size; i++) s->size[i] = fmax(s->size[i], fabs(tau * f[i]));
-}
-
-/* The change of the rates by rounding of the states, the largest so far. */
-static void measure_rounding(nh_sizes *s, double t, const double *z)
+/* Sizes by the motion within tau from z, where the rates are f: states that move, then states that are moved by these.
+ * False: tau is too long. */
+static bool sizes_within(nh_sizes *s, double t, double tau, const double *z, const double *f)
 {
     size_t n = s->problem->size;
-    double *moved = s->work, *f = s->work + n, *g = s->work + 2 * n;
-    uint64_t random = 0x9e3779b97f4a7c15u;
-    for (size_t i = 0; i < n; i++) {
-        random = random * 6364136223846793005u + 1442695040888963407u;
-        double change = disturbance * DBL_EPSILON * s->size[i];
-        moved[i] = z[i] + (random >> 63 ? change : -change);
+    bool good = true, more = true;
+    memcpy(s->work, f, n * sizeof *f);
+    for (size_t i = 0; i < n; i++) s->size[i] = fmax(fabs(z[i]), s->least ? s->least[i] : 0);
+    clear_drowned(s, t, tau, z, s->work);
+    for (size_t i = 0; i < n; i++) s->size[i] = fmax(s->size[i], fabs(tau * s->work[i]));
+    for (int level = 0; level < most_levels && more && good; level++) {
+        more = level + 1 < least_levels;
+        good = moves_on(s, t, tau, z, s->work, &more);
     }
-    if (!rate_at(s, t, z, f) || !rate_at(s, t, moved, g)) return;
-    for (size_t i = 0; i < n; i++) s->rounding[i] = fmax(s->rounding[i], fabs(g[i] - f[i]));
+    return good;
 }
 
 static void allocate(nh_sizes *s, const nh_flow_problem *problem)
 {
-    *s = (nh_sizes){.problem = problem, .size = nh_alloc_array(5 * problem->size, sizeof *s->size)};
+    *s = (nh_sizes){.problem = problem, .size = nh_alloc_array(12 * problem->size, sizeof *s->size)};
     s->rounding = s->size + problem->size;
-    s->work = s->rounding + problem->size;
+    s->reach = s->rounding + problem->size;
+    s->work = s->reach + problem->size;
+}
+
+/* Measures rounding with what the states can be: where the sizes of the others make more of a state within tau, its
+ * error is that of its rate, and an error of all rates that depend on it.  At the start that holds for all states,
+ * which may be far smaller than their sizes; later for those that lost digits so. */
+static void measure(nh_sizes *s, double t, const double *z, double least)
+{
+    measure_rounding(s, t, z, s->reach, s->rounding);
+    for (size_t i = 0; i < s->problem->size; i++) {
+        double made = s->pace * s->rounding[i];
+        s->reach[i] = fmax(s->reach[i], made > least * s->size[i] ? made / (disturbance * DBL_EPSILON) : s->size[i]);
+    }
+}
+
+/* The time, at most tau, in which no state that is not zero at the start could change by more than its size: on the
+ * slow manifold of a stiff system tau is far longer than its fast times. */
+static double pace_of(const nh_sizes *s, const double *z)
+{
+    double pace = s->tau;
+    for (size_t i = 0; i < s->problem->size; i++)
+        if (grown * fabs(z[i]) > s->size[i])
+            pace = fmin(pace, disturbance * DBL_EPSILON * s->size[i] / s->rounding[i]); /* not by infinity, nor NAN */
+    return pace;
 }
 
 /* Sizes of states that are still zero: as large as the others can make them within tau; of those that nothing moves,
  * small relative to all others. */
-static void fill(nh_sizes *s, double t, const double *z)
+static void fill(nh_sizes *s)
 {
     double least = INFINITY;
-    measure_rounding(s, t, z);
     for (size_t i = 0; i < s->problem->size; i++) {
-        if (!(s->size[i] > 0)) s->size[i] = s->tau * s->rounding[i] / (disturbance * DBL_EPSILON);
+        if (!(s->size[i] > 0)) s->size[i] = s->reach[i];
         if (s->size[i] > 0) least = fmin(least, s->size[i]);
     }
     if (isinf(least)) least = 1;
@@ -87,25 +203,19 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     s->part = part;
     s->least = least;
     s->last = begin;
-    double *f = s->work, *to = s->work + n, *rate = s->work + 2 * n, tau = end - begin;
-    for (size_t i = 0; i < n; i++) s->size[i] = fmax(fabs(z[i]), least ? least[i] : 0);
+    double *f = s->start = s->work + 8 * n, *to = s->work + n, tau = end - begin;
     if (!rate_at(s, begin, z, f)) return false;
-    bool is_short = false;
-    for (int i = 0; i < most_shorter && !(is_short = step_is_short(s, begin, tau, z, f, to, rate)); i++) tau *= shorter;
+    for (int i = 0; i < most_shorter && !sizes_within(s, begin, tau, z, f); i++) tau *= shorter;
     tau *= within;
     s->tau = s->step = fabs(tau);
-    enlarge(s, tau, f);
-    bool more = is_short;
-    /* Picard's iteration: states that move, then states that are moved by these */
-    for (int level = 0; level < most_levels && more; level++) {
-        for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * f[i];
-        if (!rate_at(s, begin + tau, to, rate)) break;
-        more = false;
-        for (size_t i = 0; i < n; i++) more |= !(s->size[i] > 0) && rate[i] != 0;
-        enlarge(s, tau, rate);
-        memcpy(f, rate, n * sizeof *f);
-    }
-    fill(s, begin, z);
+    sizes_within(s, begin, tau, z, f);
+    /* where nothing is zero for the moment, the rates have the rounding that they will have */
+    for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * s->work[i];
+    memcpy(s->reach, s->size, n * sizeof *s->reach);
+    measure_rounding(s, begin + tau, to, s->size, s->rounding);
+    s->pace = pace_of(s, z);
+    for (int level = 0; level < least_levels; level++) measure(s, begin + tau, to, 0);
+    fill(s);
     return true;
 }
 
@@ -134,13 +244,16 @@ void nh_sizes_follow(nh_sizes *s, double t, const double *z)
     s->last = t;
     for (size_t i = 0; i < s->problem->size; i++)
         if (fabs(z[i]) > s->size[i]) s->size[i] = fabs(z[i]); /* false also for NAN */
-    if (++s->followed % between_measures == 0) measure_rounding(s, t, z);
+    s->followed++;
+    if (s->followed % between_measures == 0 || (s->followed & (s->followed - 1)) == 0)
+        measure(s, t, z, drowned);
 }
 
 double nh_sizes_absolute(const nh_sizes *s, double rtol, size_t i)
 {
     double own = rtol * s->part * s->size[i], rounding = s->step * s->rounding[i];
-    if (rounding < drowned * s->size[i]) rounding = fmin(rounding, rest * rtol * s->size[i]);
+    double most = fmax(rest * rtol * s->size[i], several * s->pace * s->rounding[i]);
+    if (rounding < drowned * s->size[i]) rounding = fmin(rounding, most);
     return fmax(own, rounding);
 }
 

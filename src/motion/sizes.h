@@ -9,9 +9,11 @@
  *     s_i = max(|z_i|, tau |f_i(t, z)|, tau |f_i(t + tau, z + tau f)|, ..),    tau |f_i(t + tau, z + tau f) - f_i(t,
  *     z)| <= max(|z_i|, tau |f_i|) for all i.
  *
- * Nothing in it depends on units.  A state that is zero but for rounding (v cos(pi/2)) has no digits to be kept:
- * rounding of the right-hand side, measured as its change when each state changes by a part 4 epsilon of s_j, is
- * allowed in every step. */
+ * and so on along Picard's iteration, as far as it moves states that were zero.  Nothing in it depends on units.
+ *
+ * A state that is zero but for rounding (v cos(pi/2), a link that hangs on others) has no digits to be kept.  Rounding
+ * of the rates is measured along a short line (measure_rounding in sizes.c); what it makes of a state in a step is
+ * always allowed, and a rate that it drowns moves nothing at the start. */
 #ifndef NH_SIZES_H
 #define NH_SIZES_H
 
@@ -21,9 +23,11 @@ typedef struct {
     const nh_flow_problem *problem;
     double part;             /* nh_flow_options.absolute */
     double *size, *rounding; /* of each state, and of its rate */
-    double *work;
+    double *reach;           /* what the sizes of the others can make of each state within tau */
+    double *work, *start;    /* start: the rates there */
     const double *least;     /* nh_flow_options.least */
     double tau;              /* the time in which the right-hand side changes by about its own size at the start */
+    double pace;             /* at most tau: not longer than the fast times of a stiff system, either */
     double step;             /* the last one */
     double last;             /* time of the last state */
     long followed, evaluations;
