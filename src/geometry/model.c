@@ -312,23 +312,13 @@ static bool accelerations(nh_model *o, nh_error *error)
     return true;
 }
 
-/* p_a dbeta^a(e_s, rho) */
-static nh_ex turn_along(const nh_model *o, size_t s)
-{
-    nh_ex zero = nh_int(o->dag, 0), *e = nh_alloc_array(o->m + 1, sizeof *e);
-    for (size_t a = 0; a < o->m; a++) e[a] = a == s ? nh_int(o->dag, 1) : zero;
-    nh_ex turn = o->framed ? nh_frame_turn(o, e, 1, o->frame_rho, 1) : zero;
-    nh_free(e);
-    return turn;
-}
-
 /* dL/dq^s + Q_s - Gamma(p_s) along the frame, of bodies and joints without the derivatives of p_s by position. */
 static nh_ex unbalanced(const nh_model *o, const slopes *slope, size_t s)
 {
     nh_dag *d = o->dag;
     if (!slope->inertial) {
         nh_ex c = nh_sub(d, applied_force(o, slope, s), nh_model_gamma(o, o->frame_p[s]));
-        return nh_add(d, c, turn_along(o, s));
+        return nh_add(d, c, nh_frame_turn_along(o, s));
     }
     nh_ex c = nh_add(d, slope->inertial[s], nh_model_compose(o, o->system->force[s]));
     for (size_t i = 0; i < o->n; i++) c = nh_sub(d, c, nh_mul(d, o->a[i], nh_model_Y(o, i, o->p[s])));

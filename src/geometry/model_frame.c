@@ -83,3 +83,12 @@ nh_ex nh_frame_slope(const nh_model *o, size_t a, size_t b)
     nh_ex f = o->framed ? o->system->constraint[a].framed : nh_chart_constraint(o->chart, a);
     return nh_frame_compose(o, nh_diff(o->dag, f, nh_frame_rate(o, b)));
 }
+
+nh_ex nh_frame_turn_along(const nh_model *o, size_t s)
+{
+    nh_ex zero = nh_int(o->dag, 0), *e = nh_alloc_array(o->m + 1, sizeof *e);
+    for (size_t a = 0; a < o->m; a++) e[a] = a == s ? nh_int(o->dag, 1) : zero;
+    nh_ex turn = o->framed ? nh_frame_turn(o, e, 1, o->frame_rho, 1) : zero;
+    nh_free(e);
+    return turn;
+}

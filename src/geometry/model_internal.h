@@ -27,6 +27,8 @@ nh_ex nh_frame_along(const nh_model *model, size_t a, const nh_ex *c);
 void nh_frame_covector(const nh_model *model, const nh_ex *c, nh_ex *out);
 /* p_a dbeta^a(x, y) for rates x and y along the frame (every stride-th of an array). */
 nh_ex nh_frame_turn(const nh_model *model, const nh_ex *x, size_t x_stride, const nh_ex *y, size_t y_stride);
+/* The same for x = e_s and y = rho. */
+nh_ex nh_frame_turn_along(const nh_model *model, size_t s);
 /* df^a/du of the constraint a along e_b, composed. */
 nh_ex nh_frame_slope(const nh_model *model, size_t a, size_t b);
 

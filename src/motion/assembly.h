@@ -6,8 +6,9 @@
  *
  *     q <- q0 + K^-1 J^T (J K^-1 J^T)^+ (J (q - q0) - e),   J = de/dq,
  *
- * moves it to the nearest one, a projection as in [HairerLubichWanner2006, sec. IV.4].  Where J is singular at q0, as in a straight linkage, it
- * begins beside q0; far from e = 0 the second iteration may not converge, and the position is near, not nearest. */
+ * moves it to the nearest one, a projection as in [HairerLubichWanner2006, sec. IV.4].  Where J is singular at q0, as
+ * in a straight linkage, it begins beside q0; far from e = 0 the second iteration may not converge, and the position is
+ * near, not nearest. */
 #ifndef NH_ASSEMBLY_H
 #define NH_ASSEMBLY_H
 

@@ -486,19 +486,3 @@ void nh_trajectory_free(nh_trajectory *trajectory)
     nh_free(trajectory->event_value);
     nh_free(trajectory);
 }
-
-nh_trajectory_own nh_trajectory_own_create(const nh_trajectory_request *request)
-{
-    nh_trajectory_own own = {.request = *request, .dag = nh_dag_copy(request->model->dag)};
-    own.request.model = own.model = nh_model_copy(request->model, own.dag);
-    if (request->other) own.request.other = own.other = nh_model_copy(request->other, own.dag);
-    own.request.programs = NULL;
-    return own;
-}
-
-void nh_trajectory_own_free(nh_trajectory_own *own)
-{
-    nh_model_copy_free(own->other);
-    nh_model_copy_free(own->model);
-    nh_dag_free(own->dag);
-}

@@ -82,3 +82,21 @@ nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, 
     nh_bordered_free(b);
     return motion;
 }
+
+/* ---- requests of threads ---- */
+
+nh_trajectory_own nh_trajectory_own_create(const nh_trajectory_request *request)
+{
+    nh_trajectory_own own = {.request = *request, .dag = nh_dag_copy(request->model->dag)};
+    own.request.model = own.model = nh_model_copy(request->model, own.dag);
+    if (request->other) own.request.other = own.other = nh_model_copy(request->other, own.dag);
+    own.request.programs = NULL;
+    return own;
+}
+
+void nh_trajectory_own_free(nh_trajectory_own *own)
+{
+    nh_model_copy_free(own->other);
+    nh_model_copy_free(own->model);
+    nh_dag_free(own->dag);
+}

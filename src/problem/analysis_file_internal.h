@@ -23,6 +23,8 @@ bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, cons
 /* A list of "name = expression". */
 bool nh_analysis_file_watches(nh_analysis_file_reader *r, const nh_deck_node *list, const char *what, nh_named **out,
                               size_t *count);
+/* Reads the map {x: 0, ..} of an initial state. */
+bool nh_analysis_file_read_initial(nh_analysis_file_reader *r, const nh_deck_node *map);
 /* Reads the figures. */
 bool nh_analysis_file_read_figures(nh_analysis_file_reader *r);
 /* Reads the ansatz, a list of families. */

@@ -1,4 +1,4 @@
-/* system_orientation: the orientations of a system file: names, matrices, and expressions in their angular velocities. */
+/* system_orientation: the orientations of a system file: names, matrices, expressions in their angular velocities. */
 #include <string.h>
 
 #include "base/text.h"

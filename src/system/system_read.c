@@ -135,11 +135,36 @@ static bool read_type(reader *r, const nh_deck_node *node, nh_coordinate_type *o
                : false;
 }
 
+static bool read_coordinate(reader *r, const nh_deck_node *item)
+{
+    static const char *const keys[] = {"name", "type", "doc", "unit"},
+                             *const turn_keys[] = {"name", "type", "doc", "velocities", "frame"};
+    nh_system *s = r->system;
+    nh_coordinate *c = &s->coordinate[s->coordinates];
+    const nh_deck_node *name = item, *type;
+    *c = (nh_coordinate){.unit = "", .doc = "", .type = NH_PLAIN};
+    if (item->kind != NH_DECK_SCALAR) {
+        if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a coordinate {name: ..., type: ...}", r->error)) return false;
+        type = nh_deck_get(item, "type");
+        bool turns = type && type->kind == NH_DECK_SCALAR && !strcmp(type->text, "orientation");
+        size_t count = turns ? sizeof turn_keys / sizeof *turn_keys : sizeof keys / sizeof *keys;
+        if (!nh_deck_only(r->deck, item, turns ? turn_keys : keys, count, r->error)) return false;
+        name = nh_deck_get(item, "name");
+        if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this coordinate has no `name`");
+        if (!nh_system_text_of(r, item, "doc", "", &c->doc)) return false;
+        if (turns) return nh_orientation_declare(r, item, name, c->doc);
+        if (!read_type(r, type, &c->type) || !read_unit(r, item, &c->unit)) return false;
+    }
+    if (!nh_system_new_name(r, name)) return false;
+    c->name = name->text;
+    c->q = nh_symbol(s->dag, c->name);
+    s->coordinates++;
+    return true;
+}
+
 static bool read_coordinates(reader *r)
 {
     enum { most_coordinates = 100 };
-    static const char *const keys[] = {"name", "type", "doc", "unit"};
-    static const char *const orientation_keys[] = {"name", "type", "doc", "velocities", "frame"};
     const nh_deck_node *list = nh_deck_get(r->root, "coordinates");
     size_t n = list ? list->count : 0;
     nh_system *s = r->system;
@@ -148,8 +173,8 @@ static bool read_coordinates(reader *r)
     if (n + (s->chain ? s->chain->screws : 0) == 0) {
         nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
         if (s->chain)
-            return nh_error_hint(r->error, "every joint is fixed: --base floating (or `base: floating`) lets the body that "
-                                           "carries all others move");
+            return nh_error_hint(r->error, "every joint is fixed: --base floating (or `base: floating`) lets the body "
+                                           "that carries all others move");
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
     if (n > most_coordinates) {
@@ -161,31 +186,8 @@ static bool read_coordinates(reader *r)
     size_t most = 3 * n + (s->chain ? s->chain->screws : 0);
     s->coordinate = nh_system_take(r, most, sizeof *s->coordinate);
     s->orientation = nh_system_take(r, most, sizeof *s->orientation);
-    for (size_t i = 0; i < n; i++) {
-        const nh_deck_node *item = list->item[i], *name = item;
-        nh_coordinate *c = &s->coordinate[s->coordinates];
-        *c = (nh_coordinate){.unit = "", .doc = "", .type = NH_PLAIN};
-        if (item->kind != NH_DECK_SCALAR) {
-            if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a coordinate {name: ..., type: ...}", r->error)) return false;
-            const nh_deck_node *type = nh_deck_get(item, "type");
-            bool turns = type && type->kind == NH_DECK_SCALAR && !strcmp(type->text, "orientation");
-            if (!nh_deck_only(r->deck, item, turns ? orientation_keys : keys, turns ? 5 : 4, r->error)) return false;
-            name = nh_deck_get(item, "name");
-            if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this coordinate has no `name`");
-            if (turns) {
-                const char *doc;
-                if (!nh_system_text_of(r, item, "doc", "", &doc) || !nh_orientation_declare(r, item, name, doc))
-                    return false;
-                continue;
-            }
-            if (!read_type(r, nh_deck_get(item, "type"), &c->type)) return false;
-            if (!nh_system_text_of(r, item, "doc", "", &c->doc) || !read_unit(r, item, &c->unit)) return false;
-        }
-        if (!nh_system_new_name(r, name)) return false;
-        c->name = name->text;
-        c->q = nh_symbol(s->dag, c->name);
-        s->coordinates++;
-    }
+    for (size_t i = 0; i < n; i++)
+        if (!read_coordinate(r, list->item[i])) return false;
     if (!nh_system_read_joint_coordinates(r)) return false;
     if (s->coordinates == 0)
         return nh_deck_fail(r->deck, NULL, 0, r->error,
@@ -398,43 +400,13 @@ static bool read_dependent(reader *r)
     return true;
 }
 
-/* Keys that files of other programs may have, and their equivalents here. */
-static const struct {
-    const char *key, *hint;
-} elsewhere[] = {
-    {"T", "definitions: [\"T = m/2*x'^2\", \"V = k/2*x^2\"], then lagrangian: T - V"},
-    {"V", "definitions: [\"T = m/2*x'^2\", \"V = k/2*x^2\"], then lagrangian: T - V"},
-    {"kinetic", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
-    {"kinetic_energy", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
-    {"potential", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
-    {"potential_energy", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
-    {"hamiltonian", "a system is given by its Lagrangian: lagrangian: m/2*x'^2 - k/2*x^2"},
-    {"holonomic", "constraints: [\"x = y\", \"y' = x*x'\"]: equations of positions and of velocities"},
-    {"nonholonomic", "constraints: [\"x = y\", \"y' = x*x'\"]: equations of positions and of velocities"},
-    {"inputs", "an input is a parameter: {name: u, value: 0, input: true}"},
-    {"quasi_velocities", "velocities: {names: [v], map: [\"x' = v\"]}"},
-    {"ansatz", "this is an analysis file: nhsym analyze SYSTEM --analysis FILE"},
-    {"initial", "a motion's start is no part of the system: --initial \"x=1\", or an analysis file (`validate`)"},
-};
-
-static bool other_words(const reader *r)
-{
-    for (size_t i = 0; i < r->root->count; i++)
-        for (size_t j = 0; j < sizeof elsewhere / sizeof *elsewhere; j++)
-            if (!strcmp(r->root->key[i]->text, elsewhere[j].key)) {
-                nh_deck_fail(r->deck, r->root->key[i], 0, r->error, "unknown key `%s`", elsewhere[j].key);
-                return nh_error_hint(r->error, "%s", elsewhere[j].hint);
-            }
-    return true;
-}
-
 static bool read_all(reader *r, size_t settings, const nh_setting *setting)
 {
     nh_system *s = r->system;
     if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)",
                     r->error))
         return false;
-    if (!other_words(r) || !nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
+    if (!nh_system_known_keys(r) || !nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
     const char *doc; /* text for readers of the file */
     if (!nh_system_text_of(r, r->root, "name", "system", &s->name) ||
         !nh_system_text_of(r, r->root, "title", s->name, &s->title))

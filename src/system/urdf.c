@@ -458,19 +458,11 @@ static bool collect(reader *r)
 
 static bool read_robot(reader *r)
 {
-    enum { most = 1000 };
     const char *ignored = "material transmission sensor ros2_control plugin mujoco";
     if (!nh_urdf_is_robot(&r->u, r->robot) || !nh_urdf_only(&r->u, r->robot, "name version", "link joint", ignored) ||
         !collect(r))
         return false;
-    if (!r->links) {
-        nh_urdf_fail(&r->u, r->robot->begin, "this robot has no <link>");
-        return nh_xml_get(r->robot, "xmlns:xacro")
-                   ? nh_error_hint(r->u.error, "if its links are made by xacro: xacro robot.urdf.xacro > robot.urdf")
-                   : false;
-    }
-    if (r->links > most || r->count > most)
-        return nh_urdf_fail(&r->u, r->robot->begin, "this robot has more than %d links or joints", most);
+    if (!nh_urdf_fits(&r->u, r->robot, r->links, r->count)) return false;
     for (size_t i = 0; i < r->count; i++)
         if (!read_joint(r, r->joint[i].element, &r->joint[i])) return false;
     if (!nh_urdf_distinct_joints(&r->u, r->robot)) return false;
@@ -502,10 +494,9 @@ const nh_deck_node *nh_urdf_read(nh_deck *deck, nh_error *error)
         nh_deck_put(deck, r.root, "name",
                     nh_deck_word(deck, nh_urdf_name(deck->arena, name->value), name->begin, name->end));
     nh_deck_put(deck, r.root, "gravity", nh_deck_word(deck, "g", r.robot->begin, r.robot->end));
-    nh_deck_put(deck, r.root, "parameters", r.parameters);
-    nh_deck_put(deck, r.root, "bodies", r.bodies);
-    nh_deck_put(deck, r.root, "joints", r.joints);
-    if (r.forces->count) nh_deck_put(deck, r.root, "forces", r.forces);
+    static const char *const keys[] = {"bodies", "joints", "parameters", "forces"};
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        if ((*list[i])->count || *list[i] != r.forces) nh_deck_put(deck, r.root, keys[i], *list[i]);
     if (r.u.notes) nh_deck_put(deck, r.root, "notes", nh_urdf_notes_list(&r.u));
     nh_deck_put(deck, r.root, NH_URDF_RIMS, r.rims);
     return r.root;

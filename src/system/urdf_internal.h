@@ -48,10 +48,13 @@ nh_urdf_pose nh_urdf_product(const nh_urdf_pose *a, const nh_urdf_pose *b);
 /* <inertial>: mass, centre, inertia and its axes into a body. */
 bool nh_urdf_inertial(nh_urdf_reader *u, const nh_xml *inertial, nh_deck_node *body, double *mass);
 
-/* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, as an entry of
- * NH_URDF_RIMS.  Does the joint turn without end? */
+/* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, as an entry
+ * of NH_URDF_RIMS.  Does the joint turn without end? */
 nh_deck_node *nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const double *axis, const nh_urdf_pose *zero,
                           bool continuous);
+
+/* Has it links, and not too many of these and of joints? */
+bool nh_urdf_fits(nh_urdf_reader *u, const nh_xml *robot, size_t links, size_t joints);
 
 /* Is the word NAME_x, or the like? */
 bool nh_urdf_is_part(const char *word, const char *name);

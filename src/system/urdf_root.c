@@ -19,6 +19,18 @@ bool nh_urdf_is_robot(nh_urdf_reader *u, const nh_xml *robot)
         "files in XML are robot descriptions (URDF), other systems are YAML: `nhsym new skate` writes an example");
 }
 
+bool nh_urdf_fits(nh_urdf_reader *u, const nh_xml *robot, size_t links, size_t joints)
+{
+    enum { most = 1000 };
+    if (links > most || joints > most)
+        return nh_urdf_fail(u, robot->begin, "this robot has more than %d links or joints", most);
+    if (links) return true;
+    nh_urdf_fail(u, robot->begin, "this robot has no <link>");
+    return nh_xml_get(robot, "xmlns:xacro")
+               ? nh_error_hint(u->error, "if its links are made by xacro: xacro robot.urdf.xacro > robot.urdf")
+               : false;
+}
+
 const char *nh_urdf_end(const nh_xml *element, const char *key)
 {
     const nh_xml_attribute *a = nh_xml_get(nh_xml_child(element, key, NULL), "link");
