@@ -199,7 +199,7 @@ static void flow(const nh_model *o, const nh_state *initial, double end, double 
 static double flow_error(const nh_model *o, const cJSON *motion)
 {
     double q[3], v[3], state[5];
-    nh_state initial = {0, q, v, NULL};
+    nh_state initial = {.q = q, .v = v};
     start_of(motion, &initial.t, q, v);
     flow(o, &initial, oracle_number(motion, "T"), state);
     return end_error(motion, state);
@@ -240,7 +240,7 @@ static void validate(const mechanics *x, const nh_model *other, const cJSON *mot
 {
     double q[3], v[3];
     nh_error error = {0};
-    nh_state initial = {0, q, v, NULL};
+    nh_state initial = {.q = q, .v = v};
     nh_ex phi[CLAIMS];
     nh_options options;
     nh_options_default(&options);
@@ -297,7 +297,7 @@ Test(oracle, motions_of_the_disk, PLAIN_ONLY)
             memcpy(v, z + 5, 3 * sizeof *v);
             v[3] = -r * z[7] * cos(z[1]);
             v[4] = -r * z[7] * sin(z[1]);
-            nh_state initial = {0, z, v, NULL};
+            nh_state initial = {.q = z, .v = v};
             flow(x.model, &initial, oracle_number(motion, "T"), state);
             tally_add(&t, 8, state, want, 1);
         }

@@ -50,7 +50,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_budget,      "budget",      required_argument, "TIME",               "benchmark", "time to spend on measurements: 5s, 200ms")                                          \
     X(opt_svg, "svg", required_argument, "FILE", "benchmark simulate linearize", "write a picture") \
     X(opt_pdf, "pdf", required_argument, "FILE", "benchmark simulate linearize", "the same picture as PDF, by the program rsvg-convert") \
-    X(opt_csv, "csv", required_argument, "FILE", "benchmark simulate reduce scan linearize", "write a comma-separated table") \
+    X(opt_csv, "csv", required_argument, "FILE", "benchmark simulate reduce scan linearize", "write a CSV table") \
     X(opt_group,       "group",       required_argument, "FIELDS",             "reduce export", "\"1, 2\" or \"x=1; theta=1\": the group to divide out")                        \
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
     X(opt_inner,       "inner",       required_argument, "\"1,4=1/2; 4,4=3\"",  "reduce", "the inner product of generators that chooses the lifts by stages; else orthonormal") \

@@ -130,7 +130,7 @@ const char *nh_assembly_violated(nh_assembly *a, double t, const double *q, doub
 /* W of the free coordinates: from the metric at q0, whose zeros get a small value; without one, the units. */
 static bool metric_root(nh_assembly *a, double t, const double *q0)
 {
-    const double least = 1e-9;
+    static const double least = 1e-9;
     const nh_model *o = a->model;
     size_t m = a->m, k = o->k, f = a->free;
     nh_bordered *b = nh_bordered_create(o);
@@ -157,7 +157,7 @@ static bool metric_root(nh_assembly *a, double t, const double *q0)
  * known. */
 static bool least_step(const nh_assembly *a, const double *right, double *step)
 {
-    const double rank = 1e-9;
+    static const double rank = 1e-9;
     size_t n = a->count, f = a->free, tall = n > f ? n : f;
     double *A = nh_alloc_array(n * f + tall + 1, sizeof *A), *b = A + n * f;
     for (size_t k = 0; k < n; k++) {

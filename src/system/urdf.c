@@ -42,7 +42,6 @@ static bool has_coordinate(const joint *j)
 
 /* Has the joint several coordinates, with names NAME_x and the like? */
 static bool has_many(const joint *j) { return j->kind >= PLANAR; }
-
 /* Would a name, or those of several coordinates that begin with it, be one of the joint's? */
 static bool collides(const joint *j, const char *name, bool many)
 {
@@ -73,9 +72,8 @@ static void parameter(reader *r, const char *name, const nh_xml_attribute *value
     nh_deck_node *p = nh_deck_new(deck, NH_DECK_MAP, value->begin, value->end);
     const char *text = value->value + strspn(value->value, " \t\n\r+");
     nh_deck_put(deck, p, "name", nh_deck_word(deck, name, value->begin, value->end));
-    nh_deck_put(
-        deck, p, "value",
-        nh_deck_word(deck, nh_arena_strndup(deck->arena, text, strcspn(text, " \t\n\r")), value->begin, value->end));
+    const char *word = nh_arena_strndup(deck->arena, text, strcspn(text, " \t\n\r"));
+    nh_deck_put(deck, p, "value", nh_deck_word(deck, word, value->begin, value->end));
     if (unit) nh_deck_put(deck, p, "unit", nh_deck_word(deck, unit, value->begin, value->end));
     nh_deck_put(deck, p, "doc", nh_deck_word(deck, doc, value->begin, value->end));
     nh_deck_append(deck, r->parameters, p);
@@ -89,13 +87,12 @@ static bool read_link(reader *r, size_t index)
     if (!nh_urdf_only(&r->u, link, "name type", "inertial", ignored)) return false;
     const nh_xml_attribute *name = nh_xml_get(link, "name");
     const nh_xml *inertial = nh_xml_child(link, "inertial", NULL);
-    if (inertial && nh_xml_child(link, "inertial", inertial))
-        return nh_urdf_fail(&r->u, nh_xml_child(link, "inertial", inertial)->begin,
-                            "the link `%s` has a second <inertial>", name->value);
+    const nh_xml *second = inertial ? nh_xml_child(link, "inertial", inertial) : NULL;
+    if (second) return nh_urdf_fail(&r->u, second->begin, "the link `%s` has a second <inertial>", name->value);
     nh_deck_node *body = nh_deck_new(deck, NH_DECK_MAP, link->begin, link->end);
     char *own = r->own[index];
-    nh_deck_put(deck, body, "name", nh_deck_word(deck, own, name->begin, name->end));
     double mass = 0;
+    nh_deck_put(deck, body, "name", nh_deck_word(deck, own, name->begin, name->end));
     if (inertial && !nh_urdf_inertial(&r->u, inertial, body, &mass)) return false;
     if (mass > 0) {
         const nh_xml_attribute *value = nh_xml_get(nh_xml_child(inertial, "mass", NULL), "value");
@@ -393,9 +390,9 @@ static bool put_joint(reader *r, const joint *j)
 
 static const joint *carrier(const reader *r, const char *body)
 {
-    for (size_t i = 0; i < r->count; i++)
-        if (!strcmp(r->joint[i].child, body)) return &r->joint[i];
-    return NULL;
+    size_t i = 0;
+    while (i < r->count && strcmp(r->joint[i].child, body)) i++;
+    return i < r->count ? &r->joint[i] : NULL;
 }
 
 static bool put_rims(reader *r)

@@ -256,7 +256,7 @@ static bool semidefinite(const double I[6], double size, double least)
  * error. */
 static bool check_inertia(nh_urdf_reader *u, const nh_xml *inertia, const double I[6])
 {
-    const double least = -1e-9;
+    static const double least = -1e-9;
     double size = fabs(I[0]) + fabs(I[3]) + fabs(I[5]), half = (I[0] + I[3] + I[5]) / 2;
     double rest[6] = {half - I[0], -I[1], -I[2], half - I[3], -I[4], half - I[5]};
     if (I[0] < least * size || I[3] < least * size || I[5] < least * size) {
@@ -281,7 +281,7 @@ static bool check_inertia(nh_urdf_reader *u, const nh_xml *inertia, const double
  * others, or of mass times square metre. */
 static bool is_rounding(const double I[6], double x, double mass)
 {
-    const double of_others = 1e-12, of_square = 1e-15;
+    static const double of_others = 1e-12, of_square = 1e-15;
     return x != 0 && fabs(x) <= of_others * (fabs(I[0]) + fabs(I[3]) + fabs(I[5])) + of_square * fabs(mass);
 }
 
