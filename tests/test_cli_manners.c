@@ -438,7 +438,7 @@ Test(cli_manners, initial_values_as_newcomers_write_them)
 {
     place p = place_make();
     check_hint(&p, "simulate sleigh --initial phi=30deg", 2, "\nhint: angles are in radians: write 30*pi/180\n");
-    check_hint(&p, "simulate sleigh --initial phi=1,x_dot=2", 2, "\nhint: the velocity of `x` is written x'\n");
+    check_hint(&p, "simulate sleigh --initial phi=1,xdot=2", 2, "\nhint: the velocity of `x` is written x'\n");
     check_hint(&p, "simulate sleigh --initial phi=1=2", 2, "\nhint: commas separate the values: phi=0, omega=2\n");
     check_hint(&p, "simulate sleigh --initial phi=0,omga=2", 2, "nhsym: --initial:7: `omga` is not a coordinate or velocity of sleigh\n  phi=0,omga=2\n        ^\nhint: did you mean `omega`?\n");
     check_hint(&p, "simulate sleigh --initial phi", 2, "nhsym: --initial:1: `phi` has no value\n  phi\n  ^\nhint: write NAME=VALUE, with commas between: x=0, y=1\n");
@@ -452,7 +452,7 @@ Test(cli_manners, initial_values_as_newcomers_write_them)
 /* Velocities as other programs and books write them, where a name stands and where an expression does. */
 Test(cli_manners, velocities_as_others_write_them, PLAIN_ONLY)
 {
-    static const char *const words[][2] = {{"v2", "x2"},   {"vx2", "x2"},    {"v_x2", "x2"},     {"x2dot", "x2"}, {"x2_dot", "x2"}, {"xdot2", "x2"},
+    static const char *const words[][2] = {{"v2", "x2"},   {"vx2", "x2"},    {"v_x2", "x2"},     {"x2dot", "x2"}, {"xdot2", "x2"},
                                            {"dx2", "x2"},  {"dotx2", "x2"},  {"dx2_dt", "x2"},   {"vy", "y"},     {"ydot", "y"}};
     place p = place_make();
     write_here(&p, "two.yaml", "name: two\ncoordinates: [x1, x2, y]\nlagrangian: (x1'^2 + x2'^2 + y'^2)/2\n");

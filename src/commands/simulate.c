@@ -222,7 +222,7 @@ static void note_drift(nh_simulation *s, const nh_trajectory_request *q)
 /* Curves through the rows of a short table would be polygons. */
 static void draw_finely(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *request)
 {
-    enum { enough = 800 };
+    enum { enough = 801 }; /* the page shows every second one, with the last */
     const nh_motion *m = s->motion;
     if (!q->picture || s->fixed_step > 0 || m->count < 2 || m->count >= enough) return;
     nh_trajectory_request fine = *request;

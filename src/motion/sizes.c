@@ -11,9 +11,10 @@
 enum { most_shorter = 60, least_levels = 4, most_levels = 64, between_measures = 32 };
 static const double shorter = 0.25;          /* factor from one tau that is tried to the next */
 static const double within = 0.25;           /* part of the tau that is found, which is used */
-/* from one state of a line to the next, as a part of the sizes; the noise is at most so many times less than fourth
- * differences */
-static const double apart = 0x1p-27, noise = 4;
+/* From one state of a line to the next, as a part of the sizes, on a long and a short line: noise is seen on both, a kink
+ * or a strong curvature on the long one only.  The noise is at most so many times less than fourth differences. */
+static const double apart[] = {0x1p-27, 0x1p-40}, noise = 4;
+static const double forgets = 0.25; /* what rounding was counts so much less after each measure */
 static const double disturbance = 4;         /* roundings of each state, whose effect on the rates is measured */
 /* a state has no digits if its rounding in a step is a larger part of its size */
 static const double drowned = 1e-3;
@@ -51,25 +52,30 @@ static void measure_rounding(nh_sizes *s, double t, const double *z, const doubl
     enum { points = 5 };
     static const double binomial[points] = {1, -4, 6, -4, 1};
     size_t n = s->problem->size;
-    double *moved = s->work + 3 * n, *f = moved + n, *last = f + n, *fourth = last + n, *linear = fourth + n;
+    double *moved = s->work + 3 * n, *f = moved + n, *last = f + n, *fourth = last + n, *linear = fourth + n,
+           *least = s->start + n;
     uint64_t random = 0x9e3779b97f4a7c15u + (uint64_t)s->followed;
-    memset(fourth, 0, 2 * n * sizeof *fourth);
-    for (int k = 0; k < points; k++) {
-        uint64_t same = random;
-        for (size_t i = 0; i < n; i++) {
-            same = same * 6364136223846793005u + 1442695040888963407u;
-            /* unequal changes: equal ones of several states may be a symmetry */
-            moved[i] = z[i] + k * apart * size[i] * ((double)(int64_t)same * 0x1p-63);
+    for (size_t i = 0; i < n; i++) least[i] = INFINITY, linear[i] = 0;
+    for (int line = 0; line < 2; line++) {
+        memset(fourth, 0, n * sizeof *fourth);
+        for (int k = 0; k < points; k++) {
+            uint64_t same = random;
+            for (size_t i = 0; i < n; i++) {
+                same = same * 6364136223846793005u + 1442695040888963407u;
+                /* unequal changes: equal ones of several states may be a symmetry */
+                moved[i] = z[i] + k * apart[line] * size[i] * ((double)(int64_t)same * 0x1p-63);
+            }
+            if (!rate_at(s, t, moved, f)) return;
+            for (size_t i = 0; i < n; i++) {
+                if (k > 0 && line == 0) linear[i] = fmax(linear[i], fabs(f[i] - last[i]));
+                last[i] = f[i], fourth[i] += binomial[k] * f[i];
+            }
         }
-        if (!rate_at(s, t, moved, f)) return;
-        for (size_t i = 0; i < n; i++) {
-            if (k > 0) linear[i] = fmax(linear[i], fabs(f[i] - last[i]));
-            last[i] = f[i], fourth[i] += binomial[k] * f[i];
-        }
+        if (line == 0 && across_wall(s, t, z, moved)) return;
+        for (size_t i = 0; i < n; i++) least[i] = fmin(least[i], fabs(fourth[i]));
     }
-    if (across_wall(s, t, z, moved)) return;
     for (size_t i = 0; i < n; i++)
-        rounding[i] = fmax(rounding[i], fmax(linear[i] * (disturbance * DBL_EPSILON / apart), fabs(fourth[i]) / noise));
+        rounding[i] = fmax(rounding[i], fmax(linear[i] * (disturbance * DBL_EPSILON / apart[0]), least[i] / noise));
 }
 
 /* A state whose rate grows so much is zero for the moment, if rounding is what it has. */
@@ -151,10 +157,11 @@ static bool sizes_within(nh_sizes *s, double t, double tau, const double *z, con
 
 static void allocate(nh_sizes *s, const nh_flow_problem *problem)
 {
-    *s = (nh_sizes){.problem = problem, .size = nh_alloc_array(12 * problem->size, sizeof *s->size)};
+    *s = (nh_sizes){.problem = problem, .size = nh_alloc_array(13 * problem->size, sizeof *s->size)};
     s->rounding = s->size + problem->size;
     s->reach = s->rounding + problem->size;
     s->work = s->reach + problem->size;
+    s->start = s->work + 8 * problem->size;
 }
 
 /* Measures rounding with what the states can be: where the sizes of the others make more of a state within tau, its
@@ -203,7 +210,7 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     s->part = part;
     s->least = least;
     s->last = begin;
-    double *f = s->start = s->work + 8 * n, *to = s->work + n, tau = end - begin;
+    double *f = s->start, *to = s->work + n, tau = end - begin;
     if (!rate_at(s, begin, z, f)) return false;
     for (int i = 0; i < most_shorter && !sizes_within(s, begin, tau, z, f); i++) tau *= shorter;
     tau *= within;
@@ -245,8 +252,10 @@ void nh_sizes_follow(nh_sizes *s, double t, const double *z)
     for (size_t i = 0; i < s->problem->size; i++)
         if (fabs(z[i]) > s->size[i]) s->size[i] = fabs(z[i]); /* false also for NAN */
     s->followed++;
-    if (s->followed % between_measures == 0 || (s->followed & (s->followed - 1)) == 0)
+    if (s->followed % between_measures == 0 || (s->followed & (s->followed - 1)) == 0) {
+        for (size_t i = 0; i < s->problem->size; i++) s->rounding[i] *= forgets;
         measure(s, t, z, drowned);
+    }
 }
 
 double nh_sizes_absolute(const nh_sizes *s, double rtol, size_t i)
