@@ -5,6 +5,7 @@
 #include <stdarg.h>
 
 #include "program.h"
+#include "sweep.h"
 
 static const char *const top = "name: top\n"
                                "parameters: {A: 1.1, B: 1.1, C: 1.7, m: 1.3, g: 9.81, l: 0.4}\n"
@@ -43,7 +44,7 @@ static size_t last_row(char *table, double *out, size_t most)
     return n;
 }
 
-Test(orientation, an_upright_top_spins_for_a_thousand_turns)
+Test(orientation, an_upright_top_spins_for_a_thousand_turns, PLAIN_ONLY)
 {
     place p = place_make();
     double row[4];
@@ -58,7 +59,7 @@ Test(orientation, an_upright_top_spins_for_a_thousand_turns)
 }
 
 /* Free bodies: energy and the momentum in space, from every special orientation, spinning about each axis. */
-Test(orientation, free_bodies_keep_their_momentum_in_space)
+Test(orientation, free_bodies_keep_their_momentum_in_space, PLAIN_ONLY)
 {
     static const char *const start[] = {"", "R_1=1, ", "R_2=1, ", "R_3=-1, ", "R_1=tan(pi/8), ", "R_1=1/sqrt(3), R_2=1/sqrt(3), R_3=1/sqrt(3), "};
     static const char *const spin[] = {"p=5", "q=5, p=1e-9", "r=5", "p=1, q=2, r=3"};
@@ -100,7 +101,7 @@ Test(orientation, a_twin_with_euler_angles_moves_alike)
     place_clear(&p);
 }
 
-Test(orientation, every_integrator_passes_full_turns)
+Test(orientation, every_integrator_passes_full_turns, PLAIN_ONLY)
 {
     static const char *const methods[] = {"rk8pd", "rkf45", "msadams", "adams", "bdf", "dormand-prince", "verner", "fehlberg", "esdirk",
                                           "midpoint-4", "dalembert-4", "energy-4", "relaxation-4", "relaxation-8"};
@@ -164,7 +165,7 @@ Test(orientation, frames_and_torques)
     place_clear(&p);
 }
 
-Test(orientation, analysis_is_written_in_matrix_entries)
+Test(orientation, analysis_is_written_in_matrix_entries, PLAIN_ONLY)
 {
     static const char *const wanted[] = {"FOUND: 3 independent currents", "Complete to degree 4", "m*g*l*R_zz", "R_zx", "r' = 0"};
     place p = place_make();

@@ -1,6 +1,7 @@
 #include "motion/sizes.h"
 
 #include <float.h>
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -8,19 +9,22 @@
 #include "base/linalg.h"
 #include "base/memory.h"
 
+enum { POINTS = 10, THIRDS = POINTS - 3 }; /* of a line, and third differences along it */
 enum { most_shorter = 60, least_levels = 4, most_levels = 64, between_measures = 32 };
 static const double shorter = 0.25;          /* factor from one tau that is tried to the next */
 static const double within = 0.25;           /* part of the tau that is found, which is used */
-/* From one state of a line to the next, as a part of the sizes, on a long and a short line: noise is seen on both, a kink
- * or a strong curvature on the long one only.  The noise is at most so many times less than fourth differences. */
-static const double apart[] = {0x1p-27, 0x1p-40}, noise = 4;
-static const double forgets = 0.25; /* what rounding was counts so much less after each measure */
+/* From one state of a line to the next, as a part of the sizes: far more than a rounding, and so short that rates bend
+ * by less than their rounding.  The noise is at most so many times less than third differences. */
+static const double apart = 0x1p-27, noise = 1.5;
 static const double disturbance = 4;         /* roundings of each state, whose effect on the rates is measured */
 /* a state has no digits if its rounding in a step is a larger part of its size */
 static const double drowned = 1e-3;
 /* The part of the tolerance that the rounding of another state may be, or the rounding of so many times tau: steps of
  * implicit methods may be far longer than the time in which the rates change by rounding. */
 static const double rest = 0.1, several = 4;
+/* A state that was once so many times its rounding has digits.  Near a place where the formulas lose theirs its error
+ * stays below such a part of its size. */
+static const double distinct = 1e3, most_noise = 1e-9;
 static const double grown = 1e3; /* a size that grows so much in one step of the iteration is not known yet */
 /* size of a state that nothing moves so far, as a part of the smallest size */
 static const double nothing = 1e-6;
@@ -31,51 +35,39 @@ static bool rate_at(nh_sizes *s, double t, const double *z, double *rate)
     return s->problem->rate(t, z, rate, s->problem->context) && nh_all_finite(s->problem->size, rate);
 }
 
-/* Is there a kink or a jump between the two states? */
-static bool across_wall(nh_sizes *s, double t, const double *a, const double *b)
+static double middle_of(size_t count, double *values)
 {
-    const nh_flow_problem *p = s->problem;
-    if (!p->walls) return false;
-    double *of_a = nh_alloc_array(2 * p->walls, sizeof *of_a), *of_b = of_a + p->walls;
-    bool across = !p->wall(t, a, of_a, p->context) || !p->wall(t, b, of_b, p->context);
-    for (size_t i = 0; i < p->walls && !across; i++) across = !(of_a[i] * of_b[i] > 0);
-    nh_free(of_a);
-    return across;
+    gsl_sort(values, 1, count);
+    return values[(count - 1) / 2];
 }
 
-/* Rounding of the rates, the largest so far: their change by rounding of states of these sizes, and what their fourth
+/* Rounding of the rates, the largest so far: their change by rounding of states of these sizes, and what third
  * differences along a short line say about the rounding inside their evaluation (More and Wild 2011, SIAM Journal on
  * Scientific Computing 33, 1292: computational noise).  Neither is seen in states that differ by single roundings: a
- * difference of large terms is a multiple of their last digit. */
+ * difference of large terms is a multiple of their last digit.  A kink or a jump on the line changes two or three of
+ * the differences, and not their median. */
 static void measure_rounding(nh_sizes *s, double t, const double *z, const double *size, double *rounding)
 {
-    enum { points = 5 };
-    static const double binomial[points] = {1, -4, 6, -4, 1};
     size_t n = s->problem->size;
-    double *moved = s->work + 3 * n, *f = moved + n, *last = f + n, *fourth = last + n, *linear = fourth + n,
-           *least = s->start + n;
+    double *moved = s->work + 3 * n, *f = s->line, slope[POINTS - 1], third[THIRDS];
     uint64_t random = 0x9e3779b97f4a7c15u + (uint64_t)s->followed;
-    for (size_t i = 0; i < n; i++) least[i] = INFINITY, linear[i] = 0;
-    for (int line = 0; line < 2; line++) {
-        memset(fourth, 0, n * sizeof *fourth);
-        for (int k = 0; k < points; k++) {
-            uint64_t same = random;
-            for (size_t i = 0; i < n; i++) {
-                same = same * 6364136223846793005u + 1442695040888963407u;
-                /* unequal changes: equal ones of several states may be a symmetry */
-                moved[i] = z[i] + k * apart[line] * size[i] * ((double)(int64_t)same * 0x1p-63);
-            }
-            if (!rate_at(s, t, moved, f)) return;
-            for (size_t i = 0; i < n; i++) {
-                if (k > 0 && line == 0) linear[i] = fmax(linear[i], fabs(f[i] - last[i]));
-                last[i] = f[i], fourth[i] += binomial[k] * f[i];
-            }
+    for (int k = 0; k < POINTS; k++) {
+        uint64_t same = random;
+        for (size_t i = 0; i < n; i++) {
+            same = same * 6364136223846793005u + 1442695040888963407u;
+            /* unequal changes: equal ones of several states may be a symmetry */
+            moved[i] = z[i] + k * apart * size[i] * ((double)(int64_t)same * 0x1p-63);
         }
-        if (line == 0 && across_wall(s, t, z, moved)) return;
-        for (size_t i = 0; i < n; i++) least[i] = fmin(least[i], fabs(fourth[i]));
+        if (!rate_at(s, t, moved, f + (size_t)k * n)) return;
     }
-    for (size_t i = 0; i < n; i++)
-        rounding[i] = fmax(rounding[i], fmax(linear[i] * (disturbance * DBL_EPSILON / apart[0]), least[i] / noise));
+    for (size_t i = 0; i < n; i++) {
+        const double *at = f + i;
+        for (int k = 0; k + 1 < POINTS; k++, at += n) slope[k] = at[n] - at[0];
+        for (int k = 0; k < THIRDS; k++) third[k] = fabs(slope[k + 2] - 2 * slope[k + 1] + slope[k]);
+        for (int k = 0; k + 1 < POINTS; k++) slope[k] = fabs(slope[k]);
+        double linear = middle_of(POINTS - 1, slope), bent = middle_of(THIRDS, third);
+        rounding[i] = fmax(rounding[i], fmax(linear * (disturbance * DBL_EPSILON / apart), bent / noise));
+    }
 }
 
 /* A state whose rate grows so much is zero for the moment, if rounding is what it has. */
@@ -157,11 +149,13 @@ static bool sizes_within(nh_sizes *s, double t, double tau, const double *z, con
 
 static void allocate(nh_sizes *s, const nh_flow_problem *problem)
 {
-    *s = (nh_sizes){.problem = problem, .size = nh_alloc_array(13 * problem->size, sizeof *s->size)};
+    *s = (nh_sizes){.problem = problem, .size = nh_alloc_array((13 + POINTS) * problem->size, sizeof *s->size)};
     s->rounding = s->size + problem->size;
     s->reach = s->rounding + problem->size;
     s->work = s->reach + problem->size;
     s->start = s->work + 8 * problem->size;
+    s->normal = s->start + problem->size;
+    s->line = s->normal + problem->size;
 }
 
 /* Measures rounding with what the states can be: where the sizes of the others make more of a state within tau, its
@@ -174,6 +168,13 @@ static void measure(nh_sizes *s, double t, const double *z, double least)
         double made = s->pace * s->rounding[i];
         s->reach[i] = fmax(s->reach[i], made > least * s->size[i] ? made / (disturbance * DBL_EPSILON) : s->size[i]);
     }
+}
+
+/* Which states have digits. */
+static void note_normal(nh_sizes *s)
+{
+    for (size_t i = 0; i < s->problem->size; i++)
+        if (s->size[i] > distinct * s->pace * s->rounding[i]) s->normal[i] = 1;
 }
 
 /* The time, at most tau, in which no state that is not zero at the start could change by more than its size: on the
@@ -223,6 +224,7 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     s->pace = pace_of(s, z);
     for (int level = 0; level < least_levels; level++) measure(s, begin + tau, to, 0);
     fill(s);
+    note_normal(s);
     return true;
 }
 
@@ -253,16 +255,18 @@ void nh_sizes_follow(nh_sizes *s, double t, const double *z)
         if (fabs(z[i]) > s->size[i]) s->size[i] = fabs(z[i]); /* false also for NAN */
     s->followed++;
     if (s->followed % between_measures == 0 || (s->followed & (s->followed - 1)) == 0) {
-        for (size_t i = 0; i < s->problem->size; i++) s->rounding[i] *= forgets;
         measure(s, t, z, drowned);
+        note_normal(s);
     }
 }
 
 double nh_sizes_absolute(const nh_sizes *s, double rtol, size_t i)
 {
     double own = rtol * s->part * s->size[i], rounding = s->step * s->rounding[i];
-    double most = fmax(rest * rtol * s->size[i], several * s->pace * s->rounding[i]);
-    if (rounding < drowned * s->size[i]) rounding = fmin(rounding, most);
+    double noise_of = several * s->pace * s->rounding[i];
+    if (s->normal[i] > 0) noise_of = fmin(noise_of, most_noise * s->size[i]);
+    if (s->normal[i] > 0 || rounding < drowned * s->size[i])
+        rounding = fmin(rounding, fmax(rest * rtol * s->size[i], noise_of));
     return fmax(own, rounding);
 }
 

@@ -25,6 +25,8 @@ typedef struct {
     double *size, *rounding; /* of each state, and of its rate */
     double *reach;           /* what the sizes of the others can make of each state within tau */
     double *work, *start;    /* start: the rates there */
+    double *normal;          /* 1: the state has been far larger than its rounding; 0 otherwise */
+    double *line;            /* rates along a short line */
     const double *least;     /* nh_flow_options.least */
     double tau;              /* the time in which the right-hand side changes by about its own size at the start */
     double pace;             /* at most tau: not longer than the fast times of a stiff system, either */
