@@ -451,3 +451,22 @@ Test(simulate, the_end_may_be_an_expression)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* At every whole period the velocity along the axis is zero: its error is measured by its size along the motion. */
+Test(simulate, accuracy_is_relative_to_the_motion, PLAIN_ONLY)
+{
+    place p = place_make();
+    write_here(&p, "orbit.yaml", "name: orbit\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2)\n");
+    finished f = run_vector(&p, &(manner){0}, (char *[]){p.program, "simulate", "orbit.yaml", "--initial", "x=0.1, y'=sqrt(19)", "--until", "2*pi", "--step", "6.283185307179586",
+                                                         "--accuracy", "1e-8", "--quiet", NULL});
+    double row[3] = {0, 0, 0};
+    char *last = strstr(f.out, "\n6.28");
+    cr_assert_eq(f.code, 0, "exit code %d\n%s", f.code, f.err);
+    cr_assert(last && sscanf(last, "%lf,%lf,%lf", &row[0], &row[1], &row[2]) == 3, "%s", f.out);
+    cr_expect_float_eq(row[1], 0.1, 1e-7);
+    finished_clear(&f);
+    f = run_vector(&p, &(manner){0}, (char *[]){p.program, "simulate", "orbit.yaml", "--watch", "energy", NULL});
+    cr_expect(f.code == 2 && strstr(f.err, "the energy is written E"), "exit code %d\n%s", f.code, f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}

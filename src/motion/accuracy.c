@@ -378,6 +378,7 @@ static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, 
     s.request = &s.own;
     s.floor = nh_alloc_array(request->n + 1, sizeof *s.floor);
     nh_accuracy_zeros(request, s.floor);
+    nh_accuracy_between(request, s.floor);
     nh_trajectory *t = tighten(&s, error);
     if (t) {
         bool good = t->motion->complete && isfinite(accuracy->estimate) && accuracy->estimate < eps / 2;

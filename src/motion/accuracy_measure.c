@@ -51,6 +51,27 @@ bool nh_accuracy_zeros(const nh_trajectory_request *q, double *floor)
     return good;
 }
 
+void nh_accuracy_between(const nh_trajectory_request *request, double *floor)
+{
+    enum { few = 64, places = 257 };
+    static const double loose = 1e-6;
+    nh_trajectory_request q = *request;
+    nh_options options = *request->options;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (q.count < 2 || q.count >= few) return;
+    double *times = nh_alloc_array(places, sizeof *times), begin = q.times[0], span = q.times[q.count - 1] - begin;
+    for (size_t i = 0; i < places; i++) times[i] = begin + span * (double)i / (places - 1);
+    options.tolerance = loose;
+    q.options = &options, q.method = NULL, q.step = 0;
+    q.count = places, q.times = times, q.events = q.impulses = 0;
+    nh_trajectory *t = nh_trajectory_create(&q, &ignored);
+    for (size_t i = 0; t && i < q.n * t->motion->count; i++)
+        if (isfinite(t->value[i])) floor[i % q.n] = fmax(floor[i % q.n], fabs(t->value[i]));
+    nh_trajectory_free(t);
+    nh_free(times);
+}
+
 void nh_accuracy_terms(const nh_trajectory_request *q, const nh_trajectory *t, double *floor)
 {
     if (!q->by_terms || !t || t->scene) return;

@@ -29,6 +29,8 @@ double nh_accuracy_difference(size_t count, size_t n, const double *a, const dou
 /* The least scales of the wanted expressions: INFINITY for those that are zero along the motion (vanishing.h), 0 for
    others.  False: there is no motion. */
 bool nh_accuracy_zeros(const nh_trajectory_request *request, double *floor);
+/* Raises the floors to the largest values along the motion, where its outputs are few and may all be at zeros. */
+void nh_accuracy_between(const nh_trajectory_request *request, double *floor);
 /* Raises the floors of the expressions of request->by_terms to the largest of their terms along a motion. */
 void nh_accuracy_terms(const nh_trajectory_request *request, const nh_trajectory *along, double *floor);
 

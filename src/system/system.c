@@ -112,6 +112,7 @@ static const char *suggest(const scope *s, const char *name, nh_parse_fault *fau
 static void translate(const scope *s, const char *name, const char *near, nh_parse_fault *fault)
 {
     const nh_system *y = s->system;
+    if (!strcmp(name, "energy")) snprintf(fault->hint, sizeof fault->hint, "the energy is written E");
     if (!strcmp(name, "e"))
         snprintf(fault->hint, sizeof fault->hint,
                  "the exponential function is written exp(...), and 1e-3 without blanks");
