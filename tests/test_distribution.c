@@ -294,7 +294,7 @@ Test(distribution, growth_is_the_same_for_every_seed)
 }
 
 /* The coefficients of this bicycle's brackets differ by many orders of magnitude from seed to seed. */
-Test(distribution, the_heights_of_a_bicycle_are_hidden_constraints)
+Test(distribution, the_heights_of_a_bicycle_are_hidden_constraints, PLAIN_ONLY)
 {
     const char *path = "tests/data/bicycle_floating.yaml";
     for (uint64_t seed = 1; seed <= 10; seed++) {

@@ -9,6 +9,7 @@
 #include "mechanics.h"
 #include "program.h"
 #include "evaluate/named_value.h"
+#include "sweep.h"
 
 static const char central[] = "name: central\nparameters: [{name: m, value: 1}]\nfunctions: [\"V(r)\"]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                               "lagrangian: m/2*(x'^2 + y'^2) - V(sqrt(x^2 + y^2))\n";
@@ -113,7 +114,7 @@ static bool has(const nh_analysis *r, const char *text)
 }
 
 /* Currents of all members of a family, and none of a single member. */
-Test(functions, currents_hold_for_every_function)
+Test(functions, currents_hold_for_every_function, PLAIN_ONLY)
 {
     static const struct {
         const char *text, *momentum;

@@ -6,6 +6,7 @@
 #include "base/linalg.h"
 #include "commands/linearize.h"
 #include "program.h"
+#include "sweep.h"
 
 static nh_linearized *asked(const char *system, const char *at, const char *over, bool project, nh_error *error)
 {
@@ -86,7 +87,7 @@ static void compare_bicycle(const nh_linearized *x, const nh_linear_equations *e
 }
 
 /* Upright, straight, at rest and at any speed: where the charts of the wheels' velocities are singular. */
-Test(linearize, whipples_bicycle_has_the_matrices_of_the_benchmark)
+Test(linearize, whipples_bicycle_has_the_matrices_of_the_benchmark, PLAIN_ONLY)
 {
     nh_linearized *x = linearized("whipple_bicycle", NULL, "x'=0,1,5/2,4,5,7");
     cr_assert_eq(x->rows, 6);

@@ -122,7 +122,7 @@ Test(orientation, every_integrator_passes_full_turns, PLAIN_ONLY)
 }
 
 /* A ball by angular velocities in space: x' = r w_y; a disk that rolls straight and upright. */
-Test(orientation, wheels_and_balls_roll)
+Test(orientation, wheels_and_balls_roll, PLAIN_ONLY)
 {
     place p = place_make();
     double row[6];

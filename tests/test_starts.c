@@ -151,7 +151,7 @@ Test(starts, a_leaning_bicycle_steers_straight)
 }
 
 /* Straight and upright at constant speed: the symmetric motion stays so, whatever the angle of the head. */
-Test(starts, straight_and_upright_motions_stay_so)
+Test(starts, straight_and_upright_motions_stay_so, PLAIN_ONLY)
 {
     static const struct {
         const char *file, *initial;
