@@ -126,7 +126,7 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     memcpy(work->old, NV_DATA_S(work->state), bytes);
     int flag = set_stop_time(work->arkode, target);
     if (flag >= 0) flag = evolve(work->arkode, target, work->state, time, ARK_ONE_STEP);
-    motion->evaluations = work->evaluations;
+    motion->evaluations = work->evaluations + work->sizes.evaluations;
     if (work->solver) jacobians_of(work->arkode, &motion->jacobians);
     if (flag == ARK_TSTOP_RETURN) *time = target;
     work->before = before, work->now = *time;
@@ -221,7 +221,7 @@ static bool set_up(pairs_work *work, nh_arkode_method method, const double *init
     if (!work->state) return false;
     memcpy(NV_DATA_S(work->state), initial, work->problem->size * sizeof *initial);
     if (!nh_sizes_open(&work->sizes, work->problem, options, initial, work->count, work->times)) return false;
-    work->evaluations += work->sizes.evaluations;
+    work->evaluations += work->sizes.evaluations, work->sizes.evaluations = 0;
     work->arkode = ARKStepCreate(implicit ? NULL : call_rate, implicit ? call_rate : NULL, work->times[0], work->state,
                                  work->sundials.context);
     return work->arkode && nh_sundials_listen(ARKStep, work->arkode, &work->sundials) &&

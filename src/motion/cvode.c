@@ -203,7 +203,7 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
     if (work->step > work->failed_step + NH_STUCK_AFTER) /* after so many good steps the message is outdated */
         work->failed = NULL;
     int flag = CVode(work->cvode, work->stop, work->state, time, CV_ONE_STEP);
-    motion->evaluations = work->evaluations;
+    motion->evaluations = work->evaluations + work->sizes.evaluations;
     CVodeGetNumJacEvals(work->cvode, &motion->jacobians);
     count_set_ups(work);
     if (flag >= 0) {
@@ -214,7 +214,8 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
     }
     if (work->across) {
         *time = work->across->end_time;
-        motion->evaluations = work->evaluations += work->across->evaluations;
+        work->evaluations += work->across->evaluations;
+        motion->evaluations = work->evaluations + work->sizes.evaluations;
         return work->across->complete && !work->kinks.held ? *time == work->stop ? NH_STEP_LAST : NH_STEP_ON
                : motion->guard_hit >= 0                    ? NH_STEP_LAST
                                                            : NH_STEP_FAILED;
@@ -301,7 +302,7 @@ nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_
     work.root = nh_alloc_array(problem->guards, sizeof *work.root);
     work.old = nh_alloc_array(problem->size, sizeof *work.old);
     good = nh_sizes_open(&work.sizes, problem, options, initial, count, times);
-    work.evaluations = work.sizes.evaluations;
+    work.evaluations = work.sizes.evaluations, work.sizes.evaluations = 0;
     nh_kinks_begin(&work.kinks, problem, initial, count, times);
     good = good && create_objects(&work, options->method) && set_up(&work, times[0], initial);
     if (!good) {

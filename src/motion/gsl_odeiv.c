@@ -177,7 +177,7 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
     memcpy(work->old, work->state, size * sizeof *work->old);
     int flag = gsl_odeiv2_evolve_apply(work->driver->e, work->driver->c, work->driver->s, &work->system, time, target,
                                        &work->h, work->state);
-    motion->evaluations = work->evaluations;
+    motion->evaluations = work->evaluations + work->sizes.evaluations;
     work->now = *time;
     bool last = *time == work->times[work->count - 1];
     nh_guard_verdict verdict =
@@ -256,7 +256,7 @@ static bool set_up(explicit_work *work, nh_gsl_odeiv_method method)
     size_t size = work->problem->size;
     gsl_set_error_handler_off();
     if (!nh_sizes_open(&work->sizes, work->problem, work->options, work->state, work->count, work->times)) return false;
-    work->evaluations += work->sizes.evaluations;
+    work->evaluations += work->sizes.evaluations, work->sizes.evaluations = 0;
     work->h = first_step(work, work->times[work->count - 1] - work->times[0]);
     if (work->h != 0) work->driver = driver_of(work, *types[method]);
     if (work->driver && method != NH_MSADAMS)
@@ -293,7 +293,7 @@ nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *probl
                               .dense = work.between != NULL,
                               .rate_context = &work};
         nh_motion_run(motion, count, times, options, &stepper);
-        motion->evaluations = work.evaluations;
+        motion->evaluations = work.evaluations + work.sizes.evaluations;
     } else {
         nh_fail(error, NH_NUMERIC, "", "the right-hand side cannot be evaluated at the initial state (t = %.10g)",
                 times[0]);
