@@ -58,6 +58,18 @@ Test(orientation, an_upright_top_spins_for_a_thousand_turns, PLAIN_ONLY)
     place_clear(&p);
 }
 
+/* The limits of a motion hold for all of its parts together. */
+Test(orientation, limits_count_all_parts)
+{
+    place p = place_make();
+    write_here(&p, "top.yaml", top);
+    finished f = run_vector(&p, &(manner){0}, (char *[]){p.program, "simulate", "top.yaml", "--initial", "r=5, p=0.1", "--until", "100", "--step", "50", "--option", "steps=300",
+                                                         "--method", "rk8pd", NULL});
+    cr_expect(f.code == 5 && strstr(f.err, "steps was reached"), "exit code %d\n%s", f.code, f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* Free bodies: energy and the momentum in space, from every special orientation, spinning about each axis. */
 Test(orientation, free_bodies_keep_their_momentum_in_space, PLAIN_ONLY)
 {

@@ -88,7 +88,16 @@ nh_motion *nh_turns_flow(nh_turns_part *run, const void *method, const nh_flow_p
         left[0] = motion->end_time;
         memcpy(left + 1, times + motion->count, rest * sizeof *left);
         nh_motion *part = run(method, &p, z, rest + 1, left, &o, error);
-        if (!part) break;
+        if (!part && motion->steps == 0) {
+            nh_motion_free(motion);
+            motion = NULL;
+            break;
+        }
+        if (!part) { /* what is there stays */
+            nh_motion_note(motion, "%s", error->what);
+            nh_error_clear(error);
+            break;
+        }
         size_t before = motion->count;
         bool ahead = part->end_time != motion->end_time;
         append(motion, part);
@@ -103,7 +112,14 @@ nh_motion *nh_turns_flow(nh_turns_part *run, const void *method, const nh_flow_p
         memcpy(z, motion->end_state, size * sizeof *z);
         problem->renew(z, problem->context);
         memcpy(motion->end_state, z, size * sizeof *z);
-        if (o.effort > 0) o.effort = fmax(o.effort - motion->effort, 1);
+        if (turned && !ahead) nh_motion_note(motion, "the motion does not advance at t = %.10g", motion->end_time);
+        if (o.effort > 0) o.effort = fmax(options->effort - motion->effort, 1);
+        if (more && options->max_steps > 0 && (double)motion->steps >= options->max_steps) {
+            motion->limited = true, more = false;
+            nh_motion_note(motion,
+                           "the limit of %g steps was reached at t = %.10g; allow more steps or a larger tolerance",
+                           options->max_steps, motion->end_time);
+        }
     }
     if (motion) motion->complete = motion->count == count || motion->stopped;
     nh_free(z);

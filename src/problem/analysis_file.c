@@ -295,7 +295,8 @@ static bool read_validate(reader *r)
     }
     node = nh_deck_get(map, "initial");
     if (!node) return true;
-    return nh_deck_is(a->deck, node, NH_DECK_MAP, "initial {x: 0, ...}", r->error) && nh_analysis_file_read_initial(r, node);
+    return nh_deck_is(a->deck, node, NH_DECK_MAP, "initial {x: 0, ...}", r->error) &&
+           nh_analysis_file_read_initial(r, node);
 }
 
 static bool shape_expression(void *context, const nh_deck_node *node, nh_ex *out)
