@@ -153,19 +153,23 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
 }
 
 /* Inside the last implicit step, where events are looked for: a motion of its own from the beginning of the step
- * (ARKODE interpolates long steps badly). */
+ * (ARKODE interpolates long steps badly), with the errors that the step may make: a state that is zero there has no
+ * size by itself. */
 static bool state_inside(pairs_work *work, double time, double *state)
 {
     const double times[2] = {work->before, time};
     nh_flow_options options = *work->options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    options.watch = NULL, options.singular = NULL;
+    double *scale = nh_alloc_array(work->problem->size + 1, sizeof *scale);
+    for (size_t i = 0; i < work->problem->size; i++) scale[i] = nh_sizes_absolute(&work->sizes, work->rtol, i) / work->rtol;
+    options.watch = NULL, options.singular = NULL, options.scale = scale;
     nh_motion *motion = nh_arkode(NH_ESDIRK_5, work->problem, work->old, 2, times, &options, &ignored);
     bool good = motion && motion->complete;
     if (good) memcpy(state, motion->state + work->problem->size, work->problem->size * sizeof *state);
     if (motion) work->evaluations += motion->evaluations;
     nh_motion_free(motion);
+    nh_free(scale);
     return good;
 }
 
