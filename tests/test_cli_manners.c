@@ -42,7 +42,7 @@ Test(cli_manners, help_fits_a_screen, PLAIN_ONLY)
 }
 
 /* Every option that a help screen names is taken by the command line, and completed. */
-Test(cli_manners, completions_know_every_option)
+Test(cli_manners, completions_know_every_option, PLAIN_ONLY)
 {
     place p = place_make();
     static const char *const commands[] = {"analyze", "verify", "simulate", "benchmark", "reduce"}, *const shells[] = {"bash", "zsh", "fish", "man"};
@@ -366,7 +366,7 @@ Test(cli_manners, spectrum_and_drifts_are_drawn, PLAIN_ONLY)
 
 /* ---- slips of the hand ---- */
 
-Test(cli_manners, a_slip_of_the_hand_is_named)
+Test(cli_manners, a_slip_of_the_hand_is_named, PLAIN_ONLY)
 {
     static const struct { const char *line, *err; } list[] = {
         {"analyze sleigh -o", "nhsym: `-o` needs a value\nhint: write -o DIR; `nhsym help analyze` describes the option\n"},

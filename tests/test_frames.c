@@ -10,7 +10,7 @@
 
 /* By its centre of mass the equations of the sleigh are long in x' and phi'; along the blade they are v' = a w^2, w' = -m a v w/(I + m a^2), whose motion
  * takes the time (I + m a^2) atanh(sqrt(m) v/r)/(sqrt(m) a r), r^2 = m v^2 + (I + m a^2) w^2. */
-Test(frames, a_sleigh_by_its_centre_of_mass)
+Test(frames, a_sleigh_by_its_centre_of_mass, PLAIN_ONLY)
 {
     static const char *const constraint[] = {"-x'*sin(phi) + y'*cos(phi) = a*phi'", "x'*sin(phi) - y'*cos(phi) + a*phi' = 0"};
     for (size_t i = 0; i < sizeof constraint / sizeof *constraint; i++) {

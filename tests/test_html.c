@@ -217,7 +217,7 @@ Test(html, every_number_is_in_the_json)
 }
 
 /* The pages of the other commands, in the same way; each answers first and ends with what it takes to repeat it. */
-Test(html, every_command_has_its_page)
+Test(html, every_command_has_its_page, PLAIN_ONLY)
 {
     static const struct {
         const char *line, *also[2], *answer;

@@ -102,7 +102,7 @@ Test(linearize, whipples_bicycle_has_the_matrices_of_the_benchmark, PLAIN_ONLY)
 }
 
 /* Table 2 of the benchmark at v = 0, and its weave and capsize speeds. */
-Test(linearize, whipples_bicycle_has_the_eigenvalues_and_speeds_of_the_benchmark)
+Test(linearize, whipples_bicycle_has_the_eigenvalues_and_speeds_of_the_benchmark, PLAIN_ONLY)
 {
     nh_linearized *x = linearized("whipple_bicycle", "x'=0", NULL);
     const nh_linear_equations *e = x->row[0].equations;

@@ -69,7 +69,7 @@ Test(lists, what_is_missing_is_told)
 }
 
 /* What was typed is shown with a caret, as an error of the command line, whichever option it stands behind. */
-Test(lists, an_expression_is_shown_as_it_was_typed)
+Test(lists, an_expression_is_shown_as_it_was_typed, PLAIN_ONLY)
 {
     static const struct { const char *line, *shown; } wrong[] = {
         {"analyze lagrange_top --on 'p_p=0, p_ss = 0'", "--on:1: unknown name `p_ss`\n  p_ss = 0\n  ^\nhint: did you mean `p_s`?"},

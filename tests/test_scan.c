@@ -481,7 +481,7 @@ Test(scan, another_scan_in_the_folder_is_refused, PLAIN_ONLY)
     place_clear(&p);
 }
 
-Test(scan, typing_errors_are_explained)
+Test(scan, typing_errors_are_explained, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "sine.yaml", sine);

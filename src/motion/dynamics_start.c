@@ -14,6 +14,8 @@
 
 /* relative: smaller singular values of F are zero; a smaller residual is rounding of the numbers that were given */
 static const double dependent_row = 1e-10, on_constraint = 1e-9;
+/* A velocity that is larger than all that it follows from by this factor follows by a coefficient that is rounding. */
+static const double follows_by_rounding = 1e12;
 
 struct nh_start {
     const nh_model *model;
@@ -355,6 +357,29 @@ static bool fit(nh_dynamics *d, const nh_state *state, bool project, double *z, 
                                 "which takes the nearest velocities that satisfy the constraints");
 }
 
+/* Where hinges are at a right angle, pi/2 up to rounding, a velocity of 1 would need others of 1e16 and more. */
+static bool follow(nh_start *c, const nh_state *state, const double *v, nh_error *error)
+{
+    double given = 0, largest = 0;
+    size_t which = 0;
+    if (!c->k || !evaluate(c, state->t, state->q, v)) return true;
+    for (size_t s = 0; s < c->m; s++) {
+        double size = fabs(v[s] / c->scale[s]);
+        if (!state->given || state->given[s]) given = fmax(given, size);
+        else if (size > largest) largest = size, which = s;
+    }
+    for (size_t a = 0; a < c->k; a++) { /* f = A v + offset */
+        double offset = c->out[a];
+        for (size_t s = 0; s < c->m; s++) offset -= c->A[a + s * c->k] * v[s] / c->scale[s];
+        given = fmax(given, fabs(offset));
+    }
+    if (!(largest > follows_by_rounding * given) || given == 0) return true;
+    const char *name = c->model->system->coordinate[which].name;
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: by these %s' would be %.3g", name, v[which]);
+    return nh_error_hint(error, "here the given velocities follow from others by coefficients that are zero, up to rounding: "
+                                "give %s' instead, or another position", name);
+}
+
 bool nh_dynamics_start_all(nh_dynamics *d, const nh_state *state, bool project, double *z, double *v, nh_error *error)
 {
     if (!nh_dynamics_watched(d->model)) {
@@ -362,9 +387,10 @@ bool nh_dynamics_start_all(nh_dynamics *d, const nh_state *state, bool project, 
         bool first = project && !d->model->chart->quasi && d->model->k;
         return (!first || velocities(start_of(d), state, true, v, error)) &&
                fit(d, first ? &moved : state, project, z, error) &&
-               (nh_dynamics_velocities(d, state->t, z, v) || not_finite(state, error));
+               (nh_dynamics_velocities(d, state->t, z, v) || not_finite(state, error)) &&
+               follow(start_of(d), state, v, error);
     }
-    bool good = velocities(start_of(d), state, project, v, error);
+    bool good = velocities(start_of(d), state, project, v, error) && follow(start_of(d), state, v, error);
     memcpy(z, state->q, d->m * sizeof *z);
     for (size_t i = 0; i < d->n && good; i++) z[d->m + i] = v[d->model->chart->free[i]];
     return good;

@@ -24,7 +24,7 @@ static const double drowned = 1e-3;
 static const double rest = 0.1, several = 4;
 /* A state that was once so many times its rounding has digits.  Near a place where the formulas lose theirs its error
  * stays below such a part of its size. */
-static const double distinct = 1e3, most_noise = 1e-9;
+static const double distinct = 1e9, most_noise = 1e-9;
 static const double grown = 1e3; /* a size that grows so much in one step of the iteration is not known yet */
 /* size of a state that nothing moves so far, as a part of the smallest size */
 static const double nothing = 1e-6;
@@ -170,11 +170,11 @@ static void measure(nh_sizes *s, double t, const double *z, double least)
     }
 }
 
-/* Which states have digits. */
-static void note_normal(nh_sizes *s)
+/* Which states have digits now; what a state is expected to become says nothing. */
+static void note_normal(nh_sizes *s, const double *z)
 {
     for (size_t i = 0; i < s->problem->size; i++)
-        if (s->size[i] > distinct * s->pace * s->rounding[i]) s->normal[i] = 1;
+        if (fabs(z[i]) > distinct * s->pace * s->rounding[i]) s->normal[i] = 1;
 }
 
 /* The time, at most tau, in which no state that is not zero at the start could change by more than its size: on the
@@ -224,7 +224,7 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     s->pace = pace_of(s, z);
     for (int level = 0; level < least_levels; level++) measure(s, begin + tau, to, 0);
     fill(s);
-    note_normal(s);
+    note_normal(s, z);
     return true;
 }
 
@@ -256,13 +256,13 @@ void nh_sizes_follow(nh_sizes *s, double t, const double *z)
     s->followed++;
     if (s->followed % between_measures == 0 || (s->followed & (s->followed - 1)) == 0) {
         measure(s, t, z, drowned);
-        note_normal(s);
+        note_normal(s, z);
     }
 }
 
 double nh_sizes_absolute(const nh_sizes *s, double rtol, size_t i)
 {
-    double own = rtol * s->part * s->size[i], rounding = s->step * s->rounding[i];
+    double own = rtol * s->part * s->size[i], rounding = several * s->step * s->rounding[i];
     double noise_of = several * s->pace * s->rounding[i];
     if (s->normal[i] > 0) noise_of = fmin(noise_of, most_noise * s->size[i]);
     if (s->normal[i] > 0 || rounding < drowned * s->size[i])
