@@ -162,7 +162,8 @@ static bool state_inside(pairs_work *work, double time, double *state)
     nh_error ignored;
     nh_error_clear(&ignored);
     double *scale = nh_alloc_array(work->problem->size + 1, sizeof *scale);
-    for (size_t i = 0; i < work->problem->size; i++) scale[i] = nh_sizes_absolute(&work->sizes, work->rtol, i) / work->rtol;
+    for (size_t i = 0; i < work->problem->size; i++)
+        scale[i] = nh_sizes_absolute(&work->sizes, work->rtol, i) / work->rtol;
     options.watch = NULL, options.singular = NULL, options.scale = scale;
     nh_motion *motion = nh_arkode(NH_ESDIRK_5, work->problem, work->old, 2, times, &options, &ignored);
     bool good = motion && motion->complete;

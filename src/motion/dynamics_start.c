@@ -375,9 +375,12 @@ static bool follow(nh_start *c, const nh_state *state, const double *v, nh_error
     }
     if (!(largest > follows_by_rounding * given) || given == 0) return true;
     const char *name = c->model->system->coordinate[which].name;
-    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: by these %s' would be %.3g", name, v[which]);
-    return nh_error_hint(error, "here the given velocities follow from others by coefficients that are zero, up to rounding: "
-                                "give %s' instead, or another position", name);
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: by these %s' would be %.3g", name,
+            v[which]);
+    return nh_error_hint(error,
+                         "here the given velocities follow from others by coefficients that are zero, up to rounding: "
+                         "give %s' instead, or another position",
+                         name);
 }
 
 bool nh_dynamics_start_all(nh_dynamics *d, const nh_state *state, bool project, double *z, double *v, nh_error *error)
@@ -404,35 +407,12 @@ bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, doub
     return good;
 }
 
-/* Expressions of (t, q, v) at a state. */
-static void values_at(const nh_model *o, const nh_state *state, size_t n, const nh_ex *e, double *value)
-{
-    const nh_system *y = o->system;
-    nh_ex *in = nh_alloc_array(1 + 2 * o->m, sizeof *in);
-    double *z = nh_alloc_array(1 + 2 * o->m, sizeof *z);
-    in[0] = y->t;
-    z[0] = state->t;
-    for (size_t s = 0; s < o->m; s++) {
-        in[1 + s] = y->coordinate[s].q;
-        in[1 + o->m + s] = y->coordinate[s].v;
-        z[1 + s] = state->q[s];
-        z[1 + o->m + s] = state->v[s];
-    }
-    nh_tape *tape = nh_tape_create(o->dag, 1 + 2 * o->m, in, n, e, y->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, z, value);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(z);
-    nh_free(in);
-}
-
 bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
 {
     const nh_chart *c = o->chart;
     double root;
     if (!c->branch || (state->given && !state->given[c->dependent[0]])) return false;
-    values_at(o, state, 1, &c->root, &root);
+    nh_values_at_state(o, state, 1, &c->root, &root);
     return root < 0;
 }
 

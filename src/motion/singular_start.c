@@ -9,6 +9,7 @@
 #include "graph/measure.h"
 #include "graph/print.h"
 #include "graph/terms.h"
+#include "motion/dynamics_internal.h"
 
 enum { most_named = 6, most_shown = 60 };
 
@@ -49,18 +50,16 @@ static void gather(nh_dag *d, nh_ex e, bool *seen, list *bases)
     }
 }
 
-/* Values of expressions of (t, q, v) and quasi-velocities, which are zero. */
-static void values_at(const place *p, size_t n, const nh_ex *e, double *value)
+void nh_values_at_state(const nh_model *o, const nh_state *state, size_t n, const nh_ex *e, double *value)
 {
-    const nh_model *o = p->model;
     const nh_system *y = o->system;
     size_t m = o->m, extra = o->chart->quasi ? o->n : 0, inputs = 1 + 2 * m + extra;
     nh_ex *in = nh_alloc_array(inputs, sizeof *in);
     double *z = nh_alloc_array(inputs, sizeof *z);
-    in[0] = y->t, z[0] = p->state->t;
+    in[0] = y->t, z[0] = state->t;
     for (size_t s = 0; s < m; s++) {
-        in[1 + s] = y->coordinate[s].q, z[1 + s] = p->state->q[s];
-        in[1 + m + s] = y->coordinate[s].v, z[1 + m + s] = p->v[s];
+        in[1 + s] = y->coordinate[s].q, z[1 + s] = state->q[s];
+        in[1 + m + s] = y->coordinate[s].v, z[1 + m + s] = state->v[s];
     }
     for (size_t i = 0; i < extra; i++) in[1 + 2 * m + i] = o->chart->w[i];
     nh_tape *tape = nh_tape_create(o->dag, inputs, in, n, e, y->parameters, o->parameter, o->parameter_value);
@@ -70,6 +69,12 @@ static void values_at(const place *p, size_t n, const nh_ex *e, double *value)
     nh_tape_free(tape);
     nh_free(z);
     nh_free(in);
+}
+
+/* Velocities that were not given are zero. */
+static void values_at(const place *p, size_t n, const nh_ex *e, double *value)
+{
+    nh_values_at_state(p->model, &(nh_state){.t = p->state->t, .q = p->state->q, .v = p->v}, n, e, value);
 }
 
 /* "x = y = 0", "t = 0": the symbols that are named, with their values. */
