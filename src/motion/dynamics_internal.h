@@ -27,7 +27,7 @@ struct nh_dynamics {
 void nh_dynamics_start_free(nh_start *start);
 
 /* Values of n expressions of (t, q, v), and of quasi-velocities, which are taken as zero, at a state. */
-void nh_values_at_state(const nh_model *model, const nh_state *state, size_t n, const nh_ex *e, double *value);
+void nh_singular_start_values(const nh_model *model, const nh_state *state, size_t n, const nh_ex *e, double *value);
 
 /* rho and R of a model (R column-major, m x n), as functions of the chart's point. */
 nh_tape *nh_dynamics_velocity_tape(const nh_model *model);

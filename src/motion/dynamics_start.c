@@ -412,7 +412,7 @@ bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
     const nh_chart *c = o->chart;
     double root;
     if (!c->branch || (state->given && !state->given[c->dependent[0]])) return false;
-    nh_values_at_state(o, state, 1, &c->root, &root);
+    nh_singular_start_values(o, state, 1, &c->root, &root);
     return root < 0;
 }
 

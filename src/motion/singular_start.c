@@ -50,7 +50,7 @@ static void gather(nh_dag *d, nh_ex e, bool *seen, list *bases)
     }
 }
 
-void nh_values_at_state(const nh_model *o, const nh_state *state, size_t n, const nh_ex *e, double *value)
+void nh_singular_start_values(const nh_model *o, const nh_state *state, size_t n, const nh_ex *e, double *value)
 {
     const nh_system *y = o->system;
     size_t m = o->m, extra = o->chart->quasi ? o->n : 0, inputs = 1 + 2 * m + extra;
@@ -74,7 +74,7 @@ void nh_values_at_state(const nh_model *o, const nh_state *state, size_t n, cons
 /* Velocities that were not given are zero. */
 static void values_at(const place *p, size_t n, const nh_ex *e, double *value)
 {
-    nh_values_at_state(p->model, &(nh_state){.t = p->state->t, .q = p->state->q, .v = p->v}, n, e, value);
+    nh_singular_start_values(p->model, &(nh_state){.t = p->state->t, .q = p->state->q, .v = p->v}, n, e, value);
 }
 
 /* "x = y = 0", "t = 0": the symbols that are named, with their values. */
