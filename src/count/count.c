@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "count/turned_translations.h"
+#include "exact/jet_independent.h"
 #include "graph/diff.h"
 
 enum { few_steps = 3, most_parameters = 4000, largest_series = 20000, steps_beyond = 1, many_coordinates = 6 };
@@ -370,7 +371,7 @@ static void register_known(nh_counter *c)
         x->point->solutions = true;
         good = good && nh_jet_equations_take(x, false, &e) &&
                (!named || nh_jet_equations_take(x, false, &c->rate[c->known])) &&
-               (x->point->kernels == kernels || !nh_jet_equations_related(x, nh_jet_point_prime(x->point, 0)));
+               (x->point->kernels == kernels || !nh_jet_point_related(x->point));
         nh_ex *slope = c->slope + c->known * x->n;
         for (size_t i = 0; i < x->n && good; i++) {
             slope[i] = nh_diff(x->dag, e, x->w[i]);
@@ -404,8 +405,7 @@ void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_questi
     c->named = nh_alloc_array(question->known + 1, sizeof *c->named);
     c->rate = nh_alloc_array(question->known + 1, sizeof *c->rate);
     c->slope = nh_alloc_array(question->known * model->n + 1, sizeof *c->slope);
-    if (!c->equations->obstacle && nh_jet_equations_related(c->equations, nh_jet_point_prime(c->equations->point, 0)))
-        c->equations->obstacle = "functions that may be related to each other";
+    if (!c->equations->obstacle) c->equations->obstacle = nh_jet_point_related(c->equations->point);
     if (!c->equations->obstacle) register_known(c);
 }
 

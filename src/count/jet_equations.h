@@ -63,11 +63,6 @@ nh_jet_eval *nh_jet_equations_eval(nh_jet_equations *equations, const nh_jet_rin
  * with an obstacle, one of which is that it is not `polynomial` in the velocities. */
 bool nh_jet_equations_take(nh_jet_equations *equations, bool polynomial, nh_ex *e);
 
-/* Can there be relations between kernels that the point does not satisfy?  False proves that there are none: the atoms
- * of either kind, as series at several points together, with roots of numbers of any sign, are linearly independent
- * modulo the prime, hence over Q: sqrt(2) f is no rational multiple of f.  True also when no such points were found. */
-bool nh_jet_equations_related(nh_jet_equations *equations, nh_prime field);
-
 /* Sets the velocities to numbers. */
 void nh_jet_equations_velocities(nh_jet_equations *equations, nh_jet_eval *eval, const nh_jet_ring *ring,
                                  const nh_residue *w);

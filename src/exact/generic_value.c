@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "exact/form.h"
 #include "exact/jet_eval.h"
+#include "exact/jet_independent.h"
 #include "exact/residue_matrix.h"
 
 enum { canonical_length = 2000, order = 2, most_points = 100, most_symbols = 64 };
@@ -56,21 +57,6 @@ static nh_jet_eval *at_point(problem *x, uint64_t seed)
     return v;
 }
 
-/* Are the atoms linearly independent?  Then the kernels satisfy no other relations [jet_point.h]. */
-static bool unrelated(const problem *x, nh_jet_eval *v)
-{
-    bool good = true;
-    for (int real = 0; real < 2 && good; real++) {
-        size_t count;
-        nh_jet_eval_atoms(v, real, &count, NULL);
-        nh_residue *rows = nh_alloc_array(count * x->ring->size + 1, sizeof *rows);
-        good = nh_jet_eval_atoms(v, real, &count, rows) &&
-               nh_residue_matrix_rank(x->ring->field, count, x->ring->size, rows) == count;
-        nh_free(rows);
-    }
-    return good;
-}
-
 static bool solve(problem *x)
 {
     nh_residue *value = nh_alloc_array(x->n * x->ring->size + 1, sizeof *value);
@@ -79,7 +65,6 @@ static bool solve(problem *x)
         nh_jet_eval *v = at_point(x, seed);
         done = nh_jet_eval_all(v, x->n, x->e, value);
         for (size_t i = 0; i < x->n * x->ring->size && done && !found; i++) found = value[i] != 0;
-        found = found && unrelated(x, v);
         nh_jet_eval_free(v);
     }
     nh_free(value);
@@ -94,7 +79,7 @@ static bool prepare(problem *x, nh_dag *dag, size_t n, const nh_ex *e, nh_ex *ow
     nh_forms_init(&forms, dag, false, canonical_length);
     for (size_t i = 0; i < n; i++) own[i] = nh_form_rewrite(&forms, e[i]);
     nh_forms_clear(&forms);
-    return nh_jet_point_register(x->point, n, own);
+    return nh_jet_point_register(x->point, n, own) && !nh_jet_point_related(x->point);
 }
 
 /* The ring of series at the index-th prime modulo which the numbers have their roots. */
@@ -129,23 +114,22 @@ bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables,
 
 /* ---- ranks ---- */
 
-/* The rank at one regular point; false: there is none, or functions are related in ways that are not known. */
+/* The rank at one regular point; false: there is none. */
 static bool rank_at(problem *x, size_t rows, size_t columns, size_t *rank)
 {
     size_t size = x->ring->size;
     nh_residue *value = nh_alloc_array(x->n * size + 1, sizeof *value), *a = nh_alloc_array(x->n + 1, sizeof *a);
-    bool done = false, good = false;
+    bool done = false;
     for (uint64_t seed = 1; seed <= most_points && !done; seed++) {
         nh_jet_eval *v = at_point(x, seed);
         done = nh_jet_eval_all(v, x->n, x->e, value);
-        good = done && unrelated(x, v);
         nh_jet_eval_free(v);
     }
     for (size_t i = 0; i < x->n; i++) a[i] = value[i * size];
-    if (good) *rank = nh_residue_matrix_rank(x->ring->field, rows, columns, a);
+    if (done) *rank = nh_residue_matrix_rank(x->ring->field, rows, columns, a);
     nh_free(a);
     nh_free(value);
-    return good;
+    return done;
 }
 
 bool nh_generic_rank(nh_dag *dag, size_t rows, size_t columns, const nh_ex *e, size_t *rank)

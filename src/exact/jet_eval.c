@@ -202,28 +202,22 @@ static void exponential(nh_jet_eval *v, nh_ex e, nh_residue *out)
     nh_free(up);
 }
 
-/* f'(u) of the inverse functions and the logarithm: (+-1) (c + s u^2)^(-1/2) or 1/(c + s u^2), or 1/u.  The root has a
- * value of its own, because it is no node of the graph. */
-static bool slope(nh_jet_eval *v, nh_function f, const nh_residue *u, nh_residue *out)
+/* f'(u) of the inverse functions and the logarithm: 1/u, 1/(1 + u^2), 1/(1 - u^2), or what the point knows. */
+static bool slope(nh_jet_eval *v, nh_ex e, const nh_residue *u, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
-    nh_prime p = r->field;
-    nh_residue minus = (nh_residue)(p.p - 1), root;
-    if (f == NH_LOG) {
-        if (u[0]) nh_jet_power(r, u, minus, nh_residue_inverse(p, u[0]), out);
-        return u[0] != 0;
-    }
-    bool rational = f == NH_ATAN || f == NH_ATANH, good = true;
+    nh_function f = nh_function_of(v->dag, e);
+    nh_residue minus = (nh_residue)(r->field.p - 1);
+    const nh_jet_kernel *k = nh_jet_point_inverse(v->point, e);
+    if (k) memcpy(out, v->value[k->P], r->size * sizeof *out);
+    if (k) return true;
     nh_residue *inner = nh_alloc_array(2 * r->size, sizeof *inner), *square = inner + r->size;
     nh_jet_mul(r, u, u, square);
-    nh_jet_constant(r, f == NH_ACOSH ? minus : 1, inner);
-    nh_jet_add_multiple(r, inner, f == NH_ASIN || f == NH_ACOS || f == NH_ATANH ? minus : 1, square);
-    if (rational) good = inner[0] != 0;
-    else good = inner[0] && nh_residue_root(p, inner[0], 2, &root);
-    if (good && rational) nh_jet_power(r, inner, minus, nh_residue_inverse(p, inner[0]), out);
-    if (good && !rational)
-        nh_jet_power(r, inner, nh_residue_negative(p, nh_residue_inverse(p, 2)), nh_residue_inverse(p, root), out);
-    if (good && f == NH_ACOS) nh_jet_scale(r, out, minus);
+    nh_jet_constant(r, 1, inner);
+    nh_jet_add_multiple(r, inner, f == NH_ATANH ? minus : 1, square);
+    if (f == NH_LOG) memcpy(inner, u, r->size * sizeof *inner);
+    bool good = inner[0] != 0;
+    if (good) nh_jet_power(r, inner, minus, nh_residue_inverse(r->field, inner[0]), out);
     nh_free(inner);
     return good;
 }
@@ -265,7 +259,7 @@ static void primitive(nh_jet_eval *v, nh_ex e, nh_residue *out)
         v->unlucky |= !angle(v, u, v->value[nh_child(v->dag, e, 1)], at, out);
     } else {
         nh_residue *rate = nh_alloc_array(r->size, sizeof *rate);
-        if (slope(v, f, u, rate)) nh_jet_integral(r, u, rate, at, out);
+        if (slope(v, e, u, rate)) nh_jet_integral(r, u, rate, at, out);
         else v->unlucky = true;
         nh_free(rate);
     }
@@ -371,8 +365,11 @@ static bool operand(nh_jet_eval *v, nh_ex e, size_t i, nh_ex *out)
     nh_kind kind = nh_kind_of(v->dag, e);
     size_t arity = kind == NH_NUMBER || kind == NH_SYMBOL ? 0 : nh_arity(v->dag, e);
     if (i < arity) *out = nh_child(v->dag, e, i);
-    if (i < arity || !is_solution(v, e) || i > arity + 1) return i < arity;
-    const nh_jet_kernel *k = nh_jet_point_solution(v->point, e);
+    if (i < arity || i > arity + 1) return i < arity;
+    const nh_jet_kernel *k = nh_jet_point_inverse(v->point, e);
+    if (k) *out = k->P;
+    if (k || !is_solution(v, e)) return k && i == arity;
+    k = nh_jet_point_solution(v->point, e);
     *out = i == arity ? k->P : k->Q;
     return true;
 }

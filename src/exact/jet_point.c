@@ -7,6 +7,8 @@
 #include "base/memory.h"
 #include "exact/kernel.h"
 #include "exact/named_relation.h"
+#include "exact/normal.h"
+#include "graph/dag_internal.h"
 #include "graph/diff.h"
 #include "graph/named_function.h"
 #include "graph/num_long.h"
@@ -117,6 +119,17 @@ static bool note_solution(nh_jet_point *x, nh_ex e)
     return note_equation(x, NH_JET_SOLUTION, f, last, P, Q);
 }
 
+/* asin(u) with its derivative, so that 1/sqrt(1 - u^2) is no other root than that of the equations. */
+static bool note_inverse(nh_jet_point *x, nh_ex e)
+{
+    enum { largest_form = 2000 };
+    if (find(x, NH_JET_FREE, e)) return true;
+    note(x, NH_JET_FREE, e, 1);
+    nh_ex rate = nh_canonical(x->dag, nh_diff_argument(x->dag, e, 0), largest_form);
+    x->kernel[x->kernels - 1].P = rate;
+    return nh_jet_point_register(x, 1, &rate);
+}
+
 static bool note_function(nh_jet_point *x, nh_ex e)
 {
     switch (nh_function_of(x->dag, e)) {
@@ -129,15 +142,8 @@ static bool note_function(nh_jet_point *x, nh_ex e)
         if (find(x, NH_JET_FREE, e)) return true;
         if (x->pieces++) x->obstacle = "several functions that are defined piece by piece";
         return note(x, NH_JET_FREE, e, 1);
-    case NH_ASIN:
-    case NH_ACOS:
-    case NH_ASINH:
-    case NH_ACOSH:
-    case NH_ATAN:
-    case NH_ATANH:
-    case NH_LOG:
-    case NH_ATAN2:
-    case NH_PI: return note(x, NH_JET_FREE, e, 1);
+    case NH_ASIN: case NH_ACOS: case NH_ASINH: case NH_ACOSH: return note_inverse(x, e);
+    case NH_ATAN: case NH_ATANH: case NH_LOG: case NH_ATAN2: case NH_PI: return note(x, NH_JET_FREE, e, 1);
     case NH_UNSPECIFIED: return true; /* its values need no relations */
     default:
         if (x->solutions && nh_is_named_function(nh_function_of(x->dag, e)) && note_first_order(x, e))
@@ -165,8 +171,7 @@ static bool note_product(nh_jet_point *x, nh_ex e)
 
 /* ---- angles that are rational multiples of pi ---- */
 
-/* The order of the root of 1 that e^(i pi/order) is; 1: there are no such angles. */
-static uint64_t unity_of(const nh_jet_point *x)
+uint64_t nh_jet_point_unity(const nh_jet_point *x)
 {
     for (size_t i = 0; i < x->kernels; i++)
         if (x->kernel[i].kind == NH_JET_CIRCLE && nh_jet_point_is_pi(x, x->kernel[i].key))
@@ -178,7 +183,7 @@ static uint64_t unity_of(const nh_jet_point *x)
  * known for square roots of whole numbers (choose_unity). */
 static void check_unity(nh_jet_point *x)
 {
-    uint64_t unity = unity_of(x);
+    uint64_t unity = nh_jet_point_unity(x);
     if (unity > most_unity) x->obstacle = "multiples of pi with large denominators";
     for (size_t i = 0; i < x->kernels && unity > 4 && !x->obstacle; i++) {
         const nh_jet_kernel *k = &x->kernel[i];
@@ -226,7 +231,7 @@ static bool has_roots(const nh_jet_point *x, nh_prime field)
 nh_prime nh_jet_point_prime(const nh_jet_point *x, size_t index)
 {
     enum { most = 3000 };
-    uint64_t unity = unity_of(x); /* the circle has p + 1 points */
+    uint64_t unity = nh_jet_point_unity(x);
     nh_prime f = nh_prime_next((nh_prime){0}, unity);
     for (size_t tried = 0, found = 0; tried < most && f.p; tried++, f = nh_prime_next(f, unity))
         if (has_roots(x, f) && found++ == index) return f;
@@ -303,7 +308,7 @@ bool nh_jet_point_root(nh_jet_point *x, nh_ex radicand, nh_residue value, nh_num
     nh_jet_kernel *k = find(x, NH_JET_ROOT, radicand);
     bool fresh = !k->chosen;
     if (fresh && !nh_residue_root(x->field, value, k->order, &k->value)) return false;
-    bool turn = fresh && x->conjugates && k->order % 2 == 0 && nh_kind_of(x->dag, radicand) == NH_NUMBER;
+    bool turn = fresh && x->conjugates && k->order % 2 == 0;
     if (turn && draw(x, k, 0) % 2 == 0) k->value = nh_residue_negative(x->field, k->value);
     k->chosen = true;
     *out = signed_power(x->field, k->value, exponent.p * (int64_t)(k->order / (uint64_t)exponent.q));
@@ -348,13 +353,23 @@ static bool is_primitive(nh_prime f, const nh_jet_kernel *k, uint64_t unity)
     return good;
 }
 
+static uint64_t discriminant(uint64_t m) { return m % 4 == 1 ? m : 4 * m; }
+
+bool nh_jet_point_is_in_unity(const nh_jet_point *x, nh_ex radicand)
+{
+    if (nh_kind_of(x->dag, radicand) != NH_NUMBER) return false;
+    nh_num a = nh_number_of(x->dag, radicand);
+    return nh_num_short(a) && a.q == 1 && a.p > 1 && n_is_squarefree((uint64_t)a.p) &&
+           nh_jet_point_unity(x) % discriminant((uint64_t)a.p) == 0;
+}
+
 /* Gauss's sum: sqrt(D) = sum over a of (D/a) cos(2 pi a/D) for the discriminant D > 0 of a quadratic field. */
 static bool agrees(nh_jet_point *x, const nh_jet_kernel *k, uint64_t unity, nh_ex radicand)
 {
     nh_prime f = x->field;
-    uint64_t m = (uint64_t)nh_number_of(x->dag, radicand).p, D = m % 4 == 1 ? m : 4 * m;
+    uint64_t m = (uint64_t)nh_number_of(x->dag, radicand).p, D = discriminant(m);
     nh_residue sum = 0, root;
-    if (unity % D || !n_is_squarefree(m)) return unity % D != 0;
+    if (!nh_jet_point_is_in_unity(x, radicand)) return true;
     for (uint64_t a = 1; a < D; a++) {
         uint64_t odd = a % 2 ? a : a + D; /* a and D are not both even where the symbol is not 0 */
         nh_residue c, s;
@@ -446,6 +461,12 @@ nh_residue nh_jet_point_free_value(nh_jet_point *x, nh_ex primitive)
     nh_jet_kernel *k = find(x, NH_JET_FREE, primitive);
     if (!k->chosen) k->value = draw(x, k, 0), k->chosen = true;
     return k->value;
+}
+
+const nh_jet_kernel *nh_jet_point_inverse(nh_jet_point *x, nh_ex e)
+{
+    nh_function f = nh_kind_of(x->dag, e) == NH_FUNCTION ? nh_function_of(x->dag, e) : NH_PI;
+    return f == NH_ASIN || f == NH_ACOS || f == NH_ASINH || f == NH_ACOSH ? find(x, NH_JET_FREE, e) : NULL;
 }
 
 const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *x, nh_ex f)

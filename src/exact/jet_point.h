@@ -15,9 +15,8 @@
  *                                          the equation, not for f
  *     f where f' = P + Q f                 any residue, the same
  *
- * Arguments have to be canonical (nh_form_rewrite).  There are no other relations when the atoms of exp and the
- * logarithms have derivatives that are linearly independent over Q, and so have the atoms of sin and cos with the
- * inverse trigonometric functions [Ax1971]: nh_jet_equations_related checks this. */
+ * Arguments have to be canonical (nh_form_rewrite).  Whether there are other relations, nh_jet_point_related says
+ * (jet_independent.h): ask it before values at points are taken for those of the functions. */
 #ifndef NH_JET_POINT_H
 #define NH_JET_POINT_H
 
@@ -39,7 +38,7 @@ typedef struct {
     uint64_t order;        /* the kernel is a function of key/order, or the root of key of this order */
     bool chosen;
     nh_residue value, sine; /* residue of exp, root or primitive; or of cos and sin, or of f and f' */
-    nh_ex P, Q;            /* of f */
+    nh_ex P, Q;            /* of f; P of asin, acos, asinh, acosh: the derivative by the argument, which has a root */
     size_t place;          /* the index of the argument of f that varies */
 } nh_jet_kernel;
 
@@ -58,7 +57,7 @@ typedef struct {
     nh_jet_kernel *kernel;
     size_t kernels, capacity;
     size_t pieces;          /* number of kernels |u| */
-    /* roots of numbers may have any sign: each choice is another homomorphism from the numbers */
+    /* roots may have any sign: each choice is another homomorphism where they are independent */
     bool conjugates;
     bool solutions;         /* named functions are accepted (graph/named_function.h) */
     const char *obstacle;   /* why an expression cannot be evaluated at points, or NULL */
@@ -74,6 +73,14 @@ bool nh_jet_point_register(nh_jet_point *point, size_t n, const nh_ex *e);
 /* The index-th of the primes modulo which the numbers that stand below roots have these roots; when there are few such
  * primes, of the first primes. */
 nh_prime nh_jet_point_prime(const nh_jet_point *point, size_t index);
+
+/* The order of the root of 1 that e^(i pi/n) is for the multiples of pi that occur; 1: there are none.  The circle has
+ * such points where it divides p + 1. */
+uint64_t nh_jet_point_unity(const nh_jet_point *point);
+/* Is the root of this number a sum of cosines of the multiples of pi that occur? */
+bool nh_jet_point_is_in_unity(const nh_jet_point *point, nh_ex radicand);
+/* The kernel of asin, acos, asinh or acosh; NULL for other functions. */
+const nh_jet_kernel *nh_jet_point_inverse(nh_jet_point *point, nh_ex e);
 
 /* Is e the number pi?  Its sine and cosine are no free residues. */
 bool nh_jet_point_is_pi(const nh_jet_point *point, nh_ex e);

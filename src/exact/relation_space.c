@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "exact/form.h"
 #include "exact/jet_eval.h"
+#include "exact/jet_independent.h"
 #include "exact/normal.h"
 #include "exact/relation.h"
 #include "exact/residue_matrix.h"
@@ -198,6 +199,8 @@ static const char *open_problem(problem *x, const nh_relation_columns *q, size_t
     for (size_t e = 0; e < total; e++) x->entry[e] = nh_form_rewrite(&forms, q->entry[e]);
     nh_forms_clear(&forms);
     if (!nh_jet_point_register(x->point, total, x->entry)) return x->point->obstacle;
+    const char *related = nh_jet_point_related(x->point);
+    if (related) return related;
     return find_rank(x, order) ? NULL : "no regular point was found";
 }
 

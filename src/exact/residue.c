@@ -8,15 +8,22 @@
 
 static nh_prime prime_of(uint64_t n) { return (nh_prime){n, ((uint64_t)1 << 62) / n * n, ((uint64_t)1 << 62) / n}; }
 
-nh_prime nh_prime_next(nh_prime f, uint64_t order)
+nh_prime nh_prime_below(nh_prime f, uint64_t order)
 {
     const uint64_t top = (uint64_t)1 << 31;
-    uint64_t step = order / n_gcd(order, 12) * 12, n = f.p ? f.p : top - 1 - top % step + step;
+    uint64_t n = f.p ? f.p - (f.p + 1) % order : top - 1 - top % order + order;
     do {
-        if (n < top / 2 + step) return (nh_prime){0};
-        n -= step;
-    } while (n % 5 == 1 || n % 7 == 1 || !n_is_prime(n));
+        if (n < top / 2 + order) return (nh_prime){0};
+        n -= order;
+    } while (!n_is_prime(n));
     return prime_of(n);
+}
+
+nh_prime nh_prime_next(nh_prime f, uint64_t order)
+{
+    do f = nh_prime_below(f, order / n_gcd(order, 12) * 12);
+    while (f.p && (f.p % 5 == 1 || f.p % 7 == 1));
+    return f;
 }
 
 nh_prime nh_prime_with_units(size_t index)

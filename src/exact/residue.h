@@ -26,6 +26,9 @@ nh_prime nh_prime_at(size_t index);
  * angles whose multiple is a full turn.  p = 0: there is none above 2^30. */
 nh_prime nh_prime_next(nh_prime f, uint64_t order);
 
+/* The largest prime below f (p = 0: below 2^31) that is -1 modulo `order`, of any class else.  p = 0 as above. */
+nh_prime nh_prime_below(nh_prime f, uint64_t order);
+
 /* The `index`-th prime that is 1 modulo 12: there -1 and -3 have square roots, which they have modulo none of the
  * others. For equations without roots: nh_residue_root needs the others. */
 nh_prime nh_prime_with_units(size_t index);

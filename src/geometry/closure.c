@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "exact/form.h"
 #include "exact/jet_eval.h"
+#include "exact/jet_independent.h"
 #include "exact/residue_matrix.h"
 
 enum { canonical_length = 2000, most_points = 200, most_size = 3000, deepest = 10, most_nodes = 400000 };
@@ -54,32 +55,6 @@ static bool evaluate(space *x, uint64_t seed)
         nh_jet_eval_set(v, x->symbol[k], series, false);
     }
     bool good = nh_jet_eval_all(v, x->count * x->N + x->functions, x->e, x->value);
-    nh_free(series);
-    nh_jet_eval_free(v);
-    return good;
-}
-
-/* Are the arguments of exp, and those of sin and cos, linearly independent?  Then the only relations of the kernels are
- * those that the point satisfies [jet_point.h]. */
-static bool unrelated(space *x)
-{
-    nh_jet_eval *v = nh_jet_eval_create(x->point, x->ring);
-    nh_residue *series = nh_alloc_array(x->ring->size, sizeof *series);
-    for (size_t k = 0; k < x->N; k++) {
-        uint64_t random = 815 + k;
-        nh_jet_constant(x->ring, nh_residue_random(x->field, &random), series);
-        series[x->ring->up[k * x->ring->size]] = 1;
-        nh_jet_eval_set(v, x->symbol[k], series, false);
-    }
-    bool good = true;
-    for (int real = 0; real < 2 && good; real++) {
-        size_t count;
-        nh_jet_eval_atoms(v, real, &count, NULL);
-        nh_residue *rows = nh_alloc_array(count * x->ring->size + 1, sizeof *rows);
-        good = nh_jet_eval_atoms(v, real, &count, rows) &&
-               nh_residue_matrix_rank(x->field, count, x->ring->size, rows) == count;
-        nh_free(rows);
-    }
     nh_free(series);
     nh_jet_eval_free(v);
     return good;
@@ -168,7 +143,8 @@ static const char *take(space *x, const nh_ex *field, const nh_ex *function)
         x->e[i] = nh_form_rewrite(&forms, nh_model_values(x->o, i < n ? field[i] : function[i - n]));
     nh_forms_clear(&forms);
     if (x->o->chart->implicit) return "velocities that are given implicitly";
-    return nh_jet_point_register(x->point, n + x->functions, x->e) ? NULL : x->point->obstacle;
+    if (!nh_jet_point_register(x->point, n + x->functions, x->e)) return x->point->obstacle;
+    return nh_jet_point_related(x->point);
 }
 
 static nh_jet_ring *ring_of(const space *x, size_t order, size_t most)
@@ -191,7 +167,6 @@ static void solve(space *x, nh_closure *out)
     x->order = nh_alloc_array(x->N + 1, sizeof *x->order);
     for (uint64_t seed = 1; seed <= most_points && !good; seed++) good = evaluate(x, seed);
     if (!good) out->obstacle = "no regular point was found";
-    else if (!unrelated(x)) out->obstacle = "functions that are related in ways that are not known";
     if (out->obstacle) return;
     out->known = gradients(x);
     close_up(x, x->N - out->known);
@@ -300,7 +275,6 @@ static nh_closure_growth growth_with(space *x, size_t order, size_t stages, size
         x->order = nh_alloc_array(x->N + 1, sizeof *x->order);
         for (size_t tries = 0; tries < most_points && !good; tries++) good = evaluate(x, ++seed);
         if (!good) g.obstacle = "no regular point was found";
-        else if (!unrelated(x)) g.obstacle = "functions that are related in ways that are not known";
         else if (stages) all_stages(x, stages, &here);
         else generic_stages(x, &here);
         join(&g, &here);
