@@ -31,12 +31,11 @@ static bool atoms_at(nh_jet_equations *x, const nh_jet_ring *ring, bool real, nm
 /* Is it a root of an expression that has roots itself? */
 static bool is_nested(nh_dag *d, const nh_jet_kernel *k)
 {
-    enum { most = 64 };
-    nh_ex product[most];
+    NH_LIST(product);
     if (k->kind != NH_JET_ROOT) return false;
-    size_t n = nh_products_in(d, k->key, product, most);
+    size_t n = nh_products_in(d, k->key, &product);
     bool nested = false;
-    for (size_t i = 0; i < n && i < most; i++)
+    for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < nh_arity(d, product[i]); j++)
             nested |= nh_exponent_kind_of(d, nh_exponent_of(d, product[i], j)) == NH_EXPONENT_ROOT &&
                       nh_kind_of(d, nh_child(d, product[i], j)) != NH_NUMBER;

@@ -1,0 +1,112 @@
+/* No crash: whatever a file holds, a command ends with one of the documented codes and says why. */
+#include "program.h"
+#include "sweep.h"
+
+/* Ends with a documented code, and with words where it is not 0. */
+static void ends_well(const place *p, const char *line)
+{
+    finished f = run(p, line);
+    cr_expect((f.code >= 0 && f.code <= 5) || f.code == 130, "nhsym %s: code %d\n%s", line, f.code, f.err);
+    cr_expect(f.code <= 1 || *f.err || *f.out, "nhsym %s: code %d without a word", line, f.code);
+    finished_clear(&f);
+}
+
+static void write_system(const place *p, const char *coordinates, const char *parameters, const char *lagrangian)
+{
+    size_t room = strlen(lagrangian) + strlen(parameters) + strlen(coordinates) + 200;
+    char *text = malloc(room);
+    snprintf(text, room, "coordinates: [%s]\nparameters: {%s}\nlagrangian: \"%s\"\n", coordinates, parameters, lagrangian);
+    write_here(p, "system.yaml", text);
+    free(text);
+}
+
+/* Where each term of an equation may vanish, or be a number: bodies that fall, slide and swing. */
+Test(faults, what_falls_is_classified)
+{
+    static const char *const kinetic[] = {"m/2*x'^2", "(x'^2 + y'^2)/2", "m*x'^2/2 + y'^2/2", "x'*y'", "x'^2/(2*m) + y'^2", "m*(x'^2 + y'^2)/2"},
+                      *const potential[] = {"0", "y", "m*y", "m*9.8*x", "k*x^2/2 + y", "k*(x^2 + y^2)", "m*x", "1/k", "k", "-x'*t"},
+                      *const over[] = {"m", "k", "m,k"};
+    place p = place_make();
+    char lagrangian[200], line[100];
+    for (size_t i = 0; i < 180; i++) {
+        if (!sweep_tries(i, 7, 13)) continue;
+        snprintf(lagrangian, sizeof lagrangian, "%s - (%s)", kinetic[i % 6], potential[i / 6 % 10]);
+        write_system(&p, "x, y", "m: 2, k: 3", lagrangian);
+        snprintf(line, sizeof line, "classify system.yaml --over %s --max-seconds 20", over[i / 60]);
+        ends_well(&p, line);
+    }
+    write_system(&p, "x", "m: 2, g: 9.8", "m/2*x'^2 - m*g*x");
+    finished f = run_expecting(&p, "classify system.yaml --over m", 0);
+    cr_expect(strstr(f.out, "degree 1: no number, real or complex, has more than 1"), "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* ---- as many as a file likes ---- */
+
+/* Each with one number: a term of the Lagrangian. */
+static const char *const terms[] = {" - sin(%1$zu*x)/%1$zu", " - sqrt(%zu + x^2)", " - abs(x - %zu)", " - log(%zu + y^2)/100", " + k/(%zu + x^2 + k^2)",
+                                    " - sqrt((x - %zu)^2 + y^2)", " - sign(y - %zu)*y", " - exp(-%1$zu*x)/%1$zu", " + x'*atan(%zu*y)", " - bessel_j(%zu, x)",
+                                    " - cos(%1$zu*x + k)*y/%1$zu", " - x^%1$zu*k^%1$zu", " - asinh(y/%zu)*x'", " - tan(x/%zu)", " + abs(x')*y/%zu"};
+enum { kinds = sizeof terms / sizeof *terms };
+
+static void write_many(const place *p, size_t kind, size_t n)
+{
+    char *text = malloc(n * 80 + 100), *at = text + sprintf(text, "x'^2/2 + y'^2/2");
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+    for (size_t i = 1; i <= n; i++) at += sprintf(at, terms[kind], i);
+#pragma GCC diagnostic pop
+    write_system(p, "x, y", "k: 3", text);
+    free(text);
+}
+
+/* One more than any list of the program has had room for (8, 16, .., 256), in every command. */
+Test(faults, any_number_of_functions)
+{
+    static const size_t size[] = {9, 17, 25, 33, 65, 129, 201, 257, 401, 1001};
+    static const char *const lines[] = {"analyze system.yaml", "classify system.yaml --over k", "simulate system.yaml --initial x'=1 --until 1", "export system.yaml --to c",
+                                        "reduce system.yaml --initial x'=1", "verify system.yaml --current E", "linearize system.yaml --at x=0", "benchmark system.yaml --budget 50ms"};
+    enum { sizes = sizeof size / sizeof *size, commands = sizeof lines / sizeof *lines };
+    place p = place_make();
+    char line[200];
+    for (size_t i = 0; i < kinds * sizes * commands; i++) {
+        if (!sweep_tries(i, 53, 97)) continue;
+        write_many(&p, i % kinds, size[i / kinds % sizes]);
+        snprintf(line, sizeof line, "%s --max-seconds 0.5", lines[i / kinds / sizes]);
+        ends_well(&p, line);
+    }
+    write_many(&p, 0, 299); /* these crashed */
+    ends_well(&p, "export system.yaml --to c --max-seconds 2");
+    ends_well(&p, "analyze system.yaml --max-seconds 2");
+    place_clear(&p);
+}
+
+/* More coordinates, parameters or constraints. */
+Test(faults, any_number_of_names)
+{
+    static const size_t size[] = {2, 7, 9, 13, 17, 21, 25, 33, 41, 65, 101};
+    static const char *const lines[] = {"analyze system.yaml", "classify system.yaml --over p1", "simulate system.yaml --initial x1'=1 --until 1", "export system.yaml --to c",
+                                        "reduce system.yaml --initial x1'=1", "verify system.yaml --current E", "linearize system.yaml --at x1=0", "benchmark system.yaml --budget 50ms"};
+    enum { sizes = sizeof size / sizeof *size, commands = sizeof lines / sizeof *lines, ways = 3 };
+    place p = place_make();
+    char line[200];
+    for (size_t i = 0; i < ways * sizes * commands; i++) {
+        if (!sweep_tries(i, 31, 61)) continue;
+        size_t n = size[i / ways % sizes], way = i % ways, names = way == 1 ? 2 : n;
+        char *text = malloc(n * 400 + 400), *at = text + sprintf(text, "coordinates: [x1");
+        for (size_t k = 2; k <= names; k++) at += sprintf(at, ", x%zu", k);
+        at += sprintf(at, "]\nparameters: {p1: 1");
+        for (size_t k = 2; k <= (way == 1 ? n : 1); k++) at += sprintf(at, ", p%zu: %zu", k, k);
+        at += sprintf(at, "}\nlagrangian: \"0");
+        for (size_t k = 1; k <= names; k++) at += sprintf(at, " + x%zu'^2/2 - p1*x%zu^2*%zu", k, k, k);
+        for (size_t k = 2; k <= n && way == 1; k++) at += sprintf(at, " - p%zu*x1^%zu", k, k);
+        at += sprintf(at, "\"\n%s", way == 2 ? "constraints:\n" : "");
+        for (size_t k = 1; k < n && way == 2; k++) at += sprintf(at, "  - \"x%zu' = x%zu*x%zu'\"\n", k, k + 1, n);
+        write_here(&p, "system.yaml", text);
+        free(text);
+        snprintf(line, sizeof line, "%s --max-seconds 0.5", lines[i / ways / sizes]);
+        ends_well(&p, line);
+    }
+    place_clear(&p);
+}
