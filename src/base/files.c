@@ -57,7 +57,7 @@ static char *from_file(const char *path, size_t limit, size_t *length, nh_error 
     struct stat status;
     FILE *file = fopen(path, "rb");
     if (!file) {
-        nh_fail(error, NH_INPUT, path, "this file cannot be opened: %s", strerror(errno));
+        nh_fail(error, errno == ENOMEM ? NH_LIMIT : NH_INPUT, path, "this file cannot be opened: %s", strerror(errno));
         return NULL;
     }
     open_file opened = {.undo.undo = close_it, .file = file};
@@ -66,7 +66,7 @@ static char *from_file(const char *path, size_t limit, size_t *length, nh_error 
     if (folder) nh_fail(error, NH_INPUT, path, "this is a directory, not a file");
     char *text = folder ? NULL : slurp(file, limit, length);
     if (text && ferror(file)) {
-        nh_fail(error, NH_INPUT, path, "this file cannot be read: %s", strerror(errno));
+        nh_fail(error, errno == ENOMEM ? NH_LIMIT : NH_INPUT, path, "this file cannot be read: %s", strerror(errno));
         nh_free(text);
         text = NULL;
     }

@@ -132,7 +132,8 @@ double nh_memory_of_group(const char *list, const char *root)
     FILE *file = fopen(list, "re");
     while (file && fgets(line, sizeof line, file)) {
         char *kind = strchr(line, ':'), *group = kind ? strchr(kind + 1, ':') : NULL;
-        bool one = group && group == kind + 1, other = group && strstr(kind, "memory") && strstr(kind, "memory") < group;
+        const char *memory = strstr(line, "memory");
+        bool one = group && group == kind + 1, other = group && memory && memory < group;
         if (!one && !other) continue;
         line[strcspn(line, "\n")] = 0;
         group++;

@@ -11,8 +11,8 @@
  * unchanged. */
 bool nh_output_write(const char *path, const char *text, size_t length, nh_error *error);
 
-/* Files that belong together: all are on the disk, beside their places, before the first takes its place, so that a full
- * disk leaves all old ones; and when one cannot take its place, those before it give theirs back. */
+/* Files that belong together: all are on the disk, beside their places, before the first takes its place, so that a
+ * full disk leaves all old ones; and when one cannot take its place, those before it give theirs back. */
 enum { NH_OUTPUT_LONGEST = 4200, NH_OUTPUT_FOLDERS = 16 };
 typedef struct nh_output_file {
     nh_leaving leaving; /* first member: the temporary file is removed when the process ends early */

@@ -1,8 +1,8 @@
 /* guard: signals and the limits of time and memory.
  *
  * One thread waits for all of them.  A pipe that nobody reads any more and a file that may not grow are errors of the
- * write, for which their signals wait.  The first signal, and a limit, end the computation by base/progress.h: it returns
- * soon, with what it has.  The same signal again within `same_press` is still the first one: `timeout` sends it to the
+ * write, for which their signals wait.  The first signal, and a limit, end the computation by base/progress.h: it
+ * returns soon, with what it has.  The same signal again within `same_press` is still the first one: `timeout` sends it to the
  * process and to its group.  A second signal, one that comes while results are written, and a computation that has
  * still not come back when it has used `grace` more of the processor, or of `more` memory, end the process at once:
  * without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that
@@ -47,8 +47,8 @@ static void end_at_once(int code, const char *reached, const char *option)
 static const int taken_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGXFSZ};
 enum { signal_count = sizeof taken_signals / sizeof *taken_signals };
 
-/* All of them but those that whoever started the program ignores, as nohup does (a shell ignores SIGINT for a command in
- * the background; we take it all the same). */
+/* All of them but those that whoever started the program ignores, as nohup does (a shell ignores SIGINT for a command
+ * in the background; we take it all the same). */
 static sigset_t signals(void)
 {
     static sigset_t set;
