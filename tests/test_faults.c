@@ -66,7 +66,7 @@ Test(faults, any_number_of_functions)
 {
     static const size_t size[] = {9, 17, 25, 33, 65, 129, 201, 257, 401, 1001};
     static const char *const lines[] = {"analyze system.yaml", "classify system.yaml --over k", "simulate system.yaml --initial x'=1 --until 1", "export system.yaml --to c",
-                                        "reduce system.yaml --initial x'=1", "verify system.yaml --current E", "linearize system.yaml --at x=0", "benchmark system.yaml --budget 50ms"};
+                                        "reduce system.yaml --initial x'=1", "verify system.yaml --current x'", "linearize system.yaml --at x=0", "benchmark system.yaml --budget 50ms"};
     enum { sizes = sizeof size / sizeof *size, commands = sizeof lines / sizeof *lines };
     place p = place_make();
     char line[200];
@@ -87,7 +87,7 @@ Test(faults, any_number_of_names)
 {
     static const size_t size[] = {2, 7, 9, 13, 17, 21, 25, 33, 41, 65, 101};
     static const char *const lines[] = {"analyze system.yaml", "classify system.yaml --over p1", "simulate system.yaml --initial x1'=1 --until 1", "export system.yaml --to c",
-                                        "reduce system.yaml --initial x1'=1", "verify system.yaml --current E", "linearize system.yaml --at x1=0", "benchmark system.yaml --budget 50ms"};
+                                        "reduce system.yaml --initial x1'=1", "verify system.yaml --current x1'", "linearize system.yaml --at x1=0", "benchmark system.yaml --budget 50ms"};
     enum { sizes = sizeof size / sizeof *size, commands = sizeof lines / sizeof *lines, ways = 3 };
     place p = place_make();
     char line[200];
