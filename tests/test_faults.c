@@ -2,6 +2,10 @@
 #include "program.h"
 #include "sweep.h"
 
+#include <math.h>
+
+#include "base/memory.h"
+
 /* Ends with a documented code, and with words where it is not 0. */
 static void ends_well(const place *p, const char *line)
 {
@@ -108,5 +112,134 @@ Test(faults, any_number_of_names)
         snprintf(line, sizeof line, "%s --max-seconds 0.5", lines[i / ways / sizes]);
         ends_well(&p, line);
     }
+    place_clear(&p);
+}
+
+/* ---- ended from outside ---- */
+
+static pid_t begin(const place *p, const char *line)
+{
+    char copy[1000], *argument[most_words] = {(char *)p->program}, said[PATH_MAX + 20];
+    snprintf(copy, sizeof copy, "%s", line);
+    cut_words(copy, argument, 1);
+    snprintf(said, sizeof said, "%.4000s/said", p->folder);
+    pid_t child = fork();
+    if (child == 0) {
+        int file = open(said, O_RDWR | O_CREAT | O_TRUNC, 0600);
+        become(p, &(manner){0}, argument, file, file);
+    }
+    return child;
+}
+
+static int end_of(pid_t child)
+{
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+}
+
+/* All of them as SIGINT: the table so far is written. */
+Test(faults, every_signal_keeps_what_there_is)
+{
+    static const int signals[] = {SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGXFSZ, SIGINT, SIGTERM};
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) {
+        if (!sweep_tries(i, 1, 3)) continue;
+        pid_t child = begin(&p, "simulate double_pendulum --initial p=1 --until 1e5 --step 10 --option steps=1e9 --csv motion.csv -q --no-analysis");
+        usleep(700000);
+        kill(child, signals[i]);
+        int code = end_of(child);
+        char *table = read_here(&p, "motion.csv"), *said = read_here(&p, "said");
+        cr_expect_eq(code, 130, "%s: %d, %s", strsignal(signals[i]), code, said);
+        cr_expect(table && strchr(table, '\n'), "%s: %s", strsignal(signals[i]), said);
+        free(table);
+        free(said);
+        unlink_here(&p, "motion.csv");
+    }
+    place_clear(&p);
+}
+
+/* nohup. */
+Test(faults, what_is_ignored_stays_ignored)
+{
+    place p = place_with_systems();
+    signal(SIGHUP, SIG_IGN);
+    pid_t child = begin(&p, "benchmark sleigh --budget 1s -q --json b.json");
+    signal(SIGHUP, SIG_DFL);
+    usleep(500000);
+    kill(child, SIGHUP);
+    cr_expect_eq(end_of(child), 0);
+    place_clear(&p);
+}
+
+/* `| head`: no word about it. */
+Test(faults, a_reader_may_leave)
+{
+    place p = place_with_systems();
+    char line[PATH_MAX + 200];
+    snprintf(line, sizeof line, "'%s' simulate sleigh --initial omega=2 --until 100 --step 1e-3 --no-analysis 2>said | head -n 1", p.program);
+    finished f = run_vector(&p, &(manner){0}, (char *[]){"sh", "-c", line, NULL});
+    char *said = read_here(&p, "said");
+    cr_expect(said && !strstr(said, "could not be written"), "%s", said);
+    cr_expect(strstr(f.out, "omega"), "%s", f.out);
+    free(said);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(faults, a_limit_before_the_folder_is_a_limit)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "export crane --to c -o NEW --max-seconds 0.001", 5);
+    cr_expect(strstr(f.err, "time limit"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(faults, the_mask_is_obeyed)
+{
+    place p = place_with_systems();
+    char path[PATH_MAX + 20];
+    struct stat info;
+    mode_t before = umask(027);
+    finished f = run_expecting(&p, "export sleigh --to c -o code", 0), g = run_expecting(&p, "show sleigh --of parameters", 0);
+    umask(before);
+    snprintf(path, sizeof path, "%.4000s/code/sleigh.c", p.folder);
+    cr_expect(!stat(path, &info) && (info.st_mode & 0777) == 0640, "%o", info.st_mode);
+    chmod(path, 0604); /* and what the user gave a file */
+    finished_clear(&f);
+    f = run_expecting(&p, "export sleigh --to c -o code", 0);
+    cr_expect(!stat(path, &info) && (info.st_mode & 0777) == 0604, "%o", info.st_mode);
+    finished_clear(&f);
+    finished_clear(&g);
+    place_clear(&p);
+}
+
+/* ---- memory of a control group ---- */
+
+Test(faults, a_control_group_limits_the_memory)
+{
+    place p = place_make();
+    char list[PATH_MAX + 20], root[PATH_MAX + 20];
+    snprintf(list, sizeof list, "%.4000s/list", p.folder);
+    snprintf(root, sizeof root, "%.4000s/root", p.folder);
+    folder_here(&p, "root", 0755);
+    folder_here(&p, "root/slice", 0755);
+    folder_here(&p, "root/slice/job", 0755);
+    folder_here(&p, "root/memory", 0755);
+    folder_here(&p, "root/memory/old", 0755);
+    write_here(&p, "list", "0::/slice/job\n");
+    cr_expect(isinf(nh_memory_of_group(list, root)));
+    write_here(&p, "root/slice/job/memory.max", "max\n");
+    cr_expect(isinf(nh_memory_of_group(list, root)));
+    write_here(&p, "root/slice/memory.max", "1000000\n");
+    cr_expect_eq(nh_memory_of_group(list, root), 1e6);
+    write_here(&p, "root/memory.max", "500000\n");
+    cr_expect_eq(nh_memory_of_group(list, root), 5e5);
+    write_here(&p, "list", "9:name=systemd:/x\n5:cpu,memory:/old\n");
+    write_here(&p, "root/memory/old/memory.limit_in_bytes", "300000\n");
+    cr_expect_eq(nh_memory_of_group(list, root), 3e5);
+    write_here(&p, "list", "nonsense");
+    cr_expect(isinf(nh_memory_of_group(list, root)));
     place_clear(&p);
 }
