@@ -243,3 +243,56 @@ Test(faults, a_control_group_limits_the_memory)
     cr_expect(isinf(nh_memory_of_group(list, root)));
     place_clear(&p);
 }
+
+/* ---- what a scan finds in its folder ---- */
+
+Test(faults, a_scan_trusts_nothing_in_its_folder)
+{
+    static const char scan[] = "scan system.yaml --over k=1:2:3 --degree 1 -o s -q";
+    static const char *const names[] = {"lock", "manifest.json", "units/points-000001.txt", "units/points-000002.part"};
+    place p = place_make();
+    char path[PATH_MAX + 60];
+    write_system(&p, "x, y", "k: 3", "x'^2/2 + y'^2/2 - k*x^2/2");
+    finished_clear(&(finished[]){run_expecting(&p, scan, 0)}[0]);
+    char *whole = read_here(&p, "s/scan.json"), *unit = read_here(&p, "s/units/points-000001.txt");
+    cr_assert(whole && unit);
+    char *digit = strpbrk(strchr(unit, '\n'), "0123456789"); /* one digit is another */
+    *digit = *digit == '1' ? '2' : '1';
+    write_here(&p, "s/units/points-000001.txt", unit);
+    finished_clear(&(finished[]){run_expecting(&p, scan, 0)}[0]);
+    char *again = read_here(&p, "s/units/points-000001.txt");
+    cr_expect_str_neq(again, unit, "a damaged unit is not computed again");
+    for (size_t i = 0; i < 12; i++) {
+        const char *name = names[i % 4];
+        char *kept = NULL;
+        snprintf(path, sizeof path, "%.4000s/s/%s", p.folder, name);
+        FILE *file = fopen(path, "r");
+        if (file) kept = read_stream(file), fclose(file);
+        unlink(path);
+        if (i < 4) mkfifo(path, 0600);
+        else cr_assert_eq(symlink(i < 8 ? "/dev/zero" : "../elsewhere", path), 0);
+        finished f = run_expecting(&p, scan, 3);
+        cr_expect(strstr(f.err, "this is no file that nhsym wrote here") && strstr(f.err, name), "%s: %s", name, f.err);
+        finished_clear(&f);
+        unlink(path);
+        if (kept && (file = fopen(path, "w"))) fputs(kept, file), fclose(file);
+        free(kept);
+    }
+    cr_expect_null(read_here(&p, "elsewhere"));
+    static const char *const sizes[] = {"1e20", "-1", "0", "1.5", "NaN", "1e400", "\"3\"", "9007199254740993"};
+    for (size_t i = 0; i < 8; i++) {
+        char *text = read_here(&p, "s/manifest.json"), *at = strstr(text, "\"points_per_unit\":"), changed[2000];
+        snprintf(changed, sizeof changed, "%.*s\"points_per_unit\": %s%s", (int)(at - text), text, sizes[i], strchr(at, ','));
+        write_here(&p, "s/manifest.json", changed);
+        finished f = run_expecting(&p, scan, 3);
+        cr_expect(strstr(f.err, "this is no manifest of a scan"), "%s: %s", sizes[i], f.err);
+        finished_clear(&f);
+        write_here(&p, "s/manifest.json", text);
+        free(text);
+    }
+    finished_clear(&(finished[]){run_expecting(&p, scan, 0)}[0]);
+    free(again);
+    free(unit);
+    free(whole);
+    place_clear(&p);
+}

@@ -2,7 +2,8 @@
  *
  * One thread waits for all of them.  A pipe that nobody reads any more and a file that may not grow are errors of the
  * write, for which their signals wait.  The first signal, and a limit, end the computation by base/progress.h: it
- * returns soon, with what it has.  The same signal again within `same_press` is still the first one: `timeout` sends it to the
+ * returns soon, with what it has.  The same signal again within `same_press` is still the first one: `timeout` sends it
+ * to the
  * process and to its group.  A second signal, one that comes while results are written, and a computation that has
  * still not come back when it has used `grace` more of the processor, or of `more` memory, end the process at once:
  * without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that
