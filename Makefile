@@ -65,6 +65,8 @@ libraries = -lflint $(ARB) -lgmp -lnlopt -lcjson \
             $(foreach name,sundials_cvode sundials_arkode sundials_ida sundials_nvecserial sundials_sunmatrixdense sundials_sunlinsoldense $(SUNDIALS_CORE) \
                            gsl lapacke openblas yaml expat,$(call $(1),$(name))) \
             $(if $(filter archive,$(1)),$(if $(WITHOUT_MPI),,$(MPI)) $(FORTRAN),$(MPI)) -lm
+# No allocation of an archive fails (src/cli/archives.c).
+WRAP      = $(addprefix -Wl$(comma)--wrap=,malloc calloc realloc aligned_alloc posix_memalign)
 # What OpenBLAS' archive wants.
 FORTRAN  = $(if $(findstring :,$(call archive,openblas)),-l:libgfortran.so.5)
 # Its stand-in is src/cli/archives.c.
@@ -206,7 +208,7 @@ $(BUILD)/libnhsym.a: $(OBJECTS)
 
 $(BUILD)/nhsym: $(CLI) $(BUILD)/libnhsym.a
 	@echo "  link $@"
-	@$(LINK) $(CLI) $(BUILD)/libnhsym.a $(call libraries,archive) -o $@
+	@$(LINK) $(WRAP) $(CLI) $(BUILD)/libnhsym.a $(call libraries,archive) -o $@
 
 # Only what nhsym.h marks NH_API is seen from outside, and has a version.  (-fvisibility=hidden alone forgets functions that have clones for several processors.)
 $(BUILD)/libnhsym.map: src/nhsym.h
@@ -219,7 +221,7 @@ $(BUILD)/$(SONAME): $(OBJECTS) $(BUILD)/libnhsym.map
 
 $(BUILD)/nhsym-mpi: $(CLI_MPI) $(BUILD)/libnhsym.a
 	@echo "  link $@"
-	@$(LINK) $(CLI_MPI) $(BUILD)/libnhsym.a $(call libraries,archive) $$(pkg-config --libs mpi-c) -o $@
+	@$(LINK) $(WRAP) $(CLI_MPI) $(BUILD)/libnhsym.a $(call libraries,archive) $$(pkg-config --libs mpi-c) -o $@
 
 $(BUILD)/mpi/%.o: src/cli/%.c $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -233,7 +235,7 @@ $(BUILD)/fingerprint.o: $(BUILD)/libnhsym.a
 # For `make bench`: what the archives are good for.
 $(BUILD)/tests/nhsym-shared: $(CLI) $(BUILD)/libnhsym.a
 	@mkdir -p $(@D)
-	@$(LINK) $(CLI) $(BUILD)/libnhsym.a $(LDLIBS) -o $@
+	@$(LINK) $(WRAP) $(CLI) $(BUILD)/libnhsym.a $(LDLIBS) -o $@
 
 $(BUILD)/src/cli/archives.o: OWN_CPPFLAGS += $(if $(WITHOUT_MPI),-DNH_WITHOUT_MPI)
 

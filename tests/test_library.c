@@ -249,6 +249,42 @@ Test(library, methods_are_compared)
     close_one(&o);
 }
 
+/* Whatever goes wrong, or right: NULL in place of an error is allowed everywhere. */
+Test(library, errors_may_be_null)
+{
+    static const char *const system[] = {skate, oscillator}, *const initial[] = {"x'=1", "x'=", "no = 1", NULL};
+    nh_context *context = nh_context_create();
+    cr_expect_null(nh_problem_open(context, &(nh_question){.system_text = "nonsense: ["}, NULL));
+    for (size_t i = 0; i < 8; i++) {
+        nh_problem *p = nh_problem_open(context, &(nh_question){.system_text = system[i % 2], .initial = initial[i / 2], .until = 1}, NULL);
+        if (!p) continue;
+        nh_analysis *a = i ? NULL : nh_analyze(p, NULL);
+        nh_simulation *s = nh_simulate(p, NULL), *zeros = nh_simulate_zeros(p, "x = ", NULL, NULL);
+        nh_reduction *r = nh_reduce(p, NULL);
+        nh_verification *v = nh_verify_current(p, "x'*", NULL), *field = nh_verify_field(p, "Z0=", NULL);
+        nh_classified *c = nh_classify_over(p, "nothing", false, NULL);
+        nh_benchmark *b = nh_benchmark_methods(p, &(nh_comparison){.seconds = 0.01, .methods = i % 2 ? "rk8pd" : "no"}, NULL);
+        nh_linearized *x = nh_linearize(p, "k", NULL);
+        nh_rates *rates = nh_rates_create(p, NULL);
+        if (s) nh_string_free(nh_simulation_document(s, NH_FORMAT_HTML, NULL));
+        if (s) nh_string_free(nh_simulation_document(s, (nh_format)99, NULL));
+        if (r) nh_string_free(nh_reduction_document(r, NH_FORMAT_CSV, NULL));
+        nh_analysis_free(a);
+        nh_simulation_free(s);
+        nh_simulation_free(zeros);
+        nh_reduction_free(r);
+        nh_verification_free(v);
+        nh_verification_free(field);
+        nh_classified_free(c);
+        nh_benchmark_free(b);
+        nh_linearized_free(x);
+        nh_rates_free(rates);
+        nh_problem_free(p);
+    }
+    nh_string_free(nh_systems(NULL));
+    nh_context_free(context);
+}
+
 /* As --method, --csv, --svg, --over and --project of the command; the result outlives its question. */
 Test(library, named_methods_are_compared)
 {

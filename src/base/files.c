@@ -1,9 +1,11 @@
 #include "base/files.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/context_internal.h"
 #include "base/memory.h"
@@ -57,7 +59,7 @@ static char *from_file(const char *path, size_t limit, size_t *length, nh_error 
     struct stat status;
     FILE *file = fopen(path, "rb");
     if (!file) {
-        nh_fail(error, NH_INPUT, path, "this file cannot be opened: %s", strerror(errno));
+        nh_fail(error, errno == ENOMEM ? NH_LIMIT : NH_INPUT, path, "this file cannot be opened: %s", strerror(errno));
         return NULL;
     }
     open_file opened = {.undo.undo = close_it, .file = file};
@@ -66,7 +68,7 @@ static char *from_file(const char *path, size_t limit, size_t *length, nh_error 
     if (folder) nh_fail(error, NH_INPUT, path, "this is a directory, not a file");
     char *text = folder ? NULL : slurp(file, limit, length);
     if (text && ferror(file)) {
-        nh_fail(error, NH_INPUT, path, "this file cannot be read: %s", strerror(errno));
+        nh_fail(error, errno == ENOMEM ? NH_LIMIT : NH_INPUT, path, "this file cannot be read: %s", strerror(errno));
         nh_free(text);
         text = NULL;
     }
@@ -125,4 +127,40 @@ char *nh_files_read(const char *path, size_t limit, size_t *length, nh_error *er
     else if (text) keep(c, path, text, *length);
     nh_release(&held);
     return text;
+}
+
+static bool other(const char *path, nh_error *error)
+{
+    nh_fail(error, NH_INPUT, path, "this is no file that nhsym wrote here, but a link, a device or something else");
+    return nh_error_hint(error, "remove it, or give another folder");
+}
+
+bool nh_files_regular(const char *path, nh_error *error)
+{
+    struct stat info;
+    return lstat(path, &info) || S_ISREG(info.st_mode) || other(path, error);
+}
+
+char *nh_files_own(const char *path, nh_error *error)
+{
+    static const size_t limit = 100000000;
+    struct stat info;
+    size_t length = 0;
+    if (!nh_files_regular(path, error)) return NULL;
+    int number = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    FILE *file = number >= 0 && !fstat(number, &info) && S_ISREG(info.st_mode) ? fdopen(number, "rb") : NULL;
+    if (!file) {
+        if (number >= 0) close(number);
+        return NULL;
+    }
+    char *text = slurp(file, limit, &length);
+    bool good = !ferror(file) && length <= limit && !memchr(text, 0, length);
+    fclose(file);
+    if (good) {
+        char *ended = nh_realloc_array(text, length + 1, 1);
+        ended[length] = 0;
+        return ended;
+    }
+    nh_free(text);
+    return NULL;
 }

@@ -29,4 +29,10 @@ uint64_t nh_files_fingerprint(void);
 /* The bytes of a file, at most limit + 1 of them; the caller frees them by nh_free.  NULL with a message. */
 char *nh_files_read(const char *path, size_t limit, size_t *length, nh_error *error);
 
+/* The text of a file that this program itself wrote: a regular file, not longer than a hundred megabytes, and no link
+ * to another place.  NULL where there is none, and with a message where something else has its name. */
+char *nh_files_own(const char *path, nh_error *error);
+/* Has nothing but a regular file this name?  Otherwise a message. */
+bool nh_files_regular(const char *path, nh_error *error);
+
 #endif

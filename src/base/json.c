@@ -32,10 +32,15 @@ static cJSON *text_or_null(const char *text) { return text ? cJSON_CreateString(
 
 /* Without memory cJSON would silently leave members out.  It allocates through base/memory.h, where a failed allocation
  * does not return. */
-nh_json *nh_json_object(void)
+static void use_our_memory(void)
 {
     static cJSON_Hooks hooks = {nh_alloc, nh_free};
     cJSON_InitHooks(&hooks);
+}
+
+nh_json *nh_json_object(void)
+{
+    use_our_memory();
     return cJSON_CreateObject();
 }
 
@@ -82,7 +87,11 @@ char *nh_json_line(nh_json *root)
     return out;
 }
 
-nh_json *nh_json_parse(const char *text) { return cJSON_Parse(text); }
+nh_json *nh_json_parse(const char *text)
+{
+    use_our_memory();
+    return cJSON_Parse(text);
+}
 void nh_json_free(nh_json *root) { cJSON_Delete(root); }
 const char *nh_json_text(const nh_json *object, const char *key)
 {

@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 #include <stddef.h>
+#include <unistd.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static nh_leaving *first;
@@ -11,6 +12,7 @@ void nh_leave_release(void) { pthread_mutex_unlock(&lock); }
 
 void nh_leave_add(nh_leaving *leaving)
 {
+    leaving->process = (long)getpid();
     leaving->next = first;
     leaving->link = &first;
     if (first) first->link = &leaving->next;
@@ -26,5 +28,6 @@ void nh_leave_remove(nh_leaving *leaving)
 void nh_leave_now(void)
 {
     nh_leave_hold();
-    for (nh_leaving *l = first; l; l = l->next) l->undo(l);
+    for (nh_leaving *l = first; l; l = l->next)
+        if (l->process == (long)getpid()) l->undo(l);
 }

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 
 #include <fcntl.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -112,10 +113,46 @@ double nh_memory_in_use(void)
     return pages ? strtod(pages, NULL) * (double)sysconf(_SC_PAGESIZE) : 0;
 }
 
+/* The number that a file begins with; infinite where there is none, as for "max". */
+static double number_in(const char *path)
+{
+    char text[100], *end = text;
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    ssize_t length = file >= 0 ? read(file, text, sizeof text - 1) : -1;
+    if (file >= 0) close(file);
+    text[length > 0 ? length : 0] = 0;
+    double value = strtod(text, &end);
+    return end > text ? value : INFINITY;
+}
+
+double nh_memory_of_group(const char *list, const char *root)
+{
+    double least = INFINITY;
+    char line[600], path[1000];
+    FILE *file = fopen(list, "re");
+    while (file && fgets(line, sizeof line, file)) {
+        char *kind = strchr(line, ':'), *group = kind ? strchr(kind + 1, ':') : NULL;
+        const char *memory = strstr(line, "memory");
+        bool one = group && group == kind + 1, other = group && memory && memory < group;
+        if (!one && !other) continue;
+        line[strcspn(line, "\n")] = 0;
+        group++;
+        for (char *cut = group + strlen(group); cut; cut = strrchr(group, '/')) { /* the group, and those around it */
+            *cut = 0;
+            snprintf(path, sizeof path, "%s%s%s/%s", root, one ? "" : "/memory", group,
+                     one ? "memory.max" : "memory.limit_in_bytes");
+            least = fmin(least, number_in(path));
+        }
+    }
+    if (file) fclose(file);
+    return least;
+}
+
 double nh_memory_of_machine(void)
 {
     double pages = (double)sysconf(_SC_PHYS_PAGES), size = (double)sysconf(_SC_PAGESIZE);
-    return pages > 0 && size > 0 ? pages * size : 0;
+    double group = nh_memory_of_group("/proc/self/cgroup", "/sys/fs/cgroup");
+    return pages > 0 && size > 0 ? fmin(pages * size, group) : isfinite(group) ? group : 0;
 }
 
 /* `array_pointer` is a `T **`; memcpy reads and writes it without pretending that it is a `void **`. */

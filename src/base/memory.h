@@ -32,8 +32,11 @@ char *nh_strdup(const char *text);
 
 /* Bytes of this process that are in memory now; 0 where the system does not say. */
 double nh_memory_in_use(void);
-/* Bytes of memory that this machine has; 0 where the system does not say. */
+/* Bytes of memory that this process may have: of the machine, or of its control group; 0 where the system does not
+ * say. */
 double nh_memory_of_machine(void);
+/* The part of the control groups, versions 1 and 2: `list` is /proc/self/cgroup, `root` /sys/fs/cgroup. */
+double nh_memory_of_group(const char *list, const char *root);
 
 /* Grow `*array` (element size `size`) so that it holds at least `need` elements, doubling `*capacity`. */
 void nh_grow(void *array_pointer, size_t *capacity, size_t need, size_t size);

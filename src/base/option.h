@@ -18,7 +18,7 @@
     X(threads,          0,       0,      64,    whole, "threads",  "that share the work; 0: one per processor; the result does not depend on it") \
     X(work,             1e4,     0,      1e9,   real,  "millions", "of units of work (about a nanosecond each) after which the search by stages ends") \
     X(max_seconds,      120,     0,      1e7,   real,  "s",        "time after which the search ends, even if work is left: a limit for slow machines") \
-    X(max_memory,       0,       0,      1e9,   real,  "MB",       "memory of the process at which a run ends, with partial results; 0: no limit") \
+    X(max_memory,       0,       0,      1e9,   real,  "MB",       "memory of the process at which a run ends, with partial results; 0: 3/4 of what there is") \
     X(rank,             1e-9,    0,      1,     real,  "",         "columns whose pivot is below this part of the first are dependent")      \
     X(zero,             100,     1,      1e6,   real,  "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \
     X(undecided,        1e5,     1,      1e10,  real,  "",         "up to this many times the null bound a value is undecided")              \

@@ -2,17 +2,19 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include "base/context_internal.h"
+#include "base/files.h"
 #include "base/output.h"
 #include "base/progress.h"
 #include "base/sweep_internal.h"
 
-static const char last_line[] = "finished\n";
+static const char finished_word[] = "finished ", part_word[] = "part ";
 
 /* Units of the sweep. */
 static size_t units_of(const nh_sweep *s) { return (s->items + s->per_unit - 1) / s->per_unit; }
@@ -35,36 +37,45 @@ static void path_of(const nh_sweep *s, size_t unit, const char *ending, nh_text 
     nh_text_addf(out, "%s/%s-%06zu.%s", s->folder, s->name, unit, ending);
 }
 
-static char *read_file(const char *path)
+/* A file ends with a line that says whether the unit is finished, and the fingerprint of what is before it. */
+static void end_file(nh_text *text, bool whole)
 {
-    FILE *file = fopen(path, "rb");
-    nh_text text;
-    char piece[4096];
-    nh_text_init(&text);
-    if (!file) return NULL;
-    for (size_t n; (n = fread(piece, 1, sizeof piece, file)) > 0;) nh_text_add_n(&text, piece, n);
-    bool good = !ferror(file);
-    fclose(file);
-    char *out = good ? nh_strdup(nh_text_string(&text)) : NULL;
-    nh_text_clear(&text);
-    return out;
+    uint64_t sum = nh_text_fingerprint(0, nh_text_string(text), text->length);
+    nh_text_addf(text, "%s%016" PRIx64 "\n", whole ? finished_word : part_word, sum);
+}
+
+/* Cuts the last line off; false where the file was changed since. */
+static bool cut_end(char *text, bool *whole)
+{
+    size_t length = strlen(text), last = length ? length - 1 : 0;
+    while (last && text[last - 1] != '\n') last--;
+    *whole = !strncmp(text + last, finished_word, sizeof finished_word - 1);
+    nh_text own;
+    nh_text_init(&own);
+    nh_text_add_n(&own, text, last);
+    end_file(&own, *whole);
+    bool good = own.length == length && !strcmp(nh_text_string(&own), text);
+    nh_text_clear(&own);
+    text[last] = 0;
+    return good;
 }
 
 /* The lines behind the head, each ended by 0; *count: how many, at most as many as the unit has items.  Returns the
- * first one, or NULL where the file is not of this sweep. */
+ * first one, or NULL where the file is not of this sweep, or damaged. */
 static char *cut_lines(const nh_sweep *s, size_t unit, char *text, size_t *lines, bool *finished)
 {
     nh_text head;
+    bool whole, good = cut_end(text, &whole);
     nh_text_init(&head);
     nh_text_addf(&head, "%s %zu\n", s->fingerprint, unit);
-    bool own = !strncmp(text, nh_text_string(&head), head.length);
+    bool own = good && !strncmp(text, nh_text_string(&head), head.length);
     char *at = text + head.length, *start = at;
     nh_text_clear(&head);
     *lines = 0;
     *finished = false;
     if (!own) return NULL;
     for (char *end; *lines < unit_items(s, unit) && (end = strchr(at, '\n')); at = end + 1, (*lines)++) *end = 0;
-    *finished = *lines == unit_items(s, unit) && !strcmp(at, last_line);
+    *finished = whole && *lines == unit_items(s, unit) && !*at;
     return start;
 }
 
@@ -75,7 +86,7 @@ static char *finished_lines(const nh_sweep *s, size_t unit, char **text)
     size_t lines;
     bool finished = false;
     path_of(s, unit, "txt", &path);
-    *text = read_file(nh_text_string(&path));
+    *text = nh_files_own(nh_text_string(&path), NULL);
     nh_text_clear(&path);
     char *start = *text ? cut_lines(s, unit, *text, &lines, &finished) : NULL;
     if (finished) return start;
@@ -118,7 +129,7 @@ static bool write_unit(const nh_sweep *s, size_t unit, const char *ending, const
     nh_text_init(&text);
     nh_text_addf(&text, "%s %zu\n", s->fingerprint, unit);
     nh_text_add(&text, nh_text_string(lines));
-    if (whole) nh_text_add(&text, last_line);
+    end_file(&text, whole);
     bool good = nh_output_write(nh_text_string(&path), nh_text_string(&text), text.length, error);
     nh_text_clear(&text);
     nh_text_clear(&path);
@@ -132,7 +143,7 @@ static size_t take_part(const nh_sweep *s, size_t unit, nh_text *lines)
     size_t n = 0;
     bool finished;
     path_of(s, unit, "part", &path);
-    char *text = read_file(nh_text_string(&path)), *at = text ? cut_lines(s, unit, text, &n, &finished) : NULL;
+    char *text = nh_files_own(nh_text_string(&path), NULL), *at = text ? cut_lines(s, unit, text, &n, &finished) : NULL;
     for (size_t k = 0; at && k < n; k++) {
         nh_text_addf(lines, "%s\n", at);
         at += strlen(at) + 1;
@@ -231,13 +242,28 @@ static bool do_in_team(const nh_sweep *s, nh_error *error)
     return good;
 }
 
+/* Has something else than our files one of their names? */
+static bool only_files(const nh_sweep *s, nh_error *error)
+{
+    static const char *const ending[] = {"txt", "part"};
+    bool good = true;
+    for (size_t u = 0; u < units_of(s) && good; u++)
+        for (int i = 0; i < 2 && good && is_ours(s, u); i++) {
+            nh_text path;
+            path_of(s, u, ending[i], &path);
+            good = nh_files_regular(nh_text_string(&path), error);
+            nh_text_clear(&path);
+        }
+    return good;
+}
+
 bool nh_sweep_run(const nh_sweep *s, nh_sweep_state *state, nh_error *error)
 {
     enum { rounds = 3 }; /* a unit whose worker died is tried twice more */
     size_t *unit = nh_alloc_array(units_of(s) + 1, sizeof *unit), n = 0;
-    bool good = true;
     *state = (nh_sweep_state){0};
-    if (s->team && s->team->size > 1) good = do_in_team(s, error);
+    bool good = only_files(s, error);
+    if (good && s->team && s->team->size > 1) good = do_in_team(s, error);
     if (s->team && s->team->size > 1) s->team->meet(s->team->context);
     bool whole = !s->team || s->team->rank == 0; /* the first process of a team computes what others lost */
     for (int round = 0; good && whole && round < rounds && !nh_interrupted(); round++) {
@@ -252,15 +278,16 @@ bool nh_sweep_run(const nh_sweep *s, nh_sweep_state *state, nh_error *error)
 
 /* ---- who works in the folder ---- */
 
-int nh_sweep_hold(const char *folder)
+bool nh_sweep_hold(const char *folder, int *hold, nh_error *error)
 {
     nh_text path;
     nh_text_init(&path);
     nh_text_addf(&path, "%s/lock", folder);
-    int file = open(nh_text_string(&path), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    bool good = nh_files_regular(nh_text_string(&path), error);
+    *hold = good ? open(nh_text_string(&path), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666) : -1;
     nh_text_clear(&path);
-    if (file >= 0) flock(file, LOCK_SH);
-    return file;
+    if (*hold >= 0) flock(*hold, LOCK_SH);
+    return good;
 }
 
 /* NAME-000017.txt.AbCdEf */

@@ -5,7 +5,8 @@
  * can be ended at any moment and continued, on any number of processes and machines that share the folder: the lines
  * are the same. What a unit is depends on `per_unit` alone, and the lines do not depend on it.
  *
- * A unit file begins with the fingerprint of the sweep and ends with a line that says that it is complete.  A unit that
+ * A unit file begins with the fingerprint of the sweep and ends with a line that says that it is complete, with a sum
+ * of all before; a file that was changed since is computed again.  A unit that
  * was interrupted leaves the lines that it has in a file that ends in `.part`. */
 #ifndef NH_SWEEP_H
 #define NH_SWEEP_H
@@ -50,10 +51,11 @@ bool nh_sweep_run(const nh_sweep *sweep, nh_sweep_state *state, nh_error *error)
 /* The lines of all items of the chunk, in the arena; NULL where there is none yet.  Returns the number of items. */
 size_t nh_sweep_read(const nh_sweep *sweep, nh_arena *arena, const char **line);
 
-/* nh_sweep_hold marks that this process works in the folder, and returns a handle (-1 where the file system cannot
- * tell).  A process that is alone there (nh_sweep_is_alone) may remove unfinished files of ended processes whose names
+/* nh_sweep_hold marks that this process works in the folder; *hold is a handle (-1 where the file system cannot tell).
+ * False: something else than a file has the name of the lock.  A process that is alone there (nh_sweep_is_alone) may
+ * remove unfinished files of ended processes whose names
  * begin with `name` (nh_sweep_tidy). */
-int nh_sweep_hold(const char *folder);
+bool nh_sweep_hold(const char *folder, int *hold, nh_error *error);
 bool nh_sweep_is_alone(int hold);
 void nh_sweep_tidy(const char *folder, const char *name);
 void nh_sweep_release(int hold);

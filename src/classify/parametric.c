@@ -34,11 +34,10 @@ static size_t factor_of(nh_parametric *f, nh_ex base)
 
 void nh_parametric_denominators(nh_parametric *f, size_t n, const nh_ex *e, size_t *power)
 {
-    enum { most = 4000 };
     nh_dag *d = f->counter.equations->dag;
-    nh_ex *product = nh_alloc_array(most, sizeof *product);
+    NH_LIST(product);
     for (size_t k = 0; k < n && !f->obstacle; k++) {
-        size_t count = nh_products_in(d, e[k], product, most);
+        size_t count = nh_products_in(d, e[k], &product);
         for (size_t i = 0; i < count && !f->obstacle; i++)
             for (size_t j = 0; j < nh_arity(d, product[i]); j++) {
                 double x = nh_num_value(nh_number_of(d, nh_exponent_of(d, product[i], j)));
@@ -48,18 +47,15 @@ void nh_parametric_denominators(nh_parametric *f, size_t n, const nh_ex *e, size
                 if (power[at] < (size_t)-x) power[at] = (size_t)-x;
             }
     }
-    nh_free(product);
 }
 
 bool nh_parametric_rational(nh_dag *d, nh_ex e, nh_ex symbol)
 {
-    enum { most = 4000 };
-    nh_ex *node = nh_alloc_array(most, sizeof *node);
+    NH_LIST(node);
     bool rational = true;
-    size_t count = nh_functions_in(d, e, node, most);
+    size_t count = nh_functions_in(d, e, &node);
     for (size_t i = 0; i < count && rational; i++) rational = !nh_depends(d, node[i], symbol);
-    rational &= count < most;
-    count = nh_products_in(d, e, node, most);
+    count = nh_products_in(d, e, &node);
     for (size_t i = 0; i < count && rational; i++)
         for (size_t j = 0; j < nh_arity(d, node[i]) && rational; j++) {
             nh_ex exponent = nh_exponent_of(d, node[i], j);
@@ -67,8 +63,6 @@ bool nh_parametric_rational(nh_dag *d, nh_ex e, nh_ex symbol)
             rational = whole ? true : !nh_depends(d, nh_child(d, node[i], j), symbol)
                 && !nh_depends(d, exponent, symbol);
         }
-    rational &= count < most;
-    nh_free(node);
     return rational;
 }
 

@@ -1,8 +1,11 @@
 /* archives: settings for libraries that are linked into the program, made before these start. */
+#include <errno.h>
 #include <stdlib.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+
+#include "base/memory.h"
 
 /* OpenBLAS starts a thread per core when it is loaded, and each of them spins for 25 ms waiting for work.  This
  * setting makes it start none: blocks of work are shared out above it (base/parallel.h), with results that do not
@@ -29,6 +32,33 @@ __attribute__((constructor)) static void keep_memory(void)
     mallopt(M_TRIM_THRESHOLD, 512 << 20);
 }
 #endif
+
+/* Libraries that are linked into the program do not all survive an allocation that fails (SUNDIALS and GSL follow null
+ * pointers): the linker sends their allocations here (--wrap), and none of them fails. */
+void *__real_malloc(size_t size), *__real_calloc(size_t count, size_t size), *__real_realloc(void *old, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+int __real_posix_memalign(void **out, size_t alignment, size_t size);
+void *__wrap_malloc(size_t size), *__wrap_calloc(size_t count, size_t size), *__wrap_realloc(void *old, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+int __wrap_posix_memalign(void **out, size_t alignment, size_t size);
+
+static void *got(void *memory, size_t size)
+{
+    if (!memory && size) nh_memory_ended(size);
+    return memory;
+}
+
+void *__wrap_malloc(size_t size) { return got(__real_malloc(size), size); }
+void *__wrap_calloc(size_t count, size_t size) { return got(__real_calloc(count, size), count ? size : 0); }
+void *__wrap_realloc(void *old, size_t size) { return got(__real_realloc(old, size), size); }
+void *__wrap_aligned_alloc(size_t alignment, size_t size) { return got(__real_aligned_alloc(alignment, size), size); }
+
+int __wrap_posix_memalign(void **out, size_t alignment, size_t size)
+{
+    int reason = __real_posix_memalign(out, alignment, size);
+    if (reason == ENOMEM) nh_memory_ended(size);
+    return reason;
+}
 
 /* SUNDIALS 7 as Debian builds it refers to MPI; a single process needs nothing of it but the address that stands for
  * "no processes".  The definitions here take the place of MPI's library, which may measure the processor's clock when

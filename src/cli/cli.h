@@ -31,6 +31,8 @@ typedef struct {
     nh_cli_progress progress;
     bool quiet, verbose, colour, help;
     nh_output_set files;         /* output files that are written and not yet in their places */
+    size_t figures;              /* of the page, written to the folder */
+    bool drawn;                  /* they were */
     nh_arena *arena;
 } nh_cli;
 

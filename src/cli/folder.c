@@ -65,8 +65,8 @@ static void drop_older(nh_cli *cli, size_t last)
     DIR *folder = opendir(cli->folder);
     for (struct dirent *entry; folder && (entry = readdir(folder));) {
         size_t number = figure_number(cli, entry->d_name);
-        const char *path = nh_cli_in_folder(cli, entry->d_name);
-        if (number > last && is_ours(path, number)) nh_output_drop(&cli->files, path);
+        const char *path = number > last ? nh_cli_in_folder(cli, entry->d_name) : NULL;
+        if (path && is_ours(path, number)) nh_output_drop(&cli->files, path);
     }
     if (folder) closedir(folder);
 }
@@ -77,6 +77,14 @@ bool nh_cli_write_figures(nh_cli *cli, const char *page, nh_error *error)
     bool good = true;
     for (const char *figure; good && nh_answer_figure(&page, &figure, &length);)
         good = nh_output_add(&cli->files, nh_cli_in_folder(cli, figure_name(cli, ++count)), figure, length, error);
-    if (good) drop_older(cli, count);
+    cli->figures = count;
+    cli->drawn = good;
     return good;
+}
+
+bool nh_cli_written(nh_cli *cli, bool good, nh_error *error)
+{
+    good = good && nh_output_lock(&cli->files, error);
+    if (good && cli->drawn) drop_older(cli, cli->figures);
+    return nh_output_end(&cli->files, good, error);
 }

@@ -1,7 +1,9 @@
 /* guard: signals and the limits of time and memory.
  *
- * One thread waits for all of them.  The first signal, and a limit, end the computation by base/progress.h: it returns
- * soon, with what it has.  The same signal again within `same_press` is still the first one: `timeout` sends it to the
+ * One thread waits for all of them.  A pipe that nobody reads any more and a file that may not grow are errors of the
+ * write, for which their signals wait.  The first signal, and a limit, end the computation by base/progress.h: it
+ * returns soon, with what it has.  The same signal again within `same_press` is still the first one: `timeout` sends it
+ * to the
  * process and to its group.  A second signal, one that comes while results are written, and a computation that has
  * still not come back when it has used `grace` more of the processor, or of `more` memory, end the process at once:
  * without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that
@@ -43,12 +45,22 @@ static void end_at_once(int code, const char *reached, const char *option)
     _exit(code);
 }
 
+static const int taken_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGXFSZ};
+enum { signal_count = sizeof taken_signals / sizeof *taken_signals };
+
+/* All of them but those that whoever started the program ignores, as nohup does (a shell ignores SIGINT for a command
+ * in the background; we take it all the same). */
 static sigset_t signals(void)
 {
-    sigset_t set;
-    sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
+    static sigset_t set;
+    static bool known;
+    for (size_t i = 0; i < signal_count && !known; i++) {
+        struct sigaction before;
+        if (i == 0) sigemptyset(&set);
+        bool heard = i < 2 || (!sigaction(taken_signals[i], NULL, &before) && before.sa_handler != SIG_IGN);
+        if (heard) sigaddset(&set, taken_signals[i]);
+    }
+    known = true;
     return set;
 }
 
@@ -104,7 +116,7 @@ static void take_signal(int number)
     static const double same_press = 0.3;
     static int first; /* the thread took a signal */
     static double taken;
-    if (number == first && nh_clock() - taken < same_press) return;
+    if (number == first && (nh_clock() - taken < same_press || number == SIGXCPU)) return; /* it comes every second */
     if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED, NULL, NULL);
     nh_interrupt();
     stopped = true;
@@ -147,8 +159,8 @@ void nh_cli_guard_begin(double seconds, double bytes)
     struct sigaction act = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     sigset_t set = signals();
     sigemptyset(&act.sa_mask);
-    sigaction(SIGINT, &act, NULL);
-    sigaction(SIGTERM, &act, NULL);
+    for (size_t i = 0; i < signal_count; i++)
+        if (sigismember(&set, taken_signals[i])) sigaction(taken_signals[i], &act, NULL);
     nh_limit_set(seconds);
     nh_limit_memory_set(bytes);
     limit = seconds;

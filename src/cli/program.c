@@ -1,4 +1,5 @@
 /* program: from the command line to the exit code. */
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -6,6 +7,7 @@
 #include "base/escape.h"
 #include "base/files.h"
 #include "base/foreign_memory.h"
+#include "base/leave.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "cli/cli_table.h"
@@ -33,6 +35,7 @@ const char *nh_cli_program(void)
 static void out_of_memory(size_t wanted)
 {
     char doing[80] = "";
+    nh_leave_now();
     nh_progress_last(doing, sizeof doing);
     dprintf(STDERR_FILENO,
             "nhsym: %s%sout of memory: %.3g MB more were wanted\nhint: ask for less (a lower degree, fewer motions "
@@ -79,6 +82,13 @@ static const char *line_of(nh_cli *cli, int argc, char **argv)
     return line;
 }
 
+/* Has the reader of a pipe gone? */
+static bool left_alone(void)
+{
+    sigset_t waiting;
+    return !sigpending(&waiting) && sigismember(&waiting, SIGPIPE);
+}
+
 int nh_cli_main(int argc, char **argv, const nh_team *team)
 {
     nh_error error;
@@ -107,8 +117,9 @@ int nh_cli_main(int argc, char **argv, const nh_team *team)
     nh_arena_free(cli.arena);
     nh_answer_cleanup();
     if (fflush(stdout) || ferror(stdout)) {
-        fprintf(stderr, "nhsym: standard output could not be written\n");
-        code = code ? code : NH_NUMERIC;
+        bool left = left_alone(); /* as by `| head`, which wants no more */
+        if (!left) fprintf(stderr, "nhsym: standard output could not be written\n");
+        code = code ? code : left ? NH_INTERRUPTED : NH_NUMERIC;
     }
     if (nh_interrupted()) _exit(code); /* an abandoned decomposition may still run */
     return code;

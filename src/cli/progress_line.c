@@ -41,7 +41,9 @@ static void show(void *context, const char *doing, double part)
 void nh_cli_progress_begin(const nh_cli *cli)
 {
     const nh_options *o = &cli->ask.options;
-    nh_cli_guard_begin(cli->ask.limited ? o->max_seconds : INFINITY, o->max_memory * NH_MEGABYTE);
+    static const double part = 0.75; /* of the memory: before the machine is of no use to others */
+    nh_cli_guard_begin(cli->ask.limited ? o->max_seconds : INFINITY,
+                       o->max_memory > 0 ? o->max_memory * NH_MEGABYTE : part * nh_memory_of_machine());
     bool terminal = isatty(STDERR_FILENO);
     if (cli->progress == NH_PROGRESS_NEVER || (cli->progress == NH_PROGRESS_AUTO && (!terminal || cli->quiet))) return;
     live = terminal;

@@ -120,8 +120,6 @@ bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error)
     return good;
 }
 
-bool nh_cli_written(nh_cli *cli, bool good, nh_error *error) { return nh_output_end(&cli->files, good, error); }
-
 void nh_cli_print(nh_text *text)
 {
     nh_text safe;
@@ -255,7 +253,7 @@ int nh_cli_failed(nh_cli *cli, nh_error *error)
     bool some = nh_answer_unfinished(&a, &cli->ask), quiet = cli->quiet;
     /* words are not printed where a table or code is expected */
     cli->quiet |= cli->ask.to || !strcmp(cli->command, "simulate");
-    bool good = !some || nh_cli_write_answer(cli, &a, error);
+    bool good = !some || (nh_cli_make_folder(cli, error) && nh_cli_write_answer(cli, &a, error));
     cli->quiet = quiet;
     if (some) nh_answer_free(&a);
     if (good) nh_fail_ended(error, "before there was a result%s%s", *doing ? ": " : "", doing);

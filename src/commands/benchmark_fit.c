@@ -202,10 +202,10 @@ static void mark_front(nh_benchmark *out)
 
 bool nh_fit_is_wave(const nh_model *o, nh_ex q)
 {
-    nh_ex call[256];
+    NH_LIST(call);
     for (size_t i = 0; i < o->m + o->n; i++) {
-        size_t n = nh_functions_in(o->dag, i < o->m ? o->rho[i] : o->a[i - o->m], call, sizeof call / sizeof *call);
-        for (size_t k = 0; k < n && k < sizeof call / sizeof *call; k++) {
+        size_t n = nh_functions_in(o->dag, i < o->m ? o->rho[i] : o->a[i - o->m], &call);
+        for (size_t k = 0; k < n; k++) {
             nh_function f = nh_function_of(o->dag, call[k]);
             if ((f == NH_SIN || f == NH_COS || f == NH_TAN) && nh_depends(o->dag, call[k], q)) return true;
         }

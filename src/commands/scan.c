@@ -266,9 +266,10 @@ static bool compute(nh_scan *x, const nh_scan_request *q, nh_error *error)
     bool good = nh_scan_manifest(x, q, seconds_of_a_point, &w, &per_unit, &fingerprint, error);
     if (first && !alone) q->team->meet(q->team->context);
     if (!good) return false;
-    int hold = nh_sweep_hold(q->folder);
+    int hold;
+    good = nh_sweep_hold(q->folder, &hold, error);
     nh_sweep s = sweep_of(&w, fingerprint);
-    good = scan_points(&w, s, per_unit, error);
+    good = good && scan_points(&w, s, per_unit, error);
     x->chunked = q->chunks > 1;
     if (!alone) q->team->meet(q->team->context);
     if (good && !x->chunked && !x->partial) {

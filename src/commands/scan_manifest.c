@@ -45,12 +45,12 @@ static bool differs(const nh_json *m, const char *key, const char *mine, const c
 }
 
 static bool compare(const char *path, const char *text, const char *program, const char *files, const char *question,
-                    size_t *per_unit, double *seconds, nh_error *error)
+                    size_t points, size_t *per_unit, double *seconds, nh_error *error)
 {
     nh_json *m = nh_json_parse(text);
     double size = nh_json_value(m, "points_per_unit");
     *seconds = nh_json_value(m, "unit_seconds");
-    bool good = size >= 1 && nh_json_value(m, "schema") == 1;
+    bool good = size >= 1 && size <= (double)points && size == floor(size) && nh_json_value(m, "schema") == 1;
     if (!good) {
         nh_fail(error, NH_INPUT, path, "this is no manifest of a scan");
         nh_error_hint(error, "give another folder, or remove this one");
@@ -61,20 +61,6 @@ static bool compare(const char *path, const char *text, const char *program, con
     if (good) *per_unit = (size_t)size;
     nh_json_free(m);
     return good;
-}
-
-static char *read_manifest(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    char piece[1024];
-    nh_text text;
-    nh_text_init(&text);
-    if (!file) return NULL;
-    for (size_t n; (n = fread(piece, 1, sizeof piece, file)) > 0;) nh_text_add_n(&text, piece, n);
-    fclose(file);
-    char *out = nh_strdup(nh_text_string(&text));
-    nh_text_clear(&text);
-    return out;
 }
 
 /* ---- writing ---- */
@@ -114,14 +100,16 @@ bool nh_scan_manifest(nh_scan *x, const nh_scan_request *q, double (*seconds_of_
     const char *files = hexadecimal(x->arena, nh_files_fingerprint());
     if (!make_folder(q->folder, error) || !make_folder(nh_arena_printf(x->arena, "%s/units", q->folder), error))
         return false;
-    char *text = read_manifest(path);
+    if (!nh_files_regular(path, error)) return false;
+    char *text = nh_files_own(path, error);
     if (!text) {
         char *mine = manifest_text(x, q->program, files, seconds_of_a_point(context));
         bool written = write_first(path, mine, error);
         nh_free(mine);
-        if (!written || !(text = read_manifest(path))) return nh_fail(error, NH_NUMERIC, path, "could not be written");
+        if (!written || !(text = nh_files_own(path, error)))
+            return nh_fail(error, NH_NUMERIC, path, "could not be written");
     }
-    bool good = compare(path, text, q->program, files, x->question, per_unit, &x->unit_seconds, error);
+    bool good = compare(path, text, q->program, files, x->question, x->points, per_unit, &x->unit_seconds, error);
     nh_free(text);
     uint64_t h = nh_text_fingerprint(0, x->question, strlen(x->question));
     h = nh_text_fingerprint(h, files, strlen(files));

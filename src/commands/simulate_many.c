@@ -43,7 +43,7 @@ static bool fits(const nh_simulate_request *q, const nh_trajectory_request *moti
             "%zu motions at %zu times with %zu columns need %.3g GB of memory, of which there are %.3g", q->ensemble,
             motion->count, motion->n, size / (1024 * NH_MEGABYTE), most / (1024 * NH_MEGABYTE));
     return nh_error_hint(error, "fewer motions (--ensemble), times (--step) or columns (--watch) need less%s",
-                         most < nh_memory_of_machine() ? "; or raise --max-memory" : "");
+                         size < nh_memory_of_machine() ? "; or raise --max-memory" : "");
 }
 
 bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion,

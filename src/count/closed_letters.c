@@ -9,7 +9,7 @@
 #include "graph/diff.h"
 #include "graph/terms.h"
 
-enum { most_found = 400, largest_form = 2000, largest_inertia = 4, least_down = 1 };
+enum { largest_form = 2000, largest_inertia = 4, least_down = 1 };
 
 /* ---- the list ---- */
 
@@ -147,17 +147,17 @@ static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_
 static void take_expression(const nh_jet_equations *x, nh_letters *l, nh_ex e, double less)
 {
     nh_dag *d = x->dag;
-    nh_ex *found = nh_alloc_array(most_found, sizeof *found), own = nh_canonical(d, e, largest_form);
-    size_t n = nh_functions_in(d, own, found, most_found);
-    for (size_t i = 0; i < n && i < most_found; i++) take_function(x, l, found[i]);
-    n = nh_products_in(d, own, found, most_found);
-    for (size_t i = 0; i < n && i < most_found; i++)
+    NH_LIST(found);
+    nh_ex own = nh_canonical(d, e, largest_form);
+    size_t n = nh_functions_in(d, own, &found);
+    for (size_t i = 0; i < n; i++) take_function(x, l, found[i]);
+    n = nh_products_in(d, own, &found);
+    for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < nh_arity(d, found[i]); k++) {
             nh_ex exponent = nh_exponent_of(d, found[i], k);
             if (nh_kind_of(d, exponent) == NH_NUMBER)
                 take_power(x, l, nh_child(d, found[i], k), nh_number_of(d, exponent), less);
         }
-    nh_free(found);
 }
 
 /* ---- the determinant of the inertia ---- */
@@ -284,10 +284,11 @@ static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_
 {
     enum { most = 64 };
     nh_dag *d = x->dag;
-    nh_ex function[most], fresh[most];
+    NH_LIST(function);
+    nh_ex fresh[most];
     bool inside = false, plain = false;
     for (size_t k = 0; k < n; k++) {
-        size_t count = nh_functions_in(d, e[k], function, most);
+        size_t count = nh_functions_in(d, e[k], &function);
         if (count >= most) return false;
         for (size_t i = 0; i < count; i++) {
             inside |= nh_depends(d, function[i], q);

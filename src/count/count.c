@@ -323,10 +323,9 @@ static void degrees(nh_counter *c, nh_count *out)
 /* Is it a function of time, coordinates, velocities and parameters alone? */
 static bool is_current(const nh_jet_equations *x, nh_ex e)
 {
-    enum { most = 256 };
-    nh_ex symbol[most];
-    size_t n = nh_symbols_in(x->dag, e, symbol, most);
-    bool good = n < most;
+    NH_LIST(symbol);
+    size_t n = nh_symbols_in(x->dag, e, &symbol);
+    bool good = true;
     for (size_t i = 0; i < n && good; i++) {
         good = symbol[i] == x->model->system->t;
         for (size_t k = 0; k < x->coordinates && !good; k++) good = symbol[i] == x->coordinate[k];
@@ -338,10 +337,9 @@ static bool is_current(const nh_jet_equations *x, nh_ex e)
 
 static bool has_named(const nh_dag *dag, nh_ex e)
 {
-    enum { most = 256 };
-    nh_ex call[most];
-    size_t n = nh_functions_in(dag, e, call, most);
-    bool found = n == most;
+    NH_LIST(call);
+    size_t n = nh_functions_in(dag, e, &call);
+    bool found = false;
     for (size_t i = 0; i < n && !found; i++) found = nh_is_named_function(nh_function_of(dag, call[i]));
     return found;
 }

@@ -59,13 +59,11 @@ static bool line_degree(nh_counter *c, const nh_jet_ring *ring, const nh_residue
 /* Residues stand for the values of functions, whatever their arguments: cos(w) would be a number. */
 static bool has_functions_of_velocities(const nh_jet_equations *x, nh_ex e)
 {
-    enum { most = 1000 };
-    nh_ex *call = nh_alloc_array(most, sizeof *call);
-    size_t n = nh_functions_in(x->dag, e, call, most);
-    bool found = n > most;
+    NH_LIST(call);
+    size_t n = nh_functions_in(x->dag, e, &call);
+    bool found = false;
     for (size_t i = 0; i < n && !found; i++)
         for (size_t l = 0; l < x->n && !found; l++) found = nh_depends(x->dag, call[i], x->w[l]);
-    nh_free(call);
     return found;
 }
 

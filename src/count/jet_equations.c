@@ -38,13 +38,11 @@ static bool has_velocity(const nh_jet_equations *x, nh_ex e)
 /* Roots and functions of the velocities, and what is divided by them, are not polynomial in them. */
 static bool has_velocities_inside(const nh_jet_equations *x, nh_ex e)
 {
-    enum { most = 1000 };
-    nh_ex *node = nh_alloc_array(most, sizeof *node);
-    size_t n = nh_functions_in(x->dag, e, node, most);
-    bool found = n > most;
+    NH_LIST(node);
+    size_t n = nh_functions_in(x->dag, e, &node);
+    bool found = false;
     for (size_t i = 0; i < n && !found; i++) found = has_velocity(x, node[i]);
-    n = nh_products_in(x->dag, e, node, most);
-    found |= n > most;
+    n = nh_products_in(x->dag, e, &node);
     for (size_t k = 0; k < n && !found; k++)
         for (size_t f = 0; f < nh_arity(x->dag, node[k]) && !found; f++) {
             nh_ex power = nh_exponent_of(x->dag, node[k], f);
@@ -52,7 +50,6 @@ static bool has_velocities_inside(const nh_jet_equations *x, nh_ex e)
                          nh_num_value(nh_number_of(x->dag, power)) > 0;
             found = (!whole && has_velocity(x, nh_child(x->dag, node[k], f))) || has_velocity(x, power);
         }
-    nh_free(node);
     return found;
 }
 
@@ -106,12 +103,12 @@ typedef struct {
 
 static void count_factors(const nh_jet_equations *x, size_t n, const nh_ex *e, factors *f)
 {
-    nh_ex *found = nh_alloc_array(most_nodes, sizeof *found);
+    NH_LIST(found);
     for (size_t i = 0; i < n; i++)
         for (int functions = 0; functions < 2; functions++) {
-            size_t count = functions ? nh_functions_in(x->dag, e[i], found, most_nodes)
-                                     : nh_products_in(x->dag, e[i], found, most_nodes);
-            for (size_t j = 0; j < count && j < most_nodes && f->count < most_nodes; j++) {
+            size_t count = functions ? nh_functions_in(x->dag, e[i], &found)
+                                     : nh_products_in(x->dag, e[i], &found);
+            for (size_t j = 0; j < count && f->count < most_nodes; j++) {
                 bool old = false;
                 for (size_t k = 0; k < f->count && !old; k++) old = f->node[k] == found[j];
                 if (old) continue;
@@ -120,7 +117,6 @@ static void count_factors(const nh_jet_equations *x, size_t n, const nh_ex *e, f
                     functions ? 1 : (double)nh_arity(x->dag, found[j]);
             }
         }
-    nh_free(found);
 }
 
 /* The cost of the equations: a product of series per factor, for those with velocities at each choice of these, and the

@@ -30,9 +30,10 @@ nh_ex nh_one_side(const nh_model *o, nh_ex e, nh_region *side)
 {
     enum { most_functions = 64, nested = 4 };
     nh_dag *d = o->dag;
-    nh_ex call[most_functions], by[most_functions];
+    NH_LIST(call);
+    nh_ex by[most_functions];
     for (size_t level = 0; level < nested && o->chart->probes; level++) {
-        size_t n = nh_functions_in(d, e, call, most_functions), pieces = 0;
+        size_t n = nh_functions_in(d, e, &call), pieces = 0;
         for (size_t i = 0; i < n && i < most_functions; i++) {
             nh_function f = nh_function_of(d, call[i]);
             if (f != NH_ABS && f != NH_SIGN) continue;
@@ -50,13 +51,13 @@ nh_ex nh_one_side(const nh_model *o, nh_ex e, nh_region *side)
 
 nh_ex nh_one_side_of_roots(const nh_model *o, nh_ex e, nh_region *side)
 {
-    enum { most = 200 };
     nh_dag *d = o->dag;
-    nh_ex base[most], outside, inside, before = e;
+    NH_LIST(base);
+    nh_ex outside, inside, before = e;
     e = nh_model_paired_roots(o, e);
     for (size_t k = 0; k < o->pairs && e != before && side; k++)
         keep(side, o->pair[k].product, o->pair[k].sign > 0);
-    size_t n = o->chart->probes ? nh_radicands_in(d, e, base, most) : 0;
+    size_t n = o->chart->probes ? nh_radicands_in(d, e, &base) : 0;
     for (size_t i = 0; i < n; i++) {
         bool square = nh_square_split(d, nh_simplify_short(d, base[i], 0), &outside, &inside);
         if (!square || nh_kind_of(d, outside) == NH_NUMBER) continue;

@@ -139,8 +139,8 @@ size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_room room, nh_
 /* Marks the parts that e needs, directly or through others; values use later names only. */
 static void need(nh_dag *d, nh_ex e, size_t parts, const nh_formula_part *part, bool *needed)
 {
-    nh_ex symbol[200];
-    size_t n = nh_symbols_in(d, e, symbol, sizeof symbol / sizeof *symbol);
+    NH_LIST(symbol);
+    size_t n = nh_symbols_in(d, e, &symbol);
     for (size_t j = 0; j < n; j++)
         for (size_t k = 0; k < parts; k++)
             if (symbol[j] == part[k].symbol && !needed[k]) {

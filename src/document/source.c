@@ -112,10 +112,9 @@ void nh_source_series(const nh_source_language *language, const char *code, nh_t
 
 const char *nh_source_lacks(const nh_source_language *language, const nh_dag *dag, nh_ex e)
 {
-    enum { most = 256 };
-    nh_ex call[most];
-    size_t n = nh_functions_in(dag, e, call, most);
-    for (size_t i = 0; i < n && i < most && !language->plain; i++) {
+    NH_LIST(call);
+    size_t n = nh_functions_in(dag, e, &call);
+    for (size_t i = 0; i < n && !language->plain; i++) {
         nh_function f = nh_function_of(dag, call[i]);
         if (nh_is_named_function(f) && !language->named[f]) return nh_function_name(f);
     }

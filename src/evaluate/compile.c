@@ -36,13 +36,19 @@ struct nh_compilation {
 
 /* ---- the folder ---- */
 
+/* Without memory, which may have ended: opendir allocates. */
 static void empty_folder(const nh_compilation *c)
 {
-    DIR *folder = opendir(c->folder); /* an interrupted compiler leaves files of its own there */
-    for (struct dirent *entry; folder && (entry = readdir(folder));)
-        if (strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..")) unlinkat(dirfd(folder), entry->d_name, 0);
-    if (folder) closedir(folder);
-    rmdir(c->folder);
+    _Alignas(struct dirent64) char list[2048];
+    int folder = open(c->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    /* an interrupted compiler leaves files of its own there */
+    for (ssize_t n; folder >= 0 && (n = getdents64(folder, list, sizeof list)) > 0;)
+        for (ssize_t at = 0; at < n; at += ((struct dirent64 *)(list + at))->d_reclen) {
+            const char *name = ((struct dirent64 *)(list + at))->d_name;
+            if (strcmp(name, ".") && strcmp(name, "..")) unlinkat(folder, name, 0);
+        }
+    if (folder >= 0) close(folder);
+    if (rmdir(c->folder)) rmdir(c->folder); /* an error of the disk may pass */
 }
 
 static void remove_folder(nh_compilation *c)

@@ -316,8 +316,8 @@ static nh_ex without_fractions_below(const nh_integration *in, nh_ex f)
 {
     enum { most = 64 };
     nh_dag *d = in->dag;
-    nh_ex product[most];
-    size_t n = nh_products_in(d, f, product, most);
+    NH_LIST(product);
+    size_t n = nh_products_in(d, f, &product);
     for (size_t i = 0; i < n && i < most; i++)
         for (size_t k = 0; k < nh_arity(d, product[i]); k++) {
             nh_ex base = nh_child(d, product[i], k), x = nh_exponent_of(d, product[i], k);
@@ -369,8 +369,8 @@ static bool leading_part(const nh_integration *in, nh_ex f, nh_ex *L, int64_t *d
 {
     enum { most = 16, highest_degree = 3 };
     nh_dag *d = in->dag;
-    nh_ex call[most];
-    size_t n = nh_functions_in(d, f, call, most);
+    NH_LIST(call);
+    size_t n = nh_functions_in(d, f, &call);
     *L = 0;
     for (size_t i = 0; i < n && n <= most; i++) {
         nh_function g = nh_function_of(d, call[i]);
@@ -430,8 +430,9 @@ static nh_ex logarithm_of_square(nh_dag *d, nh_ex p, size_t n, const nh_ex *call
 nh_ex nh_antiderivative_factor(nh_dag *d, nh_ex F)
 {
     enum { most = 16 };
-    nh_ex call[most], old[most], by[most];
-    size_t n = nh_functions_in(d, F, call, most), known = 0;
+    NH_LIST(call);
+    nh_ex old[most], by[most];
+    size_t n = nh_functions_in(d, F, &call), known = 0;
     for (size_t i = 0; i < n && n <= most; i++) {
         nh_function f = nh_function_of(d, call[i]);
         nh_ex p = f == NH_LOG || f == NH_ATANH ? nh_child(d, call[i], 0) : 0;

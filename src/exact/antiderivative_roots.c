@@ -39,8 +39,9 @@ static nh_ex back(const builder *b, const radical *r, nh_ex e)
 static nh_ex with_powers(nh_dag *d, nh_ex e, nh_ex y)
 {
     enum { most = 32 };
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, e, call, most), count = 0;
+    NH_LIST(call);
+    nh_ex by[most];
+    size_t n = nh_functions_in(d, e, &call), count = 0;
     for (size_t i = 0; i < n && i < most; i++) {
         if (nh_function_of(d, call[i]) != NH_EXP || !nh_depends(d, call[i], y)) continue;
         nh_ex k = nh_simplify_short(d, nh_mul(d, y, nh_diff(d, nh_child(d, call[i], 0), y)), 0);

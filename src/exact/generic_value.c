@@ -21,9 +21,9 @@ typedef struct {
 /* The symbols that are no variables; false: there are too many. */
 static bool list_constants(problem *x, nh_dag *dag)
 {
-    nh_ex symbol[most_symbols];
+    NH_LIST(symbol);
     for (size_t i = 0; i < x->n; i++) {
-        size_t count = nh_symbols_in(dag, x->e[i], symbol, most_symbols);
+        size_t count = nh_symbols_in(dag, x->e[i], &symbol);
         if (count > most_symbols) return false;
         for (size_t k = 0; k < count; k++) {
             bool known = false;

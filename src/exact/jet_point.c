@@ -187,8 +187,8 @@ static void check_unity(nh_jet_point *x)
     if (unity > most_unity) x->obstacle = "multiples of pi with large denominators";
     for (size_t i = 0; i < x->kernels && unity > 4 && !x->obstacle; i++) {
         const nh_jet_kernel *k = &x->kernel[i];
-        nh_ex symbol;
-        if (k->kind != NH_JET_ROOT || nh_symbols_in(x->dag, k->key, &symbol, 1)) continue;
+        NH_LIST(symbol);
+        if (k->kind != NH_JET_ROOT || nh_symbols_in(x->dag, k->key, &symbol)) continue;
         bool whole = nh_kind_of(x->dag, k->key) == NH_NUMBER && nh_num_short(nh_number_of(x->dag, k->key)) &&
                      nh_number_of(x->dag, k->key).q == 1 && nh_number_of(x->dag, k->key).p > 0;
         if (!whole) x->obstacle = "roots of constants beside angles that are multiples of pi";

@@ -19,8 +19,8 @@ enum {
  * their own. */
 static bool differs_somewhere(nh_dag *dag, nh_ex e)
 {
-    nh_ex symbol[most_symbols];
-    size_t n = nh_symbols_in(dag, e, symbol, most_symbols);
+    NH_LIST(symbol);
+    size_t n = nh_symbols_in(dag, e, &symbol);
     if (n > most_symbols) return false;
     for (size_t i = 0; i < n; i++)
         if (nh_dag_power_rule(dag, symbol[i])) return false;

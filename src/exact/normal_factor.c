@@ -29,7 +29,7 @@ static void multiply_constant(breaker *b, const fmpz_t c, int64_t power)
 static void add_exponents(breaker *b, const fmpz_mpoly_t monomial, int64_t power)
 {
     fmpz_mpoly_get_term_exp_ui(b->field->exponent, monomial, 0, b->field->ctx);
-    for (slong g = 0; g < b->field->generators; g++) b->out->exponent[g] += power * (int64_t)b->field->exponent[g];
+    for (size_t g = 0; g < b->out->generators; g++) b->out->exponent[g] += power * (int64_t)b->field->exponent[g];
 }
 
 /* Splits off the integer content and the monomial of a, which are added to the result; leaves the rest in a. */
@@ -194,7 +194,7 @@ static void set_constant(breaker *b)
 
 bool nh_pieces_make(nh_quotient_field *field, nh_arena *arena, const nh_quotient *q, bool factored, nh_pieces *out)
 {
-    *out = (nh_pieces){.generators = (size_t)field->generators, .constant = nh_num_int(0)};
+    *out = (nh_pieces){.generators = field->declared, .constant = nh_num_int(0)};
     out->exponent = nh_arena_alloc(arena, out->generators * sizeof *out->exponent);
     if (nh_quotient_is_zero(field, q)) return true;
     breaker b = {.field = field, .arena = arena, .out = out, .fits = true};

@@ -21,6 +21,7 @@ static const slong gcd_degree = 60;
 nh_quotient_field *nh_quotient_field_create(size_t generators, size_t max_terms)
 {
     nh_quotient_field *f = nh_alloc(sizeof *f);
+    f->declared = generators;
     f->generators = generators ? (slong)generators : 1;
     fmpz_mpoly_ctx_init(f->ctx, f->generators, ORD_LEX);
     f->exponent = nh_alloc_array((size_t)f->generators, sizeof *f->exponent);

@@ -16,10 +16,8 @@ typedef nh_relation_question question;
 
 static bool is_constant(const question *q, nh_ex e)
 {
-    enum { most = 64 };
-    nh_ex symbol[most];
-    size_t n = nh_symbols_in(q->dag, e, symbol, most);
-    if (n > most) return false;
+    NH_LIST(symbol);
+    size_t n = nh_symbols_in(q->dag, e, &symbol);
     for (size_t i = 0; i < n; i++) {
         bool found = false;
         for (size_t j = 0; j < q->parameters && !found; j++) found = symbol[i] == q->parameter[j];
@@ -302,11 +300,10 @@ static nh_relation_verdict find(nh_dag *dag, size_t n, const nh_ex *e, size_t pa
 
 static bool any_sine(const nh_dag *dag, size_t n, const nh_ex *e)
 {
-    enum { most = 64 };
-    nh_ex call[most];
+    NH_LIST(call);
     for (size_t j = 0; j < n; j++) {
-        size_t count = nh_functions_in(dag, e[j], call, most);
-        for (size_t i = 0; i < count && i < most; i++)
+        size_t count = nh_functions_in(dag, e[j], &call);
+        for (size_t i = 0; i < count; i++)
             if (nh_function_of(dag, call[i]) == NH_SIN || nh_function_of(dag, call[i]) == NH_COS) return true;
     }
     return false;

@@ -10,11 +10,11 @@
 static bool variables_of(const nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,
                          size_t most, nh_ex *out, size_t *count)
 {
-    nh_ex *symbol = nh_alloc_array(most + 1, sizeof *symbol);
+    NH_LIST(symbol);
     bool good = true;
     *count = 0;
     for (size_t j = 0; j < n && good; j++) {
-        size_t own = nh_symbols_in(dag, e[j], symbol, most);
+        size_t own = nh_symbols_in(dag, e[j], &symbol);
         good = own <= most;
         for (size_t i = 0; i < own && good; i++) {
             bool known = false;
@@ -25,7 +25,6 @@ static bool variables_of(const nh_dag *dag, size_t n, const nh_ex *e, size_t par
             if (good) out[(*count)++] = symbol[i];
         }
     }
-    nh_free(symbol);
     return good;
 }
 

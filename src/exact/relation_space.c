@@ -34,13 +34,12 @@ typedef struct {
 /* The symbols that are no variables. */
 static size_t constants_of(const problem *x, nh_ex **out)
 {
-    enum { most = 64 };
-    nh_ex symbol[most];
+    NH_LIST(symbol);
     size_t count = 0, room = 0;
     *out = NULL;
     for (size_t e = 0; e < x->q->columns * x->q->rows; e++) {
-        size_t n = nh_symbols_in(x->d, x->entry[e], symbol, most);
-        for (size_t i = 0; i < n && i < most; i++) {
+        size_t n = nh_symbols_in(x->d, x->entry[e], &symbol);
+        for (size_t i = 0; i < n; i++) {
             bool known = false;
             for (size_t k = 0; k < x->q->variables && !known; k++) known = x->q->variable[k] == symbol[i];
             for (size_t k = 0; k < count && !known; k++) known = (*out)[k] == symbol[i];

@@ -285,8 +285,9 @@ static nh_ex restore_calls(context *shared, nh_ex source, nh_ex result)
 {
     enum { most_calls = 64 };
     nh_dag *dag = shared->dag;
-    nh_ex call[most_calls], shown[most_calls];
-    size_t n = nh_functions_in(dag, source, call, most_calls), kept = 0;
+    NH_LIST(call);
+    nh_ex shown[most_calls];
+    size_t n = nh_functions_in(dag, source, &call), kept = 0;
     if (n > most_calls) return result;
     for (size_t i = 0; i < n; i++) {
         if (nh_arity(dag, call[i]) != 1) continue;
@@ -315,8 +316,9 @@ static nh_ex restore_roots(context *shared, nh_ex source, nh_ex result)
 {
     enum { most_products = 200, most_roots = 16 };
     nh_dag *dag = shared->dag;
-    nh_ex product[most_products], written[most_roots], shown[most_roots];
-    size_t n = nh_products_in(dag, source, product, most_products), kept = 0;
+    NH_LIST(product);
+    nh_ex written[most_roots], shown[most_roots];
+    size_t n = nh_products_in(dag, source, &product), kept = 0;
     for (size_t i = 0; i < n && n <= most_products; i++)
         for (size_t j = 0; j < nh_arity(dag, product[i]) && kept < most_roots; j++) {
             nh_ex base = nh_child(dag, product[i], j), exponent = nh_exponent_of(dag, product[i], j);

@@ -65,11 +65,11 @@ static bool split_root(const splitter *c, nh_ex base, nh_ex *root)
 
 nh_ex nh_square_roots(nh_dag *d, nh_ex e, size_t most_length, int (*sign)(void *context, nh_ex e), void *context)
 {
-    enum { most = 64 };
     splitter c = {d, most_length, sign, context};
-    nh_ex product[most], root;
-    size_t n = nh_products_in(d, e, product, most);
-    for (size_t i = 0; i < n && i < most; i++)
+    NH_LIST(product);
+    nh_ex root;
+    size_t n = nh_products_in(d, e, &product);
+    for (size_t i = 0; i < n; i++)
         for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
             nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
             bool half = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 2 &&

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "graph/dag_internal.h"
 
-enum { most_found = 400, most_sums = 40, least_sums = 3 };
+enum { most_sums = 40, least_sums = 3 };
 
 typedef struct {
     nh_dag *dag;
@@ -33,21 +33,20 @@ static void take_sum(lines *l, nh_ex e)
 static void collect(lines *l, nh_ex e)
 {
     nh_dag *d = l->dag;
-    nh_ex *found = nh_alloc_array(most_found, sizeof *found);
-    size_t n = nh_functions_in(d, e, found, most_found);
-    for (size_t i = 0; i < n && i < most_found; i++) {
+    NH_LIST(found);
+    size_t n = nh_functions_in(d, e, &found);
+    for (size_t i = 0; i < n; i++) {
         nh_function f = nh_function_of(d, found[i]);
         if (f == NH_SIN || f == NH_COS || f == NH_TAN || f == NH_SINH || f == NH_COSH || f == NH_TANH || f == NH_EXP)
             take_sum(l, nh_child(d, found[i], 0));
     }
-    n = nh_products_in(d, e, found, most_found);
-    for (size_t i = 0; i < n && i < most_found; i++)
+    n = nh_products_in(d, e, &found);
+    for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < nh_arity(d, found[i]); k++) {
             nh_ex exponent = nh_exponent_of(d, found[i], k);
             if (nh_kind_of(d, exponent) == NH_NUMBER && nh_num_value(nh_number_of(d, exponent)) < 0)
                 take_sum(l, nh_child(d, found[i], k));
         }
-    nh_free(found);
 }
 
 /* s := (s - rest)/c turns the sum c s + rest into s, for a symbol s that no sum before has become.  False: all of its

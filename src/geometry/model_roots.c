@@ -8,8 +8,9 @@ void nh_model_pair_roots(nh_model *o)
 {
     enum { most = 8, most_pairs = most * (most - 1) / 2 };
     nh_dag *d = o->dag;
-    nh_ex base[most], outside, inside;
-    size_t n = o->chart->probes ? nh_radicands_in(d, o->system->lagrangian, base, most) : 0;
+    NH_LIST(base);
+    nh_ex outside, inside;
+    size_t n = o->chart->probes ? nh_radicands_in(d, o->system->lagrangian, &base) : 0;
     if (n < 2 || n > most) return;
     nh_paired_root *pair = nh_arena_alloc(o->arena, most_pairs * sizeof *pair);
     for (size_t k = 1; k < n; k++)

@@ -278,47 +278,40 @@ bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol)
     return found;
 }
 
-static size_t of_kind(const nh_dag *dag, nh_ex e, nh_kind kind, nh_ex *out, size_t max)
+void nh_nodes_free(nh_ex **list)
 {
-    uint32_t *node;
-    size_t count = nh_nodes_in(dag, 1, &e, &node), found = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (dag->all.node[node[i]].kind != kind) continue;
-        if (found < max) out[found] = node[i];
-        found++;
-    }
-    nh_free(node);
+    nh_free(*list);
+    *list = NULL;
+}
+
+static size_t of_kind(const nh_dag *dag, nh_ex e, nh_kind kind, nh_ex **list)
+{
+    nh_nodes_free(list);
+    size_t count = nh_nodes_in(dag, 1, &e, list), found = 0;
+    for (size_t i = 0; i < count; i++)
+        if (dag->all.node[(*list)[i]].kind == kind) (*list)[found++] = (*list)[i];
     return found;
 }
 
-size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
-{
-    return of_kind(dag, e, NH_SYMBOL, out, max);
-}
+size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex **list) { return of_kind(dag, e, NH_SYMBOL, list); }
+size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex **list) { return of_kind(dag, e, NH_FUNCTION, list); }
+size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex **list) { return of_kind(dag, e, NH_PRODUCT, list); }
 
-size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
+size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex **list)
 {
-    return of_kind(dag, e, NH_FUNCTION, out, max);
-}
-
-size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
-{
-    return of_kind(dag, e, NH_PRODUCT, out, max);
-}
-
-size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
-{
-    uint32_t *node;
-    size_t count = nh_nodes_in(dag, 1, &e, &node), found = 0;
+    NH_LIST(product);
+    size_t count = nh_products_in(dag, e, &product), found = 0, capacity = 0;
+    nh_nodes_free(list);
     for (size_t i = 0; i < count; i++)
-        for (size_t k = 0; dag->all.node[node[i]].kind == NH_PRODUCT && k < nh_arity(dag, node[i]); k++) {
-            nh_ex base = nh_child(dag, node[i], k), power = nh_exponent_of(dag, node[i], k);
+        for (size_t k = 0; k < nh_arity(dag, product[i]); k++) {
+            nh_ex base = nh_child(dag, product[i], k), power = nh_exponent_of(dag, product[i], k);
             bool half = nh_kind_of(dag, power) == NH_NUMBER && nh_num_short(nh_number_of(dag, power)) &&
                         nh_number_of(dag, power).q == 2;
-            for (size_t j = 0; j < found && half; j++) half = out[j] != base;
-            if (half && found < max) out[found++] = base;
+            for (size_t j = 0; j < found && half; j++) half = (*list)[j] != base;
+            if (!half) continue;
+            nh_grow(list, &capacity, found + 1, sizeof **list);
+            (*list)[found++] = base;
         }
-    nh_free(node);
     return found;
 }
 

@@ -258,14 +258,19 @@ static inline bool nh_is_zero(const nh_dag *dag, nh_ex e)
 bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value);
 /* Does `symbol` occur in `e`? (not through rules of implicit symbols, see diff.h) */
 bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol);
-/* The symbols that occur in e, ascending, into `out` (at most `max`); returns their number. */
-size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
+/* Declares a list of expressions, `nh_ex *name`, which is freed where its scope ends.  It is empty, and as long as what
+ * the functions below put into it. */
+#define NH_LIST(name) __attribute__((cleanup(nh_nodes_free))) nh_ex *name = NULL
+void nh_nodes_free(nh_ex **list);
+/* All symbols that occur in e, ascending; returns their number.  *list is a list, or NULL at first; what was in it is
+ * gone. */
+size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex **list);
 /* The function calls that occur in e, likewise. */
-size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
+size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex **list);
 /* The products that occur in e, likewise; powers are products as well. */
-size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
-/* The bases of half powers likewise, each once: u of sqrt(u), of u^(-1/2), of u^(3/2); at most `max` are counted. */
-size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
+size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex **list);
+/* The bases of half powers likewise, each once: u of sqrt(u), of u^(-1/2), of u^(3/2). */
+size_t nh_radicands_in(const nh_dag *dag, nh_ex e, nh_ex **list);
 /* The nodes below n expressions and these themselves, each once, ascending: children first.  The caller frees them. */
 size_t nh_nodes_in(const nh_dag *dag, size_t n, const nh_ex *e, nh_ex **out);
 /* Their number for one expression. */

@@ -171,14 +171,11 @@ static int structure(const nh_dag *dag, nh_ex a, nh_ex b)
 /* The one with the earlier symbol comes first, where their symbols differ. */
 static int by_symbols(const nh_dag *dag, nh_ex a, nh_ex b)
 {
-    size_t n = nh_symbols_in(dag, a, NULL, 0), m = nh_symbols_in(dag, b, NULL, 0), i = 0;
-    nh_ex *x = nh_alloc_array(n + m + 1, sizeof *x), *y = x + n;
-    nh_symbols_in(dag, a, x, n);
-    nh_symbols_in(dag, b, y, m);
+    NH_LIST(x);
+    NH_LIST(y);
+    size_t n = nh_symbols_in(dag, a, &x), m = nh_symbols_in(dag, b, &y), i = 0;
     while (i < n && i < m && x[i] == y[i]) i++;
-    int order = i < n && i < m ? (x[i] < y[i] ? -1 : 1) : (n < m) - (n > m);
-    nh_free(x);
-    return order;
+    return i < n && i < m ? (x[i] < y[i] ? -1 : 1) : (n < m) - (n > m);
 }
 
 int nh_complexity_order(const nh_dag *dag, nh_ex a, nh_ex b)
@@ -262,15 +259,14 @@ static bool depends_on_any(const nh_dag *dag, nh_ex e, size_t symbols, const nh_
 
 bool nh_is_entire(const nh_dag *dag, nh_ex e, size_t symbols, const nh_ex *symbol)
 {
-    size_t most = nh_node_count(dag, e) + 1;
-    nh_ex *node = nh_alloc_array(most, sizeof *node);
+    NH_LIST(node);
     bool good = true;
-    for (size_t i = nh_functions_in(dag, e, node, most); i-- > 0 && good;) {
+    for (size_t i = nh_functions_in(dag, e, &node); i-- > 0 && good;) {
         nh_function f = nh_function_of(dag, node[i]);
         good = f == NH_SIN || f == NH_COS || f == NH_EXP || f == NH_SINH || f == NH_COSH || f == NH_TANH ||
                f == NH_ATAN || f == NH_ASINH || f == NH_PI || !depends_on_any(dag, node[i], symbols, symbol);
     }
-    for (size_t i = nh_products_in(dag, e, node, most); i-- > 0 && good;)
+    for (size_t i = nh_products_in(dag, e, &node); i-- > 0 && good;)
         for (size_t j = 0; j < nh_arity(dag, node[i]) && good; j++) {
             nh_ex base = nh_child(dag, node[i], j), power = nh_exponent_of(dag, node[i], j);
             bool whole = nh_kind_of(dag, power) == NH_NUMBER && nh_number_of(dag, power).q == 1 &&
@@ -279,6 +275,5 @@ bool nh_is_entire(const nh_dag *dag, nh_ex e, size_t symbols, const nh_ex *symbo
                 !depends_on_any(dag, base, symbols, symbol) && !depends_on_any(dag, power, symbols, symbol);
             good = whole || constant;
         }
-    nh_free(node);
     return good;
 }

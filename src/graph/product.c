@@ -274,8 +274,8 @@ static nh_ex exponential_power(nh_dag *dag, nh_ex e, nh_ex n)
 static bool has_exponentials(const nh_dag *dag, nh_ex e)
 {
     enum { most = 16 };
-    nh_ex call[most];
-    size_t n = nh_functions_in(dag, e, call, most);
+    NH_LIST(call);
+    size_t n = nh_functions_in(dag, e, &call);
     bool found = n > most;
     for (size_t i = 0; i < n && !found; i++) found = is_exponential(dag, call[i]);
     return found;

@@ -81,15 +81,14 @@ static nh_ex factor(const inside *s, double value, nh_ex exact, bool exponent)
 /* Is it made of constants and numbers alone? */
 static bool is_constant(const inside *s, nh_ex e)
 {
-    enum { most = 64 };
-    nh_ex symbol[most];
-    size_t n = nh_symbols_in(s->dag, e, symbol, most);
-    for (size_t i = 0; i < n && i < most; i++) {
+    NH_LIST(symbol);
+    size_t n = nh_symbols_in(s->dag, e, &symbol);
+    for (size_t i = 0; i < n; i++) {
         size_t k = 0;
         while (k < s->constants && s->constant[k] != symbol[i]) k++;
         if (k == s->constants) return false;
     }
-    return n <= most;
+    return true;
 }
 
 static nh_ex lift_inside(const inside *s, nh_ex e);

@@ -245,10 +245,10 @@ static bool fit_with_time(const nh_model *o, size_t points, size_t width, const 
 static size_t written(const nh_model *o, nh_ex out[most_written])
 {
     nh_dag *d = o->dag;
-    nh_ex call[most_waves];
+    NH_LIST(call);
     size_t places = nh_places_of(o, out), n = places, waves = 0,
-           calls = nh_functions_in(d, o->system->lagrangian, call, most_waves);
-    for (size_t i = 0; i < calls && i < most_waves && waves + 2 <= most_waves; i++) {
+           calls = nh_functions_in(d, o->system->lagrangian, &call);
+    for (size_t i = 0; i < calls && waves + 2 <= most_waves; i++) {
         nh_function f = nh_function_of(d, call[i]);
         bool moves = false, known = false;
         for (size_t s = 0; s < o->m; s++) moves |= nh_depends(d, call[i], o->system->coordinate[s].v);
@@ -309,11 +309,12 @@ static bool fit_written(const nh_model *o, size_t points, size_t width, const nh
 static bool fit_still(const nh_model *o, size_t points, size_t words, const nh_ex *word, const double *column,
                       const double *value, nh_ex *zeta)
 {
-    nh_ex *all = nh_alloc_array(words + 1, sizeof *all), call;
+    nh_ex *all = nh_alloc_array(words + 1, sizeof *all);
+    NH_LIST(call);
     double *some = nh_alloc_array(points * (words + 1), sizeof *some);
     size_t n = 0;
     for (size_t k = 0; k < words; k++) {
-        bool moves = nh_depends(o->dag, word[k], o->system->t) || nh_functions_in(o->dag, word[k], &call, 1);
+        bool moves = nh_depends(o->dag, word[k], o->system->t) || nh_functions_in(o->dag, word[k], &call);
         for (size_t s = 0; s < o->n && !moves; s++) moves = nh_depends(o->dag, word[k], o->chart->w[s]);
         if (!moves) append(points, word[k], column + k * points, all, some, &n);
     }

@@ -40,10 +40,10 @@ static bool take_out(nh_dag *d, nh_ex base, nh_ex *outside, nh_ex *inside)
 
 nh_ex nh_continued_roots(const nh_model *o, nh_ex phi, uint64_t seed)
 {
-    enum { most = 64 };
     nh_dag *d = o->dag;
-    nh_ex base[most], outside, inside;
-    size_t n = nh_radicands_in(d, phi, base, most);
+    NH_LIST(base);
+    nh_ex outside, inside;
+    size_t n = nh_radicands_in(d, phi, &base);
     for (size_t i = 0; i < n; i++) {
         if (nh_kind_of(d, base[i]) <= NH_SYMBOL || !take_out(d, base[i], &outside, &inside)) continue;
         nh_ex root = nh_mul(d, outside, nh_sqrt(d, inside));
@@ -57,8 +57,9 @@ nh_ex nh_continued_arctangents(const nh_model *o, nh_ex phi)
 {
     enum { most = 64 };
     nh_dag *d = o->dag;
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, phi, call, most), count = 0;
+    NH_LIST(call);
+    nh_ex by[most];
+    size_t n = nh_functions_in(d, phi, &call), count = 0;
     for (size_t i = 0; i < n && i < most; i++) {
         if (nh_function_of(d, call[i]) != NH_ATAN) continue;
         nh_ex turned = nh_simplify_short(d, nh_div(d, nh_int(d, 1), nh_child(d, call[i], 0)), 0);
@@ -72,9 +73,10 @@ nh_ex nh_continued_arctangents(const nh_model *o, nh_ex phi)
 static bool only_arctangent(nh_dag *d, nh_ex phi, nh_ex *call, nh_ex *rest, nh_ex *factor)
 {
     enum { most = 64 };
-    nh_ex all[most], zero = nh_int(d, 0), angle = nh_symbol_fresh(d, "angle");
-    size_t n = nh_functions_in(d, phi, all, most), found = 0;
-    for (size_t i = 0; i < n && i < most; i++)
+    NH_LIST(all);
+    nh_ex zero = nh_int(d, 0), angle = nh_symbol_fresh(d, "angle");
+    size_t n = nh_functions_in(d, phi, &all), found = 0;
+    for (size_t i = 0; i < n; i++)
         if (nh_function_of(d, all[i]) == NH_ATAN) *call = all[i], found++;
     if (found != 1 || n > most) return false;
     nh_ex e = nh_substitute(d, phi, 1, call, &angle);
@@ -111,8 +113,8 @@ static size_t letters_of(const nh_model *o, nh_ex e, size_t most, nh_ex *letter)
 {
     enum { most_calls = 8 };
     nh_dag *d = o->dag;
-    nh_ex call[most_calls];
-    size_t calls = nh_functions_in(d, e, call, most_calls), count = 0;
+    NH_LIST(call);
+    size_t calls = nh_functions_in(d, e, &call), count = 0;
     for (size_t i = 0; i < calls && calls <= most_calls && count + 2 < most; i++) {
         nh_function f = nh_function_of(d, call[i]);
         if (f == NH_EXP) letter[count++] = call[i];

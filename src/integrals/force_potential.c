@@ -30,8 +30,8 @@ static bool has_velocities(const nh_model *o, nh_ex e)
 static bool fix_signs(problem *p, nh_ex *e)
 {
     nh_dag *d = p->o->dag;
-    nh_ex call[most_signs];
-    size_t n = nh_functions_in(d, *e, call, most_signs);
+    NH_LIST(call);
+    size_t n = nh_functions_in(d, *e, &call);
     for (size_t i = 0; i < n && n <= most_signs; i++) {
         nh_function f = nh_function_of(d, call[i]);
         if ((f != NH_SIGN && f != NH_ABS) || !has_velocities(p->o, call[i])) continue;

@@ -107,9 +107,9 @@ static bool add_zeros(matcher *m, points *s, nh_ex factor)
 /* The zeros of denominators. */
 static bool add_poles(matcher *m, points *s, nh_ex e)
 {
-    nh_ex product[most_factors];
-    size_t n = nh_products_in(m->d, e, product, most_factors);
-    for (size_t i = 0; i < n && i < most_factors; i++)
+    NH_LIST(product);
+    size_t n = nh_products_in(m->d, e, &product);
+    for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < nh_arity(m->d, product[i]); j++) {
             nh_ex base = nh_child(m->d, product[i], j), exponent = nh_exponent_of(m->d, product[i], j);
             bool below = nh_kind_of(m->d, exponent) == NH_NUMBER && nh_num_value(nh_number_of(m->d, exponent)) < 0;

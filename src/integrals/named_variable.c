@@ -35,8 +35,9 @@ static void turned(nh_dag *d, int64_t k, nh_ex C, nh_ex S, nh_ex *cosine, nh_ex 
  * occurs otherwise. */
 static bool in_waves(nh_dag *d, nh_ex e, nh_ex s, nh_ex C, nh_ex S, nh_ex *out)
 {
-    nh_ex call[most_calls], to[most_calls], from[most_calls];
-    size_t n = nh_functions_in(d, e, call, most_calls), k = 0;
+    NH_LIST(call);
+    nh_ex to[most_calls], from[most_calls];
+    size_t n = nh_functions_in(d, e, &call), k = 0;
     for (size_t i = 0; i < n && i < most_calls; i++) {
         nh_function f = nh_function_of(d, call[i]);
         int64_t times = nh_depends(d, call[i], s) && f <= NH_TAN ? multiple_of(d, nh_child(d, call[i], 0), s) : 0;
@@ -53,9 +54,9 @@ static bool in_waves(nh_dag *d, nh_ex e, nh_ex s, nh_ex C, nh_ex S, nh_ex *out)
 /* The rate k of some exp(k s) in e; the number 0 where there is none. */
 static nh_ex rate_in(nh_dag *d, nh_ex e, nh_ex s)
 {
-    nh_ex call[most_calls];
-    size_t n = nh_functions_in(d, e, call, most_calls);
-    for (size_t i = 0; i < n && i < most_calls; i++) {
+    NH_LIST(call);
+    size_t n = nh_functions_in(d, e, &call);
+    for (size_t i = 0; i < n; i++) {
         if (nh_function_of(d, call[i]) != NH_EXP) continue;
         nh_ex k = simple(d, nh_diff(d, nh_child(d, call[i], 0), s));
         if (!nh_is_zero(d, k) && !nh_depends(d, k, s)) return k;
@@ -67,9 +68,9 @@ static nh_ex rate_in(nh_dag *d, nh_ex e, nh_ex s)
 static bool rational_in(nh_dag *d, nh_ex e, nh_ex x)
 {
     enum { most = 128 };
-    nh_ex product[most];
-    size_t n = nh_products_in(d, e, product, most);
-    for (size_t i = 0; i < n && i < most; i++)
+    NH_LIST(product);
+    size_t n = nh_products_in(d, e, &product);
+    for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < nh_arity(d, product[i]); j++) {
             nh_ex exponent = nh_exponent_of(d, product[i], j);
             bool whole = nh_kind_of(d, exponent) == NH_NUMBER && nh_number_of(d, exponent).q == 1;
@@ -118,9 +119,10 @@ static bool squared(nh_dag *d, const nh_named_equation *in, nh_named_equation *o
     out->p = simple(d, nh_substitute(d, p, 1, &x, &root));
     out->q = simple(d, nh_substitute(d, q, 1, &x, &root));
     out->meaning = nh_powi(d, in->meaning, 2);
-    nh_ex pair = nh_add(d, nh_mul(d, out->p, nh_symbol(d, "a factor of its own")), out->q), product[128];
-    size_t n = nh_products_in(d, pair, product, 128);
-    for (size_t i = 0; i < n && i < 128; i++)
+    NH_LIST(product);
+    nh_ex pair = nh_add(d, nh_mul(d, out->p, nh_symbol(d, "a factor of its own")), out->q);
+    size_t n = nh_products_in(d, pair, &product);
+    for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < nh_arity(d, product[i]); j++)
             if (nh_child(d, product[i], j) == y && nh_exponent_of(d, product[i], j) == nh_ratio(d, 1, 2)) return false;
     return rational_in(d, pair, y);

@@ -9,8 +9,9 @@
 static nh_ex without_signs(nh_dag *d, nh_ex e)
 {
     enum { most = 32 };
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, e, call, most), signs = 0;
+    NH_LIST(call);
+    nh_ex by[most];
+    size_t n = nh_functions_in(d, e, &call), signs = 0;
     for (size_t i = 0; i < n && n <= most; i++) {
         if (nh_function_of(d, call[i]) != NH_SIGN) continue;
         nh_ex u = nh_child(d, call[i], 0);
@@ -25,8 +26,9 @@ static nh_ex without_signs(nh_dag *d, nh_ex e)
 static nh_ex in_half_angles(nh_dag *d, nh_ex e)
 {
     enum { most = 32 };
-    nh_ex call[most], by[most], whole[most], one = nh_int(d, 1), two = nh_int(d, 2);
-    size_t n = nh_functions_in(d, e, call, most), doubled = 0;
+    NH_LIST(call);
+    nh_ex by[most], whole[most], one = nh_int(d, 1), two = nh_int(d, 2);
+    size_t n = nh_functions_in(d, e, &call), doubled = 0;
     for (size_t i = 0; i < n && n <= most; i++)
         for (size_t k = 0; k < n; k++) {
             nh_function f = nh_function_of(d, call[i]), g = nh_function_of(d, call[k]);
@@ -65,8 +67,10 @@ static nh_ex squares_out(const nh_model *o, nh_ex e, bool *decisive)
 {
     enum { most = 32 };
     nh_dag *d = o->dag;
-    nh_ex call[most], base[most], one = nh_int(d, 1);
-    size_t calls = nh_functions_in(d, e, call, most), n = nh_radicands_in(d, e, base, most);
+    NH_LIST(base);
+    NH_LIST(call);
+    nh_ex one = nh_int(d, 1);
+    size_t calls = nh_functions_in(d, e, &call), n = nh_radicands_in(d, e, &base);
     for (size_t k = n; k-- > 0 && n <= most;) {
         nh_ex rest = nh_simplify_short(d, base[k], 0), outside = one;
         if (nh_model_is_constant(o, rest)) continue;
@@ -89,8 +93,8 @@ static nh_ex fourth_roots(const nh_model *o, nh_ex e)
 {
     enum { most = 64 };
     nh_dag *d = o->dag;
-    nh_ex product[most];
-    size_t n = nh_products_in(d, e, product, most);
+    NH_LIST(product);
+    size_t n = nh_products_in(d, e, &product);
     for (size_t i = 0; i < n && n <= most; i++)
         for (size_t k = 0; k < nh_arity(d, product[i]); k++) {
             nh_ex base = nh_child(d, product[i], k), x = nh_exponent_of(d, product[i], k);

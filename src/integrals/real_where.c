@@ -92,8 +92,8 @@ size_t nh_real_where(const nh_model *o, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE])
 {
     enum { most = 400 };
     nh_dag *d = o->dag;
-    nh_ex node[most];
-    size_t count = 0, n = nh_products_in(d, e, node, most);
+    NH_LIST(node);
+    size_t count = 0, n = nh_products_in(d, e, &node);
     for (size_t i = 0; i < n && i < most; i++)
         for (size_t k = 0; k < nh_arity(d, node[i]); k++) {
             nh_ex base = without_number(d, nh_child(d, node[i], k)), x = nh_exponent_of(d, node[i], k);
@@ -102,7 +102,7 @@ size_t nh_real_where(const nh_model *o, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE])
             for (size_t j = 0; j < count; j++) known |= out[j] == base;
             if (even_root && !known && count < NH_MOST_REAL_WHERE && may_be_negative(o, base)) out[count++] = base;
         }
-    n = nh_functions_in(d, e, node, most);
+    n = nh_functions_in(d, e, &node);
     for (size_t i = 0; i < n && i < most; i++) {
         nh_ex argument = nh_function_of(d, node[i]) == NH_LOG ? nh_child(d, node[i], 0) : 0;
         bool known = argument == 0;

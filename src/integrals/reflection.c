@@ -21,11 +21,11 @@ typedef struct {
 
 static bool is_wave(const nh_model *o, nh_ex q)
 {
-    nh_ex call[64];
+    NH_LIST(call);
     for (size_t i = 0; i < o->m + o->n; i++) {
         nh_ex e = i < o->m ? o->rho[i] : o->a[i - o->m];
-        size_t n = nh_functions_in(o->dag, e, call, 64);
-        for (size_t j = 0; j < n && j < 64; j++) {
+        size_t n = nh_functions_in(o->dag, e, &call);
+        for (size_t j = 0; j < n; j++) {
             nh_function f = nh_function_of(o->dag, call[j]);
             if ((f == NH_SIN || f == NH_COS || f == NH_TAN) && nh_depends(o->dag, call[j], q)) return true;
         }

@@ -289,7 +289,9 @@ nh_region nh_region_open(const nh_model *o, const nh_terrain *terrain, nh_ex phi
 static bool is_level(nh_dag *d, nh_ex wall, nh_ex *symbol, nh_ex *root, bool *rising)
 {
     nh_ex zero = nh_int(d, 0);
-    if (nh_symbols_in(d, wall, symbol, 1) != 1) return false;
+    NH_LIST(all);
+    if (nh_symbols_in(d, wall, &all) != 1) return false;
+    *symbol = all[0];
     nh_ex slope = nh_diff(d, wall, *symbol), rest = nh_substitute(d, wall, 1, symbol, &zero);
     if (nh_kind_of(d, slope) != NH_NUMBER || nh_kind_of(d, rest) != NH_NUMBER) return false;
     *rising = nh_num_value(nh_number_of(d, slope)) > 0;

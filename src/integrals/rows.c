@@ -12,10 +12,9 @@
  * simplification pays.  For all rates it would cost more than the whole search. */
 static nh_ex without_logarithms(nh_dag *d, nh_ex of, nh_ex derivative)
 {
-    enum { most = 64 };
-    nh_ex call[most];
-    size_t n = nh_functions_in(d, of, call, most);
-    for (size_t i = 0; i < n && i < most; i++) {
+    NH_LIST(call);
+    size_t n = nh_functions_in(d, of, &call);
+    for (size_t i = 0; i < n; i++) {
         nh_function f = nh_function_of(d, call[i]);
         if (f == NH_LOG || f == NH_ATANH || f == NH_ACOSH || f == NH_ASIN || f == NH_ACOS)
             return nh_simplify(d, derivative);

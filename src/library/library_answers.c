@@ -37,6 +37,7 @@ static void *result_of(nh_problem *p, const char *command, nh_request *q, const 
 
 nh_analysis *nh_analyze(nh_problem *p, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     nh_request q = p->request;
     q.documents = true;
     return result_of(p, "analyze", &q, NULL, error);
@@ -46,6 +47,7 @@ nh_simulation *nh_simulate(nh_problem *p, nh_error *error) { return nh_simulate_
 
 nh_simulation *nh_simulate_zeros(nh_problem *p, const char *events, const char *section, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     nh_request q = p->request;
     q.event = events;
     q.section = section;
@@ -54,6 +56,7 @@ nh_simulation *nh_simulate_zeros(nh_problem *p, const char *events, const char *
 
 nh_reduction *nh_reduce(nh_problem *p, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     nh_request q = p->request;
     return result_of(p, "reduce", &q, NULL, error);
 }
@@ -68,11 +71,13 @@ static nh_verification *verify(nh_problem *p, const char *current, const char *f
 
 nh_verification *nh_verify_current(nh_problem *p, const char *current, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     return verify(p, current, NULL, error);
 }
 
 nh_verification *nh_verify_field(nh_problem *p, const char *field, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     return verify(p, NULL, field, error);
 }
 
@@ -82,6 +87,7 @@ bool nh_verification_proved(const nh_verification *v) { return v->proof.proved; 
 
 nh_classified *nh_classify_over(nh_problem *p, const char *parameter, bool shape, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     nh_request q = p->request;
     nh_error_clear(error);
     if (strchr(parameter, ',')) /* several systems have an answer of another kind */
@@ -93,6 +99,7 @@ nh_classified *nh_classify_over(nh_problem *p, const char *parameter, bool shape
 
 nh_benchmark *nh_benchmark_methods(nh_problem *p, const nh_comparison *c, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     nh_request q = p->request;
     nh_error_clear(error);
     q.methods = 0; /* that of the question is of a simulation */
@@ -104,6 +111,7 @@ nh_benchmark *nh_benchmark_methods(nh_problem *p, const nh_comparison *c, nh_err
 
 nh_linearized *nh_linearize(nh_problem *p, const char *over, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     nh_request q = p->request;
     q.over = over;
     return result_of(p, "linearize", &q, NULL, error);
@@ -152,6 +160,7 @@ static void write_code(void *argument)
 
 char *nh_export_code(const nh_export *x, size_t file, char **name, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     coding c = {.export = x, .file = file, .name = name};
     if (name) *name = NULL;
     return nh_library_try(write_code, &c, error) ? c.text : NULL;
@@ -220,36 +229,43 @@ static char *document(const char *command, const void *result, double seed, nh_f
 
 char *nh_analysis_document(const nh_analysis *a, nh_format format, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     return document("analyze", a, 1, format, error);
 }
 
 char *nh_simulation_document(const nh_simulation *s, nh_format format, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     return document("simulate", s, 1, format, error);
 }
 
 char *nh_reduction_document(const nh_reduction *r, nh_format format, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     return document("reduce", r, r->options.seed, format, error);
 }
 
 char *nh_verification_document(const nh_verification *v, nh_format format, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     return document("verify", v, 1, format, error);
 }
 
 char *nh_classified_document(const nh_classified *c, nh_format format, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     return document("classify", c, 1, format, error);
 }
 
 char *nh_benchmark_document(const nh_benchmark *b, nh_format format, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     return document("benchmark", b, 1, format, error);
 }
 
 char *nh_linearized_document(const nh_linearized *x, nh_format format, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     return document("linearize", x, 1, format, error);
 }
 

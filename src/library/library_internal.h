@@ -15,6 +15,11 @@ struct nh_problem {
     nh_system   *system;
 };
 
+/* First in a function of nhsym.h: a caller may pass NULL in place of an error, but within the library there is one. */
+#define NH_OWN_ERROR(error)              \
+    nh_error own_error = {.code = NH_OK}; \
+    if (!(error)) (error) = &own_error
+
 /* False: memory ended before the job did (base/recovery.h).  After that has happened once in a thread, it does further
  * jobs on a new thread, because FLINT's memory for the old one may be inconsistent. */
 bool nh_library_run(void (*job)(void *), void *data);

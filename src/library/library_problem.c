@@ -104,6 +104,7 @@ static void list_systems(void *argument)
 
 char *nh_systems(nh_error *error)
 {
+    NH_OWN_ERROR(error);
     char *out = NULL;
     return nh_library_try(list_systems, &out, error) ? out : NULL;
 }
@@ -225,6 +226,7 @@ static void read_problem(void *argument)
 
 nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     nh_error ignored;
     opening o = {.context = context, .question = question, .error = error ? error : &ignored};
     if (nh_library_try(begin_problem, &o, o.error) && o.good &&

@@ -41,6 +41,7 @@ static void create(void *argument)
 
 nh_rates *nh_rates_create(nh_problem *p, nh_error *error)
 {
+    NH_OWN_ERROR(error);
     writing w = {.request = &p->request, .error = error};
     if (nh_problem_run(p, create, &w, error) && w.good) return w.rates;
     nh_rates_free(w.rates);

@@ -268,8 +268,7 @@ nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, co
         nh_kinks_coarser(&work.kinks, (implicit ? part_across_implicit : part_across) * work.rtol * work.sizes.tau);
         nh_motion_run(motion, count, times, options, &stepper);
     } else {
-        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s",
-                work.sundials.message[0] ? work.sundials.message : "out of memory");
+        nh_sundials_fail(&work.sundials, error);
         nh_motion_free(motion);
         motion = NULL;
     }

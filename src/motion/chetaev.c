@@ -416,8 +416,7 @@ static bool integrate(ida_work *work, nh_motion *motion, const double *initial, 
     if (created && !make_consistent(work, times[0], initial, NV_DATA_S(work->state), NV_DATA_S(work->rate), error))
         return false;
     if (!created || !set_up(work, times[0]))
-        return nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s",
-                       work->sundials.message[0] ? work->sundials.message : "out of memory");
+        return nh_sundials_fail(&work->sundials, error);
     enter_start(motion, work);
     nh_stepper stepper = {.context = work, .advance = ida_advance, .state = ida_state, .stuck = ida_stuck};
     nh_motion_run(motion, count, times, options, &stepper);

@@ -306,8 +306,7 @@ nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_
     nh_kinks_begin(&work.kinks, problem, initial, count, times);
     good = good && create_objects(&work, options->method) && set_up(&work, times[0], initial);
     if (!good) {
-        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s",
-                work.sundials.message[0] ? work.sundials.message : "out of memory");
+        nh_sundials_fail(&work.sundials, error);
         goto done;
     }
     nh_stepper stepper = {.context = &work,

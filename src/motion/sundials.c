@@ -1,6 +1,7 @@
 #include "motion/sundials.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <sundials/sundials_types.h>
 #if NH_SUNDIALS_SINCE(7, 0)
 #include <sundials/sundials_logger.h>
@@ -46,5 +47,12 @@ bool nh_sundials_open(nh_sundials *s)
 }
 
 #endif
+
+bool nh_sundials_fail(const nh_sundials *s, nh_error *error)
+{
+    const char *why = s->message[0] ? s->message : "out of memory";
+    nh_code code = strstr(why, "memory request failed") || why != s->message ? NH_LIMIT : NH_NUMERIC;
+    return nh_fail(error, code, "", "the integrator cannot be set up: %s", why);
+}
 
 void nh_sundials_close(nh_sundials *s) { SUNContext_Free(&s->context); }

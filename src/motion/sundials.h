@@ -6,6 +6,8 @@
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 
+#include "base/error.h"
+
 #define NH_SUNDIALS_SINCE(major, minor) \
     (SUNDIALS_VERSION_MAJOR > (major) || (SUNDIALS_VERSION_MAJOR == (major) && SUNDIALS_VERSION_MINOR >= (minor)))
 
@@ -17,6 +19,8 @@ typedef struct nh_sundials {
 /* s must not move until it is closed, after everything that was made in its context.  False when there is no memory. */
 bool nh_sundials_open(nh_sundials *s);
 void nh_sundials_close(nh_sundials *s);
+/* Records that an integrator cannot be set up, and why; returns false. */
+bool nh_sundials_fail(const nh_sundials *s, nh_error *error);
 
 /* Before version 7 every integrator has a handler of its own: nh_sundials_listen(CVode, memory, s) for
    CVodeSetErrHandlerFn, true when it is set. */

@@ -31,14 +31,14 @@ static bool of_one(const nh_kinetic *k, nh_ex e, size_t j)
 /* Those of the Lagrangian and of the constraints; the caller frees them. */
 static nh_ex *functions_of_system(const nh_kinetic *k, size_t *count)
 {
-    nh_ex *out = NULL, e;
+    nh_ex *out = NULL;
+    NH_LIST(call);
     size_t capacity = 0, n = 0;
     for (size_t a = 0; a <= k->f; a++) {
         nh_ex of = a < k->f ? k->force[a] : k->model->system->lagrangian;
-        size_t more = nh_functions_in(k->dag, of, &e, 1); /* number of them */
+        size_t more = nh_functions_in(k->dag, of, &call);
         nh_grow(&out, &capacity, n + more + 1, sizeof *out);
-        nh_functions_in(k->dag, of, out + n, more);
-        n += more;
+        for (size_t i = 0; i < more; i++) out[n++] = call[i];
     }
     *count = n;
     return out;

@@ -76,10 +76,10 @@ static void letter(const nh_model *o, alphabet *a, nh_ex e)
 static void powers(const nh_model *o, alphabet *a)
 {
     nh_dag *d = o->dag;
-    nh_ex *product = nh_alloc_array(most_functions, sizeof *product);
+    NH_LIST(product);
     for (size_t s = 0; s < o->m; s++) {
-        size_t n = nh_products_in(d, o->rho[s], product, most_functions);
-        for (size_t i = 0; i < n && i < most_functions; i++)
+        size_t n = nh_products_in(d, o->rho[s], &product);
+        for (size_t i = 0; i < n; i++)
             for (size_t k = 0; k < nh_arity(d, product[i]); k++) {
                 nh_ex q = nh_child(d, product[i], k), exponent = nh_exponent_of(d, product[i], k);
                 if (nh_kind_of(d, q) != NH_SYMBOL || nh_kind_of(d, exponent) != NH_NUMBER) continue;
@@ -87,7 +87,6 @@ static void powers(const nh_model *o, alphabet *a)
                 if (power.q == 1 && power.p > 1) letter(o, a, nh_powi(d, q, 1 - power.p));
             }
     }
-    nh_free(product);
 }
 
 /* f = form_s v^s + rate for a constraint f = 0; false: it is not affine in the velocities. */

@@ -91,8 +91,9 @@ static bool satisfied(const nh_explicit_curve *c, const bool *known)
 static nh_ex without_elliptic(nh_dag *d, nh_ex e)
 {
     enum { most = 64 };
-    nh_ex call[most], one[most];
-    size_t n = nh_functions_in(d, e, call, most), count = 0;
+    NH_LIST(call);
+    nh_ex one[most];
+    size_t n = nh_functions_in(d, e, &call), count = 0;
     for (size_t i = 0; i < n && i < most; i++)
         if (nh_is_incomplete_elliptic(nh_function_of(d, call[i]))) one[count] = nh_int(d, 1), call[count++] = call[i];
     return nh_substitute(d, e, count, call, one);
@@ -101,17 +102,17 @@ static nh_ex without_elliptic(nh_dag *d, nh_ex e)
 /* How many quotients in e can be infinite on the curve; in amplitudes they may be. */
 static size_t poles(const nh_explicit_curve *c, nh_ex e)
 {
-    enum { most = 64 };
-    nh_ex product[most], tangent[most];
+    NH_LIST(product);
+    NH_LIST(tangent);
     e = without_elliptic(c->d, e);
-    size_t count = 0, n = nh_products_in(c->d, e, product, most), f = nh_functions_in(c->d, e, tangent, most);
-    for (size_t i = 0; i < n && i < most; i++)
+    size_t count = 0, n = nh_products_in(c->d, e, &product), f = nh_functions_in(c->d, e, &tangent);
+    for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < nh_arity(c->d, product[i]); k++) {
             nh_ex x = nh_exponent_of(c->d, product[i], k);
             bool below = nh_kind_of(c->d, x) == NH_NUMBER && nh_num_value(nh_number_of(c->d, x)) < 0;
             count += below && nh_depends(c->d, nh_child(c->d, product[i], k), c->s);
         }
-    for (size_t i = 0; i < f && i < most; i++)
+    for (size_t i = 0; i < f; i++)
         count += nh_function_of(c->d, tangent[i]) == NH_TAN && nh_depends(c->d, tangent[i], c->s);
     return count;
 }
@@ -131,8 +132,9 @@ static nh_ex with_plain_signs(const nh_explicit_curve *c, nh_ex e)
 {
     enum { most = 24 };
     nh_dag *d = c->d;
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, e, call, most), signs = 0;
+    NH_LIST(call);
+    nh_ex by[most];
+    size_t n = nh_functions_in(d, e, &call), signs = 0;
     for (size_t i = 0; i < n && n <= most; i++) {
         if (nh_function_of(d, call[i]) != NH_SIGN) continue;
         nh_ex u = nh_child(d, call[i], 0), rest = nh_model_without_constants(c->o, u);

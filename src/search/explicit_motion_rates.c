@@ -23,9 +23,9 @@ typedef struct {
 static void read_pieces(pieces *p, nh_ex f)
 {
     nh_dag *d = p->curve->d;
-    nh_ex all[most_sides];
-    size_t n = nh_functions_in(d, f, all, most_sides);
-    for (size_t i = 0; i < n && i < most_sides; i++) {
+    NH_LIST(all);
+    size_t n = nh_functions_in(d, f, &all);
+    for (size_t i = 0; i < n && p->calls < most_sides; i++) {
         nh_function name = nh_function_of(d, all[i]);
         if ((name != NH_ABS && name != NH_SIGN) || !nh_depends(d, all[i], p->curve->s)) continue;
         nh_ex u = nh_child(d, all[i], 0), sign = nh_call(d, NH_SIGN, u);
@@ -43,10 +43,10 @@ static void read_pieces(pieces *p, nh_ex f)
 /* sqrt(u^2 v) as |u| sqrt(v), with functions u of s: on each side of u = 0 that can be integrated. */
 static nh_ex squares_out(const nh_explicit_curve *c, nh_ex f)
 {
-    enum { most = 64 };
     nh_dag *d = c->d;
-    nh_ex base[most], outside, inside;
-    size_t n = nh_radicands_in(d, f, base, most);
+    NH_LIST(base);
+    nh_ex outside, inside;
+    size_t n = nh_radicands_in(d, f, &base);
     for (size_t i = 0; i < n; i++) {
         if (!nh_depends(d, base[i], c->s) || nh_explicit_too_long(c, base[i])) continue;
         bool square = nh_square_split(d, nh_simplify_short(d, base[i], 0), &outside, &inside);
@@ -87,8 +87,9 @@ static int most_on_sides(void *context, nh_ex e)
 static nh_ex with_sign_of_root(nh_dag *d, nh_ex f, nh_ex F, nh_ex root)
 {
     enum { most = 64 };
-    nh_ex call[most], by[most], sign = nh_call(d, NH_SIGN, root);
-    size_t n = nh_functions_in(d, F, call, most), elliptic = 0;
+    NH_LIST(call);
+    nh_ex by[most], sign = nh_call(d, NH_SIGN, root);
+    size_t n = nh_functions_in(d, F, &call), elliptic = 0;
     for (size_t i = 0; i < n && i < most; i++) {
         bool integral = nh_is_incomplete_elliptic(nh_function_of(d, call[i])) && !nh_depends(d, f, call[i]);
         if (!integral || nh_depends(d, call[i], root)) continue;

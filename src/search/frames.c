@@ -120,12 +120,11 @@ static bool turn_pair(frame *f, nh_ex angle)
 
 static void turn_all(frame *f)
 {
-    enum { most = 32 };
-    nh_ex call[most];
+    NH_LIST(call);
     for (size_t a = 0; a < f->system->constraints; a++) {
         const nh_constraint *c = &f->system->constraint[a];
-        size_t n = nh_functions_in(f->d, nh_sub(f->d, c->lhs, c->rhs), call, most);
-        for (size_t i = 0; i < n && i < most; i++) {
+        size_t n = nh_functions_in(f->d, nh_sub(f->d, c->lhs, c->rhs), &call);
+        for (size_t i = 0; i < n; i++) {
             nh_function name = nh_function_of(f->d, call[i]);
             if (name == NH_SIN || name == NH_COS) f->turns += turn_pair(f, nh_child(f->d, call[i], 0));
         }

@@ -68,14 +68,13 @@ static void put_waves(nh_dag *d, size_t *n, nh_ex *list, size_t most, nh_ex argu
 /* The function calls of the equations of motion. */
 static size_t calls_in(const nh_model *o, size_t most, nh_ex *out)
 {
-    enum { most_own = 64 };
-    nh_ex own[most_own];
+    NH_LIST(own);
     const nh_ex *list[] = {o->rho, o->M, o->a};
     size_t n = 0, length[] = {o->m, o->n * o->n, o->n};
     for (size_t part = 0; part < sizeof list / sizeof *list; part++)
         for (size_t k = 0; k < length[part]; k++) {
-            size_t found = nh_functions_in(o->dag, list[part][k], own, most_own);
-            for (size_t i = 0; i < found && i < most_own; i++) put(&n, out, most, own[i]);
+            size_t found = nh_functions_in(o->dag, list[part][k], &own);
+            for (size_t i = 0; i < found; i++) put(&n, out, most, own[i]);
         }
     return n;
 }

@@ -24,17 +24,17 @@ static bool is_needed(const nh_model *o, const nh_ex *fixed, size_t parameter)
  * and of the currents, and those that a current needs.  NULL: none. */
 static const nh_ex *special_values(const nh_analysis *r)
 {
-    enum { most = 64 };
     const nh_model *o = r->model;
+    NH_LIST(call);
     size_t n = o->system->parameters;
     bool *fixed = nh_alloc_array(n + 1, sizeof *fixed), any = false;
     for (size_t j = 0; j < o->m + o->n + r->count; j++) {
         const nh_current *f = j < o->m + o->n ? NULL : &r->found[j - o->m - o->n];
-        nh_ex e = f ? f->phi : j < o->m ? o->rho[j] : o->a[j - o->m], call[most];
-        size_t calls = nh_functions_in(o->dag, e, call, most);
+        nh_ex e = f ? f->phi : j < o->m ? o->rho[j] : o->a[j - o->m];
+        size_t calls = nh_functions_in(o->dag, e, &call);
         for (size_t p = 0; p < n; p++) {
             if (f && !f->proof.all_parameters) fixed[p] |= !f->proof.fixed || is_needed(o, f->proof.fixed, p);
-            for (size_t i = 0; i < calls && i < most; i++) fixed[p] |= nh_depends(o->dag, call[i], o->parameter[p]);
+            for (size_t i = 0; i < calls; i++) fixed[p] |= nh_depends(o->dag, call[i], o->parameter[p]);
             any |= fixed[p];
         }
     }

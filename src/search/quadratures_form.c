@@ -14,9 +14,10 @@
 static nh_ex joined_roots(nh_dag *d, nh_ex e)
 {
     enum { most = 200, passes = 4 };
-    nh_ex product[most], by[most], half = nh_ratio(d, 1, 2);
+    NH_LIST(product);
+    nh_ex by[most], half = nh_ratio(d, 1, 2);
     for (int pass = 0; pass < passes; pass++) {
-        size_t n = nh_products_in(d, e, product, most), joined = 0;
+        size_t n = nh_products_in(d, e, &product), joined = 0;
         for (size_t i = 0; i < n && i < most; i++) {
             nh_ex radicand = nh_int(d, 1), others = nh_number(d, nh_constant_of(d, product[i]));
             size_t roots = 0;
@@ -42,9 +43,9 @@ static nh_ex joined_roots(nh_dag *d, nh_ex e)
 
 static bool split(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
 {
-    nh_ex root;
+    NH_LIST(root);
     e = nh_simplify_short(d, e, 0);
-    bool quotient = nh_kind_of(d, e) == NH_SUM && !nh_radicands_in(d, e, &root, 1);
+    bool quotient = nh_kind_of(d, e) == NH_SUM && !nh_radicands_in(d, e, &root);
     nh_ex common = nh_kind_of(d, e) == NH_SUM ? nh_terms_common(d, e) : nh_int(d, 1);
     if (!nh_is_number(d, common, 1)) {
         e = nh_mul(d, common, nh_simplify_short(d, nh_div(d, e, common), 0));
@@ -57,10 +58,10 @@ static bool split(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
  * in e; the result is proved anew. */
 static nh_ex shorter_roots(const nh_model *o, nh_ex e)
 {
-    enum { most = 200 };
     nh_dag *d = o->dag;
-    nh_ex radicand[most], outside, inside;
-    size_t n = nh_radicands_in(d, e, radicand, most);
+    NH_LIST(radicand);
+    nh_ex outside, inside;
+    size_t n = nh_radicands_in(d, e, &radicand);
     for (size_t i = 0; i < n; i++) {
         bool positive = split(d, radicand[i], &outside, &inside) &&
                         (nh_model_is_constant(o, outside) || nh_model_sign(o, outside) > 0);
@@ -75,8 +76,9 @@ static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
     enum { most = 24 };
     const nh_model *o = r->model;
     nh_dag *d = o->dag;
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, e, call, most), logs = 0;
+    NH_LIST(call);
+    nh_ex by[most];
+    size_t n = nh_functions_in(d, e, &call), logs = 0;
     for (size_t i = 0; i < n && n <= most; i++) {
         nh_ex u = nh_child(d, call[i], 0), c = nh_int(d, 1);
         if (nh_function_of(d, call[i]) != NH_LOG || nh_kind_of(d, u) != NH_PRODUCT) continue;
@@ -95,9 +97,9 @@ static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
 static bool has_roots_of_states(const nh_model *o, nh_ex e)
 {
     enum { most = 24 };
-    nh_ex radicand[most];
-    size_t n = nh_radicands_in(o->dag, e, radicand, most);
-    bool found = n == most;
+    NH_LIST(radicand);
+    size_t n = nh_radicands_in(o->dag, e, &radicand);
+    bool found = false;
     for (size_t i = 0; i < n && !found; i++) found = !nh_model_is_constant(o, radicand[i]);
     return found;
 }
@@ -107,8 +109,9 @@ static nh_ex better_area_functions(const nh_model *o, nh_ex e)
 {
     enum { most = 24, a_few = 4 };
     nh_dag *d = o->dag;
-    nh_ex call[most], outside, inside, one = nh_int(d, 1);
-    size_t n = nh_functions_in(d, e, call, most);
+    NH_LIST(call);
+    nh_ex outside, inside, one = nh_int(d, 1);
+    size_t n = nh_functions_in(d, e, &call);
     for (size_t i = 0; i < n && n <= most; i++) {
         if (nh_function_of(d, call[i]) != NH_ATANH) continue;
         nh_ex f = nh_child(d, call[i], 0), square = nh_simplify_short(d, nh_powi(d, f, 2), 0);
@@ -127,11 +130,17 @@ static nh_ex better_area_functions(const nh_model *o, nh_ex e)
  * rate then vanishes for both signs of s. */
 static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
 {
-    enum { most = 200 };
     nh_dag *d = o->dag;
-    nh_ex own[most], theirs[most], half = nh_ratio(d, 1, 2), s, rest;
-    size_t roots = nh_radicands_in(d, e, own, most), known = 0;
-    for (size_t k = 0; k < o->n; k++) known += nh_radicands_in(d, o->a[k], theirs + known, most - known);
+    NH_LIST(own);
+    NH_LIST(more);
+    NH_LIST(theirs);
+    nh_ex half = nh_ratio(d, 1, 2), s, rest;
+    size_t roots = nh_radicands_in(d, e, &own), known = 0, capacity = 0;
+    for (size_t k = 0; k < o->n && roots; k++) {
+        size_t m = nh_radicands_in(d, o->a[k], &more);
+        nh_grow(&theirs, &capacity, known + m, sizeof *theirs);
+        for (size_t j = 0; j < m; j++) theirs[known++] = more[j];
+    }
     for (size_t i = 0; i < roots; i++)
         for (size_t j = 0; j < known; j++) {
             nh_ex ratio = nh_simplify_short(d, nh_div(d, own[i], theirs[j]), 0);
@@ -150,8 +159,9 @@ static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
 static nh_ex signs_as_roots(nh_dag *d, nh_ex e)
 {
     enum { most = 24 };
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, e, call, most), signs = 0;
+    NH_LIST(call);
+    nh_ex by[most];
+    size_t n = nh_functions_in(d, e, &call), signs = 0;
     for (size_t i = 0; i < n && i < most; i++) {
         nh_ex u = nh_child(d, call[i], 0);
         if (nh_function_of(d, call[i]) != NH_SIGN) continue;
@@ -166,9 +176,10 @@ static bool is_surd(const nh_model *o, nh_ex u, nh_ex *a, nh_ex *b, nh_ex *R)
 {
     enum { most = 8 };
     nh_dag *d = o->dag;
-    nh_ex radicand[most], s = nh_symbol_fresh(d, "s"), zero = nh_int(d, 0);
-    size_t n = nh_radicands_in(d, u, radicand, most), roots = 0;
-    for (size_t i = 0; i < n && i < most; i++)
+    NH_LIST(radicand);
+    nh_ex s = nh_symbol_fresh(d, "s"), zero = nh_int(d, 0);
+    size_t n = nh_radicands_in(d, u, &radicand), roots = 0;
+    for (size_t i = 0; i < n; i++)
         if (!nh_model_is_constant(o, radicand[i])) radicand[roots++] = radicand[i];
     if (n > most || roots != 1) return false;
     nh_ex e = nh_simplify_short(d, nh_substitute_root(d, u, radicand[0], s), 0);
@@ -231,8 +242,9 @@ static nh_ex areas_of_logarithms(const nh_model *o, nh_ex e)
 {
     enum { most = 24 };
     nh_dag *d = o->dag;
-    nh_ex call[most], by[most];
-    size_t n = nh_functions_in(d, e, call, most), areas = 0;
+    NH_LIST(call);
+    nh_ex by[most];
+    size_t n = nh_functions_in(d, e, &call), areas = 0;
     for (size_t i = 0; i < n && n <= most; i++) {
         if (nh_function_of(d, call[i]) != NH_LOG || !area_of(o, nh_child(d, call[i], 0), &by[areas])) continue;
         call[areas++] = call[i];

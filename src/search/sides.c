@@ -47,9 +47,10 @@ static nh_ex with_symbols(sides *x, nh_ex e)
 {
     enum { most = 64 };
     nh_dag *d = x->d;
-    nh_ex call[most], by[most];
+    NH_LIST(call);
+    nh_ex by[most];
     for (size_t level = 0; level < nested; level++) {
-        size_t n = nh_functions_in(d, e, call, most), pieces = 0;
+        size_t n = nh_functions_in(d, e, &call), pieces = 0;
         if (n > most) x->good = false;
         for (size_t i = 0; i < n && i < most; i++) {
             nh_function f = nh_function_of(d, call[i]);
@@ -87,12 +88,12 @@ static nh_ex with_signs(const sides *x, nh_ex e)
 {
     enum { most = 64 };
     nh_dag *d = x->d;
-    nh_ex base[most];
+    NH_LIST(base);
     for (size_t j = x->count; j-- > 0;) {
         nh_ex sign = nh_call(d, NH_SIGN, x->u[j]);
-        size_t n = nh_radicands_in(d, e, base, most);
+        size_t n = nh_radicands_in(d, e, &base);
         for (size_t i = 0; i < n; i++)
-            if (i >= most || nh_depends(d, base[i], x->symbol[j])) sign = nh_int(d, x->sign[j]);
+            if (nh_depends(d, base[i], x->symbol[j])) sign = nh_int(d, x->sign[j]);
         e = nh_substitute(d, e, 1, &x->symbol[j], &sign);
     }
     return nh_simplify_short(d, e, 0);

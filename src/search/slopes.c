@@ -39,8 +39,10 @@ static nh_ex with_slope(plane *y, nh_ex e)
 {
     enum { most = 32 };
     nh_dag *d = y->d;
-    nh_ex base[most], call[most], by[most], outside, inside, pu = nh_mul(d, y->p, y->u);
-    size_t n = nh_radicands_in(d, e, base, most), calls, kept = 0;
+    NH_LIST(base);
+    NH_LIST(call);
+    nh_ex by[most], outside, inside, pu = nh_mul(d, y->p, y->u);
+    size_t n = nh_radicands_in(d, e, &base), calls, kept = 0;
     for (size_t i = 0; i < n && i < most && y->roots < most_roots; i++) {
         nh_ex radicand = nh_simplify_short(d, nh_substitute(d, base[i], 1, &y->v, &pu), 0);
         bool square = nh_depends(d, radicand, y->u) && nh_square_split(d, radicand, &outside, &inside);
@@ -51,7 +53,7 @@ static nh_ex with_slope(plane *y, nh_ex e)
         y->root[y->roots++] = nh_div(d, nh_sqrt(d, base[i]), size);
     }
     e = nh_substitute(d, e, 1, &y->v, &pu);
-    calls = nh_functions_in(d, e, call, most);
+    calls = nh_functions_in(d, e, &call);
     for (size_t i = 0; i < calls && i < most; i++) {
         nh_function f = nh_function_of(d, call[i]);
         if ((f != NH_ABS && f != NH_SIGN) || nh_child(d, call[i], 0) != y->u) continue;

@@ -48,9 +48,8 @@ static bool depends_on_velocities(const nh_chart *c, nh_ex e)
 /* The bases of half powers in e that depend on velocities, each once. */
 static size_t bases_in(const nh_chart *c, nh_ex e, nh_ex *base, size_t most)
 {
-    enum { most_bases = 100 };
-    nh_ex all[most_bases];
-    size_t bases = nh_radicands_in(c->system->dag, e, all, most_bases), n = 0;
+    NH_LIST(all);
+    size_t bases = nh_radicands_in(c->system->dag, e, &all), n = 0;
     for (size_t i = 0; i < bases && n < most; i++)
         if (depends_on_velocities(c, all[i])) base[n++] = all[i];
     return n;

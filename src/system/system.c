@@ -177,14 +177,14 @@ static bool not_an_equation(const nh_deck *deck, const nh_deck_node *node, size_
 /* The order of a function must be constant: a first argument that contains coordinates, velocities or time, or NULL. */
 static const char *moving_order(const nh_system *y, nh_ex e)
 {
-    enum { most = 64 };
-    nh_ex call[most], symbol[most];
-    size_t calls = nh_functions_in(y->dag, e, call, most);
-    for (size_t i = 0; i < calls && i < most; i++) {
+    NH_LIST(call);
+    NH_LIST(symbol);
+    size_t calls = nh_functions_in(y->dag, e, &call);
+    for (size_t i = 0; i < calls; i++) {
         nh_function f = nh_function_of(y->dag, call[i]);
         for (size_t j = 0; j < nh_function_constants(f); j++) {
-            size_t n = nh_symbols_in(y->dag, nh_child(y->dag, call[i], j), symbol, most), fixed = 0;
-            for (size_t k = 0; k < n && k < most; k++)
+            size_t n = nh_symbols_in(y->dag, nh_child(y->dag, call[i], j), &symbol), fixed = 0;
+            for (size_t k = 0; k < n; k++)
                 for (size_t p = 0; p < y->parameters; p++) fixed += y->parameter[p].symbol == symbol[k];
             if (fixed < n) return nh_function_name(f);
         }

@@ -41,10 +41,9 @@ static bool fail_form(reader *r, const nh_deck_node *node)
 static bool only_argument(reader *r, nh_ex value, nh_ex variable, const char **other)
 {
     const nh_system *s = r->system;
-    enum { most = 64 };
-    nh_ex symbol[most];
-    size_t n = nh_symbols_in(s->dag, value, symbol, most);
-    for (size_t i = 0; i < n && i < most; i++) {
+    NH_LIST(symbol);
+    size_t n = nh_symbols_in(s->dag, value, &symbol);
+    for (size_t i = 0; i < n; i++) {
         bool good = symbol[i] == variable;
         for (size_t k = 0; k < s->parameters; k++) good |= symbol[i] == s->parameter[k].symbol;
         *other = nh_name_of(s->dag, symbol[i]);

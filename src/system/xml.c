@@ -115,11 +115,13 @@ const nh_xml *nh_xml_read(nh_deck *deck, nh_error *error)
 {
     static const XML_Memory_Handling_Suite memory = {nh_alloc_bytes, reallocate, nh_free};
     reader r = {.parser = XML_ParserCreate_MM("UTF-8", &memory, NULL), .deck = deck, .error = error};
+    nh_memory_got(r.parser);
     r.skip = skip_space(deck->source, 0);
     XML_SetUserData(r.parser, &r);
     XML_SetElementHandler(r.parser, start, finish);
     XML_SetStartDoctypeDeclHandler(r.parser, document_type);
     bool good = XML_Parse(r.parser, deck->source + r.skip, (int)(deck->length - r.skip), 1) == XML_STATUS_OK;
+    if (!good && XML_GetErrorCode(r.parser) == XML_ERROR_NO_MEMORY) nh_memory_ended(0);
     if (!good) explain(&r);
     XML_ParserFree(r.parser);
     return good ? r.root : NULL;
