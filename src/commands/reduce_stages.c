@@ -71,8 +71,8 @@ static const nh_chaplygin *chaplygin_on(nh_reduction *r, const nh_slice *slice, 
 static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *slice, const nh_ex *K, const nh_ex *U,
                                        const nh_slice *shown, const nh_ex *Ks, const nh_ex *Us)
 {
-    nh_chaplygin_measure m = nh_chaplygin_measure_of(slice, K, U, &r->options);
-    if (m.tested && m.measure && m.size > r->options.group)
+    nh_chaplygin_measure m = nh_chaplygin_measure_of(slice, K, U, shown, Ks, Us, &r->options);
+    if (m.tested && m.measure && m.size > 0)
         m.closed = nh_density_find(shown, Ks, Us, &r->options, &m.density, &m.proof);
     nh_ex size = m.closed ? nh_call(shown->dag, NH_ABS, m.density) : 0; /* its sign does not matter */
     if (m.closed) m.local = nh_kinetic_many_valued(shown->kinetic, 1, &size);

@@ -119,6 +119,7 @@ static void measure(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *
                    : m->local   ? ", but only locally: its density is many-valued on an angle"
                                 : "");
     else nh_pen_say(p, "no invariant measure with a density on the shape space (|$\\d Theta$| = %.2g)", m->curl);
+    if (!m->exact) nh_pen_say(p, " (by numbers)");
     if (m->measure && m->closed && !m->proof.all_parameters)
         nh_pen_say(p, "; the density holds%s",
                    m->proof.proved ? nh_facts_holds(r->kinetic->model, &m->proof, false) : " to rounding");

@@ -5,10 +5,12 @@
 
 #include "base/linalg.h"
 #include "graph/diff.h"
+#include "exact/generic_value.h"
 #include "exact/normal.h"
 #include "integrals/recognise.h"
 #include "reduction/constants.h"
 #include "reduction/runge.h"
+#include "reduction/section.h"
 #include "reduction/subspace.h"
 
 enum { most_places = 16 };
@@ -68,6 +70,40 @@ static void normalise(const nh_kinetic *k, size_t d, double *E, double *B, doubl
     in_units(k, d * d, ones, B, NULL);
 }
 
+/* [e_a, e_b] = c^k e_k by exact relations among the fields (d of them) and their brackets: c[pair * d + k]; outside: of
+ * the brackets that are no combinations.  False: not known. */
+static bool exact_brackets(const nh_kinetic *k, size_t d, const nh_ex *e, const nh_ex *b, const nh_options *options,
+                           double *c, bool *outside)
+{
+    size_t m = k->m, columns = d + d * (d - 1) / 2, n = 0, found, *pair = nh_alloc_array(columns + 1, sizeof *pair);
+    nh_ex *entry = nh_alloc_array(columns * m + 1, sizeof *entry);
+    memcpy(entry, e, d * m * sizeof *e);
+    for (size_t i = 0; i < d; i++)
+        for (size_t j = i + 1; j < d; j++, n++) {
+            pair[d + n] = i * d + j;
+            memcpy(entry + (d + n) * m, b + (i * d + j) * m, m * sizeof *e);
+        }
+    const nh_ex *all = nh_constant_relations(k, columns, m, entry, options, &found);
+    for (size_t p = 0; p < d * d && all; p++) outside[p] = p / d != p % d;
+    for (size_t r = 0; r < found && all; r++) {
+        const nh_ex *row = all + r * columns;
+        size_t last = columns - 1;
+        bool inside = true;
+        while (nh_is_zero(k->dag, row[last])) last--;
+        for (size_t j = d; j < last; j++) inside &= nh_is_zero(k->dag, row[j]);
+        if (last < d || !inside) continue;
+        size_t p = pair[last], mirrored = p % d * d + p / d;
+        outside[p] = outside[mirrored] = false;
+        for (size_t j = 0; j < d; j++) {
+            c[p * d + j] = -nh_model_number(k->model, row[j]);
+            c[mirrored * d + j] = -c[p * d + j];
+        }
+    }
+    nh_free(entry);
+    nh_free(pair);
+    return all != NULL;
+}
+
 static void find_constants(nh_action *g, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
@@ -112,8 +148,16 @@ static void find_constants(nh_action *g, const nh_options *options)
         bool zero = fabs(c) <= options->group;
         c *= unit[d + i / d] / unit[i % d];
         if (nh_recognise_ratio(c, 1000, options->same, &x)) c = nh_num_value(x);
-        g->algebra.c[i] = zero ? 0 : -c;
+        g->algebra.c[i] = zero ? 0 : c;
     }
+    if (d > 1 && exact_brackets(k, d, e, b, options, g->algebra.c, g->outside)) {
+        g->closes = true;
+        for (size_t pair = 0; pair < d * d; pair++) {
+            g->closes &= !g->outside[pair];
+            for (size_t i = 0; i < d && g->outside[pair]; i++) g->algebra.c[pair * d + i] = 0;
+        }
+    }
+    for (size_t i = 0; i < d * d * d; i++) g->algebra.c[i] = g->algebra.c[i] == 0 ? 0 : -g->algebra.c[i];
     g->constant = nh_arena_alloc(k->arena, (d * d * d + 1) * sizeof *g->constant);
     nh_constants_find(k, d, g->generator, g->algebra.c, b, options, g->constant);
     nh_free(e);
@@ -143,6 +187,17 @@ static size_t rank_at(size_t m, size_t n, const double *a, double small, double 
     if (ratio) *ratio = n && s[0] > 0 ? s[n - 1] / s[0] : n ? 0 : 1;
     nh_free(s);
     return rank;
+}
+
+/* The rank of a matrix of expressions, row by row, at almost all places, for the parameters' values (modulo primes). */
+static bool generic_rank(const nh_kinetic *k, size_t rows, size_t columns, const nh_ex *e, size_t *rank)
+{
+    nh_ex *value = nh_alloc_array(rows * columns + 1, sizeof *value);
+    for (size_t i = 0; i < rows * columns; i++) value[i] = nh_model_values(k->model, e[i]);
+    *rank = 0;
+    bool known = !rows || !columns || nh_generic_rank(k->dag, rows, columns, value, rank);
+    nh_free(value);
+    return known;
 }
 
 static double unit_of(double K) { return K > 0 ? sqrt(K) : 1; }
@@ -183,8 +238,22 @@ static size_t with_distribution(size_t m, size_t f, size_t d, const double *K, c
     return rank;
 }
 
+/* omega(e_a): column a has f rows; room for d x f. */
+static void on_constraints(const nh_action *g, nh_ex *e)
+{
+    const nh_kinetic *k = g->kinetic;
+    for (size_t a = 0; a < g->d; a++)
+        for (size_t i = 0; i < k->f; i++) {
+            nh_ex sum = nh_int(k->dag, 0);
+            for (size_t s = 0; s < k->m; s++)
+                sum = nh_add(k->dag, sum, nh_mul(k->dag, k->omega[i * k->m + s], g->generator[a].component[s]));
+            e[a * k->f + i] = sum;
+        }
+}
+
 static void find_ranks(nh_action *g, const nh_options *options)
 {
+    static const double rounding = 1e-12;
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, d = g->d, f = k->f, joint = 0, total = m * d + m * m + f * m;
     nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
@@ -193,6 +262,9 @@ static void find_ranks(nh_action *g, const nh_options *options)
     memcpy(e + m * d, k->K, m * m * sizeof *e);
     memcpy(e + m * d + m * m, k->omega, f * m * sizeof *e);
     nh_kinetic_sample(k, total, e, k->places, z);
+    size_t exact;
+    bool known = generic_rank(k, d, m, e, &exact); /* the generators, one a row */
+    double small = known ? rounding : options->group;
     g->free = true;
     g->least = g->transversality = INFINITY;
     for (size_t p = 0; p < k->places; p++) {
@@ -200,7 +272,7 @@ static void find_ranks(nh_action *g, const nh_options *options)
         double ratio, transversality = 0;
         memcpy(unit, E, m * d * sizeof *unit);
         scaled(m, K, d, unit);
-        size_t rank = rank_at(m, d, unit, options->group, &ratio),
+        size_t rank = rank_at(m, d, unit, small, &ratio),
                both = k->affine ? with_distribution(m, f, d, K, omega, E, options->group, &transversality) : rank;
         if (rank > g->orbit) g->orbit = rank;
         if (both > joint) joint = both;
@@ -209,6 +281,13 @@ static void find_ranks(nh_action *g, const nh_options *options)
         g->transversality = fmin(g->transversality, transversality);
     }
     size_t n = m - f;
+    if (known) {
+        g->orbit = exact;
+        nh_ex *on = nh_alloc_array(d * f + 1, sizeof *on);
+        on_constraints(g, on);
+        if (k->affine && generic_rank(k, d, f, on, &exact)) joint = n + exact;
+        nh_free(on);
+    }
     g->dimension_assumption = k->affine && joint == m;
     g->intersection = g->orbit + n > joint ? g->orbit + n - joint : 0;
     g->chaplygin = g->dimension_assumption && g->intersection == 0 && g->orbit == d;
@@ -269,10 +348,20 @@ void nh_action_sub(nh_action *out, const nh_action *g, size_t r, const double *t
 
 /* ---- horizontal symmetries ---- */
 
+static bool horizontal_exactly(const nh_action *g, const nh_options *options, double *c, size_t *n)
+{
+    nh_ex *e = nh_alloc_array(g->d * g->kinetic->f + 1, sizeof *e);
+    on_constraints(g, e);
+    bool known = g->kinetic->f && nh_constant_combinations(g->kinetic, g->d, g->kinetic->f, e, options, c, n);
+    nh_free(e);
+    return known;
+}
+
 size_t nh_action_horizontal(const nh_action *g, const nh_options *options, double *c)
 {
     const nh_kinetic *k = g->kinetic;
-    size_t m = k->m, f = k->f, d = g->d, places = places_of(k), rows = places * f;
+    size_t m = k->m, f = k->f, d = g->d, places = places_of(k), rows = places * f, exact;
+    if (horizontal_exactly(g, options, c, &exact)) return exact;
     double *a = nh_alloc_array(rows * d + 1, sizeof *a), *E = nh_alloc_array(m * d + f * m + 1, sizeof *E),
            *omega = E + m * d;
     for (size_t p = 0; p < places && f; p++) {
