@@ -95,11 +95,14 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     nh_slice *slice, *shown;
     size_t m = r->kinetic->m;
     nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
+    nh_error ignored = {0};
     const nh_chaplygin *c = *through = chaplygin_on(r, slice, error), *pretty = slice->K == shown->K ? c
                                                                                 : r->brief && r->kept_chaplygin
                                                                                     ? r->kept_chaplygin
-                                                                                    : chaplygin_on(r, shown, error);
-    if (!c || !pretty) return false;
+                                                                                    : chaplygin_on(r, shown, &ignored);
+    nh_error_clear(&ignored);
+    if (!c) return false;
+    if (!pretty) pretty = c; /* the slice through the initial state then */
     if (pretty != c) r->kept_chaplygin = pretty;
     nh_reduction_stage *s = nh_reduction_new_stage(r, NH_STAGE_CHAPLYGIN, action);
     s->slice = slice;

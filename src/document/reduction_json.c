@@ -362,6 +362,8 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     if (why) nh_json_put_text(to, "energy_not_followed", why);
     put_choice(to, &s->choice);
     nh_json_put_number(to, "reached", s->reached);
+    if (s->printed_states) nh_json_put_number(to, "printed_difference", s->printed);
+    else nh_json_put_null(to, "printed_difference");
     if (s->energy_drift >= 0) nh_json_put_number(to, "energy_drift", s->energy_drift);
     else nh_json_put_null(to, "energy_drift");
     nh_json_put_number(to, "restarts", (double)s->restarts);

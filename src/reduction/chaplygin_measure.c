@@ -12,9 +12,9 @@
 
 typedef struct {
     size_t n;
-    const double *K, *U, *dK, *dU;   /* at a place; derivatives one direction after the other */
-    double *T, *dT;                  /* T^k_ij = T[(k*n + i)*n + j]; n times as many */
-    double *Theta, *dTheta;          /* n; dTheta[l*n + j] = d_l Theta_j */
+    const double *K, *U, *dK, *dU; /* at a place; derivatives one direction after the other */
+    double *T, *dT;                /* T^k_ij = T[(k*n + i)*n + j]; n times as many */
+    double *Theta, *dTheta;        /* n; dTheta[l*n + j] = d_l Theta_j */
 } gyro;
 
 /* T = K^-1 U,   d_l T = K^-1 (d_l U - d_l K T). */
@@ -219,15 +219,14 @@ bool nh_chaplygin_flat(const nh_slice *s, const nh_ex *U)
 {
     enum { largest_form = 4000 };
     for (size_t i = 0; i < s->n * s->n * s->n; i++)
-        if (!nh_is_zero(s->dag, U[i])
-            && nh_normal_is_zero(s->dag, nh_model_values(s->kinetic->model, U[i]), largest_form) != NH_ZERO)
+        if (!nh_is_zero(s->dag, U[i]) &&
+            nh_normal_is_zero(s->dag, nh_model_values(s->kinetic->model, U[i]), largest_form) != NH_ZERO)
             return false;
     return true;
 }
 
-nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U,
-                                             const nh_slice *shown, const nh_ex *Ks, const nh_ex *Us,
-                                             const nh_options *options)
+nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U, const nh_slice *shown,
+                                             const nh_ex *Ks, const nh_ex *Us, const nh_options *options)
 {
     enum { most_places = 24 };
     nh_chaplygin_measure out = {.tested = s->n > 0};

@@ -171,13 +171,14 @@ static void combine(nh_generator_fit *s, nh_ex *candidate, nh_generators *out)
     const nh_kinetic *k = s->k;
     nh_dag *dag = k->dag;
     size_t m = s->m, d = s->d, most = m * (m + 1) / 2 + 1 + k->f + m, rows = 0;
-    nh_ex *e = nh_alloc_array(d * most + most + m + 1, sizeof *e), *equation = e + d * most, *component = equation + most;
+    nh_ex *e = nh_alloc_array(d * most + most + m + 1, sizeof *e), *equation = e + d * most,
+          *component = equation + most;
     nh_generators all = *out;
     for (size_t r = 0; r < d; r++) {
         nh_invariance_equations(k, candidate + r * m, equation, &rows);
         memcpy(e + r * rows, equation, rows * sizeof *e);
     }
-    nh_ex *c = nh_constant_relations(k, d, rows, e, s->options, &all.count);
+    nh_ex *c = nh_section_relations(k, d, rows, e, s->options, &all.count);
     size_t found = 0;
     all.generator = nh_arena_alloc(k->arena, (all.count + 1) * sizeof *all.generator);
     for (size_t j = 0; j < all.count && c; j++) {

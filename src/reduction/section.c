@@ -94,7 +94,7 @@ nh_proof nh_section_coefficients(const nh_kinetic *k, size_t n, const nh_ex *e, 
 
 /* ---- all of them ---- */
 
-nh_ex *nh_constant_relations(const nh_kinetic *k, size_t columns, size_t rows, const nh_ex *entry,
+nh_ex *nh_section_relations(const nh_kinetic *k, size_t columns, size_t rows, const nh_ex *entry,
                              const nh_options *options, size_t *count)
 {
     const nh_model *o = k->model;
@@ -117,11 +117,11 @@ nh_ex *nh_constant_relations(const nh_kinetic *k, size_t columns, size_t rows, c
     return found;
 }
 
-bool nh_constant_combinations(const nh_kinetic *k, size_t columns, size_t rows, const nh_ex *entry,
+bool nh_section_combinations(const nh_kinetic *k, size_t columns, size_t rows, const nh_ex *entry,
                               const nh_options *options, double *c, size_t *count)
 {
     static const double rounding = 1e-14;
-    const nh_ex *exact = nh_constant_relations(k, columns, rows, entry, options, count);
+    const nh_ex *exact = nh_section_relations(k, columns, rows, entry, options, count);
     for (size_t i = 0; exact && i < *count * columns; i++) c[i] = nh_model_number(k->model, exact[i]);
     if (exact) nh_column_echelon(columns, *count, rounding, c);
     return exact != NULL;
