@@ -233,7 +233,11 @@ void nh_generator_fit_scale(nh_generator_fit *s)
     double *K = nh_alloc_array(s->m * s->m, sizeof *K);
     s->scale = nh_alloc_array(s->m, sizeof *s->scale);
     nh_kinetic_values(k, s->m * s->m, k->K, k->place, K);
-    for (size_t i = 0; i < s->m; i++) s->scale[i] = K[i * (s->m + 1)];
+    for (size_t i = 0; i < s->m; i++) {
+        s->scale[i] = K[i * (s->m + 1)];
+        for (size_t j = 0; j < s->m && k->invertible && !k->metric; j++)
+            s->scale[i] = fmax(s->scale[i], fabs(K[i * s->m + j]));
+    }
     double length = nh_kinetic_length(k, s->scale);
     for (size_t i = 0; i < s->m; i++) s->scale[i] = s->scale[i] > 0 ? length / sqrt(s->scale[i]) : 1;
     nh_free(K);
