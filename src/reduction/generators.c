@@ -280,17 +280,56 @@ static void cyclic(nh_generators *out, const nh_kinetic *k, const nh_options *op
     nh_free(component);
 }
 
+/* Adds a symmetry that is no combination of the others, known exactly. */
+static void add_independent(nh_generators *out, const nh_kinetic *k, const nh_generator *g, const nh_options *options)
+{
+    size_t n = out->count, m = k->m, relations = 1;
+    nh_ex *e = nh_alloc_array((n + 1) * m + 1, sizeof *e);
+    for (size_t a = 0; a < n; a++) memcpy(e + a * m, out->generator[a].component, m * sizeof *e);
+    memcpy(e + n * m, g->component, m * sizeof *e);
+    bool known = nh_section_relations(k, n + 1, m, e, options, &relations) != NULL;
+    nh_free(e);
+    if (!known || relations) return;
+    nh_generator *all = nh_arena_alloc(k->arena, (n + 1) * sizeof *all);
+    memcpy(all, out->generator, n * sizeof *all);
+    all[n] = *g;
+    out->generator = all;
+    out->count++;
+}
+
+/* Where some are missing: those that other libraries gave, and brackets, which are symmetries, too. */
+static void close_up(nh_generators *out, size_t wanted, const nh_kinetic *k, const nh_generators *other, size_t others,
+                     const nh_options *options)
+{
+    nh_ex *bracket = nh_alloc_array(k->m + 1, sizeof *bracket);
+    nh_generator g;
+    for (size_t i = 0; i < others; i++)
+        for (size_t a = 0; a < other[i].count && out->count < wanted; a++)
+            add_independent(out, k, &other[i].generator[a], options);
+    for (size_t b = 1; b < out->count && out->count < wanted && !nh_late(); b++)
+        for (size_t a = 0; a < b && out->count < wanted; a++) {
+            nh_field_bracket(k, out->generator[a].component, out->generator[b].component, bracket);
+            nh_generator_init(&g, k, NULL, bracket, options);
+            if (g.invariant && nh_generator_proof(k, &g).proved) add_independent(out, k, &g, options);
+        }
+    nh_free(bracket);
+}
+
 bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, const nh_options *options,
                         nh_error *error)
 {
     *out = (nh_generators){0};
     nh_joint_fields joints = {0};
+    nh_generators other[2 * NH_LIBRARY_LEVELS];
+    size_t others = 0;
     bool good = true, enough = false;
     for (int level = 1;
          level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && (nh_budget_spent() || nh_late())); level++) {
         bool more = false, full = false; /* more products would find no room */
         for (size_t together = 2; together <= (jets ? 3 : 2) && good && !enough && !full; together++) {
+            nh_generators before = *out;
             outcome o = one_library(out, k, jets, level, together, &joints, options, error);
+            if (o.more && before.count) other[others++] = before;
             more |= o.more;
             full = o.full;
             good = o.good;
@@ -303,6 +342,7 @@ bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *
         good = one_library(out, k, jets, level, 3, &joints, options, error).good;
         enough = complete(out, jets);
     }
+    if (good && jets && !complete(out, jets)) close_up(out, jets->dimension, k, other, others, options);
     if (good && out->count < k->m && !complete(out, jets)) cyclic(out, k, options);
     nh_joint_fields_clear(&joints);
     return good;
