@@ -341,7 +341,7 @@ Test(reduction, measure_and_factor)
         nh_error error = {0};
         stage s;
         stage_open(&s, known[i].name, known[i].text ? nh_system_parse(known[i].name, known[i].text, 0, NULL, &error) : nh_system_read(known[i].file, 0, NULL, &error), known[i].index, NULL, &error);
-        nh_chaplygin_measure m = nh_chaplygin_measure_of(&s.slice, s.c.K, s.c.U, &s.options);
+        nh_chaplygin_measure m = nh_chaplygin_measure_of(&s.slice, s.c.K, s.c.U, &s.slice, s.c.K, s.c.U, &s.options);
         if (getenv("NHSYM_TEST_FIGURES")) printf("%-30s |Theta| %.2e, |dTheta| %.1e, phi-simple %.1e\n", known[i].name, m.size, m.curl, m.phi_simple);
         cr_expect_eq(m.measure, known[i].measure, "%s: measure, |dTheta| = %g", known[i].name, m.curl);
         cr_expect_eq(m.factor, known[i].factor, "%s: factor, %g", known[i].name, m.phi_simple);
@@ -497,7 +497,7 @@ Test(reduction, ball_becomes_hamiltonian_after_the_second_stage)
     nh_second t;
     stage_open(&s, "ball", nh_system_read("systems/chaplygin_ball.yaml", 0, NULL, &error), plane, NULL, &error);
     second_open(&t, &s, "ball", 1, turn, NULL, &error);
-    nh_chaplygin_measure first = nh_chaplygin_measure_of(&s.slice, s.c.K, s.c.U, &s.options), second = nh_chaplygin_measure_of(&t.slice, t.Kt, t.U, &s.options);
+    nh_chaplygin_measure first = nh_chaplygin_measure_of(&s.slice, s.c.K, s.c.U, &s.slice, s.c.K, s.c.U, &s.options), second = nh_chaplygin_measure_of(&t.slice, t.Kt, t.U, &t.slice, t.Kt, t.U, &s.options);
     cr_expect(first.measure && !first.factor);
     cr_expect(second.measure && second.factor && second.size > 1e-3, "%g %g %g", second.curl, second.phi_simple, second.size);
     nh_second_clear(&t);

@@ -95,6 +95,10 @@ typedef struct {
     const nh_action *action;
     const nh_slice *slice, *shown_slice;
     const nh_reduced *reduced, *shown;
+    /* the equations that are shown against the true accelerations (of a second stage: those of the first) at
+     * printed_states states of their slice: the largest difference, relative to the terms */
+    double printed;
+    size_t printed_states;
     const double *start;      /* (x, p) at the initial state, in the variables of `reduced` */
     const nh_chaplygin *chaplygin; /* shown; of the first kind */
     /* of the first kind, and of the second for an abelian group (its factor: for two shape coordinates at most) */

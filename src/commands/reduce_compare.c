@@ -3,6 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/progress.h"
+#include "geometry/bordered.h"
+#include "reduction/reduced_check.h"
 #include "commands/reduce_internal.h"
 
 nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *b, const nh_reduction_stage *s,
@@ -151,9 +154,38 @@ static void chosen(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduct
     if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s: %s", s->group, s->choice.why);
 }
 
+static bool true_accelerations(void *bordered, const double *q, const double *v, double *acceleration)
+{
+    return nh_bordered_accelerations(bordered, 0, q, v, acceleration);
+}
+
+/* The equations as they are printed against those that they follow from. */
+static void check_printed(nh_reduction *r, nh_reduction_stage *s)
+{
+    static const double allowed = 1e-7;
+    if (r->brief || nh_interrupted()) return;
+    if (s->second) {
+        nh_reduced_shape *first = nh_reduced_shape_create(&s->second->first->reduced);
+        s->printed =
+            nh_reduced_difference(s->shown, s->shown_slice, nh_reduced_shape_accelerations, first, &s->printed_states);
+        nh_reduced_shape_free(first);
+    } else {
+        nh_bordered *bordered = nh_bordered_create(r->model);
+        s->printed = nh_reduced_difference(s->shown, s->shown_slice, true_accelerations, bordered, &s->printed_states);
+        nh_bordered_free(bordered);
+    }
+    if (!s->printed_states)
+        nh_reduction_warn(
+            r, "the equations of %s could be evaluated at no state of the slice on which they are printed", s->group);
+    else if (!(s->printed <= allowed))
+        nh_reduction_warn(r, "the equations of %s, as printed, differ from the true accelerations by %.1e", s->group,
+                          s->printed);
+}
+
 void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course)
 {
     nh_reduction *r = b->r;
+    check_printed(r, s);
     if (nh_reduction_late(r, "the motion of a stage")) return;
     if (!course->atlas && course->reached < 2) {
         snprintf(s->note, sizeof s->note, "the full motion is not accurate at any time, so no comparison was possible");
@@ -173,9 +205,9 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh
     if (!nearer(b, s, course) || s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;
     s->unsure = nh_reduction_unsure(b);
     if (nh_stage_apart(s, &r->options))
-        nh_reduction_warn(
-            r, "the reduced motion by %s differs by %.1e from the reference motion, more than %d tolerances",
-            s->group, s->agreement, NH_REDUCTION_ALLOWED);
+        nh_reduction_warn(r,
+                          "the reduced motion by %s differs by %.1e from the reference motion, more than %d tolerances",
+                          s->group, s->agreement, NH_REDUCTION_ALLOWED);
 }
 
 bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options)

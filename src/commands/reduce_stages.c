@@ -71,8 +71,8 @@ static const nh_chaplygin *chaplygin_on(nh_reduction *r, const nh_slice *slice, 
 static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *slice, const nh_ex *K, const nh_ex *U,
                                        const nh_slice *shown, const nh_ex *Ks, const nh_ex *Us)
 {
-    nh_chaplygin_measure m = nh_chaplygin_measure_of(slice, K, U, &r->options);
-    if (m.tested && m.measure && m.size > r->options.group)
+    nh_chaplygin_measure m = nh_chaplygin_measure_of(slice, K, U, shown, Ks, Us, &r->options);
+    if (m.tested && m.measure && m.size > 0)
         m.closed = nh_density_find(shown, Ks, Us, &r->options, &m.density, &m.proof);
     nh_ex size = m.closed ? nh_call(shown->dag, NH_ABS, m.density) : 0; /* its sign does not matter */
     if (m.closed) m.local = nh_kinetic_many_valued(shown->kinetic, 1, &size);
@@ -95,11 +95,14 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     nh_slice *slice, *shown;
     size_t m = r->kinetic->m;
     nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
+    nh_error ignored = {0};
     const nh_chaplygin *c = *through = chaplygin_on(r, slice, error), *pretty = slice->K == shown->K ? c
                                                                                 : r->brief && r->kept_chaplygin
                                                                                     ? r->kept_chaplygin
-                                                                                    : chaplygin_on(r, shown, error);
-    if (!c || !pretty) return false;
+                                                                                    : chaplygin_on(r, shown, &ignored);
+    nh_error_clear(&ignored);
+    if (!c) return false;
+    if (!pretty) pretty = c; /* the slice through the initial state then */
     if (pretty != c) r->kept_chaplygin = pretty;
     nh_reduction_stage *s = nh_reduction_new_stage(r, NH_STAGE_CHAPLYGIN, action);
     s->slice = slice;

@@ -153,6 +153,7 @@ static void put_group(nh_json *root, const char *key, const nh_reduction *r, con
     }
     nh_json *local = nh_json_put_object(to, "local");
     nh_json_put_number(local, "dimension", (double)g->jets->dimension);
+    nh_json_put_bool(local, "exact", g->jets->exact);
     nh_json_put_number(local, "of_kinetic_energy", (double)g->jets->of_metric);
     nh_json_put_number(local, "of_kinetic_energy_and_potential", (double)g->jets->of_potential);
     nh_json_put_number(local, "of_kinetic_energy_and_constraints", (double)g->jets->of_constraints);
@@ -198,6 +199,7 @@ static void put_measure(nh_json *to, const nh_reduction *r, const nh_reduction_s
     if (!s->measure.tested) return;
     nh_json *m = nh_json_put_object(to, "measure");
     nh_json_put_bool(m, "exists", s->measure.measure);
+    nh_json_put_bool(m, "exact", s->measure.exact);
     nh_json_put_bool(m, "liouville", s->measure.measure && s->measure.size == 0);
     nh_json_put_bool(m, "local", s->measure.local);
     nh_json_put_bool(m, "phi_simple", s->measure.simple);
@@ -360,6 +362,8 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     if (why) nh_json_put_text(to, "energy_not_followed", why);
     put_choice(to, &s->choice);
     nh_json_put_number(to, "reached", s->reached);
+    if (s->printed_states) nh_json_put_number(to, "printed_difference", s->printed);
+    else nh_json_put_null(to, "printed_difference");
     if (s->energy_drift >= 0) nh_json_put_number(to, "energy_drift", s->energy_drift);
     else nh_json_put_null(to, "energy_drift");
     nh_json_put_number(to, "restarts", (double)s->restarts);

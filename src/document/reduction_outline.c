@@ -89,6 +89,7 @@ static void counted(nh_pen *p, const nh_reduction *r, const nh_group *g)
                "%zu local symmetr%s of kinetic energy, potential and constraints, without an ansatz; %zu of the "
                "kinetic energy alone",
                g->jets->dimension, g->jets->dimension == 1 ? "y" : "ies", g->jets->of_metric);
+    if (!g->jets->exact) nh_pen_say(p, ", by numbers");
     if (r->weaker && g == r->all)
         nh_pen_say(p, "; %zu more that change%s the Lagrangian by a total derivative: --weak", r->weaker,
                    r->weaker == 1 ? "s" : "");

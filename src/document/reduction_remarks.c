@@ -119,6 +119,7 @@ static void measure(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *
                    : m->local   ? ", but only locally: its density is many-valued on an angle"
                                 : "");
     else nh_pen_say(p, "no invariant measure with a density on the shape space (|$\\d Theta$| = %.2g)", m->curl);
+    if (!m->exact) nh_pen_say(p, " (by numbers)");
     if (m->measure && m->closed && !m->proof.all_parameters)
         nh_pen_say(p, "; the density holds%s",
                    m->proof.proved ? nh_facts_holds(r->kinetic->model, &m->proof, false) : " to rounding");
@@ -189,6 +190,9 @@ static void numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *
     const char *with = s->against_full ? "the full motion" : "the first stage";
     const char *why = nh_reduction_no_energy(r, s), *energy = nh_reduction_energy(r, s);
     nh_pen_fact_begin(p, "Check");
+    if (s->printed_states)
+        nh_pen_say(p, "as printed: %.2g from %s at %zu states; ", s->printed,
+                   s->kind == NH_STAGE_SECOND ? "the first stage" : "the true accelerations", s->printed_states);
     if (s->compared) nh_pen_say(p, "after reconstruction: %.2g from %s up to t = %.4g", s->agreement, with, s->reached);
     else nh_pen_say(p, "not compared with %s", with);
     if (s->compared && s->unsure > 0) nh_pen_say(p, ", whose own error is %.2g", s->unsure);

@@ -112,30 +112,71 @@ bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables,
     return found;
 }
 
-/* ---- ranks ---- */
+/* ---- at regular points ---- */
 
-/* The rank at one regular point; false: there is none. */
-static bool rank_at(problem *x, size_t rows, size_t columns, size_t *rank)
+/* At one regular point; false: there is none. */
+static bool read_at(problem *x, nh_generic_read *read, void *context)
 {
-    size_t size = x->ring->size;
-    nh_residue *value = nh_alloc_array(x->n * size + 1, sizeof *value), *a = nh_alloc_array(x->n + 1, sizeof *a);
+    nh_residue *value = nh_alloc_array(x->n * x->ring->size + 1, sizeof *value);
     bool done = false;
     for (uint64_t seed = 1; seed <= most_points && !done; seed++) {
         nh_jet_eval *v = at_point(x, seed);
-        done = nh_jet_eval_all(v, x->n, x->e, value);
+        done = nh_jet_eval_all(v, x->n, x->e, value) && read(x->ring, value, context);
         nh_jet_eval_free(v);
     }
-    for (size_t i = 0; i < x->n; i++) a[i] = value[i * size];
-    if (done) *rank = nh_residue_matrix_rank(x->ring->field, rows, columns, a);
-    nh_free(a);
     nh_free(value);
     return done;
 }
 
-bool nh_generic_rank(nh_dag *dag, size_t rows, size_t columns, const nh_ex *e, size_t *rank)
+/* With the variables set; the other symbols are constants. */
+static bool read_all(problem *x, nh_generic_read *read, void *context)
 {
     enum { primes = 2 };
+    bool good = true;
+    for (size_t index = 0; index < primes && good; index++) {
+        nh_jet_ring *ring = ring_at(x, index);
+        x->ring = ring;
+        good = read_at(x, read, context);
+        nh_jet_ring_free(ring);
+    }
+    return good;
+}
+
+bool nh_generic_series(nh_dag *dag, size_t n, const nh_ex *e, size_t variables, const nh_ex *variable,
+                       nh_generic_read *read, void *context)
+{
     problem x;
+    nh_ex *own = nh_alloc_array(n + 1, sizeof *own);
+    bool good = prepare(&x, dag, n, e, own) && variables;
+    x.variables = variables;
+    x.variable = variable;
+    good = good && list_constants(&x, dag) && read_all(&x, read, context);
+    nh_jet_point_free(x.point);
+    nh_free(own);
+    return good;
+}
+
+/* ---- ranks ---- */
+
+typedef struct {
+    size_t rows, columns, rank;
+} matrix;
+
+static bool read_rank(const nh_jet_ring *ring, nh_residue *series, void *context)
+{
+    matrix *m = context;
+    nh_residue *a = nh_alloc_array(m->rows * m->columns + 1, sizeof *a);
+    for (size_t i = 0; i < m->rows * m->columns; i++) a[i] = series[i * ring->size];
+    size_t here = nh_residue_matrix_rank(ring->field, m->rows, m->columns, a);
+    m->rank = here > m->rank ? here : m->rank;
+    nh_free(a);
+    return true;
+}
+
+bool nh_generic_rank(nh_dag *dag, size_t rows, size_t columns, const nh_ex *e, size_t *rank)
+{
+    problem x;
+    matrix m = {rows, columns, 0};
     nh_ex *own = nh_alloc_array(rows * columns + 1, sizeof *own), variable[most_symbols];
     bool good = prepare(&x, dag, rows * columns, e, own) && list_constants(&x, dag);
     x.variables = x.constants ? x.constants : 1;
@@ -143,15 +184,8 @@ bool nh_generic_rank(nh_dag *dag, size_t rows, size_t columns, const nh_ex *e, s
     else variable[0] = nh_symbol_fresh(dag, "x");
     x.variable = variable;
     x.constants = 0;
-    *rank = 0;
-    for (size_t index = 0; index < primes && good; index++) {
-        size_t here = 0;
-        nh_jet_ring *ring = ring_at(&x, index);
-        x.ring = ring;
-        good = rank_at(&x, rows, columns, &here);
-        *rank = here > *rank ? here : *rank;
-        nh_jet_ring_free(ring);
-    }
+    good = good && read_all(&x, read_rank, &m);
+    *rank = m.rank;
     nh_jet_point_free(x.point);
     nh_free(own);
     return good;

@@ -6,6 +6,7 @@
 #ifndef NH_GENERIC_VALUE_H
 #define NH_GENERIC_VALUE_H
 
+#include "exact/jet_ring.h"
 #include "graph/dag.h"
 
 /* Is one of n expressions not identically zero in these variables and all other symbols?  False: not known. */
@@ -14,5 +15,13 @@ bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables,
 /* The rank of a matrix of expressions (row by row) at random residues of all symbols, modulo two primes: a lower bound
  * of the rank at almost all values, which almost all residues reach.  False: not known, some entry has no residues. */
 bool nh_generic_rank(nh_dag *dag, size_t rows, size_t columns, const nh_ex *e, size_t *rank);
+
+/* The n expressions as series to order 2 in these variables at a random point modulo each of two primes: what vanishes
+ * at both does so identically but for an unlikely accident, what does not is proved.  `read` takes them, one series
+ * after another, which it may change; it returns false where the point is not regular, so that another one is tried.
+ * False: not known. */
+typedef bool nh_generic_read(const nh_jet_ring *ring, nh_residue *series, void *context);
+bool nh_generic_series(nh_dag *dag, size_t n, const nh_ex *e, size_t variables, const nh_ex *variable,
+                       nh_generic_read *read, void *context);
 
 #endif

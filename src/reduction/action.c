@@ -5,15 +5,15 @@
 
 #include "base/linalg.h"
 #include "graph/diff.h"
-#include "exact/normal.h"
-#include "integrals/recognise.h"
-#include "reduction/constants.h"
+#include "exact/generic_value.h"
 #include "reduction/runge.h"
+#include "reduction/section.h"
 #include "reduction/subspace.h"
 
-enum { most_places = 16 };
-
-static size_t places_of(const nh_kinetic *k) { return k->places < most_places ? k->places : most_places; }
+static size_t places_of(const nh_kinetic *k)
+{
+    return k->places < NH_ACTION_PLACES ? k->places : NH_ACTION_PLACES;
+}
 
 void nh_action_values(const nh_action *g, const double *q, double *E)
 {
@@ -22,105 +22,6 @@ void nh_action_values(const nh_action *g, const double *q, double *E)
     for (size_t a = 0; a < g->d; a++) memcpy(e + a * k->m, g->generator[a].component, k->m * sizeof *e);
     if (g->d) nh_kinetic_values(k, k->m * g->d, e, q, E);
     nh_free(e);
-}
-
-/* ---- brackets ---- */
-
-/* Stacks fields at several places, each as one long vector. */
-static double *stacked(const nh_kinetic *k, size_t n, const nh_ex *component)
-{
-    size_t m = k->m, places = places_of(k);
-    double *out = nh_alloc_array(places * m * n + 1, sizeof *out),
-           *value = nh_alloc_array(places * m * n + 1, sizeof *value);
-    nh_kinetic_sample(k, m * n, component, places, value);
-    for (size_t p = 0; p < places; p++)
-        for (size_t j = 0; j < n; j++) memcpy(out + (j * places + p) * m, value + (p * n + j) * m, m * sizeof *out);
-    nh_free(value);
-    return out;
-}
-
-/* Stacks n fields in units of the coordinates' sizes, each divided by its `size` where that is not NULL; the largest
- * value of each into most. */
-static void in_units(const nh_kinetic *k, size_t n, const double *size, double *a, double *most)
-{
-    size_t m = k->m, long_m = places_of(k) * m;
-    double *unit = nh_alloc_array(m + 1, sizeof *unit);
-    nh_kinetic_sizes(k, places_of(k), unit);
-    for (size_t j = 0; j < n; j++) {
-        for (size_t i = 0; i < long_m; i++) a[i + j * long_m] /= unit[i % m] * (size ? size[j] : 1);
-        if (most) most[j] = nh_largest(long_m, a + j * long_m);
-    }
-    nh_free(unit);
-}
-
-/* The generators E and their brackets B, scaled to size one: then the constants do not depend on units, and zero ones
- * can be told from small ones. size[a]: the divisor of e_a; size[d + pair]: that of bracket `pair`. */
-static void normalise(const nh_kinetic *k, size_t d, double *E, double *B, double *size)
-{
-    double *ones = size + d;
-    size_t long_m = places_of(k) * k->m;
-    in_units(k, d, NULL, E, size);
-    for (size_t a = 0; a < d; a++) {
-        if (!(size[a] > 0 && isfinite(size[a]))) size[a] = 1;
-        for (size_t i = 0; i < long_m; i++) E[i + a * long_m] /= size[a];
-    }
-    for (size_t pair = 0; pair < d * d; pair++) ones[pair] = size[pair / d] * size[pair % d];
-    in_units(k, d * d, ones, B, NULL);
-}
-
-static void find_constants(nh_action *g, const nh_options *options)
-{
-    const nh_kinetic *k = g->kinetic;
-    size_t d = g->d, m = k->m, long_m = places_of(k) * m;
-    g->algebra = nh_algebra_create(d);
-    g->closure = 0;
-    if (!d) {
-        g->closes = true;
-        return;
-    }
-    nh_ex *e = nh_alloc_array(d * m + 1, sizeof *e), *b = nh_alloc_array(d * d * m + 1, sizeof *b);
-    for (size_t a = 0; a < d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
-    for (size_t i = 0; i < d * d * m; i++) b[i] = nh_int(k->dag, 0);
-    for (size_t a = 0; a < d; a++)
-        for (size_t c = 0; c < a; c++) {
-            nh_field_bracket(k, e + a * m, e + c * m, b + (a * d + c) * m);
-            for (size_t s = 0; s < m; s++) b[(c * d + a) * m + s] = nh_neg(k->dag, b[(a * d + c) * m + s]);
-        }
-    g->outside = nh_arena_alloc(k->arena, d * d * sizeof *g->outside);
-    double *E = stacked(k, d, e), *B = stacked(k, d * d, b);
-    double *rest = nh_alloc_array(long_m * d * d + d + d * d + 1, sizeof *rest), *unit = rest + long_m * d * d;
-    normalise(k, d, E, B, unit);
-    bool all = isfinite(nh_coordinates(long_m, d, E, d * d, B, g->algebra.c)); /* one decomposition for all */
-    for (size_t i = 0; i < d * d * d && !all; i++) g->algebra.c[i] = 0; /* some bracket is not finite */
-    nh_multiply(long_m, d * d, d, E, g->algebra.c, rest);
-    for (size_t i = 0; i < long_m * d * d; i++) rest[i] -= B[i];
-    for (size_t pair = 0; pair < d * d; pair++) {
-        double off = nh_largest(long_m, rest + pair * long_m), size = nh_largest(long_m, B + pair * long_m);
-        off = isfinite(off) && size > 0 ? off / (1e-300 + size) : size > 0 ? INFINITY : 0;
-        if (off > g->closure) {
-            g->closure = off;
-            g->worst[0] = pair / d;
-            g->worst[1] = pair % d;
-        }
-        g->outside[pair] = off > options->group;
-        for (size_t i = 0; i < d && g->outside[pair]; i++) g->algebra.c[pair * d + i] = 0;
-    }
-    g->closes = g->closure <= options->group;
-    for (size_t i = 0; i < d * d * d; i++) {
-        nh_num x;
-        double c = g->algebra.c[i];
-        bool zero = fabs(c) <= options->group;
-        c *= unit[d + i / d] / unit[i % d];
-        if (nh_recognise_ratio(c, 1000, options->same, &x)) c = nh_num_value(x);
-        g->algebra.c[i] = zero ? 0 : -c;
-    }
-    g->constant = nh_arena_alloc(k->arena, (d * d * d + 1) * sizeof *g->constant);
-    nh_constants_find(k, d, g->generator, g->algebra.c, b, options, g->constant);
-    nh_free(e);
-    nh_free(b);
-    nh_free(E);
-    nh_free(B);
-    nh_free(rest);
 }
 
 /* ---- ranks ---- */
@@ -143,6 +44,17 @@ static size_t rank_at(size_t m, size_t n, const double *a, double small, double 
     if (ratio) *ratio = n && s[0] > 0 ? s[n - 1] / s[0] : n ? 0 : 1;
     nh_free(s);
     return rank;
+}
+
+/* The rank of a matrix of expressions, row by row, at almost all places, for the parameters' values (modulo primes). */
+static bool generic_rank(const nh_kinetic *k, size_t rows, size_t columns, const nh_ex *e, size_t *rank)
+{
+    nh_ex *value = nh_alloc_array(rows * columns + 1, sizeof *value);
+    for (size_t i = 0; i < rows * columns; i++) value[i] = nh_model_values(k->model, e[i]);
+    *rank = 0;
+    bool known = !rows || !columns || nh_generic_rank(k->dag, rows, columns, value, rank);
+    nh_free(value);
+    return known;
 }
 
 static double unit_of(double K) { return K > 0 ? sqrt(K) : 1; }
@@ -183,8 +95,22 @@ static size_t with_distribution(size_t m, size_t f, size_t d, const double *K, c
     return rank;
 }
 
+/* omega(e_a): column a has f rows; room for d x f. */
+static void on_constraints(const nh_action *g, nh_ex *e)
+{
+    const nh_kinetic *k = g->kinetic;
+    for (size_t a = 0; a < g->d; a++)
+        for (size_t i = 0; i < k->f; i++) {
+            nh_ex sum = nh_int(k->dag, 0);
+            for (size_t s = 0; s < k->m; s++)
+                sum = nh_add(k->dag, sum, nh_mul(k->dag, k->omega[i * k->m + s], g->generator[a].component[s]));
+            e[a * k->f + i] = sum;
+        }
+}
+
 static void find_ranks(nh_action *g, const nh_options *options)
 {
+    static const double rounding = 1e-12;
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, d = g->d, f = k->f, joint = 0, total = m * d + m * m + f * m;
     nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
@@ -193,6 +119,9 @@ static void find_ranks(nh_action *g, const nh_options *options)
     memcpy(e + m * d, k->K, m * m * sizeof *e);
     memcpy(e + m * d + m * m, k->omega, f * m * sizeof *e);
     nh_kinetic_sample(k, total, e, k->places, z);
+    size_t exact;
+    bool known = generic_rank(k, d, m, e, &exact); /* the generators, one a row */
+    double small = known ? rounding : options->group;
     g->free = true;
     g->least = g->transversality = INFINITY;
     for (size_t p = 0; p < k->places; p++) {
@@ -200,7 +129,7 @@ static void find_ranks(nh_action *g, const nh_options *options)
         double ratio, transversality = 0;
         memcpy(unit, E, m * d * sizeof *unit);
         scaled(m, K, d, unit);
-        size_t rank = rank_at(m, d, unit, options->group, &ratio),
+        size_t rank = rank_at(m, d, unit, small, &ratio),
                both = k->affine ? with_distribution(m, f, d, K, omega, E, options->group, &transversality) : rank;
         if (rank > g->orbit) g->orbit = rank;
         if (both > joint) joint = both;
@@ -209,6 +138,13 @@ static void find_ranks(nh_action *g, const nh_options *options)
         g->transversality = fmin(g->transversality, transversality);
     }
     size_t n = m - f;
+    if (known) {
+        g->orbit = exact;
+        nh_ex *on = nh_alloc_array(d * f + 1, sizeof *on);
+        on_constraints(g, on);
+        if (k->affine && generic_rank(k, d, f, on, &exact)) joint = n + exact;
+        nh_free(on);
+    }
     g->dimension_assumption = k->affine && joint == m;
     g->intersection = g->orbit + n > joint ? g->orbit + n - joint : 0;
     g->chaplygin = g->dimension_assumption && g->intersection == 0 && g->orbit == d;
@@ -234,7 +170,7 @@ void nh_action_init(nh_action *g, const nh_kinetic *k, size_t d, const nh_genera
 {
     *g = (nh_action){.kinetic = k, .d = d, .generator = nh_arena_alloc(k->arena, (d + 1) * sizeof *g->generator)};
     if (d) memcpy(g->generator, generator, d * sizeof *generator);
-    find_constants(g, options);
+    nh_action_find_constants(g, options);
     find_ranks(g, options);
 }
 
@@ -269,10 +205,20 @@ void nh_action_sub(nh_action *out, const nh_action *g, size_t r, const double *t
 
 /* ---- horizontal symmetries ---- */
 
+static bool horizontal_exactly(const nh_action *g, const nh_options *options, double *c, size_t *n)
+{
+    nh_ex *e = nh_alloc_array(g->d * g->kinetic->f + 1, sizeof *e);
+    on_constraints(g, e);
+    bool known = g->kinetic->f && nh_section_combinations(g->kinetic, g->d, g->kinetic->f, e, options, c, n);
+    nh_free(e);
+    return known;
+}
+
 size_t nh_action_horizontal(const nh_action *g, const nh_options *options, double *c)
 {
     const nh_kinetic *k = g->kinetic;
-    size_t m = k->m, f = k->f, d = g->d, places = places_of(k), rows = places * f;
+    size_t m = k->m, f = k->f, d = g->d, places = places_of(k), rows = places * f, exact;
+    if (horizontal_exactly(g, options, c, &exact)) return exact;
     double *a = nh_alloc_array(rows * d + 1, sizeof *a), *E = nh_alloc_array(m * d + f * m + 1, sizeof *E),
            *omega = E + m * d;
     for (size_t p = 0; p < places && f; p++) {

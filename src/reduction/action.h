@@ -35,10 +35,14 @@ typedef struct {
     double transversality;     /* Chaplygin: the least sigma_min / sigma_max of omega on V */
 } nh_action;
 
+enum { NH_ACTION_PLACES = 16 }; /* sample points at which fields are compared */
+
 /* The generators are copied (the expressions live in the kinetic's graph). */
 void nh_action_init(nh_action *action, const nh_kinetic *kinetic, size_t d, const nh_generator *generator,
                     const nh_options *options);
 void nh_action_clear(nh_action *action);
+/* A part of nh_action_init: algebra, constant, closes, closure, worst and outside from the generators. */
+void nh_action_find_constants(nh_action *action, const nh_options *options);
 
 /* Can the group be divided out: are its fields invariant, independent, closed, and free at the sample points?  The
  * message names the field, the bracket or the point. */

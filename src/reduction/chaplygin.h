@@ -56,6 +56,7 @@ bool nh_chaplygin_init(nh_chaplygin *chaplygin, const nh_slice *slice, nh_error 
 typedef struct {
     bool tested;
     bool measure, simple, factor;
+    bool exact;         /* these, and whether Theta is 0, were decided modulo primes; false: by numbers */
     /* the density is many-valued: Theta has a period along a turn of an angle on which the stage is regular.  A density
      * that vanishes, or grows without bound, where the coordinates are singular or orbits are tangent to D is not
      * local: the stage ends there */
@@ -71,8 +72,9 @@ typedef struct {
 /* Is there no gyroscopic force at the values of the parameters? */
 bool nh_chaplygin_flat(const nh_slice *slice, const nh_ex *U);
 /* K (n x n) and U (n x n x n, Ups_ij = U_kij x'^k) as functions of the slice's x: those of the first stage, or of the
-   second (second.h). */
+ * second (second.h).  Ks, Us: the same on the slice that is shown, whose numbers are exact: these decide. */
 nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *slice, const nh_ex *K, const nh_ex *U,
+                                             const nh_slice *shown, const nh_ex *Ks, const nh_ex *Us,
                                              const nh_options *options);
 
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "exact/generic_value.h"
 #include "exact/normal.h"
 #include "graph/diff.h"
 #include "integrals/exact_points.h"
@@ -11,9 +12,9 @@
 
 typedef struct {
     size_t n;
-    const double *K, *U, *dK, *dU;   /* at a place; derivatives one direction after the other */
-    double *T, *dT;                  /* T^k_ij = T[(k*n + i)*n + j]; n times as many */
-    double *Theta, *dTheta;          /* n; dTheta[l*n + j] = d_l Theta_j */
+    const double *K, *U, *dK, *dU; /* at a place; derivatives one direction after the other */
+    double *T, *dT;                /* T^k_ij = T[(k*n + i)*n + j]; n times as many */
+    double *Theta, *dTheta;        /* n; dTheta[l*n + j] = d_l Theta_j */
 } gyro;
 
 /* T = K^-1 U,   d_l T = K^-1 (d_l U - d_l K T). */
@@ -73,6 +74,46 @@ static double off_simple(const gyro *g)
                 off = fmax(off, fabs(g->T[(k * n + i) * n + j] - want / (double)(n - 1)));
             }
     return off;
+}
+
+/* What holds at random points modulo primes: Theta = 0, d Theta = 0, T simple. */
+typedef struct {
+    size_t n;
+    bool flat, closed, simple;
+} exactly;
+
+/* K (n x n), then U as n rows of n x n series. */
+static bool read_gyro(const nh_jet_ring *ring, nh_residue *series, void *context)
+{
+    exactly *x = context;
+    size_t n = x->n, size = ring->size;
+    nh_residue *T = series + n * n * size, *Theta = nh_alloc_array(n * size, sizeof *Theta);
+    bool regular = nh_jet_solve(ring, n, series, n * n, T);
+    for (size_t j = 0; j < n && regular; j++)
+        for (size_t i = 0; i < n; i++) nh_jet_add_multiple(ring, Theta + j * size, 1, T + ((i * n + i) * n + j) * size);
+    for (size_t j = 0; j < n && regular; j++) {
+        x->flat &= nh_jet_is_zero(ring, Theta + j * size);
+        for (size_t l = 0; l < j; l++) /* the coefficients of the first order */
+            x->closed &= Theta[j * size + ring->up[l * size]] == Theta[l * size + ring->up[j * size]];
+    }
+    for (size_t at = 0; at < n * n * n && regular && n > 1; at++) {
+        size_t k = at / n / n, i = at / n % n, j = at % n;
+        nh_residue want = nh_residue_sub(ring->field, k == i ? Theta[j * size] : 0, k == j ? Theta[i * size] : 0);
+        x->simple &= nh_residue_mul(ring->field, (nh_residue)(n - 1), T[at * size]) == want;
+    }
+    nh_free(Theta);
+    return regular;
+}
+
+static bool decide(const nh_slice *s, const nh_ex *K, const nh_ex *U, exactly *x)
+{
+    size_t n = s->n, total = n * n + n * n * n;
+    nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
+    for (size_t i = 0; i < total; i++) e[i] = nh_model_values(s->kinetic->model, i < n * n ? K[i] : U[i - n * n]);
+    *x = (exactly){n, true, true, true};
+    bool known = nh_generic_series(s->dag, total, e, n, s->x, read_gyro, x);
+    nh_free(e);
+    return known;
 }
 
 /* The mean of Theta_j over a full turn of an angle x^j in steps that start at the given part of one, and the largest
@@ -178,17 +219,16 @@ bool nh_chaplygin_flat(const nh_slice *s, const nh_ex *U)
 {
     enum { largest_form = 4000 };
     for (size_t i = 0; i < s->n * s->n * s->n; i++)
-        if (!nh_is_zero(s->dag, U[i])
-            && nh_normal_is_zero(s->dag, nh_model_values(s->kinetic->model, U[i]), largest_form) != NH_ZERO)
+        if (!nh_is_zero(s->dag, U[i]) &&
+            nh_normal_is_zero(s->dag, nh_model_values(s->kinetic->model, U[i]), largest_form) != NH_ZERO)
             return false;
     return true;
 }
 
-nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U,
-                                             const nh_options *options)
+nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U, const nh_slice *shown,
+                                             const nh_ex *Ks, const nh_ex *Us, const nh_options *options)
 {
     enum { most_places = 24 };
-    static const double perhaps_rounding = 1e-6;
     nh_chaplygin_measure out = {.tested = s->n > 0};
     size_t n = s->n, cube = n * n * n, total, places = s->kinetic->places;
     if (!n) return out;
@@ -223,14 +263,16 @@ nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, 
         if (n > 1) out.phi_simple = fmax(out.phi_simple, off_simple(&g));
     }
     double zero = options->group * (tensor_size + slope_size);
-    if (size <= zero) out.size = 0;
-    out.measure = curl <= zero;
+    exactly x;
+    out.exact = decide(shown, Ks, Us, &x);
+    if (!out.exact) x = (exactly){n, size <= zero, curl <= zero, out.phi_simple <= zero};
+    if (x.flat) out.size = 0;
+    if (x.closed && out.exact) out.curl = 0;
+    out.measure = x.closed;
     out.local = out.measure && out.size > 0 && many_valued(s, K, U, options->group);
-    out.simple = out.phi_simple <= zero;
+    out.simple = x.simple;
     out.factor = out.measure && out.simple;
     if (tensor_size > 0) out.phi_simple /= tensor_size;
-    if (tensor_size + slope_size < perhaps_rounding && nh_chaplygin_flat(s, U))
-        out = (nh_chaplygin_measure){.tested = true, .measure = true, .simple = true, .factor = true};
     nh_free(e);
     nh_free(value);
     nh_free(work);

@@ -13,9 +13,10 @@ static bool plain(const nh_kinetic *k) { return k->quadratic && !k->magnetic && 
 
 /* ---- values at the places ---- */
 
-/* The data of the rows at (t, q, v): K, dK, dV or dL/dq, dL/dv; f's derivatives; b_k, d_j b_k. */
+/* The data of the rows at (t, q, v): K, dK, dV or dL/dq, dL/dv; f's derivatives; Q and its derivatives; b_k,
+ * d_j b_k. */
 typedef struct {
-    size_t K, dK, dV, Lq, Lv, fq, fv, b, db, total;
+    size_t K, dK, dV, Lq, Lv, fq, fv, Q, Qq, Qv, b, db, total;
 } layout;
 
 static layout lay_out(const nh_generator_fit *s)
@@ -29,6 +30,9 @@ static layout lay_out(const nh_generator_fit *s)
     y.Lv = at, at += m;
     y.fq = at, at += f * m;
     y.fv = at, at += f * m;
+    y.Q = at, at += s->k->forced ? m : 0;
+    y.Qq = at, at += s->k->forced ? m * m : 0;
+    y.Qv = at, at += s->k->forced ? m * m : 0;
     y.b = at, at += s->terms;
     y.db = at, at += s->terms * m;
     y.total = at;
@@ -55,8 +59,13 @@ static nh_tape *row_tape(const nh_generator_fit *s, layout y)
             e[y.fq + a * m + r] = nh_diff(d, k->force[a], k->q[r]);
             e[y.fv + a * m + r] = nh_diff(d, k->force[a], k->v[r]);
         }
+        for (size_t i = 0; i < m && k->forced; i++) {
+            e[y.Qq + i * m + r] = nh_diff(d, k->Q[i], k->q[r]);
+            e[y.Qv + i * m + r] = nh_diff(d, k->Q[i], k->v[r]);
+        }
         for (size_t c = 0; c < s->terms; c++) e[y.db + c * m + r] = nh_diff(d, s->b[c], k->q[r]);
     }
+    if (k->forced) memcpy(e + y.Q, k->Q, m * sizeof *e);
     memcpy(e + y.b, s->b, s->terms * sizeof *e);
     nh_tape *tape = nh_tape_create(d, width, in, y.total, e, k->model->system->parameters, k->model->parameter,
                                    k->model->parameter_value);
@@ -120,6 +129,25 @@ static double slowness(const nh_generator_fit *s, const double *v)
     return size > 0 && isfinite(size) ? exp2(-10 * round(log2(size) / 10)) : 1;
 }
 
+/* (L_xi Q)_i = xi(Q_i), prolonged, + Q_l d_i xi^l, in units of the largest force and of its change. */
+static void force_rows(const nh_generator_fit *s, layout y, const double *z, const double *v, nh_relative *out)
+{
+    size_t m = s->m;
+    double size = 0;
+    for (size_t i = 0; i < m && s->k->forced; i++) {
+        size = fmax(size, fabs(z[y.Q + i]) * s->scale[i]);
+        for (size_t r = 0; r < m; r++)
+            size = fmax(size, fabs(z[y.Qq + i * m + r]) * s->scale[i] * s->scale[r] +
+                                  fabs(z[y.Qv + i * m + r] * v[r]) * s->scale[i]);
+    }
+    for (size_t i = 0; i < m && size > 0; i++) {
+        function_row(s, y, z, z + y.Qq + i * m, z + y.Qv + i * m, v, s->scale[i] / size, out);
+        double *row = out->a + (out->conditions - 1) * out->columns;
+        for (size_t c = 0; c < s->terms; c++)
+            row[s->column[c]] += z[y.Q + s->component[c]] * z[y.db + c * m + i] * s->scale[i] / size;
+    }
+}
+
 static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double *z,
                        nh_relative *out)
 {
@@ -139,6 +167,7 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
         for (size_t a = 0; a < k->f; a++)
             function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, slowness(s, v) * unit_of(s, z + y.fv + a * m),
                          out);
+        if (k->forced) force_rows(s, y, z, v, out);
         for (size_t c = 0; c < m; c++) {
             double *row = nh_relative_value(out);
             for (size_t j = 0; j < s->terms; j++)
@@ -204,7 +233,11 @@ void nh_generator_fit_scale(nh_generator_fit *s)
     double *K = nh_alloc_array(s->m * s->m, sizeof *K);
     s->scale = nh_alloc_array(s->m, sizeof *s->scale);
     nh_kinetic_values(k, s->m * s->m, k->K, k->place, K);
-    for (size_t i = 0; i < s->m; i++) s->scale[i] = K[i * (s->m + 1)];
+    for (size_t i = 0; i < s->m; i++) {
+        s->scale[i] = K[i * (s->m + 1)];
+        for (size_t j = 0; j < s->m && k->invertible && !k->metric; j++)
+            s->scale[i] = fmax(s->scale[i], fabs(K[i * s->m + j]));
+    }
     double length = nh_kinetic_length(k, s->scale);
     for (size_t i = 0; i < s->m; i++) s->scale[i] = s->scale[i] > 0 ? length / sqrt(s->scale[i]) : 1;
     nh_free(K);

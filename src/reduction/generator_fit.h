@@ -1,7 +1,7 @@
 /* generator_fit: the combinations of a library's fields that leave a system invariant, by null vectors of their
  * conditions at the places of its kinetic data.
  *
- *     L_xi K = 0, xi(V) = 0  or  xi(L) = 0;   xi(f^a) = 0;   xi = sum_k c_k b_k d/dq^(i_k)
+ *     L_xi K = 0, xi(V) = 0  or  xi(L) = 0;   xi(f^a) = 0;   L_xi Q = 0;   xi = sum_k c_k b_k d/dq^(i_k)
  *
  * A column of the library may also be a whole field: it is a sum of terms b d/dq^i then. */
 #ifndef NH_GENERATOR_FIT_H

@@ -94,7 +94,7 @@ static nh_ex conditions(const nh_generator_fit *s, size_t j, bool by_terms, cons
     nh_dag *d = k->dag;
     nh_ex V = nh_invariance_sum(k);
     for (size_t i = 0; i < s->m; i++) field[i] = nh_library_component(&s->l, d, j, i);
-    size_t of_metric = nh_invariance_equations(k, field, equation), n = of_metric + 1 + k->f;
+    size_t n, of_metric = nh_invariance_equations(k, field, equation, &n);
     if (by_terms) equation[of_metric] = nh_int(d, 0);
     nh_ex sum = nh_section_marked(d, n, mark, equation);
     for (size_t i = 0; i < nh_arity(d, V) && by_terms; i++) {
@@ -109,7 +109,7 @@ static nh_fixed related(const nh_generator_fit *s, size_t r, bool by_terms, size
                         nh_ex *found)
 {
     const nh_kinetic *k = s->k;
-    size_t m = s->m, total = m * (m + 1) / 2 + 1 + k->f, marks = total + nh_arity(k->dag, nh_invariance_sum(k));
+    size_t m = s->m, total = m * (m + 1) / 2 + 1 + k->f + m, marks = total + nh_arity(k->dag, nh_invariance_sum(k));
     nh_ex *e = nh_alloc_array(s->n + m + total + marks + 1, sizeof *e), *field = e + s->n, *equation = field + m,
           *mark = equation + total;
     nh_section_marks(k->dag, marks, mark);
@@ -164,10 +164,44 @@ static void make_generator(nh_generator_fit *s, size_t r, nh_ex *coefficient, nh
     if (related.invariant) *out = related;
 }
 
-static void make_generators(nh_generator_fit *s, nh_generators *out)
+/* The fields of vectors that are symmetries to rounding only may have combinations that are exact ones: all of them,
+ * in a basis of their own.  `candidate`: d x m components. */
+static void combine(nh_generator_fit *s, nh_ex *candidate, nh_generators *out)
 {
     const nh_kinetic *k = s->k;
-    nh_ex *coefficient = nh_alloc_array(s->n + s->m + 1, sizeof *coefficient), *component = coefficient + s->n;
+    nh_dag *dag = k->dag;
+    size_t m = s->m, d = s->d, most = m * (m + 1) / 2 + 1 + k->f + m, rows = 0;
+    nh_ex *e = nh_alloc_array(d * most + most + m + 1, sizeof *e), *equation = e + d * most,
+          *component = equation + most;
+    nh_generators all = *out;
+    for (size_t r = 0; r < d; r++) {
+        nh_invariance_equations(k, candidate + r * m, equation, &rows);
+        memcpy(e + r * rows, equation, rows * sizeof *e);
+    }
+    nh_ex *c = nh_section_relations(k, d, rows, e, s->options, &all.count);
+    size_t found = 0;
+    all.generator = nh_arena_alloc(k->arena, (all.count + 1) * sizeof *all.generator);
+    for (size_t j = 0; j < all.count && c; j++) {
+        for (size_t i = 0; i < m; i++) {
+            component[i] = nh_int(dag, 0);
+            for (size_t r = 0; r < d; r++)
+                component[i] = nh_add(dag, component[i], nh_mul(dag, c[j * d + r], candidate[r * m + i]));
+            component[i] = nh_simplify(dag, component[i]);
+        }
+        nh_generator_init(&all.generator[found], k, NULL, component, s->options);
+        found += all.generator[found].invariant;
+    }
+    all.count = found;
+    if (found > out->count) *out = all;
+    nh_free(e);
+}
+
+/* `wanted`: as many as there are. */
+static void make_generators(nh_generator_fit *s, size_t wanted, nh_generators *out)
+{
+    const nh_kinetic *k = s->k;
+    nh_ex *coefficient = nh_alloc_array(s->n + s->m + s->d * s->m + 1, sizeof *coefficient),
+          *component = coefficient + s->n, *candidate = component + s->m;
     size_t *order = nh_library_order(&s->l);
     nh_relative_echelon(s->n, s->d, order, s->size, s->vector);
     out->generator = nh_arena_alloc(k->arena, (s->d + 1) * sizeof *out->generator);
@@ -176,8 +210,10 @@ static void make_generators(nh_generator_fit *s, nh_generators *out)
         refit(s, r);
         normalise(s, order, r);
         make_generator(s, r, coefficient, component, &out->generator[out->count]);
+        memcpy(candidate + r * s->m, component, s->m * sizeof *component);
         out->count += out->generator[out->count].invariant;
     }
+    if (out->count < s->d && out->count < wanted) combine(s, candidate, out);
     nh_free(order);
     nh_free(coefficient);
 }
@@ -211,7 +247,7 @@ static outcome one_library(nh_generators *out, const nh_kinetic *k, const nh_jet
     found.columns = s.n = s.l.count;
     nh_generator_fit_scale(&s);
     o.good = s.n == 0 || nh_generator_fit_solve(&s, error);
-    if (o.good && s.d) make_generators(&s, &found);
+    if (o.good && s.d) make_generators(&s, jets ? jets->dimension : s.d, &found);
     found.last_null = s.last_null;
     found.first_other = s.first_other;
     nh_generator_fit_clear(&s);
@@ -244,17 +280,56 @@ static void cyclic(nh_generators *out, const nh_kinetic *k, const nh_options *op
     nh_free(component);
 }
 
+/* Adds a symmetry that is no combination of the others, known exactly. */
+static void add_independent(nh_generators *out, const nh_kinetic *k, const nh_generator *g, const nh_options *options)
+{
+    size_t n = out->count, m = k->m, relations = 1;
+    nh_ex *e = nh_alloc_array((n + 1) * m + 1, sizeof *e);
+    for (size_t a = 0; a < n; a++) memcpy(e + a * m, out->generator[a].component, m * sizeof *e);
+    memcpy(e + n * m, g->component, m * sizeof *e);
+    bool known = nh_section_relations(k, n + 1, m, e, options, &relations) != NULL;
+    nh_free(e);
+    if (!known || relations) return;
+    nh_generator *all = nh_arena_alloc(k->arena, (n + 1) * sizeof *all);
+    memcpy(all, out->generator, n * sizeof *all);
+    all[n] = *g;
+    out->generator = all;
+    out->count++;
+}
+
+/* Where some are missing: those that other libraries gave, and brackets, which are symmetries, too. */
+static void close_up(nh_generators *out, size_t wanted, const nh_kinetic *k, const nh_generators *other, size_t others,
+                     const nh_options *options)
+{
+    nh_ex *bracket = nh_alloc_array(k->m + 1, sizeof *bracket);
+    nh_generator g;
+    for (size_t i = 0; i < others; i++)
+        for (size_t a = 0; a < other[i].count && out->count < wanted; a++)
+            add_independent(out, k, &other[i].generator[a], options);
+    for (size_t b = 1; b < out->count && out->count < wanted && !nh_late(); b++)
+        for (size_t a = 0; a < b && out->count < wanted; a++) {
+            nh_field_bracket(k, out->generator[a].component, out->generator[b].component, bracket);
+            nh_generator_init(&g, k, NULL, bracket, options);
+            if (g.invariant && nh_generator_proof(k, &g).proved) add_independent(out, k, &g, options);
+        }
+    nh_free(bracket);
+}
+
 bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, const nh_options *options,
                         nh_error *error)
 {
     *out = (nh_generators){0};
     nh_joint_fields joints = {0};
+    nh_generators other[2 * NH_LIBRARY_LEVELS];
+    size_t others = 0;
     bool good = true, enough = false;
     for (int level = 1;
          level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && (nh_budget_spent() || nh_late())); level++) {
         bool more = false, full = false; /* more products would find no room */
         for (size_t together = 2; together <= (jets ? 3 : 2) && good && !enough && !full; together++) {
+            nh_generators before = *out;
             outcome o = one_library(out, k, jets, level, together, &joints, options, error);
+            if (o.more && before.count) other[others++] = before;
             more |= o.more;
             full = o.full;
             good = o.good;
@@ -267,6 +342,7 @@ bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *
         good = one_library(out, k, jets, level, 3, &joints, options, error).good;
         enough = complete(out, jets);
     }
+    if (good && jets && !complete(out, jets)) close_up(out, jets->dimension, k, other, others, options);
     if (good && out->count < k->m && !complete(out, jets)) cyclic(out, k, options);
     nh_joint_fields_clear(&joints);
     return good;

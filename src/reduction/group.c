@@ -105,8 +105,8 @@ nh_group *nh_group_find(const nh_kinetic *k, const nh_options *options, nh_error
 {
     nh_group *g = nh_alloc(sizeof *g);
     g->kinetic = k;
-    if (k->general) g->jets = nh_jets_find(k, options, error);
-    if ((k->general && !g->jets) || !nh_generators_find(&g->found, k, g->jets, options, error)) {
+    if (k->countable) g->jets = nh_jets_find(k, options, error);
+    if ((k->countable && !g->jets) || !nh_generators_find(&g->found, k, g->jets, options, error)) {
         nh_group_free(g);
         return NULL;
     }

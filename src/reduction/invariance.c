@@ -41,7 +41,19 @@ static nh_ex metric_equation(const nh_kinetic *k, const nh_ex *xi, size_t r, siz
     return sum;
 }
 
-size_t nh_invariance_equations(const nh_kinetic *k, const nh_ex *xi, nh_ex *out)
+/* (L_xi Q)_s */
+static nh_ex force_equation(const nh_kinetic *k, const nh_ex *xi, size_t s)
+{
+    nh_dag *d = k->dag;
+    nh_ex e = prolonged(k, xi, k->Q[s]);
+    for (size_t l = 0; l < k->m; l++) {
+        nh_ex slope = nh_diff(d, xi[l], k->q[s]);
+        if (!nh_is_zero(d, slope)) e = nh_add(d, e, nh_mul(d, k->Q[l], slope));
+    }
+    return e;
+}
+
+size_t nh_invariance_equations(const nh_kinetic *k, const nh_ex *xi, nh_ex *out, size_t *count)
 {
     size_t n = 0, of_metric;
     if (plain(k)) {
@@ -53,6 +65,9 @@ size_t nh_invariance_equations(const nh_kinetic *k, const nh_ex *xi, nh_ex *out)
     of_metric = n;
     out[n++] = plain(k) ? nh_field_along(k, xi, k->V) : nh_int(k->dag, 0);
     for (size_t a = 0; a < k->f; a++) out[n++] = nh_chart_compose(k->model->chart, prolonged(k, xi, k->force[a]));
+    for (size_t s = 0; s < k->m && k->forced; s++)
+        out[n++] = nh_chart_compose(k->model->chart, force_equation(k, xi, s));
+    *count = n;
     return of_metric;
 }
 
@@ -182,11 +197,7 @@ static nh_condition forces_invariant(const nh_kinetic *k, const nh_ex *xi, const
     nh_dag *d = k->dag;
     nh_ex *e = nh_alloc_array(2 * k->m + 1, sizeof *e), *unit = e + k->m, size = nh_int(d, 0);
     for (size_t s = 0; s < k->m; s++) {
-        e[s] = prolonged(k, xi, k->Q[s]);
-        for (size_t l = 0; l < k->m; l++) {
-            nh_ex slope = nh_diff(d, xi[l], k->q[s]);
-            if (!nh_is_zero(d, slope)) e[s] = nh_add(d, e[s], nh_mul(d, k->Q[l], slope));
-        }
+        e[s] = force_equation(k, xi, s);
         size = nh_add(d, size, nh_call(d, NH_ABS, k->Q[s]));
     }
     for (size_t s = 0; s < k->m; s++) unit[s] = size;
@@ -199,11 +210,11 @@ void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, c
                        const nh_options *options)
 {
     nh_dag *d = k->dag;
-    size_t m = k->m, h = m * (m + 1) / 2, n = 0, total = h + 1 + k->f;
+    size_t m = k->m, h = m * (m + 1) / 2, n = 0, total = h + 1 + k->f + m, all;
     nh_ex *e = nh_alloc_array(2 * total + k->f, sizeof *e), *unit = e + total, *raw = unit + total;
     *g = (nh_generator){.name = name, .component = nh_arena_alloc(k->arena, m * sizeof *g->component)};
     memcpy(g->component, component, m * sizeof *component);
-    size_t of_metric = nh_invariance_equations(k, component, e);
+    size_t of_metric = nh_invariance_equations(k, component, e, &all);
     for (size_t r = 0; r < m && plain(k); r++) /* entries compare with the geometric mean of the diagonal */
         for (size_t s = 0; s <= r; s++)
             unit[n++] = nh_sqrt(d, nh_call(d, NH_ABS, nh_mul(d, k->K[r * m + r], k->K[s * m + s])));

@@ -38,9 +38,10 @@ void nh_generator_init(nh_generator *generator, const nh_kinetic *kinetic, const
 /* The weakest of the proofs of its conditions. */
 nh_proof nh_generator_proof(const nh_kinetic *kinetic, const nh_generator *generator);
 
-/* The conditions as expressions: h of the metric (or 1: of L), 1 of the potential, f of the constraints (composed with
- * the chart); `out` has room for h + 1 + f, h = m(m+1)/2.  Returns the number of those of the metric. */
-size_t nh_invariance_equations(const nh_kinetic *kinetic, const nh_ex *component, nh_ex *out);
+/* The conditions as expressions: h of the metric (or 1: of L), 1 of the potential, f of the constraints and m of the
+ * forces, where there are forces (both composed with the chart); `out` has room for h + 1 + f + m, h = m(m+1)/2.
+ * Returns the number of those of the metric; *count: of all. */
+size_t nh_invariance_equations(const nh_kinetic *kinetic, const nh_ex *component, nh_ex *out, size_t *count);
 
 /* The potential without a constant factor. */
 nh_ex nh_invariance_sum(const nh_kinetic *kinetic);

@@ -82,6 +82,14 @@ void nh_jet_conditions_clear(nh_jet_conditions *s)
     for (int kind = 0; kind < NH_CONDITION_KINDS; kind++) nh_free(s->row[kind]);
 }
 
+/* The root of K_ii, or of the largest of K_ij where K is not definite. */
+static double size_of(const nh_jet_conditions *s, size_t i)
+{
+    double size = s->t.K[i + s->m * i];
+    for (size_t j = 0; j < s->m && !s->kinetic->metric; j++) size = fmax(size, fabs(s->t.K[i + s->m * j]));
+    return sqrt(size);
+}
+
 /* (L_xi K)_ij = xi^l d_l K_ij + K_lj B^l_i + K_il B^l_j, divided by (K_ii K_jj)^(1/2); the transport stands at the
    place. */
 static void metric_rows(nh_jet_conditions *s, const double *jets)
@@ -90,7 +98,7 @@ static void metric_rows(nh_jet_conditions *s, const double *jets)
     const double *K = s->t.K, *dK = s->t.dK;
     for (size_t i = 0; i < m; i++)
         for (size_t j = 0; j <= i; j++) {
-            double *row = nh_jet_conditions_row(s, NH_OF_METRIC), unit = 1 / sqrt(K[i + m * i] * K[j + m * j]);
+            double *row = nh_jet_conditions_row(s, NH_OF_METRIC), unit = 1 / (size_of(s, i) * size_of(s, j));
             for (size_t c = 0; c < s->columns; c++) {
                 const double *xi = jets + c * size, *B = xi + m;
                 double sum = 0;
@@ -259,9 +267,9 @@ bool nh_jet_conditions_at(nh_jet_conditions *s, const double *q, const double *j
     return true;
 }
 
-/* The kernel of the rows of the kinds in `use`, with the threshold `small`. */
-static size_t kernel_of(const nh_jet_conditions *s, const size_t use[NH_CONDITION_KINDS], double small, double *basis,
-                        double *last, double *first)
+/* The kernel of the rows of the kinds in `use`, of this dimension or (SIZE_MAX) with the threshold `small`. */
+static size_t kernel_of(const nh_jet_conditions *s, const size_t use[NH_CONDITION_KINDS], double small, size_t known,
+                        double *basis, double *last, double *first)
 {
     size_t n = s->columns, rows = 0, at = 0;
     for (int kind = 0; kind < NH_CONDITION_KINDS; kind++) rows += use[kind];
@@ -269,23 +277,24 @@ static size_t kernel_of(const nh_jet_conditions *s, const size_t use[NH_CONDITIO
     for (int kind = 0; kind < NH_CONDITION_KINDS; kind++)
         for (size_t r = 0; r < use[kind]; r++, at++)
             for (size_t c = 0; c < n; c++) a[at + c * rows] = s->row[kind][r * n + c];
-    size_t dimension = nh_kernel(rows, n, a, small, basis, last, first);
+    size_t dimension = known == SIZE_MAX ? nh_kernel(rows, n, a, small, basis, last, first)
+                                         : nh_kernel_of_dimension(rows, n, a, known, basis, last, first);
     nh_free(a);
     return dimension;
 }
 
-size_t nh_jet_conditions_kernel(const nh_jet_conditions *s, bool potential, bool constraints, double *basis,
-                                double *last, double *first)
+size_t nh_jet_conditions_kernel(const nh_jet_conditions *s, bool potential, bool constraints,
+                                size_t dimension, double *basis, double *last, double *first)
 {
     size_t use[NH_CONDITION_KINDS] = {s->rows[NH_OF_METRIC], potential ? s->rows[NH_OF_POTENTIAL] : 0,
                                       constraints ? s->rows[NH_OF_CONSTRAINTS] : 0};
-    return kernel_of(s, use, s->options->group, basis, last, first);
+    return kernel_of(s, use, s->options->group, dimension, basis, last, first);
 }
 
 size_t nh_jet_conditions_kernel_generous(const nh_jet_conditions *s, double *basis)
 {
     size_t use[NH_CONDITION_KINDS] = {s->rows[NH_OF_METRIC]};
-    return kernel_of(s, use, sqrt(s->options->group), basis, NULL, NULL);
+    return kernel_of(s, use, sqrt(s->options->group), SIZE_MAX, basis, NULL, NULL);
 }
 
 void nh_jet_conditions_restrict(nh_jet_conditions *s, size_t kept, const double *basis)

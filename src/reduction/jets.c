@@ -103,16 +103,25 @@ static void conclude(nh_jet_conditions *s, const double *jets, const double *mov
 {
     size_t n = s->columns, size = s->t.size, length = size * n;
     double *basis = nh_alloc_array(n * n + 1, sizeof *basis), *sv = nh_alloc_array(n + 1, sizeof *sv);
-    out->of_metric = nh_jet_conditions_kernel(s, false, false, basis, NULL, NULL);
-    out->of_potential = nh_jet_conditions_kernel(s, true, false, basis, NULL, NULL);
-    out->of_constraints = nh_jet_conditions_kernel(s, false, true, basis, NULL, NULL);
-    size_t d = out->dimension = nh_jet_conditions_kernel(s, true, true, basis, &out->last_null, &out->first_other);
+    nh_symmetry_count known = nh_symmetry_count_of(s->kinetic);
+    out->exact = !known.obstacle && known.dimension <= n;
+    if (!out->exact) {
+        known.of_metric = nh_jet_conditions_kernel(s, false, false, SIZE_MAX, basis, NULL, NULL);
+        known.of_potential = nh_jet_conditions_kernel(s, true, false, SIZE_MAX, basis, NULL, NULL);
+        known.of_constraints = nh_jet_conditions_kernel(s, false, true, SIZE_MAX, basis, NULL, NULL);
+    }
+    out->of_metric = known.of_metric;
+    out->of_potential = known.of_potential;
+    out->of_constraints = known.of_constraints;
+    size_t d = out->dimension = nh_jet_conditions_kernel(s, true, true, out->exact ? known.dimension : SIZE_MAX, basis,
+                                                         &out->last_null, &out->first_other);
     double *scaled = nh_alloc_array(size * d + 1, sizeof *scaled), *xi = nh_alloc_array(s->m * d + 1, sizeof *xi);
     nh_multiply(size, d, n, jets, basis, scaled);
     find_algebra(s, scaled, out);
     for (size_t c = 0; c < d; c++) memcpy(xi + c * s->m, scaled + c * size, s->m * sizeof *xi);
     nh_singular_values(s->m, d, xi, sv);
-    while (out->orbit < d && sv[out->orbit] > s->options->group) out->orbit++;
+    while (out->orbit < d && !out->exact && sv[out->orbit] > s->options->group) out->orbit++;
+    if (out->exact) out->orbit = known.orbit;
     out->jet = nh_alloc_array(size * d + 1, sizeof *out->jet);
     out->moved = nh_alloc_array(out->places * size * d + 1, sizeof *out->moved);
     combine(s, jets, basis, d, out->jet);

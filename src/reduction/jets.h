@@ -19,11 +19,14 @@
 
 #include "reduction/algebra.h"
 #include "reduction/kinetic.h"
+#include "reduction/symmetry_count.h"
 
 typedef struct {
     size_t m, dimension;   /* of the symmetries of K, V and D together */
     size_t of_metric, of_potential, of_constraints; /* of K alone; of K and V; of K and D */
     size_t orbit;          /* rank of the xi at a generic point */
+    /* the dimensions are those counted modulo primes, which no tolerance decides; false: they are ranks of numbers */
+    bool exact;
     double *place;         /* m: q0 */
     double *jet;           /* (m + m^2) x dimension, at q0: xi, then B column by column */
     size_t places;         /* ends of the rays */
@@ -34,7 +37,7 @@ typedef struct {
     double closure;        /* largest residual of the brackets */
 } nh_jets;
 
-/* Needs kinetic->general.  NULL with a message when no ray could be followed. */
+/* Needs kinetic->countable.  NULL with a message when no ray could be followed. */
 nh_jets *nh_jets_find(const nh_kinetic *kinetic, const nh_options *options, nh_error *error);
 void nh_jets_free(nh_jets *jets);
 

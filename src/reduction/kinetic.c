@@ -193,6 +193,7 @@ static void take_places(nh_kinetic *k, uint64_t seed)
     }
     double *K = nh_alloc_array(total + 2 * m, sizeof *K), *good = nh_alloc_array(most + 1, sizeof *good), best = 0;
     size_t rank = usual_rank(k, tape, work, &sample[0], K);
+    k->invertible = rank == m;
     k->place = nh_arena_alloc(k->arena, (most + 1) * m * sizeof *k->place);
     k->speed = nh_arena_alloc(k->arena, (most + 1) * m * sizeof *k->speed);
     k->time = nh_arena_alloc(k->arena, (most + 1) * sizeof *k->time);
@@ -282,7 +283,8 @@ static nh_kinetic *create(const nh_model *model, uint64_t seed, bool metric_alon
     k->metric = has_metric(k);
     k->obstacle = obstacle_of(k);
     k->reducible = !k->obstacle;
-    k->general = k->metric && k->affine && k->autonomous && forces_autonomous(k);
+    k->countable = k->invertible && k->affine && k->autonomous && forces_autonomous(k);
+    k->general = k->metric && k->countable;
     if (k->places >= least_places) return k;
     nh_fail(error, NH_NUMERIC, "", "only %zu sample points of the domain are usable", k->places);
     nh_error_hint(error, "give a domain on which the Lagrangian and the constraints are defined");

@@ -25,10 +25,13 @@ typedef struct {
     const nh_ex *Q;        /* m: forces without a potential */
     bool quadratic, magnetic, autonomous, forced, affine, linear;
     bool metric;           /* quadratic, and K positive definite at the sample points */
+    bool invertible;       /* quadratic, and K of full rank there */
     bool reducible;        /* L = K - V with a metric, linear constraints, no time, no forces */
     /* a metric, no time, constraints that are at most affine: the system has reduced equations, though no connection is
      * used */
     bool general;
+    /* the same with any invertible K: its symmetries are counted (jets.h) */
+    bool countable;
     const char *obstacle;  /* the reason why it is not reducible, in words; NULL: it is */
     size_t places;         /* samples */
     double *place, *speed; /* places x m: positions, and velocities that satisfy the constraints */

@@ -81,6 +81,23 @@ static void put_with_slopes(const nh_kinetic *k, factors *f, nh_ex g, nh_ex q, b
     put(f, for_covectors ? nh_mul(k->dag, slope, g) : nh_div(k->dag, slope, g));
 }
 
+/* What sin and cos are for rotations: exp(q) and exp(-q) for the boosts of an indefinite metric, and the rates, and
+ * half of them, of exponentials of the other coordinates. */
+static void put_boosts(const nh_kinetic *k, factors *f, size_t n, const nh_ex *found, size_t j)
+{
+    nh_dag *d = k->dag;
+    for (size_t i = 0; i <= n; i++)
+        for (size_t s = 0; s < k->m; s++) {
+            bool one = i == n && s == j; /* the rate 1 */
+            nh_ex rate = nh_int(d, 1);
+            if (i < n && s != j && nh_function_of(d, found[i]) == NH_EXP && of_one(k, found[i], s))
+                one = !nh_depends(d, rate = nh_diff(d, nh_child(d, found[i], 0), k->q[s]), k->q[s]);
+            for (int half = -2; half <= 2 && one; half++)
+                if (half && (i < n || half % 2 == 0))
+                    put(f, nh_call(d, NH_EXP, nh_mul(d, nh_ratio(d, half, 2), nh_mul(d, rate, k->q[j]))));
+        }
+}
+
 /* Leaves out functions that come near a pole at the sample points: they would dominate the others. */
 static void drop_wild(const nh_kinetic *k, factors *f)
 {
@@ -121,6 +138,7 @@ static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
         if (circular(d, found[i])) put_circular(d, f, nh_child(d, found[i], 0), level);
         else if (level >= 5) put_with_slopes(k, f, found[i], k->q[j], level == covectors);
     }
+    if (level >= 5 && !k->metric) put_boosts(k, f, n, found, j);
     drop_wild(k, f);
     nh_free(found);
 }
@@ -149,7 +167,10 @@ static bool *dependence(const nh_kinetic *k, const nh_jets *jets, bool *nonzero)
     if (!jets)
         for (size_t i = 0; i < m * m; i++) out[i] = nonzero[i % m] = true;
     if (jets) nh_kinetic_values(k, m * m, k->K, jets->place, K);
-    for (size_t i = 0; i < m; i++) scale[i] = K[i * (m + 1)];
+    for (size_t i = 0; i < m; i++) {
+        scale[i] = K[i * (m + 1)];
+        for (size_t j = 0; j < m && !k->metric; j++) scale[i] = fmax(scale[i], fabs(K[i * m + j]));
+    }
     double length = nh_kinetic_length(k, scale);
     for (size_t i = 0; i < m; i++) scale[i] = length / sqrt(scale[i]);
     for (size_t p = 0; jets && p < jets->places; p++)
@@ -204,12 +225,12 @@ static nh_ex divisor(const nh_kinetic *k, size_t i)
 {
     nh_dag *d = k->dag;
     size_t m = k->m;
-    bool diagonal = k->metric;
+    bool diagonal = k->invertible;
     nh_ex e = 0;
     for (size_t r = 0; r < m; r++)
         for (size_t s = 0; s < r; s++) diagonal &= nh_is_zero(d, k->K[r * m + s]);
     if (diagonal) e = k->K[i * m + i];
-    else if (k->metric && m == 2) e = nh_sub(d, nh_mul(d, k->K[0], k->K[3]), nh_mul(d, k->K[1], k->K[2]));
+    else if (k->invertible && m == 2) e = nh_sub(d, nh_mul(d, k->K[0], k->K[3]), nh_mul(d, k->K[1], k->K[2]));
     e = e ? nh_simplify_short(d, e, 0) : 0;
     for (size_t s = 0; s < m && e; s++)
         if (nh_depends(d, e, k->q[s])) return e;

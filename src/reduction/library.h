@@ -11,6 +11,7 @@
  *     level 6    as level 5, without powers beside functions, and g g' for g'/g; also all of these divided by K_ii, or
  *                by det K: of translations in elliptic or parabolic coordinates the covectors K xi have simple
  *                components, not the fields
+ *                Of an indefinite metric, at both levels, exp(q) and exp(-q) for boosts
  *     level 7    monomials to degree five, of more than three coordinates to degree three: what polynomial changes of
  *                coordinates make of rotations
  *

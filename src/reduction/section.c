@@ -1,10 +1,13 @@
 #include "reduction/section.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "exact/normal.h"
+#include "exact/relation_space.h"
 #include "integrals/fixed.h"
 #include "integrals/recognise.h"
+#include "reduction/subspace.h"
 
 nh_ex nh_section_marked(nh_dag *d, size_t n, const nh_ex *mark, const nh_ex *e)
 {
@@ -87,4 +90,39 @@ nh_proof nh_section_coefficients(const nh_kinetic *k, size_t n, const nh_ex *e, 
     nh_free(own);
     nh_free(index);
     return proof;
+}
+
+/* ---- all of them ---- */
+
+nh_ex *nh_section_relations(const nh_kinetic *k, size_t columns, size_t rows, const nh_ex *entry,
+                             const nh_options *options, size_t *count)
+{
+    const nh_model *o = k->model;
+    nh_ex *e = nh_alloc_array(columns * rows + 2 * k->m + 1, sizeof *e), *variable = e + columns * rows, *found = NULL;
+    memcpy(variable, k->q, k->m * sizeof *e);
+    memcpy(variable + k->m, k->v, k->m * sizeof *e);
+    nh_relation_columns q = {k->dag, columns, rows, e, 2 * k->m, variable, 0, o->parameter,
+                             (size_t)options->proof_terms};
+    for (size_t i = 0; i < columns * rows; i++) e[i] = nh_model_values(o, entry[i]);
+    nh_relation_space *all = columns && rows ? nh_relation_space_of(k->arena, &q) : NULL;
+    *count = all && !all->obstacle ? all->proved : 0;
+    if (all && !all->obstacle && all->proved == all->bound) found = all->coefficient;
+    if (found && *count && o->system->parameters) { /* with parameters, where as many hold for all values */
+        q.entry = entry;
+        q.parameters = o->system->parameters;
+        nh_relation_space *free = nh_relation_space_of(k->arena, &q);
+        if (!free->obstacle && free->proved == *count) found = free->coefficient;
+    }
+    nh_free(e);
+    return found;
+}
+
+bool nh_section_combinations(const nh_kinetic *k, size_t columns, size_t rows, const nh_ex *entry,
+                              const nh_options *options, double *c, size_t *count)
+{
+    static const double rounding = 1e-14;
+    const nh_ex *exact = nh_section_relations(k, columns, rows, entry, options, count);
+    for (size_t i = 0; exact && i < *count * columns; i++) c[i] = nh_model_number(k->model, exact[i]);
+    if (exact) nh_column_echelon(columns, *count, rounding, c);
+    return exact != NULL;
 }

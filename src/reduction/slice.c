@@ -227,6 +227,63 @@ void nh_slice_place(const nh_slice *s, const double *x, double *q)
 
 /* ---- values of y0 ---- */
 
+/* Of a Chaplygin system: are the orbits through q transverse to D there? */
+static bool transverse_at(const nh_action *g, const double *q, const double *E)
+{
+    static const double transverse = 1e-3;
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, f = k->f;
+    if (!g->chaplygin || g->d != f || !f) return true;
+    double *omega = nh_alloc_array(f * m + f * f + f, sizeof *omega), *on = omega + f * m, *sv = on + f * f;
+    nh_kinetic_values(k, f * m, k->omega, q, omega);
+    for (size_t i = 0; i < f; i++)
+        for (size_t a = 0; a < f; a++)
+            for (size_t s = 0; s < m; s++) on[i + a * f] += omega[i * m + s] * E[s + a * m];
+    nh_singular_values(f, f, on, sv);
+    bool good = sv[f - 1] > transverse * sv[0];
+    nh_free(omega);
+    return good;
+}
+
+/* sigma_min / sigma_max of f forms (row by row) in these units. */
+static double evenness(size_t f, size_t m, const double *omega, const double *unit)
+{
+    double *a = nh_alloc_array(f * m + m + 1, sizeof *a), *sv = a + f * m;
+    for (size_t i = 0; i < f * m; i++) a[i] = omega[i] * unit[i % m];
+    nh_singular_values(m, f, a, sv); /* the transposed matrix, column by column */
+    double even = f ? sv[f - 1] / sv[0] : 1;
+    nh_free(a);
+    return isfinite(even) ? even : 0;
+}
+
+/* K, V and the constraints are finite at q; no direction is far shorter there, and the constraints are not far more
+ * dependent, than at the sample point p. */
+static bool metric_regular(const nh_kinetic *k, const double *p, const double *q)
+{
+    static const double far = 1e-3;
+    size_t m = k->m, f = k->f, total = m * m + f * m + 1;
+    nh_ex *e = nh_alloc_array(total, sizeof *e);
+    double *at = nh_alloc_array(2 * total + 2 * m + 1, sizeof *at), *usual = at + total, *unit = usual + total,
+           *sv = unit + m;
+    memcpy(e, k->K, m * m * sizeof *e);
+    memcpy(e + m * m, k->omega, f * m * sizeof *e);
+    e[total - 1] = k->V;
+    nh_kinetic_values(k, total, e, q, at);
+    nh_kinetic_values(k, total, e, p, usual);
+    bool good = nh_all_finite(total, at);
+    for (size_t i = 0; i < m; i++) {
+        for (size_t j = 0; j < m; j++) unit[i] = i == j || !k->metric ? fmax(unit[i], fabs(usual[i * m + j])) : unit[i];
+        unit[i] = unit[i] > 0 ? 1 / sqrt(unit[i]) : 1;
+    }
+    for (size_t i = 0; i < m * m; i++) at[i] *= unit[i / m] * unit[i % m];
+    if (k->invertible && good) nh_singular_values(m, m, at, sv);
+    good = good && (!k->invertible || sv[m - 1] > far * far * sv[0]);
+    good = good && evenness(f, m, at + m * m, unit) > far * evenness(f, m, usual + m * m, unit);
+    nh_free(e);
+    nh_free(at);
+    return good;
+}
+
 static bool regular_at(const nh_action *g, const size_t *along, const double *y)
 {
     enum { trials = 8 };
@@ -242,7 +299,7 @@ static bool regular_at(const nh_action *g, const size_t *along, const double *y)
         nh_action_values(g, q, E);
         for (size_t i = 0; i < d; i++)
             for (size_t a = 0; a < d; a++) minor[i + a * d] = E[along[i] + a * m];
-        good = isfinite(nh_largest(d * d, minor));
+        good = nh_all_finite(m * d, E) && metric_regular(k, k->place + p * m, q) && transverse_at(g, q, E);
         nh_singular_values(d, d, minor, sv);
         good = good && sv[d - 1] > regular * sv[0];
     }

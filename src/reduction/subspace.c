@@ -41,7 +41,9 @@ size_t nh_span(size_t m, size_t n, const double *a, double small, double *out)
     return rank;
 }
 
-size_t nh_kernel(size_t m, size_t n, const double *a, double small, double *out, double *last_null, double *first_other)
+/* At most `most` dimensions, singular values up to `small`. */
+static size_t kernel(size_t m, size_t n, const double *a, double small, size_t most, double *out, double *last_null,
+                     double *first_other)
 {
     size_t rows, rank = 0;
     if (last_null) *last_null = 0;
@@ -49,7 +51,7 @@ size_t nh_kernel(size_t m, size_t n, const double *a, double small, double *out,
     if (!n) return 0;
     double *b = padded(m, n, a, &rows), *s = nh_alloc_array(n, sizeof *s), *vt = nh_alloc_array(n * n, sizeof *vt);
     bool good = nh_svd(rows, n, b, s, NULL, vt);
-    while (good && rank < n && s[rank] > small) rank++;
+    while (good && rank < n && (s[rank] > small || n - rank > most)) rank++;
     for (size_t j = rank; good && j < n; j++)
         for (size_t i = 0; i < n; i++) out[i + (j - rank) * n] = vt[j + i * n];
     if (good && rank < n && last_null) *last_null = s[rank];
@@ -58,6 +60,17 @@ size_t nh_kernel(size_t m, size_t n, const double *a, double small, double *out,
     nh_free(s);
     nh_free(vt);
     return good ? n - rank : 0;
+}
+
+size_t nh_kernel(size_t m, size_t n, const double *a, double small, double *out, double *last_null, double *first_other)
+{
+    return kernel(m, n, a, small, n, out, last_null, first_other);
+}
+
+size_t nh_kernel_of_dimension(size_t m, size_t n, const double *a, size_t dimension, double *out, double *last_null,
+                              double *first_other)
+{
+    return kernel(m, n, a, INFINITY, dimension, out, last_null, first_other);
 }
 
 void nh_project_off(size_t m, size_t n, double *a, size_t r, const double *u)

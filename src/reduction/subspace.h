@@ -17,6 +17,10 @@ size_t nh_span(size_t m, size_t n, const double *a, double small, double *out);
 size_t nh_kernel(size_t m, size_t n, const double *a, double small, double *out, double *last_null,
                  double *first_other);
 
+/* The same of the given dimension: that of the smallest singular values. */
+size_t nh_kernel_of_dimension(size_t m, size_t n, const double *a, size_t dimension, double *out, double *last_null,
+                              double *first_other);
+
 /* All n singular values of a (m x n), descending; missing ones (m < n) are 0. */
 void nh_singular_values(size_t m, size_t n, const double *a, double *s);
 

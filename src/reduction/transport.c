@@ -43,7 +43,10 @@ void nh_transport_init(nh_transport *t, const nh_kinetic *k, const double *q0)
     t->first = t->dG + cube;
     t->dfirst = t->first + cube;
     nh_tape_eval(t->tape, t->work, q0, t->raw);
-    for (size_t i = 0; i < m; i++) t->scale[i] = t->raw[packed(i, i)];
+    for (size_t i = 0; i < m; i++) {
+        t->scale[i] = t->raw[packed(i, i)];
+        for (size_t j = 0; j < m && !k->metric; j++) t->scale[i] = fmax(t->scale[i], fabs(t->raw[packed(i, j)]));
+    }
     double length = nh_kinetic_length(k, t->scale);
     t->factor = 1 / (length * length);
     for (size_t i = 0; i < m; i++) t->scale[i] = length / sqrt(t->scale[i]);
