@@ -83,3 +83,43 @@ Test(truth, what_a_file_states_of_currents_is_judged, .timeout = 120)
     }
     place_clear(&p);
 }
+
+/* ---- where a current jumps ---- */
+
+#define CUT "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 0.8*atan2(y, x) - "
+
+static const struct {
+    const char *system;
+    double counted; /* currents of all motions */
+    const char *region; /* of one in a part of the motions, or NULL */
+} wall[] = {
+    /* (the energy was "conserved, proved": six crossings of y = 0 near the domain have none of its jumps) */
+    {CUT "x^2/2\ndomain: {x: [0.2, 1]}\n", 0, "on each side of y = 0"},
+    {CUT "x^2/2\ndomain: {x: [0.9, 0.901], y: [0.1, 0.11]}\n", 0, "on each side of y = 0"},
+    {CUT "x^2/2\ndomain: {x: [20, 21], y: [3, 4]}\n", 0, "on each side of y = 0"},
+    {CUT "x^2/2\n", 0, "on each side of y = 0"},
+    /* no motion gets from x > 0 to the cut */
+    {CUT "1/x^2\ndomain: {x: [0.2, 1]}\n", 1, NULL},
+    {CUT "log(x)\ndomain: {x: [0.2, 1]}\n", 1, NULL},
+    /* the wall x = 0 matters beyond y = 3 only, or beyond another wall */
+    {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (1 + x/abs(x))*(abs(y - 3) + y - 3)^3\n", 0, "where the motion has an impulse"},
+    {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y - 3*asin(sin(x))\ndomain: {x: [-0.2, 0.2]}\n", 3, "in some parts"},
+};
+
+Test(truth, a_current_holds_wherever_motions_go, .timeout = 120)
+{
+    place p = place_make();
+    for (size_t i = 0; i < sizeof wall / sizeof *wall; i++) {
+        if (!sweep_tries(i + 1, 5, 8) && i) continue;
+        write_here(&p, "s.yaml", wall[i].system);
+        told t = tell(&p, "analyze s.yaml", 0);
+        const nh_json *pieces = nh_json_get(t.json, "currents_in_regions");
+        cr_expect_eq(nh_json_value(t.json, "independent_currents"), wall[i].counted, "%s%s", wall[i].system, t.text);
+        const char *region = nh_json_text(nh_json_entry(pieces, 0), "region");
+        const char *formulas = nh_json_text(nh_json_get(t.json, "explicit_motion"), "region");
+        if (strstr(wall[i].system, "asin")) cr_expect(formulas, "a motion with constants of one part");
+        cr_expect(wall[i].region ? region && strstr(region, wall[i].region) : !region, "%s%s", wall[i].system, t.text);
+        told_clear(&t);
+    }
+    place_clear(&p);
+}

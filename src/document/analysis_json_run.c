@@ -81,7 +81,7 @@ void nh_analysis_json_stated(const nh_analysis *r, nh_json *to)
         nh_json_put_text(item, "name", s->name);
         nh_json_put_text(item, "expression", s->text);
         nh_json_put_text(item, "as", s->denied ? "not conserved" : "current");
-        nh_json_put_text(item, "verdict", nh_stated_word(s->verdict));
+        nh_json_put_text(item, "verdict", nh_analysis_stated_word(s->verdict));
         nh_json_put_bool(item, "proved", s->proved);
         if (holds) nh_json_put_number(item, "digits", floor(s->digits));
         else nh_json_put_null(item, "digits");

@@ -378,7 +378,7 @@ static void stated(nh_pen *p, const nh_analysis *r)
         if (s->verdict == NH_STATED_FOUND && !why) why = "a function of those found";
         if (missed) why = s->out_of_reach ? s->out_of_reach : "it is no function of those found";
         if (s->state) why = nh_arena_printf(r->arena, "its rate is %.6g at a state", s->rate);
-        nh_pen_fact(p, s->name, "%s%s%s%s%s", missed ? "conserved, but " : "", nh_stated_word(s->verdict),
+        nh_pen_fact(p, s->name, "%s%s%s%s%s", missed ? "conserved, but " : "", nh_analysis_stated_word(s->verdict),
                     s->denied && s->verdict == NH_STATED_FALSE ? ", as stated" : "", why ? "; " : "", why ? why : "");
     }
     nh_pen_close(p, NH_PEN_FACTS);

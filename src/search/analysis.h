@@ -247,7 +247,7 @@ struct nh_analysis {
 /* "complete", "exhausted", "cut". */
 const char *nh_search_word(nh_search search);
 /* "found", "not found", "constant", "in a region", "not conserved", "undecided". */
-const char *nh_stated_word(nh_stated_verdict verdict);
+const char *nh_analysis_stated_word(nh_stated_verdict verdict);
 /* "--option stage_columns=412": the setting that would include a stage that was too large.  In the arena. */
 const char *nh_limit_words(nh_arena *arena, const nh_limit *limit);
 /* The pieces that are constant along every motion, because motions end where the pieces do. */
