@@ -33,7 +33,7 @@ typedef struct {
 /* Adds the walls of e; those beyond the room are left out. */
 void nh_walls_add(nh_walls *walls, nh_dag *dag, nh_ex e);
 
-/* Adds the factors of the bases of negative powers in e, and of the arguments of logarithms: there e may be infinite. */
+/* Adds the factors of the bases of negative powers, and of the arguments of logarithms: there e may be infinite. */
 void nh_walls_add_poles(nh_walls *walls, nh_dag *dag, nh_ex e);
 
 /* The walls of n expressions that can be crossed when the symbols `in` change: no ends of roots, no constants.  Writes

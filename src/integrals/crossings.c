@@ -12,7 +12,8 @@
 #include "integrals/projected_points.h"
 #include "system/sample.h"
 
-enum { lines = 48, motions = 12, motion_steps = 240, wanted = 2, most_wanted = 32, /* of one part of a wall; of a wall */
+enum { lines = 48, motions = 12, motion_steps = 240,
+       wanted = 2, most_wanted = 32, /* of one part of a wall; of a wall */
        steps_out = 31, grid = 2 * steps_out + 1, most_steps = 200, bits = 192 };
 /* in half widths of the box: the lines reach 0.08 * 1.25^30 = 65 of them */
 static const double first_step = 0.08, ratio = 1.25, digits = 4e-16;

@@ -139,8 +139,8 @@ typedef struct {
     nh_ex fails[NH_MOST_WALLS]; /* the walls at which it failed on both sides */
 } judge;
 
-/* Does Phi jump: is the difference of its values on the two sides the same nearer to the wall, and no rounding, while Phi
- * stays finite?  It grows where the digits of the points are too few, as those of y'/x' at x' = y' = 0. */
+/* Does Phi jump: is the difference of its values on the two sides the same nearer to the wall, and no rounding, while
+ * Phi stays finite?  It grows where the digits of the points are too few, as those of y'/x' at x' = y' = 0. */
 static bool jumps(judge *j, const nh_crossing *c)
 {
     static const double rounding = 1e-8, growth = 1.3;
