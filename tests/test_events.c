@@ -166,6 +166,84 @@ Test(events, many_in_one_step)
     place_clear(&p);
 }
 
+/* The zeros of a cos(f t + p) - level between 0 and the end. */
+static size_t zeros_of_cosine(double a, double f, double p, double level, double end)
+{
+    size_t n = 0;
+    for (long k = -2; k * 2 * M_PI < f * end + 10; k++)
+        for (int side = -1; side < 2; side += 2) {
+            double t = (side * acos(level / a) - p + 2 * M_PI * (double)k) / f;
+            n += t > 0 && t < end;
+        }
+    return n;
+}
+
+/* Pairs of zeros that nearly touch, of several functions at once, among others at the same time; steps of every length.  (Of the 955 zeros of
+ * x = 0.999999 along x = cos(t) 841 were found by the usual method, beside others.) */
+Test(events, touching_pairs)
+{
+    static const char *const methods[] = {"auto", "verner", "adams", "rk8pd", "bdf"};
+    static const double depth[] = {1e-2, 1e-4, 1e-6, 3e-8, -1e-6};
+    place p = place_make();
+    write_here(&p, "two.yaml", "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2 - y^2\n");
+    double a = sqrt(0.3 * 0.3 + 0.5), f = sqrt(2), phase = -atan2(1 / f, 0.3);
+    for (size_t m = 0; m < 5; m++)
+        for (size_t d = 0; d < 5; d++) {
+            char line[500];
+            double level = a * (1 - depth[d]), x = 1 - depth[d], end = m < 4 ? 300 : 40;
+            if (!sweep_tries(5 * m + d + 1, 8, 25)) continue;
+            snprintf(line, sizeof line,
+                     "two.yaml --initial \"x=1, y=0.3, y'=1\" --tolerance 1e-11 --until %g --step %g --method %s --event \"x = %.17g; x = %.17g; y = %.17g; "
+                     "x*y = 0.2999; y = %.17g\"", end, d % 2 ? end : end / 7, methods[m], x, 0.5 * x, level, 0.3 * level);
+            nh_json *root = simulated(&p, line);
+            size_t wanted[] = {depth[d] < 0 ? 0 : zeros_of_cosine(1, 1, 0, x, end), zeros_of_cosine(1, 1, 0, 0.5 * x, end),
+                               depth[d] < 0 ? 0 : zeros_of_cosine(a, f, phase, level, end)};
+            for (size_t i = 0; i < 3; i++) cr_expect_eq(count(event(root, i)), wanted[i], "%s: %zu of %zu", line, count(event(root, i)), wanted[i]);
+            cr_expect_eq(count(event(root, 4)), zeros_of_cosine(a, f, phase, 0.3 * level, end), "%s", line);
+            nh_json_free(root);
+        }
+    place_clear(&p);
+}
+
+/* Two zeros beside every kink: x = 0.6 cos(t) + 0.8 sin(t) passes c 22 or 23 times. */
+Test(events, zeros_beside_kinks)
+{
+    static const char *const level[] = {"1e-2", "1e-5", "1e-8"}, *const centre[] = {"0.3", "0.77", "-0.5", "0"};
+    place p = place_make();
+    write_here(&p, "two.yaml", "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2 - y^2\n");
+    for (size_t i = 0; i < 12; i++) {
+        char line[400];
+        if (!sweep_tries(i + 1, 6, 12)) continue;
+        const char *l = level[i % 3], *c = centre[i / 3];
+        snprintf(line, sizeof line,
+                 "two.yaml --initial \"x=0.6, x'=0.8, y=0.3, y'=1\" --until 70 --step 70 --event \"abs(x - (%s)) = %s; x = %s; "
+                 "abs(sin(20*x) - (%s)) = %s; sin(20*x) = %s\"", c, l, c, c, l, c);
+        nh_json *root = simulated(&p, line);
+        for (size_t k = 0; k < 4; k += 2)
+            cr_expect_eq(count(event(root, k)), 2 * count(event(root, k + 1)), "%s: %zu beside %zu", line, count(event(root, k)), count(event(root, k + 1)));
+        cr_expect_eq(count(event(root, 1)), i / 3 == 1 ? 23u : 22u);
+        nh_json_free(root);
+    }
+    place_clear(&p);
+}
+
+/* Whether a function that touches 0 within the tolerance crosses it cannot be told. */
+Test(events, what_is_not_decided_is_said)
+{
+    static const char *const touching[] = {"x = 1", "x^2 = 1", "(x - 1)*(y - 2)", "(x - 0.3)^2"};
+    place p = place_make();
+    write_here(&p, "two.yaml", "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2 - x^2)/2 - y^2\n");
+    for (size_t i = 0; i < sizeof touching / sizeof *touching; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "two.yaml --initial \"x=0.6, x'=0.8, y=0.3, y'=1\" --until 7 --event \"%s; x'\"", touching[i]);
+        nh_json *root = simulated(&p, line);
+        cr_expect_eq(count(event(root, 1)), 2, "%s", touching[i]);
+        cr_expect_gt(nh_json_count(nh_json_get(root, "warnings")), 0, "%s", touching[i]);
+        nh_json_free(root);
+    }
+    place_clear(&p);
+}
+
 /* x = exp(-t) beside a rate of 1e6, and dry friction, of which the first turn is at pi - atan(0.01/0.9). */
 Test(events, stiff_and_with_friction, PLAIN_ONLY)
 {

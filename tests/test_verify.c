@@ -55,6 +55,39 @@ static nh_verification *field(const char *text, nh_chart_choice chart)
 
 static const char PHI2[] = "m*x'/cos(phi)*sin(phi/k) + m*a*k*phi'*cos(phi/k)", PHI2B[] = "m*x'/cos(phi)*cos(phi/k) - m*a*k*phi'*sin(phi/k)";
 
+/* A current plus a term that doubles, or 77 digits, do not see beside it; functions that are flat to hundreds of
+ * digits.  (Each was "Yes, to 75 digits", or "a constant".) */
+#define ENERGY "m*v^2+m*a^2*k^2*omega^2"
+Test(verify, what_is_small_beside_the_rest_is_refuted_with_a_state)
+{
+    static const char *const list[] = {
+        ENERGY "+1e-100*omega", ENERGY "+1e-300*sin(phi)", ENERGY "+1e-200*exp(sqrt(1+v^2))", ENERGY "*(1+1e-90*x)",
+        "1e9*(" ENERGY ")+exp(-300*(phi^2+1))", "tanh(300*(phi^2+1))", "tanh(30*(phi^2+1))", "exp(-1e4*(phi^2+1))",
+        "sin(phi)^2+cos(phi)^2+1e-90*x", "atan(1e30*(phi^2+1))", "sqrt(1+1e-80*x^2)", "tanh(300*(" ENERGY "+1))*(1+1e-99*v)"};
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        nh_verification *v = current(list[i], NH_CHART_AUTO);
+        cr_expect(!v->conserved, "%s", list[i]);
+        cr_expect(v->has_counterexample && v->counterexample, "%s: no state", list[i]);
+        nh_verification_free(v);
+    }
+}
+
+Test(verify, a_flat_function_of_a_current_is_no_constant_and_an_identity_is_one)
+{
+    static const struct {
+        const char *text;
+        bool constant;
+    } list[] = {{"tanh(300*(" ENERGY "+1))", false},          {"exp(-1000*(" ENERGY "+1))", false},
+                {"sin(phi)^2+cos(phi)^2", true},              {"(sqrt(3+2*sqrt(2))-1-sqrt(2))*omega", true},
+                {"1e-100*(" ENERGY ")", false}};
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        nh_verification *v = current(list[i].text, NH_CHART_AUTO);
+        cr_expect(v->conserved, "%s", list[i].text);
+        cr_expect_eq(v->trivial, list[i].constant, "%s", list[i].text);
+        nh_verification_free(v);
+    }
+}
+
 Test(verify, true_currents_are_proved_for_all_parameters_in_both_charts)
 {
     static const char *const list[] = {"-m/2*(x'^2/cos(phi)^2 + a^2*k^2*phi'^2)", PHI2, PHI2B};

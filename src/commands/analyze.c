@@ -14,6 +14,7 @@
 #include "search/coefficients.h"
 #include "search/currents.h"
 #include "search/defaults.h"
+#include "commands/analyze_known.h"
 #include "commands/analyze_models.h"
 #include "commands/figures.h"
 #include "search/constraint_integrals.h"
@@ -371,6 +372,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     conclude(r);
     nh_integrals_of_constraints(r);
     nh_branch_compare(r);
+    if (!nh_interrupted()) nh_analyze_known(r);
     nh_progress("a motion to check it", -1);
     if (!nh_interrupted()) validate(r, q);
     if (!nh_interrupted() && q->equations) write_out(r);

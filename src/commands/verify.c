@@ -4,9 +4,11 @@
 #include <math.h>
 
 #include "base/progress.h"
+#include "graph/declared.h"
 #include "graph/diff.h"
 #include "graph/terms.h"
 #include "exact/normal.h"
+#include "integrals/exact_points.h"
 #include "integrals/independence.h"
 #include "search/branch.h"
 #include "search/theory.h"
@@ -85,8 +87,7 @@ nh_points *nh_verification_points(nh_model *model, const nh_options *options, nh
 }
 
 /* A value that is no more than rounding of what cancels within the terms is taken relative to that. */
-bool nh_verification_worst_point(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term,
-                                 double *residual)
+static bool worst_point(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term, double *residual)
 {
     size_t count = points->count, worst = count;
     double *value = nh_alloc_array((n + 1) * count + 1, sizeof *value), most = 0, rate = 0;
@@ -116,25 +117,67 @@ bool nh_verification_worst_point(nh_verification *v, const nh_points *points, si
     return true;
 }
 
-bool nh_verification_accepts(const nh_proof *proof, double residual, const nh_options *options)
+static bool accepts(const nh_proof *proof, double residual, const nh_options *options)
 {
     enum { double_digits = 12 };
     double enough = proof->rounded && options->digits > double_digits ? double_digits : options->digits;
     return proof->proved || (proof->digits >= enough && residual <= options->heldout);
 }
 
+/* Is the sum of exact terms certainly not zero at a point, with as many digits as that takes?  Sets v->counterexample
+ * and v->rate. */
+static bool excludes_zero(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term)
+{
+    enum { least_bits = 256, most_bits = 1 << 14, tried = 3 };
+    const nh_model *o = v->model;
+    nh_ex sum = nh_int(o->dag, 0);
+    for (size_t j = 0; j < n; j++) sum = nh_add(o->dag, sum, term[j]);
+    sum = nh_model_values(o, sum);
+    if (!nh_is_exact(o->dag, sum) || nh_declared_unspecified(o->dag)) return false;
+    double *z = nh_arena_alloc(v->arena, o->width * sizeof *z), radius;
+    bool excluded = false;
+    for (long bits = least_bits; bits <= most_bits && !excluded && !nh_interrupted(); bits *= 4) {
+        nh_ball *ball = nh_ball_create(o->dag, bits);
+        nh_exact_parameters(o, ball);
+        for (size_t p = 0; p < points->count && p < tried && !excluded; p++) {
+            for (size_t j = 0; j < o->width; j++) z[j] = points->column[j][p];
+            excluded = nh_exact_at(o, ball, z) && nh_ball_excludes_zero(ball, sum);
+        }
+        if (excluded && !nh_ball_value(ball, sum, &v->rate, &radius)) v->rate = NAN;
+        nh_ball_free(ball);
+    }
+    if (excluded) v->counterexample = z;
+    return excluded;
+}
+
+bool nh_verification_vanishes(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term,
+                              const nh_proof *proof, const nh_options *options)
+{
+    double residual;
+    bool found = worst_point(v, points, n, term, &residual), vanishes = accepts(proof, residual, options);
+    v->residual = fmax(v->residual, residual);
+    bool asked = vanishes ? !proof->proved : !found; /* doubles cannot tell */
+    if (asked && excludes_zero(v, points, n, term)) found = true, vanishes = false;
+    v->has_counterexample = found && !vanishes;
+    return vanishes;
+}
+
 /* Is it constant on the submanifold?  All derivatives vanish there, by normal form; or wherever it is smooth, however
  * it is written. */
-static bool is_constant(const nh_model *o, const nh_points *generic, nh_ex phi, const nh_options *options)
+static bool is_constant(const nh_verification *v, const nh_points *generic, const nh_options *options)
 {
+    const nh_model *o = v->model;
     nh_independence kind;
+    nh_ex phi = v->current, slope = 0;
     bool proved = true;
-    for (size_t j = 0; j < 1 + o->m + o->n && proved; j++)
-        proved = nh_normal_is_zero(o->dag, nh_diff(o->dag, phi, o->chart->symbol[j]), (size_t)options->proof_terms) ==
-                 NH_ZERO;
+    for (size_t j = 0; j < 1 + o->m + o->n && proved; j++) {
+        slope = nh_diff(o->dag, phi, o->chart->symbol[j]);
+        proved = nh_normal_is_zero(o->dag, slope, (size_t)options->proof_terms) == NH_ZERO;
+    }
     if (proved) return true;
+    nh_verification own = *v; /* v keeps its counterexample */
     nh_independence_test(o, generic, 1, &phi, NULL, options->sure, options->doubt, &kind, NULL);
-    return kind == NH_CONSTANT;
+    return kind == NH_CONSTANT && !excludes_zero(&own, generic, 1, &slope);
 }
 
 bool nh_verification_describe(nh_verification *v, const nh_options *options, nh_error *error)
@@ -143,7 +186,7 @@ bool nh_verification_describe(nh_verification *v, const nh_options *options, nh_
     if (!generic) return false;
     nh_error ignored;
     nh_error_clear(&ignored);
-    v->trivial = is_constant(v->model, generic, v->current, options);
+    v->trivial = is_constant(v, generic, options);
     v->has_symmetry = nh_symmetry_of(v->model, generic, v->current, options->same, &v->symmetry, &ignored);
     nh_points_free(generic);
     return true;
@@ -173,7 +216,7 @@ static bool is_real_somewhere(const nh_verification *v, const nh_points *points,
     return nh_error_hint(error, "is a sign below a root right?  Where it is real elsewhere, give such a `domain`");
 }
 
-static bool examine(nh_verification *v, const nh_options *options, nh_error *error)
+bool nh_verification_decide(nh_verification *v, const nh_options *options, nh_error *error)
 {
     nh_points *points = nh_verification_points(v->model, options, error);
     if (!points || !is_real_somewhere(v, points, error)) {
@@ -184,12 +227,10 @@ static bool examine(nh_verification *v, const nh_options *options, nh_error *err
     nh_ex *term = nh_arena_alloc(v->arena, n * sizeof *term);
     nh_rate_terms(v->model, v->current, term);
     v->proof = nh_prove_current(v->model, v->current, true, options);
-    bool found = nh_verification_worst_point(v, points, n, term, &v->residual);
-    v->conserved = nh_verification_accepts(&v->proof, v->residual, options);
-    v->has_counterexample = found && !v->conserved;
+    v->conserved = nh_verification_vanishes(v, points, n, term, &v->proof, options);
     if (v->conserved) delimit(v, options);
     nh_points_free(points);
-    return !v->conserved || nh_verification_describe(v, options, error);
+    return true;
 }
 
 nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *text,
@@ -202,7 +243,8 @@ nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice c
                 nh_analysis_file_to_chart(v->model, e, &v->current, error);
     if (good) {
         v->current = nh_simplify(v->model->dag, v->current);
-        good = examine(v, options, error);
+        good = nh_verification_decide(v, options, error) &&
+               (!v->conserved || nh_verification_describe(v, options, error));
         if (good) ask_other_branch(v, e, options);
     }
     return nh_verification_complete(v, good, error);

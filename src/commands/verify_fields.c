@@ -160,12 +160,8 @@ static bool check_field(nh_verification *v, const given *g, const nh_options *op
     for (size_t k = 0; k < total && v->conserved; k++) {
         size_t n = condition(v, g, k, term);
         nh_proof proof = nh_prove_zero(o, n, term, true, options);
-        double residual;
-        bool found = nh_verification_worst_point(v, points, n, term, &residual);
-        v->residual = fmax(v->residual, residual);
-        v->conserved = nh_verification_accepts(&proof, residual, options);
+        v->conserved = nh_verification_vanishes(v, points, n, term, &proof, options);
         v->outside |= !v->conserved && k < o->k;
-        v->has_counterexample = found && !v->conserved;
         v->proof = nh_proof_both(o, v->proof, proof);
     }
     nh_points_free(points);
@@ -282,13 +278,9 @@ nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice c
     v->proof = (nh_proof){.proved = true, .all_parameters = true, .digits = INFINITY};
     for (size_t k = 0; k < o->m + o->n && good && v->conserved; k++) {
         nh_ex term[3];
-        double residual;
         motion_condition(v, &g, k, term);
         nh_proof proof = nh_prove_zero(o, 3, term, true, options);
-        bool found = nh_verification_worst_point(v, points, 3, term, &residual);
-        v->residual = fmax(v->residual, residual);
-        v->conserved = nh_verification_accepts(&proof, residual, options);
-        v->has_counterexample = found && !v->conserved;
+        v->conserved = nh_verification_vanishes(v, points, 3, term, &proof, options);
         v->proof = nh_proof_both(o, v->proof, proof);
     }
     nh_points_free(points);

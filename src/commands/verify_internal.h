@@ -14,13 +14,14 @@ nh_verification *nh_verification_complete(nh_verification *v, bool good, nh_erro
 /* The points at which expressions that should vanish are evaluated. */
 nh_points *nh_verification_points(nh_model *model, const nh_options *options, nh_error *error);
 
-/* Finds the point where |e| / sum of |terms| is largest, e the sum of the n terms: *residual, v->counterexample and
- * v->rate.  False: it vanishes at all of them. */
-bool nh_verification_worst_point(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term,
-                                 double *residual);
+/* Does the sum e of the n terms vanish, by this proof, or to all digits that a proof needs?  Otherwise the point where
+ * |e| / sum of |terms| is largest becomes v->counterexample, with v->rate.  v->residual: the largest such ratio. */
+bool nh_verification_vanishes(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term,
+                              const nh_proof *proof, const nh_options *options);
 
-/* Is it zero by this proof and this residual? */
-bool nh_verification_accepts(const nh_proof *proof, double residual, const nh_options *options);
+/* Is v->current conserved?  `conserved`, `region`, `proof` or the counterexample.  False: it is real nowhere, or the
+ * domain has too few points. */
+bool nh_verification_decide(nh_verification *v, const nh_options *options, nh_error *error);
 
 /* The symmetry of a conserved quantity, and whether it is trivial. */
 bool nh_verification_describe(nh_verification *v, const nh_options *options, nh_error *error);

@@ -457,6 +457,7 @@ char *nh_analysis_json(const nh_analysis *r)
     for (size_t k = 0; k < r->count; k++) put_current(&w, currents, &r->found[k]);
     put_others(&w, root);
     put_almost(&w, root);
+    nh_analysis_json_stated(r, root);
     nh_json_put_number(root, "independent_currents", (double)r->independent);
     nh_json_put_number(root, "local_maximum", (double)r->local_maximum);
     nh_analysis_json_validation(r, root);

@@ -71,6 +71,35 @@ void nh_analysis_json_validation(const nh_analysis *r, nh_json *to)
     }
 }
 
+void nh_analysis_json_stated(const nh_analysis *r, nh_json *to)
+{
+    nh_json *list = nh_json_put_array(to, "stated");
+    for (size_t i = 0; i < r->stateds; i++) {
+        const nh_stated *s = &r->stated[i];
+        bool holds = s->verdict != NH_STATED_FALSE && s->verdict != NH_STATED_OPEN;
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_text(item, "name", s->name);
+        nh_json_put_text(item, "expression", s->text);
+        nh_json_put_text(item, "as", s->denied ? "not conserved" : "current");
+        nh_json_put_text(item, "verdict", nh_analysis_stated_word(s->verdict));
+        nh_json_put_bool(item, "proved", s->proved);
+        if (holds) nh_json_put_number(item, "digits", floor(s->digits));
+        else nh_json_put_null(item, "digits");
+        nh_json_put_text(item, "relation", s->relation);
+        nh_json_put_text(item, "region", s->region);
+        nh_json_put_text(item, "obstacle", s->obstacle);
+        if (!s->state) {
+            nh_json_put_null(item, "state");
+            nh_json_put_null(item, "rate");
+            continue;
+        }
+        nh_json *state = nh_json_put_object(item, "state");
+        for (size_t j = 0; j < r->model->width; j++)
+            nh_json_put_number(state, nh_name_of(r->model->dag, r->model->chart->symbol[j]), s->state[j]);
+        nh_json_put_number(item, "rate", s->rate);
+    }
+}
+
 void nh_analysis_json_figures(const nh_analysis *r, nh_json *to)
 {
     static const char *const kinds[] = {"path", "plot", "scan", "samples"};

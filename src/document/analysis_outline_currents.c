@@ -365,6 +365,25 @@ static void almost(nh_pen *p, const nh_analysis *r)
     }
 }
 
+/* What is true of the statements of the system file. */
+static void stated(nh_pen *p, const nh_analysis *r)
+{
+    if (!r->stateds) return;
+    nh_pen_heading(p, "What the system file states");
+    nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+    for (size_t i = 0; i < r->stateds; i++) {
+        const nh_stated *s = &r->stated[i];
+        bool missed = s->verdict == NH_STATED_MISSED;
+        const char *why = s->relation ? s->relation : s->region ? s->region : s->obstacle;
+        if (s->verdict == NH_STATED_FOUND && !why) why = "a function of those found";
+        if (missed) why = s->out_of_reach ? s->out_of_reach : "it is no function of those found";
+        if (s->state) why = nh_arena_printf(r->arena, "its rate is %.6g at a state", s->rate);
+        nh_pen_fact(p, s->name, "%s%s%s%s%s", missed ? "conserved, but " : "", nh_analysis_stated_word(s->verdict),
+                    s->denied && s->verdict == NH_STATED_FALSE ? ", as stated" : "", why ? "; " : "", why ? why : "");
+    }
+    nh_pen_close(p, NH_PEN_FACTS);
+}
+
 void nh_analysis_write_currents(nh_pen *p, const nh_analysis *r)
 {
     const nh_analysis_file *a = r->analysis;
@@ -382,4 +401,5 @@ void nh_analysis_write_currents(nh_pen *p, const nh_analysis *r)
     furthers(p, r);
     pieces(p, r);
     almost(p, r);
+    stated(p, r);
 }

@@ -41,7 +41,8 @@ static void counterexample(nh_pen *p, const nh_verification *v)
             nh_pen_say(p, " (%s in Čech and Musilová, 2014)", nh_arena_printf(v->arena, "%zu", v->equation_number));
         nh_pen_say(p, ". Its left side is %.6g", v->rate);
     } else {
-        nh_pen_say(p, "The rate of change along the motion is %.6g, not 0,", v->rate);
+        nh_pen_say(p, "The rate of change along the motion is %s, not 0,",
+                   v->rate == 0 ? "too small for a double" : nh_arena_printf(v->arena, "%.6g", v->rate));
     }
     nh_pen_say(p, " in the state ");
     for (size_t j = 0; j < v->model->width; j++)

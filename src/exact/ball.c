@@ -344,6 +344,15 @@ bool nh_ball_value(nh_ball *ball, nh_ex e, double *mid, double *radius)
     return fine;
 }
 
+bool nh_ball_excludes_zero(nh_ball *ball, nh_ex e)
+{
+    arb_t v;
+    arb_init(v);
+    bool excluded = eval(ball, e, v) && arb_is_finite(v) && !arb_contains_zero(v);
+    arb_clear(v);
+    return excluded;
+}
+
 /* log10 of a magnitude of any size: 2^(exponent-1) <= |x| < 2^exponent */
 static double log10_of(const arf_t x)
 {

@@ -32,6 +32,9 @@ bool nh_ball_value(nh_ball *ball, nh_ex e, double *mid, double *radius);
  * exact zero.  False as above. */
 bool nh_ball_log10_bound(nh_ball *ball, nh_ex e, double *log10_bound);
 
+/* Is the value certainly not 0?  False as above, too. */
+bool nh_ball_excludes_zero(nh_ball *ball, nh_ex e);
+
 /* log10( |sum_i term[i]| / max_i |term[i]| ), both bounded rigorously: minus the number of digits to which the sum
  * vanishes.  False as above, or when every term is zero. */
 bool nh_ball_relative_sum(nh_ball *ball, size_t n, const nh_ex *term, double *log10_ratio);

@@ -20,6 +20,13 @@ static void put(nh_walls *w, nh_ex e, bool edge)
     w->edge[w->count++] = edge;
 }
 
+static void put_part(nh_walls *w, nh_ex e)
+{
+    for (size_t i = 0; i < w->parts; i++)
+        if (w->part[i] == e) return;
+    if (w->parts < NH_MOST_WALL_PARTS) w->part[w->parts++] = e;
+}
+
 static bool is_even(const nh_dag *d, nh_ex exponent)
 {
     nh_num x = nh_kind_of(d, exponent) == NH_NUMBER ? nh_number_of(d, exponent) : nh_num_int(1);
@@ -102,7 +109,8 @@ static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
     nh_function f = nh_function_of(d, e);
     w->cutting = f == NH_ATAN2 || f == NH_ATAN || f == NH_ASIN || f == NH_ACOS;
     switch (f) {
-    case NH_ABS: case NH_SIGN: case NH_ATAN2: put_factors(w, d, v, false, 0); break;
+    case NH_ATAN2: put_part(w, last); put_factors(w, d, v, false, 0); break;
+    case NH_ABS: case NH_SIGN: put_factors(w, d, v, false, 0); break;
     case NH_ATAN: put_poles(w, d, v, 0); break;
     case NH_ASIN: case NH_ACOS: put_factors(w, d, nh_sub(d, one, nh_powi(d, v, 2)), false, 0); break;
     case NH_ACOSH: put_factors(w, d, nh_sub(d, v, one), false, 0); break;
@@ -137,6 +145,24 @@ void nh_walls_add(nh_walls *w, nh_dag *d, nh_ex top)
             wanted[x] = true;
             bool whole = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 1;
             if (!whole) put_factors(w, d, nh_child(d, e, i), true, 0);
+        }
+    }
+    nh_free(wanted);
+}
+
+void nh_walls_add_poles(nh_walls *w, nh_dag *d, nh_ex top)
+{
+    bool *wanted = nh_alloc_array((size_t)top + 1, sizeof *wanted);
+    wanted[top] = true;
+    for (size_t k = (size_t)top + 1; k-- > 0;) {
+        nh_ex e = (nh_ex)k;
+        nh_kind kind = nh_kind_of(d, e);
+        if (!wanted[k] || kind == NH_NUMBER || kind == NH_SYMBOL) continue;
+        bool is_log = kind == NH_FUNCTION && nh_function_of(d, e) == NH_LOG;
+        if (is_log) put_factors(w, d, nh_child(d, e, 0), false, 0);
+        for (size_t i = 0; i < nh_arity(d, e); i++) {
+            wanted[nh_child(d, e, i)] = true;
+            if (kind == NH_PRODUCT) put_pole(w, d, nh_child(d, e, i), nh_exponent_of(d, e, i), false, 0);
         }
     }
     nh_free(wanted);

@@ -16,7 +16,7 @@
 
 #include "graph/dag.h"
 
-enum { NH_MOST_WALLS = 24 };
+enum { NH_MOST_WALLS = 40, NH_MOST_WALL_PARTS = 16 };
 
 typedef struct {
     size_t count;
@@ -24,11 +24,17 @@ typedef struct {
     bool edge[NH_MOST_WALLS];   /* the base of a root, and no square: where it changes its sign the root ends */
     /* wall of atan2, atan, asin or acos alone: on the other side another branch continues the function */
     bool cut[NH_MOST_WALLS];
+    /* functions by whose signs a wall has different parts, as x for the cut y = 0 of atan2(y, x) */
+    size_t parts;
+    nh_ex part[NH_MOST_WALL_PARTS];
     bool cutting;               /* the walls that are added now are cuts */
 } nh_walls;
 
 /* Adds the walls of e; those beyond the room are left out. */
 void nh_walls_add(nh_walls *walls, nh_dag *dag, nh_ex e);
+
+/* Adds the factors of the bases of negative powers, and of the arguments of logarithms: there e may be infinite. */
+void nh_walls_add_poles(nh_walls *walls, nh_dag *dag, nh_ex e);
 
 /* The walls of n expressions that can be crossed when the symbols `in` change: no ends of roots, no constants.  Writes
  * them into wall (room for NH_MOST_WALLS) and returns their number. */

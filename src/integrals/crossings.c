@@ -2,15 +2,19 @@
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "graph/diff.h"
 #include "integrals/exact_points.h"
+#include "integrals/open_way.h"
 #include "integrals/projected_points.h"
 #include "system/sample.h"
 
-enum { lines = 16, wanted = 6, steps_out = 31, grid = 2 * steps_out + 1, most_steps = 200, bits = 192 };
+enum { lines = 48, motions = 12, motion_steps = 240,
+       wanted = 2, most_wanted = 32, /* of one part of a wall; of a wall */
+       steps_out = 31, grid = 2 * steps_out + 1, most_steps = 200, bits = 192 };
 /* in half widths of the box: the lines reach 0.08 * 1.25^30 = 65 of them */
 static const double first_step = 0.08, ratio = 1.25, digits = 4e-16;
 static const double depth[NH_CROSSING_DEPTHS] = {1.0 / (1 << 12), 1.0 / (1 << 24), 1.0 / (1LL << 36)};
@@ -21,15 +25,18 @@ typedef struct {
     const nh_model *o;
     const nh_walls *walls;
     size_t explicit_width, found[NH_MOST_WALLS];
-    nh_tape *tape;      /* per wall: g, then its derivatives by (t, q, w) */
+    uint64_t key[NH_MOST_WALLS][most_wanted]; /* of the crossings found: which part of the wall */
+    nh_tape *tape;      /* per wall: g, then its derivatives by (t, q, w); then what divides walls into parts */
     nh_tape_work *work;
     nh_ball *ball;
     nh_ex *rate;        /* Gamma: 1, rho, a */
     nh_tape *rates;     /* the same */
     nh_tape_work *rates_work;
-    double *origin, *direction, *z, *out, *half, *passing;
+    double *origin, *direction, *z, *out, *half, *middle, *passing;
     nh_projector *projector; /* NULL: lines in the chart */
     double *position;          /* t, q, v */
+    nh_open_way *way;
+    double *begin;             /* a state of the box; NULL: the line is a part of a motion that began there */
     nh_arena *arena;
     nh_crossings list;
 } finder;
@@ -183,9 +190,33 @@ static bool is_clearly_unreached(finder *x, size_t i, double s)
     return unreached;
 }
 
+/* Which part of wall i is it: the signs of the other walls and of what divides walls, and how far from the box. */
+static uint64_t part_of(finder *x, size_t i, double s)
+{
+    size_t n = x->walls->count, step = 1 + x->explicit_width;
+    uint64_t key = 0;
+    double away = 0;
+    if (!point_at(x, s, false)) return 0;
+    nh_tape_eval(x->tape, x->work, x->z, x->out);
+    for (size_t j = 0; j < n; j++) key |= (uint64_t)(j != i && x->out[j * step] > 0) << j;
+    for (size_t j = 0; j < x->walls->parts; j++) key |= (uint64_t)(x->out[n * step + j] > 0) << (n + j);
+    for (size_t j = 0; j < x->explicit_width; j++)
+        away = fmax(away, fabs(x->z[j] - x->middle[j]) / fmax(x->half[j], DBL_MIN));
+    return key | (uint64_t)(away > 2 ? 1 + (away > 8) : 0) << (NH_MOST_WALLS + NH_MOST_WALL_PARTS);
+}
+
+/* Are more crossings of this part of the wall wanted?  Of each as many as of the others. */
+static bool is_wanted(const finder *x, size_t i, uint64_t key)
+{
+    size_t same = 0;
+    for (size_t k = 0; k < x->found[i]; k++) same += x->key[i][k] == key;
+    return same < wanted && x->found[i] < most_wanted;
+}
+
 static void keep(finder *x, size_t i, double s, bool touches)
 {
-    if (is_clearly_unreached(x, i, s)) return;
+    uint64_t key = part_of(x, i, s);
+    if (!is_wanted(x, i, key) || is_clearly_unreached(x, i, s)) return;
     double f[NH_MOST_WALLS], slope[NH_MOST_WALLS];
     nh_crossing c = {.wall = x->walls->e[i], .touches = touches};
     for (int side = 0; side < 2; side++)
@@ -199,9 +230,9 @@ static void keep(finder *x, size_t i, double s, bool touches)
     for (int side = 0; side < 2; side++)
         for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++)
             if (!c.point[side][k]) return; /* nearer to the supposed change the function has one sign */
-    if (!is_reached(x, &c)) return;
+    if (!is_reached(x, &c) || (x->begin && !nh_open_way_leads(x->way, x->begin, c.point[0][0]))) return;
     x->list.item[x->list.count++] = c;
-    x->found[i]++;
+    x->key[i][x->found[i]++] = key;
 }
 
 /* ---- along one line ---- */
@@ -209,7 +240,7 @@ static void keep(finder *x, size_t i, double s, bool touches)
 static void look_between(finder *x, size_t i, const double *s, const double *f, const double *slope)
 {
     double where, value[NH_MOST_WALLS], ignored[NH_MOST_WALLS];
-    if (x->found[i] == wanted || !isfinite(f[0]) || !isfinite(f[1])) return;
+    if (x->found[i] == most_wanted || !isfinite(f[0]) || !isfinite(f[1])) return;
     if (f[0] * f[1] < 0) {
         if (find_change(&(quantity){x, i, false, false}, s[0], s[1], &where)) keep(x, i, where, false);
     } else if (slope[0] * slope[1] < 0 && find_change(&(quantity){x, i, true, false}, s[0], s[1], &where) &&
@@ -225,13 +256,14 @@ static double grid_point(size_t k)
         : -first_step * pow(ratio, (double)(steps_out - 1 - k));
 }
 
-static void follow(finder *x)
+/* Looks for crossings at the places s of the line, in ascending order. */
+static void follow(finder *x, size_t count, const double *place)
 {
     size_t n = x->walls->count;
     double f[2][NH_MOST_WALLS], slope[2][NH_MOST_WALLS], s[2] = {0, 0};
     bool before = false;
-    for (size_t k = 0; k < grid; k++) {
-        s[1] = grid_point(k);
+    for (size_t k = 0; k < count; k++) {
+        s[1] = place[k];
         bool here = at(x, s[1], f[1], slope[1]);
         for (size_t i = 0; i < n && here && before; i++)
             look_between(x, i, s, (double[]){f[0][i], f[1][i]}, (double[]){slope[0][i], slope[1][i]});
@@ -242,15 +274,66 @@ static void follow(finder *x)
     }
 }
 
+static void follow_line(finder *x)
+{
+    double place[grid];
+    for (size_t k = 0; k < grid; k++) place[k] = grid_point(k);
+    follow(x, grid, place);
+}
+
+/* ---- along a motion ---- */
+
+/* The rates at x->origin, into x->passing; the time in which no state changes by more than a part of its way so far,
+ * or of the box. */
+static double time_of_step(finder *x, const double *begin)
+{
+    static const double part = 0.15;
+    double time = INFINITY;
+    if (!point_at(x, 0, false)) return NAN;
+    nh_tape_eval(x->rates, x->rates_work, x->z, x->passing);
+    for (size_t j = 0; j < x->explicit_width; j++) {
+        double way = fmax(x->half[j], fabs(x->origin[j] - begin[j]));
+        if (!isfinite(x->passing[j])) return NAN;
+        if (x->passing[j] != 0) time = fmin(time, part * way / fabs(x->passing[j]));
+    }
+    return time;
+}
+
+/* By the midpoint rule, which is enough to see where motions go.  Every step is a short line. */
+static void follow_motion(finder *x, double way)
+{
+    size_t n = x->explicit_width;
+    double *begin = nh_alloc_array(2 * n, sizeof *begin), *here = begin + n;
+    memcpy(begin, x->origin, n * sizeof *begin);
+    for (int k = 0; k < motion_steps; k++) {
+        memset(x->direction, 0, x->o->width * sizeof *x->direction);
+        double time = way * time_of_step(x, begin);
+        if (!isfinite(time)) break;
+        memcpy(here, x->origin, n * sizeof *here);
+        for (size_t j = 0; j < n; j++) x->origin[j] += time / 2 * x->passing[j];
+        if (!point_at(x, 0, false)) break;
+        nh_tape_eval(x->rates, x->rates_work, x->z, x->passing);
+        for (size_t j = 0; j < n; j++) x->direction[j] = time * x->passing[j];
+        memcpy(x->origin, here, n * sizeof *here);
+        follow(x, 2, (double[]){0, 1});
+        bool finite = true;
+        for (size_t j = 0; j < n; j++) finite &= isfinite(x->origin[j] += x->direction[j]);
+        if (!finite) break;
+        for (size_t j = n; j < x->o->width; j++) x->origin[j] = x->z[j]; /* where implicit velocities are sought */
+    }
+    nh_free(begin);
+}
+
 static void create(finder *x)
 {
     const nh_model *o = x->o;
     size_t width = x->explicit_width, n = x->walls->count, k = 0;
-    nh_ex *e = nh_alloc_array(n * (1 + width) + 1, sizeof *e);
+    nh_ex *e = nh_alloc_array(n * (1 + width) + x->walls->parts + 1, sizeof *e);
     for (size_t i = 0; i < n; i++) {
         e[k++] = x->walls->e[i];
         for (size_t j = 0; j < width; j++) e[k++] = nh_diff(o->dag, x->walls->e[i], o->chart->symbol[j]);
     }
+    for (size_t i = 0; i < x->walls->parts; i++) e[k++] = x->walls->part[i];
     x->tape = nh_model_tape(o, k, e);
     x->work = nh_tape_work_create(x->tape);
     x->out = nh_alloc_array(k + 1, sizeof *x->out);
@@ -265,12 +348,14 @@ static void create(finder *x)
     x->ball = nh_ball_create(o->dag, bits);
     nh_exact_parameters(o, x->ball);
     size_t room = o->width > 1 + 2 * o->m ? o->width : 1 + 2 * o->m;
-    x->z = nh_alloc_array(5 * room, sizeof *x->z);
+    x->z = nh_alloc_array(6 * room, sizeof *x->z);
     x->origin = x->z + room;
     x->direction = x->origin + room;
     x->half = x->direction + room;
     x->position = x->half + room;
+    x->middle = x->position + room;
     for (size_t j = 0; j < width; j++) x->half[j] = (o->chart->high[j] - o->chart->low[j]) / 2;
+    for (size_t j = 0; j < width; j++) x->middle[j] = (o->chart->high[j] + o->chart->low[j]) / 2;
 }
 
 static void clear(finder *x)
@@ -286,14 +371,19 @@ static void clear(finder *x)
     nh_tape_free(x->tape);
 }
 
-/* A line through the chart's box. */
-static void draw_in_chart(finder *x, uint64_t *state)
+/* A line through the chart's box.  `wide`: through a place far from it, by the distance of the box from zero. */
+static void draw_in_chart(finder *x, bool wide, uint64_t *state)
 {
+    static const double farthest = 32;
     const nh_chart *c = x->o->chart;
+    double far = wide ? pow(farthest, nh_random(state)) : 0;
     for (size_t j = 0; j < x->o->width; j++) {
         bool free = j < x->explicit_width;
         x->origin[j] = c->low[j] + (c->high[j] - c->low[j]) * nh_random(state);
-        x->direction[j] = free ? x->half[j] * (2 * nh_random(state) - 1) : 0;
+        if (x->begin) x->begin[j] = x->origin[j];
+        double scale = free ? wide ? far * fmax(x->half[j], fabs(x->middle[j])) : x->half[j] : 0;
+        if (wide) x->origin[j] += scale * (2 * nh_random(state) - 1);
+        x->direction[j] = scale * (2 * nh_random(state) - 1);
         x->z[j] = x->origin[j];
     }
 }
@@ -317,18 +407,26 @@ nh_crossings nh_crossings_find(const nh_model *o, const nh_walls *walls, uint64_
     if (walls->count == 0) return x.list;
     gsl_set_error_handler_off();
     create(&x);
-    x.list.item = nh_arena_alloc(arena, 2 * walls->count * wanted * sizeof *x.list.item);
+    x.way = nh_open_way_create(o);
+    x.list.item = nh_arena_alloc(arena, 2 * walls->count * most_wanted * sizeof *x.list.item);
+    for (size_t motion = 0; motion < 2 * motions; motion++) {
+        draw_in_chart(&x, false, state);
+        follow_motion(&x, motion % 2 ? 1 : -1);
+    }
+    x.begin = nh_arena_alloc(arena, o->width * sizeof *x.begin);
     for (size_t line = 0; line < lines; line++) {
-        draw_in_chart(&x, state);
-        follow(&x);
+        draw_in_chart(&x, line % 2, state);
+        follow_line(&x);
     }
     x.projector = nh_projector_create(o, x.ball);
     memset(x.found, 0, sizeof x.found);
     for (size_t line = 0; line < lines && x.projector; line++) {
+        draw_in_chart(&x, false, state);
         draw_in_velocities(&x, state);
-        follow(&x);
+        follow_line(&x);
     }
     nh_projector_free(x.projector);
+    nh_open_way_free(x.way);
     clear(&x);
     return x.list;
 }

@@ -139,8 +139,8 @@ typedef struct {
     nh_ex fails[NH_MOST_WALLS]; /* the walls at which it failed on both sides */
 } judge;
 
-/* Does Phi jump: is the difference of its values on the two sides neither falling towards the wall nor rounding, while
- * Phi stays finite? */
+/* Does Phi jump: is the difference of its values on the two sides the same nearer to the wall, and no rounding, while
+ * Phi stays finite?  It grows where the digits of the points are too few, as those of y'/x' at x' = y' = 0. */
 static bool jumps(judge *j, const nh_crossing *c)
 {
     static const double rounding = 1e-8, growth = 1.3;
@@ -155,7 +155,7 @@ static bool jumps(judge *j, const nh_crossing *c)
     double near = fabs(value[1][2] - value[0][2]), far = fabs(value[1][1] - value[0][1]);
     for (int side = 0; side < 2; side++)
         if (fabs(value[side][2]) > growth * fabs(value[side][1]) + rounding * size) return false; /* a pole */
-    return near > far / 2 && near > rounding * size;
+    return near > far / 2 && near < 2 * growth * far && near > rounding * size;
 }
 
 /* Does Gamma(Phi) vanish on this side?  1, 0, or -1 where it cannot be evaluated. */

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "motion/sign_changes.h"
 
-enum { most_iterations = 100, refinements = 6 };
+enum { most_iterations = 100 };
 static const double roundings = 4;   /* length of the final interval around a zero, in roundings of the time */
 /* distances from a zero at which a function must be much larger: in final intervals, */
 static const double far_off = 1e3;
@@ -23,10 +23,10 @@ struct nh_event_search {
     const nh_event_watch *watch;
     nh_inside_step *inside;
     nh_sign_changes change;
-    double *raw;   /* values and sizes, 2 count */
+    double *raw;   /* values and sizes at one more time, 2 count */
     bool *pending; /* per function: it was zero at the beginning of the whole motion, and has had no sign since */
     double before, now; /* ends of the last step */
-    double *first, *at; /* the initial state of the motion; values */
+    double *first, *at; /* the initial state of the motion; values and floors */
     size_t which;       /* the function whose zero is wanted */
     double jumped, lost,
         unknown; /* times of a jump, of a function that changes too often, and of one without values; or NAN */
@@ -34,14 +34,14 @@ struct nh_event_search {
 
 /* ---- values ---- */
 
-/* The values; 0 where they are below what the tolerance allows. */
-static bool signed_value(double t, const double *z, double *value, void *context)
+/* The values, and what the tolerance allows them to be off. */
+static bool values_and_floors(double t, const double *z, double *value, void *context)
 {
     nh_event_search *c = context;
     size_t n = c->watch->count;
-    if (!c->watch->value(t, z, c->raw, c->watch->context)) return false;
+    if (!c->watch->value(t, z, value, c->watch->context)) return false;
     for (size_t i = 0; i < n; i++) {
-        value[i] = fabs(c->raw[i]) <= c->watch->tolerance * c->raw[n + i] ? 0 : c->raw[i];
+        value[n + i] *= c->watch->tolerance;
         if (isnan(value[i]) && isnan(c->unknown)) c->unknown = t;
     }
     return true;
@@ -167,9 +167,9 @@ static bool take_zeros(nh_event_search *c, double near, double far, nh_motion *m
     double *at = c->at, root;
     if (!nh_sign_changes_at(s, far, at)) return false;
     for (size_t i = 0; i < s->count; i++) {
-        if (!(at[i] * s->side[i] < 0)) continue;
-        int direction = (at[i] > 0 ? 1 : -1) * way;
-        s->side[i] = -s->side[i];
+        int sign = nh_sign_changes_sign(s, at, i), direction = sign * way;
+        if (!(sign * s->side[i] < 0)) continue;
+        s->side[i] = sign;
         c->which = i;
         if (!solve(c, near, far, &root)) {
             c->jumped = root;
@@ -216,6 +216,11 @@ void nh_event_search_end(const nh_event_search *c, nh_motion *motion)
         nh_motion_note(motion,
                        "an expression changes too fast near t = %.10g: events may be missing; use a smaller tolerance",
                        c->lost);
+    if (!isnan(c->change.doubtful))
+        nh_motion_note(motion,
+                       "an expression comes within the tolerance of 0 near t = %.10g: whether it crosses 0 and returns "
+                       "there is not decided; use a smaller tolerance",
+                       c->change.doubtful);
     if (!isnan(c->unknown))
         nh_motion_note(motion, "an expression has no value near t = %.10g: events may be missing", c->unknown);
 }
@@ -236,14 +241,13 @@ nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_o
                            .unknown = NAN};
     c->change = (nh_sign_changes){.count = n,
                                   .size = size,
-                                  .value = signed_value,
+                                  .value = values_and_floors,
                                   .context = c,
-                                  .closer = refinements,
                                   .inside = nh_inside_step_dense,
                                   .inside_context = inside};
     c->raw = nh_alloc_array(2 * n, sizeof *c->raw);
     c->pending = nh_alloc_array(n, sizeof *c->pending);
-    c->first = nh_alloc_array(size + n, sizeof *c->first);
+    c->first = nh_alloc_array(size + 2 * n, sizeof *c->first);
     c->at = c->first + size;
     memcpy(c->first, motion->end_state, size * sizeof *c->first);
     nh_sign_changes_open(&c->change);

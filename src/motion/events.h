@@ -1,7 +1,8 @@
 /* events: zeros of given functions along a motion, by any integrator.
  *
- * After every step the functions are sampled along it (sign_changes.h), and each zero between two samples of different
- * signs is found by Brent's method (that of GSL) on the states inside the step (inside_step.h).
+ * After every step it is divided into parts on which each function has one zero at most (sign_changes.h), and each zero
+ * between two ends of different signs is found by Brent's method (that of GSL) on the states inside the step
+ * (inside_step.h).
  *
  * A function counts as zero where it is below the tolerance of the watch, relative to its terms: the sign of a smaller
  * value is not known.  A zero at which the function does not change its sign is not found, and a jump from one sign to

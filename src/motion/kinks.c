@@ -17,7 +17,7 @@ void nh_kinks_begin(nh_kinks *k, const nh_flow_problem *p, const double *z, size
 {
     double begin = times[0], end = times[count - 1];
     *k =
-        (nh_kinks){.change = {.count = p->walls, .size = p->size, .value = p->wall, .context = p->context, .closer = 1},
+        (nh_kinks){.change = {.count = p->walls, .size = p->size, .value = p->wall, .context = p->context},
                    .longest = INFINITY,
                    .last = NAN,
                    .span = fabs(end - begin),

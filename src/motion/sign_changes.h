@@ -1,7 +1,10 @@
 /* sign_changes: the first change of sign of functions within a step of a motion.
  *
- * The functions are sampled along the states inside of the step, more densely until its neighbours predict each
- * sample, so that two changes of one function within a step are found, too.  Kinks of the equations of motion
+ * On each part of the step every function is interpolated by Chebyshev polynomials, g = sum_k c_k T_k(x), |x| <= 1.
+ * Where |c_0| > sum_{k>0} |c_k| it has no zero, where |c_1| > sum_{k>1} k^2 |c_k| it is monotonic and has one zero at
+ * most, whose sign change the ends show; otherwise the part is halved.  So every pair of zeros is found, unless the
+ * function stays within its floor, below which it has no sign: then `doubtful` tells the time.  How much the
+ * interpolation is off is estimated by its last coefficients and at two more places.  Kinks of the equations of motion
  * (kinks.h) and events (events.h) are such changes. */
 #ifndef NH_SIGN_CHANGES_H
 #define NH_SIGN_CHANGES_H
@@ -14,12 +17,12 @@ typedef bool nh_inside(double time, double *state, void *context);
 
 typedef struct {
     size_t count, size; /* number of functions; number of entries of a state */
+    /* the values, and after them sizes below which these have no sign (0 where nothing is written) */
     bool (*value)(double t, const double *z, double *value, void *context);
     void *context;
-    /* how often the way to an extremum is shortened: 1 suffices where a parabola through samples shows it */
-    int closer;
     double *side; /* of each function: +1, -1; 0: not known yet */
-    double *sample, *probe, *z; /* values along a step, and at one more time; a state */
+    double *sample, *probe, *z; /* values and floors along a step, and at one more time; a state */
+    double doubtful;            /* a time at which a function touches 0 within its floor; NAN: none so far */
     long samples;               /* number of samples in the last search */
     bool exhausted;             /* the last search took all samples that are allowed, and did not reach the end */
     nh_inside *inside;          /* of the step that is searched */
@@ -30,8 +33,10 @@ typedef struct {
 void nh_sign_changes_open(nh_sign_changes *changes);
 void nh_sign_changes_clear(nh_sign_changes *changes);
 
-/* The values at a time inside of the step, into value; false where they are not finite. */
+/* The values and floors at a time inside of the step, into value (2 count); false where they are not finite. */
 bool nh_sign_changes_at(nh_sign_changes *changes, double t, double *value);
+/* The sign of function i: +1, -1, 0 within its floor. */
+int nh_sign_changes_sign(const nh_sign_changes *changes, const double *value, size_t i);
 /* Has a function with these values changed its sign?  A side that is not known yet becomes the sign of its value. */
 bool nh_sign_changes_crossed(nh_sign_changes *changes, const double *value);
 /* Sets the sides at a state. */

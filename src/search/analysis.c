@@ -40,6 +40,12 @@ nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
     return c;
 }
 
+const char *nh_analysis_stated_word(nh_stated_verdict verdict)
+{
+    static const char *const word[] = {"found", "not found", "constant", "in a region", "not conserved", "undecided"};
+    return word[verdict];
+}
+
 const char *nh_search_word(nh_search search)
 {
     static const char *const words[] = {

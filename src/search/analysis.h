@@ -108,6 +108,30 @@ typedef struct {
     double angle;             /* the largest distance of a null vector from the space */
 } nh_counted_space;
 
+/* What is true of a function that the system file calls a current (`known: currents`), or none (`not_conserved`): a
+ * function of those found; conserved, but none; constant whatever the motion is; conserved in a part of the motions;
+ * not conserved; not decided. */
+typedef enum {
+    NH_STATED_FOUND,
+    NH_STATED_MISSED,
+    NH_STATED_CONSTANT,
+    NH_STATED_REGIONAL,
+    NH_STATED_FALSE,
+    NH_STATED_OPEN
+} nh_stated_verdict;
+
+typedef struct {
+    const char *name, *text;
+    const char *out_of_reach; /* why the search need not find it, or NULL */
+    bool denied;              /* it is one of `not_conserved` */
+    nh_stated_verdict verdict;
+    const char *relation;     /* "[Phi3] = a^2*Phi4", the file's name in brackets; NULL: none was found */
+    const char *region, *obstacle; /* where it holds; why nothing is decided; or NULL */
+    bool proved;
+    double digits;            /* to which the rate cancels, where it is conserved */
+    double *state, rate;      /* where it is not: model->width values (t, q, w, u), or NULL, and the rate there */
+} nh_stated;
+
 /* An option that excluded something, and the value from which on it would not; option: NULL: nothing was excluded. */
 typedef struct {
     const char *option;
@@ -194,6 +218,8 @@ struct nh_analysis {
     nh_further_integral *further;
     size_t relations;         /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
     nh_further_relation *relation;
+    size_t stateds;           /* of the system file, in its order */
+    nh_stated *stated;
     size_t almosts;           /* nearly conserved quantities that the search found: at most NH_MOST_ALMOST */
     nh_near_current *almost;
     const struct nh_explicit_motion *motion; /* as formulas (search/explicit_motion.h); NULL: none is known */
@@ -220,6 +246,8 @@ struct nh_analysis {
 
 /* "complete", "exhausted", "cut". */
 const char *nh_search_word(nh_search search);
+/* "found", "not found", "constant", "in a region", "not conserved", "undecided". */
+const char *nh_analysis_stated_word(nh_stated_verdict verdict);
 /* "--option stage_columns=412": the setting that would include a stage that was too large.  In the arena. */
 const char *nh_limit_words(nh_arena *arena, const nh_limit *limit);
 /* The pieces that are constant along every motion, because motions end where the pieces do. */

@@ -104,37 +104,51 @@ static const char *exact_relation(nh_analysis *r, const monomials *m, const bool
     return text;
 }
 
-static void relate(nh_analysis *r, nh_current *f, const nh_points *points)
+/* The independent ones among the first `count` currents. */
+static size_t independent_ones(nh_analysis *r, size_t count, nh_ex *symbol, nh_ex *phi)
 {
-    nh_ex symbol[most_currents + 1], phi[most_currents + 1];
     size_t n = 0;
-    for (nh_current *g = r->found; g < f && n < most_currents; g++) {
-        if (g->independence != NH_INDEPENDENT) continue;
+    for (nh_current *g = r->found; g < r->found + count && n < most_currents; g++) {
+        if (g->independence != NH_INDEPENDENT || g->series) continue;
         symbol[n] = nh_symbol_fresh(r->model->dag, g->name);
         phi[n++] = g->phi;
     }
-    symbol[n] = nh_symbol_fresh(r->model->dag, f->name);
-    phi[n++] = f->phi;
+    return n;
+}
+
+/* Of the second degree, for the last of n; or NULL. */
+static const char *relate(nh_analysis *r, const nh_points *points, size_t n, const nh_ex *symbol, const nh_ex *phi)
+{
     monomials m = build(r, n, symbol, phi);
     bool *used = nh_alloc_array(m.count, sizeof *used);
-    if (numeric_relation(points, r->model, &m, used)) f->relation = exact_relation(r, &m, used, symbol[n - 1]);
+    const char *text =
+        numeric_relation(points, r->model, &m, used) ? exact_relation(r, &m, used, symbol[n - 1]) : NULL;
     nh_free(used);
     nh_free(m.name_of);
     nh_free(m.value);
+    return text;
+}
+
+static nh_points *points_for_relations(const nh_analysis *r)
+{
+    size_t monomial_count = (most_currents + 2) * (most_currents + 3) / 2;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    return nh_points_create(r->model, point_factor * monomial_count, 1, (uint64_t)r->options.seed + 303, &ignored);
 }
 
 void nh_dependence_relations(nh_analysis *r)
 {
-    size_t monomial_count = (most_currents + 2) * (most_currents + 3) / 2;
+    nh_ex symbol[most_currents + 1], phi[most_currents + 1];
     nh_points *points = NULL;
-    nh_error ignored;
-    nh_error_clear(&ignored);
     for (size_t k = 0; k < r->count; k++) {
         if (r->found[k].independence != NH_DEPENDENT) continue;
-        if (!points)
-            points =
-                nh_points_create(r->model, point_factor * monomial_count, 1, (uint64_t)r->options.seed + 303, &ignored);
-        if (points) relate(r, &r->found[k], points);
+        if (!points) points = points_for_relations(r);
+        if (!points) break;
+        size_t n = independent_ones(r, k, symbol, phi);
+        symbol[n] = nh_symbol_fresh(r->model->dag, r->found[k].name);
+        phi[n++] = r->found[k].phi;
+        r->found[k].relation = relate(r, points, n, symbol, phi);
     }
     nh_points_free(points);
 }
@@ -214,4 +228,18 @@ void nh_dependence_on_known(nh_analysis *r)
         if (!f->known) f->known = product(r, points, n, symbol, phi);
     }
     nh_points_free(points);
+}
+
+const char *nh_dependence_on_found(nh_analysis *r, const char *name, nh_ex value)
+{
+    nh_ex symbol[most_currents + 1], phi[most_currents + 1];
+    nh_points *points = points_for_relations(r);
+    size_t n = independent_ones(r, r->count, symbol, phi);
+    symbol[n] = nh_symbol_fresh(r->model->dag, nh_arena_printf(r->arena, "[%s]", name));
+    phi[n] = value;
+    const char *text = points ? combination(r, points, n, symbol, phi) : NULL;
+    if (points && !text) text = product(r, points, n, symbol, phi);
+    if (points && !text) text = relate(r, points, n + 1, symbol, phi);
+    nh_points_free(points);
+    return text;
 }

@@ -14,4 +14,8 @@ void nh_dependence_relations(nh_analysis *result);
  * an exact relation proves it. */
 void nh_dependence_on_known(nh_analysis *result);
 
+/* The expression, which the system file names, in terms of the first six independent currents found: such a
+ * combination, multiple, or a quadratic relation, as "[energy] = -Phi1"; NULL: none was found. */
+const char *nh_dependence_on_found(nh_analysis *result, const char *name, nh_ex phi);
+
 #endif

@@ -143,7 +143,7 @@ static const char *region_of(nh_stage_solver *x, const nh_explicit_motion *m)
     for (size_t j = 0; j < m->constants; j++) {
         nh_ex positive[NH_MOST_REAL_WHERE], value = m->constant[j].value;
         size_t n = nh_real_where(o, value, positive);
-        all = joined(arena, all, nh_currents_region(x->bench, value, 0, NULL));
+        all = joined(arena, all, nh_currents_region(x->bench, value, x->r->options.digits / 2, NULL));
         for (size_t i = 0; i < n; i++) {
             char *text = nh_model_is_constant(o, positive[i]) ? NULL : nh_print_string(o->dag, positive[i]);
             if (text) all = joined(arena, all, nh_arena_printf(arena, "where %s > 0", text));

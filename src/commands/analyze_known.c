@@ -1,0 +1,102 @@
+#include "commands/analyze_known.h"
+
+#include "base/progress.h"
+#include "base/text.h"
+#include "commands/verify_internal.h"
+#include "integrals/gradient_rank.h"
+#include "search/currents.h"
+#include "search/dependence.h"
+
+enum { points_of_rank = 24 };
+
+/* Is it a function of the currents found, or constant? */
+static nh_independence beside_the_found(const nh_analysis *r, nh_ex phi)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_points *points = nh_points_create(r->model, points_of_rank, 1, (uint64_t)r->options.seed + 202, &ignored);
+    if (!points) return NH_DOUBTFUL;
+    nh_ex *list = nh_alloc_array(r->count + 1, sizeof *list);
+    nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
+    bool *exact = nh_alloc_array(r->count + 1, sizeof *exact);
+    nh_currents_list(r, list, exact);
+    list[r->count] = phi;
+    exact[r->count] = true;
+    nh_independence_test(r->model, points, r->count + 1, list, exact, r->options.sure, r->options.doubt, kind, NULL);
+    nh_independence out = kind[r->count];
+    nh_free(exact);
+    nh_free(kind);
+    nh_free(list);
+    nh_points_free(points);
+    return out;
+}
+
+/* The state, "x = 1, y = 2". */
+static const char *state_in_words(const nh_analysis *r, const double *z)
+{
+    nh_text text;
+    nh_text_init(&text);
+    for (size_t j = 0; j < r->model->width; j++)
+        nh_text_addf(&text, "%s%s = %.6g", j ? ", " : "", nh_name_of(r->model->dag, r->model->chart->symbol[j]), z[j]);
+    const char *out = nh_arena_strdup(r->arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return out;
+}
+
+static void refute(nh_analysis *r, nh_stated *s, const nh_verification *v)
+{
+    s->verdict = NH_STATED_FALSE;
+    s->state = v->has_counterexample ? v->counterexample : NULL;
+    s->rate = v->rate;
+    if (s->denied) return;
+    nh_analysis_warn(r, "the system file calls `%s` a current: it is none%s%s%s", s->name,
+                     s->state ? nh_arena_printf(r->arena, ", its rate is %.6g in the state ", s->rate) : "",
+                     s->state ? state_in_words(r, s->state) : "",
+                     s->state ? "" : ", its rate cancels to few digits");
+}
+
+static void confirm(nh_analysis *r, nh_stated *s, const nh_verification *v)
+{
+    nh_independence kind = beside_the_found(r, v->current);
+    s->proved = v->proof.proved;
+    s->digits = v->proof.digits;
+    s->region = v->region;
+    s->verdict = kind == NH_CONSTANT    ? NH_STATED_CONSTANT
+                 : !v->conserved        ? NH_STATED_REGIONAL
+                 : kind == NH_DEPENDENT ? NH_STATED_FOUND
+                                        : NH_STATED_MISSED;
+    if (s->verdict == NH_STATED_FOUND) s->relation = nh_dependence_on_found(r, s->name, v->current);
+    if (s->denied && v->conserved)
+        nh_analysis_warn(r, "the system file says that `%s` is not conserved: it is%s", s->name,
+                         s->proved ? ", proved" : "");
+    else if (s->verdict == NH_STATED_CONSTANT && !s->denied)
+        nh_analysis_warn(r, "the system file calls `%s` a current: it is a constant, whatever the motion is", s->name);
+}
+
+static void judge(nh_analysis *r, nh_stated *s, nh_ex value)
+{
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    nh_verification v = {.arena = r->arena, .system = r->system, .model = r->model};
+    s->verdict = NH_STATED_OPEN;
+    if (!nh_analysis_file_to_chart(r->model, value, &v.current, &trouble) ||
+        !nh_verification_decide(&v, &r->options, &trouble))
+        s->obstacle = nh_arena_printf(r->arena, "%s", trouble.what);
+    else if (v.conserved || v.region) confirm(r, s, &v);
+    else refute(r, s, &v);
+}
+
+void nh_analyze_known(nh_analysis *r)
+{
+    const nh_system *y = r->system;
+    r->stated = nh_arena_alloc(r->arena, (y->currents + y->not_conserved + 1) * sizeof *r->stated);
+    for (size_t k = 0; k < y->currents + y->not_conserved && !nh_interrupted(); k++) {
+        const nh_named *it = k < y->currents ? &y->current[k] : &y->trap[k - y->currents];
+        nh_stated s = {.name = it->name[0] ? it->name : it->text,
+                       .text = it->text,
+                       .out_of_reach = it->out_of_reach,
+                       .denied = k >= y->currents};
+        judge(r, &s, it->value);
+        if (!nh_interrupted()) r->stated[r->stateds++] = s; /* else it is not decided */
+    }
+}

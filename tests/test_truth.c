@@ -1,0 +1,125 @@
+/* What a report says is true in every word: statements of a system file, searches that found nothing, conditions, digits. */
+#include <criterion/criterion.h>
+#include <math.h>
+
+#include "base/json.h"
+#include "program.h"
+#include "sweep.h"
+
+/* The JSON of `nhsym LINE --json a.json`, and what was printed. */
+typedef struct {
+    nh_json *json;
+    char *text;
+} told;
+
+static told tell(const place *p, const char *line, int code)
+{
+    char all[2000];
+    snprintf(all, sizeof all, "%s --json a.json", line);
+    finished f = run_expecting(p, all, code);
+    char *source = read_here(p, "a.json");
+    told t = {source ? nh_json_parse(source) : NULL, f.out};
+    cr_assert_not_null(t.json, "%s: no JSON\n%s", line, f.err);
+    free(source);
+    free(f.err);
+    unfold(t.text);
+    return t;
+}
+
+static void told_clear(told *t)
+{
+    nh_json_free(t->json);
+    free(t->text);
+}
+
+/* ---- currents that the system file states ---- */
+
+#define TWO_SPRINGS "coordinates: [x, y]\nparameters: {w: 1.3}\nlagrangian: (x'^2 + y'^2)/2 - w^2*(x^2 + y^2)/2\n"
+
+static const struct {
+    const char *as, *expr, *verdict;
+    bool warns;
+} statement[] = {
+    {"currents", "x'*y' - w*x*y", "not conserved", true},
+    {"currents", "x'*y' + w^2*x*y", "found", false},
+    {"currents", "3*(x'^2 - y'^2 + w^2*(x^2 - y^2))", "found", false},
+    {"currents", "(x*y' - y*x')^2", "found", false},
+    {"currents", "(x*y' - y*x')/(x'^2 + w^2*x^2)", "found", false},
+    {"currents", "sqrt(1 + (x'^2 + w^2*x^2)/3)", "found", false},
+    {"currents", "exp(x*y' - y*x')", "found", false},
+    {"currents", "atan2(w*x, x') - atan2(w*y, y')", "in a region", false},
+    {"currents", "x'^2 + w^2*x^2 + 1e-80*x", "not conserved", true},
+    {"currents", "x'^2 + 1.69*x^2", "found", false},
+    {"currents", "x'^2 + 1.6900001*x^2", "not conserved", true},
+    {"currents", "sin(x)^2 + cos(x)^2", "constant", true},
+    {"currents", "sqrt(-1 - x^2)", "undecided", false},
+    {"not_conserved", "x'", "not conserved", false},
+    {"not_conserved", "x'^2 + w^2*x^2", "found", true},
+};
+
+/* (A false claim, and a true one in another form, were passed over in silence.) */
+Test(truth, what_a_file_states_of_currents_is_judged, .timeout = 120)
+{
+    place p = place_make();
+    for (size_t i = 0; i < sizeof statement / sizeof *statement; i++) {
+        if (!sweep_tries(i + 1, 8, 15) && i) continue;
+        char file[600];
+        snprintf(file, sizeof file, TWO_SPRINGS "known: {%s: [{name: it, expr: \"%s\"}]}\n", statement[i].as, statement[i].expr);
+        write_here(&p, "s.yaml", file);
+        told t = tell(&p, "analyze s.yaml --html a.html --tex a.tex", 0);
+        char *page = read_here(&p, "a.html"), *tex = read_here(&p, "a.tex");
+        const nh_json *it = nh_json_entry(nh_json_get(t.json, "stated"), 0);
+        const char *verdict = nh_json_text(it, "verdict");
+        bool refuted = !strcmp(statement[i].verdict, "not conserved"), warned = strstr(t.text, "`it`") != NULL;
+        cr_expect_str_eq(verdict, statement[i].verdict, "%s: %s", statement[i].expr, t.text);
+        cr_expect_eq(warned, statement[i].warns, "%s: %s", statement[i].expr, t.text);
+        cr_expect(strstr(t.text, statement[i].verdict) && strstr(page, statement[i].verdict) && strstr(tex, statement[i].verdict),
+                  "%s: %s", statement[i].expr, t.text);
+        cr_expect_eq(nh_json_get(nh_json_get(it, "state"), "x") != NULL, refuted, "%s: a state", statement[i].expr);
+        if (refuted) cr_expect(nh_json_value(it, "rate") != 0, "%s", statement[i].expr);
+        free(page);
+        free(tex);
+        told_clear(&t);
+    }
+    place_clear(&p);
+}
+
+/* ---- where a current jumps ---- */
+
+#define CUT "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 0.8*atan2(y, x) - "
+
+static const struct {
+    const char *system;
+    double counted; /* currents of all motions */
+    const char *region; /* of one in a part of the motions, or NULL */
+} wall[] = {
+    /* (the energy was "conserved, proved": six crossings of y = 0 near the domain have none of its jumps) */
+    {CUT "x^2/2\ndomain: {x: [0.2, 1]}\n", 0, "on each side of y = 0"},
+    {CUT "x^2/2\ndomain: {x: [0.9, 0.901], y: [0.1, 0.11]}\n", 0, "on each side of y = 0"},
+    {CUT "x^2/2\ndomain: {x: [20, 21], y: [3, 4]}\n", 0, "on each side of y = 0"},
+    {CUT "x^2/2\n", 0, "on each side of y = 0"},
+    /* no motion gets from x > 0 to the cut */
+    {CUT "1/x^2\ndomain: {x: [0.2, 1]}\n", 1, NULL},
+    {CUT "log(x)\ndomain: {x: [0.2, 1]}\n", 1, NULL},
+    /* the wall x = 0 matters beyond y = 3 only, or beyond another wall */
+    {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (1 + x/abs(x))*(abs(y - 3) + y - 3)^3\n", 0, "where the motion has an impulse"},
+    {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y - 3*asin(sin(x))\ndomain: {x: [-0.2, 0.2]}\n", 3, "in some parts"},
+};
+
+Test(truth, a_current_holds_wherever_motions_go, .timeout = 120)
+{
+    place p = place_make();
+    for (size_t i = 0; i < sizeof wall / sizeof *wall; i++) {
+        if (!sweep_tries(i + 1, 5, 8) && i) continue;
+        write_here(&p, "s.yaml", wall[i].system);
+        told t = tell(&p, "analyze s.yaml", 0);
+        const nh_json *pieces = nh_json_get(t.json, "currents_in_regions");
+        cr_expect_eq(nh_json_value(t.json, "independent_currents"), wall[i].counted, "%s%s", wall[i].system, t.text);
+        const char *region = nh_json_text(nh_json_entry(pieces, 0), "region");
+        const char *formulas = nh_json_text(nh_json_get(t.json, "explicit_motion"), "region");
+        if (strstr(wall[i].system, "asin")) cr_expect(formulas, "a motion with constants of one part");
+        cr_expect(wall[i].region ? region && strstr(region, wall[i].region) : !region, "%s%s", wall[i].system, t.text);
+        told_clear(&t);
+    }
+    place_clear(&p);
+}
