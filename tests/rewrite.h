@@ -39,10 +39,9 @@ static nh_num scale_or_one(nh_num x) { return x.q ? x : nh_num_int(1); }
 
 static bool in_function(const nh_system *y, nh_ex e, nh_ex q)
 {
-    enum { most = 200 };
-    nh_ex call[most];
-    size_t n = nh_functions_in(y->dag, e, call, most);
-    for (size_t i = 0; i < n && i < most; i++)
+    NH_LIST(call);
+    size_t n = nh_functions_in(y->dag, e, &call);
+    for (size_t i = 0; i < n; i++)
         if (nh_depends(y->dag, call[i], q)) return true;
     return false;
 }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/escape.h"
 #include "base/memory.h"
 
 /* Ends with a documented code, and with words where it is not 0. */
@@ -294,5 +295,69 @@ Test(faults, a_scan_trusts_nothing_in_its_folder)
     free(again);
     free(unit);
     free(whole);
+    place_clear(&p);
+}
+
+/* ---- what is said ---- */
+
+/* A path may be any bytes; JSON and pages are UTF-8. */
+Test(faults, documents_are_utf8)
+{
+    static const char *const lines[] = {"simulate \xff\xc3.yaml --initial x'=1 --until 1 -q --no-analysis", "linearize \xff\xc3.yaml --at x=0 -q", "verify \xff\xc3.yaml --current y' -q"};
+    place p = place_make();
+    write_here(&p, "\xff\xc3.yaml", "coordinates: [x, y]\nparameters: {k: 3}\nlagrangian: x'^2/2 + y'^2/2 - k*x^2/2\n");
+    for (size_t i = 0; i < 3; i++) {
+        char line[200];
+        snprintf(line, sizeof line, "%s --json a.json --html a.html --tex a.tex", lines[i]);
+        finished_clear(&(finished[]){run_expecting(&p, line, 0)}[0]);
+        for (int k = 0; k < 2; k++) {
+            char *text = read_here(&p, k ? "a.html" : "a.json");
+            cr_assert_not_null(text);
+            uint32_t code;
+            size_t left = strlen(text), length = 1;
+            const char *at = text;
+            for (; left && length; at += length, left -= length) length = nh_utf8_decode(at, left < 4 ? left : 4, &code);
+            cr_expect_eq(left, 0, "%s: %.60s", lines[i], at - 60);
+            cr_expect(k || strstr(text, "\xef\xbf\xbd"), "%s", lines[i]);
+            free(text);
+        }
+    }
+    place_clear(&p);
+}
+
+/* A file of somebody else may name any file. */
+Test(faults, secrets_stay_secret)
+{
+    static const char *const secret[] = {"root:*:20228:0:99999:7:::\n", "SECRET = 1\n", "- SECRET\n", "lagrangian: SECRET + 1 +\n", "name: [SECRET\n", "SECRET\tx\n", "\"SECRET\" : {a: b}\n", "parameters: {SECRET: [1]}\n"};
+    place p = place_make();
+    write_here(&p, "open.yaml", "include: shadow\ncoordinates: [x]\n");
+    for (size_t i = 0; i < sizeof secret / sizeof *secret; i++) {
+        write_here(&p, "shadow", secret[i]);
+        finished f = run_expecting(&p, "analyze open.yaml", 3);
+        cr_expect(!strstr(f.err, "SECRET") && !strstr(f.err, "20228") && strstr(f.err, "this included file is no part of a system"), "%s", f.err);
+        finished_clear(&f);
+    }
+    write_here(&p, "open.yaml", "include: shadow.yaml\ncoordinates: [x]\n");
+    write_here(&p, "shadow.yaml", "lagrangian: wrong +\n");
+    finished f = run_expecting(&p, "analyze open.yaml", 3);
+    cr_expect(strstr(f.err, "wrong +"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* When the limit of time ends the check of an accuracy, the result says so. */
+Test(faults, an_accuracy_that_was_not_checked_is_partial)
+{
+    place p = place_with_systems();
+    static const char *const seconds[] = {"0.2", "0.4", "0.8"};
+    for (size_t i = 0; i < 3; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "simulate double_pendulum --initial p=1 --accuracy 1e-9 --until 5000 --json j.json -q --no-analysis --max-seconds %s", seconds[i]);
+        finished f = run_expecting(&p, line, 5);
+        char *text = read_here(&p, "j.json");
+        cr_expect(!text || strstr(text, "\"partial\":\ttrue") || strstr(text, "unfinished"), "%s: %.600s", seconds[i], text);
+        free(text);
+        finished_clear(&f);
+    }
     place_clear(&p);
 }

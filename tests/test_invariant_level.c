@@ -94,8 +94,8 @@ Test(invariant_level, velocities_are_polynomial)
     cr_expect_str_eq(nh_name_of(o->dag, o->chart->w[0]), "v_theta");
     cr_expect_str_eq(nh_name_of(o->dag, o->chart->w[1]), "v_psi");
     for (size_t s = 0; s < o->m; s++) {
-        nh_ex found[32];
-        size_t count = nh_products_in(o->dag, o->rho[s], found, 32);
+        NH_LIST(found);
+        size_t count = nh_products_in(o->dag, o->rho[s], &found);
         for (size_t i = 0; i < count; i++)
             for (size_t k = 0; k < nh_arity(o->dag, found[i]); k++) cr_expect_gt(nh_num_value(nh_number_of(o->dag, nh_exponent_of(o->dag, found[i], k))), 0);
     }

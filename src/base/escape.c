@@ -30,6 +30,16 @@ void nh_utf8_add(nh_text *out, uint32_t code)
     nh_text_add_n(out, bytes, length);
 }
 
+void nh_utf8_mend(const char *text, nh_text *out)
+{
+    for (size_t length; *text; text += length ? length : 1) {
+        uint32_t code;
+        length = nh_utf8_decode(text, strlen(text) < 4 ? strlen(text) : 4, &code);
+        if (length) nh_text_add_n(out, text, length);
+        else nh_utf8_add(out, 0xFFFD);
+    }
+}
+
 bool nh_is_invisible(uint32_t code)
 {
     if (code < 0x20) return code != '\t' && code != '\n' && code != '\r';

@@ -14,6 +14,9 @@ size_t nh_utf8_decode(const char *text, size_t left, uint32_t *code);
 /* Adds one character. */
 void nh_utf8_add(nh_text *out, uint32_t code);
 
+/* Text in which bytes that are no UTF-8 have become U+FFFD. */
+void nh_utf8_mend(const char *text, nh_text *out);
+
 /* Control characters, separators that editors do not show, and characters that change the direction of text (U+061C,
  * U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069), so that a line reads otherwise than it is; not tabs and ends of
  * lines. */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "base/memory.h"
 #include "base/text.h"
 
@@ -28,7 +29,17 @@ static nh_json *add(nh_json *array, cJSON *item)
     return item;
 }
 
-static cJSON *text_or_null(const char *text) { return text ? cJSON_CreateString(text) : cJSON_CreateNull(); }
+/* JSON is UTF-8, but a path of the system may be any bytes. */
+static cJSON *text_or_null(const char *text)
+{
+    if (!text) return cJSON_CreateNull();
+    nh_text whole;
+    nh_text_init(&whole);
+    nh_utf8_mend(text, &whole);
+    cJSON *item = cJSON_CreateString(nh_text_string(&whole));
+    nh_text_clear(&whole);
+    return item;
+}
 
 /* Without memory cJSON would silently leave members out.  It allocates through base/memory.h, where a failed allocation
  * does not return. */

@@ -228,7 +228,8 @@ char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
     nh_json_put_text(root, "scene", s->scene);
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", e->incomplete == 0);
-    nh_json_put_bool(root, "partial", e->incomplete > 0 && nh_interrupted());
+    bool open = e->incomplete > 0 || (s->checked && !s->accuracy_of_all.held);
+    nh_json_put_bool(root, "partial", open && nh_interrupted());
     put_accuracy_of_all(s, root);
     nh_json_put_numbers(root, "time", e->count, e->time, 1);
     nh_json *members = nh_json_put_array(root, "members");
@@ -293,7 +294,8 @@ static void put_motion(const nh_simulation *s, nh_json *root)
     }
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", s->motion->complete);
-    nh_json_put_bool(root, "partial", !s->motion->complete && (s->motion->limited || nh_interrupted()));
+    bool open = !s->motion->complete || (s->checked && !s->accuracy.held), ended = nh_interrupted();
+    nh_json_put_bool(root, "partial", open && (ended || (s->motion->limited && !s->motion->complete)));
     nh_accuracy_json(s->checked ? &s->accuracy : NULL, root);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);
     nh_time_series *c = nh_time_series_of_simulation(s);

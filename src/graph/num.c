@@ -96,8 +96,8 @@ static bool small_ratio(double value, nh_num *out)
 {
     enum { most = 1000 };
     double x = fabs(value), whole = floor(x);
-    int64_t p[2] = {1, (int64_t)whole}, q[2] = {0, 1};
     if (!(x < 1e6)) return false;
+    int64_t p[2] = {1, (int64_t)whole}, q[2] = {0, 1};
     while ((double)p[1] / (double)q[1] != fabs(value)) {
         if (x == whole) return false;
         x = 1 / (x - whole);

@@ -134,6 +134,16 @@ static const nh_deck_node *without(nh_arena *arena, const nh_deck_node *map, con
     return node;
 }
 
+/* A file may name any other, which may be secret: messages quote only what is called a file for us. */
+static bool is_shown(const char *path)
+{
+    static const char *const ending[] = {".yaml", ".yml", ".urdf", ".xml", ".xacro"};
+    const char *dot = strrchr(path, '.');
+    bool shown = false;
+    for (size_t i = 0; i < sizeof ending / sizeof *ending && dot; i++) shown |= !strcmp(dot, ending[i]);
+    return shown;
+}
+
 static bool include(nh_deck *deck, int depth, nh_deck_prepare *prepare, nh_error *error)
 {
     if (prepare && !prepare(deck, error)) return false;
@@ -158,8 +168,11 @@ static bool include(nh_deck *deck, int depth, nh_deck_prepare *prepare, nh_error
         return nh_error_hint(error,
                              "the name of an included file is relative to the folder of the file that includes it");
     }
+    bool hidden = !is_shown(path);
     deck->included = nh_deck_parse(path, text, length, error);
     nh_free(text);
+    if (!deck->included && hidden) return nh_deck_fail_hidden(path, error);
+    if (deck->included) deck->included->hidden = hidden;
     if (!deck->included || !include(deck->included, depth + 1, prepare, error)) return false;
     if (!nh_deck_is(deck->included, deck->included->root, NH_DECK_MAP, "an included file (name: ..., ...)", error))
         return false;

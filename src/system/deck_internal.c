@@ -139,10 +139,19 @@ static void excerpt(const nh_deck *deck, size_t line, size_t caret, char *out, s
     nh_text_clear(&text);
 }
 
+bool nh_deck_fail_hidden(const char *name, nh_error *error)
+{
+    nh_error_clear(error);
+    nh_fail(error, NH_INPUT, name, "this included file is no part of a system");
+    return nh_error_hint(error, "what is wrong in it is shown where its name ends in .yaml, .yml, .urdf or .xml");
+}
+
 bool nh_deck_fail_at(const nh_deck *deck, size_t byte, nh_error *error, const char *format, ...)
 {
     if (!error || error->code != NH_OK)
         return false;
+    if (deck->hidden)
+        return nh_deck_fail_hidden(deck->name, error);
     char what[2 * sizeof error->what], where[2 * sizeof error->where];
     va_list arguments;
     va_start(arguments, format);

@@ -14,6 +14,7 @@ struct nh_deck {
     size_t *before; /* before[i]: code points before byte i * NH_DECK_BLOCK */
     size_t *line;   /* byte at which a line begins */
     size_t lines, line_capacity;
+    bool hidden;    /* its text is in no message */
     nh_code code;   /* code of its errors; NH_OK: that of a file, with line and column */
 };
 
@@ -39,6 +40,9 @@ bool nh_deck_is_space(char c); /* blank or line break */
 /* nh_deck_fail for a byte of the source. */
 bool nh_deck_fail_at(const nh_deck *deck, size_t byte, nh_error *error, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+
+/* The same for a file that another one includes, and of which nothing may be shown. */
+bool nh_deck_fail_hidden(const char *name, nh_error *error);
 
 /* A text as it is quoted in a message: one line, not too long. */
 void nh_deck_shorten(const char *text, char out[NH_DECK_SHOWN]);

@@ -17,7 +17,7 @@ fi
 
 printf '#define NH_VERSION "fuzz"\n#define NH_DATADIR "/usr"\n' >"$build/names.h.new"
 cmp -s "$build/names.h.new" "$build/names.h" || mv "$build/names.h.new" "$build/names.h"
-flags="-std=c17 -O1 -g $(make -s --no-print-directory print-includes) -D_GNU_SOURCE -include $build/names.h -Wno-unknown-attributes -fno-omit-frame-pointer -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=all"
+flags="-std=c17 -O1 -g $(make -s --no-print-directory print-includes) -D_GNU_SOURCE -include $build/names.h -Wno-unknown-attributes -fno-omit-frame-pointer -fsanitize=address,undefined,float-cast-overflow,fuzzer-no-link -fno-sanitize-recover=all"
 libraries=$(make -s --no-print-directory print-libraries)
 echo "building in $build"
 for source in $(ls src/*/*.c | grep -v '^src/cli/'); do
