@@ -68,6 +68,7 @@ Test(identities, counts_are_those_of_the_plain_system)
         refused += here.obstacle != NULL;
         counted += !here.obstacle && good;
         wrong += !good;
+        if (getenv("SHOW_REFUSED") && here.obstacle) fprintf(stderr, "refused %d %s: %s\n", place, Z, here.obstacle);
         cr_expect(good, "seed %zu, place %d: %s: %zu of degree 2, but %zu", seed, place, Z, here.row[1].bound, expected.row[1].bound);
     }
     fprintf(stderr, "identities: %zu counted, %zu refused, %zu false\n", counted, refused, wrong);
