@@ -223,6 +223,10 @@ static bool root_of(const tower *x, size_t level, nh_ex e, nh_ex *root)
     size_t room = x->point->kernels + 1;
     nh_ex *angle = nh_alloc_array(3 * room, sizeof *angle), *exponent = angle + room, *radicand = exponent + room;
     nh_root_field f = {.angle = angle, .exponent = exponent, .radicand = radicand};
+    for (size_t i = x->count; i-- > 0;) { /* from outside */
+        const nh_jet_kernel *k = &x->point->kernel[x->kernel[i]];
+        if (x->dependent[i] && x->level[i] < level) e = nh_substitute_root(x->dag, e, k->key, k->P);
+    }
     f.angles = arguments_of(x, NH_JET_CIRCLE, e, angle);
     f.exponents = arguments_of(x, NH_JET_EXPONENTIAL, e, exponent);
     for (size_t below = 0; below < level; below++)
