@@ -140,7 +140,7 @@ bool nh_field_root(nh_dag *d, const nh_root_field *f, nh_ex e, nh_ex *root)
         nh_ex r = nh_sqrt(d, f->radicand[i]);
         *root = nh_substitute(d, *root, 1, &x.symbol[i], &r);
     }
-    if (good) *root = nh_simplify(d, *root);
+    if (good) *root = nh_canonical(d, nh_simplify(d, *root), 0); /* with the same radicands */
     nh_free(x.tangent);
     nh_free(x.symbol);
     return good;
