@@ -94,6 +94,21 @@ static bool affine(nh_jet_equations *x)
     return found;
 }
 
+/* For the roots that are functions of others. */
+static int sign_at_probe(void *equations, nh_ex e)
+{
+    nh_jet_equations *x = equations;
+    return nh_one_side_sign(x->model, e, &x->side);
+}
+
+static nh_jet_point *new_point(nh_jet_equations *x)
+{
+    nh_jet_point *point = nh_jet_point_create(x->dag);
+    point->sign = sign_at_probe;
+    point->context = x;
+    return point;
+}
+
 /* The factors of the distinct products and functions in expressions. */
 typedef struct {
     size_t count;
@@ -162,7 +177,7 @@ nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool gen
     nh_jet_equations *x = nh_arena_alloc(arena, sizeof *x);
     *x = (nh_jet_equations){
         .model = o, .dag = o->dag, .arena = arena, .generic = generic, .n = o->n, .m = o->m, .w = o->chart->w};
-    x->point = nh_jet_point_create(o->dag);
+    x->point = new_point(x);
     if (o->chart->implicit) x->obstacle = "velocities that are given implicitly";
     x->rho = take(x, o->m, o->rho);
     x->M = take(x, o->n * o->n, o->M);
@@ -196,7 +211,7 @@ bool nh_jet_equations_is_cyclic(const nh_jet_equations *x, nh_ex q)
 static void register_again(nh_jet_equations *x)
 {
     nh_jet_point_free(x->point);
-    x->point = nh_jet_point_create(x->dag);
+    x->point = new_point(x);
     if (!nh_jet_point_register(x->point, x->m, x->rho) || !nh_jet_point_register(x->point, x->n * x->n, x->M) ||
         !nh_jet_point_register(x->point, x->n, x->A) ||
         !nh_jet_point_register(x->point, x->n * nh_jet_equations_monomials(x->n), x->coefficient) ||

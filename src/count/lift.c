@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "count/jet_equations.h"
 #include "exact/fraction.h"
+#include "exact/jet_independent.h"
 #include "exact/residue_matrix.h"
 #include "integrals/fixed.h"
 
@@ -265,6 +266,7 @@ static bool lift(const nh_model *o, bool time, bool generic, size_t terms, const
         c[j].term = j;
         good = nh_jet_equations_take(x, true, &l.term[j]);
     }
+    nh_jet_point_related(x->point); /* for the roots that are functions of others; what is found is only proposed */
     if (generic) good = good && choose_columns(&l, room, c, &columns);
     good = good && fractions(&l, columns, c, coefficient);
     if (good) gather(o, terms, columns, c, coefficient, out);

@@ -68,6 +68,14 @@ nh_ex nh_one_side_of_roots(const nh_model *o, nh_ex e, nh_region *side)
     return e;
 }
 
+int nh_one_side_sign(const nh_model *o, nh_ex u, nh_region *side)
+{
+    int sign = nh_model_sign_at_probe(o, u);
+    nh_ex wall = nh_model_without_constants(o, u);
+    if (sign && side && !nh_model_sign_everywhere(o, u)) keep(side, wall, nh_model_sign_at_probe(o, wall) > 0);
+    return sign;
+}
+
 bool nh_one_side_within(const nh_model *o, const nh_region *region)
 {
     bool within = o->chart->probes > 0;

@@ -14,6 +14,10 @@ nh_ex nh_one_side(const nh_model *model, nh_ex e, nh_region *side);
  * of the other functions; and the second of paired roots (geometry/model.h). */
 nh_ex nh_one_side_of_roots(const nh_model *model, nh_ex e, nh_region *side);
 
+/* The sign of u at the probe by rigorous arithmetic, 0 where it is not known; the wall is added unless u is
+ * seen to have this sign everywhere. */
+int nh_one_side_sign(const nh_model *model, nh_ex u, nh_region *side);
+
 /* Does a result for this region hold on the chosen sides?  Not where it holds in some parts only. */
 bool nh_one_side_within(const nh_model *model, const nh_region *region);
 

@@ -150,11 +150,25 @@ static void put_excluded(const nh_classified *x, size_t degree, bool verbose, nh
     nh_text_add(out, ")\n");
 }
 
+size_t nh_classification_unlifted(const nh_classified *x)
+{
+    const nh_classification *c = of(x);
+    size_t most = 0;
+    for (size_t d = 1; d <= c->rows; d++) {
+        const nh_classify_row *row = &c->row[d - 1];
+        if (!(row->lifted && row->height >= 1) && row->roots > most) most = row->roots;
+    }
+    return most;
+}
+
 void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *out)
 {
     const nh_classification *c = of(x);
     if (!c->rows) return;
-    nh_text_addf(out, "%s values, proved:\n", count_special(x) ? "No other" : "No special");
+    nh_text_addf(out, "%s, proved:\n",
+                 nh_classification_unlifted(x) ? "Excluded"
+                 : count_special(x)            ? "No other values"
+                                               : "No special values");
     size_t theorems = 0, known = 0, primes = 0;
     for (size_t d = 1; d <= c->rows; d++) {
         const nh_classify_row *row = &c->row[d - 1];

@@ -35,6 +35,8 @@ void nh_classification_counted(const nh_classified *classified, size_t degree, b
 /* What was not examined or not decided, and what is proved where there are not more integrals. */
 void nh_classification_left(const nh_classified *classified, nh_text *out);
 void nh_classification_excluded(const nh_classified *classified, bool verbose, nh_text *out);
+/* How many values may be special that are known modulo primes only. */
+size_t nh_classification_unlifted(const nh_classified *classified);
 /* Curves or surfaces that are degenerate or undecided. */
 void nh_classification_open_words(const nh_classified *family, size_t count, const nh_plane_curve *curve,
                                   nh_text *out);

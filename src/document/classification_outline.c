@@ -206,14 +206,18 @@ static void answer(pen *p, const nh_classified *line, const plane *x, const nh_c
         nh_pen_say(p, "%zu curve%s and %zu point%s with more conservation laws than almost all", curves,
                      curves == 1 ? "" : "s", x->points, x->points == 1 ? "" : "s");
     else {
-        size_t n = count_line(line);
+        size_t n = count_line(line), unlifted = nh_classification_unlifted(line);
         if (n) nh_pen_say(p, "%zu value%s of ", n, n == 1 ? "" : "s");
-        else nh_pen_say(p, "No value of ");
+        else nh_pen_say(p, unlifted ? "No known value of " : "No value of ");
         nh_pen_name(p, line->over);
         nh_pen_say(p, " with %s", nh_classification_more(line));
     }
     if (line && line->question) nh_pen_say(p, ".");
     else nh_pen_say(p, ", polynomial in the velocities up to degree %zu.", rows);
+    size_t unlifted = line && !obstacle && !x && !y ? nh_classification_unlifted(line) : 0;
+    if (unlifted)
+        nh_pen_say(p, " Up to %zu algebraic value%s, known modulo primes only, may have more.", unlifted,
+                   unlifted == 1 ? "" : "s");
 }
 
 void nh_classification_write(const nh_classified *line, const plane *x, const nh_classified_space *y, const nh_run *run,

@@ -16,7 +16,29 @@ typedef struct {
     size_t n, constants, variables;
     const nh_ex *e, *variable;
     nh_ex constant[most_symbols];
+    size_t signs, asked; /* the roots that are functions of others may have either sign: one bit each; their number */
 } problem;
+
+enum { most_signs = 6 };
+
+static int sign_of(void *context, nh_ex e)
+{
+    problem *x = context;
+    (void)e;
+    return x->asked == most_signs ? 0 : x->signs >> x->asked++ & 1 ? -1 : 1;
+}
+
+/* The next choice of signs, or the first one; false: all were taken.  *known: functions have no other relations. */
+static bool next_signs(problem *x, bool first, bool *known)
+{
+    if (first) x->signs = 0;
+    else if (++x->signs >> x->asked) return false;
+    x->asked = 0;
+    x->point->sign = sign_of;
+    x->point->context = x;
+    *known = !nh_jet_point_related(x->point);
+    return true;
+}
 
 /* The symbols that are no variables; false: there are too many. */
 static bool list_constants(problem *x, nh_dag *dag)
@@ -79,7 +101,7 @@ static bool prepare(problem *x, nh_dag *dag, size_t n, const nh_ex *e, nh_ex *ow
     nh_forms_init(&forms, dag, false, canonical_length);
     for (size_t i = 0; i < n; i++) own[i] = nh_form_rewrite(&forms, e[i]);
     nh_forms_clear(&forms);
-    return nh_jet_point_register(x->point, n, own) && !nh_jet_point_related(x->point);
+    return nh_jet_point_register(x->point, n, own);
 }
 
 /* The ring of series at the index-th prime modulo which the numbers have their roots. */
@@ -102,7 +124,7 @@ bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables,
     if (found && list_constants(&x, dag)) {
         nh_jet_ring *ring = ring_at(&x, 0);
         x.ring = ring;
-        found = solve(&x);
+        for (bool first = true, known; found && next_signs(&x, first, &known); first = false) found = known && solve(&x);
         nh_jet_ring_free(ring);
     } else {
         found = false;
@@ -147,7 +169,7 @@ bool nh_generic_series(nh_dag *dag, size_t n, const nh_ex *e, size_t variables, 
 {
     problem x;
     nh_ex *own = nh_alloc_array(n + 1, sizeof *own);
-    bool good = prepare(&x, dag, n, e, own) && variables;
+    bool good = prepare(&x, dag, n, e, own) && variables && !nh_jet_point_related(x.point);
     x.variables = variables;
     x.variable = variable;
     good = good && list_constants(&x, dag) && read_all(&x, read, context);
@@ -184,8 +206,12 @@ bool nh_generic_rank(nh_dag *dag, size_t rows, size_t columns, const nh_ex *e, s
     else variable[0] = nh_symbol_fresh(dag, "x");
     x.variable = variable;
     x.constants = 0;
-    good = good && read_all(&x, read_rank, &m);
-    *rank = m.rank;
+    *rank = SIZE_MAX;
+    for (bool first = true, known; good && next_signs(&x, first, &known); first = false) {
+        m.rank = 0;
+        good = known && read_all(&x, read_rank, &m);
+        *rank = m.rank < *rank ? m.rank : *rank;
+    }
     nh_jet_point_free(x.point);
     nh_free(own);
     return good;

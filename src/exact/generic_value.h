@@ -2,7 +2,8 @@
  *
  * It is evaluated at a point modulo a prime (jet_point.h), with all symbols at random residues.  If the value is not
  * zero, the expression is not zero for almost all values of its symbols, parameters among them.  This is a proof,
- * because it is checked that functions satisfy no other relations than those that the point satisfies. */
+ * because it is checked that functions satisfy no other relations than those that the point satisfies.  Roots of
+ * squares, which have one sign here and another there, are taken with both: what is said holds for all of them. */
 #ifndef NH_GENERIC_VALUE_H
 #define NH_GENERIC_VALUE_H
 

@@ -123,8 +123,9 @@ static void power(nh_jet_eval *v, nh_ex base, nh_num exponent, nh_residue *out)
 {
     const nh_residue *b = v->value[base];
     nh_residue at, s = number(v, exponent);
-    if (exponent.q == 1) {
-        whole_power(v, b, exponent.p, out);
+    const nh_jet_kernel *k = exponent.q == 2 ? nh_jet_point_dependent(v->point, base) : NULL;
+    if (exponent.q == 1 || k) {
+        whole_power(v, k ? v->value[k->P] : b, exponent.p, out);
     } else if (b[0] && nh_jet_point_root(v->point, base, b[0], exponent, &at)) {
         nh_jet_power(v->ring, b, s, at, out);
     } else {
@@ -365,7 +366,14 @@ static bool operand(nh_jet_eval *v, nh_ex e, size_t i, nh_ex *out)
     nh_kind kind = nh_kind_of(v->dag, e);
     size_t arity = kind == NH_NUMBER || kind == NH_SYMBOL ? 0 : nh_arity(v->dag, e);
     if (i < arity) *out = nh_child(v->dag, e, i);
-    if (i < arity || i > arity + 1) return i < arity;
+    if (i < arity) return true;
+    if (kind == NH_PRODUCT && i < 2 * arity) { /* the functions that roots are */
+        nh_num x = nh_number_of(v->dag, nh_exponent_of(v->dag, e, i - arity));
+        const nh_jet_kernel *root = x.q == 2 ? nh_jet_point_dependent(v->point, nh_child(v->dag, e, i - arity)) : NULL;
+        *out = root ? root->P : nh_child(v->dag, e, i - arity);
+        return true;
+    }
+    if (i > arity + 1) return false;
     const nh_jet_kernel *k = nh_jet_point_inverse(v->point, e);
     if (k) *out = k->P;
     if (k || !is_solution(v, e)) return k && i == arity;

@@ -4,10 +4,11 @@
 #include <flint/nmod_mat.h>
 
 #include "base/memory.h"
+#include "exact/field_root.h"
 #include "exact/jet_eval.h"
 #include "exact/kernel.h"
 
-enum { most_roots = 60, spare_rows = 20, most_tries = 20000, series_points = 8, series_tries = 400 };
+enum { most_roots = 60, spare_rows = 20, most_tries = 20000, series_points = 8, series_tries = 400, most_inner = 8 };
 
 static const char related[] = "functions that may be related to each other",
                   roots[] = "roots that may be related to each other";
@@ -19,6 +20,7 @@ typedef struct {
     nh_ex *symbol;
     size_t symbols, count, levels;
     size_t kernel[most_roots], level[most_roots];
+    bool dependent[most_roots]; /* a function of the others */
 } tower;
 
 /* ---- the tower ---- */
@@ -62,7 +64,8 @@ static size_t level_of(const tower *x, size_t i)
 static bool list_roots(tower *x)
 {
     for (size_t i = 0; i < x->point->kernels; i++) {
-        if (!is_even_root(&x->point->kernel[i]) || nh_jet_point_is_in_unity(x->point, x->point->kernel[i].key)) continue;
+        const nh_jet_kernel *k = &x->point->kernel[i];
+        if (!is_even_root(k) || nh_jet_point_is_in_unity(x->point, k->key)) continue;
         if (x->count == most_roots) return false;
         x->kernel[x->count++] = i;
     }
@@ -113,17 +116,37 @@ static nh_prime next_prime(const tower *x, size_t level, nh_prime f)
     return f;
 }
 
+/* Is it one of the independent roots of this level? */
+static bool counts(const tower *x, size_t i, size_t level) { return x->level[i] == level && !x->dependent[i]; }
+
+/* Have all independent roots of lower levels values at the point?  Only then is it one of the field that they generate:
+ * 6 + sqrt(11) = ((1 + sqrt(11))/sqrt(2))^2 is no square where 2 is none. */
+static bool has_lower_roots(tower *x, nh_jet_eval *v, size_t level)
+{
+    bool good = true;
+    for (size_t below = 0; below < level; below++)
+        for (size_t i = 0; i < x->count && good; i++) {
+            const nh_jet_kernel *k = &x->point->kernel[x->kernel[i]];
+            nh_num least = nh_num_ratio(1, (int64_t)k->order);
+            nh_residue value, root;
+            if (counts(x, i, below))
+                good = nh_jet_eval_all(v, 1, &k->key, &value) && value &&
+                       nh_jet_point_root(x->point, k->key, value, least, &root);
+        }
+    return good;
+}
+
 /* Which radicands of a level are no squares at a point, as bits; false: one has no value there, or is 0. */
 static bool pattern(tower *x, size_t level, nh_prime field, uint64_t seed, uint64_t *bits)
 {
     size_t one = 1, place = 0;
     nh_jet_ring *ring = nh_jet_ring_create(field, 1, &one, 0);
     nh_jet_eval *v = at_point(x, ring, seed);
-    bool good = true;
+    bool good = has_lower_roots(x, v, level);
     *bits = 0;
     for (size_t i = 0; i < x->count && good; i++) {
         nh_residue value;
-        if (x->level[i] != level) continue;
+        if (!counts(x, i, level)) continue;
         good = nh_jet_eval_all(v, 1, &x->point->kernel[x->kernel[i]].key, &value) && value;
         if (good && nh_residue_power(field, value, (field.p - 1) / 2) != 1) *bits |= (uint64_t)1 << place;
         place++;
@@ -144,13 +167,26 @@ static bool reduce(uint64_t *row, uint64_t bits)
     return false;
 }
 
-/* Is no product of radicands of this level a square? */
-static bool independent_roots(tower *x, size_t level)
+/* A set of `count` places with an even number of every row's: the kernel of the rows, which are in echelon form. */
+static uint64_t unseen(const uint64_t *row, size_t count)
+{
+    uint64_t set = 0;
+    size_t free = 0;
+    while (free < count && row[free]) free++;
+    set = (uint64_t)1 << free;
+    for (size_t lead = free + 1; lead < count; lead++) /* a row's bits are its lead and lower ones */
+        if (row[lead] && __builtin_parityll(row[lead] & set)) set |= (uint64_t)1 << lead;
+    return set;
+}
+
+/* Is no product of radicands of this level a square?  Where it seems that one is: `together`. */
+static bool independent_roots(tower *x, size_t level, uint64_t *together)
 {
     uint64_t row[64] = {0}, bits;
     size_t wanted = 0, rank = 0, idle = 0;
     nh_prime field = {0};
-    for (size_t i = 0; i < x->count; i++) wanted += x->level[i] == level;
+    *together = 0;
+    for (size_t i = 0; i < x->count; i++) wanted += counts(x, i, level);
     for (uint64_t seed = 1; seed < most_tries && rank < wanted && idle < spare_rows; seed++) {
         field = next_prime(x, level, field);
         if (!field.p) return false;
@@ -159,7 +195,68 @@ static bool independent_roots(tower *x, size_t level)
         rank += grows;
         idle = grows ? 0 : idle + 1;
     }
+    if (rank < wanted && idle == spare_rows) *together = unseen(row, wanted);
     return rank == wanted;
+}
+
+/* ---- roots that are functions of others ---- */
+
+/* Adds the arguments of a kind of functions that can stand in e. */
+static size_t arguments_of(const tower *x, nh_jet_kernel_kind kind, nh_ex e, nh_ex *out)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < x->point->kernels; i++) {
+        const nh_jet_kernel *k = &x->point->kernel[i];
+        if (k->kind != kind || nh_jet_point_is_pi(x->point, k->key)) continue;
+        nh_ex symbol;
+        bool occurs = !nh_symbols_in(x->dag, k->key, &symbol, 1);
+        for (size_t s = 0; s < x->symbols && !occurs; s++)
+            occurs = nh_depends(x->dag, k->key, x->symbol[s]) && nh_depends(x->dag, e, x->symbol[s]);
+        if (occurs) out[count++] = nh_mul(x->dag, nh_ratio(x->dag, 1, (int64_t)k->order), k->key);
+    }
+    return count;
+}
+
+/* A function whose square is e, a product of radicands of this level. */
+static bool root_of(const tower *x, size_t level, nh_ex e, nh_ex *root)
+{
+    size_t room = x->point->kernels + 1;
+    nh_ex *angle = nh_alloc_array(3 * room, sizeof *angle), *exponent = angle + room, *radicand = exponent + room;
+    nh_root_field f = {.angle = angle, .exponent = exponent, .radicand = radicand};
+    for (size_t i = x->count; i-- > 0;) { /* from outside */
+        const nh_jet_kernel *k = &x->point->kernel[x->kernel[i]];
+        if (x->dependent[i] && x->level[i] < level) e = nh_substitute_root(x->dag, e, k->key, k->P);
+    }
+    f.angles = arguments_of(x, NH_JET_CIRCLE, e, angle);
+    f.exponents = arguments_of(x, NH_JET_EXPONENTIAL, e, exponent);
+    for (size_t below = 0; below < level; below++)
+        for (size_t i = 0; i < x->count; i++)
+            if (counts(x, i, below) && x->point->kernel[x->kernel[i]].order == 2)
+                radicand[f.roots++] = x->point->kernel[x->kernel[i]].key;
+    bool good = f.roots <= most_inner && nh_field_root(x->dag, &f, e, root);
+    nh_free(angle);
+    return good;
+}
+
+/* The last square root in `together`, whose radicands have a square as their product, as a function of the others. */
+static bool express(tower *x, size_t level, uint64_t together)
+{
+    nh_dag *d = x->dag;
+    nh_ex product = nh_int(d, 1), roots_of_all = product, last_root = product, root;
+    size_t place = 0, last = SIZE_MAX, kernels = x->point->kernels;
+    for (size_t i = 0; i < x->count; i++) {
+        if (!counts(x, i, level) || !(together >> place++ & 1)) continue;
+        nh_ex key = x->point->kernel[x->kernel[i]].key, r = nh_sqrt(d, key);
+        product = nh_mul(d, product, key);
+        roots_of_all = nh_mul(d, roots_of_all, r);
+        if (x->point->kernel[x->kernel[i]].order == 2) last = i, last_root = r;
+    }
+    if (last == SIZE_MAX || !x->point->sign || !root_of(x, level, product, &root)) return false;
+    int sign = x->point->sign(x->point->context, root);
+    nh_ex formula = nh_div(d, nh_mul(d, nh_mul(d, nh_int(d, sign), root), last_root), roots_of_all);
+    if (!sign || !nh_jet_point_register(x->point, 1, &formula) || x->point->kernels != kernels) return false;
+    x->point->kernel[x->kernel[last]].P = formula;
+    return x->point->kernel[x->kernel[last]].dependent = x->dependent[last] = true;
 }
 
 /* ---- series ---- */
@@ -196,11 +293,14 @@ static bool independent_atoms(tower *x, bool real)
 const char *nh_jet_point_related(nh_jet_point *point)
 {
     tower x = {.point = point, .dag = point->dag};
+    uint64_t together;
+    for (size_t i = 0; i < point->kernels; i++) point->kernel[i].dependent = false;
     list_symbols(&x);
     point->conjugates = true;
     const char *why = list_roots(&x) ? NULL : roots;
     for (size_t level = 0; level < x.levels && !why; level++)
-        if (!independent_roots(&x, level)) why = roots;
+        while (!why && !independent_roots(&x, level, &together))
+            if (!together || !express(&x, level, together)) why = roots;
     for (int real = 0; real < 2 && !why; real++)
         if (!independent_atoms(&x, real)) why = related;
     point->conjugates = false;

@@ -303,6 +303,12 @@ static nh_residue draw(const nh_jet_point *x, const nh_jet_kernel *k, unsigned w
     return nh_residue_random(x->field, &state);
 }
 
+const nh_jet_kernel *nh_jet_point_dependent(nh_jet_point *x, nh_ex radicand)
+{
+    const nh_jet_kernel *k = find(x, NH_JET_ROOT, radicand);
+    return k && k->dependent ? k : NULL;
+}
+
 bool nh_jet_point_root(nh_jet_point *x, nh_ex radicand, nh_residue value, nh_num exponent, nh_residue *out)
 {
     nh_jet_kernel *k = find(x, NH_JET_ROOT, radicand);

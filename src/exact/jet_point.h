@@ -38,7 +38,10 @@ typedef struct {
     uint64_t order;        /* the kernel is a function of key/order, or the root of key of this order */
     bool chosen;
     nh_residue value, sine; /* residue of exp, root or primitive; or of cos and sin, or of f and f' */
-    nh_ex P, Q;            /* of f; P of asin, acos, asinh, acosh: the derivative by the argument, which has a root */
+    /* of f; P of asin, acos, asinh, acosh: the derivative by the argument, which has a root; of a square root that is
+     * a function of other kernels: this function */
+    nh_ex P, Q;
+    bool dependent;        /* such a root */
     size_t place;          /* the index of the argument of f that varies */
 } nh_jet_kernel;
 
@@ -59,6 +62,9 @@ typedef struct {
     size_t pieces;          /* number of kernels |u| */
     /* roots may have any sign: each choice is another homomorphism where they are independent */
     bool conjugates;
+    /* the sign of a function where the roots have their values, 0 where it is not known; NULL */
+    int (*sign)(void *context, nh_ex e);
+    void *context;
     bool solutions;         /* named functions are accepted (graph/named_function.h) */
     const char *obstacle;   /* why an expression cannot be evaluated at points, or NULL */
 } nh_jet_point;
@@ -95,6 +101,8 @@ bool nh_jet_point_vanish(nh_jet_point *point, size_t n, const nh_ex *symbol);
 /* Residues of a number and of kernels, for evaluation.  False where this point has no such value: take another
  * point. */
 bool nh_jet_point_number(const nh_jet_point *point, nh_num a, nh_residue *out);
+/* The kernel of a root that is a function of others; NULL for every other root. */
+const nh_jet_kernel *nh_jet_point_dependent(nh_jet_point *point, nh_ex radicand);
 /* value^exponent */
 bool nh_jet_point_root(nh_jet_point *point, nh_ex radicand, nh_residue value, nh_num exponent, nh_residue *out);
 bool nh_jet_point_circle(nh_jet_point *point, nh_ex argument, nh_residue *sine, nh_residue *cosine);

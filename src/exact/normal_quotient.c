@@ -195,3 +195,17 @@ void nh_quotient_divide(nh_quotient_field *field, const nh_quotient *a, const nh
     nh_quotient_cancel(field, w);
     nh_quotient_cancel(field, r);
 }
+
+/* (s/den)^2 = num/den for s^2 = num den. */
+const nh_quotient *nh_quotient_root(nh_quotient_field *field, const nh_quotient *a)
+{
+    nh_quotient *q = nh_quotient_fresh(field);
+    fmpz_mpoly_t both;
+    fmpz_mpoly_init(both, field->ctx);
+    nh_quotient_field_times(field, both, a->num, a->den);
+    bool good = field->state == NH_FIELD_FINE && fmpz_mpoly_sqrt(q->num, both, field->ctx);
+    fmpz_mpoly_set(q->den, a->den, field->ctx);
+    fmpz_mpoly_clear(both, field->ctx);
+    if (good) nh_quotient_cancel(field, q);
+    return good ? q : NULL;
+}

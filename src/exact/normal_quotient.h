@@ -38,6 +38,8 @@ const nh_quotient *nh_quotient_mul(nh_quotient_field *field, const nh_quotient *
 const nh_quotient *nh_quotient_inv(nh_quotient_field *field, const nh_quotient *a);
 const nh_quotient *nh_quotient_pow(nh_quotient_field *field, const nh_quotient *a, int64_t n);
 const nh_quotient *nh_quotient_scale(nh_quotient_field *field, const nh_quotient *a, nh_num c);
+/* A square root of a as a quotient of polynomials, without regard to relations; NULL: there is none. */
+const nh_quotient *nh_quotient_root(nh_quotient_field *field, const nh_quotient *a);
 /* reduced by the present relations */
 const nh_quotient *nh_quotient_again(nh_quotient_field *field, const nh_quotient *a);
 /* The same with a denominator free of sines and square roots, unless that is long. */

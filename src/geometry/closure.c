@@ -129,6 +129,9 @@ static size_t gradients(const space *x)
 
 /* ---- the whole ---- */
 
+/* For the roots that are functions of others. */
+static int sign_at_probe(void *context, nh_ex e) { return nh_model_sign_at_probe(((space *)context)->o, e); }
+
 /* The reason why the fields have no series modulo a prime, or NULL. */
 static const char *take(space *x, const nh_ex *field, const nh_ex *function)
 {
@@ -138,6 +141,8 @@ static const char *take(space *x, const nh_ex *field, const nh_ex *function)
     for (size_t i = 0; i < n + x->functions && nodes < most_nodes; i++)
         nodes += nh_node_count(x->d, i < n ? field[i] : function[i - n]);
     if (nodes >= most_nodes) return "formulas that are too long";
+    x->point->sign = sign_at_probe;
+    x->point->context = x;
     nh_forms_init(&forms, x->d, false, canonical_length);
     for (size_t i = 0; i < n + x->functions; i++)
         x->e[i] = nh_form_rewrite(&forms, nh_model_values(x->o, i < n ? field[i] : function[i - n]));

@@ -1,7 +1,7 @@
 #include "geometry/distribution.h"
 
-#include "exact/generic_value.h"
 #include "exact/normal.h"
+#include "geometry/closure.h"
 #include "graph/diff.h"
 #include "system/embedding.h"
 
@@ -165,17 +165,13 @@ static nh_growth growth(const nh_model *o, const nh_distribution *out)
 static size_t known_integrals(const nh_model *o)
 {
     const nh_system *y = o->system;
-    size_t width = 1 + o->m, rows = 0, rank = 0;
-    nh_ex *e = nh_alloc_array(o->k * width + 1, sizeof *e);
-    for (size_t a = 0; a < o->k; a++) {
-        if (!y->constraint[a].level) continue;
-        for (size_t j = 0; j < width; j++)
-            e[rows * width + j] = nh_model_values(o, nh_diff(o->dag, y->constraint[a].level, o->chart->symbol[j]));
-        rows++;
-    }
-    bool known = rows && nh_generic_rank(o->dag, rows, width, e, &rank);
-    nh_free(e);
-    return known ? rank : 0;
+    size_t count = 0;
+    nh_ex *level = nh_alloc_array(o->k + 1, sizeof *level);
+    for (size_t a = 0; a < o->k; a++)
+        if (y->constraint[a].level) level[count++] = y->constraint[a].level;
+    size_t known = count ? nh_closure_of(o, 0, NULL, count, level).known : 0;
+    nh_free(level);
+    return known;
 }
 
 nh_distribution nh_distribution_of(const nh_model *o)

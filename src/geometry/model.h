@@ -108,6 +108,10 @@ nh_ex nh_model_paired_roots(const nh_model *model, nh_ex e);
 nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);
 /* 1 or -1 where e, a function on the submanifold, has one sign at all probes of the chart; else 0. */
 int nh_model_sign(const nh_model *model, nh_ex e);
+/* The sign of e at the first probe by rigorous arithmetic, and that for all values of the chart's symbols; 0 where it
+ * is not known. */
+int nh_model_sign_at_probe(const nh_model *model, nh_ex e);
+int nh_model_sign_everywhere(const nh_model *model, nh_ex e);
 
 /* e with the parameters at their given values, decimals being the ratios that they are written as. */
 nh_ex nh_model_values(const nh_model *model, nh_ex e);

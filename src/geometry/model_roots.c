@@ -1,6 +1,9 @@
 /* Roots whose product is a root of a square. */
 #include "geometry/model.h"
 
+#include <float.h>
+
+#include "exact/ball.h"
 #include "exact/normal.h"
 #include "exact/square.h"
 
@@ -32,3 +35,21 @@ nh_ex nh_model_paired_roots(const nh_model *o, nh_ex e)
     }
     return e;
 }
+
+static int sign_where(const nh_model *o, nh_ex e, bool everywhere)
+{
+    enum { bits = 400 };
+    const nh_chart *c = o->chart;
+    nh_ball *ball = nh_ball_create(o->dag, bits);
+    double middle, radius;
+    e = nh_model_values(o, e);
+    for (size_t k = 0; k < c->width && c->probes; k++)
+        if (everywhere) nh_ball_set_between(ball, c->symbol[k], -DBL_MAX / 4, DBL_MAX / 4);
+        else nh_ball_set_double(ball, c->symbol[k], c->probe[k]);
+    bool known = nh_ball_value(ball, e, &middle, &radius) && (middle > radius || middle < -radius);
+    nh_ball_free(ball);
+    return !known ? 0 : middle > 0 ? 1 : -1;
+}
+
+int nh_model_sign_at_probe(const nh_model *o, nh_ex e) { return sign_where(o, e, false); }
+int nh_model_sign_everywhere(const nh_model *o, nh_ex e) { return sign_where(o, e, true); }
