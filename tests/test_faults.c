@@ -361,3 +361,109 @@ Test(faults, an_accuracy_that_was_not_checked_is_partial)
     }
     place_clear(&p);
 }
+
+/* ---- systems from a grammar ---- */
+
+typedef struct {
+    uint64_t state;
+    size_t coordinates, parameters;
+    char text[6000], *at;
+} grammar;
+
+static size_t pick(grammar *g, size_t n)
+{
+    g->state = g->state * 6364136223846793005u + 1442695040888963407u;
+    return (size_t)(g->state >> 33) % n;
+}
+
+static void put(grammar *g, const char *text)
+{
+    size_t room = (size_t)(g->text + sizeof g->text - g->at);
+    if (strlen(text) + 1 < room) g->at += sprintf(g->at, "%s", text);
+}
+
+static void put_expression(grammar *g, int depth, bool velocities)
+{
+    static const char *const call[] = {"sin", "cos", "exp", "sqrt", "abs", "log", "atan", "tan", "cosh", "sign", "tanh", "asin", "acosh"},
+                             *const number[] = {"0", "1", "2", "-1", "1/2", "3", "1e-8", "0.1", "pi", "1e6", "7/3"}, *const between[] = {" + ", " - ", "*", "/"};
+    char word[20];
+    size_t kind = depth <= 0 ? pick(g, 3) : pick(g, 8);
+    if (kind == 0) snprintf(word, sizeof word, "q%zu%s", 1 + pick(g, g->coordinates), velocities && pick(g, 2) ? "'" : "");
+    else if (kind == 1) snprintf(word, sizeof word, "%s", number[pick(g, sizeof number / sizeof *number)]);
+    else if (g->parameters) snprintf(word, sizeof word, "p%zu", 1 + pick(g, g->parameters));
+    else snprintf(word, sizeof word, "t");
+    if (kind < 3) {
+        put(g, word);
+        return;
+    }
+    put(g, kind == 3 ? call[pick(g, sizeof call / sizeof *call)] : "");
+    put(g, "(");
+    put_expression(g, depth - 1, velocities);
+    if (kind == 4) put(g, (const char *[]){")^2", ")^3", ")^(1/2)", ")^(-1)", ")^4", ")^0", ")^(-2)", ")^(1/3)"}[pick(g, 8)]);
+    else put(g, ")");
+    if (kind < 5) return;
+    put(g, between[pick(g, 4)]);
+    put_expression(g, depth - 1, velocities);
+}
+
+/* A kinetic energy, which may be singular, a potential, and at times constraints and forces. */
+static const char *write_grown(grammar *g, size_t seed)
+{
+    char word[100];
+    *g = (grammar){.state = 77 + seed * 7919, .at = g->text};
+    g->coordinates = 1 + pick(g, 3);
+    g->parameters = pick(g, 3);
+    put(g, "coordinates: [q1");
+    for (size_t k = 2; k <= g->coordinates; k++) snprintf(word, sizeof word, ", q%zu", k), put(g, word);
+    put(g, "]\nparameters: {");
+    for (size_t k = 1; k <= g->parameters; k++) snprintf(word, sizeof word, "%sp%zu: %zu", k > 1 ? ", " : "", k, 1 + pick(g, 3)), put(g, word);
+    put(g, "}\nlagrangian: \"");
+    for (size_t k = 1; k <= g->coordinates; k++) {
+        size_t way = pick(g, 4);
+        put(g, k > 1 ? " + " : "");
+        if (way == 1) put(g, "("), put_expression(g, 1, false), put(g, ")*");
+        if (way == 2 && g->parameters) put(g, "p1*");
+        snprintf(word, sizeof word, "q%zu'^2/2", k);
+        if (way != 3 || pick(g, 3)) put(g, word);
+        else put(g, "0");
+    }
+    put(g, " - (");
+    put_expression(g, 3, pick(g, 4) == 0);
+    put(g, ")\"\n");
+    if (g->coordinates > 1 && pick(g, 4) == 0) {
+        put(g, "constraints: [\"q1' = (");
+        put_expression(g, 1, false);
+        put(g, ")*q2'\"]\n");
+    }
+    if (pick(g, 6) == 0) put(g, "forces: {q1: \""), put_expression(g, 1, true), put(g, "\"}\n");
+    return g->text;
+}
+
+/* 3000 of them with NHSYM_SWEEPS=all, each by one command. */
+Test(faults, what_a_grammar_grows)
+{
+    static const char *const lines[] = {"classify g.yaml --over p1", "analyze g.yaml -o out", "simulate g.yaml --initial \"q1=0.5, q1'=0.3\" --until 2 --json j.json", "reduce g.yaml -o out", "classify g.yaml --over p1,p2",
+                                        "export g.yaml --to c", "linearize g.yaml --at q1=0", "verify g.yaml --current q1'", "scan g.yaml --over p1=1:2:3 -o scanned", "classify g.yaml --over p1 --json c.json"};
+    place p = place_make();
+    grammar g;
+    const char *first = getenv("NHSYM_FIRST"), *most = getenv("NHSYM_MOST");
+    size_t from = first ? (size_t)atol(first) : 0, to = most ? from + (size_t)atol(most) : sweep_whole() ? 3000 : from + 40, done = 0, computed = 0;
+    for (size_t i = from; i < to; i++) {
+        char line[200];
+        if (!most && !sweep_tries(i, 2, 5)) continue;
+        write_here(&p, "g.yaml", write_grown(&g, i));
+        snprintf(line, sizeof line, "%s --max-seconds 1", lines[i % 10]);
+        for (char *quote; (quote = strchr(line, '"'));) memmove(quote, quote + 1, strlen(quote));
+        for (char *comma; (comma = strstr(line, ", "));) memmove(comma + 1, comma + 2, strlen(comma + 1));
+        finished f = run(&p, line);
+        bool good = (f.code >= 0 && f.code <= 5) || f.code == 130;
+        cr_expect(good && !strstr(f.err, "runtime error"), "seed %zu, nhsym %s: code %d\n%.1500s\n%s", i, line, f.code, f.err, g.text);
+        finished_clear(&f);
+        if (i % 10 == 8) finished_clear(&(finished[]){run_vector(&p, &(manner){0}, (char *[]){"rm", "-rf", "scanned", NULL})}[0]);
+        done++;
+        computed += f.code == 0 || f.code == 1 || f.code == 5;
+    }
+    printf("measured: %zu systems from the grammar, %zu of them computed\n", done, computed);
+    cr_expect(3 * computed >= done, "%zu of %zu", computed, done);
+    place_clear(&p);
+}

@@ -33,6 +33,7 @@ typedef struct {
     nh_output_set files;         /* output files that are written and not yet in their places */
     size_t figures;              /* of the page, written to the folder */
     bool drawn;                  /* they were */
+    bool wordless;               /* the folder has no summary in words */
     nh_arena *arena;
 } nh_cli;
 

@@ -145,7 +145,7 @@ static bool put_words(nh_cli *cli, const nh_answer *a, nh_error *error)
     if (nh_cli_speaks(cli)) a->kind->write(a, style_of(cli, NH_PEN_TEXT, cli->colour), &text);
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
-    if (!cli->folder) return true;
+    if (!cli->folder || cli->wordless) return true;
     a->kind->write(a, style_of(cli, NH_PEN_TEXT, false), &text);
     return nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), &text, error);
 }
@@ -252,7 +252,11 @@ int nh_cli_failed(nh_cli *cli, nh_error *error)
     nh_progress_last(doing, sizeof doing);
     bool some = nh_answer_unfinished(&a, &cli->ask), quiet = cli->quiet;
     /* words are not printed where a table or code is expected */
-    cli->quiet |= cli->ask.to || !strcmp(cli->command, "simulate");
+    cli->wordless = cli->ask.to || !strcmp(cli->command, "simulate");
+    cli->quiet |= cli->wordless;
+    /* an older table would be taken for this run's */
+    const char *table = nh_answer_kind_of(cli->command)->table_name;
+    if (some && cli->folder && table) nh_output_drop(&cli->files, nh_cli_in_folder(cli, table));
     bool good = !some || (nh_cli_make_folder(cli, error) && nh_cli_write_answer(cli, &a, error));
     cli->quiet = quiet;
     if (some) nh_answer_free(&a);

@@ -37,7 +37,7 @@ struct nh_compilation {
 /* ---- the folder ---- */
 
 /* Without memory, which may have ended: opendir allocates. */
-static void empty_folder(const nh_compilation *c)
+static bool empty_once(const nh_compilation *c)
 {
     _Alignas(struct dirent64) char list[2048];
     int folder = open(c->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -48,7 +48,12 @@ static void empty_folder(const nh_compilation *c)
             if (strcmp(name, ".") && strcmp(name, "..")) unlinkat(folder, name, 0);
         }
     if (folder >= 0) close(folder);
-    if (rmdir(c->folder)) rmdir(c->folder); /* an error of the disk may pass */
+    return !rmdir(c->folder) || errno == ENOENT;
+}
+
+static void empty_folder(const nh_compilation *c)
+{
+    for (int tries = 0; tries < 3 && !empty_once(c); tries++) continue; /* an error of the disk may pass */
 }
 
 static void remove_folder(nh_compilation *c)

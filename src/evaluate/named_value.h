@@ -5,6 +5,10 @@
 
 #include <complex.h>
 
+#ifndef CMPLX /* clang before 15 with the C library's header */
+#define CMPLX(x, y) __builtin_complex((double)(x), (double)(y))
+#endif
+
 #include "evaluate/arb.h"
 #include "graph/dag.h"
 

@@ -6,11 +6,7 @@
 #ifndef NH_TAPE_COMPLEX_H
 #define NH_TAPE_COMPLEX_H
 
-#include <complex.h>
-
-#ifndef CMPLX /* clang before 15 with the C library's header */
-#define CMPLX(x, y) __builtin_complex((double)(x), (double)(y))
-#endif
+#include "evaluate/named_value.h" /* complex numbers */
 #undef I /* the macro is removed: elsewhere the inertia is called I */
 
 #include "evaluate/tape.h"
