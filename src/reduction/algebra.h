@@ -39,6 +39,9 @@ nh_algebra nh_algebra_change(const nh_algebra *algebra, size_t r, const double *
 size_t nh_algebra_centre(const nh_algebra *algebra, double small, double *out);
 size_t nh_algebra_brackets(const nh_algebra *algebra, size_t r, const double *u, size_t s, const double *w,
                            double small, double *out);
+/* [g, g], and the radical; out is d x d; return the dimension. */
+size_t nh_algebra_derived(const nh_algebra *algebra, double small, double *out);
+size_t nh_algebra_radical(const nh_algebra *algebra, double small, double *out);
 /* k_ij = C_ia^b C_jb^a. */
 void nh_algebra_killing(const nh_algebra *algebra, double *out);
 /* The distance of [e_a, x] from the span of r vectors x (0: an ideal). */
