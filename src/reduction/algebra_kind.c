@@ -8,8 +8,6 @@
 #include "reduction/subspace.h"
 #include "system/sample.h"
 
-static double scale_of(const nh_algebra *g) { return fmax(nh_largest(g->d * g->d * g->d, g->c), 1e-300); }
-
 size_t nh_algebra_derived(const nh_algebra *g, double small, double *out)
 {
     double *all = nh_alloc_array(g->d * g->d + 1, sizeof *all);
@@ -30,7 +28,7 @@ size_t nh_algebra_radical(const nh_algebra *g, double small, double *out)
     for (size_t a = 0; a < r; a++)
         for (size_t j = 0; j < d; j++)
             for (size_t i = 0; i < d; i++) rows[a + j * r] += d1[i + a * d] * k[i + j * d];
-    double scale = scale_of(g);
+    double scale = nh_largest(d * d * d, g->c);
     size_t n = nh_kernel(r, d, rows, small * scale * scale, out, NULL, NULL);
     nh_free(k);
     nh_free(d1);
